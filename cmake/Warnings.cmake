@@ -1,0 +1,10 @@
+# Warnings and floating-point rules for our own targets only; third-party headers come in as SYSTEM.
+add_library(tacipc_warnings INTERFACE)
+add_library(tacipc::warnings ALIAS tacipc_warnings)
+target_compile_options(tacipc_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
+                                                 -Wconversion -Wno-sign-conversion)
+if(TACIPC_WARNINGS_AS_ERRORS)
+  target_compile_options(tacipc_warnings INTERFACE -Werror)
+endif()
+# No contraction into fused multiply-adds behind our back: the same source gives the same bits at any optimisation level.
+target_compile_options(tacipc_warnings INTERFACE -ffp-contract=off -march=${TACIPC_MARCH})

@@ -1,0 +1,114 @@
+#include "common/config_document.h"
+
+#include <fmt/core.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+#include "common/error.h"
+
+namespace tacipc {
+
+std::string joined_path(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+/// Builds the tree from what yaml-cpp parsed.
+struct ConfigReader::Convert {
+  static std::unique_ptr<Node> convert(Document& document, const YAML::Node& yaml, const std::string& path) {
+    auto node = std::make_unique<Node>();
+    node->line = yaml.Mark().line + 1;  // yaml-cpp counts from zero
+    node->column = yaml.Mark().column + 1;
+    node->path = path;
+    if (yaml.IsScalar()) {
+      node->kind = Node::Kind::scalar;
+      node->scalar = yaml.Scalar();
+    } else if (yaml.IsSequence()) {
+      node->kind = Node::Kind::list;
+      for (std::size_t i = 0; i < yaml.size(); ++i)
+        node->items.push_back(convert(document, yaml[i], fmt::format("{}[{}]", path, i)));
+    } else if (yaml.IsMap()) {
+      node->kind = Node::Kind::map;
+      for (const auto& pair : yaml) {
+        if (!pair.first.IsScalar()) {
+          document.add(pair.first.Mark().line + 1, pair.first.Mark().column + 1, path, "a key must be a single word");
+          continue;
+        }
+        const std::string key = pair.first.Scalar();
+        const int line = pair.first.Mark().line + 1, column = pair.first.Mark().column + 1;
+        // yaml-cpp keeps both of two equal keys and answers with the first, silently.
+        const auto same =
+            std::find_if(node->entries.begin(), node->entries.end(), [&](const auto& e) { return e.key == key; });
+        if (same != node->entries.end()) {
+          document.add(line, column, joined_path(path, key),
+                       fmt::format("key given twice (first in line {})", same->line));
+          continue;
+        }
+        node->entries.push_back({key, line, column, convert(document, pair.second, joined_path(path, key))});
+      }
+    }
+    return node;
+  }
+};
+
+std::unique_ptr<ConfigReader::Document> ConfigReader::Document::parse(const std::string& text,
+                                                                      const std::string& name) {
+  auto document = std::make_unique<Document>();
+  document->name = name;
+  try {
+    document->root = Convert::convert(*document, YAML::Load(text), "");
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(
+        {fmt::format("{}:{}:{}: not valid YAML: {}", name, error.mark.line + 1, error.mark.column + 1, error.msg)});
+  }
+  if (document->root->kind != Node::Kind::map) {
+    throw ConfigError({fmt::format("{}:1:1: expected a map of keys, found {}", name, document->root->kind_name())});
+  }
+  document->root->read = true;
+  return document;
+}
+
+void ConfigReader::Document::add(int line, int column, const std::string& path, const std::string& reason) {
+  faults.push_back(
+      {line, column, fmt::format("{}:{}:{}: {}{}{}", name, line, column, path, path.empty() ? "" : ": ", reason)});
+}
+
+void ConfigReader::Document::raise() {
+  std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+    return a.line != b.line ? a.line < b.line : a.column < b.column;
+  });
+  std::vector<std::string> texts;
+  for (const Fault& fault : faults) texts.push_back(fault.text);
+  throw ConfigError(texts);
+}
+
+void ConfigReader::Document::collect_unknown(const Node& node) {
+  for (const Node::Entry& entry : node.entries) {
+    if (entry.known) {
+      if (entry.value->read) collect_unknown(*entry.value);
+      for (const auto& item : entry.value->items) {
+        if (item->read) collect_unknown(*item);
+      }
+      continue;
+    }
+    const auto near = nearest_word(entry.key, node.asked);
+    add(entry.line, entry.column, joined_path(node.path, entry.key),
+        near ? fmt::format("unknown key (did you mean {}?)", *near) : std::string("unknown key"));
+  }
+}
+
+Value::Map ConfigReader::Document::resolve(const Node& node) {
+  Value::Map map = node.resolved;
+  for (const auto& [index, child] : node.resolved_children) {
+    if (child->kind == Node::Kind::list) {
+      Value::List list;
+      for (const auto& item : child->items) list.emplace_back(resolve(*item));
+      map[index].second = Value(std::move(list));
+    } else {
+      map[index].second = Value(resolve(*child));
+    }
+  }
+  return map;
+}
+
+}  // namespace tacipc

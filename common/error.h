@@ -1,0 +1,47 @@
+// What can go wrong, and with which exit code it ends: 2 when the user asked wrongly, 1 when the work failed.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tacipc {
+
+/// Wrong flags (exit 2).
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Faults of one configuration file, each `file:line:column: path.key: reason` (exit 2).
+class ConfigError : public std::runtime_error {
+ public:
+  explicit ConfigError(std::vector<std::string> faults);
+  const std::vector<std::string>& faults() const { return faults_; }
+
+ private:
+  std::vector<std::string> faults_;
+};
+
+/// An input file or a mesh is not what it must be, or an output cannot be written (exit 1).
+class DataError : public std::runtime_error {
+ public:
+  explicit DataError(const std::string& message) : std::runtime_error(message) {}
+  template <typename... Args>
+  requires(sizeof...(Args) > 0) explicit DataError(fmt::format_string<Args...> format, Args&&... args)
+      : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
+};
+
+/// The numerics failed: not converged, intersected, inverted (exit 1).
+class SolverError : public std::runtime_error {
+ public:
+  explicit SolverError(const std::string& message) : std::runtime_error(message) {}
+  template <typename... Args>
+  requires(sizeof...(Args) > 0) explicit SolverError(fmt::format_string<Args...> format, Args&&... args)
+      : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
+};
+
+}  // namespace tacipc

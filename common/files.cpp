@@ -1,0 +1,64 @@
+#include "common/files.h"
+
+#include <fmt/core.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "common/error.h"
+
+namespace tacipc {
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+std::string hash_hex(std::string_view bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw DataError("{}: is a folder, expected a file", path.string());
+  const File file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw DataError("{}: cannot be read: {}", path.string(), std::strerror(errno));
+  std::string bytes;
+  char buffer[1 << 16];
+  while (const std::size_t count = std::fread(buffer, 1, sizeof(buffer), file.get())) bytes.append(buffer, count);
+  if (std::ferror(file.get())) throw DataError("{}: cannot be read: {}", path.string(), std::strerror(errno));
+  return bytes;
+}
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  std::error_code ignored;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  File file(std::fopen(path.c_str(), "wb"));
+  const auto fail = [&] { throw DataError("{}: cannot be written: {}", path.string(), std::strerror(errno)); };
+  if (!file) fail();
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() || std::fflush(file.get()) != 0) fail();
+  if (std::fclose(file.release()) != 0) fail();
+}
+
+std::string content_hash(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return hash_hex(read_file(path));
+  std::map<std::string, std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
+    const std::string name = entry.path().lexically_relative(path).generic_string();
+    if (!entry.is_regular_file() || entry.path().extension() == ".log" || name.front() == '.') continue;
+    files.emplace(name, entry.path());
+  }
+  std::string listing;
+  for (const auto& [name, file] : files) listing += name + '\0' + hash_hex(read_file(file)) + '\n';
+  return hash_hex(listing);
+}
+
+}  // namespace tacipc

@@ -1,0 +1,21 @@
+// Whole files in and out, with errors that name the file and the reason the system gave.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tacipc {
+
+/// The bytes of a file. \throw DataError naming the file and why it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes a whole file, creating its folder. \throw DataError (no space, not writable, …); a file left behind then is
+/// incomplete.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Content hash as 32 hex digits (XXH3, 128 bit). Of a folder: over the names and contents of its regular files in name
+/// order, leaving out logs and hidden names, so that it changes exactly when a result in it does.
+std::string content_hash(const std::filesystem::path& path);
+
+}  // namespace tacipc

@@ -1,0 +1,52 @@
+// A tetrahedral gel mesh with its tagged boundary, and its files (Gmsh MSH).
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/types.h"
+
+namespace tacipc {
+
+/// What a boundary triangle is. The numbers are the physical tags in the MSH file.
+enum class BoundaryTag { front = 1, side = 2, glued = 3 };
+
+/// Tetrahedral mesh in metres; tets are positively oriented; boundary triangles look outwards.
+struct TetMesh {
+  Positions positions;            // #V × 3
+  Tetrahedra tets;                // #T × 4
+  Triangles boundary;             // #B × 3, every boundary triangle exactly once
+  std::vector<BoundaryTag> tags;  // #B
+
+  Eigen::Index num_vertices() const { return positions.rows(); }
+  Eigen::Index num_tets() const { return tets.rows(); }
+  /// Boundary triangles of one kind, in boundary order.
+  Triangles faces(BoundaryTag tag) const;
+  /// Vertices of the faces of one kind, ascending.
+  std::vector<int> vertices(BoundaryTag tag) const;
+};
+
+/// Outward triangles that belong to exactly one tet, in the order of the tets. \throw DataError if three tets share a
+/// face.
+Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices);
+
+/// Nodes and tets of a Gmsh file as it stands (2.2 ASCII, 2.2 binary of either byte order, 4.1 ASCII, 4.1 binary if
+/// cheap), in the file's node order and unit, whatever the node numbers are; triangles with a physical tag are kept.
+struct MshContent {
+  Positions positions;
+  Tetrahedra tets;
+  Triangles triangles;
+  std::vector<int> triangle_tags;  // physical tag, 0 if none
+};
+/// \throw DataError naming file and place for truncated, corrupt or unsupported content (higher-order tets are named as
+/// such).
+MshContent read_msh(const std::filesystem::path& path);
+
+/// Writes a tagged mesh as MSH 4.1 ASCII (17 digits, physical groups front/side/glued and gel), readable by Gmsh and by
+/// read_msh.
+void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh);
+/// Reads what write_tet_mesh wrote. \throw DataError if tags are missing, a tet is not positive, or the boundary does
+/// not fit the tets.
+TetMesh read_tet_mesh(const std::filesystem::path& path);
+
+}  // namespace tacipc

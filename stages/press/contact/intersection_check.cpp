@@ -1,0 +1,158 @@
+#include "stages/press/contact/intersection_check.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "common/error.h"
+#include "stages/press/contact/exact_predicates.h"
+
+namespace tacipc {
+namespace {
+
+struct Bounds {
+  Eigen::Array3d low, high;
+};
+
+template <typename Cells>
+void check_cells(const char* what, const Positions& positions, const Cells& cells) {
+  for (Eigen::Index i = 0; i < cells.rows(); ++i)
+    for (Eigen::Index j = 0; j < cells.cols(); ++j) {
+      const int vertex = cells(i, j);
+      if (vertex < 0 || vertex >= positions.rows())
+        throw DataError("{} {} refers to vertex {}, but there are {} vertices", what, i, vertex, positions.rows());
+      if (!positions.row(vertex).allFinite())
+        throw DataError("{} {}: vertex {} has a coordinate that is not finite", what, i, vertex);
+    }
+}
+
+TrianglePoints corners(const SurfaceView& surface, int triangle) {
+  TrianglePoints points;
+  for (int i = 0; i < 3; ++i) points[i] = surface.positions.row(surface.triangles(triangle, i)).transpose();
+  return points;
+}
+
+std::vector<Bounds> bounds_of(const SurfaceView& surface) {
+  std::vector<Bounds> bounds(surface.triangles.rows());
+  for (std::size_t t = 0; t < bounds.size(); ++t) {
+    const TrianglePoints p = corners(surface, static_cast<int>(t));
+    bounds[t] = {p[0].cwiseMin(p[1]).cwiseMin(p[2]).array(), p[0].cwiseMax(p[1]).cwiseMax(p[2]).array()};
+  }
+  return bounds;
+}
+
+/// The axis on which boxes are shortest compared with the room they fill: few overlap there.
+int sweep_axis(const std::vector<Bounds>& bounds) {
+  if (bounds.empty()) return 0;
+  Bounds all = bounds.front();
+  Eigen::Array3d length = Eigen::Array3d::Zero();
+  for (const Bounds& b : bounds) {
+    all.low = all.low.min(b.low);
+    all.high = all.high.max(b.high);
+    length += b.high - b.low;
+  }
+  int axis = 0;
+  ((all.high - all.low) / length.max(1e-300)).maxCoeff(&axis);
+  return axis;
+}
+
+bool overlap(const Bounds& a, const Bounds& b) { return (a.low <= b.high).all() && (b.low <= a.high).all(); }
+
+/// Sort and sweep. Calls visit(i, j) for all overlapping boxes i < j with `wanted(i, j)`.
+template <typename Wanted, typename Visit>
+void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit& visit) {
+  const int axis = sweep_axis(bounds);
+  std::vector<int> order(bounds.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return bounds[a].low[axis] != bounds[b].low[axis] ? bounds[a].low[axis] < bounds[b].low[axis] : a < b;
+  });
+  std::vector<int> active;
+  for (const int current : order) {
+    std::size_t kept = 0;
+    for (const int other : active) {
+      if (bounds[other].high[axis] < bounds[current].low[axis]) continue;
+      active[kept++] = other;
+      const auto [i, j] = std::minmax(current, other);
+      if (wanted(i, j) && overlap(bounds[i], bounds[j])) visit(i, j);
+    }
+    active.resize(kept);
+    active.push_back(current);
+  }
+}
+
+/// Two triangles of one mesh: their common vertices first, in the same order in both.
+bool mesh_triangles_intersect(const SurfaceView& mesh, int first, int second) {
+  std::array<int, 3> a{0, 1, 2};
+  std::array<int, 3> b{0, 1, 2};
+  int shared = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = shared; j < 3; ++j)
+      if (i >= shared && mesh.triangles(first, a[i]) == mesh.triangles(second, b[j])) {
+        std::swap(a[i], a[shared]);
+        std::swap(b[j], b[shared]);
+        ++shared;
+        break;
+      }
+  const TrianglePoints p = corners(mesh, first);
+  const TrianglePoints q = corners(mesh, second);
+  switch (shared) {
+    case 0:
+      return triangles_intersect(p, q);
+    // Whatever two triangles share beyond a common vertex reaches the edge opposite to it in one of them.
+    case 1:
+      return segment_intersects_triangle(p[a[1]], p[a[2]], q) || segment_intersects_triangle(q[b[1]], q[b[2]], p);
+    case 2:
+      return hinge_is_folded_flat(p[a[0]], p[a[1]], p[a[2]], q[b[2]]);
+    default:
+      return true;
+  }
+}
+
+void keep_first(std::vector<TrianglePair>& pairs, std::size_t count) {
+  std::sort(pairs.begin(), pairs.end(), [](const TrianglePair& a, const TrianglePair& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+  });
+  if (pairs.size() > count) pairs.resize(count);
+}
+
+}  // namespace
+
+IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples) {
+  check_cells("gel triangle", gel.positions, gel.triangles);
+  check_cells("object triangle", object.positions, object.triangles);
+  std::vector<Bounds> bounds = bounds_of(gel);
+  const int num_gel = static_cast<int>(bounds.size());
+  const std::vector<Bounds> object_bounds = bounds_of(object);
+  bounds.insert(bounds.end(), object_bounds.begin(), object_bounds.end());
+
+  IntersectionReport report;
+  // Gel triangles come first in the joint numbering, so i < j leaves only pairs of two object triangles to skip.
+  sweep(
+      bounds, [&](int i, int) { return i < num_gel; },
+      [&](int i, int j) {
+        if (j < num_gel) {
+          if (mesh_triangles_intersect(gel, i, j)) report.gel_gel_examples.push_back({i, j});
+        } else if (triangles_intersect(corners(gel, i), corners(object, j - num_gel))) {
+          report.gel_object_examples.push_back({i, j - num_gel});
+        }
+      });
+  report.gel_gel = static_cast<std::int64_t>(report.gel_gel_examples.size());
+  report.gel_object = static_cast<std::int64_t>(report.gel_object_examples.size());
+  keep_first(report.gel_gel_examples, max_examples);
+  keep_first(report.gel_object_examples, max_examples);
+  return report;
+}
+
+std::int64_t count_inverted_tets(const Positions& positions, const Tetrahedra& tets) {
+  check_cells("tetrahedron", positions, tets);
+  std::int64_t inverted = 0;
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    std::array<Vector3, 4> x;
+    for (int i = 0; i < 4; ++i) x[i] = positions.row(tets(t, i)).transpose();
+    if (orient3d(x[0], x[1], x[2], x[3]) <= 0) ++inverted;
+  }
+  return inverted;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,74 @@
+#include "common/sensor.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "common/error.h"
+
+namespace tacipc {
+namespace {
+
+TEST(Sensor, ShippedMcTacReadsWithThePapersNumbers) {
+  const auto sensor = read_config<Sensor>(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
+  EXPECT_DOUBLE_EQ(sensor.gel.radius_m, 0.015);
+  EXPECT_DOUBLE_EQ(sensor.gel.thickness_m, 0.002);
+  EXPECT_EQ(sensor.leds.size(), 5u);
+  // LED 1 of 8 sits at 45 degrees from x towards y (image down), behind the gel.
+  EXPECT_NEAR(sensor.leds[0].position_m.x(), 0.01 * std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(sensor.leds[0].position_m.y(), 0.01 * std::sqrt(0.5), 1e-15);
+  EXPECT_DOUBLE_EQ(sensor.leds[0].position_m.z(), -0.013);
+}
+
+TEST(Material, LameParametersByHand) {
+  const Material gel{.law = "neo_hookean", .density_kg_m3 = 1010, .youngs_modulus_pa = 1.23e5, .poissons_ratio = 0.43};
+  EXPECT_NEAR(gel.lame_mu_pa(), 1.23e5 / 2.86, 1e-9);
+  EXPECT_NEAR(gel.lame_lambda_pa(), 1.23e5 * 0.43 / (1.43 * 0.14), 1e-9);
+}
+
+TEST(GelShape, DomeFrontLiesOnItsSphere) {
+  const GelShape gel{.radius_m = 0.01, .thickness_m = 0.004, .dome_radius_m = 0.03};
+  for (const double r : {0.0, 1e-6, 0.004, 0.0099}) {
+    const double z = gel.front_z(r, 0.0) + 0.03;
+    EXPECT_NEAR(std::hypot(r, z), 0.03, 1e-17 + 1e-15 * 0.03);
+  }
+}
+
+TEST(ColorOfTemperature, MatchesTheTable) {
+  const std::vector<std::pair<double, std::array<double, 3>>> table = {
+      {2700, {1, .423, .100}}, {3000, {1, .484, .155}}, {3500, {1, .577, .261}},
+      {4000, {1, .659, .379}}, {5000, {1, .795, .630}}, {5500, {1, .851, .755}},
+      {6500, {1, .944, .992}}, {7500, {.829, .842, 1}}, {10000, {.611, .695, 1}}};
+  for (const auto& [kelvin, expected] : table) {
+    const auto color = color_of_temperature(kelvin);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(color[c], expected[c], 5e-3) << kelvin << " K, channel " << c;
+  }
+}
+
+TEST(Sensor, FaultsOfMeaningNameTheirPlace) {
+  const std::string text =
+      "name: odd\n"
+      "gel: {outline: disc, radius_mm: 15, thickness_mm: 2, dome_radius_mm: 20}\n"
+      "material: {law: neo_hookean, density_kg_m3: 1000, youngs_modulus_pa: 1e5, poissons_ratio: 0.4}\n"
+      "coating: {albedo: [0.5, 0.5, 0.5]}\n"
+      "leds:\n"
+      "  list:\n"
+      "    - {position_mm: [0, 0, -9], intensity: 1}\n"
+      "camera: {position_mm: [0, 0, 12], width_px: 64, height_px: 48, window_mm: [8, 6]}\n"
+      "response: {mean_level: 0.5, curve: srgb}\n";
+  ConfigReader in = ConfigReader::from_text(text, "odd.yaml");
+  Sensor::read(in);
+  try {
+    in.finish();
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(
+        error.faults(),
+        ::testing::ElementsAre("odd.yaml:2:51: gel.thickness_mm: must exceed the dome's sag, 6.771 mm",
+                               "odd.yaml:7:7: leds.list[0].rgb_linear: give either rgb_linear or cct_k",
+                               "odd.yaml:8:23: camera.position_mm: the camera must lie behind the front face (z < 0)"));
+  }
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,99 @@
+#include "common/stage.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.h"
+#include "common/files.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() /
+            ("tacipc-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+    write_file(root_ / "in.txt", "input");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  int run(const std::function<void(Stage&)>& body, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{
+        "copy", "--mesh", (root_ / "in.txt").string(), "--out", (root_ / "out").string(), "--log-level", "off"};
+    words.insert(words.end(), more.begin(), more.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    ::testing::internal::CaptureStderr();
+    const int code = run_stage(spec_, static_cast<int>(argv.size()), argv.data(), body);
+    said_ = ::testing::internal::GetCapturedStderr();
+    return code;
+  }
+
+  StageSpec spec_{.name = "copy", .summary = "Copies.", .inputs = {{.flag = "--mesh", .help = "what to copy"}}};
+  fs::path root_;
+  std::string said_;
+};
+
+TEST_F(StageTest, SuccessPublishesOutputsAndARecordWithoutTimes) {
+  const auto body = [](Stage& stage) {
+    write_file(stage.output("a/copy.txt"), read_file(stage.input("--mesh")));
+    stage.note("sample", "star");
+    stage.summarize({{"bytes", 5}});
+  };
+  ASSERT_EQ(run(body, {"--threads", "1"}), 0);
+  EXPECT_EQ(read_file(root_ / "out/a/copy.txt"), "input");
+  const std::string first = read_file(root_ / "out/copy.yaml");
+  EXPECT_THAT(first, ::testing::HasSubstr("path: ../in.txt"));
+  EXPECT_THAT(first, ::testing::HasSubstr("sample: star"));
+  EXPECT_THAT(first, ::testing::HasSubstr("bytes: 5"));
+  EXPECT_FALSE(fs::exists(root_ / "out/.partial-copy"));
+  ASSERT_EQ(run(body, {"--threads", "2"}), 0);
+  EXPECT_EQ(read_file(root_ / "out/copy.yaml"), first);
+}
+
+TEST_F(StageTest, FailureLeavesNoRecordAndNoOutput) {
+  ASSERT_EQ(run([](Stage& stage) { write_file(stage.output("copy.txt"), "old"); }), 0);
+  EXPECT_EQ(run([](Stage& stage) {
+              write_file(stage.output("half.txt"), "half");
+              throw DataError("{}: {} is no mesh", "in.txt", 3);
+            }),
+            1);
+  EXPECT_EQ(said_, "copy: error: in.txt: 3 is no mesh\n");
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.yaml"));
+  EXPECT_FALSE(fs::exists(root_ / "out/half.txt"));
+}
+
+TEST_F(StageTest, WrongFlagsAndConfigurationsEndWithTwo) {
+  EXPECT_EQ(run([](Stage&) {}, {"--depth", "3"}), 2);
+  EXPECT_EQ(run([](Stage&) { throw ConfigError({"a.yaml:1:1: x: missing"}); }), 2);
+  EXPECT_EQ(said_, "a.yaml:1:1: x: missing\n");
+}
+
+TEST_F(StageTest, UnwritableFolderIsOneMessage) {
+  write_file(root_ / "out", "a file where the folder should be");
+  EXPECT_EQ(run([](Stage&) {}), 1);
+  EXPECT_THAT(said_, ::testing::HasSubstr("copy: error: "));
+}
+
+TEST(WriteFile, FullDiskIsAnError) {
+  EXPECT_THROW(
+      {
+        try {
+          write_file("/dev/full", "bytes");
+        } catch (const DataError& error) {
+          EXPECT_STREQ(error.what(), "/dev/full: cannot be written: No space left on device");
+          throw;
+        }
+      },
+      DataError);
+}
+
+}  // namespace
+}  // namespace tacipc
