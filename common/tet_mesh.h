@@ -30,8 +30,8 @@ struct TetMesh {
 /// face.
 Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices);
 
-/// Nodes and tets of a Gmsh file as it stands (2.2 ASCII, 2.2 binary of either byte order, 4.1 ASCII, 4.1 binary if
-/// cheap), in the file's node order and unit, whatever the node numbers are; triangles with a physical tag are kept.
+/// Nodes, tets and triangles of a Gmsh file as it stands (2.2 and 4.1, text and binary of either byte order), in the
+/// file's node order and unit, whatever the node numbers are.
 struct MshContent {
   Positions positions;
   Tetrahedra tets;
@@ -42,11 +42,11 @@ struct MshContent {
 /// such).
 MshContent read_msh(const std::filesystem::path& path);
 
-/// Writes a tagged mesh as MSH 4.1 ASCII (17 digits, physical groups front/side/glued and gel), readable by Gmsh and by
-/// read_msh.
+/// Writes a tagged mesh as MSH 4.1 ASCII (numbers read back to the same bits; physical groups front, side, glued and
+/// gel), readable by Gmsh and by read_msh. Boundary triangles are grouped by tag, in boundary order within each.
 void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh);
-/// Reads what write_tet_mesh wrote. \throw DataError if tags are missing, a tet is not positive, or the boundary does
-/// not fit the tets.
+/// Reads what write_tet_mesh wrote. \throw DataError if a tag is missing (a side alone may be), a tet is not positive,
+/// or the boundary does not fit the tets.
 TetMesh read_tet_mesh(const std::filesystem::path& path);
 
 }  // namespace tacipc

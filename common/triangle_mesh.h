@@ -21,9 +21,10 @@ struct TriangleMesh {
 double metres_per_unit(const std::string& unit);  // "m", "cm", "mm", "um", "in"; \throw UsageError otherwise
 
 /// Reads a surface by the file's suffix (.stl .obj .off .ply, any case) and scales it to metres. Polygons are split
-/// into triangles (fan from the first vertex for triangles and quads, ear clipping for concave polygons); STL corners
-/// with equal bits become one vertex; vertex order of indexed formats is kept. \throw DataError `FILE:LINE: …` (text)
-/// or `FILE: … at byte N` (binary) for truncated, corrupt or empty files, indices out of range, non-finite numbers.
+/// into triangles (a fan from the first corner of convex ones, ear clipping of concave ones); STL corners with equal
+/// coordinates become one vertex; vertex order of indexed formats is kept, unreferenced vertices too. \throw DataError
+/// `FILE:LINE: …` (text) or `FILE: … at byte N` (binary) for truncated, corrupt or empty files, indices out of range,
+/// `FILE: vertex N is not finite` (counted from 0 in file order), `FILE: has no triangles`.
 TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres_per_unit);
 
 /// Binary little-endian PLY with double coordinates in metres. \throw DataError if it cannot be written.

@@ -1,0 +1,147 @@
+#include "common/npy.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <optional>
+
+#include "common/byte_reader.h"
+#include "common/error.h"
+#include "common/files.h"
+#include "common/text_reader.h"
+
+namespace tacipc {
+namespace {
+
+constexpr std::string_view kMagic("\x93NUMPY", 6);
+constexpr std::size_t kAlignment = 64;
+
+std::string_view value_of(std::string_view header, std::string_view key, const std::string& name) {
+  const std::size_t at = header.find(fmt::format("'{}':", key));
+  if (at == std::string_view::npos) throw DataError("{}: the NPY header has no '{}'", name, key);
+  header.remove_prefix(at + key.size() + 3);
+  header.remove_prefix(std::min(header.find_first_not_of(' '), header.size()));
+  return header;
+}
+
+std::vector<std::size_t> parse_shape(std::string_view text, const std::string& name) {
+  const auto bad = [&] { throw DataError("{}: the NPY shape '{}' is malformed", name, shown(text)); };
+  if (!text.starts_with("(")) bad();
+  std::vector<std::size_t> shape;
+  for (std::size_t at = 1; at < text.size();) {
+    if (text[at] == ')') return shape;
+    if (text[at] == ' ' || text[at] == ',') {
+      ++at;
+      continue;
+    }
+    std::size_t extent = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), extent);
+    if (error != std::errc()) bad();
+    shape.push_back(extent);
+    at = static_cast<std::size_t>(end - text.data());
+  }
+  bad();
+  return shape;
+}
+
+/// Number of values; nothing if it, or its size in bytes, cannot be counted.
+std::optional<std::size_t> volume(const std::vector<std::size_t>& shape) {
+  std::size_t count = 1;
+  for (const std::size_t extent : shape)
+    if (__builtin_mul_overflow(count, extent, &count) || count > (std::size_t{1} << 56)) return std::nullopt;
+  return count;
+}
+
+std::string shape_text(const std::vector<std::size_t>& shape) {
+  std::string text = "(";
+  for (std::size_t i = 0; i < shape.size(); ++i) text += fmt::format("{}{}", i > 0 ? ", " : "", shape[i]);
+  return text + (shape.size() == 1 ? ",)" : ")");
+}
+
+template <typename T>
+void read_values(ByteReader& in, std::vector<double>& data) {
+  for (double& value : data) value = static_cast<double>(in.read<T>("the data"));
+}
+
+/// Column-major to row-major: walks the source in order while counting up the indices, first index fastest.
+std::vector<double> from_fortran(const std::vector<double>& source, const std::vector<std::size_t>& shape) {
+  std::vector<std::size_t> stride(shape.size(), 1);
+  for (std::size_t d = shape.size(); d-- > 1;) stride[d - 1] = stride[d] * shape[d];
+  std::vector<std::size_t> index(shape.size(), 0);
+  std::vector<double> target(source.size());
+  std::size_t at = 0;
+  for (const double value : source) {
+    target[at] = value;
+    for (std::size_t d = 0; d < shape.size(); ++d) {
+      at += stride[d];
+      if (++index[d] < shape[d]) break;
+      at -= stride[d] * shape[d];
+      index[d] = 0;
+    }
+  }
+  return target;
+}
+
+}  // namespace
+
+void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const double* data) {
+  static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
+  const std::optional<std::size_t> count = volume(shape);
+  if (!count) throw DataError("{}: shape {} is too large", path.string(), shape_text(shape));
+  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape_text(shape) + ", }";
+  // Magic, version, header length and header together fill whole blocks, so that the data is aligned.
+  const std::size_t before = kMagic.size() + 4;
+  header.append(kAlignment - (before + header.size() + 1) % kAlignment, ' ');
+  header.push_back('\n');
+  if (header.size() > 0xffff) throw DataError("{}: {} dimensions are too many", path.string(), shape.size());
+  std::string bytes(kMagic);
+  bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff), static_cast<char>(header.size() >> 8)};
+  bytes += header;
+  bytes.append(reinterpret_cast<const char*>(data), *count * sizeof(double));
+  write_file(path, bytes);
+}
+
+NpyArray read_npy(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  const std::string name = path.string();
+  if (!bytes.starts_with(kMagic)) throw DataError("{}: is no NPY file", name);
+  ByteReader in(bytes, name);
+  in.skip(kMagic.size(), "the magic");
+  const int major = in.read<std::uint8_t>("the version");
+  const int minor = in.read<std::uint8_t>("the version");
+  if (major < 1 || major > 3)
+    throw DataError("{}: NPY version {}.{} is not supported (1.0 to 3.0 are)", name, major, minor);
+  const std::size_t length =
+      major == 1 ? in.read<std::uint16_t>("the header length") : in.read<std::uint32_t>("the header length");
+  const std::size_t header_at = in.at();
+  in.skip(length, "the header");
+  const std::string_view header = std::string_view(bytes).substr(header_at, length);
+
+  std::string_view type = value_of(header, "descr", name);
+  type = type.starts_with("'") ? type.substr(1, type.find('\'', 1) - 1) : type.substr(0, type.find(','));
+  const bool fortran = value_of(header, "fortran_order", name).starts_with("True");
+  NpyArray array{.shape = parse_shape(value_of(header, "shape", name), name), .data = {}};
+
+  constexpr std::string_view kKinds = "f8f4i8i4u1";
+  const std::string_view kind = type.size() == 3 ? type.substr(1) : std::string_view("?");
+  const std::size_t kind_at = kKinds.find(kind);
+  if (kind_at == std::string_view::npos || kind_at % 2 != 0 ||
+      std::string_view("<>|=").find(type[0]) == std::string_view::npos)
+    throw DataError("{}: NPY type '{}' is not supported (f8, f4, i8, i4 and u1 are)", name, shown(type));
+  const std::size_t each = static_cast<std::size_t>(kind[1] - '0');
+  const std::optional<std::size_t> count = volume(array.shape);
+  if (!count || *count * each != in.left())
+    throw DataError("{}: shape {} of {} takes {} bytes, the file has {} after its header", name,
+                    shape_text(array.shape), type, count ? fmt::format("{}", *count * each) : "too many", in.left());
+  if (type[0] == '>') in.set_order(std::endian::big);
+  array.data.resize(*count);
+  if (kind == "f8") read_values<double>(in, array.data);
+  if (kind == "f4") read_values<float>(in, array.data);
+  if (kind == "i8") read_values<std::int64_t>(in, array.data);
+  if (kind == "i4") read_values<std::int32_t>(in, array.data);
+  if (kind == "u1") read_values<std::uint8_t>(in, array.data);
+  if (fortran) array.data = from_fortran(array.data, array.shape);
+  return array;
+}
+
+}  // namespace tacipc
