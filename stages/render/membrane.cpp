@@ -1,0 +1,101 @@
+#include "stages/render/membrane.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "common/error.h"
+
+namespace tacipc {
+
+Positions vertex_normals(const Positions& positions, const Triangles& triangles) {
+  Positions normals = Positions::Zero(positions.rows(), 3);
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int corner = triangles(f, k), next = triangles(f, (k + 1) % 3), last = triangles(f, (k + 2) % 3);
+      const Vector3 a = (positions.row(next) - positions.row(corner)).transpose();
+      const Vector3 b = (positions.row(last) - positions.row(corner)).transpose();
+      const Vector3 area = a.cross(b);
+      const double twice_area = area.norm();
+      if (twice_area == 0.0) continue;
+      normals.row(corner) += (std::atan2(twice_area, a.dot(b)) / twice_area * area).transpose();
+    }
+  }
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    const double length = normals.row(v).norm();
+    if (length > 0.0) normals.row(v) /= length;
+  }
+  return normals;
+}
+
+std::vector<std::array<int, 2>> boundary_edges(const Triangles& triangles) {
+  std::map<std::pair<int, int>, int> uses;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) ++uses[std::minmax(triangles(f, k), triangles(f, (k + 1) % 3))];
+  }
+  std::vector<std::array<int, 2>> edges;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+      if (uses[std::minmax(a, b)] == 1) edges.push_back({a, b});
+    }
+  }
+  return edges;
+}
+
+Membrane make_membrane(Positions positions, Positions rest, Triangles triangles) {
+  assert(positions.rows() == rest.rows());
+  Membrane membrane;
+  membrane.normals = vertex_normals(positions, triangles);
+  membrane.outline = boundary_edges(triangles);
+  membrane.positions = std::move(positions);
+  membrane.rest = std::move(rest);
+  membrane.triangles = std::move(triangles);
+  return membrane;
+}
+
+int count_loops(const std::vector<std::array<int, 2>>& edges) {
+  std::map<int, std::vector<int>> ends_from;
+  for (const auto& edge : edges) ends_from[edge[0]].push_back(edge[1]);
+  int loops = 0;
+  for (auto& [start, ends] : ends_from) {
+    while (!ends.empty()) {
+      ++loops;
+      int vertex = start;
+      do {
+        std::vector<int>& onwards = ends_from[vertex];
+        if (onwards.empty()) break;
+        vertex = onwards.back();
+        onwards.pop_back();
+      } while (vertex != start);
+    }
+  }
+  return loops;
+}
+
+Membrane make_membrane(const TetMesh& gel, const Eigen::Ref<const Positions>& deformed) {
+  assert(deformed.rows() == gel.positions.rows());
+  Triangles triangles = gel.faces(BoundaryTag::front);
+  if (triangles.rows() == 0) throw DataError("the gel has no triangle tagged as front face");
+  const std::vector<int> vertices = gel.vertices(BoundaryTag::front);
+  std::vector<int> row_of(static_cast<std::size_t>(gel.num_vertices()), -1);
+  Positions positions(static_cast<Eigen::Index>(vertices.size()), 3), rest(positions.rows(), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    row_of[static_cast<std::size_t>(vertices[i])] = static_cast<int>(i);
+    positions.row(row) = deformed.row(vertices[i]);
+    rest.row(row) = gel.positions.row(vertices[i]);
+  }
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) triangles(f, k) = row_of[static_cast<std::size_t>(triangles(f, k))];
+  }
+  Membrane membrane = make_membrane(std::move(positions), std::move(rest), std::move(triangles));
+  const int loops = count_loops(membrane.outline);
+  if (loops != 1)
+    throw DataError("the gel's front face has {} boundary loops; it must be one piece without holes", loops);
+  return membrane;
+}
+
+}  // namespace tacipc

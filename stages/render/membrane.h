@@ -1,0 +1,38 @@
+// The reflecting membrane: the front face of the gel, deformed, as the camera behind it sees it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/tet_mesh.h"
+#include "common/types.h"
+
+namespace tacipc {
+
+/// Front face alone. Triangles look out of the gel (towards +z where it is flat), so from inside their backs show.
+struct Membrane {
+  Positions positions;                      // #V × 3, m, deformed
+  Positions rest;                           // #V × 3, m, undeformed
+  Positions normals;                        // #V × 3, unit, outward, of the deformed surface
+  Triangles triangles;                      // #F × 3
+  std::vector<std::array<int, 2>> outline;  // boundary edges in the direction of their triangle
+};
+
+/// Unit vertex normals: triangle normals weighted by the angle at the vertex (Thürmer and Wüthrich 1998), so that the
+/// way a flat region is cut into triangles does not tilt them. Zero for a vertex without a triangle of some area.
+Positions vertex_normals(const Positions& positions, const Triangles& triangles);
+
+/// Directed edges that occur in one triangle only, in triangle order.
+std::vector<std::array<int, 2>> boundary_edges(const Triangles& triangles);
+
+/// Closed loops that directed edges form.
+int count_loops(const std::vector<std::array<int, 2>>& edges);
+
+/// From plain arrays. \pre rest has as many rows as positions
+Membrane make_membrane(Positions positions, Positions rest, Triangles triangles);
+
+/// The front-tagged faces of a gel whose vertices moved to `deformed` (m, one row per gel vertex).
+/// \throw DataError if the gel has no front face, or one that is not a single piece without holes.
+Membrane make_membrane(const TetMesh& gel, const Eigen::Ref<const Positions>& deformed);
+
+}  // namespace tacipc

@@ -1,0 +1,114 @@
+#include "stages/render/develop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/error.h"
+#include "common/rng.h"
+
+namespace tacipc {
+namespace {
+
+FloatImage ramp(int width, int height) {
+  FloatImage image(width, height, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 0.2f + 0.001f * static_cast<float>(i % 997);
+  return image;
+}
+
+TEST(CodeOf, FollowsTheSrgbCurve) {
+  EXPECT_NEAR(code_of(0.0031308, "srgb"), 255 * 0.04045, 1e-3);
+  EXPECT_NEAR(code_of(0.5, "srgb"), 187.516, 1e-3);
+  EXPECT_DOUBLE_EQ(code_of(1.0, "srgb"), 255.0);
+  EXPECT_DOUBLE_EQ(code_of(0.25, "linear"), 63.75);
+  EXPECT_GT(code_of(1.5, "srgb"), 255.0);
+}
+
+TEST(SolveExposure, ReachesTheMeanLevelAfterTheCurve) {
+  const FloatImage image = ramp(40, 30);
+  for (const char* curve : {"srgb", "linear"}) {
+    for (const double level : {0.1, 0.45, 0.9}) {
+      const double exposure = solve_exposure(image, {.mean_level = level, .curve = curve});
+      double sum = 0.0;
+      for (const float v : image.pixels) sum += std::min(code_of(exposure * v, curve), 255.0);
+      EXPECT_NEAR(sum / static_cast<double>(image.pixels.size()), 255.0 * level, 1e-9) << curve << " " << level;
+    }
+  }
+}
+
+TEST(SolveExposure, RefusesDarkness) {
+  EXPECT_THAT([] { solve_exposure(FloatImage(4, 4, 3), {.mean_level = 0.5, .curve = "srgb"}); },
+              ::testing::ThrowsMessage<DataError>("no light reaches the front face: check the positions of the LEDs"));
+  FloatImage mostly_black(4, 4, 3);
+  mostly_black.at(1, 2, 0) = 1.0f;
+  EXPECT_THAT(
+      [&] { solve_exposure(mostly_black, {.mean_level = 0.5, .curve = "srgb"}); },
+      ::testing::ThrowsMessage<DataError>("no exposure gives the mean level 0.5: too much of the image is black"));
+}
+
+TEST(TransferNoise, EqualSimulationsReturnTheReference) {
+  ByteImage reference(16, 16, 3);
+  for (std::size_t i = 0; i < reference.pixels.size(); ++i) reference.pixels[i] = static_cast<std::uint8_t>(i % 256);
+  const FloatImage codes = encode(ramp(16, 16), 0.7, {.mean_level = 0.5, .curve = "srgb"});
+  const TactileImage out = transfer_noise(reference, codes, codes);
+  EXPECT_EQ(out.image.pixels, reference.pixels);
+  EXPECT_EQ(out.clipped_fraction, 0.0);
+}
+
+TEST(TransferNoise, AddsTheDifferenceRoundsOnceAndClamps) {
+  ByteImage reference(4, 1, 1);
+  reference.pixels = {100, 250, 3, 100};
+  FloatImage simulated(4, 1, 1), without(4, 1, 1);
+  simulated.pixels = {60.4f, 90.0f, 20.0f, 10.6f};
+  without.pixels = {50.2f, 80.0f, 30.0f, 10.0f};
+  const TactileImage out = transfer_noise(reference, simulated, without);
+  EXPECT_EQ(out.image.pixels, (std::vector<std::uint8_t>{110, 255, 0, 101}));
+  EXPECT_DOUBLE_EQ(out.clipped_fraction, 0.5);
+}
+
+TEST(SyntheticReference, HasTheNoiseOfItsModel) {
+  constexpr int kSide = 200;
+  const FloatImage flat(kSide, kSide, 1, 0.4f);
+  const Response response{.mean_level = 0.4, .curve = "linear"};
+  const NoiseModel noise{.full_well_e = 5000, .read_e = 4, .seed = 7};
+  const ByteImage image = synthetic_reference(flat, 1.0, response, noise);
+  double sum = 0.0, squares = 0.0;
+  for (const std::uint8_t code : image.pixels) {
+    sum += code;
+    squares += code * code;
+  }
+  const double count = kSide * kSide, mean = sum / count, variance = squares / count - mean * mean;
+  // Electrons: mean 2000, variance 2000 + 16; rounding to codes adds 1/12.
+  const double scale = 255.0 / 5000.0, expected = 2016.0 * scale * scale + 1.0 / 12.0;
+  EXPECT_NEAR(mean, 102.0, 4.0 * std::sqrt(expected / count));
+  EXPECT_NEAR(variance / expected, 1.0, 0.04);
+  EXPECT_EQ(image.pixels, synthetic_reference(flat, 1.0, response, noise).pixels);
+  EXPECT_NE(image.pixels,
+            synthetic_reference(flat, 1.0, response, {.full_well_e = 5000, .read_e = 4, .seed = 8}).pixels);
+}
+
+TEST(Random, IsUniformNormalAndIndependentOfItsNeighbours) {
+  constexpr int kCount = 100000;
+  double uniform = 0.0, first = 0.0, second = 0.0, fourth = 0.0, lagged = 0.0, across = 0.0;
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    const double u = random_uniform(1, 2, i), n = random_normal(1, 2, i);
+    ASSERT_TRUE(u > 0.0 && u < 1.0);
+    uniform += u;
+    first += n;
+    second += n * n;
+    fourth += n * n * n * n;
+    lagged += n * random_normal(1, 2, i + 1);
+    across += n * random_normal(1, 3, i);
+  }
+  // Five standard deviations of each mean.
+  EXPECT_NEAR(uniform / kCount, 0.5, 5.0 * std::sqrt(1.0 / 12.0 / kCount));
+  EXPECT_NEAR(first / kCount, 0.0, 5.0 / std::sqrt(kCount));
+  EXPECT_NEAR(second / kCount, 1.0, 5.0 * std::sqrt(2.0 / kCount));
+  EXPECT_NEAR(fourth / kCount, 3.0, 5.0 * std::sqrt(96.0 / kCount));
+  EXPECT_NEAR(lagged / kCount, 0.0, 5.0 / std::sqrt(kCount));
+  EXPECT_NEAR(across / kCount, 0.0, 5.0 / std::sqrt(kCount));
+}
+
+}  // namespace
+}  // namespace tacipc

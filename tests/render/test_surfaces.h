@@ -1,0 +1,33 @@
+// Membranes and sensors with known answers.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/image.h"
+#include "common/sensor.h"
+#include "stages/render/membrane.h"
+
+namespace tacipc {
+
+constexpr double kMm = 1e-3;
+
+/// Height field over |x| ≤ half_width, |y| ≤ half_height with square cells of about `spacing`, each cut into four
+/// triangles about its centre, so that the mesh looks the same from all four sides. The rest surface is z = 0.
+Membrane height_field(double half_width, double half_height, double spacing,
+                      const std::function<double(double, double)>& z);
+
+/// A sensor with a camera 12 mm behind the front face, a window of 4 by 3 mm, no lights, response linear 0.5.
+Sensor plain_sensor(int width_px, int height_px);
+
+/// White point light of intensity 1, isotropic.
+Led point_light(const Vector3& position_m);
+
+/// Largest |a − b| of two images of one shape.
+double largest_difference(const FloatImage& a, const FloatImage& b);
+
+/// 1 mm deep press of a ball of 3 mm radius with a smooth rim, as a height field.
+double ball_press(double x, double y);
+
+}  // namespace tacipc
