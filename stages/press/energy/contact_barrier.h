@@ -1,0 +1,32 @@
+// Energy that keeps gel and object, and the gel and itself, apart.
+#pragma once
+
+#include <vector>
+
+#include "stages/press/contact/contact_search.h"
+#include "stages/press/energy/energy_term.h"
+
+namespace tacipc {
+
+/// B(x) = Σ_k m_k(x) b(s_k(x), ŝ_k), in m⁴: s_k the squared distance of pair k, b of barrier.h, m_k the mollifier of
+/// nearly parallel edges (1 for point–triangle pairs).   [Eq. 5; Li et al. 2020, with every pair counted, whatever
+/// feature is closest] ŝ_k = d̂², but for gel–gel pairs at most a quarter of the squared distance at rest: neighbours on
+/// the undeformed gel must not push each other however fine the mesh is.
+class ContactBarrier final : public EnergyTerm {
+ public:
+  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m);
+
+  std::string_view name() const override { return "barrier"; }
+  int num_stencils() const override { return static_cast<int>(pairs_.size()); }
+  std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
+  void evaluate(int i, const Vector12& x, Order order, Local& out) const override;
+
+  const std::vector<ContactPair>& pairs() const { return pairs_; }
+
+ private:
+  std::vector<ContactPair> pairs_;
+  std::vector<double> s_hat_;                // one per pair
+  std::vector<double> mollifier_threshold_;  // one per pair; zero: never mollified
+};
+
+}  // namespace tacipc

@@ -1,0 +1,45 @@
+// Elastic energy of the gel: one constant deformation gradient per tetrahedron.
+#pragma once
+
+#include <vector>
+
+#include "stages/press/energy/energy_term.h"
+#include "stages/press/energy/neo_hookean.h"
+
+namespace tacipc {
+
+/// What of a tetrahedron's rest shape the energy needs.
+struct RestTet {
+  Eigen::Matrix<double, 3, 4> shape_gradients;  // column i is ∇Nᵢ in 1/m; the columns sum to zero
+  double volume_m3;
+};
+
+/// \throw DataError naming the first tetrahedron that is not positively oriented.
+std::vector<RestTet> make_rest_tets(const Positions& rest, const Tetrahedra& tets);
+
+/// Φ(x) = Σ_t V_t Ψ(F_t), F_t = Σᵢ xᵢ ∇Nᵢᵀ, in J.   [Eq. 3]
+class Elasticity final : public EnergyTerm {
+ public:
+  Elasticity(const Positions& rest, const Tetrahedra& tets, NeoHookean material);
+
+  std::string_view name() const override { return "elasticity"; }
+  int num_stencils() const override { return static_cast<int>(tets_.rows()); }
+  std::span<const int> stencil(int i) const override { return {&tets_(i, 0), 4}; }
+  void evaluate(int i, const Vector12& x, Order order, Local& out) const override;
+
+  const std::vector<RestTet>& rest() const { return rest_; }
+
+ private:
+  Tetrahedra tets_;
+  std::vector<RestTet> rest_;
+  NeoHookean material_;
+};
+
+/// Lumped masses: a quarter of each tetrahedron's mass at each of its vertices, kg.
+Eigen::VectorXd lumped_masses(const Tetrahedra& tets, const std::vector<RestTet>& rest, Eigen::Index num_vertices,
+                              double density_kg_m3);
+
+/// Smallest ratio of deformed to rest volume.
+double min_volume_ratio(const Positions& x, const Tetrahedra& tets, const std::vector<RestTet>& rest);
+
+}  // namespace tacipc

@@ -1,0 +1,39 @@
+// Inertia of lumped masses about the predicted positions.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "stages/press/energy/energy_term.h"
+
+namespace tacipc {
+
+/// Σ ½ mᵢ ‖xᵢ − x̂ᵢ‖², in kg m².   [Eq. 3]
+class Inertia final : public EnergyTerm {
+ public:
+  /// One mass and one row of x̂ per vertex; vertex i is stencil i.
+  Inertia(Eigen::VectorXd mass_kg, Positions x_hat_m)
+      : mass_kg_(std::move(mass_kg)), x_hat_m_(std::move(x_hat_m)), vertex_(mass_kg_.size()) {
+    for (std::size_t i = 0; i < vertex_.size(); ++i) vertex_[i] = static_cast<int>(i);
+  }
+
+  std::string_view name() const override { return "inertia"; }
+  int num_stencils() const override { return static_cast<int>(vertex_.size()); }
+  std::span<const int> stencil(int i) const override { return {&vertex_[i], 1}; }
+  void evaluate(int i, const Vector12& x, Order order, Local& out) const override {
+    const Vector3 r = x.head<3>() - x_hat_m_.row(i).transpose();
+    out.zero = false;
+    out.value = 0.5 * mass_kg_[i] * r.squaredNorm();
+    if (order == Order::value) return;
+    out.gradient.head<3>() = mass_kg_[i] * r;
+    if (order == Order::gradient) return;
+    out.hessian.topLeftCorner<3, 3>() = mass_kg_[i] * Matrix3::Identity();
+  }
+
+ private:
+  Eigen::VectorXd mass_kg_;
+  Positions x_hat_m_;
+  std::vector<int> vertex_;
+};
+
+}  // namespace tacipc

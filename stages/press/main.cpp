@@ -1,0 +1,44 @@
+#include <fmt/core.h>
+
+#include "common/log.h"
+#include "common/object.h"
+#include "common/stage.h"
+#include "stages/press/outputs.h"
+
+namespace {
+
+const tacipc::StageSpec kPress{
+    .name = "press",
+    .summary =
+        "Press an object into the gel: incremental potential contact, every frame proven free of intersection and "
+        "inversion.",
+    .inputs = {{.flag = "--config", .help = "numerics (YAML)"},
+               {.flag = "--sensor", .help = "sensor (YAML)"},
+               {.flag = "--sample", .help = "placement and motion (YAML)"},
+               {.flag = "--gel", .help = "tetrahedral gel (gel.msh of tetmesh)"},
+               {.flag = "--object", .help = "closed triangle mesh in metres (object.ply of decimate)"},
+               {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false}}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace tacipc;
+  return run_stage(kPress, argc, argv, [](Stage& stage) {
+    const auto config = stage.read_config<PressConfig>("--config");
+    const auto sensor = stage.read_config<Sensor>("--sensor");
+    const auto sample = stage.read_config<SampleSpec>("--sample");
+    std::string face = "-z";
+    if (stage.optional_input("--object-config")) {
+      if (const auto up = stage.read_config<ObjectSpec>("--object-config").up) face = opposite_face(*up);
+    }
+    const TetMesh gel = read_tet_mesh(stage.input("--gel"));
+    const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
+    stage.note("sample_name", sample.name);
+    const Simulation simulation =
+        simulate(sensor, gel, object, config, sample, face, [](int frame, int frames, int iteration, double residual) {
+          show_progress((frame - 1.0) / frames, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s",
+                                                            frame, frames, iteration, residual));
+        });
+    write_outputs(stage, simulation);
+  });
+}

@@ -1,0 +1,120 @@
+#include "stages/press/solve/assembly.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace tacipc {
+namespace {
+
+constexpr int kChunk = 256;
+
+/// Evaluates all stencils, a chunk at a time in parallel, and hands them to `scatter` one by one in order.
+template <typename Scatter>
+void for_each_local(const EnergyTerm& term, const Positions& x, Order order, Scatter&& scatter) {
+  const int count = term.num_stencils();
+  std::vector<Local> locals(static_cast<std::size_t>(std::min(count, kChunk)));
+  for (int first = 0; first < count; first += kChunk) {
+    const int size = std::min(kChunk, count - first);
+    tbb::parallel_for(tbb::blocked_range<int>(0, size, 32), [&](const auto& range) {
+      Vector12 local_x;
+      for (int k = range.begin(); k < range.end(); ++k) {
+        gather(x, term.stencil(first + k), local_x);
+        term.evaluate(first + k, local_x, order, locals[k]);
+      }
+    });
+    for (int k = 0; k < size; ++k) {
+      if (!locals[k].zero) scatter(term.stencil(first + k), locals[k]);
+    }
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const Tetrahedra& tets) {
+  std::vector<std::array<int, 2>> pairs;
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        const int a = free.free_of_vertex[tets(t, i)], b = free.free_of_vertex[tets(t, j)];
+        if (a >= 0 && b >= 0) pairs.push_back({a, b});
+      }
+    }
+  }
+  return std::make_shared<BlockPattern>(make_block_pattern(free.size(), std::move(pairs)));
+}
+
+std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
+                                                   const FreeVertices& free, const ContactBarrier& barrier,
+                                                   const Positions& x) {
+  std::vector<std::array<int, 2>> missing;
+  Local local;
+  Vector12 local_x;
+  for (int i = 0; i < barrier.num_stencils(); ++i) {
+    const auto stencil = barrier.stencil(i);
+    bool covered = true;
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < a; ++b) {
+        const int p = free.free_of_vertex[stencil[a]], q = free.free_of_vertex[stencil[b]];
+        covered = covered && (p < 0 || q < 0 || pattern->find(std::max(p, q), std::min(p, q)) >= 0);
+      }
+    }
+    if (covered) continue;
+    gather(x, stencil, local_x);
+    barrier.evaluate(i, local_x, Order::value, local);
+    if (local.zero) continue;
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < a; ++b) {
+        const int p = free.free_of_vertex[stencil[a]], q = free.free_of_vertex[stencil[b]];
+        if (p >= 0 && q >= 0) missing.push_back({p, q});
+      }
+    }
+  }
+  if (missing.empty()) return pattern;
+  for (int c = 0; c < pattern->size(); ++c) {
+    for (int k = pattern->column_start[c]; k < pattern->column_start[c + 1]; ++k)
+      missing.push_back({c, pattern->row[k]});
+  }
+  return std::make_shared<BlockPattern>(make_block_pattern(pattern->size(), std::move(missing)));
+}
+
+NewtonSystem assemble(const IncrementalPotential& potential, const Positions& x, const FreeVertices& free,
+                      std::shared_ptr<const BlockPattern> pattern, Order elastic_order, Order contact_order,
+                      const Positions& motion) {
+  const Eigen::Index n = 3 * static_cast<Eigen::Index>(free.size());
+  NewtonSystem system{BlockMatrix(std::move(pattern)), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  for (const auto& weighted : potential.terms) {
+    const double weight = weighted.weight;
+    const Order order = weighted.term->name() == "barrier" ? contact_order : elastic_order;
+    for_each_local(*weighted.term, x, order, [&](std::span<const int> stencil, const Local& local) {
+      const int count = static_cast<int>(stencil.size());
+      for (int a = 0; a < count; ++a) {
+        const int i = free.free_of_vertex[stencil[a]];
+        if (i < 0) continue;
+        system.gradient.segment<3>(3 * i) += weight * local.gradient.segment<3>(3 * a);
+        for (int b = 0; b < count; ++b) {
+          const int j = free.free_of_vertex[stencil[b]];
+          if (j < 0) {
+            system.coupling.segment<3>(3 * i) +=
+                weight * local.hessian.block<3, 3>(3 * a, 3 * b) * motion.row(stencil[b]).transpose();
+          } else if (i >= j) {
+            system.hessian.block(system.hessian.pattern->find(i, j)) +=
+                weight * local.hessian.block<3, 3>(3 * a, 3 * b);
+          }
+        }
+      }
+    });
+  }
+  return system;
+}
+
+Positions gradient_of(const EnergyTerm& term, const Positions& x) {
+  Positions gradient = Positions::Zero(x.rows(), 3);
+  for_each_local(term, x, Order::gradient, [&](std::span<const int> stencil, const Local& local) {
+    for (std::size_t a = 0; a < stencil.size(); ++a)
+      gradient.row(stencil[a]) += local.gradient.segment<3>(3 * static_cast<Eigen::Index>(a)).transpose();
+  });
+  return gradient;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,38 @@
+// Gradient and Hessian of the incremental potential over the free vertices.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "stages/press/energy/incremental_potential.h"
+#include "stages/press/solve/block_matrix.h"
+
+namespace tacipc {
+
+/// H p = −g − H_c d, the Newton step while prescribed vertices move by d.
+struct NewtonSystem {
+  BlockMatrix hessian;
+  Eigen::VectorXd gradient;  // g over the free vertices
+  Eigen::VectorXd coupling;  // H_c d: columns of the prescribed vertices times their motion
+};
+
+/// Pattern of a mesh's own Hessian: all vertex pairs that share a tetrahedron, which also covers every contact of the
+/// gel with a prescribed object.
+std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const Tetrahedra& tets);
+
+/// The pattern, or a larger one if pairs of the terms that are active at x couple vertices it does not (gel against
+/// gel).
+std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
+                                                   const FreeVertices& free, const ContactBarrier& barrier,
+                                                   const Positions& x);
+
+/// Sums weight × term in a fixed order. `order` is hessian or psd; `motion` (rows like x) is how prescribed vertices
+/// move.
+NewtonSystem assemble(const IncrementalPotential& potential, const Positions& x, const FreeVertices& free,
+                      std::shared_ptr<const BlockPattern> pattern, Order elastic_order, Order contact_order,
+                      const Positions& motion);
+
+/// Gradient of one term at every vertex, prescribed ones too, in the term's unit per metre.
+Positions gradient_of(const EnergyTerm& term, const Positions& x);
+
+}  // namespace tacipc

@@ -1,0 +1,76 @@
+#include "stages/press/solve/step_limit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+
+#include "common/error.h"
+#include "stages/press/contact/ccd.h"
+
+namespace tacipc {
+namespace {
+
+constexpr std::size_t kChunk = 512;
+
+/// min over i < count of limit(i, smallest so far in the chunk); a minimum does not depend on order.
+template <typename Limit>
+double parallel_min(std::size_t count, Limit&& limit) {
+  std::vector<double> partial((count + kChunk - 1) / kChunk, 1.0);
+  tbb::parallel_for(std::size_t{0}, partial.size(), [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i)
+      partial[chunk] = std::min(partial[chunk], limit(i));
+  });
+  double smallest = 1.0;
+  for (const double part : partial) smallest = std::min(smallest, part);
+  return smallest;
+}
+
+/// det[A + t B] = Σ c_k tᵏ for the edge vectors A and their change B.
+std::array<double, 4> volume_cubic(const Positions& x, const Positions& p, const auto& tet) {
+  Matrix3 A, B;
+  for (int k = 0; k < 3; ++k) {
+    A.col(k) = x.row(tet[k + 1]) - x.row(tet[0]);
+    B.col(k) = p.row(tet[k + 1]) - p.row(tet[0]);
+  }
+  const auto det = [](const Vector3& u, const Vector3& v, const Vector3& w) { return u.dot(v.cross(w)); };
+  return {det(A.col(0), A.col(1), A.col(2)),
+          det(B.col(0), A.col(1), A.col(2)) + det(A.col(0), B.col(1), A.col(2)) + det(A.col(0), A.col(1), B.col(2)),
+          det(A.col(0), B.col(1), B.col(2)) + det(B.col(0), A.col(1), B.col(2)) + det(B.col(0), B.col(1), A.col(2)),
+          det(B.col(0), B.col(1), B.col(2))};
+}
+
+}  // namespace
+
+double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p, double slack) {
+  const CcdOptions options{.slack = slack};
+  const double limit = parallel_min(pairs.size(), [&](std::size_t i) {
+    const ContactPair& pair = pairs[i];
+    const FourPoints d = gather(p, pair);
+    return pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(gather(x, pair), d, options)
+                                                          : time_of_impact_edge_edge(gather(x, pair), d, options);
+  });
+  if (limit <= 0.0)
+    throw SolverError("a contact pair is too close to certify any step (smallest distance {:.3g} m)",
+                      smallest_distance(pairs, x, 1.0));
+  return limit;
+}
+
+bool cubic_stays_above(const double c[4], double t, double floor) {
+  const double b1 = c[0] + t * c[1] / 3.0;
+  const double b2 = c[0] + t * (2.0 * c[1] + t * c[2]) / 3.0;
+  const double b3 = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+  return std::min({c[0], b1, b2, b3}) > floor;
+}
+
+double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p) {
+  return parallel_min(static_cast<std::size_t>(tets.rows()), [&](std::size_t i) {
+    const auto c = volume_cubic(x, p, tets.row(static_cast<Eigen::Index>(i)));
+    double t = 1.0;
+    while (t > 1e-12 && !cubic_stays_above(c.data(), t, 0.1 * c[0])) t *= 0.75;
+    return t;
+  });
+}
+
+}  // namespace tacipc

@@ -1,0 +1,21 @@
+// How far a step may go before something would touch or turn inside out.
+#pragma once
+
+#include <vector>
+
+#include "stages/press/contact/contact_search.h"
+
+namespace tacipc {
+
+/// Largest t in (0, 1] up to which every pair keeps more than `slack` of its present distance while the vertices move
+/// from x to x + t p. \throw SolverError if a pair is already so near that not even the start can be certified.
+double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p, double slack);
+
+/// A t in (0, 1] such that every tetrahedron keeps at least a tenth of its present volume on all of [0, t].
+double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p);
+
+/// Whether the cubic c0 + c1 t + c2 t² + c3 t³ stays above `floor` on [0, t], by its Bernstein coefficients there: a
+/// bound that can say no for a cubic that does, never yes for one that does not.
+bool cubic_stays_above(const double c[4], double t, double floor);
+
+}  // namespace tacipc

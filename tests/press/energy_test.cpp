@@ -1,0 +1,246 @@
+// The same claims for every energy term, and a value of each by hand.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <memory>
+#include <random>
+
+#include "stages/press/energy/barrier.h"
+#include "stages/press/energy/contact_barrier.h"
+#include "stages/press/energy/elasticity.h"
+#include "stages/press/energy/inertia.h"
+#include "tests/press/convergence_order.h"
+
+namespace tacipc {
+namespace {
+
+/// A term with one stencil at a given place.
+struct Case {
+  std::string name;
+  std::shared_ptr<EnergyTerm> term;
+  Vector12 x = Vector12::Zero();
+  double step;  // first step of the differences
+  bool translation_invariant;
+  bool rotation_invariant;
+};
+
+Positions rows(const Vector12& x) { return Eigen::Map<const Positions>(x.data(), 4, 3); }
+
+Case tet_case(const std::string& name, double squeeze) {
+  Vector12 rest;
+  rest << 0, 0, 0, 1, 0.1, 0, 0.2, 0.9, 0, 0.1, 0.2, 1.1;
+  Vector12 x = rest;
+  for (int i = 0; i < 4; ++i) {
+    x[3 * i + 2] *= squeeze;
+    x[3 * i] += 0.3 * rest[3 * i + 1];
+    x[3 * i + 1] += 0.1 * rest[3 * i + 2];
+  }
+  return {name, std::make_shared<Elasticity>(rows(rest), Tetrahedra{{0, 1, 2, 3}}, NeoHookean{2.0, 7.0}), x, 1e-3, true,
+          true};
+}
+
+Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x) {
+  ContactMesh mesh;
+  mesh.num_gel_vertices = 0;  // everything belongs to the object, so d̂ is not cut by the distance at rest
+  mesh.num_object_vertices = 4;
+  mesh.rest_positions = rows(x);
+  // Edges much longer at rest than now make the mollifier's threshold large enough to matter for the case that says so.
+  if (name == "edge_edge_mollified") mesh.rest_positions *= 6.0;
+  return {name, std::make_shared<ContactBarrier>(mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}}}, 0.5),
+          x,    1e-3,
+          true, true};
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  Vector12 x;
+  x << 0.3, -0.2, 0.5, 0, 0, 0, 0, 0, 0, 0, 0, 0;
+  all.push_back({"inertia", std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, 2.0), Positions{{0.1, 0.2, 0.3}}), x,
+                 1e-3, false, false});
+  all.push_back(tet_case("elasticity_pressed", 0.4));
+  all.push_back(tet_case("elasticity_stretched", 1.9));
+  using Kind = ContactPair::Kind;
+  x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
+  all.push_back(pair_case("point_triangle_inside", Kind::point_triangle, x));
+  x << 0.45, -0.2, 0.25, 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  all.push_back(pair_case("point_triangle_edge", Kind::point_triangle, x));
+  x << -0.1, -0.2, 0.25, 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  all.push_back(pair_case("point_triangle_corner", Kind::point_triangle, x));
+  x << -0.5, 0.1, 0, 0.5, -0.1, 0, 0.05, -0.5, 0.3, 0, 0.5, 0.25;
+  all.push_back(pair_case("edge_edge_inside", Kind::edge_edge, x));
+  x << -0.5, 0.1, 0, 0.5, -0.1, 0, 0.1, 0.2, 0.2, 0.3, 0.9, 0.25;
+  all.push_back(pair_case("edge_edge_end", Kind::edge_edge, x));
+  x << -0.5, 0, 0, 0.5, 0.02, 0, -0.45, -0.1, 0.3, 0.55, 0.3, 0.27;
+  all.push_back(pair_case("edge_edge_mollified", Kind::edge_edge, x));
+  return all;
+}
+
+class TermTest : public ::testing::TestWithParam<Case> {
+ protected:
+  int size() const { return 3 * static_cast<int>(GetParam().term->stencil(0).size()); }
+  Local at(const Vector12& x, Order order) const {
+    Local local;
+    GetParam().term->evaluate(0, x, order, local);
+    return local;
+  }
+  static Vector12 direction() {
+    Vector12 d;
+    d << 0.3, -0.5, 0.7, 0.2, 0.4, -0.6, -0.1, 0.8, 0.35, -0.45, 0.15, 0.55;
+    return d;
+  }
+};
+
+TEST_P(TermTest, GradientConvergesAtSecondOrder) {
+  const Vector12 x = GetParam().x, d = direction();
+  const double exact = at(x, Order::gradient).gradient.head(size()).dot(d.head(size()));
+  const auto error = [&](double h) {
+    return std::abs((at(x + h * d, Order::value).value - at(x - h * d, Order::value).value) / (2 * h) - exact);
+  };
+  if (GetParam().name == "inertia") {
+    EXPECT_LT(error(1e-3), 1e-12);  // quadratic: the difference is exact
+  } else {
+    EXPECT_NEAR(convergence_order(error, 4 * GetParam().step), 2.0, 0.1);
+  }
+}
+
+TEST_P(TermTest, HessianConvergesAtSecondOrder) {
+  const Vector12 x = GetParam().x, d = direction();
+  const int n = size();
+  const Eigen::VectorXd exact = at(x, Order::hessian).hessian.topLeftCorner(n, n) * d.head(n);
+  const auto error = [&](double h) {
+    const Vector12 difference =
+        (at(x + h * d, Order::gradient).gradient - at(x - h * d, Order::gradient).gradient) / (2 * h);
+    return (difference.head(n) - exact).norm();
+  };
+  if (GetParam().name == "inertia") {
+    EXPECT_LT(error(1e-3), 1e-11);
+  } else {
+    EXPECT_NEAR(convergence_order(error, 4 * GetParam().step), 2.0, 0.1);
+  }
+}
+
+TEST_P(TermTest, HessianIsSymmetricAndItsStandInHasNoNegativeEigenvalue) {
+  const int n = size();
+  const Local exact = at(GetParam().x, Order::hessian), psd = at(GetParam().x, Order::psd);
+  const Eigen::MatrixXd H = exact.hessian.topLeftCorner(n, n), P = psd.hessian.topLeftCorner(n, n);
+  EXPECT_LT((H - H.transpose()).norm(), 1e-12 * H.norm());
+  EXPECT_LT((P - P.transpose()).norm(), 1e-12 * P.norm());
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(P).eigenvalues()[0], -1e-10 * P.norm());
+  EXPECT_EQ(exact.value, psd.value);
+  EXPECT_TRUE(exact.gradient.head(n) == psd.gradient.head(n));
+}
+
+TEST_P(TermTest, NoNetForceAndNoNetTorque) {
+  const Case& c = GetParam();
+  const Local local = at(c.x, Order::gradient);
+  Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+  for (int i = 0; i < size() / 3; ++i) {
+    const Vector3 f = local.gradient.segment<3>(3 * i), arm = c.x.segment<3>(3 * i);
+    force += f;
+    torque += arm.cross(f);
+  }
+  const double scale = local.gradient.head(size()).norm();
+  EXPECT_TRUE(!c.translation_invariant || force.norm() < 1e-12 * scale) << force.transpose();
+  EXPECT_TRUE(!c.rotation_invariant || torque.norm() < 1e-12 * scale) << torque.transpose();
+}
+
+INSTANTIATE_TEST_SUITE_P(Terms, TermTest, ::testing::ValuesIn(cases()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(Inertia, ValueByHand) {
+  Local local;
+  Vector12 x = Vector12::Zero();
+  x.head<3>() << 1, 2, 2;
+  Inertia(Eigen::VectorXd::Constant(1, 4.0), Positions::Zero(1, 3)).evaluate(0, x, Order::value, local);
+  EXPECT_EQ(local.value, 18.0);
+}
+
+TEST(NeoHookean, UniaxialStretchByHand) {
+  Matrix3 F = Matrix3::Identity();
+  F(2, 2) = 2.0;
+  const double log_2 = std::log(2.0);
+  EXPECT_NEAR((NeoHookean{2.0, 7.0}.energy_density(F)), 3.0 - 2.0 * log_2 + 3.5 * log_2 * log_2, 1e-14);
+  EXPECT_NEAR((NeoHookean{2.0, 7.0}.stress(F)(2, 2)), 4.0 - 1.0 + 3.5 * log_2, 1e-14);
+  EXPECT_TRUE(std::isinf(NeoHookean({2.0, 7.0}).energy_density(-Matrix3::Identity())));
+}
+
+TEST(NeoHookean, SmallStrainIsHookesLaw) {
+  const NeoHookean material{2.0, 7.0};
+  Matrix3 strain;
+  strain << 1, 0.5, -0.2, 0.5, -0.7, 0.3, -0.2, 0.3, 0.4;
+  strain *= 1e-6;
+  const Matrix3 hooke = 2.0 * material.mu_pa * strain + material.lambda_pa * strain.trace() * Matrix3::Identity();
+  EXPECT_LT((material.stress(Matrix3::Identity() + strain) - hooke).norm(), 1e-5 * hooke.norm());
+}
+
+/// With every negative mode removed the closed form must be the eigenvalue projection of the whole 9 × 9 Hessian.
+TEST(NeoHookean, NegativeModesAreTheNegativeEigenvaluesOfTheHessian) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-0.45, 0.45);
+  const NeoHookean material{2.0, 7.0};
+  int seen = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Matrix3 F = Matrix3::Identity() * (trial % 2 ? 0.8 : 1.3);
+    for (double& entry : F.reshaped()) entry += uniform(random);
+    if (F.determinant() < 0.05) continue;
+    const double a = material.mu_pa - material.lambda_pa * std::log(F.determinant());
+    const Matrix3 inverse_t = F.inverse().transpose();
+    Eigen::Matrix<double, 9, 9> H;
+    for (int k = 0; k < 9; ++k) {
+      Matrix3 d = Matrix3::Zero();
+      d.reshaped()[k] = 1.0;
+      const Matrix3 column = material.mu_pa * d + a * inverse_t * d.transpose() * inverse_t +
+                             material.lambda_pa * inverse_t.cwiseProduct(d).sum() * inverse_t;
+      H.col(k) = column.reshaped();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> eigen(H);
+    NegativeMode modes[6];
+    const int count = negative_modes(material, F, modes);
+    Eigen::Matrix<double, 9, 9> P = H;
+    for (int m = 0; m < count; ++m) P -= modes[m].value * modes[m].Q.reshaped() * modes[m].Q.reshaped().transpose();
+    const Eigen::Matrix<double, 9, 9> expected =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+    EXPECT_LT((P - expected).norm(), 1e-9 * H.norm()) << "F =\n" << F;
+    seen += count;
+  }
+  EXPECT_GT(seen, 100);
+}
+
+TEST(Barrier, VanishesSmoothlyAtDHatAndDivergesAtContact) {
+  EXPECT_EQ(barrier(1.0, 1.0), 0.0);
+  EXPECT_NEAR(barrier_d1(1.0 - 1e-9, 1.0), 0.0, 1e-8);
+  EXPECT_NEAR(barrier_d2(1.0 - 1e-9, 1.0), 0.0, 1e-8);
+  EXPECT_TRUE(std::isinf(barrier(0.0, 1.0)));
+  EXPECT_NEAR(barrier(0.5, 1.0), 0.25 * std::log(2.0), 1e-15);
+}
+
+TEST(Barrier, DerivativesConvergeAtSecondOrder) {
+  for (const double s : {0.1, 0.5, 0.9}) {
+    const auto first = [&](double h) {
+      return std::abs((barrier(s + h, 1.0) - barrier(s - h, 1.0)) / (2 * h) - barrier_d1(s, 1.0));
+    };
+    const auto second = [&](double h) {
+      return std::abs((barrier_d1(s + h, 1.0) - barrier_d1(s - h, 1.0)) / (2 * h) - barrier_d2(s, 1.0));
+    };
+    EXPECT_NEAR(convergence_order(first, 1e-2), 2.0, 0.1) << s;
+    EXPECT_NEAR(convergence_order(second, 1e-2), 2.0, 0.1) << s;
+  }
+}
+
+TEST(ContactBarrier, NeighboursCloserThanDHatAtRestDoNotPush) {
+  ContactMesh mesh;
+  mesh.num_gel_vertices = 4;
+  mesh.rest_positions = Positions{{0.2, 0.2, 0.1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const ContactBarrier term(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+  Local local;
+  Vector12 x = mesh.rest_positions.reshaped<Eigen::RowMajor>();
+  term.evaluate(0, x, Order::value, local);
+  EXPECT_TRUE(local.zero);
+  x[2] = 0.04;  // nearer than half the distance at rest: now it does
+  term.evaluate(0, x, Order::value, local);
+  EXPECT_GT(local.value, 0.0);
+}
+
+}  // namespace
+}  // namespace tacipc
