@@ -161,6 +161,7 @@ class Body {
 
   /// Bytes one value of this type takes at least.
   std::size_t smallest(Scalar type) const { return ascii_ ? 2 : size_of(type); }
+  /// Bytes to come; one more in a text, whose last line may lack its end.
   std::size_t left() const { return ascii_ ? text_.bytes_left() + 1 : binary_.left(); }
   int line() const { return ascii_ ? text_.line() : 0; }
   bool ascii() const { return ascii_; }

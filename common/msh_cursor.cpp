@@ -69,11 +69,12 @@ void MshCursor::skip_reals(std::uint64_t n, std::string_view what) {
   for (; n > 0; --n) real(what);
 }
 
+/// One more in a text, whose last line may lack its end.
 std::size_t MshCursor::left() const { return text_form_ ? text_.bytes_left() + 1 : bytes_.left(); }
 
 void MshCursor::check_fits(std::uint64_t count, std::size_t words, std::size_t bytes, std::string_view what) const {
   if (count > left() / (text_form_ ? 2 * words : bytes))
-    fail(fmt::format("{} {} do not fit into the {} bytes that follow", count, what, left()));
+    fail(fmt::format("{} {} do not fit into the {} bytes that follow", count, what, left() - (text_form_ ? 1 : 0)));
 }
 
 void MshCursor::fail(const std::string& reason) const {

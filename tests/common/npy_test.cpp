@@ -1,0 +1,76 @@
+#include "common/npy.h"
+
+#include "common/error.h"
+#include "tests/common/sample_files.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc {
+namespace {
+
+template <typename T>
+std::string packed(std::vector<T> values, std::endian order = std::endian::little) {
+  Bytes bytes;
+  bytes.order = order;
+  for (const T value : values) bytes.add(value);
+  return bytes.text;
+}
+
+TEST(Npy, ComesBackBitByBitAndAligned) {
+  const ScratchFolder scratch;
+  const std::vector<std::vector<std::size_t>> shapes{{}, {6}, {2, 3}, {3, 1, 2}, {0, 3}, {2, 3, 0}};
+  const std::vector<double> data{0.1, -0.0, 1e-310, 4, 5, 1e300};
+  for (const auto& shape : shapes) {
+    write_npy(scratch / "a.npy", shape, data.data());
+    const NpyArray back = read_npy(scratch / "a.npy");
+    EXPECT_EQ(back.shape, shape);
+    std::size_t count = 1;
+    for (const std::size_t extent : shape) count *= extent;
+    ASSERT_EQ(back.data.size(), count);
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(back.data[i]), std::bit_cast<std::uint64_t>(data[i]));
+    EXPECT_EQ((read_file(scratch / "a.npy").size() - 8 * count) % 64, 0u);
+  }
+}
+
+TEST(Npy, ReadsTheTypesAndOrdersThatOthersWrite) {
+  const ScratchFolder scratch;
+  const std::vector<double> wanted{1, 2, 3, 4, 5, 6};
+  const std::string c = "'fortran_order': False, 'shape': (2, 3), ";
+  const std::vector<std::string> files{
+      npy_bytes("<f8", c, packed<double>({1, 2, 3, 4, 5, 6})),
+      npy_bytes(">f8", c, packed<double>({1, 2, 3, 4, 5, 6}, std::endian::big)),
+      npy_bytes("<f4", c, packed<float>({1, 2, 3, 4, 5, 6})),
+      npy_bytes("<i8", c, packed<std::int64_t>({1, 2, 3, 4, 5, 6})),
+      npy_bytes(">i4", c, packed<std::int32_t>({1, 2, 3, 4, 5, 6}, std::endian::big)),
+      npy_bytes("|u1", c, packed<std::uint8_t>({1, 2, 3, 4, 5, 6})),
+      npy_bytes("<f8", "'fortran_order': True, 'shape': (2, 3), ", packed<double>({1, 4, 2, 5, 3, 6}))};
+  for (const std::string& bytes : files) {
+    const NpyArray array = read_npy(scratch.file("a.npy", bytes));
+    EXPECT_EQ(array.data, wanted);
+    EXPECT_EQ(array.shape, (std::vector<std::size_t>{2, 3}));
+  }
+}
+
+TEST(Npy, RefusesWhatDoesNotFit) {
+  const ScratchFolder scratch;
+  const std::string name = (scratch / "a.npy").string();
+  const auto error = [&](const std::string& bytes) {
+    return message_of<DataError>([&] { read_npy(scratch.file("a.npy", bytes)); });
+  };
+  const std::string c = "'fortran_order': False, 'shape': (2, 3), ";
+  EXPECT_EQ(error("PK"), name + ": is no NPY file");
+  EXPECT_EQ(error(npy_bytes("<f8", c, "12345678")),
+            name + ": shape (2, 3) of <f8 takes 48 bytes, the file has 8 after its header");
+  EXPECT_EQ(error(npy_bytes("<f8", "'fortran_order': False, 'shape': (4000000000, 4000000000, 8), ", "")),
+            name + ": shape (4000000000, 4000000000, 8) of <f8 takes too many bytes, the file has 0 after its header");
+  EXPECT_EQ(error(npy_bytes("<c16", c, "")), name + ": NPY type '<c16' is not supported (f8, f4, i8, i4 and u1 are)");
+  EXPECT_EQ(error(npy_bytes("<f8", "'fortran_order': False, 'shape': (2, x), ", "")).substr(0, name.size() + 35),
+            name + ": the NPY shape '(2, x), }         ");
+  EXPECT_EQ(error(npy_bytes("<f8", "'shape': (2,), ", "")), name + ": the NPY header has no 'fortran_order'");
+  const double one = 1.0;
+  EXPECT_EQ(message_of<DataError>([&] { write_npy("/dev/full", {1}, &one); }),
+            "/dev/full: cannot be written: No space left on device");
+}
+
+}  // namespace
+}  // namespace tacipc
