@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "common/error.h"
-#include "stages/press/contact/exact_predicates.h"
+#include "common/exact_predicates.h"
 
 namespace tacipc {
 namespace {

@@ -1,4 +1,4 @@
-#include "stages/press/contact/exact_predicates.h"
+#include "common/exact_predicates.h"
 
 #include <gmpxx.h>
 
