@@ -26,6 +26,15 @@ double largest(const FloatImage& image) {
   return most;
 }
 
+void warn_of_dark_leds(const FloatImage& basis) {
+  const auto num_leds = static_cast<std::size_t>(basis.channels);
+  std::vector<bool> lit(num_leds, false);
+  for (std::size_t i = 0; i < basis.pixels.size(); ++i) lit[i % num_leds] = lit[i % num_leds] || basis.pixels[i] > 0.0f;
+  for (std::size_t led = 0; led < num_leds; ++led) {
+    if (!lit[led]) log_warning("LED {} lights nothing the camera sees", led);
+  }
+}
+
 }  // namespace
 
 RenderConfig RenderConfig::read(ConfigReader& in) {
@@ -99,6 +108,7 @@ RenderSummary render(const Sensor& sensor, const RenderConfig& config, const Tet
     frame.trace = trace(membrane, sensor, config.trace);
     frame.linear = color_image(frame.trace.basis, sensor);
     if (index == 0) {
+      warn_of_dark_leds(frame.trace.basis);
       summary.exposure = solve_exposure(frame.linear, sensor.response);
       reference_codes = encode(frame.linear, summary.exposure, sensor.response);
       reference_image =

@@ -1,0 +1,243 @@
+// The whole stage, as a user calls it.
+#include "stages/render/render.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "common/error.h"
+#include "common/files.h"
+#include "tests/render/test_surfaces.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const char* const kSensor = R"(name: slab
+gel: {outline: rectangle, size_mm: [4.0, 3.0], thickness_mm: 1.0}
+material: {law: neo_hookean, density_kg_m3: 1010, youngs_modulus_pa: 1.23e5, poissons_ratio: 0.43}
+coating: {albedo: [0.5, 0.5, 0.5]}
+leds:
+  size_mm: 1.0
+  ring:
+    {radius_mm: 4.0, z_mm: -5.0, count: 3, lit: [{index: 0, rgb_linear: [1, 0.1, 0.1], intensity: 1},
+     {index: 1, rgb_linear: [0.1, 1, 0.1], intensity: 1}, {index: 2, cct_k: 9000, intensity: 1}]}
+camera: {position_mm: [0, 0, -5], width_px: 32, height_px: 24, window_mm: [3.2, 2.4]}
+response: {mean_level: 0.5, curve: srgb}
+)";
+const char* const kConfig = "frames: last\nnoise: {full_well_e: 5000, read_e: 4, seed: 1}\n";
+
+/// A slab of 4 × 3 × 1 mm, one cell thick, each cell cut into six tets about its diagonal.
+TetMesh slab(int nx, int ny) {
+  TetMesh gel;
+  gel.positions.resize(2 * (nx + 1) * (ny + 1), 3);
+  const auto index = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
+  for (int k = 0; k < 2; ++k) {
+    for (int j = 0; j <= ny; ++j) {
+      for (int i = 0; i <= nx; ++i) {
+        gel.positions.row(index(i, j, k)) << kMm * (4.0 * i / nx - 2.0), kMm * (3.0 * j / ny - 1.5), kMm * (k - 1.0);
+      }
+    }
+  }
+  gel.tets.resize(6 * nx * ny, 4);
+  // Paths from corner 000 to 111 along the axes in all six orders; odd orders swap two vertices to stay positive.
+  const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}};
+  int tet = 0;
+  for (int j = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      for (int o = 0; o < 6; ++o) {
+        int at[3] = {i, j, 0}, path[4] = {index(i, j, 0), 0, 0, 0};
+        for (int step = 0; step < 3; ++step) {
+          ++at[orders[o][step]];
+          path[step + 1] = index(at[0], at[1], at[2]);
+        }
+        if (o >= 3) std::swap(path[1], path[2]);
+        gel.tets.row(tet++) << path[0], path[1], path[2], path[3];
+      }
+    }
+  }
+  gel.boundary = boundary_triangles(gel.tets, gel.num_vertices());
+  for (Eigen::Index f = 0; f < gel.boundary.rows(); ++f) {
+    const double z[3] = {gel.positions(gel.boundary(f, 0), 2), gel.positions(gel.boundary(f, 1), 2),
+                         gel.positions(gel.boundary(f, 2), 2)};
+    const bool level = z[0] == z[1] && z[1] == z[2];
+    gel.tags.push_back(!level ? BoundaryTag::side : z[0] == 0.0 ? BoundaryTag::front : BoundaryTag::glued);
+  }
+  return gel;
+}
+
+class RenderStage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() /
+            ("tacipc-render-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(root_);
+    gel_ = slab(16, 12);
+    positions_.shape = {3, static_cast<std::size_t>(gel_.num_vertices()), 3};
+    for (int frame = 0; frame < 3; ++frame) {
+      for (Eigen::Index v = 0; v < gel_.num_vertices(); ++v) {
+        const double x = gel_.positions(v, 0), y = gel_.positions(v, 1), z = gel_.positions(v, 2);
+        const double depth = 0.2e-3 * frame * std::exp(-(x * x + y * y) / (2.0 * 0.6e-3 * 0.6e-3));
+        positions_.data.insert(positions_.data.end(), {x, y, z - depth * (1.0 + z / kMm)});
+      }
+    }
+    write_file(root_ / "sensor.yaml", kSensor);
+    write_file(root_ / "config.yaml", kConfig);
+    write_file(root_ / "press/press.yaml", "stage: press\n");
+    write_tet_mesh(root_ / "gel.msh", gel_);
+    write_positions();
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void write_positions() { write_npy(root_ / "press/positions.npy", positions_.shape, positions_.data.data()); }
+
+  /// Runs the program; what it says is in said_, with the scratch folder's name left out.
+  int run(const std::string& out = "out", const std::string& more = "--threads 1") {
+    const std::string command = std::string(TACIPC_BIN_DIR) + "/render --log-level warning --config " +
+                                (root_ / "config.yaml").string() + " --sensor " + (root_ / "sensor.yaml").string() +
+                                " --gel " + (root_ / "gel.msh").string() + " --press " + (root_ / "press").string() +
+                                " --out " + (root_ / out).string() + " " + more + " 2> " +
+                                (root_ / "said.txt").string();
+    const int status = std::system(command.c_str());
+    said_ = read_file(root_ / "said.txt");
+    const std::string root = root_.string() + "/";
+    for (std::size_t at = said_.find(root); at != std::string::npos; at = said_.find(root))
+      said_.erase(at, root.size());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  fs::path root_;
+  TetMesh gel_;
+  NpyArray positions_;
+  std::string said_;
+};
+
+TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
+  ASSERT_EQ(run(), 0) << said_;
+  EXPECT_EQ(said_, "");
+  for (const char* name :
+       {"linear.exr", "depth.exr", "normal.exr", "indentation.exr", "tactile.png", "normal.png", "indentation.png"}) {
+    EXPECT_TRUE(fs::exists(root_ / "out/frame_0000" / name)) << name;
+    EXPECT_TRUE(fs::exists(root_ / "out/frame_0002" / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(root_ / "out/frame_0001"));
+  const std::string record = read_file(root_ / "out/render.yaml");
+  EXPECT_THAT(record, HasSubstr("reference: synthetic"));
+  EXPECT_THAT(record, HasSubstr("nudged_rays: "));
+  EXPECT_THAT(record, HasSubstr("outside_rays: 0"));
+  // The deepest vertex lies on the axis, between rays: 0.4 mm less what the nearest rays and the facets miss.
+  const FloatImage indentation = read_exr(root_ / "out/frame_0002/indentation.exr", {"Y"});
+  EXPECT_NEAR(*std::max_element(indentation.pixels.begin(), indentation.pixels.end()), 0.4e-3, 0.02e-3);
+  const FloatImage rest_normal = read_exr(root_ / "out/frame_0000/normal.exr", {"X", "Y", "Z"});
+  EXPECT_FLOAT_EQ(rest_normal.at(5, 5, 2), 1.0f);
+  EXPECT_FLOAT_EQ(read_exr(root_ / "out/frame_0000/depth.exr", {"Z"}).at(3, 3, 0), 5e-3f);
+  // The mean of the reference is the level asked for, up to rounding and the noise of 2304 values.
+  const ByteImage reference = read_png(root_ / "out/frame_0000/tactile.png", 3);
+  double sum = 0.0;
+  for (const std::uint8_t code : reference.pixels) sum += code;
+  EXPECT_NEAR(sum / static_cast<double>(reference.pixels.size()), 127.5, 0.5);
+}
+
+TEST_F(RenderStage, BytesDoNotDependOnThreads) {
+  ASSERT_EQ(run("one"), 0) << said_;
+  ASSERT_EQ(run("two", "--threads 2"), 0) << said_;
+  EXPECT_EQ(content_hash(root_ / "one"), content_hash(root_ / "two"));
+}
+
+TEST_F(RenderStage, AllFramesWhenAsked) {
+  write_file(root_ / "config.yaml", "frames: all\nsubpixels: 1\nnoise: {full_well_e: 5000, read_e: 4, seed: 1}\n");
+  ASSERT_EQ(run(), 0) << said_;
+  EXPECT_TRUE(fs::exists(root_ / "out/frame_0001/tactile.png"));
+}
+
+TEST_F(RenderStage, TheRealReferenceComesBackWhereNothingTouches) {
+  ByteImage photograph(32, 24, 3);
+  for (std::size_t i = 0; i < photograph.pixels.size(); ++i) {
+    photograph.pixels[i] = static_cast<std::uint8_t>(60 + (i * i) % 120);
+  }
+  write_png(root_ / "photograph.png", photograph);
+  write_file(root_ / "sensor.yaml", std::string(kSensor) + "reference_image: photograph.png\n");
+  ASSERT_EQ(run(), 0) << said_;
+  EXPECT_EQ(read_png(root_ / "out/frame_0000/tactile.png", 3).pixels, photograph.pixels);
+  EXPECT_NE(read_png(root_ / "out/frame_0002/tactile.png", 3).pixels, photograph.pixels);
+  EXPECT_THAT(read_file(root_ / "out/render.yaml"), HasSubstr("reference: " + content_hash(root_ / "photograph.png")));
+}
+
+TEST_F(RenderStage, RefusesAReferenceOfAnotherSize) {
+  write_png(root_ / "photograph.png", ByteImage(64, 48, 3));
+  write_file(root_ / "sensor.yaml", std::string(kSensor) + "reference_image: photograph.png\n");
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(said_,
+            "render: error: photograph.png: the reference image has 64 x 48 pixels, the sensor's camera 32 x 24\n");
+  EXPECT_FALSE(fs::exists(root_ / "out/render.yaml"));
+}
+
+TEST_F(RenderStage, RefusesAnUnfinishedPress) {
+  fs::remove(root_ / "press/press.yaml");
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(said_, "render: error: press: has no press.yaml, so the press did not finish\n");
+}
+
+TEST_F(RenderStage, RefusesPositionsThatDoNotFitTheGel) {
+  const NpyArray good = positions_;
+  positions_.shape = {3, good.shape[1] * 3};
+  write_positions();
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(said_, "render: error: press/positions.npy: has shape (3, 1326) where (frames, vertices, 3) is needed\n");
+
+  positions_.shape = {1, good.shape[1] * 3, 3};
+  write_positions();
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(said_, "render: error: press/positions.npy: has 1326 vertices, the gel 442\n");
+
+  positions_ = good;
+  positions_.data[(442 + 17) * 3 + 1] = std::numeric_limits<double>::quiet_NaN();
+  write_positions();
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(said_, "render: error: press/positions.npy: frame 1, vertex 17 is not finite\n");
+
+  positions_ = good;
+  positions_.data[3 * 5 + 2] += 0.02 * kMm;
+  write_positions();
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(said_,
+            "render: error: press/positions.npy: frame 0 is not the gel at rest: vertex 5 is 0.02 mm away from its "
+            "place in the gel\n");
+}
+
+TEST_F(RenderStage, RefusesWrongConfigurations) {
+  write_file(root_ / "config.yaml", "frames: first\nsubpixel: 2\nnoise: {full_well_e: 0, read_e: 4}\n");
+  EXPECT_EQ(run(), 2);
+  EXPECT_EQ(said_,
+            "config.yaml:1:9: frames: 'first' is not one of last, all\n"
+            "config.yaml:2:1: subpixel: unknown key (did you mean subpixels?)\n"
+            "config.yaml:3:8: noise.seed: missing\n"
+            "config.yaml:3:22: noise.full_well_e: 0 is outside (0, inf)\n");
+}
+
+TEST_F(RenderStage, RefusesLightsThatDoNotReachTheGel) {
+  // Lights on the object's side of the gel, facing away from it.
+  std::string sensor = kSensor;
+  const std::size_t leds = sensor.find("leds:"), camera = sensor.find("camera:");
+  sensor.replace(leds, camera - leds,
+                 "leds: {list: [{position_mm: [0, 0, 5], rgb_linear: [1, 1, 1], intensity: 1},\n"
+                 "              {position_mm: [1, 0, 3], rgb_linear: [1, 1, 1], intensity: 1}]}\n");
+  write_file(root_ / "sensor.yaml", sensor);
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(said_,
+            "render: warning: LED 0 lights nothing the camera sees\n"
+            "render: warning: LED 1 lights nothing the camera sees\n"
+            "render: error: no light reaches the front face: check the positions of the LEDs\n");
+}
+
+}  // namespace
+}  // namespace tacipc
