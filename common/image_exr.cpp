@@ -5,12 +5,14 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfVersion.h>
 
 #include <algorithm>
 #include <cstring>
 #include <exception>
 #include <mutex>
 
+#include "common/byte_reader.h"
 #include "common/error.h"
 #include "common/files.h"
 #include "common/image.h"
@@ -77,6 +79,25 @@ std::string channel_list(const Imf::ChannelList& channels) {
   return text.empty() ? "none" : text;
 }
 
+/// Header attributes are `name\0 type\0 size value`, ended by an empty name. The library allocates `size` before it
+/// looks whether the file is that long.
+void check_header(const std::string& bytes, const std::string& name) {
+  constexpr std::size_t kMagicAndVersion = 8;
+  ByteReader in(bytes, name);
+  in.skip(kMagicAndVersion, "the EXR header");
+  const auto skip_text = [&] {
+    bool empty = true;
+    while (in.read<char>("the EXR header") != '\0') empty = false;
+    return !empty;
+  };
+  while (skip_text()) {
+    skip_text();
+    const auto size = in.read<std::int32_t>("the EXR header");
+    if (size < 0) in.fail(fmt::format("attribute size {} is negative", size));
+    in.skip(static_cast<std::size_t>(size), "an EXR attribute");
+  }
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const FloatImage& image,
@@ -107,6 +128,7 @@ void write_exr(const std::filesystem::path& path, const FloatImage& image,
 FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::string>& channel_names) {
   const std::string name = path.string();
   const std::string bytes = read_file(path);
+  if (bytes.size() >= 4 && Imf::isImfMagic(bytes.data())) check_header(bytes, name);
   static std::once_flag limits;
   std::call_once(limits, [] {
     Imf::Header::setMaxImageSize(kLargestSide, kLargestSide);
