@@ -29,7 +29,8 @@ void check(RTCDevice device, const char* step) {
 
 }  // namespace
 
-RayScene::RayScene(const Positions& positions, const Triangles& triangles) : handles_(std::make_unique<Handles>()) {
+RayScene::RayScene(const Positions& positions, const Triangles& triangles)
+    : handles_(std::make_unique<Handles>()), lowest_z_(positions.col(2).minCoeff()) {
   Handles& h = *handles_;
   h.device = rtcNewDevice(nullptr);
   if (!h.device) check(nullptr, "start");
@@ -77,6 +78,10 @@ std::optional<int> RayScene::first_hit(const Ray& ray) const {
 }
 
 std::uint32_t RayScene::blocked(const Vector3& origin, const std::array<Vector3, kPacket>& ends, int count) const {
+  // Whatever lies wholly behind the surface is free: all of a flat face, which is every sensor's reference.
+  bool behind = origin.z() < lowest_z_;
+  for (int i = 0; i < count; ++i) behind = behind && ends[static_cast<std::size_t>(i)].z() < lowest_z_;
+  if (behind) return 0;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

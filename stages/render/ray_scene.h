@@ -36,6 +36,7 @@ class RayScene {
  private:
   struct Handles;
   std::unique_ptr<Handles> handles_;
+  double lowest_z_;
 };
 
 /// While it lives, denormal numbers count as zero on this thread: Embree needs that for speed.
