@@ -17,7 +17,8 @@ const tacipc::StageSpec kPress{
                {.flag = "--sample", .help = "placement and motion (YAML)"},
                {.flag = "--gel", .help = "tetrahedral gel (gel.msh of tetmesh)"},
                {.flag = "--object", .help = "closed triangle mesh in metres (object.ply of decimate)"},
-               {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false}}};
+               {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false}},
+    .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}}};
 
 }  // namespace
 
@@ -33,7 +34,6 @@ int main(int argc, char** argv) {
     }
     const TetMesh gel = read_tet_mesh(stage.input("--gel"));
     const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
-    stage.note("sample_name", sample.name);
     const Simulation simulation =
         simulate(sensor, gel, object, config, sample, face, [](int frame, int frames, int iteration, double residual) {
           show_progress((frame - 1.0) / frames, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s",

@@ -23,7 +23,6 @@ PressConfig PressConfig::read(ConfigReader& in) {
 
 SampleSpec SampleSpec::read(ConfigReader& in) {
   SampleSpec spec;
-  spec.name = in.text("sample");
   if (auto placement = in.optional_section("placement")) {
     if (placement->has("face")) spec.face = placement->choice("face", face_names());
     spec.rotate_rad = placement->number_or("rotate_deg", 0.0) * std::numbers::pi / 180.0;

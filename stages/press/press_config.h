@@ -22,9 +22,8 @@ struct PressConfig {
   static PressConfig read(ConfigReader& in);
 };
 
-/// One sample: which motion of which object.
+/// configs/samples/*.yaml: how the object is placed and moved.
 struct SampleSpec {
-  std::string name;
   std::optional<std::string> face;  // side that presses; absent: as the object's YAML says
   double rotate_rad = 0.0;
   double center_x_m = 0.0;

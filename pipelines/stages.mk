@@ -1,0 +1,39 @@
+# How each stage makes its record from those before it.
+
+# $(call run,stage,flags): a stage writes its record $@ into the folder of $@.
+run = $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(2)
+
+SENSORS := $(basename $(notdir $(wildcard configs/sensors/*.yaml)))
+MESHES  := $(basename $(notdir $(wildcard configs/tetmesh/*.yaml)))
+
+# Gels: one per sensor and mesh, $(OUT)/gels/<sensor>-<mesh>/gel.msh
+define gel_rule
+$$(OUT)/gels/$(1)-$(2)/tetmesh.yaml: configs/sensors/$(1).yaml configs/tetmesh/$(2).yaml | build
+	$$(call run,tetmesh,--sensor configs/sensors/$(1).yaml --config configs/tetmesh/$(2).yaml)
+endef
+$(foreach s,$(SENSORS),$(foreach m,$(filter-out import_%,$(MESHES)),$(eval $(call gel_rule,$(s),$(m)))))
+
+# Embossed objects: $(OUT)/emboss/<pattern>/object.ply, then decimated in $(OUT)/objects/<pattern>
+$(OUT)/emboss/%/emboss.yaml: configs/emboss/%.yaml | build
+	$(call run,emboss,--config $<)
+
+$(OUT)/objects/%/decimate.yaml: $(OUT)/emboss/%/emboss.yaml configs/objects/embossed.yaml configs/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(OUT)/emboss/$*/object.ply --object configs/objects/embossed.yaml --config configs/decimate/default.yaml)
+
+# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml)
+define sample_rules
+$(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml configs/press/paper.yaml $(7) | build
+	$$(call run,press,--name $(2) --object $(3)/object.ply --object-config $(4) --gel $$(OUT)/gels/$(5)-$(6)/gel.msh \
+	  --sensor configs/sensors/$(5).yaml --config configs/press/paper.yaml --sample $(7))
+$(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(5).yaml configs/render/default.yaml | build
+	$$(call run,render,--press $(1)/press --gel $$(OUT)/gels/$(5)-$(6)/gel.msh --sensor configs/sensors/$(5).yaml --config configs/render/default.yaml)
+endef
+
+# A page over samples: $(call report_rules,folder,title,sample folders)
+define report_rules
+$(1)/report/report.yaml: $(addsuffix /render/render.yaml,$(3)) | build
+	$$(call run,report,--title "$(2)" $(addprefix --sample ,$(3)))
+endef
+
+# Where to look, said when a goal is done.
+look = @echo; echo "Look at $(1)/report/index.html and $(1)/report/contact_sheet.png"

@@ -1,0 +1,140 @@
+// Sparse algebra and step limits of the press.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <random>
+
+#include "stages/press/solve/assembly.h"
+#include "stages/press/solve/cholmod_solver.h"
+#include "stages/press/solve/step_limit.h"
+
+namespace tacipc {
+namespace {
+
+/// A random symmetric block matrix, diagonally dominant, with some blocks off the diagonal.
+BlockMatrix random_matrix(int size, unsigned seed, double diagonal) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<std::array<int, 2>> pairs;
+  for (int i = 0; i < size; ++i) {
+    pairs.push_back({i, (i + 1) % size});
+    pairs.push_back({(i * 7 + 3) % size, i});
+  }
+  BlockMatrix matrix(std::make_shared<BlockPattern>(make_block_pattern(size, pairs)));
+  for (int c = 0; c < size; ++c) {
+    for (int k = matrix.pattern->column_start[c]; k < matrix.pattern->column_start[c + 1]; ++k) {
+      auto block = matrix.block(k);
+      for (double& entry : block.reshaped()) entry = uniform(random);
+      if (matrix.pattern->row[k] == c)
+        block = (0.5 * (block + block.transpose())).eval() + diagonal * Matrix3::Identity();
+    }
+  }
+  return matrix;
+}
+
+Eigen::MatrixXd dense(const BlockMatrix& matrix) {
+  const Eigen::Index n = 3 * matrix.pattern->size();
+  Eigen::MatrixXd out(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) out.col(i) = matrix.multiply(Eigen::VectorXd::Unit(n, i));
+  return out;
+}
+
+TEST(BlockPattern, KeepsEachPairOnceWithTheDiagonalFirst) {
+  const BlockPattern pattern = make_block_pattern(3, {{2, 0}, {0, 2}, {1, 2}});
+  EXPECT_EQ(pattern.row, (std::vector<int>{0, 2, 1, 2, 2}));
+  EXPECT_EQ(pattern.column_start, (std::vector<int>{0, 2, 4, 5}));
+  EXPECT_EQ(pattern.find(2, 0), 1);
+  EXPECT_EQ(pattern.find(1, 0), -1);
+}
+
+TEST(CholmodSolver, SolvesAsDenseAlgebraDoesAndAnalysesOncePerPattern) {
+  BlockMatrix matrix = random_matrix(40, 3, 20.0);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(120, -1.0, 2.0);
+  CholmodSolver solver;
+  ASSERT_TRUE(solver.factorize(matrix));
+  const Eigen::MatrixXd A = dense(matrix);
+  EXPECT_LT((A - A.transpose()).norm(), 1e-14 * A.norm());
+  EXPECT_LT((solver.solve(b) - A.ldlt().solve(b)).norm(), 1e-12);
+  for (double& value : matrix.values) value *= 2.0;
+  ASSERT_TRUE(solver.factorize(matrix));
+  EXPECT_LT((A * solver.solve(b) * 2.0 - b).norm(), 1e-12);
+  EXPECT_EQ(solver.num_analyses(), 1);
+}
+
+TEST(CholmodSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndRecovers) {
+  CholmodSolver solver;
+  EXPECT_FALSE(solver.factorize(random_matrix(40, 3, -20.0)));
+  EXPECT_FALSE(solver.factorize(random_matrix(40, 3, 0.1)));
+  EXPECT_TRUE(solver.factorize(random_matrix(40, 3, 20.0)));
+}
+
+TEST(CubicStaysAbove, NeverSaysYesForACubicThatDips) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-2.0, 2.0);
+  int yes = 0, dips = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    const double c[4] = {1.0, uniform(random), uniform(random), uniform(random)};
+    double lowest = 1.0;
+    for (int k = 0; k <= 1000; ++k) {
+      const double t = 1e-3 * k;
+      lowest = std::min(lowest, c[0] + t * (c[1] + t * (c[2] + t * c[3])));
+    }
+    const bool says = cubic_stays_above(c, 1.0, 0.1);
+    EXPECT_FALSE(says && lowest <= 0.1) << c[1] << " " << c[2] << " " << c[3];
+    yes += says;
+    dips += lowest <= 0.1;
+  }
+  EXPECT_GT(yes, 1000);
+  EXPECT_GT(dips, 500);
+}
+
+TEST(InversionStepLimit, StopsBeforeAVertexPassesThroughItsFace) {
+  const Positions x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Positions p = Positions::Zero(4, 3);
+  p(3, 2) = -4.0;  // flat at t = 1/4, a tenth of the volume left at t = 0.225
+  const double t = inversion_step_limit(Tetrahedra{{0, 1, 2, 3}}, x, p);
+  EXPECT_LT(t, 0.225);
+  EXPECT_GT(t, 0.75 * 0.225);
+  p(3, 2) = 4.0;
+  EXPECT_EQ(inversion_step_limit(Tetrahedra{{0, 1, 2, 3}}, x, p), 1.0);
+}
+
+TEST(InversionStepLimit, SeesATurnThatEndsUprightAgain) {
+  // Through the face and out on the other side of a moving base: positive volume at both ends, not between.
+  const Positions x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Positions p = Positions::Zero(4, 3);
+  p.row(1) << -2, 0, 0;
+  p.row(2) << 0, -2, 0;
+  EXPECT_LT(inversion_step_limit(Tetrahedra{{0, 1, 2, 3}}, x, p), 0.5);
+}
+
+TEST(Assemble, HessianIsTheGradientsDerivativeAndCouplingThatOfPrescribedMotion) {
+  const Positions rest{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  const Tetrahedra tets{{0, 1, 2, 3}, {1, 2, 3, 4}};
+  const auto elasticity = std::make_shared<Elasticity>(rest, tets, NeoHookean{2.0, 3.0});
+  const IncrementalPotential potential{{{0.7, elasticity}}};
+  const FreeVertices free(5, {true, false, false, false, false});
+  Positions x = rest;
+  x(4, 2) = 1.3;
+  x(1, 1) = 0.1;
+  Positions motion = Positions::Zero(5, 3);
+  motion.row(0) << 0.3, -0.2, 0.5;
+  const auto pattern = mesh_pattern(free, tets);
+  const auto at = [&](const Positions& y) {
+    return assemble(potential, y, free, pattern, Order::hessian, Order::hessian, motion);
+  };
+  const NewtonSystem system = at(x);
+  Positions d = motion;
+  Eigen::VectorXd free_d(12);
+  for (int i = 0; i < 4; ++i) {
+    d.row(i + 1) << 0.2 * i - 0.3, 0.1, -0.15 * i;
+    free_d.segment<3>(3 * i) = d.row(i + 1).transpose();
+  }
+  const double h = 1e-5;
+  const Eigen::VectorXd difference = (at(x + h * d).gradient - at(x - h * d).gradient) / (2 * h);
+  const Eigen::VectorXd exact = system.hessian.multiply(free_d) + system.coupling;
+  EXPECT_LT((difference - exact).norm(), 1e-8 * exact.norm());
+}
+
+}  // namespace
+}  // namespace tacipc
