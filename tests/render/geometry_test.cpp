@@ -91,6 +91,9 @@ TEST(Trace, NoRayFallsThroughAndThreadsLeaveNoTrace) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
       results.push_back(trace(*membrane, sensor, {}));
       EXPECT_EQ(results.back().outside_rays, 0);
+      // Vertex hits alone need the nudge; the ball's vertices are off the rays.
+      EXPECT_EQ(results.back().nudged_rays > 0, membrane == &grid) << results.back().nudged_rays;
+      for (const float depth : results.back().depth.pixels) ASSERT_FALSE(std::isnan(depth));
     }
     for (const TraceResult& result : results) {
       EXPECT_EQ(result.basis.pixels, results[0].basis.pixels);
