@@ -1,5 +1,7 @@
 #include "stages/press/contact/distance.h"
 
+#include <Eigen/Geometry>
+
 #include <optional>
 
 namespace tacipc {

@@ -1,5 +1,7 @@
 #include "stages/press/contact/edge_edge_mollifier.h"
 
+#include <Eigen/Geometry>
+
 namespace tacipc {
 
 double edge_cross_squared_norm(const FourPoints& x) { return (x[1] - x[0]).cross(x[3] - x[2]).squaredNorm(); }

@@ -1,5 +1,7 @@
 #include "stages/press/contact/pair_motion.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
