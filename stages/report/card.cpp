@@ -1,0 +1,150 @@
+#include "stages/report/card.h"
+
+#include <fmt/core.h>
+
+#include "stages/report/html.h"
+#include "stages/report/press_curve.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A picture that opens in full when clicked. `caption` is HTML.
+std::string picture(const fs::path& file, const fs::path& folder, const std::string& alt, const std::string& caption) {
+  const std::string link = html_link(file, folder);
+  return fmt::format(
+      "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=\"lazy\"></a><figcaption>{2}</figcaption>"
+      "</figure>\n",
+      link, html_text(alt), caption);
+}
+
+/// Colours of the normal picture for a flat face and one that leans 45° to each side.
+std::string normal_swatches() {
+  struct Swatch {
+    const char* words;
+    double x, y, z;
+  };
+  constexpr double kLean = 0.70710678;
+  std::string swatches = "<div class=\"swatches\">";
+  for (const Swatch& s :
+       {Swatch{"flat", 0, 0, 1}, Swatch{"to the right", kLean, 0, kLean}, Swatch{"left", -kLean, 0, kLean},
+        Swatch{"down", 0, kLean, kLean}, Swatch{"up", 0, -kLean, kLean}}) {
+    swatches +=
+        fmt::format("<span><span class=\"swatch\" style=\"background: rgb({:.0f} {:.0f} {:.0f})\"></span>{}</span>",
+                    127.5 * (s.x + 1), 127.5 * (s.y + 1), 127.5 * (s.z + 1), s.words);
+  }
+  return swatches + "</div>";
+}
+
+std::string pictures(const SampleReport& sample, const fs::path& folder) {
+  std::string html;
+  if (sample.images) {
+    const SampleImages& images = *sample.images;
+    html += picture(images.tactile, folder, "tactile image of " + sample.name,
+                    fmt::format("<b>Tactile image</b>, last frame (<a href=\"{}\">without contact</a>)",
+                                html_link(images.no_contact, folder)));
+    html += picture(images.indentation, folder, "indentation map of " + sample.name,
+                    fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
+                                number_text(sample.max_indentation_m, 1e3)));
+    html += picture(images.normal, folder, "normals of " + sample.name,
+                    "<b>Normals</b>: the face looks" + normal_swatches());
+  }
+  if (!sample.frames.empty()) {
+    html += "<figure>" + press_curve_svg(sample.frames) +
+            "<figcaption><b>Press curve</b>, one mark per frame</figcaption></figure>\n";
+  }
+  return html.empty() ? "" : "<div class=\"pictures\">\n" + html + "</div>\n";
+}
+
+/// One group of facts; `lines` are pairs of a name and HTML.
+std::string facts(const std::string& heading, const std::vector<std::pair<std::string, std::string>>& lines) {
+  std::string html = "<div><h4>" + heading + "</h4><dl>";
+  for (const auto& [name, value] : lines) html += fmt::format("<dt>{}</dt><dd>{}</dd>", html_text(name), value);
+  return html + "</dl></div>\n";
+}
+
+/// Of a press that failed, only what is known.
+std::string press_facts(const SampleReport& sample) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  if (sample.depth_m) lines.emplace_back("depth", number_text(sample.depth_m, 1e3) + " mm");
+  if (sample.press_force_n) lines.emplace_back("press force", number_text(sample.press_force_n) + " N");
+  if (sample.min_distance_m) lines.emplace_back("smallest distance", number_text(sample.min_distance_m, 1e6) + " µm");
+  if (sample.min_volume_ratio) lines.emplace_back("smallest volume ratio", number_text(sample.min_volume_ratio));
+  if (sample.newton_iterations) lines.emplace_back("Newton iterations", count_text(sample.newton_iterations));
+  if (sample.gel_vertices) lines.emplace_back("gel vertices", count_text(sample.gel_vertices));
+  return lines.empty() ? "" : facts("Press", lines);
+}
+
+std::string placement_facts(const PlacementReport& placement) {
+  return facts(
+      "Placement",
+      {{"side that presses",
+        fmt::format("{} <span class=\"quiet\">({})</span>", html_text(placement.face), html_text(placement.chosen))},
+       {"turned about z", fmt::format("{:g}°", placement.rotate_deg)},
+       {"centre on the gel", fmt::format("x {:g} mm, y {:g} mm", placement.center_x_mm, placement.center_y_mm)}});
+}
+
+std::string decimate_facts(const DecimateReport& mesh) {
+  std::vector<std::pair<std::string, std::string>> lines{
+      {"vertices", count_text(mesh.vertices_in) + " → " + count_text(mesh.vertices_out) +
+                       (mesh.passed_through ? " <span class=\"quiet\">(kept as it was)</span>" : "")}};
+  if (mesh.hausdorff_mm) lines.emplace_back("Hausdorff distance", number_text(mesh.hausdorff_mm) + " mm");
+  if (mesh.findings.empty()) lines.emplace_back("repairs", "none needed");
+  for (const auto& [what, how_many] : mesh.findings) lines.emplace_back(what, count_text(how_many));
+  return facts("Object mesh", lines);
+}
+
+std::string frames_table(const std::vector<FrameReport>& frames) {
+  std::string table =
+      "<details><summary>Numbers per frame</summary><div class=\"scroll\"><table>\n<thead><tr><th>frame</th>"
+      "<th>depth mm</th><th>press force N</th><th>Newton iterations</th><th>smallest distance µm</th>"
+      "<th>smallest volume ratio</th></tr></thead>\n<tbody>\n";
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameReport& frame = frames[i];
+    table += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", i,
+                         number_text(frame.depth_m, 1e3), number_text(frame.press_force_n), frame.newton_iterations,
+                         number_text(frame.min_gap_m, 1e6), number_text(frame.min_volume_ratio));
+  }
+  return table + "</tbody></table></div></details>\n";
+}
+
+std::string file_links(const char* heading, const std::vector<std::pair<std::string, fs::path>>& files,
+                       const fs::path& folder) {
+  if (files.empty()) return "";
+  std::string links;
+  for (const auto& [label, path] : files) {
+    links +=
+        fmt::format("{}<a href=\"{}\">{}</a>", links.empty() ? "" : " · ", html_link(path, folder), html_text(label));
+  }
+  return fmt::format("<p class=\"files\"><span class=\"quiet\">{}</span> {}</p>\n", heading, links);
+}
+
+}  // namespace
+
+std::string card_id(std::size_t index) { return fmt::format("sample-{}", index + 1); }
+
+std::string verdict_badge(const SampleReport& sample) {
+  return sample.passed() ? "<span class=\"verdict passed\">passed</span>"
+                         : "<span class=\"verdict failed\">FAILED</span>";
+}
+
+std::string sample_card(const SampleReport& sample, std::size_t index, const fs::path& folder) {
+  std::string card = fmt::format("<article class=\"card\" id=\"{}\">\n<header><h3>{}</h3>{}", card_id(index),
+                                 html_text(sample.name), verdict_badge(sample));
+  if (!sample.object.empty()) card += "<span class=\"quiet\">object " + html_text(sample.object) + "</span>";
+  card += "</header>\n";
+  if (sample.failure) card += "<p class=\"note bad\">" + html_text(*sample.failure) + "</p>\n";
+  for (const std::string& warning : sample.warnings) card += "<p class=\"note warn\">" + html_text(warning) + "</p>\n";
+  card += pictures(sample, folder);
+  card += "<div class=\"facts\">\n" + press_facts(sample);
+  if (sample.placement) card += placement_facts(*sample.placement);
+  if (sample.decimate) card += decimate_facts(*sample.decimate);
+  card += "</div>\n";
+  if (!sample.frames.empty()) card += frames_table(sample.frames);
+  card += file_links("Records and logs:", sample.records, folder);
+  card += file_links("Data:", sample.data, folder);
+  return card + "</article>\n";
+}
+
+}  // namespace tacipc

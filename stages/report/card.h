@@ -1,0 +1,19 @@
+// One sample on the page: pictures, press curve, numbers, files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "stages/report/sample.h"
+
+namespace tacipc {
+
+/// Where the page's table finds the card: "sample-1" for index 0.
+std::string card_id(std::size_t index);
+
+/// "passed" or "FAILED", coloured.
+std::string verdict_badge(const SampleReport& sample);
+
+std::string sample_card(const SampleReport& sample, std::size_t index, const std::filesystem::path& folder);
+
+}  // namespace tacipc

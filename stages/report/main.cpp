@@ -1,0 +1,44 @@
+#include <algorithm>
+
+#include "common/error.h"
+#include "common/files.h"
+#include "common/image.h"
+#include "common/log.h"
+#include "common/stage.h"
+#include "stages/report/contact_sheet.h"
+#include "stages/report/page.h"
+#include "stages/report/sample.h"
+
+namespace {
+
+const tacipc::StageSpec kReport{
+    .name = "report",
+    .summary = "Show samples on one page: pictures, press curves, verdicts.",
+    .inputs = {{.flag = "--sample", .help = "folder of a sample, with press and render in it", .many = true}},
+    .options = {{.flag = "--title", .help = "heading of the page", .fallback = "Tactile samples"}}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace tacipc;
+  return run_stage(kReport, argc, argv, [](Stage& stage) {
+    // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
+    for (const char* name : {"index.html", "contact_sheet.png"}) {
+      std::error_code error;
+      std::filesystem::remove(stage.out() / name, error);
+      if (error) throw DataError("{}: cannot be removed: {}", (stage.out() / name).string(), error.message());
+    }
+    std::vector<SampleReport> samples;
+    for (const auto& folder : stage.inputs("--sample")) {
+      samples.push_back(read_sample(folder));
+      const SampleReport& sample = samples.back();
+      if (!sample.passed()) log_warning("{}: failed: {}", sample.name, *sample.failure);
+    }
+    write_file(stage.output("index.html"), report_page(stage.option("--title"), samples, stage.out()));
+    write_png(stage.output("contact_sheet.png"), contact_sheet(stage.option("--title"), samples));
+    const auto passed = std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.passed(); });
+    stage.summarize({{"samples", samples.size()},
+                     {"passed", static_cast<std::int64_t>(passed)},
+                     {"failed", static_cast<std::int64_t>(samples.size()) - passed}});
+  });
+}

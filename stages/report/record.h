@@ -1,0 +1,53 @@
+// Looking things up in the record of another stage, where anything may be absent and nothing may be malformed.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/config.h"
+
+namespace tacipc {
+
+/// A map of a record. Looking into a map that is not there finds nothing, so lookups can be chained.
+class Record {
+ public:
+  /// \throw DataError if the file cannot be read, ConfigError if it is no YAML map.
+  static Record from_file(const std::filesystem::path& path);
+
+  Record section(const std::string& key) const;
+  /// The maps of a list; empty where the key is absent.
+  std::vector<Record> sections(const std::string& key) const;
+  bool has(const std::string& key) const { return reader_ && reader_->has(key); }
+
+  /// Absent: nullopt. \throw DataError naming file and key if the value is of another type.
+  std::optional<std::string> text(const std::string& key) const;
+  std::optional<double> number(const std::string& key) const;
+  std::optional<int> count(const std::string& key) const;  // a whole number ≥ 0
+  std::optional<bool> flag(const std::string& key) const;
+  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t how_many) const;
+
+  /// \throw DataError naming file and key if the value is absent.
+  double required_number(const std::string& key) const { return present(number(key), key); }
+  int required_count(const std::string& key) const { return present(count(key), key); }
+  bool required_flag(const std::string& key) const { return present(flag(key), key); }
+
+ private:
+  Record(std::optional<ConfigReader> reader, std::string file, std::string path)
+      : reader_(std::move(reader)), file_(std::move(file)), path_(std::move(path)) {}
+  std::string place(const std::string& key) const;
+  [[noreturn]] void refuse(const std::string& key, const std::string& reason) const;
+  template <typename T>
+  T present(std::optional<T> value, const std::string& key) const {
+    if (!value) refuse(key, "missing");
+    return *value;
+  }
+
+  std::optional<ConfigReader> reader_;  // its own list of faults is not used: it would also complain of unknown keys
+  std::string file_;
+  std::string path_;
+};
+
+}  // namespace tacipc

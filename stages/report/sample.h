@@ -1,0 +1,76 @@
+// What there is to say about one sample, gathered from the records of its stages.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tacipc {
+
+/// One saved instant of the press.
+struct FrameReport {
+  double depth_m = 0.0;  // of the object's lowest point below z = 0; negative while it is above
+  double press_force_n = 0.0;
+  int newton_iterations = 0;
+  double min_gap_m = 0.0;
+  double min_volume_ratio = 1.0;
+};
+
+/// How the object stands over the gel.
+struct PlacementReport {
+  std::string face;    // side that presses
+  std::string chosen;  // who chose it
+  double rotate_deg = 0.0;
+  double center_x_mm = 0.0;
+  double center_y_mm = 0.0;
+};
+
+/// What became of the scan.
+struct DecimateReport {
+  std::optional<int> vertices_in;
+  std::optional<int> vertices_out;
+  std::optional<double> hausdorff_mm;
+  bool passed_through = false;                        // small enough as it was
+  std::vector<std::pair<std::string, int>> findings;  // repairs made and faults left, those that occurred
+};
+
+/// Pictures of the last frame, and of the gel without contact.
+struct SampleImages {
+  std::filesystem::path tactile, indentation, normal, no_contact;
+};
+
+struct SampleReport {
+  std::filesystem::path folder;
+  std::string name;
+  std::string object;                  // empty if not known
+  std::optional<std::string> failure;  // why the sample failed; absent: passed
+  std::vector<std::string> warnings;
+
+  std::optional<double> depth_m;
+  std::optional<double> press_force_n;
+  std::optional<double> min_distance_m;
+  std::optional<double> min_volume_ratio;
+  std::optional<int> newton_iterations;
+  std::optional<int> gel_vertices;
+  std::optional<PlacementReport> placement;
+  std::vector<FrameReport> frames;
+
+  std::optional<DecimateReport> decimate;
+
+  std::optional<bool> synthetic_reference;
+  std::optional<double> max_indentation_m;
+  std::optional<SampleImages> images;
+
+  std::vector<std::pair<std::string, std::filesystem::path>> records;  // label and file, those that exist
+  std::vector<std::pair<std::string, std::filesystem::path>> data;
+
+  bool passed() const { return !failure; }
+};
+
+/// Reads DIR/press and DIR/render, and the record beside the object. A sample of which something is missing or broken
+/// comes back as a failed one, with what could be read of it. \throw DataError if the folder is no sample's.
+SampleReport read_sample(const std::filesystem::path& folder);
+
+}  // namespace tacipc
