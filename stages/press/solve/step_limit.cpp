@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "common/error.h"
 #include "stages/press/contact/ccd.h"
@@ -43,17 +44,21 @@ std::array<double, 4> volume_cubic(const Positions& x, const Positions& p, const
 
 }  // namespace
 
-double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p, double slack) {
-  const CcdOptions options{.slack = slack};
+double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
+                          const GapRule& rule) {
   const double limit = parallel_min(pairs.size(), [&](std::size_t i) {
     const ContactPair& pair = pairs[i];
-    const FourPoints d = gather(p, pair);
-    return pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(gather(x, pair), d, options)
-                                                          : time_of_impact_edge_edge(gather(x, pair), d, options);
+    const FourPoints now = gather(x, pair), d = gather(p, pair);
+    const double distance = std::sqrt(closest_feature(pair, now).squared_distance);
+    const double floor = std::min(rule.floor_m, 0.999 * distance);
+    const CcdOptions options{.slack = (floor + rule.slack * (distance - floor)) / distance};
+    return pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(now, d, options)
+                                                          : time_of_impact_edge_edge(now, d, options);
   });
-  if (limit <= 0.0)
+  if (limit <= 0.0) {
     throw SolverError("a contact pair is too close to certify any step (smallest distance {:.3g} m)",
                       smallest_distance(pairs, x, 1.0));
+  }
   return limit;
 }
 

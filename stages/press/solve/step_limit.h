@@ -7,9 +7,17 @@
 
 namespace tacipc {
 
-/// Largest t in (0, 1] up to which every pair keeps more than `slack` of its present distance while the vertices move
-/// from x to x + t p. \throw SolverError if a pair is already so near that not even the start can be certified.
-double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p, double slack);
+/// How much of every gap a step must leave.
+struct GapRule {
+  double slack = 0.1;  // part of the present gap beyond the floor
+  double floor_m = 0;  // no gap gets down to this: below it forces are so stiff that linear algebra loses its digits
+};
+
+/// Largest t in (0, 1] up to which every pair at distance d keeps more than floor + slack (d − floor) while the
+/// vertices move from x to x + t p. \throw SolverError if a pair is already so near that not even the start can be
+/// certified.
+double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
+                          const GapRule& rule);
 
 /// A t in (0, 1] such that every tetrahedron keeps at least a tenth of its present volume on all of [0, t].
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p);

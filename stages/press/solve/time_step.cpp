@@ -12,14 +12,16 @@ namespace {
 
 constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where no energy guards the step
 constexpr double kNewtonSlack = 0.1;
-constexpr double kExactBelow = 1e3;  // × tolerance: nearer than this to the minimum the exact Hessian is worth a try
+constexpr double kGapFloor = 1e-4;  // × d̂
+// How the share of the contact Hessian's positive stand-in adapts: as small as the factorisation lets it be.
+constexpr double kFirstBlend = 0.02, kBlendGrowth = 3.0, kBlendShrink = 2.0;
 constexpr int kMaxHalvings = 40;
 
 const ContactBarrier& barrier_of(const IncrementalPotential& potential) {
   return static_cast<const ContactBarrier&>(*potential.terms.back().term);
 }
 
-/// Σᵢ |row i| and |Σᵢ row i| of a vector of stacked triples.
+/// Σᵢ |row i| of a vector of stacked triples.
 double sum_of_norms(const Eigen::VectorXd& stacked) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < stacked.size(); i += 3) sum += stacked.segment<3>(i).norm();
@@ -39,7 +41,7 @@ struct TimeStepper::Direction {
   Positions p;   // all vertices: the gel's answer, the object's motion
   double slope;  // gᵀp over the free vertices
   double force_residual_n;
-  bool exact;  // found with the exact Hessian
+  double blend;  // part of the contact Hessian that was made positive: 0 exact, 1 all of it
 };
 
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, double h_s, double d_hat_m, double kappa,
@@ -60,25 +62,43 @@ IncrementalPotential TimeStepper::potential(const Positions& x_hat, std::vector<
 
 TimeStepper::Direction TimeStepper::newton_direction(const IncrementalPotential& potential,
                                                      const ContactBarrier& barrier, const Positions& x,
-                                                     const Positions& motion, bool try_exact, StepReport& report) {
+                                                     const Positions& motion, double& blend, StepReport& report) {
   pattern_ = cover_contacts(pattern_, gel_.free, barrier, x);
-  // Cheapest guess first: exact Hessians may be positive definite as they are; if not, project, contacts before
-  // elasticity.
-  struct Attempt {
-    Order elastic, contact;
+  const auto assembled = [&](Order elastic, Order contact) {
+    return assemble(potential, x, gel_.free, pattern_, elastic, contact, motion);
   };
-  const Attempt attempts[] = {{Order::hessian, Order::hessian}, {Order::hessian, Order::psd}, {Order::psd, Order::psd}};
-  for (int k = try_exact ? 0 : 1; k < 3; ++k) {
-    const NewtonSystem system =
-        assemble(potential, x, gel_.free, pattern_, attempts[k].elastic, attempts[k].contact, motion);
-    ++report.factorizations;
-    if (!solver_.factorize(system.hessian)) continue;
+  const auto solved = [&](const NewtonSystem& system, double used) {
     const Eigen::VectorXd step = solver_.solve(-system.gradient - system.coupling);
-    Direction direction{motion, system.gradient.dot(step), sum_of_norms(system.gradient) / (h_s_ * h_s_), k == 0};
+    Direction direction{motion, system.gradient.dot(step), sum_of_norms(system.gradient) / (h_s_ * h_s_), used};
     for (int i = 0; i < gel_.free.size(); ++i)
       direction.p.row(gel_.free.vertex_of_free[i]) = step.segment<3>(3 * i).transpose();
     return direction;
+  };
+  const auto factorized = [&](const BlockMatrix& matrix) {
+    ++report.factorizations;
+    return solver_.factorize(matrix);
+  };
+  NewtonSystem positive = assembled(Order::hessian, Order::psd);
+  if (blend < 1.0) {
+    const NewtonSystem exact = assembled(Order::hessian, Order::hessian);
+    const std::vector<double> positive_values = positive.hessian.values;
+    for (; blend < 1.0; blend = blend == 0.0 ? kFirstBlend : kBlendGrowth * blend) {
+      for (std::size_t k = 0; k < positive_values.size(); ++k) {
+        positive.hessian.values[k] = exact.hessian.values[k] + blend * (positive_values[k] - exact.hessian.values[k]);
+      }
+      if (!factorized(positive.hessian)) continue;
+      const double used = blend;
+      blend = blend > kFirstBlend ? blend / kBlendShrink : 0.0;
+      return solved(positive, used);
+    }
+    positive.hessian.values = positive_values;
+    blend = 1.0;
   }
+  const double used = blend;
+  blend = 0.99 / kBlendShrink;
+  if (factorized(positive.hessian)) return solved(positive, used);
+  const NewtonSystem projected = assembled(Order::psd, Order::psd);
+  if (factorized(projected.hessian)) return solved(projected, used);
   throw SolverError("the projected Hessian is not positive definite");
 }
 
@@ -90,7 +110,8 @@ StepReport TimeStepper::advance(Positions& x, Positions& velocity, const Positio
   const Positions still = Positions::Zero(x.rows(), 3);
   StepReport report;
   bool arrived = (x.bottomRows(mesh_.num_object_vertices) - object_target).cwiseAbs().maxCoeff() == 0.0;
-  int relax = 0, relax_wanted = 1, exact_pause = 0, exact_failures = 0;
+  int relax = 0, relax_wanted = 1;
+  double blend = 1.0;
   double last_residual = std::numeric_limits<double>::infinity();
   IncrementalPotential energy = potential(x_hat, search_.pairs(x, still, d_hat_m_));
 
@@ -105,12 +126,9 @@ StepReport TimeStepper::advance(Positions& x, Positions& velocity, const Positio
     const bool moving = !arrived && relax == 0;
     Positions motion = still;
     if (moving) motion.bottomRows(mesh_.num_object_vertices) = object_target - x.bottomRows(mesh_.num_object_vertices);
-    const bool try_exact =
-        arrived && exact_pause == 0 && last_residual < kExactBelow * settings_.velocity_tolerance_m_s;
-    exact_pause = std::max(0, exact_pause - 1);
-    Direction step = newton_direction(energy, barrier_of(energy), x, motion, try_exact, report);
-    if (try_exact && !step.exact) exact_pause = 1 << std::min(++exact_failures, 4);
-    if (step.exact) exact_failures = 0;
+    double wanted = arrived ? blend : 1.0;
+    const Direction step = newton_direction(energy, barrier_of(energy), x, motion, wanted, report);
+    if (arrived) blend = wanted;
     ++report.newton_iterations;
     report.velocity_residual_m_s = last_residual = largest_row(step.p, n) / h_s_;
     report.force_residual_n = step.force_residual_n;
@@ -123,8 +141,9 @@ StepReport TimeStepper::advance(Positions& x, Positions& velocity, const Positio
     }
 
     std::vector<ContactPair> pairs = search_.pairs(x, step.p, d_hat_m_);
-    double alpha = std::min(contact_step_limit(pairs, x, step.p, moving ? kMovingSlack : kNewtonSlack),
-                            inversion_step_limit(gel_.tets, x, step.p));
+    double alpha =
+        std::min(contact_step_limit(pairs, x, step.p, {moving ? kMovingSlack : kNewtonSlack, kGapFloor * d_hat_m_}),
+                 inversion_step_limit(gel_.tets, x, step.p));
     const double limit = alpha;
     energy = potential(x_hat, std::move(pairs));
     if (moving) {
@@ -157,11 +176,11 @@ StepReport TimeStepper::advance(Positions& x, Positions& velocity, const Positio
       x = trial;
       if (!arrived) --relax;
     }
-    log_debug("  {} {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s residual {:.3e} N{}",
+    log_debug("  {} {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s residual {:.3e} N blend {:.3g}",
               moving    ? "move"
               : arrived ? "newton"
                         : "relax",
-              report.newton_iterations, alpha, limit, last_residual, step.force_residual_n, step.exact ? " exact" : "");
+              report.newton_iterations, alpha, limit, last_residual, step.force_residual_n, step.blend);
     observe(report.newton_iterations, last_residual);
   }
   velocity = (x.topRows(n) - start) / h_s_;

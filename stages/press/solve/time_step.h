@@ -62,8 +62,12 @@ class TimeStepper {
 
  private:
   struct Direction;
+  /// Solves for the Newton step with H = H_exact + blend (H_positive − H_exact), where H_positive has each contact's
+  /// Hessian replaced by its positive stand-in. The smallest blend that factorises is looked for from `blend` upwards,
+  /// and `blend` is left where the next search should begin; if even 1 fails, elasticity is projected too. Frictionless
+  /// contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton creeps.
   Direction newton_direction(const IncrementalPotential& potential, const ContactBarrier& barrier, const Positions& x,
-                             const Positions& motion, bool try_exact, StepReport& report);
+                             const Positions& motion, double& blend, StepReport& report);
   IncrementalPotential potential(const Positions& x_hat, std::vector<ContactPair> pairs) const;
 
   const ContactMesh& mesh_;
