@@ -1,0 +1,150 @@
+#include "stages/report/sample.h"
+
+#include <gmock/gmock.h>
+
+#include "common/error.h"
+#include "tests/report/sample_folder.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SampleTest : public ::testing::Test {
+ protected:
+  void press(const std::string& from, const std::string& to) {
+    write_file(folder_ / "press/press.yaml", replaced(kPressRecord, from, to));
+  }
+  std::string failure() const { return read_sample(folder_).failure.value_or("passed"); }
+
+  ScratchFolder scratch_;
+  fs::path folder_ = write_sample(scratch_ / "");
+};
+
+TEST_F(SampleTest, GathersTheRecordsOfAllStages) {
+  const SampleReport sample = read_sample(folder_);
+  EXPECT_EQ(sample.failure, std::nullopt);
+  EXPECT_EQ(sample.name, "star-007");
+  EXPECT_EQ(sample.object, "star");
+  EXPECT_EQ(sample.press_force_n, 1.25);
+  EXPECT_EQ(sample.newton_iterations, 25);
+  EXPECT_EQ(sample.min_distance_m, 3.5e-5);
+  EXPECT_EQ(sample.min_volume_ratio, 0.75);
+  EXPECT_EQ(sample.gel_vertices, 23512);
+  EXPECT_DOUBLE_EQ(sample.depth_m.value(), 0.5e-3);
+  EXPECT_DOUBLE_EQ(sample.max_indentation_m.value(), 0.534e-3);
+  EXPECT_EQ(sample.synthetic_reference, true);
+  EXPECT_THAT(sample.warnings, ::testing::ElementsAre("Synthetic reference image: the sensor file names no photograph "
+                                                      "of the real sensor without contact"));
+  ASSERT_TRUE(sample.images);
+  EXPECT_EQ(sample.images->tactile, folder_ / "render/frame_0002/tactile.png");
+  std::vector<std::string> linked;
+  for (const auto& [label, path] : sample.records) linked.push_back(label);
+  for (const auto& [label, path] : sample.data) linked.push_back(label);
+  EXPECT_THAT(linked, ::testing::ElementsAre("press.yaml", "press.log", "render.yaml", "tetmesh.yaml", "decimate.yaml",
+                                             "positions.npy", "object_pose.npy", "depth.exr"));
+}
+
+TEST_F(SampleTest, DepthsOfTheFramesFollowFromThePoses) {
+  const SampleReport sample = read_sample(folder_);
+  ASSERT_EQ(sample.frames.size(), 3u);
+  EXPECT_NEAR(sample.frames[0].depth_m, 0.0, 1e-15);
+  EXPECT_NEAR(sample.frames[1].depth_m, 0.25e-3, 1e-15);
+  EXPECT_NEAR(sample.frames[2].depth_m, 0.5e-3, 1e-15);
+  EXPECT_EQ(sample.frames[1].press_force_n, 0.5);
+  EXPECT_EQ(sample.frames[1].newton_iterations, 11);
+  EXPECT_EQ(sample.frames[2].min_gap_m, 3.5e-5);
+  EXPECT_EQ(sample.frames[1].min_volume_ratio, 0.875);
+}
+
+TEST_F(SampleTest, SaysWhoChoseTheSide) {
+  const PlacementReport placement = read_sample(folder_).placement.value();
+  EXPECT_EQ(placement.face, "+z");
+  EXPECT_EQ(placement.chosen, "opposite of the object's up side -z");
+  EXPECT_EQ(placement.rotate_deg, 30.0);
+  EXPECT_EQ(placement.center_x_mm, 1.5);
+  EXPECT_EQ(placement.center_y_mm, -2.0);
+  press("{rotate_deg", "{face: +z, rotate_deg");
+  EXPECT_EQ(read_sample(folder_).placement->chosen, "named by the sample");
+  press("  object-config: {unit: m, up: -z}\n", "");
+  EXPECT_EQ(read_sample(folder_).placement->chosen, "default");
+}
+
+TEST_F(SampleTest, TellsWhatBecameOfTheScan) {
+  const DecimateReport mesh = read_sample(folder_).decimate.value();
+  EXPECT_EQ(mesh.vertices_in, 123456);
+  EXPECT_EQ(mesh.vertices_out, 8000);
+  EXPECT_EQ(mesh.hausdorff_mm, 0.0123);
+  EXPECT_FALSE(mesh.passed_through);
+  EXPECT_THAT(mesh.findings, ::testing::ElementsAre(std::pair{"vertices merged", 17}, std::pair{"holes filled", 2},
+                                                    std::pair{"crossing faces in the scan", 3}));
+}
+
+TEST_F(SampleTest, AnObjectIsCalledAfterItsScan) {
+  press("../../../objects/star/object.ply", "../object/object.ply");
+  write_file(folder_ / "object/decimate.yaml",
+             replaced(kDecimateRecord, "../../emboss/star/object.ply", "../../dragon.stl"));
+  EXPECT_EQ(read_sample(folder_).object, "dragon");
+  press("../../../objects/star/object.ply", "../../sphere8k.obj");
+  EXPECT_EQ(read_sample(folder_).object, "sphere8k");
+  EXPECT_EQ(read_sample(folder_).decimate.has_value(), false);
+}
+
+TEST_F(SampleTest, WarningsOfTheLogsAreKept) {
+  write_file(folder_ / "render/render.log", "2024-06-07 12:34:56.789 warning: LED 3 lights nothing\n");
+  write_file(folder_ / "render/render.yaml", replaced(kRenderRecord, "synthetic", "6bb3992b2fafb7d580f024996ad25abe"));
+  const SampleReport sample = read_sample(folder_);
+  EXPECT_EQ(sample.synthetic_reference, false);
+  EXPECT_THAT(sample.warnings, ::testing::ElementsAre("render: LED 3 lights nothing"));
+}
+
+TEST_F(SampleTest, APressWithoutRecordFailedForTheReasonInItsLog) {
+  fs::remove(folder_ / "press/press.yaml");
+  write_file(folder_ / "press/press.log", "2024-06-07 12:34:56.789 error: press: error: frame 2: no convergence\n");
+  write_file(folder_ / "sample.yaml", "motion: {kind: press, depth_mm: 0.7, steps: 5}\n");
+  const SampleReport sample = read_sample(folder_);
+  EXPECT_EQ(sample.failure, "press: frame 2: no convergence");
+  EXPECT_EQ(sample.name, "star");  // of the folder
+  EXPECT_DOUBLE_EQ(sample.depth_m.value(), 0.7e-3);
+  EXPECT_EQ(sample.images, std::nullopt);  // those there are belong to an older press
+}
+
+TEST_F(SampleTest, ARenderWithoutRecordFailsTheSampleButKeepsThePress) {
+  fs::remove(folder_ / "render/render.yaml");
+  EXPECT_EQ(failure(), "render did not run");
+  EXPECT_EQ(read_sample(folder_).press_force_n, 1.25);
+}
+
+TEST_F(SampleTest, TheVerdictsOfThePressCount) {
+  press("converged: true", "converged: false");
+  EXPECT_EQ(failure(), "press: Newton did not converge");
+  press("intersections: 0", "intersections: 4");
+  EXPECT_EQ(failure(), "press: 4 triangle pairs intersect");
+  press("inverted_tets: 0", "inverted_tets: 2");
+  EXPECT_EQ(failure(), "press: 2 tetrahedra are inverted");
+}
+
+TEST_F(SampleTest, BrokenFilesFailTheSampleAndSayWhich) {
+  press("  converged: true\n", "");
+  EXPECT_EQ(failure(), "press/press.yaml: summary.converged: missing");
+  press("press_force_n: 1.25\n  min_d", "press_force_n: much\n  min_d");
+  EXPECT_EQ(failure(), "press/press.yaml: summary.press_force_n: expected a number, found 'much'");
+  write_file(folder_ / "press/press.yaml", "[1, 2");
+  EXPECT_THAT(failure(), ::testing::StartsWith("press/press.yaml:"));
+  press("    - {press_force_n: -0, newton_iterations: 0, min_gap_m: 5.0e-05, min_volume_ratio: 1}\n", "");
+  EXPECT_EQ(failure(), "press/object_pose.npy: does not hold a 4 x 4 pose for each of the 2 frames of press.yaml");
+  write_file(folder_ / "press/press.yaml", kPressRecord);
+  fs::remove(folder_ / "render/frame_0002/normal.png");
+  EXPECT_EQ(failure(), "render/frame_0002/normal.png: is missing");
+}
+
+TEST_F(SampleTest, AFolderThatIsNoSamplesIsRefused) {
+  fs::create_directories(scratch_ / "empty");
+  EXPECT_EQ(
+      message_of<DataError>([&] { read_sample(scratch_ / "empty"); }),
+      (scratch_ / "empty").string() + ": has neither a press folder nor a sample.yaml, so it is no sample's folder");
+}
+
+}  // namespace
+}  // namespace tacipc
