@@ -1,0 +1,24 @@
+// Tetrahedra inside a closed surface, by TetGen.
+#pragma once
+
+#include <functional>
+
+#include "stages/tetmesh/gel_surface.h"
+
+namespace tacipc {
+
+struct FillConfig {
+  double radius_edge_ratio = 0.0;   // tets with a longer circumradius over shortest edge are refined
+  double circumradius_ratio = 0.0;  // and tets with a longer circumradius over the wanted edge length
+  double min_dihedral_deg = 0.0;    // wanted by the optimisation
+  int optimization_level = 0;       // TetGen's 0 … 10
+
+  static FillConfig read(ConfigReader& in);
+};
+
+/// Fills the surface, whose triangles stay as they are: the surface's vertices come first, bit by bit; new vertices lie
+/// inside. `edge_length_m` is the wanted length at a point. \throw DataError with TetGen's reason where it gives up.
+TetMesh fill_with_tets(const GelSurface& surface, const FillConfig& config,
+                       const std::function<double(const Vector3&)>& edge_length_m);
+
+}  // namespace tacipc
