@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "stages/press/contact/pair_motion.h"
+#include "stages/press/contact/precise_separation.h"
 
 namespace tacipc {
 namespace {
@@ -58,8 +59,8 @@ double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& disp
 bool may_collide(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
   FourPoints displacement;
   for (int i = 0; i < 4; ++i) displacement[i] = x_end[i] - x_start[i];
-  return time_of_impact(kind, x_start, displacement, {.slack = 0, .minimum_separation_m = 0, .max_iterations = 2000}) <
-         1;
+  if (time_of_impact(kind, x_start, displacement, {.slack = 0}) == 1) return false;
+  return !provably_apart(kind, x_start, x_end);
 }
 
 }  // namespace
