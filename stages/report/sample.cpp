@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/files.h"
 #include "common/npy.h"
 #include "stages/report/record.h"
 #include "stages/report/stage_log.h"
@@ -128,6 +129,9 @@ void read_press(const fs::path& folder, SampleReport& sample) {
 
 void read_render(const fs::path& folder, SampleReport& sample) {
   const Record render = Record::from_file(folder / "render.yaml");
+  const auto press_hash = render.section("inputs").section("press").text("hash");
+  if (press_hash && *press_hash != content_hash(sample.folder / "press"))
+    throw DataError("render: the images are of an older press; render again");
   sample.synthetic_reference = render.text("reference") == "synthetic";
   sample.max_indentation_m = 1e-3 * render.section("summary").required_number("max_indentation_mm");
   if (sample.frames.empty()) return;

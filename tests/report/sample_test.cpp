@@ -107,13 +107,25 @@ TEST_F(SampleTest, APressWithoutRecordFailedForTheReasonInItsLog) {
   EXPECT_EQ(sample.failure, "press: frame 2: no convergence");
   EXPECT_EQ(sample.name, "star");  // of the folder
   EXPECT_DOUBLE_EQ(sample.depth_m.value(), 0.7e-3);
-  EXPECT_EQ(sample.images, std::nullopt);  // those there are belong to an older press
+  EXPECT_FALSE(sample.images);  // those there are belong to an older press
 }
 
 TEST_F(SampleTest, ARenderWithoutRecordFailsTheSampleButKeepsThePress) {
   fs::remove(folder_ / "render/render.yaml");
   EXPECT_EQ(failure(), "render did not run");
   EXPECT_EQ(read_sample(folder_).press_force_n, 1.25);
+}
+
+TEST_F(SampleTest, ImagesOfAnOlderPressDoNotPass) {
+  const auto render_of = [&](const std::string& hash) {
+    write_file(folder_ / "render/render.yaml",
+               std::string(kRenderRecord) + "inputs: {press: {path: ../press, hash: " + hash + "}}\n");
+  };
+  render_of(content_hash(folder_ / "press"));
+  EXPECT_EQ(failure(), "passed");
+  write_file(folder_ / "press/positions.npy", "moved");
+  EXPECT_EQ(failure(), "render: the images are of an older press; render again");
+  EXPECT_FALSE(read_sample(folder_).images);
 }
 
 TEST_F(SampleTest, TheVerdictsOfThePressCount) {
