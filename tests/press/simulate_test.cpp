@@ -97,7 +97,8 @@ TEST(Simulate, SharpTipIntoCoarseGelEndsExactlyAtItsPoseAndInBalance) {
     EXPECT_GT(frame.min_volume_ratio, 0.0);
     EXPECT_GT(-frame.force_n.z(), last_force);
     last_force = -frame.force_n.z();
-    // What is not balanced is what Newton left over, plus the gel's own inertia (8e-4 kg of which little moves, 1e-5 N).
+    // What is not balanced is what Newton left over, plus the gel's own inertia (8e-4 kg of which little moves, 1e-5
+    // N).
     EXPECT_LT((frame.force_n + frame.mount_force_n).norm(), frame.solver.force_residual_n + 2e-5);
   }
   const Positions end = transformed(simulation.frames.back().gel_from_object, object.positions);

@@ -78,34 +78,32 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
   return std::make_shared<BlockPattern>(make_block_pattern(pattern->size(), std::move(missing)));
 }
 
-NewtonSystem assemble(const IncrementalPotential& potential, const Positions& x, const FreeVertices& free,
-                      std::shared_ptr<const BlockPattern> pattern, Order elastic_order, Order contact_order,
-                      const Positions& motion) {
+NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern) {
   const Eigen::Index n = 3 * static_cast<Eigen::Index>(free.size());
-  NewtonSystem system{BlockMatrix(std::move(pattern)), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
-  for (const auto& weighted : potential.terms) {
-    const double weight = weighted.weight;
-    const Order order = weighted.term->name() == "barrier" ? contact_order : elastic_order;
-    for_each_local(*weighted.term, x, order, [&](std::span<const int> stencil, const Local& local) {
-      const int count = static_cast<int>(stencil.size());
-      for (int a = 0; a < count; ++a) {
-        const int i = free.free_of_vertex[stencil[a]];
-        if (i < 0) continue;
-        system.gradient.segment<3>(3 * i) += weight * local.gradient.segment<3>(3 * a);
-        for (int b = 0; b < count; ++b) {
-          const int j = free.free_of_vertex[stencil[b]];
-          if (j < 0) {
-            system.coupling.segment<3>(3 * i) +=
-                weight * local.hessian.block<3, 3>(3 * a, 3 * b) * motion.row(stencil[b]).transpose();
-          } else if (i >= j) {
-            system.hessian.block(system.hessian.pattern->find(i, j)) +=
-                weight * local.hessian.block<3, 3>(3 * a, 3 * b);
-          }
+  return {BlockMatrix(std::move(pattern)), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+}
+
+void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, Order order,
+              const Positions& motion, NewtonSystem& system) {
+  const double weight = weighted.weight;
+  const BlockPattern& pattern = *system.hessian.pattern;
+  for_each_local(*weighted.term, x, order, [&](std::span<const int> stencil, const Local& local) {
+    const int count = static_cast<int>(stencil.size());
+    for (int a = 0; a < count; ++a) {
+      const int i = free.free_of_vertex[stencil[a]];
+      if (i < 0) continue;
+      system.gradient.segment<3>(3 * i) += weight * local.gradient.segment<3>(3 * a);
+      for (int b = 0; b < count; ++b) {
+        const int j = free.free_of_vertex[stencil[b]];
+        if (j < 0) {
+          system.coupling.segment<3>(3 * i) +=
+              weight * local.hessian.block<3, 3>(3 * a, 3 * b) * motion.row(stencil[b]).transpose();
+        } else if (i >= j) {
+          system.hessian.block(pattern.find(i, j)) += weight * local.hessian.block<3, 3>(3 * a, 3 * b);
         }
       }
-    });
-  }
-  return system;
+    }
+  });
 }
 
 Positions gradient_of(const EnergyTerm& term, const Positions& x) {

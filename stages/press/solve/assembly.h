@@ -26,11 +26,13 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
                                                    const FreeVertices& free, const ContactBarrier& barrier,
                                                    const Positions& x);
 
-/// Sums weight × term in a fixed order. `order` is hessian or psd; `motion` (rows like x) is how prescribed vertices
-/// move.
-NewtonSystem assemble(const IncrementalPotential& potential, const Positions& x, const FreeVertices& free,
-                      std::shared_ptr<const BlockPattern> pattern, Order elastic_order, Order contact_order,
-                      const Positions& motion);
+/// A system of zeros.
+NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern);
+
+/// Adds weight × term at x in a fixed order. `order` is hessian or psd; `motion` (rows like x) is how prescribed
+/// vertices move.
+void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, Order order,
+              const Positions& motion, NewtonSystem& system);
 
 /// Gradient of one term at every vertex, prescribed ones too, in the term's unit per metre.
 Positions gradient_of(const EnergyTerm& term, const Positions& x);

@@ -64,8 +64,17 @@ TimeStepper::Direction TimeStepper::newton_direction(const IncrementalPotential&
                                                      const ContactBarrier& barrier, const Positions& x,
                                                      const Positions& motion, double& blend, StepReport& report) {
   pattern_ = cover_contacts(pattern_, gel_.free, barrier, x);
-  const auto assembled = [&](Order elastic, Order contact) {
-    return assemble(potential, x, gel_.free, pattern_, elastic, contact, motion);
+  const WeightedTerm& contact = potential.terms.back();
+  // Everything but contact, elasticity as told.
+  const auto body = [&](Order elastic) {
+    NewtonSystem system = empty_system(gel_.free, pattern_);
+    for (std::size_t k = 0; k + 1 < potential.terms.size(); ++k)
+      assemble(potential.terms[k], x, gel_.free, elastic, motion, system);
+    return system;
+  };
+  const auto with_contact = [&](NewtonSystem system, Order order) {
+    assemble(contact, x, gel_.free, order, motion, system);
+    return system;
   };
   const auto solved = [&](const NewtonSystem& system, double used) {
     const Eigen::VectorXd step = solver_.solve(-system.gradient - system.coupling);
@@ -78,9 +87,10 @@ TimeStepper::Direction TimeStepper::newton_direction(const IncrementalPotential&
     ++report.factorizations;
     return solver_.factorize(matrix);
   };
-  NewtonSystem positive = assembled(Order::hessian, Order::psd);
+  const NewtonSystem elastic = body(Order::hessian);
+  NewtonSystem positive = with_contact(elastic, Order::psd);
   if (blend < 1.0) {
-    const NewtonSystem exact = assembled(Order::hessian, Order::hessian);
+    const NewtonSystem exact = with_contact(elastic, Order::hessian);
     const std::vector<double> positive_values = positive.hessian.values;
     for (; blend < 1.0; blend = blend == 0.0 ? kFirstBlend : kBlendGrowth * blend) {
       for (std::size_t k = 0; k < positive_values.size(); ++k) {
@@ -97,7 +107,7 @@ TimeStepper::Direction TimeStepper::newton_direction(const IncrementalPotential&
   const double used = blend;
   blend = 0.99 / kBlendShrink;
   if (factorized(positive.hessian)) return solved(positive, used);
-  const NewtonSystem projected = assembled(Order::psd, Order::psd);
+  const NewtonSystem projected = with_contact(body(Order::psd), Order::psd);
   if (factorized(projected.hessian)) return solved(projected, used);
   throw SolverError("the projected Hessian is not positive definite");
 }

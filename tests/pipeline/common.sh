@@ -1,0 +1,39 @@
+# Shared by the pipeline tests: a scratch copy of the pipelines beside the built executables.
+# Arguments of every test: SOURCE_DIR BUILD_DIR
+set -euo pipefail
+source_dir=$1
+build_dir=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cp -r "$source_dir"/{Makefile.data,pipelines,configs,packages.txt} "$scratch"
+cd "$scratch"
+unset MAKEFLAGS MFLAGS MAKELEVEL  # ctest itself may run under make
+
+# A pyramid of 6 mm base and 2 mm height with its tip down, in millimetres, as ASCII STL.
+write_pyramid() { # write_pyramid FILE
+  awk 'BEGIN {
+    split("0 0 0", t); n = split("3 3 2,-3 3 2,-3 -3 2,3 -3 2", c, ",");
+    print "solid pyramid";
+    for (i = 1; i <= 4; ++i) facet("0 0 0", c[i % 4 + 1], c[i]);
+    facet(c[1], c[2], c[3]); facet(c[1], c[3], c[4]);
+    print "endsolid";
+  }
+  function facet(a, b, d) { printf "facet normal 0 0 0\nouter loop\nvertex %s\nvertex %s\nvertex %s\nendloop\nendfacet\n", a, b, d }' > "$1"
+}
+
+# A small sample with the tiny gel and a small image; further make variables may follow.
+tiny_sample() { # tiny_sample OUT [VARIABLE=value …]
+  local out=$1
+  shift
+  make -s -f Makefile.data sample OBJECT=pyramid.stl MESH=tiny STEPS=2 DEPTH_MM=0.4 OUT="$out" BUILD="$build_dir" PACKAGES=no "$@"
+}
+
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+same_files() { # same_files A B: equal trees but for logs
+  diff -r --exclude='*.log' "$1" "$2" || fail "$1 and $2 differ"
+}
+
+# A sensor with a small picture keeps the tests quick.
+sed -i 's/width_px: 640/width_px: 64/; s/height_px: 480/height_px: 48/' configs/sensors/mctac.yaml
+write_pyramid pyramid.stl

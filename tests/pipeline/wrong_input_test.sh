@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# What a user may get wrong: one clear message, exit 1 or 2, no result.
+. "$(dirname "$0")/common.sh"
+bin=$build_dir/bin
+count=0
+
+# refuses CODE 'MESSAGE PART' RECORD COMMAND…: exit code and message as said, no record, nothing half-written.
+refuses() {
+  local code=$1 message=$2 record=$3 got=0
+  shift 3
+  "$@" >stdout.txt 2>stderr.txt || got=$?
+  [ "$got" = "$code" ] || { cat stderr.txt; fail "'$*' ended with $got, expected $code"; }
+  grep -qF -- "$message" stderr.txt || { cat stderr.txt; fail "'$*' did not say '$message'"; }
+  [ ! -s stdout.txt ] || fail "'$*' wrote to standard output"
+  [ ! -e "$record" ] || fail "'$*' left $record"
+  [ -z "$(find . -name '.partial-*' -print -quit)" ] || fail "'$*' left a partial folder"
+  count=$((count + 1))
+}
+decimate() { "$bin/decimate" --mesh "$1" --object configs/objects/millimetres.yaml --config configs/decimate/default.yaml --out o; }
+refuse_mesh() { refuses 1 "$2" o/decimate.yaml decimate "$1"; }
+echo 'unit: mm' > configs/objects/millimetres.yaml
+
+head -c 60 pyramid.stl > cut.stl;                       refuse_mesh cut.stl 'cut.stl'
+printf 'solid x\nendsolid x\n' > empty.stl;             refuse_mesh empty.stl 'has no triangles'
+: > nothing.obj;                                        refuse_mesh nothing.obj 'has no triangles'
+sed 's/vertex 0 0 0/vertex nan 0 0/' pyramid.stl > nan.stl; refuse_mesh nan.stl 'not finite'
+printf 'v 0 0 0\nv 5 0 0\nv 0 5 0\nf 1 2 3\n' > open.obj;   refuse_mesh open.obj 'open mesh'
+printf 'v 0 0 0\nv 5 0 0\nv 0 5 0\nf 1 2 9\n' > index.obj;  refuse_mesh index.obj 'index.obj:4'
+head -c 5000 /dev/zero > zeros.stl;                     refuse_mesh zeros.stl 'zeros.stl'
+
+"$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/tetmesh/tiny.yaml --out gel --log-level off
+"$bin/decimate" --mesh pyramid.stl --object configs/objects/millimetres.yaml --config configs/decimate/default.yaml --out ok --log-level off
+press() { "$bin/press" --config configs/press/paper.yaml --sensor "$1" --sample configs/samples/press_0500um.yaml --gel "$2" --object ok/object.ply --out "${3:-p}" --log-level "${4:-warning}"; }
+head -c 3000 gel/gel.msh > cut.msh
+refuses 1 'cut.msh' p/press.yaml press configs/sensors/mctac.yaml cut.msh
+
+cat > faults.yaml <<'YAML'
+name: five
+gel: {outline: disk, radius_mm: 15, thickness_mm: -2}
+material: {law: neo_hookean, density_kg_m3: 1010, young_modulus_pa: 1e5, poissons_ratio: 0.5, poissons_ratio: 0.4}
+coating: {albedo: [0.5, 0.5, 0.5]}
+leds: {list: [{position_mm: [0, 0, -9], rgb_linear: [1, 1, 1], intensity: 1}]}
+camera: {position_mm: [0, 0, -12], width_px: 64, height_px: 48, window_mm: [8, 6]}
+response: {mean_level: 0.5, curve: srgb}
+YAML
+refuses 2 "faults.yaml:2:16: gel.outline: 'disk' is not one of disc, rectangle (did you mean disc?)" p/press.yaml press faults.yaml gel/gel.msh
+for part in 'faults.yaml:2:54: gel.thickness_mm: -2 is outside (0, inf)' 'material.young_modulus_pa: unknown key (did you mean youngs_modulus_pa?)' \
+            'material.youngs_modulus_pa: missing' 'material.poissons_ratio: key given twice' 'material.poissons_ratio: 0.5 is outside'; do
+  grep -qF "$part" stderr.txt || { cat stderr.txt; fail "the faults do not name '$part'"; }
+done
+
+refuses 2 '--depth' p/press.yaml "$bin/press" --depth 3 --out p
+echo > file_in_the_way
+refuses 1 'file_in_the_way' file_in_the_way/press.yaml press configs/sensors/mctac.yaml gel/gel.msh file_in_the_way
+if [ "$(id -u)" != 0 ]; then
+  mkdir locked && chmod a-w locked
+  refuses 1 'Permission denied' locked/p/press.yaml press configs/sensors/mctac.yaml gel/gel.msh locked/p
+fi
+
+# A full disk, as a limit on the size of files.
+limited() { (ulimit -f 8; "$@"); }
+refuses 1 'cannot be written' g/tetmesh.yaml limited "$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/tetmesh/tiny.yaml --out g
+refuses 1 'cannot be written' p/press.yaml limited press configs/sensors/mctac.yaml gel/gel.msh
+refuses 1 'cannot be written' e/emboss.yaml limited "$bin/emboss" --config configs/emboss/star.yaml --out e
+press configs/sensors/mctac.yaml gel/gel.msh ready off
+refuses 1 'cannot be written' r/render.yaml limited "$bin/render" --config configs/render/default.yaml --sensor configs/sensors/mctac.yaml --gel gel/gel.msh --press ready --out r
+
+make_refuses() { # make_refuses 'MESSAGE PART' VARIABLE=value…
+  local message=$1
+  shift
+  if make -s -f Makefile.data sample BUILD="$build_dir" PACKAGES=no OUT=m "$@" >stdout.txt 2>stderr.txt; then fail "make sample $* succeeded"; fi
+  grep -qF -- "$message" stderr.txt || { cat stderr.txt; fail "make sample $* did not say '$message'"; }
+  count=$((count + 1))
+}
+make_refuses 'say which object'
+make_refuses 'no_such.stl does not exist' OBJECT=no_such.stl
+make_refuses 'there is no configs/sensors/digi.yaml' OBJECT=pyramid.stl SENSOR=digi
+make_refuses "'up' is not one of" OBJECT=pyramid.stl MESH=tiny FACE=up
+echo "$count passed, 0 failed"
