@@ -12,6 +12,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "stages/tetmesh/smooth.h"
 
 #define TETLIBRARY
 #include <tetgen.h>
@@ -136,7 +137,8 @@ FillConfig FillConfig::read(ConfigReader& in) {
   return {.radius_edge_ratio = in.number("radius_edge_ratio", Range::between(1.0, 10.0)),
           .circumradius_ratio = in.number("circumradius_ratio", Range::between(0.3, 3.0)),
           .min_dihedral_deg = in.number("min_dihedral_deg", Range::between(0.0, 20.0)),
-          .optimization_level = in.integer("optimization_level", 0, 10)};
+          .optimization_level = in.integer("optimization_level", 0, 10),
+          .smoothing_sweeps = in.integer("smoothing_sweeps", 0, 100)};
 }
 
 TetMesh fill_with_tets(const GelSurface& surface, const FillConfig& config,
@@ -158,7 +160,9 @@ TetMesh fill_with_tets(const GelSurface& surface, const FillConfig& config,
   } catch (const std::bad_alloc&) {
     throw DataError("TetGen gave up: out of memory (switches {})", switches);
   }
-  return take_mesh(surface, out);
+  TetMesh mesh = take_mesh(surface, out);
+  smooth(mesh, config.smoothing_sweeps);
+  return mesh;
 }
 
 }  // namespace tacipc

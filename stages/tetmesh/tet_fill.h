@@ -12,6 +12,7 @@ struct FillConfig {
   double circumradius_ratio = 0.0;  // and tets with a longer circumradius over the wanted edge length
   double min_dihedral_deg = 0.0;    // wanted by the optimisation
   int optimization_level = 0;       // TetGen's 0 … 10
+  int smoothing_sweeps = 0;         // over the inner vertices, afterwards
 
   static FillConfig read(ConfigReader& in);
 };
