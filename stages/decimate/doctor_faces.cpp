@@ -199,8 +199,9 @@ void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report) {
     if (uses.empty())
       for (const EdgeUse& use : edge_uses(mesh.triangles)) ++uses[{use.low, use.high}];
     const auto [u, v, w] = faces[first].vertices;
-    // A sheet between faces that already close the surface is needed by no edge.
-    const bool needed = uses[{u, v}] - copies < 2 || uses[{v, w}] - copies < 2 || uses[{u, w}] - copies < 2;
+    // An edge with one other face needs this one to close; a sheet within or beside a closed surface is needed by none.
+    const auto others = [&](int a, int b) { return uses[{a, b}] - copies; };
+    const bool needed = others(u, v) == 1 || others(v, w) == 1 || others(u, w) == 1;
     for (std::size_t i = first + (needed ? 1 : 0); i < last; ++i) keep[faces[i].face] = 0, ++removed;
   }
   if (removed > 0) mesh.triangles = select_faces(mesh.triangles, keep);

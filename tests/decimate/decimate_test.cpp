@@ -58,6 +58,24 @@ TEST(Collapse, NeverTurnsASolidIntoASheet) {
   EXPECT_GT(signed_volume(small), 0.0);
 }
 
+TEST(Collapse, TakesMoreVerticesWhereFewerWouldCross) {
+  // A thin washer bent to a saddle: its two sides are nearer to each other than coarse faces are to either.
+  TriangleMesh washer = bumpy_torus(0.008, 0.003, 0.0, 120, 40);
+  for (Eigen::Index v = 0; v < washer.num_vertices(); ++v) {
+    const double x = washer.positions(v, 0), y = washer.positions(v, 1);
+    washer.positions(v, 2) = 0.01 * washer.positions(v, 2) + 60.0 * (x * x - y * y);
+  }
+  ASSERT_TRUE(self_intersections(washer).empty());
+  CollapseReport report;
+  const TriangleMesh small = collapse_edges(washer, {.target_vertices = 60}, true, report);
+  EXPECT_GT(report.retries, 0);
+  EXPECT_GT(report.target_vertices, 60);
+  EXPECT_TRUE(self_intersections(small).empty());
+  EXPECT_TRUE(is_closed_manifold(small));
+  CollapseReport careless;
+  EXPECT_FALSE(self_intersections(collapse_edges(washer, {.target_vertices = 60}, false, careless)).empty());
+}
+
 TEST(Collapse, PassesSmallMeshesThrough) {
   const TriangleMesh ball = sphere(0.01, 3);
   CollapseReport report;
@@ -87,7 +105,7 @@ TEST(Hausdorff, IsNotSymmetricWhereOneSurfaceHasMore) {
   const TriangleMesh ball = sphere(0.005, 3);
   const TriangleMesh more = joined(ball, moved(ball, {0.02, 0, 0}));
   const Hausdorff distance = hausdorff_distance(ball, more, {});
-  EXPECT_EQ(distance.first_to_second_m, 0.0);
+  EXPECT_NEAR(distance.first_to_second_m, 0.0, 1e-15);
   EXPECT_NEAR(distance.second_to_first_m, 0.02, 1e-15);
 }
 
@@ -95,10 +113,10 @@ TEST(Hausdorff, OfSphereSubdivisionsIsTheSagittaAndFallsFourfold) {
   // The face centre of an octahedron lies at r/√3, the finer vertices at r.
   const double r = 0.01;
   const Hausdorff coarse = hausdorff_distance(sphere(r, 0), sphere(r, 6), {});
-  EXPECT_NEAR(coarse.first_to_second_m, r * (1 - 1 / std::sqrt(3.0)), 2e-5 * 1.0);
+  EXPECT_NEAR(coarse.first_to_second_m, r * (1 - 1 / std::sqrt(3.0)), 2e-5);
   double before = 0.0;
-  for (const int level : {3, 4, 5}) {
-    const double now = hausdorff_distance(sphere(r, level), sphere(r, 7), {.spacing_m = 1e-4}).max_m();
+  for (const int level : {2, 3, 4}) {
+    const double now = hausdorff_distance(sphere(r, level), sphere(r, 6), {.spacing_m = 1e-4}).max_m();
     if (before > 0.0) {
       EXPECT_NEAR(before / now, 4.0, 0.3) << "level " << level;
     }
@@ -139,7 +157,8 @@ class RealObjects : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealObjects, PassTheDoctorAndStayUnderTheTarget) {
   TACIPC_SHARED_DATA(folder, GetParam());
-  const auto config = read_config<DecimateConfig>(TACIPC_SOURCE_DIR "/configs/decimate/default.yaml");
+  auto config = read_config<DecimateConfig>(TACIPC_SOURCE_DIR "/configs/decimate/default.yaml");
+  config.hausdorff.spacing_m = 5e-4;
   int seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const DecimatedObject object = decimate_object(read_triangle_mesh(entry.path(), 1e-3), config);

