@@ -1,0 +1,63 @@
+#include "stages/press/press_config.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "common/error.h"
+
+namespace tacipc {
+namespace {
+
+using ::testing::ElementsAre;
+
+template <typename T>
+std::vector<std::string> faults_of(const std::string& text) {
+  try {
+    ConfigReader in = ConfigReader::from_text(text, "x.yaml");
+    T::read(in);
+    in.finish();
+  } catch (const ConfigError& error) {
+    return error.faults();
+  }
+  return {};
+}
+
+TEST(PressConfig, ShippedSettingsAreThePapers) {
+  const auto config = read_config<PressConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/press/paper.yaml");
+  EXPECT_EQ(config.time_step_s, 0.01);
+  EXPECT_EQ(config.relative_d_hat, 1e-3);
+  EXPECT_EQ(config.barrier_stiffness, 1e6);
+  EXPECT_EQ(config.max_newton_iterations, 500);
+}
+
+TEST(PressConfig, StartGapMustExceedDHat) {
+  EXPECT_THAT(
+      faults_of<PressConfig>(
+          "time_step_s: 0.01\nnewton: {}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6, start_gap_d_hat: 1}\n"),
+      ElementsAre("x.yaml:3:66: barrier.start_gap_d_hat: 1 is outside (1, 100]"));
+}
+
+TEST(SampleSpec, ReadsPlacementAndMotionInSi) {
+  ConfigReader in = ConfigReader::from_text(
+      "placement: {face: +x, rotate_deg: 90, center_mm: [1, -2]}\nmotion: {kind: press, depth_mm: 0.5, steps: 5}\n",
+      "x.yaml");
+  const SampleSpec sample = SampleSpec::read(in);
+  in.finish();
+  EXPECT_EQ(sample.face, "+x");
+  EXPECT_DOUBLE_EQ(sample.rotate_rad, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(sample.center_y_m, -0.002);
+  EXPECT_DOUBLE_EQ(sample.depth_m, 0.0005);
+  EXPECT_EQ(sample.steps, 5);
+}
+
+TEST(SampleSpec, NamesWhatIsWrong) {
+  EXPECT_THAT(
+      faults_of<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n"),
+      ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
+                  "x.yaml:2:16: motion.kind: 'push' is not one of press",
+                  "x.yaml:2:32: motion.depth_mm: 0 is outside (0, inf)", "x.yaml:2:42: motion.steps: 0 is outside [1, 100000]"));
+}
+
+}  // namespace
+}  // namespace tacipc
