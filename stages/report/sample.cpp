@@ -169,10 +169,18 @@ void judge(SampleReport& sample) {
   read_render(sample.folder / "render", sample);
 }
 
+fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
+
 /// Paths below the sample's folder are shown from there, so that the page does not depend on where it was made.
 std::string without_folder(std::string text, const fs::path& folder) {
   const std::string prefix = folder.string() + "/";
-  for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) text.erase(at, prefix.size());
+  for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {
+    // Only whole paths: "./" is also the end of "../".
+    if (at == 0 || text[at - 1] == ' ')
+      text.erase(at, prefix.size());
+    else
+      at += prefix.size();
+  }
   return text;
 }
 
@@ -180,13 +188,12 @@ std::string without_folder(std::string text, const fs::path& folder) {
 
 SampleReport read_sample(const fs::path& given) {
   SampleReport sample;
-  sample.folder = given.lexically_normal();
-  if (!sample.folder.has_filename()) sample.folder = sample.folder.parent_path();
+  sample.folder = without_slash(given.lexically_normal());
   if (!fs::is_directory(sample.folder / "press") && !fs::is_regular_file(sample.folder / "sample.yaml")) {
     throw DataError("{}: has neither a press folder nor a sample.yaml, so it is no sample's folder",
                     sample.folder.string());
   }
-  sample.name = fs::absolute(sample.folder).lexically_normal().filename().string();
+  sample.name = without_slash(fs::absolute(sample.folder).lexically_normal()).filename().string();
   link_if_there(sample.records, "sample.yaml", sample.folder / "sample.yaml");
   for (const char* stage : {"press", "render"}) {
     for (const char* ending : {".yaml", ".log"})

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <optional>
 
 #include "tests/report/sample_folder.h"
 #include "tests/scratch_folder.h"
@@ -15,12 +16,13 @@ using ::testing::HasSubstr;
 
 class ReportStageTest : public ::testing::Test {
  protected:
-  /// Runs the program; what it says is in said_, with the scratch folder's name left out.
-  int run(const std::vector<std::string>& samples, const std::string& out, const std::string& more = "") {
-    const std::string root = (scratch_ / "").string();
+  /// Runs the program in the scratch folder or another; what it says is in said_.
+  int run(const std::vector<std::string>& samples, const std::string& out, const std::string& more = "",
+          const std::optional<fs::path>& working_folder = std::nullopt) {
+    const std::string root = working_folder.value_or(scratch_ / "").string();
     std::string command = "cd " + root + " && " + std::string(TACIPC_BIN_DIR) + "/report";
     for (const std::string& sample : samples) command += fmt::format(" --sample {}", sample);
-    command += fmt::format(" --out {} {} 2> said.txt", out, more);
+    command += fmt::format(" --out {} {} 2> {}", out, more, (scratch_ / "said.txt").string());
     const int status = std::system(command.c_str());
     said_ = read_file(scratch_ / "said.txt");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -51,6 +53,14 @@ TEST_F(ReportStageTest, TheSameSamplesGiveTheSameBytesWhereverTheyLie) {
   for (const char* name : {"index.html", "contact_sheet.png"})
     EXPECT_EQ(read_file(scratch_ / "out/demo/report" / name), read_file(scratch_ / "copied/demo/report" / name))
         << name;
+}
+
+TEST_F(ReportStageTest, TheCurrentFolderMayBeTheSample) {
+  write_file(star_ / "press/press.yaml", replaced(kPressRecord, "name: star-007\n", ""));
+  fs::remove(star_ / "render/frame_0002/normal.png");
+  ASSERT_EQ(run({"."}, "report", "", star_), 0) << said_;
+  EXPECT_EQ(said_, "report: warning: star: failed: render/frame_0002/normal.png: is missing\n");
+  EXPECT_THAT(read_file(star_ / "report/index.html"), HasSubstr("href=\"../press/press.yaml\""));
 }
 
 TEST_F(ReportStageTest, AReportInsideItsSampleIsNotPartOfWhatItReports) {
