@@ -34,6 +34,8 @@ DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& 
 
   // A union of overlapping parts, or a scan that crosses itself, cannot be asked not to.
   const bool may_not_cross = found.self_intersections == 0 && found.overlapping_components == 0;
+  if (sound.num_vertices() > config.collapse.target_vertices)
+    log_info("collapsing edges until {} vertices are left", config.collapse.target_vertices);
   CollapseReport collapsed;
   TriangleMesh mesh = collapse_edges(sound, config.collapse, may_not_cross, collapsed);
   if (collapsed.passed_through)

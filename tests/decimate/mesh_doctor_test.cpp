@@ -1,6 +1,7 @@
 #include "stages/decimate/mesh_doctor.h"
 
 #include <numbers>
+#include <random>
 
 #include "common/error.h"
 #include "stages/decimate/self_intersection.h"
@@ -270,6 +271,59 @@ TEST(MeshDoctor, RefusesAClosedSheet) {
   const TriangleMesh sheet = make_mesh({{0, 0, 0}, {kSize, 0, 0}, {kSize, kSize, 0}, {0, kSize, 0}},
                                        {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}});
   EXPECT_EQ(refusal(sheet), "a closed part of 4 faces near (0, 0, 0) mm encloses no volume (0 mm^3)");
+}
+
+TEST(MeshDoctor, HealsOrRefusesWhateverIsDoneToAMesh) {
+  std::mt19937 random(7);
+  const auto below = [&](Eigen::Index n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  DoctorConfig generous;
+  generous.relative_max_hole_length = 10;
+  int healed = 0, refused = 0;
+  for (int round = 0; round < 600; ++round) {
+    TriangleMesh mesh =
+        round % 2 == 0 ? sphere(kSize, 2) : joined(cube(kSize, 3), moved(sphere(kSize, 1), {kSize, 0, 0}));
+    for (int wound = 1 + below(4); wound > 0; --wound) {
+      const int face = below(mesh.num_triangles()), vertex = below(mesh.num_vertices());
+      switch (below(8)) {
+        case 0:
+          mesh = without_faces(mesh, {face});
+          break;
+        case 1:
+          mesh = with_face_turned(mesh, face);
+          break;
+        case 2:
+          mesh = with_face(mesh, {mesh.triangles(face, 2), mesh.triangles(face, below(2)), mesh.triangles(face, 1)});
+          break;
+        case 3:
+          mesh.triangles(face, below(3)) = vertex;
+          break;
+        case 4:
+          mesh.positions.row(mesh.triangles(face, 0)) = mesh.positions.row(mesh.triangles(face, 1));
+          break;
+        case 5:
+          mesh.positions.row(mesh.triangles(face, 0)) =
+              0.5 * (mesh.positions.row(mesh.triangles(face, 1)) + mesh.positions.row(mesh.triangles(face, 2)));
+          break;
+        case 6:
+          mesh = with_face(mesh, {vertex, mesh.triangles(face, 0), mesh.triangles(face, 1)});
+          break;
+        default:
+          mesh = soup(mesh);
+      }
+    }
+    DoctorReport report;
+    try {
+      const TriangleMesh out = treat_mesh(mesh, generous, report);
+      EXPECT_TRUE(is_closed_manifold(out)) << "round " << round;
+      EXPECT_GT(signed_volume(out), 0.0) << "round " << round;
+      ++healed;
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()), "");
+      ++refused;
+    }
+  }
+  EXPECT_GT(healed, 300);
+  EXPECT_GT(refused, 30);
 }
 
 TEST(SelfIntersection, FindsExactlyTheCrossingPairs) {
