@@ -1,0 +1,40 @@
+# Real objects, to see that the press is robust: every mesh of the shared data into our own gel, ten of them into the paper's.
+# SHARED is a folder with data/tacipc_release and data/printed_indenters (not part of this repository).
+
+SHARED ?= $(or $(TACIPC_SHARED),../shared)#  folder with measured data
+override SHARED := $(strip $(SHARED))
+TABLE := $(OUT)/objects-table
+
+RELEASE_OBJECTS := $(filter-out %/pen.obj %/wood_block.obj,$(wildcard $(SHARED)/data/tacipc_release/objects/*.obj))
+PRINTED_OBJECTS := $(wildcard $(SHARED)/data/printed_indenters/*.stl)
+TABLE_FILES := $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)
+PAPER_GEL_OBJECTS := Bear_8028 Wave_8134 board3 coin_5002 dragon_01 sphere cone dots triangle parallel_lines
+
+name_of = $(basename $(notdir $(1)))
+
+# $(call table_object,file): decimated as every object is, the relief side pressing.
+define table_object
+$(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/decimate/default.yaml | build
+	$$(call run,decimate,--mesh $(1) --object configs/objects/printed_indenter.yaml --config configs/decimate/default.yaml)
+$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/samples/press_0500um.yaml)
+endef
+$(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
+
+# The paper's own gel.
+PAPER_GEL := $(SHARED)/data/tacipc_release/gel/gelslim-gel-l_0.1.msh
+$(OUT)/gels/mctac-import_paper/tetmesh.yaml: $(PAPER_GEL) configs/tetmesh/import_paper.yaml configs/sensors/mctac.yaml | build
+	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac.yaml --config configs/tetmesh/import_paper.yaml)
+$(foreach o,$(PAPER_GEL_OBJECTS),$(eval $(call sample_rules,$(TABLE)/paper/$(o),$(o),$(TABLE)/objects/$(o),configs/objects/printed_indenter.yaml,mctac,import_paper,configs/samples/press_0500um.yaml)))
+
+TABLE_SAMPLES := $(foreach f,$(TABLE_FILES),$(TABLE)/own/$(call name_of,$(f))) $(foreach o,$(PAPER_GEL_OBJECTS),$(TABLE)/paper/$(o))
+$(eval $(call report_rules,$(TABLE),TacIPC: real objects,$(TABLE_SAMPLES)))
+
+$(TABLE)/objects.md: $(addsuffix /press/press.yaml,$(TABLE_SAMPLES)) pipelines/objects_table.sh
+	bash pipelines/objects_table.sh $(TABLE) > $@.new
+	mv $@.new $@
+
+.PHONY: objects-table
+objects-table: $(TABLE)/objects.md $(TABLE)/report/report.yaml ## Real objects of SHARED into our gel and the paper's; writes objects.md (an hour)
+	$(if $(TABLE_FILES),,$(error SHARED: $(SHARED) has no data/tacipc_release or data/printed_indenters))
+	@cat $(TABLE)/objects.md
+	$(call look,$(TABLE))
