@@ -10,7 +10,7 @@ namespace {
 /// Below this sine² of the angle between the two tangents, every edge candidate is compared as well.
 constexpr double kIllConditionedSine2 = 1e-6;
 /// Below this sine² the two tangents count as parallel.
-constexpr double kParallelSine2 = 1e-20;
+constexpr double kParallelSine2 = 1e-26;
 
 /// Vertices i (first body) and j (second body).
 ClosestFeature point_point(const FourPoints& x, int i, int j) {

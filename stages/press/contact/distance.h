@@ -28,7 +28,7 @@ struct ClosestFeature {
 /// edges.
 ClosestFeature closest_point_triangle(const FourPoints& x);
 
-/// Closest feature of edges x0x1 and x2x3; w = (1−s, s, −(1−t), −t). Edges parallel within 1e-10 rad count as the
+/// Closest feature of edges x0x1 and x2x3; w = (1−s, s, −(1−t), −t). Edges parallel within 1e-13 rad count as the
 /// nearest of their four end-point–edge pairs (one of several equally near places); an edge of no length counts as a
 /// point.
 ClosestFeature closest_edge_edge(const FourPoints& x);
