@@ -59,8 +59,8 @@ double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& disp
 bool may_collide(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
   FourPoints displacement;
   for (int i = 0; i < 4; ++i) displacement[i] = x_end[i] - x_start[i];
-  if (time_of_impact(kind, x_start, displacement, {.slack = 0}) == 1) return false;
-  return !provably_apart(kind, x_start, x_end);
+  const double apart_until = time_of_impact(kind, x_start, displacement, {.slack = 0});
+  return apart_until < 1 && !provably_apart(kind, x_start, x_end, apart_until);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ __extension__ using Quad = __float128;  // 113 bits; no product of doubles met h
 const Quad kRounding = Quad(256) * Quad(0x1p-113);
 constexpr int kMaxIterations = 600;
 constexpr int kMaxTries = 12;
+const Quad kBeforeImpact = 0.999;
 
 struct Vec {
   Quad x, y, z;
@@ -124,8 +125,6 @@ class ExactPaths {
            std::all_of(volume.begin(), volume.end(), [&](Quad v) { return v < -error; });
   }
 
-  const Points& end() const { return end_; }
-
  private:
   static Vec difference(const Vector3& a, const Vector3& b) {
     return {Quad(a.x()) - Quad(b.x()), Quad(a.y()) - Quad(b.y()), Quad(a.z()) - Quad(b.z())};
@@ -164,43 +163,45 @@ class ExactPaths {
 
 }  // namespace
 
-bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
+bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& x_end, double known_apart_until) {
   for (int i = 0; i < 4; ++i)
     if (!x_start[i].allFinite() || !x_end[i].allFinite()) return false;
   const ExactPaths paths(kind, x_start, x_end);
-  Quad t = 0;
+  Quad t = known_apart_until;
+  Points now = paths.at(t);
+  Direction best = paths.best_direction(now);
   Quad reach = 1;
-  Points now = paths.at(0);
-  Vec n = paths.best_direction(now).n;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Quad exit = paths.gap_exit(t, now, n);
-    if (exit == 1 && paths.plane_separates(now, paths.end(), n, n)) return true;
+    const Quad exit = paths.gap_exit(t, now, best.n);
     if (exit <= t) return false;
 
-    Quad to = std::min(Quad(1), t + reach);
     bool proven = false;
+    Quad to = std::min(Quad(1), t + reach);
     for (int tries = 0; !proven; ++tries) {
       // The last try is the step along the fixed plane.
       if (tries == kMaxTries || to <= exit) to = exit;
       const Points then = paths.at(to);
-      const Vec n_to = paths.best_direction(then).n;
-      proven = paths.plane_separates(now, then, n, n_to) || paths.volume_keeps_sign(now, then) ||
-               paths.plane_separates(now, then, n_to, n_to);
+      const Direction next = paths.best_direction(then);
+      proven = paths.plane_separates(now, then, best.n, next.n) || paths.volume_keeps_sign(now, then) ||
+               paths.plane_separates(now, then, next.n, next.n);
       if (!proven && to == exit) {
-        if (!paths.plane_separates(now, then, n, n)) return false;
+        if (!paths.plane_separates(now, then, best.n, best.n)) return false;
         proven = true;
       }
-      if (proven) {
-        reach = 16 * (to - t);
-        if (to <= t) return false;
-        t = to;
-        now = then;
-        n = n_to;
-      } else {
+      if (!proven) {
         to = t + (to - t) / 4;
+        continue;
       }
+      if (to == 1) return true;
+      if (to <= t) return false;
+      // Next aim just before the distance would vanish if it went on falling like this: impacts are met in few steps.
+      const Quad step = to - t;
+      reach = 16 * step;
+      if (next.gap < best.gap) reach = std::min(reach, kBeforeImpact * step * (next.gap / (best.gap - next.gap)));
+      t = to;
+      now = then;
+      best = next;
     }
-    if (t == 1) return true;
   }
   return false;
 }

@@ -9,6 +9,6 @@ namespace tacipc {
 /// True only if the pair provably stays apart while its vertices go straight from x_start to x_end. Sees gaps down to
 /// about 1e-30 of the size of the pair; slow (up to milliseconds), and about exact paths: not those of positions
 /// rounded on the way.
-bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& x_end);
+bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& x_end, double known_apart_until = 0);
 
 }  // namespace tacipc
