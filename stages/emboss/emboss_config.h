@@ -1,0 +1,29 @@
+// configs/emboss/*.yaml
+#pragma once
+
+#include "common/config.h"
+#include "stages/emboss/coin.h"
+#include "stages/emboss/pattern.h"
+
+namespace tacipc {
+
+struct ReliefShape {
+  double height_m = 0.0;
+  double wall_m = 0.0;      // width of a wall seen from above
+  double rounding_m = 0.0;  // half width of the rounding at a wall's foot and top
+};
+
+struct EmbossConfig {
+  CoinShape coin;
+  ReliefShape relief;
+  double margin_m = 0.0;  // plain face between relief and fillet
+  int vertices = 0;       // of the mesh, at least
+  Pattern pattern;
+
+  /// Radius of the outline that bounds everything embossed; its wall ends `margin` before the fillet.
+  double free_radius_m() const;
+
+  static EmbossConfig read(ConfigReader& in);
+};
+
+}  // namespace tacipc
