@@ -62,24 +62,35 @@ BoundaryTag tag_of(const TetMesh& mesh, Eigen::Index f, const ImportConfig& conf
   return up >= std::cos(config.front_max_angle_deg * kDegree) ? BoundaryTag::front : BoundaryTag::side;
 }
 
-/// The mesh must fill the sensor's outline and depth, or loads and pictures would belong to another gel.
-void check_fit(const TetMesh& mesh, const GelShape& gel, double tolerance_m, const std::string& name) {
-  const bool disc = gel.outline == GelShape::Outline::disc;
-  const Vector3 half(disc ? gel.radius_m : gel.width_m / 2.0, disc ? gel.radius_m : gel.height_m / 2.0, 0.0);
+double inside(const TetMesh& mesh, Eigen::Index v, const GelShape& gel) {
+  return distance_inside(gel, mesh.positions.row(v).head<2>().transpose());
+}
+
+/// The mesh must have the sensor's outline and depth, or loads and pictures would belong to another gel: its outermost
+/// vertex lies on the outline and its lowest one thickness deep.
+void check_extent(const TetMesh& mesh, const GelShape& gel, double tolerance_m, const std::string& name) {
   const Vector3 low = mesh.positions.colwise().minCoeff(), high = mesh.positions.colwise().maxCoeff();
-  const Vector3 wanted_low(-half.x(), -half.y(), -gel.thickness_m), wanted_high(half.x(), half.y(), 0.0);
-  const double off = std::max((low - wanted_low).cwiseAbs().maxCoeff(), (high - wanted_high).cwiseAbs().maxCoeff());
-  double outside = 0.0;
-  for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v) {
-    outside = std::max(outside, -distance_inside(gel, mesh.positions.row(v).head<2>().transpose()));
-  }
-  if (off > tolerance_m || outside > tolerance_m) {
-    throw DataError(
-        "{}: after the transform it fills x {:.4g} … {:.4g}, y {:.4g} … {:.4g}, z {:.4g} … {:.4g} mm and leaves the "
-        "sensor's outline by {:.3g} mm; the gel should fill ±{:.4g}, ±{:.4g}, {:.4g} … 0 mm within {:g} mm",
-        name, low.x() / kMillimetre, high.x() / kMillimetre, low.y() / kMillimetre, high.y() / kMillimetre,
-        low.z() / kMillimetre, high.z() / kMillimetre, outside / kMillimetre, half.x() / kMillimetre,
-        half.y() / kMillimetre, -gel.thickness_m / kMillimetre, tolerance_m / kMillimetre);
+  double outermost = gel.thickness_m + std::max(gel.radius_m, gel.width_m);
+  for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v) outermost = std::min(outermost, inside(mesh, v, gel));
+  const double off = std::max(std::abs(low.z() + gel.thickness_m), std::abs(outermost));
+  if (off <= tolerance_m) return;
+  const bool disc = gel.outline == GelShape::Outline::disc;
+  throw DataError(
+      "{}: its outline or depth differs from the sensor's gel by {:.3g} mm, more than {:g} mm; after the transform it "
+      "fills "
+      "x {:.4g} … {:.4g}, y {:.4g} … {:.4g}, z {:.4g} … {:.4g} mm, the gel {:.4g} × {:.4g} mm and {:.4g} … 0 mm",
+      name, off / kMillimetre, tolerance_m / kMillimetre, low.x() / kMillimetre, high.x() / kMillimetre,
+      low.y() / kMillimetre, high.y() / kMillimetre, low.z() / kMillimetre, high.z() / kMillimetre,
+      (disc ? 2.0 * gel.radius_m : gel.width_m) / kMillimetre, (disc ? 2.0 * gel.radius_m : gel.height_m) / kMillimetre,
+      -gel.thickness_m / kMillimetre);
+}
+
+void check_side(const TetMesh& mesh, const GelShape& gel, double tolerance_m, const std::string& name) {
+  for (const int v : mesh.vertices(BoundaryTag::side)) {
+    const double off = std::abs(inside(mesh, v, gel));
+    if (off <= tolerance_m) continue;
+    throw DataError("{}: side vertex {} lies {:.3g} mm off the sensor's outline, more than {:g} mm", name, v,
+                    off / kMillimetre, tolerance_m / kMillimetre);
   }
 }
 
@@ -135,9 +146,11 @@ ImportedGel import_gel(const std::filesystem::path& path, const ImportConfig& co
   mesh.tets = content.tets;
   imported.flipped = orient(mesh, name);
   if (imported.flipped) log_warning("{}: all {} tets are negatively oriented; turned", name, mesh.num_tets());
-  check_fit(mesh, gel, config.fit_tolerance_m, name);
+  check_extent(mesh, gel, config.fit_tolerance_m, name);
   mesh.boundary = boundary_triangles(mesh.tets, mesh.num_vertices());
   for (Eigen::Index f = 0; f < mesh.boundary.rows(); ++f) mesh.tags.push_back(tag_of(mesh, f, config));
+  check_faces(mesh, name);
+  check_side(mesh, gel, config.fit_tolerance_m, name);
   check_gel(mesh, gel, {.min_dihedral_deg = config.min_dihedral_deg, .front_tolerance_m = config.fit_tolerance_m},
             name);
   return imported;

@@ -122,17 +122,21 @@ DihedralAngles dihedral_angles(const Vector3& a, const Vector3& b, const Vector3
   return angles;
 }
 
-void check_gel(const TetMesh& mesh, const GelShape& gel, const MeshLimits& limits, const std::string& name) {
-  if (mesh.num_tets() == 0) throw DataError("{}: has no tets", name);
-  check_tets(mesh, limits.min_dihedral_deg, name);
-  check_overlap(mesh, name);
-  check_boundary(mesh, name);
+void check_faces(const TetMesh& mesh, const std::string& name) {
   for (const auto& [tag, word] : {std::pair{BoundaryTag::front, "front"}, std::pair{BoundaryTag::side, "side"},
                                   std::pair{BoundaryTag::glued, "glued"}}) {
     if (std::find(mesh.tags.begin(), mesh.tags.end(), tag) == mesh.tags.end()) {
       throw DataError("{}: no boundary triangle belongs to the {} face", name, word);
     }
   }
+}
+
+void check_gel(const TetMesh& mesh, const GelShape& gel, const MeshLimits& limits, const std::string& name) {
+  if (mesh.num_tets() == 0) throw DataError("{}: has no tets", name);
+  check_tets(mesh, limits.min_dihedral_deg, name);
+  check_overlap(mesh, name);
+  check_boundary(mesh, name);
+  check_faces(mesh, name);
   check_front(mesh, gel, limits.front_tolerance_m, name);
 }
 

@@ -15,6 +15,9 @@ struct DihedralAngles {
 };
 DihedralAngles dihedral_angles(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
+/// Checks that front, side and glued face each have a triangle. \throw DataError
+void check_faces(const TetMesh& mesh, const std::string& name);
+
 /// Checks that all tets are positive (exactly), no dihedral angle is below the limit, every vertex belongs to a tet,
 /// neighbours agree on their face, the boundary is `mesh.boundary`, each of its edges has two triangles, all three tags
 /// occur, and front vertices lie on the sensor's front within the tolerance (0: exactly). \throw DataError with
