@@ -53,9 +53,9 @@ TEST(Pattern, OnlyWholeDotsAreKept) {
 TEST(Pattern, FaultsNameTheKey) {
   EXPECT_EQ(
       faults_of("{kind: txt}"),
+      "p.yaml:1:1: text: missing\np.yaml:1:1: height_mm: missing\np.yaml:1:1: stroke_mm: missing\n"
       "p.yaml:1:8: kind: 'txt' is not one of text, polygon, star, gear, lines, rings, dots, checker, bricks, weave, "
-      "honeycomb, cobbles, noise, ridges, image (did you mean text?)\n"
-      "p.yaml:1:1: text: missing\np.yaml:1:1: height_mm: missing\np.yaml:1:1: stroke_mm: missing");
+      "honeycomb, cobbles, noise, ridges, image (did you mean text?)");
   EXPECT_EQ(faults_of("{kind: text, text: Tac, height_mm: 3, stroke_mm: 0.5}"),
             "p.yaml:1:20: text: no shape for 'ac' (there are A-Z, 0-9 and + - . ! ?)");
   EXPECT_EQ(faults_of("{kind: text, text: ' ', height_mm: 3, stroke_mm: 0.5}"), "p.yaml:1:20: text: is empty");
