@@ -54,8 +54,12 @@ constexpr std::array<Projection, 3> kProjections{{{1, 2}, {2, 0}, {0, 1}}};
 
 /// Sign of twice the signed area of abc in the projection.
 int orient2d(const Projection& on, const Vector3& a, const Vector3& b, const Vector3& c) {
-  const double left = (b[on.i] - a[on.i]) * (c[on.j] - a[on.j]);
-  const double right = (b[on.j] - a[on.j]) * (c[on.i] - a[on.i]);
+  const double b_i = b[on.i] - a[on.i], b_j = b[on.j] - a[on.j];
+  const double c_i = c[on.i] - a[on.i], c_j = c[on.j] - a[on.j];
+  // A difference of doubles is zero only if they are equal: lines along an axis need no long integers.
+  if ((b_i == 0 || c_j == 0) && (b_j == 0 || c_i == 0)) return 0;
+  const double left = b_i * c_j;
+  const double right = b_j * c_i;
   const double bound = kOrient2dBound * (std::abs(left) + std::abs(right)) + kUnderflow;
   const double det = left - right;
   if (det > bound) return 1;

@@ -18,6 +18,9 @@ struct Kind {
   double (*time_of_impact)(const FourPoints&, const FourPoints&, const CcdOptions&);
   bool (*may_collide)(const FourPoints&, const FourPoints&);
   ClosestFeature (*closest)(const FourPoints&);
+
+  const char* name() const { return kind == PairKind::point_triangle ? "point_triangle" : "edge_edge"; }
+  friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name(); }
 };
 const Kind kPointTriangle{PairKind::point_triangle, time_of_impact_point_triangle, may_collide_point_triangle,
                           closest_point_triangle};
@@ -35,9 +38,8 @@ FourPoints at(const FourPoints& x, const FourPoints& displacement, double t) {
 }
 
 class Ccd : public testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Pairs, Ccd, testing::Values(kPointTriangle, kEdgeEdge), [](const auto& test) {
-  return test.param.kind == PairKind::point_triangle ? "point_triangle" : "edge_edge";
-});
+INSTANTIATE_TEST_SUITE_P(Pairs, Ccd, testing::Values(kPointTriangle, kEdgeEdge),
+                         [](const auto& test) { return test.param.name(); });
 
 const Vector3 kDown(0, 0, -1);
 

@@ -15,6 +15,8 @@ struct Case {
   ClosestFeature (*closest)(const FourPoints&);
   FourPoints x;
   int k;
+
+  friend void PrintTo(const Case& entry, std::ostream* out) { *out << entry.name; }
 };
 
 const Case kCases[] = {

@@ -83,6 +83,8 @@ struct Kind {
   const char* name;
   ClosestFeature (*closest)(const FourPoints&);
   double (*brute)(const FourPoints&);
+
+  friend void PrintTo(const Kind& entry, std::ostream* out) { *out << entry.name; }
 };
 const Kind kKinds[] = {{"point_triangle", closest_point_triangle, brute_point_triangle},
                        {"edge_edge", closest_edge_edge, brute_edge_edge}};
