@@ -41,18 +41,13 @@ std::vector<Bounds> bounds_of(const SurfaceView& surface) {
   return bounds;
 }
 
-/// The axis on which boxes are shortest compared with the room they fill: few overlap there.
+/// The axis along which the boxes fill the most room.
 int sweep_axis(const std::vector<Bounds>& bounds) {
   if (bounds.empty()) return 0;
   Bounds all = bounds.front();
-  Eigen::Array3d length = Eigen::Array3d::Zero();
-  for (const Bounds& b : bounds) {
-    all.low = all.low.min(b.low);
-    all.high = all.high.max(b.high);
-    length += b.high - b.low;
-  }
+  for (const Bounds& b : bounds) all = {all.low.min(b.low), all.high.max(b.high)};
   int axis = 0;
-  ((all.high - all.low) / length.max(1e-300)).maxCoeff(&axis);
+  (all.high - all.low).maxCoeff(&axis);
   return axis;
 }
 
