@@ -46,7 +46,7 @@ void write_outputs(Stage& stage, const Simulation& simulation) {
     iterations += f.solver.newton_iterations;
     min_gap_m = std::min(min_gap_m, f.min_gap_m);
     min_ratio = std::min(min_ratio, f.min_volume_ratio);
-    per_frame.emplace_back(Value::Map{{"press_force_n", -f.force_n.z()},
+    per_frame.emplace_back(Value::Map{{"press_force_n", 0.0 - f.force_n.z()},
                                       {"mount_balance_n", (f.force_n + f.mount_force_n).norm()},
                                       {"newton_iterations", f.solver.newton_iterations},
                                       {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
@@ -61,7 +61,7 @@ void write_outputs(Stage& stage, const Simulation& simulation) {
                    {"d_hat_m", simulation.d_hat_m},
                    {"newton_iterations", iterations},
                    {"symbolic_analyses", simulation.symbolic_analyses},
-                   {"press_force_n", -frames.back().force_n.z()},
+                   {"press_force_n", 0.0 - frames.back().force_n.z()},
                    {"min_distance_m", min_gap_m},
                    {"min_volume_ratio", min_ratio},
                    {"intersections", 0},

@@ -83,7 +83,7 @@ Simulation simulate(const Sensor& sensor, const TetMesh& gel, const TriangleMesh
     frame.solver = report;
     check_frame(index, gel, frame.positions, object, object_positions);
     log_info("frame {}/{}: force {:.4f} N, {} Newton iterations, smallest gap {:.3g} um, smallest volume ratio {:.3f}",
-             index, sample.steps, -frame.force_n.z(), report.newton_iterations, 1e6 * frame.min_gap_m,
+             index, sample.steps, 0.0 - frame.force_n.z(), report.newton_iterations, 1e6 * frame.min_gap_m,
              frame.min_volume_ratio);
     out.frames.push_back(std::move(frame));
   };

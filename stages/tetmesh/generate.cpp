@@ -38,6 +38,7 @@ TetMesh generate_gel(const GelShape& gel, const GenerateConfig& config) {
     return mesh;
   };
   FillConfig fill = config.fill;
+  fill.max_vertices = static_cast<int>(config.max_vertices);
   if (fill.optimization_level < kStrongestOptimization) {
     try {
       return fill_and_check(fill);

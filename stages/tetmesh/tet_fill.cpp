@@ -1,17 +1,13 @@
 #include "stages/tetmesh/tet_fill.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <mutex>
-#include <new>
+#include <cstring>
 #include <string>
 
 #include "common/error.h"
+#include "stages/tetmesh/isolated.h"
 #include "stages/tetmesh/smooth.h"
 
 #define TETLIBRARY
@@ -22,10 +18,10 @@ namespace {
 
 constexpr double kUnitsPerMetre = 1e3;  // TetGen sees millimetres
 
-/// TetGen asks through a bare function pointer whether a tet is too large; these carry what the answer needs.
+/// TetGen asks through a bare function pointer whether a tet is too large; these carry what the answer needs. They are
+/// set in the child process that runs TetGen, nowhere else.
 const std::function<double(const Vector3&)>* edge_length_of_run = nullptr;
 double circumradius_ratio_of_run = 0.0;
-std::mutex one_run_at_a_time;
 
 /// Circumradius of abcd, or the longest edge where it has no volume.
 double circumradius(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
@@ -41,32 +37,6 @@ bool is_too_large(REAL* pa, REAL* pb, REAL* pc, REAL* pd, REAL*, REAL) {
   const double wanted = (*edge_length_of_run)((a + b + c + d) / (4.0 * kUnitsPerMetre)) * kUnitsPerMetre;
   return circumradius(a, b, c, d) > circumradius_ratio_of_run * wanted;
 }
-
-/// Keeps standard output empty while a library writes to it.
-class SilentStdout {
- public:
-  SilentStdout() {
-    std::fflush(stdout);
-    kept_ = dup(STDOUT_FILENO);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (nowhere >= 0) {
-      dup2(nowhere, STDOUT_FILENO);
-      close(nowhere);
-    }
-  }
-  ~SilentStdout() {
-    std::fflush(stdout);
-    if (kept_ >= 0) {
-      dup2(kept_, STDOUT_FILENO);
-      close(kept_);
-    }
-  }
-  SilentStdout(const SilentStdout&) = delete;
-  SilentStdout& operator=(const SilentStdout&) = delete;
-
- private:
-  int kept_ = -1;
-};
 
 const char* reason(int code) {
   switch (code) {
@@ -114,15 +84,47 @@ double six_volumes(const Positions& x, const Eigen::RowVector4i& tet) {
   return a.dot(b.cross(c));
 }
 
-TetMesh take_mesh(const GelSurface& surface, const tetgenio& out) {
-  if (out.numberofpoints < surface.positions.rows() || out.numberoftetrahedra == 0) {
-    throw DataError("TetGen gave back {} vertices and {} tets for a surface of {} vertices", out.numberofpoints,
-                    out.numberoftetrahedra, surface.positions.rows());
+/// Vertices and tets as bytes: their numbers, then the arrays.
+std::string packed(const tetgenio& out) {
+  const std::size_t points = sizeof(REAL) * 3 * static_cast<std::size_t>(out.numberofpoints),
+                    tets = sizeof(int) * 4 * static_cast<std::size_t>(out.numberoftetrahedra);
+  std::string bytes(2 * sizeof(int) + points + tets, '\0');
+  std::memcpy(bytes.data(), &out.numberofpoints, sizeof(int));
+  std::memcpy(bytes.data() + sizeof(int), &out.numberoftetrahedra, sizeof(int));
+  if (points > 0) std::memcpy(bytes.data() + 2 * sizeof(int), out.pointlist, points);
+  if (tets > 0) std::memcpy(bytes.data() + 2 * sizeof(int) + points, out.tetrahedronlist, tets);
+  return bytes;
+}
+
+std::string run_tetgen(const GelSurface& surface, std::string switches) {
+  tetgenio in, out;
+  give_surface(surface, in);
+  in.tetunsuitable = &is_too_large;
+  try {
+    tetrahedralize(switches.data(), &in, &out);
+  } catch (int code) {
+    throw DataError("gave up: {} (code {}, switches {})", reason(code), code, switches);
+  }
+  return packed(out);
+}
+
+TetMesh take_mesh(const GelSurface& surface, const std::string& bytes) {
+  int num_points = 0, num_tets = 0;
+  std::memcpy(&num_points, bytes.data(), sizeof(int));
+  std::memcpy(&num_tets, bytes.data() + sizeof(int), sizeof(int));
+  if (num_points < surface.positions.rows() || num_tets == 0) {
+    throw DataError("TetGen gave back {} vertices and {} tets for a surface of {} vertices", num_points, num_tets,
+                    surface.positions.rows());
   }
   TetMesh mesh;
-  mesh.positions = Eigen::Map<const Positions>(out.pointlist, out.numberofpoints, 3) / kUnitsPerMetre;
+  mesh.positions.resize(num_points, 3);
+  mesh.tets.resize(num_tets, 4);
+  const std::size_t points = sizeof(double) * static_cast<std::size_t>(mesh.positions.size());
+  std::memcpy(mesh.positions.data(), bytes.data() + 2 * sizeof(int), points);
+  std::memcpy(mesh.tets.data(), bytes.data() + 2 * sizeof(int) + points,
+              sizeof(int) * static_cast<std::size_t>(mesh.tets.size()));
+  mesh.positions /= kUnitsPerMetre;
   mesh.positions.topRows(surface.positions.rows()) = surface.positions;
-  mesh.tets = Eigen::Map<const Tetrahedra>(out.tetrahedronlist, out.numberoftetrahedra, 4);
   for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
     if (six_volumes(mesh.positions, mesh.tets.row(t)) < 0.0) std::swap(mesh.tets(t, 0), mesh.tets(t, 1));
   }
@@ -143,24 +145,23 @@ FillConfig FillConfig::read(ConfigReader& in) {
 
 TetMesh fill_with_tets(const GelSurface& surface, const FillConfig& config,
                        const std::function<double(const Vector3&)>& edge_length_m) {
-  const std::scoped_lock lock(one_run_at_a_time);
-  edge_length_of_run = &edge_length_m;
-  circumradius_ratio_of_run = config.circumradius_ratio;
-  // p: from a surface; Y: keep its triangles; q: shape bounds; O: optimise with all operations; Q: quiet.
-  std::string switches =
-      fmt::format("pYq{}/{}O{}/7Q", config.radius_edge_ratio, config.min_dihedral_deg, config.optimization_level);
-  tetgenio in, out;
-  give_surface(surface, in);
-  in.tetunsuitable = &is_too_large;
-  try {
-    const SilentStdout silent;
-    tetrahedralize(switches.data(), &in, &out);
-  } catch (int code) {
-    throw DataError("TetGen gave up: {} (code {}, switches {})", reason(code), code, switches);
-  } catch (const std::bad_alloc&) {
-    throw DataError("TetGen gave up: out of memory (switches {})", switches);
+  const auto left = static_cast<int>(std::max<Eigen::Index>(1, config.max_vertices - surface.positions.rows()));
+  // p: from a surface; Y: keep its triangles; q: shape bounds; O: optimise with all operations; S: at most so many new
+  // vertices; Q: quiet.
+  const std::string switches = fmt::format("pYq{}/{}O{}/7S{}Q", config.radius_edge_ratio, config.min_dihedral_deg,
+                                           config.optimization_level, left);
+  // After some errors TetGen frees memory twice.
+  const std::string filled = run_isolated("TetGen", [&] {
+    edge_length_of_run = &edge_length_m;
+    circumradius_ratio_of_run = config.circumradius_ratio;
+    return run_tetgen(surface, switches);
+  });
+  TetMesh mesh = take_mesh(surface, filled);
+  if (mesh.num_vertices() - surface.positions.rows() >= left) {
+    throw DataError(
+        "the refinement reached max_vertices {:g}; radius_edge_ratio {:g} or circumradius_ratio {:g} may be too small",
+        static_cast<double>(config.max_vertices), config.radius_edge_ratio, config.circumradius_ratio);
   }
-  TetMesh mesh = take_mesh(surface, out);
   smooth(mesh, config.smoothing_sweeps);
   return mesh;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "stages/tetmesh/gel_surface.h"
 
@@ -13,6 +14,8 @@ struct FillConfig {
   double min_dihedral_deg = 0.0;    // wanted by the optimisation
   int optimization_level = 0;       // TetGen's 0 … 10
   int smoothing_sweeps = 0;         // over the inner vertices, afterwards
+
+  int max_vertices = std::numeric_limits<int>::max();  // from the limits: refinement without end stops here
 
   static FillConfig read(ConfigReader& in);
 };

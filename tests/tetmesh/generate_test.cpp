@@ -129,6 +129,23 @@ TEST(GenerateGel, RefusesAMeshBelowTheAngleLimit) {
   EXPECT_EQ(message.find("gel: tet "), 0u) << message;
 }
 
+TEST(GenerateGel, RefinementWithoutEndStopsAtTheLimit) {
+  GenerateConfig config = coarse(2e-3);
+  config.max_vertices = 3000;
+  config.fill.circumradius_ratio = 0.3;
+  EXPECT_EQ(
+      message_of<DataError>([&] { generate_gel(mctac_gel(), config); }),
+      "the refinement reached max_vertices 3000; radius_edge_ratio 1.4 or circumradius_ratio 0.3 may be too small");
+}
+
+TEST(FillWithTets, SaysWhyTetGenGaveUp) {
+  GelSurface surface = gel_surface(sizing_for(preset("tiny").sizing, mctac_gel()), 1);
+  surface.positions(60, 2) = -0.01;  // a front vertex, pulled through the back
+  EXPECT_EQ(
+      message_of<DataError>([&] { fill_with_tets(surface, preset("tiny").fill, [](const Vector3&) { return 1e-3; }); }),
+      "");
+}
+
 TEST(AnalyticVolume, DomesByAnotherFormula) {
   const GelShape gel{.radius_m = 0.01, .thickness_m = 0.006, .dome_radius_m = 0.02};
   // A cylinder up to the rim and a spherical cap π h² (3R − h) / 3 on it.
