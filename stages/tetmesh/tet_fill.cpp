@@ -103,7 +103,7 @@ std::string run_tetgen(const GelSurface& surface, std::string switches) {
   try {
     tetrahedralize(switches.data(), &in, &out);
   } catch (int code) {
-    throw DataError("gave up: {} (code {}, switches {})", reason(code), code, switches);
+    throw DataError("gave up: {} (code {})", reason(code), code);
   }
   return packed(out);
 }
@@ -151,7 +151,7 @@ TetMesh fill_with_tets(const GelSurface& surface, const FillConfig& config,
   const std::string switches = fmt::format("pYq{}/{}O{}/7S{}Q", config.radius_edge_ratio, config.min_dihedral_deg,
                                            config.optimization_level, left);
   // After some errors TetGen frees memory twice.
-  const std::string filled = run_isolated("TetGen", [&] {
+  const std::string filled = run_isolated("TetGen (" + switches + ")", [&] {
     edge_length_of_run = &edge_length_m;
     circumradius_ratio_of_run = config.circumradius_ratio;
     return run_tetgen(surface, switches);

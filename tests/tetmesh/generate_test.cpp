@@ -1,13 +1,16 @@
 #include "stages/tetmesh/generate.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <numbers>
 
 #include "common/error.h"
 #include "stages/tetmesh/face_mesh.h"
 #include "stages/tetmesh/gel_surface.h"
+#include "stages/tetmesh/isolated.h"
 #include "stages/tetmesh/mesh_check.h"
 #include "tests/scratch_folder.h"
 #include "tests/tetmesh/gels.h"
@@ -134,16 +137,33 @@ TEST(GenerateGel, RefinementWithoutEndStopsAtTheLimit) {
   config.max_vertices = 3000;
   config.fill.circumradius_ratio = 0.3;
   EXPECT_EQ(
-      message_of<DataError>([&] { generate_gel(mctac_gel(), config); }),
+      message_of<DataError>([&] { generate_gel(rectangle_gel(0.02, 0.02, 0.02), config); }),
       "the refinement reached max_vertices 3000; radius_edge_ratio 1.4 or circumradius_ratio 0.3 may be too small");
 }
 
-TEST(FillWithTets, SaysWhyTetGenGaveUp) {
+TEST(FillWithTets, ACrashOfTetGenIsAnError) {
   GelSurface surface = gel_surface(sizing_for(preset("tiny").sizing, mctac_gel()), 1);
   surface.positions(60, 2) = -0.01;  // a front vertex, pulled through the back
-  EXPECT_EQ(
-      message_of<DataError>([&] { fill_with_tets(surface, preset("tiny").fill, [](const Vector3&) { return 1e-3; }); }),
-      "");
+  const std::string message =
+      message_of<DataError>([&] { fill_with_tets(surface, preset("tiny").fill, [](const Vector3&) { return 1e-3; }); });
+  EXPECT_EQ(message.find("TetGen (pYq1.4/12O4/7S"), 0u) << message;
+}
+
+TEST(RunIsolated, GivesBackBytesErrorsAndDeaths) {
+  const std::string bytes("a\0b", 3);
+  EXPECT_EQ(run_isolated("work", [&] { return bytes; }), bytes);
+  const std::string large(3 << 20, 'x');
+  EXPECT_EQ(run_isolated("work", [&] { return large; }), large);
+  const auto fault = [](const std::function<std::string()>& work) {
+    return message_of<DataError>([&] { run_isolated("work", work); });
+  };
+  EXPECT_EQ(fault([]() -> std::string { throw DataError("failed at {}", 7); }), "work failed at 7");
+  EXPECT_EQ(fault([]() -> std::string {
+              std::raise(SIGKILL);
+              return "";
+            }),
+            "work crashed (signal 9)");
+  EXPECT_EQ(fault([]() -> std::string { ::_exit(3); }), "work ended without a result");
 }
 
 TEST(AnalyticVolume, DomesByAnotherFormula) {
