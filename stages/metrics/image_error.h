@@ -1,0 +1,23 @@
+// Pixel-wise differences of two 8-bit images.
+#pragma once
+
+#include "common/image.h"
+
+namespace tacipc {
+
+/// Means over pixels and channels of |a − b| and (a − b)², codes divided by 255.
+struct ImageError {
+  double mae = 0.0;
+  double mse = 0.0;
+};
+
+/// \pre equal sizes and channels, at least one pixel
+ImageError image_error(const ByteImage& a, const ByteImage& b);
+
+/// 10 log₁₀(1 / mse) in decibels; +∞ for equal images.
+double psnr_db(double mse);
+/// 10 ln(1 / mse): the natural logarithm, which is what the paper's table must hold (its values exceed what any decibel
+/// value can be at its MAE); 2.3026 times the decibels. +∞ for equal images.
+double psnr_ln(double mse);
+
+}  // namespace tacipc

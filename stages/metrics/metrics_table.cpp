@@ -1,0 +1,138 @@
+#include "stages/metrics/metrics_table.h"
+
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <iterator>
+
+#include "common/error.h"
+#include "stages/metrics/image_error.h"
+#include "stages/metrics/ssim.h"
+
+namespace tacipc {
+namespace {
+
+struct Column {
+  const char* name;
+  double MetricsRow::*value;
+};
+
+constexpr std::array kColumns = {Column{"mae", &MetricsRow::mae},         Column{"mse", &MetricsRow::mse},
+                                 Column{"psnr_db", &MetricsRow::psnr_db}, Column{"psnr_ln", &MetricsRow::psnr_ln},
+                                 Column{"ssim_w", &MetricsRow::ssim_w},   Column{"ssim_s", &MetricsRow::ssim_s}};
+
+ByteImage cropped(const ByteImage& image, const Box& box) {
+  ByteImage out(box.width, box.height, image.channels);
+  const auto width = static_cast<std::size_t>(box.width * image.channels);
+  for (int y = 0; y < box.height; ++y) std::copy_n(&image.at(box.x, box.y + y, 0), width, &out.at(0, y, 0));
+  return out;
+}
+
+MetricsRow compare(const ByteImage& image, const ByteImage& reference, std::string name, std::string region) {
+  const ImageError error = image_error(image, reference);
+  return {.name = std::move(name),
+          .region = std::move(region),
+          .mae = error.mae,
+          .mse = error.mse,
+          .psnr_db = psnr_db(error.mse),
+          .psnr_ln = psnr_ln(error.mse),
+          .ssim_w = ssim(image, reference, gaussian_window()),
+          .ssim_s = ssim(image, reference, box_window())};
+}
+
+std::vector<MetricsRow> measure_pair(const ImagePair& pair, const MetricsConfig& config) {
+  // Grey images become three equal channels, which changes no mean.
+  const ByteImage image = read_png(pair.image, 3), reference = read_png(pair.reference, 3);
+  if (image.width != reference.width || image.height != reference.height) {
+    throw DataError("{} is {} x {} pixels, {} is {} x {}", pair.image.string(), image.width, image.height,
+                    pair.reference.string(), reference.width, reference.height);
+  }
+  if (std::min(image.width, image.height) < kLeastSide) {
+    throw DataError("{}: is {} x {} pixels, SSIM needs {} each way", pair.image.string(), image.width, image.height,
+                    kLeastSide);
+  }
+  std::vector<MetricsRow> rows{compare(image, reference, pair.name, "full")};
+  if (const auto& box = config.crop_px) {
+    if (box->x + box->width > image.width || box->y + box->height > image.height) {
+      throw DataError("{}: is {} x {} pixels, crop_px reaches to {} x {}", pair.image.string(), image.width,
+                      image.height, box->x + box->width, box->y + box->height);
+    }
+    rows.push_back(compare(cropped(image, *box), cropped(reference, *box), pair.name, "crop"));
+  }
+  return rows;
+}
+
+/// A field of a CSV line, quoted where it must be.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+Value::Map mean_and_deviation(const std::vector<double>& values) {
+  double sum = 0.0, squares = 0.0;
+  for (const double value : values) sum += value;
+  const double mean = sum / static_cast<double>(values.size());
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {{"mean", mean}, {"std", std::sqrt(squares / static_cast<double>(values.size()))}};
+}
+
+}  // namespace
+
+std::vector<MetricsRow> measure(const std::vector<ImagePair>& pairs, const MetricsConfig& config) {
+  std::vector<std::vector<MetricsRow>> of_pair(pairs.size());
+  std::vector<std::exception_ptr> failed(pairs.size());
+  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+    try {
+      of_pair[i] = measure_pair(pairs[i], config);
+    } catch (...) {
+      failed[i] = std::current_exception();
+    }
+  });
+  // The first failure in the order of the pairs, whichever thread was first.
+  for (const std::exception_ptr& failure : failed)
+    if (failure) std::rethrow_exception(failure);
+  std::vector<MetricsRow> rows;
+  for (const auto& some : of_pair) rows.insert(rows.end(), some.begin(), some.end());
+  return rows;
+}
+
+std::string to_csv(const std::vector<MetricsRow>& rows) {
+  std::string text = "name,region";
+  for (const Column& column : kColumns) text += fmt::format(",{}", column.name);
+  text += '\n';
+  for (const MetricsRow& row : rows) {
+    text += fmt::format("{},{}", csv_field(row.name), row.region);
+    for (const Column& column : kColumns) text += fmt::format(",{}", row.*column.value);
+    text += '\n';
+  }
+  return text;
+}
+
+Value::Map summary_of(const std::vector<MetricsRow>& rows) {
+  Value::Map summary;
+  for (const char* region : {"full", "crop"}) {
+    std::vector<MetricsRow> some;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(some),
+                 [&](const MetricsRow& row) { return row.region == region; });
+    if (some.empty()) continue;
+    Value::Map means{{"images", some.size()}};
+    double mse = 0.0;
+    for (const MetricsRow& row : some) mse += row.mse / static_cast<double>(some.size());
+    for (const Column& column : kColumns) {
+      std::vector<double> values;
+      for (const MetricsRow& row : some) values.push_back(row.*column.value);
+      means.emplace_back(column.name, mean_and_deviation(values));
+    }
+    means.emplace_back("psnr_db_of_mean_mse", psnr_db(mse));
+    summary.emplace_back(region, std::move(means));
+  }
+  return summary;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,104 @@
+#include "stages/metrics/metrics_table.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "common/error.h"
+#include "common/image.h"
+#include "stages/metrics/ssim.h"
+#include "tests/metrics/test_images.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc {
+namespace {
+
+ImagePair pair_in(const ScratchFolder& folder, const ByteImage& a, const ByteImage& b) {
+  write_png(folder / "a.png", a);
+  write_png(folder / "b.png", b);
+  return {"a.png", folder / "a.png", folder / "b.png"};
+}
+
+MetricsConfig config_of(const std::string& text) {
+  ConfigReader in = ConfigReader::from_text(text, "m.yaml");
+  MetricsConfig config = MetricsConfig::read(in);
+  in.finish();
+  return config;
+}
+
+TEST(Measure, CropIsTheSameAsComparingTheCutOutImages) {
+  const ScratchFolder folder;
+  const ByteImage a = pattern_image(60, 40), b = changed(a, "shift");
+  const auto rows = measure({pair_in(folder, a, b)}, {.crop_px = Box{5, 7, 31, 23}});
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].region, "full");
+  EXPECT_EQ(rows[1].region, "crop");
+  ByteImage ca(31, 23, 3), cb(31, 23, 3);
+  for (int y = 0; y < 23; ++y)
+    for (int x = 0; x < 31; ++x)
+      for (int c = 0; c < 3; ++c) ca.at(x, y, c) = a.at(x + 5, y + 7, c), cb.at(x, y, c) = b.at(x + 5, y + 7, c);
+  EXPECT_EQ(rows[1].ssim_w, ssim(ca, cb, gaussian_window()));
+  EXPECT_EQ(rows[1].ssim_s, ssim(ca, cb, box_window()));
+  EXPECT_NE(rows[0].ssim_w, rows[1].ssim_w);
+  EXPECT_DOUBLE_EQ(rows[0].psnr_ln, rows[0].psnr_db * std::log(10.0));
+}
+
+TEST(Measure, GreyImagesCompareLikeColoured) {
+  const ScratchFolder folder;
+  ByteImage a(16, 12, 1, 100), b(16, 12, 1, 110);
+  const auto rows = measure({pair_in(folder, a, b)}, {});
+  EXPECT_NEAR(rows[0].ssim_w, 0.9954764441, 1e-10);
+  EXPECT_NEAR(rows[0].mae, 10.0 / 255, 1e-15);
+}
+
+TEST(Measure, SaysWhatDoesNotFit) {
+  const ScratchFolder folder;
+  const std::string a = (folder / "a.png").string(), b = (folder / "b.png").string();
+  const auto said = [&](const ByteImage& x, const ByteImage& y, const MetricsConfig& config) {
+    return message_of<DataError>([&] { measure({pair_in(folder, x, y)}, config); });
+  };
+  EXPECT_EQ(said(ByteImage(20, 12, 3), ByteImage(20, 13, 3), {}), a + " is 20 x 12 pixels, " + b + " is 20 x 13");
+  EXPECT_EQ(said(ByteImage(20, 10, 3), ByteImage(20, 10, 3), {}), a + ": is 20 x 10 pixels, SSIM needs 11 each way");
+  EXPECT_EQ(said(ByteImage(20, 20, 3), ByteImage(20, 20, 3), {.crop_px = Box{9, 0, 12, 12}}),
+            a + ": is 20 x 20 pixels, crop_px reaches to 21 x 12");
+  folder.file("b.png", "broken");
+  EXPECT_THAT(message_of<DataError>([&] {
+                measure({{"a.png", folder / "a.png", folder / "b.png"}}, {});
+              }),
+              testing::StartsWith(b + ": "));
+}
+
+TEST(MetricsConfig, CropIsCheckedBeforeWork) {
+  EXPECT_EQ(config_of("{crop_px: [1, 2, 30, 40]}").crop_px->height, 40);
+  EXPECT_EQ(config_of("{}").ends_with, ".png");
+  EXPECT_EQ(message_of<ConfigError>([] { config_of("{crop_px: [0, 0, 10, 40]}"); }),
+            "m.yaml:1:11: crop_px: must be at least 11 pixels wide and high");
+  EXPECT_EQ(message_of<ConfigError>([] { config_of("{crop_px: [0.5, 0, 20, 40]}"); }),
+            "m.yaml:1:11: crop_px: expected whole pixels");
+}
+
+TEST(Csv, ShortestNumbersInfinityAndQuotes) {
+  const MetricsRow row{.name = "a,\"b\".png",
+                       .region = "full",
+                       .mae = 0.1,
+                       .psnr_db = INFINITY,
+                       .psnr_ln = INFINITY,
+                       .ssim_w = 1,
+                       .ssim_s = 1};
+  EXPECT_EQ(to_csv({row}),
+            "name,region,mae,mse,psnr_db,psnr_ln,ssim_w,ssim_s\n"
+            "\"a,\"\"b\"\".png\",full,0.1,0,inf,inf,1,1\n");
+}
+
+TEST(Summary, MeansDeviationsAndPooledPsnr) {
+  const std::vector<MetricsRow> rows = {{.name = "1", .region = "full", .mae = 0.1, .mse = 0.01, .psnr_db = 20},
+                                        {.name = "2", .region = "full", .mae = 0.3, .mse = 0.03, .psnr_db = 10}};
+  const std::string text = to_yaml(summary_of(rows));
+  EXPECT_THAT(text, testing::StartsWith("full:\n  images: 2\n  mae:\n    mean: 0.2\n    std: 0.0"));
+  EXPECT_THAT(text, testing::HasSubstr("  psnr_db:\n    mean: 15\n    std: 5\n"));
+  EXPECT_THAT(text, testing::HasSubstr("psnr_db_of_mean_mse: 16.98970004336"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("crop")));
+}
+
+}  // namespace
+}  // namespace tacipc
