@@ -16,13 +16,13 @@ refuses() {
   [ -z "$(find . -name '.partial-*' -print -quit)" ] || fail "'$*' left a partial folder"
   count=$((count + 1))
 }
-decimate() { "$bin/decimate" --mesh "$1" --object configs/objects/millimetres.yaml --config configs/decimate/default.yaml --out o; }
+decimate() { "$bin/decimate" --mesh "$1" --object configs/objects/millimetres.yaml --config configs/decimate/default.yaml --out o "${@:2}"; }
 refuse_mesh() { refuses 1 "$2" o/decimate.yaml decimate "$1"; }
 echo 'unit: mm' > configs/objects/millimetres.yaml
 
 head -c 60 pyramid.stl > cut.stl;                       refuse_mesh cut.stl 'cut.stl'
 printf 'solid x\nendsolid x\n' > empty.stl;             refuse_mesh empty.stl 'has no triangles'
-: > nothing.obj;                                        refuse_mesh nothing.obj 'has no triangles'
+: > nothing.obj;                                        refuse_mesh nothing.obj 'the file is empty'
 sed 's/vertex 0 0 0/vertex nan 0 0/' pyramid.stl > nan.stl; refuse_mesh nan.stl 'not finite'
 printf 'v 0 0 0\nv 5 0 0\nv 0 5 0\nf 1 2 3\n' > open.obj;   refuse_mesh open.obj 'open mesh'
 printf 'v 0 0 0\nv 5 0 0\nv 0 5 0\nf 1 2 9\n' > index.obj;  refuse_mesh index.obj 'index.obj:4'
@@ -44,12 +44,13 @@ camera: {position_mm: [0, 0, -12], width_px: 64, height_px: 48, window_mm: [8, 6
 response: {mean_level: 0.5, curve: srgb}
 YAML
 refuses 2 "faults.yaml:2:16: gel.outline: 'disk' is not one of disc, rectangle (did you mean disc?)" p/press.yaml press faults.yaml gel/gel.msh
-for part in 'faults.yaml:2:54: gel.thickness_mm: -2 is outside (0, inf)' 'material.young_modulus_pa: unknown key (did you mean youngs_modulus_pa?)' \
+for part in 'faults.yaml:2:51: gel.thickness_mm: -2 is outside (0, inf)' 'material.young_modulus_pa: unknown key (did you mean youngs_modulus_pa?)' \
             'material.youngs_modulus_pa: missing' 'material.poissons_ratio: key given twice' 'material.poissons_ratio: 0.5 is outside'; do
   grep -qF "$part" stderr.txt || { cat stderr.txt; fail "the faults do not name '$part'"; }
 done
 
-refuses 2 '--depth' p/press.yaml "$bin/press" --depth 3 --out p
+refuses 2 '--depth' o/decimate.yaml decimate pyramid.stl --depth 3
+refuses 2 '--config is required' p/press.yaml "$bin/press" --out p
 echo > file_in_the_way
 refuses 1 'file_in_the_way' file_in_the_way/press.yaml press configs/sensors/mctac.yaml gel/gel.msh file_in_the_way
 if [ "$(id -u)" != 0 ]; then
