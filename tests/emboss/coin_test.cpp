@@ -55,12 +55,15 @@ TEST(CoinMesh, IsClosedWithAndWithoutReliefAndFillet) {
   }
 }
 
-TEST(CoinMesh, VolumeConvergesToThePlainCoinsAtSecondOrder) {
-  const auto error = [&](double spacing) {
-    return coin_volume(kCoin) - enclosed_volume(coin_mesh(kCoin, spacing, plain));
+TEST(CoinMesh, VolumeIsTheCoinsLessTheChords) {
+  const auto missing = [](double spacing) {
+    return 1.0 - enclosed_volume(coin_mesh(kCoin, spacing, plain)) / coin_volume(kCoin);
   };
-  EXPECT_GT(error(0.1e-3), 0.0);  // chords lie inside
-  EXPECT_LT(error(0.05e-3), 0.01 * coin_volume(kCoin));
+  // Chords of the coarsened lower rings keep a little missing at any spacing of the face.
+  for (const double spacing : {0.4e-3, 0.1e-3, 0.05e-3}) {
+    EXPECT_GT(missing(spacing), 0.0) << spacing;
+    EXPECT_LT(missing(spacing), 0.002) << spacing;
+  }
 }
 
 TEST(CoinMesh, ReliefAddsItsOwnVolume) {

@@ -81,7 +81,7 @@ TEST(Emboss, PlainFaceIsRefused) {
   const EmbossConfig config = config_of(config_text("kind: weave, pitch_mm: 1, fill: 0.8"));
   EXPECT_EQ(message_of<DataError>([&] { emboss(config, [](const Vector2&) { return 0.0; }); }),
             "the pattern leaves the face plain: its height goes from 0.000 to 0.000 of 0.400 mm");
-  // Far wider spaced than the face: no dot's wall is met, the first one fills the whole middle.
+  // One bar far wider than the face: all of it is raised.
   const EmbossConfig wide = config_of(config_text("kind: lines, pitch_mm: 90, width_mm: 30"));
   EXPECT_EQ(message_of<DataError>([&] { emboss(wide, face_relief(wide)); }),
             "the pattern leaves the face plain: its height goes from 1.000 to 1.000 of 0.400 mm");
