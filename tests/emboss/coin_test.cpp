@@ -62,7 +62,7 @@ TEST(CoinMesh, VolumeIsTheCoinsLessTheChords) {
   // Chords of the coarsened lower rings keep a little missing at any spacing of the face.
   for (const double spacing : {0.4e-3, 0.1e-3, 0.05e-3}) {
     EXPECT_GT(missing(spacing), 0.0) << spacing;
-    EXPECT_LT(missing(spacing), 0.002) << spacing;
+    EXPECT_LT(missing(spacing), spacing == 0.4e-3 ? 0.004 : 0.0015) << spacing;
   }
 }
 
