@@ -52,11 +52,11 @@ TEST(SampleSpec, ReadsPlacementAndMotionInSi) {
 }
 
 TEST(SampleSpec, NamesWhatIsWrong) {
-  EXPECT_THAT(
-      faults_of<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n"),
-      ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
-                  "x.yaml:2:16: motion.kind: 'push' is not one of press",
-                  "x.yaml:2:32: motion.depth_mm: 0 is outside (0, inf)", "x.yaml:2:42: motion.steps: 0 is outside [1, 100000]"));
+  EXPECT_THAT(faults_of<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n"),
+              ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
+                          "x.yaml:2:16: motion.kind: 'push' is not one of press",
+                          "x.yaml:2:32: motion.depth_mm: 0 is outside (0, inf)",
+                          "x.yaml:2:42: motion.steps: 0 is outside [1, 100000]"));
 }
 
 }  // namespace

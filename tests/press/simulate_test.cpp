@@ -6,17 +6,11 @@
 #include <numbers>
 
 #include "common/error.h"
-#include "common/npy.h"
+#include "tests/press/reference_scene.h"
 #include "tests/shared_data.h"
 
 namespace tacipc {
 namespace {
-
-Sensor paper_sensor() { return read_config<Sensor>(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml"); }
-PressConfig paper_config() {
-  return read_config<PressConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/press/paper.yaml");
-}
-void ignore_progress(int, int, int, double) {}
 
 /// A structured block of gel, n × n × 2 cells of six tetrahedra each, with front at z = 0 and glued back.
 TetMesh block_gel(int n, double width_m, double thickness_m) {
@@ -142,38 +136,13 @@ TEST(Simulate, DepthBeyondTheGelIsRefused) {
   }
 }
 
-/// The reference IPC solver's own press on its own mesh, same material, barrier and tolerance: docs/verification.md.
+/// The smaller of the two scenes of docs/paper.md.
 TEST(Simulate, AgreesWithTheReferenceSolver) {
   TACIPC_SHARED_DATA(folder, "reference");
-  const MshContent content = read_msh(folder / "gel3k.msh");
-  TetMesh gel{content.positions, content.tets, boundary_triangles(content.tets, content.positions.rows()), {}};
-  gel.positions.col(2).array() -= 2e-3;  // front at z = 0
-  for (Eigen::Index f = 0; f < gel.boundary.rows(); ++f) {
-    const bool glued = gel.positions(gel.boundary(f, 0), 2) < -2e-3 + 1e-9 &&
-                       gel.positions(gel.boundary(f, 1), 2) < -2e-3 + 1e-9 &&
-                       gel.positions(gel.boundary(f, 2), 2) < -2e-3 + 1e-9;
-    gel.tags.push_back(glued ? BoundaryTag::glued : BoundaryTag::front);
-  }
-  const TriangleMesh object = read_triangle_mesh(folder / "sphere1k.obj", 1.0);
-  PressConfig config = paper_config();
-  const double diagonal_m = std::hypot(0.03, 0.03, 0.002);
-  config.start_gap_d_hat = 0.05e-3 / (config.relative_d_hat * diagonal_m);  // their object starts 0.05 mm above the gel
-  const Simulation simulation = simulate(paper_sensor(), gel, object, config, press(0.45e-3, 5), "-z", ignore_progress);
-  EXPECT_NEAR(-simulation.frames.back().force_n.z(), 0.4201, 0.005 * 0.4201);
-
-  const NpyArray reference = read_npy(folder / "sphere_small_press_gel_displacement.npy");
-  ASSERT_EQ(reference.shape, (std::vector<std::size_t>{6, static_cast<std::size_t>(gel.num_vertices()), 3}));
-  double sum = 0.0, largest = 0.0;
-  for (Eigen::Index v = 0; v < gel.num_vertices(); ++v) {
-    const double* r = reference.data.data() + 3 * (5 * gel.num_vertices() + v);
-    const Vector3 moved = simulation.frames.back().positions.row(v) - gel.positions.row(v);
-    const double difference = (moved - Vector3(r[0], r[1], r[2])).norm();
-    sum += difference * difference;
-    largest = std::max(largest, difference);
-  }
-  // Their object is only held by a penalty: single vertices of it lag by up to 1.6 um, and so does the gel under them.
-  EXPECT_LT(std::sqrt(sum / static_cast<double>(gel.num_vertices())), 0.5e-6);
-  EXPECT_LT(largest, 5e-6);
+  const ReferenceComparison found = compare_with_reference(folder, "gel3k.msh", "sphere1k.obj", "sphere_small_press");
+  EXPECT_NEAR(found.press_force_n.back(), 0.4201, 0.005 * 0.4201);
+  EXPECT_LT(found.rms_m, 0.5e-6);
+  EXPECT_LT(found.largest_m, 5e-6);
 }
 
 }  // namespace
