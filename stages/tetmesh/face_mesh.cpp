@@ -24,6 +24,24 @@ constexpr double kRimMargin = 0.55;  // of the wanted length; equilateral triang
 
 Vector3 lifted(const Face& face, const Vector2& p) { return {p.x(), p.y(), face.height_m(p)}; }
 
+/// How much shorter a length down the slope of the face looks from above.
+double slope_cosine(const Face& face, const Vector2& p) {
+  if (!face.dome_radius_m) return 1.0;
+  return std::sqrt(std::max(0.0, 1.0 - p.squaredNorm() / (*face.dome_radius_m * *face.dome_radius_m)));
+}
+
+/// Triangulates the points as they lie on the face. A disc's dome is projected from the foot of its sphere, which keeps
+/// circles circles, so that the triangulation is Delaunay on the sphere; a rectangle, whose sides would bend inwards,
+/// is seen from above.
+Triangles triangulate(const Face& face, const std::vector<Vector2>& points) {
+  if (!face.dome_radius_m || face.gel.outline != GelShape::Outline::disc) return delaunay(points);
+  std::vector<Vector2> projected;
+  projected.reserve(points.size());
+  const double diameter = 2.0 * *face.dome_radius_m;
+  for (const Vector2& p : points) projected.push_back(p * (diameter / (diameter + face.height_m(p))));
+  return delaunay(projected);
+}
+
 struct Leaf {
   Vector2 low;
   double size;
@@ -104,7 +122,7 @@ std::vector<Vector2> throw_darts(const Face& face, const std::vector<Vector2>& r
           leaf.low + leaf.size * Vector2(random_uniform(seed, 0, counter), random_uniform(seed, 1, counter));
       ++counter;
       const double h = face.edge_length_m(dart);
-      if (distance_inside(face.gel, dart) < kRimMargin * h) continue;
+      if (distance_inside(face.gel, dart) < kRimMargin * h * slope_cosine(face, dart)) continue;
       const Vector3 here = lifted(face, dart);
       const bool taken = buckets.any_near(dart, 1.5 * distance * h, [&](int i) {
         return (lifted(face, points[i]) - here).norm() < distance * (h + wanted[i]) / 2.0;
@@ -134,7 +152,7 @@ void relax(const Face& face, std::size_t rim_size, std::vector<Vector2>& points)
       if (!stale) stale = (points[i] - points_of_edges[i]).norm() > kMoveBeforeNewEdges * wanted[i];
     }
     if (stale) {
-      edges = unique_edges(delaunay(points));
+      edges = unique_edges(triangulate(face, points));
       points_of_edges = points;
     }
     double squared_ratios = 0.0;
@@ -153,7 +171,8 @@ void relax(const Face& face, std::size_t rim_size, std::vector<Vector2>& points)
       push[j] -= force;
     }
     for (std::size_t i = rim_size; i < points.size(); ++i) {
-      points[i] = pulled_inside(face.gel, points[i] + kStep * push[i], kRimMargin * wanted[i]);
+      points[i] =
+          pulled_inside(face.gel, points[i] + kStep * push[i], kRimMargin * wanted[i] * slope_cosine(face, points[i]));
     }
   }
 }
@@ -189,7 +208,7 @@ FaceMesh mesh_face(const Face& face, const std::vector<Vector2>& rim, std::uint6
   for (int attempt = 0; attempt < kDensityTries; ++attempt) {
     mesh.points = throw_darts(face, rim, distance, seed);
     relax(face, rim.size(), mesh.points);
-    mesh.triangles = delaunay(mesh.points);
+    mesh.triangles = triangulate(face, mesh.points);
     const double ratio = mean_edge_ratio(face, mesh);
     if (std::abs(ratio - 1.0) <= kDensityTolerance || mesh.points.size() < 200) break;
     distance /= ratio;

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/sensor.h"
@@ -14,6 +16,7 @@ namespace tacipc {
 /// A face of the gel over the plane: where it lies and how long its edges shall be.
 struct Face {
   GelShape gel;
+  std::optional<double> dome_radius_m;                  // of this face; absent: flat
   std::function<double(const Vector2&)> height_m;       // z over (x, y)
   std::function<double(const Vector2&)> edge_length_m;  // wanted there, measured in space
 };

@@ -49,6 +49,7 @@ class Builder {
     const GelShape& gel = sizing_.gel;
     const Face face{
         .gel = gel,
+        .dome_radius_m = fraction == 0.0 ? gel.dome_radius_m : std::optional<double>(),
         .height_m = [&, fraction](const Vector2& p) { return at(p, fraction).z(); },
         .edge_length_m = [&, fraction](const Vector2& p) { return target_edge_length(sizing_, at(p, fraction)); }};
     std::vector<Vector2> rim;

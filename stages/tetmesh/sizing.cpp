@@ -81,6 +81,17 @@ Sizing sizing_for(const SizingConfig& config, const GelShape& gel) {
     throw DataError("inner_radius_mm {:g} does not lie inside the gel, which reaches {:g} mm from its centre",
                     config.inner_radius_m / kMillimetre, sizing.reach_m() / kMillimetre);
   }
+  constexpr double kThinnestRim = 0.01;  // of the thickness at the apex; below, tets at the rim are flat
+  const double rim_m = gel.thickness_m + gel.front_z(sizing.reach_m(), 0.0);
+  if (rim_m < kThinnestRim * gel.thickness_m) {
+    throw DataError("the dome leaves {:.3g} mm of gel at the rim, less than 1 % of its thickness", rim_m / kMillimetre);
+  }
+  constexpr double kSteepest = std::numbers::sqrt2 / 2.0;  // the sine of 45 degrees
+  if (gel.dome_radius_m && gel.outline == GelShape::Outline::rectangle &&
+      sizing.reach_m() > kSteepest * *gel.dome_radius_m) {
+    throw DataError("the dome of radius {:g} mm is steeper than 45 degrees at the corners, {:g} mm from the centre",
+                    *gel.dome_radius_m / kMillimetre, sizing.reach_m() / kMillimetre);
+  }
   return sizing;
 }
 

@@ -34,7 +34,8 @@ struct Sizing {
   double front(double radius_m) const;
 };
 
-/// Joins them. \throw DataError if the inner radius does not lie inside the gel.
+/// Joins them. \throw DataError if the inner radius does not lie inside the gel, if hardly anything is left of it at
+/// the rim of a dome, or if the dome of a rectangle is too steep to be triangulated as seen from above.
 Sizing sizing_for(const SizingConfig& config, const GelShape& gel);
 
 /// Edge length in metres wanted at a rest point (frame S):

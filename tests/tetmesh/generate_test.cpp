@@ -69,6 +69,7 @@ TEST(GenerateGel, Rectangles) {
 TEST(GenerateGel, Domes) {
   expect_gel(dome(mctac_gel(), 0.08), coarse(1e-3), 0.015);
   expect_gel(dome(disc_gel(0.01, 0.006), 0.0125), coarse(8e-4), 0.015);
+  expect_gel(dome(disc_gel(0.012, 0.0095), 0.0125), coarse(1e-3), 0.03);  // 74 degrees steep at the rim
   expect_gel(dome(rectangle_gel(0.02, 0.016, 0.004), 0.05), coarse(1e-3), 0.01);
 }
 

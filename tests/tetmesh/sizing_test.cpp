@@ -55,6 +55,22 @@ TEST(Sizing, InnerRadiusMustLieInsideTheGel) {
             "inner_radius_mm 6.6 does not lie inside the gel, which reaches 5 mm from its centre");
 }
 
+TEST(Sizing, ARectanglesDomeMustNotBeTooSteep) {
+  GelShape gel = rectangle_gel(0.024, 0.018, 0.012);
+  gel.dome_radius_m = 0.0213;
+  EXPECT_NO_THROW(sizing_for(preset("tiny").sizing, gel));
+  gel.dome_radius_m = 0.021;
+  EXPECT_EQ(message_of<DataError>([&] { sizing_for(preset("tiny").sizing, gel); }),
+            "the dome of radius 21 mm is steeper than 45 degrees at the corners, 15 mm from the centre");
+}
+
+TEST(Sizing, ADomeMustLeaveARim) {
+  GelShape gel = disc_gel(0.012, 0.008);
+  gel.dome_radius_m = 0.01301;  // sag 13.01 − √(13.01² − 12²) = 7.984 mm
+  EXPECT_EQ(message_of<DataError>([&] { sizing_for(preset("tiny").sizing, gel); }),
+            "the dome leaves 0.0159 mm of gel at the rim, less than 1 % of its thickness");
+}
+
 TEST(Sizing, FaultsNameTheirPlace) {
   ConfigReader in = ConfigReader::from_text(
       "centre_mm: 0.1\ncentre_radius_mm: 7\ninner_mm: 0\ninner_radius_mm: 6\nrim_mm: 4\nrim_exponent: 1\nback_mm: 1\n"
