@@ -255,6 +255,12 @@ bool ConfigReader::has(const std::string& key) const {
   return std::any_of(node_->entries.begin(), node_->entries.end(), [&](const auto& entry) { return entry.key == key; });
 }
 
+std::vector<std::string> ConfigReader::keys() const {
+  std::vector<std::string> names;
+  for (const auto& entry : node_->entries) names.push_back(entry.key);
+  return names;
+}
+
 void ConfigReader::ignore(const std::string& key) { find(key, false); }
 
 ConfigReader ConfigReader::section(const std::string& key) {

@@ -64,6 +64,8 @@ class ConfigReader {
   Vector3 vector3(const std::string& key);
 
   bool has(const std::string& key) const;
+  /// The keys of this map, in file order.
+  std::vector<std::string> keys() const;
   ConfigReader section(const std::string& key);
   std::optional<ConfigReader> optional_section(const std::string& key);
   /// A list of maps (empty where the key is absent).

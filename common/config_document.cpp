@@ -15,18 +15,25 @@ std::string joined_path(const std::string& path, const std::string& key) {
 
 /// Builds the tree from what yaml-cpp parsed.
 struct ConfigReader::Convert {
-  static std::unique_ptr<Node> convert(Document& document, const YAML::Node& yaml, const std::string& path) {
+  static constexpr int kMaxDepth = 32;
+
+  static std::unique_ptr<Node> convert(Document& document, const YAML::Node& yaml, const std::string& path,
+                                       int depth = 0) {
     auto node = std::make_unique<Node>();
     node->line = yaml.Mark().line + 1;  // yaml-cpp counts from zero
     node->column = yaml.Mark().column + 1;
     node->path = path;
+    if (depth > kMaxDepth) {
+      document.add(node->line, node->column, path, "nested too deeply (an alias inside its own anchor?)");
+      return node;
+    }
     if (yaml.IsScalar()) {
       node->kind = Node::Kind::scalar;
       node->scalar = yaml.Scalar();
     } else if (yaml.IsSequence()) {
       node->kind = Node::Kind::list;
       for (std::size_t i = 0; i < yaml.size(); ++i)
-        node->items.push_back(convert(document, yaml[i], fmt::format("{}[{}]", path, i)));
+        node->items.push_back(convert(document, yaml[i], fmt::format("{}[{}]", path, i), depth + 1));
     } else if (yaml.IsMap()) {
       node->kind = Node::Kind::map;
       for (const auto& pair : yaml) {
@@ -44,7 +51,7 @@ struct ConfigReader::Convert {
                        fmt::format("key given twice (first in line {})", same->line));
           continue;
         }
-        node->entries.push_back({key, line, column, convert(document, pair.second, joined_path(path, key))});
+        node->entries.push_back({key, line, column, convert(document, pair.second, joined_path(path, key), depth + 1)});
       }
     }
     return node;
@@ -56,7 +63,12 @@ std::unique_ptr<ConfigReader::Document> ConfigReader::Document::parse(const std:
   auto document = std::make_unique<Document>();
   document->name = name;
   try {
-    document->root = Convert::convert(*document, YAML::Load(text), "");
+    const std::vector<YAML::Node> parts = YAML::LoadAll(text);
+    if (parts.size() > 1) {
+      throw ConfigError(
+          {fmt::format("{}:{}:1: a second document begins; only one is read", name, parts[1].Mark().line + 1)});
+    }
+    document->root = Convert::convert(*document, parts.empty() ? YAML::Node() : parts[0], "");
   } catch (const YAML::Exception& error) {
     throw ConfigError(
         {fmt::format("{}:{}:{}: not valid YAML: {}", name, error.mark.line + 1, error.mark.column + 1, error.msg)});

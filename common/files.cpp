@@ -53,7 +53,8 @@ std::string content_hash(const std::filesystem::path& path) {
   std::map<std::string, std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
     const std::string name = entry.path().lexically_relative(path).generic_string();
-    if (!entry.is_regular_file() || entry.path().extension() == ".log" || name.front() == '.') continue;
+    const bool hidden = name.front() == '.' || name.find("/.") != std::string::npos;
+    if (!entry.is_regular_file() || entry.path().extension() == ".log" || hidden) continue;
     files.emplace(name, entry.path());
   }
   std::string listing;

@@ -31,7 +31,7 @@ void show_progress(double fraction, const std::string& text);
 /// Levels: debug, info, warning, error, off.
 void open_log(const std::string& stage, const std::string& level);
 void open_log_file(const std::string& path);
-/// Ends the log file: moves what was written to its final name.
+/// Says an error whatever level was asked for.
 void log_error(const std::string& text);
 void close_log();
 

@@ -1,12 +1,17 @@
 #include "common/stage.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -38,6 +43,25 @@ std::string relative_to(const fs::path& path, const fs::path& folder) {
   const fs::path relative = fs::proximate(path, folder, error);
   return (error ? path : relative).generic_string();
 }
+
+/// Keeps two processes from writing one folder: a stage whose make was killed may still run when the next begins.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& path) : file_(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
+    if (file_ < 0) throw DataError("{}: cannot be written: {}", path.string(), std::strerror(errno));
+    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+    log_info("waiting for another run that writes to {}", path.parent_path().string());
+    while (::flock(file_, LOCK_EX) != 0) {
+      if (errno != EINTR) throw DataError("{}: cannot be locked: {}", path.string(), std::strerror(errno));
+    }
+  }
+  ~FolderLock() { ::close(file_); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_;
+};
 
 }  // namespace
 
@@ -73,7 +97,7 @@ void Stage::note_config(const std::string& flag, Value config) {
 
 void Stage::summarize(const Value::Map& lines) { summary_.insert(summary_.end(), lines.begin(), lines.end()); }
 
-std::string Stage::record() const {
+Value Stage::input_hashes() const {
   Value::Map inputs;
   for (const InputSpec& spec : spec_.inputs) {
     const auto found = inputs_.find(spec.flag);
@@ -84,12 +108,40 @@ std::string Stage::record() const {
     }
     inputs.emplace_back(spec.flag.substr(2), spec.many ? Value(std::move(list)) : list.front());
   }
+  return inputs;
+}
+
+void Stage::remove_old_results() const {
+  const fs::path record = out_ / (spec_.name + ".yaml");
+  std::error_code error;
+  if (!fs::exists(record, error)) return;
+  // The record goes first: what it lists may then be missing without anyone taking it for complete.
+  std::vector<std::string> names;
+  try {
+    names = ConfigReader::from_file(record).section("outputs").keys();
+  } catch (const std::exception&) {
+    // Not a record of ours; nothing of it can be told from the user's own files.
+  }
+  fs::remove(record, error);
+  if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
+  for (const std::string& name : names) {
+    const fs::path path = fs::path(name).lexically_normal();
+    if (path.is_absolute() || *path.begin() == "..") continue;
+    remove_quietly(out_ / path);
+    if (path.has_parent_path()) fs::remove(out_ / path.parent_path(), error);  // only if empty now
+  }
+}
+
+std::string Stage::record() const {
+  // A record must name what was really read.
+  if (to_yaml(input_hashes()) != to_yaml(inputs_at_start_))
+    throw DataError("an input changed while the stage ran; run it again");
   Value::Map outputs;
   for (const std::string& name : outputs_) outputs.emplace_back(name, content_hash(partial_ / name));
   Value::Map record{{"stage", spec_.name},
                     {"version", program_version()},
                     {"instruction_set", instruction_set()},
-                    {"inputs", std::move(inputs)},
+                    {"inputs", inputs_at_start_},
                     {"outputs", std::move(outputs)}};
   for (const auto& note : notes_) record.push_back(note);
   for (const OptionSpec& option : spec_.options) record.emplace_back(option.flag.substr(2), options_.at(option.flag));
@@ -154,11 +206,12 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
     std::error_code error;
     fs::create_directories(stage.out_, error);
     if (error) throw DataError("{}: cannot be created: {}", stage.out_.string(), error.message());
-    fs::remove(record, error);
-    if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
+    const FolderLock lock(stage.out_ / (".lock-" + spec.name));
+    stage.remove_old_results();
     remove_quietly(stage.partial_);
     write_file(stage.out_ / (spec.name + ".log"), "");
     open_log_file((stage.out_ / (spec.name + ".log")).string());
+    stage.inputs_at_start_ = stage.input_hashes();
     body(stage);
     stage.publish();
     code = 0;

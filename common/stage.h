@@ -72,7 +72,9 @@ class Stage {
  private:
   friend int run_stage(const StageSpec&, int, char**, const std::function<void(Stage&)>&);
   void note_config(const std::string& flag, Value config);
+  Value input_hashes() const;
   std::string record() const;
+  void remove_old_results() const;
   void publish();
 
   const StageSpec& spec_;
@@ -82,6 +84,7 @@ class Stage {
   std::map<std::string, std::vector<std::filesystem::path>> inputs_;
   std::map<std::string, std::string> options_;
   std::vector<std::string> outputs_;
+  Value inputs_at_start_;
   Value::Map configs_;
   Value::Map notes_;
   Value::Map summary_;

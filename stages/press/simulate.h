@@ -18,7 +18,7 @@ namespace tacipc {
 struct Frame {
   Positions positions;                      // gel, m
   Matrix4 gel_from_object;                  // pose of the object
-  Positions contact_force;                  // on each gel vertex by the object, N
+  Positions contact_force;                  // on each gel vertex by contact, N; gel on gel adds pairs that cancel
   Vector3 force_n = Vector3::Zero();        // Σ on the gel by the object
   Vector3 torque_n_m = Vector3::Zero();     // the same about the origin of S
   Vector3 mount_force_n = Vector3::Zero();  // Σ on the gel by its mount

@@ -51,6 +51,13 @@ TEST(ConfigReader, RejectsWhatIsNotYaml) {
   EXPECT_THAT(faults_of("", [](ConfigReader&) {}), ElementsAre("gel.yaml:1:1: expected a map of keys, found nothing"));
 }
 
+TEST(ConfigReader, RefusesASecondDocumentAndAnAliasInsideItself) {
+  EXPECT_THAT(faults_of("a: 1\n---\nb: 2\n", [](ConfigReader& in) { in.number("a"); }),
+              ElementsAre("gel.yaml:3:1: a second document begins; only one is read"));
+  EXPECT_THAT(faults_of("a: &x [*x]\n", [](ConfigReader& in) { in.numbers("a", 1); }),
+              ::testing::Not(::testing::IsEmpty()));
+}
+
 TEST(ConfigReader, SuggestsTheNearestChoice) {
   EXPECT_THAT(
       faults_of("law: neo_hokean",

@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/files.h"
+#include "tests/scratch_folder.h"
 
 namespace tacipc {
 namespace {
@@ -15,14 +16,7 @@ namespace fs = std::filesystem;
 
 class StageTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    root_ = fs::temp_directory_path() /
-            ("tacipc-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-    write_file(root_ / "in.txt", "input");
-  }
-  void TearDown() override { fs::remove_all(root_); }
+  void SetUp() override { write_file(root_ / "in.txt", "input"); }
 
   int run(const std::function<void(Stage&)>& body, std::vector<std::string> more = {}) {
     std::vector<std::string> words{
@@ -37,7 +31,7 @@ class StageTest : public ::testing::Test {
   }
 
   StageSpec spec_{.name = "copy", .summary = "Copies.", .inputs = {{.flag = "--mesh", .help = "what to copy"}}};
-  fs::path root_;
+  ScratchFolder root_;
   std::string said_;
 };
 
@@ -80,6 +74,42 @@ TEST_F(StageTest, UnwritableFolderIsOneMessage) {
   write_file(root_ / "out", "a file where the folder should be");
   EXPECT_EQ(run([](Stage&) {}), 1);
   EXPECT_THAT(said_, ::testing::HasSubstr("copy: error: "));
+}
+
+TEST_F(StageTest, WhatAnEarlierRunLeftGoesWithItsRecord) {
+  ASSERT_EQ(run([](Stage& stage) {
+              write_file(stage.output("frame_1/a.txt"), "1");
+              write_file(stage.output("frame_2/a.txt"), "2");
+            }),
+            0);
+  write_file(root_ / "out/frame_2/mine.txt", "the user's own");
+  ASSERT_EQ(run([](Stage& stage) { write_file(stage.output("frame_3/a.txt"), "3"); }), 0);
+  EXPECT_FALSE(fs::exists(root_ / "out/frame_1"));
+  EXPECT_FALSE(fs::exists(root_ / "out/frame_2/a.txt"));
+  EXPECT_TRUE(fs::exists(root_ / "out/frame_2/mine.txt"));
+  EXPECT_TRUE(fs::exists(root_ / "out/frame_3/a.txt"));
+}
+
+TEST_F(StageTest, AnInputThatChangesMeanwhileIsAFailure) {
+  EXPECT_EQ(run([&](Stage& stage) {
+              write_file(stage.output("copy.txt"), read_file(stage.input("--mesh")));
+              write_file(root_ / "in.txt", "edited");
+            }),
+            1);
+  EXPECT_EQ(said_, "copy: error: an input changed while the stage ran; run it again\n");
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.txt"));
+}
+
+TEST(ContentHash, OfAFolderLeavesOutLogsAndHiddenFilesAtAnyDepth) {
+  const ScratchFolder scratch;
+  scratch.file("a/b.txt", "1");
+  const std::string before = content_hash(scratch / "a");
+  scratch.file("a/x.log", "2");
+  scratch.file("a/.partial-press/b.txt", "3");
+  scratch.file("a/c/.partial-press/b.txt", "4");
+  EXPECT_EQ(content_hash(scratch / "a"), before);
+  scratch.file("a/c/b.txt", "5");
+  EXPECT_NE(content_hash(scratch / "a"), before);
 }
 
 TEST(WriteFile, FullDiskIsAnError) {

@@ -14,8 +14,9 @@ namespace tacipc {
 namespace {
 
 constexpr std::size_t kChunk = 512;
+constexpr double kSmallestStep = 1e-12;
 
-/// min over i < count of limit(i, smallest so far in the chunk); a minimum does not depend on order.
+/// min over i < count of limit(i), at most 1; a minimum does not depend on order.
 template <typename Limit>
 double parallel_min(std::size_t count, Limit&& limit) {
   std::vector<double> partial((count + kChunk - 1) / kChunk, 1.0);
@@ -70,12 +71,14 @@ bool cubic_stays_above(const double c[4], double t, double floor) {
 }
 
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p) {
-  return parallel_min(static_cast<std::size_t>(tets.rows()), [&](std::size_t i) {
+  const double limit = parallel_min(static_cast<std::size_t>(tets.rows()), [&](std::size_t i) {
     const auto c = volume_cubic(x, p, tets.row(static_cast<Eigen::Index>(i)));
     double t = 1.0;
-    while (t > 1e-12 && !cubic_stays_above(c.data(), t, 0.1 * c[0])) t *= 0.75;
+    while (t > kSmallestStep && !cubic_stays_above(c.data(), t, 0.1 * c[0])) t *= 0.75;
     return t;
   });
+  if (limit <= kSmallestStep) throw SolverError("a tetrahedron is too flat to certify any step");
+  return limit;
 }
 
 }  // namespace tacipc

@@ -20,6 +20,7 @@ double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions
                           const GapRule& rule);
 
 /// A t in (0, 1] such that every tetrahedron keeps at least a tenth of its present volume on all of [0, t].
+/// \throw SolverError if there is none above 1e-12.
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p);
 
 /// Whether the cubic c0 + c1 t + c2 t² + c3 t³ stays above `floor` on [0, t], by its Bernstein coefficients there: a

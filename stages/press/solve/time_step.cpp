@@ -127,6 +127,7 @@ StepReport TimeStepper::advance(Positions& x, Positions& velocity, const Positio
 
   while (true) {
     if (report.newton_iterations >= settings_.max_iterations) {
+      report.contact_force_n = contact_forces(x).colwise().sum().norm();
       throw SolverError(
           "Newton did not converge within {} iterations (step {:.2e} m/s > {:.2e}, residual force {:.2e} N of {:.3e} "
           "N, smallest gap {:.2e} m)",
