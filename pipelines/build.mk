@@ -1,6 +1,6 @@
 # Packages, build and tests.
 
-.PHONY: packages build check check-slow clean
+.PHONY: packages build build-all check check-slow clean
 
 packages: ## Install the Debian packages of packages.txt that are missing (PACKAGES=no: only say which)
 	@command -v dpkg-query >/dev/null || { echo "packages: not a Debian system; packages.txt lists what the build needs"; exit 0; }; \
@@ -22,13 +22,15 @@ $(BUILD)/build.ninja: | packages
 build: $(BUILD)/build.ninja ## Build all stages
 	@cmake --build $(BUILD) --target stages -j $(JOBS) -- --quiet
 
-check: $(BUILD)/build.ninja ## Build and run the tests (under 15 minutes)
+build-all: build # one after the other: two builds in one folder would trip over each other
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+
+check: build-all ## Build and run the tests (under 15 minutes)
 	ctest --test-dir $(BUILD) -LE slow -j $(JOBS) --output-on-failure --no-tests=error
 
-check-slow: $(BUILD)/build.ninja ## Build and run the long tests
-	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+check-slow: build-all ## Build and run the long tests
 	ctest --test-dir $(BUILD) -L slow -j $(JOBS) --output-on-failure --no-tests=error
 
 clean: ## Remove the build folder (generated data stay)
+	$(if $(filter-out clean,$(MAKECMDGOALS)),$(error clean goes alone))
 	rm -rf $(BUILD)

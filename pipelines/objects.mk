@@ -10,6 +10,12 @@ PRINTED_OBJECTS := $(wildcard $(SHARED)/data/printed_indenters/*.stl)
 TABLE_FILES := $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)
 PAPER_GEL_OBJECTS := Bear_8028 Wave_8134 board3 coin_5002 dragon_01 sphere cone dots triangle parallel_lines
 
+ifneq ($(filter objects-table,$(MAKECMDGOALS)),)
+ifneq ($(words $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)),22)
+  $(error SHARED: $(SHARED) lacks some of the 22 meshes of data/tacipc_release/objects and data/printed_indenters)
+endif
+endif
+
 name_of = $(basename $(notdir $(1)))
 
 # $(call table_object,file): decimated as every object is, the relief side pressing.
@@ -35,6 +41,5 @@ $(TABLE)/objects.md: $(addsuffix /press/press.yaml,$(TABLE_SAMPLES)) pipelines/o
 
 .PHONY: objects-table
 objects-table: $(TABLE)/objects.md $(TABLE)/report/report.yaml ## Real objects of SHARED into our gel and the paper's; writes objects.md (an hour)
-	$(if $(TABLE_FILES),,$(error SHARED: $(SHARED) has no data/tacipc_release or data/printed_indenters))
 	@cat $(TABLE)/objects.md
 	$(call look,$(TABLE))

@@ -14,9 +14,8 @@ $(foreach v,SENSOR MESH DEPTH_MM STEPS UNIT UP FACE ROTATE CENTER NAME,$(eval ov
 
 .PHONY: sample FORCE
 ifdef OBJECT
-ifneq ($(words $(OBJECT)),1)
-  $(error OBJECT: '$(OBJECT)' has a space in it, which make cannot handle; rename or link the file)
-endif
+$(call check_name,OBJECT)
+$(call check_name,NAME)
 ifeq ($(wildcard $(OBJECT)),)
   $(error OBJECT: $(OBJECT) does not exist)
 endif
@@ -40,6 +39,8 @@ define object_yaml
 unit: $(UNIT)
 $(if $(UP),up: "$(UP)")
 endef
+# Which files are meant: another object, sensor or mesh under the same name must redo the sample however old its files are.
+choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH)}
 replace_if_changed = @mkdir -p $(@D); printf '%s\n' '$(subst $(newline),' ',$(1))' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 define newline
 
@@ -49,9 +50,11 @@ $(SAMPLE)/sample.yaml: FORCE
 	$(call replace_if_changed,$(sample_yaml))
 $(SAMPLE)/object.yaml: FORCE
 	$(call replace_if_changed,$(object_yaml))
-$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml configs/decimate/default.yaml | build
+$(SAMPLE)/choice.txt: FORCE
+	$(call replace_if_changed,$(choice_yaml))
+$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt configs/decimate/default.yaml | build
 	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config configs/decimate/default.yaml)
-$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(SAMPLE)/sample.yaml))
+$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(SAMPLE)/sample.yaml,$(SAMPLE)/choice.txt))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
 sample: $(SAMPLE)/report/report.yaml ## One object of your own: OBJECT=path.stl [SENSOR MESH DEPTH_MM STEPS UNIT UP FACE ROTATE CENTER NAME]

@@ -14,18 +14,21 @@ endef
 $(foreach s,$(SENSORS),$(foreach m,$(filter-out import_%,$(MESHES)),$(eval $(call gel_rule,$(s),$(m)))))
 
 # Embossed objects: $(OUT)/emboss/<pattern>/object.ply, then decimated in $(OUT)/objects/<pattern>
-$(OUT)/emboss/%/emboss.yaml: configs/emboss/%.yaml | build
+# (a picture that a pattern names lies beside its YAML)
+$(OUT)/emboss/%/emboss.yaml: configs/emboss/%.yaml $(wildcard configs/emboss/*.png) | build
 	$(call run,emboss,--config $<)
 
 $(OUT)/objects/%/decimate.yaml: $(OUT)/emboss/%/emboss.yaml configs/objects/embossed.yaml configs/decimate/default.yaml | build
 	$(call run,decimate,--mesh $(OUT)/emboss/$*/object.ply --object configs/objects/embossed.yaml --config configs/decimate/default.yaml)
 
-# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml)
+REFERENCES := $(wildcard configs/sensors/*.png)# photographs that sensors name
+
+# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml[,further prerequisite])
 define sample_rules
-$(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml configs/press/paper.yaml $(7) | build
+$(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml configs/press/paper.yaml $(7) $(8) | build
 	$$(call run,press,--name $(2) --object $(3)/object.ply --object-config $(4) --gel $$(OUT)/gels/$(5)-$(6)/gel.msh \
 	  --sensor configs/sensors/$(5).yaml --config configs/press/paper.yaml --sample $(7))
-$(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(5).yaml configs/render/default.yaml | build
+$(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(5).yaml configs/render/default.yaml $$(REFERENCES) | build
 	$$(call run,render,--press $(1)/press --gel $$(OUT)/gels/$(5)-$(6)/gel.msh --sensor configs/sensors/$(5).yaml --config configs/render/default.yaml)
 endef
 
@@ -34,6 +37,13 @@ define report_rules
 $(1)/report/report.yaml: $(addsuffix /render/render.yaml,$(3)) | build
 	$$(call run,report,--title "$(2)" $(addprefix --sample ,$(3)))
 endef
+
+# What of a dataset there is, failures and their reasons included: the page that make cannot make while a sample fails.
+.PHONY: page
+page: | build ## Page over all samples of a dataset, failed ones too: DATASET=demo (after make -k)
+	$(if $(DATASET),,$(error page: say which, for instance DATASET=demo))
+	$(BIN)/report --out $(OUT)/$(DATASET)/report --title "$(DATASET)" $(addprefix --sample ,$(patsubst %/press/,%,$(wildcard $(OUT)/$(DATASET)/*/press/)))
+	$(call look,$(OUT)/$(DATASET))
 
 # Where to look, said when a goal is done.
 look = @echo; echo "Look at $(1)/report/index.html and $(1)/report/contact_sheet.png"

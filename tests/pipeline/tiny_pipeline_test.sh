@@ -22,4 +22,25 @@ tiny_sample one
 changed=$(comm -13 <(echo "$before") <(stamp) | cut -d' ' -f1 | xargs -n1 basename | sort | tr '\n' ' ')
 [ "$changed" = "render.yaml report.yaml " ] || fail "touching the render configuration redid: $changed"
 same_files one two
+
+# Another mesh or another, older file under the same name is another sample.
+cp pyramid.stl flatter.stl
+sed -i 's/ 2$/ 1.5/' flatter.stl
+touch -d '2001-01-01' flatter.stl
+tiny_sample one OBJECT=flatter.stl NAME=pyramid
+cmp -s {one,two}/sample/pyramid/object/object.ply && fail "another object changed nothing"
+tiny_sample one
+same_files one two
+
+# Embossed objects: touching the decimation's configuration leaves the embossing alone.
+sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/star.yaml
+emboss_star() { make -s -f Makefile.data "$PWD/e/objects/star/decimate.yaml" OUT="$PWD/e" BUILD="$build_dir" PACKAGES=no; }
+emboss_star
+[ -s e/emboss/star/emboss.yaml ] || fail "the record of the embossing is gone"
+before=$(find e -name '*.yaml' -printf '%f %T@\n' | sort)
+sleep 1.1
+touch configs/decimate/default.yaml
+emboss_star
+changed=$(comm -13 <(echo "$before") <(find e -name '*.yaml' -printf '%f %T@\n' | sort) | cut -d' ' -f1 | tr '\n' ' ')
+[ "$changed" = "decimate.yaml " ] || fail "touching the decimation's configuration redid: $changed"
 echo "1 passed, 0 failed"

@@ -62,9 +62,15 @@ fi
 limited() { (ulimit -f 8; "$@"); }
 refuses 1 'cannot be written' g/tetmesh.yaml limited "$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/tetmesh/tiny.yaml --out g
 refuses 1 'cannot be written' p/press.yaml limited press configs/sensors/mctac.yaml gel/gel.msh
+sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/star.yaml
 refuses 1 'cannot be written' e/emboss.yaml limited "$bin/emboss" --config configs/emboss/star.yaml --out e
 press configs/sensors/mctac.yaml gel/gel.msh ready off
 refuses 1 'cannot be written' r/render.yaml limited "$bin/render" --config configs/render/default.yaml --sensor configs/sensors/mctac.yaml --gel gel/gel.msh --press ready --out r
+
+"$bin/emboss" --config configs/emboss/star.yaml --out fine --log-level off
+echo 'unit: m' > configs/objects/metres.yaml
+refuses 1 'cannot be written' d/decimate.yaml limited "$bin/decimate" --mesh fine/object.ply --object configs/objects/metres.yaml --config configs/decimate/default.yaml --out d
+refuses 1 '/proc/tacipc' /proc/tacipc/press.yaml press configs/sensors/mctac.yaml gel/gel.msh /proc/tacipc
 
 make_refuses() { # make_refuses 'MESSAGE PART' VARIABLE=value…
   local message=$1
@@ -76,5 +82,8 @@ make_refuses() { # make_refuses 'MESSAGE PART' VARIABLE=value…
 make_refuses 'say which object'
 make_refuses 'no_such.stl does not exist' OBJECT=no_such.stl
 make_refuses 'there is no configs/sensors/digi.yaml' OBJECT=pyramid.stl SENSOR=digi
+make_refuses "OBJECT: 'a(1).stl' has characters" 'OBJECT=a(1).stl'
+make_refuses "OBJECT: 'b&c.stl' has characters" 'OBJECT=b&c.stl'
+make_refuses "NAME: 'my part' has characters" OBJECT=pyramid.stl 'NAME=my part'
 make_refuses "'up' is not one of" OBJECT=pyramid.stl MESH=tiny FACE=up
 echo "$count passed, 0 failed"
