@@ -11,7 +11,7 @@ for gel in own paper; do
   for record in "$folder/$gel"/*/press/press.yaml; do
     sample=$(basename "$(dirname "$(dirname "$record")")")
     log=${record%.yaml}.log
-    vertices=$(head -c 400 "$folder/objects/$sample/object.ply" | sed -an 's/^element vertex //p' | head -n 1)
+    vertices=$(head -c 400 "$folder/objects/$sample/object.ply" | LC_ALL=C sed -n 's/^element vertex //p' | head -n 1)
     printf '| %s | %s | %s | %.3f | %.3f | %.3f | %s | %.0f | %s |\n' "$sample" "$vertices" \
       "$(in_summary newton_iterations "$record")" "$(in_summary press_force_n "$record")" \
       "$(awk -v d="$(in_summary min_distance_m "$record")" 'BEGIN { print 1e6 * d }')" "$(in_summary min_volume_ratio "$record")" \
