@@ -138,5 +138,41 @@ TEST(Assemble, HessianIsTheGradientsDerivativeAndCouplingThatOfPrescribedMotion)
   EXPECT_LT((difference - exact).norm(), 1e-8 * exact.norm());
 }
 
+/// Two tetrahedra of one gel that share nothing, the tip of the second above the front of the first.
+TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
+  const Positions rest{{0, 0, 0},     {1, 0, 0},     {0, 1, 0},     {0.2, 0.2, -1},
+                       {0.3, 0.3, 1}, {0.8, 0.3, 2}, {0.3, 0.8, 2}, {0.1, 0.1, 2}};
+  const Tetrahedra tets{{0, 2, 1, 3}, {4, 5, 6, 7}};
+  const FreeVertices free(8, std::vector<bool>(8, false));
+  ContactMesh mesh;
+  mesh.num_gel_vertices = 8;
+  mesh.rest_positions = rest;
+  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {4, 0, 1, 2}}}, 0.4);
+  const auto pattern = mesh_pattern(free, tets);
+  EXPECT_EQ(pattern->find(4, 0), -1);
+  EXPECT_EQ(cover_contacts(pattern, free, barrier, rest), pattern);
+
+  Positions x = rest;
+  x.bottomRows(4).col(2).array() -= 0.8;  // the tip is 0.2 above the face now
+  const auto covered = cover_contacts(pattern, free, barrier, x);
+  for (const int corner : {0, 1, 2}) EXPECT_GE(covered->find(4, corner), 0);
+  EXPECT_EQ(covered->num_blocks(), pattern->num_blocks() + 3);
+  EXPECT_EQ(cover_contacts(covered, free, barrier, x), covered);
+
+  // The extended system solves as dense algebra does, and a new pattern is analysed anew.
+  NewtonSystem system = empty_system(free, covered);
+  assemble({1.0, std::make_shared<ContactBarrier>(barrier)}, x, free, Order::psd, Positions::Zero(8, 3), system);
+  for (int v = 0; v < 8; ++v) system.hessian.block(covered->find(v, v)) += Matrix3::Identity();
+  EXPECT_GT(system.gradient.norm(), 0.0);
+  CholmodSolver solver;
+  BlockMatrix identity(pattern);
+  for (int v = 0; v < 8; ++v) identity.block(pattern->find(v, v)) = Matrix3::Identity();
+  ASSERT_TRUE(solver.factorize(identity));
+  ASSERT_TRUE(solver.factorize(system.hessian));
+  EXPECT_EQ(solver.num_analyses(), 2);
+  EXPECT_LT((solver.solve(system.gradient) - dense(system.hessian).ldlt().solve(system.gradient)).norm(),
+            1e-12 * system.gradient.norm());
+}
+
 }  // namespace
 }  // namespace tacipc
