@@ -61,12 +61,12 @@ Simulation simulate(const Sensor& sensor, const TetMesh& gel, const TriangleMesh
                               .relative_force_tolerance = config.relative_force_tolerance,
                               .force_tolerance_n = config.force_tolerance_n,
                               .max_iterations = config.max_newton_iterations};
-  TimeStepper stepper(mesh, make_gel_model(sensor, gel, mesh.num_vertices()), config.time_step_s, out.d_hat_m,
-                      config.barrier_stiffness, newton);
+  GelModel model = make_gel_model(sensor, gel, mesh.num_vertices());
+  const auto elasticity = model.elasticity;
+  TimeStepper stepper(mesh, std::move(model), config.time_step_s, out.d_hat_m, config.barrier_stiffness, newton);
 
   Positions x = mesh.rest_positions;
   Positions velocity = Positions::Zero(gel.num_vertices(), 3);
-  const auto& rest = make_rest_tets(gel.positions, gel.tets);
   const auto save = [&](int index, const Positions& object_positions, const StepReport& report) {
     Frame frame;
     frame.positions = x.topRows(gel.num_vertices());
@@ -79,7 +79,7 @@ Simulation simulate(const Sensor& sensor, const TetMesh& gel, const TriangleMesh
     }
     frame.mount_force_n = stepper.mount_forces(x).colwise().sum();
     frame.min_gap_m = stepper.smallest_gap(x, out.gap_horizon_m);
-    frame.min_volume_ratio = min_volume_ratio(frame.positions, gel.tets, rest);
+    frame.min_volume_ratio = min_volume_ratio(frame.positions, gel.tets, elasticity->rest());
     frame.solver = report;
     check_frame(index, gel, frame.positions, object, object_positions);
     log_info("frame {}/{}: force {:.4f} N, {} Newton iterations, smallest gap {:.3g} um, smallest volume ratio {:.3f}",
