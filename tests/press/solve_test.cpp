@@ -119,7 +119,7 @@ TEST(Assemble, HessianIsTheGradientsDerivativeAndCouplingThatOfPrescribedMotion)
   x(1, 1) = 0.1;
   Positions motion = Positions::Zero(5, 3);
   motion.row(0) << 0.3, -0.2, 0.5;
-  const auto pattern = mesh_pattern(free, tets);
+  const auto pattern = mesh_pattern(free, *elasticity);
   const auto at = [&](const Positions& y) {
     NewtonSystem system = empty_system(free, pattern);
     for (const WeightedTerm& term : potential.terms) assemble(term, y, free, Order::hessian, motion, system);
@@ -148,7 +148,7 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   mesh.num_gel_vertices = 8;
   mesh.rest_positions = rest;
   const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {4, 0, 1, 2}}}, 0.4);
-  const auto pattern = mesh_pattern(free, tets);
+  const auto pattern = mesh_pattern(free, Elasticity(rest, tets, NeoHookean{2.0, 3.0}));
   EXPECT_EQ(pattern->find(4, 0), -1);
   EXPECT_EQ(cover_contacts(pattern, free, barrier, rest), pattern);
 

@@ -9,13 +9,15 @@
 namespace tacipc {
 namespace {
 
-FourPoints unpack(const Vector12& x) { return {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)}; }
+FourPoints unpack(const Eigen::VectorXd& x) {
+  return {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
+}
 
 /// Positive semi-definite stand-in for ∂²b(s(x)) without eigenvalues. With r = Σ wᵢxᵢ, n = r/|r|, s = |r|²:
 ///   ∂²b = b″ ∇s∇sᵀ + b′ ∇²s,  ∇sᵢ = 2wᵢr,  ∇²s = 2[wwᵀ⊗I − B(AᵀA)⁻¹Bᵀ],  b′ < 0.
 /// Along n it is [(4 s b″ + 2b′) wwᵀ + 2|b′| s W(AᵀA)⁻¹Wᵀ] ⊗ nnᵀ, both parts positive; only the indefinite coupling of
 /// normal and tangential directions is left out.
-void normal_hessian(const ClosestFeature& feature, double b1, double b2, Matrix12& out) {
+void normal_hessian(const ClosestFeature& feature, double b1, double b2, Eigen::Map<Matrix12> out) {
   const double s = feature.squared_distance;
   const Vector3 n = feature.r / std::sqrt(s);
   const Eigen::Matrix4d C = (4.0 * s * b2 + 2.0 * b1) * feature.weights * feature.weights.transpose() -
@@ -40,7 +42,7 @@ ContactBarrier::ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair>
   }
 }
 
-void ContactBarrier::evaluate(int i, const Vector12& x, Order order, Local& out) const {
+void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
   const FourPoints points = unpack(x);
   const ClosestFeature feature = closest_feature(pairs_[i], points);
   const double s = feature.squared_distance, s_hat = s_hat_[i];
@@ -49,6 +51,7 @@ void ContactBarrier::evaluate(int i, const Vector12& x, Order order, Local& out)
   if (out.zero) return;
   out.value = barrier(s, s_hat);
   if (!std::isfinite(out.value)) return;
+  out.fit(4, order);
 
   const double threshold = mollifier_threshold_[i];
   const bool mollified = threshold > 0.0 && edge_cross_squared_norm(points) < threshold;
@@ -59,7 +62,7 @@ void ContactBarrier::evaluate(int i, const Vector12& x, Order order, Local& out)
     out.gradient = b1 * ds;
     if (order == Order::gradient) return;
     if (order == Order::psd) {
-      normal_hessian(feature, b1, b2, out.hessian);
+      normal_hessian(feature, b1, b2, Eigen::Map<Matrix12>(out.hessian.data()));
     } else {
       out.hessian = b2 * ds * ds.transpose() + b1 * squared_distance_hessian(feature);
     }
@@ -75,9 +78,10 @@ void ContactBarrier::evaluate(int i, const Vector12& x, Order order, Local& out)
   out.gradient = m.value * b1 * ds + b * m.gradient;
   if (order == Order::gradient) return;
   // All four parts of the product's second derivative: without those of m, Newton crawls where edges run parallel.
-  out.hessian = m.value * (b2 * ds * ds.transpose() + b1 * squared_distance_hessian(feature)) +
-                b1 * (ds * m.gradient.transpose() + m.gradient * ds.transpose()) + b * m.hessian;
-  if (order == Order::psd) project_psd(out.hessian);
+  Matrix12 hessian = m.value * (b2 * ds * ds.transpose() + b1 * squared_distance_hessian(feature)) +
+                     b1 * (ds * m.gradient.transpose() + m.gradient * ds.transpose()) + b * m.hessian;
+  if (order == Order::psd) project_psd(hessian);
+  out.hessian = hessian;
 }
 
 }  // namespace tacipc

@@ -19,7 +19,7 @@ class ContactBarrier final : public EnergyTerm {
   std::string_view name() const override { return "barrier"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
-  void evaluate(int i, const Vector12& x, Order order, Local& out) const override;
+  void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 

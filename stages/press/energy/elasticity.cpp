@@ -38,7 +38,7 @@ std::vector<RestTet> make_rest_tets(const Positions& rest, const Tetrahedra& tet
 Elasticity::Elasticity(const Positions& rest, const Tetrahedra& tets, NeoHookean material)
     : tets_(tets), rest_(make_rest_tets(rest, tets)), material_(material) {}
 
-void Elasticity::evaluate(int i, const Vector12& x, Order order, Local& out) const {
+void Elasticity::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
   const RestTet& tet = rest_[i];
   const auto& b = tet.shape_gradients;
   const double V = tet.volume_m3, mu = material_.mu_pa, lambda = material_.lambda_pa;
@@ -54,6 +54,7 @@ void Elasticity::evaluate(int i, const Vector12& x, Order order, Local& out) con
   const Matrix3 D = F - Matrix3::Identity();
   out.value = V * (0.5 * mu * (D.squaredNorm() + 2.0 * D.trace()) - mu * log_J + 0.5 * lambda * log_J * log_J);
   if (order == Order::value) return;
+  out.fit(4, order);
 
   const double a = mu - lambda * log_J;
   const Eigen::Matrix<double, 3, 4> g = F.inverse().transpose() * b;  // gᵢ = F⁻ᵀ ∇Nᵢ
@@ -61,10 +62,11 @@ void Elasticity::evaluate(int i, const Vector12& x, Order order, Local& out) con
   if (order == Order::gradient) return;
 
   // ∂²/∂xᵢ∂xⱼ = V [μ (bᵢ·bⱼ) I + a gⱼ gᵢᵀ + λ gᵢ gⱼᵀ], from δP of neo_hookean.h with δF = δxⱼ bⱼᵀ.
+  Eigen::Map<Matrix12> hessian(out.hessian.data());
   const Eigen::Matrix4d gram = V * mu * (b.transpose() * b);
   for (int j = 0; j < 4; ++j) {
     for (int k = 0; k < 4; ++k) {
-      auto block = out.hessian.block<3, 3>(3 * k, 3 * j);
+      auto block = hessian.block<3, 3>(3 * k, 3 * j);
       block = V * (a * g.col(j) * g.col(k).transpose() + lambda * g.col(k) * g.col(j).transpose());
       block.diagonal().array() += gram(k, j);
     }
@@ -76,7 +78,7 @@ void Elasticity::evaluate(int i, const Vector12& x, Order order, Local& out) con
   for (int m = 0; m < count; ++m) {
     const Eigen::Matrix<double, 3, 4> q = modes[m].Q * b;
     const Eigen::Map<const Vector12> direction(q.data());
-    out.hessian.noalias() -= V * modes[m].value * direction * direction.transpose();
+    hessian.noalias() -= V * modes[m].value * direction * direction.transpose();
   }
 }
 

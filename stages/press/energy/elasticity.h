@@ -25,7 +25,7 @@ class Elasticity final : public EnergyTerm {
   std::string_view name() const override { return "elasticity"; }
   int num_stencils() const override { return static_cast<int>(tets_.rows()); }
   std::span<const int> stencil(int i) const override { return {&tets_(i, 0), 4}; }
-  void evaluate(int i, const Vector12& x, Order order, Local& out) const override;
+  void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
 
   const std::vector<RestTet>& rest() const { return rest_; }
 

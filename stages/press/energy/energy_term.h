@@ -1,4 +1,4 @@
-// What every energy looks like: a list of stencils of up to four vertices and one local function.
+// What every energy looks like: a list of stencils, each of a few vertices, and one local function.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,20 @@ namespace tacipc {
 /// step a descent direction; `hessian` for the exact one.
 enum class Order { value, gradient, hessian, psd };
 
-/// Value and derivatives over the stencil's coordinates, first vertex first; entries beyond 3 × #vertices are not set.
+/// Value and derivatives over the stencil's coordinates, first vertex first. What `order` does not ask for, or what a
+/// zero or infinite value makes meaningless, is left as it was.
 struct Local {
   double value = 0.0;
-  Vector12 gradient;
-  Matrix12 hessian;
-  bool zero = false;  // nothing to add: value, gradient and Hessian all vanish
+  Eigen::VectorXd gradient;  // 3 × #vertices
+  Eigen::MatrixXd hessian;   // 3 × #vertices squared
+  bool zero = false;         // nothing to add: value, gradient and Hessian all vanish
+
+  /// Makes room for what `order` asks for; storage that fits already is kept, so that a Local used again and again for
+  /// stencils of one size allocates once.
+  void fit(Eigen::Index num_vertices, Order order) {
+    if (order >= Order::gradient) gradient.resize(3 * num_vertices);
+    if (order >= Order::hessian) hessian.resize(3 * num_vertices, 3 * num_vertices);
+  }
 };
 
 /// Immutable sum Σᵢ eᵢ over stencils. Terms know neither time step nor weights.
@@ -28,9 +36,8 @@ class EnergyTerm {
   virtual std::string_view name() const = 0;
   virtual int num_stencils() const = 0;
   virtual std::span<const int> stencil(int i) const = 0;
-  /// Evaluates stencil i at its vertices' coordinates `x` (first 3 × #vertices used). A value of +∞ means x is not
-  /// allowed.
-  virtual void evaluate(int i, const Vector12& x, Order order, Local& out) const = 0;
+  /// Evaluates stencil i at its vertices' coordinates `x` (3 × #vertices). A value of +∞ means x is not allowed.
+  virtual void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const = 0;
 };
 
 /// Nearest positive semi-definite matrix (negative eigenvalues set to zero), in place.

@@ -16,7 +16,7 @@ double sum(const EnergyTerm& term, const Positions& x) {
   tbb::parallel_for(std::size_t{0}, partial.size(), [&](std::size_t chunk) {
     const int first = static_cast<int>(chunk) * kChunk;
     Local local;
-    Vector12 local_x;
+    Eigen::VectorXd local_x;
     double value = 0.0;
     for (int i = first; i < std::min(count, first + kChunk); ++i) {
       gather(x, term.stencil(i), local_x);

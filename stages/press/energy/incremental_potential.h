@@ -27,8 +27,9 @@ IncrementalPotential make_incremental_potential(double h_s, double kappa, std::s
                                                 std::shared_ptr<const Elasticity> elasticity,
                                                 std::shared_ptr<const ContactBarrier> barrier);
 
-/// Coordinates of a stencil's vertices.
-inline void gather(const Positions& x, std::span<const int> stencil, Vector12& out) {
+/// Coordinates of a stencil's vertices, 3 each.
+inline void gather(const Positions& x, std::span<const int> stencil, Eigen::VectorXd& out) {
+  out.resize(3 * static_cast<Eigen::Index>(stencil.size()));
   for (std::size_t k = 0; k < stencil.size(); ++k) out.segment<3>(3 * static_cast<Eigen::Index>(k)) = x.row(stencil[k]);
 }
 

@@ -20,11 +20,12 @@ class Inertia final : public EnergyTerm {
   std::string_view name() const override { return "inertia"; }
   int num_stencils() const override { return static_cast<int>(vertex_.size()); }
   std::span<const int> stencil(int i) const override { return {&vertex_[i], 1}; }
-  void evaluate(int i, const Vector12& x, Order order, Local& out) const override {
+  void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override {
     const Vector3 r = x.head<3>() - x_hat_m_.row(i).transpose();
     out.zero = false;
     out.value = 0.5 * mass_kg_[i] * r.squaredNorm();
     if (order == Order::value) return;
+    out.fit(1, order);
     out.gradient.head<3>() = mass_kg_[i] * r;
     if (order == Order::gradient) return;
     out.hessian.topLeftCorner<3, 3>() = mass_kg_[i] * Matrix3::Identity();

@@ -17,7 +17,7 @@ void for_each_local(const EnergyTerm& term, const Positions& x, Order order, Sca
   for (int first = 0; first < count; first += kChunk) {
     const int size = std::min(kChunk, count - first);
     tbb::parallel_for(tbb::blocked_range<int>(0, size, 32), [&](const auto& range) {
-      Vector12 local_x;
+      Eigen::VectorXd local_x;
       for (int k = range.begin(); k < range.end(); ++k) {
         gather(x, term.stencil(first + k), local_x);
         term.evaluate(first + k, local_x, order, locals[k]);
@@ -31,12 +31,13 @@ void for_each_local(const EnergyTerm& term, const Positions& x, Order order, Sca
 
 }  // namespace
 
-std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const Tetrahedra& tets) {
+std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const EnergyTerm& term) {
   std::vector<std::array<int, 2>> pairs;
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < i; ++j) {
-        const int a = free.free_of_vertex[tets(t, i)], b = free.free_of_vertex[tets(t, j)];
+  for (int s = 0; s < term.num_stencils(); ++s) {
+    const std::span<const int> stencil = term.stencil(s);
+    for (std::size_t i = 0; i < stencil.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const int a = free.free_of_vertex[stencil[i]], b = free.free_of_vertex[stencil[j]];
         if (a >= 0 && b >= 0) pairs.push_back({a, b});
       }
     }
@@ -49,7 +50,7 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
                                                    const Positions& x) {
   std::vector<std::array<int, 2>> missing;
   Local local;
-  Vector12 local_x;
+  Eigen::VectorXd local_x;
   for (int i = 0; i < barrier.num_stencils(); ++i) {
     const auto stencil = barrier.stencil(i);
     bool covered = true;

@@ -16,9 +16,9 @@ struct NewtonSystem {
   Eigen::VectorXd coupling;  // H_c d: columns of the prescribed vertices times their motion
 };
 
-/// Pattern of a mesh's own Hessian: all vertex pairs that share a tetrahedron, which also covers every contact of the
-/// gel with a prescribed object.
-std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const Tetrahedra& tets);
+/// Pattern of the Hessian of a term over all tetrahedra: all vertex pairs that share a stencil, which also covers every
+/// contact of the gel with a prescribed object.
+std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const EnergyTerm& term);
 
 /// The pattern, or a larger one if pairs of the terms that are active at x couple vertices it does not (gel against
 /// gel).

@@ -53,7 +53,7 @@ TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, double h_s, doub
       kappa_(kappa),
       settings_(settings),
       search_(mesh),
-      pattern_(mesh_pattern(gel_.free, gel_.tets)) {}
+      pattern_(mesh_pattern(gel_.free, *gel_.elasticity)) {}
 
 IncrementalPotential TimeStepper::potential(const Positions& x_hat, std::vector<ContactPair> pairs) const {
   return make_incremental_potential(h_s_, kappa_, std::make_shared<Inertia>(gel_.mass_kg, x_hat), gel_.elasticity,
