@@ -82,13 +82,13 @@ std::vector<double> from_fortran(const std::vector<double>& source, const std::v
   return target;
 }
 
-}  // namespace
-
-void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const double* data) {
+/// `data` holds the values as they lie in memory, `each` bytes long.
+void write_array(const std::filesystem::path& path, const std::vector<std::size_t>& shape, std::string_view type,
+                 const void* data, std::size_t each) {
   static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
   const std::optional<std::size_t> count = volume(shape);
   if (!count) throw DataError("{}: shape {} is too large", path.string(), shape_text(shape));
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape_text(shape) + ", }";
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape_text(shape));
   // Magic, version, header length and header together fill whole blocks, so that the data is aligned.
   const std::size_t before = kMagic.size() + 4;
   header.append(kAlignment - (before + header.size() + 1) % kAlignment, ' ');
@@ -97,8 +97,22 @@ void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>
   std::string bytes(kMagic);
   bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff), static_cast<char>(header.size() >> 8)};
   bytes += header;
-  bytes.append(reinterpret_cast<const char*>(data), *count * sizeof(double));
+  bytes.append(static_cast<const char*>(data), *count * each);
   write_file(path, bytes);
+}
+
+}  // namespace
+
+void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const double* data) {
+  write_array(path, shape, "<f8", data, sizeof *data);
+}
+
+void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::int32_t* data) {
+  write_array(path, shape, "<i4", data, sizeof *data);
+}
+
+void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::uint8_t* data) {
+  write_array(path, shape, "|u1", data, sizeof *data);
 }
 
 NpyArray read_npy(const std::filesystem::path& path) {

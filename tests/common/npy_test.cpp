@@ -32,6 +32,26 @@ TEST(Npy, ComesBackBitByBitAndAligned) {
   }
 }
 
+TEST(Npy, WritesIntegersAndBytesUnderTheirOwnType) {
+  const ScratchFolder scratch;
+  const std::vector<std::int32_t> numbers{0, -1, 2147483647, -2147483648, 7, 8};
+  write_npy(scratch / "i.npy", {3, 2}, numbers.data());
+  const NpyArray integers = read_npy(scratch / "i.npy");
+  EXPECT_EQ(integers.shape, (std::vector<std::size_t>{3, 2}));
+  EXPECT_EQ(integers.data, std::vector<double>(numbers.begin(), numbers.end()));
+  const std::string integer_bytes = read_file(scratch / "i.npy");
+  EXPECT_NE(integer_bytes.find("{'descr': '<i4', 'fortran_order': False, 'shape': (3, 2), }"), std::string::npos);
+  EXPECT_EQ((integer_bytes.size() - 4 * numbers.size()) % 64, 0u);
+
+  const std::vector<std::uint8_t> states{0, 1, 2, 255};
+  write_npy(scratch / "u.npy", {4}, states.data());
+  const NpyArray bytes = read_npy(scratch / "u.npy");
+  EXPECT_EQ(bytes.shape, (std::vector<std::size_t>{4}));
+  EXPECT_EQ(bytes.data, (std::vector<double>{0, 1, 2, 255}));
+  EXPECT_NE(read_file(scratch / "u.npy").find("{'descr': '|u1', 'fortran_order': False, 'shape': (4,), }"),
+            std::string::npos);
+}
+
 TEST(Npy, ReadsTheTypesAndOrdersThatOthersWrite) {
   const ScratchFolder scratch;
   const std::vector<double> wanted{1, 2, 3, 4, 5, 6};
