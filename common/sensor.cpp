@@ -138,6 +138,17 @@ Response Response::read(ConfigReader& in) {
           .curve = in.choice("curve", {"srgb", "linear"})};
 }
 
+MarkerGrid MarkerGrid::read(ConfigReader& in) {
+  MarkerGrid grid{.given = true};
+  grid.rows = in.integer_or("rows", grid.rows, 1, 1000);
+  grid.columns = in.integer_or("columns", grid.columns, 1, 1000);
+  grid.pitch_m = kMillimetre * in.number_or("pitch_mm", 1.0, Range::positive());
+  const auto center_mm = in.numbers_or("center_mm", {0.0, 0.0});
+  grid.center_x_m = kMillimetre * center_mm[0];
+  grid.center_y_m = kMillimetre * center_mm[1];
+  return grid;
+}
+
 Sensor Sensor::read(ConfigReader& in) {
   Sensor sensor;
   sensor.name = in.text("name");
@@ -152,6 +163,7 @@ Sensor Sensor::read(ConfigReader& in) {
   sensor.leds = Led::read_all(leds);
   ConfigReader camera = in.section("camera");
   sensor.camera = Camera::read(camera);
+  if (auto markers = in.optional_section("markers")) sensor.markers = MarkerGrid::read(*markers);
   ConfigReader response = in.section("response");
   sensor.response = Response::read(response);
   if (const auto reference = in.optional_text("reference_image")) {

@@ -75,6 +75,21 @@ struct Response {
   static Response read(ConfigReader& in);
 };
 
+/// Markers printed on the front face, in rows along x and columns along y.
+struct MarkerGrid {
+  int rows = 19;
+  int columns = 19;
+  double pitch_m = 1e-3;
+  double center_x_m = 0.0;  // of the whole grid, frame S
+  double center_y_m = 0.0;
+  bool given = false;  // the sensor file has a section `markers`: then each must lie on the front face
+
+  static MarkerGrid read(ConfigReader& in);
+  /// Marker of a row (0 at the smallest y) and a column (0 at the smallest x) on the undeformed gel, frame S.
+  double x_m(int column) const { return center_x_m + (column - 0.5 * (columns - 1)) * pitch_m; }
+  double y_m(int row) const { return center_y_m + (row - 0.5 * (rows - 1)) * pitch_m; }
+};
+
 struct Sensor {
   std::string name;
   GelShape gel;
@@ -83,6 +98,7 @@ struct Sensor {
   std::array<double, 3> ambient_rgb{};  // radiance added everywhere: the veil of internal reflections and housing
   std::vector<Led> leds;
   Camera camera;
+  MarkerGrid markers;
   Response response;
   std::optional<std::filesystem::path>
       reference_image;  // a real photograph without contact, relative to the sensor file

@@ -34,6 +34,36 @@ TEST(GelShape, DomeFrontLiesOnItsSphere) {
   }
 }
 
+TEST(MarkerGrid, DefaultsAreNineteenByNineteenAtOneMillimetre) {
+  const auto sensor = read_config<Sensor>(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
+  EXPECT_FALSE(sensor.markers.given);
+  EXPECT_EQ(sensor.markers.rows * sensor.markers.columns, 361);
+  EXPECT_DOUBLE_EQ(sensor.markers.x_m(0), -9e-3);
+  EXPECT_EQ(sensor.markers.x_m(9), 0.0);
+  EXPECT_DOUBLE_EQ(sensor.markers.y_m(18), 9e-3);
+}
+
+TEST(MarkerGrid, IsReadInMillimetresAndItsFaultsHaveAPlace) {
+  ConfigReader in = ConfigReader::from_text("{rows: 2, columns: 3, pitch_mm: 0.5, center_mm: [1, -2]}", "m.yaml");
+  const MarkerGrid grid = MarkerGrid::read(in);
+  in.finish();
+  EXPECT_TRUE(grid.given);
+  EXPECT_DOUBLE_EQ(grid.x_m(0), 0.5e-3);
+  EXPECT_DOUBLE_EQ(grid.x_m(2), 1.5e-3);
+  EXPECT_DOUBLE_EQ(grid.y_m(0), -2.25e-3);
+
+  ConfigReader odd = ConfigReader::from_text("rows: 0\npitch_mm: 0\nspacing: 1\n", "m.yaml");
+  MarkerGrid::read(odd);
+  try {
+    odd.finish();
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.faults(), ::testing::ElementsAre("m.yaml:1:7: rows: 0 is outside [1, 1000]",
+                                                       "m.yaml:2:11: pitch_mm: 0 is outside (0, inf)",
+                                                       "m.yaml:3:1: spacing: unknown key"));
+  }
+}
+
 TEST(ColorOfTemperature, MatchesTheTable) {
   const std::vector<std::pair<double, std::array<double, 3>>> table = {
       {2700, {1, .423, .100}}, {3000, {1, .484, .155}}, {3500, {1, .577, .261}},
