@@ -44,4 +44,22 @@ class SolverError : public std::runtime_error {
       : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
 };
 
+/// A number of a frame that misses its limit, both in the unit that the check's name stands for.
+struct Miss {
+  int frame = 0;
+  std::string check;
+  double value = 0.0;
+  double limit = 0.0;
+};
+
+/// A frame was solved but does not pass its checks (exit 1); the failure file repeats the numbers.
+class VerdictError : public SolverError {
+ public:
+  VerdictError(Miss miss, const std::string& message) : SolverError(message), miss_(std::move(miss)) {}
+  const Miss& miss() const { return miss_; }
+
+ private:
+  Miss miss_;
+};
+
 }  // namespace tacipc

@@ -1,21 +1,11 @@
 #include "common/stage.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
-#include <sys/resource.h>
-#include <tbb/global_control.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <cerrno>
-#include <chrono>
-#include <csignal>
-#include <cstring>
 #include <new>
 #include <system_error>
-#include <thread>
 
+#include "common/checked_file.h"
 #include "common/error.h"
 #include "common/files.h"
 #include "common/log.h"
@@ -23,6 +13,11 @@
 namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
+
+// Hidden, so that no output can have their names.
+constexpr const char* kScratchFolder = ".scratch";
+constexpr const char* kResumeKey = ".resume-key";
+constexpr const char* kInputChanged = "an input changed while the stage ran; run it again";
 
 const char* instruction_set() {
   __builtin_cpu_init();
@@ -37,31 +32,21 @@ void remove_quietly(const fs::path& path) {
   fs::remove_all(path, ignored);
 }
 
+/// Leaves what a later run may resume from.
+void remove_unfinished_outputs(const fs::path& partial) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(partial, ignored)) {
+    if (entry.path().filename() != kScratchFolder && entry.path().filename() != kResumeKey)
+      remove_quietly(entry.path());
+  }
+}
+
 /// As seen from the output folder, so that a moved or second copy of everything gives the same record.
 std::string relative_to(const fs::path& path, const fs::path& folder) {
   std::error_code error;
   const fs::path relative = fs::proximate(path, folder, error);
   return (error ? path : relative).generic_string();
 }
-
-/// Keeps two processes from writing one folder: a stage whose make was killed may still run when the next begins.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& path) : file_(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
-    if (file_ < 0) throw DataError("{}: cannot be written: {}", path.string(), std::strerror(errno));
-    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-    log_info("waiting for another run that writes to {}", path.parent_path().string());
-    while (::flock(file_, LOCK_EX) != 0) {
-      if (errno != EINTR) throw DataError("{}: cannot be locked: {}", path.string(), std::strerror(errno));
-    }
-  }
-  ~FolderLock() { ::close(file_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_;
-};
 
 }  // namespace
 
@@ -89,6 +74,18 @@ fs::path Stage::output(const std::string& name) {
   return path;
 }
 
+fs::path Stage::scratch(const std::string& name) const { return partial_ / kScratchFolder / name; }
+
+void Stage::save_scratch(const std::string& name, std::string_view bytes) {
+  if (!scratch_belongs_to_inputs_ && inputs_changed()) throw DataError(kInputChanged);
+  scratch_belongs_to_inputs_ = true;
+  write_checked_file(scratch(name), bytes);
+}
+
+std::optional<std::string> Stage::load_scratch(const std::string& name) const {
+  return read_checked_file(scratch(name));
+}
+
 void Stage::note(const std::string& key, Value value) { notes_.emplace_back(key, std::move(value)); }
 
 void Stage::note_config(const std::string& flag, Value config) {
@@ -111,7 +108,28 @@ Value Stage::input_hashes() const {
   return inputs;
 }
 
+bool Stage::inputs_changed() const { return to_yaml(input_hashes()) != to_yaml(inputs_at_start_.value()); }
+
+std::string Stage::resume_key() const {
+  std::error_code ignored;
+  const fs::path program = "/proc/self/exe";
+  Value::Map key{{"stage", spec_.name},
+                 {"version", program_version()},
+                 // Two builds of edited sources have the same version.
+                 {"program", fs::is_regular_file(program, ignored) ? content_hash(program) : ""},
+                 {"instruction_set", instruction_set()},
+                 {"inputs", inputs_at_start_.value()}};
+  for (const OptionSpec& option : spec_.options) key.emplace_back(option.flag.substr(2), options_.at(option.flag));
+  return to_yaml(key);
+}
+
+void Stage::add_notes(Value::Map& record) const {
+  record.insert(record.end(), notes_.begin(), notes_.end());
+  for (const OptionSpec& option : spec_.options) record.emplace_back(option.flag.substr(2), options_.at(option.flag));
+}
+
 void Stage::remove_old_results() const {
+  remove_quietly(out_ / (spec_.name + ".failed.yaml"));
   const fs::path record = out_ / (spec_.name + ".yaml");
   std::error_code error;
   if (!fs::exists(record, error)) return;
@@ -134,20 +152,37 @@ void Stage::remove_old_results() const {
 
 std::string Stage::record() const {
   // A record must name what was really read.
-  if (to_yaml(input_hashes()) != to_yaml(inputs_at_start_))
-    throw DataError("an input changed while the stage ran; run it again");
+  if (inputs_changed()) throw DataError(kInputChanged);
   Value::Map outputs;
   for (const std::string& name : outputs_) outputs.emplace_back(name, content_hash(partial_ / name));
   Value::Map record{{"stage", spec_.name},
                     {"version", program_version()},
                     {"instruction_set", instruction_set()},
-                    {"inputs", inputs_at_start_},
+                    {"inputs", inputs_at_start_.value()},
                     {"outputs", std::move(outputs)}};
-  for (const auto& note : notes_) record.push_back(note);
-  for (const OptionSpec& option : spec_.options) record.emplace_back(option.flag.substr(2), options_.at(option.flag));
+  add_notes(record);
   record.emplace_back("config", configs_);
   record.emplace_back("summary", summary_);
   return to_yaml(record);
+}
+
+void Stage::begin() {
+  remove_old_results();
+  write_file(out_ / (spec_.name + ".log"), "");
+  open_log_file((out_ / (spec_.name + ".log")).string());
+  if (!spec_.resumable) remove_quietly(partial_);
+  inputs_at_start_ = input_hashes();
+  if (!spec_.resumable) return;
+  const std::string key = resume_key();
+  if (read_checked_file(partial_ / kResumeKey) == key) {
+    remove_unfinished_outputs(partial_);
+    return;
+  }
+  std::error_code error;
+  fs::remove_all(partial_, error);
+  // A new key beside old files would pass them off as its own.
+  if (error) throw DataError("{}: cannot be removed: {}", partial_.string(), error.message());
+  write_checked_file(partial_ / kResumeKey, key);
 }
 
 void Stage::publish() {
@@ -162,81 +197,61 @@ void Stage::publish() {
   fs::rename(partial_ / record_name, out_ / record_name);
 }
 
-int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body) {
-  CLI::App app(spec.summary, spec.name);
-  std::map<std::string, std::vector<fs::path>> inputs;
-  std::map<std::string, std::string> options;
-  std::string out, level = "info";
-  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  for (const InputSpec& input : spec.inputs) {
-    auto* option =
-        app.add_option(input.flag, inputs[input.flag], input.help)->required(input.required)->check(CLI::ExistingPath);
-    option->expected(1, input.many ? 1 << 20 : 1)->type_name("PATH");
-  }
-  for (const OptionSpec& spec_option : spec.options) {
-    options[spec_option.flag] = spec_option.fallback;
-    app.add_option(spec_option.flag, options[spec_option.flag], spec_option.help)->capture_default_str();
-  }
-  app.add_option("--out", out, "folder the results go to")->required()->type_name("DIR");
-  app.add_option("--threads", threads, "threads to use (results do not depend on it)")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  app.add_option("--log-level", level, "how much to say")
-      ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}));
-  app.set_version_flag("--version", spec.name + " " + program_version());
+void Stage::clean_up(int code) noexcept {
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "{}: error: {} (see {} --help)\n", spec.name, error.what(), spec.name);
-    return 2;
+    if (code != 0) remove_quietly(out_ / (spec_.name + ".yaml"));
+    if (code == 1 && spec_.resumable) {
+      // Without the hashes the stage has not begun, and what an earlier run left may still be good.
+      if (!inputs_at_start_) return;
+      if (!inputs_changed()) return remove_unfinished_outputs(partial_);
+    }
+  } catch (const std::exception&) {
+    // An input cannot be read any more: what was made of it cannot be trusted.
   }
+  remove_quietly(partial_);
+}
 
-  // A file-size limit must end in a message like a full disk does, not in a signal.
-  std::signal(SIGXFSZ, SIG_IGN);
-  open_log(spec.name, level);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  const auto started = std::chrono::steady_clock::now();
-  Stage stage(spec, fs::path(out).lexically_normal(), threads);
-  stage.inputs_ = std::move(inputs);
-  stage.options_ = std::move(options);
-  const fs::path record = stage.out_ / (spec.name + ".yaml");
+void Stage::write_failure(const std::exception& error) const noexcept {
+  try {
+    Value::Map failure{{"stage", spec_.name}, {"version", program_version()}};
+    add_notes(failure);
+    failure.emplace_back("message", error.what());
+    if (const auto* verdict = dynamic_cast<const VerdictError*>(&error)) {
+      const Miss& miss = verdict->miss();
+      failure.emplace_back("frame", miss.frame);
+      failure.emplace_back("check", miss.check);
+      failure.emplace_back("value", miss.value);
+      failure.emplace_back("limit", miss.limit);
+    }
+    const fs::path beside = out_ / (".failed-" + spec_.name);
+    write_file(beside, to_yaml(failure));
+    fs::rename(beside, out_ / (spec_.name + ".failed.yaml"));
+  } catch (const std::exception&) {
+    // The message has been said; a full disk must not hide it behind a second one.
+  }
+}
+
+int Stage::run(const std::function<void(Stage&)>& body) {
   int code = 1;
   try {
-    std::error_code error;
-    fs::create_directories(stage.out_, error);
-    if (error) throw DataError("{}: cannot be created: {}", stage.out_.string(), error.message());
-    const FolderLock lock(stage.out_ / (".lock-" + spec.name));
-    stage.remove_old_results();
-    remove_quietly(stage.partial_);
-    write_file(stage.out_ / (spec.name + ".log"), "");
-    open_log_file((stage.out_ / (spec.name + ".log")).string());
-    stage.inputs_at_start_ = stage.input_hashes();
-    body(stage);
-    stage.publish();
+    begin();
+    body(*this);
+    publish();
     code = 0;
   } catch (const ConfigError& error) {
     log_error(error.what());
     code = 2;
   } catch (const UsageError& error) {
-    log_error(fmt::format("{}: error: {}", spec.name, error.what()));
+    log_error(fmt::format("{}: error: {}", spec_.name, error.what()));
     code = 2;
   } catch (const std::bad_alloc&) {
-    log_error(fmt::format("{}: error: out of memory", spec.name));
+    log_error(fmt::format("{}: error: out of memory", spec_.name));
+    write_failure(std::runtime_error("out of memory"));
   } catch (const std::exception& error) {
-    log_error(fmt::format("{}: error: {}", spec.name, error.what()));
+    log_error(fmt::format("{}: error: {}", spec_.name, error.what()));
+    write_failure(error);
   }
-  remove_quietly(stage.partial_);
-  if (code != 0) remove_quietly(record);
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  log_debug("wall_s: {:.2f} cpu_s: {:.2f} peak_memory_mib: {}", wall, seconds(usage.ru_utime) + seconds(usage.ru_stime),
-            usage.ru_maxrss / 1024);
-  close_log();
+  clean_up(code);
   return code;
 }
 

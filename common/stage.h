@@ -1,11 +1,13 @@
 // The manners every stage shares: flags, exit codes, atomic outputs, the record, the log.
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,6 +36,7 @@ struct StageSpec {
   std::string summary;
   std::vector<InputSpec> inputs;
   std::vector<OptionSpec> options = {};
+  bool resumable = false;  // scratch files of a run that was killed or failed are there again in the next equal one
 };
 
 /// What a stage's body sees of the outside.
@@ -62,6 +65,15 @@ class Stage {
   /// Folder the outputs end in (for relative links).
   const std::filesystem::path& out() const { return out_; }
 
+  /// A file that is never published. It goes when the stage has succeeded; that of a resumable stage survives a run
+  /// that was killed or failed, until one begins with another program, instruction set, input or option.
+  std::filesystem::path scratch(const std::string& name) const;
+  /// Saves bytes in a scratch file, whole or not at all. \throw DataError if an input has changed since the start:
+  /// what was computed might not belong to it.
+  void save_scratch(const std::string& name, std::string_view bytes);
+  /// What save_scratch saved, in this run or an equal earlier one; nothing if there is none or it is damaged.
+  std::optional<std::string> load_scratch(const std::string& name) const;
+
   /// Adds to the record: a top-level entry (`sample: star`) or lines of its summary.
   void note(const std::string& key, Value value);
   void summarize(const Value::Map& lines);
@@ -72,10 +84,20 @@ class Stage {
  private:
   friend int run_stage(const StageSpec&, int, char**, const std::function<void(Stage&)>&);
   void note_config(const std::string& flag, Value config);
-  Value input_hashes() const;
-  std::string record() const;
-  void remove_old_results() const;
+  /// The whole life of a stage under the lock of its folder. Returns the exit code.
+  int run(const std::function<void(Stage&)>& body);
+  void begin();
   void publish();
+  void clean_up(int code) noexcept;
+  void write_failure(const std::exception& error) const noexcept;
+  void remove_old_results() const;
+  Value input_hashes() const;
+  bool inputs_changed() const;
+  /// What scratch files depend on, as text.
+  std::string resume_key() const;
+  /// Notes and options, as record and failure file repeat them.
+  void add_notes(Value::Map& record) const;
+  std::string record() const;
 
   const StageSpec& spec_;
   std::filesystem::path out_;
@@ -84,14 +106,16 @@ class Stage {
   std::map<std::string, std::vector<std::filesystem::path>> inputs_;
   std::map<std::string, std::string> options_;
   std::vector<std::string> outputs_;
-  Value inputs_at_start_;
+  std::optional<Value> inputs_at_start_;
+  bool scratch_belongs_to_inputs_ = false;
   Value::Map configs_;
   Value::Map notes_;
   Value::Map summary_;
 };
 
 /// Runs one stage: parses flags, removes the old record, calls `body`, moves outputs into place, writes the record
-/// last. Returns the exit code: 0 done, 1 the work failed, 2 wrong flags or configuration.
+/// last. Returns the exit code: 0 done, 1 the work failed, 2 wrong flags or configuration. Work that failed leaves
+/// `<stage>.failed.yaml` with the reason, which the next start removes.
 int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body);
 
 /// Version of the program, from git when it was built.

@@ -100,6 +100,41 @@ TEST_F(StageTest, AnInputThatChangesMeanwhileIsAFailure) {
   EXPECT_FALSE(fs::exists(root_ / "out/copy.txt"));
 }
 
+TEST_F(StageTest, FailedWorkLeavesItsReasonUntilTheNextStart) {
+  spec_.options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}};
+  EXPECT_EQ(run([](Stage&) { throw DataError("in.txt: 3 is: no mesh"); }, {"--name", "star"}), 1);
+  EXPECT_EQ(read_file(root_ / "out/copy.failed.yaml"),
+            "stage: copy\nversion: " + program_version() + "\nname: star\nmessage: \"in.txt: 3 is: no mesh\"\n");
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.yaml"));
+  // Wrong flags are no start; a wrong configuration is one, but no failure of the work.
+  EXPECT_EQ(run([](Stage&) {}, {"--depth", "3"}), 2);
+  EXPECT_TRUE(fs::exists(root_ / "out/copy.failed.yaml"));
+  EXPECT_EQ(run([](Stage&) { throw ConfigError({"a.yaml:1:1: x: missing"}); }), 2);
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.failed.yaml"));
+  EXPECT_EQ(run([](Stage&) { throw std::bad_alloc(); }), 1);
+  EXPECT_THAT(read_file(root_ / "out/copy.failed.yaml"), ::testing::EndsWith("\nmessage: out of memory\n"));
+  EXPECT_EQ(run([](Stage&) {}), 0);
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.failed.yaml"));
+}
+
+TEST_F(StageTest, AFrameThatMissesALimitLeavesTheNumbers) {
+  EXPECT_EQ(run([](Stage& stage) {
+              stage.note("sample", "star");
+              throw VerdictError({.frame = 7, .check = "balance", .value = 0.0021, .limit = 1e-3}, "frame 7: off");
+            }),
+            1);
+  EXPECT_EQ(said_, "copy: error: frame 7: off\n");
+  EXPECT_THAT(read_file(root_ / "out/copy.failed.yaml"),
+              ::testing::EndsWith(
+                  "sample: star\nmessage: \"frame 7: off\"\nframe: 7\ncheck: balance\nvalue: 0.0021\nlimit: 0.001\n"));
+}
+
+TEST_F(StageTest, AFailureFileThatCannotBeWrittenIsNotASecondMessage) {
+  fs::create_directories(root_ / "out/.failed-copy");
+  EXPECT_EQ(run([](Stage&) { throw DataError("no mesh"); }), 1);
+  EXPECT_EQ(said_, "copy: error: no mesh\n");
+}
+
 TEST(ContentHash, OfAFolderLeavesOutLogsAndHiddenFilesAtAnyDepth) {
   const ScratchFolder scratch;
   scratch.file("a/b.txt", "1");
