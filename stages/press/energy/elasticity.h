@@ -4,23 +4,14 @@
 #include <vector>
 
 #include "stages/press/energy/energy_term.h"
-#include "stages/press/energy/neo_hookean.h"
+#include "stages/press/energy/tet_energy.h"
 
 namespace tacipc {
 
-/// What of a tetrahedron's rest shape the energy needs.
-struct RestTet {
-  Eigen::Matrix<double, 3, 4> shape_gradients;  // column i is ∇Nᵢ in 1/m; the columns sum to zero
-  double volume_m3;
-};
-
-/// \throw DataError naming the first tetrahedron that is not positively oriented.
-std::vector<RestTet> make_rest_tets(const Positions& rest, const Tetrahedra& tets);
-
-/// Φ(x) = Σ_t V_t Ψ(F_t), F_t = Σᵢ xᵢ ∇Nᵢᵀ, in J.   [Eq. 3]
+/// Φ(x) = Σ_t V_t ψ(F_t), F_t = Σᵢ xᵢ ∇Nᵢᵀ, in J.   [Eq. 3]
 class Elasticity final : public EnergyTerm {
  public:
-  Elasticity(const Positions& rest, const Tetrahedra& tets, NeoHookean material);
+  Elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law);
 
   std::string_view name() const override { return "elasticity"; }
   int num_stencils() const override { return static_cast<int>(tets_.rows()); }
@@ -32,7 +23,7 @@ class Elasticity final : public EnergyTerm {
  private:
   Tetrahedra tets_;
   std::vector<RestTet> rest_;
-  NeoHookean material_;
+  ElasticLaw law_;
 };
 
 /// Lumped masses: a quarter of each tetrahedron's mass at each of its vertices, kg.

@@ -18,9 +18,10 @@ Matrix3 NeoHookean::stress(const Matrix3& F) const {
   return mu_pa * F - a * F.inverse().transpose();
 }
 
-int negative_modes(const NeoHookean& material, const Matrix3& F, NegativeMode modes[6]) {
-  const double mu = material.mu_pa, lambda = material.lambda_pa;
-  const double a = mu - lambda * std::log(F.determinant());
+int negative_modes(const NeoHookean& material, const Matrix3& F, double pressure, NegativeMode modes[6]) {
+  const double J = F.determinant(), mu = material.mu_pa;
+  const double alpha = mu - material.lambda_pa * std::log(J) - pressure * J;
+  const double beta = material.lambda_pa + pressure * J;
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(F.transpose() * F);
   const Vector3 sigma = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   const Matrix3& V = eigen.eigenvectors();
@@ -28,17 +29,17 @@ int negative_modes(const NeoHookean& material, const Matrix3& F, NegativeMode mo
   int count = 0;
   for (int p = 0; p < 3; ++p) {
     for (int q = p + 1; q < 3; ++q) {
-      const double share = a / (sigma[p] * sigma[q]);
-      const double sign = a > 0.0 ? -1.0 : 1.0;  // a twist for a > 0, a flip for a < 0
+      const double share = alpha / (sigma[p] * sigma[q]);
+      const double sign = alpha > 0.0 ? -1.0 : 1.0;  // a twist for α > 0, a flip for α < 0
       const double value = mu + sign * share;
       if (value >= 0.0) continue;
       modes[count++] = {value,
                         (U.col(p) * V.col(q).transpose() + sign * U.col(q) * V.col(p).transpose()) / std::sqrt(2.0)};
     }
   }
-  if (a < 0.0) {
-    Matrix3 stretch = lambda * sigma.cwiseInverse() * sigma.cwiseInverse().transpose();
-    for (int p = 0; p < 3; ++p) stretch(p, p) += mu + a / (sigma[p] * sigma[p]);
+  if (alpha < 0.0 || beta < 0.0) {
+    Matrix3 stretch = beta * sigma.cwiseInverse() * sigma.cwiseInverse().transpose();
+    for (int p = 0; p < 3; ++p) stretch(p, p) += mu + alpha / (sigma[p] * sigma[p]);
     const Eigen::SelfAdjointEigenSolver<Matrix3> block(stretch);
     for (int m = 0; m < 3; ++m) {
       if (block.eigenvalues()[m] >= 0.0) continue;

@@ -24,10 +24,11 @@ struct NegativeMode {
   Matrix3 Q;
 };
 
-/// The modes to remove so that ∂²Ψ/∂F² becomes positive semi-definite; at most six. In the principal frame F = U
-/// diag(σ) Vᵀ the Hessian splits into three twists (u_p v_qᵀ − u_q v_pᵀ)/√2 with value μ − a/(σ_p σ_q), three flips
-/// (u_p v_qᵀ + u_q v_pᵀ)/√2 with μ + a/(σ_p σ_q), and a 3 × 3 block δ_pq (μ + a/σ_p²) + λ/(σ_p σ_q) over the stretches
-/// u_p v_pᵀ.   [form of Smith et al. 2019 for isotropic energies]
-int negative_modes(const NeoHookean& material, const Matrix3& F, NegativeMode modes[6]);
+/// The modes to remove so that ∂²(Ψ + p J)/∂F² becomes positive semi-definite; at most six. In the principal frame F =
+/// U diag(σ) Vᵀ the Hessian splits into three twists (u_p v_qᵀ − u_q v_pᵀ)/√2 with value μ − α/(σ_p σ_q), three flips
+/// (u_p v_qᵀ + u_q v_pᵀ)/√2 with μ + α/(σ_p σ_q), and a 3 × 3 block δ_pq (μ + α/σ_p²) + β/(σ_p σ_q) over the stretches
+/// u_p v_pᵀ; α = a − p J, β = λ + p J with p the pressure term, positive in tension.   [form of Smith et al. 2019 for
+/// isotropic energies]
+int negative_modes(const NeoHookean& material, const Matrix3& F, double pressure, NegativeMode modes[6]);
 
 }  // namespace tacipc
