@@ -1,0 +1,37 @@
+// Whether the forces on the gel add up: contact + inertia + damping + gravity + mount = 0.
+#pragma once
+
+#include "common/types.h"
+
+namespace tacipc {
+
+/// Forces on every gel vertex, N, #V × 3 each, all as forces on the gel: inertia is −m a (d'Alembert), damping what
+/// opposes the velocity, mount what the mount does to the glued face. An array without rows stands for zero.
+struct VertexForces {
+  Positions contact = {};
+  Positions inertia = {};
+  Positions damping = {};
+  Positions gravity = {};
+  Positions mount = {};
+};
+
+/// A relative balance of 1e-3, the verdict's limit, stands for at least this force …
+inline constexpr double kBalanceFloorN = 1e-5;
+/// … so no contact counts as smaller than this.
+inline constexpr double kSmallestContactN = kBalanceFloorN / 1e-3;
+
+struct Balance {
+  double force_n = 0.0;     // |Σ of all|
+  double torque_n_m = 0.0;  // |Σ x × f| about the origin of S
+  double relative = 0.0;    // force_n / max(|Σ contact|, 0.01 N)
+  Vector3 contact_n = Vector3::Zero();
+  Vector3 inertia_n = Vector3::Zero();
+  Vector3 mount_n = Vector3::Zero();
+};
+
+/// Sums the forces in the order of the vertices. Internal forces cancel and are not asked for, so what remains is the
+/// residual of the solver: the balance is a check of it by other means. \pre arrays have no rows or those of
+/// `positions`
+Balance balance_of(const Positions& positions, const VertexForces& forces);
+
+}  // namespace tacipc
