@@ -2,8 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "stages/report/frames_table.h"
 #include "stages/report/html.h"
 #include "stages/report/press_curve.h"
+#include "stages/report/quiver.h"
 
 namespace tacipc {
 namespace {
@@ -37,22 +41,65 @@ std::string normal_swatches() {
   return swatches + "</div>";
 }
 
-std::string pictures(const SampleReport& sample, const fs::path& folder) {
-  std::string html;
-  if (sample.images) {
-    const SampleImages& images = *sample.images;
-    html += picture(images.tactile, folder, "tactile image of " + sample.name,
-                    fmt::format("<b>Tactile image</b>, last frame (<a href=\"{}\">without contact</a>)",
-                                html_link(images.no_contact, folder)));
-    html += picture(images.indentation, folder, "indentation map of " + sample.name,
-                    fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
-                                number_text(sample.max_indentation_m, 1e3)));
-    html += picture(images.normal, folder, "normals of " + sample.name,
-                    "<b>Normals</b>: the face looks" + normal_swatches());
+/// Of markers: what is drawn, and when.
+std::string marker_caption(const MarkerPicture& picture, const std::vector<PhaseReport>& phases) {
+  std::string caption = picture.arrows.empty() ? "<b>Contacts</b>"
+                        : picture.since_press  ? "<b>Markers</b> since the end of the press"
+                                               : "<b>Markers</b> since rest";
+  caption += fmt::format(", frame {}", picture.frame);
+  for (const PhaseReport& phase : phases) {
+    if (phase.last == picture.frame) caption += " (end of " + html_text(phase.name) + ")";
   }
-  if (!sample.frames.empty()) {
+  if (!picture.arrows.empty()) caption += fmt::format(", at most {} mm", number_text(longest_mm(picture.arrows)));
+  if (!picture.contacts.empty()) {
+    const auto slipping =
+        std::count_if(picture.contacts.begin(), picture.contacts.end(), [](const auto& c) { return c.slips; });
+    caption += fmt::format("<br><i class=\"dot stuck\"></i>{} contacts stick, <i class=\"dot slipping\"></i>{} slip",
+                           count_text(static_cast<int>(picture.contacts.size()) - static_cast<int>(slipping)),
+                           count_text(static_cast<int>(slipping)));
+  }
+  return caption;
+}
+
+std::string image_figures(const SampleReport& sample, const fs::path& folder) {
+  if (!sample.images) return "";
+  const SampleImages& images = *sample.images;
+  std::string html;
+  for (const PhaseImage& image : sample.phase_images) {
+    html += picture(image.tactile, folder, fmt::format("tactile image of {}, frame {}", sample.name, image.frame),
+                    fmt::format("<b>Tactile image</b>, frame {}{}", image.frame,
+                                image.phase.empty() ? "" : " (end of " + html_text(image.phase) + ")"));
+  }
+  html += picture(images.tactile, folder, "tactile image of " + sample.name,
+                  fmt::format("<b>Tactile image</b>, last frame (<a href=\"{}\">without contact</a>)",
+                              html_link(images.no_contact, folder)));
+  html += picture(images.indentation, folder, "indentation map of " + sample.name,
+                  fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
+                              number_text(sample.max_indentation_m, 1e3)));
+  return html + picture(images.normal, folder, "normals of " + sample.name,
+                        "<b>Normals</b>: the face looks" + normal_swatches());
+}
+
+/// Force over depth says something only while depth is what changes.
+bool has_press_curve(const SampleReport& sample) {
+  const auto only_pressed = [](const PhaseReport& phase) {
+    return phase.name == "reference" || phase.name == "approach" || phase.name == "press" || phase.name == "release";
+  };
+  return !sample.frames.empty() && std::all_of(sample.phases.begin(), sample.phases.end(), only_pressed) &&
+         std::all_of(sample.frames.begin(), sample.frames.end(), [](const auto& f) { return f.depth_m.has_value(); });
+}
+
+std::string pictures(const SampleReport& sample, const fs::path& folder) {
+  std::string html = image_figures(sample, folder);
+  if (has_press_curve(sample)) {
     html += "<figure>" + press_curve_svg(sample.frames) +
-            "<figcaption><b>Press curve</b>, one mark per frame</figcaption></figure>\n";
+            "<figcaption><b>Press curve</b>: force over depth</figcaption></figure>\n";
+  }
+  html += frame_curves(sample);
+  const View view = view_of(sample.marker_pictures);
+  for (const MarkerPicture& picture : sample.marker_pictures) {
+    html += "<figure>" + quiver_svg(picture, view) + "<figcaption>" + marker_caption(picture, sample.phases) +
+            "</figcaption></figure>\n";
   }
   return html.empty() ? "" : "<div class=\"pictures\">\n" + html + "</div>\n";
 }
@@ -67,13 +114,43 @@ std::string facts(const std::string& heading, const std::vector<std::pair<std::s
 /// Of a press that failed, only what is known.
 std::string press_facts(const SampleReport& sample) {
   std::vector<std::pair<std::string, std::string>> lines;
+  if (!sample.motion.empty()) lines.emplace_back("motion", html_text(sample.motion));
   if (sample.depth_m) lines.emplace_back("depth", number_text(sample.depth_m, 1e3) + " mm");
   if (sample.press_force_n) lines.emplace_back("press force", number_text(sample.press_force_n) + " N");
+  if (sample.tangential_force_n) lines.emplace_back("tangential force", number_text(sample.tangential_force_n) + " N");
+  if (const auto& end = sample.press_end_frame; end && *end + 1 < static_cast<int>(sample.frames.size())) {
+    lines.emplace_back(
+        "at the end of the press",
+        fmt::format("{} N (frame {})", number_text(sample.frames[static_cast<std::size_t>(*end)].press_force_n), *end));
+  }
   if (sample.min_distance_m) lines.emplace_back("smallest distance", number_text(sample.min_distance_m, 1e6) + " µm");
   if (sample.min_volume_ratio) lines.emplace_back("smallest volume ratio", number_text(sample.min_volume_ratio));
   if (sample.newton_iterations) lines.emplace_back("Newton iterations", count_text(sample.newton_iterations));
   if (sample.gel_vertices) lines.emplace_back("gel vertices", count_text(sample.gel_vertices));
+  if (!sample.element.empty()) lines.emplace_back("elements", html_text(sample.element));
   return lines.empty() ? "" : facts("Press", lines);
+}
+
+std::string friction_facts(const SampleReport& sample) {
+  if (!sample.friction_coefficient) return "";
+  if (*sample.friction_coefficient == 0.0) return facts("Friction", {{"coefficient", "0 (frictionless)"}});
+  const auto time = [](std::optional<double> time_s) { return time_s ? number_text(time_s) + " s" : "never"; };
+  return facts("Friction", {{"coefficient", fmt::format("{:g}", *sample.friction_coefficient)},
+                            {"first slip", time(sample.first_slip_time_s)},
+                            {"gross slip", time(sample.gross_slip_time_s)}});
+}
+
+std::string checks_table(const SampleReport& sample) {
+  if (sample.checks.empty()) return "";
+  std::string table = "<div class=\"checks\"><h4>Verdict</h4><table>\n<tbody>\n";
+  for (const CheckReport& check : sample.checks) {
+    table += fmt::format(
+        "<tr><td class=\"word\"><span class=\"mark {}\">{}</span>{}</td><td class=\"word\">{}{}</td>"
+        "<td class=\"word quiet\">limit: {}</td></tr>\n",
+        check.held ? "held" : "missed", check.held ? "✓" : "✗", html_text(check.name), html_text(check.value),
+        check.frame ? fmt::format(" (frame {})", *check.frame) : "", html_text(check.limit));
+  }
+  return table + "</tbody></table></div>\n";
 }
 
 std::string placement_facts(const PlacementReport& placement) {
@@ -93,20 +170,6 @@ std::string decimate_facts(const DecimateReport& mesh) {
   if (mesh.findings.empty()) lines.emplace_back("repairs", "none needed");
   for (const auto& [what, how_many] : mesh.findings) lines.emplace_back(what, count_text(how_many));
   return facts("Object mesh", lines);
-}
-
-std::string frames_table(const std::vector<FrameReport>& frames) {
-  std::string table =
-      "<details><summary>Numbers per frame</summary><div class=\"scroll\"><table>\n<thead><tr><th>frame</th>"
-      "<th>depth mm</th><th>press force N</th><th>Newton iterations</th><th>smallest distance µm</th>"
-      "<th>smallest volume ratio</th></tr></thead>\n<tbody>\n";
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const FrameReport& frame = frames[i];
-    table += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", i,
-                         number_text(frame.depth_m, 1e3), number_text(frame.press_force_n), frame.newton_iterations,
-                         number_text(frame.min_gap_m, 1e6), number_text(frame.min_volume_ratio));
-  }
-  return table + "</tbody></table></div></details>\n";
 }
 
 std::string file_links(const char* heading, const std::vector<std::pair<std::string, fs::path>>& files,
@@ -137,11 +200,10 @@ std::string sample_card(const SampleReport& sample, std::size_t index, const fs:
   if (sample.failure) card += "<p class=\"note bad\">" + html_text(*sample.failure) + "</p>\n";
   for (const std::string& warning : sample.warnings) card += "<p class=\"note warn\">" + html_text(warning) + "</p>\n";
   card += pictures(sample, folder);
-  card += "<div class=\"facts\">\n" + press_facts(sample);
+  card += "<div class=\"facts\">\n" + press_facts(sample) + friction_facts(sample);
   if (sample.placement) card += placement_facts(*sample.placement);
   if (sample.decimate) card += decimate_facts(*sample.decimate);
-  card += "</div>\n";
-  if (!sample.frames.empty()) card += frames_table(sample.frames);
+  card += checks_table(sample) + "</div>\n" + frames_table(sample);
   card += file_links("Records and logs:", sample.records, folder);
   card += file_links("Data:", sample.data, folder);
   return card + "</article>\n";

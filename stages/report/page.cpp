@@ -30,7 +30,7 @@ std::string tile(const std::string& number, const std::string& words, const std:
 
 std::string tiles(const std::vector<SampleReport>& samples) {
   int passed = 0, iterations = 0;
-  std::optional<double> distance_m, ratio;
+  std::optional<double> distance_m, ratio, balance;
   const auto least = [](std::optional<double>& so_far, std::optional<double> value) {
     if (value) so_far = std::min(so_far.value_or(*value), *value);
   };
@@ -39,6 +39,7 @@ std::string tiles(const std::vector<SampleReport>& samples) {
     iterations += sample.newton_iterations.value_or(0);
     least(distance_m, sample.min_distance_m);
     least(ratio, sample.min_volume_ratio);
+    for (const FrameReport& frame : sample.frames) balance = std::max(balance, frame.balance_relative);
   }
   const int all = static_cast<int>(samples.size());
   return "<ul class=\"tiles\">\n" + tile(count_text(all), all == 1 ? "sample" : "samples") +
@@ -46,7 +47,8 @@ std::string tiles(const std::vector<SampleReport>& samples) {
          tile(count_text(all - passed), "failed", passed < all ? "bad" : "") +
          tile(count_text(iterations), "Newton iterations") +
          tile(number_text(distance_m, 1e6) + " µm", "smallest gel–object distance") +
-         tile(number_text(ratio), "smallest volume ratio") + "</ul>\n";
+         tile(number_text(ratio), "smallest volume ratio") +
+         (balance ? tile(number_text(balance, 100) + " %", "largest force imbalance") : "") + "</ul>\n";
 }
 
 std::string summary_row(const SampleReport& sample, std::size_t index) {
@@ -58,10 +60,10 @@ std::string summary_row(const SampleReport& sample, std::size_t index) {
       "<tr><td class=\"word\"><a href=\"#{}\">{}</a></td><td class=\"word\">{}</td><td class=\"word\">{}</td>",
       card_id(index), html_text(sample.name), sample.object.empty() ? "–" : html_text(sample.object),
       verdict_badge(sample));
-  for (const std::string& cell :
-       {number_text(sample.depth_m, 1e3), number_text(sample.press_force_n), count_text(sample.newton_iterations),
-        number_text(sample.min_distance_m, 1e6), number_text(sample.min_volume_ratio), count_text(sample.gel_vertices),
-        vertices, number_text(mesh.hausdorff_mm)})
+  for (const std::string& cell : {number_text(sample.depth_m, 1e3), number_text(sample.press_force_n),
+                                  number_text(sample.tangential_force_n), count_text(sample.newton_iterations),
+                                  number_text(sample.min_distance_m, 1e6), number_text(sample.min_volume_ratio),
+                                  count_text(sample.gel_vertices), vertices, number_text(mesh.hausdorff_mm)})
     row += "<td>" + cell + "</td>";
   return row + fmt::format("<td class=\"word\">{}</td></tr>\n", reference);
 }
@@ -69,7 +71,8 @@ std::string summary_row(const SampleReport& sample, std::size_t index) {
 std::string summary_table(const std::vector<SampleReport>& samples) {
   std::string table =
       "<div class=\"scroll\"><table>\n<thead><tr><th class=\"word\">sample</th><th class=\"word\">object</th>"
-      "<th class=\"word\">verdict</th><th>depth<br>mm</th><th>press force<br>N</th><th>Newton<br>iterations</th>"
+      "<th class=\"word\">verdict</th><th>depth<br>mm</th><th>press force<br>N</th><th>tangential<br>force "
+      "N</th><th>Newton<br>iterations</th>"
       "<th>smallest<br>distance µm</th><th>smallest<br>volume ratio</th><th>gel<br>vertices</th>"
       "<th>object vertices<br>in → out</th><th>Hausdorff<br>mm</th><th class=\"word\">reference<br>image</th></tr>"
       "</thead>\n<tbody>\n";
@@ -84,7 +87,11 @@ constexpr const char* kLegend = R"html(<section id="legend">
 <dt>Indentation</dt><dd>How far the material seen in each pixel has moved into the gel.</dd>
 <dt>Normals</dt><dd>The direction of the front face as a colour: (n + 1) / 2 per component, x red, y green, z blue.</dd>
 <dt>Press curve</dt><dd>Force of the object on the gel, into the gel, over the depth of the object's lowest point below the undeformed face; one mark per frame. Depth below zero: the object is still above the gel.</dd>
-<dt>Verdict</dt><dd>A sample has passed if Newton's method converged in every frame and an exact test found no triangles that intersect and no tetrahedra that are inverted, and if its images exist.</dd>
+<dt>Forces</dt><dd>On the gel by the object: press force into the gel, tangential force along the face. In the table of all samples they are those of the last frame, the depth is that at the end of the press.</dd>
+<dt>Contact</dt><dd>Area of the front face that feels the object, and press force over that area.</dd>
+<dt>Force balance</dt><dd>Contact force, inertia and the force of the mount that holds the gel's back must cancel; what is left over, as a part of the contact force. Below 0.1 % (or 1e-5 N) it passes.</dd>
+<dt>Markers</dt><dd>Points printed on the front face, and how far they moved along it, enlarged as the arrow beside says. Underneath the contacts, those that stick and those that slip.</dd>
+<dt>Verdict</dt><dd>A sample has passed if every check of its press is within its limit in every frame and if its images exist.</dd>
 <dt>Smallest distance</dt><dd>Between gel and object over all frames. It stays above zero: a barrier keeps the surfaces a small distance apart, so they never cross.</dd>
 <dt>Smallest volume ratio</dt><dd>Volume of the most compressed tetrahedron of the gel, over its volume at rest. Zero would be inversion.</dd>
 <dt>Hausdorff</dt><dd>Largest distance between the surface of the scan and the simplified surface that is simulated.</dd>

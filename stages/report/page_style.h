@@ -9,11 +9,13 @@ inline constexpr const char* kPageStyle = R"css(
   color-scheme: light dark;
   --paper: #f5f6f8; --card: #ffffff; --ink: #1b2330; --quiet: #5d6878; --line: #dde2e9; --accent: #1f6f8b;
   --good: #15703c; --good-paper: #dcf3e4; --bad: #a3231b; --bad-paper: #fde4e1; --warn: #6f5200; --warn-paper: #fdf3d3;
+  --color-2: #c2571a; --color-3: #7a4fb5; --stuck: #8fc7a4; --slipping: #f0a35e;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --paper: #12161c; --card: #1b2129; --ink: #e6eaf0; --quiet: #9aa6b6; --line: #313a46; --accent: #6cc3de;
     --good: #7ddba0; --good-paper: #16361f; --bad: #ff9d94; --bad-paper: #451b18; --warn: #f0d27a; --warn-paper: #382d0d;
+    --color-2: #f2955a; --color-3: #b99be6; --stuck: #2f6b47; --slipping: #a5622a;
   }
 }
 * { box-sizing: border-box; }
@@ -75,12 +77,37 @@ details { margin-top: .5rem; font-size: .9rem; }
 summary { cursor: pointer; color: var(--accent); }
 details .scroll { margin-top: .5rem; }
 .files { margin: .3rem 0 0; font-size: .9rem; max-width: none; }
-.curve { display: block; width: 100%; height: auto; }
-.curve text { fill: var(--quiet); font-size: 13px; font-variant-numeric: tabular-nums; }
+.checks { grid-column: 1 / -1; overflow-x: auto; }
+.checks table { width: auto; }
+.checks td { padding: .15rem 1.2rem .15rem 0; border: 0; }
+.mark { display: inline-block; width: 1.3rem; font-weight: 600; }
+.held { color: var(--good); }
+.missed { color: var(--bad); }
+.curve, .quiver { display: block; width: 100%; height: auto; }
+.curve text, .quiver text { fill: var(--quiet); font-size: 13px; font-variant-numeric: tabular-nums; }
 .curve .grid { stroke: var(--line); stroke-width: 1; }
 .curve .axis { fill: none; stroke: var(--quiet); stroke-width: 1.2; }
-.curve polyline { fill: none; stroke: var(--accent); stroke-width: 2.2; stroke-linejoin: round; }
-.curve circle { fill: var(--card); stroke: var(--accent); stroke-width: 2.2; }
+.curve .band { fill: var(--ink); fill-opacity: .02; }
+.curve .dark { fill-opacity: .07; }
+.curve .rule { fill: none; stroke: var(--bad); stroke-width: 1.2; stroke-dasharray: 5 4; }
+.curve .band-name { font-size: 11px; }
+.curve .rule-name { font-size: 11px; fill: var(--bad); }
+.curve polyline { fill: none; stroke: currentColor; stroke-width: 2; stroke-linejoin: round; }
+.curve circle { fill: var(--card); stroke: currentColor; stroke-width: 2; }
+.color-1 { color: var(--accent); }
+.color-2 { color: var(--color-2); }
+.color-3 { color: var(--color-3); }
+.key { display: inline-block; width: 1.2rem; margin-right: .3rem; border-top: 3px solid currentColor; vertical-align: middle; }
+.quiver path { fill: none; stroke-linecap: round; stroke-linejoin: round; }
+.quiver .face { fill: var(--paper); stroke: var(--line); }
+.quiver .stuck { stroke: var(--stuck); stroke-width: 4; }
+.quiver .slipping { stroke: var(--slipping); stroke-width: 4; }
+.quiver .dots { stroke: var(--quiet); stroke-width: 2; }
+.quiver .arrows { stroke: var(--ink); stroke-width: 1.3; }
+.dot { display: inline-block; width: .7rem; height: .7rem; margin-right: .3rem; border-radius: 50%; }
+.dot.stuck { background: var(--stuck); }
+.dot.slipping { background: var(--slipping); }
+.key, .dot { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 @media (max-width: 600px) {
   body { padding: 1.2rem .8rem 2rem; }
   #legend dl { grid-template-columns: 1fr; }

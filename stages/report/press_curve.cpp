@@ -4,95 +4,162 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
+#include "stages/report/chart.h"
 #include "stages/report/html.h"
+#include "stages/report/verdict.h"
 
 namespace tacipc {
 namespace {
 
-constexpr double kWidth = 400, kHeight = 300;
-constexpr double kLeft = 62, kRight = 386, kTop = 14, kBottom = 248;
-constexpr int kMaxTicks = 7;
+/// More marks than this would hide the line.
+constexpr std::size_t kMaxMarks = 40;
 
-double to_column(const Axis& axis, double value) {
-  return kLeft + (value - axis.low) / (axis.high - axis.low) * (kRight - kLeft);
-}
-double to_row(const Axis& axis, double value) {
-  return kBottom - (value - axis.low) / (axis.high - axis.low) * (kBottom - kTop);
-}
-
-std::string tick_text(const Axis& axis, int i) {
-  // Rounded first, so that a sum that misses zero by its last bit is not shown as -0.0.
-  const double value = std::abs(axis.tick(i)) < 1e-9 * axis.step ? 0.0 : axis.tick(i);
-  return fmt::format("{:.{}f}", value, axis.decimals);
-}
-
-std::string axes_svg(const Axis& depth, const Axis& force) {
-  std::string svg;
-  for (int i = 0; i < depth.num_ticks(); ++i) {
-    const double x = to_column(depth, depth.tick(i));
-    svg += fmt::format("<line class=\"grid\" x1=\"{0:.2f}\" x2=\"{0:.2f}\" y1=\"{1}\" y2=\"{2}\"/>", x, kTop, kBottom);
-    svg += fmt::format("<text class=\"x-tick\" x=\"{:.2f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", x,
-                       kBottom + 18, tick_text(depth, i));
+/// The curve of one number per frame, with a mark on each frame while there are few.
+template <typename Number>
+Curve curve_of(const std::vector<FrameReport>& frames, const char* unit, Number&& number) {
+  Curve curve;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    curve.values.push_back(number(frames[i]));
+    if (frames.size() <= kMaxMarks)
+      curve.titles.push_back(fmt::format("frame {}: {} {}", i, number_text(curve.values.back()), unit));
   }
-  for (int i = 0; i < force.num_ticks(); ++i) {
-    const double y = to_row(force, force.tick(i));
-    svg += fmt::format("<line class=\"grid\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.2f}\" y2=\"{0:.2f}\"/>", y, kLeft, kRight);
-    svg += fmt::format("<text class=\"y-tick\" x=\"{}\" y=\"{:.2f}\" text-anchor=\"end\">{}</text>\n", kLeft - 8, y + 4,
-                       tick_text(force, i));
+  return curve;
+}
+
+bool has_values(const Curve& curve) {
+  return std::any_of(curve.values.begin(), curve.values.end(), [](const auto& value) { return value.has_value(); });
+}
+
+/// Frame at which a time falls, between two frames by the way in between.
+std::optional<double> frame_at(const std::vector<FrameReport>& frames, double time_s) {
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const auto before = frames[i - 1].time_s, after = frames[i].time_s;
+    if (before && after && *before <= time_s && time_s <= *after && *after > *before)
+      return static_cast<double>(i - 1) + (time_s - *before) / (*after - *before);
   }
-  svg += fmt::format("<path class=\"axis\" d=\"M{0} {1}V{2}H{3}\"/>\n", kLeft, kTop, kBottom, kRight);
-  svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">indentation depth (mm)</text>\n",
-                     0.5 * (kLeft + kRight), kBottom + 40);
-  svg += fmt::format("<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">press force (N)</text>\n",
-                     0.5 * (kTop + kBottom));
-  return svg;
+  return std::nullopt;
+}
+
+Chart over_frames(const SampleReport& sample, const std::string& what) {
+  Chart chart;
+  chart.what = what + " over frames";
+  chart.x_label = "frame";
+  chart.whole_x = true;
+  for (std::size_t i = 0; i < sample.frames.size(); ++i) chart.x.push_back(static_cast<double>(i));
+  for (const PhaseReport& phase : sample.phases) {
+    if (phase.first > 0) chart.bands.push_back({phase.name, phase.first - 1.0, static_cast<double>(phase.last)});
+  }
+  return chart;
+}
+
+void add_slip(Chart& chart, const SampleReport& sample) {
+  for (const auto& [name, time_s] :
+       {std::pair{"first slip", sample.first_slip_time_s}, std::pair{"gross slip", sample.gross_slip_time_s}}) {
+    if (!time_s) continue;
+    if (const auto at = frame_at(sample.frames, *time_s)) chart.places.push_back({name, *at});
+  }
+}
+
+std::string figure(const Chart& chart, const std::string& caption) {
+  return "<figure>" + chart_svg(chart) + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string force_curves(const SampleReport& sample) {
+  Chart chart = over_frames(sample, "forces");
+  chart.left_label = "force (N)";
+  chart.left.push_back(
+      curve_of(sample.frames, "N into the gel", [](const auto& f) { return std::optional(f.press_force_n); }));
+  std::string caption = "<b>Forces</b>: " + curve_key(1) + "press";
+  Curve tangential = curve_of(sample.frames, "N along the face", [](const auto& f) { return f.tangential_force_n; });
+  if (has_values(tangential)) {
+    chart.left.push_back(std::move(tangential));
+    caption += ", " + curve_key(2) + "tangential";
+  }
+  add_slip(chart, sample);
+  std::string stretches;
+  for (const PhaseReport& phase : sample.phases) {
+    stretches += fmt::format(
+        "{}{} {}", stretches.empty() ? "" : ", ", html_text(phase.name),
+        phase.first == phase.last ? fmt::format("{}", phase.first) : fmt::format("{}–{}", phase.first, phase.last));
+  }
+  return figure(chart, caption + (stretches.empty() ? "" : "<br>Frames: " + stretches));
+}
+
+std::string contact_curves(const SampleReport& sample) {
+  Chart chart = over_frames(sample, "contact area and mean pressure");
+  chart.left_label = "contact area (mm²)";
+  chart.right_label = "mean pressure (kPa)";
+  chart.left.push_back(curve_of(sample.frames, "mm²", [](const auto& f) { return f.contact_area_mm2; }));
+  chart.right.push_back(curve_of(sample.frames, "kPa", [](const auto& f) {
+    return f.mean_pressure_pa ? std::optional(1e-3 * *f.mean_pressure_pa) : std::nullopt;
+  }));
+  if (!has_values(chart.left.front()) || !has_values(chart.right.front())) return "";
+  return figure(chart, "<b>Contact</b>: " + curve_key(1) + "area, " + curve_key(2) + "mean pressure");
+}
+
+std::string ratio_curve(const SampleReport& sample) {
+  if (!(sample.friction_coefficient.value_or(0.0) > 0.0)) return "";
+  double largest_n = 0.0;
+  for (const FrameReport& frame : sample.frames) largest_n = std::max(largest_n, frame.press_force_n);
+  // Of a force near zero the ratio is noise.
+  const double enough_n = 0.01 * largest_n;
+  Chart chart = over_frames(sample, "tangential over press force");
+  chart.left_label = "tangential / press force";
+  chart.left.push_back(curve_of(sample.frames, "", [&](const auto& f) -> std::optional<double> {
+    if (!f.tangential_force_n || !(f.press_force_n > enough_n)) return std::nullopt;
+    return *f.tangential_force_n / f.press_force_n;
+  }));
+  if (!has_values(chart.left.front())) return "";
+  chart.limit =
+      Rule{fmt::format("friction coefficient {:g}", *sample.friction_coefficient), *sample.friction_coefficient};
+  add_slip(chart, sample);
+  return figure(chart, "<b>Tangential over press force</b>; on the dashed line everything slips");
+}
+
+std::string balance_curve(const SampleReport& sample) {
+  Chart chart = over_frames(sample, "force balance");
+  chart.left_label = "imbalance / contact force";
+  chart.logarithmic = true;
+  chart.left.push_back(
+      curve_of(sample.frames, "of the contact force", [](const auto& f) { return f.balance_relative; }));
+  if (!has_values(chart.left.front())) return "";
+  chart.limit = Rule{"limit", kMaxBalanceRelative};
+  std::string caption = "<b>Force balance</b>: what contact, inertia and mount leave over";
+  const auto worst = std::max_element(sample.frames.begin(), sample.frames.end(), [](const auto& a, const auto& b) {
+    return a.balance_n.value_or(0.0) < b.balance_n.value_or(0.0);
+  });
+  if (worst->balance_n) {
+    caption += fmt::format(", at most {} N (frame {})", number_text(worst->balance_n), worst - sample.frames.begin());
+  }
+  return figure(chart, caption);
 }
 
 }  // namespace
 
-int Axis::num_ticks() const { return static_cast<int>(std::lround((high - low) / step)) + 1; }
-
-Axis round_axis(double low, double high, int max_ticks) {
-  assert(low <= high && max_ticks >= 3);
-  if (low == high) high = low + (low == 0.0 ? 1.0 : std::abs(low));
-  // A bound that misses a tick by rounding alone still counts as being on it.
-  constexpr double kSlack = 1e-9;
-  for (int power = static_cast<int>(std::floor(std::log10((high - low) / max_ticks)));; ++power) {
-    for (const int digit : {1, 2, 5}) {
-      const double step = digit * std::pow(10.0, power);
-      const double first = std::floor(low / step + kSlack), last = std::ceil(high / step - kSlack);
-      if (last - first + 1 > max_ticks) continue;
-      return {.low = first * step, .high = last * step, .step = step, .decimals = std::max(0, -power)};
-    }
-  }
-}
-
 std::string press_curve_svg(const std::vector<FrameReport>& frames) {
   assert(!frames.empty());
-  double low_mm = 0.0, high_mm = 0.0, low_n = 0.0, high_n = 0.0;
-  for (const FrameReport& frame : frames) {
-    low_mm = std::min(low_mm, 1e3 * frame.depth_m);
-    high_mm = std::max(high_mm, 1e3 * frame.depth_m);
-    low_n = std::min(low_n, frame.press_force_n);
-    high_n = std::max(high_n, frame.press_force_n);
-  }
-  const Axis depth = round_axis(low_mm, high_mm, kMaxTicks), force = round_axis(low_n, high_n, kMaxTicks);
-  std::string line, marks;
+  Chart chart{.what = "press force over indentation depth",
+              .x_label = "indentation depth (mm)",
+              .left_label = "press force (N)"};
+  Curve curve;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameReport& frame = frames[i];
-    const double x = to_column(depth, 1e3 * frame.depth_m), y = to_row(force, frame.press_force_n);
-    line += fmt::format("{}{:.2f},{:.2f}", i == 0 ? "" : " ", x, y);
-    marks += fmt::format(
-        "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\"><title>frame {}: {} mm, {} N, {} Newton iterations</title>"
-        "</circle>\n",
-        x, y, i, number_text(frame.depth_m, 1e3), number_text(frame.press_force_n), frame.newton_iterations);
+    chart.x.push_back(1e3 * frame.depth_m.value());
+    curve.values.push_back(frame.press_force_n);
+    if (frames.size() <= kMaxMarks) {
+      curve.titles.push_back(fmt::format("frame {}: {} mm, {} N, {} Newton iterations", i,
+                                         number_text(frame.depth_m, 1e3), number_text(frame.press_force_n),
+                                         frame.newton_iterations));
+    }
   }
-  return fmt::format(
-      "<svg class=\"curve\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"press force over indentation depth\">\n"
-      "{}<polyline points=\"{}\"/>\n{}</svg>\n",
-      kWidth, kHeight, axes_svg(depth, force), line, marks);
+  chart.left.push_back(std::move(curve));
+  return chart_svg(chart);
+}
+
+std::string frame_curves(const SampleReport& sample) {
+  if (sample.frames.empty()) return "";
+  return force_curves(sample) + contact_curves(sample) + ratio_curve(sample) + balance_curve(sample);
 }
 
 }  // namespace tacipc

@@ -44,6 +44,12 @@ std::vector<Record> Record::sections(const std::string& key) const {
   return records;
 }
 
+std::vector<Record> Record::one_or_many(const std::string& key) const {
+  std::vector<Record> records = sections(key);
+  if (records.empty() && has(key)) records.push_back(section(key));
+  return records;
+}
+
 std::optional<std::string> Record::text(const std::string& key) const {
   if (!has(key)) return std::nullopt;
   ConfigReader reader = *reader_;

@@ -20,6 +20,8 @@ class Record {
   Record section(const std::string& key) const;
   /// The maps of a list; empty where the key is absent.
   std::vector<Record> sections(const std::string& key) const;
+  /// A map, or the maps of a list: what may be written either way. Empty where the key is absent.
+  std::vector<Record> one_or_many(const std::string& key) const;
   bool has(const std::string& key) const { return reader_ && reader_->has(key); }
 
   /// Absent: nullopt. \throw DataError naming file and key if the value is of another type.

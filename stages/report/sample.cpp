@@ -1,11 +1,10 @@
 #include "stages/report/sample.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/error.h"
 #include "common/files.h"
-#include "common/npy.h"
+#include "stages/report/press_folder.h"
 #include "stages/report/record.h"
 #include "stages/report/stage_log.h"
 
@@ -13,119 +12,6 @@ namespace tacipc {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The file's name, or where every file is called object.ply its folder's.
-std::string object_name(const fs::path& mesh) {
-  const std::string stem = mesh.stem().string();
-  return stem == "object" && mesh.has_parent_path() ? mesh.parent_path().filename().string() : stem;
-}
-
-PlacementReport read_placement(const Record& press) {
-  const Record chosen = press.section("config").section("sample").section("placement");
-  const auto up = press.section("config").section("object-config").text("up");
-  PlacementReport placement;
-  placement.face = press.section("summary").text("face").value_or("unknown");
-  placement.chosen = chosen.has("face") ? "named by the sample"
-                     : up               ? "opposite of the object's up side " + *up
-                                        : "default";
-  placement.rotate_deg = chosen.number("rotate_deg").value_or(0.0);
-  const auto center = chosen.numbers("center_mm", 2).value_or(std::vector<double>{0.0, 0.0});
-  placement.center_x_mm = center[0];
-  placement.center_y_mm = center[1];
-  return placement;
-}
-
-/// Depth per frame follows from the object's poses: its lowest point moves as its pose does, and ends at `depth_m`.
-std::vector<FrameReport> read_frames(const Record& summary, const fs::path& poses_path, double depth_m) {
-  const auto records = summary.sections("per_frame");
-  const NpyArray poses = read_npy(poses_path);
-  if (poses.shape != std::vector<std::size_t>{records.size(), 4, 4}) {
-    throw DataError("{}: does not hold a 4 x 4 pose for each of the {} frames of press.yaml", poses_path.string(),
-                    records.size());
-  }
-  constexpr std::size_t kPose = 16, kHeight = 11;
-  std::vector<FrameReport> frames;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const double above_last_m = poses.data[kPose * i + kHeight] - poses.data[kPose * (records.size() - 1) + kHeight];
-    if (!std::isfinite(above_last_m)) throw DataError("{}: the pose of frame {} is not finite", poses_path.string(), i);
-    frames.push_back({.depth_m = depth_m - above_last_m,
-                      .press_force_n = records[i].required_number("press_force_n"),
-                      .newton_iterations = records[i].required_count("newton_iterations"),
-                      .min_gap_m = records[i].required_number("min_gap_m"),
-                      .min_volume_ratio = records[i].required_number("min_volume_ratio")});
-  }
-  return frames;
-}
-
-DecimateReport read_decimate(const Record& record) {
-  constexpr std::pair<const char*, const char*> kRepairs[] = {{"unreferenced_vertices", "unused vertices removed"},
-                                                              {"merged_vertices", "vertices merged"},
-                                                              {"degenerate_faces", "faces without area treated"},
-                                                              {"duplicate_faces", "duplicate faces removed"},
-                                                              {"reoriented_faces", "faces turned over"},
-                                                              {"split_vertices", "vertices split"},
-                                                              {"filled_holes", "holes filled"},
-                                                              {"hole_faces", "faces added in holes"},
-                                                              {"debris_components", "loose bits removed"},
-                                                              {"hidden_components", "hidden parts removed"}};
-  constexpr std::pair<const char*, const char*> kLeft[] = {{"overlapping_components", "parts that overlap"},
-                                                           {"self_intersections", "crossing faces in the scan"}};
-  const Record summary = record.section("summary");
-  DecimateReport report;
-  report.vertices_in = summary.count("input_vertices");
-  report.vertices_out = summary.count("vertices");
-  report.hausdorff_mm = summary.section("hausdorff_mm").number("max");
-  report.passed_through = summary.flag("passed_through").value_or(false);
-  const auto add = [&](const Record& record_part, const auto& keys) {
-    for (const auto& [key, words] : keys) {
-      if (const int count = record_part.count(key).value_or(0); count > 0) report.findings.emplace_back(words, count);
-    }
-  };
-  add(summary.section("repairs"), kRepairs);
-  add(summary, kLeft);
-  return report;
-}
-
-void link_if_there(std::vector<std::pair<std::string, fs::path>>& links, const std::string& label,
-                   const fs::path& path) {
-  if (fs::is_regular_file(path)) links.emplace_back(label, path);
-}
-
-void read_object(const fs::path& press_folder, const Record& press, SampleReport& sample) {
-  const auto gel = press.section("inputs").section("gel").text("path");
-  if (gel) link_if_there(sample.records, "tetmesh.yaml", (press_folder / *gel).parent_path() / "tetmesh.yaml");
-  const auto object = press.section("inputs").section("object").text("path");
-  if (!object) return;
-  sample.object = object_name(*object);
-  const fs::path record_path = ((press_folder / *object).parent_path() / "decimate.yaml").lexically_normal();
-  if (!fs::is_regular_file(record_path)) return;
-  link_if_there(sample.records, "decimate.yaml", record_path);
-  const Record record = Record::from_file(record_path);
-  if (const auto scan = record.section("inputs").section("mesh").text("path")) sample.object = object_name(*scan);
-  sample.decimate = read_decimate(record);
-}
-
-/// Throws where the press is not one that passed.
-void read_press(const fs::path& folder, SampleReport& sample) {
-  const Record press = Record::from_file(folder / "press.yaml");
-  const Record summary = press.section("summary");
-  sample.name = press.text("name").value_or(sample.name);
-  sample.press_force_n = summary.required_number("press_force_n");
-  sample.min_distance_m = summary.required_number("min_distance_m");
-  sample.min_volume_ratio = summary.required_number("min_volume_ratio");
-  sample.newton_iterations = summary.required_count("newton_iterations");
-  sample.gel_vertices = summary.required_count("gel_vertices");
-  sample.placement = read_placement(press);
-  read_object(folder, press, sample);
-  const Record motion = press.section("config").section("sample").section("motion");
-  sample.depth_m = 1e-3 * motion.required_number("depth_mm");
-  sample.frames = read_frames(summary, folder / "object_pose.npy", *sample.depth_m);
-  if (!summary.required_flag("converged")) throw SolverError("press: Newton did not converge");
-  if (const int count = summary.required_count("intersections"); count > 0)
-    throw SolverError("press: {} triangle pairs intersect", count);
-  if (const int count = summary.required_count("inverted_tets"); count > 0)
-    throw SolverError("press: {} tetrahedra are inverted", count);
-}
 
 void read_render(const fs::path& folder, SampleReport& sample) {
   const Record render = Record::from_file(folder / "render.yaml");
@@ -144,26 +30,52 @@ void read_render(const fs::path& folder, SampleReport& sample) {
     if (!fs::is_regular_file(path)) throw DataError("{}: is missing", path.string());
   }
   sample.images = images;
+  for (const int frame : pictured_frames(sample)) {
+    const fs::path path = folder / fmt::format("frame_{:04}", frame) / "tactile.png";
+    const auto phase = std::find_if(sample.phases.begin(), sample.phases.end(),
+                                    [&](const PhaseReport& p) { return p.first <= frame && frame <= p.last; });
+    if (frame + 1 < static_cast<int>(sample.frames.size()) && fs::is_regular_file(path))
+      sample.phase_images.push_back({phase == sample.phases.end() ? "" : phase->name, frame, path});
+  }
   for (const char* name : {"linear.exr", "depth.exr", "normal.exr", "indentation.exr"})
     link_if_there(sample.data, name, last / name);
 }
 
-/// Placement and depth a failed press was asked for, where the sample brings them along.
+/// What a failed press was asked for, where the sample brings it along.
 void read_wish(const fs::path& path, SampleReport& sample) {
   if (!fs::is_regular_file(path)) return;
-  if (const auto depth_mm = Record::from_file(path).section("motion").number("depth_mm"))
-    sample.depth_m = 1e-3 * *depth_mm;
+  const Record wish = Record::from_file(path);
+  sample.motion = motion_text(wish);
+  if (const auto depth_mm = asked_depth_mm(wish)) sample.depth_m = 1e-3 * *depth_mm;
+}
+
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// A stage without record: its file of the failure tells why, else its log.
+void read_failure(const std::string& stage, SampleReport& sample) {
+  const fs::path folder = sample.folder / stage, path = folder / (stage + ".failed.yaml");
+  sample.failure = failure_reason(folder, stage);
+  if (!fs::is_regular_file(path)) return;
+  const Record record = Record::from_file(path);
+  if (stage == "press") sample.name = record.text("name").value_or(sample.name);
+  const FailedCheck failed = read_failed_check(record);
+  if (!failed.message.empty()) sample.failure = stage + ": " + in_one_line(failed.message);
+  if (failed.check) sample.checks = {*failed.check};
 }
 
 void judge(SampleReport& sample) {
-  if (!fs::is_regular_file(sample.folder / "press" / "press.yaml")) {
-    sample.failure = failure_reason(sample.folder / "press", "press");
+  const fs::path press = sample.folder / "press";
+  if (!fs::is_regular_file(press / "press.yaml")) {
     read_wish(sample.folder / "sample.yaml", sample);
+    read_failure("press", sample);
     return;
   }
-  read_press(sample.folder / "press", sample);
+  read_press(press, sample);
   if (!fs::is_regular_file(sample.folder / "render" / "render.yaml")) {
-    sample.failure = failure_reason(sample.folder / "render", "render");
+    read_failure("render", sample);
     return;
   }
   read_render(sample.folder / "render", sample);
@@ -196,10 +108,12 @@ SampleReport read_sample(const fs::path& given) {
   sample.name = without_slash(fs::absolute(sample.folder).lexically_normal()).filename().string();
   link_if_there(sample.records, "sample.yaml", sample.folder / "sample.yaml");
   for (const char* stage : {"press", "render"}) {
-    for (const char* ending : {".yaml", ".log"})
+    for (const char* ending : {".yaml", ".failed.yaml", ".log"})
       link_if_there(sample.records, stage + std::string(ending), sample.folder / stage / (stage + std::string(ending)));
   }
-  for (const char* name : {"positions.npy", "object_pose.npy", "wrench.npy", "contact_force.npy"})
+  for (const char* name : {"positions.npy", "object_pose.npy", "time.npy", "phase.npy", "wrench.npy",
+                           "contact_force.npy", "front_vertices.npy", "traction.npy", "contact_state.npy",
+                           "first_slip.npy", "markers.npy", "marker_displacement.npy", "markers.csv"})
     link_if_there(sample.data, name, sample.folder / "press" / name);
   try {
     judge(sample);

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "common/picture.h"
-#include "tests/report/sample_folder.h"
+#include "tests/report/sheared_folder.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -75,7 +75,7 @@ TEST_F(PageTest, TheSummaryHasTheNumbersOfEachSample) {
   EXPECT_EQ(row,
             "<tbody>\n<tr><td class=\"word\"><a href=\"#sample-1\">star-007</a></td><td class=\"word\">star</td>"
             "<td class=\"word\"><span class=\"verdict passed\">passed</span></td><td>0.500</td><td>1.25</td>"
-            "<td>25</td><td>35.0</td><td>0.750</td><td>23\u202f512</td><td>123\u202f456 → 8\u202f000</td>"
+            "<td>–</td><td>25</td><td>35.0</td><td>0.750</td><td>23\u202f512</td><td>123\u202f456 → 8\u202f000</td>"
             "<td>0.0123</td><td class=\"word\">synthetic</td></tr>\n");
 }
 
@@ -117,6 +117,48 @@ TEST_F(PageTest, WhatUsersWroteCannotBecomeMarkup) {
   EXPECT_THAT(html, Not(HasSubstr("<b>star")));
 }
 
+TEST_F(PageTest, ASampleInPhasesShowsForcesMarkersAndSlip) {
+  const fs::path drag = write_sheared_sample(scratch_ / "", "drag");
+  const std::string html = page({drag});
+  const std::string card = between(html, "<article", "</article>");
+  EXPECT_THAT(card, HasSubstr("<dt>motion</dt><dd>press 0.5 mm, shear 0.4 mm towards 90°</dd>"));
+  EXPECT_THAT(card, HasSubstr("<dt>tangential force</dt><dd>0.840 N</dd>"));
+  EXPECT_THAT(card, HasSubstr("<dt>at the end of the press</dt><dd>1.25 N (frame 2)</dd>"));
+  EXPECT_THAT(
+      card,
+      HasSubstr(
+          "<dt>coefficient</dt><dd>0.7</dd><dt>first slip</dt><dd>0.0250 s</dd><dt>gross slip</dt><dd>0.0400 s</dd>"));
+  EXPECT_THAT(card, HasSubstr("<dt>elements</dt><dd>averaged_volume</dd>"));
+  EXPECT_THAT(card, HasSubstr("<b>Tactile image</b>, frame 2 (end of press)"));
+  EXPECT_THAT(card, HasSubstr("<b>Markers</b> since rest, frame 2 (end of press), at most 0.0100 mm<br>"));
+  EXPECT_THAT(card, HasSubstr("<b>Markers</b> since the end of the press, frame 4 (end of shear), at most 0.400 mm<br>"
+                              "<i class=\"dot stuck\"></i>0 contacts stick, <i class=\"dot slipping\"></i>2 slip"));
+  EXPECT_THAT(card,
+              HasSubstr("✓</span>force imbalance</td><td class=\"word\">0.0200 % of the contact force (frame 2)</td>"));
+  EXPECT_THAT(card, Not(HasSubstr("press force over indentation depth")));  // most frames have one depth
+  EXPECT_THAT(html, HasSubstr("<li class=\"\"><b>0.0200 %</b>largest force imbalance</li>"));
+  EXPECT_THAT(between(html, "<tbody>", "</tbody>"), HasSubstr("<td>1.20</td><td>0.840</td><td>40</td>"));
+}
+
+TEST_F(PageTest, LongMotionsMakeNoLongPages) {
+  const fs::path drag = write_sheared_sample(scratch_ / "", "drag");
+  SampleReport sample = read_sample(drag);
+  const FrameReport last = sample.frames.back();
+  for (int i = 0; i < 300; ++i) sample.frames.push_back(last);
+  EXPECT_LT(report_page("Title", {sample}, out_).size(), 100'000u);
+}
+
+TEST_F(PageTest, TheCheckThatFailedStandsOnTheCard) {
+  fs::remove(gear_ / "press/press.yaml");
+  write_file(gear_ / "press/press.failed.yaml",
+             "stage: press\nname: gear\nmessage: \"frame 2: imbalance of 0.002\"\nframe: 2\ncheck: balance_relative\n"
+             "value: 0.002\nlimit: 0.001\n");
+  const std::string card = between(page({gear_}), "<article", "</article>");
+  EXPECT_THAT(card, HasSubstr("<p class=\"note bad\">press: frame 2: imbalance of 0.002</p>"));
+  EXPECT_THAT(card, HasSubstr("✗</span>balance_relative</td><td class=\"word\">0.002 (frame 2)</td>"
+                              "<td class=\"word quiet\">limit: 0.001</td>"));
+}
+
 TEST_F(PageTest, AFailedSampleIsShownAsFailedWithItsReason) {
   fs::remove(gear_ / "press/press.yaml");
   write_file(gear_ / "press/press.log", "2024-06-07 12:34:56.789 error: press: error: frame 2: no convergence\n");
@@ -129,7 +171,7 @@ TEST_F(PageTest, AFailedSampleIsShownAsFailedWithItsReason) {
 }
 
 TEST_F(PageTest, NeedsNeitherScriptsNorTheNetwork) {
-  const std::string html = page({star_});
+  const std::string html = page({star_, write_sheared_sample(scratch_ / "", "drag")});
   EXPECT_THAT(html, Not(HasSubstr("<script")));
   EXPECT_THAT(html, Not(HasSubstr("//")));
   EXPECT_THAT(html, Not(HasSubstr("@import")));
@@ -137,7 +179,7 @@ TEST_F(PageTest, NeedsNeitherScriptsNorTheNetwork) {
 }
 
 TEST_F(PageTest, ElementsAreClosed) {
-  const std::string html = page({star_, gear_});
+  const std::string html = page({star_, gear_, write_sheared_sample(scratch_ / "", "drag")});
   const std::regex tag("<(/?)([a-z0-9]+)[^>]*?(/?)>");
   std::vector<std::string> open;
   for (std::sregex_iterator it(html.begin(), html.end(), tag), end; it != end; ++it) {

@@ -1,52 +1,16 @@
 #include "stages/report/press_curve.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <array>
 #include <cmath>
 #include <regex>
 
+#include "tests/report/sheared_folder.h"
+#include "tests/scratch_folder.h"
+
 namespace tacipc {
 namespace {
-
-TEST(RoundAxis, CoversTheRangeWithRoundTicks) {
-  const Axis axis = round_axis(-0.05, 0.45, 7);
-  EXPECT_DOUBLE_EQ(axis.low, -0.1);
-  EXPECT_DOUBLE_EQ(axis.high, 0.5);
-  EXPECT_DOUBLE_EQ(axis.step, 0.1);
-  EXPECT_EQ(axis.decimals, 1);
-  EXPECT_EQ(axis.num_ticks(), 7);
-}
-
-TEST(RoundAxis, ABoundOnATickNeedsNoFurtherOne) {
-  const Axis axis = round_axis(0.0, 0.1 + 0.2, 4);  // 0.30000000000000004
-  EXPECT_DOUBLE_EQ(axis.high, 0.3);
-  EXPECT_EQ(axis.num_ticks(), 4);
-}
-
-TEST(RoundAxis, CoversAnyRangeWithinTheNumberOfTicks) {
-  for (const double size : {1e-9, 0.03, 0.7, 1.0, 4.9, 12345.0}) {
-    for (const double start : {-2.0, -0.4, 0.0, 0.9}) {
-      for (const int max_ticks : {3, 5, 8}) {
-        const double low = start * size, high = low + size;
-        const Axis axis = round_axis(low, high, max_ticks);
-        SCOPED_TRACE(::testing::Message() << low << " to " << high << " in " << max_ticks);
-        EXPECT_LE(axis.low, low + 1e-8 * size);
-        EXPECT_GE(axis.high, high - 1e-8 * size);
-        EXPECT_LE(axis.num_ticks(), max_ticks);
-        EXPECT_LT(axis.high - axis.low, 6 * size);
-        EXPECT_NEAR(axis.tick(axis.num_ticks() - 1), axis.high, 1e-9 * size);
-      }
-    }
-  }
-}
-
-TEST(RoundAxis, APointGetsAnAxisToo) {
-  EXPECT_DOUBLE_EQ(round_axis(0.0, 0.0, 7).low, 0.0);
-  EXPECT_GT(round_axis(0.0, 0.0, 7).high, 0.0);
-  EXPECT_LE(round_axis(-3.0, -3.0, 7).low, -3.0);
-  EXPECT_GT(round_axis(-3.0, -3.0, 7).high, -3.0);
-}
 
 /// Position on the drawing and value, read from the ticks' labels alone.
 struct Tick {
@@ -88,13 +52,21 @@ TEST(PressCurve, ItsPointsAreTheFramesReadAgainstTheTicks) {
   const auto points = line_points(svg);
   ASSERT_EQ(points.size(), frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    EXPECT_NEAR(value_at(depth, points[i][0]), 1e3 * frames[i].depth_m, 2e-5);
+    EXPECT_NEAR(value_at(depth, points[i][0]), 1e3 * frames[i].depth_m.value(), 2e-5);
     // The labels stand 4 below their line, all alike, as texts are set on their baseline.
     EXPECT_NEAR(value_at(force, points[i][1] + 4), frames[i].press_force_n, 2e-5);
   }
   EXPECT_NE(svg.find("indentation depth (mm)"), std::string::npos);
   EXPECT_NE(svg.find("press force (N)"), std::string::npos);
   EXPECT_NE(svg.find("<title>frame 2: 0.450 mm, 0.390 N, 0 Newton iterations</title>"), std::string::npos);
+}
+
+TEST(PressCurve, ManyFramesAreALineWithoutMarks) {
+  std::vector<FrameReport> frames(300);
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].depth_m = 1e-6 * static_cast<double>(i);
+  const std::string svg = press_curve_svg(frames);
+  EXPECT_EQ(line_points(svg).size(), 300u);
+  EXPECT_EQ(svg.find("<circle"), std::string::npos);
 }
 
 TEST(PressCurve, TicksAreEvenAndTheirLabelsExact) {
@@ -110,6 +82,55 @@ TEST(PressCurve, OneFrameWithoutForceIsDrawn) {
   EXPECT_EQ(line_points(svg).size(), 1u);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+class FrameCurvesTest : public ::testing::Test {
+ protected:
+  ScratchFolder scratch_;
+  SampleReport sample_ = read_sample(write_sheared_sample(scratch_ / ""));
+};
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST_F(FrameCurvesTest, ShowForcesContactRatioAndBalance) {
+  const std::string html = frame_curves(sample_);
+  EXPECT_THAT(html, HasSubstr("aria-label=\"forces over frames\""));
+  EXPECT_THAT(html, HasSubstr("<title>frame 4: 1.20 N into the gel</title>"));
+  EXPECT_THAT(html, HasSubstr("<title>frame 4: 0.840 N along the face</title>"));
+  EXPECT_THAT(html, HasSubstr("<title>frame 3: 5.00 mm²</title>"));
+  EXPECT_THAT(html, HasSubstr("<title>frame 3: 244 kPa</title>"));
+  EXPECT_THAT(html, HasSubstr(">friction coefficient 0.7</text>"));
+  EXPECT_THAT(html, HasSubstr("<title>frame 2: 2.00e-04 of the contact force</title>"));
+  EXPECT_THAT(html, HasSubstr("at most 2.50e-04 N (frame 2)"));
+  EXPECT_THAT(html, HasSubstr("<br>Frames: reference 0, approach 1, press 2, shear 3–4"));
+}
+
+TEST_F(FrameCurvesTest, TheRatioIsLeftOutWhereNothingPresses) {
+  sample_.frames = {{.press_force_n = 0.0, .tangential_force_n = 0.0},
+                    {.press_force_n = 2.0, .tangential_force_n = 1.0},
+                    {.press_force_n = 0.01, .tangential_force_n = 1.0}};  // half a percent of the largest
+  const std::string html = frame_curves(sample_);
+  EXPECT_THAT(html, HasSubstr("<title>frame 1: 0.500 </title>"));
+  EXPECT_THAT(html, Not(HasSubstr("<title>frame 2: 100 </title>")));
+}
+
+TEST_F(FrameCurvesTest, SlipIsMarkedAtItsTime) {
+  const std::string html = frame_curves(sample_);
+  std::smatch first, gross;
+  ASSERT_TRUE(std::regex_search(html, first, std::regex("d=\"M([0-9.]+) [0-9.]+V[0-9.]+\"/>[^>]*>first slip")));
+  ASSERT_TRUE(std::regex_search(html, gross, std::regex("d=\"M([0-9.]+) [0-9.]+V[0-9.]+\"/>[^>]*>gross slip")));
+  const auto frames = ticks(html.substr(0, html.find("</svg>")), "x-tick", "x");
+  EXPECT_NEAR(value_at(frames, std::stod(first[1])), 2.5, 0.01);  // 0.025 s lies halfway between frames 2 and 3
+  EXPECT_NEAR(value_at(frames, std::stod(gross[1])), 4.0, 0.01);
+}
+
+TEST_F(FrameCurvesTest, AnOlderRecordHasItsPressForceOnly) {
+  const SampleReport plain = read_sample(write_sample(scratch_ / "plain"));
+  const std::string html = frame_curves(plain);
+  EXPECT_THAT(html, HasSubstr("forces over frames"));
+  for (const char* absent : {"tangential", "contact area", "balance", "friction", "slip"})
+    EXPECT_THAT(html, Not(HasSubstr(absent)));
 }
 
 }  // namespace

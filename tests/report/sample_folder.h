@@ -7,13 +7,14 @@
 #include "common/files.h"
 #include "common/image.h"
 #include "common/npy.h"
+#include "common/triangle_mesh.h"
 
 namespace tacipc {
 
 inline constexpr const char* kPressRecord = R"(stage: press
 inputs:
   gel: {path: ../../../gels/small/gel.msh, hash: a}
-  object: {path: ../../../objects/star/object.ply, hash: b}
+  object: {path: ../../../objects/star/object.ply, hash: 2e988d611a7a5c5c8f5a2fc56afa050a}
 name: star-007
 config:
   config: {time_step_s: 0.01}
@@ -64,6 +65,15 @@ inline void write_poses(const std::filesystem::path& path) {
   write_npy(path, {3, 4, 4}, poses.data());
 }
 
+/// A tetrahedron whose lowest point lies 2 mm below its origin.
+inline void write_object(const std::filesystem::path& path) {
+  TriangleMesh mesh{Positions(4, 3), Triangles(4, 3)};
+  mesh.positions << -1e-3, -1e-3, 2e-3, 1e-3, -1e-3, 2e-3, 0, 1e-3, 2e-3, 0, 0, -2e-3;
+  mesh.triangles << 0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0;
+  std::filesystem::create_directories(path.parent_path());
+  write_ply(path, mesh);
+}
+
 inline void write_flat_png(const std::filesystem::path& path, int width, int height, std::uint8_t red) {
   std::filesystem::create_directories(path.parent_path());
   ByteImage image(width, height, 3, 40);
@@ -85,6 +95,7 @@ inline std::filesystem::path write_sample(const std::filesystem::path& root, con
   write_flat_png(sample / "render/frame_0002/normal.png", 40, 30, 60);
   write_file(sample / "render/frame_0002/depth.exr", "image");
   write_file(root / "out/objects/star/decimate.yaml", kDecimateRecord);
+  write_object(root / "out/objects/star/object.ply");
   write_file(root / "out/gels/small/tetmesh.yaml", "stage: tetmesh\n");
   return sample;
 }

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "common/error.h"
-#include "tests/report/sample_folder.h"
+#include "tests/report/sheared_folder.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -49,13 +49,101 @@ TEST_F(SampleTest, GathersTheRecordsOfAllStages) {
 TEST_F(SampleTest, DepthsOfTheFramesFollowFromThePoses) {
   const SampleReport sample = read_sample(folder_);
   ASSERT_EQ(sample.frames.size(), 3u);
-  EXPECT_NEAR(sample.frames[0].depth_m, 0.0, 1e-15);
-  EXPECT_NEAR(sample.frames[1].depth_m, 0.25e-3, 1e-15);
-  EXPECT_NEAR(sample.frames[2].depth_m, 0.5e-3, 1e-15);
+  EXPECT_NEAR(sample.frames[0].depth_m.value(), 0.0, 1e-15);
+  EXPECT_NEAR(sample.frames[1].depth_m.value(), 0.25e-3, 1e-15);
+  EXPECT_NEAR(sample.frames[2].depth_m.value(), 0.5e-3, 1e-15);
   EXPECT_EQ(sample.frames[1].press_force_n, 0.5);
   EXPECT_EQ(sample.frames[1].newton_iterations, 11);
   EXPECT_EQ(sample.frames[2].min_gap_m, 3.5e-5);
   EXPECT_EQ(sample.frames[1].min_volume_ratio, 0.875);
+}
+
+TEST_F(SampleTest, DepthIsThatOfTheLowestPointHoweverTheObjectTurns) {
+  // Half a turn about x: the base of the tetrahedron, 2 mm above its origin, is now lowest.
+  std::vector<double> poses;
+  for (const double z : {2.5e-3, 2.0e-3, 1.25e-3})
+    poses.insert(poses.end(), {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, z, 0, 0, 0, 1});
+  write_npy(folder_ / "press/object_pose.npy", {3, 4, 4}, poses.data());
+  const SampleReport sample = read_sample(folder_);
+  EXPECT_NEAR(sample.frames[0].depth_m.value(), -0.5e-3, 1e-15);
+  EXPECT_NEAR(sample.frames[1].depth_m.value(), 0.0, 1e-15);
+  EXPECT_NEAR(sample.frames[2].depth_m.value(), 0.75e-3, 1e-15);
+  EXPECT_NEAR(sample.depth_m.value(), 0.75e-3, 1e-15);
+}
+
+TEST_F(SampleTest, WithoutTheObjectThatWasPressedThereAreNoDepthsPerFrame) {
+  const fs::path object = scratch_ / "out/objects/star/object.ply";
+  write_file(object, "another one");
+  SampleReport sample = read_sample(folder_);
+  EXPECT_EQ(sample.failure, std::nullopt);
+  EXPECT_EQ(sample.frames[1].depth_m, std::nullopt);
+  EXPECT_DOUBLE_EQ(sample.depth_m.value(), 0.5e-3);  // what was asked for
+  EXPECT_THAT(sample.warnings,
+              ::testing::Contains("press: the object's mesh has changed since the press, so the depths "
+                                  "per frame are not known"));
+  fs::remove(object);
+  sample = read_sample(folder_);
+  EXPECT_THAT(sample.warnings,
+              ::testing::Contains("press: the object's mesh is not there, so the depths per frame are not known"));
+}
+
+TEST_F(SampleTest, AMotionInPhasesHasItsDepthAtTheEndOfThePress) {
+  const SampleReport sample = read_sample(write_sheared_sample(scratch_ / ""));
+  EXPECT_EQ(sample.failure, std::nullopt);
+  EXPECT_EQ(sample.motion, "press 0.5 mm, shear 0.4 mm towards 90°");
+  EXPECT_NEAR(sample.depth_m.value(), 0.5e-3, 1e-15);
+  EXPECT_NEAR(sample.frames[0].depth_m.value(), -0.1e-3, 1e-15);
+  EXPECT_EQ(sample.tangential_force_n, 0.84);
+  EXPECT_EQ(sample.friction_coefficient, 0.7);
+  EXPECT_EQ(sample.first_slip_time_s, 0.025);
+  EXPECT_EQ(sample.gross_slip_time_s, 0.04);
+  EXPECT_EQ(sample.element, "averaged_volume");
+  EXPECT_EQ(sample.press_end_frame, 2);
+  EXPECT_EQ(sample.phases.size(), 4u);
+  EXPECT_EQ(sample.marker_pictures.size(), 3u);
+  EXPECT_EQ(sample.checks.size(), 7u);
+  ASSERT_TRUE(sample.images);
+  EXPECT_EQ(sample.images->tactile.parent_path().filename(), "frame_0004");
+  ASSERT_EQ(sample.phase_images.size(), 1u);
+  EXPECT_EQ(sample.phase_images[0].frame, 2);
+  EXPECT_EQ(sample.phase_images[0].phase, "press");
+}
+
+TEST_F(SampleTest, SlipThatNeverComesIsNoTime) {
+  const fs::path drag = write_sheared_sample(scratch_ / "");
+  write_file(drag / "press/press.yaml", replaced(sheared_record(), "  gross_slip_time_s: 0.04\n", ""));
+  EXPECT_EQ(read_sample(drag).gross_slip_time_s, std::nullopt);
+}
+
+TEST_F(SampleTest, ALimitThatIsMissedFailsTheSample) {
+  const fs::path drag = write_sheared_sample(scratch_ / "");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    write_file(drag / "press/press.yaml", replaced(sheared_record(), from, to));
+    return read_sample(drag).failure.value_or("passed");
+  };
+  EXPECT_EQ(with("balance_relative: 8.0e-06", "balance_relative: 2.0e-03"),
+            "press: force imbalance is 0.200 % of the contact force in frame 3, the limit is 0.100 %, or 1e-5 N");
+  EXPECT_EQ(with("max_pose_error_m: 0", "max_pose_error_m: 2.0e-06"),
+            "press: distance from the asked pose is 2000 nm, the limit is 1.00 nm");
+  EXPECT_EQ(with("min_gap_m: 3.6e-05", "min_gap_m: 0"),
+            "press: smallest distance is 0 µm in frame 4, the limit is above 0");
+  EXPECT_EQ(with("verdict: pass", "verdict: fail"), "press: its verdict is fail");
+  EXPECT_EQ(with("press_end_frame: 2", "press_end_frame: 5"),
+            "press/press.yaml: summary.press_end_frame: 5 is not one of the 5 frames");
+}
+
+TEST_F(SampleTest, TheFileOfAFailureTellsMoreThanTheLog) {
+  fs::remove(folder_ / "press/press.yaml");
+  write_file(folder_ / "press/press.log", "2024-06-07 12:34:56.789 error: press: error: no convergence\n");
+  write_file(folder_ / "press/press.failed.yaml",
+             "stage: press\nname: knife\nmessage: \"frame 2:\\n no convergence\"\nframe: 2\ncheck: velocity_residual_m_s\n"
+             "value: 2.1e-03\nlimit: 1.0e-04\n");
+  const SampleReport sample = read_sample(folder_);
+  EXPECT_EQ(sample.name, "knife");
+  EXPECT_EQ(sample.failure, "press: frame 2:  no convergence");
+  ASSERT_EQ(sample.checks.size(), 1u);
+  EXPECT_EQ(sample.checks[0].name, "velocity_residual_m_s");
+  EXPECT_EQ(sample.records.front().first, "press.failed.yaml");
 }
 
 TEST_F(SampleTest, SaysWhoChoseTheSide) {
