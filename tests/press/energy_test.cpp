@@ -6,11 +6,13 @@
 #include <memory>
 #include <random>
 
+#include "stages/press/energy/averaged_elasticity.h"
 #include "stages/press/energy/barrier.h"
 #include "stages/press/energy/contact_barrier.h"
 #include "stages/press/energy/elasticity.h"
 #include "stages/press/energy/inertia.h"
 #include "tests/press/convergence_order.h"
+#include "tests/press/elastic_block.h"
 
 namespace tacipc {
 namespace {
@@ -39,6 +41,23 @@ Case tet_case(const std::string& name, const ElasticLaw& law, double squeeze) {
   return {name, std::make_shared<Elasticity>(rows(rest), Tetrahedra{{0, 1, 2, 3}}, law), x, 1e-3, true, true};
 }
 
+/// The six tetrahedra of a cube as one patch, each deformed differently.
+Case patch_case(const std::string& name, const ElasticLaw& law, double squeeze) {
+  const Block block = make_block(Vector3::Ones(), {1, 1, 1}, 0.0);
+  Positions x = block.rest;
+  x.col(2) *= squeeze;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const double t = static_cast<double>(v);
+    x.row(v) += 0.08 * Vector3(std::sin(3.0 * t), std::cos(5.0 * t), std::sin(2.0 + t)).transpose();
+  }
+  return {name,
+          std::make_shared<AveragedElasticity>(block.rest, block.tets, law, TetPatches{{0, 1, 2, 3, 4, 5}}),
+          x.reshaped<Eigen::RowMajor>(),
+          1e-3,
+          true,
+          true};
+}
+
 Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x) {
   ContactMesh mesh;
   mesh.num_gel_vertices = 0;  // everything belongs to the object, so d̂ is not cut by the distance at rest
@@ -60,6 +79,8 @@ std::vector<Case> cases() {
     const std::string how = squeeze < 1.0 ? "pressed" : "stretched";
     all.push_back(tet_case("neo_hookean_" + how, NeoHookean{2.0, 7.0}, squeeze));
     all.push_back(tet_case("stvk_hencky_" + how, StvkHencky{2.0, 7.0}, squeeze));
+    all.push_back(patch_case("averaged_neo_hookean_" + how, NeoHookean{2.0, 7.0}, squeeze));
+    all.push_back(patch_case("averaged_stvk_hencky_" + how, StvkHencky{2.0, 7.0}, squeeze));
   }
   using Kind = ContactPair::Kind;
   x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
