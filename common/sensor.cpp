@@ -72,10 +72,10 @@ double GelShape::front_z(double x, double y) const {
 }
 
 Material Material::read(ConfigReader& in) {
-  return {.law = in.choice("law", {"neo_hookean"}),
+  return {.law = in.choice("law", {"neo_hookean", "stvk_hencky"}),
           .density_kg_m3 = in.number("density_kg_m3", Range::positive()),
           .youngs_modulus_pa = in.number("youngs_modulus_pa", Range::positive()),
-          .poissons_ratio = in.number("poissons_ratio", Range::between(0.0, 0.495))};
+          .poissons_ratio = in.number("poissons_ratio", Range::between(0.0, 0.4999))};
 }
 
 double Material::lame_lambda_pa() const {

@@ -32,7 +32,7 @@ struct GelShape {
 
 /// Isotropic elastic material.
 struct Material {
-  std::string law;  // "neo_hookean"
+  std::string law;  // "neo_hookean" or "stvk_hencky"
   double density_kg_m3 = 0.0;
   double youngs_modulus_pa = 0.0;
   double poissons_ratio = 0.0;

@@ -1,5 +1,6 @@
 #include "common/sensor.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -72,6 +73,27 @@ TEST(ColorOfTemperature, MatchesTheTable) {
   for (const auto& [kelvin, expected] : table) {
     const auto color = color_of_temperature(kelvin);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(color[c], expected[c], 5e-3) << kelvin << " K, channel " << c;
+  }
+}
+
+TEST(Material, LawIsOneOfTwoAndIncompressibilityIsOutOfReach) {
+  for (const char* law : {"neo_hookean", "stvk_hencky"}) {
+    ConfigReader in = ConfigReader::from_text(
+        fmt::format("law: {}\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.4999\n", law), "m.yaml");
+    const Material material = Material::read(in);
+    in.finish();
+    EXPECT_EQ(material.law, law);
+    EXPECT_NEAR(material.lame_lambda_pa(), 1e5 * 0.4999 / (1.4999 * 0.0002), 1e-2);
+  }
+  ConfigReader in = ConfigReader::from_text(
+      "law: stvk\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.5\n", "m.yaml");
+  Material::read(in);
+  try {
+    in.finish();
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.faults(), ::testing::ElementsAre("m.yaml:1:6: law: 'stvk' is not one of neo_hookean, stvk_hencky",
+                                                       "m.yaml:4:17: poissons_ratio: 0.5 is outside [0, 0.4999]"));
   }
 }
 
