@@ -22,7 +22,7 @@ name_of = $(basename $(notdir $(1)))
 define table_object
 $(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/decimate/default.yaml | build
 	$$(call run,decimate,--mesh $(1) --object configs/objects/printed_indenter.yaml --config configs/decimate/default.yaml)
-$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/samples/press_0500um.yaml)
+$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/samples/press_0500um.yaml,configs/press/paper.yaml)
 endef
 $(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
 
@@ -30,7 +30,7 @@ $(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
 PAPER_GEL := $(SHARED)/data/tacipc_release/gel/gelslim-gel-l_0.1.msh
 $(OUT)/gels/mctac-import_paper/tetmesh.yaml: $(PAPER_GEL) configs/tetmesh/import_paper.yaml configs/sensors/mctac.yaml | build
 	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac.yaml --config configs/tetmesh/import_paper.yaml)
-$(foreach o,$(PAPER_GEL_OBJECTS),$(eval $(call sample_rules,$(TABLE)/paper/$(o),$(o),$(TABLE)/objects/$(o),configs/objects/printed_indenter.yaml,mctac,import_paper,configs/samples/press_0500um.yaml)))
+$(foreach o,$(PAPER_GEL_OBJECTS),$(eval $(call sample_rules,$(TABLE)/paper/$(o),$(o),$(TABLE)/objects/$(o),configs/objects/printed_indenter.yaml,mctac,import_paper,configs/samples/press_0500um.yaml,configs/press/paper.yaml)))
 
 TABLE_SAMPLES := $(foreach f,$(TABLE_FILES),$(TABLE)/own/$(call name_of,$(f))) $(foreach o,$(PAPER_GEL_OBJECTS),$(TABLE)/paper/$(o))
 $(eval $(call report_rules,$(TABLE),TacIPC: real objects,$(TABLE_SAMPLES)))

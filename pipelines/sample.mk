@@ -1,16 +1,35 @@
-# One object of the user's own: make -f Makefile.data sample OBJECT=path.stl [SENSOR= MESH= DEPTH_MM= STEPS= UNIT= UP= FACE= ROTATE= CENTER=]
+# One object of the user's own: make -f Makefile.data sample OBJECT=path.stl [variables below]
 
 SENSOR   ?= mctac#            a file of configs/sensors
 MESH     ?= adaptive_0250um#  a file of configs/tetmesh
+PRESS    ?=#                  a file of configs/press (default: friction if something drags or FRICTION is given, else paper)
+FRICTION ?=#                  friction coefficient (default: as PRESS says)
+MOTION   ?= press#            press and what follows it: shear twist tilt hold release, joined by +; or a file.yaml with motion and placement
 DEPTH_MM ?= 0.5#              how deep the lowest point goes
-STEPS    ?= 5#                frames on the way
+FORCE_N  ?=#                  press until this force instead of a depth
+DENSITY  ?= 7800#             of the object, kg/m3, for FORCE_N
+STEPS    ?= 5#                frames of the press
+SHEAR_MM  ?= 0.5#             how far it is dragged
+DIRECTION ?= 0#               where to: degrees from x (image right) towards y (image down); of tilt too
+TWIST_DEG ?= 10#              how far it is turned about z
+TILT_DEG  ?= 5#               how far it is tilted
+MOVE_STEPS ?= 20#             frames of each motion after the press
 UNIT     ?= mm#               of the object's file: m, cm, mm, um, in
 UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
 FACE     ?=#                  side that presses (default: opposite of UP, else -z)
 ROTATE   ?= 0#                degrees about the sensor's z axis
 CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands
 NAME     ?= $(basename $(notdir $(OBJECT)))# of the sample
-$(foreach v,SENSOR MESH DEPTH_MM STEPS UNIT UP FACE ROTATE CENTER NAME,$(eval override $(v) := $(strip $($(v)))))
+SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UNIT UP FACE ROTATE CENTER NAME
+given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# on the command line
+$(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
+
+comma := ,
+space := $(subst ,, )
+define newline
+
+
+endef
 
 .PHONY: sample FORCE
 ifdef OBJECT
@@ -27,37 +46,89 @@ ifeq ($(wildcard configs/tetmesh/$(MESH).yaml),)
 endif
 SAMPLE := $(OUT)/sample/$(NAME)
 
+# The motion: a file, or words.
+MOVES := shear twist tilt hold release
+$(call check_name,MOTION)
+motion_file := $(filter %.yaml,$(MOTION))
+ifneq ($(motion_file),)
+  ifeq ($(wildcard $(motion_file)),)
+    $(error MOTION: $(motion_file) does not exist)
+  endif
+  useless := $(filter DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS FACE ROTATE CENTER,$(given))
+  # A path that the file names lies beside it.
+  motion_path := $(shell sed -n 's/.*[{, ]file: *\([^,} ]*\).*/\1/p' $(motion_file))
+  motion_path := $(foreach f,$(motion_path),$(wildcard $(if $(filter /%,$(f)),$(f),$(dir $(motion_file))$(f))))
+else
+  asked := $(subst +, ,$(MOTION))
+  moves := $(if $(filter press,$(firstword $(asked))),$(wordlist 2,$(words $(asked)),$(asked)),$(asked))
+  unknown := $(if $(asked),$(filter-out $(MOVES),$(moves)),nothing)
+  ifneq ($(unknown),)
+    $(error MOTION: '$(firstword $(unknown))' is none of press, $(subst $(space),$(comma) ,$(MOVES)) (several joined by +) and no file.yaml)
+  endif
+  ifneq ($(and $(FORCE_N),$(filter DEPTH_MM,$(given))),)
+    $(error DEPTH_MM, FORCE_N: say one of them)
+  endif
+  useless := $(filter $(if $(filter shear,$(moves)),,SHEAR_MM) $(if $(filter shear tilt,$(moves)),,DIRECTION) $(if $(filter twist,$(moves)),,TWIST_DEG) \
+    $(if $(filter tilt,$(moves)),,TILT_DEG) $(if $(moves),,MOVE_STEPS) $(if $(FORCE_N),,DENSITY),$(given))
+endif
+ifneq ($(useless),)
+  $(error $(firstword $(useless)): has no effect with MOTION=$(MOTION)$(if $(filter DENSITY,$(firstword $(useless))), without FORCE_N))
+endif
+
+ifeq ($(PRESS),)
+  override PRESS := $(if $(FRICTION)$(motion_file)$(filter shear twist tilt,$(moves)),friction,paper)
+endif
+ifeq ($(wildcard configs/press/$(PRESS).yaml),)
+  $(error PRESS: there is no configs/press/$(PRESS).yaml (there are: $(basename $(notdir $(wildcard configs/press/*.yaml)))))
+endif
+ifneq ($(FRICTION),)
+  $(call check_name,FRICTION)
+  ifeq ($(shell sed -n '/^friction:/,$$s/^  coefficient:/&/p' configs/press/$(PRESS).yaml),)
+    $(error FRICTION: configs/press/$(PRESS).yaml has no section friction with a coefficient)
+  endif
+endif
+sample_spec  := $(or $(motion_file),$(SAMPLE)/sample.yaml)
+press_config := $(if $(FRICTION),$(SAMPLE)/press_config.yaml,configs/press/$(PRESS).yaml)
+
 # The variables as configuration files, rewritten only when they change.
+press_phase   = {kind: press, $(if $(FORCE_N),force_n: $(FORCE_N),depth_mm: $(DEPTH_MM)), steps: $(STEPS)}
+shear_phase   = {kind: shear, direction_deg: $(DIRECTION), distance_mm: $(SHEAR_MM), steps: $(MOVE_STEPS)}
+twist_phase   = {kind: twist, angle_deg: $(TWIST_DEG), steps: $(MOVE_STEPS)}
+tilt_phase    = {kind: tilt, direction_deg: $(DIRECTION), angle_deg: $(TILT_DEG), steps: $(MOVE_STEPS)}
+hold_phase    = {kind: hold, steps: $(MOVE_STEPS)}
+release_phase = {kind: release, steps: $(MOVE_STEPS)}
 define sample_yaml
 placement:
   rotate_deg: $(ROTATE)
   center_mm: [$(CENTER)]
 $(if $(FACE),  face: "$(FACE)")
-motion: {kind: press, depth_mm: $(DEPTH_MM), steps: $(STEPS)}
+$(if $(FORCE_N),object: {density_kg_m3: $(DENSITY)})
+motion: $(if $(moves),,$(press_phase))
+$(if $(moves),  - $(press_phase)$(foreach m,$(moves),$(newline)  - $($(m)_phase)))
 endef
 define object_yaml
 unit: $(UNIT)
 $(if $(UP),up: "$(UP)")
 endef
-# Which files are meant: another object, sensor or mesh under the same name must redo the sample however old its files are.
-choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH)}
-replace_if_changed = @mkdir -p $(@D); printf '%s\n' '$(subst $(newline),' ',$(1))' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
-define newline
-
-
-endef
+# Which files are meant: another object, sensor, mesh, press or motion under the same name must redo the sample however old its files are.
+choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), motion: $(or $(abspath $(motion_file)),as said)}
+replace_if_changed_by = @mkdir -p $(@D); $(1) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+replace_if_changed = $(call replace_if_changed_by,printf '%s\n' '$(subst $(newline),' ',$(1))')
 $(SAMPLE)/sample.yaml: FORCE
 	$(call replace_if_changed,$(sample_yaml))
 $(SAMPLE)/object.yaml: FORCE
 	$(call replace_if_changed,$(object_yaml))
+$(SAMPLE)/press_config.yaml: configs/press/$(PRESS).yaml FORCE
+	$(call replace_if_changed_by,sed '/^friction:/$(comma)$$s|^  coefficient:.*|  coefficient: $(FRICTION)|' $<)
 $(SAMPLE)/choice.txt: FORCE
 	$(call replace_if_changed,$(choice_yaml))
+	$(if $(motion_file),@rm -f $(SAMPLE)/sample.yaml)
 $(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt configs/decimate/default.yaml | build
 	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config configs/decimate/default.yaml)
-$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(SAMPLE)/sample.yaml,$(SAMPLE)/choice.txt))
+$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_path)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
-sample: $(SAMPLE)/report/report.yaml ## One object of your own: OBJECT=path.stl [SENSOR MESH DEPTH_MM STEPS UNIT UP FACE ROTATE CENTER NAME]
+sample: $(SAMPLE)/report/report.yaml ## One object of your own: OBJECT=path.stl [MOTION=shear|twist|release|…; see pipelines/sample.mk]
 	$(call look,$(SAMPLE))
 else
 sample:

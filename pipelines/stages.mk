@@ -23,11 +23,11 @@ $(OUT)/objects/%/decimate.yaml: $(OUT)/emboss/%/emboss.yaml configs/objects/embo
 
 REFERENCES := $(wildcard configs/sensors/*.png)# photographs that sensors name
 
-# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml[,further prerequisite])
+# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml,press yaml[,further prerequisites])
 define sample_rules
-$(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml configs/press/paper.yaml $(7) $(8) | build
+$(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml $(8) $(7) $(9) | build
 	$$(call run,press,--name $(2) --object $(3)/object.ply --object-config $(4) --gel $$(OUT)/gels/$(5)-$(6)/gel.msh \
-	  --sensor configs/sensors/$(5).yaml --config configs/press/paper.yaml --sample $(7))
+	  --sensor configs/sensors/$(5).yaml --config $(8) --sample $(7))
 $(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(5).yaml configs/render/default.yaml $$(REFERENCES) | build
 	$$(call run,render,--press $(1)/press --gel $$(OUT)/gels/$(5)-$(6)/gel.msh --sensor configs/sensors/$(5).yaml --config configs/render/default.yaml)
 endef

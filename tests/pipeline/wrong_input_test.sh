@@ -85,5 +85,12 @@ make_refuses 'there is no configs/sensors/digi.yaml' OBJECT=pyramid.stl SENSOR=d
 make_refuses "OBJECT: 'a(1).stl' has characters" 'OBJECT=a(1).stl'
 make_refuses "OBJECT: 'b&c.stl' has characters" 'OBJECT=b&c.stl'
 make_refuses "NAME: 'my part' has characters" OBJECT=pyramid.stl 'NAME=my part'
+make_refuses "MOTION: 'slide' is none of press, shear, twist, tilt, hold, release" OBJECT=pyramid.stl MOTION=shear+slide
+make_refuses 'MOTION: no_such.yaml does not exist' OBJECT=pyramid.stl MOTION=no_such.yaml
+make_refuses 'TWIST_DEG: has no effect with MOTION=shear' OBJECT=pyramid.stl MOTION=shear TWIST_DEG=3
+make_refuses 'ROTATE: has no effect with MOTION=configs/samples/press_0500um.yaml' OBJECT=pyramid.stl MOTION=configs/samples/press_0500um.yaml ROTATE=3
+make_refuses 'DEPTH_MM, FORCE_N: say one of them' OBJECT=pyramid.stl DEPTH_MM=1 FORCE_N=2
+make_refuses 'PRESS: there is no configs/press/fast.yaml' OBJECT=pyramid.stl PRESS=fast
+make_refuses 'FRICTION: configs/press/paper.yaml has no section friction' OBJECT=pyramid.stl PRESS=paper FRICTION=0.3
 make_refuses "'up' is not one of" OBJECT=pyramid.stl MESH=tiny FACE=up
 echo "$count passed, 0 failed"
