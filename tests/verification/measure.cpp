@@ -1,0 +1,168 @@
+#include "tests/verification/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/error.h"
+
+namespace tacipc::verify {
+namespace {
+
+using std::numbers::pi;
+
+const Frame& frame_of(const Outcome& outcome, int frame) {
+  return outcome.simulation.frames[static_cast<std::size_t>(frame)];
+}
+
+Vector3 box_centre(const TriangleMesh& object) {
+  return 0.5 * (object.positions.colwise().minCoeff() + object.positions.colwise().maxCoeff()).transpose();
+}
+
+/// What touches: deformed area, force-weighted second moment about the middle of the force, heights.
+struct Touch {
+  double area_m2 = 0.0;
+  double force_n = 0.0;
+  double mean_square_radius_m2 = 0.0;
+  double height_spread_m = 0.0;
+  double peak_pressure_pa = 0.0;
+};
+
+Touch touch(const Outcome& outcome, int index) {
+  const Frame& frame = frame_of(outcome, index);
+  const Eigen::Index n = outcome.gel.num_vertices();
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(n);
+  const Triangles front = outcome.gel.faces(BoundaryTag::front);
+  for (Eigen::Index f = 0; f < front.rows(); ++f) {
+    const Vector3 a = frame.positions.row(front(f, 0)), b = frame.positions.row(front(f, 1)),
+                  c = frame.positions.row(front(f, 2));
+    for (int k = 0; k < 3; ++k) area[front(f, k)] += (b - a).cross(c - a).norm() / 6.0;
+  }
+  Touch out;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (Eigen::Index v = 0; v < n; ++v) {
+    const double force = std::max(0.0, -frame.contact_force(v, 2));
+    if (force <= 0.0) continue;
+    out.area_m2 += area[v];
+    out.force_n += force;
+    middle += force * frame.positions.row(v).head<2>();
+    low = std::min(low, frame.positions(v, 2));
+    high = std::max(high, frame.positions(v, 2));
+    if (area[v] > 0.0) out.peak_pressure_pa = std::max(out.peak_pressure_pa, force / area[v]);
+  }
+  if (out.force_n <= 0.0) return out;
+  middle /= out.force_n;
+  out.height_spread_m = high - low;
+  for (Eigen::Index v = 0; v < n; ++v) {
+    const double force = std::max(0.0, -frame.contact_force(v, 2));
+    const Eigen::Vector2d arm = frame.positions.row(v).head<2>().transpose() - middle;
+    out.mean_square_radius_m2 += force * arm.squaredNorm() / out.force_n;
+  }
+  return out;
+}
+
+/// The frame at which the press ends: the first at its full depth.
+int press_end(const Outcome& outcome) {
+  const int frames = static_cast<int>(outcome.simulation.frames.size());
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (int f = 0; f < frames; ++f) deepest = std::max(deepest, depth_m(outcome, f));
+  for (int f = 0; f < frames; ++f)
+    if (depth_m(outcome, f) > deepest - 1e-12) return f;
+  return 0;
+}
+
+}  // namespace
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> list{
+      {"press_force_n", "N", "force of the object on the gel against z"},
+      {"tangential_force_n", "N", "its part in the plane of x and y"},
+      {"friction_ratio", "", "tangential over press force"},
+      {"torque_z_n_m", "N m", "torque on the gel about z through the object's centre"},
+      {"contact_radius_m", "m", "of the circle with the area of the vertices that touch"},
+      {"hertz_radius_m", "m", "of the Hertz pressure with the same second moment: √(5/2 ⟨r²⟩)"},
+      {"contact_area_m2", "m2", "deformed front that belongs to vertices that touch"},
+      {"mean_pressure_pa", "Pa", "press force over contact area"},
+      {"peak_pressure_pa", "Pa", "largest force over area of a front vertex"},
+      {"height_spread_m", "m", "highest minus lowest front vertex that touches"},
+      {"height_spread_d_hat", "", "the same in units of the barrier's reach"},
+      {"indentation_m", "m", "depth of the lowest front vertex below z = 0"},
+      {"balance_relative", "", "|contact + mount| force over contact force"},
+      {"min_gap_m", "m", "smallest distance between gel and object"},
+      {"min_volume_ratio", "", "smallest volume of a tetrahedron over its rest volume"},
+      {"newton_iterations", "", "of the frame"}};
+  return list;
+}
+
+double depth_m(const Outcome& outcome, int frame) {
+  const Matrix4& pose = frame_of(outcome, frame).gel_from_object;
+  const Eigen::VectorXd z = outcome.object.positions * pose.block<1, 3>(2, 0).transpose();
+  return -(z.minCoeff() + pose(2, 3));
+}
+
+double sideways_m(const Outcome& outcome, int frame) {
+  const Eigen::Vector4d centre = box_centre(outcome.object).homogeneous();
+  const Eigen::Vector4d way = frame_of(outcome, frame).gel_from_object * centre -
+                              frame_of(outcome, press_end(outcome)).gel_from_object * centre;
+  return way.head<2>().norm();
+}
+
+double turned_rad(const Outcome& outcome, int frame) {
+  const Matrix3 turn = frame_of(outcome, frame).gel_from_object.topLeftCorner<3, 3>() *
+                       frame_of(outcome, press_end(outcome)).gel_from_object.topLeftCorner<3, 3>().transpose();
+  return std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+}
+
+double measure(const Outcome& outcome, const std::string& quantity, int index) {
+  const Frame& frame = frame_of(outcome, index);
+  const double press = 0.0 - frame.force_n.z(), tangential = frame.force_n.head<2>().norm();
+  if (quantity == "press_force_n") return press;
+  if (quantity == "tangential_force_n") return tangential;
+  if (quantity == "friction_ratio") return press > 0.0 ? tangential / press : 0.0;
+  if (quantity == "torque_z_n_m") {
+    const Vector3 centre = (frame.gel_from_object * box_centre(outcome.object).homogeneous()).head<3>();
+    return (frame.torque_n_m - centre.cross(frame.force_n)).z();
+  }
+  if (quantity == "contact_radius_m") return std::sqrt(touch(outcome, index).area_m2 / pi);
+  if (quantity == "hertz_radius_m") return std::sqrt(2.5 * touch(outcome, index).mean_square_radius_m2);
+  if (quantity == "contact_area_m2") return touch(outcome, index).area_m2;
+  if (quantity == "mean_pressure_pa") {
+    const double area = touch(outcome, index).area_m2;
+    return area > 0.0 ? press / area : 0.0;
+  }
+  if (quantity == "peak_pressure_pa") return touch(outcome, index).peak_pressure_pa;
+  if (quantity == "height_spread_m") return touch(outcome, index).height_spread_m;
+  if (quantity == "height_spread_d_hat") return touch(outcome, index).height_spread_m / outcome.simulation.d_hat_m;
+  if (quantity == "indentation_m") {
+    double lowest = 0.0;
+    for (const int v : outcome.gel.vertices(BoundaryTag::front)) {
+      const double pushed = outcome.gel.positions(v, 2) - frame.positions(v, 2);
+      lowest = std::max(lowest, pushed);
+    }
+    return lowest;
+  }
+  if (quantity == "balance_relative")
+    return (frame.force_n + frame.mount_force_n).norm() / std::max(1e-300, frame.force_n.norm());
+  if (quantity == "min_gap_m") return frame.min_gap_m;
+  if (quantity == "min_volume_ratio") return frame.min_volume_ratio;
+  if (quantity == "newton_iterations") return frame.solver.newton_iterations;
+  throw UsageError("there is no quantity '" + quantity + "'");
+}
+
+int find_frame(const Outcome& outcome, const FrameChoice& choice) {
+  const int last = static_cast<int>(outcome.simulation.frames.size()) - 1;
+  if (choice.index) {
+    if (*choice.index > last) throw DataError("frame {} is expected, but the last one is {}", *choice.index, last);
+    return *choice.index;
+  }
+  if (choice.depth_m) {
+    for (int f = 0; f <= last; ++f)
+      if (std::abs(depth_m(outcome, f) - *choice.depth_m) < 1e-9) return f;
+    throw DataError("no frame is {:g} mm deep", 1e3 * *choice.depth_m);
+  }
+  return last;
+}
+
+}  // namespace tacipc::verify

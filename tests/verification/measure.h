@@ -1,0 +1,42 @@
+// Numbers of one frame of a press, by name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/tet_mesh.h"
+#include "common/triangle_mesh.h"
+#include "stages/press/simulate.h"
+#include "tests/verification/case_spec.h"
+
+namespace tacipc::verify {
+
+/// Names that `quantity` of a case may take, with unit and meaning.
+struct Quantity {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+};
+const std::vector<Quantity>& quantities();
+
+/// What a press left, with what is needed to measure it.
+struct Outcome {
+  const CaseSpec& spec;
+  const TetMesh& gel;
+  const TriangleMesh& object;
+  const Simulation& simulation;
+};
+
+/// Depth of the object's lowest point below z = 0 in a frame, m.
+double depth_m(const Outcome& outcome, int frame);
+/// How far the object's frame has moved sideways, and turned about z, since the deepest frame of the press, m and rad.
+double sideways_m(const Outcome& outcome, int frame);
+double turned_rad(const Outcome& outcome, int frame);
+
+/// The value of a quantity in a frame. \throw UsageError for a name that quantities() has not
+double measure(const Outcome& outcome, const std::string& quantity, int frame);
+
+/// Index of the frame that is meant. \throw DataError if the motion has none such
+int find_frame(const Outcome& outcome, const FrameChoice& choice);
+
+}  // namespace tacipc::verify

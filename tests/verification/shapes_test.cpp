@@ -1,0 +1,190 @@
+// Gels and objects that the harness makes: closed, outward, of the right volume.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/verification/gel_shapes.h"
+#include "tests/verification/object_shapes.h"
+
+namespace tacipc::verify {
+namespace {
+
+using std::numbers::pi;
+using Kind = ObjectShape::Kind;
+
+double volume(const TetMesh& gel) {
+  double sum = 0.0;
+  for (Eigen::Index t = 0; t < gel.num_tets(); ++t) {
+    Matrix3 edges;
+    for (int c = 0; c < 3; ++c)
+      edges.col(c) = gel.positions.row(gel.tets(t, c + 1)) - gel.positions.row(gel.tets(t, 0));
+    const double six = edges.determinant();
+    EXPECT_GT(six, 0.0) << "tetrahedron " << t;
+    sum += six / 6.0;
+  }
+  return sum;
+}
+
+double volume(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
+    const Vector3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
+                  c = mesh.positions.row(mesh.triangles(f, 2));
+    sum += a.dot(b.cross(c)) / 6.0;
+  }
+  return sum;
+}
+
+/// Every edge belongs to two triangles that run through it in opposite directions.
+void expect_closed(const Triangles& triangles) {
+  std::map<std::pair<int, int>, int> seen;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k) ++seen[{triangles(f, k), triangles(f, (k + 1) % 3)}];
+  for (const auto& [edge, count] : seen) {
+    EXPECT_EQ(count, 1) << edge.first << "-" << edge.second;
+    EXPECT_TRUE(seen.contains({edge.second, edge.first})) << edge.first << "-" << edge.second;
+  }
+}
+
+double area(const TetMesh& gel, BoundaryTag tag) {
+  double sum = 0.0;
+  const Triangles faces = gel.faces(tag);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vector3 a = gel.positions.row(faces(f, 0)), b = gel.positions.row(faces(f, 1)),
+                  c = gel.positions.row(faces(f, 2));
+    sum += 0.5 * (b - a).cross(c - a).norm();
+  }
+  return sum;
+}
+
+BoxGel box() {
+  return {.width_m = 0.02,
+          .height_m = 0.03,
+          .thickness_m = 0.004,
+          .near_m = 0.001,
+          .near_half_m = 0.003,
+          .growth = 1.4,
+          .far_m = 0.004,
+          .layer_m = 0.0008,
+          .layer_growth = 1.2};
+}
+
+TEST(GelShapes, GradedLinesKeepNearLengthAndEndOnTheBorder) {
+  const auto lines = graded_lines(0.01, 0.001, 0.003, 1.5, 0.004, 0.0005);
+  EXPECT_EQ(lines.size() % 2, 1u);
+  EXPECT_EQ(lines.front(), -0.01);
+  EXPECT_EQ(lines.back(), 0.01);
+  EXPECT_NEAR(lines[lines.size() - 2], 0.0095, 1e-15);
+  const std::size_t middle = lines.size() / 2;
+  EXPECT_EQ(lines[middle], 0.0);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(lines[middle + i + 1] - lines[middle + i], 0.001, 1e-15);
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) EXPECT_LT(lines[i], lines[i + 1]);
+}
+
+TEST(GelShapes, BoxFillsItsVolumeAndIsClosed) {
+  const TetMesh gel = make_gel({box()}, "");
+  EXPECT_NEAR(volume(gel) / (0.02 * 0.03 * 0.004), 1.0, 1e-12);
+  expect_closed(gel.boundary);
+  EXPECT_NEAR(area(gel, BoundaryTag::front), 0.02 * 0.03, 1e-15);
+  EXPECT_NEAR(area(gel, BoundaryTag::glued), 0.02 * 0.03, 1e-15);
+  EXPECT_NEAR(area(gel, BoundaryTag::side), 2 * (0.02 + 0.03) * 0.004, 1e-15);
+  const GelShape shape = shape_of({box()}, gel);
+  EXPECT_NEAR(shape.width_m, 0.02, 1e-15);
+  EXPECT_NEAR(shape.thickness_m, 0.004, 1e-15);
+}
+
+TEST(GelShapes, CutCornersTakeAwayFourPrisms) {
+  BoxGel cut = box();
+  cut.corner_cut_m = 0.001;
+  const TetMesh gel = make_gel({cut}, "");
+  EXPECT_NEAR(volume(gel), (0.02 * 0.03 - 4 * 0.5e-6) * 0.004, 1e-15);
+  expect_closed(gel.boundary);
+  // The diagonals of the corner cells lie along the cut: nothing of the gel is beyond it.
+  EXPECT_LE((gel.positions.col(0).array().abs() + gel.positions.col(1).array().abs()).maxCoeff(),
+            0.01 + 0.015 - 0.001 + 1e-12);
+}
+
+TEST(GelShapes, CrownFollowsItsProfile) {
+  BoxGel crowned = box();
+  crowned.crown = Crown{.half_x_m = 0.007, .half_y_m = 0.01, .sag_m = 0.0002, .edge_sag_m = 0.001};
+  const TetMesh gel = make_gel({crowned}, "");
+  expect_closed(gel.boundary);
+  volume(gel);
+  for (const int v : gel.vertices(BoundaryTag::front)) {
+    const Vector3 x = gel.positions.row(v);
+    if (std::abs(x.y()) < 1e-12 && std::abs(x.x()) <= 0.007) {
+      EXPECT_NEAR(x.z(), -0.0002 * x.x() * x.x() / 49e-6, 1e-15);
+    }
+    if (std::abs(x.y()) < 1e-12 && std::abs(std::abs(x.x()) - 0.01) < 1e-12) {
+      EXPECT_NEAR(x.z(), -0.001, 1e-15);
+    }
+  }
+  EXPECT_NEAR(gel.positions.col(2).maxCoeff(), 0.0, 1e-15);
+  EXPECT_NEAR(gel.positions.col(2).minCoeff(), -0.004, 1e-15);
+}
+
+struct ObjectCase {
+  std::string name;
+  ObjectShape shape;
+  double volume_m3;
+  double tolerance;
+};
+
+class ObjectTest : public ::testing::TestWithParam<ObjectCase> {};
+
+TEST_P(ObjectTest, IsClosedOutwardAndStandsOnZero) {
+  const TriangleMesh mesh = make_object(GetParam().shape, "");
+  expect_closed(mesh.triangles);
+  EXPECT_NEAR(volume(mesh) / GetParam().volume_m3, 1.0, GetParam().tolerance);
+  EXPECT_NEAR(mesh.positions.col(2).minCoeff(), 0.0, 1e-15);
+  // Centred by its bounding box, as the press places it, over the origin.
+  const Vector3 centre = 0.5 * (mesh.positions.colwise().minCoeff() + mesh.positions.colwise().maxCoeff());
+  EXPECT_LT(centre.head<2>().norm(), 0.02 * mesh.positions.cwiseAbs().maxCoeff());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, ObjectTest,
+    ::testing::Values(
+        ObjectCase{"sphere",
+                   {.kind = Kind::sphere, .radius_m = 0.01, .edge_m = 2e-4, .fine_radius_m = 0.001},
+                   4.0 / 3.0 * pi * 1e-6,
+                   0.12},
+        ObjectCase{"punch",
+                   {.kind = Kind::punch, .radius_m = 0.01, .edge_m = 3e-4, .height_m = 0.005},
+                   pi * 1e-4 * 0.005,
+                   0.002},
+        ObjectCase{"punch_with_fillet",
+                   {.kind = Kind::punch, .radius_m = 0.01, .edge_m = 1e-4, .fillet_m = 0.001, .height_m = 0.005},
+                   pi * 1e-4 * 0.005,
+                   0.01},
+        ObjectCase{"cone",
+                   {.kind = Kind::cone, .radius_m = 0.01, .edge_m = 2e-4, .height_m = 0.006},
+                   pi * 1e-4 * 0.002,
+                   0.002},
+        ObjectCase{"cylinder",
+                   {.kind = Kind::cylinder, .radius_m = 0.01, .edge_m = 2e-4, .length_m = 0.03},
+                   pi * 1e-4 * 0.03,
+                   0.002},
+        ObjectCase{"plate", {.kind = Kind::plate, .half_width_m = 0.01}, std::sqrt(3.0) * 1e-6, 1e-12},
+        ObjectCase{"block",
+                   {.kind = Kind::block, .height_m = 0.002, .half_width_m = 0.01, .half_depth_m = 0.005},
+                   4e-7,
+                   1e-12},
+        ObjectCase{
+            "wedge", {.kind = Kind::wedge, .height_m = 0.002, .length_m = 0.01, .half_width_m = 0.003}, 6e-8, 1e-12}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(ObjectShapes, SphereHasItsVerticesOnTheTrueSurfaceAndOneBelow) {
+  const TriangleMesh mesh =
+      make_object({.kind = Kind::sphere, .radius_m = 0.01, .edge_m = 2e-4, .fine_radius_m = 0.001}, "");
+  for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v) {
+    const Vector3 x = mesh.positions.row(v);
+    EXPECT_NEAR((x - Vector3(0, 0, 0.01)).norm(), 0.01, 1e-15);
+  }
+  EXPECT_LT(mesh.num_vertices(), 2000);
+}
+
+}  // namespace
+}  // namespace tacipc::verify

@@ -1,0 +1,26 @@
+// Files of the shared data, named `shared:data/…` in cases.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tacipc::verify {
+
+constexpr std::string_view kSharedPrefix = "shared:";
+
+inline bool is_shared(const std::string& path) { return path.starts_with(kSharedPrefix); }
+
+/// `shared:rest` is `rest` in the shared folder; anything else stays as it is.
+inline std::filesystem::path resolve(const std::string& path, const std::filesystem::path& shared) {
+  return is_shared(path) ? shared / path.substr(kSharedPrefix.size()) : std::filesystem::path(path);
+}
+
+/// $TACIPC_SHARED, else ../shared beside the current folder.
+inline std::filesystem::path shared_folder() {
+  const char* set = std::getenv("TACIPC_SHARED");
+  return set && *set ? std::filesystem::path(set) : std::filesystem::path("../shared");
+}
+
+}  // namespace tacipc::verify

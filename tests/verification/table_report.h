@@ -1,0 +1,43 @@
+// All results of a folder as one page: a table of rows, a table of refinement, and the plots beside it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tacipc::verify {
+
+/// One result.yaml as the page needs it.
+struct ResultRow {
+  std::string label, unit, limit;
+  double measured = 0.0;
+  std::optional<double> expected;
+  double deviation = 0.0;
+  bool pass = false;
+};
+struct ResultFile {
+  std::string name;  // of its folder
+  std::string title, source, state;
+  std::optional<std::string> reason;
+  std::optional<double> fitted_modulus_pa;
+  int gel_vertices = 0;
+  struct StudyPoint {
+    std::string name, parameter;
+    double value = 0.0;
+  };
+  std::optional<StudyPoint> study;
+  std::vector<ResultRow> rows;
+};
+
+/// \throw DataError, ConfigError for a file that is not a result
+ResultFile read_result(const std::filesystem::path& result_yaml);
+
+/// The page in Markdown. `plots` is the folder, relative to the page, with <name>.svg of every case.
+std::string to_markdown(const std::vector<ResultFile>& results, const std::string& plots);
+
+/// The order p of a quantity in a study whose parameter shrinks: slope of log |error against the finest| over
+/// log parameter between the two coarsest points; absent with fewer than three points or without a change.
+std::optional<double> order_seen(const std::vector<std::pair<double, double>>& parameter_and_measured);
+
+}  // namespace tacipc::verify

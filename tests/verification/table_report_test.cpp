@@ -1,0 +1,61 @@
+// The page that results become.
+#include "tests/verification/table_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/error.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc::verify {
+namespace {
+
+TEST(TableReport, OrderIsTheSlopeOfTheErrors) {
+  std::vector<std::pair<double, double>> points;
+  for (const double h : {0.4, 0.2, 0.0}) points.emplace_back(h, 1.0 + 3.0 * h * h);
+  EXPECT_NEAR(*order_seen(points), 2.0, 1e-12);
+  points.resize(2);
+  EXPECT_FALSE(order_seen(points));
+}
+
+TEST(TableReport, ReadsAResultAndShowsWhatMissed) {
+  const ScratchFolder folder;
+  const auto file = folder.file("hertz/result.yaml", R"(title: a sphere
+source: a book
+state: missed
+gel_vertices: 12
+rows:
+  - label: press_force_n
+    unit: N
+    measured: 1.1
+    expected: 1.0
+    limit: within 3 %
+    deviation: 10.0
+    pass: false
+)");
+  const ResultFile result = read_result(file);
+  EXPECT_EQ(result.name, "hertz");
+  const std::string page = to_markdown({result}, "verification");
+  EXPECT_NE(
+      page.find("| [a sphere](../configs/verification/hertz.yaml) | 12 | press_force_n | 1.1 N | 1 N | +10.00 % | "
+                "within 3 % | **missed** |"),
+      std::string::npos)
+      << page;
+  EXPECT_NE(page.find("![a sphere](verification/hertz.svg)"), std::string::npos);
+}
+
+TEST(TableReport, ASkippedCaseSaysWhy) {
+  const ScratchFolder folder;
+  const auto file = folder.file("x/result.yaml", "title: t\nsource: s\nstate: skipped\nreason: no data\n");
+  EXPECT_NE(to_markdown({read_result(file)}, "p").find("**skipped**: no data"), std::string::npos);
+}
+
+TEST(TableReport, AnythingElseIsRefused) {
+  const ScratchFolder folder;
+  const auto file = folder.file("x/result.yaml", "title: t\nsource: s\nstate: fine\n");
+  EXPECT_THROW(read_result(file), ConfigError);
+}
+
+}  // namespace
+}  // namespace tacipc::verify

@@ -1,0 +1,46 @@
+// Puts the results of verification cases together: the page, its plots, and exit 1 if a row misses its limit.
+#include <fmt/format.h>
+
+#include "common/error.h"
+#include "common/files.h"
+#include "common/log.h"
+#include "common/stage.h"
+#include "tests/verification/table_report.h"
+
+using namespace tacipc;
+
+namespace {
+
+const StageSpec kTable{.name = "verify_table",
+                       .summary = "Put the results of verification cases together as one page.",
+                       .inputs = {{"--result", "folder of a case's result", true, true}}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kTable, argc, argv, [](Stage& stage) {
+    std::vector<verify::ResultFile> results;
+    std::vector<std::string> unfinished;  // folders of cases that did not pass
+    int missed = 0, skipped = 0;
+    for (const auto& folder : stage.inputs("--result")) {
+      results.push_back(verify::read_result(folder / "result.yaml"));
+      const verify::ResultFile& result = results.back();
+      write_file(stage.output("verification/" + result.name + ".svg"), read_file(folder / "plot.svg"));
+      for (const verify::ResultRow& row : result.rows) {
+        log_info("{}: {}: {:.5g} {}{} ({}): {}", result.name, row.label, row.measured, row.unit,
+                 row.expected ? fmt::format(", expected {:.5g}", *row.expected) : "", row.limit,
+                 row.pass ? "holds" : "MISSED");
+      }
+      if (result.reason) log_info("{}: {}: {}", result.name, result.state, *result.reason);
+      if (result.state != "pass") unfinished.push_back(folder.string());
+      skipped += result.state == "skipped";
+      missed += result.state == "missed" || result.state == "failed";
+    }
+    write_file(stage.output("verification.md"), verify::to_markdown(results, "verification"));
+    log_info("{} cases, {} skipped, {} miss a limit", results.size(), skipped, missed);
+    stage.summarize({{"cases", results.size()}, {"skipped", skipped}, {"missed", missed}});
+    std::string list;
+    for (const auto& folder : unfinished) list += folder + "\n";
+    write_file(stage.output("unfinished.txt"), list);
+  });
+}
