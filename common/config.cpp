@@ -305,6 +305,16 @@ std::vector<ConfigReader> ConfigReader::sections(const std::string& key) {
   return readers;
 }
 
+std::vector<ConfigReader> ConfigReader::one_or_more_sections(const std::string& key) {
+  const Node* node = find(key, true);
+  if (!node) return {};
+  if (node->kind == Node::Kind::map) return {section(key)};
+  std::vector<ConfigReader> readers = sections(key);
+  if (node->kind == Node::Kind::list && node->items.empty())
+    add_fault(*node, path_of(key), "expected at least one map");
+  return readers;
+}
+
 void ConfigReader::fault(const std::string& key, const std::string& reason) {
   const Node* node = find(key, false);
   add_fault(node ? *node : *node_, path_of(key), reason);

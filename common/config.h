@@ -70,6 +70,8 @@ class ConfigReader {
   std::optional<ConfigReader> optional_section(const std::string& key);
   /// A list of maps (empty where the key is absent).
   std::vector<ConfigReader> sections(const std::string& key);
+  /// A map, or a list of at least one map.
+  std::vector<ConfigReader> one_or_more_sections(const std::string& key);
   /// Marks a key, whatever it holds, as known without reading it.
   void ignore(const std::string& key);
 

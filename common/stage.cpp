@@ -105,7 +105,15 @@ Value Stage::input_hashes() const {
     }
     inputs.emplace_back(spec.flag.substr(2), spec.many ? Value(std::move(list)) : list.front());
   }
+  for (const auto& [name, path] : added_inputs_)
+    inputs.emplace_back(name, Value::Map{{"path", relative_to(path, out_)}, {"hash", content_hash(path)}});
   return inputs;
+}
+
+void Stage::add_input(const std::string& name, const fs::path& path) {
+  added_inputs_.emplace_back(name, path);
+  inputs_at_start_ = input_hashes();
+  open_scratch();
 }
 
 bool Stage::inputs_changed() const { return to_yaml(input_hashes()) != to_yaml(inputs_at_start_.value()); }
@@ -172,6 +180,10 @@ void Stage::begin() {
   open_log_file((out_ / (spec_.name + ".log")).string());
   if (!spec_.resumable) remove_quietly(partial_);
   inputs_at_start_ = input_hashes();
+  open_scratch();
+}
+
+void Stage::open_scratch() {
   if (!spec_.resumable) return;
   const std::string key = resume_key();
   if (read_checked_file(partial_ / kResumeKey) == key) {

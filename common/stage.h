@@ -50,6 +50,9 @@ class Stage {
   const std::vector<std::filesystem::path>& inputs(const std::string& flag) const;
   const std::string& option(const std::string& flag) const;
 
+  /// A file that no flag names but a configuration does: from here on an input like the others.
+  void add_input(const std::string& name, const std::filesystem::path& path);
+
   /// Reads a configuration file; every value of it goes into the record under `config`.
   template <typename T>
   T read_config(const std::string& flag) {
@@ -87,6 +90,8 @@ class Stage {
   /// The whole life of a stage under the lock of its folder. Returns the exit code.
   int run(const std::function<void(Stage&)>& body);
   void begin();
+  /// Keeps the scratch files of an equal earlier run, or none.
+  void open_scratch();
   void publish();
   void clean_up(int code) noexcept;
   void write_failure(const std::exception& error) const noexcept;
@@ -104,6 +109,7 @@ class Stage {
   std::filesystem::path partial_;
   int threads_;
   std::map<std::string, std::vector<std::filesystem::path>> inputs_;
+  std::vector<std::pair<std::string, std::filesystem::path>> added_inputs_;
   std::map<std::string, std::string> options_;
   std::vector<std::string> outputs_;
   std::optional<Value> inputs_at_start_;

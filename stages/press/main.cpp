@@ -3,6 +3,7 @@
 #include "common/log.h"
 #include "common/object.h"
 #include "common/stage.h"
+#include "stages/press/checkpoint.h"
 #include "stages/press/outputs.h"
 
 namespace {
@@ -18,7 +19,8 @@ const tacipc::StageSpec kPress{
                {.flag = "--gel", .help = "tetrahedral gel (gel.msh of tetmesh)"},
                {.flag = "--object", .help = "closed triangle mesh in metres (object.ply of decimate)"},
                {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false}},
-    .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}}};
+    .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}},
+    .resumable = true};
 
 }  // namespace
 
@@ -32,13 +34,19 @@ int main(int argc, char** argv) {
     if (stage.optional_input("--object-config")) {
       if (const auto up = stage.read_config<ObjectSpec>("--object-config").up) face = opposite_face(*up);
     }
+    for (const Phase& phase : sample.motion) {
+      if (phase.kind == PhaseKind::path) stage.add_input("path", phase.file);
+    }
     const TetMesh gel = read_tet_mesh(stage.input("--gel"));
     const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
-    const Simulation simulation =
-        simulate(sensor, gel, object, config, sample, face, [](int frame, int frames, int iteration, double residual) {
-          show_progress((frame - 1.0) / frames, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s",
-                                                            frame, frames, iteration, residual));
-        });
-    write_outputs(stage, simulation);
+    ScratchFrames frames(stage);
+    const Simulation simulation = simulate(
+        sensor, gel, object, config, sample, face,
+        [](int frame, int count, int iteration, double residual) {
+          show_progress((frame - 1.0) / count, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s",
+                                                           frame, count, iteration, residual));
+        },
+        &frames);
+    write_outputs(stage, sensor, gel, config, sample, simulation);
   });
 }

@@ -1,73 +1,198 @@
 #include "stages/press/outputs.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "common/files.h"
 #include "common/npy.h"
+#include "stages/press/measure/contact_patch.h"
+#include "stages/press/measure/markers.h"
+#include "stages/press/measure/traction_grid.h"
 
 namespace tacipc {
 namespace {
 
-/// Stacks one row-major array per frame.
-template <typename Part>
-void write_stacked(const std::filesystem::path& path, const std::vector<Frame>& frames, std::vector<std::size_t> shape,
-                   Part&& part) {
-  std::vector<double> all;
-  for (const Frame& frame : frames) part(frame, all);
-  shape.insert(shape.begin(), frames.size());
-  write_npy(path, shape, all.data());
-}
-
-void append(std::vector<double>& all, const auto& matrix) {
+template <typename T>
+void append(std::vector<T>& all, const auto& matrix) {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) all.push_back(matrix(i, j));
   }
 }
 
+/// Stacks one row-major array per frame.
+template <typename T, typename Part>
+void write_stacked(const std::filesystem::path& path, const std::vector<Frame>& frames, std::vector<std::size_t> shape,
+                   Part&& part) {
+  std::vector<T> all;
+  for (const Frame& frame : frames) part(frame, all);
+  shape.insert(shape.begin(), frames.size());
+  write_npy(path, shape, all.data());
+}
+
+/// Last frame of the first press, or none.
+std::optional<std::size_t> press_end(const Simulation& simulation, const SampleSpec& sample) {
+  std::optional<std::size_t> end;
+  for (std::size_t f = 1; f < simulation.frames.size(); ++f) {
+    const int index = simulation.frames[f].phase_index;
+    if (sample.motion[static_cast<std::size_t>(index)].kind != PhaseKind::press) {
+      if (end) break;
+      continue;
+    }
+    if (end && simulation.frames[*end].phase_index != index) break;
+    end = f;
+  }
+  return end;
+}
+
+void write_markers(Stage& stage, const Sensor& sensor, const TetMesh& gel, const Simulation& simulation,
+                   const std::optional<std::size_t>& end) {
+  const std::vector<Marker> markers = bind_markers(sensor.markers, gel.positions, gel.faces(BoundaryTag::front));
+  std::vector<Positions> positions;
+  std::vector<double> all;
+  for (const Frame& frame : simulation.frames) {
+    positions.push_back(marker_positions(markers, frame.positions));
+    append(all, positions.back());
+  }
+  const std::size_t frames = positions.size(), count = markers.size();
+  write_npy(stage.output("markers.npy"), {frames, count, 3}, all.data());
+  const std::vector<double> displacements = marker_displacements(positions, end);
+  write_npy(stage.output("marker_displacement.npy"), {frames, count, 2, 3}, displacements.data());
+  write_file(stage.output("markers.csv"), markers_csv(markers));
+}
+
+/// Time at which each front vertex first slips, +∞ where it never does.
+std::vector<double> first_slip_s(const Simulation& simulation) {
+  std::vector<double> first(simulation.front.vertices.size(), std::numeric_limits<double>::infinity());
+  for (const Frame& frame : simulation.frames) {
+    for (std::size_t v = 0; v < first.size(); ++v) {
+      if (frame.contact_state[v] == ContactState::slip) first[v] = std::min(first[v], frame.time_s);
+    }
+  }
+  return first;
+}
+
+void write_contact(Stage& stage, const Sensor& sensor, const Simulation& simulation) {
+  const auto& frames = simulation.frames;
+  const FrontSurface& front = simulation.front;
+  const std::size_t count = front.vertices.size();
+  const std::vector<std::int32_t> vertices(front.vertices.begin(), front.vertices.end());
+  write_npy(stage.output("front_vertices.npy"), {count}, vertices.data());
+  write_stacked<double>(stage.output("contact_force.npy"), frames, {count, 2, 3}, [](const Frame& f, auto& all) {
+    for (Eigen::Index v = 0; v < f.normal_force_n.rows(); ++v) {
+      append(all, f.normal_force_n.row(v));
+      append(all, f.friction_force_n.row(v));
+    }
+  });
+  write_stacked<std::uint8_t>(stage.output("contact_state.npy"), frames, {count}, [](const Frame& f, auto& all) {
+    for (const ContactState state : f.contact_state) all.push_back(static_cast<std::uint8_t>(state));
+  });
+  const std::vector<double> first = first_slip_s(simulation);
+  write_npy(stage.output("first_slip.npy"), {count}, first.data());
+  const TractionGrid grid = TractionGrid::over_window(sensor.camera);
+  write_stacked<double>(stage.output("traction.npy"), frames,
+                        {static_cast<std::size_t>(grid.rows), static_cast<std::size_t>(grid.columns), 2, 3},
+                        [&](const Frame& f, auto& all) {
+                          const Traction traction = spread_traction(grid, front, on_front(front, f.positions),
+                                                                    f.normal_force_n, f.friction_force_n);
+                          all.insert(all.end(), traction.pascal.begin(), traction.pascal.end());
+                        });
+}
+
+/// One frame's lines of the record.
+Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
+  const ContactPatch patch =
+      measure_contact(simulation.front, on_front(simulation.front, f.positions), f.normal_force_n, f.contact_state);
+  return {{"time_s", f.time_s},
+          {"phase", name_of(f.phase)},
+          {"press_force_n", 0.0 - f.force_n.z()},
+          {"tangential_force_n", f.force_n.head<2>().norm()},
+          {"balance_n", f.balance.force_n},
+          {"balance_relative", f.balance.relative},
+          {"inertia_n", f.balance.inertia_n.norm()},
+          {"mount_force_n", f.balance.mount_n.norm()},
+          {"contact_area_mm2", 1e6 * patch.area_m2},
+          {"mean_pressure_pa", patch.mean_pressure_pa},
+          {"peak_pressure_pa", patch.peak_pressure_pa},
+          {"sticking", patch.sticking},
+          {"slipping", patch.slipping},
+          {"substeps", f.solver.time_steps},
+          {"newton_iterations", f.solver.newton_iterations},
+          {"lag_iterations", f.solver.lag_iterations},
+          {"friction_residual_n", f.solver.friction_residual_n},
+          {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
+          {"force_residual_n", f.solver.force_residual_n},
+          {"min_gap_m", f.min_gap_m},
+          {"min_volume_ratio", f.min_volume_ratio},
+          {"intersections", f.intersections},
+          {"inverted_tets", f.inverted_tets},
+          {"pose_error_m", f.pose_error_m}};
+}
+
 }  // namespace
 
-void write_outputs(Stage& stage, const Simulation& simulation) {
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const SampleSpec& sample, const Simulation& simulation) {
   const auto& frames = simulation.frames;
   const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
-  write_stacked(stage.output("positions.npy"), frames, {vertices, 3},
-                [](const Frame& f, auto& all) { append(all, f.positions); });
-  write_stacked(stage.output("object_pose.npy"), frames, {4, 4},
-                [](const Frame& f, auto& all) { append(all, f.gel_from_object); });
-  write_stacked(stage.output("contact_force.npy"), frames, {vertices, 3},
-                [](const Frame& f, auto& all) { append(all, f.contact_force); });
-  write_stacked(stage.output("wrench.npy"), frames, {6}, [](const Frame& f, auto& all) {
+  write_stacked<double>(stage.output("positions.npy"), frames, {vertices, 3},
+                        [](const Frame& f, auto& all) { append(all, f.positions); });
+  write_stacked<double>(stage.output("object_pose.npy"), frames, {4, 4},
+                        [](const Frame& f, auto& all) { append(all, f.gel_from_object); });
+  write_stacked<double>(stage.output("time.npy"), frames, {},
+                        [](const Frame& f, auto& all) { all.push_back(f.time_s); });
+  write_stacked<std::uint8_t>(stage.output("phase.npy"), frames, {},
+                              [](const Frame& f, auto& all) { all.push_back(static_cast<std::uint8_t>(f.phase)); });
+  write_stacked<double>(stage.output("wrench.npy"), frames, {6}, [](const Frame& f, auto& all) {
     append(all, f.force_n);
     append(all, f.torque_n_m);
   });
+  const auto end = press_end(simulation, sample);
+  write_contact(stage, sensor, simulation);
+  write_markers(stage, sensor, gel, simulation, end);
 
-  int iterations = 0;
-  double min_gap_m = simulation.gap_horizon_m, min_ratio = 1.0;
+  int iterations = 0, intersections = 0, inverted = 0;
+  double min_gap_m = simulation.gap_horizon_m, min_ratio = 1.0, balance = 0.0, pose_error_m = 0.0;
+  std::optional<double> first_slip, gross_slip;
   Value::List per_frame;
   for (const Frame& f : frames) {
     iterations += f.solver.newton_iterations;
+    intersections += f.intersections;
+    inverted += f.inverted_tets;
     min_gap_m = std::min(min_gap_m, f.min_gap_m);
     min_ratio = std::min(min_ratio, f.min_volume_ratio);
-    per_frame.emplace_back(Value::Map{{"press_force_n", 0.0 - f.force_n.z()},
-                                      {"mount_balance_n", (f.force_n + f.mount_force_n).norm()},
-                                      {"newton_iterations", f.solver.newton_iterations},
-                                      {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
-                                      {"force_residual_n", f.solver.force_residual_n},
-                                      {"min_gap_m", f.min_gap_m},
-                                      {"min_volume_ratio", f.min_volume_ratio}});
+    balance = std::max(balance, f.balance.relative);
+    pose_error_m = std::max(pose_error_m, f.pose_error_m);
+    const auto slipping = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::slip);
+    const auto sticking = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::stick);
+    if (slipping > 0 && !first_slip) first_slip = f.time_s;
+    if (slipping > 0 && sticking == 0 && !gross_slip) gross_slip = f.time_s;
+    per_frame.emplace_back(frame_lines(simulation, f));
   }
-  // A simulation that gets here has passed every check of every frame; one that did not has thrown.
-  stage.summarize({{"frames", frames.size()},
-                   {"gel_vertices", vertices},
-                   {"face", simulation.face},
-                   {"d_hat_m", simulation.d_hat_m},
-                   {"newton_iterations", iterations},
-                   {"symbolic_analyses", simulation.symbolic_analyses},
-                   {"press_force_n", 0.0 - frames.back().force_n.z()},
-                   {"min_distance_m", min_gap_m},
-                   {"min_volume_ratio", min_ratio},
-                   {"intersections", 0},
-                   {"inverted_tets", 0},
-                   {"converged", true},
-                   {"per_frame", std::move(per_frame)}});
+  Value::Map summary{{"frames", frames.size()},
+                     {"gel_vertices", vertices},
+                     {"face", simulation.face},
+                     {"d_hat_m", simulation.d_hat_m},
+                     {"barrier_stiffness", simulation.barrier_stiffness},
+                     {"element", simulation.element},
+                     {"friction_coefficient", config.friction ? config.friction->coefficient : 0.0},
+                     {"newton_iterations", iterations},
+                     {"press_force_n", 0.0 - frames.back().force_n.z()},
+                     {"tangential_force_n", frames.back().force_n.head<2>().norm()},
+                     {"min_distance_m", min_gap_m},
+                     {"min_volume_ratio", min_ratio},
+                     {"intersections", intersections},
+                     {"inverted_tets", inverted},
+                     {"max_balance_relative", balance},
+                     {"max_pose_error_m", pose_error_m}};
+  if (simulation.object_mass_kg > 0.0) summary.emplace_back("object_mass_kg", simulation.object_mass_kg);
+  if (first_slip) summary.emplace_back("first_slip_time_s", *first_slip);
+  if (gross_slip) summary.emplace_back("gross_slip_time_s", *gross_slip);
+  if (end) summary.emplace_back("press_end_frame", *end);
+  // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
+  summary.emplace_back("converged", true);
+  summary.emplace_back("verdict", "pass");
+  summary.emplace_back("per_frame", std::move(per_frame));
+  stage.summarize(summary);
 }
 
 }  // namespace tacipc

@@ -6,7 +6,8 @@
 
 namespace tacipc {
 
-/// positions.npy, object_pose.npy, contact_force.npy, wrench.npy (shapes and units in docs/files.md) and the summary.
-void write_outputs(Stage& stage, const Simulation& simulation);
+/// Every array of docs/files.md that press writes, and the summary of its record.
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const SampleSpec& sample, const Simulation& simulation);
 
 }  // namespace tacipc

@@ -3,21 +3,43 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/config.h"
+#include "stages/press/motion.h"
 
 namespace tacipc {
+
+/// Smoothed Coulomb friction between object and gel, and of the gel with itself.
+struct FrictionConfig {
+  double coefficient = 0.0;               // μ
+  double relative_speed_threshold = 0.0;  // ε_v as part of the diagonal per second: slower sliding counts as sticking
+  bool iterated = false;                  // normal forces and tangent planes renewed until they fit, else once per step
+  int max_lag_iterations = 0;
+  double relative_lag_tolerance = 0.0;  // residual forces after renewing, as part of the contact force
+
+  static FrictionConfig read(ConfigReader& in);
+};
 
 /// configs/press/*.yaml
 struct PressConfig {
   double time_step_s = 0.0;
-  double relative_d_hat = 0.0;     // d̂ as part of the diagonal of the undeformed gel's bounding box
-  double barrier_stiffness = 0.0;  // κ of κ B(x) beside h² Φ(x), squared distances: J s² / m⁴ = kg m⁻²
-  double start_gap_d_hat = 0.0;    // gap of frame 0 between the object's lowest point and z = 0, in d̂
+  bool quasi_static = false;  // the gel has no inertia
+  Vector3 gravity_m_s2 = Vector3::Zero();
+  double mass_damping_per_s = 0.0;          // Rayleigh: damping matrix = this × mass matrix …
+  double stiffness_damping_s = 0.0;         // … + this × stiffness matrix
+  std::string element;                      // "auto", "linear", "averaged_volume"
+  bool augmented_lagrangian = false;        // glued face and object by multipliers, else eliminated
+  double relative_d_hat = 0.0;              // d̂ as part of the diagonal of the undeformed gel's bounding box
+  std::optional<double> barrier_stiffness;  // κ of κ B(x) beside h² Φ(x), squared distances: J s² / m⁴ = kg m⁻²
+  double relative_barrier_stiffness = 0.0;  // if absent: κ d̂³ / (h² E ℓ²), ℓ the median edge of the front
+  double start_gap_d_hat = 0.0;             // gap of frame 0 between the object's lowest point and z = 0, in d̂
+  std::optional<FrictionConfig> friction;
   double relative_velocity_tolerance = 0.0;  // Newton: max |p| / h below this part of the diagonal per second
   double relative_force_tolerance = 0.0;     // and residual forces below this part of the contact force
   double force_tolerance_n = 0.0;            // or below this
-  int max_newton_iterations = 0;             // per step; reaching it is a failure
+  int max_newton_iterations = 0;             // per time step; reaching it halves the step
+  int max_halvings = 0;                      // of a time step; reaching it is a failure
 
   static PressConfig read(ConfigReader& in);
 };
@@ -28,8 +50,8 @@ struct SampleSpec {
   double rotate_rad = 0.0;
   double center_x_m = 0.0;
   double center_y_m = 0.0;
-  double depth_m = 0.0;  // of the object's lowest point below z = 0 in the last frame
-  int steps = 0;
+  std::optional<double> density_kg_m3;  // of the object, where a load moves it
+  std::vector<Phase> motion;
 
   static SampleSpec read(ConfigReader& in);
 };

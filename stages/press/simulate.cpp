@@ -1,112 +1,304 @@
 #include "stages/press/simulate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
 #include "common/log.h"
-#include "stages/press/contact/intersection_check.h"
+#include "stages/press/energy/elasticity.h"
+#include "stages/press/energy/element.h"
+#include "stages/press/verdict.h"
 
 namespace tacipc {
 namespace {
 
-GelModel make_gel_model(const Sensor& sensor, const TetMesh& gel, int num_vertices) {
-  const Material& material = sensor.material;
-  auto elasticity = std::make_shared<Elasticity>(gel.positions, gel.tets,
-                                                 NeoHookean{material.lame_mu_pa(), material.lame_lambda_pa()});
-  std::vector<bool> fixed(static_cast<std::size_t>(num_vertices), false);
-  for (int v = static_cast<int>(gel.num_vertices()); v < num_vertices; ++v) fixed[v] = true;
-  for (const int v : gel.vertices(BoundaryTag::glued)) fixed[v] = true;
-  Eigen::VectorXd mass_kg = lumped_masses(gel.tets, elasticity->rest(), gel.num_vertices(), material.density_kg_m3);
-  return {gel.tets, std::move(elasticity), std::move(mass_kg), FreeVertices(num_vertices, fixed)};
+/// Median length of the edges of the front face: how finely contact is resolved.
+double median_front_edge_m(const TetMesh& gel) {
+  std::vector<double> lengths;
+  const Triangles front = gel.faces(BoundaryTag::front);
+  for (Eigen::Index f = 0; f < front.rows(); ++f) {
+    for (int k = 0; k < 3; ++k)
+      lengths.push_back((gel.positions.row(front(f, k)) - gel.positions.row(front(f, (k + 1) % 3))).norm());
+  }
+  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
+  return lengths[lengths.size() / 2];
 }
 
-/// Exact judgement of one frame.
-void check_frame(int frame, const TetMesh& gel, const Positions& gel_positions, const TriangleMesh& object,
-                 const Positions& object_positions) {
-  const IntersectionReport report =
-      find_intersections({gel_positions, gel.boundary}, {object_positions, object.triangles});
-  if (!report.none()) {
-    throw SolverError("frame {}: {} gel–object and {} gel–gel triangle pairs intersect", frame, report.gel_object,
-                      report.gel_gel);
+/// Volume inside a closed surface, by the divergence theorem.
+double enclosed_volume_m3(const TriangleMesh& mesh) {
+  double volume = 0.0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    const Vector3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
+                  c = mesh.positions.row(mesh.triangles(f, 2));
+    volume += a.dot(b.cross(c)) / 6.0;
   }
-  if (const auto inverted = count_inverted_tets(gel_positions, gel.tets); inverted > 0) {
-    throw SolverError("frame {}: {} tetrahedra are inverted", frame, inverted);
-  }
+  return volume;
 }
+
+class Motion {
+ public:
+  Motion(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
+         const SampleSpec& sample, const std::string& default_face, const ProgressObserver& observe, FrameStore* store)
+      : sensor_(sensor),
+        gel_(gel),
+        object_(object),
+        config_(config),
+        sample_(sample),
+        observe_(observe),
+        store_(store) {
+    diagonal_m_ = (gel.positions.colwise().maxCoeff() - gel.positions.colwise().minCoeff()).norm();
+    out_.d_hat_m = config.relative_d_hat * diagonal_m_;
+    out_.gap_horizon_m = 2.0 * config.start_gap_d_hat * out_.d_hat_m;
+    out_.face = sample.face.value_or(default_face);
+    out_.newton = {.velocity_tolerance_m_s = config.relative_velocity_tolerance * diagonal_m_,
+                   .relative_force_tolerance = config.relative_force_tolerance,
+                   .force_tolerance_n = config.force_tolerance_n,
+                   .max_iterations = config.max_newton_iterations};
+    if (config.barrier_stiffness) {
+      out_.barrier_stiffness = *config.barrier_stiffness;
+    } else {
+      const double edge_m = median_front_edge_m(gel), h = config.time_step_s, d = out_.d_hat_m;
+      out_.barrier_stiffness =
+          config.relative_barrier_stiffness * h * h * sensor.material.youngs_modulus_pa * edge_m * edge_m / (d * d * d);
+    }
+    for (const Phase& phase : sample.motion) {
+      num_frames_ += phase.steps;
+      if (phase.kind == PhaseKind::press && phase.depth_m >= sensor.gel.thickness_m) {
+        throw DataError("depth {:.3g} mm is not less than the gel's thickness {:.3g} mm", 1e3 * phase.depth_m,
+                        1e3 * sensor.gel.thickness_m);
+      }
+    }
+    if (sample.density_kg_m3) {
+      out_.object_mass_kg = *sample.density_kg_m3 * enclosed_volume_m3(object);
+      if (!(out_.object_mass_kg > 0.0)) throw DataError("the object encloses no volume, so it has no mass");
+    }
+    out_.front = make_front_surface(gel);
+    start_z_m_ = config.start_gap_d_hat * out_.d_hat_m;
+    placed_ = place(object.positions, {out_.face, sample.rotate_rad, sample.center_x_m, sample.center_y_m}, start_z_m_);
+    mesh_ = make_contact_mesh(gel.positions, gel.boundary, transformed(placed_, object.positions), object.triangles);
+  }
+
+  Simulation run() {
+    TimeStepper stepper(mesh_, make_gel_model(), step_settings());
+    stepper_ = &stepper;
+    progress_.state = {.x = mesh_.rest_positions, .velocity_m_s = Positions::Zero(gel_.num_vertices(), 3)};
+    pose_ = placed_;
+    if (const double gap = stepper.smallest_gap(progress_.state.x, out_.gap_horizon_m); gap <= out_.d_hat_m) {
+      throw DataError("the object is {:.3g} m from the gel in frame 0, nearer than the barrier's reach {:.3g} m", gap,
+                      out_.d_hat_m);
+    }
+    if (!restored()) finish({}, stepper.no_forces());
+    PhaseStart start{};
+    for (std::size_t p = 0; p < sample_.motion.size(); ++p) {
+      const Phase& phase = sample_.motion[p];
+      start = phase_start(start.free, start.load_n);
+      progress_.yield_m.setZero();
+      for (int index = 1; index <= phase.steps; ++index) {
+        if (!restored()) run_frame(phase, static_cast<int>(p), index, start);
+      }
+      const Goal last = goal_of(phase, time_steps(phase), start, config_.time_step_s);
+      start.free = last.free;
+      start.load_n = last.load_n;
+    }
+    out_.symbolic_analyses = stepper.num_analyses();
+    return std::move(out_);
+  }
+
+ private:
+  GelModel make_gel_model() {
+    const Material& material = sensor_.material;
+    rest_tets_ = make_rest_tets(gel_.positions, gel_.tets);
+    const ElasticLaw law = make_elastic_law(material.law, material.lame_mu_pa(), material.lame_lambda_pa());
+    const bool averaged = config_.element == "averaged_volume" ||
+                          (config_.element == "auto" && material.poissons_ratio > kAveragedVolumeFrom);
+    out_.element = averaged ? "averaged_volume" : "linear";
+    return {.elasticity =
+                make_elasticity(gel_.positions, gel_.tets, law, averaged ? Element::averaged_volume : Element::linear),
+            .tets = gel_.tets,
+            .mass_kg = lumped_masses(gel_.tets, rest_tets_, gel_.num_vertices(), material.density_kg_m3),
+            .glued = gel_.vertices(BoundaryTag::glued)};
+  }
+
+  StepSettings step_settings() const {
+    StepSettings settings{
+        .d_hat_m = out_.d_hat_m,
+        .barrier_stiffness_j_m4 = out_.barrier_stiffness / (config_.time_step_s * config_.time_step_s),
+        .quasi_static = config_.quasi_static,
+        .gravity_m_s2 = config_.gravity_m_s2,
+        .mass_damping_per_s = config_.mass_damping_per_s,
+        .stiffness_damping_s = config_.stiffness_damping_s,
+        .newton = out_.newton};
+    if (config_.friction && config_.friction->coefficient > 0.0) {
+      const FrictionConfig& friction = *config_.friction;
+      settings.friction = {.coefficient = friction.coefficient,
+                           .speed_threshold_m_s = friction.relative_speed_threshold * diagonal_m_,
+                           .max_lag_iterations = friction.iterated ? friction.max_lag_iterations : 1,
+                           .relative_lag_tolerance = friction.relative_lag_tolerance};
+    }
+    return settings;
+  }
+
+  PhaseStart phase_start(const std::array<bool, 3>& free, const Vector3& load_n) const {
+    const Vector3 reference(sample_.center_x_m, sample_.center_y_m, start_z_m_);
+    return {.gel_from_object = pose_,
+            .placed = placed_,
+            .reference_m = placed_.topLeftCorner<3, 3>().transpose() * (reference - placed_.topRightCorner<3, 1>()),
+            .lowest_z_m = transformed(pose_, object_.positions).col(2).minCoeff(),
+            .start_z_m = start_z_m_,
+            .free = free,
+            .load_n = load_n};
+  }
+
+  /// Time steps from `from` to `to`, counted from the start of the phase; divided in two where Newton does not get
+  /// through.
+  void advance(const Phase& phase, const PhaseStart& start, double from, double to, int halvings, StepReport& report) {
+    Goal goal = goal_of(phase, to, start, config_.time_step_s);
+    goal.gel_from_object.topRightCorner<3, 1>() += progress_.yield_m;
+    StepGoal step{.h_s = (to - from) * goal.duration_s,
+                  .object_target = transformed(goal.gel_from_object, object_.positions),
+                  .load_n = goal.load_n,
+                  .object_mass_kg = out_.object_mass_kg};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (goal.free[axis]) step.yielding.push_back(axis);
+    }
+    try {
+      const StepReport done = stepper_->advance(progress_.state, step, [&](int iteration, double residual) {
+        observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
+      });
+      progress_.yield_m += done.yield_m;
+      pose_ = goal.gel_from_object;
+      pose_.topRightCorner<3, 1>() += done.yield_m;
+      time_s_ += step.h_s;
+      const StepReport before = report;
+      report = done;
+      report.time_steps += before.time_steps;
+      report.newton_iterations += before.newton_iterations;
+      report.moving_iterations += before.moving_iterations;
+      report.lag_iterations += before.lag_iterations;
+    } catch (const SolverError& error) {
+      if (halvings >= config_.max_halvings) throw;
+      log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
+      const double middle = 0.5 * (from + to);
+      advance(phase, start, from, middle, halvings + 1, report);
+      advance(phase, start, middle, to, halvings + 1, report);
+    }
+  }
+
+  void run_frame(const Phase& phase, int phase_index, int index, const PhaseStart& start) {
+    Frame frame;
+    frame.phase_index = phase_index;
+    try {
+      for (int k = 0; k < phase.substeps; ++k) {
+        const double from = (index - 1) * phase.substeps + k;
+        advance(phase, start, from, from + 1.0, 0, frame.solver);
+      }
+    } catch (const SolverError& error) {
+      throw SolverError("frame {}: {}", out_.frames.size(), error.what());
+    }
+    frame.phase = phase.kind;
+    finish(std::move(frame), stepper_->forces());
+  }
+
+  /// Takes the next frame over from an interrupted run.
+  bool restored() {
+    Frame frame;
+    if (!store_ || !restoring_) return false;
+    restoring_ = store_->load(frame, progress_);
+    if (!restoring_) return false;
+    pose_ = frame.gel_from_object;
+    time_s_ = frame.time_s;
+    touched_ = touched_ || frame.balance.contact_n != Vector3::Zero();
+    log_info("frame {}/{} taken over from an interrupted run", out_.frames.size(), num_frames_);
+    out_.frames.push_back(std::move(frame));
+    return true;
+  }
+
+  /// Measures and judges a frame, keeps it, and writes its line of the log.
+  void finish(Frame frame, const StepForces& forces) {
+    const Positions& x = progress_.state.x;
+    frame.positions = x.topRows(gel_.num_vertices());
+    frame.gel_from_object = pose_;
+    frame.time_s = time_s_;
+    frame.normal_force_n = on_front(out_.front, forces.normal);
+    frame.friction_force_n = on_front(out_.front, forces.friction);
+    for (const int v : out_.front.vertices)
+      frame.contact_state.push_back(static_cast<ContactState>(forces.contact_state[static_cast<std::size_t>(v)]));
+    const Positions contact = forces.normal + forces.friction;
+    for (Eigen::Index v = 0; v < contact.rows(); ++v) {
+      const Vector3 force = contact.row(v), arm = frame.positions.row(v);
+      frame.force_n += force;
+      frame.torque_n_m += arm.cross(force);
+    }
+    frame.balance = balance_of(frame.positions, {.contact = contact, .inertia = forces.body, .mount = forces.mount});
+    touched_ = touched_ || frame.balance.contact_n != Vector3::Zero();
+    if (frame.phase == PhaseKind::press && !touched_) frame.phase = PhaseKind::approach;
+    const Positions object_positions = transformed(pose_, object_.positions);
+    frame.pose_error_m = (x.bottomRows(mesh_.num_object_vertices) - object_positions).rowwise().norm().maxCoeff();
+    frame.min_gap_m = stepper_->smallest_gap(x, out_.gap_horizon_m);
+    frame.min_volume_ratio = min_volume_ratio(frame.positions, gel_.tets, rest_tets_);
+    const IntersectionReport crossings =
+        find_intersections({frame.positions, gel_.boundary}, {object_positions, object_.triangles});
+    frame.intersections = static_cast<int>(crossings.gel_object + crossings.gel_gel);
+    frame.inverted_tets = static_cast<int>(count_inverted_tets(frame.positions, gel_.tets));
+    judge(frame);
+    log_info(
+        "frame {}/{} {}: press {:.4f} N, tangential {:.4f} N, {} Newton iterations in {} steps, smallest gap {:.3g} "
+        "um, "
+        "smallest volume ratio {:.3f}",
+        out_.frames.size(), num_frames_, name_of(frame.phase), 0.0 - frame.force_n.z(), frame.force_n.head<2>().norm(),
+        frame.solver.newton_iterations, frame.solver.time_steps, 1e6 * frame.min_gap_m, frame.min_volume_ratio);
+    if (store_) store_->save(frame, progress_);
+    out_.frames.push_back(std::move(frame));
+  }
+
+  void judge(const Frame& frame) const {
+    const double contact_n = frame.solver.contact_force_n;
+    SolverLimits limits{
+        .velocity_residual_m_s = out_.newton.velocity_tolerance_m_s,
+        .force_residual_n = std::max(out_.newton.force_tolerance_n, out_.newton.relative_force_tolerance * contact_n),
+        .friction_residual_n = {}};
+    if (config_.friction && config_.friction->iterated) {
+      limits.friction_residual_n =
+          std::max(out_.newton.force_tolerance_n, config_.friction->relative_lag_tolerance * contact_n);
+    }
+    judge_frame(static_cast<int>(out_.frames.size()),
+                {.min_gap_m = frame.min_gap_m,
+                 .intersections = frame.intersections,
+                 .inverted_tets = frame.inverted_tets,
+                 .min_volume_ratio = frame.min_volume_ratio,
+                 .velocity_residual_m_s = frame.solver.velocity_residual_m_s,
+                 .force_residual_n = frame.solver.force_residual_n,
+                 .friction_residual_n = frame.solver.friction_residual_n,
+                 .balance_n = frame.balance.force_n,
+                 .balance_relative = frame.balance.relative,
+                 .pose_error_m = frame.pose_error_m},
+                limits);
+  }
+
+  const Sensor& sensor_;
+  const TetMesh& gel_;
+  const TriangleMesh& object_;
+  const PressConfig& config_;
+  const SampleSpec& sample_;
+  const ProgressObserver& observe_;
+  FrameStore* store_;
+  Simulation out_;
+  ContactMesh mesh_;
+  TimeStepper* stepper_ = nullptr;
+  double diagonal_m_ = 0.0, start_z_m_ = 0.0, time_s_ = 0.0;
+  Matrix4 placed_, pose_;
+  int num_frames_ = 0;
+  bool touched_ = false, restoring_ = true;
+  Progress progress_;
+  std::vector<RestTet> rest_tets_;
+};
 
 }  // namespace
 
 Simulation simulate(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
-                    const SampleSpec& sample, const std::string& default_face, const ProgressObserver& observe) {
-  const Vector3 extent = gel.positions.colwise().maxCoeff() - gel.positions.colwise().minCoeff();
-  const double diagonal_m = extent.norm();
-  Simulation out;
-  out.d_hat_m = config.relative_d_hat * diagonal_m;
-  out.gap_horizon_m = 2.0 * config.start_gap_d_hat * out.d_hat_m;
-  out.face = sample.face.value_or(default_face);
-  const Placement placement{out.face, sample.rotate_rad, sample.center_x_m, sample.center_y_m};
-  const double start_z_m = config.start_gap_d_hat * out.d_hat_m;
-  const auto pose_at = [&](int frame) {
-    const double t = static_cast<double>(frame) / sample.steps;
-    return place(object.positions, placement, (1.0 - t) * start_z_m - t * sample.depth_m);
-  };
-  if (sample.depth_m >= sensor.gel.thickness_m) {
-    throw DataError("depth {:.3g} mm is not less than the gel's thickness {:.3g} mm", 1e3 * sample.depth_m,
-                    1e3 * sensor.gel.thickness_m);
-  }
-
-  const Positions object_start = transformed(pose_at(0), object.positions);
-  const ContactMesh mesh = make_contact_mesh(gel.positions, gel.boundary, object_start, object.triangles);
-  const NewtonSettings newton{.velocity_tolerance_m_s = config.relative_velocity_tolerance * diagonal_m,
-                              .relative_force_tolerance = config.relative_force_tolerance,
-                              .force_tolerance_n = config.force_tolerance_n,
-                              .max_iterations = config.max_newton_iterations};
-  GelModel model = make_gel_model(sensor, gel, mesh.num_vertices());
-  const auto elasticity = model.elasticity;
-  TimeStepper stepper(mesh, std::move(model), config.time_step_s, out.d_hat_m, config.barrier_stiffness, newton);
-
-  Positions x = mesh.rest_positions;
-  Positions velocity = Positions::Zero(gel.num_vertices(), 3);
-  const auto save = [&](int index, const Positions& object_positions, const StepReport& report) {
-    Frame frame;
-    frame.positions = x.topRows(gel.num_vertices());
-    frame.gel_from_object = pose_at(index);
-    frame.contact_force = stepper.contact_forces(x);
-    for (Eigen::Index v = 0; v < gel.num_vertices(); ++v) {
-      const Vector3 force = frame.contact_force.row(v), arm = frame.positions.row(v);
-      frame.force_n += force;
-      frame.torque_n_m += arm.cross(force);
-    }
-    frame.mount_force_n = stepper.mount_forces(x).colwise().sum();
-    frame.min_gap_m = stepper.smallest_gap(x, out.gap_horizon_m);
-    frame.min_volume_ratio = min_volume_ratio(frame.positions, gel.tets, elasticity->rest());
-    frame.solver = report;
-    check_frame(index, gel, frame.positions, object, object_positions);
-    log_info("frame {}/{}: force {:.4f} N, {} Newton iterations, smallest gap {:.3g} um, smallest volume ratio {:.3f}",
-             index, sample.steps, 0.0 - frame.force_n.z(), report.newton_iterations, 1e6 * frame.min_gap_m,
-             frame.min_volume_ratio);
-    out.frames.push_back(std::move(frame));
-  };
-
-  save(0, object_start, {});
-  if (out.frames[0].min_gap_m <= out.d_hat_m) {
-    throw DataError("the object is {:.3g} m from the gel in frame 0, nearer than the barrier's reach {:.3g} m",
-                    out.frames[0].min_gap_m, out.d_hat_m);
-  }
-  for (int index = 1; index <= sample.steps; ++index) {
-    const Positions target = transformed(pose_at(index), object.positions);
-    StepReport report;
-    try {
-      report = stepper.advance(x, velocity, target, [&](int iteration, double residual) {
-        observe(index, sample.steps, iteration, residual);
-      });
-    } catch (const SolverError& error) {
-      throw SolverError("frame {}: {}", index, error.what());
-    }
-    save(index, target, report);
-  }
-  out.symbolic_analyses = stepper.num_analyses();
-  return out;
+                    const SampleSpec& sample, const std::string& default_face, const ProgressObserver& observe,
+                    FrameStore* store) {
+  return Motion(sensor, gel, object, config, sample, default_face, observe, store).run();
 }
 
 }  // namespace tacipc

@@ -8,6 +8,9 @@
 #include "common/sensor.h"
 #include "common/tet_mesh.h"
 #include "common/triangle_mesh.h"
+#include "stages/press/contact/intersection_check.h"
+#include "stages/press/measure/balance.h"
+#include "stages/press/measure/contact_patch.h"
 #include "stages/press/placement.h"
 #include "stages/press/press_config.h"
 #include "stages/press/solve/time_step.h"
@@ -16,30 +19,60 @@ namespace tacipc {
 
 /// One saved instant. Frame 0 is the gel at rest with the object out of the barrier's reach.
 struct Frame {
+  double time_s = 0.0;
+  PhaseKind phase = PhaseKind::reference;
+  int phase_index = -1;                     // into the sample's motion; −1 for frame 0
   Positions positions;                      // gel, m
   Matrix4 gel_from_object;                  // pose of the object
-  Positions contact_force;                  // on each gel vertex by contact, N; gel on gel adds pairs that cancel
-  Vector3 force_n = Vector3::Zero();        // Σ on the gel by the object
+  Positions normal_force_n;                 // on each front vertex; gel on gel adds pairs that cancel
+  Positions friction_force_n;               // the same by friction
+  std::vector<ContactState> contact_state;  // of each front vertex
+  Vector3 force_n = Vector3::Zero();        // Σ on the gel by the object, wherever it touches
   Vector3 torque_n_m = Vector3::Zero();     // the same about the origin of S
-  Vector3 mount_force_n = Vector3::Zero();  // Σ on the gel by its mount
-  double min_gap_m = 0.0;                   // gel–object, at most `gap_horizon_m`
+  Balance balance;
+  double min_gap_m = 0.0;  // gel–object, at most `gap_horizon_m`
   double min_volume_ratio = 1.0;
+  double pose_error_m = 0.0;  // largest distance of an object vertex from where its pose puts it
+  int intersections = 0;      // pairs of triangles, by an exact test
+  int inverted_tets = 0;      // the same
   StepReport solver;
 };
 
 struct Simulation {
   double d_hat_m = 0.0;
-  double gap_horizon_m = 0.0;  // gaps are looked for up to this distance
+  double barrier_stiffness = 0.0;  // κ, kg m⁻²
+  double gap_horizon_m = 0.0;      // gaps are looked for up to this distance
+  double object_mass_kg = 0.0;     // 0 where no load moves the object
   std::string face;
+  FrontSurface front;
+  std::string element;  // "linear", "averaged_volume"
+  NewtonSettings newton;
   std::vector<Frame> frames;
   int symbolic_analyses = 0;
 };
 
 using ProgressObserver = std::function<void(int frame, int num_frames, int iteration, double velocity_residual_m_s)>;
 
-/// Presses the object into the gel. \throw SolverError if a frame does not converge or fails its check, DataError if
-/// the start is not free of contact.
+/// What a frame starts from.
+struct Progress {
+  State state;
+  Vector3 yield_m = Vector3::Zero();  // of the object since the start of the phase
+};
+
+/// Where frames are kept while a motion is under way, so that one that is interrupted goes on where it stopped.
+class FrameStore {
+ public:
+  virtual ~FrameStore() = default;
+  /// Called after each frame, in order, with what the next one needs.
+  virtual void save(const Frame& frame, const Progress& progress) = 0;
+  /// The next saved frame in order, if there is one.
+  virtual bool load(Frame& frame, Progress& progress) = 0;
+};
+
+/// Moves the object through its phases. \throw SolverError if a time step does not converge, VerdictError if a frame
+/// misses a limit of verdict.h, DataError if the start is not free of contact.
 Simulation simulate(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
-                    const SampleSpec& sample, const std::string& default_face, const ProgressObserver& observe);
+                    const SampleSpec& sample, const std::string& default_face, const ProgressObserver& observe,
+                    FrameStore* store = nullptr);
 
 }  // namespace tacipc

@@ -28,7 +28,8 @@ TEST(PressConfig, ShippedSettingsAreThePapers) {
   EXPECT_EQ(config.time_step_s, 0.01);
   EXPECT_EQ(config.relative_d_hat, 1e-3);
   EXPECT_EQ(config.barrier_stiffness, 1e6);
-  EXPECT_EQ(config.max_newton_iterations, 500);
+  EXPECT_EQ(config.max_newton_iterations, 200);
+  EXPECT_FALSE(config.friction);
 }
 
 TEST(PressConfig, StartGapMustExceedDHat) {
@@ -47,16 +48,20 @@ TEST(SampleSpec, ReadsPlacementAndMotionInSi) {
   EXPECT_EQ(sample.face, "+x");
   EXPECT_DOUBLE_EQ(sample.rotate_rad, std::numbers::pi / 2);
   EXPECT_DOUBLE_EQ(sample.center_y_m, -0.002);
-  EXPECT_DOUBLE_EQ(sample.depth_m, 0.0005);
-  EXPECT_EQ(sample.steps, 5);
+  ASSERT_EQ(sample.motion.size(), 1u);
+  EXPECT_EQ(sample.motion[0].kind, PhaseKind::press);
+  EXPECT_DOUBLE_EQ(sample.motion[0].depth_m, 0.0005);
+  EXPECT_EQ(sample.motion[0].steps, 5);
 }
 
 TEST(SampleSpec, NamesWhatIsWrong) {
-  EXPECT_THAT(faults_of<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n"),
-              ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
-                          "x.yaml:2:16: motion.kind: 'push' is not one of press",
-                          "x.yaml:2:32: motion.depth_mm: 0 is outside (0, inf)",
-                          "x.yaml:2:42: motion.steps: 0 is outside [1, 100000]"));
+  EXPECT_THAT(
+      faults_of<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n"),
+      ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
+                  "x.yaml:2:16: motion.kind: 'push' is not one of press, shear, twist, hold, release, tilt, path, "
+                  "load (did you mean path?)",
+                  "x.yaml:2:32: motion.depth_mm: 0 is outside (0, inf)",
+                  "x.yaml:2:42: motion.steps: 0 is outside [1, 100000]"));
 }
 
 }  // namespace

@@ -112,30 +112,35 @@ TEST(Assemble, HessianIsTheGradientsDerivativeAndCouplingThatOfPrescribedMotion)
   const Positions rest{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
   const Tetrahedra tets{{0, 1, 2, 3}, {1, 2, 3, 4}};
   const auto elasticity = std::make_shared<Elasticity>(rest, tets, NeoHookean{2.0, 3.0});
-  const IncrementalPotential potential{{{0.7, elasticity}}};
-  const FreeVertices free(5, {true, false, false, false, false});
+  const IncrementalPotential potential{{{.weight = 0.7, .term = elasticity}}};
+  const FreeVertices free(5, {false, false, false, false, true});
   Positions x = rest;
   x(4, 2) = 1.3;
   x(1, 1) = 0.1;
   Positions motion = Positions::Zero(5, 3);
-  motion.row(0) << 0.3, -0.2, 0.5;
+  motion.row(4) << 0.3, -0.2, 0.5;
   const auto pattern = mesh_pattern(free, *elasticity);
   const auto at = [&](const Positions& y) {
     NewtonSystem system = empty_system(free, pattern);
-    for (const WeightedTerm& term : potential.terms) assemble(term, y, free, Order::hessian, motion, system);
+    for (const WeightedTerm& term : potential.terms) assemble(term, y, free, 4, Order::hessian, motion, system);
     return system;
   };
   const NewtonSystem system = at(x);
   Positions d = motion;
   Eigen::VectorXd free_d(12);
   for (int i = 0; i < 4; ++i) {
-    d.row(i + 1) << 0.2 * i - 0.3, 0.1, -0.15 * i;
-    free_d.segment<3>(3 * i) = d.row(i + 1).transpose();
+    d.row(i) << 0.2 * i - 0.3, 0.1, -0.15 * i;
+    free_d.segment<3>(3 * i) = d.row(i).transpose();
   }
   const double h = 1e-5;
   const Eigen::VectorXd difference = (at(x + h * d).gradient - at(x - h * d).gradient) / (2 * h);
   const Eigen::VectorXd exact = system.hessian.multiply(free_d) + system.coupling;
   EXPECT_LT((difference - exact).norm(), 1e-8 * exact.norm());
+  // The object as a whole: what its shift feels of the free vertices and of its own motion.
+  const Vector3 object_difference = (at(x + h * d).object_gradient - at(x - h * d).object_gradient) / (2 * h);
+  const Vector3 object_exact = system.object_border.transpose() * free_d + system.object_coupling;
+  EXPECT_LT((object_difference - object_exact).norm(), 1e-8 * object_exact.norm());
+  EXPECT_LT((system.object_hessian * motion.row(4).transpose() - system.object_coupling).norm(), 1e-12);
 }
 
 /// Two tetrahedra of one gel that share nothing, the tip of the second above the front of the first.
@@ -161,7 +166,8 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
 
   // The extended system solves as dense algebra does, and a new pattern is analysed anew.
   NewtonSystem system = empty_system(free, covered);
-  assemble({1.0, std::make_shared<ContactBarrier>(barrier)}, x, free, Order::psd, Positions::Zero(8, 3), system);
+  assemble({.weight = 1.0, .term = std::make_shared<ContactBarrier>(barrier)}, x, free, 8, Order::psd,
+           Positions::Zero(8, 3), system);
   for (int v = 0; v < 8; ++v) system.hessian.block(covered->find(v, v)) += Matrix3::Identity();
   EXPECT_GT(system.gradient.norm(), 0.0);
   CholmodSolver solver;

@@ -42,6 +42,16 @@ ContactBarrier::ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair>
   }
 }
 
+ContactBarrier::Push ContactBarrier::push(int i, const FourPoints& points) const {
+  Push out{closest_feature(pairs_[i], points), 0.0};
+  const double s = out.feature.squared_distance;
+  if (s >= s_hat_[i]) return out;
+  out.force = -2.0 * std::sqrt(s) * barrier_d1(s, s_hat_[i]);
+  if (const double c = edge_cross_squared_norm(points), threshold = mollifier_threshold_[i]; c < threshold)
+    out.force *= edge_edge_mollifier(c, threshold);
+  return out;
+}
+
 void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
   const FourPoints points = unpack(x);
   const ClosestFeature feature = closest_feature(pairs_[i], points);

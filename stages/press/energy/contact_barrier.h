@@ -23,6 +23,14 @@ class ContactBarrier final : public EnergyTerm {
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 
+  /// How one pair pushes: its closest feature and 2 d m |b′(d²)| in m³, zero from d̂ on. Times κ it is the force between
+  /// the two sides along the line that joins their closest points.
+  struct Push {
+    ClosestFeature feature;
+    double force;
+  };
+  Push push(int i, const FourPoints& points) const;
+
  private:
   std::vector<ContactPair> pairs_;
   std::vector<double> s_hat_;                // one per pair

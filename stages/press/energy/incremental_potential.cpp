@@ -34,14 +34,25 @@ double sum(const EnergyTerm& term, const Positions& x) {
 
 double IncrementalPotential::value(const Positions& x) const {
   double value = 0.0;
-  for (const auto& [weight, term] : terms) value += weight * sum(*term, x);
+  for (const WeightedTerm& part : terms) value += part.weight * sum(*part.term, x);
   return value;
 }
 
-IncrementalPotential make_incremental_potential(double h_s, double kappa, std::shared_ptr<const Inertia> inertia,
-                                                std::shared_ptr<const Elasticity> elasticity,
-                                                std::shared_ptr<const ContactBarrier> barrier) {
-  return {{{1.0, std::move(inertia)}, {h_s * h_s, std::move(elasticity)}, {kappa, std::move(barrier)}}};
+IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& w) {
+  const double h = w.h_s, kappa = h * h * w.barrier_stiffness_j_m4;
+  IncrementalPotential out;
+  const auto add = [&](double weight, std::shared_ptr<const EnergyTerm> term, bool contact = false) {
+    if (term) out.terms.push_back({weight, std::move(term), contact});
+  };
+  add(1.0, terms.inertia);
+  add(1.0, terms.object_inertia);
+  add(w.mass_damping_per_s * h, terms.mass_damping);
+  add(w.stiffness_damping_s * h, terms.stiffness_damping);
+  add(h * h, terms.gravity);
+  add(h * h, terms.elasticity);
+  add(kappa * w.friction_coefficient, terms.friction, true);
+  add(kappa, terms.barrier, true);
+  return out;
 }
 
 }  // namespace tacipc

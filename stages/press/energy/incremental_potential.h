@@ -13,9 +13,30 @@ namespace tacipc {
 struct WeightedTerm {
   double weight;
   std::shared_ptr<const EnergyTerm> term;
+  bool contact = false;  // couples vertices that share no element
 };
 
-/// Ê(x) = inertia + h² Φ(x) + κ B(x), in kg m².   [Eq. 3, 5]
+/// The parts of one time step; null where a part is absent.
+struct StepTerms {
+  std::shared_ptr<const EnergyTerm> inertia;            // of the gel about x̂
+  std::shared_ptr<const EnergyTerm> object_inertia;     // of an object that yields, about its x̂ (its load is in that)
+  std::shared_ptr<const EnergyTerm> mass_damping;       // an inertia about the start of the step
+  std::shared_ptr<const EnergyTerm> stiffness_damping;  // ½ (x − xᵗ)ᵀ K (x − xᵗ)
+  std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where it is not in x̂
+  std::shared_ptr<const EnergyTerm> elasticity;
+  std::shared_ptr<const EnergyTerm> friction;
+  std::shared_ptr<const ContactBarrier> barrier;
+};
+
+struct StepWeights {
+  double h_s = 0.0;
+  double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step
+  double friction_coefficient = 0.0;
+  double mass_damping_per_s = 0.0;
+  double stiffness_damping_s = 0.0;
+};
+
+/// Ê(x) in kg m²; the barrier is its last term.   [Eq. 3, 5, 9]
 struct IncrementalPotential {
   std::vector<WeightedTerm> terms;
 
@@ -23,9 +44,8 @@ struct IncrementalPotential {
   double value(const Positions& x) const;
 };
 
-IncrementalPotential make_incremental_potential(double h_s, double kappa, std::shared_ptr<const Inertia> inertia,
-                                                std::shared_ptr<const Elasticity> elasticity,
-                                                std::shared_ptr<const ContactBarrier> barrier);
+/// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity) + κ′(μ D + B), κ′ = h² × barrier stiffness: κ for the nominal h.
+IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& weights);
 
 /// Coordinates of a stencil's vertices, 3 each.
 inline void gather(const Positions& x, std::span<const int> stencil, Eigen::VectorXd& out) {

@@ -11,10 +11,10 @@ namespace tacipc {
 /// Σ ½ mᵢ ‖xᵢ − x̂ᵢ‖², in kg m².   [Eq. 3]
 class Inertia final : public EnergyTerm {
  public:
-  /// One mass and one row of x̂ per vertex; vertex i is stencil i.
-  Inertia(Eigen::VectorXd mass_kg, Positions x_hat_m)
+  /// One mass and one row of x̂ per vertex; stencil i is vertex first_vertex + i.
+  Inertia(Eigen::VectorXd mass_kg, Positions x_hat_m, int first_vertex = 0)
       : mass_kg_(std::move(mass_kg)), x_hat_m_(std::move(x_hat_m)), vertex_(mass_kg_.size()) {
-    for (std::size_t i = 0; i < vertex_.size(); ++i) vertex_[i] = static_cast<int>(i);
+    for (std::size_t i = 0; i < vertex_.size(); ++i) vertex_[i] = first_vertex + static_cast<int>(i);
   }
 
   std::string_view name() const override { return "inertia"; }

@@ -46,26 +46,26 @@ std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const
 }
 
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
-                                                   const FreeVertices& free, const ContactBarrier& barrier,
+                                                   const FreeVertices& free, const EnergyTerm& term,
                                                    const Positions& x) {
   std::vector<std::array<int, 2>> missing;
   Local local;
   Eigen::VectorXd local_x;
-  for (int i = 0; i < barrier.num_stencils(); ++i) {
-    const auto stencil = barrier.stencil(i);
+  for (int i = 0; i < term.num_stencils(); ++i) {
+    const auto stencil = term.stencil(i);
     bool covered = true;
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b < a; ++b) {
+    for (std::size_t a = 0; a < stencil.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
         const int p = free.free_of_vertex[stencil[a]], q = free.free_of_vertex[stencil[b]];
         covered = covered && (p < 0 || q < 0 || pattern->find(std::max(p, q), std::min(p, q)) >= 0);
       }
     }
     if (covered) continue;
     gather(x, stencil, local_x);
-    barrier.evaluate(i, local_x, Order::value, local);
+    term.evaluate(i, local_x, Order::value, local);
     if (local.zero) continue;
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b < a; ++b) {
+    for (std::size_t a = 0; a < stencil.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
         const int p = free.free_of_vertex[stencil[a]], q = free.free_of_vertex[stencil[b]];
         if (p >= 0 && q >= 0) missing.push_back({p, q});
       }
@@ -81,26 +81,42 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
 
 NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern) {
   const Eigen::Index n = 3 * static_cast<Eigen::Index>(free.size());
-  return {BlockMatrix(std::move(pattern)), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  return {.hessian = BlockMatrix(std::move(pattern)),
+          .gradient = Eigen::VectorXd::Zero(n),
+          .coupling = Eigen::VectorXd::Zero(n),
+          .object_border = Eigen::MatrixXd::Zero(n, 3),
+          .object_hessian = Matrix3::Zero(),
+          .object_gradient = Vector3::Zero(),
+          .object_coupling = Vector3::Zero()};
 }
 
-void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, Order order,
-              const Positions& motion, NewtonSystem& system) {
+void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
+              Order order, const Positions& motion, NewtonSystem& system) {
   const double weight = weighted.weight;
   const BlockPattern& pattern = *system.hessian.pattern;
   for_each_local(*weighted.term, x, order, [&](std::span<const int> stencil, const Local& local) {
     const int count = static_cast<int>(stencil.size());
     for (int a = 0; a < count; ++a) {
       const int i = free.free_of_vertex[stencil[a]];
-      if (i < 0) continue;
-      system.gradient.segment<3>(3 * i) += weight * local.gradient.segment<3>(3 * a);
+      const bool object = i < 0 && stencil[a] >= first_object_vertex;
+      if (i < 0 && !object) continue;
+      if (object) {
+        system.object_gradient += weight * local.gradient.segment<3>(3 * a);
+      } else {
+        system.gradient.segment<3>(3 * i) += weight * local.gradient.segment<3>(3 * a);
+      }
       for (int b = 0; b < count; ++b) {
         const int j = free.free_of_vertex[stencil[b]];
-        if (j < 0) {
-          system.coupling.segment<3>(3 * i) +=
-              weight * local.hessian.block<3, 3>(3 * a, 3 * b) * motion.row(stencil[b]).transpose();
+        const auto block = local.hessian.block<3, 3>(3 * a, 3 * b);
+        if (object) {
+          if (j >= 0) continue;
+          system.object_coupling += weight * block * motion.row(stencil[b]).transpose();
+          if (stencil[b] >= first_object_vertex) system.object_hessian += weight * block;
+        } else if (j < 0) {
+          system.coupling.segment<3>(3 * i) += weight * block * motion.row(stencil[b]).transpose();
+          if (stencil[b] >= first_object_vertex) system.object_border.middleRows<3>(3 * i) += weight * block;
         } else if (i >= j) {
-          system.hessian.block(pattern.find(i, j)) += weight * local.hessian.block<3, 3>(3 * a, 3 * b);
+          system.hessian.block(pattern.find(i, j)) += weight * block;
         }
       }
     }

@@ -9,30 +9,35 @@
 
 namespace tacipc {
 
-/// H p = −g − H_c d, the Newton step while prescribed vertices move by d.
+/// H p = −g − H_c d, the Newton step while prescribed vertices move by d, and the same for the object as a whole should
+/// it be free to shift: shifting it by q moves all its vertices by q.
 struct NewtonSystem {
   BlockMatrix hessian;
   Eigen::VectorXd gradient;  // g over the free vertices
   Eigen::VectorXd coupling;  // H_c d: columns of the prescribed vertices times their motion
+  Eigen::Matrix<double, Eigen::Dynamic, 3> object_border;  // ∂²/∂x∂q
+  Matrix3 object_hessian;                                  // ∂²/∂q²
+  Vector3 object_gradient;                                 // ∂/∂q
+  Vector3 object_coupling;                                 // H d for q
 };
 
 /// Pattern of the Hessian of a term over all tetrahedra: all vertex pairs that share a stencil, which also covers every
 /// contact of the gel with a prescribed object.
 std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const EnergyTerm& term);
 
-/// The pattern, or a larger one if pairs of the terms that are active at x couple vertices it does not (gel against
+/// The pattern, or a larger one if stencils of the term that are active at x couple vertices it does not (gel against
 /// gel).
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
-                                                   const FreeVertices& free, const ContactBarrier& barrier,
+                                                   const FreeVertices& free, const EnergyTerm& term,
                                                    const Positions& x);
 
 /// A system of zeros.
 NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern);
 
 /// Adds weight × term at x in a fixed order. `order` is hessian or psd; `motion` (rows like x) is how prescribed
-/// vertices move.
-void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, Order order,
-              const Positions& motion, NewtonSystem& system);
+/// vertices move; those from `first_object_vertex` on are the object's.
+void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, int first_object_vertex,
+              Order order, const Positions& motion, NewtonSystem& system);
 
 /// Gradient of one term at every vertex, prescribed ones too, in the term's unit per metre.
 Positions gradient_of(const EnergyTerm& term, const Positions& x);

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/error.h"
 #include "common/log.h"
+#include "stages/press/energy/linear_load.h"
+#include "stages/press/energy/stiffness_damping.h"
 #include "stages/press/solve/step_limit.h"
 
 namespace tacipc {
@@ -12,21 +15,9 @@ namespace {
 
 constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where no energy guards the step
 constexpr double kNewtonSlack = 0.1;
+constexpr double kLagSlack = 0.5;
 constexpr double kGapFloor = 1e-4;  // × d̂
-// How the share of the contact Hessian's positive stand-in adapts: as small as the factorisation lets it be.
-constexpr double kFirstBlend = 0.02, kBlendGrowth = 3.0, kBlendShrink = 2.0;
 constexpr int kMaxHalvings = 40;
-
-const ContactBarrier& barrier_of(const IncrementalPotential& potential) {
-  return static_cast<const ContactBarrier&>(*potential.terms.back().term);
-}
-
-/// Σᵢ |row i| of a vector of stacked triples.
-double sum_of_norms(const Eigen::VectorXd& stacked) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < stacked.size(); i += 3) sum += stacked.segment<3>(i).norm();
-  return sum;
-}
 
 double largest_row(const Positions& p, Eigen::Index rows) {
   double largest = 0.0;
@@ -34,135 +25,106 @@ double largest_row(const Positions& p, Eigen::Index rows) {
   return std::sqrt(largest);
 }
 
+FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued) {
+  std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
+  for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) fixed[v] = true;
+  for (const int v : glued) fixed[v] = true;
+  return {mesh.num_vertices(), fixed};
+}
+
 }  // namespace
 
-/// A Newton step and what was learnt on the way to it.
-struct TimeStepper::Direction {
-  Positions p;   // all vertices: the gel's answer, the object's motion
-  double slope;  // gᵀp over the free vertices
-  double force_residual_n;
-  double blend;  // part of the contact Hessian that was made positive: 0 exact, 1 all of it
+/// One step under way.
+struct TimeStepper::Step {
+  const StepGoal& goal;
+  const IterationObserver& observe;
+  Positions x;
+  StepTerms terms = {};  // all but the barrier
+  StepWeights weights = {};
+  bool arrived = false;
+  Vector3 yield = Vector3::Zero();
+  StepReport report = {};
+  std::shared_ptr<const Friction> friction = nullptr;
 };
 
-TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, double h_s, double d_hat_m, double kappa,
-                         const NewtonSettings& settings)
+TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings)
     : mesh_(mesh),
       gel_(std::move(gel)),
-      h_s_(h_s),
-      d_hat_m_(d_hat_m),
-      kappa_(kappa),
       settings_(settings),
       search_(mesh),
-      pattern_(mesh_pattern(gel_.free, *gel_.elasticity)) {}
+      newton_(free_vertices(mesh, gel_.glued), mesh.num_gel_vertices,
+              mesh_pattern(free_vertices(mesh, gel_.glued), *gel_.elasticity)) {}
 
-IncrementalPotential TimeStepper::potential(const Positions& x_hat, std::vector<ContactPair> pairs) const {
-  return make_incremental_potential(h_s_, kappa_, std::make_shared<Inertia>(gel_.mass_kg, x_hat), gel_.elasticity,
-                                    std::make_shared<ContactBarrier>(mesh_, std::move(pairs), d_hat_m_));
+IncrementalPotential TimeStepper::potential(const Step& step, std::vector<ContactPair> pairs) const {
+  StepTerms terms = step.terms;
+  terms.friction = step.friction;
+  terms.barrier = std::make_shared<ContactBarrier>(mesh_, std::move(pairs), settings_.d_hat_m);
+  return make_incremental_potential(terms, step.weights);
 }
 
-TimeStepper::Direction TimeStepper::newton_direction(const IncrementalPotential& potential,
-                                                     const ContactBarrier& barrier, const Positions& x,
-                                                     const Positions& motion, double& blend, StepReport& report) {
-  pattern_ = cover_contacts(pattern_, gel_.free, barrier, x);
-  const WeightedTerm& contact = potential.terms.back();
-  // Everything but contact, elasticity as told.
-  const auto body = [&](Order elastic) {
-    NewtonSystem system = empty_system(gel_.free, pattern_);
-    for (std::size_t k = 0; k + 1 < potential.terms.size(); ++k)
-      assemble(potential.terms[k], x, gel_.free, elastic, motion, system);
-    return system;
-  };
-  const auto with_contact = [&](NewtonSystem system, Order order) {
-    assemble(contact, x, gel_.free, order, motion, system);
-    return system;
-  };
-  const auto solved = [&](const NewtonSystem& system, double used) {
-    const Eigen::VectorXd step = solver_.solve(-system.gradient - system.coupling);
-    Direction direction{motion, system.gradient.dot(step), sum_of_norms(system.gradient) / (h_s_ * h_s_), used};
-    for (int i = 0; i < gel_.free.size(); ++i)
-      direction.p.row(gel_.free.vertex_of_free[i]) = step.segment<3>(3 * i).transpose();
-    return direction;
-  };
-  const auto factorized = [&](const BlockMatrix& matrix) {
-    ++report.factorizations;
-    return solver_.factorize(matrix);
-  };
-  const NewtonSystem elastic = body(Order::hessian);
-  NewtonSystem positive = with_contact(elastic, Order::psd);
-  if (blend < 1.0) {
-    const NewtonSystem exact = with_contact(elastic, Order::hessian);
-    const std::vector<double> positive_values = positive.hessian.values;
-    for (; blend < 1.0; blend = blend == 0.0 ? kFirstBlend : kBlendGrowth * blend) {
-      for (std::size_t k = 0; k < positive_values.size(); ++k) {
-        positive.hessian.values[k] = exact.hessian.values[k] + blend * (positive_values[k] - exact.hessian.values[k]);
-      }
-      if (!factorized(positive.hessian)) continue;
-      const double used = blend;
-      blend = blend > kFirstBlend ? blend / kBlendShrink : 0.0;
-      return solved(positive, used);
-    }
-    positive.hessian.values = positive_values;
-    blend = 1.0;
-  }
-  const double used = blend;
-  blend = 0.99 / kBlendShrink;
-  if (factorized(positive.hessian)) return solved(positive, used);
-  const NewtonSystem projected = with_contact(body(Order::psd), Order::psd);
-  if (factorized(projected.hessian)) return solved(projected, used);
-  throw SolverError("the projected Hessian is not positive definite");
+ContactBarrier TimeStepper::barrier_at(const Positions& x) {
+  return {mesh_, search_.pairs(x, Positions::Zero(x.rows(), 3), settings_.d_hat_m), settings_.d_hat_m};
 }
 
-StepReport TimeStepper::advance(Positions& x, Positions& velocity, const Positions& object_target,
-                                const IterationObserver& observe) {
+double TimeStepper::contact_force(const ContactBarrier& barrier, const Positions& x) const {
+  return settings_.barrier_stiffness_j_m4 *
+         gradient_of(barrier, x).topRows(mesh_.num_gel_vertices).colwise().sum().norm();
+}
+
+void TimeStepper::minimise(Step& step) {
   const Eigen::Index n = mesh_.num_gel_vertices;
-  const Positions start = x.topRows(n);
-  const Positions x_hat = start + h_s_ * velocity;
-  const Positions still = Positions::Zero(x.rows(), 3);
-  StepReport report;
-  bool arrived = (x.bottomRows(mesh_.num_object_vertices) - object_target).cwiseAbs().maxCoeff() == 0.0;
-  int relax = 0, relax_wanted = 1;
-  double blend = 1.0;
-  double last_residual = std::numeric_limits<double>::infinity();
-  IncrementalPotential energy = potential(x_hat, search_.pairs(x, still, d_hat_m_));
+  const double h = step.goal.h_s;
+  const NewtonSettings& newton = settings_.newton;
+  const Positions still = Positions::Zero(step.x.rows(), 3);
+  Positions& x = step.x;
+  StepReport& report = step.report;
+  int relax = 0, relax_wanted = 1, iterations = 0;
+  double blend = 1.0, last_residual = std::numeric_limits<double>::infinity();
+  IncrementalPotential energy = potential(step, search_.pairs(x, still, settings_.d_hat_m));
 
   while (true) {
-    if (report.newton_iterations >= settings_.max_iterations) {
-      report.contact_force_n = contact_forces(x).colwise().sum().norm();
+    if (iterations >= newton.max_iterations) {
       throw SolverError(
           "Newton did not converge within {} iterations (step {:.2e} m/s > {:.2e}, residual force {:.2e} N of {:.3e} "
           "N, smallest gap {:.2e} m)",
-          settings_.max_iterations, report.velocity_residual_m_s, settings_.velocity_tolerance_m_s,
-          report.force_residual_n, report.contact_force_n, smallest_gap(x, d_hat_m_));
+          newton.max_iterations, report.velocity_residual_m_s, newton.velocity_tolerance_m_s, report.force_residual_n,
+          contact_force(barrier_at(x), x), smallest_gap(x, settings_.d_hat_m));
     }
-    const bool moving = !arrived && relax == 0;
+    const bool moving = !step.arrived && relax == 0;
     Positions motion = still;
-    if (moving) motion.bottomRows(mesh_.num_object_vertices) = object_target - x.bottomRows(mesh_.num_object_vertices);
-    double wanted = arrived ? blend : 1.0;
-    const Direction step = newton_direction(energy, barrier_of(energy), x, motion, wanted, report);
-    if (arrived) blend = wanted;
+    if (moving) {
+      motion.bottomRows(mesh_.num_object_vertices) =
+          (step.goal.object_target - x.bottomRows(mesh_.num_object_vertices)).rowwise() + step.yield.transpose();
+    }
+    double wanted = step.arrived ? blend : 1.0;
+    const NewtonDirection direction = newton_.direction(energy, x, motion, step.goal.yielding, wanted);
+    if (step.arrived) blend = wanted;
+    ++iterations;
     ++report.newton_iterations;
-    report.velocity_residual_m_s = last_residual = largest_row(step.p, n) / h_s_;
-    report.force_residual_n = step.force_residual_n;
+    last_residual = std::max(largest_row(direction.p, n), direction.yield.norm()) / h;
+    report.velocity_residual_m_s = last_residual;
+    report.force_residual_n = direction.gradient_sum / (h * h);
 
-    if (arrived && last_residual < settings_.velocity_tolerance_m_s) {
-      report.contact_force_n = contact_forces(x).colwise().sum().norm();
-      if (step.force_residual_n <
-          std::max(settings_.force_tolerance_n, settings_.relative_force_tolerance * report.contact_force_n))
-        break;
+    if (step.arrived && last_residual < newton.velocity_tolerance_m_s) {
+      report.contact_force_n = contact_force(barrier_at(x), x);
+      if (report.force_residual_n <
+          std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n))
+        return;
     }
 
-    std::vector<ContactPair> pairs = search_.pairs(x, step.p, d_hat_m_);
-    double alpha =
-        std::min(contact_step_limit(pairs, x, step.p, {moving ? kMovingSlack : kNewtonSlack, kGapFloor * d_hat_m_}),
-                 inversion_step_limit(gel_.tets, x, step.p));
+    std::vector<ContactPair> pairs = search_.pairs(x, direction.p, settings_.d_hat_m);
+    double alpha = std::min(contact_step_limit(pairs, x, direction.p,
+                                               {moving ? kMovingSlack : kNewtonSlack, kGapFloor * settings_.d_hat_m}),
+                            inversion_step_limit(gel_.tets, x, direction.p));
     const double limit = alpha;
-    energy = potential(x_hat, std::move(pairs));
+    energy = potential(step, std::move(pairs));
     if (moving) {
       ++report.moving_iterations;
-      x += alpha * step.p;
+      x += alpha * direction.p;
+      step.yield += alpha * direction.yield;
       if (alpha == 1.0) {
-        arrived = true;
-        x.bottomRows(mesh_.num_object_vertices) = object_target;
+        step.arrived = true;
+        x.bottomRows(mesh_.num_object_vertices) = step.goal.object_target.rowwise() + step.yield.transpose();
       }
       // The shorter the object's move, the more the gel is let go of it before the next.
       relax_wanted = alpha < 0.1   ? std::min(2 * relax_wanted, 16)
@@ -175,40 +137,157 @@ StepReport TimeStepper::advance(Positions& x, Positions& velocity, const Positio
       // too.
       const double noise = 1e-14 * std::abs(before);
       int halvings = 0;
-      Positions trial = x + alpha * step.p;
-      while (!(energy.value(trial) <= before + 1e-4 * alpha * step.slope + noise)) {
+      Positions trial = x + alpha * direction.p;
+      while (!(energy.value(trial) <= before + 1e-4 * alpha * direction.slope + noise)) {
         if (++halvings > kMaxHalvings) {
           throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
-                            last_residual, step.slope, smallest_gap(x, d_hat_m_));
+                            last_residual, direction.slope, smallest_gap(x, settings_.d_hat_m));
         }
         alpha *= 0.5;
-        trial = x + alpha * step.p;
+        trial = x + alpha * direction.p;
       }
       x = trial;
-      if (!arrived) --relax;
+      step.yield += alpha * direction.yield;
+      if (!step.arrived) --relax;
     }
     log_debug("  {} {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s residual {:.3e} N blend {:.3g}",
-              moving    ? "move"
-              : arrived ? "newton"
-                        : "relax",
-              report.newton_iterations, alpha, limit, last_residual, step.force_residual_n, step.blend);
-    observe(report.newton_iterations, last_residual);
+              moving         ? "move"
+              : step.arrived ? "newton"
+                             : "relax",
+              report.newton_iterations, alpha, limit, last_residual, report.force_residual_n, direction.blend);
+    step.observe(report.newton_iterations, last_residual);
   }
-  velocity = (x.topRows(n) - start) / h_s_;
-  return report;
 }
 
-Positions TimeStepper::contact_forces(const Positions& x) {
-  const ContactBarrier barrier(mesh_, search_.pairs(x, Positions::Zero(x.rows(), 3), d_hat_m_), d_hat_m_);
-  return -kappa_ / (h_s_ * h_s_) * gradient_of(barrier, x).topRows(mesh_.num_gel_vertices);
+StepReport TimeStepper::advance(State& state, const StepGoal& goal, const IterationObserver& observe) {
+  const Eigen::Index n = mesh_.num_gel_vertices;
+  const double h = goal.h_s;
+  const Positions start = state.x.topRows(n);
+  newton_.reset_pattern();
+
+  Step step{.goal = goal, .observe = observe, .x = state.x};
+  step.report.time_steps = 1;
+  step.arrived = (state.x.bottomRows(mesh_.num_object_vertices) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
+  step.weights = {.h_s = h,
+                  .barrier_stiffness_j_m4 = settings_.barrier_stiffness_j_m4,
+                  .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
+                  .mass_damping_per_s = settings_.mass_damping_per_s,
+                  .stiffness_damping_s = settings_.stiffness_damping_s};
+  step.terms.elasticity = gel_.elasticity;
+  const Eigen::RowVector3d fall = h * h * settings_.gravity_m_s2.transpose();
+  if (!settings_.quasi_static) {
+    step.terms.inertia = std::make_shared<Inertia>(gel_.mass_kg, (start + h * state.velocity_m_s).rowwise() + fall);
+  }
+  if (settings_.quasi_static && settings_.gravity_m_s2 != Vector3::Zero()) {
+    std::vector<int> all(static_cast<std::size_t>(n));
+    std::iota(all.begin(), all.end(), 0);
+    step.terms.gravity =
+        std::make_shared<LinearLoad>(std::move(all), gel_.mass_kg * settings_.gravity_m_s2.transpose());
+  }
+  if (settings_.stiffness_damping_s > 0.0)
+    step.terms.stiffness_damping = std::make_shared<StiffnessDamping>(gel_.elasticity, start);
+  if (settings_.mass_damping_per_s > 0.0) step.terms.mass_damping = std::make_shared<Inertia>(gel_.mass_kg, start);
+  if (!goal.yielding.empty()) {
+    const Eigen::RowVector3d x_hat = state.x.row(n) + h * state.object_velocity_m_s.transpose() + fall +
+                                     h * h / goal.object_mass_kg * goal.load_n.transpose();
+    step.terms.object_inertia = std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, goal.object_mass_kg),
+                                                          Positions(x_hat), static_cast<int>(n));
+  }
+  const auto friction_at = [&](const Positions& lagged) {
+    return std::make_shared<const Friction>(barrier_at(lagged), lagged, state.x,
+                                            settings_.friction->speed_threshold_m_s * h);
+  };
+  // Normal forces and tangent planes as they are once the object alone has gone as far as half of every gap allows, so
+  // that contacts of this step have friction, too. [where the IPC authors' code lags friction]
+  if (settings_.friction) {
+    Positions motion = Positions::Zero(state.x.rows(), 3);
+    motion.bottomRows(mesh_.num_object_vertices) = goal.object_target - state.x.bottomRows(mesh_.num_object_vertices);
+    const double part = contact_step_limit(search_.pairs(state.x, motion, settings_.d_hat_m), state.x, motion,
+                                           {kLagSlack, kGapFloor * settings_.d_hat_m});
+    step.friction = friction_at(state.x + part * motion);
+  }
+
+  minimise(step);
+  if (settings_.friction) {
+    const FrictionSettings& friction = *settings_.friction;
+    while (true) {
+      // What would be out of balance if normal forces and tangent planes were renewed now.
+      const auto renewed = friction_at(step.x);
+      const Positions change = gradient_of(*renewed, step.x) - gradient_of(*step.friction, step.x);
+      double sum = 0.0;
+      for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
+      step.report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
+      if (step.report.friction_residual_n <= std::max(settings_.newton.force_tolerance_n,
+                                                      friction.relative_lag_tolerance * step.report.contact_force_n) ||
+          step.report.lag_iterations + 1 >= friction.max_lag_iterations)
+        break;
+      ++step.report.lag_iterations;
+      step.friction = renewed;
+      minimise(step);
+    }
+  }
+
+  record_forces(step);
+  step.report.yield_m = step.yield;
+  if (settings_.quasi_static) {
+    state.velocity_m_s.setZero();
+  } else {
+    state.velocity_m_s = (step.x.topRows(n) - start) / h;
+  }
+  state.object_velocity_m_s.setZero();
+  for (const int axis : goal.yielding) state.object_velocity_m_s[axis] = step.yield[axis] / h;
+  state.x = std::move(step.x);
+  state.x.bottomRows(mesh_.num_object_vertices) = goal.object_target.rowwise() + step.yield.transpose();
+  return step.report;
 }
 
-Positions TimeStepper::mount_forces(const Positions& x) {
-  Positions forces = gradient_of(*gel_.elasticity, x).topRows(mesh_.num_gel_vertices) - contact_forces(x);
-  for (const int v : gel_.free.vertex_of_free) {
-    if (v < mesh_.num_gel_vertices) forces.row(v).setZero();
+StepForces TimeStepper::no_forces() const {
+  const Positions zero = Positions::Zero(mesh_.num_gel_vertices, 3);
+  return {.normal = zero,
+          .friction = zero,
+          .mount = zero,
+          .body = zero,
+          .contact_state = std::vector<std::uint8_t>(static_cast<std::size_t>(mesh_.num_gel_vertices), 0)};
+}
+
+void TimeStepper::record_forces(const Step& step) {
+  const Eigen::Index n = mesh_.num_gel_vertices;
+  const double h2 = step.goal.h_s * step.goal.h_s;
+  const auto force_of = [&](const WeightedTerm& part) -> Positions {
+    return -part.weight / h2 * gradient_of(*part.term, step.x).topRows(n);
+  };
+  forces_ = no_forces();
+  for (const WeightedTerm& part : potential(step, barrier_at(step.x).pairs()).terms) {
+    const Positions force = force_of(part);
+    if (part.term->name() == "barrier") {
+      forces_.normal = force;
+    } else if (part.term == step.friction) {
+      forces_.friction = force;
+    } else if (part.term == step.terms.object_inertia) {
+      continue;
+    } else if (part.term != gel_.elasticity) {
+      forces_.body += force;
+    }
+    for (const int v : gel_.glued) forces_.mount.row(v) -= force.row(v);
   }
-  return forces;
+
+  std::vector<double> all(static_cast<std::size_t>(n), 0.0), slipping(static_cast<std::size_t>(n), 0.0);
+  for (Eigen::Index v = 0; v < n; ++v) forces_.contact_state[v] = forces_.normal.row(v).isZero(0.0) ? 0 : 1;
+  if (!step.friction) return;
+  for (int i = 0; i < step.friction->num_stencils(); ++i) {
+    const auto stencil = step.friction->stencil(i);
+    const bool slips = step.friction->relative_slide(i, step.x) >= 1.0;
+    for (std::size_t k = 0; k < stencil.size(); ++k) {
+      if (stencil[k] >= n) continue;
+      const double share =
+          std::abs(step.friction->weights(i)[static_cast<Eigen::Index>(k)]) * step.friction->normal_force(i);
+      all[stencil[k]] += share;
+      if (slips) slipping[stencil[k]] += share;
+    }
+  }
+  for (Eigen::Index v = 0; v < n; ++v) {
+    if (forces_.contact_state[v] != 0 && slipping[v] > 0.5 * all[v]) forces_.contact_state[v] = 2;
+  }
 }
 
 double TimeStepper::smallest_gap(const Positions& x, double none) {

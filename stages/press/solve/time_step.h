@@ -1,12 +1,13 @@
-// One implicit Euler step: brings the object to its prescribed pose and the gel to the minimum of the incremental
-// potential.
+// One time step: brings the object to its prescribed pose and the gel to the minimum of the incremental potential.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
-#include "stages/press/solve/assembly.h"
-#include "stages/press/solve/cholmod_solver.h"
+#include "stages/press/energy/friction.h"
+#include "stages/press/solve/newton_step.h"
 
 namespace tacipc {
 
@@ -16,25 +17,74 @@ struct NewtonSettings {
   double relative_force_tolerance =
       5e-4;                         // … if the residual forces also sum to less than this part of the contact force
   double force_tolerance_n = 1e-5;  // … or to less than this
-  int max_iterations = 500;         // per step; reaching it is a failure
+  int max_iterations = 200;         // reaching it is a failure
 };
 
-/// What a step took and where it ended.
-struct StepReport {
-  int newton_iterations = 0;  // linear systems solved, those that moved the object included
-  int moving_iterations = 0;  // those that moved the object
-  int factorizations = 0;
-  double velocity_residual_m_s = 0.0;
-  double force_residual_n = 0.0;  // Σ over free vertices of |residual force|
-  double contact_force_n = 0.0;   // |Σ contact forces|
+struct FrictionSettings {
+  double coefficient = 0.0;
+  double speed_threshold_m_s = 0.0;  // ε_v
+  int max_lag_iterations = 1;        // 1: normal forces and tangent planes of the start of the step
+  double relative_lag_tolerance = 0.0;
+};
+
+/// What holds during a whole simulation.
+struct StepSettings {
+  double d_hat_m = 0.0;
+  double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step: contact is as stiff in a shorter one
+  std::optional<FrictionSettings> friction = std::nullopt;
+  bool quasi_static = false;
+  Vector3 gravity_m_s2 = Vector3::Zero();
+  double mass_damping_per_s = 0.0;
+  double stiffness_damping_s = 0.0;
+  NewtonSettings newton;
 };
 
 /// The gel as the solver sees it; constant during a simulation.
 struct GelModel {
+  std::shared_ptr<const EnergyTerm> elasticity;  // over all tetrahedra
   Tetrahedra tets;
-  std::shared_ptr<const Elasticity> elasticity;
   Eigen::VectorXd mass_kg;
-  FreeVertices free;
+  std::vector<int> glued;
+};
+
+/// Where the object goes in one step.
+struct StepGoal {
+  double h_s = 0.0;
+  Positions object_target;           // of its vertices; along axes where it yields, what it would be without
+  std::vector<int> yielding = {};    // axes of S along which the object is free
+  Vector3 load_n = Vector3::Zero();  // on the object, along these
+  double object_mass_kg = 0.0;       // its inertia along these; > 0 if there are any
+};
+
+/// What moves; rows of gel, then object.
+struct State {
+  Positions x;
+  Positions velocity_m_s;                         // gel rows
+  Vector3 object_velocity_m_s = Vector3::Zero();  // along yielding axes
+};
+
+/// What a step took and where it ended.
+struct StepReport {
+  int time_steps = 0;         // more than asked for where a step had to be divided
+  int newton_iterations = 0;  // linear systems solved, those that moved the object included
+  int moving_iterations = 0;  // those that moved the object
+  int lag_iterations = 0;     // how often friction was renewed, beyond the first time
+  double velocity_residual_m_s = 0.0;
+  double force_residual_n = 0.0;      // Σ over free vertices of |residual force|
+  double friction_residual_n = 0.0;   // the same if normal forces and tangent planes were renewed now
+  double contact_force_n = 0.0;       // |Σ forces of the object on the gel|
+  Vector3 yield_m = Vector3::Zero();  // how far the object yielded
+};
+
+/// Forces on the gel's vertices at the end of a step, N, one row per gel vertex.
+struct StepForces {
+  Positions normal;    // by contact
+  Positions friction;  // by friction
+  Positions mount;     // on the glued vertices, what holds them; zero elsewhere
+  Positions body;      // inertia (−m a), gravity and damping
+  /// Per gel vertex: 0 no contact, 1 sticks, 2 slips (most of its normal force belongs to pairs that slide faster than
+  /// ε_v).
+  std::vector<std::uint8_t> contact_state;
 };
 
 /// Called after each Newton iteration, for progress lines.
@@ -42,43 +92,34 @@ using IterationObserver = std::function<void(int iteration, double velocity_resi
 
 class TimeStepper {
  public:
-  TimeStepper(const ContactMesh& mesh, GelModel gel, double h_s, double d_hat_m, double kappa,
-              const NewtonSettings& settings);
+  TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings);
 
-  /// Advances gel and object rows of `x` by one step; `velocity` (gel rows, m/s) becomes (x_new − x_old)/h. The object
-  /// rows end bit-equal to `object_target`. \throw SolverError with the numbers if the step does not converge.
-  StepReport advance(Positions& x, Positions& velocity, const Positions& object_target,
-                     const IterationObserver& observe);
+  /// Advances the state by one step. Along axes where it does not yield the object ends bit-equal to the target.
+  /// \throw SolverError with the numbers if the step does not converge; the state is then as before.
+  StepReport advance(State& state, const StepGoal& goal, const IterationObserver& observe);
 
-  /// Forces on the gel by contact at x, N: −κ/h² ∂B/∂x, gel rows only.
-  Positions contact_forces(const Positions& x);
-  /// Forces of the mount on the gel's prescribed vertices that hold them against elasticity and contact at x, N; others
-  /// zero.
-  Positions mount_forces(const Positions& x);
+  /// Forces at the end of the last step that succeeded.
+  const StepForces& forces() const { return forces_; }
+  /// Those of a gel that nothing touches.
+  StepForces no_forces() const;
   /// Smallest gap between gel and object (not counting gel–gel), at most `none`.
   double smallest_gap(const Positions& x, double none);
-
-  int num_analyses() const { return solver_.num_analyses(); }
+  int num_analyses() const { return newton_.num_analyses(); }
 
  private:
-  struct Direction;
-  /// Solves for the Newton step with H = H_exact + blend (H_positive − H_exact), where H_positive has each contact's
-  /// Hessian replaced by its positive stand-in. The smallest blend that factorises is looked for from `blend` upwards,
-  /// and `blend` is left where the next search should begin; if even 1 fails, elasticity is projected too. Frictionless
-  /// contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton creeps.
-  Direction newton_direction(const IncrementalPotential& potential, const ContactBarrier& barrier, const Positions& x,
-                             const Positions& motion, double& blend, StepReport& report);
-  IncrementalPotential potential(const Positions& x_hat, std::vector<ContactPair> pairs) const;
+  struct Step;
+  void minimise(Step& step);
+  ContactBarrier barrier_at(const Positions& x);
+  double contact_force(const ContactBarrier& barrier, const Positions& x) const;
+  IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
+  void record_forces(const Step& step);
 
   const ContactMesh& mesh_;
   GelModel gel_;
-  double h_s_;
-  double d_hat_m_;
-  double kappa_;
-  NewtonSettings settings_;
+  StepSettings settings_;
   ContactSearch search_;
-  std::shared_ptr<const BlockPattern> pattern_;
-  CholmodSolver solver_;
+  NewtonStepper newton_;
+  StepForces forces_;
 };
 
 }  // namespace tacipc

@@ -1,0 +1,49 @@
+// Smoothed Coulomb friction with lagged normal forces and tangent planes.
+#pragma once
+
+#include <vector>
+
+#include "stages/press/energy/contact_barrier.h"
+#include "stages/press/energy/energy_term.h"
+
+namespace tacipc {
+
+/// f₁(y) = 2 y/ε − (y/ε)² for 0 ≤ y < ε, else 1: what part of its greatest value friction has reached when the two
+/// sides have slid by y.   [Eq. 7] C¹, so that Newton sees the way from sticking to slipping.
+double friction_part(double y, double epsilon);
+/// f₀(y) = ∫ f₁ with f₀(ε) = ε: y² /ε − y³/(3 ε²) + ε/3 below ε, else y.   [Eq. 8]
+double friction_integral(double y, double epsilon);
+
+/// D(x) = Σ_k λ_k f₀(‖u_k‖), u_k = T_kᵀ Σ wᵢ (xᵢ − xᵢᵗ), in m⁴: the pairs of a barrier at a lagged position, with
+/// normal force λ_k = 2 d m |b′(d²)| (times κ it is the force the barrier has between the two sides), weights w and
+/// tangent plane T held from there; xᵗ is the start of the time step. Times μκ, −∂D/∂x is Coulomb's friction.   [Eq.
+/// 6–9]
+class Friction final : public EnergyTerm {
+ public:
+  /// \param epsilon_m ε_v h: how far a side slides in one step at the speed where friction is fully reached
+  Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m);
+
+  std::string_view name() const override { return "friction"; }
+  int num_stencils() const override { return static_cast<int>(pairs_.size()); }
+  std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
+  void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
+
+  /// One pair's slide ‖u‖ / ε: below 1 it sticks.
+  double relative_slide(int i, const Positions& x) const;
+  /// λ_k, in m³.
+  double normal_force(int i) const { return pairs_[i].normal_force; }
+  const Eigen::Vector4d& weights(int i) const { return pairs_[i].weights; }
+
+ private:
+  struct Pair {
+    std::array<int, 4> vertices;
+    Eigen::Vector4d weights;
+    Eigen::Matrix<double, 3, 2> tangents;  // T, orthonormal columns
+    Vector3 start;                         // Σ wᵢ xᵢᵗ
+    double normal_force;
+  };
+  std::vector<Pair> pairs_;
+  double epsilon_m_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,52 @@
+// One linear solve: the Newton step of the incremental potential while the object moves as told or yields to a load.
+#pragma once
+
+#include <memory>
+
+#include "stages/press/solve/assembly.h"
+#include "stages/press/solve/cholmod_solver.h"
+
+namespace tacipc {
+
+/// A Newton step and what was learnt on the way to it.
+struct NewtonDirection {
+  Positions p;                      // all vertices
+  Vector3 yield = Vector3::Zero();  // the object's part of it beyond its prescribed motion
+  double slope = 0.0;               // gᵀp over everything free
+  double gradient_sum = 0.0;        // Σ over free vertices (and the yielding object) of |gradient|
+  double blend = 0.0;               // part of the contact Hessian that was made positive: 0 exact, 1 all of it
+};
+
+class NewtonStepper {
+ public:
+  /// \param pattern of everything but contact between parts of the gel
+  NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const BlockPattern> pattern);
+
+  /// Solves for the Newton step with H = H_exact + blend (H_positive − H_exact), where H_positive has each contact's
+  /// Hessian replaced by its positive stand-in. The smallest blend that factorises is looked for from `blend` upwards,
+  /// and `blend` is left where the next search should begin; if even 1 fails, elasticity is projected too. Frictionless
+  /// contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton creeps.
+  /// `motion` (rows like x) is how prescribed vertices move; `yielding` are the axes along which the object as a whole
+  /// is free besides. The last term of the potential must be the barrier.
+  NewtonDirection direction(const IncrementalPotential& potential, const Positions& x, const Positions& motion,
+                            const std::vector<int>& yielding, double& blend);
+
+  /// Forgets couplings that contacts have added, so that the next step does not depend on steps before.
+  void reset_pattern() { pattern_ = own_pattern_; }
+
+  const FreeVertices& free() const { return free_; }
+  int num_analyses() const { return solver_.num_analyses(); }
+  int num_factorizations() const { return factorizations_; }
+
+ private:
+  bool solve(const NewtonSystem& system, const std::vector<int>& yielding, const Positions& motion,
+             NewtonDirection& out);
+
+  FreeVertices free_;
+  int first_object_vertex_;
+  std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
+  CholmodSolver solver_;
+  int factorizations_ = 0;
+};
+
+}  // namespace tacipc
