@@ -13,8 +13,8 @@ using TetPatches = std::vector<std::vector<int>>;
 /// Divides a mesh into patches of about `size` tetrahedra, each connected by faces and compact: a patch grows by the
 /// neighbour that brings the fewest new vertices and lies at those it has most in common with, which winds it about one
 /// of them. Seeds are the tetrahedra with the fewest free neighbours, so that little is left over; what is smaller than
-/// half a patch joins its smallest neighbour, and patches end up with size/2 … 3 size/2 tetrahedra (fewer only where a
-/// connected part of the mesh has no more). The same mesh gives the same patches.
+/// half a patch joins its smallest neighbour, so patches have size/2 tetrahedra or more (fewer only where a connected
+/// part of the mesh has no more) and as a rule less than 3 size/2. The same mesh gives the same patches.
 TetPatches make_tet_patches(const Tetrahedra& tets, int size);
 
 }  // namespace tacipc
