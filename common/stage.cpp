@@ -215,7 +215,8 @@ void Stage::clean_up(int code) noexcept {
     if (code == 1 && spec_.resumable) {
       // Without the hashes the stage has not begun, and what an earlier run left may still be good.
       if (!inputs_at_start_) return;
-      if (!inputs_changed()) return remove_unfinished_outputs(partial_);
+      const bool saved = fs::exists(partial_ / kScratchFolder) && !fs::is_empty(partial_ / kScratchFolder);
+      if (saved && !inputs_changed()) return remove_unfinished_outputs(partial_);
     }
   } catch (const std::exception&) {
     // An input cannot be read any more: what was made of it cannot be trusted.

@@ -108,6 +108,11 @@ TEST_F(ResumeTest, AFailedFrameLeavesThoseBeforeIt) {
   EXPECT_FALSE(fs::exists(root_ / "out/count.failed.yaml"));
 }
 
+TEST_F(ResumeTest, AFailureBeforeTheFirstFrameLeavesNothingBehind) {
+  ASSERT_EQ(run([](int) { throw DataError("no mesh"); }), 1);
+  EXPECT_FALSE(fs::exists(partial()));
+}
+
 TEST_F(ResumeTest, AnotherInputOrOptionBeginsAnew) {
   run_killed_before(3);
   ASSERT_EQ(run(nothing, {"--name", "star"}), 0);
