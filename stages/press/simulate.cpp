@@ -68,6 +68,9 @@ class Motion {
                         1e3 * sensor.gel.thickness_m);
       }
     }
+    if (config.augmented_lagrangian && std::any_of(sample.motion.begin(), sample.motion.end(),
+                                                   [](const Phase& phase) { return phase.load_n.has_value(); }))
+      throw UsageError("constraints: augmented_lagrangian holds the object to its pose; a load needs elimination");
     if (sample.density_kg_m3) {
       out_.object_mass_kg = *sample.density_kg_m3 * enclosed_volume_m3(object);
       if (!(out_.object_mass_kg > 0.0)) throw DataError("the object encloses no volume, so it has no mass");
@@ -124,6 +127,7 @@ class Motion {
         .d_hat_m = out_.d_hat_m,
         .barrier_stiffness_j_m4 = out_.barrier_stiffness / (config_.time_step_s * config_.time_step_s),
         .quasi_static = config_.quasi_static,
+        .augmented_lagrangian = config_.augmented_lagrangian,
         .gravity_m_s2 = config_.gravity_m_s2,
         .mass_damping_per_s = config_.mass_damping_per_s,
         .stiffness_damping_s = config_.stiffness_damping_s,

@@ -10,6 +10,7 @@
 #include "stages/press/energy/barrier.h"
 #include "stages/press/energy/contact_barrier.h"
 #include "stages/press/energy/elasticity.h"
+#include "stages/press/energy/friction.h"
 #include "stages/press/energy/inertia.h"
 #include "stages/press/energy/linear_load.h"
 #include "stages/press/energy/stiffness_damping.h"
@@ -105,6 +106,19 @@ std::vector<Case> cases() {
   all.push_back(pair_case("edge_edge_end", Kind::edge_edge, x));
   x << -0.5, 0, 0, 0.5, 0.02, 0, -0.45, -0.1, 0.3, 0.55, 0.3, 0.27;
   all.push_back(pair_case("edge_edge_mollified", Kind::edge_edge, x));
+  for (const double epsilon : {0.5, 0.02}) {
+    x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
+    const auto start = Eigen::Map<const Positions>(x.data(), 4, 3);
+    ContactMesh mesh;
+    mesh.num_object_vertices = 4;
+    mesh.rest_positions = start;
+    const ContactBarrier barrier(mesh, {{Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+    Vector12 moved = x;
+    moved[0] += 0.1;
+    moved[4] -= 0.15;
+    all.push_back({epsilon > 0.1 ? "friction_sticks" : "friction_slips",
+                   std::make_shared<Friction>(barrier, start, start, epsilon), moved, 1e-3, true, false, false});
+  }
   return all;
 }
 
@@ -245,6 +259,46 @@ TEST(ContactBarrier, NeighboursCloserThanDHatAtRestDoNotPush) {
   x[2] = 0.04;  // nearer than half the distance at rest: now it does
   term.evaluate(0, x, Order::value, local);
   EXPECT_GT(local.value, 0.0);
+}
+
+TEST(Friction, PartRisesSmoothlyToOneAndItsIntegralIsTheEnergy) {
+  EXPECT_EQ(friction_part(0.0, 0.1), 0.0);
+  EXPECT_DOUBLE_EQ(friction_part(0.05, 0.1), 0.75);
+  EXPECT_EQ(friction_part(0.1, 0.1), 1.0);
+  EXPECT_EQ(friction_part(3.0, 0.1), 1.0);
+  EXPECT_DOUBLE_EQ(friction_integral(0.1, 0.1), 0.1);  // the constant of the paper: f0 = y from the threshold on
+  for (const double y : {0.02, 0.07, 0.3}) {
+    const auto error = [&](double h) {
+      return std::abs((friction_integral(y + h, 0.1) - friction_integral(y - h, 0.1)) / (2 * h) -
+                      friction_part(y, 0.1));
+    };
+    if (y < 0.1) {
+      EXPECT_NEAR(convergence_order(error, 1e-2), 2.0, 0.1) << y;
+    } else {
+      EXPECT_LT(error(1e-2), 1e-12);
+    }
+  }
+}
+
+/// A point that slides over a level triangle: the force is the barrier's on the point, times f1, against the motion.
+TEST(Friction, IsTheNormalForceTimesItsPartAgainstTheMotion) {
+  ContactMesh mesh;
+  mesh.num_object_vertices = 4;
+  mesh.rest_positions = Positions{{0.2, 0.2, 0.3}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+  Local normal, friction;
+  Eigen::VectorXd x = mesh.rest_positions.reshaped<Eigen::RowMajor>();
+  barrier.evaluate(0, x, Order::gradient, normal);
+  const Friction term(barrier, mesh.rest_positions, mesh.rest_positions, 0.1);
+  x[0] += 0.03;
+  x[1] += 0.04;  // slides by 0.05, half the threshold
+  x[2] += 0.01;  // rising is no sliding
+  term.evaluate(0, x, Order::gradient, friction);
+  const double lambda = std::abs(normal.gradient[2]);
+  EXPECT_NEAR(friction.gradient[0], 0.75 * lambda * 0.6, 1e-14);
+  EXPECT_NEAR(friction.gradient[1], 0.75 * lambda * 0.8, 1e-14);
+  EXPECT_NEAR(friction.gradient[2], 0.0, 1e-16);
+  EXPECT_NEAR(term.relative_slide(0, x.reshaped<Eigen::RowMajor>(4, 3)), 0.5, 1e-12);
 }
 
 }  // namespace

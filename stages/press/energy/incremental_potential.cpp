@@ -49,6 +49,7 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
   add(w.mass_damping_per_s * h, terms.mass_damping);
   add(w.stiffness_damping_s * h, terms.stiffness_damping);
   add(h * h, terms.gravity);
+  add(h * h, terms.constraint);
   add(h * h, terms.elasticity);
   add(kappa * w.friction_coefficient, terms.friction, true);
   add(kappa, terms.barrier, true);

@@ -23,6 +23,7 @@ struct StepTerms {
   std::shared_ptr<const EnergyTerm> mass_damping;       // an inertia about the start of the step
   std::shared_ptr<const EnergyTerm> stiffness_damping;  // ½ (x − xᵗ)ᵀ K (x − xᵗ)
   std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where it is not in x̂
+  std::shared_ptr<const EnergyTerm> constraint;         // what an augmented Lagrangian holds
   std::shared_ptr<const EnergyTerm> elasticity;
   std::shared_ptr<const EnergyTerm> friction;
   std::shared_ptr<const ContactBarrier> barrier;
@@ -44,7 +45,8 @@ struct IncrementalPotential {
   double value(const Positions& x) const;
 };
 
-/// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity) + κ′(μ D + B), κ′ = h² × barrier stiffness: κ for the nominal h.
+/// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity + constraint) + κ′(μ D + B), κ′ = h² × barrier stiffness: κ for the
+/// nominal h.
 IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& weights);
 
 /// Coordinates of a stencil's vertices, 3 each.

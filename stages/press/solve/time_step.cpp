@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/log.h"
+#include "stages/press/energy/dirichlet.h"
 #include "stages/press/energy/linear_load.h"
 #include "stages/press/energy/stiffness_damping.h"
 #include "stages/press/solve/step_limit.h"
@@ -18,6 +19,10 @@ constexpr double kNewtonSlack = 0.1;
 constexpr double kLagSlack = 0.5;
 constexpr double kGapFloor = 1e-4;  // × d̂
 constexpr int kMaxHalvings = 40;
+// Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
+// multipliers are renewed at most.
+constexpr double kConstraintStiffness = 100.0, kConstraintTolerance = 1e-10;
+constexpr int kMaxMultiplierUpdates = 60;
 
 double largest_row(const Positions& p, Eigen::Index rows) {
   double largest = 0.0;
@@ -25,8 +30,9 @@ double largest_row(const Positions& p, Eigen::Index rows) {
   return std::sqrt(largest);
 }
 
-FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued) {
+FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
+  if (augmented_lagrangian) return {mesh.num_vertices(), fixed};
   for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) fixed[v] = true;
   for (const int v : glued) fixed[v] = true;
   return {mesh.num_vertices(), fixed};
@@ -45,6 +51,7 @@ struct TimeStepper::Step {
   Vector3 yield = Vector3::Zero();
   StepReport report = {};
   std::shared_ptr<const Friction> friction = nullptr;
+  std::shared_ptr<const Dirichlet> constraint = nullptr;
 };
 
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings)
@@ -52,8 +59,8 @@ TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettin
       gel_(std::move(gel)),
       settings_(settings),
       search_(mesh),
-      newton_(free_vertices(mesh, gel_.glued), mesh.num_gel_vertices,
-              mesh_pattern(free_vertices(mesh, gel_.glued), *gel_.elasticity)) {}
+      newton_(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), mesh.num_gel_vertices,
+              mesh_pattern(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), *gel_.elasticity)) {}
 
 IncrementalPotential TimeStepper::potential(const Step& step, std::vector<ContactPair> pairs) const {
   StepTerms terms = step.terms;
@@ -101,7 +108,8 @@ void TimeStepper::minimise(Step& step) {
     if (step.arrived) blend = wanted;
     ++iterations;
     ++report.newton_iterations;
-    last_residual = std::max(largest_row(direction.p, n), direction.yield.norm()) / h;
+    last_residual =
+        std::max(largest_row(direction.p, settings_.augmented_lagrangian ? x.rows() : n), direction.yield.norm()) / h;
     report.velocity_residual_m_s = last_residual;
     report.force_residual_n = direction.gradient_sum / (h * h);
 
@@ -159,6 +167,23 @@ void TimeStepper::minimise(Step& step) {
   }
 }
 
+/// Minimises with the constraints of an augmented Lagrangian, renewing its multipliers until all targets are met.
+void TimeStepper::minimise_constrained(Step& step) {
+  minimise(step);
+  for (int update = 0; step.constraint; ++update) {
+    const double miss = largest_row(step.constraint->misses(step.x), step.constraint->num_stencils());
+    if (miss <= kConstraintTolerance) return;
+    if (update == kMaxMultiplierUpdates) {
+      throw SolverError("the augmented Lagrangian left a vertex {:.2e} m from its target after {} renewals", miss,
+                        kMaxMultiplierUpdates);
+    }
+    step.constraint =
+        std::make_shared<Dirichlet>(step.constraint->with_multipliers(step.constraint->renewed_multipliers(step.x)));
+    step.terms.constraint = step.constraint;
+    minimise(step);
+  }
+}
+
 StepReport TimeStepper::advance(State& state, const StepGoal& goal, const IterationObserver& observe) {
   const Eigen::Index n = mesh_.num_gel_vertices;
   const double h = goal.h_s;
@@ -173,6 +198,20 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
                   .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
                   .mass_damping_per_s = settings_.mass_damping_per_s,
                   .stiffness_damping_s = settings_.stiffness_damping_s};
+  if (settings_.augmented_lagrangian) {
+    std::vector<int> vertices = gel_.glued;
+    for (int v = 0; v < mesh_.num_object_vertices; ++v) vertices.push_back(static_cast<int>(n) + v);
+    Positions targets(static_cast<Eigen::Index>(vertices.size()), 3);
+    for (std::size_t i = 0; i < gel_.glued.size(); ++i)
+      targets.row(static_cast<Eigen::Index>(i)) = mesh_.rest_positions.row(gel_.glued[i]);
+    targets.bottomRows(mesh_.num_object_vertices) = goal.object_target;
+    const double stiffness =
+        kConstraintStiffness * settings_.barrier_stiffness_j_m4 * settings_.d_hat_m * settings_.d_hat_m;
+    const Positions none = Positions::Zero(targets.rows(), 3);
+    step.constraint = std::make_shared<Dirichlet>(std::move(vertices), std::move(targets), none, stiffness);
+    step.terms.constraint = step.constraint;
+    step.arrived = true;  // the energy pulls the object along
+  }
   step.terms.elasticity = gel_.elasticity;
   const Eigen::RowVector3d fall = h * h * settings_.gravity_m_s2.transpose();
   if (!settings_.quasi_static) {
@@ -207,7 +246,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
     step.friction = friction_at(state.x + part * motion);
   }
 
-  minimise(step);
+  minimise_constrained(step);
   if (settings_.friction) {
     const FrictionSettings& friction = *settings_.friction;
     while (true) {
@@ -223,7 +262,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
         break;
       ++step.report.lag_iterations;
       step.friction = renewed;
-      minimise(step);
+      minimise_constrained(step);
     }
   }
 
@@ -237,7 +276,8 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   state.object_velocity_m_s.setZero();
   for (const int axis : goal.yielding) state.object_velocity_m_s[axis] = step.yield[axis] / h;
   state.x = std::move(step.x);
-  state.x.bottomRows(mesh_.num_object_vertices) = goal.object_target.rowwise() + step.yield.transpose();
+  if (!settings_.augmented_lagrangian)
+    state.x.bottomRows(mesh_.num_object_vertices) = goal.object_target.rowwise() + step.yield.transpose();
   return step.report;
 }
 
@@ -263,7 +303,7 @@ void TimeStepper::record_forces(const Step& step) {
       forces_.normal = force;
     } else if (part.term == step.friction) {
       forces_.friction = force;
-    } else if (part.term == step.terms.object_inertia) {
+    } else if (part.term == step.terms.object_inertia || part.term == step.terms.constraint) {
       continue;
     } else if (part.term != gel_.elasticity) {
       forces_.body += force;

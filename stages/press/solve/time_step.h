@@ -33,6 +33,7 @@ struct StepSettings {
   double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step: contact is as stiff in a shorter one
   std::optional<FrictionSettings> friction = std::nullopt;
   bool quasi_static = false;
+  bool augmented_lagrangian = false;  // glued and object vertices by multipliers, else eliminated
   Vector3 gravity_m_s2 = Vector3::Zero();
   double mass_damping_per_s = 0.0;
   double stiffness_damping_s = 0.0;
@@ -109,6 +110,7 @@ class TimeStepper {
  private:
   struct Step;
   void minimise(Step& step);
+  void minimise_constrained(Step& step);
   ContactBarrier barrier_at(const Positions& x);
   double contact_force(const ContactBarrier& barrier, const Positions& x) const;
   IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
