@@ -77,8 +77,8 @@ CaseSpec CaseSpec::read(ConfigReader& in) {
   spec.gel = GelSpec::read(gel);
   ConfigReader material = in.section("material");
   spec.material = Material::read(material);
-  ConfigReader object = in.section("object");
-  spec.object = ObjectShape::read(object);
+  ConfigReader shape = in.section("shape");
+  spec.object = ObjectShape::read(shape);
   ConfigReader press = in.section("press");
   spec.press = PressConfig::read(press);
   spec.sample = SampleSpec::read(in);

@@ -15,7 +15,7 @@ source: by hand
 gel:
   box: {size_mm: [20, 20, 4], near_mm: 2, near_half_mm: 4, growth: 1.3, far_mm: 4, layer_mm: 1, layer_growth: 1.3}
 material: {law: neo_hookean, density_kg_m3: 1010, youngs_modulus_pa: 1.0e+5, poissons_ratio: 0.3}
-object:
+shape:
   sphere: {radius_mm: 5, edge_mm: 1, fine_radius_mm: 3}
 press:
   time_step_s: 1
@@ -49,7 +49,8 @@ TEST(Case, ReadsAllOfARow) {
   EXPECT_EQ(*spec.expect[0].value, 0.2);
   EXPECT_NEAR(*spec.expect[0].frame.depth_m, 0.5e-3, 1e-18);
   EXPECT_NEAR(spec.object.radius_m, 5e-3, 1e-18);
-  EXPECT_NEAR(spec.sample.depth_m, 0.5e-3, 1e-18);
+  ASSERT_EQ(spec.sample.motion.size(), 1u);
+  EXPECT_NEAR(spec.sample.motion[0].depth_m, 0.5e-3, 1e-18);
 }
 
 TEST(Case, EveryFaultIsReportedAtItsPlace) {
@@ -67,7 +68,7 @@ TEST(Case, EveryFaultIsReportedAtItsPlace) {
   two.replace(two.find("  sphere"), 0, "  plate: {half_width_mm: 3}\n");
   EXPECT_EQ(faults_of(two),
             std::vector<std::string>{
-                "case.yaml:8:11: object.sphere: give one of sphere, punch, cone, cylinder, plate, block, wedge, file"});
+                "case.yaml:8:11: shape.sphere: give one of sphere, punch, cone, cylinder, plate, block, wedge, file"});
 }
 
 TEST(Case, RunsAndJudgesEachRow) {

@@ -120,6 +120,7 @@ const std::vector<Formula>& formulas() {
       {"bonded_punch", "force of a flat punch on a bonded layer, exact linear solution"},
       {"layer_shear", "tangential force of a wide layer in shear, whole front"},
       {"disc_twist", "torque of a twisted disc between bonded faces"},
+      {"friction_coefficient", "of the press configuration"},
       {"uniform_compression", "pressure of uniform compression with free sides"}};
   return list;
 }
@@ -148,6 +149,8 @@ double evaluate(const std::string& formula, const Outcome& outcome, int frame) {
   }
   if (formula == "uniform_compression")
     return -uniform_compression(outcome.spec.material.law, gel, 1.0 - depth / thickness).true_stress_pa;
+  if (formula == "friction_coefficient")
+    return outcome.spec.press.friction ? outcome.spec.press.friction->coefficient : 0.0;
   throw UsageError("there is no formula '" + formula + "'");
 }
 

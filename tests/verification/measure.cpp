@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -31,46 +32,42 @@ struct Touch {
 
 Touch touch(const Outcome& outcome, int index) {
   const Frame& frame = frame_of(outcome, index);
-  const Eigen::Index n = outcome.gel.num_vertices();
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(n);
-  const Triangles front = outcome.gel.faces(BoundaryTag::front);
-  for (Eigen::Index f = 0; f < front.rows(); ++f) {
-    const Vector3 a = frame.positions.row(front(f, 0)), b = frame.positions.row(front(f, 1)),
-                  c = frame.positions.row(front(f, 2));
-    for (int k = 0; k < 3; ++k) area[front(f, k)] += (b - a).cross(c - a).norm() / 6.0;
-  }
+  const FrontSurface& front = outcome.simulation.front;
+  const Positions x = on_front(front, frame.positions);
+  const std::vector<double> area = lumped_areas(front, x);
   Touch out;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (Eigen::Index v = 0; v < n; ++v) {
-    const double force = std::max(0.0, -frame.contact_force(v, 2));
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const double force = frame.normal_force_n.row(v).norm();
     if (force <= 0.0) continue;
     out.area_m2 += area[v];
     out.force_n += force;
-    middle += force * frame.positions.row(v).head<2>();
-    low = std::min(low, frame.positions(v, 2));
-    high = std::max(high, frame.positions(v, 2));
+    middle += force * x.row(v).head<2>();
+    low = std::min(low, x(v, 2));
+    high = std::max(high, x(v, 2));
     if (area[v] > 0.0) out.peak_pressure_pa = std::max(out.peak_pressure_pa, force / area[v]);
   }
   if (out.force_n <= 0.0) return out;
   middle /= out.force_n;
   out.height_spread_m = high - low;
-  for (Eigen::Index v = 0; v < n; ++v) {
-    const double force = std::max(0.0, -frame.contact_force(v, 2));
-    const Eigen::Vector2d arm = frame.positions.row(v).head<2>().transpose() - middle;
-    out.mean_square_radius_m2 += force * arm.squaredNorm() / out.force_n;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const Eigen::Vector2d arm = x.row(v).head<2>().transpose() - middle;
+    out.mean_square_radius_m2 += frame.normal_force_n.row(v).norm() * arm.squaredNorm() / out.force_n;
   }
   return out;
 }
 
-/// The frame at which the press ends: the first at its full depth.
+/// The frame at which the first press ends; 0 if there is none.
 int press_end(const Outcome& outcome) {
-  const int frames = static_cast<int>(outcome.simulation.frames.size());
-  double deepest = -std::numeric_limits<double>::infinity();
-  for (int f = 0; f < frames; ++f) deepest = std::max(deepest, depth_m(outcome, f));
-  for (int f = 0; f < frames; ++f)
-    if (depth_m(outcome, f) > deepest - 1e-12) return f;
-  return 0;
+  const auto& frames = outcome.simulation.frames;
+  int last = 0;
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    const auto phase = static_cast<std::size_t>(frames[f].phase_index);
+    const bool pressing = outcome.spec.sample.motion[phase].kind == PhaseKind::press;
+    if (pressing && (last == 0 || frames[f].phase_index == frames[last].phase_index)) last = static_cast<int>(f);
+  }
+  return last;
 }
 
 }  // namespace
@@ -80,6 +77,8 @@ const std::vector<Quantity>& quantities() {
       {"press_force_n", "N", "force of the object on the gel against z"},
       {"tangential_force_n", "N", "its part in the plane of x and y"},
       {"friction_ratio", "", "tangential over press force"},
+      {"force_x_n", "N", "force on the gel along x"},
+      {"force_y_n", "N", "force on the gel along y"},
       {"torque_z_n_m", "N m", "torque on the gel about z through the object's centre"},
       {"contact_radius_m", "m", "of the circle with the area of the vertices that touch"},
       {"hertz_radius_m", "m", "of the Hertz pressure with the same second moment: √(5/2 ⟨r²⟩)"},
@@ -89,7 +88,12 @@ const std::vector<Quantity>& quantities() {
       {"height_spread_m", "m", "highest minus lowest front vertex that touches"},
       {"height_spread_d_hat", "", "the same in units of the barrier's reach"},
       {"indentation_m", "m", "depth of the lowest front vertex below z = 0"},
-      {"balance_relative", "", "|contact + mount| force over contact force"},
+      {"balance_relative", "", "forces that do not add up over contact force"},
+      {"sticking", "", "front vertices that stick"},
+      {"slipping", "", "front vertices that slip"},
+      {"depth_m", "m", "of the object's lowest point below z = 0"},
+      {"sideways_m", "m", "way of the object's centre in x and y since the press ended"},
+      {"turned_rad", "rad", "turn of the object about z since the press ended"},
       {"min_gap_m", "m", "smallest distance between gel and object"},
       {"min_volume_ratio", "", "smallest volume of a tetrahedron over its rest volume"},
       {"newton_iterations", "", "of the frame"}};
@@ -143,8 +147,16 @@ double measure(const Outcome& outcome, const std::string& quantity, int index) {
     }
     return lowest;
   }
-  if (quantity == "balance_relative")
-    return (frame.force_n + frame.mount_force_n).norm() / std::max(1e-300, frame.force_n.norm());
+  if (quantity == "balance_relative") return frame.balance.relative;
+  if (quantity == "force_x_n") return frame.force_n.x();
+  if (quantity == "force_y_n") return frame.force_n.y();
+  if (quantity == "sticking" || quantity == "slipping") {
+    const ContactState state = quantity == "sticking" ? ContactState::stick : ContactState::slip;
+    return static_cast<double>(std::count(frame.contact_state.begin(), frame.contact_state.end(), state));
+  }
+  if (quantity == "depth_m") return depth_m(outcome, index);
+  if (quantity == "sideways_m") return sideways_m(outcome, index);
+  if (quantity == "turned_rad") return turned_rad(outcome, index);
   if (quantity == "min_gap_m") return frame.min_gap_m;
   if (quantity == "min_volume_ratio") return frame.min_volume_ratio;
   if (quantity == "newton_iterations") return frame.solver.newton_iterations;
@@ -161,6 +173,18 @@ int find_frame(const Outcome& outcome, const FrameChoice& choice) {
     for (int f = 0; f <= last; ++f)
       if (std::abs(depth_m(outcome, f) - *choice.depth_m) < 1e-9) return f;
     throw DataError("no frame is {:g} mm deep", 1e3 * *choice.depth_m);
+  }
+  if (choice.phase) {
+    // The last frame of the phase by its kind, or of the n-th phase of that kind: "press", "press 2".
+    const std::string name = choice.phase->substr(0, choice.phase->find(' '));
+    int wanted = choice.phase->size() > name.size() ? std::atoi(choice.phase->c_str() + name.size()) : 1;
+    const auto& motion = outcome.spec.sample.motion;
+    for (std::size_t p = 0; p < motion.size(); ++p) {
+      if (name_of(motion[p].kind) != name || --wanted > 0) continue;
+      for (int f = last; f > 0; --f)
+        if (frame_of(outcome, f).phase_index == static_cast<int>(p)) return f;
+    }
+    throw DataError("the motion has no phase '{}'", *choice.phase);
   }
   return last;
 }

@@ -29,7 +29,7 @@ struct Outcome {
 
 /// Depth of the object's lowest point below z = 0 in a frame, m.
 double depth_m(const Outcome& outcome, int frame);
-/// How far the object's frame has moved sideways, and turned about z, since the deepest frame of the press, m and rad.
+/// How far the object's frame has moved sideways, and turned about z, since the press ended, m and rad.
 double sideways_m(const Outcome& outcome, int frame);
 double turned_rad(const Outcome& outcome, int frame);
 
