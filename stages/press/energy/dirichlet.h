@@ -1,6 +1,8 @@
 // Prescribed positions by augmented Lagrangian.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -39,6 +41,12 @@ class Dirichlet final : public EnergyTerm {
     Positions out(targets_m_.rows(), 3);
     for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = x.row(vertices_[i]) - targets_m_.row(i);
     return out;
+  }
+  /// Longest of these rows that belong to a constrained vertex.
+  double largest(const Positions& rows) const {
+    double squared = 0.0;
+    for (const int v : vertices_) squared = std::max(squared, rows.row(v).squaredNorm());
+    return std::sqrt(squared);
   }
   /// λ − k (x − t): the next multipliers.
   Positions renewed_multipliers(const Positions& x) const { return multipliers_n_ - stiffness_n_m_ * misses(x); }

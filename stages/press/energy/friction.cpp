@@ -56,10 +56,11 @@ void Friction::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out
   out.fit(4, order);
   for (int k = 0; k < 4; ++k) out.gradient.segment<3>(3 * k) = pair.weights[k] * force;
   if (order == Order::gradient) return;
-  // ∂²f₀(‖u‖)/∂u² = (f₁/y) I + (f₁′ − f₁/y) û ûᵀ with f₁′ = 2 (1 − y/ε)/ε ≥ 0: never negative, so it is its own
-  // positive stand-in.
+  // ∂²f₀(‖u‖)/∂u² = (f₁/y) I + (f₁′ − f₁/y) û ûᵀ with f₁′ = 2 (1 − y/ε)/ε ≥ 0: never negative. It says nothing of how
+  // soon f₁ changes, though, and a step along û overshoots between sticking and slipping. As f₀(√s) is concave in s,
+  // (f₁/y) I alone lies above the energy everywhere: that is the stand-in, with which full steps go down.
   Eigen::Matrix2d inner = part_over_y * Eigen::Matrix2d::Identity();
-  if (y > 0.0) {
+  if (y > 0.0 && order != Order::psd) {
     const double slope = r < 1.0 ? 2.0 * (1.0 - r) / epsilon_m_ : 0.0;
     inner += (slope - part_over_y) / (y * y) * u * u.transpose();
   }

@@ -64,16 +64,18 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
   for (const WeightedTerm& part : potential.terms) {
     if (part.contact) pattern_ = cover_contacts(pattern_, free_, *part.term, x);
   }
-  const WeightedTerm& contact = potential.terms.back();
-  // Everything but contact, elasticity as told.
+  // Everything but contact and friction, elasticity as told.
   const auto body = [&](Order elastic) {
     NewtonSystem system = empty_system(free_, pattern_);
-    for (std::size_t k = 0; k + 1 < potential.terms.size(); ++k)
-      assemble(potential.terms[k], x, free_, first_object_vertex_, elastic, motion, system);
+    for (const WeightedTerm& part : potential.terms) {
+      if (!part.contact) assemble(part, x, free_, first_object_vertex_, elastic, motion, system);
+    }
     return system;
   };
   const auto with_contact = [&](NewtonSystem system, Order order) {
-    assemble(contact, x, free_, first_object_vertex_, order, motion, system);
+    for (const WeightedTerm& part : potential.terms) {
+      if (part.contact) assemble(part, x, free_, first_object_vertex_, order, motion, system);
+    }
     return system;
   };
   NewtonDirection out;

@@ -17,8 +17,10 @@ namespace {
 constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where no energy guards the step
 constexpr double kNewtonSlack = 0.1;
 constexpr double kLagSlack = 0.5;
+constexpr double kLooseness = 10.0;
 constexpr double kGapFloor = 1e-4;  // × d̂
 constexpr int kMaxHalvings = 40;
+constexpr double kBlendAfterHalving = 0.1;
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
 constexpr double kConstraintStiffness = 100.0, kConstraintTolerance = 1e-10;
@@ -52,6 +54,8 @@ struct TimeStepper::Step {
   StepReport report = {};
   std::shared_ptr<const Friction> friction = nullptr;
   std::shared_ptr<const Dirichlet> constraint = nullptr;
+  double blend = 1.0;      // of NewtonStepper::direction, once the object has arrived
+  double looseness = 1.0;  // of the tolerances, while friction is still to be renewed
 };
 
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings)
@@ -86,7 +90,8 @@ void TimeStepper::minimise(Step& step) {
   Positions& x = step.x;
   StepReport& report = step.report;
   int relax = 0, relax_wanted = 1, iterations = 0;
-  double blend = 1.0, last_residual = std::numeric_limits<double>::infinity();
+  double& blend = step.blend;
+  double last_residual = std::numeric_limits<double>::infinity();
   IncrementalPotential energy = potential(step, search_.pairs(x, still, settings_.d_hat_m));
 
   while (true) {
@@ -113,10 +118,12 @@ void TimeStepper::minimise(Step& step) {
     report.velocity_residual_m_s = last_residual;
     report.force_residual_n = direction.gradient_sum / (h * h);
 
-    if (step.arrived && last_residual < newton.velocity_tolerance_m_s) {
+    // Multipliers see their targets missed no finer than the minimum is known.
+    const bool held = !step.constraint || step.constraint->largest(direction.p) < 0.3 * kConstraintTolerance;
+    if (step.arrived && held && last_residual < step.looseness * newton.velocity_tolerance_m_s) {
       report.contact_force_n = contact_force(barrier_at(x), x);
       if (report.force_residual_n <
-          std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n))
+          step.looseness * std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n))
         return;
     }
 
@@ -154,6 +161,8 @@ void TimeStepper::minimise(Step& step) {
         alpha *= 0.5;
         trial = x + alpha * direction.p;
       }
+      // A step too long for the energy: lean on the stand-in again, which is never too soft.
+      if (step.arrived && halvings > 0) blend = std::min(1.0, std::max(kBlendAfterHalving, 4.0 * direction.blend));
       x = trial;
       step.yield += alpha * direction.yield;
       if (!step.arrived) --relax;
@@ -236,9 +245,12 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
     return std::make_shared<const Friction>(barrier_at(lagged), lagged, state.x,
                                             settings_.friction->speed_threshold_m_s * h);
   };
-  // Normal forces and tangent planes as they are once the object alone has gone as far as half of every gap allows, so
-  // that contacts of this step have friction, too. [where the IPC authors' code lags friction]
-  if (settings_.friction) {
+  if (settings_.friction && settings_.friction->max_lag_iterations > 1) {
+    step.friction = friction_at(state.x);
+    step.looseness = kLooseness;
+  } else if (settings_.friction) {
+    // Normal forces and tangent planes as they are once the object alone has gone as far as half of every gap allows,
+    // so that contacts of this step have friction, too. [where the IPC authors' code lags friction]
     Positions motion = Positions::Zero(state.x.rows(), 3);
     motion.bottomRows(mesh_.num_object_vertices) = goal.object_target - state.x.bottomRows(mesh_.num_object_vertices);
     const double part = contact_step_limit(search_.pairs(state.x, motion, settings_.d_hat_m), state.x, motion,
@@ -256,12 +268,16 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
       double sum = 0.0;
       for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
       step.report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
-      if (step.report.friction_residual_n <= std::max(settings_.newton.force_tolerance_n,
-                                                      friction.relative_lag_tolerance * step.report.contact_force_n) ||
-          step.report.lag_iterations + 1 >= friction.max_lag_iterations)
-        break;
-      ++step.report.lag_iterations;
-      step.friction = renewed;
+      const double limit =
+          std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * step.report.contact_force_n);
+      if (step.report.friction_residual_n <= limit || step.report.lag_iterations + 1 >= friction.max_lag_iterations) {
+        if (step.looseness == 1.0) break;
+        step.looseness = 1.0;
+      } else {
+        ++step.report.lag_iterations;
+        step.friction = renewed;
+        step.looseness = step.report.friction_residual_n > 5.0 * limit ? kLooseness : 1.0;
+      }
       minimise_constrained(step);
     }
   }
