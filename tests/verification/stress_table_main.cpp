@@ -1,0 +1,35 @@
+// Puts the cases of a stress campaign together. The record's `holds` says whether the campaign does.
+#include "common/error.h"
+#include "common/files.h"
+#include "common/log.h"
+#include "common/stage.h"
+#include "tests/verification/stress_summary.h"
+
+using namespace tacipc;
+
+namespace {
+
+const StageSpec kStressTable{.name = "stress_table",
+                             .summary = "Put the cases of a stress campaign together as one page.",
+                             .inputs = {{"--case", "folder of a case", true, true}}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kStressTable, argc, argv, [](Stage& stage) {
+    std::vector<verify::StressLine> lines;
+    for (const auto& folder : stage.inputs("--case")) lines.push_back(verify::read_stress_line(folder));
+    write_file(stage.output("summary.md"), verify::to_markdown(lines));
+    const verify::StressSummary sum = verify::summarize(lines);
+    log_info("{} cases: {} converged, {} did not, {} intersected, {} inverted, {} crashed: {}", sum.cases,
+             sum.converged, sum.not_converged, sum.intersected, sum.inverted, sum.crashed,
+             sum.holds() ? "holds" : "DOES NOT HOLD");
+    stage.summarize({{"cases", sum.cases},
+                     {"converged", sum.converged},
+                     {"not_converged", sum.not_converged},
+                     {"intersected", sum.intersected},
+                     {"inverted", sum.inverted},
+                     {"crashed", sum.crashed},
+                     {"holds", sum.holds()}});
+  });
+}
