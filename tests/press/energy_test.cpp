@@ -9,6 +9,7 @@
 #include "stages/press/energy/averaged_elasticity.h"
 #include "stages/press/energy/barrier.h"
 #include "stages/press/energy/contact_barrier.h"
+#include "stages/press/energy/dirichlet.h"
 #include "stages/press/energy/elasticity.h"
 #include "stages/press/energy/friction.h"
 #include "stages/press/energy/inertia.h"
@@ -80,6 +81,10 @@ std::vector<Case> cases() {
                  Vector3(0.3, -0.2, 0.5), 1e-3, false, false, true});
   all.push_back({"linear_load", std::make_shared<LinearLoad>(std::vector<int>{0}, Positions{{0.1, -2.0, 0.3}}),
                  Vector3(0.3, -0.2, 0.5), 1e-3, false, false, true});
+  all.push_back(
+      {"dirichlet",
+       std::make_shared<Dirichlet>(std::vector<int>{0}, Positions{{0.1, -2.0, 0.3}}, Positions{{4.0, 1.0, -2.0}}, 3.0),
+       Vector3(0.3, -0.2, 0.5), 1e-3, false, false, true});
   Vector12 x;
   for (const double squeeze : {0.4, 1.9}) {
     const std::string how = squeeze < 1.0 ? "pressed" : "stretched";

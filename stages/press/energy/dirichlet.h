@@ -48,11 +48,9 @@ class Dirichlet final : public EnergyTerm {
     for (const int v : vertices_) squared = std::max(squared, rows.row(v).squaredNorm());
     return std::sqrt(squared);
   }
-  /// λ − k (x − t): the next multipliers.
-  Positions renewed_multipliers(const Positions& x) const { return multipliers_n_ - stiffness_n_m_ * misses(x); }
-  /// The same term with other multipliers.
-  Dirichlet with_multipliers(Positions multipliers_n) const {
-    return {vertices_, targets_m_, std::move(multipliers_n), stiffness_n_m_};
+  /// The next term: multipliers λ − k (x − t), stiffness times `stiffening`.
+  Dirichlet renewed(const Positions& x, double stiffening) const {
+    return {vertices_, targets_m_, multipliers_n_ - stiffness_n_m_ * misses(x), stiffening * stiffness_n_m_};
   }
 
  private:

@@ -23,7 +23,8 @@ constexpr int kMaxHalvings = 40;
 constexpr double kBlendAfterHalving = 0.1;
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
-constexpr double kConstraintStiffness = 100.0, kConstraintTolerance = 1e-10;
+constexpr double kConstraintStiffness = 100.0, kConstraintTolerance = 2e-10;
+constexpr double kSlowProgress = 0.3, kStiffening = 4.0;
 constexpr int kMaxMultiplierUpdates = 60;
 
 double largest_row(const Positions& p, Eigen::Index rows) {
@@ -179,6 +180,7 @@ void TimeStepper::minimise(Step& step) {
 /// Minimises with the constraints of an augmented Lagrangian, renewing its multipliers until all targets are met.
 void TimeStepper::minimise_constrained(Step& step) {
   minimise(step);
+  double last_miss = std::numeric_limits<double>::infinity();
   for (int update = 0; step.constraint; ++update) {
     const double miss = largest_row(step.constraint->misses(step.x), step.constraint->num_stencils());
     if (miss <= kConstraintTolerance) return;
@@ -187,7 +189,9 @@ void TimeStepper::minimise_constrained(Step& step) {
                         kMaxMultiplierUpdates);
     }
     step.constraint =
-        std::make_shared<Dirichlet>(step.constraint->with_multipliers(step.constraint->renewed_multipliers(step.x)));
+        std::make_shared<Dirichlet>(  // Contact that is stiffer than the pull makes multipliers creep: pull harder.
+            step.constraint->renewed(step.x, miss > kSlowProgress * last_miss ? kStiffening : 1.0));
+    last_miss = miss;
     step.terms.constraint = step.constraint;
     minimise(step);
   }
