@@ -96,8 +96,9 @@ class Motion {
       const Phase& phase = sample_.motion[p];
       start = phase_start(start.free, start.load_n);
       progress_.yield_m.setZero();
+      const double phase_start_s = time_s_;
       for (int index = 1; index <= phase.steps; ++index) {
-        if (!restored()) run_frame(phase, static_cast<int>(p), index, start);
+        if (!restored()) run_frame(phase, static_cast<int>(p), index, start, phase_start_s);
       }
       const Goal last = goal_of(phase, time_steps(phase), start, config_.time_step_s);
       start.free = last.free;
@@ -172,7 +173,6 @@ class Motion {
       progress_.yield_m += done.yield_m;
       pose_ = goal.gel_from_object;
       pose_.topRightCorner<3, 1>() += done.yield_m;
-      time_s_ += step.h_s;
       const StepReport before = report;
       report = done;
       report.time_steps += before.time_steps;
@@ -188,7 +188,7 @@ class Motion {
     }
   }
 
-  void run_frame(const Phase& phase, int phase_index, int index, const PhaseStart& start) {
+  void run_frame(const Phase& phase, int phase_index, int index, const PhaseStart& start, double phase_start_s) {
     Frame frame;
     frame.phase_index = phase_index;
     try {
@@ -199,6 +199,9 @@ class Motion {
     } catch (const SolverError& error) {
       throw SolverError("frame {}: {}", out_.frames.size(), error.what());
     }
+    // Not summed step by step, so that no rounding piles up.
+    time_s_ = phase_start_s + (phase.kind == PhaseKind::path ? phase.points[static_cast<std::size_t>(index)].time_s
+                                                             : index * phase.substeps * config_.time_step_s);
     frame.phase = phase.kind;
     finish(std::move(frame), stepper_->forces());
   }

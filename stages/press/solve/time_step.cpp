@@ -274,8 +274,14 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
       step.report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
       const double limit =
           std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * step.report.contact_force_n);
-      if (step.report.friction_residual_n <= limit || step.report.lag_iterations + 1 >= friction.max_lag_iterations) {
-        if (step.looseness == 1.0) break;
+      const bool settled = step.report.friction_residual_n <= limit;
+      const bool last = step.report.lag_iterations + 1 >= friction.max_lag_iterations;
+      if ((settled || last) && step.looseness == 1.0) {
+        if (settled || friction.max_lag_iterations == 1) break;
+        throw SolverError("friction did not settle: renewing it {} times left {:.2e} N out of balance (limit {:.2e})",
+                          friction.max_lag_iterations, step.report.friction_residual_n, limit);
+      }
+      if (settled || last) {
         step.looseness = 1.0;
       } else {
         ++step.report.lag_iterations;
