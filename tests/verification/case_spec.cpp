@@ -38,6 +38,7 @@ Expectation Expectation::read(ConfigReader& in) {
   e.frame = FrameChoice::read(in);
   e.value = in.optional_number("value");
   if (in.has("formula")) e.formula = one_of(in, "formula", formulas());
+  e.with_standoff = in.flag_or("with_standoff", false);
   e.within_percent = in.optional_number("within_percent", Range::positive());
   e.within = in.optional_number("within", Range::positive());
   e.at_most = in.optional_number("at_most");
@@ -49,6 +50,7 @@ Expectation Expectation::read(ConfigReader& in) {
   if (limits != 1) in.fault("quantity", "give one of within_percent, within, at_most, at_least");
   if ((e.within_percent || e.within) && !against) in.fault("quantity", "give the value or formula it must be near");
   if ((e.at_most || e.at_least) && against) in.fault("quantity", "a bound needs no value or formula");
+  if (e.with_standoff && !e.formula) in.fault("with_standoff", "belongs to a formula");
   return e;
 }
 

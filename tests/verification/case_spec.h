@@ -31,6 +31,7 @@ struct Expectation {
   FrameChoice frame;
   std::optional<double> value;         // in the quantity's unit, or …
   std::optional<std::string> formula;  // … a name of formulas()
+  bool with_standoff = false;          // the formula is for the object enlarged by the barrier's stand-off
   std::optional<double> within_percent;
   std::optional<double> within;
   std::optional<double> at_most;

@@ -50,7 +50,7 @@ Row judge_row(const Expectation& e, const Outcome& outcome, double modulus_ratio
   Row row{.label = e.label, .unit = unit_of(e.quantity), .measured = measure(outcome, e.quantity, frame)};
   if (scales_with_modulus(row.unit)) row.measured *= modulus_ratio;
   if (e.value) row.expected = *e.value;
-  if (e.formula) row.expected = evaluate(*e.formula, outcome, frame);
+  if (e.formula) row.expected = evaluate(*e.formula, outcome, frame, e.with_standoff);
   if (e.within_percent) {
     row.deviation = 100.0 * (row.measured - *row.expected) / std::abs(*row.expected);
     row.limit = fmt::format("within {:g} %", *e.within_percent);
@@ -81,6 +81,7 @@ std::vector<Row> compare_positions(const ReferenceSpec& spec, const Outcome& out
     throw DataError("{}: not a displacement of the gel's {} vertices over frames", spec.displacement, vertices);
   const std::vector<int> front = outcome.gel.vertices(BoundaryTag::front);
   double worst_share_m = 0.0, worst_rms_m = 0.0;
+  std::size_t worst_frame = 0;
   for (std::size_t f = 1; f < theirs.shape[0]; ++f) {
     const std::size_t ours = f - 1 + static_cast<std::size_t>(spec.first_frame);
     if (ours >= frames.size()) throw DataError("frame {} of the reference has no counterpart", f);
@@ -94,7 +95,9 @@ std::vector<Row> compare_positions(const ReferenceSpec& spec, const Outcome& out
     }
     std::sort(difference.begin(), difference.end());
     const auto last = static_cast<double>(difference.size() - 1);
-    worst_share_m = std::max(worst_share_m, difference[static_cast<std::size_t>(spec.share_percent / 100.0 * last)]);
+    const double at_share = difference[static_cast<std::size_t>(spec.share_percent / 100.0 * last)];
+    if (at_share > worst_share_m) worst_frame = ours;
+    worst_share_m = std::max(worst_share_m, at_share);
     worst_rms_m = std::max(worst_rms_m, std::sqrt(squares / static_cast<double>(front.size())));
   }
   const auto row = [](const std::string& label, double measured, double limit) {
@@ -102,7 +105,8 @@ std::vector<Row> compare_positions(const ReferenceSpec& spec, const Outcome& out
         label, "m", measured, std::nullopt, fmt::format("at most {:g}", limit), measured - limit, measured <= limit};
   };
   return {
-      row(fmt::format("front positions, {:g} % of the vertices", spec.share_percent), worst_share_m, spec.largest_m),
+      row(fmt::format("front positions, {:g} % of the vertices, worst in frame {}", spec.share_percent, worst_frame),
+          worst_share_m, spec.largest_m),
       row("front positions, root mean square", worst_rms_m, spec.rms_m)};
 }
 
@@ -125,10 +129,11 @@ const std::vector<Formula>& formulas() {
   return list;
 }
 
-double evaluate(const std::string& formula, const Outcome& outcome, int frame) {
+double evaluate(const std::string& formula, const Outcome& outcome, int frame, bool with_standoff) {
   const Elastic gel{outcome.spec.material.youngs_modulus_pa, outcome.spec.material.poissons_ratio};
-  const double depth = depth_m(outcome, frame), thickness = gel_thickness_m(outcome.gel);
-  const auto sphere = [&] { return radius_of(outcome, Kind::sphere, formula); };
+  const double skin = with_standoff ? standoff_m(outcome, frame) : 0.0;
+  const double depth = depth_m(outcome, frame) + skin, thickness = gel_thickness_m(outcome.gel);
+  const auto sphere = [&] { return radius_of(outcome, Kind::sphere, formula) + skin; };
   const auto punch = [&] { return radius_of(outcome, Kind::punch, formula); };
   if (formula == "hertz") return hertz(gel, sphere(), depth).force_n;
   if (formula == "hertz_radius") return hertz(gel, sphere(), depth).contact_radius_m;

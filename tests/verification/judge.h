@@ -16,9 +16,10 @@ struct Formula {
 };
 const std::vector<Formula>& formulas();
 
-/// The value a formula gives for the case at the depth, shift and turn of a frame, SI. \throw UsageError if the gel or
+/// The value a formula gives for the case at the depth, shift and turn of a frame, SI; `with_standoff`: for the object
+/// enlarged by the barrier's stand-off, and so much deeper. \throw UsageError if the gel or
 /// object is not of the kind the formula is for
-double evaluate(const std::string& formula, const Outcome& outcome, int frame);
+double evaluate(const std::string& formula, const Outcome& outcome, int frame, bool with_standoff);
 
 struct Row {
   std::string label;

@@ -70,6 +70,22 @@ int press_end(const Outcome& outcome) {
   return last;
 }
 
+/// Mean speed, weighted by normal force, at which the touching front vertices move over the object in a frame, m/s.
+double creep_m_s(const Outcome& outcome, int index) {
+  if (index == 0) return 0.0;
+  const Frame &now = frame_of(outcome, index), &before = frame_of(outcome, index - 1);
+  const Positions x = on_front(outcome.simulation.front, now.positions);
+  const Positions old = transformed(now.gel_from_object * before.gel_from_object.inverse(),
+                                    on_front(outcome.simulation.front, before.positions));
+  double force = 0.0, sum = 0.0;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const double f = now.normal_force_n.row(v).norm();
+    force += f;
+    sum += f * (x.row(v) - old.row(v)).head<2>().norm();
+  }
+  return force > 0.0 ? sum / force / (now.time_s - before.time_s) : 0.0;
+}
+
 }  // namespace
 
 const std::vector<Quantity>& quantities() {
@@ -89,11 +105,14 @@ const std::vector<Quantity>& quantities() {
       {"height_spread_d_hat", "", "the same in units of the barrier's reach"},
       {"indentation_m", "m", "depth of the lowest front vertex below z = 0"},
       {"balance_relative", "", "forces that do not add up over contact force"},
+      {"coulomb_ratio", "", "Σ |friction force| over Σ |normal force| of the front vertices"},
+      {"creep_relative", "", "mean speed of touching vertices over the object in units of the threshold ε_v"},
       {"sticking", "", "front vertices that stick"},
       {"slipping", "", "front vertices that slip"},
       {"depth_m", "m", "of the object's lowest point below z = 0"},
       {"sideways_m", "m", "way of the object's centre in x and y since the press ended"},
       {"turned_rad", "rad", "turn of the object about z since the press ended"},
+      {"standoff_m", "m", "distance that the barrier keeps, weighted by normal force (sphere, punch, plate, block)"},
       {"min_gap_m", "m", "smallest distance between gel and object"},
       {"min_volume_ratio", "", "smallest volume of a tetrahedron over its rest volume"},
       {"newton_iterations", "", "of the frame"}};
@@ -117,6 +136,26 @@ double turned_rad(const Outcome& outcome, int frame) {
   const Matrix3 turn = frame_of(outcome, frame).gel_from_object.topLeftCorner<3, 3>() *
                        frame_of(outcome, press_end(outcome)).gel_from_object.topLeftCorner<3, 3>().transpose();
   return std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+}
+
+double standoff_m(const Outcome& outcome, int index) {
+  using Kind = ObjectShape::Kind;
+  const ObjectShape& shape = outcome.spec.object;
+  const bool round = shape.kind == Kind::sphere;
+  if (!round && shape.kind != Kind::punch && shape.kind != Kind::plate && shape.kind != Kind::block)
+    throw UsageError("the stand-off is measured of sphere, punch, plate and block only");
+  const Frame& frame = frame_of(outcome, index);
+  const Positions x = on_front(outcome.simulation.front, frame.positions);
+  const Vector3 centre = (frame.gel_from_object * Eigen::Vector4d(0.0, 0.0, shape.radius_m, 1.0)).head<3>();
+  double force = 0.0, sum = 0.0;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const double f = frame.normal_force_n.row(v).norm();
+    const double gap =
+        round ? (x.row(v).transpose() - centre).norm() - shape.radius_m : -depth_m(outcome, index) - x(v, 2);
+    force += f;
+    sum += f * gap;
+  }
+  return force > 0.0 ? sum / force : 0.0;
 }
 
 double measure(const Outcome& outcome, const std::string& quantity, int index) {
@@ -154,9 +193,19 @@ double measure(const Outcome& outcome, const std::string& quantity, int index) {
     const ContactState state = quantity == "sticking" ? ContactState::stick : ContactState::slip;
     return static_cast<double>(std::count(frame.contact_state.begin(), frame.contact_state.end(), state));
   }
+  if (quantity == "coulomb_ratio") {
+    const double normal = frame.normal_force_n.rowwise().norm().sum();
+    return normal > 0.0 ? frame.friction_force_n.rowwise().norm().sum() / normal : 0.0;
+  }
+  if (quantity == "creep_relative") {
+    const Vector3 extent = outcome.gel.positions.colwise().maxCoeff() - outcome.gel.positions.colwise().minCoeff();
+    const auto& friction = outcome.spec.press.friction;
+    return friction ? creep_m_s(outcome, index) / (friction->relative_speed_threshold * extent.norm()) : 0.0;
+  }
   if (quantity == "depth_m") return depth_m(outcome, index);
   if (quantity == "sideways_m") return sideways_m(outcome, index);
   if (quantity == "turned_rad") return turned_rad(outcome, index);
+  if (quantity == "standoff_m") return standoff_m(outcome, index);
   if (quantity == "min_gap_m") return frame.min_gap_m;
   if (quantity == "min_volume_ratio") return frame.min_volume_ratio;
   if (quantity == "newton_iterations") return frame.solver.newton_iterations;

@@ -33,6 +33,11 @@ double depth_m(const Outcome& outcome, int frame);
 double sideways_m(const Outcome& outcome, int frame);
 double turned_rad(const Outcome& outcome, int frame);
 
+/// Distance that the barrier keeps between object and gel, the mean over the touching front vertices weighted by their
+/// normal force, m. The gel meets the object as if it were that much larger and so much deeper. \throw UsageError for
+/// objects other than sphere, punch, plate and block
+double standoff_m(const Outcome& outcome, int frame);
+
 /// The value of a quantity in a frame. \throw UsageError for a name that quantities() has not
 double measure(const Outcome& outcome, const std::string& quantity, int frame);
 

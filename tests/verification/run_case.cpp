@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "common/error.h"
@@ -22,6 +23,15 @@ Sensor sensor_for(const CaseSpec& spec, const TetMesh& gel) {
   sensor.camera.window_width_m = sensor.gel.width_m;
   sensor.camera.window_height_m = sensor.gel.height_m;
   return sensor;
+}
+
+/// Not a number for a quantity that this kind of object does not have.
+double measure_or_nan(const Outcome& outcome, const std::string& quantity, int frame) {
+  try {
+    return measure(outcome, quantity, frame);
+  } catch (const UsageError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 }  // namespace
@@ -85,7 +95,7 @@ std::string to_csv(const CaseResult& result) {
   for (int f = 0; f < static_cast<int>(result.simulation->frames.size()); ++f) {
     out += fmt::format("{},{:.9g},{:.9g},{:.9g}", f, 1e3 * depth_m(outcome, f), 1e3 * sideways_m(outcome, f),
                        180.0 / std::numbers::pi * turned_rad(outcome, f));
-    for (const Quantity& q : quantities()) out += fmt::format(",{:.9g}", measure(outcome, q.name, f));
+    for (const Quantity& q : quantities()) out += fmt::format(",{:.9g}", measure_or_nan(outcome, q.name, f));
     out += '\n';
   }
   return out;

@@ -1,0 +1,35 @@
+// Puts studies of refinement together: tables and plots.
+#include <fmt/format.h>
+
+#include "common/files.h"
+#include "common/log.h"
+#include "common/stage.h"
+#include "tests/verification/refinement_report.h"
+
+using namespace tacipc;
+
+namespace {
+
+const StageSpec kTable{.name = "refinement_table",
+                       .summary = "Put studies of refinement together as tables and plots.",
+                       .inputs = {{"--result", "folder of a study's result", true, true}}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kTable, argc, argv, [](Stage& stage) {
+    std::vector<verify::RefinementResult> results;
+    int unsettled = 0;
+    for (const auto& folder : stage.inputs("--result")) {
+      results.push_back(verify::read_refinement(folder / "result.yaml"));
+      const verify::RefinementResult& result = results.back();
+      write_file(stage.output(fmt::format("refinement_{}.svg", result.study)), verify::refinement_svg(result));
+      for (const std::string& quantity : verify::not_settling(result)) {
+        log_info("{}: refining does not settle the {}", result.study, quantity);
+        ++unsettled;
+      }
+    }
+    write_file(stage.output("tables.md"), verify::refinement_tables(results, "verification"));
+    stage.summarize({{"studies", results.size()}, {"unsettled", unsettled}});
+  });
+}
