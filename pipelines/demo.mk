@@ -1,21 +1,25 @@
-# The demo: six embossed objects of different kinds, pressed 0.5 mm into the MC-Tac gel.
+# The demo: embossed objects of different kinds pressed 0.5 mm into the MC-Tac gel; two of them again, on a
+# coarser gel and with friction, dragged and turned afterwards.
 
 DEMO_COARSE := star gear dots rings weave
 DEMO_FINE   := letter_a
+DEMO_MOVED  := dots_shear star_twist
 
 # $(call demo_rules,folder,sample,object,mesh,motion,press configuration)
 demo_rules = $(call sample_rules,$(1)/$(2),$(2),$(OUT)/objects/$(3),configs/objects/embossed.yaml,mctac,$(4),configs/samples/$(5).yaml,configs/press/$(6).yaml)
 
 $(foreach o,$(DEMO_FINE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0100um,press_0500um,paper)))
 $(foreach o,$(DEMO_COARSE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0250um,press_0500um,paper)))
-$(eval $(call report_rules,$(OUT)/demo,TacIPC demo,$(addprefix $(OUT)/demo/,$(DEMO_FINE) $(DEMO_COARSE))))
+$(eval $(call demo_rules,$(OUT)/demo,dots_shear,dots,adaptive_0400um,shear_0500um,friction))
+$(eval $(call demo_rules,$(OUT)/demo,star_twist,star,adaptive_0400um,twist_10deg,friction))
+$(eval $(call report_rules,$(OUT)/demo,TacIPC demo,$(addprefix $(OUT)/demo/,$(DEMO_FINE) $(DEMO_COARSE) $(DEMO_MOVED))))
 
 PATTERNS := $(basename $(notdir $(wildcard configs/emboss/*.yaml)))
 $(foreach o,$(PATTERNS),$(eval $(call demo_rules,$(OUT)/demo-full,$(o),$(o),adaptive_0100um,press_0500um,paper)))
 $(eval $(call report_rules,$(OUT)/demo-full,TacIPC: nineteen embossed objects,$(addprefix $(OUT)/demo-full/,$(PATTERNS))))
 
 .PHONY: demo demo-full
-demo: $(OUT)/demo/report/report.yaml ## A small tactile dataset from six embossed objects (minutes)
+demo: $(OUT)/demo/report/report.yaml ## A small tactile dataset: embossed objects pressed, sheared and twisted (minutes)
 	$(call look,$(OUT)/demo)
 
 demo-full: $(OUT)/demo-full/report/report.yaml ## All nineteen embossed objects on the paper-size gel (about an hour)

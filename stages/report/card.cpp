@@ -89,19 +89,24 @@ bool has_press_curve(const SampleReport& sample) {
          std::all_of(sample.frames.begin(), sample.frames.end(), [](const auto& f) { return f.depth_m.has_value(); });
 }
 
+/// Figures side by side; a kind of figures of their own in each row.
+std::string figure_row(const std::string& figures) {
+  return figures.empty() ? "" : "<div class=\"pictures\">\n" + figures + "</div>\n";
+}
+
 std::string pictures(const SampleReport& sample, const fs::path& folder) {
-  std::string html = image_figures(sample, folder);
+  std::string curves, markers;
   if (has_press_curve(sample)) {
-    html += "<figure>" + press_curve_svg(sample.frames) +
-            "<figcaption><b>Press curve</b>: force over depth</figcaption></figure>\n";
+    curves = "<figure>" + press_curve_svg(sample.frames) +
+             "<figcaption><b>Press curve</b>: force over depth</figcaption></figure>\n";
   }
-  html += frame_curves(sample);
+  curves += frame_curves(sample);
   const View view = view_of(sample.marker_pictures);
   for (const MarkerPicture& picture : sample.marker_pictures) {
-    html += "<figure>" + quiver_svg(picture, view) + "<figcaption>" + marker_caption(picture, sample.phases) +
-            "</figcaption></figure>\n";
+    markers += "<figure>" + quiver_svg(picture, view) + "<figcaption>" + marker_caption(picture, sample.phases) +
+               "</figcaption></figure>\n";
   }
-  return html.empty() ? "" : "<div class=\"pictures\">\n" + html + "</div>\n";
+  return figure_row(image_figures(sample, folder)) + figure_row(curves) + figure_row(markers);
 }
 
 /// One group of facts; `lines` are pairs of a name and HTML.

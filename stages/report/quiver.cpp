@@ -95,8 +95,7 @@ double longest_mm(const std::vector<MarkerArrow>& arrows) {
 double arrow_scale(const std::vector<MarkerArrow>& arrows) {
   const double longest = longest_mm(arrows), apart = spacing_mm(arrows);
   if (longest < kNothingMm || !std::isfinite(apart) || !(apart > 0)) return 1.0;
-  constexpr double kOverlap = 1.3;  // neighbours move alike, so arrows may reach a little beyond the next marker
-  return round_below(kOverlap * apart / longest);
+  return round_below(apart / longest);
 }
 
 std::string quiver_svg(const MarkerPicture& picture, const View& view) {

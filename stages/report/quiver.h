@@ -17,8 +17,8 @@ struct View {
 /// The same for all pictures of a sample: every marker and contact of them and a margin. \pre something to see in one
 View view_of(const std::vector<MarkerPicture>& pictures);
 
-/// How many times longer than they are the arrows are drawn: 1, 2 or 5 times a power of ten, so that the longest is
-/// about as long as markers are apart. 1 if nothing moved.
+/// How many times longer than they are the arrows are drawn: 1, 2 or 5 times a power of ten, so that the longest
+/// just does not reach the next marker. 1 if nothing moved.
 double arrow_scale(const std::vector<MarkerArrow>& arrows);
 
 /// Length of the longest arrow, mm.

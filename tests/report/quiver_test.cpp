@@ -20,11 +20,11 @@ MarkerPicture grid(double dx_mm, double dy_mm, int side = 5) {
   return picture;
 }
 
-TEST(ArrowScale, IsRoundAndMakesTheLongestAboutOnePitch) {
+TEST(ArrowScale, IsRoundAndMakesTheLongestReachTowardsTheNextMarker) {
   for (const double length : {1e-5, 3e-4, 0.02, 0.3, 0.9, 1.2, 7.0}) {
     const double scale = arrow_scale(grid(0.6 * length, 0.8 * length).arrows);
-    EXPECT_LE(scale * length, 1.3 * (1 + 1e-9)) << length;
-    EXPECT_GT(scale * length, 0.5) << length;
+    EXPECT_LE(scale * length, 1 + 1e-9) << length;
+    EXPECT_GT(scale * length, 0.399) << length;
     const std::string digits = fmt::format("{:.3e}", scale);
     EXPECT_THAT(digits.substr(0, 5), ::testing::AnyOf("1.000", "2.000", "5.000")) << scale;
   }

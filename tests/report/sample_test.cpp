@@ -135,9 +135,10 @@ TEST_F(SampleTest, ALimitThatIsMissedFailsTheSample) {
 TEST_F(SampleTest, TheFileOfAFailureTellsMoreThanTheLog) {
   fs::remove(folder_ / "press/press.yaml");
   write_file(folder_ / "press/press.log", "2024-06-07 12:34:56.789 error: press: error: no convergence\n");
-  write_file(folder_ / "press/press.failed.yaml",
-             "stage: press\nname: knife\nmessage: \"frame 2:\\n no convergence\"\nframe: 2\ncheck: velocity_residual_m_s\n"
-             "value: 2.1e-03\nlimit: 1.0e-04\n");
+  write_file(
+      folder_ / "press/press.failed.yaml",
+      "stage: press\nname: knife\nmessage: \"frame 2:\\n no convergence\"\nframe: 2\ncheck: velocity_residual_m_s\n"
+      "value: 2.1e-03\nlimit: 1.0e-04\n");
   const SampleReport sample = read_sample(folder_);
   EXPECT_EQ(sample.name, "knife");
   EXPECT_EQ(sample.failure, "press: frame 2:  no convergence");
