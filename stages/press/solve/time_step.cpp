@@ -272,6 +272,8 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
       double sum = 0.0;
       for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
       step.report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
+      log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", step.report.lag_iterations, step.report.friction_residual_n,
+                step.report.contact_force_n);
       const double limit =
           std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * step.report.contact_force_n);
       const bool settled = step.report.friction_residual_n <= limit;
