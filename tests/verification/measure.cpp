@@ -221,7 +221,7 @@ int find_frame(const Outcome& outcome, const FrameChoice& choice) {
   if (choice.depth_m) {
     for (int f = 0; f <= last; ++f)
       if (std::abs(depth_m(outcome, f) - *choice.depth_m) < 1e-9) return f;
-    throw DataError("no frame is {:g} mm deep", 1e3 * *choice.depth_m);
+    throw DataError("no frame is {:g} mm deep; let a press phase end there", 1e3 * *choice.depth_m);
   }
   if (choice.phase) {
     // The last frame of the phase by its kind, or of the n-th phase of that kind: "press", "press 2".

@@ -31,7 +31,7 @@ struct StressSummary {
 
 StressSummary summarize(const std::vector<StressLine>& lines);
 
-/// The page: verdict, counts by kind of object, totals, the list of cases that did not converge.
-std::string to_markdown(const std::vector<StressLine>& lines);
+/// The page of a seed: verdict, counts by kind of object, totals, the list of cases that did not converge.
+std::string to_markdown(const std::vector<StressLine>& lines, const std::string& seed);
 
 }  // namespace tacipc::verify

@@ -11,7 +11,8 @@ namespace {
 
 const StageSpec kStressTable{.name = "stress_table",
                              .summary = "Put the cases of a stress campaign together as one page.",
-                             .inputs = {{"--case", "folder of a case", true, true}}};
+                             .inputs = {{"--case", "folder of a case", true, true}},
+                             .options = {{"--seed", "seed of the campaign", "1"}}};
 
 }  // namespace
 
@@ -19,7 +20,7 @@ int main(int argc, char** argv) {
   return run_stage(kStressTable, argc, argv, [](Stage& stage) {
     std::vector<verify::StressLine> lines;
     for (const auto& folder : stage.inputs("--case")) lines.push_back(verify::read_stress_line(folder));
-    write_file(stage.output("summary.md"), verify::to_markdown(lines));
+    write_file(stage.output("summary.md"), verify::to_markdown(lines, stage.option("--seed")));
     const verify::StressSummary sum = verify::summarize(lines);
     log_info("{} cases: {} converged, {} did not, {} intersected, {} inverted, {} crashed: {}", sum.cases,
              sum.converged, sum.not_converged, sum.intersected, sum.inverted, sum.crashed,

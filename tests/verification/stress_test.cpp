@@ -163,10 +163,11 @@ TEST(StressSummary, CountsAndJudges) {
   std::vector<StressLine> lines(200);
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i].name = "case_" + std::to_string(i);
   EXPECT_TRUE(summarize(lines).holds());
+  EXPECT_NE(to_markdown(lines, "9").find("SEED=9 N=200"), std::string::npos);
   lines[3].result.outcome = StressOutcome::not_converged;
   lines[3].result.reason = "the line search stopped";
   EXPECT_TRUE(summarize(lines).holds());
-  EXPECT_NE(to_markdown(lines).find("| case_3 |  |  | 0 of 0 | not_converged | the line search stopped |"),
+  EXPECT_NE(to_markdown(lines, "9").find("| case_3 |  |  | 0 of 0 | not_converged | the line search stopped |"),
             std::string::npos);
   lines[4].result.outcome = StressOutcome::not_converged;
   EXPECT_FALSE(summarize(lines).holds()) << "1 % is not less than 1 %";
