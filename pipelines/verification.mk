@@ -2,7 +2,7 @@
 
 SHARED ?= $(or $(TACIPC_SHARED),../shared)#  folder with measured data
 VERIFICATION := $(OUT)/verification
-VERIFICATION_CASES := $(filter-out stress,$(sort $(basename $(notdir $(wildcard configs/verification/*.yaml)))))# stress.yaml: stress.mk
+VERIFICATION_CASES := $(filter-out stress,$(sort $(basename $(notdir $(wildcard configs/verification/*.yaml)))))#  stress.yaml is the campaign of pipelines/stress.mk
 VERIFICATION_RESULTS := $(VERIFICATION_CASES:%=$(VERIFICATION)/%)
 
 # The programs belong to the tests; never built beside another build in the same folder.
