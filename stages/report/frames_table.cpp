@@ -27,6 +27,7 @@ std::vector<Column> columns() {
           {"depth mm", number(&F::depth_m, 1e3)},
           {"press force N", number(&F::press_force_n, 1)},
           {"tangential force N", number(&F::tangential_force_n, 1)},
+          {"torque about z N mm", number(&F::torque_z_n_m, 1e3)},
           {"imbalance N", number(&F::balance_n, 1)},
           {"contact area mm²", number(&F::contact_area_mm2, 1)},
           {"mean pressure kPa", number(&F::mean_pressure_pa, 1e-3)},

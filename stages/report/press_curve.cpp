@@ -65,6 +65,12 @@ std::string figure(const Chart& chart, const std::string& caption) {
   return "<figure>" + chart_svg(chart) + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
+/// A twist shows in the torque, not in the forces.
+bool turns(const SampleReport& sample) {
+  return std::any_of(sample.phases.begin(), sample.phases.end(),
+                     [](const PhaseReport& phase) { return phase.name == "twist" || phase.name == "path"; });
+}
+
 std::string force_curves(const SampleReport& sample) {
   Chart chart = over_frames(sample, "forces");
   chart.left_label = "force (N)";
@@ -75,6 +81,14 @@ std::string force_curves(const SampleReport& sample) {
   if (has_values(tangential)) {
     chart.left.push_back(std::move(tangential));
     caption += ", " + curve_key(2) + "tangential";
+  }
+  Curve torque = curve_of(sample.frames, "N mm about z", [](const auto& f) {
+    return f.torque_z_n_m ? std::optional(1e3 * *f.torque_z_n_m) : std::nullopt;
+  });
+  if (turns(sample) && has_values(torque)) {
+    chart.right_label = "torque about z (N mm)";
+    chart.right.push_back(std::move(torque));
+    caption += ", " + curve_key(static_cast<int>(chart.left.size()) + 1) + "torque";
   }
   add_slip(chart, sample);
   std::string stretches;

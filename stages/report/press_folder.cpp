@@ -79,6 +79,7 @@ std::vector<FrameReport> read_frames(const Record& summary) {
                       .time_s = record.number("time_s"),
                       .phase = record.text("phase").value_or(""),
                       .tangential_force_n = record.number("tangential_force_n"),
+                      .torque_z_n_m = std::nullopt,
                       .balance_n = record.number("balance_n"),
                       .balance_relative = record.number("balance_relative"),
                       .contact_area_mm2 = record.number("contact_area_mm2"),
@@ -91,6 +92,18 @@ std::vector<FrameReport> read_frames(const Record& summary) {
   }
   if (frames.empty()) throw DataError("press.yaml: summary.per_frame: has no frames");
   return frames;
+}
+
+void add_torques(const fs::path& path, std::vector<FrameReport>& frames) {
+  if (!fs::is_regular_file(path)) return;
+  const NpyArray wrench = read_npy(path);
+  if (wrench.shape != std::vector<std::size_t>{frames.size(), 6})
+    throw DataError("{}: does not hold a wrench for each of the {} frames of press.yaml", path.string(), frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const double torque = wrench.data[6 * i + 5];
+    if (!std::isfinite(torque)) throw DataError("{}: the torque of frame {} is not finite", path.string(), i);
+    frames[i].torque_z_n_m = torque;
+  }
 }
 
 /// Depths of all frames, and the one that counts for the sample: at the end of the press, or else the deepest.
@@ -213,6 +226,7 @@ void read_press(const fs::path& folder, SampleReport& sample) {
   sample.motion = motion_text(asked);
   if (const auto depth_mm = asked_depth_mm(asked)) sample.depth_m = 1e-3 * *depth_mm;
   add_depths(folder, press, sample);
+  add_torques(folder / "wrench.npy", sample.frames);
   std::vector<std::string> names;
   for (const FrameReport& frame : sample.frames) names.push_back(frame.phase);
   sample.phases = phases_of(names, asked);

@@ -23,6 +23,7 @@ struct FrameReport {
   std::optional<double> time_s = std::nullopt;
   std::string phase = {};
   std::optional<double> tangential_force_n = std::nullopt;
+  std::optional<double> torque_z_n_m = std::nullopt;  // on the gel about the z axis of S
   std::optional<double> balance_n = std::nullopt;
   std::optional<double> balance_relative = std::nullopt;
   std::optional<double> contact_area_mm2 = std::nullopt;

@@ -32,6 +32,20 @@ cmp -s {one,two}/sample/pyramid/object/object.ply && fail "another object change
 tiny_sample one
 same_files one two
 
+# A motion after the press, with friction: in the record, on the page, and redone when the coefficient changes.
+drag() { tiny_sample one NAME=dragged MOTION=shear+release MOVE_STEPS=2 SHEAR_MM=0.2 "$@"; }
+drag FRICTION=0.5
+record=one/sample/dragged/press/press.yaml
+grep -q '^  friction_coefficient: 0.5$' $record || fail "the friction coefficient is not in the record"
+[ "$(grep -c 'phase: shear$' $record)" = 2 ] || fail "there are not two frames of shear"
+[ "$(grep -c 'phase: release$' $record)" = 2 ] || fail "there are not two frames of release"
+grep -q 'Tangential over press force' one/sample/dragged/report/index.html || fail "the page has no friction curve"
+before=$(cat $record)
+drag
+grep -q '^  friction_coefficient: 0.7$' $record || fail "the coefficient of the press configuration is not in the record"
+drag FRICTION=0.5
+[ "$before" = "$(cat $record)" ] || fail "the same friction gave another record"
+
 # Embossed objects: touching the decimation's configuration leaves the embossing alone.
 sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/star.yaml
 emboss_star() { make -s -f Makefile.data "$PWD/e/objects/star/decimate.yaml" OUT="$PWD/e" BUILD="$build_dir" PACKAGES=no; }

@@ -106,6 +106,15 @@ TEST_F(FrameCurvesTest, ShowForcesContactRatioAndBalance) {
   EXPECT_THAT(html, HasSubstr("<br>Frames: reference 0, approach 1, press 2, shear 3–4"));
 }
 
+TEST_F(FrameCurvesTest, TheTorqueIsDrawnWhereTheObjectTurns) {
+  EXPECT_THAT(frame_curves(sample_), Not(HasSubstr("torque")));  // a shear
+  sample_.phases.back().name = "twist";
+  const std::string html = frame_curves(sample_);
+  EXPECT_THAT(html, HasSubstr("torque about z (N mm)"));
+  EXPECT_THAT(html, HasSubstr("<title>frame 3: 3.00 N mm about z</title>"));
+  EXPECT_THAT(html, HasSubstr("<i class=\"key color-3\"></i>torque"));
+}
+
 TEST_F(FrameCurvesTest, TheRatioIsLeftOutWhereNothingPresses) {
   sample_.frames = {{.press_force_n = 0.0, .tangential_force_n = 0.0},
                     {.press_force_n = 2.0, .tangential_force_n = 1.0},

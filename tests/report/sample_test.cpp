@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "common/error.h"
 #include "tests/report/sheared_folder.h"
 #include "tests/scratch_folder.h"
@@ -128,6 +130,11 @@ TEST_F(SampleTest, ALimitThatIsMissedFailsTheSample) {
   EXPECT_EQ(with("min_gap_m: 3.6e-05", "min_gap_m: 0"),
             "press: smallest distance is 0 µm in frame 4, the limit is above 0");
   EXPECT_EQ(with("verdict: pass", "verdict: fail"), "press: its verdict is fail");
+  write_npy(drag / "press/wrench.npy", {1, 6}, std::vector<double>(6, 0.0).data());
+  EXPECT_EQ(with("verdict: pass", "verdict: pass"),
+            "press/wrench.npy: does not hold a wrench for each of the 5 frames of press.yaml");
+  write_npy(drag / "press/wrench.npy", {5, 6}, std::vector<double>(30, std::nan("")).data());
+  EXPECT_EQ(with("verdict: pass", "verdict: pass"), "press/wrench.npy: the torque of frame 0 is not finite");
   EXPECT_EQ(with("press_end_frame: 2", "press_end_frame: 5"),
             "press/press.yaml: summary.press_end_frame: 5 is not one of the 5 frames");
 }

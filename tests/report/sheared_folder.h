@@ -51,11 +51,12 @@ inline std::string sheared_record() {
 /// Gel vertices 1 and 3 lie on the front, at x = −1 and 1 mm, and follow the object's shear along y.
 inline void write_sheared_arrays(const std::filesystem::path& press) {
   const std::vector<double> shear_m{0, 0, 0, 2e-4, 4e-4}, height_m{2.1e-3, 2.0e-3, 1.5e-3, 1.5e-3, 1.5e-3};
-  std::vector<double> poses, positions, markers, displacement;
+  std::vector<double> poses, positions, markers, displacement, wrench;
   for (std::size_t f = 0; f < 5; ++f) {
     const double s = shear_m[f];
     poses.insert(poses.end(), {1, 0, 0, 0, 0, 1, 0, s, 0, 0, 1, height_m[f], 0, 0, 0, 1});
     positions.insert(positions.end(), {0, 0, -2e-3, -1e-3, s, 0, 5e-3, 5e-3, -2e-3, 1e-3, s, 0});
+    wrench.insert(wrench.end(), {0, 0, -1, 0, 0, 1e-3 * static_cast<double>(f)});
     const double spread = f >= 2 ? 1e-5 : 0.0;  // what the press does to markers
     for (const double x : {-1e-3, 1e-3}) {
       const double away = x < 0 ? -spread : spread;
@@ -66,6 +67,7 @@ inline void write_sheared_arrays(const std::filesystem::path& press) {
   const std::vector<double> front{1, 3}, state{0, 0, 0, 0, 1, 1, 1, 2, 2, 2};
   write_npy(press / "object_pose.npy", {5, 4, 4}, poses.data());
   write_npy(press / "positions.npy", {5, 4, 3}, positions.data());
+  write_npy(press / "wrench.npy", {5, 6}, wrench.data());
   write_npy(press / "markers.npy", {5, 2, 3}, markers.data());
   write_npy(press / "marker_displacement.npy", {5, 2, 2, 3}, displacement.data());
   write_npy(press / "front_vertices.npy", {2}, front.data());
