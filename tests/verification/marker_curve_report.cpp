@@ -98,8 +98,13 @@ std::string marker_curve_csv(const SlidingRun& run, const MarkerCurve& curve) {
 std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
                               const MarkerCurveConfig& config) {
   std::string out = fmt::format(
+      "# Markers under a dragged or turned object\n\nWritten by `make -f Makefile.data board3`; what it shows: "
+      "[board3](../board3.md). Markers of rows {} to {} and columns {} to {}, mean length of their displacement in x "
+      "and y "
+      "since the end of the press. Settled: the friction load stays above {:g} % of its largest.\n\n"
       "| Sample | Gel vertices | Frames after the press | Largest first difference | Settled from | Largest second "
-      "difference from there | Limit | | Over the whole motion |\n|---|---|---|---|---|---|---|---|---|\n");
+      "difference from there | Limit | | Over the whole motion |\n|---|---|---|---|---|---|---|---|---|\n",
+      config.first_row, config.last_row, config.first_column, config.last_column, 100.0 * config.settled_load);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SlidingRun& run = runs[i];
     const MarkerCurve& c = curves[i];
@@ -125,6 +130,10 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
         run.gross_slip_way ? fmt::format("{:.3g}{}", shown_way(run, *run.gross_slip_way), way_unit(run)) : "never",
         run.max_balance_relative, run.min_distance_m / kMicrometre, run.min_volume_ratio);
   }
+  out += '\n';
+  for (const SlidingRun& run : runs)
+    for (const char* picture : {"curve", "differences", "quiver"})
+      out += fmt::format("![{0}: {1}]({0}_{1}.svg)\n", run.name, picture);
   return out;
 }
 

@@ -153,7 +153,7 @@ TEST(MarkerCurveConfig, ReadsItsKeys) {
     read_config<MarkerCurveConfig>(file);
     FAIL() << "was accepted";
   } catch (const ConfigError& error) {
-    EXPECT_EQ(error.faults(), (std::vector<std::string>{place + ":1:24: rows.last: 7 is less than 8",
+    EXPECT_EQ(error.faults(), (std::vector<std::string>{place + ":1:24: rows.last: 7 is below 8",
                                                         place + ":3:15: settled_load: 1.5 is outside (0, 1)"}));
   }
 }

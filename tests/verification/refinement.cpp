@@ -166,7 +166,8 @@ std::vector<RefinementCurve> compare_levels(const std::vector<RefinementLevel>& 
       out.against_next.push_back(distance(levels[k], levels[k + 1]));
     }
     for (std::size_t k = 0; k + 1 < out.against_next.size(); ++k)
-      out.orders.push_back(std::log(out.against_next[k] / out.against_next[k + 1]) / std::log(factor));
+      if (out.against_next[k] > 0.0 && out.against_next[k + 1] > 0.0)
+        out.orders.push_back(std::log(out.against_next[k] / out.against_next[k + 1]) / std::log(factor));
     return out;
   };
   const auto scalar = [&](const char* quantity, double Level::*member) {

@@ -69,7 +69,7 @@ struct RefinementCurve {
   std::string quantity, unit;
   std::vector<double> values = {};                             // empty for fields, which are no single number
   std::vector<double> against_finest = {}, against_next = {};  // of all levels but the last
-  /// p in ‖f_k − f_{k+1}‖ ~ s_k^p, from each three successive levels.
+  /// p in ‖f_k − f_{k+1}‖ ~ s_k^p, from each three successive levels; those of differences that are 0 are left out.
   std::vector<double> orders = {};
 };
 

@@ -41,7 +41,9 @@ Value to_value(const RefinementResult& result) {
     if (!curve.values.empty()) line.emplace_back("values", curve.values);
     line.emplace_back("against_finest", curve.against_finest);
     line.emplace_back("against_next", curve.against_next);
-    line.emplace_back("orders", curve.orders);
+    Value::List orders;
+    for (const double order : curve.orders) orders.emplace_back(Value::Map{{"order", order}});
+    line.emplace_back("orders", std::move(orders));
     curves.emplace_back(std::move(line));
   }
   const std::vector<double> vertices(result.gel_vertices.begin(), result.gel_vertices.end());
@@ -72,7 +74,7 @@ RefinementResult read_refinement(const std::filesystem::path& result_yaml) {
     curve.values = list(row, "values", row.has("values") ? levels : 0);
     curve.against_finest = list(row, "against_finest", levels - 1);
     curve.against_next = list(row, "against_next", levels - 1);
-    curve.orders = list(row, "orders", levels - 2);
+    for (ConfigReader& order : row.sections("orders")) curve.orders.push_back(order.number("order"));
     result.curves.push_back(std::move(curve));
   }
   in.finish();
@@ -87,7 +89,11 @@ std::vector<std::string> not_settling(const RefinementResult& result) {
 }
 
 std::string refinement_tables(const std::vector<RefinementResult>& results, const std::string& plots) {
-  std::string out;
+  std::string out = fmt::format(
+      "# Refinement\n\nWritten by `make -f Makefile.data refinement`; what it shows: "
+      "[refinement](../refinement.md).\n\n{}: the "
+      "last frame with one number refined, all others held.\n\n",
+      results.front().title);
   for (const RefinementResult& result : results) {
     out += fmt::format("## {}\n\n| {} ({}) | Vertices |", result.parameter, result.parameter, result.unit);
     std::string line = "|---|---|";

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
         ++unsettled;
       }
     }
-    write_file(stage.output("tables.md"), verify::refinement_tables(results, "verification"));
+    write_file(stage.output("tables.md"), verify::refinement_tables(results, "."));
     stage.summarize({{"studies", results.size()}, {"unsettled", unsettled}});
   });
 }

@@ -1,0 +1,36 @@
+# The friction experiments of the paper: board3 pressed 0.5 mm into a 3 mm gel, then dragged by 1 mm or turned by 0.25 rad, and how
+# evenly the markers follow. MESH= another file of configs/tetmesh; MESH=import_paper_3mm is the published gel (long).
+# SHARED is a folder with data/tacipc_release (not part of this repository).
+
+BOARD3 := $(OUT)/board3
+BOARD3_MESH := $(if $(filter MESH,$(given)),$(MESH),focused_0200um)
+BOARD3_SAMPLES := board3_shear board3_twist
+BOARD3_OBJECT := $(SHARED)/data/tacipc_release/objects/board3.obj
+
+ifneq ($(filter board3,$(MAKECMDGOALS)),)
+ifeq ($(wildcard $(BOARD3_OBJECT)),)
+  $(error SHARED: there is no $(BOARD3_OBJECT))
+endif
+ifeq ($(wildcard configs/tetmesh/$(BOARD3_MESH).yaml),)
+  $(error MESH: there is no configs/tetmesh/$(BOARD3_MESH).yaml (there are: $(MESHES)))
+endif
+endif
+
+$(BOARD3)/object/decimate.yaml: $(BOARD3_OBJECT) configs/objects/printed_indenter.yaml configs/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(BOARD3_OBJECT) --object configs/objects/printed_indenter.yaml --config configs/decimate/default.yaml)
+
+# The published gel with its third axis scaled.
+$(OUT)/gels/mctac_3mm-import_paper_3mm/tetmesh.yaml: $(PAPER_GEL) configs/tetmesh/import_paper_3mm.yaml configs/sensors/mctac_3mm.yaml | build
+	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac_3mm.yaml --config configs/tetmesh/import_paper_3mm.yaml)
+
+$(foreach s,$(BOARD3_SAMPLES),$(eval $(call sample_rules,$(BOARD3)/$(BOARD3_MESH)/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(BOARD3_MESH),configs/samples/$(s).yaml,configs/press/friction.yaml)))
+
+$(BOARD3)/$(BOARD3_MESH)/page/marker_curve.yaml: configs/marker_curve/board3.yaml $(BOARD3_SAMPLES:%=$(BOARD3)/$(BOARD3_MESH)/%/press/press.yaml) | build-long
+	$(call run,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3)/$(BOARD3_MESH)/%/press))
+
+.PHONY: board3
+board3: $(BOARD3)/$(BOARD3_MESH)/page/marker_curve.yaml ## Friction experiments of the paper (needs SHARED); writes docs/verification/board3.md with its plots (an hour)
+	mkdir -p docs/verification
+	cp $(<D)/tables.md docs/verification/board3.md
+	cp $(<D)/*.svg docs/verification/
+	! grep -q '^  missed: [1-9]' $<
