@@ -15,6 +15,7 @@
 #include "stages/press/energy/inertia.h"
 #include "stages/press/energy/linear_load.h"
 #include "stages/press/energy/stiffness_damping.h"
+#include "stages/press/solve/assembly.h"
 #include "tests/press/convergence_order.h"
 #include "tests/press/elastic_block.h"
 
@@ -304,6 +305,30 @@ TEST(Friction, IsTheNormalForceTimesItsPartAgainstTheMotion) {
   EXPECT_NEAR(friction.gradient[1], 0.75 * lambda * 0.8, 1e-14);
   EXPECT_NEAR(friction.gradient[2], 0.0, 1e-16);
   EXPECT_NEAR(term.relative_slide(0, x.reshaped<Eigen::RowMajor>(4, 3)), 0.5, 1e-12);
+}
+
+TEST(Friction, MixtureIsTheWeightedSumAndForgetsWhatHasFaded) {
+  ContactMesh mesh;
+  mesh.num_object_vertices = 4;
+  mesh.rest_positions = Positions{{0.2, 0.2, 0.3}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+  Positions nearer = mesh.rest_positions, x = mesh.rest_positions;
+  nearer(0, 2) = 0.1;
+  x(0, 0) += 0.03;
+  const auto start = std::make_shared<const Friction>(barrier, mesh.rest_positions, mesh.rest_positions, 0.1);
+  const Friction newer(barrier, nearer, mesh.rest_positions, 0.1);
+  const auto mixed = start->mixed_with(newer, 0.25);
+  ASSERT_EQ(mixed->num_stencils(), 2);
+  EXPECT_DOUBLE_EQ(mixed->normal_force(0), 0.75 * start->normal_force(0));
+  EXPECT_DOUBLE_EQ(mixed->normal_force(1), 0.25 * newer.normal_force(0));
+  const Positions sum = 0.75 * gradient_of(*start, x) + 0.25 * gradient_of(newer, x);
+  EXPECT_LT((gradient_of(*mixed, x) - sum).norm(), 1e-12 * sum.norm());
+  // Halved ten times, the first friction and the first newer one are down to a thousandth and go.
+  auto faded = start;
+  for (int i = 0; i < 9; ++i) faded = faded->mixed_with(newer, 0.5);
+  EXPECT_EQ(faded->num_stencils(), 10);
+  faded = faded->mixed_with(newer, 0.5);
+  EXPECT_EQ(faded->num_stencils(), 9);
 }
 
 }  // namespace

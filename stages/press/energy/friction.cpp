@@ -33,6 +33,22 @@ Friction::Friction(const ContactBarrier& barrier, const Positions& lagged, const
   }
 }
 
+std::shared_ptr<const Friction> Friction::mixed_with(const Friction& newer, double part) const {
+  constexpr double kSmallestShare = 1e-3;
+  auto mixed = std::make_shared<Friction>(*this);
+  mixed->pairs_.clear();
+  const auto take = [&](const Friction& from, double scale) {
+    for (Pair pair : from.pairs_) {
+      pair.share *= scale;
+      pair.normal_force *= scale;
+      if (pair.share >= kSmallestShare) mixed->pairs_.push_back(pair);
+    }
+  };
+  take(*this, 1.0 - part);
+  take(newer, part);
+  return mixed;
+}
+
 double Friction::relative_slide(int i, const Positions& x) const {
   const Pair& pair = pairs_[i];
   Vector3 now = Vector3::Zero();

@@ -1,6 +1,7 @@
 // Smoothed Coulomb friction with lagged normal forces and tangent planes.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "stages/press/energy/contact_barrier.h"
@@ -23,6 +24,10 @@ class Friction final : public EnergyTerm {
   /// \param epsilon_m ε_v h: how far a side slides in one step at the speed where friction is fully reached
   Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m);
 
+  /// This friction and a newer one of the same time step: the pairs of both, with 1 − part and `part` of their normal
+  /// forces. What has been mixed down to less than a thousandth of itself is left out.
+  std::shared_ptr<const Friction> mixed_with(const Friction& newer, double part) const;
+
   std::string_view name() const override { return "friction"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
@@ -41,6 +46,7 @@ class Friction final : public EnergyTerm {
     Eigen::Matrix<double, 3, 2> tangents;  // T, orthonormal columns
     Vector3 start;                         // Σ wᵢ xᵢᵗ
     double normal_force;
+    double share = 1.0;  // of the normal force that the barrier had
   };
   std::vector<Pair> pairs_;
   double epsilon_m_;

@@ -18,6 +18,9 @@ constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where
 constexpr double kNewtonSlack = 0.1;
 constexpr double kLagSlack = 0.5;
 constexpr double kLooseness = 10.0;
+// Renewing friction: it settles slowly or not at all where less than this part of a residual goes; then only a half of
+// the new friction is taken, a quarter, …
+constexpr double kSettling = 0.8, kSmallestRenewal = 0.1;
 constexpr double kGapFloor = 1e-4;  // × d̂
 constexpr int kMaxHalvings = 40;
 constexpr double kBlendAfterHalving = 0.1;
@@ -265,6 +268,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   minimise_constrained(step);
   if (settings_.friction) {
     const FrictionSettings& friction = *settings_.friction;
+    double renewal = 1.0, last_residual = std::numeric_limits<double>::infinity();
     while (true) {
       // What would be out of balance if normal forces and tangent planes were renewed now.
       const auto renewed = friction_at(step.x);
@@ -272,8 +276,8 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
       double sum = 0.0;
       for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
       step.report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
-      log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", step.report.lag_iterations, step.report.friction_residual_n,
-                step.report.contact_force_n);
+      log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", step.report.lag_iterations,
+                step.report.friction_residual_n, step.report.contact_force_n);
       const double limit =
           std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * step.report.contact_force_n);
       const bool settled = step.report.friction_residual_n <= limit;
@@ -287,7 +291,10 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
         step.looseness = 1.0;
       } else {
         ++step.report.lag_iterations;
-        step.friction = renewed;
+        if (step.report.friction_residual_n > kSettling * last_residual)
+          renewal = std::max(0.5 * renewal, kSmallestRenewal);
+        last_residual = step.report.friction_residual_n;
+        step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
         step.looseness = step.report.friction_residual_n > 5.0 * limit ? kLooseness : 1.0;
       }
       minimise_constrained(step);
