@@ -81,9 +81,16 @@ ContactBarrier TimeStepper::barrier_at(const Positions& x) {
   return {mesh_, search_.pairs(x, Positions::Zero(x.rows(), 3), settings_.d_hat_m), settings_.d_hat_m};
 }
 
-double TimeStepper::contact_force(const ContactBarrier& barrier, const Positions& x) const {
-  return settings_.barrier_stiffness_j_m4 *
-         gradient_of(barrier, x).topRows(mesh_.num_gel_vertices).colwise().sum().norm();
+double TimeStepper::contact_force(const Step& step) {
+  const Eigen::Index n = mesh_.num_gel_vertices;
+  const auto sum = [&](const EnergyTerm& term) -> Eigen::RowVector3d {
+    return gradient_of(term, step.x).topRows(n).colwise().sum();
+  };
+  const Eigen::RowVector3d normal = sum(barrier_at(step.x));
+  const Eigen::RowVector3d friction = step.friction
+                                          ? Eigen::RowVector3d(settings_.friction->coefficient * sum(*step.friction))
+                                          : Eigen::RowVector3d::Zero();
+  return settings_.barrier_stiffness_j_m4 * std::min(normal.norm(), (normal + friction).norm());
 }
 
 void TimeStepper::minimise(Step& step) {
@@ -104,7 +111,7 @@ void TimeStepper::minimise(Step& step) {
           "Newton did not converge within {} iterations (step {:.2e} m/s > {:.2e}, residual force {:.2e} N of {:.3e} "
           "N, smallest gap {:.2e} m)",
           newton.max_iterations, report.velocity_residual_m_s, newton.velocity_tolerance_m_s, report.force_residual_n,
-          contact_force(barrier_at(x), x), smallest_gap(x, settings_.d_hat_m));
+          contact_force(step), smallest_gap(x, settings_.d_hat_m));
     }
     const bool moving = !step.arrived && relax == 0;
     Positions motion = still;
@@ -125,7 +132,7 @@ void TimeStepper::minimise(Step& step) {
     // Multipliers see their targets missed no finer than the minimum is known.
     const bool held = !step.constraint || step.constraint->largest(direction.p) < 0.3 * kConstraintTolerance;
     if (step.arrived && held && last_residual < step.looseness * newton.velocity_tolerance_m_s) {
-      report.contact_force_n = contact_force(barrier_at(x), x);
+      report.contact_force_n = contact_force(step);
       if (report.force_residual_n <
           step.looseness * std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n))
         return;

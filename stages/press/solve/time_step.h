@@ -73,7 +73,7 @@ struct StepReport {
   double velocity_residual_m_s = 0.0;
   double force_residual_n = 0.0;      // Σ over free vertices of |residual force|
   double friction_residual_n = 0.0;   // the same if normal forces and tangent planes were renewed now
-  double contact_force_n = 0.0;       // |Σ forces of the object on the gel|
+  double contact_force_n = 0.0;       // |Σ forces of the object on the gel|, with or without friction: the less
   Vector3 yield_m = Vector3::Zero();  // how far the object yielded
 };
 
@@ -112,7 +112,9 @@ class TimeStepper {
   void minimise(Step& step);
   void minimise_constrained(Step& step);
   ContactBarrier barrier_at(const Positions& x);
-  double contact_force(const ContactBarrier& barrier, const Positions& x) const;
+  /// What residual forces are measured by: |Σ forces of the object on the gel|, with friction or without, whichever is
+  /// less (friction may carry most of the normal force, and what is left must balance too).
+  double contact_force(const Step& step);
   IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
   void record_forces(const Step& step);
 
