@@ -68,6 +68,7 @@ ReferenceSpec ReferenceSpec::read(ConfigReader& in) {
   r.share_percent = in.number_or("share_percent", 100.0, Range::between(50.0, 100.0));
   r.rms_m = 1e-6 * in.number("rms_um", Range::positive());
   r.first_frame = in.integer_or("first_frame", 1, 0);
+  r.all_frames = in.choice_or("frames", "last", {"last", "all"}) == "all";
   return r;
 }
 

@@ -60,8 +60,9 @@ struct ReferenceSpec {
   std::string displacement;  // npy (frames, #V, 3), shared:… allowed
   double largest_m = 0.0;    // limit of `share_percent` of the front vertices …
   double share_percent = 100.0;
-  double rms_m = 0.0;   // … and of the root mean square over the front
-  int first_frame = 1;  // frame of ours that its frame 1 stands for
+  double rms_m = 0.0;       // … and of the root mean square over the front
+  int first_frame = 1;      // frame of ours that its frame 1 stands for
+  bool all_frames = false;  // else the last one
 
   static ReferenceSpec read(ConfigReader& in);
 };

@@ -28,7 +28,6 @@ INSTANTIATE_TEST_SUITE_P(All, CaseFile,
                                            "configs/verification/friction_plate", "configs/verification/friction_punch",
                                            "configs/verification/reference_small_press",
                                            "configs/verification/reference_small_shear",
-                                           "configs/verification/bonded_layer", "configs/verification/gsmini_force",
                                            "tests/verification/hertz_reduced", "tests/verification/flat_punch_reduced"),
                          [](const auto& test) { return std::filesystem::path(test.param).filename().string(); });
 

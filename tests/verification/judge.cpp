@@ -71,7 +71,7 @@ Row judge_row(const Expectation& e, const Outcome& outcome, double modulus_ratio
   return row;
 }
 
-/// Front positions against another solver's on the same mesh, the worst frame of each number.
+/// Front positions against another solver's on the same mesh, of the last frame or the worst of all.
 std::vector<Row> compare_positions(const ReferenceSpec& spec, const Outcome& outcome,
                                    const std::filesystem::path& shared) {
   const NpyArray theirs = read_npy(resolve(spec.displacement, shared));
@@ -82,7 +82,7 @@ std::vector<Row> compare_positions(const ReferenceSpec& spec, const Outcome& out
   const std::vector<int> front = outcome.gel.vertices(BoundaryTag::front);
   double worst_share_m = 0.0, worst_rms_m = 0.0;
   std::size_t worst_frame = 0;
-  for (std::size_t f = 1; f < theirs.shape[0]; ++f) {
+  for (std::size_t f = spec.all_frames ? 1 : theirs.shape[0] - 1; f < theirs.shape[0]; ++f) {
     const std::size_t ours = f - 1 + static_cast<std::size_t>(spec.first_frame);
     if (ours >= frames.size()) throw DataError("frame {} of the reference has no counterpart", f);
     std::vector<double> difference;
