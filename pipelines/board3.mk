@@ -1,9 +1,12 @@
 # The friction experiments of the paper: board3 pressed 0.5 mm into a 3 mm gel, then dragged by 1 mm or turned by 0.25 rad, and how
-# evenly the markers follow. MESH= another file of configs/tetmesh; MESH=import_paper_3mm is the published gel (long).
+# evenly the markers follow. MESH= another file of configs/tetmesh, import_paper_3mm for the published gel (long); PRESS= another file of
+# configs/press (paper_friction_viscous: with viscosity).
 # SHARED is a folder with data/tacipc_release (not part of this repository).
 
 BOARD3 := $(OUT)/board3
 BOARD3_MESH := $(if $(filter MESH,$(given)),$(MESH),focused_0200um)
+BOARD3_PRESS := $(if $(filter PRESS,$(given)),$(PRESS),friction)
+BOARD3_RUN := $(BOARD3)/$(BOARD3_MESH)-$(BOARD3_PRESS)
 BOARD3_SAMPLES := board3_shear board3_twist
 BOARD3_OBJECT := $(SHARED)/data/tacipc_release/objects/board3.obj
 
@@ -14,6 +17,9 @@ endif
 ifeq ($(wildcard configs/tetmesh/$(BOARD3_MESH).yaml),)
   $(error MESH: there is no configs/tetmesh/$(BOARD3_MESH).yaml (there are: $(MESHES)))
 endif
+ifeq ($(wildcard configs/press/$(BOARD3_PRESS).yaml),)
+  $(error PRESS: there is no configs/press/$(BOARD3_PRESS).yaml)
+endif
 endif
 
 $(BOARD3)/object/decimate.yaml: $(BOARD3_OBJECT) configs/objects/printed_indenter.yaml configs/decimate/default.yaml | build
@@ -23,13 +29,13 @@ $(BOARD3)/object/decimate.yaml: $(BOARD3_OBJECT) configs/objects/printed_indente
 $(OUT)/gels/mctac_3mm-import_paper_3mm/tetmesh.yaml: $(PAPER_GEL) configs/tetmesh/import_paper_3mm.yaml configs/sensors/mctac_3mm.yaml | build
 	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac_3mm.yaml --config configs/tetmesh/import_paper_3mm.yaml)
 
-$(foreach s,$(BOARD3_SAMPLES),$(eval $(call sample_rules,$(BOARD3)/$(BOARD3_MESH)/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(BOARD3_MESH),configs/samples/$(s).yaml,configs/press/friction.yaml)))
+$(foreach s,$(BOARD3_SAMPLES),$(eval $(call sample_rules,$(BOARD3_RUN)/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(BOARD3_MESH),configs/samples/$(s).yaml,configs/press/$(BOARD3_PRESS).yaml)))
 
-$(BOARD3)/$(BOARD3_MESH)/page/marker_curve.yaml: configs/marker_curve/board3.yaml $(BOARD3_SAMPLES:%=$(BOARD3)/$(BOARD3_MESH)/%/press/press.yaml) | build-long
-	$(call run,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3)/$(BOARD3_MESH)/%/press))
+$(BOARD3_RUN)/page/marker_curve.yaml: configs/marker_curve/board3.yaml $(BOARD3_SAMPLES:%=$(BOARD3_RUN)/%/press/press.yaml) | build-long
+	$(call run,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3_RUN)/%/press))
 
 .PHONY: board3
-board3: $(BOARD3)/$(BOARD3_MESH)/page/marker_curve.yaml ## Friction experiments of the paper (needs SHARED); writes docs/verification/board3.md with its plots (an hour)
+board3: $(BOARD3_RUN)/page/marker_curve.yaml ## Friction experiments of the paper (needs SHARED); writes docs/verification/board3.md with its plots (an hour)
 	mkdir -p docs/verification
 	cp $(<D)/tables.md docs/verification/board3.md
 	cp $(<D)/*.svg docs/verification/
