@@ -84,6 +84,16 @@ TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres
   return mesh;
 }
 
+double signed_volume(const TriangleMesh& mesh) {
+  double volume = 0.0;
+  for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
+    const Vector3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
+                  c = mesh.positions.row(mesh.triangles(f, 2));
+    volume += a.dot(b.cross(c)) / 6.0;
+  }
+  return volume;
+}
+
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
   static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
   std::string bytes = fmt::format(

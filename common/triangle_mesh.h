@@ -27,6 +27,10 @@ double metres_per_unit(const std::string& unit);  // "m", "cm", "mm", "um", "in"
 /// `FILE: vertex N is not finite` (counted from 0 in file order), `FILE: has no triangles`.
 TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres_per_unit);
 
+/// Σ a · (b × c) / 6 over the triangles (a, b, c), m³: what a closed mesh encloses, by the divergence theorem. Positive
+/// if the triangles look outwards, negative if inwards; of an open mesh it depends on the origin and means nothing.
+double signed_volume(const TriangleMesh& mesh);
+
 /// Binary little-endian PLY with double coordinates in metres. \throw DataError if it cannot be written.
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
 

@@ -93,15 +93,6 @@ Vector3 area_vector(const TriangleMesh& mesh, int face) {
   return 0.5 * (corner(mesh, face, 1) - a).cross(corner(mesh, face, 2) - a);
 }
 
-double signed_volume(const TriangleMesh& mesh) {
-  if (mesh.num_triangles() == 0) return 0.0;
-  const Vector3 origin = corner(mesh, 0, 0);
-  double sum = 0.0;
-  for (int f = 0; f < static_cast<int>(mesh.num_triangles()); ++f)
-    sum += (corner(mesh, f, 0) - origin).dot(area_vector(mesh, f));
-  return sum / 3.0;
-}
-
 double surface_area(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (int f = 0; f < static_cast<int>(mesh.num_triangles()); ++f) sum += area_vector(mesh, f).norm();

@@ -49,8 +49,6 @@ double largest_extent(const TriangleMesh& mesh);
 Vector3 corner(const TriangleMesh& mesh, int face, int k);
 /// Area vector: normal times area, m².
 Vector3 area_vector(const TriangleMesh& mesh, int face);
-/// Σ x₀ · (x₁ × x₂) / 6 about the first corner, m³: positive if the faces look outwards.
-double signed_volume(const TriangleMesh& mesh);
 double surface_area(const TriangleMesh& mesh);
 
 }  // namespace tacipc

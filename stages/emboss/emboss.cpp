@@ -89,13 +89,4 @@ ByteImage relief_picture(const EmbossConfig& config, const Height& relief, int w
   return image;
 }
 
-double enclosed_volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (Eigen::Index t = 0; t < mesh.num_triangles(); ++t) {
-    const auto corner = [&](int c) -> Vector3 { return mesh.positions.row(mesh.triangles(t, c)); };
-    sum += corner(0).dot(corner(1).cross(corner(2)));
-  }
-  return sum / 6.0;
-}
-
 }  // namespace tacipc

@@ -31,7 +31,4 @@ EmbossedCoin emboss(const EmbossConfig& config, const Height& relief);
 /// The relief seen from outside, x right, y up: grey 255 · fraction over the square around the coin.
 ByteImage relief_picture(const EmbossConfig& config, const Height& relief, int width_px);
 
-/// Volume in m³ that a closed mesh encloses: Σ det[a, b, c] / 6.
-double enclosed_volume(const TriangleMesh& mesh);
-
 }  // namespace tacipc

@@ -39,6 +39,6 @@ int main(int argc, char** argv) {
                      {"relief_height_mm", 1e3 * coin.relief_height_m},
                      {"raised_share", coin.raised_share},
                      {"extents_mm", std::vector<double>{1e3 * extents.x(), 1e3 * extents.y(), 1e3 * extents.z()}},
-                     {"volume_mm3", 1e9 * enclosed_volume(coin.mesh)}});
+                     {"volume_mm3", 1e9 * signed_volume(coin.mesh)}});
   });
 }

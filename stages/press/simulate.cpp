@@ -24,17 +24,6 @@ double median_front_edge_m(const TetMesh& gel) {
   return lengths[lengths.size() / 2];
 }
 
-/// Volume inside a closed surface, by the divergence theorem.
-double enclosed_volume_m3(const TriangleMesh& mesh) {
-  double volume = 0.0;
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    const Vector3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
-                  c = mesh.positions.row(mesh.triangles(f, 2));
-    volume += a.dot(b.cross(c)) / 6.0;
-  }
-  return volume;
-}
-
 class Motion {
  public:
   Motion(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
@@ -72,7 +61,7 @@ class Motion {
                                                    [](const Phase& phase) { return phase.load_n.has_value(); }))
       throw UsageError("constraints: augmented_lagrangian holds the object to its pose; a load needs elimination");
     if (sample.density_kg_m3) {
-      out_.object_mass_kg = *sample.density_kg_m3 * enclosed_volume_m3(object);
+      out_.object_mass_kg = *sample.density_kg_m3 * signed_volume(object);
       if (!(out_.object_mass_kg > 0.0)) throw DataError("the object encloses no volume, so it has no mass");
     }
     out_.front = make_front_surface(gel);

@@ -185,6 +185,16 @@ TEST_F(TriangleMeshFile, PlyFaultsAreNamed) {
   EXPECT_EQ(error("a.xyz", "1 2 3"), "a.xyz: '.xyz' is no known mesh suffix (.stl, .obj, .off, .ply)");
 }
 
+TEST(SignedVolume, IsThatOfTheSolidWhereverItLies) {
+  TriangleMesh mesh{tet_positions(1e-3), tet_triangles()};  // three edges of 1 mm at right angles
+  EXPECT_NEAR(signed_volume(mesh), 1e-9 / 6, 1e-24);
+  mesh.positions.rowwise() += Eigen::RowVector3d(0.02, -0.03, 0.05);
+  EXPECT_NEAR(signed_volume(mesh), 1e-9 / 6, 1e-20);
+  mesh.triangles.col(0).swap(mesh.triangles.col(1));
+  EXPECT_NEAR(signed_volume(mesh), -1e-9 / 6, 1e-20) << "inside out";
+  EXPECT_EQ(signed_volume({}), 0.0);
+}
+
 TEST(Units, AreMetresPerUnit) {
   EXPECT_EQ(metres_per_unit("mm"), 1e-3);
   EXPECT_EQ(metres_per_unit("um"), 1e-6);

@@ -27,16 +27,6 @@ double volume(const TetMesh& gel) {
   return sum;
 }
 
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
-    const Vector3 a = mesh.positions.row(mesh.triangles(f, 0)), b = mesh.positions.row(mesh.triangles(f, 1)),
-                  c = mesh.positions.row(mesh.triangles(f, 2));
-    sum += a.dot(b.cross(c)) / 6.0;
-  }
-  return sum;
-}
-
 /// Every edge belongs to two triangles that run through it in opposite directions.
 void expect_closed(const Triangles& triangles) {
   std::map<std::pair<int, int>, int> seen;
@@ -137,7 +127,7 @@ class ObjectTest : public ::testing::TestWithParam<ObjectCase> {};
 TEST_P(ObjectTest, IsClosedOutwardAndStandsOnZero) {
   const TriangleMesh mesh = make_object(GetParam().shape, "");
   expect_closed(mesh.triangles);
-  EXPECT_NEAR(volume(mesh) / GetParam().volume_m3, 1.0, GetParam().tolerance);
+  EXPECT_NEAR(signed_volume(mesh) / GetParam().volume_m3, 1.0, GetParam().tolerance);
   EXPECT_NEAR(mesh.positions.col(2).minCoeff(), 0.0, 1e-15);
   // Centred by its bounding box, as the press places it, over the origin.
   const Vector3 centre = 0.5 * (mesh.positions.colwise().minCoeff() + mesh.positions.colwise().maxCoeff());
