@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/error.h"
+#include "tests/config_text.h"
 
 namespace tacipc {
 namespace {
@@ -45,24 +45,16 @@ TEST(MarkerGrid, DefaultsAreNineteenByNineteenAtOneMillimetre) {
 }
 
 TEST(MarkerGrid, IsReadInMillimetresAndItsFaultsHaveAPlace) {
-  ConfigReader in = ConfigReader::from_text("{rows: 2, columns: 3, pitch_mm: 0.5, center_mm: [1, -2]}", "m.yaml");
-  const MarkerGrid grid = MarkerGrid::read(in);
-  in.finish();
+  const auto grid = config_from_text<MarkerGrid>("{rows: 2, columns: 3, pitch_mm: 0.5, center_mm: [1, -2]}", "m.yaml");
   EXPECT_TRUE(grid.given);
   EXPECT_DOUBLE_EQ(grid.x_m(0), 0.5e-3);
   EXPECT_DOUBLE_EQ(grid.x_m(2), 1.5e-3);
   EXPECT_DOUBLE_EQ(grid.y_m(0), -2.25e-3);
 
-  ConfigReader odd = ConfigReader::from_text("rows: 0\npitch_mm: 0\nspacing: 1\n", "m.yaml");
-  MarkerGrid::read(odd);
-  try {
-    odd.finish();
-    FAIL() << "accepted";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.faults(), ::testing::ElementsAre("m.yaml:1:7: rows: 0 is outside [1, 1000]",
-                                                       "m.yaml:2:11: pitch_mm: 0 is outside (0, inf)",
-                                                       "m.yaml:3:1: spacing: unknown key"));
-  }
+  EXPECT_THAT(
+      faults_in<MarkerGrid>("rows: 0\npitch_mm: 0\nspacing: 1\n", "m.yaml"),
+      ::testing::ElementsAre("m.yaml:1:7: rows: 0 is outside [1, 1000]", "m.yaml:2:11: pitch_mm: 0 is outside (0, inf)",
+                             "m.yaml:3:1: spacing: unknown key"));
 }
 
 TEST(ColorOfTemperature, MatchesTheTable) {
@@ -78,23 +70,15 @@ TEST(ColorOfTemperature, MatchesTheTable) {
 
 TEST(Material, LawIsOneOfTwoAndIncompressibilityIsOutOfReach) {
   for (const char* law : {"neo_hookean", "stvk_hencky"}) {
-    ConfigReader in = ConfigReader::from_text(
+    const auto material = config_from_text<Material>(
         fmt::format("law: {}\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.4999\n", law), "m.yaml");
-    const Material material = Material::read(in);
-    in.finish();
     EXPECT_EQ(material.law, law);
     EXPECT_NEAR(material.lame_lambda_pa(), 1e5 * 0.4999 / (1.4999 * 0.0002), 1e-2);
   }
-  ConfigReader in = ConfigReader::from_text(
-      "law: stvk\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.5\n", "m.yaml");
-  Material::read(in);
-  try {
-    in.finish();
-    FAIL() << "accepted";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.faults(), ::testing::ElementsAre("m.yaml:1:6: law: 'stvk' is not one of neo_hookean, stvk_hencky",
-                                                       "m.yaml:4:17: poissons_ratio: 0.5 is outside [0, 0.4999]"));
-  }
+  EXPECT_THAT(
+      faults_in<Material>("law: stvk\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.5\n", "m.yaml"),
+      ::testing::ElementsAre("m.yaml:1:6: law: 'stvk' is not one of neo_hookean, stvk_hencky",
+                             "m.yaml:4:17: poissons_ratio: 0.5 is outside [0, 0.4999]"));
 }
 
 TEST(Sensor, FaultsOfMeaningNameTheirPlace) {
@@ -108,18 +92,11 @@ TEST(Sensor, FaultsOfMeaningNameTheirPlace) {
       "    - {position_mm: [0, 0, -9], intensity: 1}\n"
       "camera: {position_mm: [0, 0, 12], width_px: 64, height_px: 48, window_mm: [8, 6]}\n"
       "response: {mean_level: 0.5, curve: srgb}\n";
-  ConfigReader in = ConfigReader::from_text(text, "odd.yaml");
-  Sensor::read(in);
-  try {
-    in.finish();
-    FAIL() << "accepted";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(
-        error.faults(),
-        ::testing::ElementsAre("odd.yaml:2:51: gel.thickness_mm: must exceed the dome's sag, 6.771 mm",
-                               "odd.yaml:7:7: leds.list[0].rgb_linear: give either rgb_linear or cct_k",
-                               "odd.yaml:8:23: camera.position_mm: the camera must lie behind the front face (z < 0)"));
-  }
+  EXPECT_THAT(
+      faults_in<Sensor>(text, "odd.yaml"),
+      ::testing::ElementsAre("odd.yaml:2:51: gel.thickness_mm: must exceed the dome's sag, 6.771 mm",
+                             "odd.yaml:7:7: leds.list[0].rgb_linear: give either rgb_linear or cct_k",
+                             "odd.yaml:8:23: camera.position_mm: the camera must lie behind the front face (z < 0)"));
 }
 
 }  // namespace

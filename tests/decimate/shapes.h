@@ -1,11 +1,9 @@
 // Closed surfaces with known sizes, in metres.
 #pragma once
 
-#include "common/triangle_mesh.h"
+#include "tests/make_mesh.h"
 
 namespace tacipc {
-
-TriangleMesh make_mesh(const std::vector<Vector3>& vertices, const std::vector<std::array<int, 3>>& faces);
 
 /// Cube [0, size]³, each side a grid of n × n squares.
 TriangleMesh cube(double size_m, int n = 1);

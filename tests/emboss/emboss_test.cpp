@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "common/error.h"
+#include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -22,12 +23,7 @@ std::string config_text(const std::string& pattern, int vertices = 4000) {
          std::to_string(vertices) + "\npattern: {" + pattern + "}\n";
 }
 
-EmbossConfig config_of(const std::string& text) {
-  ConfigReader in = ConfigReader::from_text(text, "c.yaml");
-  EmbossConfig config = EmbossConfig::read(in);
-  in.finish();
-  return config;
-}
+EmbossConfig config_of(const std::string& text) { return config_from_text<EmbossConfig>(text, "c.yaml"); }
 
 /// The nineteen shipped patterns by name.
 std::vector<fs::path> shipped() {

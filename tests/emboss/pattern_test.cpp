@@ -19,7 +19,7 @@ double outline_at(const std::string& text, double x_mm, double y_mm) {
   return 1e3 * std::get<Outline>(pattern_of(text)).distance(1e-3 * Vector2(x_mm, y_mm));
 }
 
-std::string faults_of(const std::string& text) {
+std::string refusal(const std::string& text) {
   return message_of<ConfigError>([&] { pattern_of(text); });
 }
 
@@ -52,19 +52,17 @@ TEST(Pattern, OnlyWholeDotsAreKept) {
 
 TEST(Pattern, FaultsNameTheKey) {
   EXPECT_EQ(
-      faults_of("{kind: txt}"),
+      refusal("{kind: txt}"),
       "p.yaml:1:1: text: missing\np.yaml:1:1: height_mm: missing\np.yaml:1:1: stroke_mm: missing\n"
       "p.yaml:1:8: kind: 'txt' is not one of text, polygon, star, gear, lines, rings, dots, checker, bricks, weave, "
       "honeycomb, cobbles, noise, ridges, image (did you mean text?)");
-  EXPECT_EQ(faults_of("{kind: text, text: Tac, height_mm: 3, stroke_mm: 0.5}"),
+  EXPECT_EQ(refusal("{kind: text, text: Tac, height_mm: 3, stroke_mm: 0.5}"),
             "p.yaml:1:20: text: no shape for 'ac' (there are A-Z, 0-9 and + - . ! ?)");
-  EXPECT_EQ(faults_of("{kind: text, text: ' ', height_mm: 3, stroke_mm: 0.5}"), "p.yaml:1:20: text: is empty");
-  EXPECT_EQ(faults_of("{kind: star, points: 5, outer_mm: 6, inner_mm: 2}"),
+  EXPECT_EQ(refusal("{kind: text, text: ' ', height_mm: 3, stroke_mm: 0.5}"), "p.yaml:1:20: text: is empty");
+  EXPECT_EQ(refusal("{kind: star, points: 5, outer_mm: 6, inner_mm: 2}"),
             "p.yaml:1:35: outer_mm: the pattern reaches 6.00 mm from the middle, the face has room for 5.00 mm");
-  EXPECT_EQ(faults_of("{kind: lines, pitch_mm: 1, width_mm: 1}"),
-            "p.yaml:1:38: width_mm: must be below pitch_mm, 1 mm");
-  EXPECT_EQ(faults_of("{kind: rings, pitch_mm: 1, width_mm: 0.5, angle_deg: 3}"),
-            "p.yaml:1:43: angle_deg: unknown key");
+  EXPECT_EQ(refusal("{kind: lines, pitch_mm: 1, width_mm: 1}"), "p.yaml:1:38: width_mm: must be below pitch_mm, 1 mm");
+  EXPECT_EQ(refusal("{kind: rings, pitch_mm: 1, width_mm: 0.5, angle_deg: 3}"), "p.yaml:1:43: angle_deg: unknown key");
 }
 
 TEST(Pattern, APicturesPathCountsFromTheConfiguration) {

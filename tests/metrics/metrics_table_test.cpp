@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/image.h"
 #include "stages/metrics/ssim.h"
+#include "tests/config_text.h"
 #include "tests/metrics/test_images.h"
 #include "tests/scratch_folder.h"
 
@@ -19,12 +20,7 @@ ImagePair pair_in(const ScratchFolder& folder, const ByteImage& a, const ByteIma
   return {"a.png", folder / "a.png", folder / "b.png"};
 }
 
-MetricsConfig config_of(const std::string& text) {
-  ConfigReader in = ConfigReader::from_text(text, "m.yaml");
-  MetricsConfig config = MetricsConfig::read(in);
-  in.finish();
-  return config;
-}
+MetricsConfig config_of(const std::string& text) { return config_from_text<MetricsConfig>(text, "m.yaml"); }
 
 TEST(Measure, CropIsTheSameAsComparingTheCutOutImages) {
   const ScratchFolder folder;

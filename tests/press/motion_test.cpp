@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "stages/press/press_config.h"
+#include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -29,12 +30,7 @@ PhaseStart start_at_rest() {
           .load_n = Vector3::Zero()};
 }
 
-Phase phase_of(const std::string& text) {
-  ConfigReader in = ConfigReader::from_text(text, "x.yaml");
-  const Phase phase = Phase::read(in);
-  in.finish();
-  return phase;
-}
+Phase phase_of(const std::string& text) { return config_from_text<Phase>(text, "x.yaml"); }
 
 TEST(Goal, PressLowersTheLowestPointEvenly) {
   const Phase phase = phase_of("{kind: press, depth_mm: 0.45, steps: 5}");
@@ -107,10 +103,7 @@ class Path : public ::testing::Test {
  protected:
   Phase read(const std::string& rows, const std::string& more = "") {
     scratch_.file("path.csv", rows);
-    ConfigReader in = ConfigReader::from_file(scratch_.file("motion.yaml", "{kind: path, file: path.csv" + more + "}"));
-    const Phase phase = Phase::read(in);
-    in.finish();
-    return phase;
+    return read_config<Phase>(scratch_.file("motion.yaml", "{kind: path, file: path.csv" + more + "}"));
   }
   std::string refusal(const std::string& rows) {
     try {
@@ -159,24 +152,17 @@ TEST_F(Path, NamesTheLineThatIsWrong) {
 }
 
 TEST(SampleSpec, FaultsOfPhasesAreNamedTogether) {
-  try {
-    ConfigReader in = ConfigReader::from_text(
-        "motion:\n  - {kind: press, force_n: 4, depth_mm: 1, steps: 5}\n  - {kind: twist, angle: 5, steps: 5}\n"
-        "  - {kind: load, force_n: [0, 0, -1], free: zw, steps: 1}\n",
-        "x.yaml");
-    SampleSpec::read(in);
-    in.finish();
-    FAIL() << "accepted";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.faults(),
-                ElementsAre("x.yaml:2:28: motion[0].force_n: a press has a depth_mm or a force_n, not both",
-                            "x.yaml:2:28: motion[0].force_n: a force moves the object only if its object.density_kg_m3 "
-                            "is given",
-                            "x.yaml:3:5: motion[1].angle_deg: missing", "x.yaml:3:19: motion[1].angle: unknown key",
-                            "x.yaml:4:27: motion[2].force_n: a force moves the object only if its "
-                            "object.density_kg_m3 is given",
-                            "x.yaml:4:45: motion[2].free: 'zw' is not made of the letters x, y, z"));
-  }
+  const auto faults = faults_in<SampleSpec>(
+      "motion:\n  - {kind: press, force_n: 4, depth_mm: 1, steps: 5}\n  - {kind: twist, angle: 5, steps: 5}\n"
+      "  - {kind: load, force_n: [0, 0, -1], free: zw, steps: 1}\n",
+      "x.yaml");
+  EXPECT_THAT(
+      faults,
+      ElementsAre("x.yaml:2:28: motion[0].force_n: a press has a depth_mm or a force_n, not both",
+                  "x.yaml:2:28: motion[0].force_n: a force moves the object only if its object.density_kg_m3 is given",
+                  "x.yaml:3:5: motion[1].angle_deg: missing", "x.yaml:3:19: motion[1].angle: unknown key",
+                  "x.yaml:4:27: motion[2].force_n: a force moves the object only if its object.density_kg_m3 is given",
+                  "x.yaml:4:45: motion[2].free: 'zw' is not made of the letters x, y, z"));
 }
 
 }  // namespace

@@ -4,24 +4,12 @@
 
 #include <numbers>
 
-#include "common/error.h"
+#include "tests/config_text.h"
 
 namespace tacipc {
 namespace {
 
 using ::testing::ElementsAre;
-
-template <typename T>
-std::vector<std::string> faults_of(const std::string& text) {
-  try {
-    ConfigReader in = ConfigReader::from_text(text, "x.yaml");
-    T::read(in);
-    in.finish();
-  } catch (const ConfigError& error) {
-    return error.faults();
-  }
-  return {};
-}
 
 TEST(PressConfig, ShippedSettingsAreThePapers) {
   const auto config = read_config<PressConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/press/paper.yaml");
@@ -34,17 +22,16 @@ TEST(PressConfig, ShippedSettingsAreThePapers) {
 
 TEST(PressConfig, StartGapMustExceedDHat) {
   EXPECT_THAT(
-      faults_of<PressConfig>(
-          "time_step_s: 0.01\nnewton: {}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6, start_gap_d_hat: 1}\n"),
+      faults_in<PressConfig>(
+          "time_step_s: 0.01\nnewton: {}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6, start_gap_d_hat: 1}\n",
+          "x.yaml"),
       ElementsAre("x.yaml:3:66: barrier.start_gap_d_hat: 1 is outside (1, 100]"));
 }
 
 TEST(SampleSpec, ReadsPlacementAndMotionInSi) {
-  ConfigReader in = ConfigReader::from_text(
+  const auto sample = config_from_text<SampleSpec>(
       "placement: {face: +x, rotate_deg: 90, center_mm: [1, -2]}\nmotion: {kind: press, depth_mm: 0.5, steps: 5}\n",
       "x.yaml");
-  const SampleSpec sample = SampleSpec::read(in);
-  in.finish();
   EXPECT_EQ(sample.face, "+x");
   EXPECT_DOUBLE_EQ(sample.rotate_rad, std::numbers::pi / 2);
   EXPECT_DOUBLE_EQ(sample.center_y_m, -0.002);
@@ -56,7 +43,7 @@ TEST(SampleSpec, ReadsPlacementAndMotionInSi) {
 
 TEST(SampleSpec, NamesWhatIsWrong) {
   EXPECT_THAT(
-      faults_of<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n"),
+      faults_in<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n", "x.yaml"),
       ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
                   "x.yaml:2:16: motion.kind: 'push' is not one of press, shear, twist, hold, release, tilt, path, "
                   "load (did you mean path?)",

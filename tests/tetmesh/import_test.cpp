@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/files.h"
 #include "stages/tetmesh/tetmesh_config.h"
+#include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 #include "tests/shared_data.h"
 #include "tests/tetmesh/gels.h"
@@ -147,15 +148,11 @@ TEST_F(ImportTest, RefusesATruncatedFileAndOneWithoutTets) {
 }
 
 TEST(ImportConfig, FaultsNameTheirPlace) {
-  ConfigReader in = ConfigReader::from_text(
+  const std::string text =
       "kind: import\nunit: m\ntransform: {scale: [1, 1, -1], rotation_axis: [0, 0, 0], rotation_deg: 90, "
       "translation_mm: [0, 0, 0]}\nglued: {plane_z_mm: -2, tolerance_mm: 0, max_angle_deg: 5}\n"
-      "front: {max_angle_deg: 45}\nlimits: {fit_tolerance_mm: 0, min_dihedral_deg: 1}\n",
-      "i.yaml");
-  EXPECT_EQ(message_of<ConfigError>([&] {
-              TetmeshConfig::read(in);
-              in.finish();
-            }),
+      "front: {max_angle_deg: 45}\nlimits: {fit_tolerance_mm: 0, min_dihedral_deg: 1}\n";
+  EXPECT_EQ(message_of<ConfigError>([&] { config_from_text<TetmeshConfig>(text, "i.yaml"); }),
             "i.yaml:3:27: transform.scale[2]: -1 is outside (0, inf)\n"
             "i.yaml:3:47: transform.rotation_axis: must not be zero\n"
             "i.yaml:4:21: glued.plane_z_mm: give either plane_z_mm (with tolerance_mm) or max_angle_deg");

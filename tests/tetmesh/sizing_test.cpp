@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 #include "tests/tetmesh/gels.h"
 
@@ -72,13 +73,11 @@ TEST(Sizing, ADomeMustLeaveARim) {
 }
 
 TEST(Sizing, FaultsNameTheirPlace) {
-  ConfigReader in = ConfigReader::from_text(
-      "centre_mm: 0.1\ncentre_radius_mm: 7\ninner_mm: 0\ninner_radius_mm: 6\nrim_mm: 4\nrim_exponent: 1\nback_mm: 1\n"
-      "depth_exponents: 1\n",
-      "s.yaml");
-  EXPECT_EQ(message_of<ConfigError>([&] {
-              SizingConfig::read(in);
-              in.finish();
+  EXPECT_EQ(message_of<ConfigError>([] {
+              config_from_text<SizingConfig>(
+                  "centre_mm: 0.1\ncentre_radius_mm: 7\ninner_mm: 0\ninner_radius_mm: 6\nrim_mm: 4\nrim_exponent: 1\n"
+                  "back_mm: 1\ndepth_exponents: 1\n",
+                  "s.yaml");
             }),
             "s.yaml:1:1: depth_exponent: missing\n"
             "s.yaml:2:19: centre_radius_mm: must be less than inner_radius_mm\n"

@@ -1,8 +1,8 @@
 // Cases as users write them: what is read, and every fault at its place.
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "common/files.h"
+#include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 #include "tests/verification/plot.h"
 #include "tests/verification/run_case.h"
@@ -25,21 +25,9 @@ motion: {kind: press, depth_mm: 0.5, steps: 1}
 expect:
 )";
 
-CaseSpec read(const std::string& text) {
-  ConfigReader in = ConfigReader::from_text(text, "case.yaml");
-  const CaseSpec spec = CaseSpec::read(in);
-  in.finish();
-  return spec;
-}
+CaseSpec read(const std::string& text) { return config_from_text<CaseSpec>(text, "case.yaml"); }
 
-std::vector<std::string> faults_of(const std::string& text) {
-  try {
-    read(text);
-  } catch (const ConfigError& error) {
-    return error.faults();
-  }
-  return {};
-}
+std::vector<std::string> faults_of_case(const std::string& text) { return faults_in<CaseSpec>(text, "case.yaml"); }
 
 TEST(Case, ReadsAllOfARow) {
   const CaseSpec spec = read(kCase + "  - {quantity: press_force_n, value: 0.2, within_percent: 3, depth_mm: 0.5}\n");
@@ -54,19 +42,19 @@ TEST(Case, ReadsAllOfARow) {
 }
 
 TEST(Case, EveryFaultIsReportedAtItsPlace) {
-  EXPECT_EQ(faults_of(kCase + "  - {quantity: pres_force_n, value: 0.2, within_percent: 3}\n").size(), 1u);
-  EXPECT_EQ(faults_of(kCase + "  - {quantity: press_force_n, value: 0.2}\n"),
+  EXPECT_EQ(faults_of_case(kCase + "  - {quantity: pres_force_n, value: 0.2, within_percent: 3}\n").size(), 1u);
+  EXPECT_EQ(faults_of_case(kCase + "  - {quantity: press_force_n, value: 0.2}\n"),
             std::vector<std::string>{
                 "case.yaml:14:16: expect[0].quantity: give one of within_percent, within, at_most, at_least"});
-  EXPECT_EQ(faults_of(kCase + "  - {quantity: press_force_n, within: 2}\n"),
+  EXPECT_EQ(faults_of_case(kCase + "  - {quantity: press_force_n, within: 2}\n"),
             std::vector<std::string>{"case.yaml:14:16: expect[0].quantity: give the value or formula it must be near"});
-  EXPECT_EQ(faults_of(kCase + "  - {quantity: press_force_n, value: 1, formula: hertz, within: 2}\n"),
+  EXPECT_EQ(faults_of_case(kCase + "  - {quantity: press_force_n, value: 1, formula: hertz, within: 2}\n"),
             std::vector<std::string>{"case.yaml:14:50: expect[0].formula: give value or formula, not both"});
-  EXPECT_EQ(faults_of(kCase + "  - {quantity: press_force_n, at_most: 1, frame: 1, depth_mm: 1}\n"),
+  EXPECT_EQ(faults_of_case(kCase + "  - {quantity: press_force_n, at_most: 1, frame: 1, depth_mm: 1}\n"),
             std::vector<std::string>{"case.yaml:14:50: expect[0].frame: give at most one of frame, phase, depth_mm"});
   std::string two = kCase + "  - {quantity: press_force_n, at_most: 1}\n";
   two.replace(two.find("  sphere"), 0, "  plate: {half_width_mm: 3}\n");
-  EXPECT_EQ(faults_of(two),
+  EXPECT_EQ(faults_of_case(two),
             std::vector<std::string>{
                 "case.yaml:8:11: shape.sphere: give one of sphere, punch, cone, cylinder, plate, block, wedge, file"});
 }

@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "common/npy.h"
+#include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc::verify {
@@ -149,13 +150,9 @@ TEST(MarkerCurveConfig, ReadsItsKeys) {
                                 "rows: {first: 8, last: 7}\ncolumns: {first: 8, last: 11}\nsettled_load: 1.5\n"
                                 "second_difference_limit: 0.05\n");
   const std::string place = file.string();
-  try {
-    read_config<MarkerCurveConfig>(file);
-    FAIL() << "was accepted";
-  } catch (const ConfigError& error) {
-    EXPECT_EQ(error.faults(), (std::vector<std::string>{place + ":1:24: rows.last: 7 is below 8",
-                                                        place + ":3:15: settled_load: 1.5 is outside (0, 1)"}));
-  }
+  EXPECT_EQ(faults_of([&] { read_config<MarkerCurveConfig>(file); }),
+            (std::vector<std::string>{place + ":1:24: rows.last: 7 is below 8",
+                                      place + ":3:15: settled_load: 1.5 is outside (0, 1)"}));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "tests/make_mesh.h"
 #include "tests/verification/shared_files.h"
 
 namespace tacipc::verify {
@@ -14,16 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 constexpr double kMillimetre = 1e-3;
-
-TriangleMesh to_mesh(const std::vector<Vector3>& points, const std::vector<std::array<int, 3>>& triangles) {
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) mesh.positions.row(static_cast<Eigen::Index>(i)) = points[i];
-  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    mesh.triangles.row(static_cast<Eigen::Index>(i)) << triangles[i][0], triangles[i][1], triangles[i][2];
-  return mesh;
-}
 
 /// Edges are `edge_m` long up to `fine_radius_m` along the meridian, then grow by a third of the way beyond.
 TriangleMesh sphere(const ObjectShape& s) {
@@ -113,7 +104,7 @@ TriangleMesh revolve(const std::vector<Vector2d>& profile, const std::vector<dou
       }
     }
   }
-  return to_mesh(points, triangles);
+  return make_mesh(points, triangles);
 }
 
 TriangleMesh extrude(const std::vector<Vector2d>& polygon, double length_m, int slices) {
@@ -133,7 +124,7 @@ TriangleMesh extrude(const std::vector<Vector2d>& polygon, double length_m, int 
     triangles.push_back({0, i, i + 1});
     triangles.push_back({slices * n, slices * n + i + 1, slices * n + i});
   }
-  return to_mesh(points, triangles);
+  return make_mesh(points, triangles);
 }
 
 ObjectShape ObjectShape::read(ConfigReader& in) {
@@ -211,8 +202,8 @@ TriangleMesh make_object(const ObjectShape& s, const std::filesystem::path& shar
     case Kind::plate: {
       // The circle of radius w inside the lower face has the centre of the bounding box: the tip leans out for that.
       const double side = std::numbers::sqrt3 * w;
-      return to_mesh({{-side, -w, 0}, {side, -w, 0}, {0, 2 * w, 0}, {0, -2 * w, w}},
-                     {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+      return make_mesh({{-side, -w, 0}, {side, -w, 0}, {0, 2 * w, 0}, {0, -2 * w, w}},
+                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
     }
     case Kind::block:
       return extrude({{-w, 0}, {w, 0}, {w, s.height_m}, {-w, s.height_m}}, 2 * s.half_depth_m, 1);

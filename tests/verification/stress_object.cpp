@@ -6,22 +6,13 @@
 #include <map>
 #include <numbers>
 
+#include "tests/make_mesh.h"
 #include "tests/verification/object_shapes.h"
 
 namespace tacipc::verify {
 namespace {
 
 using std::numbers::pi;
-
-TriangleMesh to_mesh(const std::vector<Vector3>& points, const std::vector<std::array<int, 3>>& triangles) {
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) mesh.positions.row(static_cast<Eigen::Index>(i)) = points[i];
-  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    mesh.triangles.row(static_cast<Eigen::Index>(i)) << triangles[i][0], triangles[i][1], triangles[i][2];
-  return mesh;
-}
 
 double longest_edge_m(const TriangleMesh& mesh) {
   double longest = 0.0;
@@ -48,7 +39,7 @@ TriangleMesh pyramid(int sides, double half_angle_rad) {
     triangles.push_back({0, b, a});
     if (i > 0 && i + 1 < sides) triangles.push_back({1, a, b});
   }
-  return to_mesh(points, triangles);
+  return make_mesh(points, triangles);
 }
 
 /// A sphere whose radius is 1 plus bumps and dents at random places.
@@ -111,7 +102,7 @@ TriangleMesh split_triangles(TriangleMesh mesh, double edge_m, int max_vertices)
            {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}})
         triangles.push_back(part);
     }
-    mesh = to_mesh(points, triangles);
+    mesh = make_mesh(points, triangles);
   }
   return mesh;
 }
@@ -139,7 +130,7 @@ TriangleMesh octahedral_sphere(int n) {
       }
     }
   }
-  return to_mesh(points, triangles);
+  return make_mesh(points, triangles);
 }
 
 TriangleMesh torus(double tube, int around, int across) {
@@ -155,7 +146,7 @@ TriangleMesh torus(double tube, int around, int across) {
       triangles.push_back({a, c, d});
     }
   }
-  return to_mesh(points, triangles);
+  return make_mesh(points, triangles);
 }
 
 double contact_radius_m(const TriangleMesh& mesh, double depth_m) {
