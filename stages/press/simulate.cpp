@@ -238,9 +238,8 @@ class Motion {
     frame.inverted_tets = static_cast<int>(count_inverted_tets(frame.positions, gel_.tets));
     judge(frame);
     log_info(
-        "frame {}/{} {}: press {:.4f} N, tangential {:.4f} N, {} Newton iterations in {} steps, smallest gap {:.3g} "
-        "um, "
-        "smallest volume ratio {:.3f}",
+        "frame {}/{} {}: press {:.4f} N, tangential {:.4f} N, {} Newton iterations in {} steps, "
+        "smallest gap {:.3g} um, smallest volume ratio {:.3f}",
         out_.frames.size(), num_frames_, name_of(frame.phase), 0.0 - frame.force_n.z(), frame.force_n.head<2>().norm(),
         frame.solver.newton_iterations, frame.solver.time_steps, 1e6 * frame.min_gap_m, frame.min_volume_ratio);
     if (store_) store_->save(frame, progress_);

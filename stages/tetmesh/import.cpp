@@ -76,8 +76,8 @@ void check_extent(const TetMesh& mesh, const GelShape& gel, double tolerance_m, 
   if (off <= tolerance_m) return;
   const bool disc = gel.outline == GelShape::Outline::disc;
   throw DataError(
-      "{}: its outline or depth differs from the sensor's gel by {:.3g} mm, more than {:g} mm; after the transform it "
-      "fills "
+      "{}: its outline or depth differs from the sensor's gel by {:.3g} mm, more than {:g} mm; "
+      "after the transform it fills "
       "x {:.4g} … {:.4g}, y {:.4g} … {:.4g}, z {:.4g} … {:.4g} mm, the gel {:.4g} × {:.4g} mm and {:.4g} … 0 mm",
       name, off / kMillimetre, tolerance_m / kMillimetre, low.x() / kMillimetre, high.x() / kMillimetre,
       low.y() / kMillimetre, high.y() / kMillimetre, low.z() / kMillimetre, high.z() / kMillimetre,

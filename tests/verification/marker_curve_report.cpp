@@ -99,9 +99,9 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
                               const MarkerCurveConfig& config) {
   std::string out = fmt::format(
       "# Markers under a dragged or turned object\n\nWritten by `make -f Makefile.data board3`; what it shows: "
-      "[board3](../board3.md). Markers of rows {} to {} and columns {} to {}, mean length of their displacement in x "
-      "and y "
-      "since the end of the press. Settled: the friction load stays above {:g} % of its largest.\n\n"
+      "[board3](../board3.md). Markers of rows {} to {} and columns {} to {}, "
+      "mean length of their displacement in x and y since the end of the press. "
+      "Settled: the friction load stays above {:g} % of its largest.\n\n"
       "| Sample | Gel vertices | Frames after the press | Largest first difference | Settled from | Largest second "
       "difference from there | Limit | | Over the whole motion |\n|---|---|---|---|---|---|---|---|---|\n",
       config.first_row, config.last_row, config.first_column, config.last_column, 100.0 * config.settled_load);

@@ -21,7 +21,7 @@ constexpr double kLooseness = 10.0;
 // Renewing friction: it settles slowly or not at all where less than this part of a residual goes; then only a half of
 // the new friction is taken, a quarter, …
 constexpr double kSettling = 0.8, kSmallestRenewal = 0.1;
-constexpr int kMaxWait = 10;  // Newton iterations
+constexpr int kMaxWait = 10;        // Newton iterations
 constexpr double kGapFloor = 1e-4;  // × d̂
 constexpr int kMaxHalvings = 40;
 constexpr double kBlendAfterHalving = 0.1;
@@ -134,9 +134,9 @@ void TimeStepper::minimise(Step& step) {
     const bool held = !step.constraint || step.constraint->largest(direction.p) < 0.3 * kConstraintTolerance;
     if (step.arrived && held && last_residual < step.looseness * newton.velocity_tolerance_m_s) {
       report.contact_force_n = contact_force(step);
-      const bool small = report.force_residual_n <
-                         step.looseness * std::max(newton.force_tolerance_n,
-                                                   newton.relative_force_tolerance * report.contact_force_n);
+      const bool small =
+          report.force_residual_n <
+          step.looseness * std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n);
       // A stand-in shortens steps: a vertex on the crest of one of the object's edges looks at rest by them. With the
       // exact Hessian it would not, so that is waited for, a while.
       if (small && (direction.blend == 0.0 || step.looseness > 1.0 || ++waited > kMaxWait)) return;
@@ -202,9 +202,9 @@ void TimeStepper::minimise_constrained(Step& step) {
       throw SolverError("the augmented Lagrangian left a vertex {:.2e} m from its target after {} renewals", miss,
                         kMaxMultiplierUpdates);
     }
-    step.constraint =
-        std::make_shared<Dirichlet>(  // Contact that is stiffer than the pull makes multipliers creep: pull harder.
-            step.constraint->renewed(step.x, miss > kSlowProgress * last_miss ? kStiffening : 1.0));
+    // Contact that is stiffer than the pull makes multipliers creep: pull harder.
+    const double stiffening = miss > kSlowProgress * last_miss ? kStiffening : 1.0;
+    step.constraint = std::make_shared<Dirichlet>(step.constraint->renewed(step.x, stiffening));
     last_miss = miss;
     step.terms.constraint = step.constraint;
     minimise(step);

@@ -13,11 +13,10 @@ namespace tacipc {
 
 /// When a step counts as solved, and what it may cost.
 struct NewtonSettings {
-  double velocity_tolerance_m_s = 0.0;  // max |p| / h of the Newton step p, below which it has converged …
-  double relative_force_tolerance =
-      5e-4;                         // … if the residual forces also sum to less than this part of the contact force
-  double force_tolerance_n = 1e-5;  // … or to less than this
-  int max_iterations = 200;         // reaching it is a failure
+  double velocity_tolerance_m_s = 0.0;     // max |p| / h of the Newton step p, below which it has converged …
+  double relative_force_tolerance = 5e-4;  // … if residual forces also sum to less than this part of the contact force
+  double force_tolerance_n = 1e-5;         // … or to less than this
+  int max_iterations = 200;                // reaching it is a failure
 };
 
 struct FrictionSettings {
