@@ -6,23 +6,17 @@
 
 #include "common/error.h"
 #include "common/log.h"
-#include "stages/press/energy/dirichlet.h"
 #include "stages/press/energy/linear_load.h"
 #include "stages/press/energy/stiffness_damping.h"
 #include "stages/press/solve/step_limit.h"
+#include "stages/press/solve/step_under_way.h"
 
 namespace tacipc {
 namespace {
 
 constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where no energy guards the step
 constexpr double kNewtonSlack = 0.1;
-constexpr double kLagSlack = 0.5;
-constexpr double kLooseness = 10.0;
-// Renewing friction: it settles slowly or not at all where less than this part of a residual goes; then only a half of
-// the new friction is taken, a quarter, …
-constexpr double kSettling = 0.8, kSmallestRenewal = 0.1;
-constexpr int kMaxWait = 10;        // Newton iterations
-constexpr double kGapFloor = 1e-4;  // × d̂
+constexpr int kMaxWait = 10;  // Newton iterations, for the exact Hessian
 constexpr int kMaxHalvings = 40;
 constexpr double kBlendAfterHalving = 0.1;
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
@@ -46,22 +40,6 @@ FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glue
 }
 
 }  // namespace
-
-/// One step under way.
-struct TimeStepper::Step {
-  const StepGoal& goal;
-  const IterationObserver& observe;
-  Positions x;
-  StepTerms terms = {};  // all but the barrier
-  StepWeights weights = {};
-  bool arrived = false;
-  Vector3 yield = Vector3::Zero();
-  StepReport report = {};
-  std::shared_ptr<const Friction> friction = nullptr;
-  std::shared_ptr<const Dirichlet> constraint = nullptr;
-  double blend = 1.0;      // of NewtonStepper::direction, once the object has arrived
-  double looseness = 1.0;  // of the tolerances, while friction is still to be renewed
-};
 
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings)
     : mesh_(mesh),
@@ -217,7 +195,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   const Positions start = state.x.topRows(n);
   newton_.reset_pattern();
 
-  Step step{.goal = goal, .observe = observe, .x = state.x};
+  Step step{.goal = goal, .observe = observe, .start = state.x, .x = state.x};
   step.report.time_steps = 1;
   step.arrived = (state.x.bottomRows(mesh_.num_object_vertices) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
   step.weights = {.h_s = h,
@@ -259,58 +237,10 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
     step.terms.object_inertia = std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, goal.object_mass_kg),
                                                           Positions(x_hat), static_cast<int>(n));
   }
-  const auto friction_at = [&](const Positions& lagged) {
-    return std::make_shared<const Friction>(barrier_at(lagged), lagged, state.x,
-                                            settings_.friction->speed_threshold_m_s * h);
-  };
-  if (settings_.friction && settings_.friction->max_lag_iterations > 1) {
-    step.friction = friction_at(state.x);
-    step.looseness = kLooseness;
-  } else if (settings_.friction) {
-    // Normal forces and tangent planes as they are once the object alone has gone as far as half of every gap allows,
-    // so that contacts of this step have friction, too. [where the IPC authors' code lags friction]
-    Positions motion = Positions::Zero(state.x.rows(), 3);
-    motion.bottomRows(mesh_.num_object_vertices) = goal.object_target - state.x.bottomRows(mesh_.num_object_vertices);
-    const double part = contact_step_limit(search_.pairs(state.x, motion, settings_.d_hat_m), state.x, motion,
-                                           {kLagSlack, kGapFloor * settings_.d_hat_m});
-    step.friction = friction_at(state.x + part * motion);
-  }
+  start_friction(step);
 
   minimise_constrained(step);
-  if (settings_.friction) {
-    const FrictionSettings& friction = *settings_.friction;
-    double renewal = 1.0, last_residual = std::numeric_limits<double>::infinity();
-    while (true) {
-      // What would be out of balance if normal forces and tangent planes were renewed now.
-      const auto renewed = friction_at(step.x);
-      const Positions change = gradient_of(*renewed, step.x) - gradient_of(*step.friction, step.x);
-      double sum = 0.0;
-      for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
-      step.report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
-      log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", step.report.lag_iterations,
-                step.report.friction_residual_n, step.report.contact_force_n);
-      const double limit =
-          std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * step.report.contact_force_n);
-      const bool settled = step.report.friction_residual_n <= limit;
-      const bool last = step.report.lag_iterations + 1 >= friction.max_lag_iterations;
-      if ((settled || last) && step.looseness == 1.0) {
-        if (settled || friction.max_lag_iterations == 1) break;
-        throw SolverError("friction did not settle: renewing it {} times left {:.2e} N out of balance (limit {:.2e})",
-                          friction.max_lag_iterations, step.report.friction_residual_n, limit);
-      }
-      if (settled || last) {
-        step.looseness = 1.0;
-      } else {
-        ++step.report.lag_iterations;
-        if (step.report.friction_residual_n > kSettling * last_residual)
-          renewal = std::max(0.5 * renewal, kSmallestRenewal);
-        last_residual = step.report.friction_residual_n;
-        step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
-        step.looseness = step.report.friction_residual_n > 5.0 * limit ? kLooseness : 1.0;
-      }
-      minimise_constrained(step);
-    }
-  }
+  settle_friction(step);
 
   record_forces(step);
   step.report.yield_m = step.yield;

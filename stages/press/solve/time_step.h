@@ -110,6 +110,13 @@ class TimeStepper {
   struct Step;
   void minimise(Step& step);
   void minimise_constrained(Step& step);
+  /// Friction of this step with normal forces and tangent planes of `lagged`. \pre there is friction
+  std::shared_ptr<const Friction> friction_at(const Positions& lagged, const Step& step);
+  /// The friction that the first minimum is sought with, if there is any.
+  void start_friction(Step& step);
+  /// From a minimum: renews friction and minimises again until it belongs to its own contact forces.
+  /// \throw SolverError if it does not settle
+  void settle_friction(Step& step);
   ContactBarrier barrier_at(const Positions& x);
   /// What residual forces are measured by: |Σ forces of the object on the gel|, with friction or without, whichever is
   /// less (friction may carry most of the normal force, and what is left must balance too).

@@ -1,0 +1,79 @@
+// Friction within a time step: where its normal forces and tangent planes are taken, and how often they are renewed.
+#include <algorithm>
+#include <limits>
+
+#include "common/error.h"
+#include "common/log.h"
+#include "stages/press/solve/step_limit.h"
+#include "stages/press/solve/step_under_way.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kLagSlack = 0.5;
+constexpr double kLooseness = 10.0;
+// It settles slowly or not at all where less than this part of a residual goes; then only a half of the new friction is
+// taken, a quarter, …
+constexpr double kSettling = 0.8, kSmallestRenewal = 0.1;
+
+}  // namespace
+
+std::shared_ptr<const Friction> TimeStepper::friction_at(const Positions& lagged, const Step& step) {
+  return std::make_shared<const Friction>(barrier_at(lagged), lagged, step.start,
+                                          settings_.friction->speed_threshold_m_s * step.goal.h_s);
+}
+
+void TimeStepper::start_friction(Step& step) {
+  if (!settings_.friction) return;
+  if (settings_.friction->max_lag_iterations > 1) {
+    step.friction = friction_at(step.start, step);
+    step.looseness = kLooseness;
+    return;
+  }
+  // Normal forces and tangent planes as they are once the object alone has gone as far as half of every gap allows,
+  // so that contacts of this step have friction, too. [where the IPC authors' code lags friction]
+  Positions motion = Positions::Zero(step.start.rows(), 3);
+  motion.bottomRows(mesh_.num_object_vertices) =
+      step.goal.object_target - step.start.bottomRows(mesh_.num_object_vertices);
+  const double part = contact_step_limit(search_.pairs(step.start, motion, settings_.d_hat_m), step.start, motion,
+                                         {kLagSlack, kGapFloor * settings_.d_hat_m});
+  step.friction = friction_at(step.start + part * motion, step);
+}
+
+void TimeStepper::settle_friction(Step& step) {
+  if (!settings_.friction) return;
+  const FrictionSettings& friction = *settings_.friction;
+  StepReport& report = step.report;
+  double renewal = 1.0, last_residual = std::numeric_limits<double>::infinity();
+  while (true) {
+    // What would be out of balance if normal forces and tangent planes were renewed now.
+    const auto renewed = friction_at(step.x, step);
+    const Positions change = gradient_of(*renewed, step.x) - gradient_of(*step.friction, step.x);
+    double sum = 0.0;
+    for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
+    report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
+    log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", report.lag_iterations, report.friction_residual_n,
+              report.contact_force_n);
+    const double limit =
+        std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * report.contact_force_n);
+    const bool settled = report.friction_residual_n <= limit;
+    const bool last = report.lag_iterations + 1 >= friction.max_lag_iterations;
+    if ((settled || last) && step.looseness == 1.0) {
+      if (settled || friction.max_lag_iterations == 1) return;
+      throw SolverError("friction did not settle: renewing it {} times left {:.2e} N out of balance (limit {:.2e})",
+                        friction.max_lag_iterations, report.friction_residual_n, limit);
+    }
+    if (settled || last) {
+      step.looseness = 1.0;
+    } else {
+      ++report.lag_iterations;
+      if (report.friction_residual_n > kSettling * last_residual) renewal = std::max(0.5 * renewal, kSmallestRenewal);
+      last_residual = report.friction_residual_n;
+      step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
+      step.looseness = report.friction_residual_n > 5.0 * limit ? kLooseness : 1.0;
+    }
+    minimise_constrained(step);
+  }
+}
+
+}  // namespace tacipc
