@@ -8,6 +8,7 @@
 #include "stages/press/measure/contact_patch.h"
 #include "stages/press/measure/markers.h"
 #include "stages/press/measure/traction_grid.h"
+#include "stages/press/verdict.h"
 
 namespace tacipc {
 namespace {
@@ -128,6 +129,17 @@ Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
           {"pose_error_m", f.pose_error_m}};
 }
 
+/// What every frame was held to, for whoever judges the numbers of the record again.
+Value::Map limits() {
+  return {{"smallest_distance_m", kVerdictLimits.smallest_distance_m},
+          {"intersections", kVerdictLimits.intersections},
+          {"inverted_tets", kVerdictLimits.inverted_tets},
+          {"volume_ratio", kVerdictLimits.volume_ratio},
+          {"balance_relative", kVerdictLimits.balance_relative},
+          {"smallest_contact_n", kSmallestContactN},
+          {"pose_error_m", kVerdictLimits.pose_error_m}};
+}
+
 }  // namespace
 
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
@@ -191,6 +203,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
   summary.emplace_back("converged", true);
   summary.emplace_back("verdict", "pass");
+  summary.emplace_back("limits", limits());
   summary.emplace_back("per_frame", std::move(per_frame));
   stage.summarize(summary);
 }

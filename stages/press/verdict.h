@@ -7,13 +7,13 @@
 
 namespace tacipc {
 
-/// The limits that no configuration can move; docs/verdict.md says what each is for.
+/// The limits that no configuration can move, as the record repeats them; docs/verdict.md says what each is for.
 struct VerdictLimits {
   double smallest_distance_m = 0.0;  // between gel and object, must be exceeded
   int intersections = 0;             // pairs of triangles that share a point, decided exactly
   int inverted_tets = 0;             // tetrahedra whose exact volume is not positive
   double volume_ratio = 0.0;         // smallest deformed over undeformed volume, must be exceeded
-  double balance_relative = 1e-3;    // of the contact force, which counts as at least 0.01 N: 1e-5 N
+  double balance_relative = 1e-3;    // of the contact force, which counts as at least kSmallestContactN
   double pose_error_m = 1e-9;        // of the object's vertices from where the motion prescribes them
 };
 inline constexpr VerdictLimits kVerdictLimits;

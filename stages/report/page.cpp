@@ -89,7 +89,7 @@ constexpr const char* kLegend = R"html(<section id="legend">
 <dt>Press curve</dt><dd>Force of the object on the gel, into the gel, over the depth of the object's lowest point below the undeformed face; one mark per frame. Depth below zero: the object is still above the gel.</dd>
 <dt>Forces</dt><dd>On the gel by the object: press force into the gel, tangential force along the face. In the table of all samples they are those of the last frame, the depth is that at the end of the press.</dd>
 <dt>Contact</dt><dd>Area of the front face that feels the object, and press force over that area.</dd>
-<dt>Force balance</dt><dd>Contact force, inertia and the force of the mount that holds the gel's back must cancel; what is left over, as a part of the contact force. Below 0.1 % (or 1e-5 N) it passes.</dd>
+<dt>Force balance</dt><dd>Contact force, inertia and the force of the mount that holds the gel's back must cancel; what is left over, as a part of the contact force. Each card tells how much may be left.</dd>
 <dt>Markers</dt><dd>Points printed on the front face, and how far they moved along it, enlarged as the arrow beside says. Underneath the contacts, those that stick and those that slip.</dd>
 <dt>Verdict</dt><dd>A sample has passed if every check of its press is within its limit in every frame and if its images exist.</dd>
 <dt>Smallest distance</dt><dd>Between gel and object over all frames. It stays above zero: a barrier keeps the surfaces a small distance apart, so they never cross.</dd>

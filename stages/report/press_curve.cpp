@@ -7,7 +7,6 @@
 
 #include "stages/report/chart.h"
 #include "stages/report/html.h"
-#include "stages/report/verdict.h"
 
 namespace tacipc {
 namespace {
@@ -138,7 +137,7 @@ std::string balance_curve(const SampleReport& sample) {
   chart.left.push_back(
       curve_of(sample.frames, "of the contact force", [](const auto& f) { return f.balance_relative; }));
   if (!has_values(chart.left.front())) return "";
-  chart.limit = Rule{"limit", kMaxBalanceRelative};
+  if (sample.balance_limit) chart.limit = Rule{"limit", *sample.balance_limit};
   std::string caption = "<b>Force balance</b>: what contact, inertia and mount leave over";
   const auto worst = std::max_element(sample.frames.begin(), sample.frames.end(), [](const auto& a, const auto& b) {
     return a.balance_n.value_or(0.0) < b.balance_n.value_or(0.0);

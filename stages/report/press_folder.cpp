@@ -181,6 +181,7 @@ void read_summary(const fs::path& folder, const Record& summary, SampleReport& s
   sample.element = summary.text("element").value_or("");
   sample.frames = read_frames(summary);
   sample.press_end_frame = summary.count("press_end_frame");
+  sample.balance_limit = summary.section("limits").number("balance_relative");
   if (sample.press_end_frame.value_or(0) >= static_cast<int>(sample.frames.size())) {
     throw DataError("{}: summary.press_end_frame: {} is not one of the {} frames", (folder / "press.yaml").string(),
                     *sample.press_end_frame, sample.frames.size());
@@ -190,9 +191,10 @@ void read_summary(const fs::path& folder, const Record& summary, SampleReport& s
 /// \throw SolverError for the first check that is not held.
 void judge_checks(const Record& summary, const std::vector<CheckReport>& checks) {
   if (!summary.required_flag("converged")) throw SolverError("press: Newton did not converge");
-  if (const int count = summary.required_count("intersections"); count > 0)
+  const CountLimits limits = count_limits(summary);
+  if (const int count = summary.required_count("intersections"); count > limits.intersections)
     throw SolverError("press: {} triangle pairs intersect", count);
-  if (const int count = summary.required_count("inverted_tets"); count > 0)
+  if (const int count = summary.required_count("inverted_tets"); count > limits.inverted_tets)
     throw SolverError("press: {} tetrahedra are inverted", count);
   for (const CheckReport& check : checks) {
     if (check.held) continue;

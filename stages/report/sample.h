@@ -83,7 +83,8 @@ struct SampleReport {
   std::optional<double> friction_coefficient;
   std::optional<double> first_slip_time_s;
   std::optional<double> gross_slip_time_s;
-  std::string element;  // empty if not known
+  std::optional<double> balance_limit;  // of the contact force, as the press was judged
+  std::string element;                  // empty if not known
   std::optional<int> press_end_frame;
   std::optional<PlacementReport> placement;
   std::vector<FrameReport> frames;

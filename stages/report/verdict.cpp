@@ -30,43 +30,57 @@ std::optional<Extreme> extreme(std::optional<double> in_summary, const std::vect
 
 std::string with_unit(double value, double scale, const char* unit) { return number_text(value, scale) + unit; }
 
-CheckReport none_allowed(const Record& summary, const char* key, const char* name) {
+CheckReport at_most(const Record& summary, const char* key, const char* name, int limit) {
   const int count = summary.required_count(key);
-  return {name, count_text(count), "0", std::nullopt, count == 0};
+  return {name, count_text(count), count_text(limit), std::nullopt, count <= limit};
+}
+
+CheckReport above(const char* name, const Extreme& smallest, double limit, double scale, const char* unit) {
+  const std::string text = limit == 0.0 ? "0" : with_unit(limit, scale, unit);
+  return {name, with_unit(smallest.value, scale, unit), "above " + text, smallest.frame, smallest.value > limit};
 }
 
 }  // namespace
+
+CountLimits count_limits(const Record& summary) {
+  const Record limits = summary.section("limits");
+  return {.intersections = limits.count("intersections").value_or(0),
+          .inverted_tets = limits.count("inverted_tets").value_or(0)};
+}
 
 std::vector<CheckReport> checks_of(const Record& summary, const std::vector<FrameReport>& frames) {
   const bool converged = summary.required_flag("converged");
   std::vector<CheckReport> checks;
   checks.push_back({"Newton's method", converged ? "converged" : "did not converge", "converged in every frame",
                     std::nullopt, converged});
-  checks.push_back(none_allowed(summary, "intersections", "triangle pairs that intersect"));
-  checks.push_back(none_allowed(summary, "inverted_tets", "tetrahedra that are inverted"));
+  const Record limits = summary.section("limits");
+  const CountLimits counts = count_limits(summary);
+  checks.push_back(at_most(summary, "intersections", "triangle pairs that intersect", counts.intersections));
+  checks.push_back(at_most(summary, "inverted_tets", "tetrahedra that are inverted", counts.inverted_tets));
   const auto gap = extreme(
       summary.required_number("min_distance_m"), frames,
       [](const FrameReport& f) { return std::optional(f.min_gap_m); }, std::less<>());
-  checks.push_back({"smallest distance", with_unit(gap->value, 1e6, " µm"), "above 0", gap->frame, gap->value > 0});
+  checks.push_back(above("smallest distance", *gap, limits.number("smallest_distance_m").value_or(0.0), 1e6, " µm"));
   const auto ratio = extreme(
       summary.required_number("min_volume_ratio"), frames,
       [](const FrameReport& f) { return std::optional(f.min_volume_ratio); }, std::less<>());
-  checks.push_back(
-      {"smallest volume ratio", with_unit(ratio->value, 1, ""), "above 0", ratio->frame, ratio->value > 0});
+  checks.push_back(above("smallest volume ratio", *ratio, limits.number("volume_ratio").value_or(0.0), 1, ""));
   const auto balance = extreme(
       summary.number("max_balance_relative"), frames, [](const FrameReport& f) { return f.balance_relative; },
       std::greater<>());
-  if (balance) {
-    checks.push_back({"force imbalance", with_unit(balance->value, 100, " % of the contact force"),
-                      with_unit(kMaxBalanceRelative, 100, " %, or 1e-5 N"), balance->frame,
-                      balance->value <= kMaxBalanceRelative});
+  if (const auto limit = limits.number("balance_relative"); balance && limit) {
+    std::string text = with_unit(*limit, 100, " %");
+    if (const auto smallest_n = limits.number("smallest_contact_n"))
+      text += ", or " + with_unit(*limit * *smallest_n, 1e6, " µN");
+    checks.push_back({"force imbalance", with_unit(balance->value, 100, " % of the contact force"), text,
+                      balance->frame, balance->value <= *limit});
   }
   const auto pose = extreme(
       summary.number("max_pose_error_m"), frames, [](const FrameReport& f) { return f.pose_error_m; },
       std::greater<>());
-  if (pose) {
-    checks.push_back({"distance from the asked pose", with_unit(pose->value, 1e9, " nm"),
-                      with_unit(kMaxPoseErrorM, 1e9, " nm"), pose->frame, pose->value <= kMaxPoseErrorM});
+  if (const auto limit = limits.number("pose_error_m"); pose && limit) {
+    checks.push_back({"distance from the asked pose", with_unit(pose->value, 1e9, " nm"), with_unit(*limit, 1e9, " nm"),
+                      pose->frame, pose->value <= *limit});
   }
   return checks;
 }

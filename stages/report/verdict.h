@@ -11,9 +11,12 @@ namespace tacipc {
 
 struct FrameReport;
 
-/// Limits of docs/verdict.md that are numbers of their own; the others are zero or stand in the press configuration.
-inline constexpr double kMaxBalanceRelative = 1e-3;  // of the contact force
-inline constexpr double kMaxPoseErrorM = 1e-9;
+/// How many pairs of triangles may intersect and how many tetrahedra be inverted.
+struct CountLimits {
+  int intersections = 0;
+  int inverted_tets = 0;
+};
+CountLimits count_limits(const Record& summary);
 
 struct CheckReport {
   std::string name;
@@ -23,8 +26,9 @@ struct CheckReport {
   bool held = true;
 };
 
-/// The checks a finished press has numbers for. Numbers over all frames are taken from the summary, and once more from
-/// the frames where these are worse.
+/// The checks a finished press has numbers and limits for, the limits as the summary tells them: press alone defines
+/// them. Older records tell none; those of their limits that have always been zero are taken as that. Numbers over all
+/// frames are taken from the summary, and once more from the frames where these are worse.
 /// \throw DataError if the summary lacks one that every press has.
 std::vector<CheckReport> checks_of(const Record& summary, const std::vector<FrameReport>& frames);
 

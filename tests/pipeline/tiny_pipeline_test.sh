@@ -9,6 +9,7 @@ same_files one two
 for file in press/press.yaml render/render.yaml report/index.html report/contact_sheet.png; do
   [ -s "one/sample/pyramid/$file" ] || fail "$file is missing"
 done
+grep -q '^    balance_relative: 0.001$' one/sample/pyramid/press/press.yaml || fail "the press does not tell its limits"
 grep -q 'converged: true' one/sample/pyramid/press/press.yaml || fail "the press did not converge"
 
 stamp() { find one -name '*.yaml' -printf '%p %T@\n' | sort; }

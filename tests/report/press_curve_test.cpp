@@ -103,6 +103,7 @@ TEST_F(FrameCurvesTest, ShowForcesContactRatioAndBalance) {
   EXPECT_THAT(html, HasSubstr(">friction coefficient 0.7</text>"));
   EXPECT_THAT(html, HasSubstr("<title>frame 2: 2.00e-04 of the contact force</title>"));
   EXPECT_THAT(html, HasSubstr("at most 2.50e-04 N (frame 2)"));
+  EXPECT_THAT(html, HasSubstr(">limit</text>"));
   EXPECT_THAT(html, HasSubstr("<br>Frames: reference 0, approach 1, press 2, shear 3–4"));
 }
 
@@ -122,6 +123,18 @@ TEST_F(FrameCurvesTest, TheRatioIsLeftOutWhereNothingPresses) {
   const std::string html = frame_curves(sample_);
   EXPECT_THAT(html, HasSubstr("<title>frame 1: 0.500 </title>"));
   EXPECT_THAT(html, Not(HasSubstr("<title>frame 2: 100 </title>")));
+}
+
+TEST_F(FrameCurvesTest, TheBalancesLimitIsTheRecords) {
+  const auto level = [&](std::optional<double> limit) {
+    sample_.balance_limit = limit;
+    const std::string html = frame_curves(sample_);
+    std::smatch found;
+    return std::regex_search(html, found, std::regex("y=\"([0-9.]+)\"[^>]*>limit</text>")) ? std::stod(found[1]) : -1.0;
+  };
+  EXPECT_GT(level(1e-4), level(1e-3)) << "y points down";
+  EXPECT_GT(level(1e-3), 0.0);
+  EXPECT_EQ(level(std::nullopt), -1.0);
 }
 
 TEST_F(FrameCurvesTest, SlipIsMarkedAtItsTime) {

@@ -124,11 +124,13 @@ TEST_F(SampleTest, ALimitThatIsMissedFailsTheSample) {
     return read_sample(drag).failure.value_or("passed");
   };
   EXPECT_EQ(with("balance_relative: 8.0e-06", "balance_relative: 2.0e-03"),
-            "press: force imbalance is 0.200 % of the contact force in frame 3, the limit is 0.100 %, or 1e-5 N");
+            "press: force imbalance is 0.200 % of the contact force in frame 3, the limit is 0.100 %, or 10.0 µN");
   EXPECT_EQ(with("max_pose_error_m: 0", "max_pose_error_m: 2.0e-06"),
             "press: distance from the asked pose is 2000 nm, the limit is 1.00 nm");
   EXPECT_EQ(with("min_gap_m: 3.6e-05", "min_gap_m: 0"),
             "press: smallest distance is 0 µm in frame 4, the limit is above 0");
+  EXPECT_EQ(with("balance_relative: 0.001", "balance_relative: 1.0e-04"),
+            "press: force imbalance is 0.0200 % of the contact force in frame 2, the limit is 0.0100 %, or 1.00 µN");
   EXPECT_EQ(with("verdict: pass", "verdict: fail"), "press: its verdict is fail");
   write_npy(drag / "press/wrench.npy", {1, 6}, std::vector<double>(6, 0.0).data());
   EXPECT_EQ(with("verdict: pass", "verdict: pass"),

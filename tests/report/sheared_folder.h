@@ -28,6 +28,7 @@ inline const std::string kShearedSummary = R"(summary:
   press_end_frame: 2
   converged: true
   verdict: pass
+  limits: {smallest_distance_m: 0, intersections: 0, inverted_tets: 0, volume_ratio: 0, balance_relative: 0.001, smallest_contact_n: 0.01, pose_error_m: 1.0e-09}
   per_frame:
     - {time_s: 0, phase: reference, press_force_n: 0, tangential_force_n: 0, balance_n: 0, balance_relative: 0, contact_area_mm2: 0, mean_pressure_pa: 0, peak_pressure_pa: 0, sticking: 0, slipping: 0, substeps: 0, newton_iterations: 0, min_gap_m: 5.0e-05, min_volume_ratio: 1, pose_error_m: 0}
     - {time_s: 0.01, phase: approach, press_force_n: 0, tangential_force_n: 0, balance_n: 1.0e-07, balance_relative: 1.0e-05, contact_area_mm2: 0, mean_pressure_pa: 0, peak_pressure_pa: 0, sticking: 0, slipping: 0, substeps: 1, newton_iterations: 1, min_gap_m: 4.5e-05, min_volume_ratio: 1, pose_error_m: 0}

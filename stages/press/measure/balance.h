@@ -15,15 +15,14 @@ struct VertexForces {
   Positions mount = {};
 };
 
-/// A relative balance of 1e-3, the verdict's limit, stands for at least this force …
-inline constexpr double kBalanceFloorN = 1e-5;
-/// … so no contact counts as smaller than this.
-inline constexpr double kSmallestContactN = kBalanceFloorN / 1e-3;
+/// No contact force counts as smaller than this: beside less, what the solver may leave would look like a large
+/// imbalance.
+inline constexpr double kSmallestContactN = 0.01;
 
 struct Balance {
   double force_n = 0.0;     // |Σ of all|
   double torque_n_m = 0.0;  // |Σ x × f| about the origin of S
-  double relative = 0.0;    // force_n / max(|Σ contact|, 0.01 N)
+  double relative = 0.0;    // force_n / max(|Σ contact|, kSmallestContactN)
   Vector3 contact_n = Vector3::Zero();
   Vector3 inertia_n = Vector3::Zero();
   Vector3 mount_n = Vector3::Zero();
