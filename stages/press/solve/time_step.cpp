@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where no energy guards the step
 constexpr double kNewtonSlack = 0.1;
-constexpr int kMaxWait = 10;  // Newton iterations, for the exact Hessian
+constexpr int kMaxWait = 10;  // for the exact Hessian: iterations that meet the tolerances
 constexpr int kMaxHalvings = 40;
 constexpr double kBlendAfterHalving = 0.1;
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
