@@ -55,9 +55,10 @@ ifneq ($(motion_file),)
     $(error MOTION: $(motion_file) does not exist)
   endif
   useless := $(filter DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS FACE ROTATE CENTER,$(given))
-  # A path that the file names lies beside it.
-  motion_path := $(shell sed -n 's/.*[{, ]file: *\([^,} ]*\).*/\1/p' $(motion_file))
-  motion_path := $(foreach f,$(motion_path),$(wildcard $(if $(filter /%,$(f)),$(f),$(dir $(motion_file))$(f))))
+  motion_paths := $(shell bash pipelines/motion_paths.sh $(motion_file))
+  ifneq ($(.SHELLSTATUS),0)
+    $(error $(motion_paths))
+  endif
 else
   asked := $(subst +, ,$(MOTION))
   moves := $(if $(filter press,$(firstword $(asked))),$(wordlist 2,$(words $(asked)),$(asked)),$(asked))
@@ -125,7 +126,7 @@ $(SAMPLE)/choice.txt: FORCE
 	$(if $(motion_file),@rm -f $(SAMPLE)/sample.yaml)
 $(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt configs/decimate/default.yaml | build
 	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config configs/decimate/default.yaml)
-$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_path)))
+$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_paths)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
 sample: $(SAMPLE)/report/report.yaml ## One object of your own: OBJECT=path.stl [MOTION=shear|twist|release|…; see pipelines/sample.mk]

@@ -47,6 +47,19 @@ grep -q '^  friction_coefficient: 0.7$' $record || fail "the coefficient of the 
 drag FRICTION=0.5
 [ "$before" = "$(cat $record)" ] || fail "the same friction gave another record"
 
+# A path: its rows are in a file that the motion names, and another path is another sample.
+mkdir moves
+echo 'motion: {kind: path, file: "down.csv"}  # beside this file' > moves/down.yaml
+path() { printf '0,0,0,0,0,0,0,1\n0.01,0,0,%s,0,0,0,1\n' "$1" > moves/down.csv; }
+along() { make -s -f Makefile.data sample OBJECT=pyramid.stl NAME=along MESH=tiny MOTION=moves/down.yaml OUT=one BUILD="$build_dir" PACKAGES=no; }
+path -0.0001
+along
+before=$(cat one/sample/along/press/press.yaml)
+sleep 1.1
+path -0.0002
+along
+[ "$before" != "$(cat one/sample/along/press/press.yaml)" ] || fail "another path changed nothing"
+
 # Embossed objects: touching the decimation's configuration leaves the embossing alone.
 sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/star.yaml
 emboss_star() { make -s -f Makefile.data "$PWD/e/objects/star/decimate.yaml" OUT="$PWD/e" BUILD="$build_dir" PACKAGES=no; }

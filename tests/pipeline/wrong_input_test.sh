@@ -89,6 +89,10 @@ make_refuses "OBJECT: 'b&c.stl' has characters" 'OBJECT=b&c.stl'
 make_refuses "NAME: 'my part' has characters" OBJECT=pyramid.stl 'NAME=my part'
 make_refuses "MOTION: 'slide' is none of press, shear, twist, tilt, hold, release" OBJECT=pyramid.stl MOTION=shear+slide
 make_refuses 'MOTION: no_such.yaml does not exist' OBJECT=pyramid.stl MOTION=no_such.yaml
+for path in 'my path.csv' gone.csv; do echo "motion: {kind: path, file: $path}" > "${path%%[ .]*}.yaml"; done
+touch 'my path.csv'
+make_refuses "MOTION: my.yaml names the path 'my path.csv', which is empty or has characters" OBJECT=pyramid.stl MOTION=my.yaml
+make_refuses "MOTION: gone.yaml names the path './gone.csv', which does not exist" OBJECT=pyramid.stl MOTION=gone.yaml
 make_refuses 'TWIST_DEG: has no effect with MOTION=shear' OBJECT=pyramid.stl MOTION=shear TWIST_DEG=3
 make_refuses 'ROTATE: has no effect with MOTION=configs/samples/press_0500um.yaml' OBJECT=pyramid.stl MOTION=configs/samples/press_0500um.yaml ROTATE=3
 make_refuses 'DEPTH_MM, FORCE_N: say one of them' OBJECT=pyramid.stl DEPTH_MM=1 FORCE_N=2
