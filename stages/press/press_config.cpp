@@ -42,6 +42,10 @@ PressConfig PressConfig::read(ConfigReader& in) {
   } else {
     config.barrier_stiffness = barrier.number("stiffness", Range::positive());
   }
+  config.pair_counting.once = barrier.choice_or("pairs", "every", {"every", "once"}) == "once";
+  if (config.pair_counting.once)
+    config.pair_counting.edge_weight =
+        barrier.number_or("edge_weight", config.pair_counting.edge_weight, {.low = 0.0, .high = 1.0, .open_low = true});
   config.start_gap_d_hat = barrier.number_or("start_gap_d_hat", 1.2, {.low = 1.0, .high = 100.0, .open_low = true});
   if (auto friction = in.optional_section("friction")) config.friction = FrictionConfig::read(*friction);
   ConfigReader newton = in.section("newton");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config.h"
+#include "stages/press/contact/pair_counting.h"
 #include "stages/press/motion.h"
 
 namespace tacipc {
@@ -33,6 +34,7 @@ struct PressConfig {
   double relative_d_hat = 0.0;              // d̂ as part of the diagonal of the undeformed gel's bounding box
   std::optional<double> barrier_stiffness;  // κ of κ B(x) beside h² Φ(x), squared distances: J s² / m⁴ = kg m⁻²
   double relative_barrier_stiffness = 0.0;  // if absent: κ d̂³ / (h² E ℓ²), ℓ the median edge of the front
+  PairCounting pair_counting;               // of the barrier
   double start_gap_d_hat = 0.0;             // gap of frame 0 between the object's lowest point and z = 0, in d̂
   std::optional<FrictionConfig> friction;
   double relative_velocity_tolerance = 0.0;  // Newton: max |p| / h below this part of the diagonal per second

@@ -116,6 +116,7 @@ class Motion {
     StepSettings settings{
         .d_hat_m = out_.d_hat_m,
         .barrier_stiffness_j_m4 = out_.barrier_stiffness / (config_.time_step_s * config_.time_step_s),
+        .pair_counting = config_.pair_counting,
         .quasi_static = config_.quasi_static,
         .augmented_lagrangian = config_.augmented_lagrangian,
         .gravity_m_s2 = config_.gravity_m_s2,

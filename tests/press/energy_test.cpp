@@ -64,14 +64,14 @@ Case patch_case(const std::string& name, const ElasticLaw& law, double squeeze) 
           true};
 }
 
-Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x) {
+Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x, double weight = 1.0) {
   ContactMesh mesh;
   mesh.num_gel_vertices = 0;  // everything belongs to the object, so d̂ is not cut by the distance at rest
   mesh.num_object_vertices = 4;
   mesh.rest_positions = rows(x);
   // Edges much longer at rest than now make the mollifier's threshold large enough to matter for the case that says so.
   if (name == "edge_edge_mollified") mesh.rest_positions *= 6.0;
-  return {name, std::make_shared<ContactBarrier>(mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}}}, 0.5),
+  return {name, std::make_shared<ContactBarrier>(mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}, weight}}, 0.5),
           x,    1e-3,
           true, true};
 }
@@ -102,12 +102,14 @@ std::vector<Case> cases() {
   using Kind = ContactPair::Kind;
   x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
   all.push_back(pair_case("point_triangle_inside", Kind::point_triangle, x));
+  all.push_back(pair_case("point_triangle_taken_back", Kind::point_triangle, x, -1.0));
   x << 0.45, -0.2, 0.25, 0, 0, 0, 1, 0, 0, 0, 1, 0;
   all.push_back(pair_case("point_triangle_edge", Kind::point_triangle, x));
   x << -0.1, -0.2, 0.25, 0, 0, 0, 1, 0, 0, 0, 1, 0;
   all.push_back(pair_case("point_triangle_corner", Kind::point_triangle, x));
   x << -0.5, 0.1, 0, 0.5, -0.1, 0, 0.05, -0.5, 0.3, 0, 0.5, 0.25;
   all.push_back(pair_case("edge_edge_inside", Kind::edge_edge, x));
+  all.push_back(pair_case("edge_edge_weighted", Kind::edge_edge, x, 0.02));
   x << -0.5, 0.1, 0, 0.5, -0.1, 0, 0.1, 0.2, 0.2, 0.3, 0.9, 0.25;
   all.push_back(pair_case("edge_edge_end", Kind::edge_edge, x));
   x << -0.5, 0, 0, 0.5, 0.02, 0, -0.45, -0.1, 0.3, 0.55, 0.3, 0.27;

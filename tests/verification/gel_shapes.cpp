@@ -1,12 +1,13 @@
 #include "tests/verification/gel_shapes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "common/error.h"
 #include "common/triangle_mesh.h"
 #include "stages/tetmesh/generate.h"
+#include "tests/verification/lattice.h"
 #include "tests/verification/shared_files.h"
 
 namespace tacipc::verify {
@@ -37,76 +38,70 @@ void tag_faces(TetMesh& gel) {
   }
 }
 
+/// Steps that fill `length`: the first as wanted, each `growth` times the last, at most `longest`; then all scaled to
+/// end on the border.
+std::vector<double> growing_steps(double length, double first, double growth, double longest) {
+  std::vector<double> steps;
+  double covered = 0.0;
+  for (double step = std::min(first, longest); covered < length * (1.0 - 1e-9);
+       step = std::min(step * growth, longest)) {
+    steps.push_back(step);
+    covered += step;
+  }
+  for (double& step : steps) step *= length / covered;
+  return steps;
+}
+
+/// Heights of the layers, 0 at the front.
+std::vector<double> layer_heights(double thickness_m, double layer_m, double growth) {
+  std::vector<double> z{0.0};
+  for (const double step : growing_steps(thickness_m, layer_m, growth, thickness_m)) z.push_back(z.back() - step);
+  z.back() = -thickness_m;
+  return z;
+}
+
+int cells_of(const std::vector<double>& lines) { return static_cast<int>(lines.size()) - 1; }
+
 TetMesh box_mesh(const BoxGel& box) {
   const std::vector<double> xs =
       graded_lines(box.width_m / 2, box.near_m, box.near_half_m, box.growth, box.far_m, box.corner_cut_m);
   const std::vector<double> ys =
       graded_lines(box.height_m / 2, box.near_m, box.near_half_m, box.growth, box.far_m, box.corner_cut_m);
-  std::vector<double> zs{0.0};
-  for (double step = box.layer_m; zs.back() < box.thickness_m; step *= box.layer_growth) zs.push_back(zs.back() + step);
-  for (double& z : zs) z *= -box.thickness_m / zs.back();
-  const int nx = static_cast<int>(xs.size()) - 1, ny = static_cast<int>(ys.size()) - 1,
-            nz = static_cast<int>(zs.size()) - 1;
-  const auto index = [&](const std::array<int, 3>& at) { return (at[2] * (ny + 1) + at[1]) * (nx + 1) + at[0]; };
+  const std::vector<double> zs = layer_heights(box.thickness_m, box.layer_m, box.layer_growth);
+  const int nx = cells_of(xs), ny = cells_of(ys);
+  Lattice lattice;
+  lattice.cells = {nx, ny, cells_of(zs)};
+  lattice.shift = {1, 0, 0};  // lays the diagonals of the corner cells along the cut
+  lattice.representative = [&](const LatticePoint& p) -> std::optional<LatticePoint> {
+    const bool corner = (p[0] == 0 || p[0] == nx) && (p[1] == 0 || p[1] == ny);
+    if (corner && box.corner_cut_m) return std::nullopt;
+    return p;
+  };
+  lattice.position = [&](const LatticePoint& p) {
+    const double x = xs[p[0]], y = ys[p[1]];
+    double top = 0.0;
+    if (box.crown) {
+      const Crown& c = *box.crown;
+      top = -std::hypot(sag_along(x, c.half_x_m, box.width_m / 2, c.sag_m, c.edge_sag_m),
+                        sag_along(y, c.half_y_m, box.height_m / 2, c.sag_m, c.edge_sag_m));
+    }
+    return Vector3(x, y, top + zs[p[2]] * (box.thickness_m + top) / box.thickness_m);
+  };
+  return fill_lattice(lattice);
+}
 
-  // Kuhn's subdivision: one tetrahedron for each order in which the three axes are walked through a cell. A cell is
-  // walked upwards or downwards along an axis by the parity of its index, so that neighbours mirror each other; the
-  // shift by one in x lays the diagonals of the corner cells along the cut.
-  constexpr int kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-  std::vector<std::array<int, 4>> tets;
-  for (int k = 0; k < nz; ++k) {
-    for (int j = 0; j < ny; ++j) {
-      for (int i = 0; i < nx; ++i) {
-        const bool corner = box.corner_cut_m && (i == 0 || i == nx - 1) && (j == 0 || j == ny - 1);
-        const int outer_x = i == 0 ? 0 : nx, outer_y = j == 0 ? 0 : ny;
-        const std::array<int, 3> up{(i + 1) % 2 == 0, j % 2 == 0, k % 2 == 0};
-        for (const auto& order : kOrders) {
-          std::array<int, 3> at{i + !up[0], j + !up[1], k + !up[2]};
-          std::array<int, 4> tet{index(at)};
-          bool cut = corner && at[0] == outer_x && at[1] == outer_y;
-          for (int s = 0; s < 3; ++s) {
-            at[order[s]] += up[order[s]] ? 1 : -1;
-            tet[s + 1] = index(at);
-            cut = cut || (corner && at[0] == outer_x && at[1] == outer_y);
-          }
-          if (!cut) tets.push_back(tet);
-        }
-      }
-    }
-  }
-  std::vector<int> number(static_cast<std::size_t>((nx + 1) * (ny + 1) * (nz + 1)), -1);
-  for (const auto& tet : tets)
-    for (const int v : tet) number[v] = 0;
-  int used = 0;
-  for (int& n : number)
-    if (n == 0) n = used++;
-  TetMesh gel;
-  gel.positions.resize(used, 3);
-  for (int k = 0; k <= nz; ++k) {
-    for (int j = 0; j <= ny; ++j) {
-      for (int i = 0; i <= nx; ++i) {
-        const int n = number[index({i, j, k})];
-        if (n < 0) continue;
-        double top = 0.0;
-        if (box.crown) {
-          const Crown& c = *box.crown;
-          top = -std::hypot(sag_along(xs[i], c.half_x_m, box.width_m / 2, c.sag_m, c.edge_sag_m),
-                            sag_along(ys[j], c.half_y_m, box.height_m / 2, c.sag_m, c.edge_sag_m));
-        }
-        gel.positions.row(n) << xs[i], ys[j], top + zs[k] * (box.thickness_m + top) / box.thickness_m;
-      }
-    }
-  }
-  gel.tets.resize(static_cast<Eigen::Index>(tets.size()), 4);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    const auto row = static_cast<Eigen::Index>(t);
-    for (int c = 0; c < 4; ++c) gel.tets(row, c) = number[tets[t][c]];
-    Matrix3 edges;
-    for (int c = 0; c < 3; ++c)
-      edges.col(c) = gel.positions.row(gel.tets(row, c + 1)) - gel.positions.row(gel.tets(row, 0));
-    if (edges.determinant() < 0.0) std::swap(gel.tets(row, 1), gel.tets(row, 2));
-  }
-  return gel;
+TetMesh ring_mesh(const RingGel& gel) {
+  const std::vector<double> radii = ring_radii(gel), zs = layer_heights(gel.thickness_m, gel.layer_m, gel.layer_growth);
+  Lattice lattice;
+  lattice.cells = {cells_of(radii), gel.sectors, cells_of(zs)};
+  lattice.representative = [&](const LatticePoint& p) {
+    return std::optional(LatticePoint{p[0], p[0] == 0 ? 0 : p[1] % gel.sectors, p[2]});
+  };
+  lattice.position = [&](const LatticePoint& p) {
+    const double angle = 2.0 * std::numbers::pi * p[1] / gel.sectors;
+    return Vector3(radii[p[0]] * std::cos(angle), radii[p[0]] * std::sin(angle), zs[p[2]]);
+  };
+  return fill_lattice(lattice);
 }
 
 TetMesh disc_mesh(const DiscGel& disc) {
@@ -164,6 +159,25 @@ BoxGel read_box(ConfigReader& in) {
   return box;
 }
 
+RingGel read_rings(ConfigReader& in) {
+  RingGel gel;
+  gel.radius_m = kMillimetre * in.number("radius_mm", Range::positive());
+  gel.thickness_m = kMillimetre * in.number("thickness_mm", Range::positive());
+  gel.sectors = in.integer("sectors", 6, 1000);
+  if (gel.sectors % 2 != 0) in.fault("sectors", "must be even");
+  const auto focus = in.numbers("focus_mm", 2, Range::non_negative());
+  gel.focus_from_m = kMillimetre * focus[0];
+  gel.focus_to_m = kMillimetre * focus[1];
+  if (!(gel.focus_from_m <= gel.focus_to_m && gel.focus_to_m < gel.radius_m))
+    in.fault("focus_mm", "must be two radii, the first not above the second, both less than radius_mm");
+  gel.near_m = kMillimetre * in.number("near_mm", Range::positive());
+  gel.growth = in.number("growth", Range::between(1.0, 3.0));
+  gel.far_m = kMillimetre * in.number("far_mm", Range::positive());
+  gel.layer_m = kMillimetre * in.number("layer_mm", Range::positive());
+  gel.layer_growth = in.number("layer_growth", Range::between(1.0, 3.0));
+  return gel;
+}
+
 }  // namespace
 
 std::vector<double> graded_lines(double half_m, double near_m, double near_half_m, double growth, double far_m,
@@ -174,15 +188,8 @@ std::vector<double> graded_lines(double half_m, double near_m, double near_half_
   std::vector<double> right{0.0};
   if (near_end > 0.0)
     for (int i = 1; i <= near_cells; ++i) right.push_back(near_end * i / near_cells);
-  // The graded part is laid out at its wanted lengths, then scaled to end on the border.
-  std::vector<double> steps;
-  double covered = 0.0;
-  for (double step = std::min(near_m * growth, far_m); covered < (inner - near_end) * (1.0 - 1e-9);
-       step = std::min(step * growth, far_m)) {
-    steps.push_back(step);
-    covered += step;
-  }
-  for (const double step : steps) right.push_back(right.back() + step * (inner - near_end) / covered);
+  for (const double step : growing_steps(inner - near_end, near_m * growth, growth, far_m))
+    right.push_back(right.back() + step);
   right.back() = inner;
   if (last_m) right.push_back(half_m);
   std::vector<double> lines;
@@ -191,10 +198,25 @@ std::vector<double> graded_lines(double half_m, double near_m, double near_half_
   return lines;
 }
 
+std::vector<double> ring_radii(const RingGel& gel) {
+  std::vector<double> inside, radii{0.0};
+  if (gel.focus_from_m > 0.0) inside = growing_steps(gel.focus_from_m, gel.near_m * gel.growth, gel.growth, gel.far_m);
+  for (auto step = inside.rbegin(); step != inside.rend(); ++step) radii.push_back(radii.back() + *step);
+  radii.back() = gel.focus_from_m;
+  const double width = gel.focus_to_m - gel.focus_from_m;
+  const int cells = static_cast<int>(std::ceil(width / gel.near_m - 1e-9));
+  for (int i = 1; i <= cells; ++i) radii.push_back(gel.focus_from_m + width * i / cells);
+  for (const double step : growing_steps(gel.radius_m - gel.focus_to_m, gel.near_m * gel.growth, gel.growth, gel.far_m))
+    radii.push_back(radii.back() + step);
+  radii.back() = gel.radius_m;
+  return radii;
+}
+
 GelSpec GelSpec::read(ConfigReader& in) {
   GelSpec spec;
-  const int given = in.has("box") + in.has("disc") + in.has("file");
-  if (given != 1) in.fault("box", "give one of box, disc, file");
+  const int given = in.has("box") + in.has("rings") + in.has("disc") + in.has("file");
+  if (given != 1) in.fault("box", "give one of box, rings, disc, file");
+  if (auto rings = in.optional_section("rings")) spec.shape = read_rings(*rings);
   if (auto box = in.optional_section("box")) spec.shape = read_box(*box);
   if (auto disc = in.optional_section("disc")) {
     DiscGel gel;
@@ -218,8 +240,10 @@ GelSpec GelSpec::read(ConfigReader& in) {
 
 TetMesh make_gel(const GelSpec& spec, const std::filesystem::path& shared) {
   if (const auto* disc = std::get_if<DiscGel>(&spec.shape)) return disc_mesh(*disc);
-  const auto* box = std::get_if<BoxGel>(&spec.shape);
-  TetMesh gel = box ? box_mesh(*box) : file_mesh(std::get<FileGel>(spec.shape), shared);
+  TetMesh gel;
+  if (const auto* box = std::get_if<BoxGel>(&spec.shape)) gel = box_mesh(*box);
+  if (const auto* rings = std::get_if<RingGel>(&spec.shape)) gel = ring_mesh(*rings);
+  if (const auto* file = std::get_if<FileGel>(&spec.shape)) gel = file_mesh(*file, shared);
   tag_faces(gel);
   return gel;
 }
@@ -227,7 +251,8 @@ TetMesh make_gel(const GelSpec& spec, const std::filesystem::path& shared) {
 GelShape shape_of(const GelSpec& spec, const TetMesh& gel) {
   const Vector3 extent = gel.positions.colwise().maxCoeff() - gel.positions.colwise().minCoeff();
   GelShape shape;
-  shape.outline = std::holds_alternative<DiscGel>(spec.shape) ? GelShape::Outline::disc : GelShape::Outline::rectangle;
+  const bool round = std::holds_alternative<DiscGel>(spec.shape) || std::holds_alternative<RingGel>(spec.shape);
+  shape.outline = round ? GelShape::Outline::disc : GelShape::Outline::rectangle;
   shape.radius_m = extent.head<2>().maxCoeff() / 2.0;
   shape.width_m = extent.x();
   shape.height_m = extent.y();

@@ -1,4 +1,5 @@
-// Gels of verification cases: a graded block of cells, a disc from the tetmesh library, or a mesh file.
+// Gels of verification cases: a graded block of cells, a disc of rings, a disc from the tetmesh library, or a mesh
+// file.
 #pragma once
 
 #include <filesystem>
@@ -32,6 +33,17 @@ struct BoxGel {
   std::optional<Crown> crown = {};
 };
 
+/// A disc of rings: the same even number of sectors on every ring, so that the mesh can be as fine as it likes along
+/// the radius. Between two radii, the focus, rings are `near_m` apart (one lies on each of the two), inwards and
+/// outwards from there each `growth` times the last, at most `far_m`; layers and cells as those of a box.
+struct RingGel {
+  double radius_m = 0.0, thickness_m = 0.0;
+  int sectors = 0;
+  double focus_from_m = 0.0, focus_to_m = 0.0;
+  double near_m = 0.0, growth = 1.0, far_m = 0.0;
+  double layer_m = 0.0, layer_growth = 1.0;
+};
+
 struct DiscGel {
   double radius_m = 0.0, thickness_m = 0.0;
   SizingConfig sizing;
@@ -46,7 +58,7 @@ struct FileGel {
 };
 
 struct GelSpec {
-  std::variant<BoxGel, DiscGel, FileGel> shape;
+  std::variant<BoxGel, RingGel, DiscGel, FileGel> shape;
 
   static GelSpec read(ConfigReader& in);
 };
@@ -54,6 +66,9 @@ struct GelSpec {
 /// Coordinates of the cell borders along one axis of a box, symmetric about 0, an even number of cells.
 std::vector<double> graded_lines(double half_m, double near_m, double near_half_m, double growth, double far_m,
                                  std::optional<double> last_m);
+
+/// Radii of the rings, from 0 to the rim.
+std::vector<double> ring_radii(const RingGel& gel);
 
 /// Builds the tagged mesh: the lowest plane is glued, faces that look within 60° of +z are front, the rest is side.
 /// \throw DataError for a file that cannot be read

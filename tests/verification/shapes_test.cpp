@@ -1,6 +1,7 @@
 // Gels and objects that the harness makes: closed, outward, of the right volume.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -83,6 +84,40 @@ TEST(GelShapes, BoxFillsItsVolumeAndIsClosed) {
   const GelShape shape = shape_of({box()}, gel);
   EXPECT_NEAR(shape.width_m, 0.02, 1e-15);
   EXPECT_NEAR(shape.thickness_m, 0.004, 1e-15);
+}
+
+TEST(GelShapes, RingsLieAtTheFocusAndFillAPrism) {
+  const RingGel rings{.radius_m = 0.01,
+                      .thickness_m = 0.004,
+                      .sectors = 12,
+                      .focus_from_m = 0.001,
+                      .focus_to_m = 0.0013,
+                      .near_m = 0.0001,
+                      .growth = 1.5,
+                      .far_m = 0.003,
+                      .layer_m = 0.0002,
+                      .layer_growth = 1.5};
+  const auto radii = ring_radii(rings);
+  const auto from = std::find(radii.begin(), radii.end(), 0.001);
+  ASSERT_NE(from, radii.end());
+  ASSERT_GE(radii.end() - from, 4);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(from[i + 1] - from[i], 0.0001, 1e-15);
+  EXPECT_EQ(radii.front(), 0.0);
+  EXPECT_EQ(radii.back(), 0.01);
+  EXPECT_TRUE(std::is_sorted(radii.begin(), radii.end()));
+
+  const TetMesh gel = make_gel({rings}, "");
+  const double polygon = 6.0 * 0.01 * 0.01 * std::sin(2.0 * pi / 12.0);
+  EXPECT_NEAR(volume(gel) / (polygon * 0.004), 1.0, 1e-12);
+  expect_closed(gel.boundary);
+  EXPECT_NEAR(area(gel, BoundaryTag::front), polygon, 1e-15);
+  EXPECT_NEAR(area(gel, BoundaryTag::glued), polygon, 1e-15);
+  // One vertex on the axis for each layer.
+  int on_axis = 0;
+  for (Eigen::Index v = 0; v < gel.num_vertices(); ++v) on_axis += gel.positions.row(v).head<2>().norm() == 0.0;
+  EXPECT_EQ(gel.num_vertices() % on_axis, 0);
+  EXPECT_EQ(gel.num_vertices() / on_axis, 1 + 12 * (std::ssize(radii) - 1));
+  EXPECT_NEAR(shape_of({rings}, gel).radius_m, 0.01, 1e-15);
 }
 
 TEST(GelShapes, CutCornersTakeAwayFourPrisms) {

@@ -16,6 +16,7 @@ struct ContactPair {
   enum class Kind : std::uint8_t { point_triangle, edge_edge };
   Kind kind;
   std::array<int, 4> vertices;
+  double weight = 1.0;  // of its energy (pair_counting.h)
 };
 
 /// The four points of a pair.

@@ -46,7 +46,7 @@ ContactBarrier::Push ContactBarrier::push(int i, const FourPoints& points) const
   Push out{closest_feature(pairs_[i], points), 0.0};
   const double s = out.feature.squared_distance;
   if (s >= s_hat_[i]) return out;
-  out.force = -2.0 * std::sqrt(s) * barrier_d1(s, s_hat_[i]);
+  out.force = -2.0 * pairs_[i].weight * std::sqrt(s) * barrier_d1(s, s_hat_[i]);
   if (const double c = edge_cross_squared_norm(points), threshold = mollifier_threshold_[i]; c < threshold)
     out.force *= edge_edge_mollifier(c, threshold);
   return out;
@@ -55,23 +55,25 @@ ContactBarrier::Push ContactBarrier::push(int i, const FourPoints& points) const
 void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
   const FourPoints points = unpack(x);
   const ClosestFeature feature = closest_feature(pairs_[i], points);
-  const double s = feature.squared_distance, s_hat = s_hat_[i];
+  const double s = feature.squared_distance, s_hat = s_hat_[i], weight = pairs_[i].weight;
   out.zero = s >= s_hat;
   out.value = 0.0;
   if (out.zero) return;
-  out.value = barrier(s, s_hat);
+  out.value = weight * barrier(s, s_hat);
   if (!std::isfinite(out.value)) return;
   out.fit(4, order);
 
   const double threshold = mollifier_threshold_[i];
   const bool mollified = threshold > 0.0 && edge_cross_squared_norm(points) < threshold;
-  const double b = out.value, b1 = barrier_d1(s, s_hat), b2 = barrier_d2(s, s_hat);
+  const double b = out.value, b1 = weight * barrier_d1(s, s_hat), b2 = weight * barrier_d2(s, s_hat);
   if (!mollified) {
     if (order == Order::value) return;
     const Vector12 ds = squared_distance_gradient(feature);
     out.gradient = b1 * ds;
     if (order == Order::gradient) return;
-    if (order == Order::psd) {
+    if (order == Order::psd && weight < 0.0) {
+      out.hessian.setZero();  // without what it takes back, the others' stand-in is the stiffer one
+    } else if (order == Order::psd) {
       normal_hessian(feature, b1, b2, Eigen::Map<Matrix12>(out.hessian.data()));
     } else {
       out.hessian = b2 * ds * ds.transpose() + b1 * squared_distance_hessian(feature);

@@ -8,10 +8,10 @@
 
 namespace tacipc {
 
-/// B(x) = Σ_k m_k(x) b(s_k(x), ŝ_k), in m⁴: s_k the squared distance of pair k, b of barrier.h, m_k the mollifier of
-/// nearly parallel edges (1 for point–triangle pairs).   [Eq. 5; Li et al. 2020, with every pair counted, whatever
-/// feature is closest] ŝ_k = d̂², but for gel–gel pairs at most a quarter of the squared distance at rest: neighbours on
-/// the undeformed gel must not push each other however fine the mesh is.
+/// B(x) = Σ_k c_k m_k(x) b(s_k(x), ŝ_k), in m⁴: c_k the weight of pair k (pair_counting.h), s_k its squared distance, b
+/// of barrier.h, m_k the mollifier of nearly parallel edges (1 for point–triangle pairs).   [Eq. 5; Li et al. 2020] ŝ_k
+/// = d̂², but for gel–gel pairs at most a quarter of the squared distance at rest: neighbours on the undeformed gel must
+/// not push each other however fine the mesh is.
 class ContactBarrier final : public EnergyTerm {
  public:
   ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m);
@@ -23,8 +23,8 @@ class ContactBarrier final : public EnergyTerm {
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 
-  /// How one pair pushes: its closest feature and 2 d m |b′(d²)| in m³, zero from d̂ on. Times κ it is the force between
-  /// the two sides along the line that joins their closest points.
+  /// How one pair pushes: its closest feature and 2 d c m |b′(d²)| in m³, zero from d̂ on. Times κ it is the force
+  /// between the two sides along the line that joins their closest points; negative where the weight c is.
   struct Push {
     ClosestFeature feature;
     double force;

@@ -19,7 +19,7 @@ Friction::Friction(const ContactBarrier& barrier, const Positions& lagged, const
   for (int i = 0; i < barrier.num_stencils(); ++i) {
     const ContactPair& contact = barrier.pairs()[i];
     const ContactBarrier::Push push = barrier.push(i, gather(lagged, contact));
-    if (push.force <= 0.0) continue;
+    if (push.force == 0.0) continue;
     Pair pair;
     pair.vertices = contact.vertices;
     pair.weights = push.feature.weights;
@@ -74,7 +74,12 @@ void Friction::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out
   if (order == Order::gradient) return;
   // ∂²f₀(‖u‖)/∂u² = (f₁/y) I + (f₁′ − f₁/y) û ûᵀ with f₁′ = 2 (1 − y/ε)/ε ≥ 0: never negative. It says nothing of how
   // soon f₁ changes, though, and a step along û overshoots between sticking and slipping. As f₀(√s) is concave in s,
-  // (f₁/y) I alone lies above the energy everywhere: that is the stand-in, with which full steps go down.
+  // (f₁/y) I alone lies above the energy everywhere: that is the stand-in, with which full steps go down. Of a pair
+  // that counts against the others nothing does.
+  if (order == Order::psd && lambda < 0.0) {
+    out.hessian.setZero();
+    return;
+  }
   Eigen::Matrix2d inner = part_over_y * Eigen::Matrix2d::Identity();
   if (y > 0.0 && order != Order::psd) {
     const double slope = r < 1.0 ? 2.0 * (1.0 - r) / epsilon_m_ : 0.0;

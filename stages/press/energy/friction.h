@@ -16,7 +16,7 @@ double friction_part(double y, double epsilon);
 double friction_integral(double y, double epsilon);
 
 /// D(x) = Σ_k λ_k f₀(‖u_k‖), u_k = T_kᵀ Σ wᵢ (xᵢ − xᵢᵗ), in m⁴: the pairs of a barrier at a lagged position, with
-/// normal force λ_k = 2 d m |b′(d²)| (times κ it is the force the barrier has between the two sides), weights w and
+/// normal force λ_k = 2 d c m |b′(d²)| (times κ it is the force the barrier has between the two sides), weights w and
 /// tangent plane T held from there; xᵗ is the start of the time step. Times μκ, −∂D/∂x is Coulomb's friction.   [Eq.
 /// 6–9]
 class Friction final : public EnergyTerm {

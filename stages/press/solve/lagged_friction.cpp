@@ -19,7 +19,7 @@ constexpr double kSettling = 0.8, kSmallestRenewal = 0.1;
 }  // namespace
 
 std::shared_ptr<const Friction> TimeStepper::friction_at(const Positions& lagged, const Step& step) {
-  return std::make_shared<const Friction>(barrier_at(lagged), lagged, step.start,
+  return std::make_shared<const Friction>(barrier(pairs_at(lagged)), lagged, step.start,
                                           settings_.friction->speed_threshold_m_s * step.goal.h_s);
 }
 

@@ -18,6 +18,7 @@ constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where
 constexpr double kNewtonSlack = 0.1;
 constexpr int kMaxWait = 10;  // for the exact Hessian: iterations that meet the tolerances
 constexpr int kMaxHalvings = 40;
+constexpr double kTouching = 1e-9;  // of the largest force on a vertex
 constexpr double kBlendAfterHalving = 0.1;
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
@@ -52,12 +53,16 @@ TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettin
 IncrementalPotential TimeStepper::potential(const Step& step, std::vector<ContactPair> pairs) const {
   StepTerms terms = step.terms;
   terms.friction = step.friction;
-  terms.barrier = std::make_shared<ContactBarrier>(mesh_, std::move(pairs), settings_.d_hat_m);
+  terms.barrier = std::make_shared<ContactBarrier>(barrier(std::move(pairs)));
   return make_incremental_potential(terms, step.weights);
 }
 
-ContactBarrier TimeStepper::barrier_at(const Positions& x) {
-  return {mesh_, search_.pairs(x, Positions::Zero(x.rows(), 3), settings_.d_hat_m), settings_.d_hat_m};
+ContactBarrier TimeStepper::barrier(std::vector<ContactPair> pairs) const {
+  return {mesh_, weighted(std::move(pairs), mesh_.num_gel_vertices, settings_.pair_counting), settings_.d_hat_m};
+}
+
+std::vector<ContactPair> TimeStepper::pairs_at(const Positions& x) {
+  return search_.pairs(x, Positions::Zero(x.rows(), 3), settings_.d_hat_m);
 }
 
 double TimeStepper::contact_force(const Step& step) {
@@ -65,7 +70,7 @@ double TimeStepper::contact_force(const Step& step) {
   const auto sum = [&](const EnergyTerm& term) -> Eigen::RowVector3d {
     return gradient_of(term, step.x).topRows(n).colwise().sum();
   };
-  const Eigen::RowVector3d normal = sum(barrier_at(step.x));
+  const Eigen::RowVector3d normal = sum(barrier(pairs_at(step.x)));
   const Eigen::RowVector3d friction = step.friction
                                           ? Eigen::RowVector3d(settings_.friction->coefficient * sum(*step.friction))
                                           : Eigen::RowVector3d::Zero();
@@ -82,7 +87,7 @@ void TimeStepper::minimise(Step& step) {
   int relax = 0, relax_wanted = 1, iterations = 0, waited = 0;
   double& blend = step.blend;
   double last_residual = std::numeric_limits<double>::infinity();
-  IncrementalPotential energy = potential(step, search_.pairs(x, still, settings_.d_hat_m));
+  IncrementalPotential energy = potential(step, pairs_at(x));
 
   while (true) {
     if (iterations >= newton.max_iterations) {
@@ -273,7 +278,7 @@ void TimeStepper::record_forces(const Step& step) {
     return -part.weight / h2 * gradient_of(*part.term, step.x).topRows(n);
   };
   forces_ = no_forces();
-  for (const WeightedTerm& part : potential(step, barrier_at(step.x).pairs()).terms) {
+  for (const WeightedTerm& part : potential(step, pairs_at(step.x)).terms) {
     const Positions force = force_of(part);
     if (part.term->name() == "barrier") {
       forces_.normal = force;
@@ -287,8 +292,10 @@ void TimeStepper::record_forces(const Step& step) {
     for (const int v : gel_.glued) forces_.mount.row(v) -= force.row(v);
   }
 
+  // Weights that cancel leave rounding behind.
+  const double touching_n = kTouching * largest_row(forces_.normal, n);
   std::vector<double> all(static_cast<std::size_t>(n), 0.0), slipping(static_cast<std::size_t>(n), 0.0);
-  for (Eigen::Index v = 0; v < n; ++v) forces_.contact_state[v] = forces_.normal.row(v).isZero(0.0) ? 0 : 1;
+  for (Eigen::Index v = 0; v < n; ++v) forces_.contact_state[v] = forces_.normal.row(v).norm() > touching_n ? 1 : 0;
   if (!step.friction) return;
   for (int i = 0; i < step.friction->num_stencils(); ++i) {
     const auto stencil = step.friction->stencil(i);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "stages/press/contact/pair_counting.h"
 #include "stages/press/energy/friction.h"
 #include "stages/press/solve/newton_step.h"
 
@@ -30,6 +31,7 @@ struct FrictionSettings {
 struct StepSettings {
   double d_hat_m = 0.0;
   double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step: contact is as stiff in a shorter one
+  PairCounting pair_counting = {};
   std::optional<FrictionSettings> friction = std::nullopt;
   bool quasi_static = false;
   bool augmented_lagrangian = false;  // glued and object vertices by multipliers, else eliminated
@@ -117,7 +119,8 @@ class TimeStepper {
   /// From a minimum: renews friction and minimises again until it belongs to its own contact forces.
   /// \throw SolverError if it does not settle
   void settle_friction(Step& step);
-  ContactBarrier barrier_at(const Positions& x);
+  ContactBarrier barrier(std::vector<ContactPair> pairs) const;
+  std::vector<ContactPair> pairs_at(const Positions& x);  // within d̂ now
   /// What residual forces are measured by: |Σ forces of the object on the gel|, with friction or without, whichever is
   /// less (friction may carry most of the normal force, and what is left must balance too).
   double contact_force(const Step& step);
