@@ -174,6 +174,7 @@ StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64
     stress.press.friction->coefficient = coefficient;
   }
   MotionDrawer(config.motion, draws, stress).draw();
+  stress.press.pair_counting.once = draws.chance(config.pairs_once_share);
   return stress;
 }
 
@@ -196,7 +197,8 @@ Value StressCase::description() const {
                  {"friction", press.friction ? press.friction->coefficient : 0.0},
                  {"lag", !press.friction            ? "none"
                          : press.friction->iterated ? "iterated"
-                                                    : "once"}};
+                                                    : "once"},
+                 {"pairs", press.pair_counting.once ? "once" : "every"}};
   Value::List phases;
   for (const Phase& phase : sample.motion) {
     Value::Map line{{"kind", name_of(phase.kind)}, {"steps", phase.steps}};

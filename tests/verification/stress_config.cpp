@@ -73,6 +73,7 @@ StressConfig StressConfig::read(ConfigReader& in) {
   ConfigReader press = in.section("press");
   config.press = PressConfig::read(press);
   if (press.has("friction")) press.fault("friction", "is drawn for each case, from the section friction");
+  config.pairs_once_share = in.number("pairs_once_share", kShare);
   return config;
 }
 

@@ -60,7 +60,8 @@ struct StressConfig {
     double none_share = 0.0, iterated_share = 0.0;
     Span coefficient;
   } friction;
-  PressConfig press;  // without friction
+  PressConfig press;              // without friction
+  double pairs_once_share = 0.0;  // of cases whose barrier counts pairs once, whatever `press` says
 
   static StressConfig read(ConfigReader& in);
 };
