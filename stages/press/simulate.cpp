@@ -7,22 +7,11 @@
 #include "common/log.h"
 #include "stages/press/energy/elasticity.h"
 #include "stages/press/energy/element.h"
+#include "stages/press/measure/front_surface.h"
 #include "stages/press/verdict.h"
 
 namespace tacipc {
 namespace {
-
-/// Median length of the edges of the front face: how finely contact is resolved.
-double median_front_edge_m(const TetMesh& gel) {
-  std::vector<double> lengths;
-  const Triangles front = gel.faces(BoundaryTag::front);
-  for (Eigen::Index f = 0; f < front.rows(); ++f) {
-    for (int k = 0; k < 3; ++k)
-      lengths.push_back((gel.positions.row(front(f, k)) - gel.positions.row(front(f, (k + 1) % 3))).norm());
-  }
-  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
-  return lengths[lengths.size() / 2];
-}
 
 class Motion {
  public:

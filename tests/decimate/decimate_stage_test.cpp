@@ -1,32 +1,23 @@
 // The program as a user runs it.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
-#include <cstdlib>
-
 #include "tests/decimate/shapes.h"
-#include "tests/scratch_folder.h"
+#include "tests/program_test.h"
 
 namespace tacipc {
 namespace {
 
-class DecimateStage : public ::testing::Test {
+class DecimateStage : public ProgramTest {
  protected:
-  /// Exit code; what it said goes to `said_`.
   int run(const std::string& out, const std::string& threads = "1") {
-    const std::string log = (scratch_ / "said").string();
-    const std::string command = std::string(TACIPC_BIN_DIR) + "/decimate --config " + TACIPC_SOURCE_DIR +
-                                "/configs/decimate/default.yaml --mesh " + mesh_.string() + " --object " +
-                                object_.string() + " --out " + (scratch_ / out).string() + " --threads " + threads +
-                                " 2> " + log;
-    const int status = std::system(command.c_str());
-    said_ = read_file(log);
-    return WEXITSTATUS(status);
+    return run_command(fmt::format(
+        "{}/decimate --config {}/configs/decimate/default.yaml --mesh {} --object {} --out {} --threads {}",
+        TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, mesh_.string(), object_.string(), (scratch_ / out).string(), threads));
   }
 
-  ScratchFolder scratch_;
   std::filesystem::path mesh_ = scratch_ / "mesh.ply";
   std::filesystem::path object_ = scratch_.file("object.yaml", "unit: m\nup: \"-z\"\n");
-  std::string said_;
 };
 
 TEST_F(DecimateStage, WritesTheSameObjectAndRecordOnAnyNumberOfThreads) {

@@ -1,13 +1,13 @@
 #include "stages/emboss/emboss.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "common/error.h"
 #include "tests/config_text.h"
-#include "tests/scratch_folder.h"
+#include "tests/program_test.h"
 
 namespace tacipc {
 namespace {
@@ -172,63 +172,57 @@ TEST(Emboss, FullResolutionHasHalfAMillionVertices) {
   EXPECT_GT(least, 0.1 * coin.spacing_m * coin.spacing_m);
 }
 
-class EmbossProgram : public ::testing::Test {
+class EmbossProgram : public ProgramTest {
  protected:
   int run(const std::string& out, const std::string& more = "") {
-    const std::string command = std::string(TACIPC_BIN_DIR) + "/emboss --config '" + (folder_ / "c.yaml").string() +
-                                "' --out '" + (folder_ / out).string() + "' " + more + " 2> '" +
-                                (folder_ / "said").string() + "'";
-    const int status = std::system(command.c_str());
-    said_ = read_file(folder_ / "said");
-    return WEXITSTATUS(status);
+    return run_command(fmt::format("{}/emboss --config '{}' --out '{}' {}", TACIPC_BIN_DIR,
+                                   (scratch_ / "c.yaml").string(), (scratch_ / out).string(), more));
   }
-
-  ScratchFolder folder_;
-  std::string said_;
 };
 
 TEST_F(EmbossProgram, SameBytesWithAnyNumberOfThreads) {
-  folder_.file("c.yaml", config_text("kind: cobbles, pitch_mm: 1.5, gap_mm: 0.3, seed: 4", 30000));
+  scratch_.file("c.yaml", config_text("kind: cobbles, pitch_mm: 1.5, gap_mm: 0.3, seed: 4", 30000));
   ASSERT_EQ(run("a", "--threads 1"), 0) << said_;
   ASSERT_EQ(run("b", "--threads 4"), 0) << said_;
   for (const char* name : {"object.ply", "relief.png", "emboss.yaml"})
-    EXPECT_EQ(read_file(folder_ / (std::string("a/") + name)), read_file(folder_ / (std::string("b/") + name))) << name;
-  const TriangleMesh mesh = read_triangle_mesh(folder_ / "a/object.ply", 1.0);
+    EXPECT_EQ(read_file(scratch_ / (std::string("a/") + name)), read_file(scratch_ / (std::string("b/") + name)))
+        << name;
+  const TriangleMesh mesh = read_triangle_mesh(scratch_ / "a/object.ply", 1.0);
   EXPECT_GE(mesh.num_vertices(), 30000);
   EXPECT_NEAR(mesh.positions.col(2).maxCoeff(), 2.4e-3, 1e-6);
 }
 
 TEST_F(EmbossProgram, SaysWhatIsWrongWithAPicture) {
-  folder_.file("c.yaml", config_text("kind: image, file: mine.png, width_mm: 8"));
+  scratch_.file("c.yaml", config_text("kind: image, file: mine.png, width_mm: 8"));
   EXPECT_EQ(run("out"), 1);
   EXPECT_EQ(said_,
-            "emboss: error: " + (folder_ / "mine.png").string() + ": cannot be read: No such file or directory\n");
-  folder_.file("mine.png", "no picture");
+            "emboss: error: " + (scratch_ / "mine.png").string() + ": cannot be read: No such file or directory\n");
+  scratch_.file("mine.png", "no picture");
   EXPECT_EQ(run("out"), 1);
-  EXPECT_THAT(said_, testing::StartsWith("emboss: error: " + (folder_ / "mine.png").string() + ": "));
-  EXPECT_FALSE(fs::exists(folder_ / "out/emboss.yaml"));
-  write_png(folder_ / "mine.png", ByteImage(20, 10, 1, 128));
+  EXPECT_THAT(said_, testing::StartsWith("emboss: error: " + (scratch_ / "mine.png").string() + ": "));
+  EXPECT_FALSE(fs::exists(scratch_ / "out/emboss.yaml"));
+  write_png(scratch_ / "mine.png", ByteImage(20, 10, 1, 128));
   EXPECT_EQ(run("out"), 1);
-  EXPECT_EQ(said_, "emboss: error: " + (folder_ / "mine.png").string() +
+  EXPECT_EQ(said_, "emboss: error: " + (scratch_ / "mine.png").string() +
                        ": every pixel has the grey 128, so there is no relief\n");
   ByteImage half(20, 10, 1, 0);
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 10; ++x) half.at(x, y, 0) = 255;
-  write_png(folder_ / "mine.png", half);
+  write_png(scratch_ / "mine.png", half);
   EXPECT_EQ(run("out"), 0) << said_;
-  EXPECT_THAT(read_file(folder_ / "out/emboss.yaml"), testing::HasSubstr("image_hash: "));
+  EXPECT_THAT(read_file(scratch_ / "out/emboss.yaml"), testing::HasSubstr("image_hash: "));
 }
 
 TEST_F(EmbossProgram, WarnsOfStrokesTooNarrowForTheirWalls) {
-  folder_.file("c.yaml", config_text("kind: text, text: I, height_mm: 7, stroke_mm: 0.2", 50000));
+  scratch_.file("c.yaml", config_text("kind: text, text: I, height_mm: 7, stroke_mm: 0.2", 50000));
   EXPECT_EQ(run("out"), 0);
   EXPECT_THAT(said_, testing::HasSubstr("of 0.400 mm: its parts are narrower than their walls"));
 }
 
 TEST_F(EmbossProgram, WrongConfigurationEndsWithTwo) {
-  folder_.file("c.yaml", config_text("kind: star, points: 2, outer_mm: 4, inner_mm: 2"));
+  scratch_.file("c.yaml", config_text("kind: star, points: 2, outer_mm: 4, inner_mm: 2"));
   EXPECT_EQ(run("out"), 2);
-  EXPECT_EQ(said_, (folder_ / "c.yaml").string() + ":4:31: pattern.points: 2 is outside [3, 60]\n");
+  EXPECT_EQ(said_, (scratch_ / "c.yaml").string() + ":4:31: pattern.points: 2 is outside [3, 60]\n");
 }
 
 }  // namespace

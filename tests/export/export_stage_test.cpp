@@ -1,32 +1,24 @@
 // The program as a user runs it.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
 
 #include "tests/export/pressed_cube.h"
 #include "tests/export/vtu_reader.h"
+#include "tests/program_test.h"
 
 namespace tacipc {
 namespace {
 
 using ::testing::HasSubstr;
 
-class ExportStageTest : public ::testing::Test {
+class ExportStageTest : public ProgramTest {
  protected:
   void SetUp() override { write_pressed_cube(scratch_); }
 
   int run(const std::string& out, const std::string& more = "") {
-    const std::string command =
-        fmt::format("cd {} && {}/export --press press --gel gel.msh --object object.ply --out {} {} 2> said.txt",
-                    (scratch_ / "").string(), TACIPC_BIN_DIR, out, more);
-    const int status = std::system(command.c_str());
-    said_ = read_file(scratch_ / "said.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return run_command(fmt::format("cd {} && {}/export --press press --gel gel.msh --object object.ply --out {} {}",
+                                   (scratch_ / "").string(), TACIPC_BIN_DIR, out, more));
   }
-
-  ScratchFolder scratch_;
-  std::string said_;
 };
 
 TEST_F(ExportStageTest, WritesThreeFilesAFrameAndThreeCollections) {

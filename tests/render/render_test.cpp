@@ -1,19 +1,19 @@
 // The whole stage, as a user calls it.
 #include "stages/render/render.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
 
 #include "common/error.h"
 #include "common/files.h"
+#include "tests/program_test.h"
 #include "tests/render/test_surfaces.h"
 
 namespace tacipc {
@@ -75,12 +75,9 @@ TetMesh slab(int nx, int ny) {
   return gel;
 }
 
-class RenderStage : public ::testing::Test {
+class RenderStage : public ProgramTest {
  protected:
   void SetUp() override {
-    root_ = fs::temp_directory_path() /
-            ("tacipc-render-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(root_);
     gel_ = slab(16, 12);
     positions_.shape = {3, static_cast<std::size_t>(gel_.num_vertices()), 3};
     for (int frame = 0; frame < 3; ++frame) {
@@ -90,35 +87,28 @@ class RenderStage : public ::testing::Test {
         positions_.data.insert(positions_.data.end(), {x, y, z - depth * (1.0 + z / kMm)});
       }
     }
-    write_file(root_ / "sensor.yaml", kSensor);
-    write_file(root_ / "config.yaml", kConfig);
-    write_file(root_ / "press/press.yaml", "stage: press\n");
-    write_tet_mesh(root_ / "gel.msh", gel_);
+    write_file(scratch_ / "sensor.yaml", kSensor);
+    write_file(scratch_ / "config.yaml", kConfig);
+    write_file(scratch_ / "press/press.yaml", "stage: press\n");
+    write_tet_mesh(scratch_ / "gel.msh", gel_);
     write_positions();
   }
-  void TearDown() override { fs::remove_all(root_); }
-
-  void write_positions() { write_npy(root_ / "press/positions.npy", positions_.shape, positions_.data.data()); }
+  void write_positions() { write_npy(scratch_ / "press/positions.npy", positions_.shape, positions_.data.data()); }
 
   /// Runs the program; what it says is in said_, with the scratch folder's name left out.
   int run(const std::string& out = "out", const std::string& more = "--threads 1") {
-    const std::string command = std::string(TACIPC_BIN_DIR) + "/render --log-level warning --config " +
-                                (root_ / "config.yaml").string() + " --sensor " + (root_ / "sensor.yaml").string() +
-                                " --gel " + (root_ / "gel.msh").string() + " --press " + (root_ / "press").string() +
-                                " --out " + (root_ / out).string() + " " + more + " 2> " +
-                                (root_ / "said.txt").string();
-    const int status = std::system(command.c_str());
-    said_ = read_file(root_ / "said.txt");
-    const std::string root = root_.string() + "/";
+    const int code = run_command(
+        fmt::format("{}/render --log-level warning --config {} --sensor {} --gel {} --press {} --out {} {}",
+                    TACIPC_BIN_DIR, (scratch_ / "config.yaml").string(), (scratch_ / "sensor.yaml").string(),
+                    (scratch_ / "gel.msh").string(), (scratch_ / "press").string(), (scratch_ / out).string(), more));
+    const std::string root = (scratch_ / "").string();
     for (std::size_t at = said_.find(root); at != std::string::npos; at = said_.find(root))
       said_.erase(at, root.size());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return code;
   }
 
-  fs::path root_;
   TetMesh gel_;
   NpyArray positions_;
-  std::string said_;
 };
 
 TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
@@ -126,22 +116,22 @@ TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
   EXPECT_EQ(said_, "");
   for (const char* name :
        {"linear.exr", "depth.exr", "normal.exr", "indentation.exr", "tactile.png", "normal.png", "indentation.png"}) {
-    EXPECT_TRUE(fs::exists(root_ / "out/frame_0000" / name)) << name;
-    EXPECT_TRUE(fs::exists(root_ / "out/frame_0002" / name)) << name;
+    EXPECT_TRUE(fs::exists(scratch_ / "out/frame_0000" / name)) << name;
+    EXPECT_TRUE(fs::exists(scratch_ / "out/frame_0002" / name)) << name;
   }
-  EXPECT_FALSE(fs::exists(root_ / "out/frame_0001"));
-  const std::string record = read_file(root_ / "out/render.yaml");
+  EXPECT_FALSE(fs::exists(scratch_ / "out/frame_0001"));
+  const std::string record = read_file(scratch_ / "out/render.yaml");
   EXPECT_THAT(record, HasSubstr("reference: synthetic"));
   EXPECT_THAT(record, HasSubstr("nudged_rays: "));
   EXPECT_THAT(record, HasSubstr("outside_rays: 0"));
   // The deepest vertex lies on the axis, between rays: 0.4 mm less what the nearest rays and the facets miss.
-  const FloatImage indentation = read_exr(root_ / "out/frame_0002/indentation.exr", {"Y"});
+  const FloatImage indentation = read_exr(scratch_ / "out/frame_0002/indentation.exr", {"Y"});
   EXPECT_NEAR(*std::max_element(indentation.pixels.begin(), indentation.pixels.end()), 0.4e-3, 0.02e-3);
-  const FloatImage rest_normal = read_exr(root_ / "out/frame_0000/normal.exr", {"X", "Y", "Z"});
+  const FloatImage rest_normal = read_exr(scratch_ / "out/frame_0000/normal.exr", {"X", "Y", "Z"});
   EXPECT_FLOAT_EQ(rest_normal.at(5, 5, 2), 1.0f);
-  EXPECT_FLOAT_EQ(read_exr(root_ / "out/frame_0000/depth.exr", {"Z"}).at(3, 3, 0), 5e-3f);
+  EXPECT_FLOAT_EQ(read_exr(scratch_ / "out/frame_0000/depth.exr", {"Z"}).at(3, 3, 0), 5e-3f);
   // The mean of the reference is the level asked for, up to rounding and the noise of 2304 values.
-  const ByteImage reference = read_png(root_ / "out/frame_0000/tactile.png", 3);
+  const ByteImage reference = read_png(scratch_ / "out/frame_0000/tactile.png", 3);
   double sum = 0.0;
   for (const std::uint8_t code : reference.pixels) sum += code;
   EXPECT_NEAR(sum / static_cast<double>(reference.pixels.size()), 127.5, 0.5);
@@ -150,13 +140,13 @@ TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
 TEST_F(RenderStage, BytesDoNotDependOnThreads) {
   ASSERT_EQ(run("one"), 0) << said_;
   ASSERT_EQ(run("two", "--threads 2"), 0) << said_;
-  EXPECT_EQ(content_hash(root_ / "one"), content_hash(root_ / "two"));
+  EXPECT_EQ(content_hash(scratch_ / "one"), content_hash(scratch_ / "two"));
 }
 
 TEST_F(RenderStage, AllFramesWhenAsked) {
-  write_file(root_ / "config.yaml", "frames: all\nsubpixels: 1\nnoise: {full_well_e: 5000, read_e: 4, seed: 1}\n");
+  write_file(scratch_ / "config.yaml", "frames: all\nsubpixels: 1\nnoise: {full_well_e: 5000, read_e: 4, seed: 1}\n");
   ASSERT_EQ(run(), 0) << said_;
-  EXPECT_TRUE(fs::exists(root_ / "out/frame_0001/tactile.png"));
+  EXPECT_TRUE(fs::exists(scratch_ / "out/frame_0001/tactile.png"));
 }
 
 TEST_F(RenderStage, TheRealReferenceComesBackWhereNothingTouches) {
@@ -164,25 +154,26 @@ TEST_F(RenderStage, TheRealReferenceComesBackWhereNothingTouches) {
   for (std::size_t i = 0; i < photograph.pixels.size(); ++i) {
     photograph.pixels[i] = static_cast<std::uint8_t>(60 + (i * i) % 120);
   }
-  write_png(root_ / "photograph.png", photograph);
-  write_file(root_ / "sensor.yaml", std::string(kSensor) + "reference_image: photograph.png\n");
+  write_png(scratch_ / "photograph.png", photograph);
+  write_file(scratch_ / "sensor.yaml", std::string(kSensor) + "reference_image: photograph.png\n");
   ASSERT_EQ(run(), 0) << said_;
-  EXPECT_EQ(read_png(root_ / "out/frame_0000/tactile.png", 3).pixels, photograph.pixels);
-  EXPECT_NE(read_png(root_ / "out/frame_0002/tactile.png", 3).pixels, photograph.pixels);
-  EXPECT_THAT(read_file(root_ / "out/render.yaml"), HasSubstr("reference: " + content_hash(root_ / "photograph.png")));
+  EXPECT_EQ(read_png(scratch_ / "out/frame_0000/tactile.png", 3).pixels, photograph.pixels);
+  EXPECT_NE(read_png(scratch_ / "out/frame_0002/tactile.png", 3).pixels, photograph.pixels);
+  EXPECT_THAT(read_file(scratch_ / "out/render.yaml"),
+              HasSubstr("reference: " + content_hash(scratch_ / "photograph.png")));
 }
 
 TEST_F(RenderStage, RefusesAReferenceOfAnotherSize) {
-  write_png(root_ / "photograph.png", ByteImage(64, 48, 3));
-  write_file(root_ / "sensor.yaml", std::string(kSensor) + "reference_image: photograph.png\n");
+  write_png(scratch_ / "photograph.png", ByteImage(64, 48, 3));
+  write_file(scratch_ / "sensor.yaml", std::string(kSensor) + "reference_image: photograph.png\n");
   EXPECT_EQ(run(), 1);
   EXPECT_EQ(said_,
             "render: error: photograph.png: the reference image has 64 x 48 pixels, the sensor's camera 32 x 24\n");
-  EXPECT_FALSE(fs::exists(root_ / "out/render.yaml"));
+  EXPECT_FALSE(fs::exists(scratch_ / "out/render.yaml"));
 }
 
 TEST_F(RenderStage, RefusesAnUnfinishedPress) {
-  fs::remove(root_ / "press/press.yaml");
+  fs::remove(scratch_ / "press/press.yaml");
   EXPECT_EQ(run(), 1);
   EXPECT_EQ(said_, "render: error: press: has no press.yaml, so the press did not finish\n");
 }
@@ -215,7 +206,7 @@ TEST_F(RenderStage, RefusesPositionsThatDoNotFitTheGel) {
 }
 
 TEST_F(RenderStage, RefusesWrongConfigurations) {
-  write_file(root_ / "config.yaml", "frames: first\nsubpixel: 2\nnoise: {full_well_e: 0, read_e: 4}\n");
+  write_file(scratch_ / "config.yaml", "frames: first\nsubpixel: 2\nnoise: {full_well_e: 0, read_e: 4}\n");
   EXPECT_EQ(run(), 2);
   EXPECT_EQ(said_,
             "config.yaml:1:9: frames: 'first' is not one of last, all\n"
@@ -231,7 +222,7 @@ TEST_F(RenderStage, RefusesLightsThatDoNotReachTheGel) {
   sensor.replace(leds, camera - leds,
                  "leds: {list: [{position_mm: [0, 0, 5], rgb_linear: [1, 1, 1], intensity: 1},\n"
                  "              {position_mm: [1, 0, 3], rgb_linear: [1, 1, 1], intensity: 1}]}\n");
-  write_file(root_ / "sensor.yaml", sensor);
+  write_file(scratch_ / "sensor.yaml", sensor);
   EXPECT_EQ(run(), 1);
   EXPECT_EQ(said_,
             "render: warning: LED 0 lights nothing the camera sees\n"

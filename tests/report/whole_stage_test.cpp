@@ -1,12 +1,10 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <optional>
 
+#include "tests/program_test.h"
 #include "tests/report/sample_folder.h"
-#include "tests/scratch_folder.h"
 
 namespace tacipc {
 namespace {
@@ -14,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class ReportStageTest : public ::testing::Test {
+class ReportStageTest : public ProgramTest {
  protected:
   /// Runs the program in the scratch folder or another; what it says is in said_.
   int run(const std::vector<std::string>& samples, const std::string& out, const std::string& more = "",
@@ -22,16 +20,11 @@ class ReportStageTest : public ::testing::Test {
     const std::string root = working_folder.value_or(scratch_ / "").string();
     std::string command = "cd " + root + " && " + std::string(TACIPC_BIN_DIR) + "/report";
     for (const std::string& sample : samples) command += fmt::format(" --sample {}", sample);
-    command += fmt::format(" --out {} {} 2> {}", out, more, (scratch_ / "said.txt").string());
-    const int status = std::system(command.c_str());
-    said_ = read_file(scratch_ / "said.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return run_command(command + fmt::format(" --out {} {}", out, more));
   }
 
-  ScratchFolder scratch_;
   fs::path star_ = write_sample(scratch_ / "", "star");
   fs::path gear_ = write_sample(scratch_ / "", "gear");
-  std::string said_;
 };
 
 TEST_F(ReportStageTest, WritesPageSheetAndRecordAndCountsTheFailed) {

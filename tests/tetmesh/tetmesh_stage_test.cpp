@@ -1,13 +1,10 @@
 // The program itself: files, records, exit codes, messages.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
 
 #include "common/files.h"
 #include "common/tet_mesh.h"
-#include "tests/scratch_folder.h"
+#include "tests/program_test.h"
 #include "tests/tetmesh/gels.h"
 
 namespace tacipc {
@@ -15,21 +12,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class TetmeshStageTest : public ::testing::Test {
+class TetmeshStageTest : public ProgramTest {
  protected:
   int run(const std::string& config, const std::string& more = "") {
-    const std::string command = std::string(TACIPC_BIN_DIR) + "/tetmesh --log-level warning --config " + config +
-                                " --sensor " + config_path("sensors/mctac.yaml").string() + " --out " +
-                                (scratch_ / "out").string() + " " + more + " > " + (scratch_ / "stdout.txt").string() +
-                                " 2> " + (scratch_ / "said.txt").string();
-    const int status = std::system(command.c_str());
-    said_ = read_file(scratch_ / "said.txt");
+    const int code = run_command(fmt::format("{}/tetmesh --log-level warning --config {} --sensor {} --out {} {} > {}",
+                                             TACIPC_BIN_DIR, config, config_path("sensors/mctac.yaml").string(),
+                                             (scratch_ / "out").string(), more, (scratch_ / "stdout.txt").string()));
     EXPECT_EQ(read_file(scratch_ / "stdout.txt"), "");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return code;
   }
-
-  ScratchFolder scratch_;
-  std::string said_;
 };
 
 TEST_F(TetmeshStageTest, GivesTheSameBytesTwiceAtAnyThreadCount) {

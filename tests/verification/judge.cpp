@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "common/error.h"
 #include "common/npy.h"
+#include "stages/press/measure/front_surface.h"
 #include "tests/verification/bonded_layer.h"
 #include "tests/verification/closed_forms.h"
 #include "tests/verification/shared_files.h"
@@ -20,14 +22,9 @@ using Kind = ObjectShape::Kind;
 double gel_thickness_m(const TetMesh& gel) { return gel.positions.col(2).maxCoeff() - gel.positions.col(2).minCoeff(); }
 
 double front_area_m2(const TetMesh& gel) {
-  double area = 0.0;
-  const Triangles front = gel.faces(BoundaryTag::front);
-  for (Eigen::Index f = 0; f < front.rows(); ++f) {
-    const Vector3 a = gel.positions.row(front(f, 0)), b = gel.positions.row(front(f, 1)),
-                  c = gel.positions.row(front(f, 2));
-    area += 0.5 * (b - a).cross(c - a).norm();
-  }
-  return area;
+  const FrontSurface front = make_front_surface(gel);
+  const std::vector<double> areas = triangle_areas(front, on_front(front, gel.positions));
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 double radius_of(const Outcome& outcome, Kind kind, const std::string& formula) {

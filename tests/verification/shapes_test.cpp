@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
+#include "tests/closed_surface.h"
 #include "tests/verification/gel_shapes.h"
 #include "tests/verification/object_shapes.h"
 
@@ -26,17 +26,6 @@ double volume(const TetMesh& gel) {
     sum += six / 6.0;
   }
   return sum;
-}
-
-/// Every edge belongs to two triangles that run through it in opposite directions.
-void expect_closed(const Triangles& triangles) {
-  std::map<std::pair<int, int>, int> seen;
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-    for (int k = 0; k < 3; ++k) ++seen[{triangles(f, k), triangles(f, (k + 1) % 3)}];
-  for (const auto& [edge, count] : seen) {
-    EXPECT_EQ(count, 1) << edge.first << "-" << edge.second;
-    EXPECT_TRUE(seen.contains({edge.second, edge.first})) << edge.first << "-" << edge.second;
-  }
 }
 
 double area(const TetMesh& gel, BoundaryTag tag) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "stages/press/measure/front_surface.h"
 #include "tests/verification/gel_shapes.h"
 
 namespace tacipc::verify {
@@ -63,17 +64,6 @@ GelSpec draw_disc(const StressConfig::Gel& ranges, double thickness_m, double ve
     if (estimated_vertices(sizing_for(disc.sizing, shape)) >= vertices) break;
   }
   return {.shape = disc};
-}
-
-double median_front_edge_m(const TetMesh& mesh) {
-  std::vector<double> lengths;
-  const Triangles front = mesh.faces(BoundaryTag::front);
-  for (Eigen::Index f = 0; f < front.rows(); ++f) {
-    for (int k = 0; k < 3; ++k)
-      lengths.push_back((mesh.positions.row(front(f, k)) - mesh.positions.row(front(f, (k + 1) % 3))).norm());
-  }
-  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
-  return lengths[lengths.size() / 2];
 }
 
 }  // namespace

@@ -4,6 +4,17 @@
 
 namespace tacipc {
 
+double median_front_edge_m(const TetMesh& gel) {
+  std::vector<double> lengths;
+  const Triangles front = gel.faces(BoundaryTag::front);
+  for (Eigen::Index f = 0; f < front.rows(); ++f) {
+    for (int k = 0; k < 3; ++k)
+      lengths.push_back((gel.positions.row(front(f, k)) - gel.positions.row(front(f, (k + 1) % 3))).norm());
+  }
+  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
+  return lengths[lengths.size() / 2];
+}
+
 FrontSurface make_front_surface(const TetMesh& gel) {
   FrontSurface front{.vertices = gel.vertices(BoundaryTag::front), .triangles = gel.faces(BoundaryTag::front)};
   for (Eigen::Index f = 0; f < front.triangles.rows(); ++f) {

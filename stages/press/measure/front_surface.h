@@ -13,6 +13,9 @@ struct FrontSurface {
   Triangles triangles;        // indices into `vertices`, outwards
 };
 
+/// Median length of the edges of the front face: how finely contact is resolved.
+double median_front_edge_m(const TetMesh& gel);
+
 FrontSurface make_front_surface(const TetMesh& gel);
 
 /// The rows of a per-vertex array of the whole gel that belong to the front.

@@ -21,6 +21,14 @@ TEST(FrontSurface, IsNumberedByItself) {
   EXPECT_EQ(on_front(front, gel.positions), (Positions{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
 }
 
+TEST(FrontSurface, MedianEdgeIsTheFrontsAlone) {
+  TetMesh gel;
+  gel.positions = Positions{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 0, -100}};
+  gel.boundary = Triangles{{0, 1, 2}, {0, 2, 3}};
+  gel.tags = {BoundaryTag::front, BoundaryTag::side};
+  EXPECT_EQ(median_front_edge_m(gel), 4.0) << "of 3, 4 and 5";
+}
+
 TEST(FrontSurface, LumpedAreasSumToTheFront) {
   Positions positions;
   const FrontSurface front = square_front(7, 0.01, 0.3, positions);
