@@ -87,11 +87,8 @@ CaseSpec CaseSpec::read(ConfigReader& in) {
   spec.sample = SampleSpec::read(in);
   for (ConfigReader& row : in.sections("expect")) spec.expect.push_back(Expectation::read(row));
   if (auto fit = in.optional_section("fit")) spec.fit = Fit::read(*fit);
-  if (auto study = in.optional_section("study"))
-    spec.study = Study{study->text("name"), study->text("parameter"), study->number("value")};
   if (auto reference = in.optional_section("reference")) spec.reference = ReferenceSpec::read(*reference);
-  if (spec.expect.empty() && !spec.reference && !spec.study)
-    in.fault("expect", "nothing is expected: give expect, reference or study");
+  if (spec.expect.empty() && !spec.reference) in.fault("expect", "nothing is expected: give expect or reference");
   return spec;
 }
 

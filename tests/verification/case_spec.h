@@ -48,13 +48,6 @@ struct Fit {
   static Fit read(ConfigReader& in);
 };
 
-/// A family of cases that differ in one number, for the table of refinement.
-struct Study {
-  std::string name;
-  std::string parameter;
-  double value = 0.0;
-};
-
 /// Results of the reference solver on the same gel mesh.
 struct ReferenceSpec {
   std::string displacement;  // npy (frames, #V, 3), shared:… allowed
@@ -77,7 +70,6 @@ struct CaseSpec {
   SampleSpec sample;
   std::vector<Expectation> expect;
   std::optional<Fit> fit;
-  std::optional<Study> study;
   std::optional<ReferenceSpec> reference;
 
   static CaseSpec read(ConfigReader& in);

@@ -52,6 +52,8 @@ TEST(Case, EveryFaultIsReportedAtItsPlace) {
             std::vector<std::string>{"case.yaml:14:50: expect[0].formula: give value or formula, not both"});
   EXPECT_EQ(faults_of_case(kCase + "  - {quantity: press_force_n, at_most: 1, frame: 1, depth_mm: 1}\n"),
             std::vector<std::string>{"case.yaml:14:50: expect[0].frame: give at most one of frame, phase, depth_mm"});
+  EXPECT_EQ(faults_of_case(kCase.substr(0, kCase.find("expect:"))),
+            std::vector<std::string>{"case.yaml:1:1: expect: nothing is expected: give expect or reference"});
   std::string two = kCase + "  - {quantity: press_force_n, at_most: 1}\n";
   two.replace(two.find("  sphere"), 0, "  plate: {half_width_mm: 3}\n");
   EXPECT_EQ(faults_of_case(two),

@@ -69,10 +69,6 @@ Value to_value(const CaseResult& result) {
   if (result.skipped) return out;
   out.emplace_back("gel_vertices", static_cast<std::int64_t>(result.gel.num_vertices()));
   if (result.judgement.fitted_modulus_pa) out.emplace_back("fitted_modulus_pa", *result.judgement.fitted_modulus_pa);
-  if (result.spec.study) {
-    const Study& s = *result.spec.study;
-    out.emplace_back("study", Value::Map{{"name", s.name}, {"parameter", s.parameter}, {"value", s.value}});
-  }
   Value::List rows;
   for (const Row& row : result.judgement.rows) {
     Value::Map line{{"label", row.label}, {"unit", row.unit}, {"measured", row.measured}};

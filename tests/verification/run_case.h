@@ -26,7 +26,7 @@ struct CaseResult {
 /// \throw DataError, UsageError for a case that cannot be set up
 CaseResult run_case(CaseSpec spec, const std::filesystem::path& shared, const ProgressObserver& observe);
 
-/// The result as a tree: title, source, state, rows, study.
+/// The result as a tree: title, source, state, rows.
 Value to_value(const CaseResult& result);
 /// One line per frame: frame, depth_mm, sideways_mm, turned_deg, then every quantity.
 std::string to_csv(const CaseResult& result);

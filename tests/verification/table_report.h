@@ -1,4 +1,4 @@
-// All results of a folder as one page: a table of rows, a table of refinement, and the plots beside it.
+// All results of a folder as one page: a table of rows, and the plots beside it.
 #pragma once
 
 #include <filesystem>
@@ -22,11 +22,6 @@ struct ResultFile {
   std::optional<std::string> reason;
   std::optional<double> fitted_modulus_pa;
   int gel_vertices = 0;
-  struct StudyPoint {
-    std::string name, parameter;
-    double value = 0.0;
-  };
-  std::optional<StudyPoint> study;
   std::vector<ResultRow> rows;
 };
 
@@ -35,9 +30,5 @@ ResultFile read_result(const std::filesystem::path& result_yaml);
 
 /// The page in Markdown. `plots` is the folder, relative to the page, with <name>.svg of every case.
 std::string to_markdown(const std::vector<ResultFile>& results, const std::string& plots);
-
-/// The order p of a quantity in a study whose parameter shrinks: slope of log |error against the finest| over
-/// log parameter between the two coarsest points; absent with fewer than three points or without a change.
-std::optional<double> order_seen(const std::vector<std::pair<double, double>>& parameter_and_measured);
 
 }  // namespace tacipc::verify

@@ -3,21 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "common/error.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc::verify {
 namespace {
-
-TEST(TableReport, OrderIsTheSlopeOfTheErrors) {
-  std::vector<std::pair<double, double>> points;
-  for (const double h : {0.4, 0.2, 0.0}) points.emplace_back(h, 1.0 + 3.0 * h * h);
-  EXPECT_NEAR(*order_seen(points), 2.0, 1e-12);
-  points.resize(2);
-  EXPECT_FALSE(order_seen(points));
-}
 
 TEST(TableReport, ReadsAResultAndShowsWhatMissed) {
   const ScratchFolder folder;
