@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/files.h"
 #include "common/npy.h"
+#include "tests/verification/stage_record.h"
 
 namespace tacipc::verify {
 namespace {
@@ -61,6 +62,9 @@ MarkerCurveConfig MarkerCurveConfig::read(ConfigReader& in) {
 }
 
 SlidingRun read_sliding_run(const std::filesystem::path& press) {
+  if (const auto failure = why_no_record(press, "press"))
+    throw DataError("{}: the press did not come out: {}", press.lexically_normal().parent_path().filename().string(),
+                    *failure);
   SlidingRun run;
   ConfigReader record = ConfigReader::from_file(press / "press.yaml");
   run.name = record.text("name");

@@ -60,6 +60,9 @@ std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve);
 std::string marker_difference_svg(const SlidingRun& run, const MarkerCurve& curve);
 std::string marker_quiver_svg(const SlidingRun& run, const MarkerCurveConfig& config);
 std::string marker_curve_csv(const SlidingRun& run, const MarkerCurve& curve);
+/// The evenness of each run in one line.
+std::string marker_curve_found(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
+                               const MarkerCurveConfig& config);
 std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
                               const MarkerCurveConfig& config);
 

@@ -48,6 +48,9 @@ int main(int argc, char** argv) {
       write_file(stage.output(run.name + "_quiver.svg"), verify::marker_quiver_svg(run, config));
     }
     write_file(stage.output("tables.md"), verify::marker_curve_page(runs, curves, config));
-    stage.summarize({{"missed", missed}, {"samples", std::move(samples)}});
+    stage.summarize({{"missed", missed},
+                     {"holds", missed == 0},
+                     {"found", verify::marker_curve_found(runs, curves, config)},
+                     {"samples", std::move(samples)}});
   });
 }

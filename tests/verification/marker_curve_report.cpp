@@ -95,6 +95,15 @@ std::string marker_curve_csv(const SlidingRun& run, const MarkerCurve& curve) {
   return out;
 }
 
+std::string marker_curve_found(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
+                               const MarkerCurveConfig& config) {
+  std::string out = "second differences of the markers' way once settled:";
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    out += fmt::format("{} {} {:.2f} % ({} gel vertices)", i ? "," : "", runs[i].name, 100.0 * curves[i].ratio(),
+                       runs[i].gel_vertices);
+  return out + fmt::format("; limit {:g} % of the largest first difference", 100.0 * config.second_difference_limit);
+}
+
 std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
                               const MarkerCurveConfig& config) {
   std::string out = fmt::format(

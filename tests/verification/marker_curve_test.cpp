@@ -130,6 +130,9 @@ TEST(MarkerCurve, RefusesWhatCannotBeJudged) {
   write_npy(folder / "press" / "wrench.npy", {1, 6}, wrong.data());
   EXPECT_EQ(message_of<DataError>([&] { read_sliding_run(folder / "press"); }),
             (folder / "press" / "wrench.npy").string() + ": has the shape (1, 6), expected (6, 6)");
+  folder.file("board3_shear/press/press.failed.yaml", "stage: press\nmessage: Newton did not converge\n");
+  EXPECT_EQ(message_of<DataError>([&] { read_sliding_run(folder / "board3_shear/press"); }),
+            "board3_shear: the press did not come out: Newton did not converge");
 }
 
 TEST(MarkerCurve, TheTableSaysWhetherItHolds) {
@@ -141,6 +144,9 @@ TEST(MarkerCurve, TheTableSaysWhetherItHolds) {
             std::string::npos)
       << page;
   EXPECT_NE(page.find("| 0.3, 0.3 N | 0.05 mm |"), std::string::npos) << page;
+  EXPECT_EQ(marker_curve_found({run}, {curve}, kConfig),
+            "second differences of the markers' way once settled: made up 8.00 % (7 gel vertices); limit 5 % of the "
+            "largest first difference");
   EXPECT_NE(marker_quiver_svg(run, kConfig).find("longest 280 um"), std::string::npos);
 }
 

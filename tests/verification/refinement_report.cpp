@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
 #include "tests/verification/plot.h"
+#include "tests/verification/stage_record.h"
 
 namespace tacipc::verify {
 namespace {
@@ -58,9 +60,10 @@ Value to_value(const RefinementResult& result) {
                     {"curves", std::move(curves)}};
 }
 
-RefinementResult read_refinement(const std::filesystem::path& result_yaml) {
-  ConfigReader in = ConfigReader::from_file(result_yaml);
-  RefinementResult result;
+RefinementResult read_refinement(const std::filesystem::path& folder) {
+  RefinementResult result{.study = folder.filename().string(), .failed = why_no_record(folder, "refinement")};
+  if (result.failed) return result;
+  ConfigReader in = ConfigReader::from_file(folder / "result.yaml");
   result.study = in.text("study");
   result.title = in.text("title");
   result.parameter = in.text("parameter");
@@ -88,13 +91,44 @@ std::vector<std::string> not_settling(const RefinementResult& result) {
   return names;
 }
 
+bool holds(const std::vector<RefinementResult>& results) {
+  return std::all_of(results.begin(), results.end(),
+                     [](const RefinementResult& r) { return !r.failed && not_settling(r).empty(); });
+}
+
+std::string found(const std::vector<RefinementResult>& results) {
+  std::vector<std::string> changes, parts;
+  for (const RefinementResult& result : results) {
+    if (result.failed) {
+      parts.push_back(fmt::format("{} failed: {}", result.study, *result.failed));
+      continue;
+    }
+    double change = 0.0;
+    for (const RefinementCurve& curve : result.curves)
+      if (!curve.values.empty()) change = std::max(change, shown(curve, curve.against_next.back()));
+    changes.push_back(fmt::format("{:.2f} % ({})", change, result.parameter));
+    if (const auto names = not_settling(result); !names.empty())
+      parts.push_back(fmt::format("refining the {} does not settle: {}", result.parameter, fmt::join(names, ", ")));
+  }
+  if (!changes.empty())
+    parts.insert(parts.begin(), fmt::format("the last refinement changes the forces by {}", fmt::join(changes, ", ")));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 std::string refinement_tables(const std::vector<RefinementResult>& results, const std::string& plots) {
+  std::string title;
+  for (const RefinementResult& result : results)
+    if (title.empty()) title = result.title;
   std::string out = fmt::format(
       "# Refinement\n\nWritten by `make -f Makefile.data refinement`; what it shows: "
       "[refinement](../refinement.md).\n\n{}: the "
       "last frame with one number refined, all others held.\n\n",
-      results.front().title);
+      title);
   for (const RefinementResult& result : results) {
+    if (result.failed) {
+      out += fmt::format("## {}\n\n**failed**: {}\n\n", result.study, *result.failed);
+      continue;
+    }
     out += fmt::format("## {}\n\n| {} ({}) | Vertices |", result.parameter, result.parameter, result.unit);
     std::string line = "|---|---|";
     for (const RefinementCurve& curve : result.curves) {
@@ -120,6 +154,8 @@ std::string refinement_tables(const std::vector<RefinementResult>& results, cons
         out += fmt::format("{}{:.1f}", i ? ", " : "", curve.orders[i]);
       out += &curve == &result.curves.back() ? ".\n\n" : "; ";
     }
+    if (const auto names = not_settling(result); !names.empty())
+      out += fmt::format("**Missed**: the last level changes more than the second: {}.\n\n", fmt::join(names, "; "));
     out += fmt::format("![{}]({}/refinement_{}.svg)\n\n", result.parameter, plots, result.study);
   }
   return out;

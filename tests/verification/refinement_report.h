@@ -1,6 +1,11 @@
 // Studies of refinement as files, tables and plots.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "common/value.h"
 #include "tests/verification/refinement.h"
 
@@ -14,6 +19,7 @@ struct RefinementResult {
   std::vector<double> parameter_values = {};  // of each level
   std::vector<int> gel_vertices = {};
   std::vector<RefinementCurve> curves = {};
+  std::optional<std::string> failed = {};  // why there is nothing but the study's name
 };
 
 /// Everything but what the levels give.
@@ -21,11 +27,17 @@ RefinementResult describe(const RefinementSpec& spec, const RefinementStudy& stu
                           const std::vector<CaseSpec>& scenes);
 
 Value to_value(const RefinementResult& result);
+/// The result in a study's folder; without a record, why it failed.
 /// \throw DataError, ConfigError for a file that is no such result
-RefinementResult read_refinement(const std::filesystem::path& result_yaml);
+RefinementResult read_refinement(const std::filesystem::path& folder);
 
 /// Quantities whose difference from the next finer level is not smaller at the finest pair than at the coarsest.
 std::vector<std::string> not_settling(const RefinementResult& result);
+
+/// All studies came out, and every quantity of them settles.
+bool holds(const std::vector<RefinementResult>& results);
+/// How much the forces still change in the last refinement of each study, and what failed or does not settle.
+std::string found(const std::vector<RefinementResult>& results);
 
 /// Tables of all studies, each with its picture <plots>/refinement_<study>.svg.
 std::string refinement_tables(const std::vector<RefinementResult>& results, const std::string& plots);

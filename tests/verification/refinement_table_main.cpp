@@ -19,10 +19,15 @@ const StageSpec kTable{.name = "refinement_table",
 int main(int argc, char** argv) {
   return run_stage(kTable, argc, argv, [](Stage& stage) {
     std::vector<verify::RefinementResult> results;
-    int unsettled = 0;
+    int failed = 0, unsettled = 0;
     for (const auto& folder : stage.inputs("--result")) {
-      results.push_back(verify::read_refinement(folder / "result.yaml"));
+      results.push_back(verify::read_refinement(folder));
       const verify::RefinementResult& result = results.back();
+      if (result.failed) {
+        log_info("{}: failed: {}", result.study, *result.failed);
+        ++failed;
+        continue;
+      }
       write_file(stage.output(fmt::format("refinement_{}.svg", result.study)), verify::refinement_svg(result));
       for (const std::string& quantity : verify::not_settling(result)) {
         log_info("{}: refining does not settle the {}", result.study, quantity);
@@ -30,6 +35,10 @@ int main(int argc, char** argv) {
       }
     }
     write_file(stage.output("tables.md"), verify::refinement_tables(results, "."));
-    stage.summarize({{"studies", results.size()}, {"unsettled", unsettled}});
+    stage.summarize({{"studies", results.size()},
+                     {"failed", failed},
+                     {"unsettled", unsettled},
+                     {"holds", verify::holds(results)},
+                     {"found", verify::found(results)}});
   });
 }

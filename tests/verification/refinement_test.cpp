@@ -114,13 +114,35 @@ TEST(Refinement, ResultsReadBackAndSayWhatDoesNotSettle) {
   EXPECT_NEAR(result.parameter_values[0], 2e-3 * std::sqrt(36.0 + 36.0 + 4.0) * 1e3, 1e-9);
   result.gel_vertices = {10, 10, 10};
   result.curves = compare_levels({level(0.4), level(0.2), level(-0.2)}, 2.0);
-  const RefinementResult again = read_refinement(folder.file("r/result.yaml", to_yaml(to_value(result))));
+  folder.file("r/result.yaml", to_yaml(to_value(result)));
+  folder.file("r/refinement.yaml", "stage: refinement\n");
+  const RefinementResult again = read_refinement(folder / "r");
   EXPECT_EQ(again.parameter_values, result.parameter_values);
   EXPECT_EQ(again.curves[2].against_next, result.curves[2].against_next);
   EXPECT_EQ(not_settling(again), (std::vector<std::string>{"press force", "markers since the press, rms"}));
   const std::string tables = refinement_tables({again}, "plots");
   EXPECT_NE(tables.find("| 17.44 | 10 | 2.40000 N | 33.3 % | 0.84000 N | 12.5 % |"), std::string::npos) << tables;
   EXPECT_NE(tables.find("![reach of the barrier d̂](plots/refinement_d_hat.svg)"), std::string::npos);
+  EXPECT_NE(tables.find("the last level changes more than the second: press force; markers"), std::string::npos);
+  EXPECT_FALSE(holds({again}));
+  EXPECT_EQ(
+      found({again}),
+      "the last refinement changes the forces by 22.22 % (reach of the barrier d̂); refining the reach of the barrier "
+      "d̂ does not settle: press force, markers since the press, rms");
+  RefinementResult settles = again;
+  settles.curves = compare_levels({level(0.4), level(0.2), level(0.1)}, 2.0);
+  EXPECT_TRUE(holds({settles}));
+}
+
+TEST(Refinement, AStudyThatFailedIsShownAndDoesNotHold) {
+  const ScratchFolder folder;
+  // Left by an earlier run: without its record it counts for nothing.
+  folder.file("mesh/result.yaml", "study: mesh\n");
+  folder.file("mesh/refinement.failed.yaml", "stage: refinement\nmessage: out of memory\n");
+  const RefinementResult failed = read_refinement(folder / "mesh");
+  EXPECT_FALSE(holds({failed}));
+  EXPECT_EQ(found({failed}), "mesh failed: out of memory");
+  EXPECT_NE(refinement_tables({failed}, ".").find("## mesh\n\n**failed**: out of memory\n"), std::string::npos);
 }
 
 TEST(Refinement, ASmallSceneSettlesInTime) {

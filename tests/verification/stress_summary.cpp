@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/config.h"
+#include "tests/verification/stage_record.h"
 
 namespace tacipc::verify {
 namespace {
@@ -52,17 +53,12 @@ std::string row(const std::string& label, const StressSummary& sum) {
 StressLine read_stress_line(const std::filesystem::path& folder) {
   StressLine line;
   line.name = folder.filename().string();
-  const std::filesystem::path record = folder / "stress_case.yaml", failure = folder / "stress_case.failed.yaml";
-  if (!std::filesystem::exists(record)) {
+  if (const auto failure = why_no_record(folder, "stress_case")) {
     line.crashed = true;
-    line.result.reason = "left no record";
-    if (std::filesystem::exists(failure)) {
-      ConfigReader in = ConfigReader::from_file(failure);
-      if (in.has("message")) line.result.reason = in.text("message");
-    }
+    line.result.reason = *failure;
     return line;
   }
-  ConfigReader in = ConfigReader::from_file(record);
+  ConfigReader in = ConfigReader::from_file(folder / "stress_case.yaml");
   for (const std::string& key : in.keys())
     if (key != "case" && key != "summary") in.ignore(key);
   ConfigReader drawn = in.section("case");
@@ -98,6 +94,11 @@ StressSummary summarize(const std::vector<StressLine>& lines) {
   return sum;
 }
 
+std::string found(const StressSummary& sum, const std::string& seed) {
+  return fmt::format("{} of {} cases of seed {} converged, {} did not, {} intersected, {} inverted, {} crashed",
+                     sum.converged, sum.cases, seed, sum.not_converged, sum.intersected, sum.inverted, sum.crashed);
+}
+
 std::string to_markdown(const std::vector<StressLine>& lines, const std::string& seed) {
   StressSummary all;
   std::map<std::string, StressSummary> by_kind;
@@ -124,11 +125,10 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
       "`stress_case --config configs/verification/stress.yaml --seed {} --index 7 --out DIR --log-level debug`. The "
       "campaign holds with no intersection, inversion (exact tests of every frame) or crash, and with less than 1 % of "
       "cases that did not converge. A case counts as converged if every frame passes the [verdict](verdict.md).\n\n"
-      "{}: {} of {} cases converged, {} did not, {} intersected, {} inverted, {} crashed.\n\n"
+      "{}: {}.\n\n"
       "| object | cases | converged | not converged | intersected | inverted | crashed "
       "|\n|---|---|---|---|---|---|---|\n",
-      seed, lines.size(), seed, all.holds() ? "Holds" : "**Does not hold**", all.converged, all.cases,
-      all.not_converged, all.intersected, all.inverted, all.crashed);
+      seed, lines.size(), seed, all.holds() ? "Holds" : "**Does not hold**", found(all, seed));
   for (const auto& [kind, sum] : by_kind) out += row(kind, sum);
   out += row("all", all);
   if (finished > 0) {

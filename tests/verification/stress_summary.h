@@ -31,6 +31,9 @@ struct StressSummary {
 
 StressSummary summarize(const std::vector<StressLine>& lines);
 
+/// The counts in one line.
+std::string found(const StressSummary& summary, const std::string& seed);
+
 /// The page of a seed: verdict, counts by kind of object, totals, the list of cases that did not converge.
 std::string to_markdown(const std::vector<StressLine>& lines, const std::string& seed);
 

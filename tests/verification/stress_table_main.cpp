@@ -22,15 +22,15 @@ int main(int argc, char** argv) {
     for (const auto& folder : stage.inputs("--case")) lines.push_back(verify::read_stress_line(folder));
     write_file(stage.output("summary.md"), verify::to_markdown(lines, stage.option("--seed")));
     const verify::StressSummary sum = verify::summarize(lines);
-    log_info("{} cases: {} converged, {} did not, {} intersected, {} inverted, {} crashed: {}", sum.cases,
-             sum.converged, sum.not_converged, sum.intersected, sum.inverted, sum.crashed,
-             sum.holds() ? "holds" : "DOES NOT HOLD");
+    const std::string found = verify::found(sum, stage.option("--seed"));
+    log_info("{}: {}", found, sum.holds() ? "holds" : "DOES NOT HOLD");
     stage.summarize({{"cases", sum.cases},
                      {"converged", sum.converged},
                      {"not_converged", sum.not_converged},
                      {"intersected", sum.intersected},
                      {"inverted", sum.inverted},
                      {"crashed", sum.crashed},
-                     {"holds", sum.holds()}});
+                     {"holds", sum.holds()},
+                     {"found", found}});
   });
 }
