@@ -2,6 +2,10 @@
 
 # $(call run,stage,flags): a stage writes its record $@ into the folder of $@.
 run = $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(2)
+# $(call try,stage,flags): the same, but work that fails does not stop make: the page above it shows the reason in <stage>.failed.yaml.
+try = $(call run,$(1),$(2)) || { [ $$? != 2 ] && echo "$@: not made" >&2; }
+# $(call holds,record): fails unless the record's summary says so.
+holds = @grep -qs '^  holds: true' $(1) || { echo "$(1): does not hold, or is not there" >&2; exit 1; }
 
 SENSORS := $(basename $(notdir $(wildcard configs/sensors/*.yaml)))
 MESHES  := $(basename $(notdir $(wildcard configs/tetmesh/*.yaml)))
@@ -23,10 +27,10 @@ $(OUT)/objects/%/decimate.yaml: $(OUT)/emboss/%/emboss.yaml configs/objects/embo
 
 REFERENCES := $(wildcard configs/sensors/*.png)# photographs that sensors name
 
-# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml,press yaml[,further prerequisites])
+# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml,press yaml[,further prerequisites[,try]])
 define sample_rules
 $(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml $(8) $(7) $(9) | build
-	$$(call run,press,--name $(2) --object $(3)/object.ply --object-config $(4) --gel $$(OUT)/gels/$(5)-$(6)/gel.msh \
+	$$(call $(or $(10),run),press,--name $(2) --object $(3)/object.ply --object-config $(4) --gel $$(OUT)/gels/$(5)-$(6)/gel.msh \
 	  --sensor configs/sensors/$(5).yaml --config $(8) --sample $(7))
 $(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(5).yaml configs/render/default.yaml $$(REFERENCES) | build
 	$$(call run,render,--press $(1)/press --gel $$(OUT)/gels/$(5)-$(6)/gel.msh --sensor configs/sensors/$(5).yaml --config configs/render/default.yaml)

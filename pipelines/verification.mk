@@ -1,31 +1,52 @@
-# The press against closed forms, measurements and other solvers: one folder and record per case, then one page.
+# The press against closed forms, measurements and other solvers: one folder and record per case, then one page. Campaigns that answer
+# one question each are long rows of the page; their goals are in refinement.mk, stress.mk and board3.mk.
 
 SHARED ?= $(or $(TACIPC_SHARED),../shared)#  folder with measured data
 VERIFICATION := $(OUT)/verification
 VERIFICATION_CASES := $(filter-out stress,$(sort $(basename $(notdir $(wildcard configs/verification/*.yaml)))))#  stress.yaml is the campaign of pipelines/stress.mk
 VERIFICATION_RESULTS := $(VERIFICATION_CASES:%=$(VERIFICATION)/%)
 
-# The programs belong to the tests; never built beside another build in the same folder.
-.PHONY: build-verify
-build-verify: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
-	@cmake --build $(BUILD) --target verify verify_table -j $(JOBS) -- --quiet
+# The long rows that this call makes; the page waits for them. Without SHARED board3 is skipped, as cases are.
+LONG_ROWS := $(filter refinement stress board3,$(MAKECMDGOALS) $(if $(filter verification,$(MAKECMDGOALS)),refinement stress $(if $(wildcard $(SHARED)),board3)))
+LONG_RECORDS = $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
 
-$(VERIFICATION)/%/verify.yaml: configs/verification/%.yaml | build-verify
+# The programs belong to the tests; never built beside another build in the same folder.
+.PHONY: build-verification
+build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
+	@cmake --build $(BUILD) --target verify verify_table stress_case stress_table refinement refinement_table marker_curve -j $(JOBS) -- --quiet
+
+$(VERIFICATION)/%/verify.yaml: configs/verification/%.yaml | build-verification
 	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
 
-# A case that missed, failed or was skipped is run again next time: its record goes.
+# $(call verification_table,folder,results,flags). A case that missed, failed or was skipped is run again next time: its record goes.
 define verification_table
-	$(BIN)/verify_table --out $(1) --threads $(THREADS) $(addprefix --result ,$(2))
+	TACIPC_SHARED='$(SHARED)' $(BIN)/verify_table --out $(1) --threads $(THREADS) $(addprefix --result ,$(2)) $(3)
 	while read -r folder; do rm -f "$$folder/verify.yaml"; done < $(1)/unfinished.txt
 endef
 
-.PHONY: verification verify-case
-verification: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) ## Every case of configs/verification; writes docs/verification.md with its plots (hours)
-	$(call verification_table,$(VERIFICATION)/page,$(VERIFICATION_RESULTS))
+# What there is of the long rows, whichever call made it: a record, or why there is none.
+long_rows_there = $$(for record in $(LONG_RECORDS) $(LONG_RECORDS:.yaml=.failed.yaml); do [ ! -e $$record ] || echo "--long $$record"; done)
+
+# $(call copy_tables,name,record): tables and plots of a long row, for the page to link to; nothing where its work failed.
+define copy_tables
 	mkdir -p docs/verification
-	cp $(VERIFICATION)/page/verification.md docs/verification.md
+	[ ! -e $(2) ] || cp $(dir $(2))tables.md docs/verification/$(1).md
+	[ ! -e $(2) ] || find $(dir $(2)) -name '*.svg' -exec cp {} docs/verification/ ';'
+endef
+
+# docs/ shows the stress campaign of 300 cases of seed 1 only.
+.PHONY: verification verification-cases verification-page verify-case
+verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuffix -page,$(LONG_ROWS))
+	$(call verification_table,$(VERIFICATION)/page,$(VERIFICATION_RESULTS),--rows configs/verify_table/long_rows.yaml $(long_rows_there))
+	mkdir -p docs/verification
+	$(if $(filter 1-300,$(SEED)-$(N)),cp $(VERIFICATION)/page/verification.md docs/verification.md)
 	cp $(VERIFICATION)/page/verification/*.svg docs/verification/
-	! grep -q '^  missed: [1-9]' $(VERIFICATION)/page/verify_table.yaml
+
+verification: verification-page ## Every case of configs/verification, then refinement, stress and board3; writes docs/verification.md with its plots (hours)
+	! grep -E '^  (long_)?missed: [1-9]' $(VERIFICATION)/page/verify_table.yaml
+
+verification-cases: verification-page ## The cases only; the long rows of the page stay as they were
+	! grep '^  missed: [1-9]' $(VERIFICATION)/page/verify_table.yaml
 
 ifdef CASE
 override CASE := $(strip $(CASE))
@@ -34,7 +55,7 @@ ifeq ($(wildcard $(CASE)),)
   $(error CASE: $(CASE) does not exist)
 endif
 CASE_RESULT := $(OUT)/verify-case/$(basename $(notdir $(CASE)))
-$(CASE_RESULT)/verify.yaml: $(CASE) | build-verify
+$(CASE_RESULT)/verify.yaml: $(CASE) | build-verification
 	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
 verify-case: $(CASE_RESULT)/verify.yaml ## One case of your own: CASE=file.yaml (docs/verification_cases.md)
 	$(call verification_table,$(CASE_RESULT)/page,$(CASE_RESULT))

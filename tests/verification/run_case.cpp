@@ -40,11 +40,7 @@ CaseResult run_case(CaseSpec spec, const std::filesystem::path& shared, const Pr
   CaseResult result;
   result.spec = std::move(spec);
   for (const std::string& path : result.spec.shared_paths()) {
-    if (!std::filesystem::exists(shared)) {
-      result.skipped = fmt::format("needs {}; there is no folder {} (set TACIPC_SHARED)",
-                                   path.substr(kSharedPrefix.size()), shared.string());
-      return result;
-    }
+    if ((result.skipped = why_skipped(path, shared))) return result;
     if (!std::filesystem::exists(resolve(path, shared)))
       throw DataError("{} is missing from the shared data {}", path.substr(kSharedPrefix.size()), shared.string());
   }

@@ -1,8 +1,11 @@
 // Files of the shared data, named `shared:data/…` in cases.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +18,13 @@ inline bool is_shared(const std::string& path) { return path.starts_with(kShared
 /// `shared:rest` is `rest` in the shared folder; anything else stays as it is.
 inline std::filesystem::path resolve(const std::string& path, const std::filesystem::path& shared) {
   return is_shared(path) ? shared / path.substr(kSharedPrefix.size()) : std::filesystem::path(path);
+}
+
+/// Why what needs a file of the shared data is skipped: there is no such folder at all.
+inline std::optional<std::string> why_skipped(const std::string& path, const std::filesystem::path& shared) {
+  if (!is_shared(path) || std::filesystem::exists(shared)) return std::nullopt;
+  return fmt::format("needs {}; there is no folder {} (set TACIPC_SHARED)", path.substr(kSharedPrefix.size()),
+                     shared.string());
 }
 
 /// $TACIPC_SHARED, else ../shared beside the current folder.

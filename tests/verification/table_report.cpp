@@ -30,7 +30,8 @@ ResultFile read_result(const std::filesystem::path& result_yaml) {
   return file;
 }
 
-std::string to_markdown(const std::vector<ResultFile>& results, const std::string& plots) {
+std::string to_markdown(const std::vector<ResultFile>& results, const std::vector<LongRowResult>& long_rows,
+                        const std::string& plots) {
   std::string out =
       "# Verification of the press\n\n"
       "Made by `make -f Makefile.data verification`; each case is a file of `configs/verification/` "
@@ -55,7 +56,9 @@ std::string to_markdown(const std::vector<ResultFile>& results, const std::strin
     if (file.fitted_modulus_pa)
       out += fmt::format("| | | fitted modulus | {:.4g} Pa | | | | |\n", *file.fitted_modulus_pa);
   }
-  out += "\n## Where the numbers come from\n\n";
+  out += '\n';
+  out += long_rows_section(long_rows);
+  out += "## Where the numbers come from\n\n";
   for (const ResultFile& file : results) out += fmt::format("- {}: {}\n", file.title, file.source);
   out += "\n## Curves\n\n";
   for (const ResultFile& file : results)

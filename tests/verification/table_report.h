@@ -1,10 +1,12 @@
-// All results of a folder as one page: a table of rows, and the plots beside it.
+// All results of a folder as one page: a table of rows, a line for each long row, and the plots beside it.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "tests/verification/long_rows.h"
 
 namespace tacipc::verify {
 
@@ -28,7 +30,9 @@ struct ResultFile {
 /// \throw DataError, ConfigError for a file that is not a result
 ResultFile read_result(const std::filesystem::path& result_yaml);
 
-/// The page in Markdown. `plots` is the folder, relative to the page, with <name>.svg of every case.
-std::string to_markdown(const std::vector<ResultFile>& results, const std::string& plots);
+/// The page in Markdown, its long rows as given. `plots` is the folder, relative to the page, with <name>.svg of every
+/// case.
+std::string to_markdown(const std::vector<ResultFile>& results, const std::vector<LongRowResult>& long_rows,
+                        const std::string& plots);
 
 }  // namespace tacipc::verify

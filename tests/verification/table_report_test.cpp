@@ -26,7 +26,7 @@ rows:
 )");
   const ResultFile result = read_result(file);
   EXPECT_EQ(result.name, "hertz");
-  const std::string page = to_markdown({result}, "verification");
+  const std::string page = to_markdown({result}, {}, "verification");
   EXPECT_NE(
       page.find("| [a sphere](../configs/verification/hertz.yaml) | 12 | press_force_n | 1.1 N | 1 N | +10.00 % | "
                 "within 3 % | **missed** |"),
@@ -38,7 +38,7 @@ rows:
 TEST(TableReport, ASkippedCaseSaysWhy) {
   const ScratchFolder folder;
   const auto file = folder.file("x/result.yaml", "title: t\nsource: s\nstate: skipped\nreason: no data\n");
-  EXPECT_NE(to_markdown({read_result(file)}, "p").find("**skipped**: no data"), std::string::npos);
+  EXPECT_NE(to_markdown({read_result(file)}, {}, "p").find("**skipped**: no data"), std::string::npos);
 }
 
 TEST(TableReport, AnythingElseIsRefused) {
