@@ -1,11 +1,11 @@
 # The friction experiments of the paper: board3 pressed 0.5 mm into a 3 mm gel, then dragged by 1 mm or turned by 0.25 rad, and how
 # evenly the markers follow. MESH= another file of configs/tetmesh, import_paper_3mm for the published gel (long); PRESS= another file of
-# configs/press (paper_friction_viscous: with viscosity).
+# configs/press (paper_friction: every pair counts, as in the reference code).
 # SHARED is a folder with data/tacipc_release (not part of this repository).
 
 BOARD3 := $(OUT)/board3
 BOARD3_MESH := $(if $(filter MESH,$(given)),$(MESH),focused_0200um)
-BOARD3_PRESS := $(if $(filter PRESS,$(given)),$(PRESS),friction)
+BOARD3_PRESS := $(if $(filter PRESS,$(given)),$(PRESS),friction_viscous)
 BOARD3_RUN := $(BOARD3)/$(BOARD3_MESH)-$(BOARD3_PRESS)
 BOARD3_SAMPLES := board3_shear board3_twist
 BOARD3_RECORD := $(BOARD3_RUN)/page/marker_curve.yaml

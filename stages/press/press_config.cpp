@@ -52,6 +52,10 @@ PressConfig PressConfig::read(ConfigReader& in) {
   config.relative_velocity_tolerance = newton.number_or("relative_velocity_tolerance", 1e-3, Range::positive());
   config.relative_force_tolerance = newton.number_or("relative_force_tolerance", 5e-4, Range::positive());
   config.force_tolerance_n = newton.number_or("force_tolerance_n", 1e-5, Range::positive());
+  config.linear_solver =
+      newton.choice_or("linear_solver", "direct", {"direct", "conjugate_gradient"}) == "conjugate_gradient"
+          ? LinearSolverKind::conjugate_gradient
+          : LinearSolverKind::direct;
   config.max_newton_iterations = newton.integer_or("max_iterations", 200, 1);
   config.max_halvings = newton.integer_or("max_halvings", 5, 0, 20);
   return config;

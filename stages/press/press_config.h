@@ -8,6 +8,7 @@
 #include "common/config.h"
 #include "stages/press/contact/pair_counting.h"
 #include "stages/press/motion.h"
+#include "stages/press/solve/linear_solver.h"
 
 namespace tacipc {
 
@@ -40,8 +41,9 @@ struct PressConfig {
   double relative_velocity_tolerance = 0.0;  // Newton: max |p| / h below this part of the diagonal per second
   double relative_force_tolerance = 0.0;     // and residual forces below this part of the contact force
   double force_tolerance_n = 0.0;            // or below this
-  int max_newton_iterations = 0;             // per time step; reaching it halves the step
-  int max_halvings = 0;                      // of a time step; reaching it is a failure
+  LinearSolverKind linear_solver = LinearSolverKind::direct;
+  int max_newton_iterations = 0;  // per time step; reaching it halves the step
+  int max_halvings = 0;           // of a time step; reaching it is a failure
 
   static PressConfig read(ConfigReader& in);
 };

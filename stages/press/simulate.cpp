@@ -111,6 +111,7 @@ class Motion {
         .gravity_m_s2 = config_.gravity_m_s2,
         .mass_damping_per_s = config_.mass_damping_per_s,
         .stiffness_damping_s = config_.stiffness_damping_s,
+        .linear_solver = config_.linear_solver,
         .newton = out_.newton};
     if (config_.friction && config_.friction->coefficient > 0.0) {
       const FrictionConfig& friction = *config_.friction;

@@ -148,8 +148,8 @@ inline Equilibrium equilibrium(const Positions& rest, const EnergyTerm& term, co
           }
         }
       }
-      if (solver.factorize(hessian)) {
-        step = solver.solve(right);
+      if (solver.prepare(hessian)) {
+        step = solver.solve(right).value();
         break;
       }
       if (order == Order::psd) return out;

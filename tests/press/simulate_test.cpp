@@ -48,6 +48,23 @@ TEST(Simulate, ForceDoesNotDependOnHowTheObjectIsTurned) {
   EXPECT_NEAR(a, b, 1e-3 * std::abs(a));
 }
 
+TEST(Simulate, ConjugateGradientEndsWhereTheFactorisationDoes) {
+  PressConfig config = paper_config();
+  config.relative_velocity_tolerance = 1e-5;
+  config.friction = FrictionConfig{.coefficient = 0.5, .relative_speed_threshold = 1e-3, .max_lag_iterations = 1};
+  const auto run = [&](LinearSolverKind solver) {
+    config.linear_solver = solver;
+    return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 2), "-z",
+                    ignore_progress);
+  };
+  const Simulation direct = run(LinearSolverKind::direct), iterative = run(LinearSolverKind::conjugate_gradient);
+  EXPECT_EQ(direct.symbolic_analyses, 1);
+  EXPECT_EQ(iterative.symbolic_analyses, 0);  // never factorised
+  const Frame &a = direct.frames.back(), &b = iterative.frames.back();
+  EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-4 * std::abs(a.force_n.z()));
+}
+
 TEST(Simulate, NotConvergingIsAFailureWithItsNumbers) {
   PressConfig config = paper_config();
   config.max_newton_iterations = 2;

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "stages/press/solve/assembly.h"
-#include "stages/press/solve/cholmod_solver.h"
+#include "stages/press/solve/conjugate_gradient.h"
 #include "stages/press/solve/step_limit.h"
 
 namespace tacipc {
@@ -51,21 +51,62 @@ TEST(CholmodSolver, SolvesAsDenseAlgebraDoesAndAnalysesOncePerPattern) {
   BlockMatrix matrix = random_matrix(40, 3, 20.0);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(120, -1.0, 2.0);
   CholmodSolver solver;
-  ASSERT_TRUE(solver.factorize(matrix));
+  ASSERT_TRUE(solver.prepare(matrix));
   const Eigen::MatrixXd A = dense(matrix);
   EXPECT_LT((A - A.transpose()).norm(), 1e-14 * A.norm());
-  EXPECT_LT((solver.solve(b) - A.ldlt().solve(b)).norm(), 1e-12);
+  EXPECT_LT((solver.solve(b).value() - A.ldlt().solve(b)).norm(), 1e-12);
   for (double& value : matrix.values) value *= 2.0;
-  ASSERT_TRUE(solver.factorize(matrix));
-  EXPECT_LT((A * solver.solve(b) * 2.0 - b).norm(), 1e-12);
+  ASSERT_TRUE(solver.prepare(matrix));
+  EXPECT_LT((A * solver.solve(b).value() * 2.0 - b).norm(), 1e-12);
   EXPECT_EQ(solver.num_analyses(), 1);
 }
 
 TEST(CholmodSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndRecovers) {
   CholmodSolver solver;
-  EXPECT_FALSE(solver.factorize(random_matrix(40, 3, -20.0)));
-  EXPECT_FALSE(solver.factorize(random_matrix(40, 3, 0.1)));
-  EXPECT_TRUE(solver.factorize(random_matrix(40, 3, 20.0)));
+  EXPECT_FALSE(solver.prepare(random_matrix(40, 3, -20.0)));
+  EXPECT_FALSE(solver.prepare(random_matrix(40, 3, 0.1)));
+  EXPECT_TRUE(solver.prepare(random_matrix(40, 3, 20.0)));
+}
+
+TEST(ConjugateGradient, SolvesAsDenseAlgebraDoesToItsToleranceWithoutAFactor) {
+  BlockMatrix matrix = random_matrix(12, 3, 20.0);
+  const Eigen::MatrixXd A = dense(matrix);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(A.rows(), -1.0, 2.0), exact = A.ldlt().solve(b);
+  for (const double tolerance : {1e-3, 1e-6, 1e-12}) {
+    ConjugateGradient solver(tolerance);
+    ASSERT_TRUE(solver.prepare(matrix));
+    const Eigen::VectorXd x = solver.solve(b).value();
+    EXPECT_LT((x - exact).norm(), 30.0 * tolerance * exact.norm());
+    EXPECT_NEAR(x.dot(A * x), x.dot(b), 1e-9 * x.dot(b));  // what keeps a Newton step downhill
+    EXPECT_EQ(solver.num_factorized(), 0);
+    EXPECT_GT(solver.num_products(), 0);
+  }
+}
+
+TEST(ConjugateGradient, FactorisesWhereItsProductsDoNotSuffice) {
+  BlockMatrix matrix = random_matrix(12, 3, 20.0);
+  const Eigen::MatrixXd A = dense(matrix);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(A.rows(), -1.0, 2.0);
+  ConjugateGradient solver(1e-3, 1);
+  ASSERT_TRUE(solver.prepare(matrix));
+  EXPECT_LT((solver.solve(b).value() - A.ldlt().solve(b)).norm(), 1e-11);
+  EXPECT_EQ(solver.num_factorized(), 1);
+}
+
+TEST(ConjugateGradient, SaysWhenAMatrixIsNotPositiveDefinite) {
+  BlockMatrix block = random_matrix(4, 3, 20.0);
+  block.block(block.pattern->find(2, 2)) -= 100.0 * Matrix3::Identity();
+  EXPECT_FALSE(ConjugateGradient().prepare(block));
+
+  // Every block on the diagonal is positive, the whole is not.
+  BlockMatrix whole(std::make_shared<const BlockPattern>(make_block_pattern(2, {{0, 1}})));
+  whole.block(0) = whole.block(2) = Matrix3::Identity();
+  whole.block(1) = 2.0 * Matrix3::Identity();
+  ConjugateGradient solver;
+  ASSERT_TRUE(solver.prepare(whole));
+  Eigen::VectorXd b(6);
+  b << 1, 0, 0, -1, 0, 0;
+  EXPECT_FALSE(solver.solve(b).has_value());
 }
 
 TEST(CubicStaysAbove, NeverSaysYesForACubicThatDips) {
@@ -173,10 +214,10 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   CholmodSolver solver;
   BlockMatrix identity(pattern);
   for (int v = 0; v < 8; ++v) identity.block(pattern->find(v, v)) = Matrix3::Identity();
-  ASSERT_TRUE(solver.factorize(identity));
-  ASSERT_TRUE(solver.factorize(system.hessian));
+  ASSERT_TRUE(solver.prepare(identity));
+  ASSERT_TRUE(solver.prepare(system.hessian));
   EXPECT_EQ(solver.num_analyses(), 2);
-  EXPECT_LT((solver.solve(system.gradient) - dense(system.hessian).ldlt().solve(system.gradient)).norm(),
+  EXPECT_LT((solver.solve(system.gradient).value() - dense(system.hessian).ldlt().solve(system.gradient)).norm(),
             1e-12 * system.gradient.norm());
 }
 

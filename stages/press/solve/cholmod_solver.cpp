@@ -85,7 +85,7 @@ CholmodSolver::~CholmodSolver() {
 
 int CholmodSolver::num_analyses() const { return state_->num_analyses; }
 
-bool CholmodSolver::factorize(const BlockMatrix& matrix) {
+bool CholmodSolver::prepare(const BlockMatrix& matrix) {
   State& s = *state_;
   if (s.pattern != matrix.pattern) {
     s.release();
@@ -101,7 +101,7 @@ bool CholmodSolver::factorize(const BlockMatrix& matrix) {
   return s.common.status != CHOLMOD_NOT_POSDEF && s.factor->minor == s.factor->n;
 }
 
-Eigen::VectorXd CholmodSolver::solve(const Eigen::VectorXd& b) {
+std::optional<Eigen::VectorXd> CholmodSolver::solve(const Eigen::VectorXd& b) {
   State& s = *state_;
   cholmod_dense rhs{};
   rhs.nrow = rhs.d = rhs.nzmax = static_cast<std::size_t>(b.size());

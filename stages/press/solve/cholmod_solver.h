@@ -1,29 +1,26 @@
 // Sparse Cholesky factorisation of a BlockMatrix: CHOLMOD with METIS ordering.
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 
-#include "stages/press/solve/block_matrix.h"
+#include "stages/press/solve/linear_solver.h"
 
 namespace tacipc {
 
 /// Orders and analyses once per pattern; factorises as often as asked. Always one thread: CHOLMOD and BLAS change the
 /// last bits of a result with the number of theirs.
-class CholmodSolver {
+class CholmodSolver final : public LinearSolver {
  public:
   CholmodSolver();
-  ~CholmodSolver();
+  ~CholmodSolver() override;
   CholmodSolver(const CholmodSolver&) = delete;
   CholmodSolver& operator=(const CholmodSolver&) = delete;
 
-  /// False if the matrix is not positive definite. \throw SolverError when out of memory or on an internal fault.
-  bool factorize(const BlockMatrix& matrix);
-  /// A⁻¹ b by the last factorisation. \pre it succeeded.
-  Eigen::VectorXd solve(const Eigen::VectorXd& b);
-
-  /// Symbolic analyses so far.
-  int num_analyses() const;
+  /// Factorises. \throw SolverError when out of memory or on an internal fault.
+  bool prepare(const BlockMatrix& matrix) override;
+  /// A⁻¹ b by the last factorisation, never empty.
+  std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
+  int num_analyses() const override;
 
  private:
   struct State;

@@ -7,7 +7,7 @@
 namespace tacipc {
 namespace {
 
-// How the share of the contact Hessian's positive stand-in adapts: as small as the factorisation lets it be.
+// How the share of the contact Hessian's positive stand-in adapts: as small as positive definiteness lets it be.
 constexpr double kFirstBlend = 0.02, kBlendGrowth = 3.0, kBlendShrink = 2.0;
 
 /// Σᵢ |row i| of a vector of stacked triples.
@@ -19,19 +19,22 @@ double sum_of_norms(const Eigen::VectorXd& stacked) {
 
 }  // namespace
 
-NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const BlockPattern> pattern)
+NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const BlockPattern> pattern,
+                             LinearSolverKind solver)
     : free_(std::move(free)),
       first_object_vertex_(first_object_vertex),
       own_pattern_(std::move(pattern)),
-      pattern_(own_pattern_) {}
+      pattern_(own_pattern_),
+      solver_(make_linear_solver(solver)) {}
 
-/// Factorises and solves [H B; Bᵀ C] [p; q] = [−g − c; −g_q − c_q] for the free vertices and the object's yielding
+/// Solves [H B; Bᵀ C] [p; q] = [−g − c; −g_q − c_q] for the free vertices and the object's yielding
 /// axes; false if the matrix is not positive definite.
 bool NewtonStepper::solve(const NewtonSystem& system, const std::vector<int>& yielding, const Positions& motion,
                           NewtonDirection& out) {
-  ++factorizations_;
-  if (!solver_.factorize(system.hessian)) return false;
-  Eigen::VectorXd step = solver_.solve(-system.gradient - system.coupling);
+  if (!solver_->prepare(system.hessian)) return false;
+  const auto solved = solver_->solve(-system.gradient - system.coupling);
+  if (!solved) return false;
+  Eigen::VectorXd step = *solved;
   out.yield.setZero();
   out.slope = 0.0;
   if (const auto k = static_cast<Eigen::Index>(yielding.size()); k > 0) {
@@ -39,7 +42,9 @@ bool NewtonStepper::solve(const NewtonSystem& system, const std::vector<int>& yi
     Eigen::VectorXd rhs(k), gradient(k);
     for (Eigen::Index a = 0; a < k; ++a) {
       B.col(a) = system.object_border.col(yielding[a]);
-      Z.col(a) = solver_.solve(B.col(a));
+      const auto column = solver_->solve(B.col(a));
+      if (!column) return false;
+      Z.col(a) = *column;
       gradient[a] = system.object_gradient[yielding[a]];
       rhs[a] = -gradient[a] - system.object_coupling[yielding[a]];
       for (Eigen::Index b = 0; b < k; ++b) C(a, b) = system.object_hessian(yielding[a], yielding[b]);

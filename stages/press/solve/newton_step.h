@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "stages/press/solve/assembly.h"
-#include "stages/press/solve/cholmod_solver.h"
+#include "stages/press/solve/linear_solver.h"
 
 namespace tacipc {
 
@@ -20,14 +20,15 @@ struct NewtonDirection {
 class NewtonStepper {
  public:
   /// \param pattern of everything but contact between parts of the gel
-  NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const BlockPattern> pattern);
+  NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const BlockPattern> pattern,
+                LinearSolverKind solver);
 
   /// Solves for the Newton step with H = H_exact + blend (H_positive − H_exact), where H_positive has each contact's
-  /// Hessian replaced by its positive stand-in. The smallest blend that factorises is looked for from `blend` upwards,
-  /// and `blend` is left where the next search should begin; if even 1 fails, elasticity is projected too. Frictionless
-  /// contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton creeps.
-  /// `motion` (rows like x) is how prescribed vertices move; `yielding` are the axes along which the object as a whole
-  /// is free besides. The last term of the potential must be the barrier.
+  /// Hessian replaced by its positive stand-in. The smallest blend with a positive definite H is looked for from
+  /// `blend` upwards, and `blend` is left where the next search should begin; if even 1 fails, elasticity is projected
+  /// too. Frictionless contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton
+  /// creeps. `motion` (rows like x) is how prescribed vertices move; `yielding` are the axes along which the object as
+  /// a whole is free besides. The last term of the potential must be the barrier.
   NewtonDirection direction(const IncrementalPotential& potential, const Positions& x, const Positions& motion,
                             const std::vector<int>& yielding, double& blend);
 
@@ -35,8 +36,7 @@ class NewtonStepper {
   void reset_pattern() { pattern_ = own_pattern_; }
 
   const FreeVertices& free() const { return free_; }
-  int num_analyses() const { return solver_.num_analyses(); }
-  int num_factorizations() const { return factorizations_; }
+  const LinearSolver& solver() const { return *solver_; }
 
  private:
   bool solve(const NewtonSystem& system, const std::vector<int>& yielding, const Positions& motion,
@@ -45,8 +45,7 @@ class NewtonStepper {
   FreeVertices free_;
   int first_object_vertex_;
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
-  CholmodSolver solver_;
-  int factorizations_ = 0;
+  std::unique_ptr<LinearSolver> solver_;
 };
 
 }  // namespace tacipc

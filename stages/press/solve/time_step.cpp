@@ -48,7 +48,8 @@ TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettin
       settings_(settings),
       search_(mesh),
       newton_(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), mesh.num_gel_vertices,
-              mesh_pattern(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), *gel_.elasticity)) {}
+              mesh_pattern(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), *gel_.elasticity),
+              settings.linear_solver) {}
 
 IncrementalPotential TimeStepper::potential(const Step& step, std::vector<ContactPair> pairs) const {
   StepTerms terms = step.terms;
@@ -92,7 +93,7 @@ void TimeStepper::minimise(Step& step) {
   while (true) {
     if (iterations >= newton.max_iterations) {
       throw SolverError(
-          "Newton did not converge within {} iterations (step {:.2e} m/s > {:.2e}, residual force {:.2e} N of {:.3e} "
+          "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N of {:.3e} "
           "N, smallest gap {:.2e} m)",
           newton.max_iterations, report.velocity_residual_m_s, newton.velocity_tolerance_m_s, report.force_residual_n,
           contact_force(step), smallest_gap(x, settings_.d_hat_m));

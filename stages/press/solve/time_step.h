@@ -38,6 +38,7 @@ struct StepSettings {
   Vector3 gravity_m_s2 = Vector3::Zero();
   double mass_damping_per_s = 0.0;
   double stiffness_damping_s = 0.0;
+  LinearSolverKind linear_solver = LinearSolverKind::direct;
   NewtonSettings newton;
 };
 
@@ -106,7 +107,7 @@ class TimeStepper {
   StepForces no_forces() const;
   /// Smallest gap between gel and object (not counting gel–gel), at most `none`.
   double smallest_gap(const Positions& x, double none);
-  int num_analyses() const { return newton_.num_analyses(); }
+  int num_analyses() const { return newton_.solver().num_analyses(); }
 
  private:
   struct Step;
