@@ -9,8 +9,8 @@ namespace tacipc {
 
 /// Preconditioned conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start, M the 3 × 3
 /// blocks on the diagonal. On the way xᵀAx = xᵀb, so an unfinished solution still points downhill. A gel is thin and
-/// glued at the back: forces reach about a thickness far, and some fifty products are enough whatever its size. Sums run
-/// in a fixed order. Where the products do not suffice, the system is factorised.
+/// glued at the back: forces reach about a thickness far, and some fifty products are enough whatever its size. Sums
+/// run in a fixed order. Where the products do not suffice, the system is factorised.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(double tolerance = 1e-3, int max_products = 1000)

@@ -93,8 +93,8 @@ void TimeStepper::minimise(Step& step) {
   while (true) {
     if (iterations >= newton.max_iterations) {
       throw SolverError(
-          "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N of {:.3e} "
-          "N, smallest gap {:.2e} m)",
+          "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N "
+          "of {:.3e} N, smallest gap {:.2e} m)",
           newton.max_iterations, report.velocity_residual_m_s, newton.velocity_tolerance_m_s, report.force_residual_n,
           contact_force(step), smallest_gap(x, settings_.d_hat_m));
     }
@@ -115,15 +115,16 @@ void TimeStepper::minimise(Step& step) {
     report.force_residual_n = direction.gradient_sum / (h * h);
 
     // Multipliers see their targets missed no finer than the minimum is known.
+    bool done = false;
     const bool held = !step.constraint || step.constraint->largest(direction.p) < 0.3 * kConstraintTolerance;
     if (step.arrived && held && last_residual < step.looseness * newton.velocity_tolerance_m_s) {
       report.contact_force_n = contact_force(step);
-      const bool small =
+      done =
           report.force_residual_n <
           step.looseness * std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n);
       // A stand-in shortens steps: a vertex on the crest of one of the object's edges looks at rest by them. With the
       // exact Hessian it would not, so that is waited for, a while.
-      if (small && (direction.blend == 0.0 || step.looseness > 1.0 || ++waited > kMaxWait)) return;
+      if (done && (direction.blend == 0.0 || step.looseness > 1.0 || ++waited > kMaxWait)) return;
     }
 
     std::vector<ContactPair> pairs = search_.pairs(x, direction.p, settings_.d_hat_m);
@@ -154,6 +155,7 @@ void TimeStepper::minimise(Step& step) {
       Positions trial = x + alpha * direction.p;
       while (!(energy.value(trial) <= before + 1e-4 * alpha * direction.slope + noise)) {
         if (++halvings > kMaxHalvings) {
+          if (done) return;  // what was waited for is below rounding
           throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
                             last_residual, direction.slope, smallest_gap(x, settings_.d_hat_m));
         }
