@@ -64,7 +64,7 @@ std::string marker_quiver_svg(const SlidingRun& run, const MarkerCurveConfig& co
       "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"white\"/>\n"
       "<defs><marker id=\"head\" markerWidth=\"5\" markerHeight=\"4\" refX=\"4\" refY=\"2\" orient=\"auto\">"
       "<path d=\"M0 0L5 2L0 4Z\" fill=\"context-stroke\"/></marker></defs>\n",
-      kSide, kSide + 26.0);
+      kSide, kSide + 40.0);
   for (Eigen::Index m = 0; m < moved.cols(); ++m) {
     const Eigen::Vector2d from = run.rest.col(m), to = from + scale * moved.col(m);
     const auto i = static_cast<std::size_t>(m);
@@ -79,8 +79,8 @@ std::string marker_quiver_svg(const SlidingRun& run, const MarkerCurveConfig& co
     out += '\n';
   }
   out += fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}: longest {:.0f} um, drawn {:.1f} times as long; the "
-      "evaluated markers orange</text>\n</svg>\n",
+      "<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"middle\">{2}: longest {3:.0f} um, drawn {4:.1f} times as long"
+      "<tspan x=\"{0:.1f}\" dy=\"14\">orange: the markers that are judged</tspan></text>\n</svg>\n",
       kSide / 2, kSide + 12.0, run.name, largest / kMicrometre, scale);
   return out;
 }
