@@ -11,6 +11,7 @@ namespace tacipc::verify {
 namespace {
 
 constexpr double kWidth = 480.0, kHeight = 320.0, kLeft = 62.0, kRight = 12.0, kTop = 28.0, kBottom = 44.0;
+constexpr double kLine = 14.0;  // of the labels of curves, below the plot
 constexpr std::array<const char*, 4> kColors{"#1f5fa8", "#c2571a", "#3a8a4a", "#7a4fa0"};
 
 std::string escaped(const std::string& text) {
@@ -75,7 +76,7 @@ std::string to_svg(const Plot& plot) {
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "
       "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"white\"/>\n",
-      kWidth, kHeight);
+      kWidth, kHeight + kLine * static_cast<double>(plot.curves.size()));
   const auto label = [&](double tick) {
     return plot.logarithmic ? fmt::format("{:.3g}", std::pow(10.0, tick)) : fmt::format("{:.4g}", tick);
   };
@@ -108,8 +109,8 @@ std::string to_svg(const Plot& plot) {
     }
     if (!path.empty())
       out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", path, color);
-    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n", kLeft + 8,
-                       kTop + 14 + 14 * static_cast<double>(i), color, escaped(curve.label));
+    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n", kLeft,
+                       kHeight + kLine * (static_cast<double>(i) + 0.5), color, escaped(curve.label));
   }
   out += fmt::format("<text x=\"{:.1f}\" y=\"16\" text-anchor=\"middle\" font-size=\"12\">{}</text>\n", kWidth / 2,
                      escaped(plot.title));
