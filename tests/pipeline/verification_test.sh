@@ -74,8 +74,8 @@ ends 0 verification-cases N=2
 
 # Work that failed: so too, with the reason; it is tried again.
 sed -i 's/newton: {/newton: {max_iterations: 1, max_halvings: 0, /' configs/refinement/sphere_shear.yaml
-mkdir -p out/board3/focused_0200um-friction/page
-echo 'message: too late to judge' > out/board3/focused_0200um-friction/page/marker_curve.failed.yaml
+mkdir -p out/board3/focused_0200um-friction_viscous/page
+echo 'message: too late to judge' > out/board3/focused_0200um-friction_viscous/page/marker_curve.failed.yaml
 for attempt in 1 2; do
   rm $page
   ends 2 verification N=2
