@@ -7,16 +7,30 @@ VERIFICATION_CASES := $(filter-out stress,$(sort $(basename $(notdir $(wildcard 
 VERIFICATION_RESULTS := $(VERIFICATION_CASES:%=$(VERIFICATION)/%)
 
 # The long rows that this call makes; the page waits for them. Without SHARED board3 is skipped, as cases are.
-LONG_ROWS := $(filter refinement stress board3,$(MAKECMDGOALS) $(if $(filter verification,$(MAKECMDGOALS)),refinement stress $(if $(wildcard $(SHARED)),board3)))
-LONG_RECORDS = $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
+LONG_ROWS := $(filter closed-forms refinement stress board3,$(MAKECMDGOALS) $(if $(filter verification,$(MAKECMDGOALS)),closed-forms refinement stress $(if $(wildcard $(SHARED)),board3)))
+LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
 
 # The programs belong to the tests; never built beside another build in the same folder.
 .PHONY: build-verification
 build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
-	@cmake --build $(BUILD) --target verify verify_table stress_case stress_table refinement refinement_table marker_curve -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) --target verification_test verify verify_table stress_case stress_table refinement refinement_table marker_curve -j $(JOBS) -- --quiet
 
 $(VERIFICATION)/%/verify.yaml: configs/verification/%.yaml | build-verification
 	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
+
+# What needs no scene: a second of tests, run every time.
+CLOSED_FORMS_RECORD := $(OUT)/closed_forms/closed_forms.yaml
+.PHONY: closed-forms closed-forms-page
+closed-forms-page: | build-verification
+	mkdir -p $(dir $(CLOSED_FORMS_RECORD))
+	rm -f $(CLOSED_FORMS_RECORD)
+	holds=true; $(BUILD)/tests/verification/verification_test --gtest_filter='*PatchTest*:*WideLayerTest*' --gtest_brief=1 \
+	  > $(dir $(CLOSED_FORMS_RECORD))log.txt 2>&1 || holds=false; \
+	found=$$(sed -n 's/^\[  PASSED  \] \([0-9]* tests*\).*/\1 passed/p; s/^\[  FAILED  \] \([0-9]* tests*\), .*/\1 failed/p' $(dir $(CLOSED_FORMS_RECORD))log.txt | paste -sd, | sed 's/,/, /'); \
+	printf 'stage: closed_forms\nsummary:\n  holds: %s\n  found: "%s"\n' $$holds "$$found" > $(CLOSED_FORMS_RECORD)
+
+closed-forms: closed-forms-page ## Patch test, compression, simple shear, momentum and energy against closed forms (a second)
+	$(call holds,$(CLOSED_FORMS_RECORD))
 
 # $(call verification_table,folder,results,flags). A case that missed, failed or was skipped is run again next time: its record goes.
 define verification_table
@@ -42,7 +56,7 @@ verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuff
 	$(if $(filter 1-300,$(SEED)-$(N)),cp $(VERIFICATION)/page/verification.md docs/verification.md)
 	cp $(VERIFICATION)/page/verification/*.svg docs/verification/
 
-verification: verification-page ## Every case of configs/verification, then refinement, stress and board3; writes docs/verification.md with its plots (hours)
+verification: verification-page ## Every case of configs/verification, then closed-forms, refinement, stress and board3; writes docs/verification.md with its plots (hours)
 	! grep -E '^  (long_)?missed: [1-9]' $(VERIFICATION)/page/verify_table.yaml
 
 verification-cases: verification-page ## The cases only; the long rows of the page stay as they were

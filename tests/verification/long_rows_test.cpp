@@ -72,9 +72,9 @@ TEST(LongRows, StandBetweenCasesAndSources) {
 TEST(LongRows, TheListReads) {
   const auto list =
       read_config<LongRows>(std::filesystem::path(TACIPC_SOURCE_DIR) / "configs/verify_table/long_rows.yaml");
-  ASSERT_EQ(list.rows.size(), 3u);
-  EXPECT_EQ(list.rows[2].goal, "board3");
-  EXPECT_EQ(*list.rows[2].needs, "shared:data/tacipc_release/objects/board3.obj");
+  ASSERT_EQ(list.rows.size(), 4u);
+  EXPECT_EQ(list.rows.back().goal, "board3");
+  EXPECT_EQ(*list.rows.back().needs, "shared:data/tacipc_release/objects/board3.obj");
   EXPECT_EQ(faults_in<LongRows>("rows:\n  - {title: t, shows: s, stage: x, page: p, gaol: x}\n", "rows.yaml").size(),
             2u);
 }
