@@ -11,7 +11,8 @@ struct PairCounting {
   /// vertex is pushed once above the middle of a triangle, twice above an edge, six times above a corner, which gives a
   /// smooth surface bumps of the size of its triangles that friction catches on (docs/board3.md).
   bool once = false;
-  /// Of edge–edge pairs, where once: they only keep edges from crossing, as vertices already carry the load.
+  /// Of edge–edge pairs, where once: on smooth surfaces they only keep edges from crossing, as vertices already carry
+  /// the load. (At sharp edges they carry it, and the gap closes the more the smaller this is.)
   double edge_weight = 0.02;
 };
 
