@@ -1,6 +1,7 @@
 // Conjugate gradients with the inverse diagonal blocks as preconditioner.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "stages/press/solve/cholmod_solver.h"
@@ -19,7 +20,8 @@ class ConjugateGradient final : public LinearSolver {
   bool prepare(const BlockMatrix& matrix) override;
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
   int num_analyses() const override { return direct_.num_analyses(); }
-  std::int64_t num_products() const override { return products_; }
+  /// Matrix–vector products so far.
+  std::int64_t num_products() const { return products_; }
   /// Systems that had to be factorised.
   int num_factorized() const { return factorized_; }
 

@@ -26,8 +26,6 @@ class LinearSolver {
 
   /// Symbolic analyses so far.
   virtual int num_analyses() const = 0;
-  /// Matrix–vector products so far, other than for residuals of a direct solve.
-  virtual std::int64_t num_products() const { return 0; }
 };
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind);
