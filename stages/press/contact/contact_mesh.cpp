@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stages/press/contact/sharpness.h"
+
 namespace tacipc {
 namespace {
 
@@ -37,6 +39,7 @@ ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_bo
   mesh.object = make_surface(object_triangles, mesh.num_gel_vertices);
   mesh.rest_positions.resize(mesh.num_vertices(), 3);
   mesh.rest_positions << gel_rest, object;
+  mesh.object_edge_sharpness = edge_sharpness(mesh.object, mesh.rest_positions);
   return mesh;
 }
 

@@ -25,6 +25,7 @@ struct ContactMesh {
   Surface gel;
   Surface object;
   Positions rest_positions;  // all vertices, gel undeformed; scale of the edge mollifier and of close pairs at rest
+  std::vector<double> object_edge_sharpness;  // of object.edges, as the object was given (contact/sharpness.h)
 
   int num_vertices() const { return num_gel_vertices + num_object_vertices; }
 };

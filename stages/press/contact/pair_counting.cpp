@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stages/press/contact/sharpness.h"
+
 namespace tacipc {
 namespace {
 
@@ -13,16 +15,19 @@ void make_unique(std::vector<std::array<int, 3>>& cells) {
 
 }  // namespace
 
-std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, int num_gel_vertices, const PairCounting& counting) {
+std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh,
+                                  const PairCounting& counting) {
   if (!counting.once) return pairs;
   using Kind = ContactPair::Kind;
-  const auto of_gel = [&](int v) { return v < num_gel_vertices; };
+  const auto of_gel = [&](int v) { return v < mesh.num_gel_vertices; };
   std::vector<std::array<int, 3>> edges, corners;  // the vertex, then the cell's lowest and highest vertex
   for (ContactPair& pair : pairs) {
     const auto& v = pair.vertices;
     if (of_gel(v[0]) == of_gel(v[3])) continue;
     if (pair.kind == Kind::edge_edge) {
-      pair.weight = counting.edge_weight;
+      const std::size_t edge =
+          of_gel(v[0]) ? index_of_edge(mesh.object, v[2], v[3]) : index_of_edge(mesh.object, v[0], v[1]);
+      pair.weight = std::max(counting.edge_weight, mesh.object_edge_sharpness[edge]);
       continue;
     }
     for (int k = 1; k <= 3; ++k) {

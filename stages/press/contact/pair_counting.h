@@ -11,8 +11,9 @@ struct PairCounting {
   /// vertex is pushed once above the middle of a triangle, twice above an edge, six times above a corner, which gives a
   /// smooth surface bumps of the size of its triangles that friction catches on (docs/board3.md).
   bool once = false;
-  /// Of edge–edge pairs, where once: on smooth surfaces they only keep edges from crossing, as vertices already carry
-  /// the load. (At sharp edges they carry it, and the gap closes the more the smaller this is.)
+  /// Where once: least weight of edge–edge pairs, which count as much as the object's edge is sharp
+  /// (contact/sharpness.h). On smooth surfaces they only keep edges from crossing, as vertices carry the load; at sharp
+  /// edges they carry it.
   double edge_weight = 0.02;
 };
 
@@ -28,6 +29,7 @@ struct PairCounting {
 /// Pairs gel–gel are left as they are: the reach of theirs differs from pair to pair.
 /// \pre triangles around every edge within reach of a vertex are in `pairs`, as ContactSearch finds them; none has been
 /// weighted yet.
-std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, int num_gel_vertices, const PairCounting& counting);
+std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh,
+                                  const PairCounting& counting);
 
 }  // namespace tacipc

@@ -56,7 +56,10 @@ void TimeStepper::settle_friction(Step& step) {
               report.contact_force_n);
     const double limit =
         std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * report.contact_force_n);
-    const bool settled = report.friction_residual_n <= limit;
+    // Renewed once at least: steps that are settled as they stand beside steps that are not would make the friction
+    // of one step an older one's than that of the next, and jump by as much as the tolerance allows.
+    const bool renewed_once = report.lag_iterations > 0 || friction.max_lag_iterations == 1;
+    const bool settled = report.friction_residual_n <= (renewed_once ? limit : settings_.newton.force_tolerance_n);
     const bool last = report.lag_iterations + 1 >= friction.max_lag_iterations;
     if ((settled || last) && step.looseness == 1.0) {
       if (settled || friction.max_lag_iterations == 1) return;

@@ -59,7 +59,7 @@ IncrementalPotential TimeStepper::potential(const Step& step, std::vector<Contac
 }
 
 ContactBarrier TimeStepper::barrier(std::vector<ContactPair> pairs) const {
-  return {mesh_, weighted(std::move(pairs), mesh_.num_gel_vertices, settings_.pair_counting), settings_.d_hat_m};
+  return {mesh_, weighted(std::move(pairs), mesh_, settings_.pair_counting), settings_.d_hat_m};
 }
 
 std::vector<ContactPair> TimeStepper::pairs_at(const Positions& x) {

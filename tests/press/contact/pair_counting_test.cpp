@@ -56,7 +56,7 @@ struct OnePoint {
     }
     x = mesh.rest_positions;
   }
-  ContactBarrier barrier(bool once) const { return {mesh, weighted(pairs, 1, {.once = once}), kDHat}; }
+  ContactBarrier barrier(bool once) const { return {mesh, weighted(pairs, mesh, {.once = once}), kDHat}; }
   double energy(bool once) const {
     const ContactBarrier term = barrier(once);
     double sum = 0.0;
@@ -126,24 +126,34 @@ TEST(PairCounting, TwoSheetsPushTwiceAndAFoldStaysRepulsive) {
 
 TEST(PairCounting, EveryPairIsLeftAlone) {
   const OnePoint scene(sheet([](double, double) { return 0.0; }), {0, 0, 0.1});
-  const auto same = weighted(scene.pairs, 1, {});
+  const auto same = weighted(scene.pairs, scene.mesh, {});
   ASSERT_EQ(same.size(), scene.pairs.size());
   for (std::size_t i = 0; i < same.size(); ++i) EXPECT_EQ(same[i].weight, 1.0);
 }
 
-TEST(PairCounting, EdgesAreWeightedAndGelPairsStay) {
+TEST(PairCounting, EdgesCountAsMuchAsTheyAreSharpAndGelPairsStay) {
   using Kind = ContactPair::Kind;
+  // A roof of 2 × 45° over the ridge 10–11, and a gel of two triangles.
+  const Positions roof{{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}};
+  const Triangles two{{0, 2, 1}, {0, 1, 3}};
+  const Positions gel = Positions::Random(10, 3);
+  const ContactMesh mesh = make_contact_mesh(gel, Triangles{{0, 1, 2}, {1, 3, 2}}, roof, two);
   const std::vector<ContactPair> pairs{{Kind::edge_edge, {0, 1, 10, 11}},
                                        {Kind::edge_edge, {0, 1, 2, 3}},
                                        {Kind::point_triangle, {0, 1, 2, 3}},
                                        {Kind::point_triangle, {12, 1, 2, 3}}};
-  const auto counted = weighted(pairs, 10, {.once = true, .edge_weight = 0.1});
+  const auto counted = weighted(pairs, mesh, {.once = true, .edge_weight = 0.1});
   ASSERT_EQ(counted.size(), 4u + 3u + 3u);
-  EXPECT_EQ(counted[0].weight, 0.1);
+  EXPECT_NEAR(counted[0].weight, 1.0, 1e-12);
   EXPECT_EQ(counted[1].weight, 1.0);
   EXPECT_EQ(counted[2].weight, 1.0);
   for (std::size_t i = 4; i < 7; ++i) EXPECT_EQ(counted[i].weight, -1.0);
   for (std::size_t i = 7; i < 10; ++i) EXPECT_EQ(counted[i].weight, 1.0);
+
+  Positions flat = roof;
+  flat.col(2).tail(2).setConstant(-0.1);
+  const ContactMesh smooth = make_contact_mesh(gel, Triangles{{0, 1, 2}, {1, 3, 2}}, flat, two);
+  EXPECT_EQ(weighted(pairs, smooth, {.once = true, .edge_weight = 0.1})[0].weight, 0.1);
 }
 
 /// Without friction a flat plate must not drag the gel, however its triangles are cut.
