@@ -54,7 +54,8 @@ std::string content_hash(const std::filesystem::path& path) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
     const std::string name = entry.path().lexically_relative(path).generic_string();
     const bool hidden = name.front() == '.' || name.find("/.") != std::string::npos;
-    if (!entry.is_regular_file() || entry.path().extension() == ".log" || hidden) continue;
+    const bool of_the_run = name.ends_with(".log") || name.ends_with(".timings.yaml");
+    if (!entry.is_regular_file() || of_the_run || hidden) continue;
     files.emplace(name, entry.path());
   }
   std::string listing;

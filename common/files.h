@@ -15,7 +15,7 @@ std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Content hash as 32 hex digits (XXH3, 128 bit). Of a folder: over the names and contents of its regular files in name
-/// order, leaving out logs and hidden names, so that it changes exactly when a result in it does.
+/// order, leaving out logs, timings and hidden names, so that it changes exactly when a result in it does.
 std::string content_hash(const std::filesystem::path& path);
 
 }  // namespace tacipc

@@ -1,5 +1,7 @@
 #include "common/stage.h"
 
+#include <sys/resource.h>
+
 #include <fmt/core.h>
 
 #include <new>
@@ -94,6 +96,8 @@ void Stage::note_config(const std::string& flag, Value config) {
 
 void Stage::summarize(const Value::Map& lines) { summary_.insert(summary_.end(), lines.begin(), lines.end()); }
 
+void Stage::cost(const Value::Map& lines) { cost_.insert(cost_.end(), lines.begin(), lines.end()); }
+
 Value Stage::input_hashes() const {
   Value::Map inputs;
   for (const InputSpec& spec : spec_.inputs) {
@@ -138,6 +142,7 @@ void Stage::add_notes(Value::Map& record) const {
 
 void Stage::remove_old_results() const {
   remove_quietly(out_ / (spec_.name + ".failed.yaml"));
+  remove_quietly(out_ / (spec_.name + ".timings.yaml"));
   const fs::path record = out_ / (spec_.name + ".yaml");
   std::error_code error;
   if (!fs::exists(record, error)) return;
@@ -174,6 +179,24 @@ std::string Stage::record() const {
   return to_yaml(record);
 }
 
+void Stage::write_timings() const {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started_;
+  Value::Map lines{{"stage", spec_.name},
+                   {"threads", threads_},
+                   {"wall_s", wall.count()},
+                   {"processor_s", seconds(used.ru_utime) + seconds(used.ru_stime)},
+                   {"peak_memory_mb", static_cast<double>(used.ru_maxrss) / 1024.0}};
+  lines.insert(lines.end(), cost_.begin(), cost_.end());
+  const std::filesystem::path name = spec_.name + ".timings.yaml";
+  write_file(partial_ / name, to_yaml(lines));
+  fs::rename(partial_ / name, out_ / name);
+}
+
 void Stage::begin() {
   remove_old_results();
   write_file(out_ / (spec_.name + ".log"), "");
@@ -206,6 +229,7 @@ void Stage::publish() {
     if ((out_ / name).has_parent_path()) fs::create_directories((out_ / name).parent_path());
     fs::rename(partial_ / name, out_ / name);
   }
+  write_timings();
   fs::rename(partial_ / record_name, out_ / record_name);
 }
 

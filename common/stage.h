@@ -1,6 +1,7 @@
 // The manners every stage shares: flags, exit codes, atomic outputs, the record, the log.
 #pragma once
 
+#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -81,6 +82,9 @@ class Stage {
   void note(const std::string& key, Value value);
   void summarize(const Value::Map& lines);
 
+  /// Adds lines to what the run cost (below).
+  void cost(const Value::Map& lines);
+
   /// Threads the stage may use; already in force for oneTBB.
   int threads() const { return threads_; }
 
@@ -103,6 +107,9 @@ class Stage {
   /// Notes and options, as record and failure file repeat them.
   void add_notes(Value::Map& record) const;
   std::string record() const;
+  /// `<stage>.timings.yaml`: wall and processor time, peak memory and the stage's own lines. Not part of the record, as
+  /// no two runs agree in it.
+  void write_timings() const;
 
   const StageSpec& spec_;
   std::filesystem::path out_;
@@ -117,6 +124,8 @@ class Stage {
   Value::Map configs_;
   Value::Map notes_;
   Value::Map summary_;
+  Value::Map cost_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
 /// Runs one stage: parses flags, removes the old record, calls `body`, moves outputs into place, writes the record

@@ -34,7 +34,10 @@ Height read_picture_height(const PictureSource& source, const ReliefShape& relie
                         source.path.string());
 }
 
-Height face_relief(const EmbossConfig& config) {
+namespace {
+
+/// The pattern alone.
+Height pattern_relief(const EmbossConfig& config) {
   const double rim = config.free_radius_m();
   const auto wall = [shape = config.relief](double d) { return wall_height(d, shape.wall_m, shape.rounding_m); };
   if (const auto* outline = std::get_if<Outline>(&config.pattern)) {
@@ -46,6 +49,19 @@ Height face_relief(const EmbossConfig& config) {
   return [=](const Vector2& p) {
     const double window = wall(rim - p.norm());
     return window > 0.0 ? window * inside(p) : 0.0;
+  };
+}
+
+}  // namespace
+
+Height face_relief(const EmbossConfig& config) {
+  const Height pattern = pattern_relief(config);
+  const Roughness rough = config.roughness;
+  if (rough.height_m == 0.0) return pattern;
+  const double rim = config.free_radius_m(), share = rough.height_m / config.relief.height_m;
+  return [=, shape = config.relief](const Vector2& p) {
+    const double window = wall_height(rim - p.norm(), shape.wall_m, shape.rounding_m);
+    return pattern(p) + (window > 0.0 ? window * share * stone_height(p, rough.size_m, 1, 1.0, rough.seed) : 0.0);
   };
 }
 

@@ -33,6 +33,11 @@ EmbossConfig EmbossConfig::read(ConfigReader& in) {
   config.relief = {.height_m = length(relief, "height_mm", Range::positive()),
                    .wall_m = length(relief, "wall_mm", Range::positive()),
                    .rounding_m = length(relief, "rounding_mm", Range::positive())};
+  if (auto roughness = relief.optional_section("roughness")) {
+    config.roughness = {.height_m = length(*roughness, "height_mm", Range::positive()),
+                        .size_m = length(*roughness, "size_mm", Range::positive()),
+                        .seed = static_cast<std::uint64_t>(roughness->integer("seed", 0))};
+  }
   config.vertices = in.integer("vertices", 500, kMostVertices);
   double free_radius = config.free_radius_m();
   if (free_radius <= 0.0) {

@@ -13,9 +13,17 @@ struct ReliefShape {
   double rounding_m = 0.0;  // half width of the rounding at a wall's foot and top
 };
 
+/// Fine noise upon everything inside the margin, as a print or a cast has it.
+struct Roughness {
+  double height_m = 0.0;  // none
+  double size_m = 1.0;    // of its grains
+  std::uint64_t seed = 0;
+};
+
 struct EmbossConfig {
   CoinShape coin;
   ReliefShape relief;
+  Roughness roughness;
   double margin_m = 0.0;  // plain face between relief and fillet
   int vertices = 0;       // of the mesh, at least
   Pattern pattern;

@@ -77,6 +77,8 @@ void solver(auto& io, auto& report) {
   io.plain(report.time_steps);
   io.plain(report.newton_iterations);
   io.plain(report.moving_iterations);
+  io.plain(report.patches);
+  io.plain(report.patch_iterations);
   io.plain(report.lag_iterations);
   io.plain(report.velocity_residual_m_s);
   io.plain(report.force_residual_n);

@@ -118,6 +118,7 @@ Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
           {"slipping", patch.slipping},
           {"substeps", f.solver.time_steps},
           {"newton_iterations", f.solver.newton_iterations},
+          {"patch_iterations", f.solver.patch_iterations},
           {"lag_iterations", f.solver.lag_iterations},
           {"friction_residual_n", f.solver.friction_residual_n},
           {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
@@ -206,6 +207,17 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   summary.emplace_back("limits", limits());
   summary.emplace_back("per_frame", std::move(per_frame));
   stage.summarize(summary);
+
+  const SolverTimes& t = simulation.times;
+  stage.cost({{"search_s", t.search_s},
+              {"step_limits_s", t.limits_s},
+              {"line_search_s", t.line_search_s},
+              {"elastic_s", t.elastic_s},
+              {"contact_s", t.contact_s},
+              {"linear_s", t.linear_s},
+              {"patches_s", t.patches_s},
+              {"linear_systems", t.solves},
+              {"products", t.products}});
 }
 
 }  // namespace tacipc

@@ -53,9 +53,10 @@ PressConfig PressConfig::read(ConfigReader& in) {
   config.relative_force_tolerance = newton.number_or("relative_force_tolerance", 5e-4, Range::positive());
   config.force_tolerance_n = newton.number_or("force_tolerance_n", 1e-5, Range::positive());
   config.linear_solver =
-      newton.choice_or("linear_solver", "direct", {"direct", "conjugate_gradient"}) == "conjugate_gradient"
-          ? LinearSolverKind::conjugate_gradient
-          : LinearSolverKind::direct;
+      newton.choice_or("linear_solver", "conjugate_gradient", {"direct", "conjugate_gradient"}) == "direct"
+          ? LinearSolverKind::direct
+          : LinearSolverKind::conjugate_gradient;
+  config.patches = newton.flag_or("patches", true);
   config.max_newton_iterations = newton.integer_or("max_iterations", 200, 1);
   config.max_halvings = newton.integer_or("max_halvings", 5, 0, 20);
   return config;

@@ -31,7 +31,8 @@ class Motion {
     out_.newton = {.velocity_tolerance_m_s = config.relative_velocity_tolerance * diagonal_m_,
                    .relative_force_tolerance = config.relative_force_tolerance,
                    .force_tolerance_n = config.force_tolerance_n,
-                   .max_iterations = config.max_newton_iterations};
+                   .max_iterations = config.max_newton_iterations,
+                   .patches = config.patches};
     if (config.barrier_stiffness) {
       out_.barrier_stiffness = *config.barrier_stiffness;
     } else {
@@ -83,6 +84,7 @@ class Motion {
       start.load_n = last.load_n;
     }
     out_.symbolic_analyses = stepper.num_analyses();
+    out_.times = stepper.times();
     return std::move(out_);
   }
 
@@ -158,6 +160,8 @@ class Motion {
       report.time_steps += before.time_steps;
       report.newton_iterations += before.newton_iterations;
       report.moving_iterations += before.moving_iterations;
+      report.patches += before.patches;
+      report.patch_iterations += before.patch_iterations;
       report.lag_iterations += before.lag_iterations;
     } catch (const SolverError& error) {
       if (halvings >= config_.max_halvings) throw;

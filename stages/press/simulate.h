@@ -48,6 +48,7 @@ struct Simulation {
   std::string element;  // "linear", "averaged_volume"
   NewtonSettings newton;
   std::vector<Frame> frames;
+  SolverTimes times;  // of this run, which may have found frames of an earlier one
   int symbolic_analyses = 0;
 };
 

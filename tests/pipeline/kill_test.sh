@@ -35,7 +35,7 @@ for stage in decimate tetmesh press render report; do
     done
     [ "$struck" = yes ] || [ "$delay" != 0 ] || [[ "decimate tetmesh report" == *$stage* ]] || fail "$stage was always done before it could be killed"
     # Whatever record exists by now must be that of the whole run: nothing half-made may look done.
-    [ "$struck" = no ] || for record in $(cd killed && find . -name '*.yaml' -not -path '*/.partial-*'); do
+    [ "$struck" = no ] || for record in $(cd killed && find . -name '*.yaml' -not -name '*.timings.yaml' -not -path '*/.partial-*'); do
       cmp "killed/$record" "whole/$record" || fail "with $stage killed, $record is not the finished one"
     done
     tiny_sample killed

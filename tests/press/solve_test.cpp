@@ -196,14 +196,14 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {4, 0, 1, 2}}}, 0.4);
   const auto pattern = mesh_pattern(free, Elasticity(rest, tets, NeoHookean{2.0, 3.0}));
   EXPECT_EQ(pattern->find(4, 0), -1);
-  EXPECT_EQ(cover_contacts(pattern, free, barrier, rest), pattern);
+  EXPECT_EQ(cover_contacts(pattern, free, barrier, barrier.active(rest), rest), pattern);
 
   Positions x = rest;
   x.bottomRows(4).col(2).array() -= 0.8;  // the tip is 0.2 above the face now
-  const auto covered = cover_contacts(pattern, free, barrier, x);
+  const auto covered = cover_contacts(pattern, free, barrier, barrier.active(x), x);
   for (const int corner : {0, 1, 2}) EXPECT_GE(covered->find(4, corner), 0);
   EXPECT_EQ(covered->num_blocks(), pattern->num_blocks() + 3);
-  EXPECT_EQ(cover_contacts(covered, free, barrier, x), covered);
+  EXPECT_EQ(cover_contacts(covered, free, barrier, barrier.active(x), x), covered);
 
   // The extended system solves as dense algebra does, and a new pattern is analysed anew.
   NewtonSystem system = empty_system(free, covered);

@@ -26,30 +26,48 @@ ClosestFeature point_point(const FourPoints& x, int i, int j) {
   return f;
 }
 
-/// Vertex `point` against edge ab. `sign` is +1 where the point belongs to the first body, −1 where the edge does.
-ClosestFeature point_edge(const FourPoints& x, int point, int a, int b, double sign) {
+/// Where on edge ab a vertex is nearest. `sign` is +1 where the point belongs to the first body, −1 where the edge
+/// does.
+struct EdgeFit {
+  int point, a, b;
+  double sign;
+  double u;   // 0 at a, 1 at b
+  Vector3 r;  // nearest point → vertex
+  double squared_distance;
+};
+
+EdgeFit fit_edge(const FourPoints& x, int point, int a, int b, double sign) {
   const Vector3 edge = x[b] - x[a];
-  const Vector3 from_a = x[point] - x[a];
+  const Vector3 from_a = x[point] - x[a], from_b = x[point] - x[b];
   const double length2 = edge.squaredNorm();
   const double along = from_a.dot(edge);
-  const auto end_point = [&](int end) { return sign > 0 ? point_point(x, point, end) : point_point(x, end, point); };
-  if (!(along > 0)) return end_point(a);
-  const double u = along / length2;  // length2 > 0, since along > 0
-  if (!(u < 1)) return end_point(b);
+  // length2 > 0 where along > 0
+  const double u = !(along > 0) ? 0.0 : !(along / length2 < 1) ? 1.0 : along / length2;
+  // Measured from the nearer end: less is cancelled.
+  const Vector3 r = u <= 0.5 ? Vector3(from_a - u * edge) : Vector3(from_b + (1 - u) * edge);
+  return {point, a, b, sign, u, r, r.squaredNorm()};
+}
 
-  ClosestFeature f = point_point(x, point, a);
-  f.k = 1;
-  f.weights.setZero();
+const EdgeFit& nearer(const EdgeFit& a, const EdgeFit& b) { return b.squared_distance < a.squared_distance ? b : a; }
+
+ClosestFeature feature_of(const EdgeFit& fit, const FourPoints& x) {
+  const auto [point, a, b, sign, u, r, squared_distance] = fit;
+  if (u == 0.0 || u == 1.0) {
+    const int end = u == 0.0 ? a : b;
+    return sign > 0 ? point_point(x, point, end) : point_point(x, end, point);
+  }
+  ClosestFeature f{.weights = Eigen::Vector4d::Zero(),
+                   .W = Eigen::Matrix<double, 4, 2>::Zero(),
+                   .A = Eigen::Matrix<double, 3, 2>::Zero(),
+                   .k = 1,
+                   .r = sign * r,
+                   .squared_distance = squared_distance};
   f.weights[point] = sign;
   f.weights[a] = -sign * (1 - u);
   f.weights[b] = -sign * u;
   f.W(a, 0) = sign;
   f.W(b, 0) = -sign;
-  f.A.col(0) = -sign * edge;
-  // Measured from the nearer end: less is cancelled.
-  const Vector3 from_b = x[point] - x[b];
-  f.r = sign * (u <= 0.5 ? Vector3(from_a - u * edge) : Vector3(from_b + (1 - u) * edge));
-  f.squared_distance = f.r.squaredNorm();
+  f.A.col(0) = -sign * (x[b] - x[a]);
   return f;
 }
 
@@ -81,15 +99,15 @@ std::optional<PlaneFit> minimise_over_plane(const Vector3& r, const Vector3& a, 
 }
 
 ClosestFeature nearest_triangle_edge(const FourPoints& x, bool e12, bool e23, bool e31) {
-  std::optional<ClosestFeature> best;
+  std::optional<EdgeFit> best;
   const auto offer = [&](int a, int b) {
-    const ClosestFeature f = point_edge(x, 0, a, b, 1);
-    best = best ? nearer(*best, f) : f;
+    const EdgeFit fit = fit_edge(x, 0, a, b, 1);
+    if (!best || fit.squared_distance < best->squared_distance) best = fit;
   };
   if (e12) offer(1, 2);
   if (e23) offer(2, 3);
   if (e31) offer(3, 1);
-  return *best;
+  return feature_of(*best, x);
 }
 
 }  // namespace
@@ -146,8 +164,9 @@ ClosestFeature closest_edge_edge(const FourPoints& x) {
     // The distance is convex in (s, t): a critical point inside is the minimum.
     if (fit->sine2 > kIllConditionedSine2) return *inside;
   }
-  const ClosestFeature end_points = nearer(nearer(point_edge(x, 0, 2, 3, 1), point_edge(x, 1, 2, 3, 1)),
-                                           nearer(point_edge(x, 2, 0, 1, -1), point_edge(x, 3, 0, 1, -1)));
+  const EdgeFit ends[4] = {fit_edge(x, 0, 2, 3, 1), fit_edge(x, 1, 2, 3, 1), fit_edge(x, 2, 0, 1, -1),
+                           fit_edge(x, 3, 0, 1, -1)};
+  const ClosestFeature end_points = feature_of(nearer(nearer(ends[0], ends[1]), nearer(ends[2], ends[3])), x);
   return inside ? nearer(*inside, end_points) : end_points;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "stages/press/contact/edge_edge_mollifier.h"
+#include "stages/press/contact/near_pairs.h"
 #include "stages/press/energy/barrier.h"
 
 namespace tacipc {
@@ -13,18 +14,36 @@ FourPoints unpack(const Eigen::VectorXd& x) {
   return {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
 }
 
-/// Positive semi-definite stand-in for ∂²b(s(x)) without eigenvalues. With r = Σ wᵢxᵢ, n = r/|r|, s = |r|²:
-///   ∂²b = b″ ∇s∇sᵀ + b′ ∇²s,  ∇sᵢ = 2wᵢr,  ∇²s = 2[wwᵀ⊗I − B(AᵀA)⁻¹Bᵀ],  b′ < 0.
-/// Along n it is [(4 s b″ + 2b′) wwᵀ + 2|b′| s W(AᵀA)⁻¹Wᵀ] ⊗ nnᵀ, both parts positive; only the indefinite coupling of
-/// normal and tangential directions is left out.
-void normal_hessian(const ClosestFeature& feature, double b1, double b2, Eigen::Map<Matrix12> out) {
-  const double s = feature.squared_distance;
-  const Vector3 n = feature.r / std::sqrt(s);
-  const Eigen::Matrix4d C = (4.0 * s * b2 + 2.0 * b1) * feature.weights * feature.weights.transpose() -
-                            2.0 * b1 * s * feature.W * inverse_gram(feature) * feature.W.transpose();
-  const Matrix3 nn = n * n.transpose();
+/// (1 − blend) H + blend H₊ of b(s(x)), blocks between wanted vertices. With r = Σ wᵢxᵢ, n = r/|r|, s = |r|²:
+///   H = b″ ∇s∇sᵀ + b′ ∇²s,  ∇sᵢ = 2wᵢr,  ∇²s = 2[wwᵀ⊗I − B(AᵀA)⁻¹Bᵀ],  B_iq = W_iq r + wᵢ A_q,  b′ < 0.
+/// Along n it is [(4 s b″ + 2b′) wwᵀ + 2|b′| s W(AᵀA)⁻¹Wᵀ] ⊗ nnᵀ, both parts positive: that is H₊, without eigenvalues.
+/// Only the indefinite coupling of normal and tangential directions is left out.
+void blended_hessian(const ClosestFeature& f, double b1, double b2, double blend, PairVertices wanted, Matrix12& out) {
+  const Eigen::Matrix2d gram = inverse_gram(f);
+  const double s = f.squared_distance, exact = 1.0 - blend;
+  const Matrix3 rr = f.r * f.r.transpose();
+  const Eigen::Matrix4d ww = f.weights * f.weights.transpose(), WW = f.W * gram * f.W.transpose();
+  // H₊ and H have all in nnᵀ in common but b″: C nnᵀ = (C/s) rrᵀ.
+  const Eigen::Matrix4d along = (blend * (4.0 * b2 + 2.0 * b1 / s) + exact * 4.0 * b2) * ww - 2.0 * b1 * WW;
   for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 4; ++i) out.block<3, 3>(3 * i, 3 * j) = C(i, j) * nn;
+    if (!(wanted >> j & 1U)) continue;
+    for (int i = j; i < 4; ++i) {
+      if (!(wanted >> i & 1U)) continue;
+      Matrix3 block = along(i, j) * rr;
+      if (exact > 0.0) {
+        // −2 b′ Σ G_qp (W_iq r + wᵢ A_q)(W_jp r + wⱼ A_p)ᵀ without its part in rrᵀ, which stands in `along`.
+        const double scale = 2.0 * b1 * exact;
+        block.diagonal().array() += scale * ww(i, j);
+        if (f.k > 0) {
+          const Eigen::Vector2d gi = gram * f.W.row(i).transpose(), gj = gram * f.W.row(j).transpose();
+          const Vector3 ai = f.A * gi, aj = f.A * gj;
+          block -= scale * (f.weights[j] * f.r * ai.transpose() + f.weights[i] * aj * f.r.transpose() +
+                            ww(i, j) * (f.A * gram * f.A.transpose()));
+        }
+      }
+      out.block<3, 3>(3 * i, 3 * j) = block;
+      if (i != j) out.block<3, 3>(3 * j, 3 * i) = block.transpose();
+    }
   }
 }
 
@@ -52,6 +71,57 @@ ContactBarrier::Push ContactBarrier::push(int i, const FourPoints& points) const
   return out;
 }
 
+bool ContactBarrier::mollified(int i, const FourPoints& x) const {
+  return mollifier_threshold_[i] > 0.0 && edge_cross_squared_norm(x) < mollifier_threshold_[i];
+}
+
+std::vector<int> ContactBarrier::active(const Positions& x) const { return near_pairs(pairs_, x, s_hat_); }
+
+double ContactBarrier::value(const Positions& x) const {
+  const std::vector<int> near = active(x);
+  return ordered_sum(static_cast<int>(near.size()), [&](int first, int last) {
+    double sum = 0.0;
+    for (int k = first; k < last; ++k) {
+      const int i = near[static_cast<std::size_t>(k)];
+      const FourPoints points = gather(x, pairs_[i]);
+      const double s = closest_feature(pairs_[i], points).squared_distance;
+      double energy = pairs_[i].weight * barrier(s, s_hat_[i]);
+      if (energy != 0.0 && std::isfinite(energy) && mollified(i, points))
+        energy *= edge_edge_mollifier(edge_cross_squared_norm(points), mollifier_threshold_[i]);
+      sum += energy;
+    }
+    return sum;
+  });
+}
+
+bool ContactBarrier::evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted,
+                                      PairLocal& out) const {
+  const ClosestFeature feature = closest_feature(pairs_[i], x);
+  const double s = feature.squared_distance, s_hat = s_hat_[i], weight = pairs_[i].weight;
+  if (s >= s_hat) return false;
+  if (mollified(i, x)) {
+    Eigen::VectorXd at(12);
+    for (int k = 0; k < 4; ++k) at.segment<3>(3 * k) = x[k];
+    Local exact, positive;
+    evaluate(i, at, Order::hessian, exact);
+    evaluate(i, at, Order::psd, positive);
+    out.gradient = exact.gradient;
+    out.hessian = (1.0 - blend) * exact.hessian + blend * positive.hessian;
+    return true;
+  }
+  const double b1 = weight * barrier_d1(s, s_hat), b2 = weight * barrier_d2(s, s_hat);
+  out.gradient = b1 * squared_distance_gradient(feature);
+  // Of a pair that counts against the others nothing is positive: the others' stand-in is the stiffer one without it.
+  const bool against = weight < 0.0;
+  if (against && blend == 1.0) {
+    out.hessian.setZero();
+    return true;
+  }
+  blended_hessian(feature, b1, b2, against ? 0.0 : blend, wanted, out.hessian);
+  if (against && blend > 0.0) out.hessian *= 1.0 - blend;
+  return true;
+}
+
 void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
   const FourPoints points = unpack(x);
   const ClosestFeature feature = closest_feature(pairs_[i], points);
@@ -63,10 +133,8 @@ void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Loca
   if (!std::isfinite(out.value)) return;
   out.fit(4, order);
 
-  const double threshold = mollifier_threshold_[i];
-  const bool mollified = threshold > 0.0 && edge_cross_squared_norm(points) < threshold;
   const double b = out.value, b1 = weight * barrier_d1(s, s_hat), b2 = weight * barrier_d2(s, s_hat);
-  if (!mollified) {
+  if (!mollified(i, points)) {
     if (order == Order::value) return;
     const Vector12 ds = squared_distance_gradient(feature);
     out.gradient = b1 * ds;
@@ -74,12 +142,15 @@ void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Loca
     if (order == Order::psd && weight < 0.0) {
       out.hessian.setZero();  // without what it takes back, the others' stand-in is the stiffer one
     } else if (order == Order::psd) {
-      normal_hessian(feature, b1, b2, Eigen::Map<Matrix12>(out.hessian.data()));
+      Matrix12 stand_in;
+      blended_hessian(feature, b1, b2, 1.0, kAllPairVertices, stand_in);
+      out.hessian = stand_in;
     } else {
       out.hessian = b2 * ds * ds.transpose() + b1 * squared_distance_hessian(feature);
     }
     return;
   }
+  const double threshold = mollifier_threshold_[i];
   if (order == Order::value) {
     out.value = edge_edge_mollifier(edge_cross_squared_norm(points), threshold) * b;
     return;

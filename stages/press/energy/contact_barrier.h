@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "stages/press/contact/contact_search.h"
-#include "stages/press/energy/energy_term.h"
+#include "stages/press/energy/contact_term.h"
 
 namespace tacipc {
 
@@ -12,7 +12,7 @@ namespace tacipc {
 /// of barrier.h, m_k the mollifier of nearly parallel edges (1 for point–triangle pairs).   [Eq. 5; Li et al. 2020] ŝ_k
 /// = d̂², but for gel–gel pairs at most a quarter of the squared distance at rest: neighbours on the undeformed gel must
 /// not push each other however fine the mesh is.
-class ContactBarrier final : public EnergyTerm {
+class ContactBarrier final : public ContactTerm {
  public:
   ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m);
 
@@ -20,6 +20,10 @@ class ContactBarrier final : public EnergyTerm {
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
+
+  double value(const Positions& x) const override;
+  std::vector<int> active(const Positions& x) const override;
+  bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 
@@ -32,6 +36,8 @@ class ContactBarrier final : public EnergyTerm {
   Push push(int i, const FourPoints& points) const;
 
  private:
+  bool mollified(int i, const FourPoints& x) const;
+
   std::vector<ContactPair> pairs_;
   std::vector<double> s_hat_;                // one per pair
   std::vector<double> mollifier_threshold_;  // one per pair; zero: never mollified

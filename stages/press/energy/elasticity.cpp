@@ -3,6 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
+#include <numeric>
+
+#include "common/spatial_order.h"
 
 namespace tacipc {
 namespace {
@@ -16,7 +19,28 @@ double signed_volume(const Positions& x, const auto& tet) {
 }  // namespace
 
 Elasticity::Elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law)
-    : tets_(tets), rest_(make_rest_tets(rest, tets)), law_(law) {}
+    : tets_(tets), rest_(make_rest_tets(rest, tets)), law_(law) {
+  const auto* neo_hookean = std::get_if<NeoHookean>(&law_);
+  if (!neo_hookean) return;
+  Positions centres(tets.rows(), 3);
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    centres.row(t) = 0.25 * (rest.row(tets(t, 0)) + rest.row(tets(t, 1)) + rest.row(tets(t, 2)) + rest.row(tets(t, 3)));
+  }
+  packs_.emplace(tets_, rest_, *neo_hookean, spatial_order(centres));
+}
+
+Elasticity::Elasticity(const Elasticity& whole, const std::vector<int>& which)
+    : tets_(static_cast<Eigen::Index>(which.size()), 4), law_(whole.law_) {
+  for (const int t : which) {
+    tets_.row(static_cast<Eigen::Index>(rest_.size())) = whole.tets_.row(t);
+    rest_.push_back(whole.rest_[t]);
+  }
+  std::vector<int> order(which.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (const auto* neo_hookean = std::get_if<NeoHookean>(&law_)) packs_.emplace(tets_, rest_, *neo_hookean, order);
+}
+
+double Elasticity::value(const Positions& x) const { return packs_ ? packs_->value(x) : EnergyTerm::value(x); }
 
 void Elasticity::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
   out.zero = false;

@@ -1,8 +1,10 @@
 // Elastic energy of the gel: one constant deformation gradient per tetrahedron.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "stages/press/energy/elastic_packs.h"
 #include "stages/press/energy/energy_term.h"
 #include "stages/press/energy/tet_energy.h"
 
@@ -12,18 +14,25 @@ namespace tacipc {
 class Elasticity final : public EnergyTerm {
  public:
   Elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law);
+  /// Some tetrahedra of another.
+  Elasticity(const Elasticity& whole, const std::vector<int>& which);
 
   std::string_view name() const override { return "elasticity"; }
   int num_stencils() const override { return static_cast<int>(tets_.rows()); }
   std::span<const int> stencil(int i) const override { return {&tets_(i, 0), 4}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
 
+  double value(const Positions& x) const override;
+
   const std::vector<RestTet>& rest() const { return rest_; }
+  /// The same tetrahedra in packs, for a law that has them; else null.
+  const ElasticPacks* packs() const { return packs_ ? &*packs_ : nullptr; }
 
  private:
   Tetrahedra tets_;
   std::vector<RestTet> rest_;
   ElasticLaw law_;
+  std::optional<ElasticPacks> packs_;
 };
 
 /// Lumped masses: a quarter of each tetrahedron's mass at each of its vertices, kg.

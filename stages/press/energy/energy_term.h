@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -38,7 +39,20 @@ class EnergyTerm {
   virtual std::span<const int> stencil(int i) const = 0;
   /// Evaluates stencil i at its vertices' coordinates `x` (3 × #vertices). A value of +∞ means x is not allowed.
   virtual void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const = 0;
+
+  /// Σᵢ eᵢ(x), +∞ where x is not allowed. The sum runs in an order that does not depend on threads.
+  virtual double value(const Positions& x) const;
 };
+
+/// Coordinates of a stencil's vertices, 3 each.
+inline void gather(const Positions& x, std::span<const int> stencil, Eigen::VectorXd& out) {
+  out.resize(3 * static_cast<Eigen::Index>(stencil.size()));
+  for (std::size_t k = 0; k < stencil.size(); ++k) out.segment<3>(3 * static_cast<Eigen::Index>(k)) = x.row(stencil[k]);
+}
+
+/// Σ part(i) over i < count: partial sums over fixed chunks, added in order, so that the result does not depend on the
+/// threads.
+double ordered_sum(int count, const std::function<double(int first, int last)>& part);
 
 /// Nearest positive semi-definite matrix (negative eigenvalues set to zero), in place.
 void project_psd(Matrix12& matrix);

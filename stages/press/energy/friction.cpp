@@ -1,6 +1,8 @@
 #include "stages/press/energy/friction.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tacipc {
 
@@ -49,46 +51,83 @@ std::shared_ptr<const Friction> Friction::mixed_with(const Friction& newer, doub
   return mixed;
 }
 
-double Friction::relative_slide(int i, const Positions& x) const {
-  const Pair& pair = pairs_[i];
+std::shared_ptr<const Friction> Friction::restricted_to(const std::vector<bool>& moves) const {
+  auto some = std::make_shared<Friction>(*this);
+  std::erase_if(some->pairs_, [&](const Pair& pair) {
+    return std::none_of(pair.vertices.begin(), pair.vertices.end(), [&](int v) { return moves[v]; });
+  });
+  return some;
+}
+
+Eigen::Vector2d Friction::slide(const Pair& pair, const FourPoints& x) {
   Vector3 now = Vector3::Zero();
-  for (int k = 0; k < 4; ++k) now += pair.weights[k] * x.row(pair.vertices[k]).transpose();
-  return (pair.tangents.transpose() * (now - pair.start)).norm() / epsilon_m_;
+  for (int k = 0; k < 4; ++k) now += pair.weights[k] * x[k];
+  return pair.tangents.transpose() * (now - pair.start);
+}
+
+double Friction::relative_slide(int i, const Positions& x) const {
+  const auto& v = pairs_[i].vertices;
+  return slide(pairs_[i], {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])}).norm() / epsilon_m_;
+}
+
+std::vector<int> Friction::active(const Positions&) const {
+  std::vector<int> all(pairs_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+double Friction::value(const Positions& x) const {
+  return ordered_sum(num_stencils(), [&](int first, int last) {
+    double sum = 0.0;
+    for (int i = first; i < last; ++i)
+      sum += pairs_[i].normal_force * friction_integral(relative_slide(i, x) * epsilon_m_, epsilon_m_);
+    return sum;
+  });
+}
+
+// ∂²f₀(‖u‖)/∂u² = (f₁/y) I + (f₁′ − f₁/y) û ûᵀ with f₁′ = 2 (1 − y/ε)/ε ≥ 0: never negative. It says nothing of how
+// soon f₁ changes, though, and a step along û overshoots between sticking and slipping. As f₀(√s) is concave in s,
+// (f₁/y) I alone lies above the energy everywhere: that is the stand-in, with which full steps go down. Of a pair that
+// counts against the others nothing does.
+Eigen::Matrix2d Friction::blended_inner(const Pair& pair, const Eigen::Vector2d& u, double blend) const {
+  const double y = u.norm(), r = y / epsilon_m_;
+  // f₁(y)/y, finite at y = 0.
+  const double part_over_y = r < 1.0 ? (2.0 - r) / epsilon_m_ : 1.0 / y;
+  Eigen::Matrix2d inner = part_over_y * Eigen::Matrix2d::Identity();
+  if (pair.normal_force < 0.0) inner *= 1.0 - blend;
+  if (y > 0.0 && blend < 1.0) {
+    const double slope = r < 1.0 ? 2.0 * (1.0 - r) / epsilon_m_ : 0.0;
+    inner += (1.0 - blend) * (slope - part_over_y) / (y * y) * u * u.transpose();
+  }
+  return inner;
+}
+
+bool Friction::evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const {
+  const Pair& pair = pairs_[i];
+  const Eigen::Vector2d u = slide(pair, x);
+  const double lambda = pair.normal_force, r = u.norm() / epsilon_m_;
+  const Vector3 force = lambda * (r < 1.0 ? (2.0 - r) / epsilon_m_ : 1.0 / u.norm()) * (pair.tangents * u);
+  const Matrix3 block = lambda * pair.tangents * blended_inner(pair, u, blend) * pair.tangents.transpose();
+  for (int a = 0; a < 4; ++a) {
+    if (!(wanted >> a & 1U)) continue;
+    out.gradient.segment<3>(3 * a) = pair.weights[a] * force;
+    for (int b = 0; b < 4; ++b) {
+      if (wanted >> b & 1U) out.hessian.block<3, 3>(3 * a, 3 * b) = pair.weights[a] * pair.weights[b] * block;
+    }
+  }
+  return true;
 }
 
 void Friction::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
-  const Pair& pair = pairs_[i];
-  Vector3 now = Vector3::Zero();
-  for (int k = 0; k < 4; ++k) now += pair.weights[k] * x.segment<3>(3 * k);
-  const Eigen::Vector2d u = pair.tangents.transpose() * (now - pair.start);
-  const double y = u.norm(), lambda = pair.normal_force;
+  const FourPoints points{x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
   out.zero = false;
-  out.value = lambda * friction_integral(y, epsilon_m_);
+  out.value = pairs_[i].normal_force * friction_integral(slide(pairs_[i], points).norm(), epsilon_m_);
   if (order == Order::value) return;
-  // f₁(y)/y, finite at y = 0.
-  const double r = y / epsilon_m_;
-  const double part_over_y = r < 1.0 ? (2.0 - r) / epsilon_m_ : 1.0 / y;
-  const Vector3 force = lambda * part_over_y * (pair.tangents * u);
+  PairLocal local;
+  evaluate_blended(i, points, order == Order::psd ? 1.0 : 0.0, kAllPairVertices, local);
   out.fit(4, order);
-  for (int k = 0; k < 4; ++k) out.gradient.segment<3>(3 * k) = pair.weights[k] * force;
-  if (order == Order::gradient) return;
-  // ∂²f₀(‖u‖)/∂u² = (f₁/y) I + (f₁′ − f₁/y) û ûᵀ with f₁′ = 2 (1 − y/ε)/ε ≥ 0: never negative. It says nothing of how
-  // soon f₁ changes, though, and a step along û overshoots between sticking and slipping. As f₀(√s) is concave in s,
-  // (f₁/y) I alone lies above the energy everywhere: that is the stand-in, with which full steps go down. Of a pair
-  // that counts against the others nothing does.
-  if (order == Order::psd && lambda < 0.0) {
-    out.hessian.setZero();
-    return;
-  }
-  Eigen::Matrix2d inner = part_over_y * Eigen::Matrix2d::Identity();
-  if (y > 0.0 && order != Order::psd) {
-    const double slope = r < 1.0 ? 2.0 * (1.0 - r) / epsilon_m_ : 0.0;
-    inner += (slope - part_over_y) / (y * y) * u * u.transpose();
-  }
-  const Matrix3 block = lambda * pair.tangents * inner * pair.tangents.transpose();
-  for (int a = 0; a < 4; ++a) {
-    for (int b = 0; b < 4; ++b) out.hessian.block<3, 3>(3 * a, 3 * b) = pair.weights[a] * pair.weights[b] * block;
-  }
+  out.gradient = local.gradient;
+  if (order >= Order::hessian) out.hessian = local.hessian;
 }
 
 }  // namespace tacipc

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "stages/press/energy/contact_barrier.h"
-#include "stages/press/energy/energy_term.h"
 
 namespace tacipc {
 
@@ -19,7 +18,7 @@ double friction_integral(double y, double epsilon);
 /// normal force λ_k = 2 d c m |b′(d²)| (times κ it is the force the barrier has between the two sides), weights w and
 /// tangent plane T held from there; xᵗ is the start of the time step. Times μκ, −∂D/∂x is Coulomb's friction.   [Eq.
 /// 6–9]
-class Friction final : public EnergyTerm {
+class Friction final : public ContactTerm {
  public:
   /// \param epsilon_m ε_v h: how far a side slides in one step at the speed where friction is fully reached
   Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m);
@@ -28,10 +27,17 @@ class Friction final : public EnergyTerm {
   /// forces. What has been mixed down to less than a thousandth of itself is left out.
   std::shared_ptr<const Friction> mixed_with(const Friction& newer, double part) const;
 
+  /// The pairs with any vertex that moves (one flag per vertex).
+  std::shared_ptr<const Friction> restricted_to(const std::vector<bool>& moves) const;
+
   std::string_view name() const override { return "friction"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
+
+  double value(const Positions& x) const override;
+  std::vector<int> active(const Positions& x) const override;  // all
+  bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
 
   /// One pair's slide ‖u‖ / ε: below 1 it sticks.
   double relative_slide(int i, const Positions& x) const;
@@ -48,6 +54,11 @@ class Friction final : public EnergyTerm {
     double normal_force;
     double share = 1.0;  // of the normal force that the barrier had
   };
+  /// Σ wᵢ (xᵢ − xᵢᵗ) in the tangent plane.
+  static Eigen::Vector2d slide(const Pair& pair, const FourPoints& x);
+  /// ∂²/∂u² with (1 − blend) of what makes it less than its majorant f₁/y I.
+  Eigen::Matrix2d blended_inner(const Pair& pair, const Eigen::Vector2d& u, double blend) const;
+
   std::vector<Pair> pairs_;
   double epsilon_m_;
 };

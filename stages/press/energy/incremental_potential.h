@@ -10,10 +10,11 @@
 
 namespace tacipc {
 
+/// Σ weight × term. Contact couples vertices that share no element.
 struct WeightedTerm {
   double weight;
   std::shared_ptr<const EnergyTerm> term;
-  bool contact = false;  // couples vertices that share no element
+  const ContactTerm* contact = nullptr;  // the term, where it is one
 };
 
 /// The parts of one time step; null where a part is absent.
@@ -25,7 +26,7 @@ struct StepTerms {
   std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where it is not in x̂
   std::shared_ptr<const EnergyTerm> constraint;         // what an augmented Lagrangian holds
   std::shared_ptr<const EnergyTerm> elasticity;
-  std::shared_ptr<const EnergyTerm> friction;
+  std::shared_ptr<const ContactTerm> friction;
   std::shared_ptr<const ContactBarrier> barrier;
 };
 
@@ -48,11 +49,5 @@ struct IncrementalPotential {
 /// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity + constraint) + κ′(μ D + B), κ′ = h² × barrier stiffness: κ for the
 /// nominal h.
 IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& weights);
-
-/// Coordinates of a stencil's vertices, 3 each.
-inline void gather(const Positions& x, std::span<const int> stencil, Eigen::VectorXd& out) {
-  out.resize(3 * static_cast<Eigen::Index>(stencil.size()));
-  for (std::size_t k = 0; k < stencil.size(); ++k) out.segment<3>(3 * static_cast<Eigen::Index>(k)) = x.row(stencil[k]);
-}
 
 }  // namespace tacipc

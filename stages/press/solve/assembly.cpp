@@ -46,12 +46,12 @@ std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const
 }
 
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
-                                                   const FreeVertices& free, const EnergyTerm& term,
-                                                   const Positions& x) {
+                                                   const FreeVertices& free, const ContactTerm& term,
+                                                   const std::vector<int>& active, const Positions& x) {
   std::vector<std::array<int, 2>> missing;
   Local local;
   Eigen::VectorXd local_x;
-  for (int i = 0; i < term.num_stencils(); ++i) {
+  for (const int i : active) {
     const auto stencil = term.stencil(i);
     bool covered = true;
     for (std::size_t a = 0; a < stencil.size(); ++a) {
@@ -90,37 +90,84 @@ NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockP
           .object_coupling = Vector3::Zero()};
 }
 
-void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
-              Order order, const Positions& motion, NewtonSystem& system) {
-  const double weight = weighted.weight;
+namespace {
+
+/// Adds one stencil's derivatives. `wanted`: vertices whose blocks there are.
+template <typename Local>
+void scatter(std::span<const int> stencil, PairVertices wanted, const Local& local, double weight,
+             const FreeVertices& free, int first_object_vertex, const Positions& motion, NewtonSystem& system) {
   const BlockPattern& pattern = *system.hessian.pattern;
-  for_each_local(*weighted.term, x, order, [&](std::span<const int> stencil, const Local& local) {
-    const int count = static_cast<int>(stencil.size());
-    for (int a = 0; a < count; ++a) {
-      const int i = free.free_of_vertex[stencil[a]];
-      const bool object = i < 0 && stencil[a] >= first_object_vertex;
-      if (i < 0 && !object) continue;
+  const int count = static_cast<int>(stencil.size());
+  const auto is_wanted = [&](int k) { return k >= 4 || (wanted >> k & 1U); };
+  for (int a = 0; a < count; ++a) {
+    if (!is_wanted(a)) continue;
+    const int i = free.free_of_vertex[stencil[a]];
+    const bool object = i < 0 && stencil[a] >= first_object_vertex;
+    if (i < 0 && !object) continue;
+    if (object) {
+      system.object_gradient += weight * local.gradient.template segment<3>(3 * a);
+    } else {
+      system.gradient.segment<3>(3 * i) += weight * local.gradient.template segment<3>(3 * a);
+    }
+    for (int b = 0; b < count; ++b) {
+      if (!is_wanted(b)) continue;
+      const int j = free.free_of_vertex[stencil[b]];
+      const auto block = local.hessian.template block<3, 3>(3 * a, 3 * b);
       if (object) {
-        system.object_gradient += weight * local.gradient.segment<3>(3 * a);
-      } else {
-        system.gradient.segment<3>(3 * i) += weight * local.gradient.segment<3>(3 * a);
-      }
-      for (int b = 0; b < count; ++b) {
-        const int j = free.free_of_vertex[stencil[b]];
-        const auto block = local.hessian.block<3, 3>(3 * a, 3 * b);
-        if (object) {
-          if (j >= 0) continue;
-          system.object_coupling += weight * block * motion.row(stencil[b]).transpose();
-          if (stencil[b] >= first_object_vertex) system.object_hessian += weight * block;
-        } else if (j < 0) {
-          system.coupling.segment<3>(3 * i) += weight * block * motion.row(stencil[b]).transpose();
-          if (stencil[b] >= first_object_vertex) system.object_border.middleRows<3>(3 * i) += weight * block;
-        } else if (i >= j) {
-          system.hessian.block(pattern.find(i, j)) += weight * block;
-        }
+        if (j >= 0) continue;
+        system.object_coupling += weight * block * motion.row(stencil[b]).transpose();
+        if (stencil[b] >= first_object_vertex) system.object_hessian += weight * block;
+      } else if (j < 0) {
+        system.coupling.segment<3>(3 * i) += weight * block * motion.row(stencil[b]).transpose();
+        if (stencil[b] >= first_object_vertex) system.object_border.middleRows<3>(3 * i) += weight * block;
+      } else if (i >= j) {
+        system.hessian.block(pattern.find(i, j)) += weight * block;
       }
     }
+  }
+}
+
+}  // namespace
+
+void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
+              Order order, const Positions& motion, NewtonSystem& system) {
+  for_each_local(*weighted.term, x, order, [&](std::span<const int> stencil, const Local& local) {
+    scatter(stencil, kAllPairVertices, local, weighted.weight, free, first_object_vertex, motion, system);
   });
+}
+
+void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
+                      const FreeVertices& free, int first_object_vertex, double blend, bool with_object,
+                      const Positions& motion, NewtonSystem& system) {
+  struct Found {
+    bool any;
+    PairVertices wanted;
+    PairLocal local;
+  };
+  const int count = static_cast<int>(active.size());
+  std::vector<Found> found(static_cast<std::size_t>(std::min(count, kChunk)));
+  for (int first = 0; first < count; first += kChunk) {
+    const int size = std::min(kChunk, count - first);
+    tbb::parallel_for(tbb::blocked_range<int>(0, size, 32), [&](const auto& range) {
+      for (int k = range.begin(); k < range.end(); ++k) {
+        const std::span<const int> v = term.stencil(active[first + k]);
+        Found& one = found[k];
+        one.wanted = 0;
+        for (int a = 0; a < 4; ++a) {
+          const bool kept = free.free_of_vertex[v[a]] >= 0 || (with_object && v[a] >= first_object_vertex);
+          one.wanted |= kept ? 1U << a : 0U;
+        }
+        one.any = one.wanted != 0 &&
+                  term.evaluate_blended(active[first + k], {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])}, blend,
+                                        one.wanted, one.local);
+      }
+    });
+    for (int k = 0; k < size; ++k) {
+      if (!found[k].any) continue;
+      scatter(term.stencil(active[first + k]), found[k].wanted, found[k].local, weight, free, first_object_vertex,
+              motion, system);
+    }
+  }
 }
 
 Positions gradient_of(const EnergyTerm& term, const Positions& x) {

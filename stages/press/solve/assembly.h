@@ -28,8 +28,8 @@ std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const
 /// The pattern, or a larger one if stencils of the term that are active at x couple vertices it does not (gel against
 /// gel).
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
-                                                   const FreeVertices& free, const EnergyTerm& term,
-                                                   const Positions& x);
+                                                   const FreeVertices& free, const ContactTerm& term,
+                                                   const std::vector<int>& active, const Positions& x);
 
 /// A system of zeros.
 NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern);
@@ -38,6 +38,13 @@ NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockP
 /// vertices move; those from `first_object_vertex` on are the object's.
 void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system);
+
+/// The same for contact, with the blend of exact and positive Hessian that NewtonStepper::direction looks for. Blocks
+/// of the object are left out unless `with_object` (it moves or yields; what is free is never left out).
+/// `active`: the term's stencils that do not vanish at x.
+void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
+                      const FreeVertices& free, int first_object_vertex, double blend, bool with_object,
+                      const Positions& motion, NewtonSystem& system);
 
 /// Gradient of one term at every vertex, prescribed ones too, in the term's unit per metre.
 Positions gradient_of(const EnergyTerm& term, const Positions& x);

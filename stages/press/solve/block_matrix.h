@@ -15,8 +15,10 @@ struct FreeVertices {
   std::vector<int> free_of_vertex;  // −1 for a vertex whose position is prescribed
   std::vector<int> vertex_of_free;
 
-  /// All of `num_vertices` but those marked as fixed.
+  /// All of `num_vertices` but those marked as fixed, numbered by vertex.
   FreeVertices(int num_vertices, const std::vector<bool>& fixed);
+  /// All of `order` but those marked as fixed, in that order.
+  FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed);
   int size() const { return static_cast<int>(vertex_of_free.size()); }
 };
 
@@ -35,16 +37,27 @@ struct BlockPattern {
 BlockPattern make_block_pattern(int size, std::vector<std::array<int, 2>> pairs);
 
 struct BlockMatrix {
+  /// Numbers per block: three columns of three and a zero, so that a column is one load.
+  static constexpr std::size_t kStride = 12;
+  using Block = Eigen::Map<Matrix3, 0, Eigen::OuterStride<4>>;
+  using ConstBlock = Eigen::Map<const Matrix3, 0, Eigen::OuterStride<4>>;
+
   std::shared_ptr<const BlockPattern> pattern;
-  std::vector<double> values;  // 9 per block, column-major
+  std::vector<double> values;
 
   explicit BlockMatrix(std::shared_ptr<const BlockPattern> p)
-      : pattern(std::move(p)), values(9 * static_cast<std::size_t>(pattern->num_blocks()), 0.0) {}
-  Eigen::Map<Matrix3> block(int index) {
-    return Eigen::Map<Matrix3>(values.data() + 9 * static_cast<std::size_t>(index));
-  }
-  /// y = A x for the whole symmetric matrix.
+      : pattern(std::move(p)), values(kStride * static_cast<std::size_t>(pattern->num_blocks()), 0.0) {}
+  Block block(int index) { return Block(values.data() + kStride * static_cast<std::size_t>(index)); }
+  ConstBlock block(int index) const { return ConstBlock(values.data() + kStride * static_cast<std::size_t>(index)); }
+
+  /// y = A x for the whole symmetric matrix, vectors of four numbers per vertex, the last of them zero.
+  void multiply_padded(const double* x, double* y) const;
+  /// y = A x, three numbers per vertex.
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
 };
+
+/// Vectors with a zero after each three numbers, and back.
+std::vector<double> padded(const Eigen::VectorXd& x);
+Eigen::VectorXd unpadded(const std::vector<double>& x);
 
 }  // namespace tacipc

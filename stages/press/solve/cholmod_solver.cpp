@@ -56,7 +56,7 @@ struct CholmodSolver::State {
     for (int c = 0; c < p.size(); ++c) {
       for (int k = 0; k < 3; ++k) {
         for (int b = p.column_start[c]; b < p.column_start[c + 1]; ++b) {
-          const double* block = source.values.data() + 9 * static_cast<std::size_t>(b) + 3 * k;
+          const double* block = source.values.data() + BlockMatrix::kStride * static_cast<std::size_t>(b) + 4 * k;
           for (int r = p.row[b] == c ? k : 0; r < 3; ++r) *values++ = block[r];
         }
       }

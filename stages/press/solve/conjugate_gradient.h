@@ -19,9 +19,10 @@ class ConjugateGradient final : public LinearSolver {
 
   bool prepare(const BlockMatrix& matrix) override;
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
+  void set_tolerance(double relative) override { tolerance_ = relative; }
   int num_analyses() const override { return direct_.num_analyses(); }
   /// Matrix–vector products so far.
-  std::int64_t num_products() const { return products_; }
+  std::int64_t num_products() const override { return products_; }
   /// Systems that had to be factorised.
   int num_factorized() const { return factorized_; }
 
@@ -31,7 +32,7 @@ class ConjugateGradient final : public LinearSolver {
   double tolerance_;
   int max_products_;
   const BlockMatrix* matrix_ = nullptr;
-  std::vector<Matrix3> inverse_diagonal_;
+  std::vector<double> inverse_diagonal_;  // blocks as BlockMatrix has them
   CholmodSolver direct_;
   std::int64_t products_ = 0;
   int factorized_ = 0;

@@ -35,7 +35,7 @@ void TimeStepper::start_friction(Step& step) {
   Positions motion = Positions::Zero(step.start.rows(), 3);
   motion.bottomRows(mesh_.num_object_vertices) =
       step.goal.object_target - step.start.bottomRows(mesh_.num_object_vertices);
-  const double part = contact_step_limit(search_.pairs(step.start, motion, settings_.d_hat_m), step.start, motion,
+  const double part = contact_step_limit(pairs_along(step.start, motion), step.start, motion,
                                          {kLagSlack, kGapFloor * settings_.d_hat_m});
   step.friction = friction_at(step.start + part * motion, step);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -23,7 +24,11 @@ class LinearSolver {
   virtual bool prepare(const BlockMatrix& matrix) = 0;
   /// Empty if the matrix turns out not to be positive definite. \pre it was prepared.
   virtual std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) = 0;
+  /// How exactly an iterative solver solves from now on, relative to the right-hand side.
+  virtual void set_tolerance(double /*relative*/) {}
 
+  /// Matrix–vector products so far, where it solves by them.
+  virtual std::int64_t num_products() const { return 0; }
   /// Symbolic analyses so far.
   virtual int num_analyses() const = 0;
 };

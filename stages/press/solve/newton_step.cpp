@@ -31,6 +31,8 @@ NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::sh
 /// axes; false if the matrix is not positive definite.
 bool NewtonStepper::solve(const NewtonSystem& system, const std::vector<int>& yielding, const Positions& motion,
                           NewtonDirection& out) {
+  const Stopwatch watch(times_.linear_s);
+  ++times_.solves;
   if (!solver_->prepare(system.hessian)) return false;
   const auto solved = solver_->solve(-system.gradient - system.coupling);
   if (!solved) return false;
@@ -64,22 +66,44 @@ bool NewtonStepper::solve(const NewtonSystem& system, const std::vector<int>& yi
   return true;
 }
 
+SolverTimes NewtonStepper::times() const {
+  SolverTimes times = times_;
+  times.products = solver_->num_products();
+  return times;
+}
+
 NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, const Positions& x,
                                          const Positions& motion, const std::vector<int>& yielding, double& blend) {
+  std::vector<std::vector<int>> active;  // of each contact term, in order
   for (const WeightedTerm& part : potential.terms) {
-    if (part.contact) pattern_ = cover_contacts(pattern_, free_, *part.term, x);
+    if (!part.contact) continue;
+    const Stopwatch watch(times_.contact_s);
+    active.push_back(part.contact->active(x));
+    pattern_ = cover_contacts(pattern_, free_, *part.contact, active.back(), x);
   }
   // Everything but contact and friction, elasticity as told.
   const auto body = [&](Order elastic) {
+    const Stopwatch watch(times_.elastic_s);
     NewtonSystem system = empty_system(free_, pattern_);
     for (const WeightedTerm& part : potential.terms) {
-      if (!part.contact) assemble(part, x, free_, first_object_vertex_, elastic, motion, system);
+      if (part.contact) continue;
+      const auto* elasticity = dynamic_cast<const Elasticity*>(part.term.get());
+      if (elasticity && elasticity->packs() && elastic == Order::hessian) {
+        elastic_.add(*elasticity->packs(), x, part.weight, free_, system);
+      } else {
+        assemble(part, x, free_, first_object_vertex_, elastic, motion, system);
+      }
     }
     return system;
   };
-  const auto with_contact = [&](NewtonSystem system, Order order) {
+  const bool with_object = !yielding.empty() || (motion.array() != 0.0).any();
+  const auto with_contact = [&](NewtonSystem system, double share) {
+    const Stopwatch watch(times_.contact_s);
+    auto which = active.begin();
     for (const WeightedTerm& part : potential.terms) {
-      if (part.contact) assemble(part, x, free_, first_object_vertex_, order, motion, system);
+      if (part.contact)
+        assemble_contact(part.weight, *part.contact, *which++, x, free_, first_object_vertex_, share, with_object,
+                         motion, system);
     }
     return system;
   };
@@ -91,32 +115,18 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
     return out;
   };
   const NewtonSystem elastic = body(Order::hessian);
-  NewtonSystem positive = with_contact(elastic, Order::psd);
-  if (blend < 1.0) {
-    const NewtonSystem exact = with_contact(elastic, Order::hessian);
-    NewtonSystem mixed = exact;
-    const auto mix = [&](auto& target, const auto& from, const auto& to) { target = from + blend * (to - from); };
-    for (; blend < 1.0; blend = blend == 0.0 ? kFirstBlend : kBlendGrowth * blend) {
-      for (std::size_t k = 0; k < mixed.hessian.values.size(); ++k) {
-        mixed.hessian.values[k] =
-            exact.hessian.values[k] + blend * (positive.hessian.values[k] - exact.hessian.values[k]);
-      }
-      mix(mixed.coupling, exact.coupling, positive.coupling);
-      mix(mixed.object_border, exact.object_border, positive.object_border);
-      mix(mixed.object_hessian, exact.object_hessian, positive.object_hessian);
-      mix(mixed.object_coupling, exact.object_coupling, positive.object_coupling);
-      if (!solve(mixed, yielding, motion, out)) continue;
-      const double used = blend;
-      blend = blend > kFirstBlend ? blend / kBlendShrink : 0.0;
-      return finished(mixed, used);
-    }
-    blend = 1.0;
+  for (; blend < 1.0; blend = blend == 0.0 ? kFirstBlend : kBlendGrowth * blend) {
+    const NewtonSystem mixed = with_contact(elastic, blend);
+    if (!solve(mixed, yielding, motion, out)) continue;
+    const double used = blend;
+    blend = blend > kFirstBlend ? blend / kBlendShrink : 0.0;
+    return finished(mixed, used);
   }
-  const double used = blend;
   blend = 0.99 / kBlendShrink;
-  if (solve(positive, yielding, motion, out)) return finished(positive, used);
-  const NewtonSystem projected = with_contact(body(Order::psd), Order::psd);
-  if (solve(projected, yielding, motion, out)) return finished(projected, used);
+  const NewtonSystem positive = with_contact(elastic, 1.0);
+  if (solve(positive, yielding, motion, out)) return finished(positive, 1.0);
+  const NewtonSystem projected = with_contact(body(Order::psd), 1.0);
+  if (solve(projected, yielding, motion, out)) return finished(projected, 1.0);
   throw SolverError("the projected Hessian is not positive definite");
 }
 

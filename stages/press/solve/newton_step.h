@@ -3,8 +3,9 @@
 
 #include <memory>
 
-#include "stages/press/solve/assembly.h"
+#include "stages/press/solve/elastic_assembly.h"
 #include "stages/press/solve/linear_solver.h"
+#include "stages/press/solve/solver_times.h"
 
 namespace tacipc {
 
@@ -35,6 +36,12 @@ class NewtonStepper {
   /// Forgets couplings that contacts have added, so that the next step does not depend on steps before.
   void reset_pattern() { pattern_ = own_pattern_; }
 
+  /// Of the linear solver, where it is iterative.
+  void set_tolerance(double relative) { solver_->set_tolerance(relative); }
+
+  /// Of derivatives and linear systems.
+  SolverTimes times() const;
+
   const FreeVertices& free() const { return free_; }
   const LinearSolver& solver() const { return *solver_; }
 
@@ -45,6 +52,8 @@ class NewtonStepper {
   FreeVertices free_;
   int first_object_vertex_;
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
+  ElasticAssembly elastic_;
+  SolverTimes times_;
   std::unique_ptr<LinearSolver> solver_;
 };
 

@@ -24,6 +24,8 @@ struct TimeStepper::Step {
   double looseness = 1.0;  // of the tolerances, while friction is still to be renewed
 };
 
-inline constexpr double kGapFloor = 1e-4;  // × d̂
+inline constexpr double kGapFloor = 1e-4;    // × d̂
+inline constexpr double kNewtonSlack = 0.1;  // part of each gap that a step leaves
+inline constexpr double kBlendAfterHalving = 0.1;
 
 }  // namespace tacipc

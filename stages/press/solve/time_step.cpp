@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/log.h"
+#include "common/spatial_order.h"
 #include "stages/press/energy/linear_load.h"
 #include "stages/press/energy/stiffness_damping.h"
 #include "stages/press/solve/step_limit.h"
@@ -15,11 +16,10 @@ namespace tacipc {
 namespace {
 
 constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where no energy guards the step
-constexpr double kNewtonSlack = 0.1;
-constexpr int kMaxWait = 10;  // for the exact Hessian: iterations that meet the tolerances
+constexpr int kMaxWait = 10;          // for the exact Hessian: iterations that meet the tolerances
+constexpr double kFar = 10.0, kRoughDirection = 1e-2, kFineDirection = 1e-3;
 constexpr int kMaxHalvings = 40;
 constexpr double kTouching = 1e-9;  // of the largest force on a vertex
-constexpr double kBlendAfterHalving = 0.1;
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
 constexpr double kConstraintStiffness = 100.0, kConstraintTolerance = 2e-10;
@@ -34,10 +34,12 @@ double largest_row(const Positions& p, Eigen::Index rows) {
 
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
-  if (augmented_lagrangian) return {mesh.num_vertices(), fixed};
+  // Neighbours near each other: matrix and vectors are gone through from one end to the other, again and again.
+  const std::vector<int> order = spatial_order(mesh.rest_positions);
+  if (augmented_lagrangian) return {order, fixed};
   for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) fixed[v] = true;
   for (const int v : glued) fixed[v] = true;
-  return {mesh.num_vertices(), fixed};
+  return {order, fixed};
 }
 
 }  // namespace
@@ -63,7 +65,23 @@ ContactBarrier TimeStepper::barrier(std::vector<ContactPair> pairs) const {
 }
 
 std::vector<ContactPair> TimeStepper::pairs_at(const Positions& x) {
-  return search_.pairs(x, Positions::Zero(x.rows(), 3), settings_.d_hat_m);
+  return pairs_along(x, Positions::Zero(x.rows(), 3));
+}
+
+std::vector<ContactPair> TimeStepper::pairs_along(const Positions& x, const Positions& p) {
+  const Stopwatch watch(times_.search_s);
+  return search_.pairs(x, p, settings_.d_hat_m);
+}
+
+SolverTimes TimeStepper::times() const {
+  const SolverTimes newton = newton_.times();
+  SolverTimes all = times_;
+  all.elastic_s = newton.elastic_s;
+  all.contact_s = newton.contact_s;
+  all.linear_s = newton.linear_s;
+  all.solves = newton.solves;
+  all.products = newton.products;
+  return all;
 }
 
 double TimeStepper::contact_force(const Step& step) {
@@ -105,6 +123,8 @@ void TimeStepper::minimise(Step& step) {
           (step.goal.object_target - x.bottomRows(mesh_.num_object_vertices)).rowwise() + step.yield.transpose();
     }
     double wanted = step.arrived ? blend : 1.0;
+    // Far from the end the direction need not be exact: the next differs from it by more.
+    newton_.set_tolerance(last_residual > kFar * newton.velocity_tolerance_m_s ? kRoughDirection : kFineDirection);
     const NewtonDirection direction = newton_.direction(energy, x, motion, step.goal.yielding, wanted);
     if (step.arrived) blend = wanted;
     ++iterations;
@@ -127,10 +147,11 @@ void TimeStepper::minimise(Step& step) {
       if (done && (direction.blend == 0.0 || step.looseness > 1.0 || ++waited > kMaxWait)) return;
     }
 
-    std::vector<ContactPair> pairs = search_.pairs(x, direction.p, settings_.d_hat_m);
-    double alpha = std::min(contact_step_limit(pairs, x, direction.p,
-                                               {moving ? kMovingSlack : kNewtonSlack, kGapFloor * settings_.d_hat_m}),
-                            inversion_step_limit(gel_.tets, x, direction.p));
+    std::vector<ContactPair> pairs = pairs_along(x, direction.p);
+    double alpha = timed(times_.limits_s, [&] {
+      const GapRule rule{moving ? kMovingSlack : kNewtonSlack, kGapFloor * settings_.d_hat_m};
+      return std::min(contact_step_limit(pairs, x, direction.p, rule), inversion_step_limit(gel_.tets, x, direction.p));
+    });
     const double limit = alpha;
     energy = potential(step, std::move(pairs));
     if (moving) {
@@ -147,13 +168,16 @@ void TimeStepper::minimise(Step& step) {
                                    : relax_wanted;
       relax = relax_wanted;
     } else {
-      const double before = energy.value(x);
+      const auto value = [&](const Positions& at) {
+        return timed(times_.line_search_s, [&] { return energy.value(at); });
+      };
+      const double before = value(x);
       // Near the minimum the decrease drowns in rounding; a step that changes nothing measurable is then a step forward
       // too.
       const double noise = 1e-14 * std::abs(before);
       int halvings = 0;
       Positions trial = x + alpha * direction.p;
-      while (!(energy.value(trial) <= before + 1e-4 * alpha * direction.slope + noise)) {
+      while (!(value(trial) <= before + 1e-4 * alpha * direction.slope + noise)) {
         if (++halvings > kMaxHalvings) {
           if (done) return;  // what was waited for is below rounding
           throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
@@ -167,6 +191,7 @@ void TimeStepper::minimise(Step& step) {
       x = trial;
       step.yield += alpha * direction.yield;
       if (!step.arrived) --relax;
+      if (step.arrived && !done && relax_patch(step, direction)) energy = potential(step, pairs_at(x));
     }
     log_debug("  {} {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s residual {:.3e} N blend {:.3g}",
               moving         ? "move"
@@ -202,6 +227,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   const double h = goal.h_s;
   const Positions start = state.x.topRows(n);
   newton_.reset_pattern();
+  search_.forget();
 
   Step step{.goal = goal, .observe = observe, .start = state.x, .x = state.x};
   step.report.time_steps = 1;

@@ -18,6 +18,7 @@ struct NewtonSettings {
   double relative_force_tolerance = 5e-4;  // … if residual forces also sum to less than this part of the contact force
   double force_tolerance_n = 1e-5;         // … or to less than this
   int max_iterations = 200;                // reaching it is a failure
+  bool patches = true;                     // where only a few vertices still move, solves for them alone in between
 };
 
 struct FrictionSettings {
@@ -71,6 +72,8 @@ struct StepReport {
   int time_steps = 0;         // more than asked for where a step had to be divided
   int newton_iterations = 0;  // linear systems solved, those that moved the object included
   int moving_iterations = 0;  // those that moved the object
+  int patches = 0;            // times that a few vertices were solved for alone,
+  int patch_iterations = 0;   // and Newton iterations of those
   int lag_iterations = 0;     // how often friction was renewed, beyond the first time
   double velocity_residual_m_s = 0.0;
   double force_residual_n = 0.0;      // Σ over free vertices of |residual force|
@@ -107,12 +110,17 @@ class TimeStepper {
   StepForces no_forces() const;
   /// Smallest gap between gel and object (not counting gel–gel), at most `none`.
   double smallest_gap(const Positions& x, double none);
+  /// Of all steps so far.
+  SolverTimes times() const;
   int num_analyses() const { return newton_.solver().num_analyses(); }
 
  private:
   struct Step;
   void minimise(Step& step);
   void minimise_constrained(Step& step);
+  /// Where only a few vertices are not yet at rest: Newton's method for those and their neighbours alone, everything
+  /// else held. True if anything moved. The whole alone decides what has converged.
+  bool relax_patch(Step& step, const NewtonDirection& direction);
   /// Friction of this step with normal forces and tangent planes of `lagged`. \pre there is friction
   std::shared_ptr<const Friction> friction_at(const Positions& lagged, const Step& step);
   /// The friction that the first minimum is sought with, if there is any.
@@ -121,7 +129,8 @@ class TimeStepper {
   /// \throw SolverError if it does not settle
   void settle_friction(Step& step);
   ContactBarrier barrier(std::vector<ContactPair> pairs) const;
-  std::vector<ContactPair> pairs_at(const Positions& x);  // within d̂ now
+  std::vector<ContactPair> pairs_at(const Positions& x);                         // within d̂ now
+  std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);  // or on the way from x to x + p
   /// What residual forces are measured by: |Σ forces of the object on the gel|, with friction or without, whichever is
   /// less (friction may carry most of the normal force, and what is left must balance too).
   double contact_force(const Step& step);
@@ -134,6 +143,7 @@ class TimeStepper {
   ContactSearch search_;
   NewtonStepper newton_;
   StepForces forces_;
+  SolverTimes times_;
 };
 
 }  // namespace tacipc

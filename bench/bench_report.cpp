@@ -1,0 +1,123 @@
+#include "bench/bench_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/verification/plot.h"
+
+namespace tacipc::bench {
+namespace {
+
+constexpr const char* kFast = "fast";
+constexpr const char* kDirect = "direct";
+
+const Run* find(const std::vector<Run>& runs, const std::string& text) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const Run& run) { return run.text == text; });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+std::string routes_table(const std::vector<Run>& runs) {
+  std::string out =
+      "| Scene | Gel vertices | Route | CPU s | Whole-gel iterations | Patch iterations | Linear systems | Products "
+      "each | "
+      "Peak memory, MB | Force, N | Apart: largest, rms, force |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Run& run : runs) {
+    if (!run.name.how.empty()) continue;
+    const Run* direct = run.name.route == kFast ? find(runs, run.name.with_route(kDirect)) : nullptr;
+    std::string apart = "", times = "";
+    if (direct) {
+      times = fmt::format(" ({:.1f} × less)", direct->processor_s / run.processor_s);
+      if (const auto d = difference(run, *direct))
+        apart = fmt::format("{:.2g} µm, {:.2g} µm, {:+.3f} %", 1e6 * d->largest_m, 1e6 * d->rms_m, 100.0 * d->force);
+    }
+    const double systems = run.parts.at("linear_systems"), products = run.parts.at("products");
+    out +=
+        fmt::format("| {} {} | {} | {} | {:.1f}{} | {} | {} | {:.0f} | {} | {:.0f} | {:.4f} | {} |\n", run.name.object,
+                    run.name.motion, run.gel_vertices, run.name.route, run.processor_s, times, run.newton(),
+                    run.patch(), systems, products > 0 ? fmt::format("{:.0f}", products / systems) : "factor",
+                    run.peak_memory_mb, run.press_force_n, apart);
+  }
+  return out;
+}
+
+std::string parts_table(const std::vector<Run>& runs) {
+  static constexpr std::pair<const char*, const char*> kParts[] = {
+      {"search_s", "Broad phase"},       {"step_limits_s", "Step limits"},  {"line_search_s", "Line search"},
+      {"elastic_s", "Elastic assembly"}, {"contact_s", "Contact assembly"}, {"linear_s", "Linear systems"},
+      {"patches_s", "Patches"}};
+  std::string out = "| Scene | Gel vertices | Route |", rule = "|---|---|---|";
+  for (const auto& [key, title] : kParts) {
+    out += fmt::format(" {} |", title);
+    rule += "---|";
+  }
+  out += " Else |\n" + rule + "---|\n";
+  for (const Run& run : runs) {
+    if (!run.name.how.empty()) continue;
+    out += fmt::format("| {} {} | {} | {} |", run.name.object, run.name.motion, run.gel_vertices, run.name.route);
+    double rest = 1.0;
+    for (const auto& [key, title] : kParts) {
+      const double share = run.parts.at(key) / run.wall_s;
+      rest -= share;
+      out += fmt::format(" {:.0f} % |", 100.0 * share);
+    }
+    out += fmt::format(" {:.0f} % |\n", 100.0 * rest);
+  }
+  return out;
+}
+
+std::string how_table(const std::vector<Run>& runs) {
+  std::string out =
+      "| Scene | Gel vertices | How | Wall s | CPU s | Against one process, one thread: wall "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const Run& run : runs) {
+    if (run.name.how.empty()) continue;
+    const Run* plain = find(runs, run.name.with_route(run.name.route));
+    out += fmt::format("| {} {} | {} | {} | {:.1f} | {:.1f} | {} |\n", run.name.object, run.name.motion,
+                       run.gel_vertices, run.name.how, run.wall_s, run.processor_s,
+                       plain ? fmt::format("{:.2f} ×", run.wall_s / plain->wall_s) : "");
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string bench_tables(const std::vector<Run>& runs, const CostModel& model) {
+  return "## Routes\n\n" + routes_table(runs) +
+         "\n*direct* factorises every system (CHOLMOD, METIS, one symbolic analysis) and solves for the whole gel in "
+         "every "
+         "iteration; *fast* is the default. Both share search, derivatives, step limits and line search. *Apart*: gel "
+         "vertices in the last frame, and the press force, against *direct*.\n\n![CPU seconds over "
+         "vertices](bench_press.svg)\n"
+         "\n## Where the time goes\n\nShares of the wall time.\n\n" +
+         parts_table(runs) + "\n## Threads and processes\n\n" + how_table(runs) +
+         fmt::format(
+             "\n## Cost model\n\nSeconds of a frame = c (vertices / 1000)^{:.2f} (1 + touching / 100)^{:.2f}, c = "
+             "{:.3g} s "
+             "while pressing and {:.3g} s while dragging; fitted to {} presses by the fast route, none off by more "
+             "than "
+             "a factor of {:.2f}.\n",
+             model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s, model.runs,
+             model.largest_ratio);
+}
+
+std::string bench_svg(const std::vector<Run>& runs) {
+  std::map<std::string, verify::Curve> curves;
+  for (const Run& run : runs) {
+    if (!run.name.how.empty()) continue;
+    const std::string label = run.name.object + " " + run.name.motion + ", " + run.name.route;
+    auto& curve = curves[label];
+    curve.label = label;
+    curve.dots = run.name.route == kDirect;
+    curve.points.emplace_back(run.gel_vertices, run.processor_s);
+  }
+  verify::Plot plot{.title = "One press", .x_label = "gel vertices", .y_label = "CPU seconds", .logarithmic = true};
+  for (auto& [label, curve] : curves) {
+    std::sort(curve.points.begin(), curve.points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+    plot.curves.push_back(std::move(curve));
+  }
+  return verify::to_svg(plot);
+}
+
+}  // namespace tacipc::bench

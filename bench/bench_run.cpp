@@ -1,0 +1,74 @@
+#include "bench/bench_run.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "common/config.h"
+#include "common/error.h"
+#include "common/npy.h"
+
+namespace tacipc::bench {
+
+RunName parse_run_name(const std::string& name) {
+  std::vector<std::string> parts;
+  std::istringstream in(name);
+  for (std::string part; std::getline(in, part, '-');) parts.push_back(part);
+  if (parts.size() < 4 || parts.size() > 5)
+    throw DataError("{}: the name of a run is gel-object-motion-route or gel-object-motion-route-how", name);
+  return {parts[0], parts[1], parts[2], parts[3], parts.size() == 5 ? parts[4] : ""};
+}
+
+int Run::newton() const {
+  int sum = 0;
+  for (const Frame& frame : frames) sum += frame.newton;
+  return sum;
+}
+
+int Run::patch() const {
+  int sum = 0;
+  for (const Frame& frame : frames) sum += frame.patch;
+  return sum;
+}
+
+Run read_run(const std::filesystem::path& folder) {
+  Run run;
+  ConfigReader record = ConfigReader::from_file(folder / "press.yaml");
+  run.text = record.text("name");
+  run.name = parse_run_name(run.text);
+  ConfigReader summary = record.section("summary");
+  run.gel_vertices = summary.integer("gel_vertices", 1);
+  run.press_force_n = summary.number("press_force_n");
+  for (ConfigReader& line : summary.sections("per_frame")) {
+    const std::string phase = line.text("phase");
+    if (phase == "reference") continue;
+    run.frames.push_back({.press = phase == "press",
+                          .contacts = line.integer("sticking", 0) + line.integer("slipping", 0),
+                          .newton = line.integer("newton_iterations", 0),
+                          .patch = line.integer("patch_iterations", 0)});
+  }
+  ConfigReader timings = ConfigReader::from_file(folder / "press.timings.yaml");
+  run.threads = timings.integer("threads", 1);
+  run.processor_s = timings.number("processor_s");
+  run.wall_s = timings.number("wall_s");
+  run.peak_memory_mb = timings.number("peak_memory_mb");
+  for (const char* part : {"search_s", "step_limits_s", "line_search_s", "elastic_s", "contact_s", "linear_s",
+                           "patches_s", "linear_systems", "products"})
+    run.parts[part] = timings.number(part);
+
+  const NpyArray all = read_npy(folder / "positions.npy");
+  const std::vector<double>& values = all.data;
+  const auto size = static_cast<std::size_t>(3 * run.gel_vertices);
+  if (values.size() < size) throw DataError("{}: positions.npy is too short", folder.string());
+  run.last = Eigen::Map<const Positions>(values.data() + values.size() - size, run.gel_vertices, 3);
+  return run;
+}
+
+std::optional<Difference> difference(const Run& run, const Run& from) {
+  if (run.last.rows() != from.last.rows()) return std::nullopt;
+  const Eigen::VectorXd apart = (run.last - from.last).rowwise().norm();
+  return Difference{.largest_m = apart.maxCoeff(),
+                    .rms_m = std::sqrt(apart.squaredNorm() / static_cast<double>(apart.size())),
+                    .force = run.press_force_n / from.press_force_n - 1.0};
+}
+
+}  // namespace tacipc::bench

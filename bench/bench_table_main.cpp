@@ -1,0 +1,31 @@
+// Puts the presses of the benchmark together: tables, a plot, the cost model.
+#include "bench/bench_report.h"
+#include "common/error.h"
+#include "common/files.h"
+#include "common/stage.h"
+
+using namespace tacipc;
+
+namespace {
+
+const StageSpec kTable{.name = "bench_table",
+                       .summary = "Put presses of the benchmark together as tables, a plot and the cost model.",
+                       .inputs = {{"--press", "folder of a press, named gel-object-motion-route[-how]", true, true}}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kTable, argc, argv, [](Stage& stage) {
+    std::vector<bench::Run> runs, fast;
+    for (const auto& folder : stage.inputs("--press")) {
+      runs.push_back(bench::read_run(folder));
+      if (runs.back().name.route == "fast" && runs.back().name.how.empty()) fast.push_back(runs.back());
+    }
+    if (fast.size() < 4) throw DataError("{} presses by the fast route: the cost model needs four", fast.size());
+    const bench::CostModel model = bench::fit_cost_model(fast);
+    write_file(stage.output("tables.md"), bench::bench_tables(runs, model));
+    write_file(stage.output("bench_press.svg"), bench::bench_svg(runs));
+    write_file(stage.output("cost_model.yaml"), bench::to_yaml_text(model));
+    stage.summarize({{"presses", runs.size()}, {"largest_ratio", model.largest_ratio}});
+  });
+}

@@ -1,0 +1,42 @@
+// Eight doubles at a time, on whatever the processor has.
+#pragma once
+
+namespace tacipc {
+
+/// Eight doubles; arithmetic and comparisons go lane by lane, so that a result does not depend on how many of them the
+/// processor does at once.
+using Pack = double __attribute__((vector_size(64), aligned(64)));
+constexpr int kLanes = 8;
+
+// A function marked with this is compiled for AVX-512, AVX2 and the baseline (x86-64-v2), and the loader takes what the
+// processor has. What it calls on packs must be inlined into it (TACIPC_INLINE). Without contraction into fused
+// multiply-adds all give the same bits.
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define TACIPC_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define TACIPC_CLONES
+#endif
+#define TACIPC_INLINE inline __attribute__((always_inline))
+
+/// Eight vectors.
+struct Pack3 {
+  Pack x, y, z;
+};
+
+TACIPC_INLINE Pack3 operator+(const Pack3& a, const Pack3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+TACIPC_INLINE Pack3 operator-(const Pack3& a, const Pack3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+TACIPC_INLINE Pack3 operator*(const Pack& s, const Pack3& a) { return {s * a.x, s * a.y, s * a.z}; }
+TACIPC_INLINE Pack dot(const Pack3& a, const Pack3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+TACIPC_INLINE Pack3 cross(const Pack3& a, const Pack3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+TACIPC_INLINE Pack smaller(const Pack& a, const Pack& b) { return b < a ? b : a; }
+
+/// Four doubles: a vector of three and a zero.
+using Quad = double __attribute__((vector_size(32), aligned(32)));
+using UnalignedQuad = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+TACIPC_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
+TACIPC_INLINE void store_quad(double* to, const Quad& value) { *reinterpret_cast<UnalignedQuad*>(to) = value; }
+
+}  // namespace tacipc

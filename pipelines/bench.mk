@@ -1,0 +1,73 @@
+# What a press costs: the same presses by the default route and by factorisation, over sizes of gel, objects and motions, with threads
+# and beside each other. Every press is a folder; a benchmark that is interrupted goes on. Nothing else should run beside it.
+# The coin of the paper's release is measured too where SHARED has it.
+
+BENCH := $(OUT)/bench
+BENCH_GELS ?= 3k 12k 24k 50k 100k#     of configs/benchmarks/gel_*.yaml
+BENCH_DIRECT_GELS ?= 3k 12k 24k#       by factorisation too
+BENCH_OBJECTS := sphere coin weave $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)
+BENCH_MOTIONS := press shear
+bench_config_press_fast := configs/press/paper.yaml
+bench_config_press_direct := configs/benchmarks/press_direct.yaml
+bench_config_shear_fast := configs/press/friction.yaml
+bench_config_shear_direct := configs/benchmarks/shear_direct.yaml
+bench_sample_press := configs/samples/press_0500um.yaml
+bench_sample_shear := configs/samples/shear_0500um.yaml
+bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_indenter.yaml,configs/objects/embossed.yaml)
+
+.PHONY: build-bench
+build-bench: build
+	@cmake --build $(BUILD) --target bench_object bench_table -j $(JOBS) -- --quiet
+
+$(BENCH)/gels/%/tetmesh.yaml: configs/benchmarks/gel_%.yaml configs/sensors/mctac.yaml | build
+	$(call run,tetmesh,--sensor configs/sensors/mctac.yaml --config $<)
+
+$(BENCH)/objects/sphere/bench_object.yaml: configs/benchmarks/sphere.yaml | build-bench
+	$(call run,bench_object,--config $<)
+$(BENCH)/emboss/coin/emboss.yaml: configs/benchmarks/coin.yaml | build
+	$(call run,emboss,--config $<)
+$(BENCH)/emboss/weave/emboss.yaml: configs/emboss/weave.yaml | build
+	$(call run,emboss,--config $<)
+$(BENCH)/objects/coin/decimate.yaml $(BENCH)/objects/weave/decimate.yaml: $(BENCH)/objects/%/decimate.yaml: $(BENCH)/emboss/%/emboss.yaml configs/objects/embossed.yaml configs/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(BENCH)/emboss/$*/object.ply --object configs/objects/embossed.yaml --config configs/decimate/default.yaml)
+$(BENCH)/objects/coin_5002/decimate.yaml: $(SHARED)/data/tacipc_release/objects/coin_5002.obj configs/objects/printed_indenter.yaml configs/decimate/default.yaml | build
+	$(call run,decimate,--mesh $< --object configs/objects/printed_indenter.yaml --config configs/decimate/default.yaml)
+bench_object_record = $(BENCH)/objects/$(1)/$(if $(filter sphere,$(1)),bench_object,decimate).yaml
+
+# $(call bench_press,gel,object,motion,route): flags of one press.
+bench_press = --gel $(BENCH)/gels/$(1)/gel.msh --object $(BENCH)/objects/$(2)/object.ply --object-config $(call bench_object_config,$(2)) \
+  --sensor configs/sensors/mctac.yaml --config $(bench_config_$(3)_$(4)) --sample $(bench_sample_$(3))
+bench_needs = $(BENCH)/gels/$(1)/tetmesh.yaml $(call bench_object_record,$(2)) $(bench_config_$(3)_$(4)) $(bench_sample_$(3)) configs/sensors/mctac.yaml
+
+# One thread, one process; one after the other, so each waits for the one before.
+bench_last :=
+define bench_rule
+$(BENCH)/runs/$(1)-$(2)-$(3)-$(4)/press.yaml: $(call bench_needs,$(1),$(2),$(3),$(4)) | build $(bench_last)
+	$(BIN)/press --out $$(@D) --threads 1 --name $(1)-$(2)-$(3)-$(4) $(call bench_press,$(1),$(2),$(3),$(4))
+bench_last := $(BENCH)/runs/$(1)-$(2)-$(3)-$(4)/press.yaml
+BENCH_RUNS += $(BENCH)/runs/$(1)-$(2)-$(3)-$(4)
+endef
+BENCH_RUNS :=
+$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(foreach m,$(BENCH_MOTIONS),$(eval $(call bench_rule,$(g),$(o),$(m),fast)))))
+$(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_OBJECTS),$(foreach m,$(BENCH_MOTIONS),$(eval $(call bench_rule,$(g),$(o),$(m),direct)))))
+# One press of 50k vertices by factorisation.
+$(if $(filter 50k,$(BENCH_GELS)),$(eval $(call bench_rule,50k,sphere,press,direct)))
+
+# Two threads; two processes at once (the slower one counts).
+BENCH_HOW := 24k-coin-press-fast
+$(BENCH)/runs/$(BENCH_HOW)-2threads/press.yaml: $(call bench_needs,24k,coin,press,fast) | build $(bench_last)
+	$(BIN)/press --out $(@D) --threads 2 --name $(BENCH_HOW)-2threads $(call bench_press,24k,coin,press,fast)
+$(BENCH)/runs/$(BENCH_HOW)-2processes/press.yaml: $(call bench_needs,24k,coin,press,fast) | build $(BENCH)/runs/$(BENCH_HOW)-2threads/press.yaml
+	$(BIN)/press --out $(@D)-beside --threads 1 --name beside $(call bench_press,24k,coin,press,fast) & \
+	$(BIN)/press --out $(@D) --threads 1 --name $(BENCH_HOW)-2processes $(call bench_press,24k,coin,press,fast); wait
+BENCH_RUNS += $(BENCH)/runs/$(BENCH_HOW)-2threads $(BENCH)/runs/$(BENCH_HOW)-2processes
+
+$(BENCH)/page/bench_table.yaml: $(addsuffix /press.yaml,$(BENCH_RUNS)) | build-bench
+	$(call run,bench_table,$(addprefix --press ,$(BENCH_RUNS)))
+
+.PHONY: bench-press
+bench-press: $(BENCH)/page/bench_table.yaml ## What a press costs, by route, size, object and motion (hours; BENCH_GELS=, BENCH_DIRECT_GELS=); writes docs/performance and the cost model
+	mkdir -p docs/performance
+	cp $(BENCH)/page/tables.md $(BENCH)/page/bench_press.svg docs/performance/
+	cp $(BENCH)/page/cost_model.yaml configs/cost_model.yaml
+	@cat $(BENCH)/page/tables.md

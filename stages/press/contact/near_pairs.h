@@ -1,0 +1,19 @@
+// Which of many candidate pairs are near, several at a time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "stages/press/contact/contact_search.h"
+
+namespace tacipc {
+
+/// Squared distances of all pairs at `x`, m², to within 1e-6 of themselves from above, and zero where edges are too
+/// parallel to tell: good to leave pairs out, not to compute with.
+std::vector<double> coarse_squared_distances(std::span<const ContactPair> pairs, const Positions& x);
+
+/// Indices, ascending, of all pairs i with squared distance below s_hat[i], and perhaps of a few more.
+/// \pre s_hat.size() == pairs.size()
+std::vector<int> near_pairs(std::span<const ContactPair> pairs, const Positions& x, std::span<const double> s_hat);
+
+}  // namespace tacipc

@@ -1,0 +1,71 @@
+#include "stages/press/solve/elastic_assembly.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace tacipc {
+namespace {
+
+constexpr int kNowhere = std::numeric_limits<int>::min();
+constexpr int kChunk = 32;  // packs under way at a time: their derivatives stay in the cache
+
+}  // namespace
+
+void ElasticAssembly::look_up(const ElasticPacks& packs, const FreeVertices& free) {
+  places_.resize(static_cast<std::size_t>(packs.size()));
+  for (int p = 0; p < packs.size(); ++p) {
+    const auto& corners = packs.corners(p);
+    for (int b = 0, at = 0; b < 4; ++b) {
+      for (int a = b; a < 4; ++a, ++at) {
+        for (int l = 0; l < kLanes; ++l) {
+          const int i = free.free_of_vertex[corners.vertices[a][l]], j = free.free_of_vertex[corners.vertices[b][l]];
+          places_[static_cast<std::size_t>(p)][at][l] = l >= corners.count || i < 0 || j < 0 ? kNowhere
+                                                        : i >= j                             ? pattern_->find(i, j)
+                                                                 : -1 - pattern_->find(j, i);
+        }
+      }
+    }
+  }
+}
+
+void ElasticAssembly::add(const ElasticPacks& packs, const Positions& x, double weight, const FreeVertices& free,
+                          NewtonSystem& system) {
+  if (pattern_ != system.hessian.pattern) {
+    pattern_ = system.hessian.pattern;
+    look_up(packs, free);
+  }
+  std::vector<ElasticPacks::Derivatives> found(static_cast<std::size_t>(std::min(kChunk, packs.size())));
+  for (int first = 0; first < packs.size(); first += kChunk) {
+    const int count = std::min(kChunk, packs.size() - first);
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, 4), [&](const auto& range) {
+      for (int k = range.begin(); k < range.end(); ++k) packs.derivatives(first + k, x, found[k]);
+    });
+    for (int k = 0; k < count; ++k) {
+      const auto& corners = packs.corners(first + k);
+      const auto& places = places_[static_cast<std::size_t>(first + k)];
+      for (int l = 0; l < corners.count; ++l) {
+        for (int a = 0; a < 4; ++a) {
+          const int i = free.free_of_vertex[corners.vertices[a][l]];
+          if (i < 0) continue;
+          double* g = system.gradient.data() + 3 * static_cast<std::ptrdiff_t>(i);
+          for (int c = 0; c < 3; ++c) g[c] += weight * found[k].gradient[a][c][l];
+        }
+        for (int b = 0; b < ElasticPacks::kBlocks; ++b) {
+          const int place = places[b][l];
+          if (place == kNowhere) continue;
+          const Pack* from = found[k].hessian[b];
+          double* block = system.hessian.values.data() +
+                          BlockMatrix::kStride * static_cast<std::size_t>(place >= 0 ? place : -1 - place);
+          const int row = place >= 0 ? 1 : 4, column = place >= 0 ? 4 : 1;
+          for (int c = 0; c < 3; ++c) {
+            for (int r = 0; r < 3; ++r) block[column * c + row * r] += weight * from[3 * c + r][l];
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace tacipc

@@ -1,0 +1,199 @@
+// The fast ways into Newton's system against the plain one, stencil by stencil.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "common/spatial_order.h"
+#include "stages/press/energy/friction.h"
+#include "stages/press/solve/elastic_assembly.h"
+#include "stages/press/solve/local_patch.h"
+#include "tests/press/elastic_block.h"
+
+namespace tacipc {
+namespace {
+
+/// Largest difference over the largest entry.
+double difference(const NewtonSystem& a, const NewtonSystem& b) {
+  double most = 0.0, size = 0.0;
+  const auto compare = [&](const auto& x, const auto& y) {
+    if (x.size() == 0) return;
+    most = std::max(most, (x - y).cwiseAbs().maxCoeff());
+    size = std::max(size, y.cwiseAbs().maxCoeff());
+  };
+  const auto flat = [](const std::vector<double>& v) {
+    return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+  };
+  compare(flat(a.hessian.values), flat(b.hessian.values));
+  compare(a.gradient, b.gradient);
+  compare(a.coupling, b.coupling);
+  compare(a.object_border, b.object_border);
+  compare(a.object_hessian, b.object_hessian);
+  compare(a.object_gradient, b.object_gradient);
+  compare(a.object_coupling, b.object_coupling);
+  return most / size;
+}
+
+/// A block turned, stretched and crumpled, its lowest vertices prescribed, the free ones numbered along a curve.
+struct Crumpled {
+  Block block = make_block({1, 1, 0.5}, {3, 2, 1}, 0.2);  // 36 tetrahedra: the last pack is not full
+  Positions x = block.rest;
+  std::vector<bool> fixed;
+  Crumpled() : fixed(static_cast<std::size_t>(x.rows()), false) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-0.06, 0.06);
+    const Matrix3 turn = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+    for (Eigen::Index v = 0; v < x.rows(); ++v) {
+      Vector3 at = block.rest.row(v);
+      for (double& c : at) c += uniform(random);
+      x.row(v) = turn * at.cwiseProduct(Vector3(1.2, 0.8, 1.0));
+      fixed[v] = block.rest(v, 2) == 0.0;
+    }
+  }
+  FreeVertices free() const { return {spatial_order(block.rest), fixed}; }
+};
+
+TEST(ElasticPacks, EnergyAndSystemAreThoseOfTheElement) {
+  const Crumpled c;
+  const auto term = std::make_shared<Elasticity>(c.block.rest, c.block.tets, NeoHookean{2.0, 7.0});
+  ASSERT_TRUE(term->packs());
+  const double value = term->EnergyTerm::value(c.x);
+  EXPECT_NEAR(term->value(c.x), value, 1e-13 * value);
+  EXPECT_EQ(term->value(c.block.rest), 0.0 * value);
+
+  const FreeVertices free = c.free();
+  const auto pattern = mesh_pattern(free, *term);
+  const int none = static_cast<int>(c.x.rows());
+  NewtonSystem plain = empty_system(free, pattern), packed = empty_system(free, pattern);
+  assemble({3.0, term}, c.x, free, none, Order::hessian, Positions::Zero(c.x.rows(), 3), plain);
+  ElasticAssembly assembly;
+  assembly.add(*term->packs(), c.x, 3.0, free, packed);
+  EXPECT_LT(difference(packed, plain), 1e-13);
+  assembly.add(*term->packs(), c.x, -3.0, free, packed);  // the second time without looking places up
+  EXPECT_LT(packed.gradient.norm(), 1e-12 * plain.gradient.norm());
+}
+
+TEST(ElasticPacks, ATurnedElementIsNotAllowed) {
+  Crumpled c;
+  const Elasticity term(c.block.rest, c.block.tets, NeoHookean{2.0, 7.0});
+  c.x.row(c.block.tets(7, 0)) += Eigen::RowVector3d(3, 3, 3);
+  EXPECT_EQ(term.value(c.x), std::numeric_limits<double>::infinity());
+}
+
+TEST(LocalPatch, ItsTermsChangeAsTheWholeDoes) {
+  const Crumpled c;
+  for (const ElasticLaw& law : {ElasticLaw(NeoHookean{2.0, 7.0}), ElasticLaw(StvkHencky{2.0, 7.0})}) {
+    const std::shared_ptr<const EnergyTerm> whole = std::make_shared<Elasticity>(c.block.rest, c.block.tets, law);
+    const int seed = c.free().vertex_of_free[3];
+    const LocalPatch patch = grow_patch({seed}, 0, c.block.tets, c.free());
+    EXPECT_EQ(patch.free.vertex_of_free, std::vector<int>{seed});
+    const auto part = restricted(whole, patch.moves);
+    EXPECT_EQ(part->num_stencils(), patch.tets.rows());
+    EXPECT_LT(part->num_stencils(), whole->num_stencils());
+    Positions moved = c.x;
+    moved.row(seed) += Eigen::RowVector3d(0.01, -0.02, 0.03);
+    const double change = whole->value(moved) - whole->value(c.x);
+    EXPECT_NEAR(part->value(moved) - part->value(c.x), change, 1e-12 * whole->value(c.x));
+    EXPECT_LT((gradient_of(*part, c.x).row(seed) - gradient_of(*whole, c.x).row(seed)).norm(), 1e-12);
+  }
+}
+
+TEST(LocalPatch, GrowsByTetrahedraAndLeavesWhatIsPrescribed) {
+  const Crumpled c;
+  const FreeVertices free = c.free();
+  const LocalPatch one = grow_patch({free.vertex_of_free[0]}, 1, c.block.tets, free);
+  const LocalPatch all = grow_patch({free.vertex_of_free[0]}, 9, c.block.tets, free);
+  EXPECT_GT(one.free.size(), 1);
+  EXPECT_LT(one.free.size(), free.size());
+  EXPECT_EQ(all.free.vertex_of_free, free.vertex_of_free);  // in the same order
+  EXPECT_EQ(all.tets.rows(), c.block.tets.rows());
+}
+
+/// Random pairs of a gel of 40 vertices with an object of 40, some weighted, some with edges nearly parallel.
+struct Touching {
+  static constexpr int kGel = 40, kAll = 80;
+  ContactMesh mesh;
+  Positions x = Positions::Zero(kAll, 3), motion = Positions::Zero(kAll, 3);
+  std::vector<ContactPair> pairs;
+  std::shared_ptr<const ContactBarrier> barrier;
+  std::shared_ptr<const Friction> friction;
+  std::vector<std::array<int, 2>> coupled;
+
+  Touching() {
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+    std::uniform_int_distribution<int> of_gel(0, kGel - 1), of_object(kGel, kAll - 1);
+    for (double& c : x.reshaped()) c = uniform(random);
+    for (double& c : motion.bottomRows(kAll - kGel).reshaped()) c = 0.1 * uniform(random);
+    using Kind = ContactPair::Kind;
+    for (int i = 0; i < 300; ++i) {
+      const auto g = [&] { return of_gel(random); };
+      const auto o = [&] { return of_object(random); };
+      ContactPair pair = i % 3 == 0   ? ContactPair{Kind::point_triangle, {g(), o(), o(), o()}}
+                         : i % 3 == 1 ? ContactPair{Kind::point_triangle, {o(), g(), g(), g()}}
+                                      : ContactPair{Kind::edge_edge, {g(), g(), o(), o()}};
+      auto sorted = pair.vertices;
+      std::sort(sorted.begin(), sorted.end());
+      if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) continue;
+      pair.weight = i % 5 == 0 ? -1.0 : i % 7 == 0 ? 0.02 : 1.0;
+      if (i % 9 == 2)
+        pair.weight = 1.0, x.row(pair.vertices[3]) = x.row(pair.vertices[2]) + x.row(pair.vertices[1]) -
+                                                     x.row(pair.vertices[0]) + 1e-3 * motion.row(pair.vertices[3]);
+      pairs.push_back(pair);
+      for (const int a : pair.vertices) {
+        for (const int b : pair.vertices) {
+          if (a < kGel && b < kGel) coupled.push_back({a, b});
+        }
+      }
+    }
+    mesh.num_gel_vertices = kGel;
+    mesh.num_object_vertices = kAll - kGel;
+    mesh.rest_positions = x;
+    barrier = std::make_shared<ContactBarrier>(mesh, pairs, 0.4);
+    friction = std::make_shared<Friction>(*barrier, x, x + 0.3 * motion, 0.01);
+  }
+};
+
+TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
+  const Touching t;
+  std::vector<bool> fixed(Touching::kAll, false);
+  for (int v = 0; v < Touching::kAll; ++v) fixed[v] = v >= Touching::kGel || v % 11 == 0;
+  const FreeVertices free(Touching::kAll, fixed);
+  std::vector<std::array<int, 2>> blocks;
+  for (const auto& [a, b] : t.coupled) {
+    if (!fixed[a] && !fixed[b]) blocks.push_back({free.free_of_vertex[a], free.free_of_vertex[b]});
+  }
+  const auto pattern = std::make_shared<BlockPattern>(make_block_pattern(free.size(), blocks));
+  const Positions still = Positions::Zero(Touching::kAll, 3);
+  for (const std::shared_ptr<const ContactTerm>& term :
+       {std::shared_ptr<const ContactTerm>(t.barrier), std::shared_ptr<const ContactTerm>(t.friction)}) {
+    EXPECT_NEAR(term->value(t.x), term->EnergyTerm::value(t.x), 1e-13 * term->value(t.x));
+    const std::vector<int> active = term->active(t.x);
+    EXPECT_GT(active.size(), 50u);
+    for (const double blend : {0.0, 0.3, 1.0}) {
+      for (const bool moves : {false, true}) {
+        const Positions& motion = moves ? t.motion : still;
+        NewtonSystem exact = empty_system(free, pattern), positive = exact, blended = exact;
+        assemble({2.0, term}, t.x, free, Touching::kGel, Order::hessian, motion, exact);
+        assemble({2.0, term}, t.x, free, Touching::kGel, Order::psd, motion, positive);
+        assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, blend, moves, motion, blended);
+        NewtonSystem expected = exact;
+        const auto mix = [&](auto& to, const auto& a, const auto& b) { to = (1.0 - blend) * a + blend * b; };
+        for (std::size_t k = 0; k < expected.hessian.values.size(); ++k)
+          mix(expected.hessian.values[k], exact.hessian.values[k], positive.hessian.values[k]);
+        mix(expected.coupling, exact.coupling, positive.coupling);
+        mix(expected.object_border, exact.object_border, positive.object_border);
+        mix(expected.object_hessian, exact.object_hessian, positive.object_hessian);
+        mix(expected.object_coupling, exact.object_coupling, positive.object_coupling);
+        if (!moves) {  // what nobody asks for
+          expected.object_border.setZero();
+          expected.object_hessian.setZero();
+          expected.object_gradient.setZero();
+        }
+        EXPECT_LT(difference(blended, expected), 1e-12) << term->name() << " blend " << blend << " moves " << moves;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tacipc
