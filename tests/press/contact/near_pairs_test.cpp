@@ -21,8 +21,7 @@ struct ManyPairs {
     std::uniform_int_distribution<int> lattice(0, 2);
     for (int i = 0; i < 3001; ++i) {
       for (int k = 0; k < 4; ++k) {
-        for (int c = 0; c < 3; ++c)
-          x(4 * i + k, c) = 1e-3 * (i % 3 == 0 ? 0.5 * lattice(random) : uniform(random));
+        for (int c = 0; c < 3; ++c) x(4 * i + k, c) = 1e-3 * (i % 3 == 0 ? 0.5 * lattice(random) : uniform(random));
       }
       if (i % 3 == 2) x.row(4 * i + 3) = x.row(4 * i + 2);  // a cell counted as a triangle (pair_counting.h)
       const Kind kind = i % 3 != 2 && i % 16 < 7 ? Kind::edge_edge : Kind::point_triangle;
