@@ -35,7 +35,7 @@ $(BENCH)/objects/coin_5002/decimate.yaml: $(SHARED)/data/tacipc_release/objects/
 bench_object_record = $(BENCH)/objects/$(1)/$(if $(filter sphere,$(1)),bench_object,decimate).yaml
 
 # $(call bench_press,gel,object,motion,route): flags of one press.
-bench_press = --gel $(BENCH)/gels/$(1)/gel.msh --object $(BENCH)/objects/$(2)/object.ply --object-config $(call bench_object_config,$(2)) \
+bench_press = --gel $(BENCH)/gels/$(1)/gel.msh --object $(BENCH)/objects/$(2)/object.ply $(if $(filter-out sphere,$(2)),--object-config $(call bench_object_config,$(2))) \
   --sensor configs/sensors/mctac.yaml --config $(bench_config_$(3)_$(4)) --sample $(bench_sample_$(3))
 bench_needs = $(BENCH)/gels/$(1)/tetmesh.yaml $(call bench_object_record,$(2)) $(bench_config_$(3)_$(4)) $(bench_sample_$(3)) configs/sensors/mctac.yaml
 

@@ -1,6 +1,6 @@
 # The friction experiments of the paper: board3 pressed 0.5 mm into a 3 mm gel, then dragged by 1 mm or turned by 0.25 rad, and how
 # evenly the markers follow. MESH= another file of configs/tetmesh, import_paper_3mm for the published gel (long); PRESS= another file of
-# configs/press (friction: every pair counts, as in the reference code).
+# configs/press (friction_every: every pair counts, as in the reference code; friction: no viscosity).
 # SHARED is a folder with data/tacipc_release (not part of this repository).
 
 BOARD3 := $(OUT)/board3

@@ -46,11 +46,11 @@ std::vector<double> coarse_squared_distances(std::span<const ContactPair> pairs,
   return out;
 }
 
-std::vector<int> near_pairs(std::span<const ContactPair> pairs, const Positions& x, std::span<const double> s_hat) {
+std::vector<int> near_pairs(std::span<const ContactPair> pairs, const Positions& x, double s_hat) {
   const std::vector<double> found = coarse_squared_distances(pairs, x);
   std::vector<int> near;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (found[i] < (1.0 + kMargin) * s_hat[i]) near.push_back(static_cast<int>(i));
+    if (found[i] < (1.0 + kMargin) * s_hat) near.push_back(static_cast<int>(i));
   }
   return near;
 }

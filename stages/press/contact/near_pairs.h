@@ -12,8 +12,7 @@ namespace tacipc {
 /// parallel to tell: good to leave pairs out, not to compute with.
 std::vector<double> coarse_squared_distances(std::span<const ContactPair> pairs, const Positions& x);
 
-/// Indices, ascending, of all pairs i with squared distance below s_hat[i], and perhaps of a few more.
-/// \pre s_hat.size() == pairs.size()
-std::vector<int> near_pairs(std::span<const ContactPair> pairs, const Positions& x, std::span<const double> s_hat);
+/// Indices, ascending, of all pairs with squared distance below s_hat, and perhaps of a few more.
+std::vector<int> near_pairs(std::span<const ContactPair> pairs, const Positions& x, double s_hat);
 
 }  // namespace tacipc

@@ -49,33 +49,36 @@ void blended_hessian(const ClosestFeature& f, double b1, double b2, double blend
 
 }  // namespace
 
-ContactBarrier::ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m)
-    : pairs_(std::move(pairs)), s_hat_(pairs_.size(), d_hat_m * d_hat_m), mollifier_threshold_(pairs_.size(), 0.0) {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const ContactPair& pair = pairs_[i];
-    const FourPoints rest = gather(mesh.rest_positions, pair);
-    if (*std::max_element(pair.vertices.begin(), pair.vertices.end()) < mesh.num_gel_vertices) {
-      s_hat_[i] = std::min(s_hat_[i], 0.25 * closest_feature(pair, rest).squared_distance);
-    }
-    if (pair.kind == ContactPair::Kind::edge_edge) mollifier_threshold_[i] = edge_edge_mollifier_threshold(rest);
-  }
+double ContactBarrier::s_hat(int i) const {
+  const ContactPair& pair = pairs_[i];
+  if (*std::max_element(pair.vertices.begin(), pair.vertices.end()) >= mesh_->num_gel_vertices) return largest_s_hat_;
+  const FourPoints rest = gather(mesh_->rest_positions, pair);
+  return std::min(largest_s_hat_, 0.25 * closest_feature(pair, rest).squared_distance);
+}
+
+double ContactBarrier::mollifier_threshold(int i) const {
+  if (pairs_[i].kind != ContactPair::Kind::edge_edge) return 0.0;
+  return edge_edge_mollifier_threshold(gather(mesh_->rest_positions, pairs_[i]));
 }
 
 ContactBarrier::Push ContactBarrier::push(int i, const FourPoints& points) const {
   Push out{closest_feature(pairs_[i], points), 0.0};
   const double s = out.feature.squared_distance;
-  if (s >= s_hat_[i]) return out;
-  out.force = -2.0 * pairs_[i].weight * std::sqrt(s) * barrier_d1(s, s_hat_[i]);
-  if (const double c = edge_cross_squared_norm(points), threshold = mollifier_threshold_[i]; c < threshold)
+  if (s >= largest_s_hat_) return out;
+  const double s_hat_i = s_hat(i);
+  if (s >= s_hat_i) return out;
+  out.force = -2.0 * pairs_[i].weight * std::sqrt(s) * barrier_d1(s, s_hat_i);
+  if (const double c = edge_cross_squared_norm(points), threshold = mollifier_threshold(i); c < threshold)
     out.force *= edge_edge_mollifier(c, threshold);
   return out;
 }
 
 bool ContactBarrier::mollified(int i, const FourPoints& x) const {
-  return mollifier_threshold_[i] > 0.0 && edge_cross_squared_norm(x) < mollifier_threshold_[i];
+  const double threshold = mollifier_threshold(i);
+  return threshold > 0.0 && edge_cross_squared_norm(x) < threshold;
 }
 
-std::vector<int> ContactBarrier::active(const Positions& x) const { return near_pairs(pairs_, x, s_hat_); }
+std::vector<int> ContactBarrier::active(const Positions& x) const { return near_pairs(pairs_, x, largest_s_hat_); }
 
 double ContactBarrier::value(const Positions& x) const {
   const std::vector<int> near = active(x);
@@ -85,9 +88,10 @@ double ContactBarrier::value(const Positions& x) const {
       const int i = near[static_cast<std::size_t>(k)];
       const FourPoints points = gather(x, pairs_[i]);
       const double s = closest_feature(pairs_[i], points).squared_distance;
-      double energy = pairs_[i].weight * barrier(s, s_hat_[i]);
+      if (s >= largest_s_hat_) continue;
+      double energy = pairs_[i].weight * barrier(s, s_hat(i));
       if (energy != 0.0 && std::isfinite(energy) && mollified(i, points))
-        energy *= edge_edge_mollifier(edge_cross_squared_norm(points), mollifier_threshold_[i]);
+        energy *= edge_edge_mollifier(edge_cross_squared_norm(points), mollifier_threshold(i));
       sum += energy;
     }
     return sum;
@@ -97,7 +101,9 @@ double ContactBarrier::value(const Positions& x) const {
 bool ContactBarrier::evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted,
                                       PairLocal& out) const {
   const ClosestFeature feature = closest_feature(pairs_[i], x);
-  const double s = feature.squared_distance, s_hat = s_hat_[i], weight = pairs_[i].weight;
+  const double s = feature.squared_distance, weight = pairs_[i].weight;
+  if (s >= largest_s_hat_) return false;
+  const double s_hat = this->s_hat(i);
   if (s >= s_hat) return false;
   if (mollified(i, x)) {
     Eigen::VectorXd at(12);
@@ -125,7 +131,8 @@ bool ContactBarrier::evaluate_blended(int i, const FourPoints& x, double blend, 
 void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
   const FourPoints points = unpack(x);
   const ClosestFeature feature = closest_feature(pairs_[i], points);
-  const double s = feature.squared_distance, s_hat = s_hat_[i], weight = pairs_[i].weight;
+  const double s = feature.squared_distance, weight = pairs_[i].weight;
+  const double s_hat = s < largest_s_hat_ ? this->s_hat(i) : largest_s_hat_;
   out.zero = s >= s_hat;
   out.value = 0.0;
   if (out.zero) return;
@@ -150,7 +157,7 @@ void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Loca
     }
     return;
   }
-  const double threshold = mollifier_threshold_[i];
+  const double threshold = mollifier_threshold(i);
   if (order == Order::value) {
     out.value = edge_edge_mollifier(edge_cross_squared_norm(points), threshold) * b;
     return;

@@ -1,6 +1,7 @@
 // Energy that keeps gel and object, and the gel and itself, apart.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "stages/press/contact/contact_search.h"
@@ -14,7 +15,9 @@ namespace tacipc {
 /// not push each other however fine the mesh is.
 class ContactBarrier final : public ContactTerm {
  public:
-  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m);
+  /// \pre the mesh stays where it is
+  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m)
+      : mesh_(&mesh), pairs_(std::move(pairs)), largest_s_hat_(d_hat_m * d_hat_m) {}
 
   std::string_view name() const override { return "barrier"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
@@ -36,11 +39,15 @@ class ContactBarrier final : public ContactTerm {
   Push push(int i, const FourPoints& points) const;
 
  private:
+  /// ŝ and the mollifier's threshold of one pair; zero: never mollified. Both are of the shape at rest and asked for
+  /// when a pair is near: most never are.
+  double s_hat(int i) const;
+  double mollifier_threshold(int i) const;
   bool mollified(int i, const FourPoints& x) const;
 
+  const ContactMesh* mesh_;
   std::vector<ContactPair> pairs_;
-  std::vector<double> s_hat_;                // one per pair
-  std::vector<double> mollifier_threshold_;  // one per pair; zero: never mollified
+  double largest_s_hat_;
 };
 
 }  // namespace tacipc
