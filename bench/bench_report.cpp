@@ -83,21 +83,24 @@ std::string how_table(const std::vector<Run>& runs) {
 
 }  // namespace
 
-std::string bench_tables(const std::vector<Run>& runs, const CostModel& model) {
-  return "## Routes\n\n" + routes_table(runs) +
+std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor) {
+  return "# What a press costs\n\nMade by `make -f Makefile.data bench-press` on " + processor +
+         ", one process and one thread where nothing else is said: 0.5 mm in five frames into the MC-Tac gel, then for "
+         "*shear* 0.5 mm sideways in ten, with friction. Gels are the paper's mesh with its lengths scaled "
+         "(`configs/benchmarks/`). What the routes do: [press](press.md).\n\n## Routes\n\n" +
+         routes_table(runs) +
          "\n*direct* factorises every system (CHOLMOD, METIS, one symbolic analysis) and solves for the whole gel in "
          "every "
          "iteration; *fast* is the default. Both share search, derivatives, step limits and line search. *Apart*: gel "
-         "vertices in the last frame, and the press force, against *direct*.\n\n![CPU seconds over "
-         "vertices](bench_press.svg)\n"
+         "vertices in the last frame, and the press force, against *direct*. *Products each*: matrix–vector products "
+         "for a "
+         "linear system.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
          "\n## Where the time goes\n\nShares of the wall time.\n\n" +
          parts_table(runs) + "\n## Threads and processes\n\n" + how_table(runs) +
          fmt::format(
-             "\n## Cost model\n\nSeconds of a frame = c (vertices / 1000)^{:.2f} (1 + touching / 100)^{:.2f}, c = "
-             "{:.3g} s "
-             "while pressing and {:.3g} s while dragging; fitted to {} presses by the fast route, none off by more "
-             "than "
-             "a factor of {:.2f}.\n",
+             "\n## Cost model\n\n`configs/cost_model.yaml`: seconds of a frame = c (vertices / 1000)^{:.2f} (1 + "
+             "touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging; fitted to {} presses "
+             "by the fast route, none off by more than a factor of {:.2f}.\n",
              model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s, model.runs,
              model.largest_ratio);
 }

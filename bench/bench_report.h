@@ -8,8 +8,9 @@
 
 namespace tacipc::bench {
 
-/// Markdown: the routes beside each other, where the time goes, threads and processes.
-std::string bench_tables(const std::vector<Run>& runs, const CostModel& model);
+/// The page docs/performance.md: the routes beside each other, where the time goes, threads and processes, the cost
+/// model. `processor`: what it was measured on.
+std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor);
 
 /// Processor seconds over vertices, a curve for each object, motion and route.
 std::string bench_svg(const std::vector<Run>& runs);

@@ -1,4 +1,6 @@
 // Puts the presses of the benchmark together: tables, a plot, the cost model.
+#include <fstream>
+
 #include "bench/bench_report.h"
 #include "common/error.h"
 #include "common/files.h"
@@ -12,6 +14,15 @@ const StageSpec kTable{.name = "bench_table",
                        .summary = "Put presses of the benchmark together as tables, a plot and the cost model.",
                        .inputs = {{"--press", "folder of a press, named gel-object-motion-route[-how]", true, true}}};
 
+/// Its model, as the kernel names it.
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "a processor without a name";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -23,7 +34,7 @@ int main(int argc, char** argv) {
     }
     if (fast.size() < 4) throw DataError("{} presses by the fast route: the cost model needs four", fast.size());
     const bench::CostModel model = bench::fit_cost_model(fast);
-    write_file(stage.output("tables.md"), bench::bench_tables(runs, model));
+    write_file(stage.output("performance.md"), bench::bench_page(runs, model, processor()));
     write_file(stage.output("bench_press.svg"), bench::bench_svg(runs));
     write_file(stage.output("cost_model.yaml"), bench::to_yaml_text(model));
     stage.summarize({{"presses", runs.size()}, {"largest_ratio", model.largest_ratio}});

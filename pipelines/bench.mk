@@ -4,9 +4,11 @@
 
 BENCH := $(OUT)/bench
 BENCH_GELS ?= 3k 12k 24k 50k 100k#     of configs/benchmarks/gel_*.yaml
-BENCH_DIRECT_GELS ?= 3k 12k 24k#       by factorisation too
+BENCH_DIRECT_GELS ?= 3k 12k 24k#       by factorisation too,
 BENCH_OBJECTS := sphere coin weave $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)
 BENCH_MOTIONS := press shear
+BENCH_DIRECT_OBJECTS ?= $(BENCH_OBJECTS)#  with these objects
+BENCH_DIRECT_MOTIONS ?= $(BENCH_MOTIONS)#  and motions
 bench_config_press_fast := configs/press/paper.yaml
 bench_config_press_direct := configs/benchmarks/press_direct.yaml
 bench_config_shear_fast := configs/press/friction.yaml
@@ -49,7 +51,7 @@ BENCH_RUNS += $(BENCH)/runs/$(1)-$(2)-$(3)-$(4)
 endef
 BENCH_RUNS :=
 $(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(foreach m,$(BENCH_MOTIONS),$(eval $(call bench_rule,$(g),$(o),$(m),fast)))))
-$(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_OBJECTS),$(foreach m,$(BENCH_MOTIONS),$(eval $(call bench_rule,$(g),$(o),$(m),direct)))))
+$(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach m,$(BENCH_DIRECT_MOTIONS),$(eval $(call bench_rule,$(g),$(o),$(m),direct)))))
 # One press of 50k vertices by factorisation.
 $(if $(filter 50k,$(BENCH_GELS)),$(eval $(call bench_rule,50k,sphere,press,direct)))
 
@@ -66,8 +68,9 @@ $(BENCH)/page/bench_table.yaml: $(addsuffix /press.yaml,$(BENCH_RUNS)) | build-b
 	$(call run,bench_table,$(addprefix --press ,$(BENCH_RUNS)))
 
 .PHONY: bench-press
-bench-press: $(BENCH)/page/bench_table.yaml ## What a press costs, by route, size, object and motion (hours; BENCH_GELS=, BENCH_DIRECT_GELS=); writes docs/performance and the cost model
+bench-press: $(BENCH)/page/bench_table.yaml ## What a press costs, by route, size, object and motion (hours; BENCH_GELS=, BENCH_DIRECT_GELS=); writes docs/performance.md and the cost model
 	mkdir -p docs/performance
-	cp $(BENCH)/page/tables.md $(BENCH)/page/bench_press.svg docs/performance/
+	cp $(BENCH)/page/performance.md docs/performance.md
+	cp $(BENCH)/page/bench_press.svg docs/performance/
 	cp $(BENCH)/page/cost_model.yaml configs/cost_model.yaml
-	@cat $(BENCH)/page/tables.md
+	@cat docs/performance.md
