@@ -3,28 +3,36 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace tacipc {
 namespace {
 
 constexpr int kChunk = 256;
 
-/// Evaluates all stencils, a chunk at a time in parallel, and hands them to `scatter` one by one in order.
+std::vector<int> all_stencils(const EnergyTerm& term) {
+  std::vector<int> all(static_cast<std::size_t>(term.num_stencils()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// Evaluates these stencils, a chunk at a time in parallel, and hands them to `scatter` one by one in order.
 template <typename Scatter>
-void for_each_local(const EnergyTerm& term, const Positions& x, Order order, Scatter&& scatter) {
-  const int count = term.num_stencils();
+void for_each_local(const EnergyTerm& term, const std::vector<int>& stencils, const Positions& x, Order order,
+                    Scatter&& scatter) {
+  const int count = static_cast<int>(stencils.size());
   std::vector<Local> locals(static_cast<std::size_t>(std::min(count, kChunk)));
   for (int first = 0; first < count; first += kChunk) {
     const int size = std::min(kChunk, count - first);
     tbb::parallel_for(tbb::blocked_range<int>(0, size, 32), [&](const auto& range) {
       Eigen::VectorXd local_x;
       for (int k = range.begin(); k < range.end(); ++k) {
-        gather(x, term.stencil(first + k), local_x);
-        term.evaluate(first + k, local_x, order, locals[k]);
+        gather(x, term.stencil(stencils[first + k]), local_x);
+        term.evaluate(stencils[first + k], local_x, order, locals[k]);
       }
     });
     for (int k = 0; k < size; ++k) {
-      if (!locals[k].zero) scatter(term.stencil(first + k), locals[k]);
+      if (!locals[k].zero) scatter(term.stencil(stencils[first + k]), locals[k]);
     }
   }
 }
@@ -131,9 +139,10 @@ void scatter(std::span<const int> stencil, PairVertices wanted, const Local& loc
 
 void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system) {
-  for_each_local(*weighted.term, x, order, [&](std::span<const int> stencil, const Local& local) {
-    scatter(stencil, kAllPairVertices, local, weighted.weight, free, first_object_vertex, motion, system);
-  });
+  for_each_local(
+      *weighted.term, all_stencils(*weighted.term), x, order, [&](std::span<const int> stencil, const Local& local) {
+        scatter(stencil, kAllPairVertices, local, weighted.weight, free, first_object_vertex, motion, system);
+      });
 }
 
 void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
@@ -172,10 +181,12 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
 
 Positions gradient_of(const EnergyTerm& term, const Positions& x) {
   Positions gradient = Positions::Zero(x.rows(), 3);
-  for_each_local(term, x, Order::gradient, [&](std::span<const int> stencil, const Local& local) {
+  const auto add = [&](std::span<const int> stencil, const Local& local) {
     for (std::size_t a = 0; a < stencil.size(); ++a)
       gradient.row(stencil[a]) += local.gradient.segment<3>(3 * static_cast<Eigen::Index>(a)).transpose();
-  });
+  };
+  const auto* contact = dynamic_cast<const ContactTerm*>(&term);
+  for_each_local(term, contact ? contact->active(x) : all_stencils(term), x, Order::gradient, add);
   return gradient;
 }
 
