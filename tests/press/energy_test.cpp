@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include "stages/press/energy/averaged_elasticity.h"
@@ -65,15 +66,19 @@ Case patch_case(const std::string& name, const ElasticLaw& law, double squeeze) 
 }
 
 Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x, double weight = 1.0) {
-  ContactMesh mesh;
-  mesh.num_gel_vertices = 0;  // everything belongs to the object, so d̂ is not cut by the distance at rest
-  mesh.num_object_vertices = 4;
-  mesh.rest_positions = rows(x);
+  // The barrier looks its mesh up: both live as long as the case.
+  struct Held {
+    ContactMesh mesh;
+    std::optional<ContactBarrier> barrier;
+  };
+  const auto held = std::make_shared<Held>();
+  held->mesh.num_gel_vertices = 0;  // everything belongs to the object, so d̂ is not cut by the distance at rest
+  held->mesh.num_object_vertices = 4;
+  held->mesh.rest_positions = rows(x);
   // Edges much longer at rest than now make the mollifier's threshold large enough to matter for the case that says so.
-  if (name == "edge_edge_mollified") mesh.rest_positions *= 6.0;
-  return {name, std::make_shared<ContactBarrier>(mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}, weight}}, 0.5),
-          x,    1e-3,
-          true, true};
+  if (name == "edge_edge_mollified") held->mesh.rest_positions *= 6.0;
+  held->barrier.emplace(held->mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}, weight}}, 0.5);
+  return {name, std::shared_ptr<EnergyTerm>(held, &*held->barrier), x, 1e-3, true, true};
 }
 
 std::vector<Case> cases() {
