@@ -108,14 +108,15 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
 std::string bench_svg(const std::vector<Run>& runs) {
   std::map<std::string, verify::Curve> curves;
   for (const Run& run : runs) {
-    if (!run.name.how.empty()) continue;
-    const std::string label = run.name.object + " " + run.name.motion + ", " + run.name.route;
+    if (!run.name.how.empty() || run.name.motion != "press") continue;
+    const std::string label = run.name.object + ", " + run.name.route;
     auto& curve = curves[label];
     curve.label = label;
     curve.dots = run.name.route == kDirect;
     curve.points.emplace_back(run.gel_vertices, run.processor_s);
   }
-  verify::Plot plot{.title = "One press", .x_label = "gel vertices", .y_label = "CPU seconds", .logarithmic = true};
+  verify::Plot plot{
+      .title = "One press of 0.5 mm", .x_label = "gel vertices", .y_label = "CPU seconds", .logarithmic = true};
   for (auto& [label, curve] : curves) {
     std::sort(curve.points.begin(), curve.points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
     plot.curves.push_back(std::move(curve));

@@ -12,7 +12,7 @@ namespace tacipc::bench {
 /// model. `processor`: what it was measured on.
 std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor);
 
-/// Processor seconds over vertices, a curve for each object, motion and route.
+/// Processor seconds of presses over vertices, a curve for each object and route.
 std::string bench_svg(const std::vector<Run>& runs);
 
 }  // namespace tacipc::bench
