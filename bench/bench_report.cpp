@@ -87,7 +87,8 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
   return "# What a press costs\n\nMade by `make -f Makefile.data bench-press` on " + processor +
          ", one process and one thread where nothing else is said: 0.5 mm in five frames into the MC-Tac gel, then for "
          "*shear* 0.5 mm sideways in ten, with friction. Gels are the paper's mesh with its lengths scaled "
-         "(`configs/benchmarks/`). What the routes do: [press](press.md).\n\n## Routes\n\n" +
+         "(`configs/benchmarks/`). BENCH_GELS= and the other variables of `pipelines/bench.mk` choose what is "
+         "measured. What the routes do: [press](press.md).\n\n## Routes\n\n" +
          routes_table(runs) +
          "\n*direct* factorises every system (CHOLMOD, METIS, one symbolic analysis) and solves for the whole gel in "
          "every "
