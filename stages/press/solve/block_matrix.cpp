@@ -47,7 +47,7 @@ FreeVertices::FreeVertices(int num_vertices, const std::vector<bool>& fixed)
           fixed) {}
 
 FreeVertices::FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed)
-    : free_of_vertex(order.size(), -1) {
+    : free_of_vertex(fixed.size(), -1) {
   for (const int v : order) {
     if (fixed[v]) continue;
     free_of_vertex[v] = static_cast<int>(vertex_of_free.size());

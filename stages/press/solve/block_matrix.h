@@ -17,7 +17,7 @@ struct FreeVertices {
 
   /// All of `num_vertices` but those marked as fixed, numbered by vertex.
   FreeVertices(int num_vertices, const std::vector<bool>& fixed);
-  /// All of `order` but those marked as fixed, in that order.
+  /// Those of `order` that are not marked as fixed, in that order; `fixed` has a mark for every vertex.
   FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed);
   int size() const { return static_cast<int>(vertex_of_free.size()); }
 };

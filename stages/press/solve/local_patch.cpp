@@ -33,14 +33,9 @@ LocalPatch grow_patch(const std::vector<int>& seeds, int rings, const Tetrahedra
   }
   Tetrahedra own(static_cast<Eigen::Index>(inside.size()), 4);
   for (std::size_t i = 0; i < inside.size(); ++i) own.row(static_cast<Eigen::Index>(i)) = tets.row(inside[i]);
-  // In the order of the whole.
-  FreeVertices free(0, {});
-  free.free_of_vertex.assign(moves.size(), -1);
-  for (const int v : all_free.vertex_of_free) {
-    if (!moves[v]) continue;
-    free.free_of_vertex[v] = free.size();
-    free.vertex_of_free.push_back(v);
-  }
+  std::vector<bool> held = moves;
+  held.flip();
+  FreeVertices free(all_free.vertex_of_free, held);  // in the order of the whole
   return {std::move(moves), std::move(free), std::move(own)};
 }
 
