@@ -39,4 +39,17 @@ using UnalignedQuad = double __attribute__((vector_size(32), aligned(8), may_ali
 TACIPC_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
 TACIPC_INLINE void store_quad(double* to, const Quad& value) { *reinterpret_cast<UnalignedQuad*>(to) = value; }
 
+/// Four floats, and what comparing them gives: −1 where true.
+using FloatQuad = float __attribute__((vector_size(16)));
+using IntQuad = int __attribute__((vector_size(16)));
+
+TACIPC_INLINE bool all_of(const IntQuad& lanes) {
+  const auto halves = reinterpret_cast<const long long __attribute__((vector_size(16), may_alias))&>(lanes);
+  return (halves[0] & halves[1]) == -1;
+}
+TACIPC_INLINE bool none_of(const IntQuad& lanes) {
+  const auto halves = reinterpret_cast<const long long __attribute__((vector_size(16), may_alias))&>(lanes);
+  return (halves[0] | halves[1]) == 0;
+}
+
 }  // namespace tacipc

@@ -63,7 +63,9 @@ TEST(ElasticPacks, EnergyAndSystemAreThoseOfTheElement) {
   const FreeVertices free = c.free();
   const auto pattern = mesh_pattern(free, *term);
   const int none = static_cast<int>(c.x.rows());
-  NewtonSystem plain = empty_system(free, pattern), packed = empty_system(free, pattern);
+  NewtonSystem plain;
+  clear(plain, free, pattern);
+  NewtonSystem packed = plain;
   assemble({3.0, term}, c.x, free, none, Order::hessian, Positions::Zero(c.x.rows(), 3), plain);
   ElasticAssembly assembly;
   assembly.add(*term->packs(), c.x, 3.0, free, packed);
@@ -172,7 +174,9 @@ TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
     for (const double blend : {0.0, 0.3, 1.0}) {
       for (const bool moves : {false, true}) {
         const Positions& motion = moves ? t.motion : still;
-        NewtonSystem exact = empty_system(free, pattern), positive = exact, blended = exact;
+        NewtonSystem exact;
+        clear(exact, free, pattern);
+        NewtonSystem positive = exact, blended = exact;
         assemble({2.0, term}, t.x, free, Touching::kGel, Order::hessian, motion, exact);
         assemble({2.0, term}, t.x, free, Touching::kGel, Order::psd, motion, positive);
         assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, blend, moves, motion, blended);

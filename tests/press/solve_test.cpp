@@ -162,7 +162,8 @@ TEST(Assemble, HessianIsTheGradientsDerivativeAndCouplingThatOfPrescribedMotion)
   motion.row(4) << 0.3, -0.2, 0.5;
   const auto pattern = mesh_pattern(free, *elasticity);
   const auto at = [&](const Positions& y) {
-    NewtonSystem system = empty_system(free, pattern);
+    NewtonSystem system;
+    clear(system, free, pattern);
     for (const WeightedTerm& term : potential.terms) assemble(term, y, free, 4, Order::hessian, motion, system);
     return system;
   };
@@ -206,7 +207,8 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   EXPECT_EQ(cover_contacts(covered, free, barrier, barrier.active(x), x), covered);
 
   // The extended system solves as dense algebra does, and a new pattern is analysed anew.
-  NewtonSystem system = empty_system(free, covered);
+  NewtonSystem system;
+  clear(system, free, covered);
   assemble({.weight = 1.0, .term = std::make_shared<ContactBarrier>(barrier)}, x, free, 8, Order::psd,
            Positions::Zero(8, 3), system);
   for (int v = 0; v < 8; ++v) system.hessian.block(covered->find(v, v)) += Matrix3::Identity();

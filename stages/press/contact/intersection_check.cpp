@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
 
 #include "common/error.h"
 #include "common/exact_predicates.h"
@@ -41,38 +41,73 @@ std::vector<Bounds> bounds_of(const SurfaceView& surface) {
   return bounds;
 }
 
-/// The axis along which the boxes fill the most room.
-int sweep_axis(const std::vector<Bounds>& bounds) {
-  if (bounds.empty()) return 0;
-  Bounds all = bounds.front();
-  for (const Bounds& b : bounds) all = {all.low.min(b.low), all.high.max(b.high)};
-  int axis = 0;
-  (all.high - all.low).maxCoeff(&axis);
-  return axis;
+/// Strips of equal width along an axis, and the boxes that reach into each.
+struct Strips {
+  int axis;
+  double first, width;
+  std::vector<std::vector<int>> boxes;
+
+  int of(double coordinate) const {
+    if (boxes.size() == 1) return 0;
+    const double strip = std::floor((coordinate - first) / width);
+    return static_cast<int>(std::clamp(strip, 0.0, static_cast<double>(boxes.size() - 1)));
+  }
+};
+
+/// Strips along one axis, each about as wide as four boxes in the middle by size.
+Strips make_strips(const std::vector<Bounds>& bounds, const Bounds& all, int axis) {
+  std::vector<double> widths;
+  for (const Bounds& b : bounds) widths.push_back(b.high[axis] - b.low[axis]);
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  const double length = all.high[axis] - all.low[axis];
+  const auto most = static_cast<double>(bounds.size());
+  const double count = *middle > 0.0 ? std::floor(std::clamp(length / (4.0 * *middle), 1.0, most)) : 1.0;
+  Strips strips{axis, all.low[axis], length / count, {}};
+  strips.boxes.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < static_cast<int>(bounds.size()); ++i) {
+    for (int s = strips.of(bounds[i].low[axis]); s <= strips.of(bounds[i].high[axis]); ++s)
+      strips.boxes[s].push_back(i);
+  }
+  return strips;
 }
 
 bool overlap(const Bounds& a, const Bounds& b) { return (a.low <= b.high).all() && (b.low <= a.high).all(); }
 
-/// Sort and sweep. Calls visit(i, j) for all overlapping boxes i < j with `wanted(i, j)`.
+/// Sort and sweep, strip by strip. Calls visit(i, j) once for all overlapping boxes i < j with `wanted(i, j)`.
 template <typename Wanted, typename Visit>
 void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit& visit) {
-  const int axis = sweep_axis(bounds);
-  std::vector<int> order(bounds.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return bounds[a].low[axis] != bounds[b].low[axis] ? bounds[a].low[axis] < bounds[b].low[axis] : a < b;
-  });
+  if (bounds.empty()) return;
+  Bounds all = bounds.front();
+  for (const Bounds& b : bounds) all = {all.low.min(b.low), all.high.max(b.high)};
+  // Along the two longest axes.
+  Eigen::Array3d lengths = all.high - all.low;
+  int axis = 0, across = 0;
+  lengths.maxCoeff(&axis);
+  lengths[axis] = -1.0;
+  lengths.maxCoeff(&across);
+  Strips strips = make_strips(bounds, all, across);
   std::vector<int> active;
-  for (const int current : order) {
-    std::size_t kept = 0;
-    for (const int other : active) {
-      if (bounds[other].high[axis] < bounds[current].low[axis]) continue;
-      active[kept++] = other;
-      const auto [i, j] = std::minmax(current, other);
-      if (wanted(i, j) && overlap(bounds[i], bounds[j])) visit(i, j);
+  for (std::size_t strip = 0; strip < strips.boxes.size(); ++strip) {
+    std::vector<int>& order = strips.boxes[strip];
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+      return bounds[a].low[axis] != bounds[b].low[axis] ? bounds[a].low[axis] < bounds[b].low[axis] : a < b;
+    });
+    active.clear();
+    for (const int current : order) {
+      std::size_t kept = 0;
+      for (const int other : active) {
+        if (bounds[other].high[axis] < bounds[current].low[axis]) continue;
+        active[kept++] = other;
+        const auto [i, j] = std::minmax(current, other);
+        if (!wanted(i, j) || !overlap(bounds[i], bounds[j])) continue;
+        // Two boxes that share strips meet in the first of these.
+        const double common = std::max(bounds[i].low[strips.axis], bounds[j].low[strips.axis]);
+        if (strips.of(common) == static_cast<int>(strip)) visit(i, j);
+      }
+      active.resize(kept);
+      active.push_back(current);
     }
-    active.resize(kept);
-    active.push_back(current);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "stages/press/contact/pair_pack.h"
 
@@ -53,6 +54,16 @@ std::vector<int> near_pairs(std::span<const ContactPair> pairs, const Positions&
     if (found[i] < (1.0 + kMargin) * s_hat) near.push_back(static_cast<int>(i));
   }
   return near;
+}
+
+double smallest_distance(std::span<const ContactPair> pairs, const Positions& x, double none) {
+  const std::vector<double> found = coarse_squared_distances(pairs, x);
+  double smallest = none * none;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (found[i] < (1.0 + kMargin) * smallest)
+      smallest = std::min(smallest, closest_feature(pairs[i], gather(x, pairs[i])).squared_distance);
+  }
+  return std::sqrt(smallest);
 }
 
 }  // namespace tacipc

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "stages/press/contact/contact_search.h"
+#include "stages/press/contact/contact_pair.h"
 
 namespace tacipc {
 
@@ -14,5 +14,8 @@ std::vector<double> coarse_squared_distances(std::span<const ContactPair> pairs,
 
 /// Indices, ascending, of all pairs with squared distance below s_hat, and perhaps of a few more.
 std::vector<int> near_pairs(std::span<const ContactPair> pairs, const Positions& x, double s_hat);
+
+/// Smallest distance over the pairs, at most `none`, m.
+double smallest_distance(std::span<const ContactPair> pairs, const Positions& x, double none);
 
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "common/simd.h"
-#include "stages/press/contact/contact_search.h"
+#include "stages/press/contact/contact_pair.h"
 
 namespace tacipc {
 
@@ -80,7 +80,7 @@ TACIPC_INLINE PackedGap edge_edge_gap(const PackedPoints& p) {
 
 /// Up to eight pairs from `first` on that are of one kind; what is missing repeats the first.
 struct PairPack {
-  const ContactPair* pairs[kLanes];
+  const ContactPair* pairs[kLanes] = {};
   int count;
 
   PairPack(std::span<const ContactPair> all, std::size_t first, std::size_t last) : count(0) {

@@ -18,7 +18,7 @@ double friction_integral(double y, double epsilon) {
 
 Friction::Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m)
     : epsilon_m_(epsilon_m) {
-  for (int i = 0; i < barrier.num_stencils(); ++i) {
+  for (const int i : barrier.active(lagged)) {
     const ContactPair& contact = barrier.pairs()[i];
     const ContactBarrier::Push push = barrier.push(i, gather(lagged, contact));
     if (push.force == 0.0) continue;

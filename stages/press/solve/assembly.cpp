@@ -87,15 +87,15 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
   return std::make_shared<BlockPattern>(make_block_pattern(pattern->size(), std::move(missing)));
 }
 
-NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern) {
+void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern) {
   const Eigen::Index n = 3 * static_cast<Eigen::Index>(free.size());
-  return {.hessian = BlockMatrix(std::move(pattern)),
-          .gradient = Eigen::VectorXd::Zero(n),
-          .coupling = Eigen::VectorXd::Zero(n),
-          .object_border = Eigen::MatrixXd::Zero(n, 3),
-          .object_hessian = Matrix3::Zero(),
-          .object_gradient = Vector3::Zero(),
-          .object_coupling = Vector3::Zero()};
+  system.hessian.clear(std::move(pattern));
+  system.gradient.setZero(n);
+  system.coupling.setZero(n);
+  system.object_border.setZero(n, 3);
+  system.object_hessian.setZero();
+  system.object_gradient.setZero();
+  system.object_coupling.setZero();
 }
 
 namespace {

@@ -31,8 +31,8 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
                                                    const FreeVertices& free, const ContactTerm& term,
                                                    const std::vector<int>& active, const Positions& x);
 
-/// A system of zeros.
-NewtonSystem empty_system(const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern);
+/// Makes it a system of zeros.
+void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern);
 
 /// Adds weight × term at x in a fixed order. `order` is hessian or psd; `motion` (rows like x) is how prescribed
 /// vertices move; those from `first_object_vertex` on are the object's.

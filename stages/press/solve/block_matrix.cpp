@@ -82,16 +82,16 @@ void BlockMatrix::multiply_padded(const double* x, double* y) const {
 }
 
 Eigen::VectorXd BlockMatrix::multiply(const Eigen::VectorXd& x) const {
-  const std::vector<double> in = padded(x);
+  std::vector<double> in;
+  pad(x, in);
   std::vector<double> out(in.size());
   multiply_padded(in.data(), out.data());
   return unpadded(out);
 }
 
-std::vector<double> padded(const Eigen::VectorXd& x) {
-  std::vector<double> out(static_cast<std::size_t>(x.size() / 3 * 4), 0.0);
+void pad(const Eigen::VectorXd& x, std::vector<double>& out) {
+  out.assign(static_cast<std::size_t>(x.size() / 3 * 4), 0.0);
   for (Eigen::Index i = 0; i < x.size() / 3; ++i) Eigen::Map<Vector3>(out.data() + 4 * i) = x.segment<3>(3 * i);
-  return out;
 }
 
 Eigen::VectorXd unpadded(const std::vector<double>& x) {

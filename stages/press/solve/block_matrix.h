@@ -45,8 +45,13 @@ struct BlockMatrix {
   std::shared_ptr<const BlockPattern> pattern;
   std::vector<double> values;
 
-  explicit BlockMatrix(std::shared_ptr<const BlockPattern> p)
-      : pattern(std::move(p)), values(kStride * static_cast<std::size_t>(pattern->num_blocks()), 0.0) {}
+  BlockMatrix() = default;
+  explicit BlockMatrix(std::shared_ptr<const BlockPattern> p) { clear(std::move(p)); }
+  /// Makes it a matrix of zeros.
+  void clear(std::shared_ptr<const BlockPattern> p) {
+    pattern = std::move(p);
+    values.assign(kStride * static_cast<std::size_t>(pattern->num_blocks()), 0.0);
+  }
   Block block(int index) { return Block(values.data() + kStride * static_cast<std::size_t>(index)); }
   ConstBlock block(int index) const { return ConstBlock(values.data() + kStride * static_cast<std::size_t>(index)); }
 
@@ -57,7 +62,7 @@ struct BlockMatrix {
 };
 
 /// Vectors with a zero after each three numbers, and back.
-std::vector<double> padded(const Eigen::VectorXd& x);
+void pad(const Eigen::VectorXd& x, std::vector<double>& out);
 Eigen::VectorXd unpadded(const std::vector<double>& x);
 
 }  // namespace tacipc

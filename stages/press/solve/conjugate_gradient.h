@@ -1,4 +1,4 @@
-// Conjugate gradients with the inverse diagonal blocks as preconditioner.
+// Conjugate gradients, preconditioned by symmetric block Gauss–Seidel sweeps.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,14 @@
 
 namespace tacipc {
 
-/// Preconditioned conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start, M the 3 × 3
-/// blocks on the diagonal. On the way xᵀAx = xᵀb, so an unfinished solution still points downhill. A gel is thin and
-/// glued at the back: forces reach about a thickness far, and some fifty products are enough whatever its size. Sums
-/// run in a fixed order. Where the products do not suffice, the system is factorised.
+/// Conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start. With A = L + D + Lᵀ, D the 3 ×
+/// 3 blocks on the diagonal, M = (D + L) D⁻¹ (D + Lᵀ). After scaling by the Cholesky factors of D (D = I) the
+/// preconditioned matrix is
+///   Â = (I + L)⁻¹ A (I + Lᵀ)⁻¹,   Â p = t + (I + L)⁻¹ (p − t),   t = (I + Lᵀ)⁻¹ p   [Eisenstat 1981],
+/// two sweeps over L that cost what a product with A does, for less than half of the iterations that D alone as M
+/// takes. On the way xᵀAx = xᵀb, so an unfinished solution still points downhill. A gel is thin and glued at the back:
+/// forces reach about a thickness far, and some twenty iterations are enough whatever its size. Sweeps and sums run in
+/// a fixed order. Where the iterations do not suffice, the system is factorised.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(double tolerance = 1e-3, int max_products = 1000)
@@ -21,7 +25,7 @@ class ConjugateGradient final : public LinearSolver {
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
   void set_tolerance(double relative) override { tolerance_ = relative; }
   int num_analyses() const override { return direct_.num_analyses(); }
-  /// Matrix–vector products so far.
+  /// Products with Â so far.
   std::int64_t num_products() const override { return products_; }
   /// Systems that had to be factorised.
   int num_factorized() const { return factorized_; }
@@ -32,7 +36,9 @@ class ConjugateGradient final : public LinearSolver {
   double tolerance_;
   int max_products_;
   const BlockMatrix* matrix_ = nullptr;
-  std::vector<double> inverse_diagonal_;  // blocks as BlockMatrix has them
+  std::vector<double> lower_;              // L, scaled: blocks below the diagonal, nine numbers each, column by column
+  std::vector<double> inverse_cholesky_;   // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks
+  std::vector<double> x_, r_, p_, t_, q_;  // of the last solve; their storage is used again
   CholmodSolver direct_;
   std::int64_t products_ = 0;
   int factorized_ = 0;

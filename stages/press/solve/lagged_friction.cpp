@@ -35,9 +35,12 @@ void TimeStepper::start_friction(Step& step) {
   Positions motion = Positions::Zero(step.start.rows(), 3);
   motion.bottomRows(mesh_.num_object_vertices) =
       step.goal.object_target - step.start.bottomRows(mesh_.num_object_vertices);
-  const double part = contact_step_limit(pairs_along(step.start, motion), step.start, motion,
-                                         {kLagSlack, kGapFloor * settings_.d_hat_m});
-  step.friction = friction_at(step.start + part * motion, step);
+  // What is near already stops the object soon, most of the time; only what comes by until then need be looked for.
+  const GapRule rule{kLagSlack, kGapFloor * settings_.d_hat_m};
+  const double part = contact_step_limit(pairs_at(step.start), step.start, motion, rule);
+  motion *= part;
+  motion *= contact_step_limit(pairs_along(step.start, motion), step.start, motion, rule);
+  step.friction = friction_at(step.start + motion, step);
 }
 
 void TimeStepper::settle_friction(Step& step) {

@@ -1,14 +1,12 @@
 #include "stages/press/solve/newton_step.h"
 
 #include <Eigen/Cholesky>
+#include <cstdlib>
 
 #include "common/error.h"
 
 namespace tacipc {
 namespace {
-
-// How the share of the contact Hessian's positive stand-in adapts: as small as positive definiteness lets it be.
-constexpr double kFirstBlend = 0.02, kBlendGrowth = 3.0, kBlendShrink = 2.0;
 
 /// Σᵢ |row i| of a vector of stacked triples.
 double sum_of_norms(const Eigen::VectorXd& stacked) {
@@ -73,7 +71,8 @@ SolverTimes NewtonStepper::times() const {
 }
 
 NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, const Positions& x,
-                                         const Positions& motion, const std::vector<int>& yielding, double& blend) {
+                                         const Positions& motion, const std::vector<int>& yielding, double longest_m,
+                                         Blend& blend) {
   std::vector<std::vector<int>> active;  // of each contact term, in order
   for (const WeightedTerm& part : potential.terms) {
     if (!part.contact) continue;
@@ -81,52 +80,52 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
     active.push_back(part.contact->active(x));
     pattern_ = cover_contacts(pattern_, free_, *part.contact, active.back(), x);
   }
-  // Everything but contact and friction, elasticity as told.
-  const auto body = [&](Order elastic) {
-    const Stopwatch watch(times_.elastic_s);
-    NewtonSystem system = empty_system(free_, pattern_);
-    for (const WeightedTerm& part : potential.terms) {
-      if (part.contact) continue;
-      const auto* elasticity = dynamic_cast<const Elasticity*>(part.term.get());
-      if (elasticity && elasticity->packs() && elastic == Order::hessian) {
-        elastic_.add(*elasticity->packs(), x, part.weight, free_, system);
-      } else {
-        assemble(part, x, free_, first_object_vertex_, elastic, motion, system);
-      }
-    }
-    return system;
-  };
   const bool with_object = !yielding.empty() || (motion.array() != 0.0).any();
-  const auto with_contact = [&](NewtonSystem system, double share) {
+  // The derivatives of everything, elasticity in this order, contact and friction with this share of the stand-in.
+  const auto system_with = [&](Order elastic, double share) -> const NewtonSystem& {
+    timed(times_.elastic_s, [&] {
+      clear(system_, free_, pattern_);
+      for (const WeightedTerm& part : potential.terms) {
+        if (part.contact) continue;
+        const auto* elasticity = dynamic_cast<const Elasticity*>(part.term.get());
+        if (elasticity && elasticity->packs() && elastic == Order::hessian) {
+          elastic_.add(*elasticity->packs(), x, part.weight, free_, system_);
+        } else {
+          assemble(part, x, free_, first_object_vertex_, elastic, motion, system_);
+        }
+      }
+    });
     const Stopwatch watch(times_.contact_s);
     auto which = active.begin();
     for (const WeightedTerm& part : potential.terms) {
       if (part.contact)
         assemble_contact(part.weight, *part.contact, *which++, x, free_, first_object_vertex_, share, with_object,
-                         motion, system);
+                         motion, system_);
     }
-    return system;
+    return system_;
   };
   NewtonDirection out;
-  const auto finished = [&](const NewtonSystem& system, double used) {
-    out.blend = used;
+  const auto solved = [&](const NewtonSystem& system, double share) {
+    if (!solve(system, yielding, motion, out)) return false;
+    out.blend = share;
     out.gradient_sum = sum_of_norms(system.gradient);
     for (const int axis : yielding) out.gradient_sum += std::abs(system.object_gradient[axis]);
-    return out;
+    return true;
   };
-  const NewtonSystem elastic = body(Order::hessian);
-  for (; blend < 1.0; blend = blend == 0.0 ? kFirstBlend : kBlendGrowth * blend) {
-    const NewtonSystem mixed = with_contact(elastic, blend);
-    if (!solve(mixed, yielding, motion, out)) continue;
-    const double used = blend;
-    blend = blend > kFirstBlend ? blend / kBlendShrink : 0.0;
-    return finished(mixed, used);
+  const auto too_long = [&] { return out.p.rowwise().squaredNorm().maxCoeff() > longest_m * longest_m; };
+  for (bool first = true; blend.share() < 1.0; first = false) {
+    const double share = blend.share();
+    if (solved(system_with(Order::hessian, share), share) && !too_long()) {
+      blend.found(first);
+      return out;
+    }
+    blend.failed();
   }
-  blend = 0.99 / kBlendShrink;
-  const NewtonSystem positive = with_contact(elastic, 1.0);
-  if (solve(positive, yielding, motion, out)) return finished(positive, 1.0);
-  const NewtonSystem projected = with_contact(body(Order::psd), 1.0);
-  if (solve(projected, yielding, motion, out)) return finished(projected, 1.0);
+  const bool positive = solved(system_with(Order::hessian, 1.0), 1.0) && !too_long();
+  if (positive || solved(system_with(Order::psd, 1.0), 1.0)) {
+    blend.found(positive);
+    return out;
+  }
   throw SolverError("the projected Hessian is not positive definite");
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "stages/press/solve/blend.h"
 #include "stages/press/solve/elastic_assembly.h"
 #include "stages/press/solve/linear_solver.h"
 #include "stages/press/solve/solver_times.h"
@@ -26,12 +27,13 @@ class NewtonStepper {
 
   /// Solves for the Newton step with H = H_exact + blend (H_positive − H_exact), where H_positive has each contact's
   /// Hessian replaced by its positive stand-in. The smallest blend with a positive definite H is looked for from
-  /// `blend` upwards, and `blend` is left where the next search should begin; if even 1 fails, elasticity is projected
+  /// blend.share() upwards; if even 1 fails, elasticity is projected
   /// too. Frictionless contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton
   /// creeps. `motion` (rows like x) is how prescribed vertices move; `yielding` are the axes along which the object as
-  /// a whole is free besides. The last term of the potential must be the barrier.
+  /// a whole is free besides. A step by which a vertex goes farther than `longest_m` counts as a sign of a Hessian that
+  /// is all but indefinite. The last term of the potential must be the barrier.
   NewtonDirection direction(const IncrementalPotential& potential, const Positions& x, const Positions& motion,
-                            const std::vector<int>& yielding, double& blend);
+                            const std::vector<int>& yielding, double longest_m, Blend& blend);
 
   /// Forgets couplings that contacts have added, so that the next step does not depend on steps before.
   void reset_pattern() { pattern_ = own_pattern_; }
@@ -53,6 +55,7 @@ class NewtonStepper {
   int first_object_vertex_;
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
   ElasticAssembly elastic_;
+  NewtonSystem system_;  // of the last call; its storage is used again
   SolverTimes times_;
   std::unique_ptr<LinearSolver> solver_;
 };

@@ -1,5 +1,6 @@
 // Within a time step: Newton's method for the few vertices that still move.
 #include <algorithm>
+#include <limits>
 
 #include "common/log.h"
 #include "stages/press/solve/local_patch.h"
@@ -9,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-constexpr double kFewVertices = 0.08;  // part of the gel's above which the whole is solved for
+constexpr double kFewVertices = 0.01;  // part of the gel's above which the whole is solved for
 constexpr int kRings = 2;
 constexpr int kMaxIterations = 20;
 constexpr double kEnough = 0.2;  // of the tolerance: the whole is to find nothing left to do there
@@ -43,10 +44,11 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   NewtonStepper newton(patch.free, mesh_.num_gel_vertices, mesh_pattern(patch.free, *terms.elasticity),
                        settings_.linear_solver);
   const Positions still = Positions::Zero(step.x.rows(), 3);
-  double blend = step.blend;
+  Blend blend = step.blend;
   int iterations = 0;
   for (bool room = true; room && iterations < kMaxIterations; ++iterations) {
-    const NewtonDirection local = newton.direction(energy, step.x, still, {}, blend);
+    const NewtonDirection local =
+        newton.direction(energy, step.x, still, {}, std::numeric_limits<double>::infinity(), blend);
     const double longest = std::sqrt(local.p.rowwise().squaredNorm().maxCoeff());
     if (longest < kEnough * enough && local.blend == 0.0) break;
     double alpha = 1.0;
@@ -73,7 +75,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
     }
     if (halvings == kMaxHalvings) break;
     step.x = trial;
-    if (halvings > 0) blend = std::min(1.0, std::max(kBlendAfterHalving, 4.0 * local.blend));
+    if (halvings > 0) blend.shortened(local.blend);
     log_debug("    patch {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s blend {:.3g}", iterations + 1, part * alpha,
               limit, longest / h, local.blend);
   }

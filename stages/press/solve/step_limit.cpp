@@ -9,12 +9,14 @@
 
 #include "common/error.h"
 #include "stages/press/contact/ccd.h"
+#include "stages/press/contact/near_pairs.h"
 #include "stages/press/contact/pair_pack.h"
+#include "stages/press/contact/plane_filter.h"
 
 namespace tacipc {
 namespace {
 
-constexpr std::size_t kChunk = 512;
+constexpr std::size_t kChunk = 512, kChunksPerRound = 16;
 constexpr double kSmallestStep = 1e-12;
 
 /// min over i < count of limit(i), at most 1; a minimum does not depend on order.
@@ -44,69 +46,46 @@ std::array<double, 4> volume_cubic(const Positions& x, const Positions& p, const
           det(B.col(0), B.col(1), B.col(2))};
 }
 
-}  // namespace
-
-namespace {
-
-/// How far one pair lets all go.
-double pair_limit(const ContactPair& pair, const Positions& x, const Positions& p, const GapRule& rule) {
-  const FourPoints now = gather(x, pair), d = gather(p, pair);
+/// How far one pair lets all go, of the way up to `until`.
+double pair_limit(const ContactPair& pair, const Positions& x, const Positions& p, double until, const GapRule& rule) {
+  const FourPoints now = gather(x, pair);
+  FourPoints d = gather(p, pair);
+  for (Vector3& way : d) way *= until;
   const double distance = std::sqrt(closest_feature(pair, now).squared_distance);
   const double floor = std::min(rule.floor_m, 0.999 * distance);
   const CcdOptions options{.slack = (floor + rule.slack * (distance - floor)) / distance};
-  return pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(now, d, options)
-                                                        : time_of_impact_edge_edge(now, d, options);
-}
-
-/// Of eight pairs those (their bits) that a fixed plane keeps apart on the whole way, which most are. r joins points of
-/// the two sides, so the distance is at most |r|; along r the gap of each two vertices is linear in time and smallest
-/// at either end. r · (xᵢ − xⱼ) is compared with |r| × (the separation wanted + an error above all that rounding does
-/// to paths of doubles and to these few products), |r| ≤ |r|₁.
-TACIPC_CLONES unsigned apart_all_the_way(const double* x, const double* p, const ContactPair* const* pairs,
-                                         ContactPair::Kind kind, double slack, double floor) {
-  const PackedPoints now = load_points(x, pairs), way = load_points(p, pairs);
-  const bool point_triangle = kind == ContactPair::Kind::point_triangle;
-  const PackedGap gap = point_triangle ? point_triangle_gap(now) : edge_edge_gap(now);
-  const auto absolute = [](const Pack3& v) __attribute__((always_inline)) {
-    const Pack none = {};
-    return Pack3{v.x < none ? -v.x : v.x, v.y < none ? -v.y : v.y, v.z < none ? -v.z : v.z};
-  };
-  const auto sum = [](const Pack3& v) __attribute__((always_inline)) { return v.x + v.y + v.z; };
-  Pack size = {}, smallest = {};
-  for (int k = 0; k < 4; ++k) size += sum(absolute(now[k])) + sum(absolute(way[k]));
-  const int firsts = point_triangle ? 1 : 2;
-  for (int a = 0; a < firsts; ++a) {
-    for (int b = firsts; b < 4; ++b) {
-      const Pack before = dot(gap.r, now[a] - now[b]), after = before + dot(gap.r, way[a] - way[b]);
-      const Pack less = smaller(before, after);
-      smallest = a == 0 && b == firsts ? less : smaller(smallest, less);
-    }
-  }
-  constexpr double kRounding = 64 * 1.2e-16;
-  const Pack wanted =
-      slack * (1.0 + 1e-9) * gap.squared_length + (floor * (1.0 - slack) + kRounding * size) * sum(absolute(gap.r));
-  unsigned apart = 0;
-  for (int l = 0; l < kLanes; ++l) apart |= smallest[l] > wanted[l] ? 1U << l : 0U;
-  return apart;
+  return until * (pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(now, d, options)
+                                                                 : time_of_impact_edge_edge(now, d, options));
 }
 
 }  // namespace
 
 double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
                           const GapRule& rule) {
-  std::vector<double> limits((pairs.size() + kChunk - 1) / kChunk, 1.0);
-  tbb::parallel_for(std::size_t{0}, limits.size(), [&](std::size_t chunk) {
-    const std::size_t last = std::min(pairs.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < last;) {
+  const Pack floor = Pack{} + rule.floor_m;
+  const auto limit_of = [&](std::size_t first, std::size_t last, double limit) {
+    for (std::size_t i = first; i < last;) {
       const PairPack pack(pairs, i, last);
-      const unsigned apart = apart_all_the_way(x.data(), p.data(), pack.pairs, pack.kind(), rule.slack, rule.floor_m);
+      const unsigned apart = apart_all_the_way(x.data(), p.data(), limit, pack.pairs, pack.kind(), rule.slack, floor);
       for (int l = 0; l < pack.count; ++l) {
-        if (!(apart >> l & 1U)) limits[chunk] = std::min(limits[chunk], pair_limit(*pack.pairs[l], x, p, rule));
+        if (!(apart >> l & 1U)) limit = pair_limit(*pack.pairs[l], x, p, limit, rule);
       }
       i += pack.count;
     }
-  });
-  const double limit = limits.empty() ? 1.0 : *std::min_element(limits.begin(), limits.end());
+    return limit;
+  };
+  // Only the way that those before leave is looked at: a round of chunks knows the limit of all rounds before, the same
+  // with any number of threads.
+  double limit = 1.0;
+  for (std::size_t round = 0; round < pairs.size() && limit > 0.0; round += kChunksPerRound * kChunk) {
+    const std::size_t chunks = std::min(kChunksPerRound, (pairs.size() - round + kChunk - 1) / kChunk);
+    std::vector<double> limits(chunks, limit);
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+      const std::size_t first = round + chunk * kChunk;
+      limits[chunk] = limit_of(first, std::min(pairs.size(), first + kChunk), limit);
+    });
+    limit = *std::min_element(limits.begin(), limits.end());
+  }
   if (limit <= 0.0) {
     throw SolverError("a contact pair is too close to certify any step (smallest distance {:.3g} m)",
                       smallest_distance(pairs, x, 1.0));

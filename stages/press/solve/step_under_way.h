@@ -20,12 +20,11 @@ struct TimeStepper::Step {
   StepReport report = {};
   std::shared_ptr<const Friction> friction = nullptr;
   std::shared_ptr<const Dirichlet> constraint = nullptr;
-  double blend = 1.0;      // of NewtonStepper::direction, once the object has arrived
+  Blend blend = {};        // of NewtonStepper::direction, once the object has arrived
   double looseness = 1.0;  // of the tolerances, while friction is still to be renewed
 };
 
 inline constexpr double kGapFloor = 1e-4;    // × d̂
 inline constexpr double kNewtonSlack = 0.1;  // part of each gap that a step leaves
-inline constexpr double kBlendAfterHalving = 0.1;
 
 }  // namespace tacipc

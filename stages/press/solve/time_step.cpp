@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/log.h"
 #include "common/spatial_order.h"
+#include "stages/press/contact/near_pairs.h"
 #include "stages/press/energy/linear_load.h"
 #include "stages/press/energy/stiffness_damping.h"
 #include "stages/press/solve/step_limit.h"
@@ -18,6 +19,8 @@ namespace {
 constexpr double kMovingSlack = 0.3;  // gaps kept while the object moves, where no energy guards the step
 constexpr int kMaxWait = 10;          // for the exact Hessian: iterations that meet the tolerances
 constexpr double kFar = 10.0, kRoughDirection = 1e-2, kFineDirection = 1e-3;
+// A step this many times as long as the last one is none to trust.
+constexpr double kTooLong = 4.0;
 constexpr int kMaxHalvings = 40;
 constexpr double kTouching = 1e-9;  // of the largest force on a vertex
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
@@ -103,8 +106,7 @@ void TimeStepper::minimise(Step& step) {
   const Positions still = Positions::Zero(step.x.rows(), 3);
   Positions& x = step.x;
   StepReport& report = step.report;
-  int relax = 0, relax_wanted = 1, iterations = 0, waited = 0;
-  double& blend = step.blend;
+  int relax = 0, relax_wanted = 0, iterations = 0, waited = 0;
   double last_residual = std::numeric_limits<double>::infinity();
   IncrementalPotential energy = potential(step, pairs_at(x));
 
@@ -122,11 +124,12 @@ void TimeStepper::minimise(Step& step) {
       motion.bottomRows(mesh_.num_object_vertices) =
           (step.goal.object_target - x.bottomRows(mesh_.num_object_vertices)).rowwise() + step.yield.transpose();
     }
-    double wanted = step.arrived ? blend : 1.0;
+    Blend leaning = step.arrived ? step.blend : Blend();
     // Far from the end the direction need not be exact: the next differs from it by more.
     newton_.set_tolerance(last_residual > kFar * newton.velocity_tolerance_m_s ? kRoughDirection : kFineDirection);
-    const NewtonDirection direction = newton_.direction(energy, x, motion, step.goal.yielding, wanted);
-    if (step.arrived) blend = wanted;
+    const double longest = moving ? std::numeric_limits<double>::infinity() : kTooLong * last_residual * h;
+    const NewtonDirection direction = newton_.direction(energy, x, motion, step.goal.yielding, longest, leaning);
+    if (step.arrived) step.blend = leaning;
     ++iterations;
     ++report.newton_iterations;
     last_residual =
@@ -163,9 +166,9 @@ void TimeStepper::minimise(Step& step) {
         x.bottomRows(mesh_.num_object_vertices) = step.goal.object_target.rowwise() + step.yield.transpose();
       }
       // The shorter the object's move, the more the gel is let go of it before the next.
-      relax_wanted = alpha < 0.1   ? std::min(2 * relax_wanted, 16)
-                     : alpha > 0.3 ? std::max(1, relax_wanted / 2)
-                                   : relax_wanted;
+      relax_wanted = alpha < 0.1   ? std::clamp(2 * relax_wanted, 2, 16)
+                     : alpha > 0.3 ? relax_wanted / 2
+                                   : std::max(1, relax_wanted);
       relax = relax_wanted;
     } else {
       const auto value = [&](const Positions& at) {
@@ -187,7 +190,7 @@ void TimeStepper::minimise(Step& step) {
         trial = x + alpha * direction.p;
       }
       // A step too long for the energy: lean on the stand-in again, which is never too soft.
-      if (step.arrived && halvings > 0) blend = std::min(1.0, std::max(kBlendAfterHalving, 4.0 * direction.blend));
+      if (step.arrived && halvings > 0) step.blend.shortened(direction.blend);
       x = trial;
       step.yield += alpha * direction.yield;
       if (!step.arrived) --relax;
@@ -343,11 +346,13 @@ void TimeStepper::record_forces(const Step& step) {
 }
 
 double TimeStepper::smallest_gap(const Positions& x, double none) {
-  std::vector<ContactPair> pairs = search_.pairs(x, Positions::Zero(x.rows(), 3), none);
-  std::erase_if(pairs, [&](const ContactPair& pair) {
-    return *std::max_element(pair.vertices.begin(), pair.vertices.end()) < mesh_.num_gel_vertices;
-  });
-  return smallest_distance(pairs, x, none);
+  // Where anything touches, what the barrier sees suffices: looking farther finds many times as many pairs.
+  double gap = none;
+  for (const double radius : {std::min(settings_.d_hat_m, none), none}) {
+    gap = smallest_distance(search_.object_pairs(x, Positions::Zero(x.rows(), 3), radius), x, none);
+    if (gap < radius) break;
+  }
+  return gap;
 }
 
 }  // namespace tacipc

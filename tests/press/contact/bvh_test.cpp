@@ -63,6 +63,43 @@ TEST(Bvh, FindsWhatBruteForceFindsAfterRefit) {
   }
 }
 
+std::vector<std::array<int, 2>> overlaps(const Bvh& a, const Bvh& b) {
+  std::vector<std::array<int, 2>> found;
+  for (int part = 0; part < Bvh::kParts; ++part) a.overlaps(b, part, [&](int i, int j) { found.push_back({i, j}); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(Bvh, OverlapsOfTwoTreesAreThoseOfAllTheirBoxes) {
+  std::mt19937 random(10);
+  for (const int count : {0, 1, 3, 20, 500}) {
+    const std::vector<Box> first = random_boxes(random, count), second = random_boxes(random, 300);
+    std::vector<std::array<int, 2>> expected;
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < 300; ++j)
+        if (first[i].intersects(second[j])) expected.push_back({i, j});
+    }
+    EXPECT_EQ(overlaps(Bvh(first), Bvh(second)), expected);
+  }
+}
+
+TEST(Bvh, OverlapsOfATreeWithItselfCountEachPairOnce) {
+  std::mt19937 random(11);
+  for (const int count : {0, 1, 2, 5, 400}) {
+    const std::vector<Box> boxes = random_boxes(random, count);
+    std::vector<std::array<int, 2>> expected;
+    for (int i = 0; i < count; ++i) {
+      for (int j = i + 1; j < count; ++j)
+        if (boxes[i].intersects(boxes[j])) expected.push_back({i, j});
+    }
+    const Bvh bvh(boxes);
+    std::vector<std::array<int, 2>> found = overlaps(bvh, bvh);
+    for (auto& pair : found) pair = {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(Bvh, SharedFacesCountAndGapsDoNot) {
   const Box unit(Vector3(0, 0, 0), Vector3(1, 1, 1));
   const Bvh bvh(std::vector<Box>{unit});

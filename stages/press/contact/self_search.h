@@ -1,0 +1,44 @@
+// Broad phase of the gel with itself.
+#pragma once
+
+#include <vector>
+
+#include "stages/press/contact/bvh.h"
+#include "stages/press/contact/contact_mesh.h"
+#include "stages/press/contact/contact_pair.h"
+
+namespace tacipc {
+
+/// Finds pairs of two primitives of the gel that share no vertex. Neighbours are near each other for ever, so a pair
+/// counts only from min(radius, half its distance at rest) on. What a search found is kept with some room around it,
+/// for as long as everything moves within that room.
+class SelfSearch {
+ public:
+  explicit SelfSearch(const ContactMesh& mesh);
+
+  /// Appends every pair that comes nearer than that while the vertices move straight from `x` to `x + p`, and some
+  /// more; what and in which order depends on the arguments since forget() only.
+  void pairs(const Positions& x, const Positions& p, double radius_m, std::vector<ContactPair>& out);
+
+  /// Appends every pair with a vertex that `moves` (one flag per vertex) that comes nearer than that while each of
+  /// those vertices stays within `reach_m` of its place in each coordinate, and some more. \pre all others are where
+  /// the last call of pairs() saw them come by
+  void around(const std::vector<bool>& moves, const Positions& x, double radius_m, double reach_m,
+              std::vector<ContactPair>& out) const;
+
+  void forget() { radius_m_ = -1.0; }
+  int num_searches() const { return num_searches_; }
+
+ private:
+  void search(const Positions& x, const Positions& p, double radius_m);
+
+  const ContactMesh& mesh_;
+  Bvh vertices_, edges_, triangles_;
+  std::vector<Box> room_;          // of each of the gel's surface vertices
+  std::vector<ContactPair> near_;  // pairs found, and how near each counts
+  std::vector<double> reach_m_;
+  double radius_m_ = -1.0;
+  int num_searches_ = 0;
+};
+
+}  // namespace tacipc
