@@ -39,6 +39,21 @@ using UnalignedQuad = double __attribute__((vector_size(32), aligned(8), may_ali
 TACIPC_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
 TACIPC_INLINE void store_quad(double* to, const Quad& value) { *reinterpret_cast<UnalignedQuad*>(to) = value; }
 
+/// out[l] = (rows[0], rows[1], rows[2], 0) of lane l of the lower (half 0) or upper four lanes.
+TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
+  const auto four_of = [&](int r) __attribute__((always_inline)) {
+    return half == 0 ? __builtin_shufflevector(rows[r], rows[r], 0, 1, 2, 3)
+                     : __builtin_shufflevector(rows[r], rows[r], 4, 5, 6, 7);
+  };
+  const Quad r0 = four_of(0), r1 = four_of(1), r2 = four_of(2), none = {};
+  const Quad even01 = __builtin_shufflevector(r0, r1, 0, 4, 2, 6), odd01 = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
+  const Quad even2 = __builtin_shufflevector(r2, none, 0, 4, 2, 6), odd2 = __builtin_shufflevector(r2, none, 1, 5, 3, 7);
+  out[0] = __builtin_shufflevector(even01, even2, 0, 1, 4, 5);
+  out[1] = __builtin_shufflevector(odd01, odd2, 0, 1, 4, 5);
+  out[2] = __builtin_shufflevector(even01, even2, 2, 3, 6, 7);
+  out[3] = __builtin_shufflevector(odd01, odd2, 2, 3, 6, 7);
+}
+
 /// Four floats, and what comparing them gives: −1 where true.
 using FloatQuad = float __attribute__((vector_size(16)));
 using IntQuad = int __attribute__((vector_size(16)));

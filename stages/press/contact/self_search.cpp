@@ -1,6 +1,8 @@
 #include "stages/press/contact/self_search.h"
 
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "stages/press/contact/near_pairs.h"
 #include "stages/press/contact/pair_pack.h"
@@ -18,13 +20,16 @@ bool share_vertex(const std::array<int, 2>& a, const std::array<int, 2>& b) {
   return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
 }
 
-/// Boxes around primitives on their way from x to x + p, grown by `margin`.
+/// Boxes around some of the primitives on their way from x to end, grown by `margin`.
 template <typename Primitives>
-std::vector<Box> swept(const Primitives& primitives, const Positions& x, const Positions& end, double margin) {
-  std::vector<Box> boxes(primitives.size());
+std::vector<Box> swept(const std::vector<int>& some, const Primitives& primitives, const Positions& x,
+                       const Positions& end, double margin) {
+  std::vector<Box> boxes(some.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 2048), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      boxes[i] = grown(box_around(x, primitives[i]).merged(box_around(end, primitives[i])), margin);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const auto& vertices = primitives[static_cast<std::size_t>(some[i])];
+      boxes[i] = grown(box_around(x, vertices).merged(box_around(end, vertices)), margin);
+    }
   });
   return boxes;
 }
@@ -48,42 +53,96 @@ void for_each_coming_near(const std::vector<ContactPair>& pairs, const std::vect
 }  // namespace
 
 SelfSearch::SelfSearch(const ContactMesh& mesh)
-    : mesh_(mesh),
-      vertices_(boxes_at(OneVertex{mesh.gel.vertices}, mesh.rest_positions)),
-      edges_(boxes_at(mesh.gel.edges, mesh.rest_positions)),
-      triangles_(boxes_at(mesh.gel.triangles, mesh.rest_positions)) {}
+    : mesh_(mesh), open_face_(mesh), face_(part_of(true)), others_(part_of(false)) {}
 
-void SelfSearch::search(const Positions& x, const Positions& p, double radius_m) {
+SelfSearch::Part SelfSearch::part_of(bool face) const {
+  const Surface& gel = mesh_.gel;
+  const auto select = [&](const auto& primitives) {
+    std::vector<int> some;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      const auto& v = primitives[i];
+      if (std::all_of(v.begin(), v.end(), [&](int k) { return open_face_.has(k); }) == face)
+        some.push_back(static_cast<int>(i));
+    }
+    return some;
+  };
+  const auto tree = [&](const std::vector<int>& some, const auto& primitives) {
+    std::vector<Box> boxes;
+    for (const int i : some) boxes.push_back(box_around(mesh_.rest_positions, primitives[static_cast<std::size_t>(i)]));
+    return Bvh(boxes);
+  };
+  const OneVertex points{gel.vertices};
+  std::vector<int> vertices = select(points), edges = select(gel.edges), triangles = select(gel.triangles);
+  Bvh vertex_tree = tree(vertices, points), edge_tree = tree(edges, gel.edges),
+      triangle_tree = tree(triangles, gel.triangles);
+  return {std::move(vertices),    std::move(edges),     std::move(triangles),
+          std::move(vertex_tree), std::move(edge_tree), std::move(triangle_tree)};
+}
+
+void SelfSearch::fit(Part& part, const Positions& x, const Positions& end, double margin) const {
+  part.vertex_tree.refit(swept(part.vertices, OneVertex{mesh_.gel.vertices}, x, end, margin));
+  part.edge_tree.refit(swept(part.edges, mesh_.gel.edges, x, end, margin));
+  part.triangle_tree.refit(swept(part.triangles, mesh_.gel.triangles, x, end, margin));
+}
+
+void SelfSearch::search(const Positions& x, const Positions& p, double radius_m, bool face_is_open) {
   ++num_searches_;
   radius_m_ = radius_m;
+  left_out_face_ = face_is_open;
   const Positions end = x + p;
   // Half of the distance looked for on each side.
   const double margin = (0.5 + kRoom) * radius_m, room = kRoom * radius_m;
-  room_ = swept(OneVertex{mesh_.gel.vertices}, x, end, room);
-  vertices_.refit(swept(OneVertex{mesh_.gel.vertices}, x, end, margin));
-  edges_.refit(swept(mesh_.gel.edges, x, end, margin));
-  triangles_.refit(swept(mesh_.gel.triangles, x, end, margin));
+  const OneVertex points{mesh_.gel.vertices};
+  room_.resize(points.size());
+  for (std::size_t i = 0; i < room_.size(); ++i)
+    room_[i] = grown(box_around(x, points[i]).merged(box_around(end, points[i])), room);
+  fit(face_, x, end, margin);
+  fit(others_, x, end, margin);
 
   const Surface& gel = mesh_.gel;
+  const auto offer = [](const ContactPair& pair, std::vector<ContactPair>& candidates) {
+    const auto& v = pair.vertices;
+    const bool point_triangle = pair.kind == ContactPair::Kind::point_triangle;
+    if (point_triangle ? v[0] != v[1] && v[0] != v[2] && v[0] != v[3]
+                       : v[0] != v[2] && v[0] != v[3] && v[1] != v[2] && v[1] != v[3])
+      candidates.push_back(pair);
+  };
+  // What is looked for, each in parts that can go at the same time.
+  using Look = std::function<void(int part, std::vector<ContactPair>& candidates)>;
+  std::vector<Look> looks;
+  const auto vertices_and_triangles = [&](const Part& a, const Part& b) {
+    looks.push_back([&](int part, std::vector<ContactPair>& candidates) {
+      a.vertex_tree.overlaps(b.triangle_tree, part, [&](int i, int j) {
+        offer(point_triangle_pair(gel.vertices[a.vertices[i]], gel.triangles[b.triangles[j]]), candidates);
+      });
+    });
+  };
+  const auto edges = [&](const Part& a, const Part& b) {
+    looks.push_back([&](int part, std::vector<ContactPair>& candidates) {
+      a.edge_tree.overlaps(b.edge_tree, part, [&](int i, int j) {
+        const auto [first, second] = std::minmax(a.edges[i], b.edges[j]);
+        offer(edge_edge_pair(gel.edges[first], gel.edges[second]), candidates);
+      });
+    });
+  };
+  if (!face_is_open) {
+    vertices_and_triangles(face_, face_);
+    edges(face_, face_);
+  }
+  vertices_and_triangles(face_, others_);
+  vertices_and_triangles(others_, face_);
+  vertices_and_triangles(others_, others_);
+  edges(face_, others_);
+  edges(others_, others_);
+
   struct Found {
     std::vector<ContactPair> pairs;
     std::vector<double> reach_m;
   };
-  std::vector<Found> found(2 * Bvh::kParts);
-  tbb::parallel_for(0, 2 * Bvh::kParts, [&](int part) {
+  std::vector<Found> found(looks.size() * Bvh::kParts);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t part) {
     std::vector<ContactPair> candidates;
-    if (part < Bvh::kParts) {
-      vertices_.overlaps(triangles_, part, [&](int i, int j) {
-        const int v = gel.vertices[i];
-        if (!share_vertex(v, gel.triangles[j])) candidates.push_back(point_triangle_pair(v, gel.triangles[j]));
-      });
-    } else {
-      edges_.overlaps(edges_, part - Bvh::kParts, [&](int i, int j) {
-        const auto [first, second] = std::minmax(i, j);
-        if (!share_vertex(gel.edges[first], gel.edges[second]))
-          candidates.push_back(edge_edge_pair(gel.edges[first], gel.edges[second]));
-      });
-    }
+    looks[part / Bvh::kParts](static_cast<int>(part % Bvh::kParts), candidates);
     std::vector<double> reach = coarse_squared_distances(candidates, mesh_.rest_positions);
     // Zero: edges too parallel to tell.
     for (double& r : reach) r = r > 0.0 ? std::min(radius_m, 0.5 * std::sqrt(r)) : radius_m;
@@ -108,7 +167,9 @@ void SelfSearch::pairs(const Positions& x, const Positions& p, double radius_m, 
     }
     return true;
   };
-  if (radius_m != radius_m_ || !within_room()) search(x, p, radius_m);
+  const bool face_is_open = open_face_.stays_open(x, p);
+  if (radius_m != radius_m_ || (left_out_face_ && !face_is_open) || !within_room())
+    search(x, p, radius_m, face_is_open);
   collect(near_.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
     for_each_coming_near(near_, reach_m_, 0.0, first, last, x, p, [&](std::size_t i) { found.push_back(near_[i]); });
   });
@@ -122,27 +183,38 @@ void SelfSearch::around(const std::vector<bool>& moves, const Positions& x, doub
   };
   // The trees' boxes are grown by half the radius; of two moving parts both may come nearer.
   const double margin = 0.5 * radius_m + 2.0 * reach_m;
+  const std::array<const Part*, 2> parts{&face_, &others_};
   for (const int v : gel.vertices) {
     if (!moves[v]) continue;
-    const std::array<int, 1> one{v};
-    triangles_.query(grown(box_around(x, one), margin), [&](int j) {
-      if (!share_vertex(v, gel.triangles[j])) out.push_back(point_triangle_pair(v, gel.triangles[j]));
-    });
+    const Box box = grown(box_around(x, std::array<int, 1>{v}), margin);
+    for (const Part* part : parts) {
+      part->triangle_tree.query(box, [&](int j) {
+        const auto& t = gel.triangles[part->triangles[j]];
+        if (!share_vertex(v, t)) out.push_back(point_triangle_pair(v, t));
+      });
+    }
   }
   for (const auto& t : gel.triangles) {
     if (!moving(t)) continue;
-    vertices_.query(grown(box_around(x, t), margin), [&](int j) {
-      const int v = gel.vertices[j];
-      if (!moves[v] && !share_vertex(v, t)) out.push_back(point_triangle_pair(v, t));
-    });
+    const Box box = grown(box_around(x, t), margin);
+    for (const Part* part : parts) {
+      part->vertex_tree.query(box, [&](int j) {
+        const int v = gel.vertices[part->vertices[j]];
+        if (!moves[v] && !share_vertex(v, t)) out.push_back(point_triangle_pair(v, t));
+      });
+    }
   }
   for (int i = 0; i < static_cast<int>(gel.edges.size()); ++i) {
     const auto& e = gel.edges[i];
     if (!moving(e)) continue;
-    edges_.query(grown(box_around(x, e), margin), [&](int j) {
-      const auto& f = gel.edges[j];
-      if ((i < j || !moving(f)) && !share_vertex(e, f)) out.push_back(edge_edge_pair(e, f));
-    });
+    const Box box = grown(box_around(x, e), margin);
+    for (const Part* part : parts) {
+      part->edge_tree.query(box, [&](int k) {
+        const int j = part->edges[k];
+        const auto& f = gel.edges[j];
+        if ((i < j || !moving(f)) && !share_vertex(e, f)) out.push_back(edge_edge_pair(e, f));
+      });
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "stages/press/contact/bvh.h"
 #include "stages/press/contact/contact_mesh.h"
 #include "stages/press/contact/contact_pair.h"
+#include "stages/press/contact/open_face.h"
 
 namespace tacipc {
 
@@ -30,13 +31,22 @@ class SelfSearch {
   int num_searches() const { return num_searches_; }
 
  private:
-  void search(const Positions& x, const Positions& p, double radius_m);
+  /// Primitives of one part of the surface, by their numbers in the whole, with trees around them.
+  struct Part {
+    std::vector<int> vertices, edges, triangles;
+    Bvh vertex_tree, edge_tree, triangle_tree;
+  };
+  Part part_of(bool face) const;
+  void fit(Part& part, const Positions& x, const Positions& end, double margin) const;
+  void search(const Positions& x, const Positions& p, double radius_m, bool face_is_open);
 
   const ContactMesh& mesh_;
-  Bvh vertices_, edges_, triangles_;
+  OpenFace open_face_;
+  Part face_, others_;             // primitives all of whose vertices are on the face, and all others
   std::vector<Box> room_;          // of each of the gel's surface vertices
   std::vector<ContactPair> near_;  // pairs found, and how near each counts
   std::vector<double> reach_m_;
+  bool left_out_face_ = false;
   double radius_m_ = -1.0;
   int num_searches_ = 0;
 };

@@ -98,6 +98,21 @@ double ContactBarrier::value(const Positions& x) const {
   });
 }
 
+bool ContactBarrier::evaluate_gradient(int i, const FourPoints& x, Vector12& out) const {
+  const ClosestFeature feature = closest_feature(pairs_[i], x);
+  const double s = feature.squared_distance;
+  if (s >= largest_s_hat_) return false;
+  const double s_hat = this->s_hat(i);
+  if (s >= s_hat) return false;
+  out = barrier_d1(s, s_hat) * squared_distance_gradient(feature);
+  if (mollified(i, x)) {
+    const EdgeEdgeMollifier m = edge_edge_mollifier(x, mollifier_threshold(i));
+    out = m.value * out + barrier(s, s_hat) * m.gradient;
+  }
+  out *= pairs_[i].weight;
+  return true;
+}
+
 bool ContactBarrier::evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted,
                                       PairLocal& out) const {
   const ClosestFeature feature = closest_feature(pairs_[i], x);

@@ -26,6 +26,7 @@ class ContactBarrier final : public ContactTerm {
 
   double value(const Positions& x) const override;
   std::vector<int> active(const Positions& x) const override;
+  bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
   bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }

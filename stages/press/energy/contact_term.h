@@ -22,6 +22,9 @@ class ContactTerm : public EnergyTerm {
   /// Stencils that do not vanish at x, ascending, and perhaps some that do.
   virtual std::vector<int> active(const Positions& x) const = 0;
 
+  /// Gradient of stencil i; false where it vanishes.
+  virtual bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const = 0;
+
   /// Gradient and the Hessian (1 − blend) H + blend H₊ with H the exact one and H₊ its positive stand-in (Order::psd),
   /// of stencil i; only blocks between `wanted` vertices are written, and gradients of those. False, and nothing
   /// written, where the stencil vanishes.

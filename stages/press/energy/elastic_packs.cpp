@@ -104,7 +104,7 @@ TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<in
 }  // namespace
 
 ElasticPacks::ElasticPacks(const Tetrahedra& tets, const std::vector<RestTet>& rest, const NeoHookean& law,
-                           const std::vector<int>& order)
+                           const std::vector<int>& order, const std::vector<int>& rank)
     : law_(law) {
   const int count = static_cast<int>(tets.rows());
   for (int first = 0; first < count; first += kLanes) {
@@ -112,9 +112,11 @@ ElasticPacks::ElasticPacks(const Tetrahedra& tets, const std::vector<RestTet>& r
     pack.corners.count = std::min(kLanes, count - first);
     for (int l = 0; l < kLanes; ++l) {
       const int t = order[static_cast<std::size_t>(std::min(first + l, count - 1))];
-      for (int k = 0; k < 4; ++k) pack.corners.vertices[k][l] = tets(t, k);
+      std::array<int, 4> sorted{0, 1, 2, 3};
+      std::sort(sorted.begin(), sorted.end(), [&](int a, int b) { return rank[tets(t, a)] < rank[tets(t, b)]; });
+      for (int k = 0; k < 4; ++k) pack.corners.vertices[k][l] = tets(t, sorted[k]);
       for (int k = 1; k < 4; ++k) {
-        const Vector3 b = rest[t].shape_gradients.col(k);
+        const Vector3 b = rest[t].shape_gradients.col(sorted[k]);
         pack.shape_gradients[k - 1].x[l] = b.x();
         pack.shape_gradients[k - 1].y[l] = b.y();
         pack.shape_gradients[k - 1].z[l] = b.z();

@@ -13,8 +13,10 @@ namespace tacipc {
 class ElasticPacks {
  public:
   /// \param order in which the tetrahedra are packed: those near each other should be together
+  /// \param rank of each vertex: by it the corners of each tetrahedron are sorted, so that their blocks come to lie in
+  /// the same triangle of a matrix whose unknowns are numbered alike
   ElasticPacks(const Tetrahedra& tets, const std::vector<RestTet>& rest, const NeoHookean& law,
-               const std::vector<int>& order);
+               const std::vector<int>& order, const std::vector<int>& rank);
 
   /// Corners of the tetrahedra of one pack; the last pack repeats its last tetrahedron, with no volume.
   struct Corners {

@@ -26,18 +26,22 @@ Elasticity::Elasticity(const Positions& rest, const Tetrahedra& tets, const Elas
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     centres.row(t) = 0.25 * (rest.row(tets(t, 0)) + rest.row(tets(t, 1)) + rest.row(tets(t, 2)) + rest.row(tets(t, 3)));
   }
-  packs_.emplace(tets_, rest_, *neo_hookean, spatial_order(centres));
+  std::vector<int> rank(static_cast<std::size_t>(rest.rows()));
+  int next = 0;
+  for (const int v : spatial_order(rest)) rank[v] = next++;
+  rank_ = std::make_shared<const std::vector<int>>(std::move(rank));
+  packs_.emplace(tets_, rest_, *neo_hookean, spatial_order(centres), *rank_);
 }
 
 Elasticity::Elasticity(const Elasticity& whole, const std::vector<int>& which)
-    : tets_(static_cast<Eigen::Index>(which.size()), 4), law_(whole.law_) {
+    : tets_(static_cast<Eigen::Index>(which.size()), 4), law_(whole.law_), rank_(whole.rank_) {
   for (const int t : which) {
     tets_.row(static_cast<Eigen::Index>(rest_.size())) = whole.tets_.row(t);
     rest_.push_back(whole.rest_[t]);
   }
   std::vector<int> order(which.size());
   std::iota(order.begin(), order.end(), 0);
-  if (const auto* neo_hookean = std::get_if<NeoHookean>(&law_)) packs_.emplace(tets_, rest_, *neo_hookean, order);
+  if (const auto* neo_hookean = std::get_if<NeoHookean>(&law_)) packs_.emplace(tets_, rest_, *neo_hookean, order, *rank_);
 }
 
 double Elasticity::value(const Positions& x) const { return packs_ ? packs_->value(x) : EnergyTerm::value(x); }

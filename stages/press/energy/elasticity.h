@@ -1,6 +1,7 @@
 // Elastic energy of the gel: one constant deformation gradient per tetrahedron.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,7 @@ class Elasticity final : public EnergyTerm {
   Tetrahedra tets_;
   std::vector<RestTet> rest_;
   ElasticLaw law_;
+  std::shared_ptr<const std::vector<int>> rank_;  // of each vertex along the space-filling curve
   std::optional<ElasticPacks> packs_;
 };
 

@@ -102,15 +102,26 @@ Eigen::Matrix2d Friction::blended_inner(const Pair& pair, const Eigen::Vector2d&
   return inner;
 }
 
+Vector3 Friction::force(const Pair& pair, const Eigen::Vector2d& u) const {
+  const double y = u.norm(), r = y / epsilon_m_;
+  return pair.normal_force * (r < 1.0 ? (2.0 - r) / epsilon_m_ : 1.0 / y) * (pair.tangents * u);
+}
+
+bool Friction::evaluate_gradient(int i, const FourPoints& x, Vector12& out) const {
+  const Pair& pair = pairs_[i];
+  const Vector3 whole = force(pair, slide(pair, x));
+  for (int a = 0; a < 4; ++a) out.segment<3>(3 * a) = pair.weights[a] * whole;
+  return true;
+}
+
 bool Friction::evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const {
   const Pair& pair = pairs_[i];
   const Eigen::Vector2d u = slide(pair, x);
-  const double lambda = pair.normal_force, r = u.norm() / epsilon_m_;
-  const Vector3 force = lambda * (r < 1.0 ? (2.0 - r) / epsilon_m_ : 1.0 / u.norm()) * (pair.tangents * u);
-  const Matrix3 block = lambda * pair.tangents * blended_inner(pair, u, blend) * pair.tangents.transpose();
+  const Vector3 whole = force(pair, u);
+  const Matrix3 block = pair.normal_force * pair.tangents * blended_inner(pair, u, blend) * pair.tangents.transpose();
   for (int a = 0; a < 4; ++a) {
     if (!(wanted >> a & 1U)) continue;
-    out.gradient.segment<3>(3 * a) = pair.weights[a] * force;
+    out.gradient.segment<3>(3 * a) = pair.weights[a] * whole;
     for (int b = 0; b < 4; ++b) {
       if (wanted >> b & 1U) out.hessian.block<3, 3>(3 * a, 3 * b) = pair.weights[a] * pair.weights[b] * block;
     }

@@ -181,12 +181,32 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
 
 Positions gradient_of(const EnergyTerm& term, const Positions& x) {
   Positions gradient = Positions::Zero(x.rows(), 3);
-  const auto add = [&](std::span<const int> stencil, const Local& local) {
+  const auto add = [&](std::span<const int> stencil, const auto& local) {
     for (std::size_t a = 0; a < stencil.size(); ++a)
-      gradient.row(stencil[a]) += local.gradient.segment<3>(3 * static_cast<Eigen::Index>(a)).transpose();
+      gradient.row(stencil[a]) += local.template segment<3>(3 * static_cast<Eigen::Index>(a)).transpose();
   };
   const auto* contact = dynamic_cast<const ContactTerm*>(&term);
-  for_each_local(term, contact ? contact->active(x) : all_stencils(term), x, Order::gradient, add);
+  if (!contact) {
+    for_each_local(term, all_stencils(term), x, Order::gradient,
+                   [&](std::span<const int> stencil, const Local& local) { add(stencil, local.gradient); });
+    return gradient;
+  }
+  const std::vector<int> active = contact->active(x);
+  struct Found {
+    bool any;
+    Vector12 gradient;
+  };
+  std::vector<Found> found(active.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active.size(), kChunk), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      const std::span<const int> v = term.stencil(active[k]);
+      found[k].any = contact->evaluate_gradient(
+          active[k], {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])}, found[k].gradient);
+    }
+  });
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    if (found[k].any) add(term.stencil(active[k]), found[k].gradient);
+  }
   return gradient;
 }
 

@@ -1,6 +1,5 @@
 #include "stages/press/solve/conjugate_gradient.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "common/simd.h"
@@ -13,6 +12,25 @@ namespace {
 constexpr std::ptrdiff_t kBlock = 9;
 
 double total(const Quad& sum) { return (sum[0] + sum[1]) + (sum[2] + sum[3]); }
+
+/// C⁻¹ of A = C Cᵀ, lower triangle by columns; false if A is not positive definite.
+bool invert_cholesky(const BlockMatrix::ConstBlock& A, BlockMatrix::Block out) {
+  if (!(A(0, 0) > 0.0)) return false;
+  const double i0 = 1.0 / std::sqrt(A(0, 0)), c10 = A(1, 0) * i0, c20 = A(2, 0) * i0;
+  const double pivot1 = A(1, 1) - c10 * c10;
+  if (!(pivot1 > 0.0)) return false;
+  const double i1 = 1.0 / std::sqrt(pivot1), c21 = (A(2, 1) - c20 * c10) * i1;
+  const double pivot2 = A(2, 2) - c20 * c20 - c21 * c21;
+  if (!(pivot2 > 0.0)) return false;
+  const double i2 = 1.0 / std::sqrt(pivot2);
+  out(0, 0) = i0;
+  out(1, 1) = i1;
+  out(2, 2) = i2;
+  out(1, 0) = -c10 * i0 * i1;
+  out(2, 1) = -c21 * i1 * i2;
+  out(2, 0) = -(c20 * i0 + c21 * out(1, 0)) * i2;
+  return true;
+}
 
 TACIPC_INLINE Quad three_of(const Quad& v) { return Quad{v[0], v[1], v[2], 0.0}; }
 
@@ -134,10 +152,9 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
   const int n = pattern.size();
   inverse_cholesky_.assign(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);
   for (int c = 0; c < n; ++c) {
-    const Eigen::LLT<Matrix3> factor(Matrix3(matrix.block(pattern.column_start[c])));
-    if (factor.info() != Eigen::Success) return false;
-    BlockMatrix::Block(inverse_cholesky_.data() + BlockMatrix::kStride * static_cast<std::size_t>(c)) =
-        factor.matrixL().solve(Matrix3::Identity());
+    if (!invert_cholesky(matrix.block(pattern.column_start[c]),
+                         BlockMatrix::Block(inverse_cholesky_.data() + BlockMatrix::kStride * static_cast<std::size_t>(c))))
+      return false;
   }
   // One number more: the last column is loaded as four, too.
   lower_.resize(static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(pattern.num_blocks() - n) + 1);
@@ -149,8 +166,9 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
 
 std::optional<Eigen::VectorXd> ConjugateGradient::factorize(const Eigen::VectorXd& b) {
   ++factorized_;
-  if (!direct_.prepare(*matrix_)) return std::nullopt;
-  return direct_.solve(b);
+  if (!direct_) direct_.emplace();
+  if (!direct_->prepare(*matrix_)) return std::nullopt;
+  return direct_->solve(b);
 }
 
 std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "stages/press/solve/cholmod_solver.h"
@@ -24,7 +25,7 @@ class ConjugateGradient final : public LinearSolver {
   bool prepare(const BlockMatrix& matrix) override;
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
   void set_tolerance(double relative) override { tolerance_ = relative; }
-  int num_analyses() const override { return direct_.num_analyses(); }
+  int num_analyses() const override { return direct_ ? direct_->num_analyses() : 0; }
   /// Products with Â so far.
   std::int64_t num_products() const override { return products_; }
   /// Systems that had to be factorised.
@@ -39,7 +40,7 @@ class ConjugateGradient final : public LinearSolver {
   std::vector<double> lower_;              // L, scaled: blocks below the diagonal, nine numbers each, column by column
   std::vector<double> inverse_cholesky_;   // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks
   std::vector<double> x_, r_, p_, t_, q_;  // of the last solve; their storage is used again
-  CholmodSolver direct_;
+  std::optional<CholmodSolver> direct_;     // once it is needed
   std::int64_t products_ = 0;
   int factorized_ = 0;
 };

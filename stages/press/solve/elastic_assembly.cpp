@@ -11,10 +11,46 @@ namespace {
 constexpr int kNowhere = std::numeric_limits<int>::min();
 constexpr int kChunk = 32;  // packs under way at a time: their derivatives stay in the cache
 
+using Places = std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>;
+
+/// Adds weight × the blocks of one pack, none of them transposed: a column of a block is one addition.
+TACIPC_CLONES void scatter(const ElasticPacks::Derivatives& from, const Places& places, double weight, double* values) {
+  for (int b = 0; b < ElasticPacks::kBlocks; ++b) {
+    for (int half = 0; half < 2; ++half) {
+      for (int c = 0; c < 3; ++c) {
+        Quad lanes[4];
+        transpose(from.hessian[b] + 3 * c, half, lanes);
+        for (int l = 0; l < 4; ++l) {
+          const int place = places[b][4 * half + l];
+          if (place == kNowhere) continue;
+          double* column = values + BlockMatrix::kStride * static_cast<std::size_t>(place) + 4 * c;
+          store_quad(column, load_quad(column) + weight * lanes[l]);
+        }
+      }
+    }
+  }
+}
+
+/// The same with blocks that may lie transposed.
+void scatter_any(const ElasticPacks::Derivatives& from, const Places& places, double weight, double* values) {
+  for (int b = 0; b < ElasticPacks::kBlocks; ++b) {
+    for (int l = 0; l < kLanes; ++l) {
+      const int place = places[b][l];
+      if (place == kNowhere) continue;
+      double* block = values + BlockMatrix::kStride * static_cast<std::size_t>(place >= 0 ? place : -1 - place);
+      const int row = place >= 0 ? 1 : 4, column = place >= 0 ? 4 : 1;
+      for (int c = 0; c < 3; ++c) {
+        for (int r = 0; r < 3; ++r) block[column * c + row * r] += weight * from.hessian[b][3 * c + r][l];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void ElasticAssembly::look_up(const ElasticPacks& packs, const FreeVertices& free) {
   places_.resize(static_cast<std::size_t>(packs.size()));
+  none_transposed_.assign(places_.size(), true);
   for (int p = 0; p < packs.size(); ++p) {
     const auto& corners = packs.corners(p);
     for (int b = 0, at = 0; b < 4; ++b) {
@@ -24,6 +60,8 @@ void ElasticAssembly::look_up(const ElasticPacks& packs, const FreeVertices& fre
           places_[static_cast<std::size_t>(p)][at][l] = l >= corners.count || i < 0 || j < 0 ? kNowhere
                                                         : i >= j                             ? pattern_->find(i, j)
                                                                  : -1 - pattern_->find(j, i);
+          const int place = places_[static_cast<std::size_t>(p)][at][l];
+          if (place < 0 && place != kNowhere) none_transposed_[static_cast<std::size_t>(p)] = false;
         }
       }
     }
@@ -52,18 +90,9 @@ void ElasticAssembly::add(const ElasticPacks& packs, const Positions& x, double 
           double* g = system.gradient.data() + 3 * static_cast<std::ptrdiff_t>(i);
           for (int c = 0; c < 3; ++c) g[c] += weight * found[k].gradient[a][c][l];
         }
-        for (int b = 0; b < ElasticPacks::kBlocks; ++b) {
-          const int place = places[b][l];
-          if (place == kNowhere) continue;
-          const Pack* from = found[k].hessian[b];
-          double* block = system.hessian.values.data() +
-                          BlockMatrix::kStride * static_cast<std::size_t>(place >= 0 ? place : -1 - place);
-          const int row = place >= 0 ? 1 : 4, column = place >= 0 ? 4 : 1;
-          for (int c = 0; c < 3; ++c) {
-            for (int r = 0; r < 3; ++r) block[column * c + row * r] += weight * from[3 * c + r][l];
-          }
-        }
       }
+      (none_transposed_[static_cast<std::size_t>(first + k)] ? scatter : scatter_any)(found[k], places, weight,
+                                                                                      system.hessian.values.data());
     }
   }
 }

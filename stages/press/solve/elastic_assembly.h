@@ -23,6 +23,7 @@ class ElasticAssembly {
   std::shared_ptr<const BlockPattern> pattern_;
   /// Block of the matrix: its index, or −1 − its index where it lies transposed, or kNowhere.
   std::vector<std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>> places_;
+  std::vector<bool> none_transposed_;  // of a pack's blocks
 };
 
 }  // namespace tacipc

@@ -38,7 +38,8 @@ double largest_row(const Positions& p, Eigen::Index rows) {
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
   // Neighbours near each other: matrix and vectors are gone through from one end to the other, again and again.
-  const std::vector<int> order = spatial_order(mesh.rest_positions);
+  std::vector<int> order = spatial_order(mesh.rest_positions.topRows(mesh.num_gel_vertices));
+  for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) order.push_back(v);
   if (augmented_lagrangian) return {order, fixed};
   for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) fixed[v] = true;
   for (const int v : glued) fixed[v] = true;
@@ -109,6 +110,8 @@ void TimeStepper::minimise(Step& step) {
   int relax = 0, relax_wanted = 0, iterations = 0, waited = 0;
   double last_residual = std::numeric_limits<double>::infinity();
   IncrementalPotential energy = potential(step, pairs_at(x));
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  double value_here = kUnknown;  // of the energy, where the last line search found it
 
   while (true) {
     if (iterations >= newton.max_iterations) {
@@ -160,6 +163,7 @@ void TimeStepper::minimise(Step& step) {
     if (moving) {
       ++report.moving_iterations;
       x += alpha * direction.p;
+      value_here = kUnknown;
       step.yield += alpha * direction.yield;
       if (alpha == 1.0) {
         step.arrived = true;
@@ -174,13 +178,13 @@ void TimeStepper::minimise(Step& step) {
       const auto value = [&](const Positions& at) {
         return timed(times_.line_search_s, [&] { return energy.value(at); });
       };
-      const double before = value(x);
+      const double before = std::isnan(value_here) ? value(x) : value_here;
       // Near the minimum the decrease drowns in rounding; a step that changes nothing measurable is then a step forward
       // too.
       const double noise = 1e-14 * std::abs(before);
       int halvings = 0;
       Positions trial = x + alpha * direction.p;
-      while (!(value(trial) <= before + 1e-4 * alpha * direction.slope + noise)) {
+      while (value_here = value(trial), !(value_here <= before + 1e-4 * alpha * direction.slope + noise)) {
         if (++halvings > kMaxHalvings) {
           if (done) return;  // what was waited for is below rounding
           throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
@@ -194,7 +198,10 @@ void TimeStepper::minimise(Step& step) {
       x = trial;
       step.yield += alpha * direction.yield;
       if (!step.arrived) --relax;
-      if (step.arrived && !done && relax_patch(step, direction)) energy = potential(step, pairs_at(x));
+      if (step.arrived && !done && relax_patch(step, direction)) {
+        energy = potential(step, pairs_at(x));
+        value_here = kUnknown;
+      }
     }
     log_debug("  {} {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s residual {:.3e} N blend {:.3g}",
               moving         ? "move"
