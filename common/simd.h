@@ -1,6 +1,9 @@
 // Eight doubles at a time, on whatever the processor has.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace tacipc {
 
 /// Eight doubles; arithmetic and comparisons go lane by lane, so that a result does not depend on how many of them the
@@ -30,7 +33,25 @@ TACIPC_INLINE Pack dot(const Pack3& a, const Pack3& b) { return a.x * b.x + a.y 
 TACIPC_INLINE Pack3 cross(const Pack3& a, const Pack3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// `yes` in the lanes where key > 0. (One comparison at the spot: compilers take masks that are kept or combined apart
+/// lane by lane.)
+TACIPC_INLINE Pack choose(const Pack& key, const Pack& yes, const Pack& no) { return key > Pack{} ? yes : no; }
+TACIPC_INLINE Pack3 choose(const Pack& key, const Pack3& yes, const Pack3& no) {
+  return {choose(key, yes.x, no.x), choose(key, yes.y, no.y), choose(key, yes.z, no.z)};
+}
 TACIPC_INLINE Pack smaller(const Pack& a, const Pack& b) { return b < a ? b : a; }
+
+/// Rows of a table of three columns, a lane each.
+TACIPC_INLINE Pack3 load_rows(const double* table, const std::array<int, kLanes>& rows) {
+  Pack3 out;
+  for (int l = 0; l < kLanes; ++l) {
+    const double* row = table + 3 * static_cast<std::ptrdiff_t>(rows[l]);
+    out.x[l] = row[0];
+    out.y[l] = row[1];
+    out.z[l] = row[2];
+  }
+  return out;
+}
 
 /// Four doubles: a vector of three and a zero.
 using Quad = double __attribute__((vector_size(32), aligned(32)));
@@ -47,7 +68,8 @@ TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
   };
   const Quad r0 = four_of(0), r1 = four_of(1), r2 = four_of(2), none = {};
   const Quad even01 = __builtin_shufflevector(r0, r1, 0, 4, 2, 6), odd01 = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
-  const Quad even2 = __builtin_shufflevector(r2, none, 0, 4, 2, 6), odd2 = __builtin_shufflevector(r2, none, 1, 5, 3, 7);
+  const Quad even2 = __builtin_shufflevector(r2, none, 0, 4, 2, 6),
+             odd2 = __builtin_shufflevector(r2, none, 1, 5, 3, 7);
   out[0] = __builtin_shufflevector(even01, even2, 0, 1, 4, 5);
   out[1] = __builtin_shufflevector(odd01, odd2, 0, 1, 4, 5);
   out[2] = __builtin_shufflevector(even01, even2, 2, 3, 6, 7);

@@ -5,6 +5,7 @@
 
 #include "common/spatial_order.h"
 #include "stages/press/energy/friction.h"
+#include "stages/press/solve/contact_assembly.h"
 #include "stages/press/solve/elastic_assembly.h"
 #include "stages/press/solve/local_patch.h"
 #include "tests/press/elastic_block.h"
@@ -140,6 +141,10 @@ struct Touching {
       if (i % 9 == 2)
         pair.weight = 1.0, x.row(pair.vertices[3]) = x.row(pair.vertices[2]) + x.row(pair.vertices[1]) -
                                                      x.row(pair.vertices[0]) + 1e-3 * motion.row(pair.vertices[3]);
+      if (pair.kind == Kind::point_triangle && i % 4 == 1) {  // edges and corners as pair_counting.h has them
+        pair.vertices[3] = pair.vertices[2];
+        if (i % 8 == 1) pair.vertices[2] = pair.vertices[3] = pair.vertices[1];
+      }
       pairs.push_back(pair);
       for (const int a : pair.vertices) {
         for (const int b : pair.vertices) {

@@ -28,6 +28,8 @@ class ContactBarrier final : public ContactTerm {
   std::vector<int> active(const Positions& x) const override;
   bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
   bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
+  void evaluate_pack(const StencilPack& which, int count, const Positions& x, double blend, WantedVertices wanted,
+                     PackedBlocks& out) const override;
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 

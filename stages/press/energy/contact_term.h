@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "stages/press/energy/contact_packs.h"
 #include "stages/press/energy/energy_term.h"
 
 namespace tacipc {
@@ -30,6 +31,10 @@ class ContactTerm : public EnergyTerm {
   /// written, where the stencil vanishes.
   virtual bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted,
                                 PairLocal& out) const = 0;
+
+  /// The same for eight stencils of one kind, for vertices of one primitive; the first `count` stencils count.
+  virtual void evaluate_pack(const StencilPack& which, int count, const Positions& x, double blend,
+                             WantedVertices wanted, PackedBlocks& out) const = 0;
 };
 
 }  // namespace tacipc

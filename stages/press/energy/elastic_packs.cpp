@@ -14,21 +14,11 @@ struct Deformation {
   Pack J;
 };
 
-TACIPC_INLINE Pack3 load(const double* x, const std::array<int, kLanes>& vertices) {
-  Pack3 out;
-  for (int l = 0; l < kLanes; ++l) {
-    const double* row = x + 3 * static_cast<std::ptrdiff_t>(vertices[l]);
-    out.x[l] = row[0];
-    out.y[l] = row[1];
-    out.z[l] = row[2];
-  }
-  return out;
-}
-
 TACIPC_INLINE Deformation deformation(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
                                       const Pack3* b) {
-  const Pack3 x0 = load(x, vertices[0]);
-  const Pack3 e1 = load(x, vertices[1]) - x0, e2 = load(x, vertices[2]) - x0, e3 = load(x, vertices[3]) - x0;
+  const Pack3 x0 = load_rows(x, vertices[0]);
+  const Pack3 e1 = load_rows(x, vertices[1]) - x0, e2 = load_rows(x, vertices[2]) - x0,
+              e3 = load_rows(x, vertices[3]) - x0;
   Deformation d;
   d.row[0] = e1.x * b[0] + e2.x * b[1] + e3.x * b[2];
   d.row[1] = e1.y * b[0] + e2.y * b[1] + e3.y * b[2];

@@ -41,7 +41,8 @@ Elasticity::Elasticity(const Elasticity& whole, const std::vector<int>& which)
   }
   std::vector<int> order(which.size());
   std::iota(order.begin(), order.end(), 0);
-  if (const auto* neo_hookean = std::get_if<NeoHookean>(&law_)) packs_.emplace(tets_, rest_, *neo_hookean, order, *rank_);
+  if (const auto* neo_hookean = std::get_if<NeoHookean>(&law_))
+    packs_.emplace(tets_, rest_, *neo_hookean, order, *rank_);
 }
 
 double Elasticity::value(const Positions& x) const { return packs_ ? packs_->value(x) : EnergyTerm::value(x); }

@@ -141,4 +141,79 @@ void Friction::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out
   if (order >= Order::hessian) out.hessian = local.hessian;
 }
 
+namespace {
+
+/// What eight pairs bring along, side by side.
+struct PackedFriction {
+  Pack weights[4];
+  Pack3 tangents[2], start;
+  Pack normal_force;
+};
+
+/// evaluate_blended lane by lane.
+TACIPC_CLONES void evaluate_lanes(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
+                                  const PackedFriction& pair, double epsilon, double blend, WantedVertices wanted,
+                                  PackedBlocks& out) {
+  const Pack none = {}, one = none + 1.0;
+  Pack3 moved = Pack3{} - pair.start;
+  for (int k = 0; k < 4; ++k) moved = moved + pair.weights[k] * load_rows(x, vertices[k]);
+  const Pack u0 = dot(pair.tangents[0], moved), u1 = dot(pair.tangents[1], moved), squared = u0 * u0 + u1 * u1;
+  Pack y;
+  for (int l = 0; l < kLanes; ++l) y[l] = std::sqrt(squared[l]);
+  const Pack r = y / epsilon;
+  const Pack sticks = one - r;
+  const Pack part_over_y = choose(sticks, (2.0 - r) / epsilon, one / y);
+  const Pack slope = choose(sticks, 2.0 * sticks / epsilon, none);
+  const Pack majorant = part_over_y * choose(pair.normal_force, one, none + (1.0 - blend));
+  const Pack outer = choose(squared, (1.0 - blend) * (slope - part_over_y) / squared, none);
+  const Pack inner00 = pair.normal_force * (majorant + outer * u0 * u0), inner01 = pair.normal_force * outer * u0 * u1,
+             inner11 = pair.normal_force * (majorant + outer * u1 * u1);
+  const Pack3 &t0 = pair.tangents[0], &t1 = pair.tangents[1];
+  const Pack3 force = (pair.normal_force * part_over_y) * (u0 * t0 + u1 * t1);
+  // T inner Tᵀ by columns.
+  const Pack3 i0 = inner00 * t0 + inner01 * t1, i1 = inner01 * t0 + inner11 * t1;
+  const Pack3 columns[3] = {t0.x * i0 + t1.x * i1, t0.y * i0 + t1.y * i1, t0.z * i0 + t1.z * i1};
+  for (int b = 0; b < wanted.count; ++b) {
+    const Pack wb = pair.weights[wanted.first + b];
+    const Pack3 g = wb * force;
+    out.gradient[b][0] = g.x;
+    out.gradient[b][1] = g.y;
+    out.gradient[b][2] = g.z;
+    for (int a = b; a < wanted.count; ++a) {
+      const Pack ww = pair.weights[wanted.first + a] * wb;
+      Pack* block = out.blocks[block_index(a, b)];
+      for (int c = 0; c < 3; ++c) {
+        block[3 * c] = ww * columns[c].x;
+        block[3 * c + 1] = ww * columns[c].y;
+        block[3 * c + 2] = ww * columns[c].z;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void Friction::evaluate_pack(const StencilPack& which, int /*count*/, const Positions& x, double blend,
+                             WantedVertices wanted, PackedBlocks& out) const {
+  PackedFriction packed = {};
+  std::array<std::array<int, kLanes>, 4> vertices;
+  for (int l = 0; l < kLanes; ++l) {
+    const Pair& pair = pairs_[which[l]];
+    for (int k = 0; k < 4; ++k) {
+      vertices[k][l] = pair.vertices[k];
+      packed.weights[k][l] = pair.weights[k];
+    }
+    const auto put = [l](const Vector3& from, Pack3& to) {
+      to.x[l] = from.x();
+      to.y[l] = from.y();
+      to.z[l] = from.z();
+    };
+    put(pair.tangents.col(0), packed.tangents[0]);
+    put(pair.tangents.col(1), packed.tangents[1]);
+    put(pair.start, packed.start);
+    packed.normal_force[l] = pair.normal_force;
+  }
+  evaluate_lanes(x.data(), vertices, packed, epsilon_m_, blend, wanted, out);
+}
+
 }  // namespace tacipc

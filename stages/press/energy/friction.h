@@ -39,6 +39,8 @@ class Friction final : public ContactTerm {
   std::vector<int> active(const Positions& x) const override;  // all
   bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
   bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
+  void evaluate_pack(const StencilPack& which, int count, const Positions& x, double blend, WantedVertices wanted,
+                     PackedBlocks& out) const override;
 
   /// One pair's slide ‖u‖ / ε: below 1 it sticks.
   double relative_slide(int i, const Positions& x) const;
@@ -57,9 +59,9 @@ class Friction final : public ContactTerm {
   };
   /// Σ wᵢ (xᵢ − xᵢᵗ) in the tangent plane.
   static Eigen::Vector2d slide(const Pair& pair, const FourPoints& x);
-  /// ∂²/∂u² with (1 − blend) of what makes it less than its majorant f₁/y I.
   /// On the first side, for a slide by u.
   Vector3 force(const Pair& pair, const Eigen::Vector2d& u) const;
+  /// ∂²/∂u² with (1 − blend) of what makes it less than its majorant f₁/y I.
   Eigen::Matrix2d blended_inner(const Pair& pair, const Eigen::Vector2d& u, double blend) const;
 
   std::vector<Pair> pairs_;

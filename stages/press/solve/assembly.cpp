@@ -61,6 +61,8 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
   Eigen::VectorXd local_x;
   for (const int i : active) {
     const auto stencil = term.stencil(i);
+    // Of two sides only one is free: its vertices share an element.
+    if (free.free_of_vertex[stencil.front()] < 0 || free.free_of_vertex[stencil.back()] < 0) continue;
     bool covered = true;
     for (std::size_t a = 0; a < stencil.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
@@ -137,46 +139,17 @@ void scatter(std::span<const int> stencil, PairVertices wanted, const Local& loc
 
 }  // namespace
 
+void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairLocal& local, double weight,
+                  const FreeVertices& free, int first_object_vertex, const Positions& motion, NewtonSystem& system) {
+  scatter(stencil, wanted, local, weight, free, first_object_vertex, motion, system);
+}
+
 void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system) {
   for_each_local(
       *weighted.term, all_stencils(*weighted.term), x, order, [&](std::span<const int> stencil, const Local& local) {
         scatter(stencil, kAllPairVertices, local, weighted.weight, free, first_object_vertex, motion, system);
       });
-}
-
-void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
-                      const FreeVertices& free, int first_object_vertex, double blend, bool with_object,
-                      const Positions& motion, NewtonSystem& system) {
-  struct Found {
-    bool any;
-    PairVertices wanted;
-    PairLocal local;
-  };
-  const int count = static_cast<int>(active.size());
-  std::vector<Found> found(static_cast<std::size_t>(std::min(count, kChunk)));
-  for (int first = 0; first < count; first += kChunk) {
-    const int size = std::min(kChunk, count - first);
-    tbb::parallel_for(tbb::blocked_range<int>(0, size, 32), [&](const auto& range) {
-      for (int k = range.begin(); k < range.end(); ++k) {
-        const std::span<const int> v = term.stencil(active[first + k]);
-        Found& one = found[k];
-        one.wanted = 0;
-        for (int a = 0; a < 4; ++a) {
-          const bool kept = free.free_of_vertex[v[a]] >= 0 || (with_object && v[a] >= first_object_vertex);
-          one.wanted |= kept ? 1U << a : 0U;
-        }
-        one.any = one.wanted != 0 &&
-                  term.evaluate_blended(active[first + k], {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])}, blend,
-                                        one.wanted, one.local);
-      }
-    });
-    for (int k = 0; k < size; ++k) {
-      if (!found[k].any) continue;
-      scatter(term.stencil(active[first + k]), found[k].wanted, found[k].local, weight, free, first_object_vertex,
-              motion, system);
-    }
-  }
 }
 
 Positions gradient_of(const EnergyTerm& term, const Positions& x) {
@@ -200,8 +173,8 @@ Positions gradient_of(const EnergyTerm& term, const Positions& x) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active.size(), kChunk), [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
       const std::span<const int> v = term.stencil(active[k]);
-      found[k].any = contact->evaluate_gradient(
-          active[k], {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])}, found[k].gradient);
+      found[k].any = contact->evaluate_gradient(active[k], {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])},
+                                                found[k].gradient);
     }
   });
   for (std::size_t k = 0; k < active.size(); ++k) {

@@ -39,12 +39,9 @@ void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const
 void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system);
 
-/// The same for contact, with the blend of exact and positive Hessian that NewtonStepper::direction looks for. Blocks
-/// of the object are left out unless `with_object` (it moves or yields; what is free is never left out).
-/// `active`: the term's stencils that do not vanish at x.
-void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
-                      const FreeVertices& free, int first_object_vertex, double blend, bool with_object,
-                      const Positions& motion, NewtonSystem& system);
+/// Adds the derivatives of one contact pair; only those of `wanted` vertices are there.
+void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairLocal& local, double weight,
+                  const FreeVertices& free, int first_object_vertex, const Positions& motion, NewtonSystem& system);
 
 /// Gradient of one term at every vertex, prescribed ones too, in the term's unit per metre.
 Positions gradient_of(const EnergyTerm& term, const Positions& x);

@@ -152,8 +152,9 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
   const int n = pattern.size();
   inverse_cholesky_.assign(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);
   for (int c = 0; c < n; ++c) {
-    if (!invert_cholesky(matrix.block(pattern.column_start[c]),
-                         BlockMatrix::Block(inverse_cholesky_.data() + BlockMatrix::kStride * static_cast<std::size_t>(c))))
+    if (!invert_cholesky(
+            matrix.block(pattern.column_start[c]),
+            BlockMatrix::Block(inverse_cholesky_.data() + BlockMatrix::kStride * static_cast<std::size_t>(c))))
       return false;
   }
   // One number more: the last column is loaded as four, too.

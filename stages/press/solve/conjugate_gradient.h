@@ -40,7 +40,7 @@ class ConjugateGradient final : public LinearSolver {
   std::vector<double> lower_;              // L, scaled: blocks below the diagonal, nine numbers each, column by column
   std::vector<double> inverse_cholesky_;   // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks
   std::vector<double> x_, r_, p_, t_, q_;  // of the last solve; their storage is used again
-  std::optional<CholmodSolver> direct_;     // once it is needed
+  std::optional<CholmodSolver> direct_;    // once it is needed
   std::int64_t products_ = 0;
   int factorized_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "common/error.h"
+#include "stages/press/solve/contact_assembly.h"
 
 namespace tacipc {
 namespace {
