@@ -56,6 +56,8 @@ PressConfig PressConfig::read(ConfigReader& in) {
       newton.choice_or("linear_solver", "conjugate_gradient", {"direct", "conjugate_gradient"}) == "direct"
           ? LinearSolverKind::direct
           : LinearSolverKind::conjugate_gradient;
+  config.adaptive_contact_hessian =
+      newton.choice_or("contact_hessian", "adaptive", {"adaptive", "positive"}) == "adaptive";
   config.patches = newton.flag_or("patches", true);
   config.max_newton_iterations = newton.integer_or("max_iterations", 200, 1);
   config.max_halvings = newton.integer_or("max_halvings", 5, 0, 20);

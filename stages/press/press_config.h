@@ -42,6 +42,7 @@ struct PressConfig {
   double relative_force_tolerance = 0.0;     // and residual forces below this part of the contact force
   double force_tolerance_n = 0.0;            // or below this
   LinearSolverKind linear_solver = LinearSolverKind::conjugate_gradient;
+  bool adaptive_contact_hessian = true;
   bool patches = true;            // Newton for the last few moving vertices alone
   int max_newton_iterations = 0;  // per time step; reaching it halves the step
   int max_halvings = 0;           // of a time step; reaching it is a failure

@@ -32,6 +32,7 @@ class Motion {
                    .relative_force_tolerance = config.relative_force_tolerance,
                    .force_tolerance_n = config.force_tolerance_n,
                    .max_iterations = config.max_newton_iterations,
+                   .adaptive_contact_hessian = config.adaptive_contact_hessian,
                    .patches = config.patches};
     if (config.barrier_stiffness) {
       out_.barrier_stiffness = *config.barrier_stiffness;

@@ -177,14 +177,18 @@ TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
     const std::vector<int> active = term->active(t.x);
     EXPECT_GT(active.size(), 50u);
     for (const double blend : {0.0, 0.3, 1.0}) {
-      for (const bool moves : {false, true}) {
-        const Positions& motion = moves ? t.motion : still;
+      for (const int how : {0, 1, 2}) {  // the object stands still, moves anyhow, or is shifted
+        const bool moves = how == 1;
+        Positions shifted = still;
+        shifted.bottomRows(Touching::kAll - Touching::kGel).rowwise() = Eigen::RowVector3d(0.1, -0.2, 0.3);
+        const Positions& motion = how == 0 ? still : moves ? t.motion : shifted;
         NewtonSystem exact;
         clear(exact, free, pattern);
         NewtonSystem positive = exact, blended = exact;
         assemble({2.0, term}, t.x, free, Touching::kGel, Order::hessian, motion, exact);
         assemble({2.0, term}, t.x, free, Touching::kGel, Order::psd, motion, positive);
-        assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, blend, moves, motion, blended);
+        assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, blend,
+                         {motion, moves, how == 2 ? Vector3(shifted.row(Touching::kGel)) : Vector3::Zero()}, blended);
         NewtonSystem expected = exact;
         const auto mix = [&](auto& to, const auto& a, const auto& b) { to = (1.0 - blend) * a + blend * b; };
         for (std::size_t k = 0; k < expected.hessian.values.size(); ++k)
@@ -194,6 +198,11 @@ TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
         mix(expected.object_hessian, exact.object_hessian, positive.object_hessian);
         mix(expected.object_coupling, exact.object_coupling, positive.object_coupling);
         if (!moves) {  // what nobody asks for
+          blended.object_gradient.setZero();
+          blended.object_border.setZero();
+          blended.object_hessian.setZero();
+          blended.object_coupling.setZero();
+          expected.object_coupling.setZero();
           expected.object_border.setZero();
           expected.object_hessian.setZero();
           expected.object_gradient.setZero();

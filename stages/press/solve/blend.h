@@ -9,10 +9,14 @@ namespace tacipc {
 /// works; more where the Hessian turned out not to be positive definite, or a step was too long for the energy.
 class Blend {
  public:
+  /// All of the stand-in, always, unless adaptive.
+  explicit Blend(bool adaptive = true) : adaptive_(adaptive) {}
+
   double share() const { return share_; }
 
   /// A step with this share was found at once, or only after trying less.
   void found(bool at_once) {
+    if (!adaptive_) return;
     boldness_ = std::clamp(at_once ? kBolder * boldness_ : kShyer * boldness_, kLeastBoldness, kMostBoldness);
     share_ = share_ > kFirst ? share_ / boldness_ : 0.0;
   }
@@ -29,6 +33,7 @@ class Blend {
   static constexpr double kMostBoldness = 8.0;
   static constexpr double kBolder = 1.4;
   static constexpr double kShyer = 0.5;
+  bool adaptive_;
   double share_ = 1.0, boldness_ = kMostBoldness;
 };
 

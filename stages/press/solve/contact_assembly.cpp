@@ -62,14 +62,23 @@ TACIPC_CLONES void add_lanes(const PackedBlocks& from, int lanes, int vertices, 
   }
 }
 
-void scatter(const Sum& sum, double weight, const FreeVertices& free, NewtonSystem& system) {
+void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vector3& shift, NewtonSystem& system) {
   const BlockPattern& pattern = *system.hessian.pattern;
+  const bool moves = shift != Vector3::Zero();
   for (int b = 0; b < sum.count; ++b) {
     const int j = free.free_of_vertex[sum.vertices[b]];
     for (int c = 0; c < 3; ++c) system.gradient[3 * j + c] += weight * sum.gradient[b][c];
     for (int a = b; a < sum.count; ++a) {
       const int i = free.free_of_vertex[sum.vertices[a]];
       const auto& columns = sum.blocks[block_index(a, b)];
+      if (moves) {
+        for (int r = 0; r < 3; ++r) {
+          for (int c = 0; c < 3; ++c) {
+            system.coupling[3 * i + r] -= weight * columns[c][r] * shift[c];
+            if (a != b) system.coupling[3 * j + c] -= weight * columns[c][r] * shift[r];
+          }
+        }
+      }
       if (i >= j) {
         double* block = system.hessian.block(pattern.find(i, j)).data();
         for (int c = 0; c < 3; ++c) store_quad(block + 4 * c, load_quad(block + 4 * c) + weight * columns[c]);
@@ -86,8 +95,9 @@ void scatter(const Sum& sum, double weight, const FreeVertices& free, NewtonSyst
 }  // namespace
 
 void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
-                      const FreeVertices& free, int first_object_vertex, double blend, bool with_object,
-                      const Positions& motion, NewtonSystem& system) {
+                      const FreeVertices& free, int first_object_vertex, double blend, const ObjectMotion& motion,
+                      NewtonSystem& system) {
+  const bool with_object = motion.in_full || motion.shift != Vector3::Zero();
   const auto evaluate_single = [&](int stencil, std::vector<Single>& out) {
     const std::span<const int> v = term.stencil(stencil);
     PairVertices wanted = 0;
@@ -104,7 +114,7 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
   const auto evaluate = [&](std::size_t first, std::size_t last, Chunk& out) {
     while (first < last) {
       const auto primitive =
-          with_object ? std::nullopt : gel_primitive(term.stencil(active[first]), free, first_object_vertex);
+          motion.in_full ? std::nullopt : gel_primitive(term.stencil(active[first]), free, first_object_vertex);
       if (!primitive) {
         evaluate_single(active[first++], out.singles);
         continue;
@@ -143,10 +153,10 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
       evaluate(begin, std::min(active.size(), begin + kChunk), chunks[k]);
     });
     for (const Chunk& chunk : chunks) {
-      for (const Sum& sum : chunk.sums) scatter(sum, weight, free, system);
+      for (const Sum& sum : chunk.sums) scatter(sum, weight, free, motion.shift, system);
       for (const Single& one : chunk.singles)
-        scatter_pair(term.stencil(one.stencil), one.wanted, one.local, weight, free, first_object_vertex, motion,
-                     system);
+        scatter_pair(term.stencil(one.stencil), one.wanted, one.local, weight, free, first_object_vertex,
+                     motion.of_vertices, system);
     }
   }
 }

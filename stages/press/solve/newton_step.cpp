@@ -9,6 +9,8 @@
 namespace tacipc {
 namespace {
 
+constexpr double kSameShift = 1e-10;  // relative: the object's vertices are moved from rounded place to rounded place
+
 /// Σᵢ |row i| of a vector of stacked triples.
 double sum_of_norms(const Eigen::VectorXd& stacked) {
   double sum = 0.0;
@@ -81,7 +83,12 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
     active.push_back(part.contact->active(x));
     pattern_ = cover_contacts(pattern_, free_, *part.contact, active.back(), x);
   }
-  const bool with_object = !yielding.empty() || (motion.array() != 0.0).any();
+  const auto of_object = motion.bottomRows(motion.rows() - first_object_vertex_);
+  const Vector3 shift = of_object.rows() > 0 ? Vector3(of_object.row(0)) : Vector3::Zero();
+  const bool rigid_shift = of_object.rows() == 0 || (of_object.rowwise() - shift.transpose()).cwiseAbs().maxCoeff() <=
+                                                        kSameShift * shift.cwiseAbs().maxCoeff();
+  const bool in_full = !yielding.empty() || !rigid_shift;
+  const ObjectMotion object{motion, in_full, in_full ? Vector3::Zero() : shift};
   // The derivatives of everything, elasticity in this order, contact and friction with this share of the stand-in.
   const auto system_with = [&](Order elastic, double share) -> const NewtonSystem& {
     timed(times_.elastic_s, [&] {
@@ -100,8 +107,7 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
     auto which = active.begin();
     for (const WeightedTerm& part : potential.terms) {
       if (part.contact)
-        assemble_contact(part.weight, *part.contact, *which++, x, free_, first_object_vertex_, share, with_object,
-                         motion, system_);
+        assemble_contact(part.weight, *part.contact, *which++, x, free_, first_object_vertex_, share, object, system_);
     }
     return system_;
   };

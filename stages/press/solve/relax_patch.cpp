@@ -50,7 +50,8 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
     const NewtonDirection local =
         newton.direction(energy, step.x, still, {}, std::numeric_limits<double>::infinity(), blend);
     const double longest = std::sqrt(local.p.rowwise().squaredNorm().maxCoeff());
-    if (longest < kEnough * enough && local.blend == 0.0) break;
+    const bool exact = local.blend == 0.0 || !settings_.newton.adaptive_contact_hessian;
+    if (longest < kEnough * enough && exact) break;
     double alpha = 1.0;
     // No further than the pairs at hand are all there are.
     for (const int v : patch.free.vertex_of_free) {

@@ -20,7 +20,7 @@ struct TimeStepper::Step {
   StepReport report = {};
   std::shared_ptr<const Friction> friction = nullptr;
   std::shared_ptr<const Dirichlet> constraint = nullptr;
-  Blend blend = {};        // of NewtonStepper::direction, once the object has arrived
+  Blend blend = Blend();   // of NewtonStepper::direction, once the object has arrived
   double looseness = 1.0;  // of the tolerances, while friction is still to be renewed
 };
 

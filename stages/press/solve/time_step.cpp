@@ -127,7 +127,7 @@ void TimeStepper::minimise(Step& step) {
       motion.bottomRows(mesh_.num_object_vertices) =
           (step.goal.object_target - x.bottomRows(mesh_.num_object_vertices)).rowwise() + step.yield.transpose();
     }
-    Blend leaning = step.arrived ? step.blend : Blend();
+    Blend leaning = step.arrived ? step.blend : Blend(newton.adaptive_contact_hessian);
     // Far from the end the direction need not be exact: the next differs from it by more.
     newton_.set_tolerance(last_residual > kFar * newton.velocity_tolerance_m_s ? kRoughDirection : kFineDirection);
     const double longest = moving ? std::numeric_limits<double>::infinity() : kTooLong * last_residual * h;
@@ -150,7 +150,8 @@ void TimeStepper::minimise(Step& step) {
           step.looseness * std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n);
       // A stand-in shortens steps: a vertex on the crest of one of the object's edges looks at rest by them. With the
       // exact Hessian it would not, so that is waited for, a while.
-      if (done && (direction.blend == 0.0 || step.looseness > 1.0 || ++waited > kMaxWait)) return;
+      const bool exact = direction.blend == 0.0 || !newton.adaptive_contact_hessian;
+      if (done && (exact || step.looseness > 1.0 || ++waited > kMaxWait)) return;
     }
 
     std::vector<ContactPair> pairs = pairs_along(x, direction.p);
@@ -240,6 +241,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   search_.forget();
 
   Step step{.goal = goal, .observe = observe, .start = state.x, .x = state.x};
+  step.blend = Blend(settings_.newton.adaptive_contact_hessian);
   step.report.time_steps = 1;
   step.arrived = (state.x.bottomRows(mesh_.num_object_vertices) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
   step.weights = {.h_s = h,

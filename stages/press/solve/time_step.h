@@ -18,6 +18,7 @@ struct NewtonSettings {
   double relative_force_tolerance = 5e-4;  // … if residual forces also sum to less than this part of the contact force
   double force_tolerance_n = 1e-5;         // … or to less than this
   int max_iterations = 200;                // reaching it is a failure
+  bool adaptive_contact_hessian = true;    // between its positive stand-in and the exact one, else the stand-in
   bool patches = true;                     // where only a few vertices still move, solves for them alone in between
 };
 
