@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kFast = "fast";
 constexpr const char* kDirect = "direct";
+constexpr const char* kPlain = "plain";
 
 const Run* find(const std::vector<Run>& runs, const std::string& text) {
   const auto found = std::find_if(runs.begin(), runs.end(), [&](const Run& run) { return run.text == text; });
@@ -20,24 +21,32 @@ const Run* find(const std::vector<Run>& runs, const std::string& text) {
 
 std::string routes_table(const std::vector<Run>& runs) {
   std::string out =
-      "| Scene | Gel vertices | Route | CPU s | Whole-gel iterations | Patch iterations | Linear systems | Products "
+      "| Scene | Gel vertices | Route | CPU s | Less than | Whole-gel iterations | Patch iterations | Linear systems | "
+      "Products "
       "each | "
-      "Peak memory, MB | Force, N | Apart: largest, rms, force |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "Peak memory, MB | Force, N | Apart: largest, rms, force |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Run& run : runs) {
     if (!run.name.how.empty()) continue;
     const Run* direct = run.name.route == kFast ? find(runs, run.name.with_route(kDirect)) : nullptr;
+    const Run* plain = run.name.route == kFast ? find(runs, run.name.with_route(kPlain)) : nullptr;
     std::string apart = "", times = "";
+    const auto less_than = [&](const Run* other, const char* route) {
+      if (other)
+        times += fmt::format("{}{:.1f} × *{}*", times.empty() ? "" : ", ",
+                             run.processor_s > 0 ? other->processor_s / run.processor_s : 0.0, route);
+    };
+    less_than(direct, kDirect);
+    less_than(plain, kPlain);
     if (direct) {
-      times = fmt::format(" ({:.1f} × less)", direct->processor_s / run.processor_s);
       if (const auto d = difference(run, *direct))
         apart = fmt::format("{:.2g} µm, {:.2g} µm, {:+.3f} %", 1e6 * d->largest_m, 1e6 * d->rms_m, 100.0 * d->force);
     }
     const double systems = run.parts.at("linear_systems"), products = run.parts.at("products");
-    out +=
-        fmt::format("| {} {} | {} | {} | {:.1f}{} | {} | {} | {:.0f} | {} | {:.0f} | {:.4f} | {} |\n", run.name.object,
-                    run.name.motion, run.gel_vertices, run.name.route, run.processor_s, times, run.newton(),
-                    run.patch(), systems, products > 0 ? fmt::format("{:.0f}", products / systems) : "factor",
-                    run.peak_memory_mb, run.press_force_n, apart);
+    out += fmt::format("| {} {} | {} | {} | {:.1f} | {} | {} | {} | {:.0f} | {} | {:.0f} | {:.4f} | {} |\n",
+                       run.name.object, run.name.motion, run.gel_vertices, run.name.route, run.processor_s, times,
+                       run.newton(), run.patch(), systems,
+                       products > 0 ? fmt::format("{:.0f}", products / systems) : "factor", run.peak_memory_mb,
+                       run.press_force_n, apart);
   }
   return out;
 }
@@ -85,17 +94,18 @@ std::string how_table(const std::vector<Run>& runs) {
 
 std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor) {
   return "# What a press costs\n\nMade by `make -f Makefile.data bench-press` on " + processor +
-         ", one process and one thread where nothing else is said: 0.5 mm in five frames into the MC-Tac gel, then for "
-         "*shear* 0.5 mm sideways in ten, with friction. Gels are the paper's mesh with its lengths scaled "
-         "(`configs/benchmarks/`). BENCH_GELS= and the other variables of `pipelines/bench.mk` choose what is "
-         "measured. What the routes do: [press](press.md).\n\n## Routes\n\n" +
+         ", one process and one thread where nothing else is said. *press*: 0.5 mm in five frames into the MC-Tac gel, "
+         "friction 0.5 with one lag per step, d̂ 10⁻³, κ 10⁵; *shear*: then 1 mm sideways in twenty frames; *settled*: "
+         "friction renewed until it belongs to its own forces; *tight*: a tenth of the tolerances; *thin*: a fifth of "
+         "d̂, κ × 125. Gels are the paper's mesh with its lengths scaled, the scenes are `configs/benchmarks/*.yaml`; "
+         "`BENCH_GELS=` and the other variables of `pipelines/bench.mk` choose what is measured.\n\n## Routes\n\n" +
          routes_table(runs) +
-         "\n*direct* factorises every system (CHOLMOD, METIS, one symbolic analysis) and solves for the whole gel in "
-         "every "
-         "iteration; *fast* is the default. Both share search, derivatives, step limits and line search. *Apart*: gel "
-         "vertices in the last frame, and the press force, against *direct*. *Products each*: matrix–vector products "
-         "for a "
-         "linear system.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
+         "\n*fast* is the default. *direct* factorises every linear system instead (CHOLMOD, METIS, one symbolic "
+         "analysis) "
+         "and is the same in all else. *plain* is projected Newton as usual: factorised, for the whole gel in every "
+         "iteration, with the positive Hessian of contact (`newton.contact_hessian: positive`). *Apart*: gel vertices "
+         "in the last frame, and the press force, against *direct*. *Products each*: sweeps of conjugate gradients for "
+         "a linear system.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
          "\n## Where the time goes\n\nShares of the wall time.\n\n" +
          parts_table(runs) + "\n## Threads and processes\n\n" + how_table(runs) +
          fmt::format(
@@ -113,7 +123,7 @@ std::string bench_svg(const std::vector<Run>& runs) {
     const std::string label = run.name.object + ", " + run.name.route;
     auto& curve = curves[label];
     curve.label = label;
-    curve.dots = run.name.route == kDirect;
+    curve.dots = run.name.route != kFast;
     curve.points.emplace_back(run.gel_vertices, run.processor_s);
   }
   verify::Plot plot{

@@ -30,7 +30,9 @@ int main(int argc, char** argv) {
     std::vector<bench::Run> runs, fast;
     for (const auto& folder : stage.inputs("--press")) {
       runs.push_back(bench::read_run(folder));
-      if (runs.back().name.route == "fast" && runs.back().name.how.empty()) fast.push_back(runs.back());
+      const auto& name = runs.back().name;
+      const bool usual = name.motion == "press" || name.motion == "shear";
+      if (usual && name.route == "fast" && name.how.empty()) fast.push_back(runs.back());
     }
     if (fast.size() < 4) throw DataError("{} presses by the fast route: the cost model needs four", fast.size());
     const bench::CostModel model = bench::fit_cost_model(fast);

@@ -3,18 +3,14 @@
 # The coin of the paper's release is measured too where SHARED has it.
 
 BENCH := $(OUT)/bench
-BENCH_GELS ?= 3k 12k 24k 50k 100k#     of configs/benchmarks/gel_*.yaml
-BENCH_DIRECT_GELS ?= 3k 12k 24k#       by factorisation too,
+BENCH_GELS ?= 3k 12k 24k 50k 100k#     of configs/benchmarks/gel_*.yaml, pressed;
+BENCH_SHEAR_GELS ?= 3k 12k 24k#        sheared,
+BENCH_DIRECT_GELS ?= 3k 12k 24k#       pressed with every system factorised
 BENCH_OBJECTS := sphere coin weave $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)
-BENCH_MOTIONS := press shear
-BENCH_DIRECT_OBJECTS ?= $(BENCH_OBJECTS)#  with these objects
-BENCH_DIRECT_MOTIONS ?= $(BENCH_MOTIONS)#  and motions
-bench_config_press_fast := configs/press/paper.yaml
-bench_config_press_direct := configs/benchmarks/press_direct.yaml
-bench_config_shear_fast := configs/press/friction.yaml
-bench_config_shear_direct := configs/benchmarks/shear_direct.yaml
-bench_sample_press := configs/samples/press_0500um.yaml
-bench_sample_shear := configs/samples/shear_0500um.yaml
+BENCH_SHEAR_OBJECTS ?= $(BENCH_OBJECTS)#  sheared,
+BENCH_DIRECT_OBJECTS ?= sphere coin#      compared with other routes and in other scenes
+bench_config = configs/benchmarks/$(if $(filter shear,$(1)),press,$(1))_$(2).yaml
+bench_sample = configs/$(if $(filter shear,$(1)),benchmarks/shear,samples/press_0500um).yaml
 bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_indenter.yaml,configs/objects/embossed.yaml)
 
 .PHONY: build-bench
@@ -38,8 +34,8 @@ bench_object_record = $(BENCH)/objects/$(1)/$(if $(filter sphere,$(1)),bench_obj
 
 # $(call bench_press,gel,object,motion,route): flags of one press.
 bench_press = --gel $(BENCH)/gels/$(1)/gel.msh --object $(BENCH)/objects/$(2)/object.ply $(if $(filter-out sphere,$(2)),--object-config $(call bench_object_config,$(2))) \
-  --sensor configs/sensors/mctac.yaml --config $(bench_config_$(3)_$(4)) --sample $(bench_sample_$(3))
-bench_needs = $(BENCH)/gels/$(1)/tetmesh.yaml $(call bench_object_record,$(2)) $(bench_config_$(3)_$(4)) $(bench_sample_$(3)) configs/sensors/mctac.yaml
+  --sensor configs/sensors/mctac.yaml --config $(call bench_config,$(3),$(4)) --sample $(call bench_sample,$(3))
+bench_needs = $(BENCH)/gels/$(1)/tetmesh.yaml $(call bench_object_record,$(2)) $(call bench_config,$(3),$(4)) $(call bench_sample,$(3)) configs/sensors/mctac.yaml
 
 # One thread, one process.
 define bench_rule
@@ -48,8 +44,10 @@ $(BENCH)/runs/$(1)-$(2)-$(3)-$(4)/press.yaml: $(call bench_needs,$(1),$(2),$(3),
 BENCH_RUNS += $(BENCH)/runs/$(1)-$(2)-$(3)-$(4)
 endef
 BENCH_RUNS :=
-$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(foreach m,$(BENCH_MOTIONS),$(eval $(call bench_rule,$(g),$(o),$(m),fast)))))
-$(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach m,$(BENCH_DIRECT_MOTIONS),$(eval $(call bench_rule,$(g),$(o),$(m),direct)))))
+$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,fast))))
+$(foreach g,$(BENCH_SHEAR_GELS),$(foreach o,$(BENCH_SHEAR_OBJECTS),$(eval $(call bench_rule,$(g),$(o),shear,fast))))
+$(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,direct))))
+$(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach r,press-plain settled-fast tight-fast tight-direct thin-fast,$(eval $(call bench_rule,24k,$(o),$(word 1,$(subst -, ,$(r))),$(word 2,$(subst -, ,$(r)))))))
 # One press of 50k vertices by factorisation.
 $(if $(filter 50k,$(BENCH_GELS)),$(eval $(call bench_rule,50k,sphere,press,direct)))
 
@@ -74,5 +72,5 @@ bench-page: $(BENCH)/page/bench_table.yaml
 	@cat docs/performance.md
 
 # One after the other, whatever JOBS says: what runs beside a press is measured with it.
-bench-press: | build build-bench ## What a press costs, by route, size, object and motion (hours; BENCH_GELS=, BENCH_DIRECT_GELS=); writes docs/performance.md and the cost model
+bench-press: | build build-bench ## What a press costs, by route, size, object and motion (an hour; BENCH_GELS= and others); writes docs/performance.md and the cost model
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1

@@ -50,7 +50,7 @@ std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const
       }
     }
   }
-  return std::make_shared<BlockPattern>(make_block_pattern(free.size(), std::move(pairs)));
+  return std::make_shared<BlockPattern>(make_block_pattern(free.size(), pairs));
 }
 
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
@@ -86,7 +86,7 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
     for (int k = pattern->column_start[c]; k < pattern->column_start[c + 1]; ++k)
       missing.push_back({c, pattern->row[k]});
   }
-  return std::make_shared<BlockPattern>(make_block_pattern(pattern->size(), std::move(missing)));
+  return std::make_shared<BlockPattern>(make_block_pattern(pattern->size(), missing));
 }
 
 void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern) {

@@ -27,7 +27,7 @@ class Blend {
 
  private:
   static constexpr double kFirst = 0.1;
-  static constexpr double kGrowth = 3.0;
+  static constexpr double kGrowth = 6.0;
   static constexpr double kAfterShortening = 0.1;
   static constexpr double kLeastBoldness = 1.5;
   static constexpr double kMostBoldness = 8.0;

@@ -61,18 +61,24 @@ int BlockPattern::find(int r, int column) const {
   return found != last && *found == r ? static_cast<int>(found - row.begin()) : -1;
 }
 
-BlockPattern make_block_pattern(int size, std::vector<std::array<int, 2>> pairs) {
-  for (auto& pair : pairs) pair = {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};  // column, row
-  for (int i = 0; i < size; ++i) pairs.push_back({i, i});
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs) {
+  // Sorted by column first, which takes no comparisons, then within each column.
+  std::vector<int> start(static_cast<std::size_t>(size) + 1, 0);
+  for (const auto& [a, b] : pairs) ++start[std::min(a, b) + 1];
+  for (int c = 0; c < size; ++c) start[c + 1] += start[c];
+  std::vector<int> rows(pairs.size()), next(start.begin(), start.end() - 1);
+  for (const auto& [a, b] : pairs) rows[next[std::min(a, b)]++] = std::max(a, b);
   BlockPattern pattern;
-  pattern.column_start.assign(static_cast<std::size_t>(size) + 1, 0);
-  for (const auto& [column, r] : pairs) {
-    ++pattern.column_start[column + 1];
-    pattern.row.push_back(r);
+  pattern.column_start.push_back(0);
+  for (int c = 0; c < size; ++c) {
+    const auto first = rows.begin() + start[c], last = rows.begin() + start[c + 1];
+    std::sort(first, last);
+    pattern.row.push_back(c);
+    for (auto it = first, end = std::unique(first, last); it != end; ++it) {
+      if (*it != c) pattern.row.push_back(*it);
+    }
+    pattern.column_start.push_back(pattern.num_blocks());
   }
-  for (int c = 0; c < size; ++c) pattern.column_start[c + 1] += pattern.column_start[c];
   return pattern;
 }
 

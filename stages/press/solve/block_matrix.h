@@ -34,7 +34,7 @@ struct BlockPattern {
 };
 
 /// Pattern with every diagonal block and every listed pair of free vertices (in any order, repeated or not).
-BlockPattern make_block_pattern(int size, std::vector<std::array<int, 2>> pairs);
+BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs);
 
 struct BlockMatrix {
   /// Numbers per block: three columns of three and a zero, so that a column is one load.

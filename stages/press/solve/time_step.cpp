@@ -88,16 +88,15 @@ SolverTimes TimeStepper::times() const {
   return all;
 }
 
-double TimeStepper::contact_force(const Step& step) {
+double TimeStepper::contact_force(const IncrementalPotential& energy, const Positions& x) const {
   const Eigen::Index n = mesh_.num_gel_vertices;
-  const auto sum = [&](const EnergyTerm& term) -> Eigen::RowVector3d {
-    return gradient_of(term, step.x).topRows(n).colwise().sum();
-  };
-  const Eigen::RowVector3d normal = sum(barrier(pairs_at(step.x)));
-  const Eigen::RowVector3d friction = step.friction
-                                          ? Eigen::RowVector3d(settings_.friction->coefficient * sum(*step.friction))
-                                          : Eigen::RowVector3d::Zero();
-  return settings_.barrier_stiffness_j_m4 * std::min(normal.norm(), (normal + friction).norm());
+  Eigen::RowVector3d normal = Eigen::RowVector3d::Zero(), friction = normal;
+  for (const WeightedTerm& part : energy.terms) {
+    if (!part.contact) continue;
+    (part.term->name() == "barrier" ? normal : friction) =
+        part.weight * gradient_of(*part.term, x).topRows(n).colwise().sum();
+  }
+  return std::min(normal.norm(), (normal + friction).norm());
 }
 
 void TimeStepper::minimise(Step& step) {
@@ -119,7 +118,7 @@ void TimeStepper::minimise(Step& step) {
           "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N "
           "of {:.3e} N, smallest gap {:.2e} m)",
           newton.max_iterations, report.velocity_residual_m_s, newton.velocity_tolerance_m_s, report.force_residual_n,
-          contact_force(step), smallest_gap(x, settings_.d_hat_m));
+          contact_force(energy, x) / (h * h), smallest_gap(x, settings_.d_hat_m));
     }
     const bool moving = !step.arrived && relax == 0;
     Positions motion = still;
@@ -144,7 +143,7 @@ void TimeStepper::minimise(Step& step) {
     bool done = false;
     const bool held = !step.constraint || step.constraint->largest(direction.p) < 0.3 * kConstraintTolerance;
     if (step.arrived && held && last_residual < step.looseness * newton.velocity_tolerance_m_s) {
-      report.contact_force_n = contact_force(step);
+      report.contact_force_n = contact_force(energy, x) / (h * h);
       done =
           report.force_residual_n <
           step.looseness * std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n);

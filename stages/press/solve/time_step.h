@@ -132,9 +132,9 @@ class TimeStepper {
   ContactBarrier barrier(std::vector<ContactPair> pairs) const;
   std::vector<ContactPair> pairs_at(const Positions& x);                         // within d̂ now
   std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);  // or on the way from x to x + p
-  /// What residual forces are measured by: |Σ forces of the object on the gel|, with friction or without, whichever is
-  /// less (friction may carry most of the normal force, and what is left must balance too).
-  double contact_force(const Step& step);
+  /// What residual forces are measured by, × h²: |Σ forces of the object on the gel|, with friction or without,
+  /// whichever is less (friction may carry most of the normal force, and what is left must balance too).
+  double contact_force(const IncrementalPotential& energy, const Positions& x) const;
   IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
   void record_forces(const Step& step);
 
