@@ -97,7 +97,7 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
          ", one process and one thread where nothing else is said. *press*: 0.5 mm in five frames into the MC-Tac gel, "
          "friction 0.5 with one lag per step, d̂ 10⁻³, κ 10⁵; *shear*: then 1 mm sideways in twenty frames; *settled*: "
          "friction renewed until it belongs to its own forces; *tight*: a tenth of the tolerances; *thin*: a fifth of "
-         "d̂, κ × 125. Gels are the paper's mesh with its lengths scaled, the scenes are `configs/benchmarks/*.yaml`; "
+         "d̂, κ × 125; *stiff*: κ × 10, that of the paper. Gels are the paper's mesh with its lengths scaled, the scenes are `configs/benchmarks/*.yaml`; "
          "`BENCH_GELS=` and the other variables of `pipelines/bench.mk` choose what is measured.\n\n## Routes\n\n" +
          routes_table(runs) +
          "\n*fast* is the default. *direct* factorises every linear system instead (CHOLMOD, METIS, one symbolic "

@@ -6,7 +6,8 @@ BENCH := $(OUT)/bench
 BENCH_GELS ?= 3k 12k 24k 50k 100k#     of configs/benchmarks/gel_*.yaml, pressed;
 BENCH_SHEAR_GELS ?= 3k 12k 24k#        sheared,
 BENCH_DIRECT_GELS ?= 3k 12k 24k#       pressed with every system factorised
-BENCH_OBJECTS := sphere coin weave $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)
+BENCH_OBJECTS := sphere coin weave
+BENCH_RELEASED := $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)#  pressed with the paper's stiffness
 BENCH_SHEAR_OBJECTS ?= $(BENCH_OBJECTS)#  sheared,
 BENCH_DIRECT_OBJECTS ?= sphere coin#      compared with other routes and in other scenes
 bench_config = configs/benchmarks/$(if $(filter shear,$(1)),press,$(1))_$(2).yaml
@@ -45,6 +46,7 @@ BENCH_RUNS += $(BENCH)/runs/$(1)-$(2)-$(3)-$(4)
 endef
 BENCH_RUNS :=
 $(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,fast))))
+$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_RELEASED),$(eval $(call bench_rule,$(g),$(o),stiff,fast))))
 $(foreach g,$(BENCH_SHEAR_GELS),$(foreach o,$(BENCH_SHEAR_OBJECTS),$(eval $(call bench_rule,$(g),$(o),shear,fast))))
 $(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,direct))))
 $(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach r,press-plain settled-fast tight-fast tight-direct thin-fast,$(eval $(call bench_rule,24k,$(o),$(word 1,$(subst -, ,$(r))),$(word 2,$(subst -, ,$(r)))))))
