@@ -36,7 +36,7 @@ class ObjectSearch {
   std::int64_t num_looks() const { return num_looks_; }
 
  private:
-  /// One of the object's primitives and how far it was at most nearly.
+  /// One of the object's primitives, and how far away it was.
   struct Near {
     int other;
     float distance_m;
