@@ -23,8 +23,8 @@ const tacipc::StageSpec kPress{
     .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}},
     .resumable = true};
 
-/// Newton's method takes and leaves the same few megabytes again and again: given back to the system each time, a
-/// tenth of the run would go into getting zeroed pages.
+/// Newton's method takes and leaves the same few megabytes again and again: given back to the system each time,
+/// up to a tenth of the run would go into getting zeroed pages.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);

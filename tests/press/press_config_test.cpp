@@ -20,6 +20,20 @@ TEST(PressConfig, ShippedSettingsAreThePapers) {
   EXPECT_FALSE(config.friction);
 }
 
+TEST(PressConfig, ContactHessianIsAdaptiveUnlessNamed) {
+  const auto read = [](const std::string& newton) {
+    return config_from_text<PressConfig>(
+        "time_step_s: 0.01\nnewton: {" + newton + "}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6}\n", "x.yaml");
+  };
+  EXPECT_TRUE(read("").adaptive_contact_hessian);
+  EXPECT_TRUE(read("contact_hessian: adaptive").adaptive_contact_hessian);
+  EXPECT_FALSE(read("contact_hessian: positive").adaptive_contact_hessian);
+  EXPECT_THAT(faults_in<PressConfig>("time_step_s: 0.01\nnewton: {contact_hessian: exact}\n"
+                                     "barrier: {relative_d_hat: 1e-3, stiffness: 1e6}\n",
+                                     "x.yaml"),
+              ElementsAre("x.yaml:2:27: newton.contact_hessian: 'exact' is not one of adaptive, positive"));
+}
+
 TEST(PressConfig, StartGapMustExceedDHat) {
   EXPECT_THAT(
       faults_in<PressConfig>(

@@ -68,6 +68,22 @@ TEST(Simulate, ConjugateGradientEndsWhereTheFactorisationDoes) {
   EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-4 * std::abs(a.force_n.z()));
 }
 
+TEST(Simulate, PositiveContactHessianEndsWhereTheAdaptiveOneDoes) {
+  PressConfig config = paper_config();
+  config.relative_velocity_tolerance = 1e-5;
+  config.friction = FrictionConfig{.coefficient = 0.5, .relative_speed_threshold = 1e-3, .max_lag_iterations = 1};
+  const auto run = [&](bool adaptive) {
+    config.adaptive_contact_hessian = adaptive;
+    return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 2), "-z",
+                    ignore_progress);
+  };
+  const Simulation adaptive = run(true), positive = run(false);
+  const Frame &a = adaptive.frames.back(), &b = positive.frames.back();
+  EXPECT_GT((a.positions - b.positions).cwiseAbs().maxCoeff(), 0.0);  // on another way
+  EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-4 * std::abs(a.force_n.z()));
+}
+
 /// At the end of a step only the vertices at the pyramid's edges still move.
 TEST(Simulate, PatchesEndWhereTheWholeDoes) {
   PressConfig config = paper_config();

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "stages/press/solve/assembly.h"
+#include "stages/press/solve/blend.h"
 #include "stages/press/solve/conjugate_gradient.h"
 #include "stages/press/solve/step_limit.h"
 
@@ -107,6 +108,40 @@ TEST(ConjugateGradient, SaysWhenAMatrixIsNotPositiveDefinite) {
   Eigen::VectorXd b(6);
   b << 1, 0, 0, -1, 0, 0;
   EXPECT_FALSE(solver.solve(b).has_value());
+}
+
+TEST(Blend, LeansOnTheStandInAsLittleAsTheMatrixAllows) {
+  Blend blend;
+  EXPECT_EQ(blend.share(), 1.0);
+  double last = blend.share();
+  for (int i = 0; i < 3 && last > 0.0; ++i, last = blend.share()) {
+    blend.found(true);
+    EXPECT_LT(blend.share(), last / 5);
+  }
+  EXPECT_EQ(blend.share(), 0.0);
+  // Indefinite: back up until all of it is leaned on, and more carefully down than before.
+  blend.failed();
+  EXPECT_GT(blend.share(), 0.0);
+  for (int i = 0; i < 3; ++i) {
+    last = blend.share();
+    blend.failed();
+    EXPECT_TRUE(blend.share() > last || blend.share() == 1.0);
+  }
+  EXPECT_EQ(blend.share(), 1.0);
+  for (int i = 0; i < 10; ++i) blend.found(false);
+  while (blend.share() > 0.0) {
+    last = blend.share();
+    blend.found(false);
+    EXPECT_TRUE(blend.share() == 0.0 || blend.share() > last / 2);
+  }
+  blend.shortened(0.2);
+  EXPECT_GT(blend.share(), 0.2);
+}
+
+TEST(Blend, StaysWithTheStandInUnlessAdaptive) {
+  Blend blend(false);
+  for (int i = 0; i < 5; ++i) blend.found(true);
+  EXPECT_EQ(blend.share(), 1.0);
 }
 
 TEST(CubicStaysAbove, NeverSaysYesForACubicThatDips) {

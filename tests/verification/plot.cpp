@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kWidth = 480.0, kHeight = 320.0, kLeft = 62.0, kRight = 12.0, kTop = 28.0, kBottom = 44.0;
 constexpr double kLine = 14.0;  // of the labels of curves, below the plot
-constexpr std::array<const char*, 6> kColors{"#1f5fa8", "#c2571a", "#3a8a4a", "#7a4fa0", "#b0306a", "#7d6608"};
+constexpr std::array<const char*, 8> kColors{"#1f5fa8", "#c2571a", "#3a8a4a", "#7a4fa0",
+                                             "#b0306a", "#7d6608", "#4d9aa6", "#55555f"};
 
 std::string escaped(const std::string& text) {
   std::string out;

@@ -33,7 +33,7 @@ Matrix12 edge_cross_squared_norm_hessian(const FourPoints& x) {
 }
 
 double edge_edge_mollifier_threshold(const FourPoints& x_rest) {
-  return 1e-3 * (x_rest[1] - x_rest[0]).squaredNorm() * (x_rest[3] - x_rest[2]).squaredNorm();
+  return kMollifiedSine2 * (x_rest[1] - x_rest[0]).squaredNorm() * (x_rest[3] - x_rest[2]).squaredNorm();
 }
 
 double edge_edge_mollifier(double c, double epsilon) {

@@ -15,8 +15,10 @@ Vector12 edge_cross_squared_norm_gradient(const FourPoints& x);
 /// ∂²c/∂u² = 2 (|v|² I − v vᵀ), ∂²c/∂u∂v = 4 u vᵀ − 2 v uᵀ − 2 (u·v) I, ∂²c/∂v² = 2 (|u|² I − u uᵀ).
 Matrix12 edge_cross_squared_norm_hessian(const FourPoints& x);
 
-/// ε = 1e-3 |e_a|² |e_b|² of the edges at rest, in m⁴: mollified where sin² of the angle is below 1e-3 (1.8 degrees).
-/// [Li2020]
+/// sin² of the angle below which edges are mollified (1.8 degrees).   [Li2020]
+inline constexpr double kMollifiedSine2 = 1e-3;
+
+/// ε = kMollifiedSine2 |e_a|² |e_b|² of the edges at rest, in m⁴.
 double edge_edge_mollifier_threshold(const FourPoints& x_rest);
 
 /// m(c) = −(c/ε)² + 2 c/ε for c < ε, else 1; C¹ at ε.   [Li2020]

@@ -14,10 +14,13 @@ namespace {
 
 constexpr double kRoom = 0.25;  // of the radius, on each side
 
-bool share_vertex(int v, const std::array<int, 3>& t) { return v == t[0] || v == t[1] || v == t[2]; }
-
-bool share_vertex(const std::array<int, 2>& a, const std::array<int, 2>& b) {
-  return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+/// Adds the pair unless its two sides share a vertex.
+void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
+  const auto& v = pair.vertices;
+  const bool apart = pair.kind == ContactPair::Kind::point_triangle
+                         ? v[0] != v[1] && v[0] != v[2] && v[0] != v[3]
+                         : v[0] != v[2] && v[0] != v[3] && v[1] != v[2] && v[1] != v[3];
+  if (apart) out.push_back(pair);
 }
 
 /// Boxes around some of the primitives on their way from x to end, grown by `margin`.
@@ -100,13 +103,6 @@ void SelfSearch::search(const Positions& x, const Positions& p, double radius_m,
   fit(others_, x, end, margin);
 
   const Surface& gel = mesh_.gel;
-  const auto offer = [](const ContactPair& pair, std::vector<ContactPair>& candidates) {
-    const auto& v = pair.vertices;
-    const bool point_triangle = pair.kind == ContactPair::Kind::point_triangle;
-    if (point_triangle ? v[0] != v[1] && v[0] != v[2] && v[0] != v[3]
-                       : v[0] != v[2] && v[0] != v[3] && v[1] != v[2] && v[1] != v[3])
-      candidates.push_back(pair);
-  };
   // What is looked for, each in parts that can go at the same time.
   using Look = std::function<void(int part, std::vector<ContactPair>& candidates)>;
   std::vector<Look> looks;
@@ -188,10 +184,8 @@ void SelfSearch::around(const std::vector<bool>& moves, const Positions& x, doub
     if (!moves[v]) continue;
     const Box box = grown(box_around(x, std::array<int, 1>{v}), margin);
     for (const Part* part : parts) {
-      part->triangle_tree.query(box, [&](int j) {
-        const auto& t = gel.triangles[part->triangles[j]];
-        if (!share_vertex(v, t)) out.push_back(point_triangle_pair(v, t));
-      });
+      part->triangle_tree.query(box,
+                                [&](int j) { offer(point_triangle_pair(v, gel.triangles[part->triangles[j]]), out); });
     }
   }
   for (const auto& t : gel.triangles) {
@@ -200,7 +194,7 @@ void SelfSearch::around(const std::vector<bool>& moves, const Positions& x, doub
     for (const Part* part : parts) {
       part->vertex_tree.query(box, [&](int j) {
         const int v = gel.vertices[part->vertices[j]];
-        if (!moves[v] && !share_vertex(v, t)) out.push_back(point_triangle_pair(v, t));
+        if (!moves[v]) offer(point_triangle_pair(v, t), out);
       });
     }
   }
@@ -212,7 +206,7 @@ void SelfSearch::around(const std::vector<bool>& moves, const Positions& x, doub
       part->edge_tree.query(box, [&](int k) {
         const int j = part->edges[k];
         const auto& f = gel.edges[j];
-        if ((i < j || !moving(f)) && !share_vertex(e, f)) out.push_back(edge_edge_pair(e, f));
+        if (i < j || !moving(f)) offer(edge_edge_pair(e, f), out);
       });
     }
   }

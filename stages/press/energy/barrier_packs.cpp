@@ -1,6 +1,7 @@
 // ContactBarrier's derivatives for eight pairs at a time.
 #include <cmath>
 
+#include "stages/press/contact/edge_edge_mollifier.h"
 #include "stages/press/contact/packed_feature.h"
 #include "stages/press/energy/contact_barrier.h"
 
@@ -20,7 +21,7 @@ TACIPC_INLINE unsigned to_be_looked_at(const PackedPoints& p, const double* rest
   if (!point_triangle) {
     const PackedPoints before = load_points(rest, pairs);
     const Pack3 ra = before[1] - before[0], rb = before[3] - before[2];
-    const Pack threshold = 1e-3 * dot(ra, ra) * dot(rb, rb);  // edge_edge_mollifier_threshold
+    const Pack threshold = kMollifiedSine2 * dot(ra, ra) * dot(rb, rb);
     least = choose(threshold - least, threshold, least);
   }
   unsigned lanes = 0;

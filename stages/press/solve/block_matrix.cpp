@@ -3,40 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/simd.h"
-
 namespace tacipc {
-namespace {
-
-/// Column by column: what a column's blocks do to the rows below goes there at once, what they do to the column itself
-/// is summed up over all of them first.
-TACIPC_CLONES void multiply_columns(const int* column_start, const int* row, int size, const double* values,
-                                    const double* x, double* y) {
-  for (int c = 0; c < size; ++c) {
-    const Quad xc = load_quad(x + 4 * static_cast<std::ptrdiff_t>(c));
-    const double x0 = xc[0], x1 = xc[1], x2 = xc[2];
-    int k = column_start[c];
-    const double* diagonal = values + BlockMatrix::kStride * static_cast<std::size_t>(k);
-    Quad own = load_quad(diagonal) * x0 + load_quad(diagonal + 4) * x1 + load_quad(diagonal + 8) * x2;
-    Quad sum0 = {}, sum1 = {}, sum2 = {};
-    for (++k; k < column_start[c + 1]; ++k) {
-      const double* block = values + BlockMatrix::kStride * static_cast<std::size_t>(k);
-      const Quad b0 = load_quad(block), b1 = load_quad(block + 4), b2 = load_quad(block + 8);
-      const std::ptrdiff_t r = 4 * static_cast<std::ptrdiff_t>(row[k]);
-      const Quad xr = load_quad(x + r);
-      store_quad(y + r, load_quad(y + r) + (b0 * x0 + b1 * x1 + b2 * x2));
-      sum0 += b0 * xr;
-      sum1 += b1 * xr;
-      sum2 += b2 * xr;
-    }
-    own += Quad{(sum0[0] + sum0[1]) + sum0[2], (sum1[0] + sum1[1]) + sum1[2], (sum2[0] + sum2[1]) + sum2[2], 0.0};
-    double* yc = y + 4 * static_cast<std::ptrdiff_t>(c);
-    store_quad(yc, load_quad(yc) + own);
-  }
-}
-
-}  // namespace
-
 FreeVertices::FreeVertices(int num_vertices, const std::vector<bool>& fixed)
     : FreeVertices(
           [&] {
@@ -82,17 +49,16 @@ BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>&
   return pattern;
 }
 
-void BlockMatrix::multiply_padded(const double* x, double* y) const {
-  std::fill(y, y + 4 * static_cast<std::ptrdiff_t>(pattern->size()), 0.0);
-  multiply_columns(pattern->column_start.data(), pattern->row.data(), pattern->size(), values.data(), x, y);
-}
-
 Eigen::VectorXd BlockMatrix::multiply(const Eigen::VectorXd& x) const {
-  std::vector<double> in;
-  pad(x, in);
-  std::vector<double> out(in.size());
-  multiply_padded(in.data(), out.data());
-  return unpadded(out);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+  for (int c = 0; c < pattern->size(); ++c) {
+    for (int k = pattern->column_start[c]; k < pattern->column_start[c + 1]; ++k) {
+      const int r = pattern->row[k];
+      y.segment<3>(3 * r) += block(k) * x.segment<3>(3 * c);
+      if (r != c) y.segment<3>(3 * c) += block(k).transpose() * x.segment<3>(3 * r);
+    }
+  }
+  return y;
 }
 
 void pad(const Eigen::VectorXd& x, std::vector<double>& out) {

@@ -55,9 +55,7 @@ struct BlockMatrix {
   Block block(int index) { return Block(values.data() + kStride * static_cast<std::size_t>(index)); }
   ConstBlock block(int index) const { return ConstBlock(values.data() + kStride * static_cast<std::size_t>(index)); }
 
-  /// y = A x for the whole symmetric matrix, vectors of four numbers per vertex, the last of them zero.
-  void multiply_padded(const double* x, double* y) const;
-  /// y = A x, three numbers per vertex.
+  /// A x for the whole symmetric matrix, plainly: what faster code is tested against.
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
 };
 

@@ -13,10 +13,10 @@ namespace tacipc {
 /// 3 blocks on the diagonal, M = (D + L) D⁻¹ (D + Lᵀ). After scaling by the Cholesky factors of D (D = I) the
 /// preconditioned matrix is
 ///   Â = (I + L)⁻¹ A (I + Lᵀ)⁻¹,   Â p = t + (I + L)⁻¹ (p − t),   t = (I + Lᵀ)⁻¹ p   [Eisenstat 1981],
-/// two sweeps over L that cost what a product with A does, for less than half of the iterations that D alone as M
-/// takes. On the way xᵀAx = xᵀb, so an unfinished solution still points downhill. A gel is thin and glued at the back:
-/// forces reach about a thickness far, and some twenty iterations are enough whatever its size. Sweeps and sums run in
-/// a fixed order. Where the iterations do not suffice, the system is factorised.
+/// two sweeps over L with as many operations as a product with A, for less than half of the iterations that D alone as
+/// M takes. On the way xᵀAx = xᵀb, so an unfinished solution still points downhill. A gel is thin and glued at the
+/// back: forces reach about a thickness far, and some twenty iterations are enough whatever its size. Sweeps and sums
+/// run in a fixed order. Where the iterations do not suffice, the system is factorised.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(double tolerance = 1e-3, int max_products = 1000)

@@ -1,7 +1,6 @@
 #include "stages/press/solve/newton_step.h"
 
 #include <Eigen/Cholesky>
-#include <cstdlib>
 
 #include "common/error.h"
 #include "stages/press/solve/contact_assembly.h"

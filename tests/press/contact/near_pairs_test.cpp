@@ -53,8 +53,8 @@ TEST(NearPairs, NoneIsMissed) {
       ++near;
       EXPECT_TRUE(std::binary_search(found.begin(), found.end(), i)) << i;
     }
-    EXPECT_GT(near, 30u);
-    EXPECT_LT(found.size(), 1.5 * static_cast<double>(near));
+    EXPECT_GT(near, 100u);
+    EXPECT_LT(found.size(), 1.3 * static_cast<double>(near));
   }
 }
 
