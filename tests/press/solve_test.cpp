@@ -232,14 +232,20 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {4, 0, 1, 2}}}, 0.4);
   const auto pattern = mesh_pattern(free, Elasticity(rest, tets, NeoHookean{2.0, 3.0}));
   EXPECT_EQ(pattern->find(4, 0), -1);
-  EXPECT_EQ(cover_contacts(pattern, free, barrier, barrier.active(rest), rest), pattern);
+  EXPECT_EQ(cover_contacts(pattern, free, 8, barrier, barrier.active(rest), rest), pattern);
 
   Positions x = rest;
   x.bottomRows(4).col(2).array() -= 0.8;  // the tip is 0.2 above the face now
-  const auto covered = cover_contacts(pattern, free, barrier, barrier.active(x), x);
+  const auto covered = cover_contacts(pattern, free, 8, barrier, barrier.active(x), x);
   for (const int corner : {0, 1, 2}) EXPECT_GE(covered->find(4, corner), 0);
   EXPECT_EQ(covered->num_blocks(), pattern->num_blocks() + 3);
-  EXPECT_EQ(cover_contacts(covered, free, barrier, barrier.active(x), x), covered);
+  EXPECT_EQ(cover_contacts(covered, free, 8, barrier, barrier.active(x), x), covered);
+
+  // Only some of each side free, as in a patch of the gel or beside its glued face.
+  const FreeVertices some(8, {false, true, true, false, false, false, false, false});
+  const auto of_some = cover_contacts(mesh_pattern(some, Elasticity(rest, tets, NeoHookean{2.0, 3.0})), some, 8,
+                                      barrier, barrier.active(x), x);
+  EXPECT_GE(of_some->find(some.free_of_vertex[4], some.free_of_vertex[0]), 0);
 
   // The extended system solves as dense algebra does, and a new pattern is analysed anew.
   NewtonSystem system;

@@ -54,15 +54,17 @@ std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const
 }
 
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
-                                                   const FreeVertices& free, const ContactTerm& term,
-                                                   const std::vector<int>& active, const Positions& x) {
+                                                   const FreeVertices& free, int first_object_vertex,
+                                                   const ContactTerm& term, const std::vector<int>& active,
+                                                   const Positions& x) {
+  const auto held_object = [&](int v) { return v >= first_object_vertex && free.free_of_vertex[v] < 0; };
   std::vector<std::array<int, 2>> missing;
   Local local;
   Eigen::VectorXd local_x;
   for (const int i : active) {
     const auto stencil = term.stencil(i);
-    // Of two sides only one is free: its vertices share an element.
-    if (free.free_of_vertex[stencil.front()] < 0 || free.free_of_vertex[stencil.back()] < 0) continue;
+    // The other side's vertices share an element.
+    if (held_object(stencil.front()) || held_object(stencil.back())) continue;
     bool covered = true;
     for (std::size_t a = 0; a < stencil.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
@@ -106,7 +108,6 @@ namespace {
 template <typename Local>
 void scatter(std::span<const int> stencil, PairVertices wanted, const Local& local, double weight,
              const FreeVertices& free, int first_object_vertex, const Positions& motion, NewtonSystem& system) {
-  const BlockPattern& pattern = *system.hessian.pattern;
   const int count = static_cast<int>(stencil.size());
   const auto is_wanted = [&](int k) { return k >= 4 || (wanted >> k & 1U); };
   for (int a = 0; a < count; ++a) {
@@ -131,7 +132,7 @@ void scatter(std::span<const int> stencil, PairVertices wanted, const Local& loc
         system.coupling.segment<3>(3 * i) += weight * block * motion.row(stencil[b]).transpose();
         if (stencil[b] >= first_object_vertex) system.object_border.middleRows<3>(3 * i) += weight * block;
       } else if (i >= j) {
-        system.hessian.block(pattern.find(i, j)) += weight * block;
+        system.hessian.block(i, j) += weight * block;
       }
     }
   }

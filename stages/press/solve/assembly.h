@@ -28,8 +28,9 @@ std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const
 /// The pattern, or a larger one if stencils of the term that are active at x couple vertices it does not (gel against
 /// gel).
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
-                                                   const FreeVertices& free, const ContactTerm& term,
-                                                   const std::vector<int>& active, const Positions& x);
+                                                   const FreeVertices& free, int first_object_vertex,
+                                                   const ContactTerm& term, const std::vector<int>& active,
+                                                   const Positions& x);
 
 /// Makes it a system of zeros.
 void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "common/types.h"
@@ -53,6 +54,12 @@ struct BlockMatrix {
     values.assign(kStride * static_cast<std::size_t>(pattern->num_blocks()), 0.0);
   }
   Block block(int index) { return Block(values.data() + kStride * static_cast<std::size_t>(index)); }
+  /// Block (row, column), row ≥ column. \throw std::logic_error if the pattern has none
+  Block block(int r, int column) {
+    const int index = pattern->find(r, column);
+    if (index < 0) throw std::logic_error("a block outside the matrix's pattern");
+    return block(index);
+  }
   ConstBlock block(int index) const { return ConstBlock(values.data() + kStride * static_cast<std::size_t>(index)); }
 
   /// A x for the whole symmetric matrix, plainly: what faster code is tested against.

@@ -63,7 +63,6 @@ TACIPC_CLONES void add_lanes(const PackedBlocks& from, int lanes, int vertices, 
 }
 
 void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vector3& shift, NewtonSystem& system) {
-  const BlockPattern& pattern = *system.hessian.pattern;
   const bool moves = shift != Vector3::Zero();
   for (int b = 0; b < sum.count; ++b) {
     const int j = free.free_of_vertex[sum.vertices[b]];
@@ -80,11 +79,11 @@ void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vect
         }
       }
       if (i >= j) {
-        double* block = system.hessian.block(pattern.find(i, j)).data();
+        double* block = system.hessian.block(i, j).data();
         for (int c = 0; c < 3; ++c) store_quad(block + 4 * c, load_quad(block + 4 * c) + weight * columns[c]);
       }
       if (i < j || (i == j && a != b)) {
-        BlockMatrix::Block block = system.hessian.block(pattern.find(j, i));
+        BlockMatrix::Block block = system.hessian.block(j, i);
         for (int c = 0; c < 3; ++c)
           for (int r = 0; r < 3; ++r) block(c, r) += weight * columns[c][r];
       }

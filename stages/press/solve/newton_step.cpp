@@ -80,7 +80,7 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
     if (!part.contact) continue;
     const Stopwatch watch(times_.contact_s);
     active.push_back(part.contact->active(x));
-    pattern_ = cover_contacts(pattern_, free_, *part.contact, active.back(), x);
+    pattern_ = cover_contacts(pattern_, free_, first_object_vertex_, *part.contact, active.back(), x);
   }
   const auto of_object = motion.bottomRows(motion.rows() - first_object_vertex_);
   const Vector3 shift = of_object.rows() > 0 ? Vector3(of_object.row(0)) : Vector3::Zero();
