@@ -5,6 +5,7 @@
 
 #include "common/spatial_order.h"
 #include "stages/press/energy/friction.h"
+#include "stages/press/energy/restricted_term.h"
 #include "stages/press/solve/contact_assembly.h"
 #include "stages/press/solve/elastic_assembly.h"
 #include "stages/press/solve/local_patch.h"
@@ -160,16 +161,64 @@ struct Touching {
   }
 };
 
-TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
-  const Touching t;
+/// The object's vertices and some of the gel's are prescribed.
+std::vector<bool> some_fixed() {
   std::vector<bool> fixed(Touching::kAll, false);
   for (int v = 0; v < Touching::kAll; ++v) fixed[v] = v >= Touching::kGel || v % 11 == 0;
-  const FreeVertices free(Touching::kAll, fixed);
+  return fixed;
+}
+
+std::shared_ptr<const BlockPattern> pattern_of(const Touching& t, const FreeVertices& free) {
   std::vector<std::array<int, 2>> blocks;
   for (const auto& [a, b] : t.coupled) {
-    if (!fixed[a] && !fixed[b]) blocks.push_back({free.free_of_vertex[a], free.free_of_vertex[b]});
+    if (free.free_of_vertex[a] >= 0 && free.free_of_vertex[b] >= 0)
+      blocks.push_back({free.free_of_vertex[a], free.free_of_vertex[b]});
   }
-  const auto pattern = std::make_shared<BlockPattern>(make_block_pattern(free.size(), blocks));
+  return std::make_shared<BlockPattern>(make_block_pattern(free.size(), blocks));
+}
+
+TEST(AssembleContact, EveryVertexHasItsOwnBlend) {
+  const Touching t;
+  const FreeVertices free(Touching::kAll, some_fixed());
+  const auto pattern = pattern_of(t, free);
+  std::vector<double> shares;
+  for (int v = 0; v < Touching::kGel; ++v) shares.push_back(v % 3 == 0 ? 0.0 : v % 3 == 1 ? 0.4 : 1.0);
+  const Blend blend(shares), uniform(std::vector<double>(Touching::kGel, 0.4));
+  for (const std::shared_ptr<const ContactTerm>& term :
+       {std::shared_ptr<const ContactTerm>(t.barrier), std::shared_ptr<const ContactTerm>(t.friction)}) {
+    for (const bool moves : {false, true}) {
+      const Positions motion = moves ? t.motion : Positions::Zero(Touching::kAll, 3);
+      const ObjectMotion object{motion, moves, Vector3::Zero()};
+      NewtonSystem expected;
+      clear(expected, free, pattern);
+      NewtonSystem blended = expected, reblended = expected;
+      const std::vector<int> active = term->active(t.x);
+      for (const int i : active) {
+        double share = 0.0;
+        for (const int v : term->stencil(i)) share = std::max(share, v < Touching::kGel ? shares[v] : 0.0);
+        const auto one = std::make_shared<RestrictedTerm>(term, std::vector<int>{i});
+        assemble({2.0 * (1.0 - share), one}, t.x, free, Touching::kGel, Order::hessian, motion, expected);
+        assemble({2.0 * share, one}, t.x, free, Touching::kGel, Order::psd, motion, expected);
+      }
+      assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, blend, object, blended);
+      assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, uniform, object, reblended);
+      reblend_contact(2.0, *term, active, t.x, free, Touching::kGel, uniform, blend, object, reblended);
+      for (NewtonSystem* system : {&blended, &reblended, &expected}) {
+        if (moves) continue;
+        system->object_gradient.setZero();  // what nobody asks for
+        system->object_border.setZero();
+        system->object_hessian.setZero();
+      }
+      EXPECT_LT(difference(blended, expected), 1e-12) << term->name() << " moves " << moves;
+      EXPECT_LT(difference(reblended, expected), 1e-12) << term->name() << " moves " << moves;
+    }
+  }
+}
+
+TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
+  const Touching t;
+  const FreeVertices free(Touching::kAll, some_fixed());
+  const auto pattern = pattern_of(t, free);
   const Positions still = Positions::Zero(Touching::kAll, 3);
   for (const std::shared_ptr<const ContactTerm>& term :
        {std::shared_ptr<const ContactTerm>(t.barrier), std::shared_ptr<const ContactTerm>(t.friction)}) {
@@ -187,7 +236,8 @@ TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
         NewtonSystem positive = exact, blended = exact;
         assemble({2.0, term}, t.x, free, Touching::kGel, Order::hessian, motion, exact);
         assemble({2.0, term}, t.x, free, Touching::kGel, Order::psd, motion, positive);
-        assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, blend,
+        assemble_contact(2.0, *term, active, t.x, free, Touching::kGel,
+                         Blend(std::vector<double>(Touching::kGel, blend)),
                          {motion, moves, how == 2 ? Vector3(shifted.row(Touching::kGel)) : Vector3::Zero()}, blended);
         NewtonSystem expected = exact;
         const auto mix = [&](auto& to, const auto& a, const auto& b) { to = (1.0 - blend) * a + blend * b; };

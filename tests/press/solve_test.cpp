@@ -110,38 +110,68 @@ TEST(ConjugateGradient, SaysWhenAMatrixIsNotPositiveDefinite) {
   EXPECT_FALSE(solver.solve(b).has_value());
 }
 
+TEST(ConjugateGradient, SaysWhereAMatrixIsNotPositiveDefinite) {
+  BlockMatrix matrix = random_matrix(40, 3, 20.0);
+  ConjugateGradient solver;
+  ASSERT_TRUE(solver.prepare(matrix));
+  EXPECT_TRUE(solver.indefinite_rows().empty());
+  // Seen at once: a block on the diagonal.
+  matrix.block(17, 17)(1, 1) = -1.0;
+  EXPECT_FALSE(solver.prepare(matrix));
+  EXPECT_EQ(solver.indefinite_rows(), (std::vector<int>{17}));
+  // Seen on the way: two that pull at each other more than they hold.
+  matrix = random_matrix(40, 3, 20.0);
+  matrix.block(25, 24).setIdentity();
+  matrix.block(25, 24) *= 40.0;
+  ASSERT_TRUE(solver.prepare(matrix));
+  EXPECT_FALSE(solver.solve(Eigen::VectorXd::LinSpaced(120, -1.0, 2.0)));
+  ASSERT_FALSE(solver.indefinite_rows().empty());
+  for (const int row : solver.indefinite_rows()) EXPECT_TRUE(row == 24 || row == 25) << row;
+}
+
 TEST(Blend, LeansOnTheStandInAsLittleAsTheMatrixAllows) {
-  Blend blend;
-  EXPECT_EQ(blend.share(), 1.0);
-  double last = blend.share();
-  for (int i = 0; i < 3 && last > 0.0; ++i, last = blend.share()) {
-    blend.found(true);
-    EXPECT_LT(blend.share(), last / 5);
+  Blend blend(3);
+  EXPECT_EQ(blend.largest(), 1.0);
+  double last = 1.0;
+  for (int i = 0; i < 3 && last > 0.0; ++i, last = blend.share(1)) {
+    blend.found();
+    EXPECT_LT(blend.largest(), last / 5);
   }
-  EXPECT_EQ(blend.share(), 0.0);
-  // Indefinite: back up until all of it is leaned on, and more carefully down than before.
-  blend.failed();
-  EXPECT_GT(blend.share(), 0.0);
-  for (int i = 0; i < 3; ++i) {
-    last = blend.share();
-    blend.failed();
-    EXPECT_TRUE(blend.share() > last || blend.share() == 1.0);
+  EXPECT_EQ(blend.largest(), 0.0);
+  // Indefinite about one vertex: there, and there alone, up until all of it is leaned on.
+  for (last = 0.0; blend.failed(1); last = blend.share(1)) EXPECT_GT(blend.share(1), last);
+  EXPECT_EQ(blend.share(1), 1.0);
+  EXPECT_EQ(blend.share(0) + blend.share(2), 0.0);
+  EXPECT_EQ(blend.share(std::vector<int>{0, 1, 7}), 1.0);
+  EXPECT_EQ(blend.share(std::vector<int>{0, 2, 7}), 0.0);
+  // And more carefully down the more often it failed.
+  for (int i = 0; i < 10; ++i) {
+    blend.found();
+    blend.failed(1);
   }
-  EXPECT_EQ(blend.share(), 1.0);
-  for (int i = 0; i < 10; ++i) blend.found(false);
-  while (blend.share() > 0.0) {
-    last = blend.share();
-    blend.found(false);
-    EXPECT_TRUE(blend.share() == 0.0 || blend.share() > last / 2);
+  while (blend.failed(1)) {
   }
-  blend.shortened(0.2);
-  EXPECT_GT(blend.share(), 0.2);
+  blend.found();
+  EXPECT_GT(blend.share(1), 0.5);
+}
+
+TEST(Blend, AStepThatWasShortenedIsRepeatedWithMore) {
+  Blend blend({0.0, 0.15, 0.0});
+  blend.found();
+  EXPECT_EQ(blend.largest(), 0.15 / 8);
+  blend.shortened(0);
+  blend.shortened(1);
+  EXPECT_EQ(blend.share(0), 0.1);
+  EXPECT_EQ(blend.share(1), 0.6);
+  EXPECT_EQ(blend.share(2), 0.0);
 }
 
 TEST(Blend, StaysWithTheStandInUnlessAdaptive) {
-  Blend blend(false);
-  for (int i = 0; i < 5; ++i) blend.found(true);
-  EXPECT_EQ(blend.share(), 1.0);
+  Blend blend(2, false);
+  for (int i = 0; i < 5; ++i) blend.found();
+  blend.shortened(0);
+  EXPECT_EQ(blend.share(0), 1.0);
+  EXPECT_EQ(blend.share(1), 1.0);
 }
 
 TEST(CubicStaysAbove, NeverSaysYesForACubicThatDips) {

@@ -1,8 +1,9 @@
-// ContactBarrier's derivatives for eight pairs at a time.
+// ContactBarrier's value and derivatives for eight pairs at a time.
 #include <cmath>
 
 #include "stages/press/contact/edge_edge_mollifier.h"
 #include "stages/press/contact/packed_feature.h"
+#include "stages/press/energy/barrier.h"
 #include "stages/press/energy/contact_barrier.h"
 
 namespace tacipc {
@@ -37,7 +38,7 @@ TACIPC_INLINE unsigned to_be_looked_at(const PackedPoints& p, const double* rest
 /// compiler, which leaves out the rest.
 template <bool point_triangle, int first, int count>
 TACIPC_INLINE unsigned evaluate_lanes(const double* x, const double* rest, const ContactPair* const* pairs,
-                                      double s_hat, double blend, PackedBlocks& out) {
+                                      double s_hat, const Pack& blend, PackedBlocks& out) {
   const PackedPoints p = load_points(x, pairs);
   const PackedFeature f = point_triangle ? point_triangle_feature(p) : edge_edge_feature(p);
   const Pack s = f.squared_distance, none = {}, one = none + 1.0;
@@ -51,8 +52,8 @@ TACIPC_INLINE unsigned evaluate_lanes(const double* x, const double* rest, const
   const Pack b1 = choose(gap, weight * (gap * (2.0 * log_ratio - gap * inverse_s)), none);
   const Pack b2 = choose(gap, weight * (-2.0 * log_ratio + gap * (3.0 * s + s_hat) * inverse_s * inverse_s), none);
   // Of a pair that counts against the others nothing is positive, and the less of it the stiffer.
-  const Pack lean = choose(weight, none + blend, none), exact = one - lean;
-  const Pack all = choose(weight, one, none + (1.0 - blend));
+  const Pack lean = choose(weight, blend, none), exact = one - lean;
+  const Pack all = choose(weight, one, one - blend);
 
   // blended_hessian of contact_barrier.cpp: ww and WW belong to two vertices, a_i = A (AᵀA)⁻¹ W_iᵀ to one.
   const Pack along_ww = all * (lean * (4.0 * b2 + 2.0 * b1 * inverse_s) + exact * 4.0 * b2),
@@ -100,24 +101,72 @@ TACIPC_INLINE unsigned evaluate_lanes(const double* x, const double* rest, const
   return to_be_looked_at<point_triangle>(p, rest, pairs);
 }
 
-using Lanes = unsigned(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat, double blend,
-                       PackedBlocks& out);
+/// Squared distances; returns lanes that they are not to be trusted in, or that are mollified.
+template <bool point_triangle>
+TACIPC_INLINE unsigned distance_lanes(const double* x, const double* rest, const ContactPair* const* pairs,
+                                      double* out) {
+  const PackedPoints p = load_points(x, pairs);
+  const Pack s = (point_triangle ? point_triangle_feature(p) : edge_edge_feature(p)).squared_distance;
+  for (int l = 0; l < kLanes; ++l) out[l] = s[l];
+  return to_be_looked_at<point_triangle>(p, rest, pairs);
+}
+TACIPC_CLONES unsigned point_triangle_distances(const double* x, const double* rest, const ContactPair* const* pairs,
+                                                double* out) {
+  return distance_lanes<true>(x, rest, pairs, out);
+}
+TACIPC_CLONES unsigned edge_edge_distances(const double* x, const double* rest, const ContactPair* const* pairs,
+                                           double* out) {
+  return distance_lanes<false>(x, rest, pairs, out);
+}
+
+using Lanes = unsigned(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
+                       const Pack& blend, PackedBlocks& out);
 TACIPC_CLONES unsigned point_lanes(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
-                                   double blend, PackedBlocks& out) {
+                                   const Pack& blend, PackedBlocks& out) {
   return evaluate_lanes<true, 0, 1>(x, rest, pairs, s_hat, blend, out);
 }
 TACIPC_CLONES unsigned triangle_lanes(const double* x, const double* rest, const ContactPair* const* pairs,
-                                      double s_hat, double blend, PackedBlocks& out) {
+                                      double s_hat, const Pack& blend, PackedBlocks& out) {
   return evaluate_lanes<true, 1, 3>(x, rest, pairs, s_hat, blend, out);
 }
 TACIPC_CLONES unsigned edge_lanes(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
-                                  double blend, PackedBlocks& out) {
+                                  const Pack& blend, PackedBlocks& out) {
   return evaluate_lanes<false, 0, 2>(x, rest, pairs, s_hat, blend, out);
 }
 
 }  // namespace
 
-void ContactBarrier::evaluate_pack(const StencilPack& which, int count, const Positions& x, double blend,
+double ContactBarrier::value(const Positions& x) const {
+  const std::vector<int> near = active(x);
+  return ordered_sum(static_cast<int>(near.size()), [&](int first, int last) {
+    double sum = 0.0;
+    while (first < last) {
+      // As many of one kind as there are in a row.
+      std::array<const ContactPair*, kLanes> pairs;
+      int count = 0;
+      for (; count < kLanes && first + count < last; ++count) {
+        pairs[count] = &pairs_[near[first + count]];
+        if (pairs[count]->kind != pairs[0]->kind) break;
+      }
+      std::fill(pairs.begin() + count, pairs.end(), pairs[0]);
+      double s[kLanes];
+      const auto distances =
+          pairs[0]->kind == ContactPair::Kind::point_triangle ? point_triangle_distances : edge_edge_distances;
+      const unsigned doubtful = distances(x.data(), mesh_->rest_positions.data(), pairs.data(), s);
+      for (int l = 0; l < count; ++l) {
+        if (const int i = near[first + l]; (doubtful >> l & 1U) || of_gel_alone(i)) {
+          sum += value_of(i, gather(x, *pairs[l]));
+        } else {
+          sum += pairs[l]->weight * barrier(s[l], largest_s_hat_);
+        }
+      }
+      first += count;
+    }
+    return sum;
+  });
+}
+
+void ContactBarrier::evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend,
                                    WantedVertices wanted, PackedBlocks& out) const {
   std::array<const ContactPair*, kLanes> pairs;
   for (int l = 0; l < kLanes; ++l) pairs[l] = &pairs_[which[l]];
@@ -126,7 +175,7 @@ void ContactBarrier::evaluate_pack(const StencilPack& which, int count, const Po
   for (int l = 0; l < count; ++l) {
     if (!(doubtful >> l & 1U)) continue;
     PairLocal local;
-    const bool any = evaluate_blended(which[l], gather(x, *pairs[l]), blend, kAllPairVertices, local);
+    const bool any = evaluate_blended(which[l], gather(x, *pairs[l]), blend[l], kAllPairVertices, local);
     for (int b = 0; b < wanted.count; ++b) {
       const int j = 3 * (wanted.first + b);
       for (int c = 0; c < 3; ++c) out.gradient[b][c][l] = any ? local.gradient[j + c] : 0.0;

@@ -49,9 +49,14 @@ void blended_hessian(const ClosestFeature& f, double b1, double b2, double blend
 
 }  // namespace
 
+bool ContactBarrier::of_gel_alone(int i) const {
+  const auto& v = pairs_[i].vertices;
+  return *std::max_element(v.begin(), v.end()) < mesh_->num_gel_vertices;
+}
+
 double ContactBarrier::s_hat(int i) const {
   const ContactPair& pair = pairs_[i];
-  if (*std::max_element(pair.vertices.begin(), pair.vertices.end()) >= mesh_->num_gel_vertices) return largest_s_hat_;
+  if (!of_gel_alone(i)) return largest_s_hat_;
   const FourPoints rest = gather(mesh_->rest_positions, pair);
   return std::min(largest_s_hat_, 0.25 * closest_feature(pair, rest).squared_distance);
 }
@@ -80,22 +85,12 @@ bool ContactBarrier::mollified(int i, const FourPoints& x) const {
 
 std::vector<int> ContactBarrier::active(const Positions& x) const { return near_pairs(pairs_, x, largest_s_hat_); }
 
-double ContactBarrier::value(const Positions& x) const {
-  const std::vector<int> near = active(x);
-  return ordered_sum(static_cast<int>(near.size()), [&](int first, int last) {
-    double sum = 0.0;
-    for (int k = first; k < last; ++k) {
-      const int i = near[static_cast<std::size_t>(k)];
-      const FourPoints points = gather(x, pairs_[i]);
-      const double s = closest_feature(pairs_[i], points).squared_distance;
-      if (s >= largest_s_hat_) continue;
-      double energy = pairs_[i].weight * barrier(s, s_hat(i));
-      if (energy != 0.0 && std::isfinite(energy) && mollified(i, points))
-        energy *= edge_edge_mollifier(edge_cross_squared_norm(points), mollifier_threshold(i));
-      sum += energy;
-    }
-    return sum;
-  });
+double ContactBarrier::value_of(int i, const FourPoints& points) const {
+  const double s = closest_feature(pairs_[i], points).squared_distance;
+  if (s >= largest_s_hat_) return 0.0;
+  const double energy = pairs_[i].weight * barrier(s, s_hat(i));
+  if (energy == 0.0 || !std::isfinite(energy) || !mollified(i, points)) return energy;
+  return energy * edge_edge_mollifier(edge_cross_squared_norm(points), mollifier_threshold(i));
 }
 
 bool ContactBarrier::evaluate_gradient(int i, const FourPoints& x, Vector12& out) const {

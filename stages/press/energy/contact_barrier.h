@@ -28,7 +28,7 @@ class ContactBarrier final : public ContactTerm {
   std::vector<int> active(const Positions& x) const override;
   bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
   bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
-  void evaluate_pack(const StencilPack& which, int count, const Positions& x, double blend, WantedVertices wanted,
+  void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend, WantedVertices wanted,
                      PackedBlocks& out) const override;
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
@@ -45,7 +45,9 @@ class ContactBarrier final : public ContactTerm {
   /// ŝ and the mollifier's threshold of one pair; zero: never mollified. Both are of the shape at rest and asked for
   /// when a pair is near: most never are.
   double s_hat(int i) const;
+  bool of_gel_alone(int i) const;
   double mollifier_threshold(int i) const;
+  double value_of(int i, const FourPoints& points) const;
   bool mollified(int i, const FourPoints& x) const;
 
   const ContactMesh* mesh_;

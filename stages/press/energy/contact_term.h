@@ -32,8 +32,9 @@ class ContactTerm : public EnergyTerm {
   virtual bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted,
                                 PairLocal& out) const = 0;
 
-  /// The same for eight stencils of one kind, for vertices of one primitive; the first `count` stencils count.
-  virtual void evaluate_pack(const StencilPack& which, int count, const Positions& x, double blend,
+  /// The same for eight stencils of one kind, each with its blend, for vertices of one primitive; the first `count`
+  /// stencils count.
+  virtual void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend,
                              WantedVertices wanted, PackedBlocks& out) const = 0;
 };
 

@@ -152,7 +152,7 @@ struct PackedFriction {
 
 /// evaluate_blended lane by lane.
 TACIPC_CLONES void evaluate_lanes(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
-                                  const PackedFriction& pair, double epsilon, double blend, WantedVertices wanted,
+                                  const PackedFriction& pair, double epsilon, const Pack& blend, WantedVertices wanted,
                                   PackedBlocks& out) {
   const Pack none = {}, one = none + 1.0;
   Pack3 moved = Pack3{} - pair.start;
@@ -164,7 +164,7 @@ TACIPC_CLONES void evaluate_lanes(const double* x, const std::array<std::array<i
   const Pack sticks = one - r;
   const Pack part_over_y = choose(sticks, (2.0 - r) / epsilon, one / y);
   const Pack slope = choose(sticks, 2.0 * sticks / epsilon, none);
-  const Pack majorant = part_over_y * choose(pair.normal_force, one, none + (1.0 - blend));
+  const Pack majorant = part_over_y * choose(pair.normal_force, one, one - blend);
   const Pack outer = choose(squared, (1.0 - blend) * (slope - part_over_y) / squared, none);
   const Pack inner00 = pair.normal_force * (majorant + outer * u0 * u0), inner01 = pair.normal_force * outer * u0 * u1,
              inner11 = pair.normal_force * (majorant + outer * u1 * u1);
@@ -193,7 +193,7 @@ TACIPC_CLONES void evaluate_lanes(const double* x, const std::array<std::array<i
 
 }  // namespace
 
-void Friction::evaluate_pack(const StencilPack& which, int /*count*/, const Positions& x, double blend,
+void Friction::evaluate_pack(const StencilPack& which, int /*count*/, const Positions& x, const Pack& blend,
                              WantedVertices wanted, PackedBlocks& out) const {
   PackedFriction packed = {};
   std::array<std::array<int, kLanes>, 4> vertices;

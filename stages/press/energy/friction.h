@@ -39,7 +39,7 @@ class Friction final : public ContactTerm {
   std::vector<int> active(const Positions& x) const override;  // all
   bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
   bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
-  void evaluate_pack(const StencilPack& which, int count, const Positions& x, double blend, WantedVertices wanted,
+  void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend, WantedVertices wanted,
                      PackedBlocks& out) const override;
 
   /// One pair's slide ‖u‖ / ε: below 1 it sticks.

@@ -1,5 +1,6 @@
 #include "stages/press/solve/conjugate_gradient.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/simd.h"
@@ -10,6 +11,7 @@ namespace {
 // Vectors are padded: four numbers per vertex, the last of them zero. Blocks of L lie nine numbers apart, so a column
 // loaded as four has a foreign number at its end.
 constexpr std::ptrdiff_t kBlock = 9;
+constexpr double kMuch = 0.1;  // of the most negative part of a curvature
 
 double total(const Quad& sum) { return (sum[0] + sum[1]) + (sum[2] + sum[3]); }
 
@@ -151,18 +153,41 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
   const BlockPattern& pattern = *matrix.pattern;
   const int n = pattern.size();
   inverse_cholesky_.assign(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);
+  indefinite_rows_.clear();
   for (int c = 0; c < n; ++c) {
     if (!invert_cholesky(
             matrix.block(pattern.column_start[c]),
             BlockMatrix::Block(inverse_cholesky_.data() + BlockMatrix::kStride * static_cast<std::size_t>(c))))
-      return false;
+      indefinite_rows_.push_back(c);
   }
+  if (!indefinite_rows_.empty()) return false;
   // One number more: the last column is loaded as four, too.
   lower_.resize(static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(pattern.num_blocks() - n) + 1);
   lower_.back() = 0.0;
   scale(pattern.column_start.data(), pattern.row.data(), n, matrix.values.data(), inverse_cholesky_.data(),
         lower_.data());
   return true;
+}
+
+/// The scaled matrix takes t to (I + L) q: row by row, tᵀ(I + L) q is what each row gives to pᵀÂp.
+void ConjugateGradient::find_indefinite_rows() {
+  indefinite_rows_.clear();
+  const BlockPattern& pattern = *matrix_->pattern;
+  std::vector<double> product = q_;
+  for (int c = 0; c < pattern.size(); ++c) {
+    for (int k = pattern.column_start[c] + 1; k < pattern.column_start[c + 1]; ++k) {
+      const Eigen::Map<const Matrix3> block(lower_.data() + kBlock * (k - c - 1));
+      Eigen::Map<Vector3>(product.data() + 4 * static_cast<std::ptrdiff_t>(pattern.row[k])) +=
+          block * Eigen::Map<const Vector3>(q_.data() + 4 * static_cast<std::ptrdiff_t>(c));
+    }
+  }
+  std::vector<double> part(static_cast<std::size_t>(pattern.size()));
+  for (std::size_t i = 0; i < part.size(); ++i)
+    part[i] = Eigen::Map<const Vector3>(t_.data() + 4 * i).dot(Eigen::Map<const Vector3>(product.data() + 4 * i));
+  const double least = *std::min_element(part.begin(), part.end());
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (part[i] < 0.0 && part[i] <= kMuch * least) indefinite_rows_.push_back(static_cast<int>(i));
+  }
 }
 
 std::optional<Eigen::VectorXd> ConjugateGradient::factorize(const Eigen::VectorXd& b) {
@@ -191,7 +216,10 @@ std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b
     sweep_down(start, row, n, lower_.data(), q_.data());
     ++products_;
     const double curvature = add_and_dot(t_.data(), p_.data(), q_.data(), n);
-    if (!(curvature > 0.0)) return std::nullopt;
+    if (!(curvature > 0.0)) {
+      find_indefinite_rows();
+      return std::nullopt;
+    }
     const double last = rr;
     rr = advance(rr / curvature, t_.data(), q_.data(), x_.data(), r_.data(), n);
     turn(rr / last, r_.data(), p_.data(), n);

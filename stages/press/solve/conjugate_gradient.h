@@ -24,6 +24,8 @@ class ConjugateGradient final : public LinearSolver {
 
   bool prepare(const BlockMatrix& matrix) override;
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
+  /// Rows whose diagonal block is not positive definite; or those that p, of pᵀÂp ≤ 0, takes most of that from.
+  std::vector<int> indefinite_rows() const override { return indefinite_rows_; }
   void set_tolerance(double relative) override { tolerance_ = relative; }
   int num_analyses() const override { return direct_ ? direct_->num_analyses() : 0; }
   /// Products with Â so far.
@@ -32,6 +34,7 @@ class ConjugateGradient final : public LinearSolver {
   int num_factorized() const { return factorized_; }
 
  private:
+  void find_indefinite_rows();
   std::optional<Eigen::VectorXd> factorize(const Eigen::VectorXd& b);
 
   double tolerance_;
@@ -43,6 +46,7 @@ class ConjugateGradient final : public LinearSolver {
   std::optional<CholmodSolver> direct_;    // once it is needed
   std::int64_t products_ = 0;
   int factorized_ = 0;
+  std::vector<int> indefinite_rows_;
 };
 
 }  // namespace tacipc

@@ -40,6 +40,20 @@ std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVe
   return std::nullopt;
 }
 
+PairVertices wanted_vertices(std::span<const int> v, const FreeVertices& free, int first_object_vertex,
+                             const ObjectMotion& motion) {
+  const bool with_object = motion.in_full || motion.shift != Vector3::Zero();
+  PairVertices wanted = 0;
+  for (int a = 0; a < 4; ++a) {
+    if (free.free_of_vertex[v[a]] >= 0 || (with_object && v[a] >= first_object_vertex)) wanted |= 1U << a;
+  }
+  return wanted;
+}
+
+FourPoints points_of(std::span<const int> v, const Positions& x) {
+  return {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])};
+}
+
 /// Adds each lane to its sum.
 TACIPC_CLONES void add_lanes(const PackedBlocks& from, int lanes, int vertices, Sum* const* sums) {
   const auto add = [&](const Pack* rows, auto&& column_of) __attribute__((always_inline)) {
@@ -94,21 +108,16 @@ void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vect
 }  // namespace
 
 void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
-                      const FreeVertices& free, int first_object_vertex, double blend, const ObjectMotion& motion,
+                      const FreeVertices& free, int first_object_vertex, const Blend& blend, const ObjectMotion& motion,
                       NewtonSystem& system) {
-  const bool with_object = motion.in_full || motion.shift != Vector3::Zero();
   const auto evaluate_single = [&](int stencil, std::vector<Single>& out) {
     const std::span<const int> v = term.stencil(stencil);
-    PairVertices wanted = 0;
-    for (int a = 0; a < 4; ++a) {
-      if (free.free_of_vertex[v[a]] >= 0 || (with_object && v[a] >= first_object_vertex)) wanted |= 1U << a;
-    }
+    const PairVertices wanted = wanted_vertices(v, free, first_object_vertex, motion);
     if (wanted == 0) return;
     Single& one = out.emplace_back();
     one.stencil = stencil;
     one.wanted = wanted;
-    const FourPoints points{x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])};
-    if (!term.evaluate_blended(stencil, points, blend, wanted, one.local)) out.pop_back();
+    if (!term.evaluate_blended(stencil, points_of(v, x), blend.share(v), wanted, one.local)) out.pop_back();
   };
   const auto evaluate = [&](std::size_t first, std::size_t last, Chunk& out) {
     while (first < last) {
@@ -119,15 +128,17 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
         continue;
       }
       StencilPack pack;
+      Pack shares = {};
       int count = 0;
       for (; count < kLanes && first + count < last; ++count) {
         const auto next = gel_primitive(term.stencil(active[first + count]), free, first_object_vertex);
         if (!next || next->first != primitive->first || next->count != primitive->count) break;
         pack[count] = active[first + count];
+        shares[count] = blend.share(term.stencil(pack[count]).subspan(primitive->first, primitive->count));
       }
       std::fill(pack.begin() + count, pack.end(), pack[0]);
       PackedBlocks found;
-      term.evaluate_pack(pack, count, x, blend, *primitive, found);
+      term.evaluate_pack(pack, count, x, shares, *primitive, found);
       // No sum moves while pointers to it are in use.
       if (out.sums.capacity() < out.sums.size() + kLanes) out.sums.reserve(2 * out.sums.size() + 8 * kLanes);
       std::array<Sum*, kLanes> sums;
@@ -157,6 +168,25 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
         scatter_pair(term.stencil(one.stencil), one.wanted, one.local, weight, free, first_object_vertex,
                      motion.of_vertices, system);
     }
+  }
+}
+
+void reblend_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
+                     const FreeVertices& free, int first_object_vertex, const Blend& before, const Blend& after,
+                     const ObjectMotion& motion, NewtonSystem& system) {
+  PairLocal old, local;
+  for (const int stencil : active) {
+    const std::span<const int> v = term.stencil(stencil);
+    const double was = before.share(v), is = after.share(v);
+    if (was == is) continue;
+    const PairVertices wanted = wanted_vertices(v, free, first_object_vertex, motion);
+    if (wanted == 0) continue;
+    const FourPoints points = points_of(v, x);
+    if (!term.evaluate_blended(stencil, points, was, wanted, old)) continue;
+    term.evaluate_blended(stencil, points, is, wanted, local);
+    local.hessian -= old.hessian;
+    local.gradient.setZero();
+    scatter_pair(v, wanted, local, weight, free, first_object_vertex, motion.of_vertices, system);
   }
 }
 

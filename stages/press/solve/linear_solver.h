@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "stages/press/solve/block_matrix.h"
 
@@ -24,6 +25,9 @@ class LinearSolver {
   virtual bool prepare(const BlockMatrix& matrix) = 0;
   /// Empty if the matrix turns out not to be positive definite. \pre it was prepared.
   virtual std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) = 0;
+  /// Where the matrix was seen not to be positive definite when prepare or solve last said so: rows of blocks,
+  /// ascending. Empty if that is not known.
+  virtual std::vector<int> indefinite_rows() const { return {}; }
   /// How exactly an iterative solver solves from now on, relative to the right-hand side.
   virtual void set_tolerance(double /*relative*/) {}
 

@@ -8,6 +8,7 @@
 namespace tacipc {
 namespace {
 
+constexpr int kLocalTries = 8;        // to find the places about which a Hessian is not positive definite
 constexpr double kSameShift = 1e-10;  // relative: the object's vertices are moved from rounded place to rounded place
 
 /// Σᵢ |row i| of a vector of stacked triples.
@@ -88,8 +89,14 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
                                                         kSameShift * shift.cwiseAbs().maxCoeff();
   const bool in_full = !yielding.empty() || !rigid_shift;
   const ObjectMotion object{motion, in_full, in_full ? Vector3::Zero() : shift};
-  // The derivatives of everything, elasticity in this order, contact and friction with this share of the stand-in.
-  const auto system_with = [&](Order elastic, double share) -> const NewtonSystem& {
+  const auto for_each_contact = [&](auto&& with) {
+    const Stopwatch watch(times_.contact_s);
+    auto which = active.begin();
+    for (const WeightedTerm& part : potential.terms) {
+      if (part.contact) with(part, *which++);
+    }
+  };
+  const auto assemble_all = [&](Order elastic) {
     timed(times_.elastic_s, [&] {
       clear(system_, free_, pattern_);
       for (const WeightedTerm& part : potential.terms) {
@@ -102,37 +109,55 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
         }
       }
     });
-    const Stopwatch watch(times_.contact_s);
-    auto which = active.begin();
-    for (const WeightedTerm& part : potential.terms) {
-      if (part.contact)
-        assemble_contact(part.weight, *part.contact, *which++, x, free_, first_object_vertex_, share, object, system_);
-    }
-    return system_;
+    for_each_contact([&](const WeightedTerm& part, const std::vector<int>& which) {
+      assemble_contact(part.weight, *part.contact, which, x, free_, first_object_vertex_, blend, object, system_);
+    });
   };
   NewtonDirection out;
-  const auto solved = [&](const NewtonSystem& system, double share) {
-    if (!solve(system, yielding, motion, out)) return false;
-    out.blend = share;
-    out.gradient_sum = sum_of_norms(system.gradient);
-    for (const int axis : yielding) out.gradient_sum += std::abs(system.object_gradient[axis]);
-    return true;
-  };
-  const auto too_long = [&] { return out.p.rowwise().squaredNorm().maxCoeff() > longest_m * longest_m; };
-  for (bool first = true; blend.share() < 1.0; first = false) {
-    const double share = blend.share();
-    if (solved(system_with(Order::hessian, share), share) && !too_long()) {
-      blend.found(first);
-      return out;
+  // Vertices about which the Hessian is not positive definite, or all but so; none if the direction will do.
+  const auto find_direction = [&](bool trust) {
+    std::vector<int> wrong;
+    if (solve(system_, yielding, motion, out)) {
+      for (int i = 0; i < free_.size() && !trust; ++i) {
+        if (const int v = free_.vertex_of_free[i]; out.p.row(v).squaredNorm() > longest_m * longest_m)
+          wrong.push_back(v);
+      }
+      return wrong;
     }
-    blend.failed();
+    for (const int i : solver_->indefinite_rows()) wrong.push_back(free_.vertex_of_free[i]);
+    return wrong.empty() ? free_.vertex_of_free : wrong;
+  };
+  const auto lean_more = [&](const std::vector<int>& vertices) {
+    bool more = false;
+    for (const int v : vertices) {
+      if (v < first_object_vertex_) more = blend.failed(v) || more;
+    }
+    return more;
+  };
+  assemble_all(Order::hessian);
+  bool projected = false;
+  for (int tries = 1;; ++tries) {
+    std::vector<int> wrong = find_direction(projected);
+    if (wrong.empty()) break;
+    if (tries > kLocalTries) wrong = free_.vertex_of_free;
+    const Blend before = blend;
+    if (lean_more(wrong) || lean_more(free_.vertex_of_free)) {
+      for_each_contact([&](const WeightedTerm& part, const std::vector<int>& which) {
+        reblend_contact(part.weight, *part.contact, which, x, free_, first_object_vertex_, before, blend, object,
+                        system_);
+      });
+    } else if (!projected) {
+      projected = true;
+      assemble_all(Order::psd);
+    } else {
+      throw SolverError("the projected Hessian is not positive definite");
+    }
   }
-  const bool positive = solved(system_with(Order::hessian, 1.0), 1.0) && !too_long();
-  if (positive || solved(system_with(Order::psd, 1.0), 1.0)) {
-    blend.found(positive);
-    return out;
-  }
-  throw SolverError("the projected Hessian is not positive definite");
+  out.blend = blend.largest();
+  out.gradient_sum = sum_of_norms(system_.gradient);
+  for (const int axis : yielding) out.gradient_sum += std::abs(system_.object_gradient[axis]);
+  blend.found();
+  return out;
 }
 
 }  // namespace tacipc

@@ -16,7 +16,7 @@ struct NewtonDirection {
   Vector3 yield = Vector3::Zero();  // the object's part of it beyond its prescribed motion
   double slope = 0.0;               // gᵀp over everything free
   double gradient_sum = 0.0;        // Σ over free vertices (and the yielding object) of |gradient|
-  double blend = 0.0;               // part of the contact Hessian that was made positive: 0 exact, 1 all of it
+  double blend = 0.0;  // the largest share of the contact Hessian's stand-in: 0 exact, 1 all of it somewhere
 };
 
 class NewtonStepper {
@@ -26,12 +26,12 @@ class NewtonStepper {
                 LinearSolverKind solver);
 
   /// Solves for the Newton step with H = H_exact + blend (H_positive − H_exact), where H_positive has each contact's
-  /// Hessian replaced by its positive stand-in. The smallest blend with a positive definite H is looked for from
-  /// blend.share() upwards; if even 1 fails, elasticity is projected
-  /// too. Frictionless contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton
-  /// creeps. `motion` (rows like x) is how prescribed vertices move; `yielding` are the axes along which the object as
-  /// a whole is free besides. A step by which a vertex goes farther than `longest_m` counts as a sign of a Hessian that
-  /// is all but indefinite. The last term of the potential must be the barrier.
+  /// Hessian replaced by its positive stand-in, and each contact's blend is that of its vertices. It is raised about
+  /// those vertices where H is not positive definite until it is; if even 1 there fails, elasticity is projected too.
+  /// Frictionless contact slides along the object's edges: a stand-in alone is too stiff that way, and Newton creeps.
+  /// `motion` (rows like x) is how prescribed vertices move; `yielding` are the axes along which the object as a whole
+  /// is free besides. A step by which a vertex goes farther than `longest_m` counts as a sign of a Hessian that is all
+  /// but indefinite. The last term of the potential must be the barrier.
   NewtonDirection direction(const IncrementalPotential& potential, const Positions& x, const Positions& motion,
                             const std::vector<int>& yielding, double longest_m, Blend& blend);
 

@@ -22,6 +22,7 @@ constexpr double kFar = 10.0, kRoughDirection = 1e-2, kFineDirection = 1e-3;
 // A step this many times as long as the last one is none to trust.
 constexpr double kTooLong = 4.0;
 constexpr int kMaxHalvings = 40;
+constexpr double kFarthest = 0.3;  // of the longest step of a vertex
 constexpr double kTouching = 1e-9;  // of the largest force on a vertex
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
@@ -47,6 +48,13 @@ FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glue
 }
 
 }  // namespace
+
+void lean_on_farthest(const Positions& p, Blend& blend) {
+  const double far = kFarthest * largest_row(p, p.rows());
+  for (Eigen::Index v = 0; v < p.rows(); ++v) {
+    if (p.row(v).norm() >= far) blend.shortened(static_cast<int>(v));
+  }
+}
 
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings)
     : mesh_(mesh),
@@ -126,7 +134,7 @@ void TimeStepper::minimise(Step& step) {
       motion.bottomRows(mesh_.num_object_vertices) =
           (step.goal.object_target - x.bottomRows(mesh_.num_object_vertices)).rowwise() + step.yield.transpose();
     }
-    Blend leaning = step.arrived ? step.blend : Blend(newton.adaptive_contact_hessian);
+    Blend leaning = step.arrived ? step.blend : Blend(mesh_.num_gel_vertices, newton.adaptive_contact_hessian);
     // Far from the end the direction need not be exact: the next differs from it by more.
     newton_.set_tolerance(last_residual > kFar * newton.velocity_tolerance_m_s ? kRoughDirection : kFineDirection);
     const double longest = moving ? std::numeric_limits<double>::infinity() : kTooLong * last_residual * h;
@@ -194,7 +202,7 @@ void TimeStepper::minimise(Step& step) {
         trial = x + alpha * direction.p;
       }
       // A step too long for the energy: lean on the stand-in again, which is never too soft.
-      if (step.arrived && halvings > 0) step.blend.shortened(direction.blend);
+      if (step.arrived && halvings > 0) lean_on_farthest(direction.p.topRows(n), step.blend);
       x = trial;
       step.yield += alpha * direction.yield;
       if (!step.arrived) --relax;
@@ -239,8 +247,11 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   newton_.reset_pattern();
   search_.forget();
 
-  Step step{.goal = goal, .observe = observe, .start = state.x, .x = state.x};
-  step.blend = Blend(settings_.newton.adaptive_contact_hessian);
+  Step step{.goal = goal,
+            .observe = observe,
+            .start = state.x,
+            .x = state.x,
+            .blend = Blend(mesh_.num_gel_vertices, settings_.newton.adaptive_contact_hessian)};
   step.report.time_steps = 1;
   step.arrived = (state.x.bottomRows(mesh_.num_object_vertices) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
   step.weights = {.h_s = h,
