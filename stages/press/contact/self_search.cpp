@@ -12,7 +12,7 @@
 namespace tacipc {
 namespace {
 
-constexpr double kRoom = 0.25;  // of the radius, on each side
+constexpr double kRoom = 0.25;  // of the radius, around the end of a way
 
 /// Adds the pair unless its two sides share a vertex.
 void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
@@ -23,28 +23,29 @@ void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
   if (apart) out.push_back(pair);
 }
 
-/// Boxes around some of the primitives on their way from x to end, grown by `margin`.
+/// Boxes around some of the primitives, given those around the vertices, grown by `margin`.
 template <typename Primitives>
-std::vector<Box> swept(const std::vector<int>& some, const Primitives& primitives, const Positions& x,
-                       const Positions& end, double margin) {
+std::vector<Box> boxes_around(const std::vector<int>& some, const Primitives& primitives, const std::vector<Box>& all,
+                              double margin) {
   std::vector<Box> boxes(some.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 2048), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const auto& vertices = primitives[static_cast<std::size_t>(some[i])];
-      boxes[i] = grown(box_around(x, vertices).merged(box_around(end, vertices)), margin);
+      Box box;
+      for (const int v : primitives[static_cast<std::size_t>(some[i])]) box.extend(all[v]);
+      boxes[i] = grown(box, margin);
     }
   });
   return boxes;
 }
 
-/// Calls keep(i) for pairs first … last − 1 that come nearer than reach_m[i] + room on the way, in order.
+/// Calls keep(i) for pairs first … last − 1 that come nearer than within_m[i] on the way, in order.
 template <typename Keep>
-void for_each_coming_near(const std::vector<ContactPair>& pairs, const std::vector<double>& reach_m, double room,
-                          std::size_t first, std::size_t last, const Positions& x, const Positions& p, Keep&& keep) {
+void for_each_coming_near(const std::vector<ContactPair>& pairs, const std::vector<double>& within_m, std::size_t first,
+                          std::size_t last, const Positions& x, const Positions& p, Keep&& keep) {
   while (first < last) {
     const PairPack pack(pairs, first, last);
     Pack wanted = {};
-    for (int l = 0; l < pack.count; ++l) wanted[l] = reach_m[first + static_cast<std::size_t>(l)] + room;
+    for (int l = 0; l < pack.count; ++l) wanted[l] = within_m[first + static_cast<std::size_t>(l)];
     const unsigned apart = apart_all_the_way(x.data(), p.data(), 1.0, pack.pairs, pack.kind(), 0.0, wanted);
     for (int l = 0; l < pack.count; ++l) {
       if (!(apart >> l & 1U)) keep(first + static_cast<std::size_t>(l));
@@ -82,25 +83,25 @@ SelfSearch::Part SelfSearch::part_of(bool face) const {
           std::move(vertex_tree), std::move(edge_tree), std::move(triangle_tree)};
 }
 
-void SelfSearch::fit(Part& part, const Positions& x, const Positions& end, double margin) const {
-  part.vertex_tree.refit(swept(part.vertices, OneVertex{mesh_.gel.vertices}, x, end, margin));
-  part.edge_tree.refit(swept(part.edges, mesh_.gel.edges, x, end, margin));
-  part.triangle_tree.refit(swept(part.triangles, mesh_.gel.triangles, x, end, margin));
+void SelfSearch::fit(Part& part, const std::vector<Box>& boxes, double margin) const {
+  part.vertex_tree.refit(boxes_around(part.vertices, OneVertex{mesh_.gel.vertices}, boxes, margin));
+  part.edge_tree.refit(boxes_around(part.edges, mesh_.gel.edges, boxes, margin));
+  part.triangle_tree.refit(boxes_around(part.triangles, mesh_.gel.triangles, boxes, margin));
 }
 
 void SelfSearch::search(const Positions& x, const Positions& p, double radius_m, bool face_is_open) {
   ++num_searches_;
   radius_m_ = radius_m;
   left_out_face_ = face_is_open;
-  const Positions end = x + p;
+  end_ = x + p;
+  std::vector<Box> boxes(static_cast<std::size_t>(mesh_.num_gel_vertices));
+  for (const int v : mesh_.gel.vertices) {
+    boxes[v].extend(Vector3(x.row(v)));
+    boxes[v].extend(grown(Box(Vector3(end_.row(v))), kRoom * radius_m));
+  }
   // Half of the distance looked for on each side.
-  const double margin = (0.5 + kRoom) * radius_m, room = kRoom * radius_m;
-  const OneVertex points{mesh_.gel.vertices};
-  room_.resize(points.size());
-  for (std::size_t i = 0; i < room_.size(); ++i)
-    room_[i] = grown(box_around(x, points[i]).merged(box_around(end, points[i])), room);
-  fit(face_, x, end, margin);
-  fit(others_, x, end, margin);
+  fit(face_, boxes, 0.5 * radius_m);
+  fit(others_, boxes, 0.5 * radius_m);
 
   const Surface& gel = mesh_.gel;
   // What is looked for, each in parts that can go at the same time.
@@ -142,7 +143,10 @@ void SelfSearch::search(const Positions& x, const Positions& p, double radius_m,
     std::vector<double> reach = coarse_squared_distances(candidates, mesh_.rest_positions);
     // Zero: edges too parallel to tell.
     for (double& r : reach) r = r > 0.0 ? std::min(radius_m, 0.5 * std::sqrt(r)) : radius_m;
-    for_each_coming_near(candidates, reach, 2.0 * room, 0, candidates.size(), x, p, [&](std::size_t i) {
+    // Near on the way, or near enough at its end to come so in what room they have there.
+    std::vector<double> within = reach;
+    for (double& w : within) w += 2.0 * kRoom * radius_m;
+    for_each_coming_near(candidates, within, 0, candidates.size(), x, p, [&](std::size_t i) {
       found[part].pairs.push_back(candidates[i]);
       found[part].reach_m.push_back(reach[i]);
     });
@@ -156,18 +160,15 @@ void SelfSearch::search(const Positions& x, const Positions& p, double radius_m,
 }
 
 void SelfSearch::pairs(const Positions& x, const Positions& p, double radius_m, std::vector<ContactPair>& out) {
-  const auto within_room = [&] {
-    for (std::size_t i = 0; i < room_.size(); ++i) {
-      const int v = mesh_.gel.vertices[i];
-      if (!room_[i].contains(Vector3(x.row(v))) || !room_[i].contains(Vector3(x.row(v) + p.row(v)))) return false;
-    }
-    return true;
-  };
   const bool face_is_open = open_face_.stays_open(x, p);
-  if (radius_m != radius_m_ || (left_out_face_ && !face_is_open) || !within_room())
-    search(x, p, radius_m, face_is_open);
+  bool known = radius_m == radius_m_ && (!left_out_face_ || face_is_open);
+  for (auto v = mesh_.gel.vertices.begin(); known && v != mesh_.gel.vertices.end(); ++v) {
+    const Vector3 from_end = x.row(*v) - end_.row(*v);
+    known = std::max(from_end.norm(), (from_end + p.row(*v).transpose()).norm()) <= kRoom * radius_m;
+  }
+  if (!known) search(x, p, radius_m, face_is_open);
   collect(near_.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
-    for_each_coming_near(near_, reach_m_, 0.0, first, last, x, p, [&](std::size_t i) { found.push_back(near_[i]); });
+    for_each_coming_near(near_, reach_m_, first, last, x, p, [&](std::size_t i) { found.push_back(near_[i]); });
   });
 }
 

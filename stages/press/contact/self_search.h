@@ -12,7 +12,7 @@ namespace tacipc {
 
 /// Finds pairs of two primitives of the gel that share no vertex. Neighbours are near each other for ever, so a pair
 /// counts only from min(radius, half its distance at rest) on. What a search found is kept with some room around it,
-/// for as long as everything moves within that room.
+/// for as long as everything stays that near the end of the way that was searched.
 class SelfSearch {
  public:
   explicit SelfSearch(const ContactMesh& mesh);
@@ -37,13 +37,13 @@ class SelfSearch {
     Bvh vertex_tree, edge_tree, triangle_tree;
   };
   Part part_of(bool face) const;
-  void fit(Part& part, const Positions& x, const Positions& end, double margin) const;
+  void fit(Part& part, const std::vector<Box>& boxes, double margin) const;
   void search(const Positions& x, const Positions& p, double radius_m, bool face_is_open);
 
   const ContactMesh& mesh_;
   OpenFace open_face_;
   Part face_, others_;             // primitives all of whose vertices are on the face, and all others
-  std::vector<Box> room_;          // of each of the gel's surface vertices
+  Positions end_;                  // of the way that was searched
   std::vector<ContactPair> near_;  // pairs found, and how near each counts
   std::vector<double> reach_m_;
   bool left_out_face_ = false;

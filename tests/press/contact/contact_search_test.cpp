@@ -169,6 +169,35 @@ TEST(ContactSearch, LooksAgainOnlyAtWhatMovesRelativeToTheObject) {
   EXPECT_EQ(looks(still), all) << "another radius";
 }
 
+/// Two pieces of gel side by side go the same long way, then back by different parts of it: they have never been as
+/// near as then, though each is inside the box of its own way.
+TEST(ContactSearch, FindsWhatComesNearOnTheWayBack) {
+  const Positions one{{0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}, {0, 0, -1e-3}};
+  Positions rest(8, 3);
+  rest << one, one;
+  rest.bottomRows(4).col(0).array() += 2e-3;
+  const Tetrahedra tets{{0, 2, 1, 3}, {4, 6, 5, 7}};
+  const ContactMesh mesh = make_contact_mesh(rest, boundary_triangles(tets, 8), Positions(0, 3), Triangles(0, 3));
+  ContactSearch search(mesh);
+  Positions x = rest, p = Positions::Zero(8, 3);
+  p.rowwise() = Eigen::RowVector3d(3e-3, 3e-3, 0);
+  search.pairs(x, p, kRadius);
+  x += p;
+  p.topRows(4).rowwise() = Eigen::RowVector3d(0, -2.5e-3, 0);
+  p.bottomRows(4).rowwise() = Eigen::RowVector3d(-0.9e-3, -2.5e-3, 0);
+  const std::vector<ContactPair> found = search.pairs(x, p, kRadius);
+  x += p;
+  int near = 0;
+  for (const ContactPair& pair : all_pairs(mesh)) {
+    if (std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance) >= reach(mesh, pair)) continue;
+    ++near;
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const ContactPair& other) {
+      return same(sorted({pair}, 8)[0], sorted({other}, 8)[0]);
+    }));
+  }
+  EXPECT_GT(near, 0);
+}
+
 TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
   Scene scene;
   ContactSearch search(scene.mesh);
