@@ -1,6 +1,8 @@
 // Sparse algebra and step limits of the press.
 #include <gtest/gtest.h>
 
+#include <tbb/global_control.h>
+
 #include <Eigen/Cholesky>
 #include <random>
 
@@ -8,6 +10,7 @@
 #include "stages/press/solve/blend.h"
 #include "stages/press/solve/conjugate_gradient.h"
 #include "stages/press/solve/step_limit.h"
+#include "stages/press/solve/sweep_order.h"
 
 namespace tacipc {
 namespace {
@@ -48,6 +51,55 @@ TEST(BlockPattern, KeepsEachPairOnceWithTheDiagonalFirst) {
   EXPECT_EQ(pattern.find(1, 0), -1);
 }
 
+/// A row of vertices, each coupled with the next two and a few far away.
+BlockPattern chain(int size) {
+  std::vector<std::array<int, 2>> pairs;
+  for (int i = 0; i + 2 < size; ++i) {
+    pairs.push_back({i, i + 1});
+    pairs.push_back({i + 2, i});
+    if (i % 97 == 5) pairs.push_back({i, (i + size / 2) % size});
+  }
+  return make_block_pattern(size, pairs);
+}
+
+TEST(SweepOrder, PartsShareNoBlockAndEveryBlockHasItsPlace) {
+  const BlockPattern pattern = chain(1000);
+  for (const int parts : {1, 2, 4}) {
+    const SweepOrder order = make_sweep_order(pattern, parts);
+    ASSERT_EQ(order.num_parts(), parts);
+    EXPECT_EQ(order.num_rows(), 1000);
+    EXPECT_TRUE(parts == 1 ? order.separator() == 1000 : order.separator() > 970 && order.separator() < 1000);
+    std::vector<int> rows = order.row_of;
+    std::sort(rows.begin(), rows.end());
+    for (int r = 0; r < 1000; ++r) ASSERT_EQ(rows[r], r);
+    const auto part_of = [&](int row) {
+      return std::upper_bound(order.part_start.begin(), order.part_start.end(), row) - order.part_start.begin() - 1;
+    };
+    std::vector<int> seen(pattern.row.size(), 0);
+    for (int c = 0; c < 1000; ++c) {
+      for (int k = order.column_start[c]; k < order.column_start[c + 1]; ++k) {
+        const int r = order.row[k];
+        ASSERT_GT(r, c);
+        EXPECT_EQ(r >= order.separator(), k >= order.separator_start[c]);
+        EXPECT_TRUE(r >= order.separator() || part_of(r) == part_of(c));
+        const bool turned = order.source[k] < 0;
+        const int source = turned ? -1 - order.source[k] : order.source[k];
+        ++seen[source];
+        const auto column_of = std::upper_bound(pattern.column_start.begin(), pattern.column_start.end(), source) -
+                               pattern.column_start.begin() - 1;
+        const int i = order.row_of[pattern.row[source]], j = order.row_of[column_of];
+        EXPECT_EQ(turned ? j : i, r);
+        EXPECT_EQ(turned ? i : j, c);
+      }
+    }
+    // All below the diagonal once, those on it never.
+    for (int c = 0; c < 1000; ++c) {
+      for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k)
+        EXPECT_EQ(seen[k], k > pattern.column_start[c] ? 1 : 0);
+    }
+  }
+}
+
 TEST(CholmodSolver, SolvesAsDenseAlgebraDoesAndAnalysesOncePerPattern) {
   BlockMatrix matrix = random_matrix(40, 3, 20.0);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(120, -1.0, 2.0);
@@ -82,6 +134,30 @@ TEST(ConjugateGradient, SolvesAsDenseAlgebraDoesToItsToleranceWithoutAFactor) {
     EXPECT_EQ(solver.num_factorized(), 0);
     EXPECT_GT(solver.num_products(), 0);
   }
+}
+
+/// Large enough to be swept in parts.
+TEST(ConjugateGradient, GivesTheSameBitsWithAnyNumberOfThreads) {
+  BlockMatrix matrix(std::make_shared<BlockPattern>(chain(6000)));
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int c = 0; c < 6000; ++c) {
+    for (int k = matrix.pattern->column_start[c]; k < matrix.pattern->column_start[c + 1]; ++k) {
+      auto block = matrix.block(k);
+      for (double& entry : block.reshaped()) entry = uniform(random);
+      if (matrix.pattern->row[k] == c) block = (0.5 * (block + block.transpose())).eval() + 9.0 * Matrix3::Identity();
+    }
+  }
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(18000, -1.0, 2.0);
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    ConjugateGradient solver(1e-10);
+    EXPECT_TRUE(solver.prepare(matrix));
+    return solver.solve(b).value();
+  };
+  const Eigen::VectorXd one = with(1), two = with(2);
+  EXPECT_EQ(one, two);
+  EXPECT_LT((matrix.multiply(one) - b).norm(), 1e-8 * b.norm());
 }
 
 TEST(ConjugateGradient, FactorisesWhereItsProductsDoNotSuffice) {

@@ -1,5 +1,7 @@
 #include "stages/press/solve/block_matrix.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -47,6 +49,14 @@ BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>&
     pattern.column_start.push_back(pattern.num_blocks());
   }
   return pattern;
+}
+
+void BlockMatrix::clear(std::shared_ptr<const BlockPattern> p) {
+  pattern = std::move(p);
+  values.resize(kStride * static_cast<std::size_t>(pattern->num_blocks()));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 16), [&](const auto& range) {
+    std::fill(&values[range.begin()], &values[range.begin()] + range.size(), 0.0);
+  });
 }
 
 Eigen::VectorXd BlockMatrix::multiply(const Eigen::VectorXd& x) const {

@@ -49,10 +49,7 @@ struct BlockMatrix {
   BlockMatrix() = default;
   explicit BlockMatrix(std::shared_ptr<const BlockPattern> p) { clear(std::move(p)); }
   /// Makes it a matrix of zeros.
-  void clear(std::shared_ptr<const BlockPattern> p) {
-    pattern = std::move(p);
-    values.assign(kStride * static_cast<std::size_t>(pattern->num_blocks()), 0.0);
-  }
+  void clear(std::shared_ptr<const BlockPattern> p);
   Block block(int index) { return Block(values.data() + kStride * static_cast<std::size_t>(index)); }
   /// Block (row, column), row ≥ column. \throw std::logic_error if the pattern has none
   Block block(int r, int column) {

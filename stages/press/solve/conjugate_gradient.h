@@ -1,11 +1,13 @@
 // Conjugate gradients, preconditioned by symmetric block Gauss–Seidel sweeps.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "stages/press/solve/cholmod_solver.h"
+#include "stages/press/solve/sweep_order.h"
 
 namespace tacipc {
 
@@ -34,16 +36,24 @@ class ConjugateGradient final : public LinearSolver {
   int num_factorized() const { return factorized_; }
 
  private:
+  static constexpr int kParts = 4;
+
+  template <typename Part>
+  double over_parts(Part&& part);
+  double forward(const double* t, const double* p, double* y);
   void find_indefinite_rows();
   std::optional<Eigen::VectorXd> factorize(const Eigen::VectorXd& b);
 
   double tolerance_;
   int max_products_;
   const BlockMatrix* matrix_ = nullptr;
-  std::vector<double> lower_;              // L, scaled: blocks below the diagonal, nine numbers each, column by column
+  std::shared_ptr<const BlockPattern> pattern_;  // that order_ belongs to
+  SweepOrder order_;
+  std::vector<double> lower_;              // L, scaled, nine numbers a block, as order_ has them
   std::vector<double> inverse_cholesky_;   // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks
   std::vector<double> x_, r_, p_, t_, q_;  // of the last solve; their storage is used again
-  std::optional<CholmodSolver> direct_;    // once it is needed
+  std::array<std::vector<double>, kParts> to_separator_;  // from each part in a sweep
+  std::optional<CholmodSolver> direct_;                   // once it is needed
   std::int64_t products_ = 0;
   int factorized_ = 0;
   std::vector<int> indefinite_rows_;

@@ -19,11 +19,13 @@ class ElasticAssembly {
 
  private:
   void look_up(const ElasticPacks& packs, const FreeVertices& free);
+  void divide(const ElasticPacks& packs, const FreeVertices& free);
 
   std::shared_ptr<const BlockPattern> pattern_;
   /// Block of the matrix: its index, or −1 − its index where it lies transposed, or kNowhere.
   std::vector<std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>> places_;
-  std::vector<bool> none_transposed_;  // of a pack's blocks
+  std::vector<bool> none_transposed_;     // of a pack's blocks
+  std::vector<std::vector<int>> groups_;  // of packs, those before the last touching each other nowhere
 };
 
 }  // namespace tacipc

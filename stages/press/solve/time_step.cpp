@@ -22,7 +22,7 @@ constexpr double kFar = 10.0, kRoughDirection = 1e-2, kFineDirection = 1e-3;
 // A step this many times as long as the last one is none to trust.
 constexpr double kTooLong = 4.0;
 constexpr int kMaxHalvings = 40;
-constexpr double kFarthest = 0.3;  // of the longest step of a vertex
+constexpr double kFarthest = 0.3;   // of the longest step of a vertex
 constexpr double kTouching = 1e-9;  // of the largest force on a vertex
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
