@@ -66,7 +66,7 @@ class Blend {
   static constexpr double kAfterShortening = 0.1;
   static constexpr double kAgain = 4.0;
   static constexpr double kLeastBoldness = 1.5;
-  static constexpr double kMostBoldness = 8.0;
+  static constexpr double kMostBoldness = 4.0;
   static constexpr double kBolder = 1.4;
   static constexpr double kShyer = 0.5;
   bool adaptive_;

@@ -135,8 +135,10 @@ void TimeStepper::minimise(Step& step) {
           (step.goal.object_target - x.bottomRows(mesh_.num_object_vertices)).rowwise() + step.yield.transpose();
     }
     Blend leaning = step.arrived ? step.blend : Blend(mesh_.num_gel_vertices, newton.adaptive_contact_hessian);
-    // Far from the end the direction need not be exact: the next differs from it by more.
-    newton_.set_tolerance(last_residual > kFar * newton.velocity_tolerance_m_s ? kRoughDirection : kFineDirection);
+    // The next direction differs from this one by more than what is left out of it; but on the object's way, where no
+    // energy guards the step, the last part of it counts.
+    const bool rough = step.arrived || last_residual > kFar * newton.velocity_tolerance_m_s;
+    newton_.set_tolerance(rough ? kRoughDirection : kFineDirection);
     const double longest = moving ? std::numeric_limits<double>::infinity() : kTooLong * last_residual * h;
     const NewtonDirection direction = newton_.direction(energy, x, motion, step.goal.yielding, longest, leaning);
     if (step.arrived) step.blend = leaning;
