@@ -16,7 +16,7 @@ bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_inde
 
 .PHONY: build-bench
 build-bench: build
-	@cmake --build $(BUILD) --target bench_object bench_table -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) --target bench_object bench_table routes_table -j $(JOBS) -- --quiet
 
 $(BENCH)/gels/%/tetmesh.yaml: configs/benchmarks/gel_%.yaml configs/sensors/mctac.yaml | build
 	$(call run,tetmesh,--sensor configs/sensors/mctac.yaml --config $<)

@@ -10,7 +10,7 @@ PRINTED_OBJECTS := $(wildcard $(SHARED)/data/printed_indenters/*.stl)
 TABLE_FILES := $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)
 PAPER_GEL_OBJECTS := Bear_8028 Wave_8134 board3 coin_5002 dragon_01 sphere cone dots triangle parallel_lines
 
-ifneq ($(filter objects-table,$(MAKECMDGOALS)),)
+ifneq ($(filter objects-table routes,$(MAKECMDGOALS)),)
 ifneq ($(words $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)),22)
   $(error SHARED: $(SHARED) lacks some of the 22 meshes of data/tacipc_release/objects and data/printed_indenters)
 endif

@@ -105,6 +105,7 @@ void contents(auto& io, auto& frame, auto& progress) {
   each(io, frame.balance.inertia_n);
   each(io, frame.balance.mount_n);
   io.plain(frame.min_gap_m);
+  io.plain(frame.stand_off_m);
   io.plain(frame.min_volume_ratio);
   io.plain(frame.pose_error_m);
   io.plain(frame.intersections);

@@ -227,6 +227,7 @@ class Motion {
     const Positions object_positions = transformed(pose_, object_.positions);
     frame.pose_error_m = (x.bottomRows(mesh_.num_object_vertices) - object_positions).rowwise().norm().maxCoeff();
     frame.min_gap_m = stepper_->smallest_gap(x, out_.gap_horizon_m);
+    frame.stand_off_m = forces.stand_off_m;
     frame.min_volume_ratio = min_volume_ratio(frame.positions, gel_.tets, rest_tets_);
     const IntersectionReport crossings =
         find_intersections({frame.positions, gel_.boundary}, {object_positions, object_.triangles});

@@ -30,7 +30,8 @@ struct Frame {
   Vector3 force_n = Vector3::Zero();        // Σ on the gel by the object, wherever it touches
   Vector3 torque_n_m = Vector3::Zero();     // the same about the origin of S
   Balance balance;
-  double min_gap_m = 0.0;  // gel–object, at most `gap_horizon_m`
+  double min_gap_m = 0.0;    // gel–object, at most `gap_horizon_m`
+  double stand_off_m = 0.0;  // mean gap where they press on each other, by force
   double min_volume_ratio = 1.0;
   double pose_error_m = 0.0;  // largest distance of an object vertex from where its pose puts it
   int intersections = 0;      // pairs of triangles, by an exact test

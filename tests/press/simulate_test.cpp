@@ -31,6 +31,8 @@ TEST(Simulate, SharpTipIntoCoarseGelEndsExactlyAtItsPoseAndInBalance) {
     EXPECT_GT(frame.min_volume_ratio, 0.0);
     EXPECT_GT(-frame.force_n.z(), last_force);
     last_force = -frame.force_n.z();
+    EXPECT_GE(frame.stand_off_m, frame.min_gap_m);
+    EXPECT_LT(frame.stand_off_m, simulation.d_hat_m);
     EXPECT_LE(frame.balance.force_n, frame.solver.force_residual_n);  // what is not balanced is what Newton left over
   }
   const Positions end = transformed(simulation.frames.back().gel_from_object, object.positions);

@@ -324,6 +324,18 @@ StepForces TimeStepper::no_forces() const {
           .contact_state = std::vector<std::uint8_t>(static_cast<std::size_t>(mesh_.num_gel_vertices), 0)};
 }
 
+double TimeStepper::stand_off(const ContactBarrier& barrier, const Positions& x) const {
+  double force = 0.0, moment = 0.0;
+  for (const int i : barrier.active(x)) {
+    const ContactPair& pair = barrier.pairs()[i];
+    if (*std::max_element(pair.vertices.begin(), pair.vertices.end()) < mesh_.num_gel_vertices) continue;
+    const ContactBarrier::Push push = barrier.push(i, gather(x, pair));
+    force += push.force;
+    moment += push.force * std::sqrt(push.feature.squared_distance);
+  }
+  return force > 0.0 ? moment / force : 0.0;
+}
+
 void TimeStepper::record_forces(const Step& step) {
   const Eigen::Index n = mesh_.num_gel_vertices;
   const double h2 = step.goal.h_s * step.goal.h_s;
@@ -331,7 +343,9 @@ void TimeStepper::record_forces(const Step& step) {
     return -part.weight / h2 * gradient_of(*part.term, step.x).topRows(n);
   };
   forces_ = no_forces();
-  for (const WeightedTerm& part : potential(step, pairs_at(step.x)).terms) {
+  const std::vector<ContactPair> pairs = pairs_at(step.x);
+  forces_.stand_off_m = stand_off(barrier(pairs), step.x);
+  for (const WeightedTerm& part : potential(step, pairs).terms) {
     const Positions force = force_of(part);
     if (part.term->name() == "barrier") {
       forces_.normal = force;

@@ -92,6 +92,9 @@ struct StepForces {
   /// Per gel vertex: 0 no contact, 1 sticks, 2 slips (most of its normal force belongs to pairs that slide faster than
   /// ε_v).
   std::vector<std::uint8_t> contact_state;
+  /// Σ λ d / Σ λ over the pairs of gel and object, λ the force and d the distance between the two sides of each: how
+  /// far the barrier keeps the surfaces that press on each other apart. Zero where nothing touches.
+  double stand_off_m = 0.0;
 };
 
 /// Called after each Newton iteration, for progress lines.
@@ -136,6 +139,7 @@ class TimeStepper {
   /// whichever is less (friction may carry most of the normal force, and what is left must balance too).
   double contact_force(const IncrementalPotential& energy, const Positions& x) const;
   IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
+  double stand_off(const ContactBarrier& barrier, const Positions& x) const;
   void record_forces(const Step& step);
 
   const ContactMesh& mesh_;

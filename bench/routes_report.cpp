@@ -1,0 +1,143 @@
+#include "bench/routes_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "common/error.h"
+#include "tests/verification/stage_record.h"
+
+namespace tacipc::bench {
+namespace {
+
+double median(std::vector<double> all) {
+  if (all.empty()) return 0.0;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+std::string line(const std::string& object, const std::vector<RoutePair>& pairs, const RouteLimits& limits) {
+  const RouteSummary sum = summarize(pairs, limits);
+  int fast_newton = 0, direct_newton = 0;
+  Difference worst;
+  for (const RoutePair& pair : pairs) {
+    if (const auto apart = pair.apart()) {
+      worst.largest_m = std::max(worst.largest_m, apart->largest_m);
+      worst.rms_m = std::max(worst.rms_m, apart->rms_m);
+      worst.force = std::max(worst.force, std::abs(apart->force));
+      fast_newton += pair.fast.run->newton();
+      direct_newton += pair.direct.run->newton();
+    }
+  }
+  return fmt::format("| {} | {} of {} | {} of {} | {} of {} | {:.2g} | {:.2g} | {:.2g} | {} / {} | {:.0f} / {:.0f} |\n",
+                     object, sum.fast_converged, sum.samples, sum.direct_converged, sum.samples, sum.agree, sum.samples,
+                     1e6 * worst.largest_m, 1e6 * worst.rms_m, 100.0 * worst.force, fast_newton, direct_newton,
+                     sum.fast_s, sum.direct_s);
+}
+
+}  // namespace
+
+RouteLimits RouteLimits::read(ConfigReader& in) {
+  RouteLimits limits;
+  limits.largest_m = 1e-3 * in.number("largest_mm", Range::positive());
+  limits.rms_m = 1e-3 * in.number("rms_mm", Range::positive());
+  limits.force = 1e-2 * in.number("force_percent", Range::positive());
+  return limits;
+}
+
+bool RoutePair::agrees(const RouteLimits& limits) const {
+  const auto d = apart();
+  return d && d->largest_m <= limits.largest_m && d->rms_m <= limits.rms_m && std::abs(d->force) <= limits.force;
+}
+
+std::vector<RoutePair> read_route_pairs(const std::vector<std::filesystem::path>& folders) {
+  std::map<std::pair<std::string, std::string>, std::map<std::string, RouteRun>> found;
+  for (const auto& folder : folders) {
+    const RunName name = parse_run_name(folder.lexically_normal().filename().string());
+    RouteRun one;
+    if (const auto failure = verify::why_no_record(folder, "press")) {
+      one.failure = *failure;
+    } else {
+      one.run = read_run(folder);
+    }
+    found[{name.object, name.motion}][name.route] = std::move(one);
+  }
+  std::vector<RoutePair> pairs;
+  for (auto& [of, routes] : found) {
+    if (routes.size() != 2 || !routes.contains("fast") || !routes.contains("direct"))
+      throw DataError("{}, {}: a sample needs one run named fast and one named direct", of.first, of.second);
+    pairs.push_back({of.first, of.second, std::move(routes["fast"]), std::move(routes["direct"])});
+  }
+  return pairs;
+}
+
+RouteSummary summarize(const std::vector<RoutePair>& pairs, const RouteLimits& limits) {
+  RouteSummary sum;
+  std::vector<double> largest, rms, force;
+  for (const RoutePair& pair : pairs) {
+    ++sum.samples;
+    sum.fast_converged += pair.fast.run ? 1 : 0;
+    sum.direct_converged += pair.direct.run ? 1 : 0;
+    sum.agree += pair.agrees(limits) ? 1 : 0;
+    if (const auto apart = pair.apart()) {
+      largest.push_back(apart->largest_m);
+      rms.push_back(apart->rms_m);
+      force.push_back(std::abs(apart->force));
+      sum.fast_s += pair.fast.run->processor_s;
+      sum.direct_s += pair.direct.run->processor_s;
+    }
+  }
+  sum.median_largest_m = median(std::move(largest));
+  sum.median_rms_m = median(std::move(rms));
+  sum.median_force = median(std::move(force));
+  return sum;
+}
+
+std::string routes_page(const std::vector<RoutePair>& pairs, const RouteLimits& limits) {
+  const RouteSummary sum = summarize(pairs, limits);
+  std::string out = fmt::format(
+      "# Two routes, one answer\n\n"
+      "Every mesh of the shared data in five poses (`configs/benchmarks/poses/*.yaml`: pressed, aside, dragged, "
+      "turned, "
+      "tilted) on a gel of 12k vertices, friction 0.5 with one lag per step, the paper's stiffness, a tenth of the "
+      "usual "
+      "tolerances: by the default route, and with every linear system factorised. Made by "
+      "`make -f Makefile.data routes SHARED=…`.\n\n"
+      "{} samples: {} converged by the default route, {} by factorisation; in {} the answers agree, that is, within "
+      "{:g} µm largest and {:g} µm rms over the gel's vertices and {:g} % of the press force in the last frame. In the "
+      "median they are {:.2g} µm largest, {:.2g} µm rms and {:.2g} % apart. CPU seconds in all: {:.0f} against "
+      "{:.0f}.\n\n"
+      "| Object | Converged | by factorisation | Agree | Largest, µm | rms, µm | Force, % | Newton iterations | CPU s "
+      "|\n|---|---|---|---|---|---|---|---|---|\n",
+      sum.samples, sum.fast_converged, sum.direct_converged, sum.agree, 1e6 * limits.largest_m, 1e6 * limits.rms_m,
+      100.0 * limits.force, 1e6 * sum.median_largest_m, 1e6 * sum.median_rms_m, 100.0 * sum.median_force, sum.fast_s,
+      sum.direct_s);
+  for (auto first = pairs.begin(); first != pairs.end();) {
+    const auto last = std::find_if(first, pairs.end(), [&](const RoutePair& p) { return p.object != first->object; });
+    out += line(first->object, {first, last}, limits);
+    first = last;
+  }
+  out += "\nThe largest of the poses each; Newton iterations and CPU seconds of all, default / factorised.\n";
+  std::string apart;
+  for (const RoutePair& pair : pairs) {
+    if (pair.agrees(limits)) continue;
+    const std::string name = fmt::format("- {}, {}: ", pair.object, pair.pose);
+    if (const auto d = pair.apart()) {
+      apart += fmt::format("{}apart by {:.2g} µm largest, {:.2g} µm rms, {:+.2g} % of the force\n", name,
+                           1e6 * d->largest_m, 1e6 * d->rms_m, 100.0 * d->force);
+    } else if (pair.both()) {
+      apart += name + "on different gels\n";
+    } else {
+      if (!pair.fast.run) apart += fmt::format("{}by the default route: {}\n", name, pair.fast.failure);
+      if (!pair.direct.run) apart += fmt::format("{}by factorisation: {}\n", name, pair.direct.failure);
+    }
+  }
+  if (!apart.empty()) out += "\n## Samples that do not agree\n\n" + apart;
+  return out;
+}
+
+}  // namespace tacipc::bench

@@ -1,0 +1,53 @@
+// The same samples by two routes: which converged, and how far the answers are apart.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/bench_run.h"
+#include "common/config.h"
+
+namespace tacipc::bench {
+
+/// How far two answers to one sample may be apart and still agree.
+struct RouteLimits {
+  double largest_m = 0.0, rms_m = 0.0;  // over the gel's vertices in the last frame
+  double force = 0.0;                   // of the press force, relative
+
+  static RouteLimits read(ConfigReader& in);
+};
+
+/// A run, or why there is none.
+struct RouteRun {
+  std::optional<Run> run;
+  std::string failure;
+};
+
+/// One sample by both routes.
+struct RoutePair {
+  std::string object, pose;
+  RouteRun fast, direct;
+
+  bool both() const { return fast.run && direct.run; }
+  std::optional<Difference> apart() const { return both() ? difference(*fast.run, *direct.run) : std::nullopt; }
+  bool agrees(const RouteLimits& limits) const;
+};
+
+/// From folders of presses that are named gel-object-pose-fast and gel-object-pose-direct; by object, then pose.
+/// \throw DataError for other names, or where one of two is missing
+std::vector<RoutePair> read_route_pairs(const std::vector<std::filesystem::path>& folders);
+
+struct RouteSummary {
+  int samples = 0, fast_converged = 0, direct_converged = 0, agree = 0;
+  double median_largest_m = 0.0, median_rms_m = 0.0, median_force = 0.0;  // of those that converged in both
+  double fast_s = 0.0, direct_s = 0.0;                                    // CPU seconds of those
+  bool holds() const { return agree == samples; }
+};
+RouteSummary summarize(const std::vector<RoutePair>& pairs, const RouteLimits& limits);
+
+/// A line per object, then each sample that failed or does not agree.
+std::string routes_page(const std::vector<RoutePair>& pairs, const RouteLimits& limits);
+
+}  // namespace tacipc::bench

@@ -1,0 +1,27 @@
+# The default route against the one that factorises every linear system, over every mesh of SHARED in five poses on a gel of 12k
+# vertices: does each sample converge, and to the same answer? Interrupted, it goes on; presses may run beside each other (JOBS).
+
+ROUTES := $(OUT)/routes
+POSES := $(basename $(notdir $(wildcard configs/benchmarks/poses/*.yaml)))
+ROUTES_RECORD := $(ROUTES)/table/routes_table.yaml
+
+# $(call route_rule,object,pose,route)
+define route_rule
+$(ROUTES)/runs/12k-$(1)-$(2)-$(3)/press.yaml: $(BENCH)/gels/12k/tetmesh.yaml $(TABLE)/objects/$(1)/decimate.yaml configs/benchmarks/sweep_$(3).yaml configs/benchmarks/poses/$(2).yaml | build
+	@mkdir -p $$(@D)
+	$$(call try,press,--name 12k-$(1)-$(2)-$(3) --gel $(BENCH)/gels/12k/gel.msh --object $(TABLE)/objects/$(1)/object.ply \
+	  --object-config configs/objects/printed_indenter.yaml --sensor configs/sensors/mctac.yaml --config configs/benchmarks/sweep_$(3).yaml \
+	  --sample configs/benchmarks/poses/$(2).yaml)
+ROUTE_RUNS += $(ROUTES)/runs/12k-$(1)-$(2)-$(3)
+endef
+ROUTE_RUNS :=
+$(foreach f,$(TABLE_FILES),$(foreach p,$(POSES),$(foreach r,fast direct,$(eval $(call route_rule,$(call name_of,$(f)),$(p),$(r))))))
+
+$(ROUTES_RECORD): $(addsuffix /press.yaml,$(ROUTE_RUNS)) | build-bench
+	$(call run,routes_table,--limits configs/benchmarks/routes.yaml $(addprefix --press ,$(ROUTE_RUNS)))
+
+.PHONY: routes
+routes: $(ROUTES_RECORD) ## Every mesh of SHARED in five poses, default route against factorisation; writes docs/routes.md (an hour; resumes)
+	cp $(ROUTES)/table/routes.md docs/routes.md
+	@cat docs/routes.md
+	$(call holds,$(ROUTES_RECORD))
