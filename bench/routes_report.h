@@ -13,8 +13,9 @@ namespace tacipc::bench {
 
 /// How far two answers to one sample may be apart and still agree.
 struct RouteLimits {
-  double largest_m = 0.0, rms_m = 0.0;  // over the gel's vertices in the last frame
-  double force = 0.0;                   // of the press force, relative
+  double rms_m = 0.0;      // over the gel's vertices in the last frame
+  double force = 0.0;      // of the press force, relative
+  double largest_m = 0.0;  // of a vertex: beyond it a sample is named on the page, though it may agree
 
   static RouteLimits read(ConfigReader& in);
 };
@@ -33,6 +34,7 @@ struct RoutePair {
   bool both() const { return fast.run && direct.run; }
   std::optional<Difference> apart() const { return both() ? difference(*fast.run, *direct.run) : std::nullopt; }
   bool agrees(const RouteLimits& limits) const;
+  bool to_the_vertex(const RouteLimits& limits) const;
 };
 
 /// From folders of presses that are named gel-object-pose-fast and gel-object-pose-direct; by object, then pose.
@@ -41,13 +43,14 @@ std::vector<RoutePair> read_route_pairs(const std::vector<std::filesystem::path>
 
 struct RouteSummary {
   int samples = 0, fast_converged = 0, direct_converged = 0, agree = 0;
+  int to_the_vertex = 0;  // of those that agree: no vertex beyond the limit
   double median_largest_m = 0.0, median_rms_m = 0.0, median_force = 0.0;  // of those that converged in both
   double fast_s = 0.0, direct_s = 0.0;                                    // CPU seconds of those
   bool holds() const { return agree == samples; }
 };
 RouteSummary summarize(const std::vector<RoutePair>& pairs, const RouteLimits& limits);
 
-/// A line per object, then each sample that failed or does not agree.
+/// A line per object, then each sample that failed, does not agree or has a vertex elsewhere.
 std::string routes_page(const std::vector<RoutePair>& pairs, const RouteLimits& limits);
 
 }  // namespace tacipc::bench

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const RouteLimits kLimits{.largest_m = 1e-6, .rms_m = 1e-7, .force = 1e-4};
+const RouteLimits kLimits{.rms_m = 1e-7, .force = 1e-4, .largest_m = 1e-6};
 
 Run run(double shift_m, double force_n, double cpu_s) {
   Run out;
@@ -34,7 +34,8 @@ TEST(Routes, AnswersAgreeWithinEveryLimit) {
   EXPECT_TRUE(sample("a", "p", 1e-7, 1.00005).agrees(kLimits));
   EXPECT_FALSE(sample("a", "p", 1e-7, 0.9998).agrees(kLimits));  // force
   EXPECT_FALSE(sample("a", "p", 5e-7, 1.0).agrees(kLimits));     // rms 2.5e-7
-  EXPECT_FALSE(sample("a", "p", 1.1e-6, 1.0).agrees({.largest_m = 1e-6, .rms_m = 1.0, .force = 1.0}));
+  EXPECT_TRUE(sample("a", "p", 1.1e-6, 1.0).agrees({.rms_m = 1.0, .force = 1.0, .largest_m = 1e-6}));
+  EXPECT_FALSE(sample("a", "p", 1.1e-6, 1.0).to_the_vertex({.rms_m = 1.0, .force = 1.0, .largest_m = 1e-6}));
 }
 
 TEST(Routes, ARunThatFailedAgreesWithNothingAndIsNamed) {
