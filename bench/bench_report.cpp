@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bench/element_study.h"
 #include "tests/verification/plot.h"
 
 namespace tacipc::bench {
@@ -13,6 +14,7 @@ namespace {
 constexpr const char* kFast = "fast";
 constexpr const char* kDirect = "direct";
 constexpr const char* kPlain = "plain";
+constexpr const char* kAveraged = "averaged";
 
 const Run* find(const std::vector<Run>& runs, const std::string& text) {
   const auto found = std::find_if(runs.begin(), runs.end(), [&](const Run& run) { return run.text == text; });
@@ -102,11 +104,13 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
          "\n*fast* is the default. *direct* factorises every linear system instead (CHOLMOD, METIS, one symbolic "
          "analysis) and is the same in all else. *plain* is projected Newton as usual: factorised, for the whole gel "
          "in every "
-         "iteration, with the positive Hessian of contact (`newton.contact_hessian: positive`). *Apart*: gel vertices "
+         "iteration, with the positive Hessian of contact (`newton.contact_hessian: positive`). *averaged* is *fast* "
+         "with another "
+         "element. *Apart*: gel vertices "
          "in the last frame, and the press force, against *direct*. *Products each*: sweeps of conjugate gradients for "
          "a linear system.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
          "\n## Where the time goes\n\nShares of the wall time.\n\n" +
-         parts_table(runs) + "\n## Threads and processes\n\n" + how_table(runs) +
+         parts_table(runs) + element_section(runs) + "\n## Threads and processes\n\n" + how_table(runs) +
          fmt::format(
              "\n## Cost model\n\n`configs/cost_model.yaml`: seconds of a frame = c (vertices / 1000)^{:.2f} (1 + "
              "touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging; fitted to {} presses "
@@ -118,7 +122,7 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
 std::string bench_svg(const std::vector<Run>& runs) {
   std::map<std::string, verify::Curve> curves;
   for (const Run& run : runs) {
-    if (!run.name.how.empty() || run.name.motion != "press") continue;
+    if (!run.name.how.empty() || run.name.motion != "press" || run.name.route == kAveraged) continue;
     const std::string label = run.name.object + ", " + run.name.route;
     auto& curve = curves[label];
     curve.label = label;

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "bench/bench_report.h"
+#include "bench/element_study.h"
 #include "common/error.h"
 #include "common/files.h"
 #include "common/stage.h"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
     const bench::CostModel model = bench::fit_cost_model(fast);
     write_file(stage.output("performance.md"), bench::bench_page(runs, model, processor()));
     write_file(stage.output("bench_press.svg"), bench::bench_svg(runs));
+    write_file(stage.output("bench_elements.svg"), bench::element_svg(runs));
     write_file(stage.output("cost_model.yaml"), bench::to_yaml_text(model));
     stage.summarize({{"presses", runs.size()}, {"largest_ratio", model.largest_ratio}});
   });

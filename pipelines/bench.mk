@@ -47,6 +47,7 @@ endef
 BENCH_RUNS :=
 $(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,fast))))
 $(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_RELEASED),$(eval $(call bench_rule,$(g),$(o),stiff,fast))))
+$(foreach g,$(BENCH_GELS),$(eval $(call bench_rule,$(g),sphere,press,averaged)))
 $(foreach g,$(BENCH_SHEAR_GELS),$(foreach o,$(BENCH_SHEAR_OBJECTS),$(eval $(call bench_rule,$(g),$(o),shear,fast))))
 $(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,direct))))
 $(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach r,press-plain settled-fast tight-fast tight-direct thin-fast,$(eval $(call bench_rule,24k,$(o),$(word 1,$(subst -, ,$(r))),$(word 2,$(subst -, ,$(r)))))))
@@ -69,7 +70,7 @@ $(BENCH)/page/bench_table.yaml: $(addsuffix /press.yaml,$(BENCH_RUNS)) | build-b
 bench-page: $(BENCH)/page/bench_table.yaml
 	mkdir -p docs/performance
 	cp $(BENCH)/page/performance.md docs/performance.md
-	cp $(BENCH)/page/bench_press.svg docs/performance/
+	cp $(BENCH)/page/bench_press.svg $(BENCH)/page/bench_elements.svg docs/performance/
 	cp $(BENCH)/page/cost_model.yaml configs/cost_model.yaml
 	@cat docs/performance.md
 
