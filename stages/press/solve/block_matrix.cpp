@@ -71,16 +71,4 @@ Eigen::VectorXd BlockMatrix::multiply(const Eigen::VectorXd& x) const {
   return y;
 }
 
-void pad(const Eigen::VectorXd& x, std::vector<double>& out) {
-  out.assign(static_cast<std::size_t>(x.size() / 3 * 4), 0.0);
-  for (Eigen::Index i = 0; i < x.size() / 3; ++i) Eigen::Map<Vector3>(out.data() + 4 * i) = x.segment<3>(3 * i);
-}
-
-Eigen::VectorXd unpadded(const std::vector<double>& x) {
-  const auto n = static_cast<Eigen::Index>(x.size() / 4);
-  Eigen::VectorXd out(3 * n);
-  for (Eigen::Index i = 0; i < n; ++i) out.segment<3>(3 * i) = Eigen::Map<const Vector3>(x.data() + 4 * i);
-  return out;
-}
-
 }  // namespace tacipc

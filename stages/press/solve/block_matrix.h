@@ -63,8 +63,4 @@ struct BlockMatrix {
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
 };
 
-/// Vectors with a zero after each three numbers, and back.
-void pad(const Eigen::VectorXd& x, std::vector<double>& out);
-Eigen::VectorXd unpadded(const std::vector<double>& x);
-
 }  // namespace tacipc
