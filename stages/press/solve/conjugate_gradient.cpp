@@ -200,7 +200,7 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
     pattern_ = matrix.pattern;
     order_ = make_sweep_order(pattern, n > kWorthParts ? kParts : 1);
   }
-  inverse_cholesky_.assign(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);
+  inverse_cholesky_.resize(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);  // zero above diagonals for ever
   indefinite_rows_.clear();
   for (int c = 0; c < n; ++c) {
     if (!invert_cholesky(matrix.block(pattern.column_start[c]),
@@ -254,7 +254,9 @@ std::optional<Eigen::VectorXd> ConjugateGradient::factorize(const Eigen::VectorX
 std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b) {
   const int n = order_.num_rows(), separator = order_.separator();
   const Blocks L(order_);
-  for (std::vector<double>* v : {&r_, &x_, &p_, &t_, &q_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
+  // The fourth numbers of all are zero once and stay so.
+  for (std::vector<double>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0);
+  for (std::vector<double>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
   for (int i = 0; i < n; ++i) Eigen::Map<Vector3>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i);
   unscale(inverse_cholesky_.data(), false, r_.data(), n);
   forward(nullptr, nullptr, r_.data());
