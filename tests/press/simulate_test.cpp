@@ -53,14 +53,23 @@ TEST(Simulate, ForceDoesNotDependOnHowTheObjectIsTurned) {
   EXPECT_NEAR(a, b, 1e-3 * std::abs(a));
 }
 
-TEST(Simulate, ConjugateGradientEndsWhereTheFactorisationDoes) {
+PressConfig tight_config_with_friction() {
   PressConfig config = paper_config();
   config.relative_velocity_tolerance = 1e-5;
   config.friction = FrictionConfig{.coefficient = 0.5, .relative_speed_threshold = 1e-3, .max_lag_iterations = 1};
+  return config;
+}
+
+Simulation press_pyramid(const PressConfig& config) {
+  return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 2), "-z",
+                  ignore_progress);
+}
+
+TEST(Simulate, ConjugateGradientEndsWhereTheFactorisationDoes) {
+  PressConfig config = tight_config_with_friction();
   const auto run = [&](LinearSolverKind solver) {
     config.linear_solver = solver;
-    return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 2), "-z",
-                    ignore_progress);
+    return press_pyramid(config);
   };
   const Simulation direct = run(LinearSolverKind::direct), iterative = run(LinearSolverKind::conjugate_gradient);
   EXPECT_EQ(direct.symbolic_analyses, 1);
@@ -71,13 +80,10 @@ TEST(Simulate, ConjugateGradientEndsWhereTheFactorisationDoes) {
 }
 
 TEST(Simulate, PositiveContactHessianEndsWhereTheAdaptiveOneDoes) {
-  PressConfig config = paper_config();
-  config.relative_velocity_tolerance = 1e-5;
-  config.friction = FrictionConfig{.coefficient = 0.5, .relative_speed_threshold = 1e-3, .max_lag_iterations = 1};
+  PressConfig config = tight_config_with_friction();
   const auto run = [&](bool adaptive) {
     config.adaptive_contact_hessian = adaptive;
-    return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 2), "-z",
-                    ignore_progress);
+    return press_pyramid(config);
   };
   const Simulation adaptive = run(true), positive = run(false);
   const Frame &a = adaptive.frames.back(), &b = positive.frames.back();
