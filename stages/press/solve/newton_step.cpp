@@ -1,6 +1,7 @@
 #include "stages/press/solve/newton_step.h"
 
 #include <Eigen/Cholesky>
+#include <limits>
 
 #include "common/error.h"
 #include "stages/press/solve/contact_assembly.h"
@@ -73,15 +74,61 @@ SolverTimes NewtonStepper::times() const {
   return times;
 }
 
+void NewtonStepper::assemble_all(const IncrementalPotential& potential, const Positions& x, Order elastic,
+                                 const Blend& blend, const ObjectMotion& object) {
+  timed(times_.elastic_s, [&] {
+    clear(system_, free_, pattern_);
+    for (const WeightedTerm& part : potential.terms) {
+      if (part.contact) continue;
+      const auto* elasticity = dynamic_cast<const Elasticity*>(part.term.get());
+      if (elasticity && elasticity->packs() && elastic == Order::hessian) {
+        elastic_.add(*elasticity->packs(), x, part.weight, free_, system_);
+      } else {
+        assemble(part, x, free_, first_object_vertex_, elastic, object.of_vertices, system_);
+      }
+    }
+  });
+  const Stopwatch watch(times_.contact_s);
+  auto active = active_.begin();
+  for (const WeightedTerm& part : potential.terms) {
+    if (part.contact)
+      assemble_contact(part.weight, *part.contact, *active++, x, free_, first_object_vertex_, blend, object, system_);
+  }
+}
+
+void NewtonStepper::reblend(const IncrementalPotential& potential, const Positions& x, const Blend& before,
+                            const Blend& after, const ObjectMotion& object) {
+  const Stopwatch watch(times_.contact_s);
+  auto active = active_.begin();
+  for (const WeightedTerm& part : potential.terms) {
+    if (part.contact)
+      reblend_contact(part.weight, *part.contact, *active++, x, free_, first_object_vertex_, before, after, object,
+                      system_);
+  }
+}
+
+std::vector<int> NewtonStepper::solve_or_blame(const std::vector<int>& yielding, const Positions& motion,
+                                               double longest_m, NewtonDirection& out) {
+  std::vector<int> wrong;
+  if (solve(system_, yielding, motion, out)) {
+    for (const int v : free_.vertex_of_free) {
+      if (out.p.row(v).squaredNorm() > longest_m * longest_m) wrong.push_back(v);
+    }
+    return wrong;
+  }
+  for (const int i : solver_->indefinite_rows()) wrong.push_back(free_.vertex_of_free[i]);
+  return wrong.empty() ? free_.vertex_of_free : wrong;
+}
+
 NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, const Positions& x,
                                          const Positions& motion, const std::vector<int>& yielding, double longest_m,
                                          Blend& blend) {
-  std::vector<std::vector<int>> active;  // of each contact term, in order
+  active_.clear();
   for (const WeightedTerm& part : potential.terms) {
     if (!part.contact) continue;
     const Stopwatch watch(times_.contact_s);
-    active.push_back(part.contact->active(x));
-    pattern_ = cover_contacts(pattern_, free_, first_object_vertex_, *part.contact, active.back(), x);
+    active_.push_back(part.contact->active(x));
+    pattern_ = cover_contacts(pattern_, free_, first_object_vertex_, *part.contact, active_.back(), x);
   }
   const auto of_object = motion.bottomRows(motion.rows() - first_object_vertex_);
   const Vector3 shift = of_object.rows() > 0 ? Vector3(of_object.row(0)) : Vector3::Zero();
@@ -89,44 +136,7 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
                                                         kSameShift * shift.cwiseAbs().maxCoeff();
   const bool in_full = !yielding.empty() || !rigid_shift;
   const ObjectMotion object{motion, in_full, in_full ? Vector3::Zero() : shift};
-  const auto for_each_contact = [&](auto&& with) {
-    const Stopwatch watch(times_.contact_s);
-    auto which = active.begin();
-    for (const WeightedTerm& part : potential.terms) {
-      if (part.contact) with(part, *which++);
-    }
-  };
-  const auto assemble_all = [&](Order elastic) {
-    timed(times_.elastic_s, [&] {
-      clear(system_, free_, pattern_);
-      for (const WeightedTerm& part : potential.terms) {
-        if (part.contact) continue;
-        const auto* elasticity = dynamic_cast<const Elasticity*>(part.term.get());
-        if (elasticity && elasticity->packs() && elastic == Order::hessian) {
-          elastic_.add(*elasticity->packs(), x, part.weight, free_, system_);
-        } else {
-          assemble(part, x, free_, first_object_vertex_, elastic, motion, system_);
-        }
-      }
-    });
-    for_each_contact([&](const WeightedTerm& part, const std::vector<int>& which) {
-      assemble_contact(part.weight, *part.contact, which, x, free_, first_object_vertex_, blend, object, system_);
-    });
-  };
-  NewtonDirection out;
-  // Vertices about which the Hessian is not positive definite, or all but so; none if the direction will do.
-  const auto find_direction = [&](bool trust) {
-    std::vector<int> wrong;
-    if (solve(system_, yielding, motion, out)) {
-      for (int i = 0; i < free_.size() && !trust; ++i) {
-        if (const int v = free_.vertex_of_free[i]; out.p.row(v).squaredNorm() > longest_m * longest_m)
-          wrong.push_back(v);
-      }
-      return wrong;
-    }
-    for (const int i : solver_->indefinite_rows()) wrong.push_back(free_.vertex_of_free[i]);
-    return wrong.empty() ? free_.vertex_of_free : wrong;
-  };
+
   const auto lean_more = [&](const std::vector<int>& vertices) {
     bool more = false;
     for (const int v : vertices) {
@@ -134,21 +144,19 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
     }
     return more;
   };
-  assemble_all(Order::hessian);
+  NewtonDirection out;
+  assemble_all(potential, x, Order::hessian, blend, object);
   bool projected = false;
   for (int tries = 1;; ++tries) {
-    std::vector<int> wrong = find_direction(projected);
+    constexpr double kAnyLength = std::numeric_limits<double>::infinity();
+    const std::vector<int> wrong = solve_or_blame(yielding, motion, projected ? kAnyLength : longest_m, out);
     if (wrong.empty()) break;
-    if (tries > kLocalTries) wrong = free_.vertex_of_free;
     const Blend before = blend;
-    if (lean_more(wrong) || lean_more(free_.vertex_of_free)) {
-      for_each_contact([&](const WeightedTerm& part, const std::vector<int>& which) {
-        reblend_contact(part.weight, *part.contact, which, x, free_, first_object_vertex_, before, blend, object,
-                        system_);
-      });
+    if ((tries <= kLocalTries && lean_more(wrong)) || lean_more(free_.vertex_of_free)) {
+      reblend(potential, x, before, blend, object);
     } else if (!projected) {
       projected = true;
-      assemble_all(Order::psd);
+      assemble_all(potential, x, Order::psd, blend, object);
     } else {
       throw SolverError("the projected Hessian is not positive definite");
     }

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "stages/press/solve/blend.h"
+#include "stages/press/solve/contact_assembly.h"
 #include "stages/press/solve/elastic_assembly.h"
 #include "stages/press/solve/linear_solver.h"
 #include "stages/press/solve/solver_times.h"
@@ -51,11 +51,22 @@ class NewtonStepper {
   bool solve(const NewtonSystem& system, const std::vector<int>& yielding, const Positions& motion,
              NewtonDirection& out);
 
+  void assemble_all(const IncrementalPotential& potential, const Positions& x, Order elastic, const Blend& blend,
+                    const ObjectMotion& object);
+  /// Makes the contact Hessians of the system those of another blend.
+  void reblend(const IncrementalPotential& potential, const Positions& x, const Blend& before, const Blend& after,
+               const ObjectMotion& object);
+  /// Vertices about which the Hessian is not positive definite, or that go too far, which it all but is not then; none
+  /// if the direction will do.
+  std::vector<int> solve_or_blame(const std::vector<int>& yielding, const Positions& motion, double longest_m,
+                                  NewtonDirection& out);
+
   FreeVertices free_;
   int first_object_vertex_;
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
   ElasticAssembly elastic_;
-  NewtonSystem system_;  // of the last call; its storage is used again
+  NewtonSystem system_;                   // of the last call; its storage is used again
+  std::vector<std::vector<int>> active_;  // of each contact term, in order
   SolverTimes times_;
   std::unique_ptr<LinearSolver> solver_;
 };
