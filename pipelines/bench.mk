@@ -75,5 +75,5 @@ bench-page: $(BENCH)/page/bench_table.yaml
 	@cat docs/performance.md
 
 # One after the other, whatever JOBS says: what runs beside a press is measured with it.
-bench-press: | build build-bench ## What a press costs, by route, size, object and motion (an hour; BENCH_GELS= and others); writes docs/performance.md and the cost model
+bench-press: | build build-bench ## What a press costs, by route, size, object and motion (a quarter of an hour; BENCH_GELS= and others); writes docs/performance.md and the cost model
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1

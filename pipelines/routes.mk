@@ -21,7 +21,7 @@ $(ROUTES_RECORD): $(addsuffix /press.yaml,$(ROUTE_RUNS)) | build-bench
 	$(call run,routes_table,--limits configs/benchmarks/routes.yaml $(addprefix --press ,$(ROUTE_RUNS)))
 
 .PHONY: routes
-routes: $(ROUTES_RECORD) ## Every mesh of SHARED in five poses, default route against factorisation; writes docs/routes.md (an hour; resumes)
+routes: $(ROUTES_RECORD) ## Every mesh of SHARED in five poses, default route against factorisation; writes docs/routes.md (half an hour; resumes)
 	cp $(ROUTES)/table/routes.md docs/routes.md
 	@cat docs/routes.md
 	$(call holds,$(ROUTES_RECORD))

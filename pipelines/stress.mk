@@ -30,5 +30,5 @@ stress-page: $(STRESS_CASE_RECORDS) $(STRESS_RECORD) # the cases too: make would
 	@grep -E 'cases of seed|^[|]' $(dir $(STRESS_RECORD))summary.md
 	$(if $(filter 1-300,$(SEED)-$(N)),cp $(dir $(STRESS_RECORD))summary.md docs/stress.md)
 
-stress: stress-page ## Random objects, gels and motions, driven hard: SEED=1 N=300 (an hour or two; resumes)
+stress: stress-page ## Random objects, gels and motions, driven hard: SEED=1 N=300 (minutes; resumes)
 	$(call holds,$(STRESS_RECORD))

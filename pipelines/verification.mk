@@ -56,7 +56,7 @@ verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuff
 	$(if $(filter 1-300,$(SEED)-$(N)),cp $(VERIFICATION)/page/verification.md docs/verification.md)
 	cp $(VERIFICATION)/page/verification/*.svg docs/verification/
 
-verification: verification-page ## Every case of configs/verification, then closed-forms, refinement, stress and board3; writes docs/verification.md with its plots (hours)
+verification: verification-page ## Every case of configs/verification, then closed-forms, refinement, stress and board3; writes docs/verification.md with its plots (a quarter of an hour)
 	! grep -E '^  (long_)?missed: [1-9]' $(VERIFICATION)/page/verify_table.yaml
 
 verification-cases: verification-page ## The cases only; the long rows of the page stay as they were

@@ -18,7 +18,9 @@ double friction_integral(double y, double epsilon) {
 
 Friction::Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m)
     : epsilon_m_(epsilon_m) {
-  for (const int i : barrier.active(lagged)) {
+  const std::vector<int> near = barrier.active(lagged);
+  pairs_.reserve(near.size());
+  for (const int i : near) {
     const ContactPair& contact = barrier.pairs()[i];
     const ContactBarrier::Push push = barrier.push(i, gather(lagged, contact));
     if (push.force == 0.0) continue;

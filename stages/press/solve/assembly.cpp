@@ -9,6 +9,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kChunk = 256;
+constexpr std::size_t kAtATime = 8192;  // pairs whose gradients stay in the cache
 
 std::vector<int> all_stencils(const EnergyTerm& term) {
   std::vector<int> all(static_cast<std::size_t>(term.num_stencils()));
@@ -170,16 +171,20 @@ Positions gradient_of(const EnergyTerm& term, const Positions& x) {
     bool any;
     Vector12 gradient;
   };
-  std::vector<Found> found(active.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active.size(), kChunk), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      const std::span<const int> v = term.stencil(active[k]);
-      found[k].any = contact->evaluate_gradient(active[k], {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])},
-                                                found[k].gradient);
+  std::vector<Found> found(std::min(active.size(), kAtATime));
+  for (std::size_t first = 0; first < active.size(); first += kAtATime) {
+    const std::size_t count = std::min(kAtATime, active.size() - first);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk), [&](const auto& range) {
+      for (std::size_t k = range.begin(); k < range.end(); ++k) {
+        const int i = active[first + k];
+        const std::span<const int> v = term.stencil(i);
+        found[k].any =
+            contact->evaluate_gradient(i, {x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])}, found[k].gradient);
+      }
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      if (found[k].any) add(term.stencil(active[first + k]), found[k].gradient);
     }
-  });
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    if (found[k].any) add(term.stencil(active[k]), found[k].gradient);
   }
   return gradient;
 }
