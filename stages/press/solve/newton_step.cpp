@@ -1,6 +1,7 @@
 #include "stages/press/solve/newton_step.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <limits>
 
 #include "common/error.h"
@@ -90,10 +91,24 @@ void NewtonStepper::assemble_all(const IncrementalPotential& potential, const Po
   });
   const Stopwatch watch(times_.contact_s);
   auto active = active_.begin();
+  const Vector3 without = gel_gradient();
+  Vector3 so_far = without, last = Vector3::Zero();
   for (const WeightedTerm& part : potential.terms) {
-    if (part.contact)
-      assemble_contact(part.weight, *part.contact, *active++, x, free_, first_object_vertex_, blend, object, system_);
+    if (!part.contact) continue;
+    assemble_contact(part.weight, *part.contact, *active++, x, free_, first_object_vertex_, blend, object, system_);
+    last = gel_gradient() - so_far;
+    so_far += last;
   }
+  contact_sum_ = std::min(last.norm(), (so_far - without).norm());
+}
+
+/// Σ of the system's gradient over the gel's free vertices.
+Vector3 NewtonStepper::gel_gradient() const {
+  Vector3 sum = Vector3::Zero();
+  for (int i = 0; i < free_.size(); ++i) {
+    if (free_.vertex_of_free[i] < first_object_vertex_) sum += system_.gradient.segment<3>(3 * i);
+  }
+  return sum;
 }
 
 void NewtonStepper::reblend(const IncrementalPotential& potential, const Positions& x, const Blend& before,
@@ -163,6 +178,7 @@ NewtonDirection NewtonStepper::direction(const IncrementalPotential& potential, 
   }
   out.blend = blend.largest();
   out.gradient_sum = sum_of_norms(system_.gradient);
+  out.contact_sum = contact_sum_;
   for (const int axis : yielding) out.gradient_sum += std::abs(system_.object_gradient[axis]);
   blend.found();
   return out;

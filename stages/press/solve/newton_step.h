@@ -16,6 +16,8 @@ struct NewtonDirection {
   Vector3 yield = Vector3::Zero();  // the object's part of it beyond its prescribed motion
   double slope = 0.0;               // gᵀp over everything free
   double gradient_sum = 0.0;        // Σ over free vertices (and the yielding object) of |gradient|
+  double contact_sum =
+      0.0;             // |Σ over free vertices of the gel of contact's gradient|, with or without friction: the less
   double blend = 0.0;  // the largest share of the contact Hessian's stand-in: 0 exact, 1 all of it somewhere
 };
 
@@ -53,6 +55,7 @@ class NewtonStepper {
 
   void assemble_all(const IncrementalPotential& potential, const Positions& x, Order elastic, const Blend& blend,
                     const ObjectMotion& object);
+  Vector3 gel_gradient() const;
   /// Makes the contact Hessians of the system those of another blend.
   void reblend(const IncrementalPotential& potential, const Positions& x, const Blend& before, const Blend& after,
                const ObjectMotion& object);
@@ -66,6 +69,7 @@ class NewtonStepper {
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
   ElasticAssembly elastic_;
   NewtonSystem system_;                   // of the last call; its storage is used again
+  double contact_sum_ = 0.0;              // of NewtonDirection
   std::vector<std::vector<int>> active_;  // of each contact term, in order
   SolverTimes times_;
   std::unique_ptr<LinearSolver> solver_;

@@ -10,6 +10,7 @@
 #include "stages/press/contact/near_pairs.h"
 #include "stages/press/energy/linear_load.h"
 #include "stages/press/energy/stiffness_damping.h"
+#include "stages/press/solve/local_patch.h"
 #include "stages/press/solve/step_limit.h"
 #include "stages/press/solve/step_under_way.h"
 
@@ -63,7 +64,11 @@ TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettin
       search_(mesh),
       newton_(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), mesh.num_gel_vertices,
               mesh_pattern(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), *gel_.elasticity),
-              settings.linear_solver) {}
+              settings.linear_solver) {
+  std::vector<bool> held(static_cast<std::size_t>(mesh.num_vertices()), false);
+  for (const int v : gel_.glued) held[v] = true;
+  elasticity_at_mount_ = restricted(gel_.elasticity, held);
+}
 
 IncrementalPotential TimeStepper::potential(const Step& step, std::vector<ContactPair> pairs) const {
   StepTerms terms = step.terms;
@@ -96,17 +101,6 @@ SolverTimes TimeStepper::times() const {
   return all;
 }
 
-double TimeStepper::contact_force(const IncrementalPotential& energy, const Positions& x) const {
-  const Eigen::Index n = mesh_.num_gel_vertices;
-  Eigen::RowVector3d normal = Eigen::RowVector3d::Zero(), friction = normal;
-  for (const WeightedTerm& part : energy.terms) {
-    if (!part.contact) continue;
-    (part.term->name() == "barrier" ? normal : friction) =
-        part.weight * gradient_of(*part.term, x).topRows(n).colwise().sum();
-  }
-  return std::min(normal.norm(), (normal + friction).norm());
-}
-
 void TimeStepper::minimise(Step& step) {
   const Eigen::Index n = mesh_.num_gel_vertices;
   const double h = step.goal.h_s;
@@ -126,7 +120,7 @@ void TimeStepper::minimise(Step& step) {
           "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N "
           "of {:.3e} N, smallest gap {:.2e} m)",
           newton.max_iterations, report.velocity_residual_m_s, newton.velocity_tolerance_m_s, report.force_residual_n,
-          contact_force(energy, x) / (h * h), smallest_gap(x, settings_.d_hat_m));
+          report.contact_force_n, smallest_gap(x, settings_.d_hat_m));
     }
     const bool moving = !step.arrived && relax == 0;
     Positions motion = still;
@@ -148,12 +142,12 @@ void TimeStepper::minimise(Step& step) {
         std::max(largest_row(direction.p, settings_.augmented_lagrangian ? x.rows() : n), direction.yield.norm()) / h;
     report.velocity_residual_m_s = last_residual;
     report.force_residual_n = direction.gradient_sum / (h * h);
+    report.contact_force_n = direction.contact_sum / (h * h);
 
     // Multipliers see their targets missed no finer than the minimum is known.
     bool done = false;
     const bool held = !step.constraint || step.constraint->largest(direction.p) < 0.3 * kConstraintTolerance;
     if (step.arrived && held && last_residual < step.looseness * newton.velocity_tolerance_m_s) {
-      report.contact_force_n = contact_force(energy, x) / (h * h);
       done =
           report.force_residual_n <
           step.looseness * std::max(newton.force_tolerance_n, newton.relative_force_tolerance * report.contact_force_n);
@@ -346,14 +340,15 @@ void TimeStepper::record_forces(const Step& step) {
   const std::vector<ContactPair> pairs = pairs_at(step.x);
   forces_.stand_off_m = stand_off(barrier(pairs), step.x);
   for (const WeightedTerm& part : potential(step, pairs).terms) {
-    const Positions force = force_of(part);
+    const bool elastic = part.term == gel_.elasticity;
+    const Positions force = force_of(elastic ? WeightedTerm{part.weight, elasticity_at_mount_} : part);
     if (part.term->name() == "barrier") {
       forces_.normal = force;
     } else if (part.term == step.friction) {
       forces_.friction = force;
     } else if (part.term == step.terms.object_inertia || part.term == step.terms.constraint) {
       continue;
-    } else if (part.term != gel_.elasticity) {
+    } else if (!elastic) {
       forces_.body += force;
     }
     for (const int v : gel_.glued) forces_.mount.row(v) -= force.row(v);
