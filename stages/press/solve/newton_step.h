@@ -16,8 +16,9 @@ struct NewtonDirection {
   Vector3 yield = Vector3::Zero();  // the object's part of it beyond its prescribed motion
   double slope = 0.0;               // gᵀp over everything free
   double gradient_sum = 0.0;        // Σ over free vertices (and the yielding object) of |gradient|
-  double contact_sum =
-      0.0;             // |Σ over free vertices of the gel of contact's gradient|, with or without friction: the less
+  /// What residual forces are measured by: |Σ contact's gradient| over free vertices of the gel, with friction or
+  /// without, whichever is less (friction may carry most of the normal force, and what is left must balance too).
+  double contact_sum = 0.0;
   double blend = 0.0;  // the largest share of the contact Hessian's stand-in: 0 exact, 1 all of it somewhere
 };
 
