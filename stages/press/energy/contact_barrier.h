@@ -32,6 +32,8 @@ class ContactBarrier final : public ContactTerm {
                      PackedBlocks& out) const override;
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
+  /// Whether pair i is one of the gel with itself.
+  bool of_gel_alone(int i) const;
 
   /// How one pair pushes: its closest feature and 2 d c m |b′(d²)| in m³, zero from d̂ on. Times κ it is the force
   /// between the two sides along the line that joins their closest points; negative where the weight c is.
@@ -45,7 +47,6 @@ class ContactBarrier final : public ContactTerm {
   /// ŝ and the mollifier's threshold of one pair; zero: never mollified. Both are of the shape at rest and asked for
   /// when a pair is near: most never are.
   double s_hat(int i) const;
-  bool of_gel_alone(int i) const;
   double mollifier_threshold(int i) const;
   double value_of(int i, const FourPoints& points) const;
   bool mollified(int i, const FourPoints& x) const;

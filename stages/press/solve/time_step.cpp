@@ -37,6 +37,18 @@ double largest_row(const Positions& p, Eigen::Index rows) {
   return std::sqrt(largest);
 }
 
+/// StepForces::stand_off_m.
+double stand_off(const ContactBarrier& barrier, const Positions& x) {
+  double force = 0.0, moment = 0.0;
+  for (const int i : barrier.active(x)) {
+    if (barrier.of_gel_alone(i)) continue;
+    const ContactBarrier::Push push = barrier.push(i, gather(x, barrier.pairs()[i]));
+    force += push.force;
+    moment += push.force * std::sqrt(push.feature.squared_distance);
+  }
+  return force > 0.0 ? moment / force : 0.0;
+}
+
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
   // Neighbours near each other: matrix and vectors are gone through from one end to the other, again and again.
@@ -316,18 +328,6 @@ StepForces TimeStepper::no_forces() const {
           .mount = zero,
           .body = zero,
           .contact_state = std::vector<std::uint8_t>(static_cast<std::size_t>(mesh_.num_gel_vertices), 0)};
-}
-
-double TimeStepper::stand_off(const ContactBarrier& barrier, const Positions& x) const {
-  double force = 0.0, moment = 0.0;
-  for (const int i : barrier.active(x)) {
-    const ContactPair& pair = barrier.pairs()[i];
-    if (*std::max_element(pair.vertices.begin(), pair.vertices.end()) < mesh_.num_gel_vertices) continue;
-    const ContactBarrier::Push push = barrier.push(i, gather(x, pair));
-    force += push.force;
-    moment += push.force * std::sqrt(push.feature.squared_distance);
-  }
-  return force > 0.0 ? moment / force : 0.0;
 }
 
 void TimeStepper::record_forces(const Step& step) {

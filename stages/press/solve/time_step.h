@@ -136,7 +136,6 @@ class TimeStepper {
   std::vector<ContactPair> pairs_at(const Positions& x);                         // within d̂ now
   std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);  // or on the way from x to x + p
   IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
-  double stand_off(const ContactBarrier& barrier, const Positions& x) const;
   void record_forces(const Step& step);
 
   const ContactMesh& mesh_;
