@@ -138,6 +138,12 @@ int orient3d(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3
 }
 
 bool segment_intersects_triangle(const Vector3& p, const Vector3& q, const TrianglePoints& t) {
+  // Most are apart along an axis, which comparisons tell exactly.
+  for (int i = 0; i < 3; ++i) {
+    if (std::max(p[i], q[i]) < std::min({t[0][i], t[1][i], t[2][i]}) ||
+        std::min(p[i], q[i]) > std::max({t[0][i], t[1][i], t[2][i]}))
+      return false;
+  }
   const int side_p = orient3d(t[0], t[1], t[2], p);
   const int side_q = orient3d(t[0], t[1], t[2], q);
   if (side_p * side_q > 0) return false;

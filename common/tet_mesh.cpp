@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "common/error.h"
 
@@ -12,8 +13,11 @@ namespace {
 constexpr std::array<std::array<int, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct KeyedFace {
-  std::array<int, 3> sorted;
-  Eigen::Index place;  // 4 · tet + face
+  std::uint64_t first_two;  // of its sorted vertices
+  int third;
+  int place;  // 4 · tet + face
+
+  bool same_vertices(const KeyedFace& other) const { return first_two == other.first_two && third == other.third; }
 };
 
 }  // namespace
@@ -47,18 +51,20 @@ Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices) 
           throw DataError("tet {} refers to vertex {}, but there are {} vertices", t, key[i], num_vertices);
       }
       std::sort(key.begin(), key.end());
-      faces.push_back({key, 4 * t + f});
+      faces.push_back({static_cast<std::uint64_t>(key[0]) << 32U | static_cast<std::uint64_t>(key[1]), key[2],
+                       static_cast<int>(4 * t + f)});
     }
   std::sort(faces.begin(), faces.end(), [](const KeyedFace& a, const KeyedFace& b) {
-    return a.sorted != b.sorted ? a.sorted < b.sorted : a.place < b.place;
+    if (a.first_two != b.first_two) return a.first_two < b.first_two;
+    return a.third != b.third ? a.third < b.third : a.place < b.place;
   });
-  std::vector<Eigen::Index> single;
+  std::vector<int> single;
   for (std::size_t first = 0; first < faces.size();) {
     std::size_t last = first + 1;
-    while (last < faces.size() && faces[last].sorted == faces[first].sorted) ++last;
+    while (last < faces.size() && faces[last].same_vertices(faces[first])) ++last;
     if (last - first > 2)
-      throw DataError("{} tets share the face of vertices {}, {}, {}", last - first, faces[first].sorted[0],
-                      faces[first].sorted[1], faces[first].sorted[2]);
+      throw DataError("{} tets share the face of vertices {}, {}, {}", last - first, faces[first].first_two >> 32U,
+                      faces[first].first_two & 0xffffffffU, faces[first].third);
     if (last - first == 1) single.push_back(faces[first].place);
     first = last;
   }

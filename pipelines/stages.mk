@@ -1,7 +1,8 @@
 # How each stage makes its record from those before it.
 
-# $(call run,stage,flags): a stage writes its record $@ into the folder of $@.
-run = $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(2)
+# $(call run,stage,flags): a stage writes its record $@ into the folder of $@. OpenBLAS would start a thread per core as it is
+# loaded, whatever --threads says; no stage wants them.
+run = OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(2)
 # $(call try,stage,flags): the same, but work that fails does not stop make: the page above it shows the reason in <stage>.failed.yaml.
 try = $(call run,$(1),$(2)) || { [ $$? != 2 ] && echo "$@: not made" >&2; }
 # $(call holds,record): fails unless the record's summary says so.

@@ -72,14 +72,20 @@ Strips make_strips(const std::vector<Bounds>& bounds, const Bounds& all, int axi
   return strips;
 }
 
+/// \pre there is one
+Bounds around(const std::vector<Bounds>& bounds) {
+  Bounds all = bounds.front();
+  for (const Bounds& b : bounds) all = {all.low.min(b.low), all.high.max(b.high)};
+  return all;
+}
+
 bool overlap(const Bounds& a, const Bounds& b) { return (a.low <= b.high).all() && (b.low <= a.high).all(); }
 
 /// Sort and sweep, strip by strip. Calls visit(i, j) once for all overlapping boxes i < j with `wanted(i, j)`.
 template <typename Wanted, typename Visit>
 void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit& visit) {
   if (bounds.empty()) return;
-  Bounds all = bounds.front();
-  for (const Bounds& b : bounds) all = {all.low.min(b.low), all.high.max(b.high)};
+  const Bounds all = around(bounds);
   // Along the two longest axes.
   Eigen::Array3d lengths = all.high - all.low;
   int axis = 0, across = 0;
@@ -87,7 +93,11 @@ void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit&
   lengths[axis] = -1.0;
   lengths.maxCoeff(&across);
   Strips strips = make_strips(bounds, all, across);
-  std::vector<int> active;
+  struct Active {
+    Bounds box;
+    int index;
+  };
+  std::vector<Active> active;  // side by side: most of them are only asked whether they overlap
   for (std::size_t strip = 0; strip < strips.boxes.size(); ++strip) {
     std::vector<int>& order = strips.boxes[strip];
     std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -95,18 +105,21 @@ void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit&
     });
     active.clear();
     for (const int current : order) {
+      const Bounds box = bounds[current];
       std::size_t kept = 0;
-      for (const int other : active) {
-        if (bounds[other].high[axis] < bounds[current].low[axis]) continue;
-        active[kept++] = other;
-        const auto [i, j] = std::minmax(current, other);
-        if (!wanted(i, j) || !overlap(bounds[i], bounds[j])) continue;
+      for (std::size_t a = 0; a < active.size(); ++a) {
+        if (active[a].box.high[axis] < box.low[axis]) continue;
+        if (kept != a) active[kept] = active[a];
+        const Active& other = active[kept++];
+        if (!overlap(box, other.box)) continue;
+        const auto [i, j] = std::minmax(current, other.index);
+        if (!wanted(i, j)) continue;
         // Two boxes that share strips meet in the first of these.
-        const double common = std::max(bounds[i].low[strips.axis], bounds[j].low[strips.axis]);
+        const double common = std::max(box.low[strips.axis], other.box.low[strips.axis]);
         if (strips.of(common) == static_cast<int>(strip)) visit(i, j);
       }
       active.resize(kept);
-      active.push_back(current);
+      active.push_back({box, current});
     }
   }
 }
@@ -153,8 +166,15 @@ IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView&
   check_cells("object triangle", object.positions, object.triangles);
   std::vector<Bounds> bounds = bounds_of(gel);
   const int num_gel = static_cast<int>(bounds.size());
+  if (bounds.empty()) return {};
+  const Bounds whole_gel = around(bounds);
   const std::vector<Bounds> object_bounds = bounds_of(object);
-  bounds.insert(bounds.end(), object_bounds.begin(), object_bounds.end());
+  std::vector<int> object_triangle;  // of those that are anywhere near
+  for (std::size_t t = 0; t < object_bounds.size(); ++t) {
+    if (!overlap(object_bounds[t], whole_gel)) continue;
+    bounds.push_back(object_bounds[t]);
+    object_triangle.push_back(static_cast<int>(t));
+  }
 
   IntersectionReport report;
   // Gel triangles come first in the joint numbering, so i < j leaves only pairs of two object triangles to skip.
@@ -163,8 +183,9 @@ IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView&
       [&](int i, int j) {
         if (j < num_gel) {
           if (mesh_triangles_intersect(gel, i, j)) report.gel_gel_examples.push_back({i, j});
-        } else if (triangles_intersect(corners(gel, i), corners(object, j - num_gel))) {
-          report.gel_object_examples.push_back({i, j - num_gel});
+        } else if (const int t = object_triangle[static_cast<std::size_t>(j - num_gel)];
+                   triangles_intersect(corners(gel, i), corners(object, t))) {
+          report.gel_object_examples.push_back({i, t});
         }
       });
   report.gel_gel = static_cast<std::int64_t>(report.gel_gel_examples.size());

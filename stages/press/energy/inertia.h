@@ -21,15 +21,17 @@ class Inertia final : public EnergyTerm {
   int num_stencils() const override { return static_cast<int>(vertex_.size()); }
   std::span<const int> stencil(int i) const override { return {&vertex_[i], 1}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override {
-    const Vector3 r = x.head<3>() - x_hat_m_.row(i).transpose();
     out.zero = false;
-    out.value = 0.5 * mass_kg_[i] * r.squaredNorm();
+    out.value = 0.5 * mass_kg_[i] * (x.head<3>() - x_hat_m_.row(i).transpose()).squaredNorm();
     if (order == Order::value) return;
     out.fit(1, order);
-    out.gradient.head<3>() = mass_kg_[i] * r;
+    out.gradient.head<3>() = gradient(i, x.head<3>());
     if (order == Order::gradient) return;
     out.hessian.topLeftCorner<3, 3>() = mass_kg_[i] * Matrix3::Identity();
   }
+
+  double mass_kg(int i) const { return mass_kg_[i]; }
+  Vector3 gradient(int i, const Vector3& x) const { return mass_kg_[i] * (x - x_hat_m_.row(i).transpose()); }
 
  private:
   Eigen::VectorXd mass_kg_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "stages/press/energy/inertia.h"
+
 namespace tacipc {
 namespace {
 
@@ -146,8 +148,26 @@ void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairL
   scatter(stencil, wanted, local, weight, free, first_object_vertex, motion, system);
 }
 
+namespace {
+
+/// Masses of free vertices: a multiple of the identity on the diagonal, worth no local matrices.
+void assemble_masses(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
+                     NewtonSystem& system) {
+  for (int s = 0; s < inertia.num_stencils(); ++s) {
+    const int v = inertia.stencil(s).front(), i = free.free_of_vertex[v];
+    if (i < 0) continue;
+    system.gradient.segment<3>(3 * i) += weight * inertia.gradient(s, x.row(v));
+    system.hessian.block(system.hessian.pattern->column_start[i]).diagonal().array() += weight * inertia.mass_kg(s);
+  }
+}
+
+}  // namespace
+
 void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system) {
+  const auto* inertia = dynamic_cast<const Inertia*>(weighted.term.get());
+  if (inertia && inertia->stencil(0).front() < first_object_vertex)
+    return assemble_masses(*inertia, weighted.weight, x, free, system);
   for_each_local(
       *weighted.term, all_stencils(*weighted.term), x, order, [&](std::span<const int> stencil, const Local& local) {
         scatter(stencil, kAllPairVertices, local, weighted.weight, free, first_object_vertex, motion, system);

@@ -94,7 +94,9 @@ ContactBarrier TimeStepper::barrier(std::vector<ContactPair> pairs) const {
 }
 
 std::vector<ContactPair> TimeStepper::pairs_at(const Positions& x) {
-  return pairs_along(x, Positions::Zero(x.rows(), 3));
+  if (last_look_.x.rows() != x.rows() || (last_look_.x.array() != x.array()).any())
+    last_look_ = {x, pairs_along(x, Positions::Zero(x.rows(), 3))};
+  return last_look_.pairs;
 }
 
 std::vector<ContactPair> TimeStepper::pairs_along(const Positions& x, const Positions& p) {
@@ -254,6 +256,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   const Positions start = state.x.topRows(n);
   newton_.reset_pattern();
   search_.forget();
+  last_look_ = {};
 
   Step step{.goal = goal,
             .observe = observe,
@@ -377,12 +380,13 @@ void TimeStepper::record_forces(const Step& step) {
 
 double TimeStepper::smallest_gap(const Positions& x, double none) {
   // Where anything touches, what the barrier sees suffices: looking farther finds many times as many pairs.
-  double gap = none;
-  for (const double radius : {std::min(settings_.d_hat_m, none), none}) {
-    gap = smallest_distance(search_.object_pairs(x, Positions::Zero(x.rows(), 3), radius), x, none);
-    if (gap < radius) break;
-  }
-  return gap;
+  std::vector<ContactPair> pairs = pairs_at(x);
+  std::erase_if(pairs, [&](const ContactPair& pair) {
+    return std::all_of(pair.vertices.begin(), pair.vertices.end(), [&](int v) { return v < mesh_.num_gel_vertices; });
+  });
+  const double near = smallest_distance(pairs, x, none);
+  if (near < std::min(settings_.d_hat_m, none)) return near;
+  return smallest_distance(search_.object_pairs(x, Positions::Zero(x.rows(), 3), none), x, none);
 }
 
 }  // namespace tacipc

@@ -143,6 +143,12 @@ class TimeStepper {
   std::shared_ptr<const EnergyTerm> elasticity_at_mount_;  // stencils with a glued vertex
   StepSettings settings_;
   ContactSearch search_;
+  /// What pairs_at() found last: friction, forces and the gap of a solved step ask at the same place. Of this step
+  /// only.
+  struct {
+    Positions x;
+    std::vector<ContactPair> pairs;
+  } last_look_;
   NewtonStepper newton_;
   StepForces forces_;
   SolverTimes times_;
