@@ -101,22 +101,22 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
          "scenes are `configs/benchmarks/*.yaml`; "
          "`BENCH_GELS=` and the other variables of `pipelines/bench.mk` choose what is measured.\n\n## Routes\n\n" +
          routes_table(runs) +
-         "\n*fast* is the default. *direct* factorises every linear system instead (CHOLMOD, METIS, one symbolic "
+         "\n*fast* is the default solver with the paper's linear tetrahedra. *direct* factorises every linear system "
+         "instead (CHOLMOD, METIS, one symbolic "
          "analysis) and is the same in all else. *plain* is projected Newton as usual: factorised, for the whole gel "
          "in every "
          "iteration, with the positive Hessian of contact (`newton.contact_hessian: positive`). *averaged* is *fast* "
-         "with another "
-         "element. *Apart*: gel vertices "
+         "with volumes averaged over patches, the default element of this gel. *Apart*: gel vertices "
          "in the last frame, and the press force, against *direct*. *Products each*: sweeps of conjugate gradients for "
          "a linear system.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
          "\n## Where the time goes\n\nShares of the wall time.\n\n" +
          parts_table(runs) + element_section(runs) + "\n## Threads and processes\n\n" + how_table(runs) +
          fmt::format(
              "\n## Cost model\n\n`configs/cost_model.yaml`: seconds of a frame = c (vertices / 1000)^{:.2f} (1 + "
-             "touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging; fitted to {} presses "
-             "by the fast route, none off by more than a factor of {:.2f}.\n",
-             model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s, model.runs,
-             model.largest_ratio);
+             "touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging, {:.2f} times that with "
+             "averaged volumes; fitted to {} presses, none off by more than a factor of {:.2f}.\n",
+             model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s, model.averaged_factor,
+             model.runs, model.largest_ratio);
 }
 
 std::string bench_svg(const std::vector<Run>& runs) {

@@ -28,15 +28,16 @@ std::string processor() {
 
 int main(int argc, char** argv) {
   return run_stage(kTable, argc, argv, [](Stage& stage) {
-    std::vector<bench::Run> runs, fast;
+    std::vector<bench::Run> runs, usual;
     for (const auto& folder : stage.inputs("--press")) {
       runs.push_back(bench::read_run(folder));
       const auto& name = runs.back().name;
-      const bool usual = name.motion == "press" || name.motion == "shear";
-      if (usual && name.route == "fast" && name.how.empty()) fast.push_back(runs.back());
+      if ((name.motion == "press" || name.motion == "shear") && (name.route == "fast" || name.route == "averaged") &&
+          name.how.empty())
+        usual.push_back(runs.back());
     }
-    if (fast.size() < 4) throw DataError("{} presses by the fast route: the cost model needs four", fast.size());
-    const bench::CostModel model = bench::fit_cost_model(fast);
+    if (usual.size() < 5) throw DataError("{} presses by the default route: the cost model needs five", usual.size());
+    const bench::CostModel model = bench::fit_cost_model(usual);
     write_file(stage.output("performance.md"), bench::bench_page(runs, model, processor()));
     write_file(stage.output("bench_press.svg"), bench::bench_svg(runs));
     write_file(stage.output("bench_elements.svg"), bench::element_svg(runs));

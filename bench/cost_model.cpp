@@ -11,8 +11,11 @@ namespace {
 
 constexpr int kSweeps = 50;
 
-/// ln of the predicted time and its derivatives by (ln c_press, ln c_motion, a, b).
-double log_cost(const Run& run, const Eigen::Vector4d& at, Eigen::Vector4d& slope) {
+/// ln c_press, ln c_motion, a, b and ln of the averaged element's factor.
+using Parameters = Eigen::Vector<double, 5>;
+
+/// ln of the predicted time and its derivatives.
+double log_cost(const Run& run, const Parameters& at, Parameters& slope) {
   double sum = 0.0;
   slope.setZero();
   const double v = std::log(run.gel_vertices / 1000.0);
@@ -20,27 +23,30 @@ double log_cost(const Run& run, const Eigen::Vector4d& at, Eigen::Vector4d& slop
     const double t = std::log1p(frame.contacts / 100.0);
     const double cost = std::exp((frame.press ? at[0] : at[1]) + at[2] * v + at[3] * t);
     sum += cost;
-    slope += cost * Eigen::Vector4d(frame.press ? 1.0 : 0.0, frame.press ? 0.0 : 1.0, v, t);
+    slope += cost * Parameters{frame.press ? 1.0 : 0.0, frame.press ? 0.0 : 1.0, v, t, 0.0};
   }
   slope /= sum;
-  return std::log(sum);
+  const double averaged = run.name.route == "averaged" ? 1.0 : 0.0;
+  slope[4] = averaged;
+  return std::log(sum) + averaged * at[4];
 }
 
 }  // namespace
 
 double CostModel::predict(const Run& run) const {
-  Eigen::Vector4d ignored;
-  return std::exp(
-      log_cost(run, {std::log(press_s), std::log(motion_s), vertices_exponent, contacts_exponent}, ignored));
+  Parameters ignored;
+  const Parameters at{std::log(press_s), std::log(motion_s), vertices_exponent, contacts_exponent,
+                      std::log(averaged_factor)};
+  return std::exp(log_cost(run, at, ignored));
 }
 
 CostModel fit_cost_model(const std::vector<Run>& runs) {
-  Eigen::Vector4d at(std::log(0.05), std::log(0.05), 1.2, 0.5);
+  Parameters at{std::log(0.05), std::log(0.05), 1.2, 0.5, 0.0};
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    Eigen::Matrix4d normal = 1e-9 * Eigen::Matrix4d::Identity();
-    Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
+    Eigen::Matrix<double, 5, 5> normal = 1e-9 * Eigen::Matrix<double, 5, 5>::Identity();
+    Parameters rhs = Parameters::Zero();
     for (const Run& run : runs) {
-      Eigen::Vector4d slope;
+      Parameters slope;
       const double miss = std::log(run.processor_s) - log_cost(run, at, slope);
       normal += slope * slope.transpose();
       rhs += miss * slope;
@@ -49,6 +55,7 @@ CostModel fit_cost_model(const std::vector<Run>& runs) {
   }
   CostModel model{.press_s = std::exp(at[0]),
                   .motion_s = std::exp(at[1]),
+                  .averaged_factor = std::exp(at[4]),
                   .vertices_exponent = at[2],
                   .contacts_exponent = at[3],
                   .runs = static_cast<int>(runs.size())};
@@ -64,13 +71,15 @@ std::string to_yaml_text(const CostModel& m) {
       "# What a press costs on one core, fitted to {} presses by make -f Makefile.data bench-press:\n"
       "# seconds of a frame = c (gel vertices / 1000)^vertices_exponent (1 + touching front vertices / "
       "100)^contacts_exponent,\n"
-      "# c for frames of a press and of motions after it. No press it was fitted to is off by more than a factor of "
-      "{:.2f}.\n"
+      "# c for frames of a press and of motions after it; times averaged_volume_factor with that element. No press it "
+      "was "
+      "fitted to is off\n# by more than a factor of {:.2f}.\n"
       "press_frame_s: {:.4g}\n"
       "motion_frame_s: {:.4g}\n"
       "vertices_exponent: {:.3f}\n"
-      "contacts_exponent: {:.3f}\n",
-      m.runs, m.largest_ratio, m.press_s, m.motion_s, m.vertices_exponent, m.contacts_exponent);
+      "contacts_exponent: {:.3f}\n"
+      "averaged_volume_factor: {:.3f}\n",
+      m.runs, m.largest_ratio, m.press_s, m.motion_s, m.vertices_exponent, m.contacts_exponent, m.averaged_factor);
 }
 
 }  // namespace tacipc::bench

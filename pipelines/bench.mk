@@ -47,7 +47,8 @@ endef
 BENCH_RUNS :=
 $(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,fast))))
 $(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_RELEASED),$(eval $(call bench_rule,$(g),$(o),stiff,fast))))
-$(foreach g,$(BENCH_GELS),$(eval $(call bench_rule,$(g),sphere,press,averaged)))
+$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,averaged))))
+$(if $(filter 12k,$(BENCH_SHEAR_GELS)),$(eval $(call bench_rule,12k,coin,shear,averaged)))
 $(foreach g,$(BENCH_SHEAR_GELS),$(foreach o,$(BENCH_SHEAR_OBJECTS),$(eval $(call bench_rule,$(g),$(o),shear,fast))))
 $(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,direct))))
 $(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach r,press-plain settled-fast tight-fast tight-direct thin-fast,$(eval $(call bench_rule,24k,$(o),$(word 1,$(subst -, ,$(r))),$(word 2,$(subst -, ,$(r)))))))

@@ -8,14 +8,14 @@ DEMO_MOVED  := dots_shear star_twist
 # $(call demo_rules,folder,sample,object,mesh,motion,press configuration)
 demo_rules = $(call sample_rules,$(1)/$(2),$(2),$(OUT)/objects/$(3),configs/objects/embossed.yaml,mctac,$(4),configs/samples/$(5).yaml,configs/press/$(6).yaml)
 
-$(foreach o,$(DEMO_FINE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0100um,press_0500um,paper)))
-$(foreach o,$(DEMO_COARSE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0250um,press_0500um,paper)))
+$(foreach o,$(DEMO_FINE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0100um,press_0500um,default)))
+$(foreach o,$(DEMO_COARSE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0250um,press_0500um,default)))
 $(eval $(call demo_rules,$(OUT)/demo,dots_shear,dots,adaptive_0400um,shear_0500um,friction))
 $(eval $(call demo_rules,$(OUT)/demo,star_twist,star,adaptive_0400um,twist_10deg,friction))
 $(eval $(call report_rules,$(OUT)/demo,TacIPC demo,$(addprefix $(OUT)/demo/,$(DEMO_FINE) $(DEMO_COARSE) $(DEMO_MOVED))))
 
 PATTERNS := $(basename $(notdir $(wildcard configs/emboss/*.yaml)))
-$(foreach o,$(PATTERNS),$(eval $(call demo_rules,$(OUT)/demo-full,$(o),$(o),adaptive_0100um,press_0500um,paper)))
+$(foreach o,$(PATTERNS),$(eval $(call demo_rules,$(OUT)/demo-full,$(o),$(o),adaptive_0100um,press_0500um,default)))
 $(eval $(call report_rules,$(OUT)/demo-full,TacIPC: nineteen embossed objects,$(addprefix $(OUT)/demo-full/,$(PATTERNS))))
 
 .PHONY: demo demo-full

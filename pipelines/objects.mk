@@ -22,7 +22,7 @@ name_of = $(basename $(notdir $(1)))
 define table_object
 $(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/decimate/default.yaml | build
 	$$(call run,decimate,--mesh $(1) --object configs/objects/printed_indenter.yaml --config configs/decimate/default.yaml)
-$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/samples/press_0500um.yaml,configs/press/paper.yaml)
+$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/samples/press_0500um.yaml,configs/press/default.yaml)
 endef
 $(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
 

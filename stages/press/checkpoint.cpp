@@ -83,6 +83,7 @@ void solver(auto& io, auto& report) {
   io.plain(report.velocity_residual_m_s);
   io.plain(report.force_residual_n);
   io.plain(report.friction_residual_n);
+  io.plain(report.barrier_factor);
   io.plain(report.contact_force_n);
   each(io, report.yield_m);
 }
@@ -114,6 +115,7 @@ void contents(auto& io, auto& frame, auto& progress) {
   io.rows(progress.state.x);
   io.rows(progress.state.velocity_m_s);
   each(io, progress.state.object_velocity_m_s);
+  io.plain(progress.state.barrier_factor);
   each(io, progress.yield_m);
 }
 

@@ -39,9 +39,11 @@ PressConfig PressConfig::read(ConfigReader& in) {
       barrier.fault("stiffness", "give stiffness or relative_stiffness, not both");
       barrier.ignore("stiffness");
     }
-  } else {
+  } else if (barrier.has("stiffness")) {
     config.barrier_stiffness = barrier.number("stiffness", Range::positive());
   }
+  const bool given = barrier.has("stiffness") || barrier.has("relative_stiffness");
+  config.adaptive_barrier_stiffness = barrier.flag_or("adaptive", !given);
   config.pair_counting.once = barrier.choice_or("pairs", "every", {"every", "once"}) == "once";
   if (config.pair_counting.once)
     config.pair_counting.edge_weight =

@@ -34,7 +34,8 @@ struct PressConfig {
   bool augmented_lagrangian = false;        // glued face and object by multipliers, else eliminated
   double relative_d_hat = 0.0;              // d̂ as part of the diagonal of the undeformed gel's bounding box
   std::optional<double> barrier_stiffness;  // κ of κ B(x) beside h² Φ(x), squared distances: J s² / m⁴ = kg m⁻²
-  double relative_barrier_stiffness = 0.0;  // if absent: κ d̂³ / (h² E ℓ²), ℓ the median edge of the front
+  double relative_barrier_stiffness = 0.2;  // if absent: κ d̂³ / (h² E ℓ²), ℓ the median edge of the front
+  bool adaptive_barrier_stiffness = false;  // κ is raised where something comes much nearer than d̂
   PairCounting pair_counting;               // of the barrier
   double start_gap_d_hat = 0.0;             // gap of frame 0 between the object's lowest point and z = 0, in d̂
   std::optional<FrictionConfig> friction;

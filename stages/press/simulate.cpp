@@ -95,7 +95,7 @@ class Motion {
     rest_tets_ = make_rest_tets(gel_.positions, gel_.tets);
     const ElasticLaw law = make_elastic_law(material.law, material.lame_mu_pa(), material.lame_lambda_pa());
     const bool averaged = config_.element == "averaged_volume" ||
-                          (config_.element == "auto" && material.poissons_ratio > kAveragedVolumeFrom);
+                          (config_.element == "auto" && material.poissons_ratio >= kAveragedVolumeFrom);
     out_.element = averaged ? "averaged_volume" : "linear";
     return {.elasticity =
                 make_elasticity(gel_.positions, gel_.tets, law, averaged ? Element::averaged_volume : Element::linear),
@@ -108,6 +108,7 @@ class Motion {
     StepSettings settings{
         .d_hat_m = out_.d_hat_m,
         .barrier_stiffness_j_m4 = out_.barrier_stiffness / (config_.time_step_s * config_.time_step_s),
+        .adaptive_barrier = config_.adaptive_barrier_stiffness,
         .pair_counting = config_.pair_counting,
         .quasi_static = config_.quasi_static,
         .augmented_lagrangian = config_.augmented_lagrangian,

@@ -41,7 +41,7 @@ struct Frame {
 
 struct Simulation {
   double d_hat_m = 0.0;
-  double barrier_stiffness = 0.0;  // κ, kg m⁻²
+  double barrier_stiffness = 0.0;  // κ, kg m⁻², before it grows (StepReport::barrier_factor)
   double gap_horizon_m = 0.0;      // gaps are looked for up to this distance
   double object_mass_kg = 0.0;     // 0 where no load moves the object
   std::string face;

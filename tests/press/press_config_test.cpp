@@ -34,6 +34,20 @@ TEST(PressConfig, ContactHessianIsAdaptiveUnlessNamed) {
               ElementsAre("x.yaml:2:27: newton.contact_hessian: 'exact' is not one of adaptive, positive"));
 }
 
+TEST(PressConfig, BarrierStiffnessAdaptsUnlessItIsGiven) {
+  const auto read = [](const std::string& barrier) {
+    return config_from_text<PressConfig>(
+        "time_step_s: 0.01\nnewton: {}\nbarrier: {relative_d_hat: 1e-3" + barrier + "}\n", "x.yaml");
+  };
+  EXPECT_TRUE(read("").adaptive_barrier_stiffness);
+  EXPECT_FALSE(read("").barrier_stiffness);
+  EXPECT_EQ(read("").relative_barrier_stiffness, 0.2);
+  EXPECT_FALSE(read(", stiffness: 1e6").adaptive_barrier_stiffness);
+  EXPECT_FALSE(read(", relative_stiffness: 0.6").adaptive_barrier_stiffness);
+  EXPECT_TRUE(read(", relative_stiffness: 0.6, adaptive: true").adaptive_barrier_stiffness);
+  EXPECT_FALSE(read(", adaptive: false").adaptive_barrier_stiffness);
+}
+
 TEST(PressConfig, StartGapMustExceedDHat) {
   EXPECT_THAT(
       faults_in<PressConfig>(

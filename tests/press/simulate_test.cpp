@@ -115,6 +115,23 @@ TEST(Simulate, PatchesEndWhereTheWholeDoes) {
   EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-3 * std::abs(a.force_n.z()));
 }
 
+TEST(Simulate, ASoftBarrierGetsStifferWhereATipComesTooNear) {
+  PressConfig config = paper_config();
+  const Simulation stiff = press_pyramid(config);
+  // All of the force is on one tip: the gap closes until no step can be certified, or until the barrier is stiffer.
+  config.barrier_stiffness = 1e4;
+  EXPECT_THROW(press_pyramid(config), SolverError);
+  config.adaptive_barrier_stiffness = true;
+  const Simulation adaptive = press_pyramid(config);
+  const auto factor = [](const Simulation& s, std::size_t frame) { return s.frames[frame].solver.barrier_factor; };
+  EXPECT_EQ(factor(stiff, 2), 1.0);
+  EXPECT_GT(factor(adaptive, 1), 1.0);
+  EXPECT_GE(factor(adaptive, 2), factor(adaptive, 1));
+  // The tip stands off by less than a micrometre either way.
+  const double force = stiff.frames[2].force_n.z();
+  EXPECT_NEAR(adaptive.frames[2].force_n.z(), force, 0.02 * std::abs(force));
+}
+
 TEST(Simulate, NotConvergingIsAFailureWithItsNumbers) {
   PressConfig config = paper_config();
   config.max_newton_iterations = 2;

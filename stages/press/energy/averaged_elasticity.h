@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "stages/press/energy/elastic_packs.h"
 #include "stages/press/energy/energy_term.h"
 #include "stages/press/energy/tet_energy.h"
 #include "stages/press/energy/tet_patches.h"
@@ -23,11 +26,27 @@ class AveragedElasticity final : public EnergyTerm {
  public:
   /// \throw DataError naming the first tetrahedron that is not positively oriented.
   AveragedElasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law, const TetPatches& patches);
+  /// Some patches of another.
+  AveragedElasticity(const AveragedElasticity& whole, const std::vector<int>& which);
 
   std::string_view name() const override { return "averaged_elasticity"; }
   int num_stencils() const override { return static_cast<int>(patches_.size()); }
   std::span<const int> stencil(int i) const override { return patches_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
+
+  double value(const Positions& x) const override;
+
+  /// ψ_μ of the same tetrahedra in packs, patch by patch, for a law that has them; else null. Under the pressures of
+  /// VolumeDerivatives, their derivatives are all of ∂Φ and all but the last part of ∂²Φ.
+  const ElasticPacks* packs() const { return packs_ ? &*packs_ : nullptr; }
+  struct VolumeDerivatives {
+    std::vector<double> pressure;  // u′ of its patch for each tetrahedron of each pack, kLanes a pack, Pa
+    std::vector<double> second;    // u″ of each patch, J/m⁶
+  };
+  /// \pre there are packs, no patch is inside out
+  VolumeDerivatives volume_derivatives(const Positions& x) const;
+  /// ∂v of patch i, a column per vertex of its stencil, m².
+  void volume_gradient(int i, const Positions& x, Eigen::Matrix3Xd& out) const;
 
  private:
   struct Member {
@@ -40,9 +59,15 @@ class AveragedElasticity final : public EnergyTerm {
     double volume_m3;
   };
 
+  void make_packs();
+  std::vector<double> patch_volumes(const Positions& x) const;
+
   std::vector<Patch> patches_;
   ElasticLaw shear_law_;  // λ = 0
-  double lambda_pa_;
+  double lambda_pa_ = 0.0;
+  std::shared_ptr<const std::vector<int>> rank_;  // of each vertex along the space-filling curve
+  std::optional<ElasticPacks> packs_;
+  std::vector<int> first_place_;  // in the packs, of each patch's tetrahedra, and one past the last
 };
 
 }  // namespace tacipc

@@ -36,6 +36,12 @@ TACIPC_INLINE Pack logarithm(const Pack& of) {
   return out;
 }
 
+TACIPC_CLONES void deformed_volumes(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
+                                    const Pack3* b, const Pack& volume, double* out) {
+  const Pack deformed = volume * deformation(x, vertices, b).J;
+  for (int l = 0; l < kLanes; ++l) out[l] = deformed[l];
+}
+
 /// V ψ(F) lane by lane; NaN where J ≤ 0.
 TACIPC_CLONES void energies(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices, const Pack3* b,
                             const Pack& volume, double mu, double lambda, double* out) {
@@ -51,13 +57,19 @@ TACIPC_CLONES void energies(const double* x, const std::array<std::array<int, kL
   for (int l = 0; l < kLanes; ++l) out[l] = d.J[l] > 0.0 ? value[l] : std::nan("");
 }
 
-/// With gᵢ = F⁻ᵀ bᵢ and a = μ − λ ln J: gradients V (μ F bᵢ − a gᵢ), blocks V [μ (bᵢ·bⱼ) I + a gⱼ gᵢᵀ + λ gᵢ gⱼᵀ].
+/// With gᵢ = F⁻ᵀ bᵢ, l = λ + p J and a = μ − λ ln J − p J: gradients V (μ F bᵢ − a gᵢ), blocks V [μ (bᵢ·bⱼ) I + a gⱼ
+/// gᵢᵀ + l gᵢ gⱼᵀ].
 TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
                                  const Pack3* rest, const Pack& volume, double mu, double lambda,
-                                 ElasticPacks::Derivatives& out) {
+                                 const double* pressure, ElasticPacks::Derivatives& out) {
+  Pack p = {};
+  if (pressure) {
+    for (int l = 0; l < kLanes; ++l) p[l] = pressure[l];
+  }
   const Deformation d = deformation(x, vertices, rest);
-  const Pack inverse_J = 1.0 / d.J;
-  const Pack a = mu - lambda * logarithm(d.J);
+  const Pack inverse_J = 1.0 / d.J, p_J = p * d.J;
+  Pack a = mu - p_J;
+  if (lambda != 0.0) a -= lambda * logarithm(d.J);
   Pack3 b[4], g[4];
   for (int k = 1; k < 4; ++k) {
     b[k] = rest[k - 1];
@@ -65,7 +77,7 @@ TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<in
   }
   b[0] = Pack3{} - (b[1] + b[2] + b[3]);
   g[0] = Pack3{} - (g[1] + g[2] + g[3]);
-  const Pack volume_mu = volume * mu, volume_a = volume * a, volume_lambda = volume * lambda;
+  const Pack volume_mu = volume * mu, volume_a = volume * a, volume_l = volume * (lambda + p_J);
   for (int k = 0; k < 4; ++k) {
     out.gradient[k][0] = volume_mu * dot(d.row[0], b[k]) - volume_a * g[k].x;
     out.gradient[k][1] = volume_mu * dot(d.row[1], b[k]) - volume_a * g[k].y;
@@ -73,20 +85,20 @@ TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<in
   }
   int at = 0;
   for (int j = 0; j < 4; ++j) {
-    const Pack3 a_gj = volume_a * g[j], lambda_gj = volume_lambda * g[j];
+    const Pack3 a_gj = volume_a * g[j], l_gj = volume_l * g[j];
     for (int i = j; i < 4; ++i, ++at) {
       Pack* h = out.hessian[at];
       const Pack3& gi = g[i];
       const Pack diagonal = volume_mu * dot(b[i], b[j]);
-      h[0] = a_gj.x * gi.x + lambda_gj.x * gi.x + diagonal;
-      h[1] = a_gj.y * gi.x + lambda_gj.x * gi.y;
-      h[2] = a_gj.z * gi.x + lambda_gj.x * gi.z;
-      h[3] = a_gj.x * gi.y + lambda_gj.y * gi.x;
-      h[4] = a_gj.y * gi.y + lambda_gj.y * gi.y + diagonal;
-      h[5] = a_gj.z * gi.y + lambda_gj.y * gi.z;
-      h[6] = a_gj.x * gi.z + lambda_gj.z * gi.x;
-      h[7] = a_gj.y * gi.z + lambda_gj.z * gi.y;
-      h[8] = a_gj.z * gi.z + lambda_gj.z * gi.z + diagonal;
+      h[0] = a_gj.x * gi.x + l_gj.x * gi.x + diagonal;
+      h[1] = a_gj.y * gi.x + l_gj.x * gi.y;
+      h[2] = a_gj.z * gi.x + l_gj.x * gi.z;
+      h[3] = a_gj.x * gi.y + l_gj.y * gi.x;
+      h[4] = a_gj.y * gi.y + l_gj.y * gi.y + diagonal;
+      h[5] = a_gj.z * gi.y + l_gj.y * gi.z;
+      h[6] = a_gj.x * gi.z + l_gj.z * gi.x;
+      h[7] = a_gj.y * gi.z + l_gj.z * gi.y;
+      h[8] = a_gj.z * gi.z + l_gj.z * gi.z + diagonal;
     }
   }
 }
@@ -130,9 +142,15 @@ double ElasticPacks::value(const Positions& x) const {
   return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 
-void ElasticPacks::derivatives(int i, const Positions& x, Derivatives& out) const {
+void ElasticPacks::volumes(int i, const Positions& x, double* out) const {
   const Rest& pack = packs_[static_cast<std::size_t>(i)];
-  differentiate(x.data(), pack.corners.vertices, pack.shape_gradients, pack.volume_m3, law_.mu_pa, law_.lambda_pa, out);
+  deformed_volumes(x.data(), pack.corners.vertices, pack.shape_gradients, pack.volume_m3, out);
+}
+
+void ElasticPacks::derivatives(int i, const Positions& x, const double* pressure, Derivatives& out) const {
+  const Rest& pack = packs_[static_cast<std::size_t>(i)];
+  differentiate(x.data(), pack.corners.vertices, pack.shape_gradients, pack.volume_m3, law_.mu_pa, law_.lambda_pa,
+                pressure, out);
 }
 
 }  // namespace tacipc

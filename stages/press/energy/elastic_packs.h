@@ -10,6 +10,7 @@
 namespace tacipc {
 
 /// The same energy as tet_energy over NeoHookean, for all tetrahedra of a gel in packs of eight that lie together.
+/// Tetrahedron `order[i]` is in lane i % 8 of pack i / 8.
 class ElasticPacks {
  public:
   /// \param order in which the tetrahedra are packed: those near each other should be together
@@ -28,6 +29,8 @@ class ElasticPacks {
 
   /// Σ V ψ(F) in J over all tetrahedra, +∞ where one is turned inside out.
   double value(const Positions& x) const;
+  /// Deformed volumes v = V J in m³ of the tetrahedra of one pack, kLanes of them.
+  void volumes(int pack, const Positions& x, double* out) const;
 
   /// Blocks (a, b) with a ≥ b in the order 00 10 20 30 11 21 31 22 32 33, each column by column.
   static constexpr int kBlocks = 10;
@@ -35,8 +38,9 @@ class ElasticPacks {
     Pack gradient[4][3];
     Pack hessian[kBlocks][9];
   };
-  /// Exact gradient and Hessian of one pack. \pre no tetrahedron is inside out
-  void derivatives(int pack, const Positions& x, Derivatives& out) const;
+  /// Exact gradient and Hessian of V [ψ(F) + p J] of one pack; `pressure`: p for each of kLanes tetrahedra, Pa, null
+  /// for none. \pre no tetrahedron is inside out
+  void derivatives(int pack, const Positions& x, const double* pressure, Derivatives& out) const;
 
  private:
   struct Rest {

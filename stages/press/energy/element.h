@@ -8,12 +8,13 @@
 
 namespace tacipc {
 
-/// `linear`: each tetrahedron by itself; soft gels up to Poisson's ratio 0.45. `averaged_volume`: tetrahedra share
-/// their volume in patches; for any ratio up to 0.4999. docs/elements.md compares them.
+/// `linear`: each tetrahedron by itself; compressible gels. `averaged_volume`: tetrahedra share their volume in patches;
+/// for any ratio up to 0.4999. docs/elements.md compares them.
 enum class Element { linear, averaged_volume };
 
-/// Poisson's ratio above which averaged_volume is the better choice.
-constexpr double kAveragedVolumeFrom = 0.45;
+/// Poisson's ratio from which averaged_volume is the better choice: less error of the force for the same time
+/// (docs/performance.md).
+constexpr double kAveragedVolumeFrom = 0.4;
 
 /// Tetrahedra that share one measure of volume.
 constexpr int kPatchSize = 12;

@@ -1,15 +1,11 @@
 #include "stages/press/solve/elastic_assembly.h"
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
 #include <limits>
 
 namespace tacipc {
 namespace {
 
 constexpr int kNowhere = std::numeric_limits<int>::min();
-constexpr int kParts = 4, kWorthParts = 200;  // of more packs than that
 
 using Places = std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>;
 
@@ -68,37 +64,24 @@ void ElasticAssembly::look_up(const ElasticPacks& packs, const FreeVertices& fre
   }
 }
 
-/// Packs whose unknowns all lie in one part of the numbering, part by part, and last those of several parts.
-void ElasticAssembly::divide(const ElasticPacks& packs, const FreeVertices& free) {
-  const int num_parts = packs.size() > kWorthParts ? kParts : 1;
-  groups_.assign(static_cast<std::size_t>(num_parts) + 1, {});
-  for (int p = 0; p < packs.size(); ++p) {
-    const auto& corners = packs.corners(p);
-    int first = num_parts, last = -1;
-    for (const auto& corner : corners.vertices) {
-      for (int l = 0; l < corners.count; ++l) {
-        if (const int i = free.free_of_vertex[corner[l]]; i >= 0) {
-          const auto part = static_cast<int>(static_cast<long long>(i) * num_parts / free.size());
-          first = std::min(first, part);
-          last = std::max(last, part);
-        }
-      }
-    }
-    if (last >= 0) groups_[static_cast<std::size_t>(first == last ? first : num_parts)].push_back(p);
-  }
-}
-
-void ElasticAssembly::add(const ElasticPacks& packs, const Positions& x, double weight, const FreeVertices& free,
-                          NewtonSystem& system) {
+void ElasticAssembly::add(const ElasticPacks& packs, const Positions& x, std::span<const double> pressure,
+                          double weight, const FreeVertices& free, NewtonSystem& system) {
   if (pattern_ != system.hessian.pattern) {
     pattern_ = system.hessian.pattern;
     look_up(packs, free);
-    if (groups_.empty()) divide(packs, free);
+    if (groups_.empty()) {
+      groups_ = SeparateGroups(packs.size(), free.size(), [&](int p, auto&& touches) {
+        const auto& corners = packs.corners(p);
+        for (const auto& corner : corners.vertices) {
+          for (int l = 0; l < corners.count; ++l) touches(free.free_of_vertex[corner[l]]);
+        }
+      });
+    }
   }
-  const auto add_group = [&](const std::vector<int>& group) {
+  groups_.for_each([&](const std::vector<int>& group) {
     ElasticPacks::Derivatives found;
     for (const int p : group) {
-      packs.derivatives(p, x, found);
+      packs.derivatives(p, x, pressure.empty() ? nullptr : &pressure[static_cast<std::size_t>(kLanes * p)], found);
       const auto& corners = packs.corners(p);
       for (int l = 0; l < corners.count; ++l) {
         for (int a = 0; a < 4; ++a) {
@@ -111,12 +94,7 @@ void ElasticAssembly::add(const ElasticPacks& packs, const Positions& x, double 
       (none_transposed_[static_cast<std::size_t>(p)] ? scatter : scatter_any)(
           found, places_[static_cast<std::size_t>(p)], weight, system.hessian.values.data());
     }
-  };
-  // No two parts add to the same block, so that the order of additions does not depend on threads.
-  tbb::parallel_for(
-      std::size_t{0}, groups_.size() - 1, [&](std::size_t part) { add_group(groups_[part]); },
-      tbb::simple_partitioner());
-  add_group(groups_.back());
+  });
 }
 
 }  // namespace tacipc

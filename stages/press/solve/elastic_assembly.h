@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "stages/press/energy/elastic_packs.h"
 #include "stages/press/solve/assembly.h"
+#include "stages/press/solve/separate_groups.h"
 
 namespace tacipc {
 
@@ -13,19 +15,19 @@ namespace tacipc {
 /// per pattern.
 class ElasticAssembly {
  public:
-  /// \pre prescribed vertices of the gel stand still; `free` is the same in every call
-  void add(const ElasticPacks& packs, const Positions& x, double weight, const FreeVertices& free,
-           NewtonSystem& system);
+  /// `pressure`: of ElasticPacks::derivatives, pack by pack, or nothing. \pre prescribed vertices of the gel stand
+  /// still; `free` is the same in every call
+  void add(const ElasticPacks& packs, const Positions& x, std::span<const double> pressure, double weight,
+           const FreeVertices& free, NewtonSystem& system);
 
  private:
   void look_up(const ElasticPacks& packs, const FreeVertices& free);
-  void divide(const ElasticPacks& packs, const FreeVertices& free);
 
   std::shared_ptr<const BlockPattern> pattern_;
   /// Block of the matrix: its index, or −1 − its index where it lies transposed, or kNowhere.
   std::vector<std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>> places_;
-  std::vector<bool> none_transposed_;     // of a pack's blocks
-  std::vector<std::vector<int>> groups_;  // of packs, those before the last touching each other nowhere
+  std::vector<bool> none_transposed_;  // of a pack's blocks
+  SeparateGroups groups_;              // of packs
 };
 
 }  // namespace tacipc

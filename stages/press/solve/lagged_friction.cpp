@@ -54,7 +54,7 @@ void TimeStepper::settle_friction(Step& step) {
     const Positions change = gradient_of(*renewed, step.x) - gradient_of(*step.friction, step.x);
     double sum = 0.0;
     for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
-    report.friction_residual_n = friction.coefficient * settings_.barrier_stiffness_j_m4 * sum;
+    report.friction_residual_n = friction.coefficient * step.weights.barrier_stiffness_j_m4 * sum;
     log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", report.lag_iterations, report.friction_residual_n,
               report.contact_force_n);
     const double limit =

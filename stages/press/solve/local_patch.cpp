@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/press/energy/averaged_elasticity.h"
 #include "stages/press/energy/elasticity.h"
 #include "stages/press/energy/restricted_term.h"
 
@@ -48,6 +49,8 @@ std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyT
   }
   if (const auto* elasticity = dynamic_cast<const Elasticity*>(term.get()))
     return std::make_shared<Elasticity>(*elasticity, stencils);
+  if (const auto* elasticity = dynamic_cast<const AveragedElasticity*>(term.get()))
+    return std::make_shared<AveragedElasticity>(*elasticity, stencils);
   return std::make_shared<RestrictedTerm>(term, std::move(stencils));
 }
 

@@ -75,18 +75,28 @@ SolverTimes NewtonStepper::times() const {
   return times;
 }
 
+bool NewtonStepper::assemble_packs(const WeightedTerm& part, const Positions& x) {
+  if (const auto* linear = dynamic_cast<const Elasticity*>(part.term.get()); linear && linear->packs()) {
+    elastic_.add(*linear->packs(), x, {}, part.weight, free_, system_);
+    return true;
+  }
+  if (const auto* averaged = dynamic_cast<const AveragedElasticity*>(part.term.get()); averaged && averaged->packs()) {
+    const auto volume = averaged->volume_derivatives(x);
+    elastic_.add(*averaged->packs(), x, volume.pressure, part.weight, free_, system_);
+    volume_.add(*averaged, volume.second, x, part.weight, free_, system_);
+    return true;
+  }
+  return false;
+}
+
 void NewtonStepper::assemble_all(const IncrementalPotential& potential, const Positions& x, Order elastic,
                                  const Blend& blend, const ObjectMotion& object) {
   timed(times_.elastic_s, [&] {
     clear(system_, free_, pattern_);
     for (const WeightedTerm& part : potential.terms) {
       if (part.contact) continue;
-      const auto* elasticity = dynamic_cast<const Elasticity*>(part.term.get());
-      if (elasticity && elasticity->packs() && elastic == Order::hessian) {
-        elastic_.add(*elasticity->packs(), x, part.weight, free_, system_);
-      } else {
-        assemble(part, x, free_, first_object_vertex_, elastic, object.of_vertices, system_);
-      }
+      if (elastic == Order::hessian && assemble_packs(part, x)) continue;
+      assemble(part, x, free_, first_object_vertex_, elastic, object.of_vertices, system_);
     }
   });
   const Stopwatch watch(times_.contact_s);

@@ -7,6 +7,7 @@
 #include "stages/press/solve/elastic_assembly.h"
 #include "stages/press/solve/linear_solver.h"
 #include "stages/press/solve/solver_times.h"
+#include "stages/press/solve/volume_assembly.h"
 
 namespace tacipc {
 
@@ -54,6 +55,8 @@ class NewtonStepper {
   bool solve(const NewtonSystem& system, const std::vector<int>& yielding, const Positions& motion,
              NewtonDirection& out);
 
+  /// Adds a term in packs; false for one that has none.
+  bool assemble_packs(const WeightedTerm& part, const Positions& x);
   void assemble_all(const IncrementalPotential& potential, const Positions& x, Order elastic, const Blend& blend,
                     const ObjectMotion& object);
   Vector3 gel_gradient() const;
@@ -69,6 +72,7 @@ class NewtonStepper {
   int first_object_vertex_;
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
   ElasticAssembly elastic_;
+  VolumeAssembly volume_;
   NewtonSystem system_;                   // of the last call; its storage is used again
   double contact_sum_ = 0.0;              // of NewtonDirection
   std::vector<std::vector<int>> active_;  // of each contact term, in order

@@ -24,29 +24,19 @@ constexpr double kFar = 10.0, kRoughDirection = 1e-2, kFineDirection = 1e-3;
 constexpr double kTooLong = 4.0;
 constexpr int kMaxHalvings = 40;
 constexpr double kFarthest = 0.3;   // of the longest step of a vertex
-constexpr double kTouching = 1e-9;  // of the largest force on a vertex
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
 constexpr double kConstraintStiffness = 100.0, kConstraintTolerance = 2e-10;
 constexpr double kSlowProgress = 0.3, kStiffening = 4.0;
 constexpr int kMaxMultiplierUpdates = 60;
+// A barrier that lets something nearer than the first, × d̂, gets so much stiffer that about the second should be left
+// of the same force (κ b′ ~ κ/d there), but no more than so many times at once, and in all.
+constexpr double kNear = 0.01, kFarEnough = 0.05, kMostStiffening = 10.0, kStiffest = 1e4;
 
 double largest_row(const Positions& p, Eigen::Index rows) {
   double largest = 0.0;
   for (Eigen::Index i = 0; i < rows; ++i) largest = std::max(largest, p.row(i).squaredNorm());
   return std::sqrt(largest);
-}
-
-/// StepForces::stand_off_m.
-double stand_off(const ContactBarrier& barrier, const Positions& x) {
-  double force = 0.0, moment = 0.0;
-  for (const int i : barrier.active(x)) {
-    if (barrier.of_gel_alone(i)) continue;
-    const ContactBarrier::Push push = barrier.push(i, gather(x, barrier.pairs()[i]));
-    force += push.force;
-    moment += push.force * std::sqrt(push.feature.squared_distance);
-  }
-  return force > 0.0 ? moment / force : 0.0;
 }
 
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian) {
@@ -250,7 +240,24 @@ void TimeStepper::minimise_constrained(Step& step) {
   }
 }
 
+double TimeStepper::stiffening(double gap_m) const {
+  const double gap = gap_m / settings_.d_hat_m;
+  if (!settings_.adaptive_barrier || gap >= kNear) return 1.0;
+  return std::min(kMostStiffening, kFarEnough / gap);
+}
+
 StepReport TimeStepper::advance(State& state, const StepGoal& goal, const IterationObserver& observe) {
+  StepReport report = try_to_advance(state, goal, observe);
+  report.barrier_factor = state.barrier_factor;
+  const double stiffer = stiffening(smallest_gap(state.x, settings_.d_hat_m));
+  if (stiffer > 1.0 && state.barrier_factor < kStiffest) {
+    state.barrier_factor = std::min(kStiffest, stiffer * state.barrier_factor);
+    log_debug("  barrier {:.3g} times as stiff from here on", state.barrier_factor);
+  }
+  return report;
+}
+
+StepReport TimeStepper::try_to_advance(State& state, const StepGoal& goal, const IterationObserver& observe) {
   const Eigen::Index n = mesh_.num_gel_vertices;
   const double h = goal.h_s;
   const Positions start = state.x.topRows(n);
@@ -266,7 +273,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   step.report.time_steps = 1;
   step.arrived = (state.x.bottomRows(mesh_.num_object_vertices) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
   step.weights = {.h_s = h,
-                  .barrier_stiffness_j_m4 = settings_.barrier_stiffness_j_m4,
+                  .barrier_stiffness_j_m4 = state.barrier_factor * settings_.barrier_stiffness_j_m4,
                   .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
                   .mass_damping_per_s = settings_.mass_damping_per_s,
                   .stiffness_damping_s = settings_.stiffness_damping_s};
@@ -278,7 +285,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
       targets.row(static_cast<Eigen::Index>(i)) = mesh_.rest_positions.row(gel_.glued[i]);
     targets.bottomRows(mesh_.num_object_vertices) = goal.object_target;
     const double stiffness =
-        kConstraintStiffness * settings_.barrier_stiffness_j_m4 * settings_.d_hat_m * settings_.d_hat_m;
+        kConstraintStiffness * step.weights.barrier_stiffness_j_m4 * settings_.d_hat_m * settings_.d_hat_m;
     const Positions none = Positions::Zero(targets.rows(), 3);
     step.constraint = std::make_shared<Dirichlet>(std::move(vertices), std::move(targets), none, stiffness);
     step.terms.constraint = step.constraint;
@@ -306,8 +313,17 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   }
   start_friction(step);
 
-  minimise_constrained(step);
-  settle_friction(step);
+  try {
+    minimise_constrained(step);
+    settle_friction(step);
+  } catch (const SolverError& error) {
+    // A gap that is all but closed is too stiff a spring beside all others; with a stiffer barrier it stays wider.
+    const double stiffer = stiffening(smallest_gap(step.x, settings_.d_hat_m));
+    if (stiffer == 1.0 || state.barrier_factor >= kStiffest) throw;
+    state.barrier_factor = std::min(kStiffest, stiffer * state.barrier_factor);
+    log_info("{}; again with {:.3g} times the barrier", error.what(), state.barrier_factor);
+    return try_to_advance(state, goal, observe);
+  }
 
   record_forces(step);
   step.report.yield_m = step.yield;
@@ -322,60 +338,6 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
   if (!settings_.augmented_lagrangian)
     state.x.bottomRows(mesh_.num_object_vertices) = goal.object_target.rowwise() + step.yield.transpose();
   return step.report;
-}
-
-StepForces TimeStepper::no_forces() const {
-  const Positions zero = Positions::Zero(mesh_.num_gel_vertices, 3);
-  return {.normal = zero,
-          .friction = zero,
-          .mount = zero,
-          .body = zero,
-          .contact_state = std::vector<std::uint8_t>(static_cast<std::size_t>(mesh_.num_gel_vertices), 0)};
-}
-
-void TimeStepper::record_forces(const Step& step) {
-  const Eigen::Index n = mesh_.num_gel_vertices;
-  const double h2 = step.goal.h_s * step.goal.h_s;
-  const auto force_of = [&](const WeightedTerm& part) -> Positions {
-    return -part.weight / h2 * gradient_of(*part.term, step.x).topRows(n);
-  };
-  forces_ = no_forces();
-  const std::vector<ContactPair> pairs = pairs_at(step.x);
-  forces_.stand_off_m = stand_off(barrier(pairs), step.x);
-  for (const WeightedTerm& part : potential(step, pairs).terms) {
-    const bool elastic = part.term == gel_.elasticity;
-    const Positions force = force_of(elastic ? WeightedTerm{part.weight, elasticity_at_mount_} : part);
-    if (part.term->name() == "barrier") {
-      forces_.normal = force;
-    } else if (part.term == step.friction) {
-      forces_.friction = force;
-    } else if (part.term == step.terms.object_inertia || part.term == step.terms.constraint) {
-      continue;
-    } else if (!elastic) {
-      forces_.body += force;
-    }
-    for (const int v : gel_.glued) forces_.mount.row(v) -= force.row(v);
-  }
-
-  // Weights that cancel leave rounding behind.
-  const double touching_n = kTouching * largest_row(forces_.normal, n);
-  std::vector<double> all(static_cast<std::size_t>(n), 0.0), slipping(static_cast<std::size_t>(n), 0.0);
-  for (Eigen::Index v = 0; v < n; ++v) forces_.contact_state[v] = forces_.normal.row(v).norm() > touching_n ? 1 : 0;
-  if (!step.friction) return;
-  for (int i = 0; i < step.friction->num_stencils(); ++i) {
-    const auto stencil = step.friction->stencil(i);
-    const bool slips = step.friction->relative_slide(i, step.x) >= 1.0;
-    for (std::size_t k = 0; k < stencil.size(); ++k) {
-      if (stencil[k] >= n) continue;
-      const double share =
-          std::abs(step.friction->weights(i)[static_cast<Eigen::Index>(k)]) * step.friction->normal_force(i);
-      all[stencil[k]] += share;
-      if (slips) slipping[stencil[k]] += share;
-    }
-  }
-  for (Eigen::Index v = 0; v < n; ++v) {
-    if (forces_.contact_state[v] != 0 && slipping[v] > 0.5 * all[v]) forces_.contact_state[v] = 2;
-  }
 }
 
 double TimeStepper::smallest_gap(const Positions& x, double none) {

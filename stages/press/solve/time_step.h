@@ -33,6 +33,7 @@ struct FrictionSettings {
 struct StepSettings {
   double d_hat_m = 0.0;
   double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step: contact is as stiff in a shorter one
+  bool adaptive_barrier = false;        // State::barrier_factor grows where gaps get small
   PairCounting pair_counting = {};
   std::optional<FrictionSettings> friction = std::nullopt;
   bool quasi_static = false;
@@ -66,6 +67,7 @@ struct State {
   Positions x;
   Positions velocity_m_s;                         // gel rows
   Vector3 object_velocity_m_s = Vector3::Zero();  // along yielding axes
+  double barrier_factor = 1.0;                    // of the barrier's stiffness in the next step
 };
 
 /// What a step took and where it ended.
@@ -78,6 +80,7 @@ struct StepReport {
   int lag_iterations = 0;     // how often friction was renewed, beyond the first time
   double velocity_residual_m_s = 0.0;
   double force_residual_n = 0.0;      // Σ over free vertices of |residual force|
+  double barrier_factor = 1.0;        // of the barrier's stiffness
   double friction_residual_n = 0.0;   // the same if normal forces and tangent planes were renewed now
   double contact_force_n = 0.0;       // |Σ forces of the object on the gel|, with or without friction: the less
   Vector3 yield_m = Vector3::Zero();  // how far the object yielded
@@ -105,7 +108,8 @@ class TimeStepper {
   TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings);
 
   /// Advances the state by one step. Along axes where it does not yield the object ends bit-equal to the target.
-  /// \throw SolverError with the numbers if the step does not converge; the state is then as before.
+  /// \throw SolverError with the numbers if the step does not converge; the state is then as before but for the
+  /// barrier's factor.
   StepReport advance(State& state, const StepGoal& goal, const IterationObserver& observe);
 
   /// Forces at the end of the last step that succeeded.
@@ -120,6 +124,7 @@ class TimeStepper {
 
  private:
   struct Step;
+  StepReport try_to_advance(State& state, const StepGoal& goal, const IterationObserver& observe);
   void minimise(Step& step);
   void minimise_constrained(Step& step);
   /// Where only a few vertices are not yet at rest: Newton's method for those and their neighbours alone, everything
@@ -137,6 +142,8 @@ class TimeStepper {
   std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);  // or on the way from x to x + p
   IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
   void record_forces(const Step& step);
+  /// By how much the barrier should be stiffer with such a smallest gap, at least 1.
+  double stiffening(double gap_m) const;
 
   const ContactMesh& mesh_;
   GelModel gel_;
