@@ -40,6 +40,6 @@ $(TABLE)/objects.md: $(addsuffix /press/press.yaml,$(TABLE_SAMPLES)) pipelines/o
 	mv $@.new $@
 
 .PHONY: objects-table
-objects-table: $(TABLE)/objects.md $(TABLE)/report/report.yaml ## Real objects of SHARED into our gel and the paper's; writes objects.md (an hour)
+objects-table: $(TABLE)/objects.md $(TABLE)/report/report.yaml ## Real objects of SHARED into our gel and the paper's; writes objects.md (minutes)
 	@cat $(TABLE)/objects.md
 	$(call look,$(TABLE))

@@ -8,8 +8,8 @@
 
 namespace tacipc {
 
-/// `linear`: each tetrahedron by itself; compressible gels. `averaged_volume`: tetrahedra share their volume in patches;
-/// for any ratio up to 0.4999. docs/elements.md compares them.
+/// `linear`: each tetrahedron by itself; compressible gels. `averaged_volume`: tetrahedra share their volume in
+/// patches; for any ratio up to 0.4999. docs/elements.md compares them.
 enum class Element { linear, averaged_volume };
 
 /// Poisson's ratio from which averaged_volume is the better choice: less error of the force for the same time
