@@ -11,13 +11,14 @@ std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate&
       "and camera rays refracted, with shadows, the coating's lobe, all maps and codes, without the files. Least of "
       "several "
       "runs.\n\n"
-      "| Rendering | Rays per pixel | Light samples | 1 thread, ms | 2 threads, ms | must, ms "
-      "|\n|---|---|---|---|---|---|\n",
+      "| Rendering | Rays per pixel | Light samples | CPU, ms | 1 thread, ms | 2 threads, ms | must, ms "
+      "|\n|---|---|---|---|---|---|---|\n",
       processor);
   for (const RenderCost& cost : costs) {
-    out += fmt::format("| {} | {} | {} | {:.0f} | {:.0f} | {:.0f} |\n", cost.name, cost.subpixels * cost.subpixels,
-                       cost.lights * static_cast<std::size_t>(cost.led_samples * cost.led_samples), cost.one_thread_ms,
-                       cost.two_threads_ms, cost.must_ms);
+    out += fmt::format("| {} | {} | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", cost.name,
+                       cost.subpixels * cost.subpixels,
+                       cost.lights * static_cast<std::size_t>(cost.led_samples * cost.led_samples), cost.processor_ms,
+                       cost.one_thread_ms, cost.two_threads_ms, cost.must_ms);
   }
   out +=
       "\n## Tracing\n\nAll rays of one frame (with area lights of one of 160 × 120 pixels) are logged and traced again "

@@ -13,6 +13,7 @@ struct RenderCost {
   std::size_t lights = 0;
   int subpixels = 1;
   int led_samples = 1;
+  double processor_ms = 0.0;   // of a frame on one thread, whatever else runs on the machine
   double one_thread_ms = 0.0;  // a frame: rays, light, colours, codes; no files, no scene update
   double two_threads_ms = 0.0;
   double must_ms = 0.0;      // on two threads

@@ -60,10 +60,10 @@ struct LayeredPath {
 /// The path that goes r sideways, r² = `squared_lateral`, through `stack` with `last_thickness` in its last layer, m.
 /// With q = tan θ in the layer of lowest index n_m,
 ///   r(q) = q S,  S = Σ h_i n_m / s_i,  s_i = √(n_i² + (n_i² − n_m²) q²)
-/// is increasing and concave, so Newton's steps from q = 0 climb to the root without overshooting. Then with
-/// w = 1/√(1 + q²) and D = Σ h_i n_i² / s_i³:
+/// is increasing and concave, so Newton's steps from q = r / r'(0), below the root, climb to it without overshooting.
+/// Then with w = 1/√(1 + q²) and D = Σ h_i n_i² / s_i³:
 ///   n_i cos θ_i = s_i w,   p / r = n_m w / S,   J = n_m w³ / (n_0 s_0 S D),
-/// and the w cancels from Fresnel's equations. Nothing is singular at r = 0. Relative error of q below 1e-12.
+/// and the w cancels from Fresnel's equations. Nothing is singular at r = 0. Relative error of q below 1e-10.
 /// [Snell's and Fresnel's laws; p is the ray parameter of layered media]
 /// \pre last_thickness > 0, all indices > 0
 template <typename T>
@@ -71,7 +71,10 @@ TACIPC_INLINE LayeredPath<T> layered_path(const LayerStack& stack, const T& last
   constexpr int kMaxSteps = 12;
   const double nm = stack.lowest_ior();
   const T lateral = root(squared_lateral);
-  T q = lateral - lateral;
+  double reduced = 0.0;  // Σ h_i / n_i but for the last layer
+  for (int i = 0; i + 1 < stack.count; ++i)
+    reduced += stack.thickness_m[static_cast<std::size_t>(i)] / stack.ior[static_cast<std::size_t>(i)];
+  T q = lateral / (nm * (reduced + last_thickness / stack.ior[static_cast<std::size_t>(stack.count - 1)]));
   T s[LayerStack::kMost] = {}, sum = q, slope = q;  // sum = S / n_m, slope = D
   for (int step = 0;; ++step) {
     const T qq = q * q;
@@ -87,7 +90,7 @@ TACIPC_INLINE LayeredPath<T> layered_path(const LayerStack& stack, const T& last
       slope += n * n * part * inverse * inverse;
     }
     const T change = (lateral - q * nm * sum) / (nm * slope);
-    if (step == kMaxSteps || negligible(change, q, 1e-13)) break;
+    if (step == kMaxSteps || negligible(change, q, 1e-11)) break;
     q += change;
   }
   const T w = 1.0 / root(1.0 + q * q);

@@ -36,10 +36,26 @@ FloatImage color_image(const FloatImage& basis, const Sensor& sensor) {
   return image;
 }
 
+double indirect_share(const TraceResult& result, const Sensor& sensor) {
+  if (result.indirect.channels == 0) return 0.0;
+  TraceResult direct = result;
+  direct.indirect = {};
+  const auto sum = [](const FloatImage& image) {
+    double total = 0.0;
+    for (const float value : image.pixels) total += value;
+    return total;
+  };
+  const double with = sum(color_image(result, sensor, false)), without = sum(color_image(direct, sensor, false));
+  return with > 0.0 ? 1.0 - without / with : 0.0;
+}
+
 FloatImage color_image(const TraceResult& result, const Sensor& sensor, bool with_markers) {
   const std::vector<LightGroup> groups = light_groups(sensor.leds);
   FloatImage image = color_image(result.basis, sensor);
   add_colored(result.gloss, groups, {1.0, 1.0, 1.0}, image);
+  std::array<double, 3> twice{};
+  for (std::size_t c = 0; c < 3; ++c) twice[c] = sensor.coating.albedo[c] * sensor.coating.albedo[c];
+  add_colored(result.indirect, groups, twice, image);
   if (!with_markers) return image;
   std::array<double, 3> change{};
   for (std::size_t c = 0; c < 3; ++c) change[c] = sensor.markers.albedo[c] - sensor.coating.albedo[c];

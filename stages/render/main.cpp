@@ -120,6 +120,7 @@ int main(int argc, char** argv) {
                                {"nudged_rays", summary.nudged_rays},
                                {"outside_rays", summary.outside_rays},
                                {"max_indentation_mm", 1e3 * summary.max_indentation_m},
+                               {"indirect_share", summary.indirect_share},
                                {"sensor_values", count_sources(sensor)}});
     Value::List variants;
     for (std::size_t u = 1; u < summary.units.size(); ++u) {

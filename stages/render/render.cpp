@@ -176,6 +176,7 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
         frame.marker_px = project_markers(frame_markers(press, index), sensor, config.trace.refract);
       if (u == 0) {
         summary.max_indentation_m = largest(traced.indentation);
+        summary.indirect_share = indirect_share(traced, sensor);
         log_info("frame {}: deepest indentation {:.3f} mm, {:.2f} % clipped", index, 1e3 * summary.max_indentation_m,
                  100.0 * frame.tactile.clipped_fraction);
       }

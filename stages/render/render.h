@@ -53,6 +53,7 @@ struct RenderSummary {
   std::int64_t nudged_rays = 0;
   std::int64_t outside_rays = 0;
   double max_indentation_m = 0.0;  // in the last frame
+  double indirect_share = 0.0;     // of the last frame's light
 };
 
 /// Colours from 0 to the frame's deepest indentation (to 1 µm at least).

@@ -12,6 +12,7 @@
 
 #include "common/camera_model.h"
 #include "common/error.h"
+#include "stages/render/indirect.h"
 #include "stages/render/light_path.h"
 #include "stages/render/surface_hit.h"
 
@@ -69,7 +70,11 @@ class RowTracer {
         samples_(light_samples(sensor, settings.led_samples, settings.refract)),
         subpixels_(settings.subpixels),
         groups_(light_groups(sensor.leds).size()),
-        log_(settings.log) {}
+        log_(settings.log) {
+    if (settings.indirect_rays == 0) return;
+    const VertexLight direct = direct_vertex_light(scene, membrane, sensor, settings.led_samples, settings.refract);
+    indirect_ = gather_indirect(scene, membrane, direct, sensor, settings.indirect_rays, settings.refract);
+  }
 
   RowCounts trace_row(int row, TraceResult& out) const {
     const FlushDenormals flush;
@@ -77,7 +82,8 @@ class RowTracer {
     const int width = sensor_.camera.width_px;
     std::vector<PixelSums> pixels(static_cast<std::size_t>(width));
     const std::size_t channels = static_cast<std::size_t>(width) * groups_;
-    std::vector<double> diffuse(channels), gloss(channels), marked(channels), marked_gloss(channels);
+    std::vector<double> diffuse(channels), gloss(channels), marked(channels), marked_gloss(channels),
+        indirect(channels);
     std::vector<GroupLight> light(groups_);
     for (int j = 0; j < subpixels_; ++j) {
       for (int first = 0; first < width * subpixels_; first += kLanes) {
@@ -97,6 +103,7 @@ class RowTracer {
           for (std::size_t g = 0; g < groups_; ++g) {
             diffuse[pixel * groups_ + g] += light[g].diffuse[l];
             gloss[pixel * groups_ + g] += light[g].gloss[l];
+            if (indirect_.rows() > 0) indirect[pixel * groups_ + g] += rays.transmittance[l] * indirect_at(*hit, g);
             if (!on_marker) continue;
             marked[pixel * groups_ + g] += light[g].diffuse[l];
             marked_gloss[pixel * groups_ + g] += light[g].gloss[l];
@@ -114,6 +121,7 @@ class RowTracer {
     write(gloss, out.gloss);
     write(marked, out.marked);
     write(marked_gloss, out.marked_gloss);
+    write(indirect, out.indirect);
     for (int column = 0; column < width; ++column)
       write_geometry(pixels[static_cast<std::size_t>(column)], column, row, out);
     return counts;
@@ -234,6 +242,13 @@ class RowTracer {
     return packet;
   }
 
+  double indirect_at(const SurfaceHit& hit, std::size_t group) const {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+      sum += hit.weights[k] * indirect_(membrane_.triangles(hit.triangle, k), static_cast<Eigen::Index>(group));
+    return sum;
+  }
+
   /// Adds all that is no light; true if the point belongs to a printed marker.
   bool add_geometry(const SurfaceHit& hit, PixelSums& pixel) const {
     ++pixel.hits;
@@ -282,6 +297,7 @@ class RowTracer {
   int subpixels_;
   std::size_t groups_;
   RayLog* log_;
+  VertexLight indirect_;  // no rows: not wanted
 };
 
 }  // namespace
@@ -296,6 +312,7 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
                   .gloss = FloatImage(width, height, glossy ? groups : 0),
                   .marked = FloatImage(width, height, printed ? groups : 0),
                   .marked_gloss = FloatImage(width, height, printed && glossy ? groups : 0),
+                  .indirect = FloatImage(width, height, settings.indirect_rays > 0 ? groups : 0),
                   .depth = FloatImage(width, height, 1, kNothing),
                   .normal = FloatImage(width, height, 3, kNothing),
                   .indentation = FloatImage(width, height, 1, kNothing),

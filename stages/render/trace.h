@@ -22,6 +22,7 @@ struct TraceSettings {
   int subpixels = 2;      // rays per pixel edge, on a fixed grid (box filter)
   int led_samples = 3;    // points per edge of a light with size
   bool refract = true;    // at the sensor's layers, if it has any; else straight rays
+  int indirect_rays = 0;  // per vertex, for light by way of the membrane (indirect.h); 0: none
   RayLog* log = nullptr;  // filled on one thread only
 };
 
@@ -41,6 +42,7 @@ struct TraceResult {
   FloatImage gloss = {};   // alike from the coating's lobe; no channels without one
   FloatImage marked = {};  // the part of `basis` that falls on markers; no channels without printed markers
   FloatImage marked_gloss = {};
+  FloatImage indirect = {};     // alike: what the membrane sends to itself, at albedo 1 both times; no channels without
   FloatImage depth = {};        // m along +z from the camera
   FloatImage normal = {};       // unit, outward normal of the front face in S: (0, 0, 1) where it is flat
   FloatImage indentation = {};  // m the seen material has moved along −z, > 0 into the gel
@@ -67,7 +69,11 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
 /// Linear image in three channels: L_c = albedo_c Σ_g rgb_gc B_g + ambient_c. Light is additive, so recolouring the
 /// lights needs no rays.
 FloatImage color_image(const FloatImage& basis, const Sensor& sensor);
-/// The same with the coating's lobe and, if wanted, the printed markers: where they are, their albedo and no lobe.
+/// The same with the coating's lobe, light by way of the membrane (times albedo once more) and, if wanted, the printed
+/// markers: where they are, their albedo and no lobe.
 FloatImage color_image(const TraceResult& result, const Sensor& sensor, bool with_markers);
+
+/// Share of the image's light that came by way of the membrane (0 where it was not traced).
+double indirect_share(const TraceResult& result, const Sensor& sensor);
 
 }  // namespace tacipc

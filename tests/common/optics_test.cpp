@@ -84,9 +84,9 @@ TEST(LayeredPath, PacksSayWhatNumbersSay) {
   const auto eight = layered_path<Pack>(kMcTac, thickness, squared);
   for (int l = 0; l < kLanes; ++l) {
     const auto one = layered_path<double>(kMcTac, thickness[l], squared[l]);
-    EXPECT_NEAR(eight.spread[l] / one.spread, 1.0, 1e-12) << l;
-    EXPECT_NEAR(eight.transmittance[l], one.transmittance, 1e-12) << l;
-    EXPECT_NEAR(eight.cosine_last[l], one.cosine_last, 1e-12) << l;
+    EXPECT_NEAR(eight.spread[l] / one.spread, 1.0, 1e-10) << l;
+    EXPECT_NEAR(eight.transmittance[l], one.transmittance, 1e-10) << l;
+    EXPECT_NEAR(eight.cosine_last[l], one.cosine_last, 1e-10) << l;
   }
 }
 
@@ -96,8 +96,8 @@ TEST(LayeredPath, FresnelAtNormalIncidenceAndTheWayBack) {
   const LayerStack back = stack_of({{2.0, 1.41}, {5.0, 1.49}, {3.0, 1.0}});
   for (const double r : {0.0, 4.0, 12.0}) {
     const auto there = path_to(kMcTac, r), returning = path_to(back, r);
-    EXPECT_NEAR(there.transmittance, returning.transmittance, 1e-13);
-    EXPECT_NEAR(there.sine_over_lateral, returning.sine_over_lateral, 1e-13);
+    EXPECT_NEAR(there.transmittance, returning.transmittance, 1e-11);
+    EXPECT_NEAR(there.sine_over_lateral, returning.sine_over_lateral, 1e-11);
     // Reciprocity of throughput: n² cos θ dω dA is the same from both ends.
     EXPECT_NEAR(there.spread * 1.0 * there.cosine_first / (returning.spread * 1.41 * 1.41 * returning.cosine_first),
                 1.0, 1e-12);
