@@ -56,11 +56,21 @@ FloatImage color_image(const TraceResult& result, const Sensor& sensor, bool wit
   std::array<double, 3> twice{};
   for (std::size_t c = 0; c < 3; ++c) twice[c] = sensor.coating.albedo[c] * sensor.coating.albedo[c];
   add_colored(result.indirect, groups, twice, image);
-  if (!with_markers) return image;
+  if (!with_markers || result.coverage.channels == 0) return image;
   std::array<double, 3> change{};
   for (std::size_t c = 0; c < 3; ++c) change[c] = sensor.markers.albedo[c] - sensor.coating.albedo[c];
   add_colored(result.marked, groups, change, image);
   add_colored(result.marked_gloss, groups, {-1.0, -1.0, -1.0}, image);
+  // What comes from everywhere meets the markers' paint too.
+  FloatImage everywhere(image.width, image.height, 3);
+  if (result.indirect.channels > 0) add_colored(result.indirect, groups, sensor.coating.albedo, everywhere);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const std::size_t c = i % 3;
+    const double albedo = sensor.coating.albedo[c];
+    const double veiled = albedo > 0.0 ? sensor.ambient_rgb[c] / albedo : 0.0;
+    image.pixels[i] = static_cast<float>(image.pixels[i] +
+                                         result.coverage.pixels[i / 3] * change[c] * (everywhere.pixels[i] + veiled));
+  }
   return image;
 }
 

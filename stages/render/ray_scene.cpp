@@ -57,7 +57,6 @@ RayScene::~RayScene() = default;
 
 void RayScene::move(const Positions& positions) {
   Handles& h = *handles_;
-  lowest_z_ = positions.col(2).minCoeff();
   for (Eigen::Index i = 0; i < positions.size(); ++i) h.vertices[i] = static_cast<float>(positions.data()[i]);
   rtcUpdateGeometryBuffer(h.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcCommitGeometry(h.geometry);

@@ -50,13 +50,9 @@ class RayScene {
   /// Bit i is set if something lies on the segment of valid ray i.
   std::uint32_t blocked(const RayPacket& rays) const;
 
-  /// Least z of all triangles, m.
-  double lowest_z_m() const { return lowest_z_; }
-
  private:
   struct Handles;
   std::unique_ptr<Handles> handles_;
-  double lowest_z_;
 };
 
 /// While it lives, denormal numbers count as zero on this thread: Embree needs that for speed.

@@ -12,6 +12,7 @@
 
 #include "common/camera_model.h"
 #include "common/error.h"
+#include "stages/render/horizon.h"
 #include "stages/render/indirect.h"
 #include "stages/render/light_path.h"
 #include "stages/render/surface_hit.h"
@@ -38,7 +39,7 @@ Vector3 lane_of(const Pack3& pack, int lane) { return {pack.x[lane], pack.y[lane
 struct PixelSums {
   double depth = 0.0, indentation = 0.0;
   Vector3 normal = Vector3::Zero(), traction = Vector3::Zero();
-  int hits = 0;
+  int hits = 0, on_marker = 0;
   std::array<int, 5> segments{};
   std::array<int, 3> contacts{};
 };
@@ -66,6 +67,7 @@ class RowTracer {
         membrane_(membrane),
         sensor_(sensor),
         fields_(fields),
+        horizon_(membrane),
         camera_(sensor.camera, sensor.stack, settings.refract),
         samples_(light_samples(sensor, settings.led_samples, settings.refract)),
         subpixels_(settings.subpixels),
@@ -122,6 +124,10 @@ class RowTracer {
     write(marked, out.marked);
     write(marked_gloss, out.marked_gloss);
     write(indirect, out.indirect);
+    for (int column = 0; column < width && out.coverage.channels == 1; ++column) {
+      const double share = pixels[static_cast<std::size_t>(column)].on_marker / rays_per_pixel;
+      out.coverage.at(column, row, 0) = static_cast<float>(share);
+    }
     for (int column = 0; column < width; ++column)
       write_geometry(pixels[static_cast<std::size_t>(column)], column, row, out);
     return counts;
@@ -187,39 +193,43 @@ class RowTracer {
   void gather_light(const Hits& hits, const CameraRays& rays, std::vector<GroupLight>& light) const {
     std::fill(light.begin(), light.end(), GroupLight{});
     SurfacePack surface;
+    Pack steepness{};
     std::uint32_t lit = 0;
-    double above = -std::numeric_limits<double>::infinity();  // the highest start over the membrane's lowest point
     for (int l = 0; l < kLanes; ++l) {
-      // Empty lanes do as the nearest one that is not, or as a point of the flat face.
+      // Empty lanes do as a point of the flat face.
       const SurfaceHit* hit = hits[static_cast<std::size_t>(l)] ? &*hits[static_cast<std::size_t>(l)] : nullptr;
       if (hit && hit->from_inside) lit |= 1u << l;
       put(surface.point, l, hit ? hit->point : Vector3(0.0, 0.0, 0.0));
       put(surface.normal, l, hit ? hit->inner_normal : Vector3(0.0, 0.0, -1.0));
       put(surface.shadow_origin, l, hit ? hit->shadow_origin : Vector3(0.0, 0.0, 0.0));
       put(surface.view, l, hit ? Vector3(-lane_of(rays.direction, l)) : Vector3(0.0, 0.0, -1.0));
-      if (hit) above = std::max(above, hit->shadow_origin.z() - scene_.lowest_z_m());
+      steepness[l] = hit ? horizon_.steepness(hit->point.x(), hit->point.y()) : 0.0;
     }
     if (lit == 0) return;
+    const Pack squared_steepness = steepness * steepness;
     for (const LightSample& sample : samples_) {
       const IncidencePack incidence = light_path(surface.point, sample);
       CoatingResponse response = coating_response(surface, incidence.direction, sensor_.coating);
       response.diffuse *= incidence.irradiance * rays.transmittance;
       response.gloss *= incidence.irradiance * rays.transmittance;
-      // Whatever lies wholly behind the surface is free: all of a flat face, which is every sensor's reference.
-      std::uint32_t reached = 0;
-      for (int l = 0; l < kLanes; ++l)
-        reached |= response.diffuse[l] > 0.0 && incidence.irradiance[l] > 0.0 ? 1u << l : 0u;
+      // What climbs more steeply than anything around stands free: all of a flat face, most of a pressed one.
+      const Pack3& w = incidence.direction;
+      const Pack over = w.z * w.z - squared_steepness * (w.x * w.x + w.y * w.y);
+      std::uint32_t reached = 0, doubtful = 0;
+      for (int l = 0; l < kLanes; ++l) {
+        reached |= response.diffuse[l] > 0.0 ? 1u << l : 0u;
+        doubtful |= over[l] > 0.0 && w.z[l] < 0.0 ? 0u : 1u << l;
+      }
       reached &= lit;
-      if (reached == 0) continue;
-      std::uint32_t open = reached;
-      if (above >= 0.0 || sample.position_m.z() >= scene_.lowest_z_m()) {
-        RayPacket shadow = shadow_rays(surface, incidence, reached);
+      doubtful &= reached;
+      if (doubtful != 0) {
+        const RayPacket shadow = shadow_rays(surface, incidence, doubtful);
         if (log_) log_->shadow.push_back(shadow);
-        open &= ~scene_.blocked(shadow);
+        reached &= ~scene_.blocked(shadow);
       }
       const auto group = static_cast<std::size_t>(sample.group);
       for (int l = 0; l < kLanes; ++l) {
-        if ((open >> l & 1u) == 0) continue;
+        if ((reached >> l & 1u) == 0) continue;
         light[group].diffuse[l] += response.diffuse[l];
         light[group].gloss[l] += response.gloss[l];
       }
@@ -269,6 +279,7 @@ class RowTracer {
         pixel.traction += hit.weights[k] * fields_.traction_pa.row(vertex).transpose();
     }
     if (sensor_.markers.radius_m) on_marker = sensor_.markers.covers(rest.x(), rest.y());
+    pixel.on_marker += on_marker;
     ++pixel.contacts[contact];
     ++pixel.segments[on_marker ? (contact > 0 ? 4 : 3) : (contact > 0 ? 2 : 1)];
     return on_marker;
@@ -292,6 +303,7 @@ class RowTracer {
   const Membrane& membrane_;
   const Sensor& sensor_;
   const SurfaceFields& fields_;
+  Horizon horizon_;
   CameraModel camera_;
   std::vector<LightSample> samples_;
   int subpixels_;
@@ -312,6 +324,7 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
                   .gloss = FloatImage(width, height, glossy ? groups : 0),
                   .marked = FloatImage(width, height, printed ? groups : 0),
                   .marked_gloss = FloatImage(width, height, printed && glossy ? groups : 0),
+                  .coverage = FloatImage(width, height, printed ? 1 : 0),
                   .indirect = FloatImage(width, height, settings.indirect_rays > 0 ? groups : 0),
                   .depth = FloatImage(width, height, 1, kNothing),
                   .normal = FloatImage(width, height, 3, kNothing),

@@ -42,6 +42,7 @@ struct TraceResult {
   FloatImage gloss = {};   // alike from the coating's lobe; no channels without one
   FloatImage marked = {};  // the part of `basis` that falls on markers; no channels without printed markers
   FloatImage marked_gloss = {};
+  FloatImage coverage = {};     // share of the pixel's rays that meet a marker; no channels without printed markers
   FloatImage indirect = {};     // alike: what the membrane sends to itself, at albedo 1 both times; no channels without
   FloatImage depth = {};        // m along +z from the camera
   FloatImage normal = {};       // unit, outward normal of the front face in S: (0, 0, 1) where it is flat

@@ -244,6 +244,22 @@ TEST(Markers, DarkenTheirDiscsAndMoveWithTheMaterial) {
   EXPECT_NEAR((x_sum / darkened + 0.5) / 80 * 4.0 - 2.0, 0.3, 0.01);
 }
 
+TEST(Markers, AreDarkInTheVeilToo) {
+  Sensor sensor = layered_sensor(20, 15);
+  sensor.leds = {point_light({5e-3, 3e-3, -12e-3})};
+  sensor.leds[0].rgb = {0.0, 0.0, 0.0};
+  sensor.coating.albedo = {0.5, 0.5, 0.5};
+  sensor.ambient_rgb = {10.0, 20.0, 30.0};
+  sensor.markers = {.rows = 1, .columns = 1, .pitch_m = 1e-3, .radius_m = 0.5e-3, .albedo = {0.05, 0.05, 0.05}};
+  const TraceResult result = trace(height_field(4e-3, 4e-3, 1e-4, flat), sensor, {});
+  const FloatImage image = color_image(result, sensor, true);
+  EXPECT_FLOAT_EQ(image.at(10, 7, 2), 3.0f);
+  EXPECT_FLOAT_EQ(image.at(1, 1, 2), 30.0f);
+  double covered = 0.0;
+  for (const float share : result.coverage.pixels) covered += share;
+  EXPECT_NEAR(covered * 12.0 / (20 * 15), 0.25 * std::numbers::pi, 0.05);  // mm²
+}
+
 TEST(Fields, MapsShowTractionAndStatesWhereTheyAre) {
   Sensor sensor = layered_sensor(40, 30);
   sensor.leds = {point_light({5e-3, 3e-3, -12e-3})};
