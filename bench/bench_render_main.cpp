@@ -5,10 +5,12 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <thread>
 
 #include "bench/embree_rate.h"
 #include "bench/render_report.h"
@@ -135,6 +137,8 @@ bench::RenderCost measure(const std::string& name, const RayScene& scene, const 
 
 int main(int argc, char** argv) {
   return run_stage(kBench, argc, argv, [](Stage& stage) {
+    double load = 0.0;
+    if (getloadavg(&load, 1) != 1) throw DataError("the kernel does not say how busy it is");
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const TetMesh gel = read_tet_mesh(stage.input("--gel"));
     const PressFrames press = read_press(stage.input("--press"), gel);
@@ -150,7 +154,8 @@ int main(int argc, char** argv) {
         measure("point lights", scene, membrane, with_eight(sensor, 0.0), {.subpixels = 1}, fields, 7, 200.0, 1),
         measure("area lights", scene, membrane, with_eight(sensor, 5e-3), {.subpixels = 2, .led_samples = 3}, fields, 3,
                 3000.0, 4)};
-    write_file(stage.output("render_performance.md"), bench::render_page(costs, update, processor()));
+    write_file(stage.output("render_performance.md"),
+               bench::render_page(costs, update, processor(), load, std::thread::hardware_concurrency()));
     stage.summarize({{"point_lights_2_threads_ms", costs[0].two_threads_ms},
                      {"area_lights_2_threads_ms", costs[1].two_threads_ms},
                      {"of_embree", std::min(costs[0].of_embree(), costs[1].of_embree())},

@@ -4,16 +4,19 @@
 
 namespace tacipc::bench {
 
-std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate& update, const std::string& processor) {
+std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate& update, const std::string& processor,
+                        double load, unsigned cores) {
   std::string out = fmt::format(
       "# What rendering costs\n\nMade by `make -f Makefile.data bench-render` on {}: the last frame of a press of "
       "`letter_a` into the MC-Tac gel, 640 × 480 pixels, eight LEDs on the ring of `configs/sensors/mctac.yaml`, light "
       "and camera rays refracted, with shadows, the coating's lobe, all maps and codes, without the files. Least of "
       "several "
-      "runs.\n\n"
+      "runs; *CPU* is processor time on one thread. When it began, {:.1f} processes were running on {} cores: above "
+      "that "
+      "number wall times say little.\n\n"
       "| Rendering | Rays per pixel | Light samples | CPU, ms | 1 thread, ms | 2 threads, ms | must, ms "
       "|\n|---|---|---|---|---|---|---|\n",
-      processor);
+      processor, load, cores);
   for (const RenderCost& cost : costs) {
     out += fmt::format("| {} | {} | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", cost.name,
                        cost.subpixels * cost.subpixels,

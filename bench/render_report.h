@@ -33,6 +33,9 @@ struct SceneUpdate {
   double tree_ms = 0.0;      // Embree's
 };
 
-std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate& update, const std::string& processor);
+/// `load` is the number of runnable processes of the last minute on `cores` cores: the more of them, the less wall
+/// times say.
+std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate& update, const std::string& processor,
+                        double load, unsigned cores);
 
 }  // namespace tacipc::bench

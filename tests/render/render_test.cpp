@@ -125,6 +125,8 @@ TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
   EXPECT_THAT(record, HasSubstr("reference: synthetic"));
   EXPECT_THAT(record, HasSubstr("nudged_rays: "));
   EXPECT_THAT(record, HasSubstr("outside_rays: 0"));
+  EXPECT_THAT(record, HasSubstr("indirect_share: 0"));
+  EXPECT_THAT(record, HasSubstr("unstated: "));
   // The deepest vertex lies on the axis, between rays: 0.4 mm less what the nearest rays and the facets miss.
   const FloatImage indentation = read_exr(scratch_ / "out/frame_0002/indentation.exr", {"Y"});
   EXPECT_NEAR(*std::max_element(indentation.pixels.begin(), indentation.pixels.end()), 0.4e-3, 0.02e-3);
