@@ -255,6 +255,11 @@ bool ConfigReader::has(const std::string& key) const {
   return std::any_of(node_->entries.begin(), node_->entries.end(), [&](const auto& entry) { return entry.key == key; });
 }
 
+bool ConfigReader::is_list(const std::string& key) const {
+  return std::any_of(node_->entries.begin(), node_->entries.end(),
+                     [&](const auto& entry) { return entry.key == key && entry.value->kind == Node::Kind::list; });
+}
+
 std::vector<std::string> ConfigReader::keys() const {
   std::vector<std::string> names;
   for (const auto& entry : node_->entries) names.push_back(entry.key);
@@ -313,6 +318,14 @@ std::vector<ConfigReader> ConfigReader::one_or_more_sections(const std::string& 
   if (node->kind == Node::Kind::list && node->items.empty())
     add_fault(*node, path_of(key), "expected at least one map");
   return readers;
+}
+
+void ConfigReader::accept_sources() { document_->accepts_sources = true; }
+
+std::vector<std::pair<std::string, std::string>> ConfigReader::sources() const {
+  std::vector<std::pair<std::string, std::string>> out;
+  Document::collect_sources(*node_, "unstated", out);
+  return out;
 }
 
 void ConfigReader::fault(const std::string& key, const std::string& reason) {

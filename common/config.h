@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/types.h"
@@ -64,6 +65,7 @@ class ConfigReader {
   Vector3 vector3(const std::string& key);
 
   bool has(const std::string& key) const;
+  bool is_list(const std::string& key) const;
   /// The keys of this map, in file order.
   std::vector<std::string> keys() const;
   ConfigReader section(const std::string& key);
@@ -74,6 +76,12 @@ class ConfigReader {
   std::vector<ConfigReader> one_or_more_sections(const std::string& key);
   /// Marks a key, whatever it holds, as known without reading it.
   void ignore(const std::string& key);
+
+  /// From now on any key of the file may have a sibling `<key>_src` that says where its value comes from: known,
+  /// derived or guess. Of a map or list it holds for everything inside that has none of its own.
+  void accept_sources();
+  /// Every value that was asked for and given, by path, with its source; `unstated` where there is none. In file order.
+  std::vector<std::pair<std::string, std::string>> sources() const;
 
   /// Reports a fault of meaning at a key (at the map itself if the key is absent).
   void fault(const std::string& key, const std::string& reason);

@@ -1,9 +1,11 @@
 #include "common/config_document.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "common/error.h"
 
@@ -103,9 +105,51 @@ void ConfigReader::Document::collect_unknown(const Node& node) {
       }
       continue;
     }
+    if (accepts_sources && is_source(node, entry)) continue;
     const auto near = nearest_word(entry.key, node.asked);
     add(entry.line, entry.column, joined_path(node.path, entry.key),
         near ? fmt::format("unknown key (did you mean {}?)", *near) : std::string("unknown key"));
+  }
+}
+
+namespace {
+constexpr std::string_view kSourceSuffix = "_src";
+const std::vector<std::string> kSourceWords = {"known", "derived", "guess"};
+}  // namespace
+
+bool ConfigReader::Document::is_source(const Node& node, const Node::Entry& entry) {
+  if (!entry.key.ends_with(kSourceSuffix)) return false;
+  const std::string of = entry.key.substr(0, entry.key.size() - kSourceSuffix.size());
+  const bool there =
+      std::any_of(node.entries.begin(), node.entries.end(), [&](const auto& e) { return e.key == of && e.known; });
+  if (!there) {
+    add(entry.line, entry.column, joined_path(node.path, entry.key),
+        fmt::format("there is no {} whose source this could be", of));
+  } else if (std::find(kSourceWords.begin(), kSourceWords.end(), entry.value->scalar) == kSourceWords.end()) {
+    add(entry.value->line, entry.value->column, joined_path(node.path, entry.key),
+        fmt::format("'{}' is not one of {}", entry.value->scalar, fmt::join(kSourceWords, ", ")));
+  }
+  return true;
+}
+
+void ConfigReader::Document::collect_sources(const Node& node, const std::string& inherited,
+                                             std::vector<std::pair<std::string, std::string>>& out) {
+  for (const Node::Entry& entry : node.entries) {
+    if (!entry.known) continue;
+    std::string source = inherited;
+    for (const Node::Entry& sibling : node.entries) {
+      if (sibling.key == entry.key + std::string(kSourceSuffix)) source = sibling.value->scalar;
+    }
+    const Node& value = *entry.value;
+    const bool maps_inside = std::any_of(value.items.begin(), value.items.end(),
+                                         [](const auto& item) { return item->kind == Node::Kind::map; });
+    if (value.kind == Node::Kind::map) {
+      collect_sources(value, source, out);
+    } else if (maps_inside) {
+      for (const auto& item : value.items) collect_sources(*item, source, out);
+    } else {
+      out.emplace_back(value.path, source);
+    }
   }
 }
 

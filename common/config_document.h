@@ -55,12 +55,17 @@ struct ConfigReader::Document {
     std::string text;
   };
   std::vector<Fault> faults;
+  bool accepts_sources = false;
 
   static std::unique_ptr<Document> parse(const std::string& text, const std::string& name);
   void add(int line, int column, const std::string& path, const std::string& reason);
   /// Throws what was collected, in file order.
   [[noreturn]] void raise();
   void collect_unknown(const Node& node);
+  /// Whether an entry says where its sibling comes from; what it says wrongly becomes a fault.
+  bool is_source(const Node& node, const Node::Entry& entry);
+  static void collect_sources(const Node& node, const std::string& inherited,
+                              std::vector<std::pair<std::string, std::string>>& out);
   static Value::Map resolve(const Node& node);
 };
 

@@ -32,25 +32,47 @@ std::size_t row_length(const FloatImage& image) {
 
 }  // namespace
 
-NoiseModel NoiseModel::read(ConfigReader& in) {
-  return {.full_well_e = in.number("full_well_e", Range::positive()),
-          .read_e = in.number("read_e", Range::non_negative()),
-          .seed = in.integer("seed", 0)};
-}
-
-double code_of(double v, const std::string& curve) {
-  if (curve == "linear") return 255.0 * v;
+double code_of(double v, const Response& response) {
+  if (v <= 0.0) return 0.0;
+  if (response.curve == "linear") return 255.0 * v;
+  if (response.curve == "gamma") return 255.0 * std::pow(v, 1.0 / response.gamma);
   return 255.0 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055);
 }
 
+double value_of(double code, const Response& response) {
+  const double f = code / 255.0;
+  if (response.curve == "linear") return f;
+  if (response.curve == "gamma") return std::pow(f, response.gamma);
+  return f <= 12.92 * 0.0031308 ? f / 12.92 : std::pow((f + 0.055) / 1.055, 2.4);
+}
+
+FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const Response& response) {
+  FloatImage out(linear.width, linear.height, 3);
+  const double half_width = 0.5 * linear.width, half_height = 0.5 * linear.height;
+  const double corner = half_width * half_width + half_height * half_height;
+  tbb::parallel_for(0, linear.height, [&](int y) {
+    for (int x = 0; x < linear.width; ++x) {
+      const double dx = x + 0.5 - half_width, dy = y + 0.5 - half_height, rr = (dx * dx + dy * dy) / corner;
+      const double falloff = 1.0 + rr * (camera.vignetting[0] + rr * camera.vignetting[1]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < 3; ++k)
+          sum += response.color_matrix[3 * c + k] * response.white_balance[k] * linear.at(x, y, static_cast<int>(k));
+        out.at(x, y, static_cast<int>(c)) = static_cast<float>(falloff * sum);
+      }
+    }
+  });
+  return out;
+}
+
 double solve_exposure(const FloatImage& linear, const Response& response) {
+  if (response.exposure) return *response.exposure;
   const float brightest = *std::max_element(linear.pixels.begin(), linear.pixels.end());
   if (!(brightest > 0.0f)) throw DataError("no light reaches the front face: check the positions of the LEDs");
   const double wanted = response.mean_level * 255.0 * static_cast<double>(linear.pixels.size());
   const auto total = [&](double exposure) {
-    return sum_rows(linear.height, row_length(linear), [&](std::size_t i) {
-      return std::min(code_of(exposure * linear.pixels[i], response.curve), 255.0);
-    });
+    return sum_rows(linear.height, row_length(linear),
+                    [&](std::size_t i) { return std::min(code_of(exposure * linear.pixels[i], response), 255.0); });
   };
   // At `low` even the brightest value is below the wanted mean; `high` doubles until the mean is reached.
   double low = std::log(1e-6 / brightest), high = std::log(1.0 / brightest);
@@ -72,24 +94,43 @@ FloatImage encode(const FloatImage& linear, double exposure, const Response& res
   tbb::parallel_for(0, linear.height, [&](int y) {
     const auto row = static_cast<std::size_t>(y);
     for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
-      codes.pixels[i] = static_cast<float>(code_of(exposure * linear.pixels[i], response.curve));
+      codes.pixels[i] = static_cast<float>(code_of(exposure * linear.pixels[i], response));
     }
   });
   return codes;
 }
 
-ByteImage synthetic_reference(const FloatImage& linear, double exposure, const Response& response,
+FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel& noise, std::uint64_t stream) {
+  FloatImage out(signal.width, signal.height, signal.channels);
+  const std::size_t length = row_length(signal);
+  tbb::parallel_for(0, signal.height, [&](int y) {
+    const auto row = static_cast<std::size_t>(y);
+    for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
+      const double electrons = noise.full_well_e * exposure * std::max(0.0f, signal.pixels[i]);
+      const double deviation = std::sqrt(electrons + noise.read_e * noise.read_e);
+      const double noisy = electrons + deviation * random_normal(static_cast<std::uint64_t>(noise.seed), stream, i);
+      out.pixels[i] = static_cast<float>(noisy / (noise.full_well_e * exposure));
+    }
+  });
+  return out;
+}
+
+ByteImage synthetic_reference(const FloatImage& signal, double exposure, const Response& response,
                               const NoiseModel& noise) {
-  constexpr std::uint64_t kNoiseStream = 1;
-  ByteImage image(linear.width, linear.height, linear.channels);
-  for (std::size_t i = 0; i < linear.pixels.size(); ++i) {
-    const double electrons = noise.full_well_e * exposure * linear.pixels[i];
-    const double deviation = std::sqrt(electrons + noise.read_e * noise.read_e);
-    const double noisy = electrons + deviation * random_normal(static_cast<std::uint64_t>(noise.seed), kNoiseStream, i);
-    const double v = std::clamp(noisy / noise.full_well_e, 0.0, 1.0);
-    image.pixels[i] = static_cast<std::uint8_t>(std::lround(code_of(v, response.curve)));
+  constexpr std::uint64_t kReferenceStream = 1;
+  return quantise(encode(add_noise(signal, exposure, noise, kReferenceStream), exposure, response)).image;
+}
+
+TactileImage quantise(const FloatImage& codes) {
+  TactileImage out{.image = ByteImage(codes.width, codes.height, codes.channels)};
+  std::int64_t clipped = 0;
+  for (std::size_t i = 0; i < codes.pixels.size(); ++i) {
+    const long code = std::lround(codes.pixels[i]);
+    clipped += code < 0 || code > 255;
+    out.image.pixels[i] = static_cast<std::uint8_t>(std::clamp(code, 0L, 255L));
   }
-  return image;
+  out.clipped_fraction = static_cast<double>(clipped) / static_cast<double>(codes.pixels.size());
+  return out;
 }
 
 TactileImage transfer_noise(const ByteImage& reference, const FloatImage& simulated,
@@ -106,6 +147,24 @@ TactileImage transfer_noise(const ByteImage& reference, const FloatImage& simula
   }
   out.clipped_fraction = static_cast<double>(clipped) / static_cast<double>(reference.pixels.size());
   return out;
+}
+
+TactileImage transfer_ratio(const ByteImage& reference, const FloatImage& simulated,
+                            const FloatImage& simulated_reference, double exposure, const Response& response) {
+  assert(reference.pixels.size() == simulated.pixels.size());
+  assert(reference.pixels.size() == simulated_reference.pixels.size());
+  constexpr double kDark = 1e-4;  // of full scale: below it a ratio says nothing
+  FloatImage codes(reference.width, reference.height, reference.channels);
+  tbb::parallel_for(0, reference.height, [&](int y) {
+    const std::size_t length = row_length(codes), row = static_cast<std::size_t>(y);
+    for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
+      const double real = value_of(reference.pixels[i], response);
+      const double with = exposure * simulated.pixels[i], without = exposure * simulated_reference.pixels[i];
+      codes.pixels[i] =
+          static_cast<float>(code_of(without > kDark ? real * with / without : real + with - without, response));
+    }
+  });
+  return quantise(codes);
 }
 
 }  // namespace tacipc

@@ -9,30 +9,39 @@
 
 namespace tacipc {
 
-/// Noise of the photosites, for sensors without a reference photograph.
+/// Noise of the photosites and where its random numbers come from.
 struct NoiseModel {
   double full_well_e = 0.0;  // electrons at full scale
   double read_e = 0.0;       // standard deviation of the read-out, electrons
   int seed = 0;
-
-  static NoiseModel read(ConfigReader& in);
 };
 
-/// 255 f(v) with f the response curve, for v = exposure × radiance. Values above full scale are kept: clipping happens
-/// once, at the end. sRGB (IEC 61966-2-1): f(v) = 12.92 v up to 0.0031308, then 1.055 v^(1/2.4) − 0.055.
-double code_of(double v, const std::string& curve);
+/// 255 f(v) with f the response curve, for v = exposure × signal. Values above full scale are kept: clipping happens
+/// once, at the end; negative ones (a colour matrix makes them) are 0. `srgb` (IEC 61966-2-1): f(v) = 12.92 v up to
+/// 0.0031308, then 1.055 v^(1/2.4) − 0.055; `gamma`: v^(1/gamma); `linear`: v.
+double code_of(double v, const Response& response);
+/// Its inverse, for codes ≥ 0.
+double value_of(double code, const Response& response);
 
-/// Exposure e at which the mean of min(code_of(e L), 255) over all pixels and channels is mean_level · 255, by
-/// bisection on log e down to neighbouring numbers. \throw DataError if no light reaches the membrane.
-double solve_exposure(const FloatImage& linear, const Response& response);
+/// What the photosites get of the radiance: S = M diag(white balance) L · (1 + v2 ρ² + v4 ρ⁴), M the colour matrix, ρ
+/// the distance from the image's centre over half the diagonal.
+FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const Response& response);
+
+/// The sensor's fixed exposure, or the exposure e at which the mean of min(code_of(e S), 255) over all pixels and
+/// channels is mean_level · 255, by bisection on log e down to neighbouring numbers.
+/// \throw DataError if no light reaches the membrane.
+double solve_exposure(const FloatImage& signal, const Response& response);
 
 /// Codes of a whole image, not rounded.
-FloatImage encode(const FloatImage& linear, double exposure, const Response& response);
+FloatImage encode(const FloatImage& signal, double exposure, const Response& response);
 
-/// What a photograph of the reference might look like: shot and read noise on electrons, then curve and rounding,
-///   n = N v + √(N v + σ²) ξ,  code = round(code_of(clamp(n / N, 0, 1)))  with N full well, σ read noise, ξ ~ N(0, 1),
-/// v = exposure × radiance. ξ depends on seed, pixel and channel alone, so every sample gets the same reference.
-ByteImage synthetic_reference(const FloatImage& linear, double exposure, const Response& response,
+/// Shot and read noise on electrons: v' = v + √(N v + σ²) ξ / N for v = exposure × signal, N full well, σ read noise,
+/// ξ ~ N(0, 1) a function of seed, stream, pixel and channel alone. Returned over the exposure again, as a signal.
+FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel& noise, std::uint64_t stream);
+
+/// What a photograph of the reference might look like: noise, then curve and rounding. Every sample of a sensor gets
+/// the same one.
+ByteImage synthetic_reference(const FloatImage& signal, double exposure, const Response& response,
                               const NoiseModel& noise);
 
 struct TactileImage {
@@ -45,5 +54,13 @@ struct TactileImage {
 /// \pre equal shapes
 TactileImage transfer_noise(const ByteImage& reference, const FloatImage& simulated,
                             const FloatImage& simulated_reference);
+
+/// The same in linear light: out = code(value(reference) · simulated / simulated_reference), signals instead of codes.
+/// Where the simulated reference is dark the difference is added instead.
+TactileImage transfer_ratio(const ByteImage& reference, const FloatImage& simulated,
+                            const FloatImage& simulated_reference, double exposure, const Response& response);
+
+/// Rounded and clamped, nothing else.
+TactileImage quantise(const FloatImage& codes);
 
 }  // namespace tacipc

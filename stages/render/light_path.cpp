@@ -2,40 +2,166 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tacipc {
+namespace {
 
-std::vector<LightSample> light_samples(const std::vector<Led>& leds, int edge_samples) {
+TACIPC_INLINE Pack positive(const Pack& x) { return choose(x, x, Pack{}); }
+
+/// Share of the intensity that leaves at an angle of this cosine from the normal.
+TACIPC_INLINE Pack emitted(const LightSample& sample, const Pack& cosine) {
+  if (sample.emission == Emission::isotropic) return Pack{} + 1.0;
+  if (sample.emission == Emission::lambertian) return positive(cosine);
+  Pack out;
+  for (int l = 0; l < kLanes; ++l) out[l] = cosine[l] > 0.0 ? std::pow(cosine[l], sample.exponent) : 0.0;
+  return out;
+}
+
+/// 0 where light that leaves the sample in `direction` meets the scattering ring, else 1.
+TACIPC_INLINE Pack past_screen(const LightSample& sample, const Pack3& direction) {
+  const Pack t = (sample.screen->z_m - sample.position_m.z()) / direction.z;
+  const Pack x = sample.position_m.x() + t * direction.x, y = sample.position_m.y() + t * direction.y;
+  const Pack squared = x * x + y * y, one = Pack{} + 1.0;
+  const double inner = sample.screen->inner_radius_m, outer = sample.screen->outer_radius_m;
+  return choose(inner * inner - squared, one, choose(squared - outer * outer, one, Pack{}));
+}
+
+TACIPC_CLONES void straight(const Pack3& point, const LightSample& sample, IncidencePack& out) {
+  const Pack3 way = {sample.position_m.x() - point.x, sample.position_m.y() - point.y, sample.position_m.z() - point.z};
+  const Pack squared_distance = dot(way, way);
+  out.length = root(squared_distance);
+  out.direction = (1.0 / out.length) * way;
+  const Pack cosine = -(out.direction.x * sample.normal.x() + out.direction.y * sample.normal.y() +
+                        out.direction.z * sample.normal.z());
+  out.irradiance = sample.weight * emitted(sample, cosine) / squared_distance;
+  if (sample.screen) out.irradiance *= past_screen(sample, {-out.direction.x, -out.direction.y, -out.direction.z});
+}
+
+TACIPC_CLONES void layered(const Pack3& point, const LightSample& sample, IncidencePack& out) {
+  const LayerStack& stack = *sample.stack;
+  const Pack dx = point.x - sample.position_m.x(), dy = point.y - sample.position_m.y();
+  const Pack thickness = point.z + sample.gel_thickness_m;
+  const auto path = layered_path<Pack>(stack, thickness, dx * dx + dy * dy);
+  const Pack at_light = path.sine_over_lateral / stack.ior[0];
+  const Pack3 leaving = {at_light * dx, at_light * dy, path.cosine_first};
+  const Pack cosine = leaving.x * sample.normal.x() + leaving.y * sample.normal.y() + leaving.z * sample.normal.z();
+  const Pack in_gel = -path.sine_over_lateral / stack.ior[static_cast<std::size_t>(stack.count - 1)];
+  out.direction = {in_gel * dx, in_gel * dy, -path.cosine_last};
+  out.length = thickness / path.cosine_last;
+  out.irradiance = sample.weight * emitted(sample, cosine) * path.transmittance * path.spread / path.cosine_last;
+  if (sample.screen) out.irradiance *= past_screen(sample, leaving);
+}
+
+TACIPC_CLONES void reflect(const SurfacePack& surface, const Pack3& light, const Coating& coating,
+                           CoatingResponse& out) {
+  const Pack nl = positive(dot(surface.normal, light));
+  out.diffuse = std::numbers::inv_pi * nl;
+  out.gloss = Pack{};
+  if (coating.specular_f0 <= 0.0) return;
+  const Pack nv = positive(dot(surface.normal, surface.view));
+  const Pack3 between = light + surface.view;
+  const Pack3 h = (1.0 / root(dot(between, between) + 1e-300)) * between;
+  const double a2 = coating.ggx_alpha * coating.ggx_alpha, f0 = coating.specular_f0;
+  const Pack nh = dot(surface.normal, h), spread = nh * nh * (a2 - 1.0) + 1.0;
+  const Pack d = a2 * std::numbers::inv_pi / (spread * spread);
+  const Pack smith = nv * root(a2 + (1.0 - a2) * nl * nl) + nl * root(a2 + (1.0 - a2) * nv * nv);
+  const Pack away = 1.0 - positive(dot(surface.view, h)), squared = away * away;
+  const Pack fresnel = f0 + (1.0 - f0) * squared * squared * away;
+  // G / (4 n·l n·v) = 1 / (2 (n·v √… + n·l √…)): no division by what vanishes at grazing angles.
+  const Pack lobe = nl * d * fresnel * 0.5 / (smith + 1e-12);
+  out.gloss = choose(nl, choose(nv, lobe, Pack{}), Pack{});
+}
+
+/// Patches of the diffuser that one LED lights, as lights of their own.
+void add_diffused(const Led& led, const LightSample& like, std::vector<LightSample>& samples) {
+  constexpr int kRings = 4, kSectors = 48;
+  const Diffuser& ring = *like.screen;
+  std::vector<LightSample> patches;
+  double brightest = 0.0, total = 0.0, kept = 0.0;
+  for (int i = 0; i < kRings; ++i) {
+    const double width = (ring.outer_radius_m - ring.inner_radius_m) / kRings;
+    const double radius = ring.inner_radius_m + (i + 0.5) * width;
+    for (int j = 0; j < kSectors; ++j) {
+      const double azimuth = 2.0 * std::numbers::pi * (j + 0.5) / kSectors;
+      const Vector3 place(radius * std::cos(azimuth), radius * std::sin(azimuth), ring.z_m);
+      const Vector3 way = place - led.position_m;
+      const double distance = way.norm(), cosine = way.dot(led.normal) / distance;
+      const double intensity = emitted(like, Pack{} + cosine)[0];
+      const double irradiance = intensity * (way.z() / distance) / (distance * distance);
+      const double area = 2.0 * std::numbers::pi / kSectors * radius * width;
+      LightSample patch = like;
+      patch.position_m = place;
+      patch.normal = Vector3::UnitZ();
+      patch.emission = Emission::lambertian;
+      patch.weight = led.intensity * ring.transmittance * irradiance * area * std::numbers::inv_pi;
+      patch.screen.reset();
+      patches.push_back(patch);
+      brightest = std::max(brightest, patch.weight);
+      total += patch.weight;
+    }
+  }
+  // What the dim patches (below 2 % of the brightest) would send goes with the others.
+  for (const LightSample& patch : patches) kept += patch.weight >= 0.02 * brightest ? patch.weight : 0.0;
+  for (LightSample& patch : patches) {
+    if (patch.weight < 0.02 * brightest || patch.weight <= 0.0) continue;
+    patch.weight *= total / kept;
+    samples.push_back(patch);
+  }
+}
+
+}  // namespace
+
+std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, bool refract) {
   std::vector<LightSample> samples;
-  for (std::size_t i = 0; i < leds.size(); ++i) {
-    const Led& led = leds[i];
-    const bool point = led.size_m[0] == 0.0 && led.size_m[1] == 0.0;
-    const int n = point ? 1 : edge_samples;
-    Vector3 outwards = led.position_m - Vector3::UnitZ() * led.position_m.z();
-    outwards -= led.normal * led.normal.dot(outwards);
-    if (outwards.norm() < 1e-6 * led.position_m.norm()) outwards = led.normal.unitOrthogonal();
-    const Vector3 first = outwards.normalized(), second = led.normal.cross(first);
-    for (int a = 0; a < n; ++a) {
-      for (int b = 0; b < n; ++b) {
-        const double u = (a + 0.5) / n - 0.5, v = (b + 0.5) / n - 0.5;
-        samples.push_back({.position_m = led.position_m + u * led.size_m[0] * first + v * led.size_m[1] * second,
-                           .normal = led.normal,
-                           .lambertian = led.lambertian,
-                           .weight = 1.0 / (n * n),
-                           .led = static_cast<int>(i)});
+  const std::vector<LightGroup> groups = light_groups(sensor.leds);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const int index : groups[g].leds) {
+      const Led& led = sensor.leds[static_cast<std::size_t>(index)];
+      const bool point = led.size_m[0] == 0.0 && led.size_m[1] == 0.0;
+      const int n = point ? 1 : edge_samples;
+      Vector3 outwards = led.position_m - Vector3::UnitZ() * led.position_m.z();
+      outwards -= led.normal * led.normal.dot(outwards);
+      if (outwards.norm() < 1e-6 * led.position_m.norm()) outwards = led.normal.unitOrthogonal();
+      const Vector3 first = outwards.normalized(), second = led.normal.cross(first);
+      LightSample sample{.position_m = led.position_m,
+                         .normal = led.normal,
+                         .emission = led.emission,
+                         .exponent = led.emission_exponent,
+                         .weight = led.intensity / (n * n),
+                         .group = static_cast<int>(g),
+                         .gel_thickness_m = sensor.stack.gel_thickness_m,
+                         .screen = sensor.diffuser};
+      if (refract && sensor.stack.refracts()) sample.stack = sensor.stack.from(led.position_m.z());
+      for (int a = 0; a < n; ++a) {
+        for (int b = 0; b < n; ++b) {
+          const double u = (a + 0.5) / n - 0.5, v = (b + 0.5) / n - 0.5;
+          sample.position_m = led.position_m + u * led.size_m[0] * first + v * led.size_m[1] * second;
+          // A tilted emitter's points lie at different heights, so each has its own way through the first medium.
+          if (sample.stack)
+            sample.stack = sensor.stack.from(std::min(sample.position_m.z(), -sensor.stack.gel_thickness_m - 1e-9));
+          samples.push_back(sample);
+        }
       }
+      if (!sensor.diffuser) continue;
+      sample.position_m = led.position_m;
+      if (sample.stack) sample.stack = sensor.stack.from(sensor.diffuser->z_m - 1e-9);
+      add_diffused(led, sample, samples);
     }
   }
   return samples;
 }
 
-Incidence light_path(const Vector3& point, const LightSample& sample) {
-  const Vector3 to_light = sample.position_m - point;
-  const double squared_distance = to_light.squaredNorm();
-  const Vector3 direction = to_light / std::sqrt(squared_distance);
-  const double emission = sample.lambertian ? std::max(0.0, -direction.dot(sample.normal)) : 1.0;
-  return {
-      .direction = direction, .path_end = sample.position_m, .irradiance = sample.weight * emission / squared_distance};
+IncidencePack light_path(const Pack3& point, const LightSample& sample) {
+  IncidencePack out;
+  sample.stack ? layered(point, sample, out) : straight(point, sample, out);
+  return out;
+}
+
+CoatingResponse coating_response(const SurfacePack& surface, const Pack3& light, const Coating& coating) {
+  CoatingResponse out;
+  reflect(surface, light, coating, out);
+  return out;
 }
 
 }  // namespace tacipc

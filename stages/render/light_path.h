@@ -1,9 +1,10 @@
-// From a point of the membrane to a light: where the light comes from and how much of it.
+// From points of the membrane to a light: where its light comes from and how much of it.
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "common/layered_path.h"
 #include "common/sensor.h"
 #include "common/types.h"
 
@@ -13,23 +14,48 @@ namespace tacipc {
 struct LightSample {
   Vector3 position_m = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  // unit, the direction of its maximum
-  bool lambertian = true;
-  double weight = 1.0;  // share of the light's intensity
-  int led = 0;          // whose it is
+  Emission emission = Emission::lambertian;
+  double exponent = 1.0;                           // of cosine_power
+  double weight = 1.0;                             // share of the light's intensity
+  int group = 0;                                   // channel of the basis it adds to
+  std::optional<LayerStack> stack = std::nullopt;  // media from here to the gel; absent: light goes straight
+  double gel_thickness_m = 0.0;                    // where there is a stack
+  std::optional<Diffuser> screen = std::nullopt;   // a scattering ring that its direct light does not pass
 };
 
-/// Midpoints of an edge_samples × edge_samples grid on each square emitter, a single point for lights without size.
-/// The squares are turned so that an edge faces the sensor's axis, as packages on a ring board sit.
-std::vector<LightSample> light_samples(const std::vector<Led>& leds, int edge_samples);
+/// Midpoints of an edge_samples × edge_samples grid on each emitter, a single point for lights without size. The
+/// rectangles are turned so that an edge faces the sensor's axis, as packages on a ring board sit.
+/// Where the sensor has a diffuser, each LED also lights patches of it: a patch of area A that receives E from it emits
+/// as a Lambert source of intensity τ E A / π along its normal, and the direct light through the ring is cut off.
+std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, bool refract = true);
 
-/// Light that arrives at a point on the way from one light sample.
-struct Incidence {
-  Vector3 direction;  // unit, from the point towards the light, in the gel
-  Vector3 path_end;   // the path inside the gel is free if nothing blocks the segment from the point to here
-  double irradiance;  // on a surface that faces `direction`, per unit of intensity along the light's normal, 1/m²
+/// Eight places of the membrane that wait for light.
+struct SurfacePack {
+  Pack3 point;          // m
+  Pack3 normal;         // unit, towards the inside of the gel
+  Pack3 view;           // unit, towards where the camera's ray comes from
+  Pack3 shadow_origin;  // where rays to the lights start
 };
 
-/// Straight path: E = weight · (cos θ for a Lambertian light, else 1) / d²; nothing behind a Lambertian light.
-Incidence light_path(const Vector3& point, const LightSample& sample);
+/// Light that arrives at them on the way from one light sample.
+struct IncidencePack {
+  Pack3 direction;  // unit, from the point towards the light, in the gel
+  Pack length;      // of the path in the gel, m: what blocks it there makes shadow
+  Pack irradiance;  // on a surface that faces `direction`, per unit of intensity along the light's normal, 1/m²
+};
+
+/// Straight path: E = weight · I(θ) / d², I(θ) = cos θ, 1 or cos^m θ (nothing behind the light). Through layers:
+/// E = weight · I(θ_0) T J / cos θ_gel of layered_path, where the gel is as thick as the point lies before its back.
+IncidencePack light_path(const Pack3& point, const LightSample& sample);
+
+/// Radiance towards `view` per unit of irradiance on a facing surface, for the two parts of the coating:
+///   diffuse: max(0, n·l) / π (albedo 1);  glossy: max(0, n·l) D F G / (4 n·l n·v), GGX with
+///   D = α² / (π ((n·h)² (α² − 1) + 1)²), Smith's height-correlated G, F = f0 + (1 − f0)(1 − h·v)⁵
+/// [Walter et al. 2007; Heitz 2014]. The glossy part is zero without a lobe.
+struct CoatingResponse {
+  Pack diffuse;
+  Pack gloss;
+};
+CoatingResponse coating_response(const SurfacePack& surface, const Pack3& light, const Coating& coating);
 
 }  // namespace tacipc

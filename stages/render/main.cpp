@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <map>
 #include <optional>
 
 #include "common/error.h"
@@ -14,21 +15,86 @@ using namespace tacipc;
 
 const StageSpec kRender{
     .name = "render",
-    .summary = "Make tactile images of a pressed gel: light, shadows, depth, normals, noise.",
+    .summary = "Make tactile images of a pressed gel: light, shadows, depth, normals, contact, markers, noise.",
     .inputs = {{.flag = "--config", .help = "render settings (YAML)"},
                {.flag = "--sensor", .help = "the sensor: lights, camera, coating (YAML)"},
                {.flag = "--gel", .help = "gel.msh of tetmesh"},
                {.flag = "--press", .help = "folder that press wrote: positions.npy and press.yaml"}}};
 
+/// Labels as grey values far enough apart to be seen.
+ByteImage spread(const ByteImage& labels, int step) {
+  ByteImage image = labels;
+  for (std::uint8_t& value : image.pixels) value = static_cast<std::uint8_t>(std::min(255, value * step));
+  return image;
+}
+
+/// 255 wherever anything touches.
+ByteImage mask(const ByteImage& contact) {
+  ByteImage image = contact;
+  for (std::uint8_t& value : image.pixels) value = value > 0 ? 255 : 0;
+  return image;
+}
+
+void write_maps(Stage& stage, const std::string& folder, const TraceResult& trace) {
+  write_exr(stage.output(folder + "depth.exr"), trace.depth, {"Z"});
+  write_exr(stage.output(folder + "normal.exr"), trace.normal, {"X", "Y", "Z"});
+  write_exr(stage.output(folder + "indentation.exr"), trace.indentation, {"Y"});
+  write_png(stage.output(folder + "normal.png"), picture_of_normals(trace.normal));
+  write_png(stage.output(folder + "indentation.png"), indentation_picture(trace.indentation));
+  write_png(stage.output(folder + "segment.png"), spread(trace.segment, 60));
+  if (trace.traction.channels == 0) return;
+  write_exr(stage.output(folder + "traction.exr"), trace.traction, {"X", "Y", "Z"});
+  write_png(stage.output(folder + "contact.png"), mask(trace.contact));
+  write_png(stage.output(folder + "stick_slip.png"), spread(trace.contact, 127));
+}
+
 void write_frame(Stage& stage, const RenderedFrame& frame) {
-  const std::string folder = fmt::format("frame_{:04}/", frame.index);
+  const std::string folder = fmt::format("frame_{:04}/{}", frame.index, frame.unit.empty() ? "" : frame.unit + "/");
   write_exr(stage.output(folder + "linear.exr"), frame.linear, {"R", "G", "B"});
-  write_exr(stage.output(folder + "depth.exr"), frame.trace.depth, {"Z"});
-  write_exr(stage.output(folder + "normal.exr"), frame.trace.normal, {"X", "Y", "Z"});
-  write_exr(stage.output(folder + "indentation.exr"), frame.trace.indentation, {"Y"});
   write_png(stage.output(folder + "tactile.png"), frame.tactile.image);
-  write_png(stage.output(folder + "normal.png"), picture_of_normals(frame.trace.normal));
-  write_png(stage.output(folder + "indentation.png"), indentation_picture(frame.trace.indentation));
+  if (frame.marker) write_png(stage.output(folder + "marker.png"), frame.marker->image);
+  if (frame.trace) write_maps(stage, folder, *frame.trace);
+  if (frame.marker_px.rows() == 0) return;
+  const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> px = frame.marker_px.leftCols<2>();
+  write_npy(stage.output(folder + "marker_px.npy"), {static_cast<std::size_t>(px.rows()), 2}, px.data());
+}
+
+/// How many values of the sensor file are known, derived, guessed.
+Value::Map count_sources(const Sensor& sensor) {
+  std::map<std::string, int> counts{{"known", 0}, {"derived", 0}, {"guess", 0}, {"unstated", 0}};
+  for (const ValueSource& value : sensor.sources) ++counts[value.source];
+  return {{"known", counts["known"]},
+          {"derived", counts["derived"]},
+          {"guess", counts["guess"]},
+          {"unstated", counts["unstated"]}};
+}
+
+/// A photograph becomes an input of the stage; without one the record says `synthetic`.
+std::optional<ByteImage> load_reference(Stage& stage, const Sensor& sensor, const std::string& name) {
+  if (!sensor.reference_image) return std::nullopt;
+  stage.add_input(name, *sensor.reference_image);
+  return read_reference(*sensor.reference_image, sensor.camera);
+}
+
+std::vector<RenderUnit> all_units(Stage& stage, const Sensor& sensor, const RenderConfig& config) {
+  std::vector<RenderUnit> units{{.sensor = sensor, .reference = load_reference(stage, sensor, "reference")}};
+  for (const Variant& variant : config.variants) {
+    std::optional<Sensor> other;
+    if (variant.sensor) {
+      stage.add_input(variant.name + "_sensor", *variant.sensor);
+      other = read_config<Sensor>(*variant.sensor);
+    }
+    RenderUnit unit{.name = variant.name, .sensor = varied(sensor, variant, other), .needs_rays = variant.needs_rays()};
+    unit.reference = load_reference(stage, unit.sensor, variant.name + "_reference");
+    units.push_back(std::move(unit));
+  }
+  return units;
+}
+
+Value::Map summary_of(const UnitSummary& unit) {
+  return {{"exposure", unit.exposure},
+          {"reference_mean_code", unit.reference_mean_code},
+          {"clipped_fraction", unit.clipped_fraction}};
 }
 
 }  // namespace
@@ -37,30 +103,33 @@ int main(int argc, char** argv) {
   return run_stage(kRender, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<RenderConfig>("--config");
     const auto sensor = stage.read_config<Sensor>("--sensor");
-    const auto press = stage.input("--press");
-    if (!std::filesystem::exists(press / "press.yaml")) {
-      throw DataError("{}: has no press.yaml, so the press did not finish", press.string());
-    }
-    std::optional<ByteImage> reference;
+    const std::vector<RenderUnit> units = all_units(stage, sensor, config);
     if (sensor.reference_image) {
-      reference = read_reference(*sensor.reference_image, sensor.camera);
       stage.note("reference", content_hash(*sensor.reference_image));
     } else {
       stage.note("reference", "synthetic");
     }
     const TetMesh gel = read_tet_mesh(stage.input("--gel"));
-    const NpyArray positions = read_npy(press / "positions.npy");
-    check_positions(positions, gel, (press / "positions.npy").string());
+    const PressFrames press = read_press(stage.input("--press"), gel);
 
-    const RenderSummary summary = render(sensor, config, gel, positions, reference,
-                                         [&](const RenderedFrame& frame) { write_frame(stage, frame); });
-    stage.summarize({{"frames", Value::List(summary.frames.begin(), summary.frames.end())},
-                     {"exposure", summary.exposure},
-                     {"reference_mean_code", summary.reference_mean_code},
-                     {"clipped_fraction", summary.clipped_fraction},
-                     {"rays", summary.rays},
-                     {"nudged_rays", summary.nudged_rays},
-                     {"outside_rays", summary.outside_rays},
-                     {"max_indentation_mm", 1e3 * summary.max_indentation_m}});
+    const RenderSummary summary =
+        render(units, config, gel, press, [&](const RenderedFrame& frame) { write_frame(stage, frame); });
+    Value::Map lines = {{"frames", Value::List(summary.frames.begin(), summary.frames.end())}};
+    for (auto& line : summary_of(summary.units.front())) lines.push_back(line);
+    lines.insert(lines.end(), {{"rays", summary.rays},
+                               {"nudged_rays", summary.nudged_rays},
+                               {"outside_rays", summary.outside_rays},
+                               {"max_indentation_mm", 1e3 * summary.max_indentation_m},
+                               {"indirect_share", summary.indirect_share},
+                               {"sensor_values", count_sources(sensor)}});
+    Value::List variants;
+    for (std::size_t u = 1; u < summary.units.size(); ++u) {
+      Value::Map line = {{"name", summary.units[u].name},
+                         {"reference", summary.units[u].real_reference ? "photograph" : "synthetic"}};
+      for (auto& entry : summary_of(summary.units[u])) line.push_back(entry);
+      variants.emplace_back(std::move(line));
+    }
+    if (!variants.empty()) lines.emplace_back("variants", std::move(variants));
+    stage.summarize(lines);
   });
 }

@@ -92,10 +92,18 @@ Membrane make_membrane(const TetMesh& gel, const Eigen::Ref<const Positions>& de
     for (int k = 0; k < 3; ++k) triangles(f, k) = row_of[static_cast<std::size_t>(triangles(f, k))];
   }
   Membrane membrane = make_membrane(std::move(positions), std::move(rest), std::move(triangles));
+  membrane.gel_rows = vertices;
   const int loops = count_loops(membrane.outline);
   if (loops != 1)
     throw DataError("the gel's front face has {} boundary loops; it must be one piece without holes", loops);
   return membrane;
+}
+
+void move_membrane(Membrane& membrane, const Eigen::Ref<const Positions>& deformed) {
+  assert(static_cast<Eigen::Index>(membrane.gel_rows.size()) == membrane.positions.rows());
+  for (std::size_t i = 0; i < membrane.gel_rows.size(); ++i)
+    membrane.positions.row(static_cast<Eigen::Index>(i)) = deformed.row(membrane.gel_rows[i]);
+  membrane.normals = vertex_normals(membrane.positions, membrane.triangles);
 }
 
 }  // namespace tacipc

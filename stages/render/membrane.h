@@ -16,6 +16,7 @@ struct Membrane {
   Positions normals;                        // #V × 3, unit, outward, of the deformed surface
   Triangles triangles;                      // #F × 3
   std::vector<std::array<int, 2>> outline;  // boundary edges in the direction of their triangle
+  std::vector<int> gel_rows;                // rows of the gel's vertices that these are; empty if from plain arrays
 };
 
 /// Unit vertex normals: triangle normals weighted by the angle at the vertex (Thürmer and Wüthrich 1998), so that the
@@ -34,5 +35,8 @@ Membrane make_membrane(Positions positions, Positions rest, Triangles triangles)
 /// The front-tagged faces of a gel whose vertices moved to `deformed` (m, one row per gel vertex).
 /// \throw DataError if the gel has no front face, or one that is not a single piece without holes.
 Membrane make_membrane(const TetMesh& gel, const Eigen::Ref<const Positions>& deformed);
+
+/// Takes the membrane to where the gel's vertices are now; triangles and outline stay. \pre made from that gel
+void move_membrane(Membrane& membrane, const Eigen::Ref<const Positions>& deformed);
 
 }  // namespace tacipc

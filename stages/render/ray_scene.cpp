@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 #include <xmmintrin.h>
 
+#include <cstring>
 #include <limits>
 
 #include "common/error.h"
@@ -14,6 +15,8 @@ namespace tacipc {
 struct RayScene::Handles {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  RTCGeometry geometry = nullptr;  // the scene owns it
+  float* vertices = nullptr;
   ~Handles() {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
@@ -29,84 +32,96 @@ void check(RTCDevice device, const char* step) {
 
 }  // namespace
 
-RayScene::RayScene(const Positions& positions, const Triangles& triangles)
-    : handles_(std::make_unique<Handles>()), lowest_z_(positions.col(2).minCoeff()) {
+RayScene::RayScene(const Positions& positions, const Triangles& triangles) : handles_(std::make_unique<Handles>()) {
   Handles& h = *handles_;
   h.device = rtcNewDevice(nullptr);
   if (!h.device) check(nullptr, "start");
   h.scene = rtcNewScene(h.device);
   // Without the robust flag rays fall through shared edges: structured camera rays hit edges exactly.
   rtcSetSceneFlags(h.scene, RTC_SCENE_FLAG_ROBUST);
-  const RTCGeometry geometry = rtcNewGeometry(h.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices =
-      static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+  h.geometry = rtcNewGeometry(h.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  h.vertices =
+      static_cast<float*>(rtcSetNewGeometryBuffer(h.geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                   3 * sizeof(float), static_cast<std::size_t>(positions.rows())));
   auto* indices =
-      static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+      static_cast<unsigned*>(rtcSetNewGeometryBuffer(h.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                      3 * sizeof(unsigned), static_cast<std::size_t>(triangles.rows())));
   check(h.device, "make room for the triangles");
-  for (Eigen::Index i = 0; i < positions.size(); ++i) vertices[i] = static_cast<float>(positions.data()[i]);
   for (Eigen::Index i = 0; i < triangles.size(); ++i) indices[i] = static_cast<unsigned>(triangles.data()[i]);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(h.scene, geometry);
-  rtcReleaseGeometry(geometry);
+  rtcAttachGeometry(h.scene, h.geometry);
+  rtcReleaseGeometry(h.geometry);
+  move(positions);
+}
+
+RayScene::~RayScene() = default;
+
+void RayScene::move(const Positions& positions) {
+  Handles& h = *handles_;
+  for (Eigen::Index i = 0; i < positions.size(); ++i) h.vertices[i] = static_cast<float>(positions.data()[i]);
+  rtcUpdateGeometryBuffer(h.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  rtcCommitGeometry(h.geometry);
   // One thread, so that the tree, and with it which of two triangles an edge hit reports, is always the same.
   tbb::task_arena one_thread(1);
   one_thread.execute([&] { rtcCommitScene(h.scene); });
   check(h.device, "build the tree");
 }
 
-RayScene::~RayScene() = default;
+namespace {
 
-std::optional<int> RayScene::first_hit(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query{};
-  query.ray.org_x = static_cast<float>(ray.origin.x());
-  query.ray.org_y = static_cast<float>(ray.origin.y());
-  query.ray.org_z = static_cast<float>(ray.origin.z());
-  query.ray.dir_x = static_cast<float>(ray.direction.x());
-  query.ray.dir_y = static_cast<float>(ray.direction.y());
-  query.ray.dir_z = static_cast<float>(ray.direction.z());
-  query.ray.tnear = 0.0f;
-  query.ray.tfar = std::numeric_limits<float>::infinity();
-  query.ray.mask = ~0u;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(handles_->scene, &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return static_cast<int>(query.hit.primID);
+constexpr std::size_t kLanesBytes = sizeof(RayPacket::Lanes);
+
+void fill(const RayPacket& rays, RTCRay8& out, int* valid) {
+  std::memcpy(out.org_x, rays.origin_x.data(), kLanesBytes);
+  std::memcpy(out.org_y, rays.origin_y.data(), kLanesBytes);
+  std::memcpy(out.org_z, rays.origin_z.data(), kLanesBytes);
+  std::memcpy(out.dir_x, rays.direction_x.data(), kLanesBytes);
+  std::memcpy(out.dir_y, rays.direction_y.data(), kLanesBytes);
+  std::memcpy(out.dir_z, rays.direction_z.data(), kLanesBytes);
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    valid[i] = (rays.valid >> i & 1u) != 0 ? -1 : 0;
+    out.tnear[i] = 0.0f;
+    out.time[i] = 0.0f;
+    out.mask[i] = ~0u;
+    out.id[i] = 0;
+    out.flags[i] = 0;
+  }
 }
 
-std::uint32_t RayScene::blocked(const Vector3& origin, const std::array<Vector3, kPacket>& ends, int count) const {
-  // Whatever lies wholly behind the surface is free: all of a flat face, which is every sensor's reference.
-  bool behind = origin.z() < lowest_z_;
-  for (int i = 0; i < count; ++i) behind = behind && ends[static_cast<std::size_t>(i)].z() < lowest_z_;
-  if (behind) return 0;
+}  // namespace
+
+std::array<int, RayPacket::kSize> RayScene::first_hits(const RayPacket& rays) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  alignas(32) RTCRay8 packet;
-  alignas(32) int valid[kPacket];
-  for (int i = 0; i < kPacket; ++i) {
-    const Vector3 direction = i < count ? Vector3(ends[static_cast<std::size_t>(i)] - origin) : Vector3::UnitZ();
-    valid[i] = i < count ? -1 : 0;
-    packet.org_x[i] = static_cast<float>(origin.x());
-    packet.org_y[i] = static_cast<float>(origin.y());
-    packet.org_z[i] = static_cast<float>(origin.z());
-    packet.dir_x[i] = static_cast<float>(direction.x());
-    packet.dir_y[i] = static_cast<float>(direction.y());
-    packet.dir_z[i] = static_cast<float>(direction.z());
-    packet.tnear[i] = 0.0f;
-    packet.tfar[i] = 1.0f;  // the direction is the whole segment
-    packet.time[i] = 0.0f;
-    packet.mask[i] = ~0u;
-    packet.id[i] = 0;
-    packet.flags[i] = 0;
+  alignas(32) RTCRayHit8 query;
+  alignas(32) int valid[RayPacket::kSize];
+  fill(rays, query.ray, valid);
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcOccluded8(valid, handles_->scene, &context, &packet);
+  rtcIntersect8(valid, handles_->scene, &context, &query);
+  std::array<int, RayPacket::kSize> triangles{};
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    const bool hit = valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    triangles[static_cast<std::size_t>(i)] = hit ? static_cast<int>(query.hit.primID[i]) : -1;
+  }
+  return triangles;
+}
+
+std::uint32_t RayScene::blocked(const RayPacket& rays) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) RTCRay8 query;
+  alignas(32) int valid[RayPacket::kSize];
+  fill(rays, query, valid);
+  std::memcpy(query.tfar, rays.far.data(), kLanesBytes);
+  rtcOccluded8(valid, handles_->scene, &context, &query);
   std::uint32_t bits = 0;
-  for (int i = 0; i < count; ++i) bits |= packet.tfar[i] < 0.0f ? 1u << i : 0u;
-  return bits;
+  for (int i = 0; i < RayPacket::kSize; ++i) bits |= query.tfar[i] < 0.0f ? 1u << i : 0u;
+  return bits & rays.valid;
 }
 
 FlushDenormals::FlushDenormals() : before_(_mm_getcsr()) {

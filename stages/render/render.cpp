@@ -1,9 +1,12 @@
 #include "stages/render/render.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "common/camera_model.h"
 #include "common/error.h"
 #include "common/log.h"
 #include "common/picture.h"
@@ -26,55 +29,80 @@ double largest(const FloatImage& image) {
   return most;
 }
 
-void warn_of_dark_leds(const FloatImage& basis) {
-  const auto num_leds = static_cast<std::size_t>(basis.channels);
-  std::vector<bool> lit(num_leds, false);
-  for (std::size_t i = 0; i < basis.pixels.size(); ++i) lit[i % num_leds] = lit[i % num_leds] || basis.pixels[i] > 0.0f;
-  for (std::size_t led = 0; led < num_leds; ++led) {
-    if (!lit[led]) log_warning("LED {} lights nothing the camera sees", led);
+void warn_of_dark_leds(const FloatImage& basis, const std::vector<LightGroup>& groups) {
+  const auto count = static_cast<std::size_t>(basis.channels);
+  std::vector<bool> lit(count, false);
+  for (std::size_t i = 0; i < basis.pixels.size(); ++i) lit[i % count] = lit[i % count] || basis.pixels[i] > 0.0f;
+  for (std::size_t g = 0; g < count; ++g) {
+    if (lit[g]) continue;
+    const std::string what =
+        groups[g].name.empty() ? "LED " + std::to_string(groups[g].leds.front()) : "light group " + groups[g].name;
+    log_warning("{} lights nothing the camera sees", what);
   }
 }
 
-}  // namespace
-
-RenderConfig RenderConfig::read(ConfigReader& in) {
-  RenderConfig config;
-  config.all_frames = in.choice_or("frames", "last", {"last", "all"}) == "all";
-  config.trace.subpixels = in.integer_or("subpixels", config.trace.subpixels, 1, 16);
-  config.trace.led_samples = in.integer_or("led_samples", config.trace.led_samples, 1, 16);
-  ConfigReader noise = in.section("noise");
-  config.noise = NoiseModel::read(noise);
-  return config;
-}
-
-Positions frame_positions(const NpyArray& positions, std::size_t frame) {
-  const auto vertices = static_cast<Eigen::Index>(positions.shape[1]);
-  return Eigen::Map<const Positions>(positions.data.data() + frame * positions.shape[1] * 3, vertices, 3);
-}
-
-void check_positions(const NpyArray& positions, const TetMesh& gel, const std::string& name) {
-  const auto num_vertices = static_cast<std::size_t>(gel.num_vertices());
-  if (positions.shape.size() != 3 || positions.shape[2] != 3 || positions.shape[0] == 0) {
-    std::string shape;
-    for (const std::size_t length : positions.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(length);
-    throw DataError("{}: has shape ({}) where (frames, vertices, 3) is needed", name, shape);
-  }
-  if (positions.shape[1] != num_vertices) {
-    throw DataError("{}: has {} vertices, the gel {}", name, positions.shape[1], num_vertices);
-  }
-  for (std::size_t i = 0; i < positions.data.size(); ++i) {
-    if (!std::isfinite(positions.data[i])) {
-      throw DataError("{}: frame {}, vertex {} is not finite", name, i / (3 * num_vertices), i / 3 % num_vertices);
+/// One sensor's way from radiance to codes, with the reference everything is compared with.
+class Developer {
+ public:
+  Developer(const RenderUnit& unit, const RenderConfig& config) : unit_(unit), config_(config) {
+    if (unit.sensor.noise) {
+      noise_ = NoiseModel{.full_well_e = unit.sensor.noise->full_well_e,
+                          .read_e = unit.sensor.noise->read_e,
+                          .seed = config.noise_seed};
     }
   }
-  const Positions first = frame_positions(positions, 0);
-  Eigen::Index worst = 0;
-  const double distance = (first - gel.positions).rowwise().norm().maxCoeff(&worst);
-  if (distance > 1e-6) {
-    throw DataError("{}: frame 0 is not the gel at rest: vertex {} is {:.3g} mm away from its place in the gel", name,
-                    worst, 1e3 * distance);
+
+  /// Takes the image of the gel at rest. Called once, first.
+  void set_reference(const FloatImage& linear) {
+    const Sensor& sensor = unit_.sensor;
+    signal_ = camera_signal(linear, sensor.camera, sensor.response);
+    summary_.name = unit_.name;
+    summary_.real_reference = unit_.reference.has_value();
+    summary_.exposure = solve_exposure(signal_, sensor.response);
+    codes_ = encode(signal_, summary_.exposure, sensor.response);
+    reference_ =
+        unit_.reference ? *unit_.reference : synthetic_reference(signal_, summary_.exposure, sensor.response, noise());
+    summary_.reference_mean_code = mean_of(reference_);
   }
-}
+
+  TactileImage develop(const FloatImage& linear, std::size_t frame) {
+    const Sensor& sensor = unit_.sensor;
+    FloatImage signal = camera_signal(linear, sensor.camera, sensor.response);
+    // Fresh noise comes beside the reference's. Frame 0 has that one already.
+    if (config_.noise_in_every_frame && (frame > 0 || config_.transfer == Transfer::none))
+      signal = add_noise(signal, summary_.exposure, noise(), kFrameStreams + frame);
+    TactileImage out = [&] {
+      if (config_.transfer == Transfer::linear)
+        return transfer_ratio(reference_, signal, signal_, summary_.exposure, sensor.response);
+      const FloatImage codes = encode(signal, summary_.exposure, sensor.response);
+      return config_.transfer == Transfer::none ? quantise(codes) : transfer_noise(reference_, codes, codes_);
+    }();
+    summary_.clipped_fraction = std::max(summary_.clipped_fraction, out.clipped_fraction);
+    return out;
+  }
+
+  const UnitSummary& summary() const { return summary_; }
+
+ private:
+  static constexpr std::uint64_t kFrameStreams = 1000;  // one stream of random numbers per frame
+
+  const NoiseModel& noise() const {
+    if (!noise_) {
+      throw DataError("{}: the sensor has neither a reference_image nor a section noise to make one with",
+                      unit_.name.empty() ? unit_.sensor.name : unit_.name);
+    }
+    return *noise_;
+  }
+
+  const RenderUnit& unit_;
+  const RenderConfig& config_;
+  std::optional<NoiseModel> noise_;
+  FloatImage signal_, codes_;
+  ByteImage reference_;
+  UnitSummary summary_;
+};
+
+}  // namespace
 
 ByteImage read_reference(const std::filesystem::path& path, const Camera& camera) {
   ByteImage image = read_png(path, 3);
@@ -89,43 +117,73 @@ ByteImage indentation_picture(const FloatImage& indentation) {
   return picture_of_scalar(indentation, 0.0, std::max(1e-6, largest(indentation)));
 }
 
-RenderSummary render(const Sensor& sensor, const RenderConfig& config, const TetMesh& gel, const NpyArray& positions,
-                     const std::optional<ByteImage>& reference,
-                     const std::function<void(const RenderedFrame&)>& deliver) {
+Positions project_markers(const Positions& markers, const Sensor& sensor, bool refract) {
+  const CameraModel camera(sensor.camera, sensor.stack, refract);
+  Positions out(markers.rows(), 3);
+  for (Eigen::Index i = 0; i < markers.rows(); ++i) {
+    const auto point = camera.project(markers.row(i).transpose());
+    const bool seen = point && point->x() >= 0.0 && point->y() >= 0.0 && point->x() <= sensor.camera.width_px &&
+                      point->y() <= sensor.camera.height_px;
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    out.row(i) << (seen ? point->x() : kNothing), (seen ? point->y() : kNothing), seen ? 1.0 : 0.0;
+  }
+  return out;
+}
+
+RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const TetMesh& gel,
+                     const PressFrames& press, const std::function<void(const RenderedFrame&)>& deliver) {
+  assert(!units.empty() && units.front().needs_rays);
   RenderSummary summary;
-  const std::size_t last = positions.shape[0] - 1;
+  const std::size_t last = press.num_frames() - 1;
   if (config.all_frames) {
     for (std::size_t frame = 0; frame <= last; ++frame) summary.frames.push_back(frame);
   } else {
     summary.frames = last == 0 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, last};
   }
-  FloatImage reference_codes;
-  ByteImage reference_image;
+  std::vector<Developer> developers;
+  developers.reserve(units.size());
+  for (const RenderUnit& unit : units) developers.emplace_back(unit, config);
+  Membrane membrane = make_membrane(gel, gel.positions);
+  RayScene scene(membrane.positions, membrane.triangles);
   for (const std::size_t index : summary.frames) {
-    const Membrane membrane = make_membrane(gel, index == 0 ? gel.positions : frame_positions(positions, index));
-    RenderedFrame frame;
-    frame.index = index;
-    frame.trace = trace(membrane, sensor, config.trace);
-    frame.linear = color_image(frame.trace.basis, sensor);
-    if (index == 0) {
-      warn_of_dark_leds(frame.trace.basis);
-      summary.exposure = solve_exposure(frame.linear, sensor.response);
-      reference_codes = encode(frame.linear, summary.exposure, sensor.response);
-      reference_image =
-          reference ? *reference : synthetic_reference(frame.linear, summary.exposure, sensor.response, config.noise);
-      summary.reference_mean_code = mean_of(reference_image);
+    if (index > 0) {
+      move_membrane(membrane, frame_positions(press.positions, index));
+      scene.move(membrane.positions);
     }
-    frame.tactile =
-        transfer_noise(reference_image, encode(frame.linear, summary.exposure, sensor.response), reference_codes);
-    summary.clipped_fraction = std::max(summary.clipped_fraction, frame.tactile.clipped_fraction);
-    summary.rays += frame.trace.rays;
-    summary.nudged_rays += frame.trace.nudged_rays;
-    summary.outside_rays += frame.trace.outside_rays;
-    summary.max_indentation_m = largest(frame.trace.indentation);
-    log_info("frame {}: deepest indentation {:.3f} mm, {:.2f} % clipped", index, 1e3 * summary.max_indentation_m,
-             100.0 * frame.tactile.clipped_fraction);
-    deliver(frame);
+    const SurfaceFields fields = surface_fields(press, index, membrane);
+    TraceResult first;
+    for (std::size_t u = 0; u < units.size(); ++u) {
+      const Sensor& sensor = units[u].sensor;
+      TraceResult own;
+      if (units[u].needs_rays) {
+        own = trace(scene, membrane, sensor, config.trace, fields);
+        summary.rays += own.rays;
+        summary.nudged_rays += own.nudged_rays;
+        summary.outside_rays += own.outside_rays;
+        if (own.outside_rays == own.rays) throw DataError("the camera of {} sees nothing of the gel", sensor.name);
+        if (index == 0) warn_of_dark_leds(own.basis, light_groups(sensor.leds));
+        if (u == 0) first = std::move(own);
+      }
+      const TraceResult& traced = units[u].needs_rays && u > 0 ? own : first;
+      RenderedFrame frame{.index = index,
+                          .unit = units[u].name,
+                          .trace = units[u].needs_rays ? &traced : nullptr,
+                          .linear = color_image(traced, sensor, false)};
+      if (index == 0) developers[u].set_reference(frame.linear);
+      frame.tactile = developers[u].develop(frame.linear, index);
+      if (sensor.markers.radius_m) frame.marker = developers[u].develop(color_image(traced, sensor, true), index);
+      if (units[u].needs_rays)
+        frame.marker_px = project_markers(frame_markers(press, index), sensor, config.trace.refract);
+      if (u == 0) {
+        summary.max_indentation_m = largest(traced.indentation);
+        summary.indirect_share = indirect_share(traced, sensor);
+        log_info("frame {}: deepest indentation {:.3f} mm, {:.2f} % clipped", index, 1e3 * summary.max_indentation_m,
+                 100.0 * frame.tactile.clipped_fraction);
+      }
+      deliver(frame);
+    }
   }
+  for (const Developer& developer : developers) summary.units.push_back(developer.summary());
   return summary;
 }
 

@@ -38,6 +38,8 @@ SurfaceHit surface_hit(const Membrane& membrane, int triangle, const Ray& ray) {
   const Vector3 b = barycentric(v, ray);
   const Vector3 face_normal = -(v[1] - v[0]).cross(v[2] - v[0]).normalized();
   SurfaceHit hit;
+  hit.triangle = triangle;
+  hit.weights = b;
   hit.point = b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
   hit.inner_normal = (b[0] * n[0] + b[1] * n[1] + b[2] * n[2]).normalized();
   hit.indentation = b[0] * lowering[0] + b[1] * lowering[1] + b[2] * lowering[2];

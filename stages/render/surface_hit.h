@@ -2,12 +2,18 @@
 #pragma once
 
 #include "stages/render/membrane.h"
-#include "stages/render/ray_scene.h"
 
 namespace tacipc {
 
+struct Ray {
+  Vector3 origin;
+  Vector3 direction;  // unit
+};
+
 struct SurfaceHit {
-  Vector3 point;          // m
+  Vector3 point;  // m
+  int triangle;
+  Vector3 weights;        // barycentric coordinates in the triangle
   Vector3 inner_normal;   // unit, interpolated vertex normals, towards the inside of the gel
   Vector3 shadow_origin;  // where rays to the lights start
   double indentation;     // m, rest z minus deformed z of the material there

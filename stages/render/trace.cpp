@@ -3,19 +3,24 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "common/camera_model.h"
 #include "common/error.h"
-#include "stages/render/camera_rays.h"
+#include "stages/render/horizon.h"
+#include "stages/render/indirect.h"
 #include "stages/render/light_path.h"
 #include "stages/render/surface_hit.h"
 
 namespace tacipc {
 namespace {
+
+static_assert(RayPacket::kSize == kLanes);
 
 struct RowCounts {
   std::int64_t nudged = 0;
@@ -23,123 +28,318 @@ struct RowCounts {
   std::optional<std::array<int, 2>> fallen_pixel;
 };
 
-/// Adds to `light` (one entry per LED) what reaches a hit.
-void add_light(const RayScene& scene, const SurfaceHit& hit, const std::vector<LightSample>& samples,
-               std::vector<double>& light) {
-  constexpr int kPacket = RayScene::kPacket;
-  std::array<Vector3, kPacket> ends;
-  std::array<double, kPacket> radiance;
-  std::array<int, kPacket> led;
-  int waiting = 0;
-  const auto flush = [&] {
-    const std::uint32_t blocked = scene.blocked(hit.shadow_origin, ends, waiting);
-    for (int i = 0; i < waiting; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if ((blocked >> i & 1u) == 0) light[static_cast<std::size_t>(led[k])] += radiance[k];
-    }
-    waiting = 0;
-  };
-  for (const LightSample& sample : samples) {
-    const Incidence incidence = light_path(hit.point, sample);
-    const double cosine = hit.inner_normal.dot(incidence.direction);
-    if (cosine <= 0.0 || incidence.irradiance <= 0.0) continue;
-    const auto k = static_cast<std::size_t>(waiting++);
-    ends[k] = incidence.path_end;
-    radiance[k] = incidence.irradiance * cosine * std::numbers::inv_pi;
-    led[k] = sample.led;
-    if (waiting == kPacket) flush();
-  }
-  if (waiting > 0) flush();
+void put(Pack3& pack, int lane, const Vector3& v) {
+  pack.x[lane] = v.x();
+  pack.y[lane] = v.y();
+  pack.z[lane] = v.z();
 }
+Vector3 lane_of(const Pack3& pack, int lane) { return {pack.x[lane], pack.y[lane], pack.z[lane]}; }
+
+/// Sums over the rays of one pixel.
+struct PixelSums {
+  double depth = 0.0, indentation = 0.0;
+  Vector3 normal = Vector3::Zero(), traction = Vector3::Zero();
+  int hits = 0, on_marker = 0;
+  std::array<int, 5> segments{};
+  std::array<int, 3> contacts{};
+};
+
+/// The class that most rays have; of two as many, the higher one.
+template <std::size_t N>
+std::uint8_t most(const std::array<int, N>& counts) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < N; ++i) {
+    if (counts[i] >= counts[best]) best = i;
+  }
+  return static_cast<std::uint8_t>(best);
+}
+
+/// Light of one group on eight rays.
+struct GroupLight {
+  Pack diffuse{}, gloss{};
+};
 
 class RowTracer {
  public:
-  RowTracer(const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings)
-      : membrane_(membrane),
-        camera_(sensor.camera),
-        rays_(sensor.camera),
-        scene_(membrane.positions, membrane.triangles),
-        lights_(light_samples(sensor.leds, settings.led_samples)),
+  RowTracer(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
+            const SurfaceFields& fields)
+      : scene_(scene),
+        membrane_(membrane),
+        sensor_(sensor),
+        fields_(fields),
+        horizon_(membrane),
+        camera_(sensor.camera, sensor.stack, settings.refract),
+        samples_(light_samples(sensor, settings.led_samples, settings.refract)),
         subpixels_(settings.subpixels),
-        num_leds_(sensor.leds.size()) {}
+        groups_(light_groups(sensor.leds).size()),
+        log_(settings.log) {
+    if (settings.indirect_rays == 0) return;
+    const VertexLight direct = direct_vertex_light(scene, membrane, sensor, settings.led_samples, settings.refract);
+    indirect_ = gather_indirect(scene, membrane, direct, sensor, settings.indirect_rays, settings.refract);
+  }
 
   RowCounts trace_row(int row, TraceResult& out) const {
     const FlushDenormals flush;
     RowCounts counts;
-    std::vector<double> light(num_leds_);
-    for (int column = 0; column < camera_.width_px; ++column) {
-      light.assign(num_leds_, 0.0);
-      double depth = 0.0, indentation = 0.0;
-      Vector3 normal = Vector3::Zero();
-      int hits = 0;
-      for (int j = 0; j < subpixels_; ++j) {
-        for (int i = 0; i < subpixels_; ++i) {
-          const Ray ray = rays_.ray(column + (i + 0.5) / subpixels_, row + (j + 0.5) / subpixels_);
-          const auto hit = find_hit(ray, counts);
+    const int width = sensor_.camera.width_px;
+    std::vector<PixelSums> pixels(static_cast<std::size_t>(width));
+    const std::size_t channels = static_cast<std::size_t>(width) * groups_;
+    std::vector<double> diffuse(channels), gloss(channels), marked(channels), marked_gloss(channels),
+        indirect(channels);
+    std::vector<GroupLight> light(groups_);
+    for (int j = 0; j < subpixels_; ++j) {
+      for (int first = 0; first < width * subpixels_; first += kLanes) {
+        Pack columns;
+        for (int l = 0; l < kLanes; ++l) columns[l] = (first + l + 0.5) / subpixels_;
+        const CameraRays rays = camera_.rays(columns, row + (j + 0.5) / subpixels_);
+        const auto hits = find_hits(rays, std::min(kLanes, width * subpixels_ - first), first, row, counts);
+        gather_light(hits, rays, light);
+        for (int l = 0; l < kLanes && first + l < width * subpixels_; ++l) {
+          const auto pixel = static_cast<std::size_t>((first + l) / subpixels_);
+          const auto& hit = hits[static_cast<std::size_t>(l)];
           if (!hit) {
-            if (inside_outline(membrane_, ray)) {
-              if (!counts.fallen_pixel) counts.fallen_pixel = {column, row};
-            } else {
-              ++counts.outside;
-            }
+            ++pixels[pixel].segments[0];
             continue;
           }
-          ++hits;
-          depth += hit->point.z() - camera_.position_m.z();
-          indentation += hit->indentation;
-          normal -= hit->inner_normal;
-          if (hit->from_inside) add_light(scene_, *hit, lights_, light);
+          const bool on_marker = add_geometry(*hit, pixels[pixel]);
+          for (std::size_t g = 0; g < groups_; ++g) {
+            diffuse[pixel * groups_ + g] += light[g].diffuse[l];
+            gloss[pixel * groups_ + g] += light[g].gloss[l];
+            if (indirect_.rows() > 0) indirect[pixel * groups_ + g] += rays.transmittance[l] * indirect_at(*hit, g);
+            if (!on_marker) continue;
+            marked[pixel * groups_ + g] += light[g].diffuse[l];
+            marked_gloss[pixel * groups_ + g] += light[g].gloss[l];
+          }
         }
       }
-      const double rays_per_pixel = subpixels_ * subpixels_;
-      for (std::size_t led = 0; led < num_leds_; ++led) {
-        out.basis.at(column, row, static_cast<int>(led)) = static_cast<float>(light[led] / rays_per_pixel);
-      }
-      if (hits == 0) continue;
-      out.depth.at(column, row, 0) = static_cast<float>(depth / hits);
-      out.indentation.at(column, row, 0) = static_cast<float>(indentation / hits);
-      normal.normalize();
-      for (int c = 0; c < 3; ++c) out.normal.at(column, row, c) = static_cast<float>(normal[c]);
     }
+    const double rays_per_pixel = subpixels_ * subpixels_;
+    const auto write = [&](const std::vector<double>& from, FloatImage& image) {
+      if (image.channels == 0) return;
+      const std::size_t start = static_cast<std::size_t>(row) * channels;
+      for (std::size_t i = 0; i < channels; ++i) image.pixels[start + i] = static_cast<float>(from[i] / rays_per_pixel);
+    };
+    write(diffuse, out.basis);
+    write(gloss, out.gloss);
+    write(marked, out.marked);
+    write(marked_gloss, out.marked_gloss);
+    write(indirect, out.indirect);
+    for (int column = 0; column < width && out.coverage.channels == 1; ++column) {
+      const double share = pixels[static_cast<std::size_t>(column)].on_marker / rays_per_pixel;
+      out.coverage.at(column, row, 0) = static_cast<float>(share);
+    }
+    for (int column = 0; column < width; ++column)
+      write_geometry(pixels[static_cast<std::size_t>(column)], column, row, out);
     return counts;
   }
 
  private:
-  std::optional<SurfaceHit> find_hit(const Ray& ray, RowCounts& counts) const {
-    auto triangle = scene_.first_hit(ray);
-    if (!triangle) {
-      for (const Vector3& nudge : {Vector3(1.0, 0.0, 0.0), Vector3(0.0, 1.0, 0.0)}) {
-        const Ray beside{.origin = ray.origin, .direction = (ray.direction + 1e-6 * nudge).normalized()};
-        triangle = scene_.first_hit(beside);
-        if (triangle) break;
+  using Hits = std::array<std::optional<SurfaceHit>, kLanes>;
+
+  Hits find_hits(const CameraRays& rays, int count, int first, int row, RowCounts& counts) const {
+    RayPacket packet;
+    for (int l = 0; l < kLanes; ++l) {
+      if (l < count && rays.transmittance[l] > 0.0) {
+        packet.set(l, lane_of(rays.origin, l), lane_of(rays.direction, l), 0.0);
+      } else {
+        packet.set(l, Vector3::Zero(), Vector3::UnitZ(), 0.0);
+        packet.valid &= ~(1u << l);
+        counts.outside += l < count;
       }
-      if (!triangle) return std::nullopt;
-      ++counts.nudged;
     }
-    return surface_hit(membrane_, *triangle, ray);
+    if (log_) log_->camera.push_back(packet);
+    auto triangles = scene_.first_hits(packet);
+    std::uint32_t missed = 0;
+    for (int l = 0; l < kLanes; ++l) {
+      if ((packet.valid >> l & 1u) != 0 && triangles[static_cast<std::size_t>(l)] < 0) missed |= 1u << l;
+    }
+    if (missed != 0) nudge(rays, missed, triangles, counts);
+    Hits hits;
+    for (int l = 0; l < count; ++l) {
+      if ((packet.valid >> l & 1u) == 0) continue;
+      const Ray ray{.origin = lane_of(rays.origin, l), .direction = lane_of(rays.direction, l)};
+      const int triangle = triangles[static_cast<std::size_t>(l)];
+      if (triangle >= 0) {
+        hits[static_cast<std::size_t>(l)] = surface_hit(membrane_, triangle, ray);
+      } else if (inside_outline(membrane_, ray)) {
+        if (!counts.fallen_pixel) counts.fallen_pixel = {(first + l) / subpixels_, row};
+      } else {
+        ++counts.outside;
+      }
+    }
+    return hits;
   }
 
+  void nudge(const CameraRays& rays, std::uint32_t missed, std::array<int, kLanes>& triangles,
+             RowCounts& counts) const {
+    for (const Vector3& aside : {Vector3(1e-6, 0.0, 0.0), Vector3(0.0, 1e-6, 0.0)}) {
+      RayPacket beside;
+      for (int l = 0; l < kLanes; ++l)
+        beside.set(l, lane_of(rays.origin, l), (lane_of(rays.direction, l) + aside).normalized(), 0.0);
+      beside.valid = missed;
+      const auto found = scene_.first_hits(beside);
+      for (int l = 0; l < kLanes; ++l) {
+        const auto k = static_cast<std::size_t>(l);
+        if (found[k] < 0) continue;
+        triangles[k] = found[k];
+        missed &= ~(1u << l);
+        ++counts.nudged;
+      }
+      if (missed == 0) return;
+    }
+  }
+
+  /// Adds up what reaches the hits from every light and goes on to the camera.
+  void gather_light(const Hits& hits, const CameraRays& rays, std::vector<GroupLight>& light) const {
+    std::fill(light.begin(), light.end(), GroupLight{});
+    SurfacePack surface;
+    Pack steepness{};
+    std::uint32_t lit = 0;
+    for (int l = 0; l < kLanes; ++l) {
+      // Empty lanes do as a point of the flat face.
+      const SurfaceHit* hit = hits[static_cast<std::size_t>(l)] ? &*hits[static_cast<std::size_t>(l)] : nullptr;
+      if (hit && hit->from_inside) lit |= 1u << l;
+      put(surface.point, l, hit ? hit->point : Vector3(0.0, 0.0, 0.0));
+      put(surface.normal, l, hit ? hit->inner_normal : Vector3(0.0, 0.0, -1.0));
+      put(surface.shadow_origin, l, hit ? hit->shadow_origin : Vector3(0.0, 0.0, 0.0));
+      put(surface.view, l, hit ? Vector3(-lane_of(rays.direction, l)) : Vector3(0.0, 0.0, -1.0));
+      steepness[l] = hit ? horizon_.steepness(hit->point.x(), hit->point.y()) : 0.0;
+    }
+    if (lit == 0) return;
+    const Pack squared_steepness = steepness * steepness;
+    for (const LightSample& sample : samples_) {
+      const IncidencePack incidence = light_path(surface.point, sample);
+      CoatingResponse response = coating_response(surface, incidence.direction, sensor_.coating);
+      response.diffuse *= incidence.irradiance * rays.transmittance;
+      response.gloss *= incidence.irradiance * rays.transmittance;
+      // What climbs more steeply than anything around stands free: all of a flat face, most of a pressed one.
+      const Pack3& w = incidence.direction;
+      const Pack over = w.z * w.z - squared_steepness * (w.x * w.x + w.y * w.y);
+      std::uint32_t reached = 0, doubtful = 0;
+      for (int l = 0; l < kLanes; ++l) {
+        reached |= response.diffuse[l] > 0.0 ? 1u << l : 0u;
+        doubtful |= over[l] > 0.0 && w.z[l] < 0.0 ? 0u : 1u << l;
+      }
+      reached &= lit;
+      doubtful &= reached;
+      if (doubtful != 0) {
+        const RayPacket shadow = shadow_rays(surface, incidence, doubtful);
+        if (log_) log_->shadow.push_back(shadow);
+        reached &= ~scene_.blocked(shadow);
+      }
+      const auto group = static_cast<std::size_t>(sample.group);
+      for (int l = 0; l < kLanes; ++l) {
+        if ((reached >> l & 1u) == 0) continue;
+        light[group].diffuse[l] += response.diffuse[l];
+        light[group].gloss[l] += response.gloss[l];
+      }
+    }
+  }
+
+  static RayPacket shadow_rays(const SurfacePack& surface, const IncidencePack& incidence, std::uint32_t valid) {
+    RayPacket packet;
+    for (int l = 0; l < kLanes; ++l) {
+      const auto k = static_cast<std::size_t>(l);
+      packet.origin_x[k] = static_cast<float>(surface.shadow_origin.x[l]);
+      packet.origin_y[k] = static_cast<float>(surface.shadow_origin.y[l]);
+      packet.origin_z[k] = static_cast<float>(surface.shadow_origin.z[l]);
+      packet.direction_x[k] = static_cast<float>(incidence.direction.x[l]);
+      packet.direction_y[k] = static_cast<float>(incidence.direction.y[l]);
+      packet.direction_z[k] = static_cast<float>(incidence.direction.z[l]);
+      packet.far[k] = static_cast<float>(incidence.length[l]);
+    }
+    packet.valid = valid;
+    return packet;
+  }
+
+  double indirect_at(const SurfaceHit& hit, std::size_t group) const {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+      sum += hit.weights[k] * indirect_(membrane_.triangles(hit.triangle, k), static_cast<Eigen::Index>(group));
+    return sum;
+  }
+
+  /// Adds all that is no light; true if the point belongs to a printed marker.
+  bool add_geometry(const SurfaceHit& hit, PixelSums& pixel) const {
+    ++pixel.hits;
+    pixel.depth += hit.point.z() - sensor_.camera.position_m.z();
+    pixel.indentation += hit.indentation;
+    pixel.normal -= hit.inner_normal;
+    int nearest = 0;
+    hit.weights.maxCoeff(&nearest);
+    std::size_t contact = 0;
+    if (!fields_.contact.empty())
+      contact = fields_.contact[static_cast<std::size_t>(membrane_.triangles(hit.triangle, nearest))];
+    bool on_marker = false;
+    Vector3 rest = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = membrane_.triangles(hit.triangle, k);
+      rest += hit.weights[k] * membrane_.rest.row(vertex).transpose();
+      if (fields_.traction_pa.rows() > 0)
+        pixel.traction += hit.weights[k] * fields_.traction_pa.row(vertex).transpose();
+    }
+    if (sensor_.markers.radius_m) on_marker = sensor_.markers.covers(rest.x(), rest.y());
+    pixel.on_marker += on_marker;
+    ++pixel.contacts[contact];
+    ++pixel.segments[on_marker ? (contact > 0 ? 4 : 3) : (contact > 0 ? 2 : 1)];
+    return on_marker;
+  }
+
+  static void write_geometry(const PixelSums& pixel, int column, int row, TraceResult& out) {
+    out.segment.at(column, row, 0) = most(pixel.segments);
+    out.contact.at(column, row, 0) = pixel.hits > 0 ? most(pixel.contacts) : std::uint8_t{0};
+    if (pixel.hits == 0) return;
+    out.depth.at(column, row, 0) = static_cast<float>(pixel.depth / pixel.hits);
+    out.indentation.at(column, row, 0) = static_cast<float>(pixel.indentation / pixel.hits);
+    const Vector3 normal = pixel.normal.normalized();
+    for (int c = 0; c < 3; ++c) {
+      out.normal.at(column, row, c) = static_cast<float>(normal[c]);
+      if (out.traction.channels == 3)
+        out.traction.at(column, row, c) = static_cast<float>(pixel.traction[c] / pixel.hits);
+    }
+  }
+
+  const RayScene& scene_;
   const Membrane& membrane_;
-  const Camera& camera_;
-  CameraRays rays_;
-  RayScene scene_;
-  std::vector<LightSample> lights_;
+  const Sensor& sensor_;
+  const SurfaceFields& fields_;
+  Horizon horizon_;
+  CameraModel camera_;
+  std::vector<LightSample> samples_;
   int subpixels_;
-  std::size_t num_leds_;
+  std::size_t groups_;
+  RayLog* log_;
+  VertexLight indirect_;  // no rows: not wanted
 };
 
 }  // namespace
 
-TraceResult trace(const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings) {
+TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
+                  const SurfaceFields& fields) {
   const int width = sensor.camera.width_px, height = sensor.camera.height_px;
+  const int groups = static_cast<int>(light_groups(sensor.leds).size());
+  const bool glossy = sensor.coating.specular_f0 > 0.0, printed = sensor.markers.radius_m.has_value();
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-  TraceResult out{.basis = FloatImage(width, height, static_cast<int>(sensor.leds.size())),
+  TraceResult out{.basis = FloatImage(width, height, groups),
+                  .gloss = FloatImage(width, height, glossy ? groups : 0),
+                  .marked = FloatImage(width, height, printed ? groups : 0),
+                  .marked_gloss = FloatImage(width, height, printed && glossy ? groups : 0),
+                  .coverage = FloatImage(width, height, printed ? 1 : 0),
+                  .indirect = FloatImage(width, height, settings.indirect_rays > 0 ? groups : 0),
                   .depth = FloatImage(width, height, 1, kNothing),
                   .normal = FloatImage(width, height, 3, kNothing),
-                  .indentation = FloatImage(width, height, 1, kNothing)};
-  const RowTracer tracer(membrane, sensor, settings);
+                  .indentation = FloatImage(width, height, 1, kNothing),
+                  .traction = FloatImage(width, height, fields.traction_pa.rows() > 0 ? 3 : 0, kNothing),
+                  .contact = ByteImage(width, height, 1),
+                  .segment = ByteImage(width, height, 1)};
+  const RowTracer tracer(scene, membrane, sensor, settings, fields);
   std::vector<RowCounts> rows(static_cast<std::size_t>(height));
-  tbb::parallel_for(0, height, [&](int row) { rows[static_cast<std::size_t>(row)] = tracer.trace_row(row, out); });
+  const auto trace_row = [&](int row) { rows[static_cast<std::size_t>(row)] = tracer.trace_row(row, out); };
+  if (settings.log) {
+    for (int row = 0; row < height; ++row) trace_row(row);
+  } else {
+    tbb::parallel_for(0, height, trace_row);
+  }
   out.rays = std::int64_t{width} * height * settings.subpixels * settings.subpixels;
   for (const RowCounts& row : rows) {
     if (row.fallen_pixel) {
@@ -152,21 +352,10 @@ TraceResult trace(const Membrane& membrane, const Sensor& sensor, const TraceSet
   return out;
 }
 
-FloatImage color_image(const FloatImage& basis, const Sensor& sensor) {
-  FloatImage image(basis.width, basis.height, 3);
-  const std::size_t num_leds = sensor.leds.size();
-  tbb::parallel_for(0, basis.height, [&](int y) {
-    for (int x = 0; x < basis.width; ++x) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        double sum = 0.0;
-        for (std::size_t led = 0; led < num_leds; ++led)
-          sum += sensor.leds[led].rgb[c] * basis.at(x, y, static_cast<int>(led));
-        image.at(x, y, static_cast<int>(c)) =
-            static_cast<float>(sensor.coating_albedo[c] * sum + sensor.ambient_rgb[c]);
-      }
-    }
-  });
-  return image;
+TraceResult trace(const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
+                  const SurfaceFields& fields) {
+  const RayScene scene(membrane.positions, membrane.triangles);
+  return trace(scene, membrane, sensor, settings, fields);
 }
 
 }  // namespace tacipc

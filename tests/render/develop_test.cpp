@@ -11,6 +11,8 @@
 namespace tacipc {
 namespace {
 
+const Response kSrgb{.mean_level = 0.5, .curve = "srgb"}, kLinear{.mean_level = 0.5, .curve = "linear"};
+
 FloatImage ramp(int width, int height) {
   FloatImage image(width, height, 3);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 0.2f + 0.001f * static_cast<float>(i % 997);
@@ -18,11 +20,11 @@ FloatImage ramp(int width, int height) {
 }
 
 TEST(CodeOf, FollowsTheSrgbCurve) {
-  EXPECT_NEAR(code_of(0.0031308, "srgb"), 255 * 0.04045, 1e-3);
-  EXPECT_NEAR(code_of(0.5, "srgb"), 187.516, 1e-3);
-  EXPECT_DOUBLE_EQ(code_of(1.0, "srgb"), 255.0);
-  EXPECT_DOUBLE_EQ(code_of(0.25, "linear"), 63.75);
-  EXPECT_GT(code_of(1.5, "srgb"), 255.0);
+  EXPECT_NEAR(code_of(0.0031308, kSrgb), 255 * 0.04045, 1e-3);
+  EXPECT_NEAR(code_of(0.5, kSrgb), 187.516, 1e-3);
+  EXPECT_DOUBLE_EQ(code_of(1.0, kSrgb), 255.0);
+  EXPECT_DOUBLE_EQ(code_of(0.25, kLinear), 63.75);
+  EXPECT_GT(code_of(1.5, kSrgb), 255.0);
 }
 
 TEST(SolveExposure, ReachesTheMeanLevelAfterTheCurve) {
@@ -31,7 +33,8 @@ TEST(SolveExposure, ReachesTheMeanLevelAfterTheCurve) {
     for (const double level : {0.1, 0.45, 0.9}) {
       const double exposure = solve_exposure(image, {.mean_level = level, .curve = curve});
       double sum = 0.0;
-      for (const float v : image.pixels) sum += std::min(code_of(exposure * v, curve), 255.0);
+      for (const float v : image.pixels)
+        sum += std::min(code_of(exposure * v, {.mean_level = level, .curve = curve}), 255.0);
       EXPECT_NEAR(sum / static_cast<double>(image.pixels.size()), 255.0 * level, 1e-9) << curve << " " << level;
     }
   }
@@ -64,6 +67,65 @@ TEST(TransferNoise, AddsTheDifferenceRoundsOnceAndClamps) {
   without.pixels = {50.2f, 80.0f, 30.0f, 10.0f};
   const TactileImage out = transfer_noise(reference, simulated, without);
   EXPECT_EQ(out.image.pixels, (std::vector<std::uint8_t>{110, 255, 0, 101}));
+  EXPECT_DOUBLE_EQ(out.clipped_fraction, 0.5);
+}
+
+TEST(CodeOf, HasAnInverseForEveryCurve) {
+  for (const Response& response : {kSrgb, kLinear, Response{.curve = "gamma", .gamma = 1.8}}) {
+    for (const double code : {0.0, 3.0, 10.0, 127.5, 255.0})
+      EXPECT_NEAR(code_of(value_of(code, response), response), code, 1e-10) << response.curve;
+  }
+  EXPECT_NEAR(code_of(0.25, {.curve = "gamma", .gamma = 2.0}), 127.5, 1e-12);
+  EXPECT_EQ(code_of(-0.1, kSrgb), 0.0);
+}
+
+TEST(CameraSignal, VignettesBalancesAndMixes) {
+  FloatImage image(5, 3, 3);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      for (int c = 0; c < 3; ++c) image.at(x, y, c) = static_cast<float>(c + 1);
+    }
+  }
+  Camera camera;
+  camera.vignetting = {-0.5, 0.1};
+  Response response = kLinear;
+  response.white_balance = {2.0, 1.0, 0.5};
+  response.color_matrix = {1, 0, 0, 0.5, 1, 0, 0, -1, 2};
+  const FloatImage signal = camera_signal(image, camera, response);
+  EXPECT_FLOAT_EQ(signal.at(2, 1, 0), 2.0f);  // the middle: no falloff
+  EXPECT_FLOAT_EQ(signal.at(2, 1, 1), 0.5f * 2.0f + 2.0f);
+  EXPECT_FLOAT_EQ(signal.at(2, 1, 2), -2.0f + 2.0f * 1.5f);
+  const double rr = (2.0 * 2.0 + 1.0) / (2.5 * 2.5 + 1.5 * 1.5);
+  EXPECT_NEAR(signal.at(4, 2, 0), 2.0 * (1.0 - 0.5 * rr + 0.1 * rr * rr), 1e-6);
+}
+
+TEST(SolveExposure, TakesWhatTheSensorFixes) {
+  Response response = kSrgb;
+  response.exposure = 0.125;
+  EXPECT_EQ(solve_exposure(ramp(4, 4), response), 0.125);
+}
+
+TEST(TransferRatio, EqualSimulationsReturnTheReferenceAndRatiosScaleItsLight) {
+  ByteImage reference(16, 16, 3);
+  for (std::size_t i = 0; i < reference.pixels.size(); ++i) reference.pixels[i] = static_cast<std::uint8_t>(i % 256);
+  const FloatImage signal = ramp(16, 16);
+  EXPECT_EQ(transfer_ratio(reference, signal, signal, 0.8, kSrgb).image.pixels, reference.pixels);
+  FloatImage twice = signal;
+  for (float& value : twice.pixels) value *= 2.0f;
+  const TactileImage bright = transfer_ratio(reference, twice, signal, 0.8, kSrgb);
+  const double expected = code_of(2.0 * value_of(100.0, kSrgb), kSrgb);
+  EXPECT_EQ(bright.image.pixels[100], std::lround(expected));
+  EXPECT_EQ(bright.image.pixels[255], 255);  // clamped, and counted
+  EXPECT_GT(bright.clipped_fraction, 0.2);
+  const FloatImage dark(16, 16, 3);  // without light there is no ratio: the difference counts
+  EXPECT_EQ(transfer_ratio(reference, dark, dark, 0.8, kSrgb).image.pixels, reference.pixels);
+}
+
+TEST(Quantise, RoundsClampsAndCounts) {
+  FloatImage codes(4, 1, 1);
+  codes.pixels = {-3.0f, 0.6f, 254.4f, 300.0f};
+  const TactileImage out = quantise(codes);
+  EXPECT_EQ(out.image.pixels, (std::vector<std::uint8_t>{0, 1, 254, 255}));
   EXPECT_DOUBLE_EQ(out.clipped_fraction, 0.5);
 }
 

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "common/rng.h"
+#include "stages/render/horizon.h"
 #include "stages/render/surface_hit.h"
 #include "stages/render/trace.h"
 #include "tests/render/test_surfaces.h"
@@ -115,6 +117,43 @@ TEST(Trace, PixelsBesideTheGelSayThatTheySeeNothing) {
   EXPECT_TRUE(std::isnan(result.normal.at(9, 15, 1)));
   EXPECT_EQ(result.basis.at(9, 15, 0), 0.0f);
   EXPECT_NEAR(result.depth.at(10, 15, 0), 12e-3, 1e-9);
+}
+
+TEST(Horizon, NeverFreesWhatIsBlocked) {
+  // Random rays upwards from a stamped surface: each one that climbs over the bound must be free.
+  const auto stamp = [](double x, double y) {
+    return -0.4e-3 / (1.0 + std::exp((std::hypot(x - 5e-4, y) - 1e-3) / 6e-5)) - 0.1e-3 * std::sin(2e3 * y);
+  };
+  const Membrane press = height_field(3e-3, 2.5e-3, 5e-5, stamp);
+  const RayScene scene(press.positions, press.triangles);
+  const Horizon horizon(press);
+  std::uint64_t counter = 0;
+  const auto random = [&] { return random_uniform(11, 12, counter++); };
+  int freed = 0, blocked = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double x = 5.6e-3 * (random() - 0.5), y = 4.6e-3 * (random() - 0.5), azimuth = 6.2831853 * random();
+    const double climb = 0.5 + 3.0 * random();
+    RayPacket down{}, packet{};
+    const Ray seen{.origin = {x, y, -2e-3}, .direction = Vector3::UnitZ()};
+    down.set(0, seen.origin, seen.direction, 0.0);
+    const SurfaceHit hit = surface_hit(press, scene.first_hits(down)[0], seen);
+    const Vector3 way(std::cos(azimuth), std::sin(azimuth), -climb);
+    packet.set(0, hit.shadow_origin, way.normalized(), 5e-3);
+    const bool hidden = scene.blocked(packet) != 0;
+    const bool free = climb > horizon.steepness(x, y);
+    blocked += hidden;
+    freed += free;
+    EXPECT_FALSE(hidden && free) << x << " " << y << " " << climb;
+  }
+  EXPECT_GT(blocked, 100);
+  EXPECT_GT(freed, 4000);
+  EXPECT_TRUE(std::isinf(horizon.steepness(4e-3, 0.0)));
+  // An overhang frees nothing near it.
+  Positions fold(4, 3);
+  fold << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  Triangles sides(2, 3);
+  sides << 0, 1, 2, 0, 1, 3;
+  EXPECT_TRUE(std::isinf(Horizon(make_membrane(fold, fold, sides)).steepness(0.1, 0.1)));
 }
 
 TEST(InsideOutline, FollowsTheWindingOfTheBoundary) {

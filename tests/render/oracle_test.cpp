@@ -107,5 +107,89 @@ TEST(Trace, AgreesWithBruteForceOnASmallPress) {
   }
 }
 
+/// p = n sin θ of the path that goes r sideways through air, acrylic and gel, by bisection.
+double ray_parameter(double r, double air, double acrylic, double gel) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    const double p = 0.5 * (low + high);
+    const double reached = air * p / std::sqrt(1.0 - p * p) + acrylic * p / std::sqrt(1.49 * 1.49 - p * p) +
+                           gel * p / std::sqrt(1.41 * 1.41 - p * p);
+    (reached < r ? low : high) = p;
+  }
+  return low;
+}
+
+/// Transmittance of both interfaces at p, from the angles themselves.
+double transmitted(double p) {
+  const double a = std::asin(p), b = std::asin(p / 1.49), c = std::asin(p / 1.41);
+  const auto through = [](double in, double out) {
+    const double rs = std::sin(in - out) / std::sin(in + out), rp = std::tan(in - out) / std::tan(in + out);
+    return 1.0 - 0.5 * (rs * rs + rp * rp);
+  };
+  return through(a, b) * through(b, c);
+}
+
+TEST(Trace, AgreesWithBruteForceThroughLayers) {
+  // The light's solid angle per area comes from differences of neighbouring paths instead of the closed form.
+  const auto stamp = [](double x, double y) {
+    const double edge = std::max(std::abs(x - 2e-4), std::abs(y + 1e-4)) - 1e-3;
+    return -(0.8e-3 + 0.1 * x) / (1.0 + std::exp(edge / 1.2e-4));
+  };
+  const Membrane press = height_field(2.4e-3, 1.8e-3, 1.9e-4, stamp);
+  Sensor sensor = plain_sensor(32, 24);
+  sensor.stack = {
+      .gel_thickness_m = 2e-3, .gel_ior = 1.41, .layers = {{.name = "acrylic", .thickness_m = 5e-3, .ior = 1.49}}};
+  sensor.camera.model = Camera::Model::rectified;
+  const Vector3 light(14e-3, 5e-3, -9e-3);
+  sensor.leds = {{.position_m = light, .rgb = {1, 1, 1}}};
+  const TraceResult result = trace(press, sensor, {.subpixels = 1});
+  double squared_error = 0.0, squared = 0.0;
+  int shadowed = 0;
+  for (int row = 0; row < 24; ++row) {
+    for (int column = 0; column < 32; ++column) {
+      const Vector3 target(4e-3 * ((column + 0.5) / 32 - 0.5), 3e-3 * ((row + 0.5) / 24 - 0.5), 0.0);
+      const double seen = ray_parameter(target.norm(), 5e-3, 5e-3, 2e-3), sine = seen / 1.41;
+      const Vector3 outwards = target.normalized();
+      const Vector3 d(sine * outwards.x(), sine * outwards.y(), std::sqrt(1.0 - sine * sine));
+      const Vector3 o = target - d * (2e-3 / d.z());
+      const Crossing hit = cross_all(press, o, d, std::numeric_limits<double>::infinity());
+      ASSERT_GE(hit.triangle, 0);
+      const Vector3 point = o + hit.t * d;
+      Vector3 normal = Vector3::Zero(), lift = Vector3::Zero();
+      Matrix3 v;
+      for (int k = 0; k < 3; ++k) {
+        const int vertex = press.triangles(hit.triangle, k);
+        v.col(k) = press.positions.row(vertex).transpose();
+        const Vector3 n = -press.normals.row(vertex).transpose();
+        normal += hit.weights[k] * n;
+        const double height = n.dot(point - v.col(k));
+        if (height < 0.0) lift += hit.weights[k] * -height * n;
+      }
+      normal.normalize();
+      const Vector3 face = (v.col(2) - v.col(0)).cross(v.col(1) - v.col(0)).normalized();
+      const Vector3 start = point + lift + 1e-7 * face;
+
+      const Eigen::Vector2d sideways = (light - point).head<2>();
+      const double r = sideways.norm(), gel = point.z() + 2e-3, step = 1e-7;
+      const double p = ray_parameter(r, 2e-3, 5e-3, gel);
+      const double before = std::asin(ray_parameter(r - step, 2e-3, 5e-3, gel));
+      const double after = std::asin(ray_parameter(r + step, 2e-3, 5e-3, gel));
+      const double spread = p * (after - before) / (2.0 * step) / r;
+      const double in_gel = p / 1.41, cosine_gel = std::sqrt(1.0 - in_gel * in_gel);
+      const Vector3 w(in_gel * sideways.x() / r, in_gel * sideways.y() / r, -cosine_gel);
+      double expected = 0.0;
+      if (normal.dot(w) > 0.0 && cross_all(press, start, w, gel / cosine_gel).triangle < 0) {
+        expected = std::sqrt(1.0 - p * p) * transmitted(p) * spread / cosine_gel * normal.dot(w) / std::numbers::pi *
+                   transmitted(seen);
+      }
+      squared_error += std::pow(result.basis.at(column, row, 0) - expected, 2.0);
+      squared += expected * expected;
+      shadowed += expected == 0.0;
+    }
+  }
+  EXPECT_LT(std::sqrt(squared_error / squared), 1e-4);
+  EXPECT_GT(shadowed, 3);
+}
+
 }  // namespace
 }  // namespace tacipc

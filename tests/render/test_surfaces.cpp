@@ -40,7 +40,9 @@ Membrane height_field(double half_width, double half_height, double spacing,
 Sensor plain_sensor(int width_px, int height_px) {
   Sensor sensor;
   sensor.name = "plain";
-  sensor.coating_albedo = {1.0, 1.0, 1.0};
+  sensor.gel = {.outline = GelShape::Outline::rectangle, .width_m = 8e-3, .height_m = 8e-3, .thickness_m = 2e-3};
+  sensor.stack.gel_thickness_m = 2e-3;
+  sensor.coating.albedo = {1.0, 1.0, 1.0};
   sensor.camera = {.position_m = {0.0, 0.0, -12.0 * kMm},
                    .width_px = width_px,
                    .height_px = height_px,
@@ -51,7 +53,7 @@ Sensor plain_sensor(int width_px, int height_px) {
 }
 
 Led point_light(const Vector3& position_m) {
-  return {.position_m = position_m, .rgb = {1.0, 1.0, 1.0}, .size_m = {0.0, 0.0}, .lambertian = false};
+  return {.position_m = position_m, .rgb = {1.0, 1.0, 1.0}, .size_m = {0.0, 0.0}, .emission = Emission::isotropic};
 }
 
 double largest_difference(const FloatImage& a, const FloatImage& b) {

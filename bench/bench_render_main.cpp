@@ -1,0 +1,164 @@
+// Measures what rendering costs: frames on one and two threads, tracing beside Embree's own rate, scene updates.
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <thread>
+
+#include "bench/embree_rate.h"
+#include "bench/render_report.h"
+#include "common/error.h"
+#include "common/files.h"
+#include "common/stage.h"
+#include "stages/render/render.h"
+
+using namespace tacipc;
+
+namespace {
+
+const StageSpec kBench{.name = "bench_render",
+                       .summary = "Measure what rendering a frame costs.",
+                       .inputs = {{.flag = "--sensor", .help = "the sensor (YAML)"},
+                                  {.flag = "--gel", .help = "gel.msh of tetmesh"},
+                                  {.flag = "--press", .help = "folder of a press"}}};
+
+double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Least seconds of several runs, by a clock.
+template <typename Work>
+double least_s(int repeats, const Work& work, double (*clock_s)() = wall_s) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < repeats; ++i) {
+    const double start = clock_s();
+    work();
+    least = std::min(least, clock_s() - start);
+  }
+  return least;
+}
+
+/// Its model, as the kernel names it.
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "a processor without a name";
+}
+
+/// The sensor with eight equal lights on the ring of its first LED, each a group.
+Sensor with_eight(Sensor sensor, double size_m) {
+  const Led first = sensor.leds.front();
+  const double radius = first.position_m.head<2>().norm();
+  sensor.leds.clear();
+  for (int k = 0; k < 8; ++k) {
+    const double azimuth = k * std::numbers::pi / 4.0;
+    Led led = first;
+    led.position_m = {radius * std::cos(azimuth), radius * std::sin(azimuth), first.position_m.z()};
+    led.rgb = {1.0, 1.0, 1.0};
+    led.group.clear();
+    led.intensity = 1.0;
+    led.size_m = {size_m, size_m};
+    sensor.leds.push_back(led);
+  }
+  sensor.camera.width_px = 640;
+  sensor.camera.height_px = 480;
+  sensor.reference_image.reset();
+  return sensor;
+}
+
+/// One frame from rays to codes.
+void render_frame(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
+                  const SurfaceFields& fields, double exposure) {
+  const TraceResult traced = trace(scene, membrane, sensor, settings, fields);
+  const FloatImage signal = camera_signal(color_image(traced, sensor, false), sensor.camera, sensor.response);
+  const TactileImage image = quantise(encode(signal, exposure, sensor.response));
+  if (image.image.pixels.empty()) throw DataError("nothing was rendered");
+}
+
+double count(const std::vector<RayPacket>& packets) {
+  double rays = 0.0;
+  for (const RayPacket& packet : packets) rays += std::popcount(packet.valid);
+  return rays;
+}
+
+bench::RenderCost measure(const std::string& name, const RayScene& scene, const Membrane& membrane,
+                          const Sensor& sensor, TraceSettings settings, const SurfaceFields& fields, int repeats,
+                          double must_ms, int log_scale) {
+  bench::RenderCost cost{.name = name,
+                         .lights = sensor.leds.size(),
+                         .subpixels = settings.subpixels,
+                         .led_samples = sensor.leds.front().size_m[0] > 0.0 ? settings.led_samples : 1,
+                         .must_ms = must_ms};
+  // The exposure belongs to the sensor and is found once, from its reference.
+  const FloatImage once = color_image(trace(scene, membrane, sensor, settings, fields), sensor, false);
+  const double exposure = solve_exposure(camera_signal(once, sensor.camera, sensor.response), sensor.response);
+  const auto frame_ms = [&](std::size_t threads, double (*clock_s)()) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return 1e3 * least_s(
+                     repeats, [&] { render_frame(scene, membrane, sensor, settings, fields, exposure); }, clock_s);
+  };
+  cost.processor_ms = frame_ms(1, processor_s);
+  cost.one_thread_ms = frame_ms(1, wall_s);
+  cost.two_threads_ms = frame_ms(2, wall_s);
+
+  Sensor smaller = sensor;
+  smaller.camera.width_px /= log_scale;
+  smaller.camera.height_px /= log_scale;
+  RayLog log;
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    cost.logged_frame_s = least_s(repeats, [&] { render_frame(scene, membrane, smaller, settings, fields, exposure); });
+    settings.log = &log;
+    trace(scene, membrane, smaller, settings, fields);
+  }
+  cost.camera_rays = count(log.camera);
+  cost.shadow_rays = count(log.shadow);
+  const FlushDenormals flush;
+  std::int64_t seen = 0;
+  cost.traced_s = least_s(repeats, [&] {
+    for (const RayPacket& packet : log.camera) seen += scene.first_hits(packet)[0];
+    for (const RayPacket& packet : log.shadow) seen += scene.blocked(packet);
+  });
+  if (seen == 0) throw DataError("no ray met anything");
+  const auto embree = bench::embree_seconds(membrane.positions, membrane.triangles, log.camera, log.shadow, repeats);
+  cost.embree_s = embree.camera + embree.shadow;
+  return cost;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kBench, argc, argv, [](Stage& stage) {
+    double load = 0.0;
+    if (getloadavg(&load, 1) != 1) throw DataError("the kernel does not say how busy it is");
+    const auto sensor = stage.read_config<Sensor>("--sensor");
+    const TetMesh gel = read_tet_mesh(stage.input("--gel"));
+    const PressFrames press = read_press(stage.input("--press"), gel);
+    const std::size_t last = press.num_frames() - 1;
+    Membrane membrane = make_membrane(gel, gel.positions);
+    RayScene scene(membrane.positions, membrane.triangles);
+    const Positions pressed = frame_positions(press.positions, last);
+    const bench::SceneUpdate update{.triangles = static_cast<std::size_t>(membrane.triangles.rows()),
+                                    .membrane_ms = 1e3 * least_s(20, [&] { move_membrane(membrane, pressed); }),
+                                    .tree_ms = 1e3 * least_s(20, [&] { scene.move(membrane.positions); })};
+    const SurfaceFields fields = surface_fields(press, last, membrane);
+    const std::vector<bench::RenderCost> costs = {
+        measure("point lights", scene, membrane, with_eight(sensor, 0.0), {.subpixels = 1}, fields, 7, 200.0, 1),
+        measure("area lights", scene, membrane, with_eight(sensor, 5e-3), {.subpixels = 2, .led_samples = 3}, fields, 3,
+                3000.0, 4)};
+    write_file(stage.output("render_performance.md"),
+               bench::render_page(costs, update, processor(), load, std::thread::hardware_concurrency()));
+    stage.summarize({{"point_lights_2_threads_ms", costs[0].two_threads_ms},
+                     {"area_lights_2_threads_ms", costs[1].two_threads_ms},
+                     {"of_embree", std::min(costs[0].of_embree(), costs[1].of_embree())},
+                     {"scene_update_ms", update.membrane_ms + update.tree_ms}});
+  });
+}

@@ -1,0 +1,77 @@
+// Colours and paint onto basis images: the part of rendering that needs no rays.
+#include <tbb/parallel_for.h>
+
+#include "stages/render/trace.h"
+
+namespace tacipc {
+namespace {
+
+/// out_c += factor_c Σ_g rgb_gc basis_g.
+void add_colored(const FloatImage& basis, const std::vector<LightGroup>& groups, const std::array<double, 3>& factor,
+                 FloatImage& out) {
+  if (basis.channels == 0) return;
+  tbb::parallel_for(0, out.height, [&](int y) {
+    for (int x = 0; x < out.width; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        double sum = 0.0;
+        for (std::size_t g = 0; g < groups.size(); ++g) sum += groups[g].rgb[c] * basis.at(x, y, static_cast<int>(g));
+        float& value = out.at(x, y, static_cast<int>(c));
+        value = static_cast<float>(value + factor[c] * sum);
+      }
+    }
+  });
+}
+
+FloatImage veil(const FloatImage& like, const Sensor& sensor) {
+  FloatImage image(like.width, like.height, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(sensor.ambient_rgb[i % 3]);
+  return image;
+}
+
+}  // namespace
+
+FloatImage color_image(const FloatImage& basis, const Sensor& sensor) {
+  FloatImage image = veil(basis, sensor);
+  add_colored(basis, light_groups(sensor.leds), sensor.coating.albedo, image);
+  return image;
+}
+
+double indirect_share(const TraceResult& result, const Sensor& sensor) {
+  if (result.indirect.channels == 0) return 0.0;
+  TraceResult direct = result;
+  direct.indirect = {};
+  const auto sum = [](const FloatImage& image) {
+    double total = 0.0;
+    for (const float value : image.pixels) total += value;
+    return total;
+  };
+  const double with = sum(color_image(result, sensor, false)), without = sum(color_image(direct, sensor, false));
+  return with > 0.0 ? 1.0 - without / with : 0.0;
+}
+
+FloatImage color_image(const TraceResult& result, const Sensor& sensor, bool with_markers) {
+  const std::vector<LightGroup> groups = light_groups(sensor.leds);
+  FloatImage image = color_image(result.basis, sensor);
+  add_colored(result.gloss, groups, {1.0, 1.0, 1.0}, image);
+  std::array<double, 3> twice{};
+  for (std::size_t c = 0; c < 3; ++c) twice[c] = sensor.coating.albedo[c] * sensor.coating.albedo[c];
+  add_colored(result.indirect, groups, twice, image);
+  if (!with_markers || result.coverage.channels == 0) return image;
+  std::array<double, 3> change{};
+  for (std::size_t c = 0; c < 3; ++c) change[c] = sensor.markers.albedo[c] - sensor.coating.albedo[c];
+  add_colored(result.marked, groups, change, image);
+  add_colored(result.marked_gloss, groups, {-1.0, -1.0, -1.0}, image);
+  // What comes from everywhere meets the markers' paint too.
+  FloatImage everywhere(image.width, image.height, 3);
+  if (result.indirect.channels > 0) add_colored(result.indirect, groups, sensor.coating.albedo, everywhere);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const std::size_t c = i % 3;
+    const double albedo = sensor.coating.albedo[c];
+    const double veiled = albedo > 0.0 ? sensor.ambient_rgb[c] / albedo : 0.0;
+    image.pixels[i] = static_cast<float>(image.pixels[i] +
+                                         result.coverage.pixels[i / 3] * change[c] * (everywhere.pixels[i] + veiled));
+  }
+  return image;
+}
+
+}  // namespace tacipc

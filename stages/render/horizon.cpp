@@ -1,0 +1,72 @@
+#include "stages/render/horizon.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tacipc {
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMostCells = 160;  // along the longer side
+constexpr int kReach = 8;        // cells that the search goes sideways at most
+}  // namespace
+
+Horizon::Horizon(const Membrane& membrane) {
+  const Vector3 low = membrane.positions.colwise().minCoeff(), high = membrane.positions.colwise().maxCoeff();
+  const double deepest = high.z() - low.z();
+  low_x_ = low.x();
+  low_y_ = low.y();
+  const Vector3 size = high - low;
+  width_ = std::max({size.x() / kMostCells, size.y() / kMostCells, deepest / kFloor / kReach, 1e-9});
+  columns_ = static_cast<int>(size.x() / width_) + 1;
+  rows_ = static_cast<int>(size.y() / width_) + 1;
+  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  std::vector<double> front(cells, kInfinity), back(cells, -kInfinity), slope(cells, 0.0);  // least and most z
+  const auto at = [&](int i, int j) { return static_cast<std::size_t>(j * columns_ + i); };
+  for (Eigen::Index f = 0; f < membrane.triangles.rows(); ++f) {
+    Matrix3 v;
+    for (int k = 0; k < 3; ++k) v.col(k) = membrane.positions.row(membrane.triangles(f, k)).transpose();
+    const Vector3 n = (v.col(1) - v.col(0)).cross(v.col(2) - v.col(0));
+    const double steep = n.z() > 1e-3 * n.norm() ? n.head<2>().norm() / n.z() : kInfinity;
+    const double least = v.row(2).minCoeff(), most = v.row(2).maxCoeff();
+    for (int j = cell(v.row(1).minCoeff(), low_y_, rows_); j <= cell(v.row(1).maxCoeff(), low_y_, rows_); ++j) {
+      for (int i = cell(v.row(0).minCoeff(), low_x_, columns_); i <= cell(v.row(0).maxCoeff(), low_x_, columns_); ++i) {
+        front[at(i, j)] = std::min(front[at(i, j)], least);
+        back[at(i, j)] = std::max(back[at(i, j)], most);
+        slope[at(i, j)] = std::max(slope[at(i, j)], steep);
+      }
+    }
+  }
+  bound_.assign(cells, kFloor);
+  tbb::parallel_for(0, rows_, [&](int row) {
+    for (int column = 0; column < columns_; ++column) {
+      double& bound = bound_[at(column, row)];
+      for (int j = std::max(0, row - kReach - 1); j <= std::min(rows_ - 1, row + kReach + 1); ++j) {
+        for (int i = std::max(0, column - kReach - 1); i <= std::min(columns_ - 1, column + kReach + 1); ++i) {
+          const int across = std::abs(i - column) - 1, along = std::abs(j - row) - 1;
+          if (across <= 0 && along <= 0) {
+            bound = std::max(bound, slope[at(i, j)]);
+          } else {
+            const double gap = width_ * std::hypot(std::max(0, across), std::max(0, along));
+            bound = std::max(bound, (back[at(column, row)] - front[at(i, j)]) / gap);
+          }
+        }
+      }
+    }
+  });
+}
+
+int Horizon::cell(double at, double low, int count) const {
+  return std::clamp(static_cast<int>((at - low) / width_), 0, count - 1);
+}
+
+double Horizon::steepness(double x, double y) const {
+  const double u = (x - low_x_) / width_, v = (y - low_y_) / width_;
+  if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return kInfinity;
+  return bound_[static_cast<std::size_t>(static_cast<int>(v) * columns_ + static_cast<int>(u))];
+}
+
+}  // namespace tacipc

@@ -1,0 +1,171 @@
+#include "stages/render/indirect.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "common/rng.h"
+#include "stages/render/light_path.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kOffset = 1e-6;  // m: keeps rays off the triangles around their vertex
+
+/// Where a ray that meets nothing in the gel comes back from the layers.
+struct Mirrored {
+  Vector3 origin;     // on the gel's back
+  Vector3 direction;  // towards the membrane
+  double reflectance;
+};
+
+std::optional<Mirrored> mirrored(const Vector3& origin, const Vector3& direction, const Sensor& sensor) {
+  const OpticalStack& stack = sensor.stack;
+  const double down = -direction.z();
+  if (down < 1e-3) return std::nullopt;
+  double index = *stack.gel_ior, sine = std::sqrt(std::max(0.0, 1.0 - down * down));
+  const double through_gel = (origin.z() + stack.gel_thickness_m) * sine / down;  // sideways
+  double through_layers = 0.0, reflectance = 1.0;
+  bool total = false;
+  for (const Layer& layer : stack.layers) {
+    const double bent = sine * index / layer.ior;
+    if (bent >= 1.0) {  // turned back already here
+      total = true;
+      break;
+    }
+    sine = bent;
+    index = layer.ior;
+    through_layers += layer.thickness_m * sine / std::sqrt(1.0 - sine * sine);
+  }
+  if (!total) reflectance = fresnel_reflectance(sine, index, 1.0);
+  const Eigen::Vector2d sideways =
+      direction.head<2>().norm() > 0.0 ? Eigen::Vector2d(direction.head<2>().normalized()) : Eigen::Vector2d::Zero();
+  const Eigen::Vector2d turn = origin.head<2>() + (through_gel + through_layers) * sideways;
+  if (!sensor.gel.contains(turn.x(), turn.y())) return std::nullopt;
+  const Eigen::Vector2d back = turn + through_layers * sideways;
+  return Mirrored{.origin = {back.x(), back.y(), -stack.gel_thickness_m},
+                  .direction = {direction.x(), direction.y(), down},
+                  .reflectance = reflectance};
+}
+
+}  // namespace
+
+double fresnel_reflectance(double sine, double from, double to) {
+  const double bent = sine * from / to;
+  if (bent >= 1.0) return 1.0;
+  const double a = from * std::sqrt(1.0 - sine * sine), b = to * std::sqrt(1.0 - bent * bent);
+  const double rs = (a - b) / (a + b);
+  const double c = to * std::sqrt(1.0 - sine * sine), d = from * std::sqrt(1.0 - bent * bent);
+  const double rp = (c - d) / (c + d);
+  return 0.5 * (rs * rs + rp * rp);
+}
+
+std::array<double, 2> sobol_point(std::uint32_t index) {
+  // First dimension: the bits reversed. Second: direction numbers v_k = v_(k−1) xor v_(k−1)/2 of the polynomial x + 1.
+  std::uint32_t x = 0, y = 0, direction = 1u << 31;
+  for (std::uint32_t bit = 0; bit < 32 && index >> bit != 0; ++bit, direction ^= direction >> 1) {
+    if ((index >> bit & 1u) == 0) continue;
+    x ^= 1u << (31 - bit);
+    y ^= direction;
+  }
+  return {x * 0x1p-32, y * 0x1p-32};
+}
+
+VertexLight direct_vertex_light(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, int led_samples,
+                                bool refract) {
+  const auto samples = light_samples(sensor, led_samples, refract);
+  const auto groups = static_cast<Eigen::Index>(light_groups(sensor.leds).size());
+  const Eigen::Index count = membrane.positions.rows();
+  VertexLight light = VertexLight::Zero(count, groups);
+  const Coating paper{.albedo = {1.0, 1.0, 1.0}};
+  tbb::parallel_for(Eigen::Index{0}, (count + kLanes - 1) / kLanes, [&](Eigen::Index block) {
+    const FlushDenormals flush;
+    SurfacePack surface{};
+    for (int l = 0; l < kLanes; ++l) {
+      const Eigen::Index v = std::min(block * kLanes + l, count - 1);
+      for (const auto& [pack, from] : {std::pair{&surface.point, Vector3(membrane.positions.row(v))},
+                                       std::pair{&surface.normal, Vector3(-membrane.normals.row(v))}}) {
+        pack->x[l] = from.x();
+        pack->y[l] = from.y();
+        pack->z[l] = from.z();
+      }
+    }
+    surface.view = surface.normal;
+    surface.shadow_origin = surface.point + (Pack{} + kOffset) * surface.normal;
+    for (const LightSample& sample : samples) {
+      const IncidencePack incidence = light_path(surface.point, sample);
+      const Pack radiance = incidence.irradiance * coating_response(surface, incidence.direction, paper).diffuse;
+      RayPacket shadow;
+      for (int l = 0; l < kLanes; ++l) {
+        shadow.set(l, {surface.shadow_origin.x[l], surface.shadow_origin.y[l], surface.shadow_origin.z[l]},
+                   {incidence.direction.x[l], incidence.direction.y[l], incidence.direction.z[l]}, incidence.length[l]);
+      }
+      const std::uint32_t blocked = scene.blocked(shadow);
+      for (int l = 0; l < kLanes && block * kLanes + l < count; ++l) {
+        if ((blocked >> l & 1u) == 0 && radiance[l] > 0.0) light(block * kLanes + l, sample.group) += radiance[l];
+      }
+    }
+  });
+  return light;
+}
+
+VertexLight gather_indirect(const RayScene& scene, const Membrane& membrane, const VertexLight& light,
+                            const Sensor& sensor, int rays, bool refract) {
+  constexpr std::uint64_t kShiftStream = 4;
+  const bool mirrors = refract && sensor.stack.refracts();
+  VertexLight out = VertexLight::Zero(light.rows(), light.cols());
+  tbb::parallel_for(Eigen::Index{0}, membrane.positions.rows(), [&](Eigen::Index v) {
+    const FlushDenormals flush;
+    const Vector3 normal = -membrane.normals.row(v).transpose();
+    if (normal.squaredNorm() < 0.5) return;
+    const Vector3 origin = membrane.positions.row(v).transpose() + kOffset * normal;
+    const Vector3 first = normal.unitOrthogonal(), second = normal.cross(first);
+    const auto vertex = static_cast<std::uint64_t>(v);
+    const double shift_x = random_uniform(0, kShiftStream, 2 * vertex);
+    const double shift_y = random_uniform(0, kShiftStream, 2 * vertex + 1);
+    const auto add = [&](int triangle, double weight) {
+      for (int k = 0; k < 3; ++k) out.row(v) += weight / 3.0 * light.row(membrane.triangles(triangle, k));
+    };
+    for (int start = 0; start < rays; start += kLanes) {
+      RayPacket packet;
+      std::array<Vector3, kLanes> directions;
+      for (int l = 0; l < kLanes; ++l) {
+        const auto point = sobol_point(static_cast<std::uint32_t>(start + l));
+        const double u = std::fmod(point[0] + shift_x, 1.0), w = std::fmod(point[1] + shift_y, 1.0);
+        const double sine = std::sqrt(u), azimuth = 2.0 * std::numbers::pi * w;
+        directions[static_cast<std::size_t>(l)] =
+            sine * std::cos(azimuth) * first + sine * std::sin(azimuth) * second + std::sqrt(1.0 - u) * normal;
+        packet.set(l, origin, directions[static_cast<std::size_t>(l)], 0.0);
+      }
+      const auto met = scene.first_hits(packet);
+      RayPacket returning = packet;
+      returning.valid = 0;
+      std::array<double, kLanes> weights{};
+      for (int l = 0; l < kLanes; ++l) {
+        const auto k = static_cast<std::size_t>(l);
+        if (met[k] >= 0) {
+          add(met[k], 1.0);
+        } else if (mirrors) {
+          const auto back = mirrored(origin, directions[k], sensor);
+          if (!back) continue;
+          returning.set(l, back->origin, back->direction, 0.0);
+          weights[k] = back->reflectance;
+        }
+      }
+      if (returning.valid == 0) continue;
+      const auto reached = scene.first_hits(returning);
+      for (int l = 0; l < kLanes; ++l) {
+        const auto k = static_cast<std::size_t>(l);
+        if ((returning.valid >> l & 1u) != 0 && reached[k] >= 0) add(reached[k], weights[k]);
+      }
+    }
+    out.row(v) /= (rays + kLanes - 1) / kLanes * kLanes;
+  });
+  return out;
+}
+
+}  // namespace tacipc
