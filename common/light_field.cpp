@@ -33,7 +33,7 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
   const Vector3& point = view.point[here];
   const Vector3 way = lamp_m - point;
   const double distance = std::hypot(way.x(), way.y());
-  if (distance == 0.0) return 1.0;
+  if (distance == 0.0 || view.width < 2 || view.height < 2) return 1.0;
   const double fall = way.z() / distance;  // < 0: towards the lamp the path goes into the gel
   // One pixel of the undeformed front: parallax within a shadow's length is neglected.
   const double pixel_x = view.rest[1].x() - view.rest[0].x();
