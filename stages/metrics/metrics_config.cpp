@@ -9,22 +9,38 @@
 
 namespace tacipc {
 
+namespace {
+
+Box read_box(ConfigReader& in, const std::string& key, int least_side) {
+  constexpr double kWidest = 1e6;
+  const auto box = in.numbers(key, 4, Range::between(0.0, kWidest));
+  for (const double value : box) {
+    if (value == std::round(value)) continue;
+    in.fault(key, "expected whole pixels");
+    break;
+  }
+  if (std::min(box[2], box[3]) < least_side)
+    in.fault(key, fmt::format("must be at least {} pixel{} wide and high", least_side, least_side > 1 ? "s" : ""));
+  return {static_cast<int>(box[0]), static_cast<int>(box[1]), static_cast<int>(box[2]), static_cast<int>(box[3])};
+}
+
+}  // namespace
+
 MetricsConfig MetricsConfig::read(ConfigReader& in) {
   MetricsConfig config;
   config.ends_with = in.text_or("ends_with", config.ends_with);
-  if (!in.has("crop_px")) return config;
-  constexpr double kWidest = 1e6;
-  const auto box = in.numbers("crop_px", 4, Range::between(0.0, kWidest));
-  for (const double value : box) {
-    if (value == std::round(value)) continue;
-    in.fault("crop_px", "expected whole pixels");
-    break;
-  }
-  if (std::min(box[2], box[3]) < kLeastSide)
-    in.fault("crop_px", fmt::format("must be at least {} pixels wide and high", kLeastSide));
-  config.crop_px =
-      Box{static_cast<int>(box[0]), static_cast<int>(box[1]), static_cast<int>(box[2]), static_cast<int>(box[3])};
+  if (in.has("crop_px")) config.crop_px = read_box(in, "crop_px", kLeastSide);
+  for (ConfigReader& item : in.sections("boxes"))
+    config.boxes.push_back({.starts_with = item.text_or("starts_with", ""), .px = read_box(item, "px", 1)});
+  config.offset_outside_box = in.flag_or("offset_outside_box", false);
+  if (config.offset_outside_box && config.boxes.empty()) in.fault("offset_outside_box", "needs boxes");
   return config;
+}
+
+const Box* MetricsConfig::box_of(const std::string& name) const {
+  for (const NamedBox& box : boxes)
+    if (name.starts_with(box.starts_with)) return &box.px;
+  return nullptr;
 }
 
 }  // namespace tacipc

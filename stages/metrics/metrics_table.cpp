@@ -44,9 +44,46 @@ MetricsRow compare(const ByteImage& image, const ByteImage& reference, std::stri
           .ssim_s = ssim(image, reference, box_window())};
 }
 
+/// Errors of the box's pixels, SSIM of the whole image's map there.
+MetricsRow compare_in_box(const ByteImage& image, const ByteImage& reference, const Box& box, std::string name) {
+  const ImageError error = image_error(cropped(image, box), cropped(reference, box));
+  return {.name = std::move(name),
+          .region = "box",
+          .mae = error.mae,
+          .mse = error.mse,
+          .psnr_db = psnr_db(error.mse),
+          .psnr_ln = psnr_ln(error.mse),
+          .ssim_w = ssim_in_box(image, reference, gaussian_window(), box),
+          .ssim_s = ssim_in_box(image, reference, box_window(), box)};
+}
+
+void check_inside(const Box& box, const ByteImage& image, const ImagePair& pair, const char* key) {
+  if (box.x + box.width <= image.width && box.y + box.height <= image.height) return;
+  throw DataError("{}: is {} x {} pixels, {} reaches to {} x {}", pair.image.string(), image.width, image.height, key,
+                  box.x + box.width, box.y + box.height);
+}
+
+/// The image's box, if any is configured. \throw DataError if it does not fit, has no pixel with a whole window, or
+/// leaves no pixel outside although an offset is to be fitted there.
+const Box* checked_box(const ByteImage& image, const ImagePair& pair, const MetricsConfig& config) {
+  if (config.boxes.empty()) return nullptr;
+  const Box* box = config.box_of(pair.name);
+  if (!box) throw DataError("{}: no box of the configuration begins as its name, {}", pair.image.string(), pair.name);
+  check_inside(*box, image, pair, "boxes");
+  constexpr int kMargin = kLeastSide / 2;
+  if (box->x + box->width <= kMargin || box->x >= image.width - kMargin || box->y + box->height <= kMargin ||
+      box->y >= image.height - kMargin)
+    throw DataError("{}: its box lies within {} pixels of the border, where SSIM has no window", pair.image.string(),
+                    kMargin);
+  if (config.offset_outside_box && box->width == image.width && box->height == image.height)
+    throw DataError("{}: its box is the whole image, so no offset can be fitted outside", pair.image.string());
+  return box;
+}
+
 std::vector<MetricsRow> measure_pair(const ImagePair& pair, const MetricsConfig& config) {
   // Grey images become three equal channels, which changes no mean.
-  const ByteImage image = read_png(pair.image, 3), reference = read_png(pair.reference, 3);
+  ByteImage image = read_png(pair.image, 3);
+  const ByteImage reference = read_png(pair.reference, 3);
   if (image.width != reference.width || image.height != reference.height) {
     throw DataError("{} is {} x {} pixels, {} is {} x {}", pair.image.string(), image.width, image.height,
                     pair.reference.string(), reference.width, reference.height);
@@ -55,14 +92,15 @@ std::vector<MetricsRow> measure_pair(const ImagePair& pair, const MetricsConfig&
     throw DataError("{}: is {} x {} pixels, SSIM needs {} each way", pair.image.string(), image.width, image.height,
                     kLeastSide);
   }
+  const Box* box = checked_box(image, pair, config);
+  if (config.offset_outside_box)
+    image = offset_to(image, reference, box->x, box->y, box->x + box->width, box->y + box->height);
   std::vector<MetricsRow> rows{compare(image, reference, pair.name, "full")};
-  if (const auto& box = config.crop_px) {
-    if (box->x + box->width > image.width || box->y + box->height > image.height) {
-      throw DataError("{}: is {} x {} pixels, crop_px reaches to {} x {}", pair.image.string(), image.width,
-                      image.height, box->x + box->width, box->y + box->height);
-    }
-    rows.push_back(compare(cropped(image, *box), cropped(reference, *box), pair.name, "crop"));
+  if (const auto& crop = config.crop_px) {
+    check_inside(*crop, image, pair, "crop_px");
+    rows.push_back(compare(cropped(image, *crop), cropped(reference, *crop), pair.name, "crop"));
   }
+  if (box) rows.push_back(compare_in_box(image, reference, *box, pair.name));
   return rows;
 }
 
@@ -116,7 +154,7 @@ std::string to_csv(const std::vector<MetricsRow>& rows) {
 
 Value::Map summary_of(const std::vector<MetricsRow>& rows) {
   Value::Map summary;
-  for (const char* region : {"full", "crop"}) {
+  for (const char* region : {"full", "crop", "box"}) {
     std::vector<MetricsRow> some;
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(some),
                  [&](const MetricsRow& row) { return row.region == region; });

@@ -13,10 +13,10 @@ namespace tacipc {
 /// The larger SSIM window must fit.
 inline constexpr int kLeastSide = 11;
 
-/// One image, or one crop of it, against its reference.
+/// One image, one crop of it or one box in it, against its reference.
 struct MetricsRow {
   std::string name;
-  std::string region;  // full or crop
+  std::string region;  // full, crop or box
   double mae = 0.0;
   double mse = 0.0;
   double psnr_db = 0.0;
@@ -25,8 +25,9 @@ struct MetricsRow {
   double ssim_s = 0.0;
 };
 
-/// Rows in the order of the pairs, the crop after the whole image; pairs run in parallel. \throw DataError for
-/// unreadable images, different sizes, images below 11 pixels, a crop that leaves the image.
+/// Rows in the order of the pairs, after the whole image the crop, then the box; pairs run in parallel. \throw
+/// DataError for unreadable images, different sizes, images below 11 pixels, a crop or box that leaves the image, an
+/// image without a box.
 std::vector<MetricsRow> measure(const std::vector<ImagePair>& pairs, const MetricsConfig& config);
 
 /// CSV with a header line; numbers in the shortest form that reads back to the same bits, infinity as inf.

@@ -1,5 +1,6 @@
 #include "stages/metrics/ssim.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -57,26 +58,45 @@ SsimWindow box_window() {
           .covariance_factor = double{kSize * kSize} / (kSize * kSize - 1)};
 }
 
-double ssim(const ByteImage& a, const ByteImage& b, const SsimWindow& window) {
+SsimMap ssim_map(const ByteImage& a, const ByteImage& b, int channel, const SsimWindow& window) {
   assert(a.width == b.width && a.height == b.height && a.channels == b.channels);
   assert(a.width >= window.size() && a.height >= window.size());
-  const int columns = a.width - window.size() + 1, rows = a.height - window.size() + 1;
+  SsimMap map{.width = a.width - window.size() + 1,
+              .height = a.height - window.size() + 1,
+              .margin = window.size() / 2,
+              .values = {}};
+  const std::vector<Moments> along_rows = sums_along_rows(a, b, channel, window.weights);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      Moments mean{};
+      for (int i = 0; i < window.size(); ++i) {
+        const Moments& row = along_rows[static_cast<std::size_t>(y + i) * static_cast<std::size_t>(map.width) +
+                                        static_cast<std::size_t>(x)];
+        for (std::size_t m = 0; m < mean.size(); ++m) mean[m] += window.weights[static_cast<std::size_t>(i)] * row[m];
+      }
+      map.values.push_back(similarity(mean, window.covariance_factor));
+    }
+  }
+  return map;
+}
+
+double ssim(const ByteImage& a, const ByteImage& b, const SsimWindow& window) {
+  return ssim_in_box(a, b, window, {0, 0, a.width, a.height});
+}
+
+double ssim_in_box(const ByteImage& a, const ByteImage& b, const SsimWindow& window, const Box& box) {
   double total = 0.0;
   for (int channel = 0; channel < a.channels; ++channel) {
-    const std::vector<Moments> along_rows = sums_along_rows(a, b, channel, window.weights);
+    const SsimMap map = ssim_map(a, b, channel, window);
+    const int left = std::max(box.x - map.margin, 0), right = std::min(box.x + box.width - map.margin, map.width);
+    const int top = std::max(box.y - map.margin, 0), bottom = std::min(box.y + box.height - map.margin, map.height);
     double sum = 0.0;
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x) {
-        Moments mean{};
-        for (int i = 0; i < window.size(); ++i) {
-          const Moments& row = along_rows[static_cast<std::size_t>(y + i) * static_cast<std::size_t>(columns) +
-                                          static_cast<std::size_t>(x)];
-          for (std::size_t m = 0; m < mean.size(); ++m) mean[m] += window.weights[static_cast<std::size_t>(i)] * row[m];
-        }
-        sum += similarity(mean, window.covariance_factor);
-      }
-    }
-    total += sum / (static_cast<double>(columns) * rows);
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < right; ++x)
+        sum +=
+            map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)];
+    const bool some = right > left && bottom > top;
+    total += some ? sum / (static_cast<double>(right - left) * (bottom - top)) : std::nan("");
   }
   return total / a.channels;
 }

@@ -23,8 +23,32 @@ SsimWindow gaussian_window();
 /// covariance.
 SsimWindow box_window();
 
+/// S of one channel at every pixel whose whole window lies in the image: value (x, y), row-major, belongs to the pixel
+/// (x + margin, y + margin).
+struct SsimMap {
+  int width = 0;
+  int height = 0;
+  int margin = 0;
+  std::vector<double> values;
+};
+
+/// \pre equal sizes and channels, both sides at least the window's
+SsimMap ssim_map(const ByteImage& a, const ByteImage& b, int channel, const SsimWindow& window);
+
 /// Mean of S over the pixels whose whole window lies in the image, per channel, then over channels.
 /// \pre equal sizes and channels, both sides at least the window's
 double ssim(const ByteImage& a, const ByteImage& b, const SsimWindow& window);
+
+/// Pixels [x, x + width) × [y, y + height).
+struct Box {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// The same mean over the pixels of a box alone. Windows reach beyond the box, so this is not the SSIM of the part cut
+/// out. Pixels of the box too near the image's border for a window do not count; NaN if that leaves none.
+double ssim_in_box(const ByteImage& a, const ByteImage& b, const SsimWindow& window, const Box& box);
 
 }  // namespace tacipc

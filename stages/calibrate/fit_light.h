@@ -1,0 +1,58 @@
+// Lamps, weights and balls fitted to photographs of ball presses.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/light_field.h"
+#include "common/sensor.h"
+#include "stages/calibrate/ball_press.h"
+#include "stages/calibrate/gauss_newton.h"
+#include "stages/calibrate/samples.h"
+
+namespace tacipc {
+
+/// One photograph, its membrane and where the ball is.
+struct Ball {
+  BallLabel label;
+  double x_m = 0.0;  // of the ball's centre, frame S
+  double y_m = 0.0;
+  double depth_m = 0.0;
+  MembraneView view;
+  Samples samples;
+  double rmse_codes = 0.0;  // of the samples used, all channels
+};
+
+/// Which parts of the light a model has.
+enum class ModelKind { lamps, environment, both };
+std::string name_of(ModelKind kind);
+
+/// Error of balls that were left out of the fit, root mean square over samples and channels, codes.
+struct HeldOut {
+  ModelKind kind;
+  double rmse_codes = 0.0;
+};
+
+struct LightFit {
+  LightField light;
+  ModelKind kind = ModelKind::both;
+  std::vector<HeldOut> held_out;           // of every kind the configuration allows
+  std::optional<GaussNewtonResult> lamps;  // azimuth (rad), elevation (tangent), ln distance (m) of each lamp
+  std::array<double, 3> rmse_codes{};      // per channel, of the fit itself
+  double condition = 0.0;                  // of the weights' linear system
+  double unused_fraction = 0.0;            // of the samples: clipped
+};
+
+/// Membrane of a ball whose place is known.
+MembraneView view_ball(const BallPress& press, const Ball& ball, const Camera& camera);
+
+/// With `press` given, shapes belong to it: after a first fit every ball's centre and depth are fitted too, held by the
+/// labels (label_sigma_px), and the light again. Without, the balls' views stay as they are.
+/// Lamps are fitted by Gauss–Newton on what is left after the best weights (variable projection, Golub and Pereyra
+/// 1973), without environment, so that the lamps explain what they can. Then the kind of model is chosen by
+/// cross-validation over the balls.
+LightFit fit_light(std::vector<Ball>& balls, const BallPress* press, const Camera& camera,
+                   const CalibrateConfig& config);
+
+}  // namespace tacipc

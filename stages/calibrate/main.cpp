@@ -1,0 +1,204 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/error.h"
+#include "common/files.h"
+#include "common/npy.h"
+#include "common/stage.h"
+#include "stages/calibrate/fit_light.h"
+#include "stages/calibrate/led_intensities.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kCalibrate{
+    .name = "calibrate",
+    .summary = "Light of a sensor from photographs of a known ball pressed into it.",
+    .inputs = {{.flag = "--config", .help = "ball, lamps thought of, fit (YAML)"},
+               {.flag = "--sensor", .help = "the sensor: its camera (YAML)"},
+               {.flag = "--background", .help = "photograph without contact (PNG)"},
+               {.flag = "--basis",
+                .help = "image of each LED alone (EXR, Y): fits colours of known LEDs",
+                .required = false,
+                .many = true},
+               {.flag = "--photographs", .help = "folder of the photographs of balls", .required = false},
+               {.flag = "--labels", .help = "lines `image.png (x, y) radius`, pixels", .required = false},
+               {.flag = "--press", .help = "folder of a press of the ball, frames ever deeper", .required = false},
+               {.flag = "--gel", .help = "gel.msh of that press", .required = false},
+               {.flag = "--shapes",
+                .help = "indentation maps (EXR), one per label, in place of a press",
+                .required = false,
+                .many = true}}};
+
+ByteImage read_photograph(const std::filesystem::path& path, const Camera& camera) {
+  ByteImage image = read_png(path, 3);
+  if (image.width != camera.width_px || image.height != camera.height_px)
+    throw DataError("{}: is {} x {} pixels, the sensor's camera has {} x {}", path.string(), image.width, image.height,
+                    camera.width_px, camera.height_px);
+  return image;
+}
+
+/// Twice what the model leaves over, about grey.
+ByteImage residual_picture(const ByteImage& simulated, const ByteImage& real) {
+  ByteImage out = simulated;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] =
+        static_cast<std::uint8_t>(std::clamp(128 + 2 * (int{simulated.pixels[i]} - int{real.pixels[i]}), 0, 255));
+  return out;
+}
+
+Value::List lamp_lines(const GaussNewtonResult& lamps) {
+  Value::List lines;
+  const Eigen::VectorXd& u = lamps.parameters;
+  const Eigen::VectorXd sigma = lamps.covariance.diagonal().cwiseSqrt();
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  for (Eigen::Index i = 0; i < u.size(); i += 3)
+    lines.push_back(Value::Map{{"azimuth_deg", kDegrees * u[i]},
+                               {"azimuth_sigma_deg", kDegrees * sigma[i]},
+                               {"elevation_tan", u[i + 1]},
+                               {"elevation_tan_sigma", sigma[i + 1]},
+                               {"distance_mm", 1e3 * std::exp(u[i + 2])},
+                               {"distance_relative_sigma", sigma[i + 2]}});
+  return lines;
+}
+
+Value::Map summary_of(const LightFit& fit, std::size_t balls) {
+  Value::Map held_out;
+  for (const HeldOut& one : fit.held_out) held_out.emplace_back(name_of(one.kind), one.rmse_codes);
+  Value::Map summary{{"photographs", balls},
+                     {"model", name_of(fit.kind)},
+                     {"held_out_rmse_codes", held_out},
+                     {"rmse_codes", Value::List{fit.rmse_codes[0], fit.rmse_codes[1], fit.rmse_codes[2]}},
+                     {"condition_number", fit.condition},
+                     {"clipped_fraction", fit.unused_fraction}};
+  if (!fit.lamps) return summary;
+  Value::List covariance;
+  for (Eigen::Index i = 0; i < fit.lamps->covariance.rows(); ++i) {
+    Value::List row;
+    for (Eigen::Index j = 0; j < fit.lamps->covariance.cols(); ++j) row.push_back(fit.lamps->covariance(i, j));
+    covariance.push_back(std::move(row));
+  }
+  summary.emplace_back("lamps", Value::Map{{"iterations", fit.lamps->iterations},
+                                           {"converged", fit.lamps->converged},
+                                           {"condition_number", fit.lamps->condition},
+                                           {"fitted", lamp_lines(*fit.lamps)},
+                                           {"covariance", std::move(covariance)}});
+  return summary;
+}
+
+void calibrate_balls(Stage& stage) {
+  if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
+    throw UsageError("give --photographs and --labels of balls, or --basis");
+  const auto press_folder = stage.optional_input("--press"), gel = stage.optional_input("--gel");
+  const auto& shapes = stage.inputs("--shapes");
+  if (press_folder.has_value() != gel.has_value()) throw UsageError("--press and --gel belong together");
+  if (press_folder.has_value() != shapes.empty()) throw UsageError("give either --press or --shapes");
+  const auto config = stage.read_config<CalibrateConfig>("--config");
+  const Camera camera = stage.read_config<Sensor>("--sensor").camera;
+  const ByteImage background = read_photograph(stage.input("--background"), camera);
+  const auto labels = read_labels(*stage.optional_input("--labels"));
+  if (!shapes.empty() && shapes.size() != labels.size())
+    throw UsageError(fmt::format("{} --shapes for {} labels", shapes.size(), labels.size()));
+  std::optional<BallPress> press;
+  if (press_folder) press = read_ball_press(*press_folder, *gel, config.ball_radius_m, config.contact_gap_m);
+
+  std::vector<Ball> balls;
+  std::vector<ByteImage> photographs;
+  const double pixel_x = camera.window_width_m / camera.width_px, pixel_y = camera.window_height_m / camera.height_px;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const BallLabel& label = labels[i];
+    photographs.push_back(read_photograph(*stage.optional_input("--photographs") / label.image, camera));
+    Ball ball{.label = label,
+              .x_m = camera.position_m.x() + (label.x_px + 0.5 - 0.5 * camera.width_px) * pixel_x,
+              .y_m = camera.position_m.y() + (label.y_px + 0.5 - 0.5 * camera.height_px) * pixel_y,
+              .depth_m = 0.0,
+              .view = {},
+              .samples = make_samples(photographs.back(), background, label, config)};
+    if (press) {
+      ball.depth_m = press->depth_of_contact(label.radius_px * pixel_x, label.image);
+      ball.view = view_ball(*press, ball, camera);
+    } else {
+      const FloatImage indentation = read_exr(shapes[i], {"Y"});
+      if (indentation.width != camera.width_px || indentation.height != camera.height_px)
+        throw DataError("{}: is not of the camera's size", shapes[i].string());
+      ball.view = view_height_map(indentation, camera);
+    }
+    balls.push_back(std::move(ball));
+  }
+  const LightFit fit = fit_light(balls, press ? &*press : nullptr, camera, config);
+
+  write_file(stage.output("light.yaml"), to_yaml(fit.light.to_value()));
+  std::string table = "image,x_mm,y_mm,depth_mm,rmse_codes\n";
+  std::vector<double> poses;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Ball& ball = balls[i];
+    table += fmt::format("{},{},{},{},{}\n", ball.label.image, 1e3 * ball.x_m, 1e3 * ball.y_m, 1e3 * ball.depth_m,
+                         ball.rmse_codes);
+    // Half a turn about x, as the press places a ball whose +z side faces the gel.
+    for (const double v : {1.0, 0.0, 0.0, ball.x_m, 0.0, -1.0, 0.0, ball.y_m, 0.0, 0.0, -1.0,
+                           config.ball_radius_m - ball.depth_m, 0.0, 0.0, 0.0, 1.0})
+      poses.push_back(v);
+    const ByteImage simulated = add_change(background, code_change(fit.light, ball.view));
+    write_png(stage.output("residuals/" + ball.label.image), residual_picture(simulated, photographs[i]));
+  }
+  write_file(stage.output("balls.csv"), table);
+  if (press) write_npy(stage.output("ball_poses.npy"), {balls.size(), 4, 4}, poses.data());
+  stage.summarize(summary_of(fit, balls.size()));
+}
+
+/// configs with a section `intensities`
+struct IntensityFile {
+  IntensityConfig intensities;
+  static IntensityFile read(ConfigReader& in) {
+    ConfigReader section = in.section("intensities");
+    return {IntensityConfig::read(section)};
+  }
+};
+
+void calibrate_leds(Stage& stage) {
+  for (const char* flag : {"--photographs", "--labels", "--press", "--gel"})
+    if (stage.optional_input(flag)) throw UsageError(fmt::format("{} does not go with --basis", flag));
+  const auto config = stage.read_config<IntensityFile>("--config").intensities;
+  const Camera camera = stage.read_config<Sensor>("--sensor").camera;
+  const ByteImage background = read_photograph(stage.input("--background"), camera);
+  std::vector<FloatImage> basis;
+  for (const auto& path : stage.inputs("--basis")) {
+    basis.push_back(read_exr(path, {"Y"}));
+    if (basis.back().width != camera.width_px || basis.back().height != camera.height_px)
+      throw DataError("{}: is not of the camera's size", path.string());
+  }
+  FloatImage codes(background.width, background.height, 3);
+  std::copy(background.pixels.begin(), background.pixels.end(), codes.pixels.begin());
+  const IntensityFit fit = fit_intensities(basis, codes, config);
+  Value::List leds, deviations;
+  for (Eigen::Index l = 0; l <= fit.rgb.rows(); ++l) {
+    Value::List sigma;
+    for (std::size_t c = 0; c < 3; ++c) sigma.push_back(std::sqrt(fit.covariance[c](l, l)));
+    deviations.push_back(std::move(sigma));
+    if (l < fit.rgb.rows())
+      leds.push_back(Value::Map{{"rgb_linear", Value::List{fit.rgb(l, 0), fit.rgb(l, 1), fit.rgb(l, 2)}}});
+  }
+  const Value::List veil{fit.veil[0], fit.veil[1], fit.veil[2]};
+  write_file(stage.output("leds.yaml"), to_yaml(Value::Map{{"leds", leds}, {"ambient", Value::Map{{"rgb", veil}}}}));
+  write_exr(stage.output("residual.exr"), fit.residual, {"R", "G", "B"});
+  stage.summarize({{"leds", basis.size()},
+                   {"rmse_linear", Value::List{fit.rmse[0], fit.rmse[1], fit.rmse[2]}},
+                   {"condition_number", fit.condition},
+                   {"condition_number_with_veil", fit.condition_with_veil},
+                   {"sigma_leds_then_veil", deviations}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kCalibrate, argc, argv, [](Stage& stage) {
+    if (stage.inputs("--basis").empty())
+      calibrate_balls(stage);
+    else
+      calibrate_leds(stage);
+  });
+}

@@ -1,0 +1,16 @@
+// What the stages of a photograph benchmark need to be told, from its one file.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/benchmark_cases.h"
+
+namespace tacipc {
+
+/// Name and content of each file: cases.mk (variables for Make), ball/ and <object>/ {indenter.yaml, motion.yaml,
+/// shade.yaml}, metrics.yaml. `folder` is that of the benchmark's file: paths in it are relative to there.
+std::vector<std::pair<std::string, std::string>> case_files(const BenchmarkCases& cases, const std::string& folder);
+
+}  // namespace tacipc

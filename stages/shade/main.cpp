@@ -1,0 +1,118 @@
+#include <fmt/core.h>
+
+#include <numbers>
+#include <optional>
+
+#include "common/error.h"
+#include "common/npy.h"
+#include "common/picture.h"
+#include "common/stage.h"
+#include "stages/shade/fit_place.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kShade{
+    .name = "shade",
+    .summary = "Tactile images of a press under a calibrated light, on a real background.",
+    .inputs = {{.flag = "--config", .help = "which frames, where in the image (YAML)"},
+               {.flag = "--sensor", .help = "the sensor: its camera (YAML)"},
+               {.flag = "--light", .help = "light.yaml of calibrate"},
+               {.flag = "--background", .help = "photograph without contact (PNG)"},
+               {.flag = "--press", .help = "folder that press wrote", .required = false},
+               {.flag = "--gel", .help = "gel.msh of that press", .required = false},
+               {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false},
+               {.flag = "--shapes",
+                .help = "indentation maps (EXR), one per image, in place of a press",
+                .required = false,
+                .many = true}}};
+
+ByteImage read_photograph(const std::filesystem::path& path, const Camera& camera) {
+  ByteImage image = read_png(path, 3);
+  if (image.width != camera.width_px || image.height != camera.height_px)
+    throw DataError("{}: is {} x {} pixels, the sensor's camera has {} x {}", path.string(), image.width, image.height,
+                    camera.width_px, camera.height_px);
+  return image;
+}
+
+/// Pictures one membrane and writes it under its name.
+void deliver(Stage& stage, const std::string& name, const MembraneView& view, const LightField& light,
+             const ByteImage& background) {
+  write_png(stage.output(name + ".png"), add_change(background, code_change(light, view)));
+  FloatImage normals(view.width, view.height, 3);
+  for (std::size_t i = 0; i < view.normal.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      normals.pixels[3 * i + k] = static_cast<float>(view.normal[i][static_cast<Eigen::Index>(k)]);
+  write_png(stage.output("normals/" + name + ".png"), picture_of_normals(normals));
+}
+
+void shade_shapes(Stage& stage, const ShadeConfig& config, const Camera& camera, const LightField& light,
+                  const ByteImage& background) {
+  const auto& shapes = stage.inputs("--shapes");
+  if (shapes.size() != config.images.size())
+    throw UsageError(fmt::format("{} --shapes for {} images", shapes.size(), config.images.size()));
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const FloatImage indentation = read_exr(shapes[i], {"Y"});
+    if (indentation.width != camera.width_px || indentation.height != camera.height_px)
+      throw DataError("{}: is not of the camera's size", shapes[i].string());
+    deliver(stage, config.images[i].name, view_height_map(indentation, camera), light, background);
+  }
+  stage.summarize({{"images", shapes.size()}});
+}
+
+void shade_press(Stage& stage, const ShadeConfig& config, const Camera& camera, const LightField& light,
+                 const ByteImage& background) {
+  const auto folder = *stage.optional_input("--press");
+  const FrontFrames press = read_front_frames(folder, *stage.optional_input("--gel"));
+  for (const NamedFrame& image : config.images)
+    if (static_cast<std::size_t>(image.frame) >= press.frames.size())
+      throw DataError("{}: {} is to be frame {}, the press has frames up to {}", folder.string(), image.name,
+                      image.frame, press.frames.size() - 1);
+  FittedPlace fitted{.place = config.place};
+  if (config.fit) {
+    const ByteImage photograph = read_photograph(*stage.optional_input("--photograph"), camera);
+    for (const NamedFrame& image : config.images)
+      if (image.name == config.fit->image)
+        fitted = fit_place(press, image.frame, config.place, *config.fit, photograph, background, light, camera);
+  }
+  std::vector<double> poses;
+  for (const NamedFrame& image : config.images) {
+    const auto frame = static_cast<std::size_t>(image.frame);
+    deliver(stage, image.name,
+            view_membrane(at_place(press.frames[frame], fitted.place, camera), press.triangles, camera), light,
+            background);
+    const Matrix4 pose = place_pose(fitted.place, camera) * press.gel_from_object[frame];
+    for (int i = 0; i < 16; ++i) poses.push_back(pose(i / 4, i % 4));
+  }
+  write_npy(stage.output("object_pose.npy"), {config.images.size(), 4, 4}, poses.data());
+  Value::Map summary{{"images", config.images.size()},
+                     {"center_px", Value::List{fitted.place.x_px, fitted.place.y_px}},
+                     {"yaw_deg", fitted.place.yaw_rad * 180.0 / std::numbers::pi}};
+  if (config.fit)
+    summary.emplace_back("fit", Value::Map{{"image", config.fit->image},
+                                           {"rmse_codes_before", fitted.rmse_before},
+                                           {"rmse_codes_after", fitted.rmse_after},
+                                           {"views", fitted.views}});
+  stage.summarize(summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kShade, argc, argv, [](Stage& stage) {
+    const bool press = stage.optional_input("--press").has_value(), gel = stage.optional_input("--gel").has_value();
+    if (press != gel) throw UsageError("--press and --gel belong together");
+    if (press != stage.inputs("--shapes").empty()) throw UsageError("give either --press or --shapes");
+    const auto config = stage.read_config<ShadeConfig>("--config");
+    if (stage.optional_input("--photograph").has_value() != (press && config.fit.has_value()))
+      throw UsageError("--photograph: needed where a press is to be fitted to it, and only there");
+    const Camera camera = stage.read_config<Sensor>("--sensor").camera;
+    const auto light = stage.read_config<LightField>("--light");
+    const ByteImage background = read_photograph(stage.input("--background"), camera);
+    if (press)
+      shade_press(stage, config, camera, light, background);
+    else
+      shade_shapes(stage, config, camera, light, background);
+  });
+}

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""Prints the tables of golden_test.cpp: kernels and height maps of the depth-based simulator by SciPy and NumPy
+(made with SciPy 1.10.1), independently of our C++.
+
+gaussian_filter makes the kernels; convolution is scipy.ndimage.correlate with mode "mirror" (mirrored about pixel
+centres) and the origin of an even kernel shifted to index n // 2."""
+import numpy as np
+from scipy.ndimage import correlate, gaussian_filter
+
+
+def kernel(size, sigma):
+    impulse = np.zeros((size, size))
+    impulse[size // 2, size // 2] = 1
+    return gaussian_filter(impulse, sigma, mode="reflect", truncate=4)
+
+
+def object_height(width, height):
+    """A ball's cap and a slanted block, in metres, by formula; golden_test.cpp has the same."""
+    y, x = np.meshgrid(np.arange(height), np.arange(width), indexing="ij")
+    ball = 8e-4 - 4e-6 * ((x - 33) ** 2 + (y - 27) ** 2)
+    block = np.where((abs(x - 70) < 9) & (abs(y - 40) < 12), 3e-4 + 1e-5 * (x - 70), 0)
+    return np.maximum(np.maximum(ball, block), 0)
+
+
+def smear(f, k, h):
+    out = correlate(f, k, mode="mirror")
+    top = out.max()
+    return np.maximum(out * (h.max() / top if top else 1), h)
+
+
+def difference(h, near, far, rounds):
+    a = b = h
+    for _ in range(rounds):
+        a = smear(a, near, h)
+    for _ in range(rounds):
+        b = smear(b, far, h)
+    for _ in range(rounds):
+        b = smear(b, near, h)
+    return 2 * a - b
+
+
+def exponential():
+    j, i = np.meshgrid(np.arange(-6, 7), np.arange(-6, 7))
+    w = 201 / (200 + np.exp(np.sqrt(i**2 + j**2)))
+    return w / w.sum()
+
+
+for size, sigma in ((21, 7), (52, 9), (3, 1), (5, 4)):
+    profile = kernel(size, sigma).sum(axis=0)
+    print(f"{{{size}, {sigma}, {{" + ", ".join(repr(float(v)) for v in profile) + "}},")
+h = object_height(100, 80)
+points = ((33, 27), (5, 5), (50, 30), (70, 40), (80, 52), (99, 79), (0, 40), (62, 28))
+near, far = kernel(21, 7), kernel(52, 9)
+maps = {
+    "correlate": correlate(h, far, mode="mirror"),
+    "difference": difference(h, near, far, 3),
+    "exponential": correlate(0.03 - h, exponential(), mode="constant", cval=0.03),
+}
+for name, m in maps.items():
+    print(name, ", ".join(f"{{{x}, {y}, {float(m[y, x])!r}}}" for x, y in points))
+print("weights", repr(float(exponential()[6, 6])), repr(float(exponential()[0, 0])), repr(float(exponential()[6, 0])))
