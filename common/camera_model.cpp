@@ -34,6 +34,13 @@ Matrix3 rotation_of(const Vector3& angles) {
 
 }  // namespace
 
+double vignetting(const Camera& camera, int x, int y) {
+  const double half_width = 0.5 * camera.width_px, half_height = 0.5 * camera.height_px;
+  const double dx = x + 0.5 - half_width, dy = y + 0.5 - half_height;
+  const double rr = (dx * dx + dy * dy) / (half_width * half_width + half_height * half_height);
+  return 1.0 + rr * (camera.vignetting[0] + rr * camera.vignetting[1]);
+}
+
 Eigen::Vector2d distort(const Eigen::Vector2d& point, const std::array<double, 3>& radial,
                         const std::array<double, 2>& tangential) {
   const double x = point.x(), y = point.y(), rr = point.squaredNorm();

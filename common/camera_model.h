@@ -58,6 +58,10 @@ class CameraModel {
   std::array<double, 4> intrinsics_{};
 };
 
+/// Share of the light that the lens leaves a pixel (column x, row y): 1 + v2 ρ² + v4 ρ⁴, ρ the distance of its centre
+/// from the image's over half the diagonal.
+double vignetting(const Camera& camera, int x, int y);
+
 /// Brown's distortion of normalised image coordinates (x, y) = (tan θ cos φ, tan θ sin φ):
 ///   x_d = x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 x y + p2 (r² + 2 x²), y_d alike with p1 and p2 exchanged.
 Eigen::Vector2d distort(const Eigen::Vector2d& point, const std::array<double, 3>& radial,

@@ -94,9 +94,9 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
   throw SolverError("non-negative least squares did not end: the basis images are nearly equal");
 }
 
-IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatImage& codes,
+IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatImage& veil, const FloatImage& codes,
                              const IntensityConfig& config) {
-  const FloatImage seen = block_medians(codes, config.block_px);
+  const FloatImage seen = block_medians(codes, config.block_px), uniform = block_medians(veil, config.block_px);
   std::vector<FloatImage> blocks;
   for (const FloatImage& image : basis) blocks.push_back(block_medians(image, config.block_px));
   const auto leds = static_cast<Eigen::Index>(basis.size()), unknowns = leds + 1;
@@ -113,8 +113,8 @@ IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatIm
     Eigen::VectorXd y(rows), weight(rows);
     for (Eigen::Index i = 0; i < rows; ++i) {
       const auto [u, v] = used[static_cast<std::size_t>(i)];
-      for (Eigen::Index l = 0; l < leds; ++l) a(i, l) = blocks[static_cast<std::size_t>(l)].at(u, v, 0);
-      a(i, leds) = 1.0;
+      for (Eigen::Index l = 0; l < leds; ++l) a(i, l) = blocks[static_cast<std::size_t>(l)].at(u, v, c);
+      a(i, leds) = uniform.at(u, v, 0);
       y[i] = linear_of_code(seen.at(u, v, c), config.curve);
       weight[i] = 1.0 / std::sqrt(config.shot_gain * y[i] + config.read_noise * config.read_noise);
     }

@@ -21,7 +21,8 @@ struct IntensityConfig {
   static IntensityConfig read(ConfigReader& in);
 };
 
-/// y_c = Σ_l a_lc B_l + b_c with a ≥ 0 and veil b ≥ 0, B_l the image of LED l alone at unit intensity.
+/// y_c = Σ_l a_lc B_lc + b_c U with a ≥ 0 and veil b ≥ 0: B_l the image of LED l alone in white light, U that of a veil
+/// of 1.
 struct IntensityFit {
   Eigen::Matrix<double, Eigen::Dynamic, 3> rgb;  // a, per LED
   Vector3 veil = Vector3::Zero();                // b
@@ -39,9 +40,9 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
 /// Linear value in 0 … 1 of a code in 0 … 255.
 double linear_of_code(double code, const std::string& curve);
 
-/// Blocks with a code 0 or 255 in a channel's median do not count there. \pre basis images have one channel and the
-/// photograph's size. \throw DataError if fewer blocks than unknowns are left
-IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatImage& codes,
+/// Blocks with a code 0 or 255 in a channel's median do not count there. \pre basis images and codes have three
+/// channels, the veil has one, all are of one size. \throw DataError if fewer blocks than unknowns are left
+IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatImage& veil, const FloatImage& codes,
                              const IntensityConfig& config);
 
 }  // namespace tacipc

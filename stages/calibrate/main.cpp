@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/camera_model.h"
 #include "common/error.h"
 #include "common/files.h"
 #include "common/npy.h"
@@ -22,7 +23,7 @@ const StageSpec kCalibrate{
                {.flag = "--sensor", .help = "the sensor: its camera (YAML)"},
                {.flag = "--background", .help = "photograph without contact (PNG)"},
                {.flag = "--basis",
-                .help = "image of each LED alone (EXR, Y): fits colours of known LEDs",
+                .help = "image of each LED or group alone (EXR, R G B): fits colours of known LEDs",
                 .required = false,
                 .many = true},
                {.flag = "--photographs", .help = "folder of the photographs of balls", .required = false},
@@ -150,6 +151,16 @@ void calibrate_balls(Stage& stage) {
   stage.summarize(summary_of(fit, balls.size()));
 }
 
+/// Radiance as the lens's vignetting leaves it.
+FloatImage through_lens(const FloatImage& radiance, const Camera& camera) {
+  FloatImage out = radiance;
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x)
+      for (int c = 0; c < out.channels; ++c)
+        out.at(x, y, c) = static_cast<float>(vignetting(camera, x, y) * radiance.at(x, y, c));
+  return out;
+}
+
 /// configs with a section `intensities`
 struct IntensityFile {
   IntensityConfig intensities;
@@ -167,13 +178,16 @@ void calibrate_leds(Stage& stage) {
   const ByteImage background = read_photograph(stage.input("--background"), camera);
   std::vector<FloatImage> basis;
   for (const auto& path : stage.inputs("--basis")) {
-    basis.push_back(read_exr(path, {"Y"}));
+    basis.push_back(read_exr(path, {"R", "G", "B"}));
     if (basis.back().width != camera.width_px || basis.back().height != camera.height_px)
       throw DataError("{}: is not of the camera's size", path.string());
   }
+  // The images are of what reaches the lens.
+  const FloatImage even = through_lens(FloatImage(camera.width_px, camera.height_px, 1, 1.0f), camera);
+  for (FloatImage& image : basis) image = through_lens(image, camera);
   FloatImage codes(background.width, background.height, 3);
   std::copy(background.pixels.begin(), background.pixels.end(), codes.pixels.begin());
-  const IntensityFit fit = fit_intensities(basis, codes, config);
+  const IntensityFit fit = fit_intensities(basis, even, codes, config);
   Value::List leds, deviations;
   for (Eigen::Index l = 0; l <= fit.rgb.rows(); ++l) {
     Value::List sigma;

@@ -36,6 +36,15 @@ FloatImage color_image(const FloatImage& basis, const Sensor& sensor) {
   return image;
 }
 
+FloatImage group_image(const TraceResult& result, const Sensor& sensor, std::size_t group) {
+  Sensor alone = sensor;
+  alone.ambient_rgb = {};
+  for (Led& led : alone.leds) led.rgb = {};
+  const std::vector<LightGroup> groups = light_groups(sensor.leds);
+  for (const int led : groups[group].leds) alone.leds[static_cast<std::size_t>(led)].rgb = {1.0, 1.0, 1.0};
+  return color_image(result, alone, false);
+}
+
 double indirect_share(const TraceResult& result, const Sensor& sensor) {
   if (result.indirect.channels == 0) return 0.0;
   TraceResult direct = result;

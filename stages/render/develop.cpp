@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/camera_model.h"
 #include "common/error.h"
 #include "common/rng.h"
 
@@ -48,12 +49,9 @@ double value_of(double code, const Response& response) {
 
 FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const Response& response) {
   FloatImage out(linear.width, linear.height, 3);
-  const double half_width = 0.5 * linear.width, half_height = 0.5 * linear.height;
-  const double corner = half_width * half_width + half_height * half_height;
   tbb::parallel_for(0, linear.height, [&](int y) {
     for (int x = 0; x < linear.width; ++x) {
-      const double dx = x + 0.5 - half_width, dy = y + 0.5 - half_height, rr = (dx * dx + dy * dy) / corner;
-      const double falloff = 1.0 + rr * (camera.vignetting[0] + rr * camera.vignetting[1]);
+      const double falloff = vignetting(camera, x, y);
       for (std::size_t c = 0; c < 3; ++c) {
         double sum = 0.0;
         for (std::size_t k = 0; k < 3; ++k)

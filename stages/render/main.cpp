@@ -51,6 +51,8 @@ void write_maps(Stage& stage, const std::string& folder, const TraceResult& trac
 void write_frame(Stage& stage, const RenderedFrame& frame) {
   const std::string folder = fmt::format("frame_{:04}/{}", frame.index, frame.unit.empty() ? "" : frame.unit + "/");
   write_exr(stage.output(folder + "linear.exr"), frame.linear, {"R", "G", "B"});
+  for (std::size_t g = 0; g < frame.basis.size(); ++g)
+    write_exr(stage.output(fmt::format("{}basis_{:02}.exr", folder, g)), frame.basis[g], {"R", "G", "B"});
   write_png(stage.output(folder + "tactile.png"), frame.tactile.image);
   if (frame.marker) write_png(stage.output(folder + "marker.png"), frame.marker->image);
   if (frame.trace) write_maps(stage, folder, *frame.trace);
@@ -67,6 +69,18 @@ Value::Map count_sources(const Sensor& sensor) {
           {"derived", counts["derived"]},
           {"guess", counts["guess"]},
           {"unstated", counts["unstated"]}};
+}
+
+/// Which LEDs the basis images show, in the order of their numbers.
+Value::List groups_of(const Sensor& sensor) {
+  Value::List lines;
+  for (const LightGroup& group : light_groups(sensor.leds)) {
+    Value::Map line;
+    if (!group.name.empty()) line.emplace_back("name", group.name);
+    line.emplace_back("leds", Value::List(group.leds.begin(), group.leds.end()));
+    lines.emplace_back(std::move(line));
+  }
+  return lines;
 }
 
 /// A photograph becomes an input of the stage; without one the record says `synthetic`.
@@ -122,6 +136,7 @@ int main(int argc, char** argv) {
                                {"max_indentation_mm", 1e3 * summary.max_indentation_m},
                                {"indirect_share", summary.indirect_share},
                                {"sensor_values", count_sources(sensor)}});
+    if (config.basis_images) lines.emplace_back("basis", groups_of(sensor));
     Value::List variants;
     for (std::size_t u = 1; u < summary.units.size(); ++u) {
       Value::Map line = {{"name", summary.units[u].name},

@@ -169,6 +169,10 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
                           .unit = units[u].name,
                           .trace = units[u].needs_rays ? &traced : nullptr,
                           .linear = color_image(traced, sensor, false)};
+      if (config.basis_images && units[u].needs_rays) {
+        for (std::size_t g = 0; g < light_groups(sensor.leds).size(); ++g)
+          frame.basis.push_back(group_image(traced, sensor, g));
+      }
       if (index == 0) developers[u].set_reference(frame.linear);
       frame.tactile = developers[u].develop(frame.linear, index);
       if (sensor.markers.radius_m) frame.marker = developers[u].develop(color_image(traced, sensor, true), index);

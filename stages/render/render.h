@@ -33,6 +33,7 @@ struct RenderedFrame {
   std::string unit = {};
   const TraceResult* trace = nullptr;  // null where another unit's serves
   FloatImage linear = {};
+  std::vector<FloatImage> basis = {};  // of each light group, if wanted; where the unit traced rays
   TactileImage tactile = {};
   std::optional<TactileImage> marker = std::nullopt;  // the same with the printed markers, if the sensor has any
   Positions marker_px = {};                           // column, row and 1 where seen, else NaN and 0

@@ -63,6 +63,7 @@ RenderConfig RenderConfig::read(ConfigReader& in) {
   config.trace.led_samples = in.integer_or("led_samples", config.trace.led_samples, 1, 16);
   config.trace.refract = in.choice_or("refraction", "layered", {"layered", "straight"}) == "layered";
   config.trace.indirect_rays = in.integer_or("indirect_rays", config.trace.indirect_rays, 0, 65536);
+  config.basis_images = in.flag_or("basis_images", false);
   const std::string transfer = in.choice_or("transfer", "encoded", {"encoded", "linear", "none"});
   config.transfer = transfer == "encoded"  ? Transfer::encoded
                     : transfer == "linear" ? Transfer::linear

@@ -49,6 +49,7 @@ enum class Transfer { encoded, linear, none };
 struct RenderConfig {
   bool all_frames = false;  // else the last one, and frame 0 as the reference
   TraceSettings trace;
+  bool basis_images = false;  // also the image of each light group alone
   Transfer transfer = Transfer::encoded;
   int noise_seed = 0;
   bool noise_in_every_frame = false;  // fresh noise in each simulated frame, beside what the reference carries

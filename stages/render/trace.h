@@ -74,6 +74,10 @@ FloatImage color_image(const FloatImage& basis, const Sensor& sensor);
 /// markers: where they are, their albedo and no lobe.
 FloatImage color_image(const TraceResult& result, const Sensor& sensor, bool with_markers);
 
+/// Image of one light group alone in white, without markers and ambient: in channel c albedo_c B_g + S_g + albedo_c²
+/// I_g. The groups' images times their colours, and the ambient, are the whole image.
+FloatImage group_image(const TraceResult& result, const Sensor& sensor, std::size_t group);
+
 /// Share of the image's light that came by way of the membrane (0 where it was not traced).
 double indirect_share(const TraceResult& result, const Sensor& sensor);
 

@@ -70,18 +70,19 @@ TEST_F(CalibrateProgram, AnEnvironmentFromShapesExplainsItsPhotographsWithAnyThr
 }
 
 TEST_F(CalibrateProgram, LedColoursComeFromTheirBasisImages) {
-  FloatImage ramp(60, 60, 1), other(60, 60, 1);
+  FloatImage ramp(60, 60, 3), other(60, 60, 3);
   ByteImage photo(60, 60, 3);
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 60; ++x) {
-      ramp.at(x, y, 0) = static_cast<float>(x) / 60.0f;
-      other.at(x, y, 0) = static_cast<float>(y) / 60.0f;
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < 3; ++c) {
+        ramp.at(x, y, c) = static_cast<float>(x) / 60.0f;
+        other.at(x, y, c) = static_cast<float>(y) / 60.0f;
         photo.at(x, y, c) =
             static_cast<std::uint8_t>(std::lround(255 * (0.1 + 0.2 * c * x / 60.0 + (0.4 - 0.2 * c) * y / 60.0)));
+      }
     }
-  write_exr(scratch_ / "l0.exr", ramp, {"Y"});
-  write_exr(scratch_ / "l1.exr", other, {"Y"});
+  write_exr(scratch_ / "l0.exr", ramp, {"R", "G", "B"});
+  write_exr(scratch_ / "l1.exr", other, {"R", "G", "B"});
   write_png(scratch_ / "background.png", photo);
   ASSERT_EQ(run("--config i.yaml --basis l0.exr l1.exr --out a"), 0) << said_;
   ConfigReader in = ConfigReader::from_text(read_file(scratch_ / "a/leds.yaml"), "leds.yaml");

@@ -86,7 +86,7 @@ TEST(CameraSignal, VignettesBalancesAndMixes) {
       for (int c = 0; c < 3; ++c) image.at(x, y, c) = static_cast<float>(c + 1);
     }
   }
-  Camera camera;
+  Camera camera{.width_px = 5, .height_px = 3};
   camera.vignetting = {-0.5, 0.1};
   Response response = kLinear;
   response.white_balance = {2.0, 1.0, 0.5};

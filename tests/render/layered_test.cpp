@@ -211,6 +211,26 @@ TEST(LightGroups, ShareAChannelWithTheirIntensities) {
   }
 }
 
+TEST(LightGroups, ImagesTimesTheirColoursAreTheWholeImage) {
+  Sensor sensor = layered_sensor(16, 12);
+  sensor.leds = {point_light({8e-3, 0.0, -12e-3}), point_light({0.0, 8e-3, -12e-3}), point_light({-8e-3, 0.0, -12e-3})};
+  sensor.leds[0].group = sensor.leds[2].group = "sides";
+  sensor.leds[0].rgb = sensor.leds[2].rgb = {0.9, 0.3, 0.0};
+  sensor.leds[1].rgb = {0.1, 0.2, 0.7};
+  sensor.leds[2].intensity = 0.25;
+  sensor.coating = {.albedo = {0.6, 0.5, 0.4}, .specular_f0 = 0.04, .ggx_alpha = 0.4};
+  sensor.ambient_rgb = {10.0, 20.0, 30.0};
+  const TraceResult result = trace(height_field(4e-3, 4e-3, 1e-4, ball_press), sensor, {.indirect_rays = 16});
+  const FloatImage whole = color_image(result, sensor, false);
+  const FloatImage sides = group_image(result, sensor, 0), other = group_image(result, sensor, 1);
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+    const std::size_t c = i % 3;
+    const double sum = sensor.leds[0].rgb[c] * sides.pixels[i] + sensor.leds[1].rgb[c] * other.pixels[i];
+    EXPECT_NEAR(whole.pixels[i], sum + sensor.ambient_rgb[c], 1e-5 * whole.pixels[i]) << i;
+  }
+  EXPECT_GT(sides.at(3, 5, 0), sides.at(3, 5, 2));  // the paint is in them
+}
+
 TEST(Markers, DarkenTheirDiscsAndMoveWithTheMaterial) {
   Sensor sensor = layered_sensor(80, 60);
   sensor.leds = {point_light({5e-3, 3e-3, -12e-3})};
