@@ -10,7 +10,7 @@ function(tacipc_add_stage name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 endfunction()
 
-# tacipc_add_test(<name> SOURCES a_test.cpp … [LINK lib …] [LABEL fast|slow])
+# tacipc_add_test(<name> SOURCES a_test.cpp … [LINK lib …] [LABEL fast|slow|dev])
 # Every GoogleTest case becomes a CTest case named <name>.<suite>.<case>.
 function(tacipc_add_test name)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})

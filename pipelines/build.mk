@@ -26,7 +26,7 @@ build-all: build # one after the other: two builds in one folder would trip over
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 
 check: build-all ## Build and run the tests (under 15 minutes)
-	ctest --test-dir $(BUILD) -LE slow -j $(JOBS) --output-on-failure --no-tests=error
+	ctest --test-dir $(BUILD) -LE "slow|dev" -j $(JOBS) --output-on-failure --no-tests=error
 
 check-slow: build-all ## Build and run the long tests
 	ctest --test-dir $(BUILD) -L slow -j $(JOBS) --output-on-failure --no-tests=error
