@@ -2,18 +2,23 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/config.h"
+#include "common/contact_circles.h"
 
 namespace tacipc {
 
-/// A photograph `<name><ending>` of an object pressed to a depth.
+/// A photograph of an object pressed to a depth, or of a ball whose contact circle alone is known.
 struct PhotographCase {
   std::string name;
   double depth_m = 0.0;
+  std::string photograph = {};  // file below `photographs`
+  std::array<int, 4> box_px{};  // x, y, width, height of the contact
+  std::optional<ContactCircle> circle = std::nullopt;
 };
 
 struct ObjectCase {
@@ -24,7 +29,7 @@ struct ObjectCase {
   double edge_radius_m = 0.0;
   std::array<double, 2> center_px{};
   std::array<int, 4> box_px{};  // x, y, width, height of the contact
-  std::string fit_image;        // the one that centre and yaw are fitted to
+  std::string fit_image;        // the one that centre and yaw are fitted to; none where circles tell the place
   bool fit_yaw = false;
   std::vector<PhotographCase> images;  // ever deeper
 };
@@ -34,7 +39,7 @@ struct ObjectCase {
 struct BenchmarkCases {
   std::string title;
   std::string data;        // folder below the shared data
-  std::string background;  // below `data`, as the two that follow
+  std::string background;  // below `data`, as those that follow
   std::string photographs;
   std::string labels;                                    // of the ball presses
   std::string ending;                                    // of the photographs' names
@@ -42,12 +47,21 @@ struct BenchmarkCases {
   double ball_radius_m = 0.0;                            // of the calibration presses
   double ball_depth_m = 0.0;                             // deepest frame of their simulation
   int ball_steps = 0;
-  double mesh_spacing_m = 0.0;   // of rounded meshes
-  double ball_edge_m = 0.0;      // longest edge of balls
-  std::array<double, 3> must{};  // least mean ssim_s, largest mean mae, least mean psnr_db in the box
+  double mesh_spacing_m = 0.0;  // of rounded meshes
+  double ball_edge_m = 0.0;     // longest edge of balls
+  /// Least mean ssim_s, largest mean mae, least mean psnr_db in the box; without it ours must be ahead, no more.
+  std::optional<std::array<double, 3>> must;
+  std::string circles;                           // table of contact circles below `data` …
+  std::optional<CircleTable> circle_table;       // … in place of background, labels and objects
+  std::vector<ContactCircle> labels_of_circles;  // the photographs that calibrate, `image` their file
   std::vector<ObjectCase> objects;
 
   static BenchmarkCases read(ConfigReader& in);
 };
+
+/// Benchmarks with `circles`: labels, and one object `ball` with an image per photograph that tests, its contact box
+/// about the circle, from the table at `path`. Others stay as they are. \throw DataError for a fault of the table, or
+/// if no photograph is left to test; UsageError if a table is given that the benchmark does not name, or the reverse
+void add_circles(BenchmarkCases& cases, const std::optional<std::filesystem::path>& path);
 
 }  // namespace tacipc

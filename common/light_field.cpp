@@ -62,10 +62,16 @@ double relative_irradiance(const MembraneView& view, int x, int y, const Vector3
 
 void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out) {
   const std::size_t i = view.index(x, y);
-  const std::array<double, 3> field{1.0, view.rest[i].x() / geometry.field_half_width_m,
-                                    view.rest[i].y() / geometry.field_half_width_m};
+  const double field_x = view.rest[i].x() / geometry.field_half_width_m;
+  const double field_y = view.rest[i].y() / geometry.field_half_width_m;
   const auto put = [&](double value) {
-    for (const double f : field) *out++ = value * f;
+    for (int degree = 0; degree <= geometry.field_degree; ++degree) {
+      for (int power_y = 0; power_y <= degree; ++power_y) {
+        double f = value;
+        for (int k = 0; k < degree; ++k) f *= k < degree - power_y ? field_x : field_y;
+        *out++ = f;
+      }
+    }
   };
   for (const Vector3& lamp : geometry.lamps_m) {
     const double q = relative_irradiance(view, x, y, lamp, geometry.shadow_softness);

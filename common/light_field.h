@@ -28,12 +28,15 @@ struct LightGeometry {
   std::vector<Vector3> lamps_m = {};  // frame S
   double shadow_softness = 0.0;       // > 0; tangent
   int environment_degree = 0;         // 0: none
+  int field_degree = 1;               // of the polynomial in x and y by which weights vary over the field
   double field_half_width_m = 1;      // x and y of the fields below run from −1 to 1 over this
 
   int num_monomials() const { return environment_degree * (environment_degree + 3) / 2; }
-  /// Three per lamp and power (1, x, y): q, q², then the monomials.
-  int num_features() const { return 3 * (2 * static_cast<int>(lamps_m.size()) + num_monomials()); }
-  int first_environment_feature() const { return 6 * static_cast<int>(lamps_m.size()); }
+  /// 1, x, y, x², xy, y², … up to field_degree
+  int num_field_terms() const { return (field_degree + 1) * (field_degree + 2) / 2; }
+  /// As many as field terms for each lamp's q, for its q², and for each monomial.
+  int num_features() const { return num_field_terms() * (2 * static_cast<int>(lamps_m.size()) + num_monomials()); }
+  int first_environment_feature() const { return num_field_terms() * 2 * static_cast<int>(lamps_m.size()); }
 };
 
 /// Share of lamp `lamp_m` that pixel (x, y) sees over the membrane. See LightGeometry.
@@ -42,13 +45,13 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
 /// q_l of one lamp at a pixel.
 double relative_irradiance(const MembraneView& view, int x, int y, const Vector3& lamp_m, double softness);
 
-/// All features of a pixel, in the order lamps (q · (1, x, y), q² · (1, x, y)), then monomials · (1, x, y) by degree
-/// and falling power of n_x. \pre out has num_features() entries
+/// All features of a pixel, in the order lamps (q · f, q² · f), then monomials · f by degree and falling power of n_x;
+/// f = (1, x, y, …) by degree and falling power of x. \pre out has num_features() entries
 void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out);
 
-/// Change of code in channel c: Σ_l (a_lc · f) q_l + (b_lc · f) q_l² + Σ_m (e_mc · f) φ_m(n), f = (1, x, y): a is what
-/// a lamp contributes through the camera's colour matrix (so it may be negative) and the vignetting, b the curvature of
-/// the response, e the environment.
+/// Change of code in channel c: Σ_l (a_lc · f) q_l + (b_lc · f) q_l² + Σ_m (e_mc · f) φ_m(n), f = (1, x, y, …): a is
+/// what a lamp contributes through the camera's colour matrix (so it may be negative) and the vignetting, b the
+/// curvature of the response, e the environment.
 struct LightField {
   LightGeometry geometry;
   Eigen::Matrix<double, Eigen::Dynamic, 3> weights;  // #features × channels, codes

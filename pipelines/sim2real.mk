@@ -17,13 +17,24 @@ ifeq ($(wildcard $(SHARED)),)
   $(error SHARED: $(SHARED) does not exist; the photographs are looked for there)
 endif
 
-# What the stages are told: made from the one file first, then make starts anew with its variables.
-$(SIM2REAL)/cases/cases.yaml: $(CASES) | build
-	$(call run,cases,--config $<)
+# What the stages are told: made from the one file first, then make starts anew with its variables. A table of contact
+# circles that the file names lies among the data.
+cases_key = $(shell sed -n 's/^$(1): *\([A-Za-z0-9._/+-]*\).*/\1/p' $(CASES))
+CASES_TABLE := $(addprefix $(SHARED)/$(call cases_key,data)/,$(call cases_key,circles))
+cases_circles := $(addprefix --circles ,$(CASES_TABLE))
+ifneq ($(CASES_TABLE),$(wildcard $(CASES_TABLE)))
+  $(error CASES: $(CASES) names $(CASES_TABLE), which does not exist)
+endif
+$(SIM2REAL)/cases/cases.yaml: $(CASES) $(CASES_TABLE) | build
+	$(call run,cases,--config $< $(cases_circles))
 $(SIM2REAL)/cases/cases.mk: $(SIM2REAL)/cases/cases.yaml ;
 include $(SIM2REAL)/cases/cases.mk
 cases_data = $(SHARED)/$(1)
-cases_photograph = $(call cases_data,$(CASES_PHOTOGRAPHS)/$(1)$(CASES_ENDING))
+cases_photograph = $(call cases_data,$(CASES_PHOTOGRAPH_$(1)))
+cases_background := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.png,$(call cases_data,$(CASES_BACKGROUND)))
+cases_labels := $(if $(CASES_TABLE),$(SIM2REAL)/cases/labels.txt,$(call cases_data,$(CASES_LABELS)))
+# Contacts of the ball that calibrates need no press of their own.
+cases_press = $(SIM2REAL)/$(if $(CASES_TABLE),ball,objects/$(1))
 CASES_ALL = $(foreach o,$(CASES_OBJECTS),$(CASES_IMAGES_$(o)))
 
 $(SIM2REAL)/gel/tetmesh.yaml: $(CASES_SENSOR) $(CASES_MESH) | build
@@ -39,12 +50,17 @@ $(1)/press/press.yaml: $(1)/indenter/indenter.yaml $(2)/motion.yaml $(SIM2REAL)/
 $(2)/indenter.yaml $(2)/motion.yaml: $(SIM2REAL)/cases/cases.yaml ;
 endef
 $(eval $(call sim2real_press,$(SIM2REAL)/ball,$(SIM2REAL)/cases/ball,))
-$(foreach o,$(CASES_OBJECTS),$(eval $(call sim2real_press,$(SIM2REAL)/objects/$(o),$(SIM2REAL)/cases/objects/$(o),$(addprefix $(SHARED)/,$(CASES_MESH_$(o))))))
+$(if $(CASES_TABLE),,$(foreach o,$(CASES_OBJECTS),$(eval $(call sim2real_press,$(SIM2REAL)/objects/$(o),$(SIM2REAL)/cases/objects/$(o),$(addprefix $(SHARED)/,$(CASES_MESH_$(o)))))))
+
+# Where nobody took a photograph without contact: the median of those that calibrate, away from their contacts.
+$(SIM2REAL)/rest/background.yaml: $(SIM2REAL)/cases/cases.yaml | build
+	$(call run,background,--config $(SIM2REAL)/cases/background.yaml --labels $(SIM2REAL)/cases/labels.txt --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)))
+background_record := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.yaml)
 
 # The light: on our membranes, and on those of the depth-based method under the same balls.
-calibration = --config $(CASES_CALIBRATE) --sensor $(CASES_SENSOR) --background $(call cases_data,$(CASES_BACKGROUND)) \
-  --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(call cases_data,$(CASES_LABELS))
-$(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+calibration = --config $(CASES_CALIBRATE) --sensor $(CASES_SENSOR) --background $(cases_background) \
+  --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(cases_labels)
+$(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(background_record) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
 	$(call run,calibrate,$(calibration) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh)
 $(SIM2REAL)/rival/balls/baseline.yaml: $(SIM2REAL)/calibrate/calibrate.yaml $(CASES_BASELINE) | build
 	$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(SIM2REAL)/ball/indenter/object.ply \
@@ -53,20 +69,22 @@ $(SIM2REAL)/rival/calibrate/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yam
 	$(call run,calibrate,$(calibration) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr)
 
 # Images of one object: ours, then the depth-based method's at the same place and depth.
-shading = --config $(SIM2REAL)/cases/objects/$(1)/shade.yaml --sensor $(CASES_SENSOR) --background $(call cases_data,$(CASES_BACKGROUND))
+shading = --config $(SIM2REAL)/cases/objects/$(1)/shade.yaml --sensor $(CASES_SENSOR) --background $(cases_background)
+# Where the images belong: told by contacts, or fitted to one photograph.
+placing = $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml,--photograph $(call cases_photograph,$(CASES_FIT_$(1))))
 define sim2real_object
-$(SIM2REAL)/ours/$(1)/shade.yaml: $(SIM2REAL)/objects/$(1)/press/press.yaml $(SIM2REAL)/calibrate/calibrate.yaml | build
-	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/calibrate/light.yaml --press $(SIM2REAL)/objects/$(1)/press \
-	  --gel $(SIM2REAL)/gel/gel.msh --photograph $$(call cases_photograph,$(CASES_FIT_$(1))))
+$(SIM2REAL)/ours/$(1)/shade.yaml: $(call cases_press,$(1))/press/press.yaml $(SIM2REAL)/calibrate/calibrate.yaml | build
+	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/calibrate/light.yaml --press $(call cases_press,$(1))/press \
+	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)))
 $(SIM2REAL)/rival/objects/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(CASES_BASELINE) | build
-	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(SIM2REAL)/objects/$(1)/indenter/object.ply \
+	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(call cases_press,$(1))/indenter/object.ply \
 	  --object-config configs/objects/embossed.yaml --pose $(SIM2REAL)/ours/$(1)/object_pose.npy)
 $(SIM2REAL)/depth-based/$(1)/shade.yaml: $(SIM2REAL)/rival/objects/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml | build
 	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/rival/calibrate/light.yaml \
 	  --shapes $(SIM2REAL)/rival/objects/$(1)/frame_*/indentation.exr)
-$(SIM2REAL)/background/$(1)/shade.yaml: $(SIM2REAL)/cases/cases.yaml | build
+$(SIM2REAL)/background/$(1)/shade.yaml: $(SIM2REAL)/cases/cases.yaml $(background_record) | build
 	mkdir -p $$(@D)
-	for image in $(CASES_IMAGES_$(1)); do cp $$(call cases_data,$(CASES_BACKGROUND)) $$(@D)/$$$$image.png; done
+	for image in $(CASES_IMAGES_$(1)); do cp $(cases_background) $$(@D)/$$$$image.png; done
 	touch $$@
 endef
 $(foreach o,$(CASES_OBJECTS),$(eval $(call sim2real_object,$(o))))
@@ -79,14 +97,15 @@ $(SIM2REAL)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
 	$(call run,metrics,--config $(SIM2REAL)/cases/metrics.yaml --images $(call sim2real_images,$*) --reference $(CASES_REAL))
 
 $(SIM2REAL)/comparison/comparison.yaml: $(CASES) $(foreach m,ours depth-based background,$(SIM2REAL)/metrics/$(m)/metrics.yaml) | build
-	$(call run,comparison,--config $(CASES) --ours $(SIM2REAL)/metrics/ours/samples.csv --depth-based $(SIM2REAL)/metrics/depth-based/samples.csv \
+	$(call run,comparison,--config $(CASES) $(cases_circles) --ours $(SIM2REAL)/metrics/ours/samples.csv --depth-based $(SIM2REAL)/metrics/depth-based/samples.csv \
 	  --background $(SIM2REAL)/metrics/background/samples.csv --real-images $(CASES_REAL) --our-images $(call sim2real_images,ours) \
 	  --rival-images $(call sim2real_images,depth-based))
 
-# docs/ holds the table of the shipped benchmark; its prose stays, the lines between the marks are replaced.
+# docs/ holds the tables of the shipped benchmarks; its prose stays, the lines between a benchmark's marks are replaced.
+cases_name := $(basename $(notdir $(CASES)))
 sim2real-page: $(SIM2REAL)/comparison/comparison.yaml
-	[ $(CASES) != configs/benchmarks/gelsight_sim2real.yaml ] || \
-	  sed -i -e '/^<!-- table -->/,/^<!-- end of table -->/{/^<!-- table -->/r $(SIM2REAL)/comparison/table.md' -e '/^<!--/!d}' docs/sim2real.md
+	! grep -qs '^<!-- $(cases_name) -->' docs/sim2real.md || \
+	  sed -i -e '/^<!-- $(cases_name) -->/,/^<!-- end of table -->/{/^<!-- $(cases_name) -->/r $(SIM2REAL)/comparison/table.md' -e '/^<!--/!d}' docs/sim2real.md
 	@echo; echo "Look at $(SIM2REAL)/comparison/sheet.png (photograph | ours | twice the difference | depth-based) and table.md"
 
 sim2real: sim2real-page ## Simulated images against photographs: CASES=configs/benchmarks/gelsight_sim2real.yaml (three minutes; needs SHARED)

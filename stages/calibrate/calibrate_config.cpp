@@ -9,6 +9,9 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
   config.ball_radius_m = 1e-3 * in.number("ball_radius_mm", Range::positive());
   config.contact_gap_m = 1e-3 * in.number("contact_gap_mm", Range::positive());
   config.label_sigma_px = in.number("label_sigma_px", Range::non_negative());
+  config.fit_contact_gap = in.flag_or("fit_contact_gap", false);
+  if (config.fit_contact_gap && config.label_sigma_px == 0.0)
+    in.fault("fit_contact_gap", "needs balls that are fitted: label_sigma_px above 0");
   config.fit_radius_px = in.number("fit_radius_px", Range::positive());
   config.fit_stride_px = in.integer("fit_stride_px", 1, 100);
   config.drift_radius_px = in.number("drift_radius_px", Range::positive());
@@ -39,6 +42,7 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
   }
   config.fit_lamps = in.flag_or("fit_lamps", true);
   config.environment_degree = in.integer("environment_degree", 0, 8);
+  config.field_degree = in.integer_or("field_degree", 1, 0, 4);
   if (config.lamps.empty() && config.environment_degree == 0)
     in.fault("environment_degree", "without lamps there must be an environment");
   config.shadow_softness = in.number("shadow_softness", Range::positive());

@@ -33,6 +33,7 @@ struct LampBounds {
 struct CalibrateConfig {
   double ball_radius_m = 0.0;
   double contact_gap_m = 0.0;    // the rim one sees of a contact: where the ball has left the membrane by this
+  bool fit_contact_gap = false;  // the gap is fitted too, from where the labels' rims lie on the fitted balls
   double label_sigma_px = 0.0;   // of centre and radius as labelled; 0: taken as they are
   double fit_radius_px = 0.0;    // pixels this near a ball's centre enter the fit …
   int fit_stride_px = 1;         // … every so many along x and y
@@ -41,6 +42,7 @@ struct CalibrateConfig {
   LampBounds bounds;
   bool fit_lamps = true;  // else they stay where the guess has them
   int environment_degree = 0;
+  int field_degree = 1;
   double shadow_softness = 0.0;
   double blur_px = 0.0;
   double ridge = 0.0;  // on the weights, as a part of each feature's own square sum

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -15,6 +16,7 @@ namespace {
 LightGeometry start_geometry(const CalibrateConfig& config, const Camera& camera) {
   LightGeometry geometry{.shadow_softness = config.shadow_softness,
                          .environment_degree = config.environment_degree,
+                         .field_degree = config.field_degree,
                          .field_half_width_m = 0.5 * camera.window_width_m};
   for (const LampGuess& lamp : config.lamps) geometry.lamps_m.push_back(lamp.position_m());
   return geometry;
@@ -95,6 +97,21 @@ GaussNewtonResult fit_lamps(const std::vector<Ball>& balls, const std::vector<La
   return gauss_newton(residuals, u, settings);
 }
 
+double label_radius_m(const Ball& ball, const Camera& camera) {
+  return ball.label.radius_px * camera.window_width_m / camera.width_px;
+}
+
+/// Gap at the labels' radii, the median over balls: a label that found something else does not matter.
+double fitted_gap(const std::vector<Ball>& balls, const BallPress& press, const Camera& camera) {
+  std::vector<double> gaps;
+  for (const Ball& ball : balls)
+    gaps.push_back(
+        gap_at_radius(press.at_depth(ball.depth_m), ball.depth_m, press.radius_m, label_radius_m(ball, camera)));
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return std::max(*middle, 1e-6);  // nearer than the barrier lets them come, there is no rim
+}
+
 /// Fits centre and depth of one ball to its photograph under the light as it is, held by its label.
 void fit_ball(Ball& ball, const BallPress& press, const Camera& camera, const LightField& light, double sigma_px,
               const CalibrateConfig& config) {
@@ -103,7 +120,7 @@ void fit_ball(Ball& ball, const BallPress& press, const Camera& camera, const Li
   const double pixel = camera.window_width_m / camera.width_px;
   const double samples_per_fact = kCorrelatedPixels / (config.fit_stride_px * config.fit_stride_px);
   // The label's radius, where two of the centre's uncertainties make one of the depth's: d ≈ a² / R.
-  const double contact = ball.label.radius_px * pixel;
+  const double contact = label_radius_m(ball, camera);
   const Vector3 label(ball.x_m, ball.y_m, ball.depth_m);
   const Vector3 sigma = sigma_px * pixel * Vector3(1.0, 1.0, std::max(2.0 * contact / config.ball_radius_m, 0.1));
   const double typical = std::max(ball.rmse_codes, 1.0) * std::sqrt(samples_per_fact);
@@ -176,16 +193,16 @@ MembraneView view_ball(const BallPress& press, const Ball& ball, const Camera& c
   return view_membrane(moved(press.at_depth(ball.depth_m), ball.x_m, ball.y_m, 0.0), press.front, camera);
 }
 
-LightFit fit_light(std::vector<Ball>& balls, const BallPress* press, const Camera& camera,
-                   const CalibrateConfig& config) {
+LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Camera& camera, const CalibrateConfig& config) {
   if (static_cast<int>(balls.size()) < config.folds)
     throw DataError("{} photographs cannot be divided into {} folds", balls.size(), config.folds);
   LightFit fit;
+  fit.contact_gap_m = config.contact_gap_m;
   LightGeometry geometry = start_geometry(config, camera);
   std::vector<LampGuess> lamps = config.lamps;
-  const std::vector<Ball> labelled = balls;
+  std::vector<Ball> labelled = balls;
   const bool fit_balls = press && config.label_sigma_px > 0.0;
-  const int rounds = fit_balls ? 3 : 1;
+  int rounds = !fit_balls ? 1 : config.fit_contact_gap ? 20 : 3;
   std::vector<NormalEquations> equations;
   for (int round = 0; round < rounds; ++round) {
     if (config.fit_lamps && !lamps.empty()) {
@@ -212,6 +229,14 @@ LightFit fit_light(std::vector<Ball>& balls, const BallPress* press, const Camer
       fit_ball(ball, *press, camera, fit.light, config.label_sigma_px, config);
       balls[b] = ball;
     });
+    if (!config.fit_contact_gap) continue;
+    const double before = fit.contact_gap_m;
+    fit.contact_gap_m = fitted_gap(balls, *press, camera);
+    constexpr double kSettled = 0.01;
+    if (std::abs(fit.contact_gap_m - before) < kSettled * before) rounds = round + 2;  // the light once more
+    log_info("round {}: gap at the rim {:.4f} mm", round + 1, 1e3 * fit.contact_gap_m);
+    press->set_rim(fit.contact_gap_m);
+    for (Ball& ball : labelled) ball.depth_m = press->depth_of_contact(label_radius_m(ball, camera), ball.label.image);
   }
   double best = std::numeric_limits<double>::infinity();
   Part chosen{};

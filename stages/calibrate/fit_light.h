@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "common/ball_press.h"
 #include "common/light_field.h"
 #include "common/sensor.h"
-#include "stages/calibrate/ball_press.h"
 #include "stages/calibrate/gauss_newton.h"
 #include "stages/calibrate/samples.h"
 
@@ -42,17 +42,19 @@ struct LightFit {
   std::array<double, 3> rmse_codes{};      // per channel, of the fit itself
   double condition = 0.0;                  // of the weights' linear system
   double unused_fraction = 0.0;            // of the samples: clipped
+  double contact_gap_m = 0.0;              // at the rim that labels show: as configured, or fitted
 };
 
 /// Membrane of a ball whose place is known.
 MembraneView view_ball(const BallPress& press, const Ball& ball, const Camera& camera);
 
 /// With `press` given, shapes belong to it: after a first fit every ball's centre and depth are fitted too, held by the
-/// labels (label_sigma_px), and the light again. Without, the balls' views stay as they are.
+/// labels (label_sigma_px), and the light again. With fit_contact_gap the rim's gap becomes, after every such fit, the
+/// median over balls of the gap at the label's radius, and the labels' depths follow: `press` is left with that rim.
+/// Without, the balls' views stay as they are.
 /// Lamps are fitted by Gauss–Newton on what is left after the best weights (variable projection, Golub and Pereyra
 /// 1973), without environment, so that the lamps explain what they can. Then the kind of model is chosen by
 /// cross-validation over the balls.
-LightFit fit_light(std::vector<Ball>& balls, const BallPress* press, const Camera& camera,
-                   const CalibrateConfig& config);
+LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Camera& camera, const CalibrateConfig& config);
 
 }  // namespace tacipc

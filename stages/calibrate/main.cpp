@@ -139,16 +139,19 @@ void calibrate_balls(Stage& stage) {
     const Ball& ball = balls[i];
     table += fmt::format("{},{},{},{},{}\n", ball.label.image, 1e3 * ball.x_m, 1e3 * ball.y_m, 1e3 * ball.depth_m,
                          ball.rmse_codes);
-    // Half a turn about x, as the press places a ball whose +z side faces the gel.
-    for (const double v : {1.0, 0.0, 0.0, ball.x_m, 0.0, -1.0, 0.0, ball.y_m, 0.0, 0.0, -1.0,
-                           config.ball_radius_m - ball.depth_m, 0.0, 0.0, 0.0, 1.0})
-      poses.push_back(v);
+    const Matrix4 pose = ball_pose(ball.x_m, ball.y_m, ball.depth_m, config.ball_radius_m);
+    for (int k = 0; k < 16; ++k) poses.push_back(pose(k / 4, k % 4));
     const ByteImage simulated = add_change(background, code_change(fit.light, ball.view));
     write_png(stage.output("residuals/" + ball.label.image), residual_picture(simulated, photographs[i]));
   }
   write_file(stage.output("balls.csv"), table);
-  if (press) write_npy(stage.output("ball_poses.npy"), {balls.size(), 4, 4}, poses.data());
-  stage.summarize(summary_of(fit, balls.size()));
+  if (press) {
+    write_npy(stage.output("ball_poses.npy"), {balls.size(), 4, 4}, poses.data());
+    write_file(stage.output("contact.yaml"), to_yaml(Value::Map{{"contact_gap_mm", 1e3 * fit.contact_gap_m}}));
+  }
+  Value::Map summary = summary_of(fit, balls.size());
+  if (press) summary.emplace_back("contact_gap_mm", 1e3 * fit.contact_gap_m);
+  stage.summarize(summary);
 }
 
 /// Radiance as the lens's vignetting leaves it.

@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "common/ball_labels.h"
 #include "common/image.h"
 #include "common/light_field.h"
 #include "stages/calibrate/calibrate_config.h"
-#include "stages/calibrate/labels.h"
 
 namespace tacipc {
 

@@ -29,6 +29,12 @@ std::string motion(const ObjectCase& object) {
 
 std::string shade(const ObjectCase& object) {
   std::string text = "images:\n";
+  if (!object.images.empty() && object.images.front().circle) {
+    for (const PhotographCase& image : object.images)
+      text += fmt::format("  - {{name: {}, center_px: [{}, {}], contact_px: {}}}\n", image.name, image.circle->x_px,
+                          image.circle->y_px, image.circle->radius_px);
+    return text + fmt::format("ball: {{radius_mm: {}}}\n", 1e3 * object.ball_radius_m.value());
+  }
   int frame = 0;
   for (const PhotographCase& image : object.images)
     text += fmt::format("  - {{name: {}, frame: {}}}\n", image.name, ++frame);
@@ -44,8 +50,15 @@ std::string metrics(const BenchmarkCases& cases) {
   for (const ObjectCase& object : cases.objects)
     for (const PhotographCase& image : object.images)
       for (const std::string& name : {object.name + "/" + image.name + ".png", image.name + ".png"})
-        text += fmt::format("  - {{starts_with: {}, px: [{}, {}, {}, {}]}}\n", name, object.box_px[0], object.box_px[1],
-                            object.box_px[2], object.box_px[3]);
+        text += fmt::format("  - {{starts_with: {}, px: [{}, {}, {}, {}]}}\n", name, image.box_px[0], image.box_px[1],
+                            image.box_px[2], image.box_px[3]);
+  return text;
+}
+
+std::string labels(const std::vector<ContactCircle>& circles) {
+  std::string text;
+  for (const ContactCircle& circle : circles)
+    text += fmt::format("{} ({}, {}) {}\n", circle.image, circle.x_px, circle.y_px, circle.radius_px);
   return text;
 }
 
@@ -58,10 +71,12 @@ std::string variables(const BenchmarkCases& cases, const std::string& folder) {
     text += fmt::format("CASES_{} := {}\n", name, value);
   };
   set("DATA", cases.data);
-  set("BACKGROUND", cases.data + "/" + cases.background);
+  set("CIRCLES", cases.circle_table ? cases.data + "/" + cases.circles : "");
+  if (!cases.circle_table) {
+    set("BACKGROUND", cases.data + "/" + cases.background);
+    set("LABELS", cases.data + "/" + cases.labels);
+  }
   set("PHOTOGRAPHS", cases.data + "/" + cases.photographs);
-  set("LABELS", cases.data + "/" + cases.labels);
-  set("ENDING", cases.ending);
   for (const auto& [name, path] : {std::pair{"SENSOR", cases.sensor},
                                    {"MESH", cases.mesh},
                                    {"PRESS", cases.press},
@@ -72,7 +87,10 @@ std::string variables(const BenchmarkCases& cases, const std::string& folder) {
   for (const ObjectCase& object : cases.objects) {
     objects += (objects.empty() ? "" : " ") + object.name;
     std::string images;
-    for (const PhotographCase& image : object.images) images += (images.empty() ? "" : " ") + image.name;
+    for (const PhotographCase& image : object.images) {
+      images += (images.empty() ? "" : " ") + image.name;
+      set("PHOTOGRAPH_" + image.name, cases.data + "/" + cases.photographs + "/" + image.photograph);
+    }
     set("IMAGES_" + object.name, images);
     set("FIT_" + object.name, object.fit_image);
     set("MESH_" + object.name, object.mesh.empty() ? "" : cases.data + "/" + object.mesh);
@@ -90,9 +108,15 @@ std::vector<std::pair<std::string, std::string>> case_files(const BenchmarkCases
       {"ball/indenter.yaml", ball_indenter(cases.ball_radius_m, cases.ball_edge_m)},
       {"ball/motion.yaml",
        fmt::format("motion: {{kind: press, depth_mm: {}, steps: {}}}\n", 1e3 * cases.ball_depth_m, cases.ball_steps)}};
+  if (cases.circle_table) {
+    files.emplace_back("labels.txt", labels(cases.labels_of_circles));
+    files.emplace_back("background.yaml", fmt::format("contact_radii: {}\n", cases.circle_table->background_radii));
+  }
   for (const ObjectCase& object : cases.objects) {
-    files.emplace_back("objects/" + object.name + "/indenter.yaml", indenter(object, cases));
-    files.emplace_back("objects/" + object.name + "/motion.yaml", motion(object));
+    if (!cases.circle_table) {  // else the press that calibrates serves
+      files.emplace_back("objects/" + object.name + "/indenter.yaml", indenter(object, cases));
+      files.emplace_back("objects/" + object.name + "/motion.yaml", motion(object));
+    }
     files.emplace_back("objects/" + object.name + "/shade.yaml", shade(object));
   }
   return files;

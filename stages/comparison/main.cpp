@@ -14,6 +14,7 @@ const StageSpec kComparison{
     .name = "comparison",
     .summary = "Our images beside photographs and the rivals: a table and a sheet of pictures.",
     .inputs = {{.flag = "--config", .help = "the benchmark (YAML)"},
+               {.flag = "--circles", .help = "contact circles, where the benchmark names them", .required = false},
                {.flag = "--ours", .help = "samples.csv of our images"},
                {.flag = "--depth-based", .help = "samples.csv of the depth-based method"},
                {.flag = "--background", .help = "samples.csv of the background alone"},
@@ -42,7 +43,8 @@ Value::Map values_of(const Score& s) {
 
 int main(int argc, char** argv) {
   return run_stage(kComparison, argc, argv, [](Stage& stage) {
-    const auto cases = stage.read_config<BenchmarkCases>("--config");
+    auto cases = stage.read_config<BenchmarkCases>("--config");
+    add_circles(cases, stage.optional_input("--circles"));
     const std::vector<MethodScores> methods{read_scores(stage.input("--ours"), "ours", cases),
                                             read_scores(stage.input("--depth-based"), "depth-based", cases),
                                             read_scores(stage.input("--background"), "background alone", cases)};
@@ -56,9 +58,9 @@ int main(int argc, char** argv) {
         for (const auto* image : {&ours[i], &rival[i]})
           if (image->width != real[i].width || image->height != real[i].height)
             throw DataError("{}: images are not of the photograph's size", object.images[k].name);
-        const auto& box = object.box_px;
+        const auto& box = object.images[k].box_px;
         if (box[0] + box[2] > real[i].width || box[1] + box[3] > real[i].height)
-          throw DataError("{}: the contact box leaves the photograph", object.name);
+          throw DataError("{}: the contact box leaves the photograph", object.images[k].name);
         rows.push_back({real[i], ours[i], rival[i], box});
       }
     write_file(stage.output("table.md"), to_markdown(methods, cases));

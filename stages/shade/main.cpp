@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 
+#include "common/ball_press.h"
 #include "common/error.h"
 #include "common/npy.h"
 #include "common/picture.h"
@@ -22,6 +23,7 @@ const StageSpec kShade{
                {.flag = "--background", .help = "photograph without contact (PNG)"},
                {.flag = "--press", .help = "folder that press wrote", .required = false},
                {.flag = "--gel", .help = "gel.msh of that press", .required = false},
+               {.flag = "--contact", .help = "contact.yaml of calibrate: contacts of a ball", .required = false},
                {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false},
                {.flag = "--shapes",
                 .help = "indentation maps (EXR), one per image, in place of a press",
@@ -97,6 +99,35 @@ void shade_press(Stage& stage, const ShadeConfig& config, const Camera& camera, 
   stage.summarize(summary);
 }
 
+/// contact.yaml
+struct ContactRim {
+  double gap_m = 0.0;
+  static ContactRim read(ConfigReader& in) { return {1e-3 * in.number("contact_gap_mm", Range::positive())}; }
+};
+
+void shade_contacts(Stage& stage, const ShadeConfig& config, const Camera& camera, const LightField& light,
+                    const ByteImage& background) {
+  const double radius_m = config.ball_radius_m.value();
+  const BallPress press = read_ball_press(*stage.optional_input("--press"), *stage.optional_input("--gel"), radius_m,
+                                          stage.read_config<ContactRim>("--contact").gap_m);
+  std::vector<double> poses;
+  Value::Map depths;
+  for (const NamedFrame& image : config.images) {
+    const ContactPlace& contact = image.contact.value();
+    const double depth =
+        press.depth_of_contact(contact.radius_px * camera.window_width_m / camera.width_px, image.name);
+    const Matrix4 place = place_pose(contact.center, camera);
+    deliver(stage, image.name,
+            view_membrane(at_place(press.at_depth(depth), contact.center, camera), press.front, camera), light,
+            background);
+    const Matrix4 pose = ball_pose(place(0, 3), place(1, 3), depth, radius_m);
+    for (int i = 0; i < 16; ++i) poses.push_back(pose(i / 4, i % 4));
+    depths.emplace_back(image.name, 1e3 * depth);
+  }
+  write_npy(stage.output("object_pose.npy"), {config.images.size(), 4, 4}, poses.data());
+  stage.summarize({{"images", config.images.size()}, {"depth_mm", depths}});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -107,10 +138,14 @@ int main(int argc, char** argv) {
     const auto config = stage.read_config<ShadeConfig>("--config");
     if (stage.optional_input("--photograph").has_value() != (press && config.fit.has_value()))
       throw UsageError("--photograph: needed where a press is to be fitted to it, and only there");
+    if (stage.optional_input("--contact").has_value() != (press && config.ball_radius_m.has_value()))
+      throw UsageError("--contact: needed where a press is to match contacts of a ball, and only there");
     const Camera camera = stage.read_config<Sensor>("--sensor").camera;
     const auto light = stage.read_config<LightField>("--light");
     const ByteImage background = read_photograph(stage.input("--background"), camera);
-    if (press)
+    if (press && config.ball_radius_m)
+      shade_contacts(stage, config, camera, light, background);
+    else if (press)
       shade_press(stage, config, camera, light, background);
     else
       shade_shapes(stage, config, camera, light, background);

@@ -8,11 +8,22 @@ namespace tacipc {
 
 ShadeConfig ShadeConfig::read(ConfigReader& in) {
   ShadeConfig config;
+  if (auto ball = in.optional_section("ball"))
+    config.ball_radius_m = 1e-3 * ball->number("radius_mm", Range::positive());
   for (ConfigReader& item : in.one_or_more_sections("images")) {
-    config.images.push_back({.name = item.text("name"), .frame = item.integer("frame", 0, 1000000)});
+    NamedFrame image{.name = item.text("name"), .frame = 0, .contact = std::nullopt};
+    if (config.ball_radius_m) {
+      const auto center = item.numbers("center_px", 2);
+      image.contact = ContactPlace{.center = {.x_px = center[0], .y_px = center[1]},
+                                   .radius_px = item.number("contact_px", Range::positive())};
+    } else {
+      image.frame = item.integer("frame", 0, 1000000);
+    }
+    config.images.push_back(image);
     const auto same = [&](const NamedFrame& other) { return other.name == config.images.back().name; };
     if (std::count_if(config.images.begin(), config.images.end(), same) > 1) item.fault("name", "is given twice");
   }
+  if (config.ball_radius_m) return config;
   ConfigReader place = in.section("place");
   const auto center = place.numbers("center_px", 2);
   config.place = {

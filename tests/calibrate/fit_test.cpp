@@ -95,6 +95,25 @@ TEST(ContactRadius, IsWhereTheGapOpens) {
   EXPECT_EQ(contact_radius(front, 0.0, kRadius, 1e-9), 0.0);
 }
 
+TEST(GapAtRadius, IsTheInverseOfTheContactRadius) {
+  Positions front(160 * 160, 3);
+  for (int i = 0; i < 160 * 160; ++i) {
+    const double x = 5e-5 * (i % 160 - 79.5), y = 5e-5 * (i / 160 - 79.5);
+    front.row(i) << x, y, -cap(std::hypot(x, y), 0.6e-3);
+  }
+  for (const double gap : {10e-6, 50e-6, 200e-6})
+    EXPECT_NEAR(gap_at_radius(front, 0.6e-3, kRadius, contact_radius(front, 0.6e-3, kRadius, gap)), gap, 1e-9);
+  EXPECT_NEAR(gap_at_radius(front, 0.6e-3, kRadius, 0.0), 0.0, 1e-9);
+}
+
+TEST(BallPose, TurnsTheBallOverAndPutsItsLowestPointAtTheDepth) {
+  const Matrix4 pose = ball_pose(1e-3, -2e-3, 0.4e-3, kRadius);
+  const Eigen::Vector4d lowest = pose * Eigen::Vector4d(0, 0, kRadius, 1), at(1e-3, -2e-3, -0.4e-3, 1);
+  EXPECT_NEAR((lowest - at).norm(), 0.0, 1e-15);
+  const Matrix3 turn = pose.topLeftCorner<3, 3>();
+  EXPECT_NEAR(turn.determinant(), 1.0, 1e-15);
+}
+
 Camera camera() {
   return {.position_m = {0, 0, -49e-3},
           .width_px = 120,
@@ -189,6 +208,69 @@ TEST(FitLight, FindsLampsFromPhotographsOfBalls) {
   EXPECT_GT(fit.held_out[1].rmse_codes, 2.0 * fit.held_out[0].rmse_codes);
   EXPECT_NE(fit.kind, ModelKind::environment);
   EXPECT_GT(fit.lamps->condition, 1.0);
+}
+
+/// Frames of that membrane, 0.05 mm apart.
+BallPress cap_press() {
+  constexpr int kSide = 121;
+  BallPress press;
+  press.radius_m = kRadius;
+  for (int k = 0; k <= 18; ++k) {
+    press.depth_m.push_back(5e-5 * k);
+    Positions front(kSide * kSide, 3);
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const double x = 5e-5 * (i % kSide - 60), y = 5e-5 * (i / kSide - 60);
+      front.row(i) << x, y, k == 0 ? 0.0 : -cap(std::hypot(x, y), press.depth_m.back());
+    }
+    press.frames.push_back(front);
+  }
+  press.front.resize(2 * (kSide - 1) * (kSide - 1), 3);
+  for (int j = 0, t = 0; j + 1 < kSide; ++j)
+    for (int i = 0; i + 1 < kSide; ++i) {
+      const int a = kSide * j + i;
+      press.front.row(t++) << a, a + 1, a + kSide + 1;
+      press.front.row(t++) << a, a + kSide + 1, a + kSide;
+    }
+  return press;
+}
+
+TEST(FitLight, FindsWhichRimTheLabelsMean) {
+  CalibrateConfig settings = config();
+  settings.environment_degree = 0;
+  settings.fit_lamps = false;
+  settings.lamps.clear();
+  for (const auto& [degrees, elevation] : {std::pair{22.0, 0.42}, {118.0, 0.55}, {255.0, 0.47}})
+    settings.lamps.push_back(
+        {.azimuth_rad = degrees * std::numbers::pi / 180, .distance_m = 20e-3, .elevation_tan = elevation});
+  settings.label_sigma_px = 2.0;
+  settings.fit_contact_gap = true;
+  BallPress press = cap_press();
+  constexpr double kSeen = 60e-6;  // labels are drawn here, and the fit starts at 20 µm
+  std::vector<Ball> balls;
+  std::vector<double> depths;
+  for (int i = 0; i < 6; ++i) {
+    Ball ball;
+    ball.label = {.image = "b", .x_px = 45.0 + 6 * (i % 3), .y_px = 48.0 + 5 * i, .radius_px = 0.0};
+    ball.x_m = (ball.label.x_px + 0.5 - 60) * 1e-4;
+    ball.y_m = (ball.label.y_px + 0.5 - 60) * 1e-4;
+    depths.push_back(0.33e-3 + 0.06e-3 * i);
+    ball.depth_m = depths.back();
+    ball.view = view_ball(press, ball, camera());
+    const ByteImage background(120, 120, 3, 128);
+    ball.samples =
+        make_samples(add_change(background, code_change(true_light(), ball.view)), background, ball.label, settings);
+    press.set_rim(kSeen);
+    ball.label.radius_px = contact_radius(press.at_depth(ball.depth_m), ball.depth_m, kRadius, kSeen) / 1e-4;
+    press.set_rim(settings.contact_gap_m);
+    ball.depth_m = press.depth_of_contact(ball.label.radius_px * 1e-4, "b");
+    EXPECT_GT(ball.depth_m - depths.back(), 0.02e-3);  // the wrong rim makes balls too deep
+    ball.view = view_ball(press, ball, camera());
+    balls.push_back(std::move(ball));
+  }
+  settings.folds = 3;
+  const LightFit fit = fit_light(balls, &press, camera(), settings);
+  EXPECT_NEAR(fit.contact_gap_m, kSeen, 6e-6);
+  for (std::size_t i = 0; i < balls.size(); ++i) EXPECT_NEAR(balls[i].depth_m, depths[i], 8e-6) << i;
 }
 
 TEST(FitLight, FewerBallsThanFoldsIsSaid) {

@@ -129,6 +129,25 @@ LightField example() {
   return light;
 }
 
+TEST(Features, OfAFieldOfSecondDegreeHaveItsTermsAndComeBackFromTheirFile) {
+  LightField light = example();
+  light.geometry.field_degree = 2;
+  EXPECT_EQ(light.geometry.num_features(), 6 * (2 * 2 + 5));
+  EXPECT_EQ(light.geometry.first_environment_feature(), 24);
+  light.weights.resize(light.geometry.num_features(), 3);
+  for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
+  const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, camera());
+  Eigen::VectorXd f(light.geometry.num_features());
+  light_features(light.geometry, view, 45, 10, f.data());
+  const std::size_t i = view.index(45, 10);
+  const double x = view.rest[i].x() / 3e-3, y = view.rest[i].y() / 3e-3, n = view.normal[i].x();
+  const double terms[] = {1.0, x, y, x * x, x * y, y * y};
+  for (Eigen::Index k = 0; k < 6; ++k) EXPECT_NEAR(f[24 + k], n * terms[k], 1e-15) << k;
+  const LightField read = config_from_text<LightField>(to_yaml(light.to_value()), "light.yaml");
+  EXPECT_EQ(read.geometry.field_degree, 2);
+  EXPECT_EQ(read.weights, light.weights);
+}
+
 TEST(Features, StandInTheirOrder) {
   const LightField light = example();
   EXPECT_EQ(light.geometry.num_features(), 3 * (2 * 2 + 5));

@@ -56,6 +56,11 @@ TEST(Judgement, NeedsTheMustsAndEveryRivalBehindOnAllThree) {
   EXPECT_TRUE(judge({method("a", good), method("b", weak)}, cases()).ahead);
   EXPECT_FALSE(judge({method("a", good), method("b", weak), method("c", brighter)}, cases()).ahead);
   EXPECT_FALSE(judge({method("a", weak)}, cases()).musts);
+  BenchmarkCases free = cases();
+  free.must.reset();
+  EXPECT_TRUE(judge({method("a", weak), method("b", weak)}, free).musts);
+  EXPECT_THAT(to_markdown({method("a", good), method("b", weak)}, free),
+              testing::HasSubstr("The first row there is ahead of every other row on SSIM-S, MAE and PSNR: yes.\n"));
   const std::string page = to_markdown({method("ours", good), method("rival", brighter)}, cases());
   EXPECT_THAT(page, testing::HasSubstr("| ours | 0.850 | 0.800 | 0.0200 | 29.00 | 0.850 | 0.800 | 0.0200 | 29.00 |\n"));
   EXPECT_THAT(page, testing::HasSubstr("(holds); ahead of every other row on the three: **no**."));

@@ -1,4 +1,4 @@
-#include "stages/calibrate/labels.h"
+#include "common/ball_labels.h"
 
 #include <regex>
 #include <sstream>

@@ -11,6 +11,7 @@ namespace tacipc {
 
 /// Frames of a press straight down over the origin of S by a ball.
 struct BallPress {
+  double radius_m = 0.0;          // of the ball
   Triangles front;                // over the rows of every frame
   std::vector<double> depth_m;    // of the ball's lowest point below the undeformed front, ascending from frame 0
   std::vector<Positions> frames;  // front vertices, m
@@ -20,12 +21,20 @@ struct BallPress {
   /// \throw DataError beyond the last frame
   Positions at_depth(double depth) const;
   /// Depth at which the rim has this radius. \throw DataError, naming `what`, beyond the deepest frame
-  double depth_of_contact(double radius_m, const std::string& what) const;
+  double depth_of_contact(double rim_m, const std::string& what) const;
+  /// The rim is where the gap is this wide: sets contact_m.
+  void set_rim(double gap_m);
 };
 
 /// Where the gap between ball and membrane first exceeds `gap_m`: the mean gap over rings of front vertices, 0.1 mm
 /// wide, interpolated. 0 without contact.
 double contact_radius(const Positions& front, double depth_m, double ball_radius_m, double gap_m);
+/// The gap at that distance from the ball's axis, over the same rings. \pre radius_m < 0.95 ball_radius_m
+double gap_at_radius(const Positions& front, double depth_m, double ball_radius_m, double radius_m);
+
+/// Where the press puts a ball, whose own frame has its origin in its centre, over (x, y) at a depth: half a turn about
+/// x, so that its +z side faces the gel.
+Matrix4 ball_pose(double x_m, double y_m, double depth_m, double ball_radius_m);
 
 /// Reads positions.npy and object_pose.npy of a press folder. The object's frame has its origin in the ball's centre.
 /// \throw DataError if the files do not fit the gel, or the ball does not go straight down over the origin
