@@ -166,7 +166,7 @@ TEST_F(CasesProgram, TheShippedBenchmarkIsRead) {
             0)
       << said_;
   EXPECT_THAT(read_file(scratch_ / "out/cases.mk"),
-              testing::HasSubstr("CASES_SENSOR := configs/benchmarks/gelsight_sim2real/sensor.yaml\n"));
+              testing::HasSubstr("CASES_SENSOR := configs/sensors/gelsight_lab.yaml\n"));
   EXPECT_THAT(read_file(scratch_ / "out/cases.yaml"), testing::HasSubstr("images: 8\n"));
 }
 

@@ -100,7 +100,7 @@ TEST(ShadeConfig, FaultsAreSaid) {
 class ShadeProgram : public ProgramTest {};
 
 TEST_F(ShadeProgram, ShapesGiveImagesOnTheBackground) {
-  std::string sensor = read_file(std::string(TACIPC_SOURCE_DIR) + "/configs/benchmarks/gelsight_sim2real/sensor.yaml");
+  std::string sensor = read_file(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/gelsight_lab.yaml");
   for (const auto& [from, to] : {std::pair{"width_px: 320", "width_px: 40"}, {"height_px: 320", "height_px: 30"}})
     sensor.replace(sensor.find(from), std::string(from).size(), to);
   scratch_.file("sensor.yaml", sensor);
