@@ -35,4 +35,11 @@ std::vector<int> spatial_order(const Positions& points) {
   return order;
 }
 
+std::vector<int> spatial_rank(const Positions& points) {
+  std::vector<int> rank(static_cast<std::size_t>(points.rows()));
+  int next = 0;
+  for (const int i : spatial_order(points)) rank[static_cast<std::size_t>(i)] = next++;
+  return rank;
+}
+
 }  // namespace tacipc

@@ -11,4 +11,7 @@ namespace tacipc {
 /// cell by index.   [Morton 1966]
 std::vector<int> spatial_order(const Positions& points);
 
+/// The place of each point in that order.
+std::vector<int> spatial_rank(const Positions& points);
+
 }  // namespace tacipc

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "common/camera_image.h"
 #include "common/error.h"
 #include "common/object.h"
 #include "common/picture.h"
@@ -30,7 +31,7 @@ std::vector<Raster> depth_maps(Stage& stage, const Camera& camera) {
   std::vector<Raster> maps;
   for (const auto& path : stage.inputs("--depth")) {
     maps.push_back(read_depth(path));
-    check_size(maps.back(), camera, path);
+    check_camera_size(path, maps.back().width, maps.back().height, camera);
   }
   const auto mesh = stage.optional_input("--object"), pose = stage.optional_input("--pose");
   if (!mesh) return maps;
@@ -62,10 +63,7 @@ int main(int argc, char** argv) {
     keep_to_one_thread();
     const Camera& camera = sensor.camera;
     std::optional<ByteImage> background;
-    if (photograph) {
-      background = read_png(*photograph, 3);
-      check_size(Raster(background->width, background->height), camera, *photograph);
-    }
+    if (photograph) background = read_photograph(*photograph, camera);
     const Raster front =
         config.front_depth_m ? Raster(camera.width_px, camera.height_px, *config.front_depth_m) : front_depth(sensor);
     double deepest_m = 0.0;

@@ -28,12 +28,6 @@ BaselineFrame simulate_depth(const Raster& depth_m, const Raster& front_depth_m,
   return frame;
 }
 
-void check_size(const Raster& depth_m, const Camera& camera, const std::filesystem::path& path) {
-  if (depth_m.width == camera.width_px && depth_m.height == camera.height_px) return;
-  throw DataError("{}: is {} x {} pixels, the sensor's camera has {} x {}", path.string(), depth_m.width,
-                  depth_m.height, camera.width_px, camera.height_px);
-}
-
 Raster read_depth(const std::filesystem::path& path) {
   const FloatImage image = read_exr(path, {"Z"});
   Raster depth(image.width, image.height);

@@ -22,9 +22,6 @@ struct BaselineFrame {
 BaselineFrame simulate_depth(const Raster& depth_m, const Raster& front_depth_m, const BaselineConfig& config,
                              const std::optional<ByteImage>& background);
 
-/// The camera's size, or that of a depth map; \throw DataError if they differ.
-void check_size(const Raster& depth_m, const Camera& camera, const std::filesystem::path& path);
-
 /// Depth (m) of a float EXR as render writes it: channel Z.
 Raster read_depth(const std::filesystem::path& path);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/camera_image.h"
 #include "common/camera_model.h"
 #include "common/error.h"
 #include "common/files.h"
@@ -34,14 +35,6 @@ const StageSpec kCalibrate{
                 .help = "indentation maps (EXR), one per label, in place of a press",
                 .required = false,
                 .many = true}}};
-
-ByteImage read_photograph(const std::filesystem::path& path, const Camera& camera) {
-  ByteImage image = read_png(path, 3);
-  if (image.width != camera.width_px || image.height != camera.height_px)
-    throw DataError("{}: is {} x {} pixels, the sensor's camera has {} x {}", path.string(), image.width, image.height,
-                    camera.width_px, camera.height_px);
-  return image;
-}
 
 /// Twice what the model leaves over, about grey.
 ByteImage residual_picture(const ByteImage& simulated, const ByteImage& real) {
@@ -123,9 +116,7 @@ void calibrate_balls(Stage& stage) {
       ball.depth_m = press->depth_of_contact(label.radius_px * pixel_x, label.image);
       ball.view = view_ball(*press, ball, camera);
     } else {
-      const FloatImage indentation = read_exr(shapes[i], {"Y"});
-      if (indentation.width != camera.width_px || indentation.height != camera.height_px)
-        throw DataError("{}: is not of the camera's size", shapes[i].string());
+      const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, camera);
       ball.view = view_height_map(indentation, camera);
     }
     balls.push_back(std::move(ball));
@@ -181,9 +172,7 @@ void calibrate_leds(Stage& stage) {
   const ByteImage background = read_photograph(stage.input("--background"), camera);
   std::vector<FloatImage> basis;
   for (const auto& path : stage.inputs("--basis")) {
-    basis.push_back(read_exr(path, {"R", "G", "B"}));
-    if (basis.back().width != camera.width_px || basis.back().height != camera.height_px)
-      throw DataError("{}: is not of the camera's size", path.string());
+    basis.push_back(read_camera_exr(path, {"R", "G", "B"}, camera));
   }
   // The images are of what reaches the lens.
   const FloatImage even = through_lens(FloatImage(camera.width_px, camera.height_px, 1, 1.0f), camera);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/ball_press.h"
+#include "common/camera_image.h"
 #include "common/error.h"
 #include "common/npy.h"
 #include "common/picture.h"
@@ -30,14 +31,6 @@ const StageSpec kShade{
                 .required = false,
                 .many = true}}};
 
-ByteImage read_photograph(const std::filesystem::path& path, const Camera& camera) {
-  ByteImage image = read_png(path, 3);
-  if (image.width != camera.width_px || image.height != camera.height_px)
-    throw DataError("{}: is {} x {} pixels, the sensor's camera has {} x {}", path.string(), image.width, image.height,
-                    camera.width_px, camera.height_px);
-  return image;
-}
-
 /// Pictures one membrane and writes it under its name.
 void deliver(Stage& stage, const std::string& name, const MembraneView& view, const LightField& light,
              const ByteImage& background) {
@@ -55,9 +48,7 @@ void shade_shapes(Stage& stage, const ShadeConfig& config, const Camera& camera,
   if (shapes.size() != config.images.size())
     throw UsageError(fmt::format("{} --shapes for {} images", shapes.size(), config.images.size()));
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const FloatImage indentation = read_exr(shapes[i], {"Y"});
-    if (indentation.width != camera.width_px || indentation.height != camera.height_px)
-      throw DataError("{}: is not of the camera's size", shapes[i].string());
+    const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, camera);
     deliver(stage, config.images[i].name, view_height_map(indentation, camera), light, background);
   }
   stage.summarize({{"images", shapes.size()}});

@@ -88,10 +88,7 @@ AveragedElasticity::AveragedElasticity(const Positions& rest, const Tetrahedra& 
     }
     patches_.push_back(std::move(patch));
   }
-  std::vector<int> rank(static_cast<std::size_t>(rest.rows()));
-  int next = 0;
-  for (const int v : spatial_order(rest)) rank[v] = next++;
-  rank_ = std::make_shared<const std::vector<int>>(std::move(rank));
+  rank_ = std::make_shared<const std::vector<int>>(spatial_rank(rest));
   make_packs();
 }
 

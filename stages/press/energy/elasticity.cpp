@@ -26,10 +26,7 @@ Elasticity::Elasticity(const Positions& rest, const Tetrahedra& tets, const Elas
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     centres.row(t) = 0.25 * (rest.row(tets(t, 0)) + rest.row(tets(t, 1)) + rest.row(tets(t, 2)) + rest.row(tets(t, 3)));
   }
-  std::vector<int> rank(static_cast<std::size_t>(rest.rows()));
-  int next = 0;
-  for (const int v : spatial_order(rest)) rank[v] = next++;
-  rank_ = std::make_shared<const std::vector<int>>(std::move(rank));
+  rank_ = std::make_shared<const std::vector<int>>(spatial_rank(rest));
   packs_.emplace(tets_, rest_, *neo_hookean, spatial_order(centres), *rank_);
 }
 

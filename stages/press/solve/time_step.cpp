@@ -23,7 +23,7 @@ constexpr double kFar = 10.0, kRoughDirection = 1e-2, kFineDirection = 1e-3;
 // A step this many times as long as the last one is none to trust.
 constexpr double kTooLong = 4.0;
 constexpr int kMaxHalvings = 40;
-constexpr double kFarthest = 0.3;   // of the longest step of a vertex
+constexpr double kFarthest = 0.3;  // of the longest step of a vertex
 // Augmented Lagrangian: stiffness per vertex over that of a contact pair, when targets count as met, and how often
 // multipliers are renewed at most.
 constexpr double kConstraintStiffness = 100.0, kConstraintTolerance = 2e-10;
@@ -240,20 +240,20 @@ void TimeStepper::minimise_constrained(Step& step) {
   }
 }
 
-double TimeStepper::stiffening(double gap_m) const {
-  const double gap = gap_m / settings_.d_hat_m;
-  if (!settings_.adaptive_barrier || gap >= kNear) return 1.0;
-  return std::min(kMostStiffening, kFarEnough / gap);
+bool TimeStepper::stiffen_barrier(State& state, const Positions& x) {
+  if (!settings_.adaptive_barrier || state.barrier_factor >= kStiffest) return false;
+  const double gap = smallest_gap(x, settings_.d_hat_m) / settings_.d_hat_m;
+  if (gap >= kNear) return false;
+  state.barrier_factor = std::min(kStiffest, std::min(kMostStiffening, kFarEnough / gap) * state.barrier_factor);
+  log_debug("  smallest gap {:.2g} of the barrier's reach: {:.3g} times as stiff from here on", gap,
+            state.barrier_factor);
+  return true;
 }
 
 StepReport TimeStepper::advance(State& state, const StepGoal& goal, const IterationObserver& observe) {
   StepReport report = try_to_advance(state, goal, observe);
   report.barrier_factor = state.barrier_factor;
-  const double stiffer = stiffening(smallest_gap(state.x, settings_.d_hat_m));
-  if (stiffer > 1.0 && state.barrier_factor < kStiffest) {
-    state.barrier_factor = std::min(kStiffest, stiffer * state.barrier_factor);
-    log_debug("  barrier {:.3g} times as stiff from here on", state.barrier_factor);
-  }
+  stiffen_barrier(state, state.x);
   return report;
 }
 
@@ -318,9 +318,7 @@ StepReport TimeStepper::try_to_advance(State& state, const StepGoal& goal, const
     settle_friction(step);
   } catch (const SolverError& error) {
     // A gap that is all but closed is too stiff a spring beside all others; with a stiffer barrier it stays wider.
-    const double stiffer = stiffening(smallest_gap(step.x, settings_.d_hat_m));
-    if (stiffer == 1.0 || state.barrier_factor >= kStiffest) throw;
-    state.barrier_factor = std::min(kStiffest, stiffer * state.barrier_factor);
+    if (!stiffen_barrier(state, step.x)) throw;
     log_info("{}; again with {:.3g} times the barrier", error.what(), state.barrier_factor);
     return try_to_advance(state, goal, observe);
   }

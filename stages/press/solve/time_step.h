@@ -142,8 +142,8 @@ class TimeStepper {
   std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);  // or on the way from x to x + p
   IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
   void record_forces(const Step& step);
-  /// By how much the barrier should be stiffer with such a smallest gap, at least 1.
-  double stiffening(double gap_m) const;
+  /// Makes the barrier of the next steps stiffer if something is too near at x; true if it did.
+  bool stiffen_barrier(State& state, const Positions& x);
 
   const ContactMesh& mesh_;
   GelModel gel_;
