@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "common/optics/ray_scene.h"
 #include "common/types.h"
-#include "stages/render/ray_scene.h"
 
 namespace tacipc::bench {
 

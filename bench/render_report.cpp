@@ -26,7 +26,7 @@ std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate&
   out +=
       "\n## Tracing\n\nAll rays of one frame (with area lights of one of 160 × 120 pixels) are logged and traced again "
       "on one thread: "
-      "through our packets (`stages/render/ray_scene.h`), and by bare loops over `rtcIntersect8` and `rtcOccluded8` on "
+      "through our packets (`common/optics/ray_scene.h`), and by bare loops over `rtcIntersect8` and `rtcOccluded8` on "
       "arrays "
       "that lie ready, same scene flags. *Share* is what our tracing is of the whole frame on one thread.\n\n"
       "| Rendering | Camera rays | Shadow rays | Ours, Mrays/s | Embree, Mrays/s | of Embree | Share of the frame |\n"

@@ -9,6 +9,8 @@ complain() { # complain PATTERN WHERE REASON
   [ -z "$hits" ] || { echo "$hits"; echo "  ^ $3"; faults=1; }
 }
 complain 'stages/' common 'common may not include a stage'
+hits=$(grep -nE '#include "common/optics/' common/*.h common/*.cpp || true)
+[ -z "$hits" ] || { echo "$hits"; echo '  ^ what has no pictures may not need Embree'; faults=1; }
 for stage in stages/*/; do
   name=$(basename "$stage")
   hits=$(grep -rnoE '#include "stages/[a-z]+/' "$stage" | grep -v "stages/$name/\$" || true)

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "common/npy.h"
+#include "common/optics/membrane.h"
+#include "common/optics/trace.h"
 #include "common/tet_mesh.h"
 #include "common/types.h"
-#include "stages/render/membrane.h"
-#include "stages/render/trace.h"
 
 namespace tacipc {
 

@@ -9,8 +9,8 @@
 #include "common/camera_model.h"
 #include "common/error.h"
 #include "common/log.h"
+#include "common/optics/membrane.h"
 #include "common/picture.h"
-#include "stages/render/membrane.h"
 
 namespace tacipc {
 namespace {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "common/image.h"
+#include "common/optics/develop.h"
+#include "common/optics/trace.h"
 #include "common/sensor.h"
 #include "common/tet_mesh.h"
-#include "stages/render/develop.h"
 #include "stages/render/press_folder.h"
 #include "stages/render/render_config.h"
-#include "stages/render/trace.h"
 
 namespace tacipc {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/optics/trace.h"
 #include "common/sensor.h"
-#include "stages/render/trace.h"
 
 namespace tacipc {
 

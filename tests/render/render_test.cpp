@@ -13,8 +13,8 @@
 
 #include "common/error.h"
 #include "common/files.h"
+#include "tests/common/optics/test_surfaces.h"
 #include "tests/program_test.h"
-#include "tests/render/test_surfaces.h"
 
 namespace tacipc {
 namespace {

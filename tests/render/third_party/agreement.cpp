@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "stages/render/develop.h"
+#include "common/optics/develop.h"
 
 namespace tacipc {
 

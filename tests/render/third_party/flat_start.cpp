@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/camera_model.h"
-#include "stages/render/ray_scene.h"
-#include "stages/render/surface_hit.h"
+#include "common/optics/ray_scene.h"
+#include "common/optics/surface_hit.h"
 
 namespace tacipc {
 namespace {

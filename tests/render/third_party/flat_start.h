@@ -2,8 +2,8 @@
 #pragma once
 
 #include "common/image.h"
+#include "common/optics/membrane.h"
 #include "common/sensor.h"
-#include "stages/render/membrane.h"
 
 namespace tacipc {
 

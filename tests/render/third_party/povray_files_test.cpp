@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "common/error.h"
-#include "stages/render/trace.h"
-#include "tests/render/test_surfaces.h"
+#include "common/optics/trace.h"
+#include "tests/common/optics/test_surfaces.h"
 #include "tests/render/third_party/agreement.h"
 #include "tests/render/third_party/flat_start.h"
 #include "tests/render/third_party/povray_scene.h"

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "common/image.h"
+#include "common/optics/membrane.h"
 #include "common/sensor.h"
-#include "stages/render/membrane.h"
 
 namespace tacipc {
 

@@ -3,9 +3,9 @@
 
 #include "common/error.h"
 #include "common/files.h"
+#include "common/optics/trace.h"
 #include "common/stage.h"
 #include "stages/render/press_folder.h"
-#include "stages/render/trace.h"
 #include "tests/render/third_party/agreement.h"
 #include "tests/render/third_party/flat_start.h"
 #include "tests/render/third_party/povray_scene.h"

@@ -1,4 +1,4 @@
-#include "tests/render/test_surfaces.h"
+#include "tests/common/optics/test_surfaces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "stages/render/surface_hit.h"
+#include "common/optics/surface_hit.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

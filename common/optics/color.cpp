@@ -1,7 +1,7 @@
 // Colours and paint onto basis images: the part of rendering that needs no rays.
 #include <tbb/parallel_for.h>
 
-#include "stages/render/trace.h"
+#include "common/optics/trace.h"
 
 namespace tacipc {
 namespace {

@@ -1,4 +1,4 @@
-#include "stages/render/ray_scene.h"
+#include "common/optics/ray_scene.h"
 
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>

@@ -1,4 +1,4 @@
-#include "stages/render/trace.h"
+#include "common/optics/trace.h"
 
 #include <tbb/parallel_for.h>
 
@@ -12,10 +12,10 @@
 
 #include "common/camera_model.h"
 #include "common/error.h"
-#include "stages/render/horizon.h"
-#include "stages/render/indirect.h"
-#include "stages/render/light_path.h"
-#include "stages/render/surface_hit.h"
+#include "common/optics/horizon.h"
+#include "common/optics/indirect.h"
+#include "common/optics/light_path.h"
+#include "common/optics/surface_hit.h"
 
 namespace tacipc {
 namespace {

@@ -1,4 +1,4 @@
-#include "stages/render/indirect.h"
+#include "common/optics/indirect.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "stages/render/trace.h"
-#include "tests/render/test_surfaces.h"
+#include "common/optics/trace.h"
+#include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
 namespace {

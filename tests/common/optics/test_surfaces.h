@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/image.h"
+#include "common/optics/membrane.h"
 #include "common/sensor.h"
-#include "stages/render/membrane.h"
 
 namespace tacipc {
 

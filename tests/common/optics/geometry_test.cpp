@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "common/optics/horizon.h"
+#include "common/optics/surface_hit.h"
+#include "common/optics/trace.h"
 #include "common/rng.h"
-#include "stages/render/horizon.h"
-#include "stages/render/surface_hit.h"
-#include "stages/render/trace.h"
-#include "tests/render/test_surfaces.h"
+#include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
 namespace {

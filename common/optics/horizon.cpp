@@ -1,4 +1,4 @@
-#include "stages/render/horizon.h"
+#include "common/optics/horizon.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "stages/render/membrane.h"
+#include "common/optics/membrane.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
 // The place where a ray meets the membrane, in double precision.
 #pragma once
 
-#include "stages/render/membrane.h"
+#include "common/optics/membrane.h"
 
 namespace tacipc {
 

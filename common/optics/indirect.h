@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
+#include "common/optics/membrane.h"
+#include "common/optics/ray_scene.h"
 #include "common/sensor.h"
-#include "stages/render/membrane.h"
-#include "stages/render/ray_scene.h"
 
 namespace tacipc {
 

@@ -1,4 +1,4 @@
-#include "stages/render/develop.h"
+#include "common/optics/develop.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "stages/render/indirect.h"
+#include "common/optics/indirect.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "common/optics/light_path.h"
 #include "common/rng.h"
-#include "stages/render/light_path.h"
 
 namespace tacipc {
 namespace {

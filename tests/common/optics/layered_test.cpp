@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "common/camera_model.h"
-#include "stages/render/light_path.h"
-#include "stages/render/trace.h"
-#include "tests/render/test_surfaces.h"
+#include "common/optics/light_path.h"
+#include "common/optics/trace.h"
+#include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
 namespace {

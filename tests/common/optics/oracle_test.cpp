@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "stages/render/trace.h"
-#include "tests/render/test_surfaces.h"
+#include "common/optics/trace.h"
+#include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stages/render/membrane.h"
+#include "common/optics/membrane.h"
 
 namespace tacipc {
 

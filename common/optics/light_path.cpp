@@ -1,4 +1,4 @@
-#include "stages/render/light_path.h"
+#include "common/optics/light_path.h"
 
 #include <algorithm>
 #include <cmath>
