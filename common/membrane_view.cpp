@@ -1,65 +1,38 @@
 #include "common/membrane_view.h"
 
+#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
 
-#include "common/pinhole.h"
+#include "common/error.h"
 
 namespace tacipc {
-namespace {
 
-MembraneView flat_view(const Pinhole& pinhole) {
-  MembraneView view{.width = pinhole.width, .height = pinhole.height, .point = {}, .normal = {}, .rest = {}};
-  for (int y = 0; y < view.height; ++y)
-    for (int x = 0; x < view.width; ++x) view.rest.push_back(pinhole.plane_point(x, y));
+MembraneView flat_view(const CameraModel& rays, const Camera& camera) {
+  MembraneView view{.width = camera.width_px, .height = camera.height_px, .point = {}, .normal = {}, .rest = {}};
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const auto point = rays.on_plane(x + 0.5, y + 0.5);
+      if (!point) throw DataError("pixel ({}, {}) of the camera does not look at the front face", x, y);
+      view.rest.emplace_back(point->x(), point->y(), 0.0);
+    }
+  }
   view.point = view.rest;
   view.normal.assign(view.rest.size(), Vector3::UnitZ());
   return view;
 }
 
-Positions area_weighted_normals(const Positions& positions, const Triangles& triangles) {
-  Positions normals = Positions::Zero(positions.rows(), 3);
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const Vector3 a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)),
-                  c = positions.row(triangles(t, 2));
-    const Vector3 area = (b - a).cross(c - a);
-    for (int i = 0; i < 3; ++i) normals.row(triangles(t, i)) += area.transpose();
-  }
-  return normals;
+Vector3 point_at_z(const CameraModel& rays, int x, int y, double z) {
+  const CameraRay ray = rays.ray(x + 0.5, y + 0.5).value();
+  return ray.origin + (z - ray.origin.z()) / ray.direction.z() * ray.direction;
 }
 
-}  // namespace
-
-MembraneView view_membrane(const Positions& positions, const Triangles& triangles, const Camera& camera) {
-  const Pinhole pinhole(camera);
-  MembraneView view = flat_view(pinhole);
-  const Positions normals = area_weighted_normals(positions, triangles);
-  Positions seen = positions;
-  seen.rowwise() -= camera.position_m.transpose();
-  std::vector<double> nearest(view.point.size(), std::numeric_limits<double>::infinity());
-  for_each_hit(pinhole, seen, triangles, [&](int x, int y, Eigen::Index t, const RayHit& hit) {
-    const std::size_t i = view.index(x, y);
-    if (!(hit.depth < nearest[i])) return;
-    Vector3 normal = Vector3::Zero();
-    for (int k = 0; k < 3; ++k)
-      normal += hit.barycentric[static_cast<std::size_t>(k)] * normals.row(triangles(t, k)).normalized().transpose();
-    if (normal.norm() < 1e-9) return;
-    nearest[i] = hit.depth;
-    view.point[i] = camera.position_m + hit.depth * pinhole.ray(x, y);
-    view.normal[i] = normal.normalized();
-  });
-  return view;
-}
-
-MembraneView view_height_map(const FloatImage& indentation_m, const Camera& camera) {
-  assert(indentation_m.width == camera.width_px && indentation_m.height == camera.height_px);
-  const Pinhole pinhole(camera);
-  MembraneView view = flat_view(pinhole);
+MembraneView view_height_map(const FloatImage& indentation_m, const Sensor& sensor) {
+  assert(indentation_m.width == sensor.camera.width_px && indentation_m.height == sensor.camera.height_px);
+  const CameraModel rays(sensor.camera, sensor.stack);
+  MembraneView view = flat_view(rays, sensor.camera);
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x)
-      view.point[view.index(x, y)] =
-          camera.position_m + (-camera.position_m.z() - indentation_m.at(x, y, 0)) * pinhole.ray(x, y);
+      view.point[view.index(x, y)] = point_at_z(rays, x, y, -indentation_m.at(x, y, 0));
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       const auto at = [&](int u, int v) {

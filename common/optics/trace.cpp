@@ -12,10 +12,10 @@
 
 #include "common/camera_model.h"
 #include "common/error.h"
+#include "common/optics/camera_hits.h"
 #include "common/optics/horizon.h"
 #include "common/optics/indirect.h"
 #include "common/optics/light_path.h"
-#include "common/optics/surface_hit.h"
 
 namespace tacipc {
 namespace {
@@ -23,8 +23,7 @@ namespace {
 static_assert(RayPacket::kSize == kLanes);
 
 struct RowCounts {
-  std::int64_t nudged = 0;
-  std::int64_t outside = 0;
+  HitCounts rays;
   std::optional<std::array<int, 2>> fallen_pixel;
 };
 
@@ -33,7 +32,6 @@ void put(Pack3& pack, int lane, const Vector3& v) {
   pack.y[lane] = v.y();
   pack.z[lane] = v.z();
 }
-Vector3 lane_of(const Pack3& pack, int lane) { return {pack.x[lane], pack.y[lane], pack.z[lane]}; }
 
 /// Sums over the rays of one pixel.
 struct PixelSums {
@@ -92,7 +90,11 @@ class RowTracer {
         Pack columns;
         for (int l = 0; l < kLanes; ++l) columns[l] = (first + l + 0.5) / subpixels_;
         const CameraRays rays = camera_.rays(columns, row + (j + 0.5) / subpixels_);
-        const auto hits = find_hits(rays, std::min(kLanes, width * subpixels_ - first), first, row, counts);
+        RayPacket packet;
+        const int count = std::min(kLanes, width * subpixels_ - first);
+        const auto [hits, fallen] = find_hits(scene_, membrane_, rays, count, packet, counts.rays);
+        if (log_) log_->camera.push_back(packet);
+        if (fallen && !counts.fallen_pixel) counts.fallen_pixel = {(first + *fallen) / subpixels_, row};
         gather_light(hits, rays, light);
         for (int l = 0; l < kLanes && first + l < width * subpixels_; ++l) {
           const auto pixel = static_cast<std::size_t>((first + l) / subpixels_);
@@ -135,59 +137,6 @@ class RowTracer {
 
  private:
   using Hits = std::array<std::optional<SurfaceHit>, kLanes>;
-
-  Hits find_hits(const CameraRays& rays, int count, int first, int row, RowCounts& counts) const {
-    RayPacket packet;
-    for (int l = 0; l < kLanes; ++l) {
-      if (l < count && rays.transmittance[l] > 0.0) {
-        packet.set(l, lane_of(rays.origin, l), lane_of(rays.direction, l), 0.0);
-      } else {
-        packet.set(l, Vector3::Zero(), Vector3::UnitZ(), 0.0);
-        packet.valid &= ~(1u << l);
-        counts.outside += l < count;
-      }
-    }
-    if (log_) log_->camera.push_back(packet);
-    auto triangles = scene_.first_hits(packet);
-    std::uint32_t missed = 0;
-    for (int l = 0; l < kLanes; ++l) {
-      if ((packet.valid >> l & 1u) != 0 && triangles[static_cast<std::size_t>(l)] < 0) missed |= 1u << l;
-    }
-    if (missed != 0) nudge(rays, missed, triangles, counts);
-    Hits hits;
-    for (int l = 0; l < count; ++l) {
-      if ((packet.valid >> l & 1u) == 0) continue;
-      const Ray ray{.origin = lane_of(rays.origin, l), .direction = lane_of(rays.direction, l)};
-      const int triangle = triangles[static_cast<std::size_t>(l)];
-      if (triangle >= 0) {
-        hits[static_cast<std::size_t>(l)] = surface_hit(membrane_, triangle, ray);
-      } else if (inside_outline(membrane_, ray)) {
-        if (!counts.fallen_pixel) counts.fallen_pixel = {(first + l) / subpixels_, row};
-      } else {
-        ++counts.outside;
-      }
-    }
-    return hits;
-  }
-
-  void nudge(const CameraRays& rays, std::uint32_t missed, std::array<int, kLanes>& triangles,
-             RowCounts& counts) const {
-    for (const Vector3& aside : {Vector3(1e-6, 0.0, 0.0), Vector3(0.0, 1e-6, 0.0)}) {
-      RayPacket beside;
-      for (int l = 0; l < kLanes; ++l)
-        beside.set(l, lane_of(rays.origin, l), (lane_of(rays.direction, l) + aside).normalized(), 0.0);
-      beside.valid = missed;
-      const auto found = scene_.first_hits(beside);
-      for (int l = 0; l < kLanes; ++l) {
-        const auto k = static_cast<std::size_t>(l);
-        if (found[k] < 0) continue;
-        triangles[k] = found[k];
-        missed &= ~(1u << l);
-        ++counts.nudged;
-      }
-      if (missed == 0) return;
-    }
-  }
 
   /// Adds up what reaches the hits from every light and goes on to the camera.
   void gather_light(const Hits& hits, const CameraRays& rays, std::vector<GroupLight>& light) const {
@@ -346,8 +295,8 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
       throw DataError("a camera ray slips through the front face at pixel ({}, {}), even after a nudge",
                       (*row.fallen_pixel)[0], (*row.fallen_pixel)[1]);
     }
-    out.nudged_rays += row.nudged;
-    out.outside_rays += row.outside;
+    out.nudged_rays += row.rays.nudged;
+    out.outside_rays += row.rays.outside;
   }
   return out;
 }

@@ -9,15 +9,16 @@
 
 #include "common/error.h"
 #include "common/log.h"
+#include "common/optics/seen_membrane.h"
 
 namespace tacipc {
 namespace {
 
-LightGeometry start_geometry(const CalibrateConfig& config, const Camera& camera) {
+LightGeometry start_geometry(const CalibrateConfig& config, const Sensor& sensor) {
   LightGeometry geometry{.shadow_softness = config.shadow_softness,
                          .environment_degree = config.environment_degree,
                          .field_degree = config.field_degree,
-                         .field_half_width_m = 0.5 * camera.window_width_m};
+                         .field_half_width_m = 0.5 * sensor.camera.window_width_m};
   for (const LampGuess& lamp : config.lamps) geometry.lamps_m.push_back(lamp.position_m());
   return geometry;
 }
@@ -97,37 +98,37 @@ GaussNewtonResult fit_lamps(const std::vector<Ball>& balls, const std::vector<La
   return gauss_newton(residuals, u, settings);
 }
 
-double label_radius_m(const Ball& ball, const Camera& camera) {
-  return ball.label.radius_px * camera.window_width_m / camera.width_px;
+double label_radius_m(const Ball& ball, const Sensor& sensor) {
+  return ball.label.radius_px * sensor.camera.window_width_m / sensor.camera.width_px;
 }
 
 /// Gap at the labels' radii, the median over balls: a label that found something else does not matter.
-double fitted_gap(const std::vector<Ball>& balls, const BallPress& press, const Camera& camera) {
+double fitted_gap(const std::vector<Ball>& balls, const BallPress& press, const Sensor& sensor) {
   std::vector<double> gaps;
   for (const Ball& ball : balls)
     gaps.push_back(
-        gap_at_radius(press.at_depth(ball.depth_m), ball.depth_m, press.radius_m, label_radius_m(ball, camera)));
+        gap_at_radius(press.at_depth(ball.depth_m), ball.depth_m, press.radius_m, label_radius_m(ball, sensor)));
   const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
   std::nth_element(gaps.begin(), middle, gaps.end());
   return std::max(*middle, 1e-6);  // nearer than the barrier lets them come, there is no rim
 }
 
 /// Fits centre and depth of one ball to its photograph under the light as it is, held by its label.
-void fit_ball(Ball& ball, const BallPress& press, const Camera& camera, const LightField& light, double sigma_px,
+void fit_ball(Ball& ball, const BallPress& press, const Sensor& sensor, const LightField& light, double sigma_px,
               const CalibrateConfig& config) {
   // Neighbouring residuals agree over about this many pixels: so many samples tell as much as one.
   constexpr double kCorrelatedPixels = 100.0;
-  const double pixel = camera.window_width_m / camera.width_px;
+  const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
   const double samples_per_fact = kCorrelatedPixels / (config.fit_stride_px * config.fit_stride_px);
   // The label's radius, where two of the centre's uncertainties make one of the depth's: d ≈ a² / R.
-  const double contact = label_radius_m(ball, camera);
+  const double contact = label_radius_m(ball, sensor);
   const Vector3 label(ball.x_m, ball.y_m, ball.depth_m);
   const Vector3 sigma = sigma_px * pixel * Vector3(1.0, 1.0, std::max(2.0 * contact / config.ball_radius_m, 0.1));
   const double typical = std::max(ball.rmse_codes, 1.0) * std::sqrt(samples_per_fact);
   const auto residuals = [&](const Eigen::VectorXd& u) {
     Ball at = ball;
     std::tie(at.x_m, at.y_m, at.depth_m) = std::tuple(u[0], u[1], u[2]);
-    at.view = view_ball(press, at, camera);
+    at.view = view_ball(press, at, sensor);
     const Eigen::VectorXd pixels =
         residuals_of(at.samples, feature_matrix(light.geometry, at.view, at.samples), light.weights);
     Eigen::VectorXd all(pixels.size() + 3);
@@ -143,7 +144,7 @@ void fit_ball(Ball& ball, const BallPress& press, const Camera& camera, const Li
   const GaussNewtonResult result = gauss_newton(residuals, label, settings);
   std::tie(ball.x_m, ball.y_m, ball.depth_m) =
       std::tuple(result.parameters[0], result.parameters[1], result.parameters[2]);
-  ball.view = view_ball(press, ball, camera);
+  ball.view = view_ball(press, ball, sensor);
 }
 
 struct Part {
@@ -189,16 +190,16 @@ std::string name_of(ModelKind kind) {
   return kind == ModelKind::lamps ? "lamps" : kind == ModelKind::environment ? "environment" : "both";
 }
 
-MembraneView view_ball(const BallPress& press, const Ball& ball, const Camera& camera) {
-  return view_membrane(moved(press.at_depth(ball.depth_m), ball.x_m, ball.y_m, 0.0), press.front, camera);
+MembraneView view_ball(const BallPress& press, const Ball& ball, const Sensor& sensor) {
+  return view_membrane(moved(press.at_depth(ball.depth_m), ball.x_m, ball.y_m, 0.0), press.front, sensor);
 }
 
-LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Camera& camera, const CalibrateConfig& config) {
+LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Sensor& sensor, const CalibrateConfig& config) {
   if (static_cast<int>(balls.size()) < config.folds)
     throw DataError("{} photographs cannot be divided into {} folds", balls.size(), config.folds);
   LightFit fit;
   fit.contact_gap_m = config.contact_gap_m;
-  LightGeometry geometry = start_geometry(config, camera);
+  LightGeometry geometry = start_geometry(config, sensor);
   std::vector<LampGuess> lamps = config.lamps;
   std::vector<Ball> labelled = balls;
   const bool fit_balls = press && config.label_sigma_px > 0.0;
@@ -226,17 +227,17 @@ LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Camera& cam
     tbb::parallel_for(std::size_t{0}, balls.size(), [&](std::size_t b) {
       Ball ball = labelled[b];  // the label holds it, not the round before
       ball.rmse_codes = balls[b].rmse_codes;
-      fit_ball(ball, *press, camera, fit.light, config.label_sigma_px, config);
+      fit_ball(ball, *press, sensor, fit.light, config.label_sigma_px, config);
       balls[b] = ball;
     });
     if (!config.fit_contact_gap) continue;
     const double before = fit.contact_gap_m;
-    fit.contact_gap_m = fitted_gap(balls, *press, camera);
+    fit.contact_gap_m = fitted_gap(balls, *press, sensor);
     constexpr double kSettled = 0.01;
     if (std::abs(fit.contact_gap_m - before) < kSettled * before) rounds = round + 2;  // the light once more
     log_info("round {}: gap at the rim {:.4f} mm", round + 1, 1e3 * fit.contact_gap_m);
     press->set_rim(fit.contact_gap_m);
-    for (Ball& ball : labelled) ball.depth_m = press->depth_of_contact(label_radius_m(ball, camera), ball.label.image);
+    for (Ball& ball : labelled) ball.depth_m = press->depth_of_contact(label_radius_m(ball, sensor), ball.label.image);
   }
   double best = std::numeric_limits<double>::infinity();
   Part chosen{};

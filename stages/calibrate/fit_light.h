@@ -46,7 +46,7 @@ struct LightFit {
 };
 
 /// Membrane of a ball whose place is known.
-MembraneView view_ball(const BallPress& press, const Ball& ball, const Camera& camera);
+MembraneView view_ball(const BallPress& press, const Ball& ball, const Sensor& sensor);
 
 /// With `press` given, shapes belong to it: after a first fit every ball's centre and depth are fitted too, held by the
 /// labels (label_sigma_px), and the light again. With fit_contact_gap the rim's gap becomes, after every such fit, the
@@ -55,6 +55,6 @@ MembraneView view_ball(const BallPress& press, const Ball& ball, const Camera& c
 /// Lamps are fitted by Gauss–Newton on what is left after the best weights (variable projection, Golub and Pereyra
 /// 1973), without environment, so that the lamps explain what they can. Then the kind of model is chosen by
 /// cross-validation over the balls.
-LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Camera& camera, const CalibrateConfig& config);
+LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Sensor& sensor, const CalibrateConfig& config);
 
 }  // namespace tacipc

@@ -92,7 +92,8 @@ void calibrate_balls(Stage& stage) {
   if (press_folder.has_value() != gel.has_value()) throw UsageError("--press and --gel belong together");
   if (press_folder.has_value() != shapes.empty()) throw UsageError("give either --press or --shapes");
   const auto config = stage.read_config<CalibrateConfig>("--config");
-  const Camera camera = stage.read_config<Sensor>("--sensor").camera;
+  const auto sensor = stage.read_config<Sensor>("--sensor");
+  const Camera& camera = sensor.camera;
   const ByteImage background = read_photograph(stage.input("--background"), camera);
   const auto labels = read_labels(*stage.optional_input("--labels"));
   if (!shapes.empty() && shapes.size() != labels.size())
@@ -102,26 +103,29 @@ void calibrate_balls(Stage& stage) {
 
   std::vector<Ball> balls;
   std::vector<ByteImage> photographs;
-  const double pixel_x = camera.window_width_m / camera.width_px, pixel_y = camera.window_height_m / camera.height_px;
+  const CameraModel rays(camera, sensor.stack);
+  const double pixel = camera.window_width_m / camera.width_px;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const BallLabel& label = labels[i];
     photographs.push_back(read_photograph(*stage.optional_input("--photographs") / label.image, camera));
+    const auto center = rays.on_plane(label.x_px + 0.5, label.y_px + 0.5);
+    if (!center) throw DataError("{}: the camera does not see the front face at the label's centre", label.image);
     Ball ball{.label = label,
-              .x_m = camera.position_m.x() + (label.x_px + 0.5 - 0.5 * camera.width_px) * pixel_x,
-              .y_m = camera.position_m.y() + (label.y_px + 0.5 - 0.5 * camera.height_px) * pixel_y,
+              .x_m = center->x(),
+              .y_m = center->y(),
               .depth_m = 0.0,
               .view = {},
               .samples = make_samples(photographs.back(), background, label, config)};
     if (press) {
-      ball.depth_m = press->depth_of_contact(label.radius_px * pixel_x, label.image);
-      ball.view = view_ball(*press, ball, camera);
+      ball.depth_m = press->depth_of_contact(label.radius_px * pixel, label.image);
+      ball.view = view_ball(*press, ball, sensor);
     } else {
       const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, camera);
-      ball.view = view_height_map(indentation, camera);
+      ball.view = view_height_map(indentation, sensor);
     }
     balls.push_back(std::move(ball));
   }
-  const LightFit fit = fit_light(balls, press ? &*press : nullptr, camera, config);
+  const LightFit fit = fit_light(balls, press ? &*press : nullptr, sensor, config);
 
   write_file(stage.output("light.yaml"), to_yaml(fit.light.to_value()));
   std::string table = "image,x_mm,y_mm,depth_mm,rmse_codes\n";

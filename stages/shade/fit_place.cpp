@@ -5,14 +5,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/membrane_view.h"
+#include "common/camera_model.h"
+#include "common/error.h"
+#include "common/optics/seen_membrane.h"
 
 namespace tacipc {
 namespace {
 
-Vector3 plane_point(const ImagePlace& place, const Camera& camera) {
-  return {camera.position_m.x() + ((place.x_px + 0.5) / camera.width_px - 0.5) * camera.window_width_m,
-          camera.position_m.y() + ((place.y_px + 0.5) / camera.height_px - 0.5) * camera.window_height_m, 0.0};
+Vector3 plane_point(const ImagePlace& place, const Sensor& sensor) {
+  const auto point = CameraModel(sensor.camera, sensor.stack).on_plane(place.x_px + 0.5, place.y_px + 0.5);
+  if (!point)
+    throw DataError("place ({}, {}) px: the camera does not see the front face there", place.x_px, place.y_px);
+  return {point->x(), point->y(), 0.0};
 }
 
 /// Mean square of what is left in the box.
@@ -44,27 +48,27 @@ double mismatch(const ByteImage& image, const ByteImage& photograph, const std::
 
 }  // namespace
 
-Positions at_place(const Positions& front, const ImagePlace& place, const Camera& camera) {
-  const Vector3 to = plane_point(place, camera);
+Positions at_place(const Positions& front, const ImagePlace& place, const Sensor& sensor) {
+  const Vector3 to = plane_point(place, sensor);
   return moved(front, to.x(), to.y(), place.yaw_rad);
 }
 
-Matrix4 place_pose(const ImagePlace& place, const Camera& camera) {
+Matrix4 place_pose(const ImagePlace& place, const Sensor& sensor) {
   Matrix4 pose = Matrix4::Identity();
   pose.topLeftCorner<3, 3>() = Eigen::AngleAxisd(place.yaw_rad, Vector3::UnitZ()).toRotationMatrix();
-  pose.topRightCorner<3, 1>() = plane_point(place, camera);
+  pose.topRightCorner<3, 1>() = plane_point(place, sensor);
   return pose;
 }
 
 FittedPlace fit_place(const FrontFrames& press, int frame, const ImagePlace& start, const PlaceFit& fit,
                       const ByteImage& photograph, const ByteImage& background, const LightField& light,
-                      const Camera& camera) {
+                      const Sensor& sensor) {
   constexpr double kSmallestStep = 1.0 / 32.0;
   FittedPlace result{.place = start};
   const auto score = [&](const ImagePlace& place) {
     ++result.views;
     const auto& front = press.frames[static_cast<std::size_t>(frame)];
-    const MembraneView view = view_membrane(at_place(front, place, camera), press.triangles, camera);
+    const MembraneView view = view_membrane(at_place(front, place, sensor), press.triangles, sensor);
     return mismatch(add_change(background, code_change(light, view)), photograph, fit.box_px);
   };
   double best = score(start);

@@ -10,9 +10,9 @@
 namespace tacipc {
 
 /// Front of a press moved from the origin to its place in the image.
-Positions at_place(const Positions& front, const ImagePlace& place, const Camera& camera);
+Positions at_place(const Positions& front, const ImagePlace& place, const Sensor& sensor);
 /// The rigid motion that does it: Rz(yaw), then the translation.
-Matrix4 place_pose(const ImagePlace& place, const Camera& camera);
+Matrix4 place_pose(const ImagePlace& place, const Sensor& sensor);
 
 struct FittedPlace {
   ImagePlace place;
@@ -26,6 +26,6 @@ struct FittedPlace {
 /// parameter, halved when none pays, until 1/32: the result does not depend on derivatives of a tessellated surface.
 FittedPlace fit_place(const FrontFrames& press, int frame, const ImagePlace& start, const PlaceFit& fit,
                       const ByteImage& photograph, const ByteImage& background, const LightField& light,
-                      const Camera& camera);
+                      const Sensor& sensor);
 
 }  // namespace tacipc

@@ -7,6 +7,7 @@
 #include "common/camera_image.h"
 #include "common/error.h"
 #include "common/npy.h"
+#include "common/optics/seen_membrane.h"
 #include "common/picture.h"
 #include "common/stage.h"
 #include "stages/shade/fit_place.h"
@@ -42,19 +43,19 @@ void deliver(Stage& stage, const std::string& name, const MembraneView& view, co
   write_png(stage.output("normals/" + name + ".png"), picture_of_normals(normals));
 }
 
-void shade_shapes(Stage& stage, const ShadeConfig& config, const Camera& camera, const LightField& light,
+void shade_shapes(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
                   const ByteImage& background) {
   const auto& shapes = stage.inputs("--shapes");
   if (shapes.size() != config.images.size())
     throw UsageError(fmt::format("{} --shapes for {} images", shapes.size(), config.images.size()));
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, camera);
-    deliver(stage, config.images[i].name, view_height_map(indentation, camera), light, background);
+    const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, sensor.camera);
+    deliver(stage, config.images[i].name, view_height_map(indentation, sensor), light, background);
   }
   stage.summarize({{"images", shapes.size()}});
 }
 
-void shade_press(Stage& stage, const ShadeConfig& config, const Camera& camera, const LightField& light,
+void shade_press(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
                  const ByteImage& background) {
   const auto folder = *stage.optional_input("--press");
   const FrontFrames press = read_front_frames(folder, *stage.optional_input("--gel"));
@@ -64,18 +65,18 @@ void shade_press(Stage& stage, const ShadeConfig& config, const Camera& camera, 
                       image.frame, press.frames.size() - 1);
   FittedPlace fitted{.place = config.place};
   if (config.fit) {
-    const ByteImage photograph = read_photograph(*stage.optional_input("--photograph"), camera);
+    const ByteImage photograph = read_photograph(*stage.optional_input("--photograph"), sensor.camera);
     for (const NamedFrame& image : config.images)
       if (image.name == config.fit->image)
-        fitted = fit_place(press, image.frame, config.place, *config.fit, photograph, background, light, camera);
+        fitted = fit_place(press, image.frame, config.place, *config.fit, photograph, background, light, sensor);
   }
   std::vector<double> poses;
   for (const NamedFrame& image : config.images) {
     const auto frame = static_cast<std::size_t>(image.frame);
     deliver(stage, image.name,
-            view_membrane(at_place(press.frames[frame], fitted.place, camera), press.triangles, camera), light,
+            view_membrane(at_place(press.frames[frame], fitted.place, sensor), press.triangles, sensor), light,
             background);
-    const Matrix4 pose = place_pose(fitted.place, camera) * press.gel_from_object[frame];
+    const Matrix4 pose = place_pose(fitted.place, sensor) * press.gel_from_object[frame];
     for (int i = 0; i < 16; ++i) poses.push_back(pose(i / 4, i % 4));
   }
   write_npy(stage.output("object_pose.npy"), {config.images.size(), 4, 4}, poses.data());
@@ -96,7 +97,7 @@ struct ContactRim {
   static ContactRim read(ConfigReader& in) { return {1e-3 * in.number("contact_gap_mm", Range::positive())}; }
 };
 
-void shade_contacts(Stage& stage, const ShadeConfig& config, const Camera& camera, const LightField& light,
+void shade_contacts(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
                     const ByteImage& background) {
   const double radius_m = config.ball_radius_m.value();
   const BallPress press = read_ball_press(*stage.optional_input("--press"), *stage.optional_input("--gel"), radius_m,
@@ -106,10 +107,10 @@ void shade_contacts(Stage& stage, const ShadeConfig& config, const Camera& camer
   for (const NamedFrame& image : config.images) {
     const ContactPlace& contact = image.contact.value();
     const double depth =
-        press.depth_of_contact(contact.radius_px * camera.window_width_m / camera.width_px, image.name);
-    const Matrix4 place = place_pose(contact.center, camera);
+        press.depth_of_contact(contact.radius_px * sensor.camera.window_width_m / sensor.camera.width_px, image.name);
+    const Matrix4 place = place_pose(contact.center, sensor);
     deliver(stage, image.name,
-            view_membrane(at_place(press.at_depth(depth), contact.center, camera), press.front, camera), light,
+            view_membrane(at_place(press.at_depth(depth), contact.center, sensor), press.front, sensor), light,
             background);
     const Matrix4 pose = ball_pose(place(0, 3), place(1, 3), depth, radius_m);
     for (int i = 0; i < 16; ++i) poses.push_back(pose(i / 4, i % 4));
@@ -131,14 +132,14 @@ int main(int argc, char** argv) {
       throw UsageError("--photograph: needed where a press is to be fitted to it, and only there");
     if (stage.optional_input("--contact").has_value() != (press && config.ball_radius_m.has_value()))
       throw UsageError("--contact: needed where a press is to match contacts of a ball, and only there");
-    const Camera camera = stage.read_config<Sensor>("--sensor").camera;
+    const auto sensor = stage.read_config<Sensor>("--sensor");
     const auto light = stage.read_config<LightField>("--light");
-    const ByteImage background = read_photograph(stage.input("--background"), camera);
+    const ByteImage background = read_photograph(stage.input("--background"), sensor.camera);
     if (press && config.ball_radius_m)
-      shade_contacts(stage, config, camera, light, background);
+      shade_contacts(stage, config, sensor, light, background);
     else if (press)
-      shade_press(stage, config, camera, light, background);
+      shade_press(stage, config, sensor, light, background);
     else
-      shade_shapes(stage, config, camera, light, background);
+      shade_shapes(stage, config, sensor, light, background);
   });
 }

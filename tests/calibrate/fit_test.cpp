@@ -114,23 +114,25 @@ TEST(BallPose, TurnsTheBallOverAndPutsItsLowestPointAtTheDepth) {
   EXPECT_NEAR(turn.determinant(), 1.0, 1e-15);
 }
 
-Camera camera() {
-  return {.position_m = {0, 0, -49e-3},
-          .width_px = 120,
-          .height_px = 120,
-          .window_width_m = 12e-3,
-          .window_height_m = 12e-3};
+Sensor sensor() {
+  Sensor out;
+  out.camera = {.position_m = {0, 0, -49e-3},
+                .width_px = 120,
+                .height_px = 120,
+                .window_width_m = 12e-3,
+                .window_height_m = 12e-3};
+  return out;
 }
 
 MembraneView ball_view(double x_m, double y_m, double depth) {
   FloatImage map(120, 120, 1);
-  const Pinhole pinhole(camera());
+  const Pinhole pinhole(sensor().camera);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 120; ++x) {
       const Vector3 p = pinhole.plane_point(x, y);
       map.at(x, y, 0) = static_cast<float>(cap(std::hypot(p.x() - x_m, p.y() - y_m), depth));
     }
-  return view_height_map(map, camera());
+  return view_height_map(map, sensor());
 }
 
 CalibrateConfig config() {
@@ -192,7 +194,7 @@ TEST(FitLight, FindsLampsFromPhotographsOfBalls) {
   const CalibrateConfig settings = config();
   std::vector<Ball> balls = synthetic_balls(true_light(), settings);
   EXPECT_NEAR(balls[0].samples.drift[2], 3.0, 0.2);
-  const LightFit fit = fit_light(balls, nullptr, camera(), settings);
+  const LightFit fit = fit_light(balls, nullptr, sensor(), settings);
   ASSERT_TRUE(fit.lamps.has_value());
   const Eigen::VectorXd& u = fit.lamps->parameters;
   const double degrees[] = {22.0, 118.0, 255.0}, elevation[] = {0.42, 0.55, 0.47};
@@ -255,7 +257,7 @@ TEST(FitLight, FindsWhichRimTheLabelsMean) {
     ball.y_m = (ball.label.y_px + 0.5 - 60) * 1e-4;
     depths.push_back(0.33e-3 + 0.06e-3 * i);
     ball.depth_m = depths.back();
-    ball.view = view_ball(press, ball, camera());
+    ball.view = view_ball(press, ball, sensor());
     const ByteImage background(120, 120, 3, 128);
     ball.samples =
         make_samples(add_change(background, code_change(true_light(), ball.view)), background, ball.label, settings);
@@ -264,11 +266,11 @@ TEST(FitLight, FindsWhichRimTheLabelsMean) {
     press.set_rim(settings.contact_gap_m);
     ball.depth_m = press.depth_of_contact(ball.label.radius_px * 1e-4, "b");
     EXPECT_GT(ball.depth_m - depths.back(), 0.02e-3);  // the wrong rim makes balls too deep
-    ball.view = view_ball(press, ball, camera());
+    ball.view = view_ball(press, ball, sensor());
     balls.push_back(std::move(ball));
   }
   settings.folds = 3;
-  const LightFit fit = fit_light(balls, &press, camera(), settings);
+  const LightFit fit = fit_light(balls, &press, sensor(), settings);
   EXPECT_NEAR(fit.contact_gap_m, kSeen, 6e-6);
   for (std::size_t i = 0; i < balls.size(); ++i) EXPECT_NEAR(balls[i].depth_m, depths[i], 8e-6) << i;
 }
@@ -277,7 +279,7 @@ TEST(FitLight, FewerBallsThanFoldsIsSaid) {
   CalibrateConfig settings = config();
   settings.folds = 9;
   std::vector<Ball> balls = synthetic_balls(true_light(), settings);
-  EXPECT_EQ(message_of<DataError>([&] { fit_light(balls, nullptr, camera(), settings); }),
+  EXPECT_EQ(message_of<DataError>([&] { fit_light(balls, nullptr, sensor(), settings); }),
             "8 photographs cannot be divided into 9 folds");
 }
 

@@ -13,18 +13,20 @@
 namespace tacipc {
 namespace {
 
-Camera camera(int width = 60, int height = 40) {
-  return {.position_m = {0, 0, -50e-3},
-          .width_px = width,
-          .height_px = height,
-          .window_width_m = 0.1e-3 * width,
-          .window_height_m = 0.1e-3 * height};
+Sensor sensor(int width = 60, int height = 40) {
+  Sensor out;
+  out.camera = {.position_m = {0, 0, -50e-3},
+                .width_px = width,
+                .height_px = height,
+                .window_width_m = 0.1e-3 * width,
+                .window_height_m = 0.1e-3 * height};
+  return out;
 }
 
 /// Indentation by a formula of the undeformed front's point behind a pixel (m).
-MembraneView view_of(const std::function<double(double, double)>& indentation, const Camera& at) {
-  FloatImage map(at.width_px, at.height_px, 1);
-  const Pinhole pinhole(at);
+MembraneView view_of(const std::function<double(double, double)>& indentation, const Sensor& at) {
+  FloatImage map(at.camera.width_px, at.camera.height_px, 1);
+  const Pinhole pinhole(at.camera);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
       const Vector3 p = pinhole.plane_point(x, y);
@@ -34,47 +36,12 @@ MembraneView view_of(const std::function<double(double, double)>& indentation, c
 }
 
 TEST(MembraneView, HeightMapsHaveTheirPointsOnThePixelsRays) {
-  const MembraneView view = view_of([](double, double) { return 1e-3; }, camera());
-  const Pinhole pinhole(camera());
+  const MembraneView view = view_of([](double, double) { return 1e-3; }, sensor());
+  const Pinhole pinhole(sensor().camera);
   const std::size_t i = view.index(55, 3);
   EXPECT_NEAR((view.point[i] - (pinhole.position + 49e-3 * pinhole.ray(55, 3))).norm(), 0.0, 1e-9);
   EXPECT_NEAR(view.point[i].x(), view.rest[i].x() * 49.0 / 50.0, 1e-9);  // nearer to the camera: parallax
   EXPECT_NEAR((view.normal[i] - Vector3::UnitZ()).norm(), 0.0, 1e-9);
-}
-
-TEST(MembraneView, TrianglesAndHeightMapsAgreeOnASlope) {
-  // z = −0.4 mm − 0.1 x as two triangles.
-  Positions corners(4, 3);
-  int row = 0;
-  for (const auto& [x, y] : {std::pair{-9e-3, -9e-3}, {9e-3, -9e-3}, {9e-3, 9e-3}, {-9e-3, 9e-3}})
-    corners.row(row++) << x, y, -0.4e-3 - 0.1 * x;
-  Triangles triangles(2, 3);
-  triangles << 0, 1, 2, 0, 2, 3;
-  const MembraneView view = view_membrane(corners, triangles, camera());
-  const Vector3 normal = Vector3(0.1, 0.0, 1.0).normalized();
-  for (const std::size_t i : {view.index(0, 0), view.index(30, 20), view.index(59, 39)}) {
-    EXPECT_NEAR(view.point[i].z(), -0.4e-3 - 0.1 * view.point[i].x(), 1e-12);
-    EXPECT_NEAR((view.normal[i] - normal).norm(), 0.0, 1e-12);
-  }
-  FloatImage map(60, 40, 1);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 60; ++x) map.at(x, y, 0) = static_cast<float>(-view.point[view.index(x, y)].z());
-  const MembraneView again = view_height_map(map, camera());
-  for (const std::size_t i : {view.index(0, 0), view.index(30, 20), view.index(59, 39)}) {
-    EXPECT_NEAR((again.point[i] - view.point[i]).norm(), 0.0, 1e-9);
-    EXPECT_NEAR((again.normal[i] - normal).norm(), 0.0, 1e-5);
-  }
-}
-
-TEST(MembraneView, WhereNothingIsSeenTheFrontIsFlat) {
-  Positions corners(3, 3);
-  corners << 0, 0, -1e-3, 1e-3, 0, -1e-3, 0, 1e-3, -1e-3;
-  Triangles one(1, 3);
-  one << 0, 1, 2;
-  const MembraneView view = view_membrane(corners, one, camera());
-  EXPECT_EQ(view.point[view.index(0, 0)], view.rest[view.index(0, 0)]);
-  EXPECT_EQ(view.normal[view.index(0, 0)], Vector3::UnitZ());
-  EXPECT_NEAR(view.point[view.index(33, 23)].z(), -1e-3, 1e-12);
 }
 
 TEST(MembraneView, MovingTurnsAboutZThenTranslates) {
@@ -86,24 +53,24 @@ TEST(MembraneView, MovingTurnsAboutZThenTranslates) {
 
 TEST(RelativeIrradiance, FlatIsZeroAndASlopeIsTheCosinesRatio) {
   const Vector3 lamp(30e-3, 10e-3, -12e-3);
-  const MembraneView flat = view_of([](double, double) { return 0.0; }, camera());
+  const MembraneView flat = view_of([](double, double) { return 0.0; }, sensor());
   EXPECT_NEAR(relative_irradiance(flat, 12, 30, lamp, 0.1), 0.0, 1e-12);
   // A slope through the origin: there point and distance are the flat ones, only the cosine changes.
-  const MembraneView slope = view_of([](double x, double) { return 0.2 * x; }, camera(61, 41));
+  const MembraneView slope = view_of([](double x, double) { return 0.2 * x; }, sensor(61, 41));
   const std::size_t i = slope.index(30, 20);
   EXPECT_NEAR(slope.point[i].norm(), 0.0, 1e-12);
   const Vector3 n = slope.normal[i];
   EXPECT_NEAR(n.x() / n.z(), 0.2, 1e-5);
   EXPECT_NEAR(relative_irradiance(slope, 30, 20, lamp, 0.01), -n.dot(lamp) / -lamp.z() - 1.0, 1e-9);
   // Turned away from the lamp: dark.
-  const MembraneView away = view_of([](double x, double) { return 0.9 * x; }, camera(61, 41));
+  const MembraneView away = view_of([](double x, double) { return 0.9 * x; }, sensor(61, 41));
   EXPECT_EQ(relative_irradiance(away, 30, 20, lamp, 0.01), -1.0);
 }
 
 TEST(Visibility, AWallShadesAsFarAsItsHeightOverTheLampsElevation) {
   // The front is flat at x < 1 mm and 0.5 mm into the gel beyond; the lamp is far away towards +x at elevation 1/2: the
   // wall's shadow ends 0.5 mm / (1/2) = 1 mm before it.
-  const MembraneView view = view_of([](double x, double) { return x > 1e-3 ? 0.5e-3 : 0.0; }, camera());
+  const MembraneView view = view_of([](double x, double) { return x > 1e-3 ? 0.5e-3 : 0.0; }, sensor());
   const Vector3 lamp(10.0, 0.0, -5.0);
   const auto visibility_at = [&](double x_mm) {
     return lamp_visibility(view, static_cast<int>(std::lround(10.0 * x_mm + 29.5)), 20, lamp, 0.05);
@@ -136,7 +103,7 @@ TEST(Features, OfAFieldOfSecondDegreeHaveItsTermsAndComeBackFromTheirFile) {
   EXPECT_EQ(light.geometry.first_environment_feature(), 24);
   light.weights.resize(light.geometry.num_features(), 3);
   for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
-  const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, camera());
+  const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
   Eigen::VectorXd f(light.geometry.num_features());
   light_features(light.geometry, view, 45, 10, f.data());
   const std::size_t i = view.index(45, 10);
@@ -152,7 +119,7 @@ TEST(Features, StandInTheirOrder) {
   const LightField light = example();
   EXPECT_EQ(light.geometry.num_features(), 3 * (2 * 2 + 5));
   EXPECT_EQ(light.geometry.first_environment_feature(), 12);
-  const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, camera());
+  const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
   Eigen::VectorXd f(light.geometry.num_features());
   light_features(light.geometry, view, 45, 10, f.data());
   const std::size_t i = view.index(45, 10);
@@ -180,7 +147,7 @@ TEST(LightFieldFile, ReadsBackToTheSameBits) {
 }
 
 TEST(CodeChange, AFlatFrontChangesNothing) {
-  const FloatImage change = code_change(example(), view_of([](double, double) { return 0.0; }, camera()));
+  const FloatImage change = code_change(example(), view_of([](double, double) { return 0.0; }, sensor()));
   for (const float code : change.pixels) EXPECT_NEAR(code, 0.0f, 1e-4f);
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "common/optics/seen_membrane.h"
 #include "stages/shade/fit_place.h"
 #include "tests/config_text.h"
 #include "tests/program_test.h"
@@ -12,9 +13,11 @@
 namespace tacipc {
 namespace {
 
-Camera camera() {
-  return {
+Sensor sensor() {
+  Sensor out;
+  out.camera = {
       .position_m = {0, 0, -49e-3}, .width_px = 80, .height_px = 60, .window_width_m = 8e-3, .window_height_m = 6e-3};
+  return out;
 }
 
 /// A press by a block with soft edges, wider along x: 60 × 60 squares of 0.1 mm about the origin.
@@ -56,12 +59,12 @@ TEST(FitPlace, FindsCentreAndYawAndIgnoresDrift) {
   const ByteImage background(80, 60, 3, 120);
   const ImagePlace truth{.x_px = 41.3, .y_px = 27.6, .yaw_rad = 3.0 * std::numbers::pi / 180};
   FloatImage change =
-      code_change(light(), view_membrane(at_place(press.frames[1], truth, camera()), press.triangles, camera()));
+      code_change(light(), view_membrane(at_place(press.frames[1], truth, sensor()), press.triangles, sensor()));
   for (float& code : change.pixels) code += 5.0f;
   const ByteImage photograph = add_change(background, change);
   const PlaceFit fit{.image = "x", .box_px = {20, 12, 42, 34}, .yaw = true};
   const FittedPlace found =
-      fit_place(press, 1, {.x_px = 40, .y_px = 29, .yaw_rad = 0}, fit, photograph, background, light(), camera());
+      fit_place(press, 1, {.x_px = 40, .y_px = 29, .yaw_rad = 0}, fit, photograph, background, light(), sensor());
   EXPECT_NEAR(found.place.x_px, truth.x_px, 0.05);
   EXPECT_NEAR(found.place.y_px, truth.y_px, 0.05);
   EXPECT_NEAR(found.place.yaw_rad * 180 / std::numbers::pi, 3.0, 0.15);
@@ -70,7 +73,7 @@ TEST(FitPlace, FindsCentreAndYawAndIgnoresDrift) {
   PlaceFit straight = fit;
   straight.yaw = false;
   EXPECT_EQ(
-      fit_place(press, 1, {.x_px = 40, .y_px = 29, .yaw_rad = 0}, straight, photograph, background, light(), camera())
+      fit_place(press, 1, {.x_px = 40, .y_px = 29, .yaw_rad = 0}, straight, photograph, background, light(), sensor())
           .place.yaw_rad,
       0.0);
 }
@@ -79,10 +82,10 @@ TEST(PlacePose, IsTheMotionOfTheFront) {
   const ImagePlace place{.x_px = 12, .y_px = 50, .yaw_rad = 0.4};
   Positions p(1, 3);
   p << 1e-3, 2e-3, -3e-4;
-  const Vector3 by_pose = (place_pose(place, camera()) * Vector3(p.row(0)).homogeneous()).head<3>();
-  EXPECT_NEAR((at_place(p, place, camera()).row(0).transpose() - by_pose).norm(), 0.0, 1e-15);
+  const Vector3 by_pose = (place_pose(place, sensor()) * Vector3(p.row(0)).homogeneous()).head<3>();
+  EXPECT_NEAR((at_place(p, place, sensor()).row(0).transpose() - by_pose).norm(), 0.0, 1e-15);
   // The middle of pixel (12, 50): (12.5 / 80 − 1/2) · 8 mm, (50.5 / 60 − 1/2) · 6 mm.
-  const Vector3 origin = place_pose(place, camera()).topRightCorner<3, 1>();
+  const Vector3 origin = place_pose(place, sensor()).topRightCorner<3, 1>();
   EXPECT_NEAR(origin.x(), -2.75e-3, 1e-15);
   EXPECT_NEAR(origin.y(), 2.05e-3, 1e-15);
 }
