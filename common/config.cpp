@@ -340,4 +340,6 @@ void ConfigReader::finish() {
 
 Value ConfigReader::resolved() const { return Value(Document::resolve(*node_)); }
 
+Value ConfigReader::content() const { return Document::content(*node_); }
+
 }  // namespace tacipc

@@ -91,6 +91,8 @@ class ConfigReader {
 
   /// Every value read so far, defaults included, as the record repeats it.
   Value resolved() const;
+  /// Everything this map says, read or not, in file order: scalars as the text that stands there, aliases written out.
+  Value content() const;
   /// The file, or the name given with the text.
   std::string source() const;
 

@@ -167,4 +167,16 @@ Value::Map ConfigReader::Document::resolve(const Node& node) {
   return map;
 }
 
+Value ConfigReader::Document::content(const Node& node) {
+  if (node.kind == Node::Kind::list) {
+    Value::List list;
+    for (const auto& item : node.items) list.push_back(content(*item));
+    return list;
+  }
+  if (node.kind != Node::Kind::map) return node.scalar;
+  Value::Map map;
+  for (const Node::Entry& entry : node.entries) map.emplace_back(entry.key, content(*entry.value));
+  return map;
+}
+
 }  // namespace tacipc

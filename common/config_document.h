@@ -67,6 +67,7 @@ struct ConfigReader::Document {
   static void collect_sources(const Node& node, const std::string& inherited,
                               std::vector<std::pair<std::string, std::string>>& out);
   static Value::Map resolve(const Node& node);
+  static Value content(const Node& node);
 };
 
 /// path.key, or key at the top.

@@ -35,6 +35,7 @@ class Value {
   void set(const std::string& key, Value value);
 
   const auto& data() const { return data_; }
+  auto& data() { return data_; }
 
  private:
   std::variant<bool, std::int64_t, double, std::string, List, Map> data_;

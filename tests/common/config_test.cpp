@@ -56,6 +56,11 @@ TEST(ConfigReader, RefusesASecondDocumentAndAnAliasInsideItself) {
               ::testing::Not(::testing::IsEmpty()));
 }
 
+TEST(ConfigReader, ContentIsAllThatIsWritten) {
+  const auto in = ConfigReader::from_text("a: &x 1.50\nb: {c: [*x, {d: }], a: yes}\n", "gel.yaml");
+  EXPECT_EQ(to_yaml(in.content()), "a: 1.50\nb:\n  c:\n    - 1.50\n    - d: \"\"\n  a: yes\n");
+}
+
 TEST(ConfigReader, SuggestsTheNearestChoice) {
   EXPECT_THAT(
       faults_when("law: neo_hokean",
