@@ -1,5 +1,7 @@
 #include "stages/indenter/height_field.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -11,27 +13,54 @@ namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
+/// A grid point of the disc and the ball's height over it, m.
+struct Offset {
+  int u, v;
+  double cap;
+};
+
+std::vector<Offset> ball_offsets(double radius, double spacing) {
+  const int reach = static_cast<int>(std::floor(radius / spacing + 1e-9));
+  std::vector<Offset> offsets;
+  for (int v = -reach; v <= reach; ++v) {
+    for (int u = -reach; u <= reach; ++u) {
+      const double squared = radius * radius - (u * u + v * v) * spacing * spacing;
+      if (squared >= 0.0) offsets.push_back({u, v, std::sqrt(squared)});
+    }
+  }
+  return offsets;
+}
+
 /// Extreme over the disc of `radius` about each point of z + sign · (ball's height there); sign −1 with the smallest
 /// erodes, +1 with the largest dilates.
 HeightField swept(const HeightField& field, double radius, bool dilate) {
-  const int reach = static_cast<int>(std::floor(radius / field.spacing + 1e-9));
+  const std::vector<Offset> offsets = ball_offsets(radius, field.spacing);
   HeightField out = field;
-  for (int j = 0; j < field.rows; ++j) {
+  tbb::parallel_for(0, field.rows, [&](int j) {
     for (int i = 0; i < field.columns; ++i) {
       double best = dilate ? kNothing : -kNothing;
-      for (int v = -reach; v <= reach; ++v) {
-        for (int u = -reach; u <= reach; ++u) {
-          const double cap = radius * radius - (u * u + v * v) * field.spacing * field.spacing;
-          if (cap < 0.0) continue;
-          const int x = i + u, y = j + v;
-          const bool inside = x >= 0 && y >= 0 && x < field.columns && y < field.rows;
-          const double z = inside ? field.at(x, y) : kNothing;
-          best = dilate ? std::max(best, z + std::sqrt(cap)) : std::min(best, z - std::sqrt(cap));
-        }
+      for (const Offset& o : offsets) {
+        const int x = i + o.u, y = j + o.v;
+        const bool inside = x >= 0 && y >= 0 && x < field.columns && y < field.rows;
+        const double z = inside ? field.at(x, y) : kNothing;
+        best = dilate ? std::max(best, z + o.cap) : std::min(best, z - o.cap);
+        if (!dilate && best == kNothing) break;
       }
       out.at(i, j) = best;
     }
-  }
+  });
+  return out;
+}
+
+/// Every k-th point, counted from the middle.
+HeightField thinned(const HeightField& fine, int k) {
+  const int half_columns = fine.columns / 2 / k, half_rows = fine.rows / 2 / k;
+  HeightField out{.columns = 2 * half_columns + 1, .rows = 2 * half_rows + 1, .spacing = k * fine.spacing, .z = {}};
+  const int i0 = fine.columns / 2 - k * half_columns, j0 = fine.rows / 2 - k * half_rows;
+  out.x0 = fine.x0 + i0 * fine.spacing;
+  out.y0 = fine.y0 + j0 * fine.spacing;
+  for (int j = 0; j < out.rows; ++j)
+    for (int i = 0; i < out.columns; ++i) out.z.push_back(fine.at(i0 + k * i, j0 + k * j));
   return out;
 }
 
@@ -79,6 +108,15 @@ HeightField highest_points(const TriangleMesh& mesh, double spacing_m, double ma
     }
   }
   return field;
+}
+
+HeightField rounded(const TriangleMesh& mesh, double radius_m, double spacing_m, double margin_m) {
+  if (radius_m == 0.0) return highest_points(mesh, spacing_m, margin_m);
+  constexpr double kStepsPerRadius = 24.0;
+  const int k = std::max(1, static_cast<int>(std::ceil(kStepsPerRadius * spacing_m / radius_m)));
+  // Whole coarse steps around the box, so that thinning keeps the margin.
+  const HeightField fine = highest_points(mesh, spacing_m / k, margin_m + spacing_m);
+  return thinned(opened(fine, radius_m), k);
 }
 
 HeightField opened(const HeightField& field, double radius_m) {

@@ -37,7 +37,8 @@ TriangleMesh rounded(Stage& stage, const RoundedMesh& wanted) {
   if (static_cast<double>(field.z.size()) > kMostPoints)
     throw DataError("{}: a spacing of {} mm makes more than {} points", stage.input("--mesh").string(),
                     1e3 * wanted.spacing_m, kMostPoints);
-  const HeightField round = opened(field, wanted.edge_radius_m);
+  const HeightField round =
+      rounded(tip, wanted.edge_radius_m, wanted.spacing_m, wanted.edge_radius_m + wanted.spacing_m);
   const double before = *std::max_element(field.z.begin(), field.z.end());
   const double after = *std::max_element(round.z.begin(), round.z.end());
   if (!(after > cut))

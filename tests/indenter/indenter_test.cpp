@@ -79,6 +79,25 @@ TEST(HeightField, OpeningGivesEdgesTheBallsRadiusAndLeavesFlats) {
   EXPECT_EQ(opened(groove, 0.0).at(4, 4), 1.0);
 }
 
+TEST(HeightField, RoundedEdgesAreWhereTheyBelongOnACoarseGridToo) {
+  constexpr double kEdge = 0.3e-3;
+  for (const double step : {0.05e-3, 0.1e-3, 0.07e-3}) {
+    const HeightField field = rounded(box(2e-3, 2e-3, 2e-3), kEdge, step, 0.4e-3);
+    EXPECT_NEAR(field.x0 + 0.5 * (field.columns - 1) * step, 1e-3, 1e-12);  // centred on the box
+    EXPECT_GE(0.5 * (field.columns - 1) * step, 1.4e-3 - step);
+    const int row = field.rows / 2;
+    for (int i = 0; i < field.columns; ++i) {
+      const double from_wall = 1e-3 - std::abs(field.x0 + i * step - 1e-3);
+      if (from_wall < 0.1e-3) continue;
+      const double s = std::max(0.0, kEdge - from_wall);
+      // Slope s / √(r² − s²) times a 24th of the radius.
+      const double slope = s / std::sqrt(kEdge * kEdge - s * s);
+      EXPECT_NEAR(field.at(i, row), 2e-3 - kEdge + std::sqrt(kEdge * kEdge - s * s), 1e-6 + slope * kEdge / 24)
+          << from_wall;
+    }
+  }
+}
+
 TEST(HeightField, SolidsAreClosedAndEncloseTheirVolume) {
   HeightField field{.columns = 5, .rows = 4, .spacing = 1e-3, .z = std::vector<double>(20, 1e-3)};
   field.at(2, 2) = 3e-3;
