@@ -1,8 +1,12 @@
 #include "common/light_field.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+
+#include "common/membrane_view.h"
 
 namespace tacipc {
 namespace {
@@ -86,14 +90,14 @@ void light_features(const LightGeometry& geometry, const MembraneView& view, int
 
 FloatImage code_change(const LightField& light, const MembraneView& view) {
   FloatImage change(view.width, view.height, 3);
-  Eigen::VectorXd features(light.geometry.num_features());
-  for (int y = 0; y < view.height; ++y) {
+  tbb::parallel_for(0, view.height, [&](int y) {
+    Eigen::VectorXd features(light.geometry.num_features());
     for (int x = 0; x < view.width; ++x) {
       light_features(light.geometry, view, x, y, features.data());
       const Vector3 codes = light.weights.transpose() * features;
       for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes[c]);
     }
-  }
+  });
   return gaussian_blurred(change, light.blur_px);
 }
 

@@ -8,11 +8,12 @@
 
 #include "common/config.h"
 #include "common/image.h"
-#include "common/membrane_view.h"
 #include "common/types.h"
 #include "common/value.h"
 
 namespace tacipc {
+
+struct MembraneView;
 
 /// The part of the model that features depend on non-linearly.
 ///

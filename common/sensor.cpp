@@ -103,22 +103,35 @@ Sensor Sensor::read(ConfigReader& in) {
   sensor.stack = OpticalStack::read(in, gel, sensor.gel.thickness_m);
   ConfigReader material = in.section("material");
   sensor.material = Material::read(material);
-  ConfigReader coating = in.section("coating");
-  sensor.coating = Coating::read(coating);
-  if (auto ambient = in.optional_section("ambient")) sensor.ambient_rgb = rgb(*ambient, "rgb", Range::non_negative());
-  ConfigReader leds = in.section("leds");
-  sensor.leds = Led::read_all(leds, sensor.gel, sensor.stack);
-  if (auto diffuser = leds.optional_section("diffuser")) {
-    sensor.diffuser = Diffuser::read(*diffuser, sensor.stack, sensor.leds);
+  if (in.has("light_field")) {
+    sensor.light_field = LightField::read(in);
+  } else {
+    ConfigReader coating = in.section("coating");
+    sensor.coating = Coating::read(coating);
+    if (auto ambient = in.optional_section("ambient")) sensor.ambient_rgb = rgb(*ambient, "rgb", Range::non_negative());
+    ConfigReader leds = in.section("leds");
+    sensor.leds = Led::read_all(leds, sensor.gel, sensor.stack);
+    if (auto diffuser = leds.optional_section("diffuser")) {
+      sensor.diffuser = Diffuser::read(*diffuser, sensor.stack, sensor.leds);
+    }
+    ConfigReader response = in.section("response");
+    sensor.response = Response::read(response);
   }
   ConfigReader camera = in.section("camera");
   sensor.camera = Camera::read(camera, sensor.gel, sensor.stack);
   if (auto markers = in.optional_section("markers")) sensor.markers = MarkerGrid::read(*markers);
-  ConfigReader response = in.section("response");
-  sensor.response = Response::read(response);
   if (auto noise = in.optional_section("noise")) sensor.noise = SensorNoise::read(*noise);
   if (const auto reference = in.optional_text("reference_image")) {
     sensor.reference_image = std::filesystem::path(in.source()).parent_path() / *reference;
+  }
+  if (sensor.light_field) {
+    for (const char* key : {"leds", "coating", "ambient", "response"}) {
+      if (!in.has(key)) continue;
+      in.fault(key, "does not go with a light_field, which says by itself how codes change");
+      in.ignore(key);
+    }
+    if (!sensor.reference_image) in.fault("reference_image", "missing: a light_field changes its codes");
+    if (sensor.markers.radius_m) in.fault("markers", "a light_field cannot light printed markers: leave radius_mm out");
   }
   for (auto& [path, source] : in.sources()) sensor.sources.push_back({path, source});
   return sensor;

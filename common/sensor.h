@@ -11,6 +11,7 @@
 
 #include "common/config.h"
 #include "common/layered_path.h"
+#include "common/light_field.h"
 #include "common/types.h"
 
 namespace tacipc {
@@ -195,6 +196,9 @@ struct Sensor {
   std::array<double, 3> ambient_rgb{};  // radiance added everywhere: the veil of internal reflections and housing
   std::vector<Led> leds = {};
   std::optional<Diffuser> diffuser = std::nullopt;
+  /// Light calibrated on photographs, as changes of codes against the reference image: takes the place of leds,
+  /// coating, ambient and response, which stay empty.
+  std::optional<LightField> light_field = std::nullopt;
   Camera camera;
   MarkerGrid markers;
   Response response;

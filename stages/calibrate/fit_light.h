@@ -7,6 +7,7 @@
 
 #include "common/ball_press.h"
 #include "common/light_field.h"
+#include "common/membrane_view.h"
 #include "common/sensor.h"
 #include "stages/calibrate/gauss_newton.h"
 #include "stages/calibrate/samples.h"

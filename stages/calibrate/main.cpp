@@ -12,6 +12,7 @@
 #include "common/stage.h"
 #include "stages/calibrate/fit_light.h"
 #include "stages/calibrate/led_intensities.h"
+#include "stages/calibrate/sensor_file.h"
 
 namespace {
 
@@ -84,6 +85,22 @@ Value::Map summary_of(const LightFit& fit, std::size_t balls) {
   return summary;
 }
 
+/// The sensor with the light found in place of its LEDs, beside the photograph that this light changes.
+void write_calibrated_sensor(Stage& stage, const LightField& light) {
+  const auto section = light.to_value().map().front();
+  const std::vector<SensorChange> changes{{"leds"},
+                                          {"coating"},
+                                          {"ambient"},
+                                          {"response"},
+                                          {"markers.radius_mm"},
+                                          {"markers.albedo"},
+                                          {section.first, section.second},
+                                          {"reference_image", "reference.png", "known"}};
+  write_file(stage.output("sensor.yaml"),
+             changed_sensor(stage.input("--sensor"), changes, "Light found by calibrate."));
+  write_file(stage.output("reference.png"), read_file(stage.input("--background")));
+}
+
 void calibrate_balls(Stage& stage) {
   if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
     throw UsageError("give --photographs and --labels of balls, or --basis");
@@ -128,6 +145,7 @@ void calibrate_balls(Stage& stage) {
   const LightFit fit = fit_light(balls, press ? &*press : nullptr, sensor, config);
 
   write_file(stage.output("light.yaml"), to_yaml(fit.light.to_value()));
+  write_calibrated_sensor(stage, fit.light);
   std::string table = "image,x_mm,y_mm,depth_mm,rmse_codes\n";
   std::vector<double> poses;
   for (std::size_t i = 0; i < balls.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "common/ball_labels.h"
 #include "common/image.h"
 #include "common/light_field.h"
+#include "common/membrane_view.h"
 #include "stages/calibrate/calibrate_config.h"
 
 namespace tacipc {

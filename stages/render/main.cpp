@@ -50,7 +50,7 @@ void write_maps(Stage& stage, const std::string& folder, const TraceResult& trac
 
 void write_frame(Stage& stage, const RenderedFrame& frame) {
   const std::string folder = fmt::format("frame_{:04}/{}", frame.index, frame.unit.empty() ? "" : frame.unit + "/");
-  write_exr(stage.output(folder + "linear.exr"), frame.linear, {"R", "G", "B"});
+  if (!frame.linear.pixels.empty()) write_exr(stage.output(folder + "linear.exr"), frame.linear, {"R", "G", "B"});
   for (std::size_t g = 0; g < frame.basis.size(); ++g)
     write_exr(stage.output(fmt::format("{}basis_{:02}.exr", folder, g)), frame.basis[g], {"R", "G", "B"});
   write_png(stage.output(folder + "tactile.png"), frame.tactile.image);
@@ -106,9 +106,11 @@ std::vector<RenderUnit> all_units(Stage& stage, const Sensor& sensor, const Rend
 }
 
 Value::Map summary_of(const UnitSummary& unit) {
-  return {{"exposure", unit.exposure},
-          {"reference_mean_code", unit.reference_mean_code},
-          {"clipped_fraction", unit.clipped_fraction}};
+  Value::Map lines;
+  if (unit.exposure) lines.emplace_back("exposure", *unit.exposure);
+  lines.emplace_back("reference_mean_code", unit.reference_mean_code);
+  lines.emplace_back("clipped_fraction", unit.clipped_fraction);
+  return lines;
 }
 
 }  // namespace

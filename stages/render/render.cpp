@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "common/camera_model.h"
@@ -14,12 +15,6 @@
 
 namespace tacipc {
 namespace {
-
-double mean_of(const ByteImage& image) {
-  std::uint64_t sum = 0;
-  for (const std::uint8_t code : image.pixels) sum += code;
-  return static_cast<double>(sum) / static_cast<double>(image.pixels.size());
-}
 
 double largest(const FloatImage& image) {
   double most = 0.0;
@@ -40,67 +35,6 @@ void warn_of_dark_leds(const FloatImage& basis, const std::vector<LightGroup>& g
     log_warning("{} lights nothing the camera sees", what);
   }
 }
-
-/// One sensor's way from radiance to codes, with the reference everything is compared with.
-class Developer {
- public:
-  Developer(const RenderUnit& unit, const RenderConfig& config) : unit_(unit), config_(config) {
-    if (unit.sensor.noise) {
-      noise_ = NoiseModel{.full_well_e = unit.sensor.noise->full_well_e,
-                          .read_e = unit.sensor.noise->read_e,
-                          .seed = config.noise_seed};
-    }
-  }
-
-  /// Takes the image of the gel at rest. Called once, first.
-  void set_reference(const FloatImage& linear) {
-    const Sensor& sensor = unit_.sensor;
-    signal_ = camera_signal(linear, sensor.camera, sensor.response);
-    summary_.name = unit_.name;
-    summary_.real_reference = unit_.reference.has_value();
-    summary_.exposure = solve_exposure(signal_, sensor.response);
-    codes_ = encode(signal_, summary_.exposure, sensor.response);
-    reference_ =
-        unit_.reference ? *unit_.reference : synthetic_reference(signal_, summary_.exposure, sensor.response, noise());
-    summary_.reference_mean_code = mean_of(reference_);
-  }
-
-  TactileImage develop(const FloatImage& linear, std::size_t frame) {
-    const Sensor& sensor = unit_.sensor;
-    FloatImage signal = camera_signal(linear, sensor.camera, sensor.response);
-    // Fresh noise comes beside the reference's. Frame 0 has that one already.
-    if (config_.noise_in_every_frame && (frame > 0 || config_.transfer == Transfer::none))
-      signal = add_noise(signal, summary_.exposure, noise(), kFrameStreams + frame);
-    TactileImage out = [&] {
-      if (config_.transfer == Transfer::linear)
-        return transfer_ratio(reference_, signal, signal_, summary_.exposure, sensor.response);
-      const FloatImage codes = encode(signal, summary_.exposure, sensor.response);
-      return config_.transfer == Transfer::none ? quantise(codes) : transfer_noise(reference_, codes, codes_);
-    }();
-    summary_.clipped_fraction = std::max(summary_.clipped_fraction, out.clipped_fraction);
-    return out;
-  }
-
-  const UnitSummary& summary() const { return summary_; }
-
- private:
-  static constexpr std::uint64_t kFrameStreams = 1000;  // one stream of random numbers per frame
-
-  const NoiseModel& noise() const {
-    if (!noise_) {
-      throw DataError("{}: the sensor has neither a reference_image nor a section noise to make one with",
-                      unit_.name.empty() ? unit_.sensor.name : unit_.name);
-    }
-    return *noise_;
-  }
-
-  const RenderUnit& unit_;
-  const RenderConfig& config_;
-  std::optional<NoiseModel> noise_;
-  FloatImage signal_, codes_;
-  ByteImage reference_;
-  UnitSummary summary_;
-};
 
 }  // namespace
 
@@ -140,9 +74,8 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
   } else {
     summary.frames = last == 0 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, last};
   }
-  std::vector<Developer> developers;
-  developers.reserve(units.size());
-  for (const RenderUnit& unit : units) developers.emplace_back(unit, config);
+  std::vector<std::unique_ptr<Developer>> developers;
+  for (const RenderUnit& unit : units) developers.push_back(make_developer(unit, config));
   Membrane membrane = make_membrane(gel, gel.positions);
   RayScene scene(membrane.positions, membrane.triangles);
   for (const std::size_t index : summary.frames) {
@@ -156,7 +89,9 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
       const Sensor& sensor = units[u].sensor;
       TraceResult own;
       if (units[u].needs_rays) {
-        own = trace(scene, membrane, sensor, config.trace, fields);
+        TraceSettings settings = config.trace;
+        if (sensor.leds.empty()) settings.indirect_rays = 0;
+        own = trace(scene, membrane, sensor, settings, fields);
         summary.rays += own.rays;
         summary.nudged_rays += own.nudged_rays;
         summary.outside_rays += own.outside_rays;
@@ -165,17 +100,18 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
         if (u == 0) first = std::move(own);
       }
       const TraceResult& traced = units[u].needs_rays && u > 0 ? own : first;
+      Developer& developer = *developers[u];
+      if (index == 0) developer.set_reference(traced);
       RenderedFrame frame{.index = index,
                           .unit = units[u].name,
                           .trace = units[u].needs_rays ? &traced : nullptr,
-                          .linear = color_image(traced, sensor, false)};
+                          .linear = developer.radiance(traced)};
       if (config.basis_images && units[u].needs_rays) {
         for (std::size_t g = 0; g < light_groups(sensor.leds).size(); ++g)
           frame.basis.push_back(group_image(traced, sensor, g));
       }
-      if (index == 0) developers[u].set_reference(frame.linear);
-      frame.tactile = developers[u].develop(frame.linear, index);
-      if (sensor.markers.radius_m) frame.marker = developers[u].develop(color_image(traced, sensor, true), index);
+      frame.tactile = developer.develop(traced, false, index);
+      if (sensor.markers.radius_m) frame.marker = developer.develop(traced, true, index);
       if (units[u].needs_rays)
         frame.marker_px = project_markers(frame_markers(press, index), sensor, config.trace.refract);
       if (u == 0) {
@@ -187,7 +123,7 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
       deliver(frame);
     }
   }
-  for (const Developer& developer : developers) summary.units.push_back(developer.summary());
+  for (const auto& developer : developers) summary.units.push_back(developer->summary());
   return summary;
 }
 

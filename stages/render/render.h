@@ -12,6 +12,7 @@
 #include "common/optics/trace.h"
 #include "common/sensor.h"
 #include "common/tet_mesh.h"
+#include "stages/render/developer.h"
 #include "stages/render/press_folder.h"
 #include "stages/render/render_config.h"
 
@@ -20,31 +21,15 @@ namespace tacipc {
 /// The photograph named by the sensor. \throw DataError if its size is not the camera's.
 ByteImage read_reference(const std::filesystem::path& path, const Camera& camera);
 
-/// One sensor to render with: the sensor itself (name empty) or a variant.
-struct RenderUnit {
-  std::string name = {};
-  Sensor sensor = {};
-  std::optional<ByteImage> reference = std::nullopt;  // a real photograph; else it is synthetic
-  bool needs_rays = true;                             // else the first unit's basis images serve
-};
-
 struct RenderedFrame {
   std::size_t index = 0;
   std::string unit = {};
   const TraceResult* trace = nullptr;  // null where another unit's serves
-  FloatImage linear = {};
+  FloatImage linear = {};              // empty where the sensor's light is known in codes only
   std::vector<FloatImage> basis = {};  // of each light group, if wanted; where the unit traced rays
   TactileImage tactile = {};
   std::optional<TactileImage> marker = std::nullopt;  // the same with the printed markers, if the sensor has any
   Positions marker_px = {};                           // column, row and 1 where seen, else NaN and 0
-};
-
-struct UnitSummary {
-  std::string name = {};
-  bool real_reference = false;
-  double exposure = 0.0;
-  double reference_mean_code = 0.0;
-  double clipped_fraction = 0.0;  // largest of all frames
 };
 
 struct RenderSummary {

@@ -57,6 +57,8 @@ Sensor varied(const Sensor& sensor, const Variant& variant, const std::optional<
     out.material = sensor.material;
     out.markers = sensor.markers;
   }
+  if (out.light_field && (!variant.lights.empty() || variant.coating_albedo))
+    throw DataError("variant {}: a light_field has neither light groups nor a coating to change", variant.name);
   if (variant.perturbation) perturb(out, *variant.perturbation);
   for (const Variant::Light& light : variant.lights) {
     int found = 0;

@@ -5,6 +5,7 @@
 
 #include "common/image.h"
 #include "common/light_field.h"
+#include "common/sensor.h"
 #include "tests/config_text.h"
 #include "tests/program_test.h"
 
@@ -66,6 +67,11 @@ TEST_F(CalibrateProgram, AnEnvironmentFromShapesExplainsItsPhotographsWithAnyThr
   EXPECT_LE(worst, 16);  // 8 codes of a change of up to 24
   EXPECT_THAT(read_file(scratch_ / "a/calibrate.yaml"), testing::HasSubstr("model: environment\n"));
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "a/ball_poses.npy"));
+  // The same light in a sensor file that every stage takes, with the photograph it changes.
+  const Sensor sensor = read_config<Sensor>(scratch_ / "a/sensor.yaml");
+  EXPECT_TRUE(sensor.leds.empty());
+  EXPECT_EQ(sensor.light_field.value().weights, light.weights);
+  EXPECT_EQ(read_png(sensor.reference_image.value(), 3).pixels, read_png(scratch_ / "background.png", 3).pixels);
 }
 
 TEST_F(CalibrateProgram, LedColoursComeFromTheirBasisImages) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "common/membrane_view.h"
 #include "common/pinhole.h"
 #include "tests/config_text.h"
 
