@@ -72,16 +72,43 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
     return sum_rows(linear.height, row_length(linear),
                     [&](std::size_t i) { return std::min(code_of(exposure * linear.pixels[i], response), 255.0); });
   };
-  // At `low` even the brightest value is below the wanted mean; `high` doubles until the mean is reached.
-  double low = std::log(1e-6 / brightest), high = std::log(1.0 / brightest);
-  for (int doublings = 0; total(std::exp(high)) < wanted; ++doublings) {
-    if (doublings == 60) {
-      throw DataError("no exposure gives the mean level {}: too much of the image is black", response.mean_level);
-    }
-    high += std::log(2.0);
+  // Steps of a factor of two until the wanted mean lies between two of them; then false position on log e, whose
+  // staying end counts half (Illinois), so that it closes in from both sides: some ten images instead of sixty.
+  const double step = std::log(2.0);
+  double low = std::log(1.0 / brightest), low_excess = total(std::exp(low)) - wanted, high = low,
+         high_excess = low_excess;
+  for (int halvings = 0; low_excess >= 0.0 && halvings < 60; ++halvings) {
+    high = low;
+    high_excess = low_excess;
+    low_excess = total(std::exp(low -= step)) - wanted;
   }
-  for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
-    (total(std::exp(middle)) < wanted ? low : high) = middle;
+  for (int doublings = 0; high_excess < 0.0; ++doublings) {
+    if (doublings == 60)
+      throw DataError("no exposure gives the mean level {}: too much of the image is black", response.mean_level);
+    low = high;
+    low_excess = high_excess;
+    high_excess = total(std::exp(high += step)) - wanted;
+  }
+  constexpr int kMost = 100;
+  constexpr double kClose = 1e-12;  // of the exposure and of the mean: what summing leaves of a double's digits
+  int stayed = 0;                   // > 0: `high` did so often, < 0: `low`
+  for (int i = 0; i < kMost && high - low > kClose && high_excess > 0.0; ++i) {
+    const double share = std::clamp(low_excess / (low_excess - high_excess), 1e-3, 1.0 - 1e-3);
+    const double at = low + share * (high - low);
+    if (!(low < at && at < high)) break;
+    const double excess = total(std::exp(at)) - wanted;
+    if (std::abs(excess) <= kClose * wanted) return std::exp(at);
+    if (excess < 0.0) {
+      low = at;
+      low_excess = excess;
+      stayed = std::max(0, stayed) + 1;
+      if (stayed > 1) high_excess *= 0.5;
+    } else {
+      high = at;
+      high_excess = excess;
+      stayed = std::min(0, stayed) - 1;
+      if (stayed < -1) low_excess *= 0.5;
+    }
   }
   return std::exp(high);
 }
