@@ -86,6 +86,8 @@ void light_features(const LightGeometry& geometry, const MembraneView& view, int
   for (int degree = 1; degree <= geometry.environment_degree; ++degree)
     for (int power_y = 0; power_y <= degree; ++power_y)
       put(std::pow(n.x(), degree - power_y) * std::pow(n.y(), power_y));
+  constexpr double kMillimetre = 1e-3;
+  if (geometry.environment_depth) put((view.rest[i].z() - view.point[i].z()) / kMillimetre);
 }
 
 FloatImage code_change(const LightField& light, const MembraneView& view) {

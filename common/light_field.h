@@ -24,15 +24,17 @@ struct MembraneView;
 ///   V = clamp(1/2 + m / softness, 0, 1),  m = min over s of (z(x + s ŵ) − z_ray(s)) / s,
 /// s the way in the plane towards the lamp: the angle (tangent) by which the path clears the membrane, over the width
 /// of the penumbra. The environment is a polynomial φ_m(n) = n_x^i n_y^j, 1 ≤ i + j ≤ degree, of the unit normal:
-/// spherical harmonics up to that degree without their constant, restricted to the sphere.
+/// spherical harmonics up to that degree without their constant, restricted to the sphere; with `environment_depth` it
+/// also varies along z, by φ = (z_rest − z) / 1 mm.
 struct LightGeometry {
   std::vector<Vector3> lamps_m = {};  // frame S
   double shadow_softness = 0.0;       // > 0; tangent
   int environment_degree = 0;         // 0: none
+  bool environment_depth = false;     // one more monomial: how deep the membrane lies
   int field_degree = 1;               // of the polynomial in x and y by which weights vary over the field
   double field_half_width_m = 1;      // x and y of the fields below run from −1 to 1 over this
 
-  int num_monomials() const { return environment_degree * (environment_degree + 3) / 2; }
+  int num_monomials() const { return environment_degree * (environment_degree + 3) / 2 + (environment_depth ? 1 : 0); }
   /// 1, x, y, x², xy, y², … up to field_degree
   int num_field_terms() const { return (field_degree + 1) * (field_degree + 2) / 2; }
   /// As many as field terms for each lamp's q, for its q², and for each monomial.
@@ -46,8 +48,8 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
 /// q_l of one lamp at a pixel.
 double relative_irradiance(const MembraneView& view, int x, int y, const Vector3& lamp_m, double softness);
 
-/// All features of a pixel, in the order lamps (q · f, q² · f), then monomials · f by degree and falling power of n_x;
-/// f = (1, x, y, …) by degree and falling power of x. \pre out has num_features() entries
+/// All features of a pixel, in the order lamps (q · f, q² · f), then monomials · f by degree and falling power of n_x,
+/// depth last; f = (1, x, y, …) by degree and falling power of x. \pre out has num_features() entries
 void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out);
 
 /// Change of code in channel c: Σ_l (a_lc · f) q_l + (b_lc · f) q_l² + Σ_m (e_mc · f) φ_m(n), f = (1, x, y, …): a is

@@ -54,6 +54,8 @@ LightField LightField::read(ConfigReader& file) {
     geometry.environment_degree = environment->integer("degree", 1, 8);
     for (int degree = 1; degree <= geometry.environment_degree; ++degree)
       for (int y = 0; y <= degree; ++y) read_rows(environment->section(monomial_key(degree - y, y)), geometry, rows);
+    geometry.environment_depth = environment->has("depth");
+    if (geometry.environment_depth) read_rows(environment->section("depth"), geometry, rows);
   }
   if (rows.empty()) in.fault("lamps", "give lamps, an environment or both");
   light.weights.resize(static_cast<Eigen::Index>(rows.size()), 3);
@@ -83,6 +85,7 @@ Value LightField::to_value() const {
     for (int degree = 1; degree <= geometry.environment_degree; ++degree)
       for (int y = 0; y <= degree; ++y, row += terms)
         environment.emplace_back(monomial_key(degree - y, y), rows_to_value(*this, row));
+    if (geometry.environment_depth) environment.emplace_back("depth", rows_to_value(*this, row));
     out.emplace_back("environment", std::move(environment));
   }
   return Value::Map{{"light_field", std::move(out)}};

@@ -42,6 +42,9 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
   }
   config.fit_lamps = in.flag_or("fit_lamps", true);
   config.environment_degree = in.integer("environment_degree", 0, 8);
+  config.environment_depth = in.flag_or("environment_depth", false);
+  if (config.environment_depth && config.environment_degree == 0)
+    in.fault("environment_depth", "without environment_degree there is no environment");
   config.field_degree = in.integer_or("field_degree", 1, 0, 4);
   if (config.lamps.empty() && config.environment_degree == 0)
     in.fault("environment_degree", "without lamps there must be an environment");

@@ -42,6 +42,7 @@ struct CalibrateConfig {
   LampBounds bounds;
   bool fit_lamps = true;  // else they stay where the guess has them
   int environment_degree = 0;
+  bool environment_depth = false;
   int field_degree = 1;
   double shadow_softness = 0.0;
   double blur_px = 0.0;

@@ -17,6 +17,7 @@ namespace {
 LightGeometry start_geometry(const CalibrateConfig& config, const Sensor& sensor) {
   LightGeometry geometry{.shadow_softness = config.shadow_softness,
                          .environment_degree = config.environment_degree,
+                         .environment_depth = config.environment_depth,
                          .field_degree = config.field_degree,
                          .field_half_width_m = 0.5 * sensor.camera.window_width_m};
   for (const LampGuess& lamp : config.lamps) geometry.lamps_m.push_back(lamp.position_m());
@@ -65,6 +66,7 @@ GaussNewtonResult fit_lamps(const std::vector<Ball>& balls, const std::vector<La
                             const CalibrateConfig& config) {
   const std::vector<LampGuess>& guess = config.lamps;
   geometry.environment_degree = 0;
+  geometry.environment_depth = false;
   const auto n = static_cast<Eigen::Index>(3 * start.size());
   Eigen::VectorXd u(n);
   GaussNewtonSettings settings{
@@ -179,7 +181,10 @@ double held_out_rmse(const std::vector<NormalEquations>& equations, const Part& 
 
 LightGeometry part_of(const LightGeometry& geometry, ModelKind kind) {
   LightGeometry out = geometry;
-  if (kind == ModelKind::lamps) out.environment_degree = 0;
+  if (kind == ModelKind::lamps) {
+    out.environment_degree = 0;
+    out.environment_depth = false;
+  }
   if (kind == ModelKind::environment) out.lamps_m.clear();
   return out;
 }

@@ -136,6 +136,24 @@ TEST(Features, StandInTheirOrder) {
   }
 }
 
+TEST(Features, OfDepthComeLastAndComeBackFromTheirFile) {
+  LightField light = example();
+  light.geometry.environment_depth = true;
+  ASSERT_EQ(light.geometry.num_features(), 3 * (2 * 2 + 6));
+  light.weights.resize(light.geometry.num_features(), 3);
+  for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
+  const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
+  Eigen::VectorXd f(light.geometry.num_features());
+  light_features(light.geometry, view, 45, 10, f.data());
+  const std::size_t i = view.index(45, 10);
+  const double x = view.rest[i].x() / 3e-3, y = view.rest[i].y() / 3e-3, depth_mm = -1e3 * view.point[i].z();
+  EXPECT_THAT(std::vector<double>(f.data() + 27, f.data() + 30),
+              testing::ElementsAre(depth_mm, depth_mm * x, depth_mm * y));
+  const LightField read = config_from_text<LightField>(to_yaml(light.to_value()), "light.yaml");
+  EXPECT_TRUE(read.geometry.environment_depth);
+  EXPECT_EQ(read.weights, light.weights);
+}
+
 TEST(LightFieldFile, ReadsBackToTheSameBits) {
   const LightField light = example(), again = config_from_text<LightField>(to_yaml(light.to_value()), "light.yaml");
   EXPECT_EQ(again.weights, light.weights);
