@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -41,17 +42,24 @@ Horizon::Horizon(const Membrane& membrane) {
     }
   }
   bound_.assign(cells, kFloor);
+  std::array<std::array<double, kReach + 1>, kReach + 1> gap{};  // between cells with so many others between them
+  for (int j = 0; j <= kReach; ++j)
+    for (int i = 0; i <= kReach; ++i) gap[j][i] = width_ * std::hypot(i, j);
   tbb::parallel_for(0, rows_, [&](int row) {
     for (int column = 0; column < columns_; ++column) {
       double& bound = bound_[at(column, row)];
-      for (int j = std::max(0, row - kReach - 1); j <= std::min(rows_ - 1, row + kReach + 1); ++j) {
-        for (int i = std::max(0, column - kReach - 1); i <= std::min(columns_ - 1, column + kReach + 1); ++i) {
+      const double here = back[at(column, row)];
+      // Farther off nothing is high enough to rise by kFloor.
+      const double reach = std::clamp((here - low.z()) / (kFloor * width_), 0.0, double{kReach});
+      const int cells_away = static_cast<int>(reach) + 1;
+      for (int j = std::max(0, row - cells_away); j <= std::min(rows_ - 1, row + cells_away); ++j) {
+        for (int i = std::max(0, column - cells_away); i <= std::min(columns_ - 1, column + cells_away); ++i) {
           const int across = std::abs(i - column) - 1, along = std::abs(j - row) - 1;
           if (across <= 0 && along <= 0) {
             bound = std::max(bound, slope[at(i, j)]);
           } else {
-            const double gap = width_ * std::hypot(std::max(0, across), std::max(0, along));
-            bound = std::max(bound, (back[at(column, row)] - front[at(i, j)]) / gap);
+            const double apart = gap[std::max(0, along)][std::max(0, across)];
+            bound = std::max(bound, (here - front[at(i, j)]) / apart);
           }
         }
       }
