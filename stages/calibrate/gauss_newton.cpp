@@ -21,7 +21,8 @@ void add_uncertainty(GaussNewtonResult& result, const Eigen::MatrixXd& jtj, Eige
                                   eigen.eigenvalues().cwiseMax(1e-300).cwiseInverse().asDiagonal() *
                                   eigen.eigenvectors().transpose();
   const double variance = result.sum_of_squares / static_cast<double>(std::max<Eigen::Index>(rows - n, 1));
-  result.covariance = variance * (scale.asDiagonal() * inverse * scale.asDiagonal());
+  result.inverse = scale.asDiagonal() * inverse * scale.asDiagonal();
+  result.covariance = variance * result.inverse;
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct GaussNewtonResult {
   double sum_of_squares = 0.0;
   Eigen::MatrixXd covariance =
       {};  // σ² (JᵀJ)⁻¹ with σ² = sum of squares / (rows − parameters); residuals taken independent
-  double condition = 0.0;  // of J with columns scaled to unit length
+  Eigen::MatrixXd inverse = {};  // (JᵀJ)⁻¹: the covariance of residuals that are in units of their deviations
+  double condition = 0.0;        // of J with columns scaled to unit length
   int iterations = 0;
   bool converged = false;
 };

@@ -27,7 +27,8 @@ FloatImage block_medians(const FloatImage& image, int block) {
   return out;
 }
 
-/// From AᵀA: the root of its eigenvalues' ratio at unit diagonal.
+}  // namespace
+
 double condition_of(const Eigen::MatrixXd& gram) {
   const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
@@ -35,8 +36,6 @@ double condition_of(const Eigen::MatrixXd& gram) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
   return std::sqrt(values.maxCoeff() / std::max(values.minCoeff(), 1e-300));
 }
-
-}  // namespace
 
 IntensityConfig IntensityConfig::read(ConfigReader& in) {
   IntensityConfig config{.curve = in.choice("curve", {"srgb", "linear"}),

@@ -37,6 +37,9 @@ struct IntensityFit {
 /// \throw SolverError if it does not end within 10 n steps
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& y);
 
+/// From AᵀA: the root of its eigenvalues' ratio, A's columns scaled to unit length.
+double condition_of(const Eigen::MatrixXd& gram);
+
 /// Linear value in 0 … 1 of a code in 0 … 255.
 double linear_of_code(double code, const std::string& curve);
 

@@ -11,7 +11,7 @@
 #include "common/npy.h"
 #include "common/stage.h"
 #include "stages/calibrate/fit_light.h"
-#include "stages/calibrate/led_intensities.h"
+#include "stages/calibrate/modes.h"
 #include "stages/calibrate/sensor_file.h"
 
 namespace {
@@ -20,9 +20,9 @@ using namespace tacipc;
 
 const StageSpec kCalibrate{
     .name = "calibrate",
-    .summary = "Light of a sensor from photographs of a known ball pressed into it.",
-    .inputs = {{.flag = "--config", .help = "ball, lamps thought of, fit (YAML)"},
-               {.flag = "--sensor", .help = "the sensor: its camera (YAML)"},
+    .summary = "Light of a sensor, or its whole file, from photographs without and with contact of a ball.",
+    .inputs = {{.flag = "--config", .help = "ball, lamps, fit; or sensor_fit (YAML)"},
+               {.flag = "--sensor", .help = "the sensor: camera, for sensor_fit all (YAML)"},
                {.flag = "--background", .help = "photograph without contact (PNG)"},
                {.flag = "--basis",
                 .help = "image of each LED or group alone (EXR, R G B): fits colours of known LEDs",
@@ -103,7 +103,7 @@ void write_calibrated_sensor(Stage& stage, const LightField& light) {
 
 void calibrate_balls(Stage& stage) {
   if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
-    throw UsageError("give --photographs and --labels of balls, or --basis");
+    throw UsageError("give --photographs and --labels of balls, or --basis, or a configuration with sensor_fit");
   const auto press_folder = stage.optional_input("--press"), gel = stage.optional_input("--gel");
   const auto& shapes = stage.inputs("--shapes");
   if (press_folder.has_value() != gel.has_value()) throw UsageError("--press and --gel belong together");
@@ -167,64 +167,14 @@ void calibrate_balls(Stage& stage) {
   stage.summarize(summary);
 }
 
-/// Radiance as the lens's vignetting leaves it.
-FloatImage through_lens(const FloatImage& radiance, const Camera& camera) {
-  FloatImage out = radiance;
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x)
-      for (int c = 0; c < out.channels; ++c)
-        out.at(x, y, c) = static_cast<float>(vignetting(camera, x, y) * radiance.at(x, y, c));
-  return out;
-}
-
-/// configs with a section `intensities`
-struct IntensityFile {
-  IntensityConfig intensities;
-  static IntensityFile read(ConfigReader& in) {
-    ConfigReader section = in.section("intensities");
-    return {IntensityConfig::read(section)};
-  }
-};
-
-void calibrate_leds(Stage& stage) {
-  for (const char* flag : {"--photographs", "--labels", "--press", "--gel"})
-    if (stage.optional_input(flag)) throw UsageError(fmt::format("{} does not go with --basis", flag));
-  const auto config = stage.read_config<IntensityFile>("--config").intensities;
-  const Camera camera = stage.read_config<Sensor>("--sensor").camera;
-  const ByteImage background = read_photograph(stage.input("--background"), camera);
-  std::vector<FloatImage> basis;
-  for (const auto& path : stage.inputs("--basis")) {
-    basis.push_back(read_camera_exr(path, {"R", "G", "B"}, camera));
-  }
-  // The images are of what reaches the lens.
-  const FloatImage even = through_lens(FloatImage(camera.width_px, camera.height_px, 1, 1.0f), camera);
-  for (FloatImage& image : basis) image = through_lens(image, camera);
-  FloatImage codes(background.width, background.height, 3);
-  std::copy(background.pixels.begin(), background.pixels.end(), codes.pixels.begin());
-  const IntensityFit fit = fit_intensities(basis, even, codes, config);
-  Value::List leds, deviations;
-  for (Eigen::Index l = 0; l <= fit.rgb.rows(); ++l) {
-    Value::List sigma;
-    for (std::size_t c = 0; c < 3; ++c) sigma.push_back(std::sqrt(fit.covariance[c](l, l)));
-    deviations.push_back(std::move(sigma));
-    if (l < fit.rgb.rows())
-      leds.push_back(Value::Map{{"rgb_linear", Value::List{fit.rgb(l, 0), fit.rgb(l, 1), fit.rgb(l, 2)}}});
-  }
-  const Value::List veil{fit.veil[0], fit.veil[1], fit.veil[2]};
-  write_file(stage.output("leds.yaml"), to_yaml(Value::Map{{"leds", leds}, {"ambient", Value::Map{{"rgb", veil}}}}));
-  write_exr(stage.output("residual.exr"), fit.residual, {"R", "G", "B"});
-  stage.summarize({{"leds", basis.size()},
-                   {"rmse_linear", Value::List{fit.rmse[0], fit.rmse[1], fit.rmse[2]}},
-                   {"condition_number", fit.condition},
-                   {"condition_number_with_veil", fit.condition_with_veil},
-                   {"sigma_leds_then_veil", deviations}});
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   return run_stage(kCalibrate, argc, argv, [](Stage& stage) {
-    if (stage.inputs("--basis").empty())
+    const bool whole_sensor = ConfigReader::from_file(stage.input("--config")).has("sensor_fit");
+    if (whole_sensor)
+      calibrate_sensor(stage);
+    else if (stage.inputs("--basis").empty())
       calibrate_balls(stage);
     else
       calibrate_leds(stage);

@@ -7,7 +7,6 @@
 
 #include "common/config.h"
 #include "common/error.h"
-#include "common/sensor.h"
 
 namespace tacipc {
 namespace {
@@ -66,9 +65,24 @@ void apply(Value& document, const SensorChange& change) {
   }
 }
 
-void read_sensor(ConfigReader& in) {
-  Sensor::read(in);
+Sensor read_sensor(ConfigReader& in) {
+  Sensor sensor = Sensor::read(in);
   in.finish();
+  return sensor;
+}
+
+std::string changed_text(Value content, const std::vector<SensorChange>& changes) {
+  for (const SensorChange& change : changes) apply(content, change);
+  return to_yaml(content);
+}
+
+Sensor sensor_of(const std::string& text) {
+  try {
+    ConfigReader in = ConfigReader::from_text(text, "the fitted sensor");
+    return read_sensor(in);
+  } catch (const ConfigError& error) {
+    throw DataError("what was fitted makes no valid sensor:\n{}", error.what());
+  }
 }
 
 }  // namespace
@@ -76,17 +90,15 @@ void read_sensor(ConfigReader& in) {
 std::string changed_sensor(const std::filesystem::path& sensor, const std::vector<SensorChange>& changes,
                            const std::string& comment) {
   ConfigReader in = ConfigReader::from_file(sensor);
-  Value document = in.content();
+  const Value content = in.content();
   read_sensor(in);
-  for (const SensorChange& change : changes) apply(document, change);
-  const std::string text = "# " + comment + "\n" + to_yaml(document);
-  try {
-    ConfigReader changed = ConfigReader::from_text(text, "the fitted sensor");
-    read_sensor(changed);
-  } catch (const ConfigError& error) {
-    throw DataError("what was fitted makes no valid sensor:\n{}", error.what());
-  }
+  const std::string text = "# " + comment + "\n" + changed_text(content, changes);
+  sensor_of(text);
   return text;
+}
+
+Sensor changed_sensor(const Value& content, const std::vector<SensorChange>& changes) {
+  return sensor_of(changed_text(content, changes));
 }
 
 }  // namespace tacipc

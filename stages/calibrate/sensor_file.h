@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/sensor.h"
 #include "common/value.h"
 
 namespace tacipc {
@@ -25,5 +26,9 @@ struct SensorChange {
 /// path names an item that no list has.
 std::string changed_sensor(const std::filesystem::path& sensor, const std::vector<SensorChange>& changes,
                            const std::string& comment);
+
+/// The sensor that the changed text describes; `content` is what ConfigReader::content says of the file.
+/// \throw DataError as above
+Sensor changed_sensor(const Value& content, const std::vector<SensorChange>& changes);
 
 }  // namespace tacipc

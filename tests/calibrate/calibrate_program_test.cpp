@@ -102,7 +102,9 @@ TEST_F(CalibrateProgram, LedColoursComeFromTheirBasisImages) {
 
 TEST_F(CalibrateProgram, WrongFlagsAndFilesAreSaidOnce) {
   EXPECT_EQ(run("--config c.yaml --out a"), 2);
-  EXPECT_EQ(said_, "calibrate: error: give --photographs and --labels of balls, or --basis\n");
+  EXPECT_EQ(
+      said_,
+      "calibrate: error: give --photographs and --labels of balls, or --basis, or a configuration with sensor_fit\n");
   EXPECT_EQ(run(balls_ + "--out a"), 2);
   EXPECT_EQ(said_, "calibrate: error: give either --press or --shapes\n");
   EXPECT_EQ(run(balls_ + "--shapes s0.exr --out a"), 2);
