@@ -31,6 +31,10 @@ define newline
 
 endef
 
+# A file that is rewritten only when what it is to say has changed.
+replace_if_changed_by = @mkdir -p $(@D); $(1) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+replace_if_changed = $(call replace_if_changed_by,printf '%s\n' '$(subst $(newline),' ',$(1))')
+
 .PHONY: sample FORCE
 ifdef OBJECT
 $(call check_name,OBJECT)
@@ -113,8 +117,6 @@ $(if $(UP),up: "$(UP)")
 endef
 # Which files are meant: another object, sensor, mesh, press or motion under the same name must redo the sample however old its files are.
 choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), motion: $(or $(abspath $(motion_file)),as said)}
-replace_if_changed_by = @mkdir -p $(@D); $(1) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
-replace_if_changed = $(call replace_if_changed_by,printf '%s\n' '$(subst $(newline),' ',$(1))')
 $(SAMPLE)/sample.yaml: FORCE
 	$(call replace_if_changed,$(sample_yaml))
 $(SAMPLE)/object.yaml: FORCE

@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "common/optics/develop.h"
+#include "stages/calibrate/led_intensities.h"
 #include "stages/calibrate/rest_membrane.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
@@ -313,6 +314,29 @@ TEST_F(SensorFitTest, TheLightIsSmoothInEveryParameter) {
     if (change < 1e-5 * size) continue;
     EXPECT_NEAR(std::log2(change / next), 2.0, 0.1) << free.name(i) << " " << change / size;
   }
+}
+
+/// Known for 8 LEDs 10 mm behind a window of 15 × 11.25 mm, under 3 mm of air, 5 mm of acrylic and 2 mm of gel: 17.
+/// Farther off they look more alike; a coating's lobe tells them apart.
+TEST_F(SensorFitTest, EightLedsOfARingAreAsWellConditionedAsIsKnown) {
+  std::string text = kSensorText;
+  const std::string lobe = ", specular_f0: 0.04, ggx_alpha: 0.4";
+  text.erase(text.find(lobe), lobe.size());
+  const std::size_t lit = text.find("      - {index: 0");
+  text.erase(lit, text.find("camera:") - lit);
+  std::string leds;
+  for (int i = 0; i < 8; ++i) leds += fmt::format("      - {{index: {}, rgb_linear: [1, 1, 1], intensity: 1}}\n", i);
+  text.insert(lit, leds);
+  const SensorParameters ring(scratch_.file("eight.yaml", text),
+                              {{.name = "ring_z_mm", .sigma = 1.0, .bounds = std::array{-16.0, -9.0}}});
+  BlockTracer tracer(ring.nominal(), 2, kTrace);
+  const auto condition = [&](double u) {
+    const Eigen::VectorXd key = Eigen::VectorXd::Constant(1, u);
+    const Eigen::MatrixXd light = tracer.light(key, ring.sensor(key), Eigen::Vector3d::Zero())[0].leftCols(8);
+    return condition_of(light.transpose() * light);
+  };
+  EXPECT_NEAR(condition(3.0), 17.0, 1.0);
+  EXPECT_NEAR(condition(0.0), 61.0, 3.0);
 }
 
 TEST_F(SensorFitTest, RefusesWhatCannotBeFitted) {
