@@ -38,6 +38,8 @@ SensorParameters::SensorParameters(const std::filesystem::path& sensor, std::vec
   content_ = in.content();
   nominal_ = Sensor::read(in);
   in.finish();
+  if (nominal_.leds.empty())
+    throw UsageError(fmt::format("{} has no leds, whose colours sensor_fit could find", sensor.string()));
   Values& have = nominal_values_;
   ConfigReader leds = in.section("leds"), camera = in.section("camera");
   if (auto ring = leds.optional_section("ring")) {
