@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "common/error.h"
 #include "common/log.h"
@@ -54,10 +55,12 @@ class Problem {
     return out;
   }
 
+  double sigma() const { return sigma_; }
   Colors colors(const Eigen::VectorXd& p) { return solve_colors(lights(p), sensor(p).response); }
 
   /// Leaves out what lies beyond five robust deviations and takes the rest's root mean square for sigma if it is more
-  /// than `least`. Returns whether anything changed.
+  /// than `least`, or more yet where neighbouring blocks agree: they then count as fewer. Returns whether anything
+  /// changed.
   bool reweigh(const Eigen::VectorXd& p, double least) {
     const std::vector<const BlockLight*> light = lights(p);
     const Response response = sensor(p).response;
@@ -70,18 +73,24 @@ class Problem {
     std::nth_element(size.begin(), middle, size.end());
     const double most = std::max(5.0 * 1.4826 * *middle, 0.5);  // codes; rounding alone makes 0.5
     std::size_t dropped = 0;
-    double sum = 0.0;
+    double sum = 0.0, together = 0.0;
     for (std::size_t k = 0; k < photographs_.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::map<Eigen::Index, double> neighbourhoods;
+        const Eigen::Index width = photographs_[k].codes.width;
         dropped += std::erase_if(photographs_[k].used[c], [&](Eigen::Index block) {
           const double r = difference(k, c, block, light, now, response);
           if (std::abs(r) > most) return true;
           sum += r * r;
+          neighbourhoods[block / width / kAgree * width + block % width / kAgree] += r;
           return false;
         });
+        for (const auto& [place, total] : neighbourhoods) together += total * total;
+      }
     outliers_ += dropped;
     const double before = sigma_;
-    sigma_ = std::max(least, std::sqrt(sum / static_cast<double>(num_rows())));
+    // Σ (Σ r)² is Σ r² where neighbours differ by chance, and kAgree² times that where all say the same.
+    sigma_ = std::max(least, std::sqrt(std::max(sum, together) / static_cast<double>(num_rows())));
     return dropped > 0 || std::abs(sigma_ - before) > 0.02 * before;
   }
 
@@ -100,6 +109,8 @@ class Problem {
     out.head(parameters_.count()) = of_parameters;
     return out;
   }
+
+  static constexpr Eigen::Index kAgree = 8;  // blocks along x and y that are asked whether they do
 
   template <typename Function>
   void each_used(const Function& visit) const {
@@ -309,7 +320,10 @@ SensorFit fit_sensor(const SensorParameters& parameters, const SensorFitConfig& 
       fit.iterations += result.iterations;
     }
     log_info("round {}: sum of squares {:.6g}", round + 1, result.sum_of_squares);
+    const double before = problem.sigma();
     if (round == 2 || !problem.reweigh(result.parameters, config.sigma_codes)) break;
+    // Weighted far too much, the photographs may have led astray.
+    if (problem.sigma() > 2.0 * before) result.parameters.setZero();
   }
   const Eigen::VectorXd& p = result.parameters;
   problem.describe(p, result.inverse, fit);

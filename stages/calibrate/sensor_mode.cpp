@@ -6,6 +6,7 @@
 #include "common/camera_image.h"
 #include "common/error.h"
 #include "common/files.h"
+#include "common/log.h"
 #include "stages/calibrate/modes.h"
 #include "stages/calibrate/sensor_fit.h"
 
@@ -114,6 +115,19 @@ Value::Map summary_of(const SensorParameters& parameters, const SensorFit& fit) 
   return summary;
 }
 
+void warn_of_misfit(const SensorParameters& parameters, const SensorFitConfig& config, const SensorFit& fit) {
+  for (const PhotographFit& one : fit.photographs) {
+    const double most = *std::max_element(one.rmse_codes.begin(), one.rmse_codes.end());
+    if (most > 4.0 * config.sigma_codes)
+      log_warning("{}: {:.1f} codes are left over, sigma_codes is {:g}: the model lacks something, see residuals/",
+                  one.name, most, config.sigma_codes);
+  }
+  for (Eigen::Index i = 0; i < parameters.count(); ++i)
+    if (fit.at_bound[static_cast<std::size_t>(i)])
+      log_warning("{} ends at its bound, {:.6g}", parameters.name(i), parameters.value(i, fit.u[i]));
+  if (!fit.converged) log_warning("the fit did not converge");
+}
+
 }  // namespace
 
 void calibrate_sensor(Stage& stage) {
@@ -139,6 +153,7 @@ void calibrate_sensor(Stage& stage) {
                             config.balls->contact_gap_m);
   }
   const SensorFit fit = fit_sensor(parameters, config, background, balls, press ? &*press : nullptr);
+  warn_of_misfit(parameters, config, fit);
   const std::string text = changed_sensor(stage.input("--sensor"), fitted_changes(parameters, fit, "reference.png"),
                                           "Made by calibrate: values fitted to photographs are marked as derived.");
   write_file(stage.output("sensor.yaml"), text);

@@ -104,6 +104,27 @@ TEST(SensorParameters, RefusesWhatTheSensorDoesNotHave) {
             "sensor_fit.parameters.gamma: its mean, 2, is outside its bounds, 2.1 … 2.4");
 }
 
+TEST(SensorParameters, NeedLeds) {
+  LightField light;
+  light.geometry.environment_degree = 1;
+  light.geometry.field_half_width_m = 7.5e-3;
+  light.geometry.shadow_softness = 0.1;
+  light.weights = Eigen::MatrixXd::Zero(light.geometry.num_features(), 3);
+  const auto section = light.to_value().map().front();
+  const ScratchFolder scratch;
+  const auto path = scratch.file("lit.yaml", changed_sensor(kConfigs + "mctac.yaml",
+                                                            {{"leds"},
+                                                             {"coating"},
+                                                             {"ambient"},
+                                                             {"response"},
+                                                             {"markers"},
+                                                             {section.first, section.second},
+                                                             {"reference_image", "r.png", "known"}},
+                                                            "made by a test"));
+  EXPECT_EQ(message_of<UsageError>([&] { SensorParameters(path, {}); }),
+            path.string() + " has no leds, whose colours sensor_fit could find");
+}
+
 TEST(SensorFitConfig, FaultsHaveTheirPlace) {
   EXPECT_THAT(faults_in<SensorFitFile>("sensor_fit:\n  block_px: 8\n  sigma_codes: 0\n  parameters:\n"
                                        "    ring_radios_mm: {sigma: 1}\n    gamma: {sigma: 0.1, bounds: [3, 2]}\n",
