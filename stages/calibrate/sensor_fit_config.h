@@ -16,7 +16,7 @@ struct FreeParameter {
   std::string name;
   double sigma = 0.0;
   std::optional<double> mean = std::nullopt;                   // absent: what the file says
-  std::optional<std::array<double, 2>> bounds = std::nullopt;  // absent: mean ± 4 sigma, as far as such values go
+  std::optional<std::array<double, 2>> bounds = std::nullopt;  // absent: mean ± 4 sigma, or as far as sensors are valid
 };
 
 /// Photographs of a ball pressed to contacts that are labelled.

@@ -4,10 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "common/error.h"
@@ -16,17 +14,6 @@ namespace tacipc {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-/// Where values of this name end whatever a prior says; angles, places and factors have no such ends.
-std::array<double, 2> natural_bounds(const std::string& name) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  static const std::map<std::string, std::array<double, 2>> ends = {
-      {"ring_radius_mm", {0.1, kNone}},    {"ring_tilt_deg", {0.0, 180.0}}, {"list_scale", {0.05, kNone}},
-      {"window_scale", {0.05, kNone}},     {"gamma", {0.2, 5.0}},           {"specular_f0", {1e-3, 1.0}},
-      {"emission_exponent", {0.0, kNone}}, {"ggx_alpha", {0.02, 1.0}}};
-  const auto end = ends.find(name);
-  return end == ends.end() ? std::array{-kNone, kNone} : end->second;
-}
 
 Value triple(const Vector3& v) { return Value::List{v.x(), v.y(), v.z()}; }
 
@@ -94,22 +81,30 @@ SensorParameters::SensorParameters(const std::filesystem::path& sensor, std::vec
                                    fmt::join(names, ", ")));
     }
     if (!p.mean) p.mean = nominal->second;
-    const std::array<double, 2> ends = natural_bounds(p.name);
-    const std::array<double, 2> bounds = p.bounds.value_or(
-        std::array{std::max(*p.mean - 4 * p.sigma, ends[0]), std::min(*p.mean + 4 * p.sigma, ends[1])});
+    // What is wrong with the sensor at a value; empty: nothing.
+    const auto fault_at = [&](double value) {
+      try {
+        changed_sensor(content_, changes_of({{p.name, value}}));
+        return std::string();
+      } catch (const DataError& error) {
+        return std::string(error.what());
+      }
+    };
+    std::array<double, 2> bounds = p.bounds.value_or(std::array{*p.mean - 4 * p.sigma, *p.mean + 4 * p.sigma});
+    if (!p.bounds && fault_at(*p.mean).empty())
+      for (double& bound : bounds)
+        for (int tries = 50; !fault_at(bound).empty(); --tries)
+          bound = tries > 0 ? *p.mean + 0.9 * (bound - *p.mean) : *p.mean;  // which may be an end itself
     if (*p.mean < bounds[0] || *p.mean > bounds[1])
       throw UsageError(fmt::format("sensor_fit.parameters.{}: its mean, {:g}, is outside its bounds, {:g} … {:g}",
                                    p.name, *p.mean, bounds[0], bounds[1]));
     lower_[i] = (bounds[0] - *p.mean) / p.sigma;
     upper_[i] = (bounds[1] - *p.mean) / p.sigma;
     for (const double value : {*p.mean, bounds[0], bounds[1]}) {
-      try {
-        changed_sensor(content_, changes_of({{p.name, value}}));
-      } catch (const DataError& error) {
-        const std::string said = error.what();
-        throw UsageError(fmt::format("sensor_fit.parameters.{}: {:g} makes no valid sensor; give other bounds{}",
-                                     p.name, value, said.substr(said.find('\n'))));
-      }
+      const std::string fault = fault_at(value);
+      if (fault.empty()) continue;
+      throw UsageError(fmt::format("sensor_fit.parameters.{}: {:g} makes no valid sensor; give other bounds{}", p.name,
+                                   value, fault.substr(fault.find('\n'))));
     }
   }
 }

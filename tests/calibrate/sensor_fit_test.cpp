@@ -133,6 +133,26 @@ TEST_F(SensorFitTest, FindsAPerturbedSensorInOneNoisyPhotograph) {
   EXPECT_EQ(fit.outliers, 0u);
 }
 
+TEST_F(SensorFitTest, FindsACurvedSensorWithAPinholeCamera) {
+  const SensorParameters free(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/digit.yaml",
+                              {{.name = "ring_azimuth_deg", .sigma = 3.0},
+                               {.name = "camera_x_mm", .sigma = 0.3},
+                               {.name = "camera_rotation_x_deg", .sigma = 1.0},
+                               {.name = "vignetting_v2", .sigma = 0.2}});
+  const Eigen::Vector4d true_values(0.9, -0.8, 1.1, -0.7);
+  const Sensor truth = free.sensor(true_values);
+  const double exposure = exposure_of(truth);
+  SensorFitConfig coarse = config();
+  coarse.block_px = 8;
+  const SensorFit fit =
+      fit_sensor(free, coarse, photograph(truth, rest_membrane(truth.gel), exposure, true, 1), {}, nullptr);
+  EXPECT_TRUE(fit.converged);
+  for (Eigen::Index i = 0; i < free.count(); ++i) {
+    EXPECT_LT(std::abs(fit.u[i] - true_values[i]), 4.0 * std::sqrt(fit.covariance(i, i))) << free.name(i);
+    EXPECT_LT(fit.covariance(i, i), 0.05) << free.name(i);
+  }
+}
+
 TEST_F(SensorFitTest, ColoursOfAKnownGeometryAreWithinTwoPercent) {
   const SensorParameters free = parameters({});
   const Sensor truth = lit(free.nominal());

@@ -49,16 +49,20 @@ TEST(SensorParameters, MoveWhatTheyName) {
 }
 
 TEST(SensorParameters, MoveListsOfLedsAsAWhole) {
-  const SensorParameters list(kConfigs + "gelsight_lab.yaml",
-                              {{.name = "list_x_mm", .sigma = 1.0},
-                               {.name = "list_z_mm", .sigma = 1.0, .bounds = std::array{-3.0, 1.0}},
-                               {.name = "list_scale", .sigma = 0.1},
-                               {.name = "list_azimuth_deg", .sigma = 10.0},
-                               {.name = "emission_exponent", .sigma = 5.0}});
+  const SensorParameters list(kConfigs + "gelsight_lab.yaml", {{.name = "list_x_mm", .sigma = 1.0},
+                                                               {.name = "list_z_mm", .sigma = 1.0},
+                                                               {.name = "list_scale", .sigma = 0.1},
+                                                               {.name = "list_azimuth_deg", .sigma = 10.0},
+                                                               {.name = "emission_exponent", .sigma = 5.0}});
   EXPECT_EQ(list.led_paths()[2], "leds.list[2]");
+  EXPECT_EQ(list.lower()[1], -4.0);
+  EXPECT_GT(list.upper()[1], 1.0);  // the gel begins 1.5 mm farther on
+  EXPECT_LT(list.upper()[1], 1.5);
   Eigen::VectorXd u(5);
   u << 2, -0.5, 1, 9, 1;
   const Sensor moved = list.sensor(u);
+  const SensorParameters upright(kConfigs + "mctac.yaml", {{.name = "ring_tilt_deg", .sigma = 3.0}});
+  EXPECT_EQ(upright.lower()[0], 0.0);  // no tilt is below none
   const Led& led = list.nominal().leds[0];
   // A quarter turn takes (x, y) to (−y, x).
   EXPECT_NEAR(moved.leds[0].position_m.x(), 2e-3 - 1.1 * led.position_m.y(), 1e-12);
@@ -97,7 +101,7 @@ TEST(SensorParameters, RefusesWhatTheSensorDoesNotHave) {
                 "mctac.yaml has none; it has ring_radius_mm, ring_z_mm, ring_azimuth_deg, ring_tilt_deg, camera_x_mm, "
                 "camera_y_mm, camera_z_mm, camera_rotation_z_deg, window_scale, vignetting_v2, vignetting_v4, gamma, "
                 "specular_f0, ggx_alpha");
-  EXPECT_THAT(fault({.name = "ring_z_mm", .sigma = 4.0}),
+  EXPECT_THAT(fault({.name = "ring_z_mm", .sigma = 4.0, .bounds = std::array{-20.0, 3.0}}),
               testing::StartsWith(
                   "sensor_fit.parameters.ring_z_mm: 3 makes no valid sensor; give other bounds\nthe fitted sensor:"));
   EXPECT_EQ(fault({.name = "gamma", .sigma = 0.1, .mean = 2.0, .bounds = std::array{2.1, 2.4}}),
