@@ -35,7 +35,7 @@ endef
 replace_if_changed_by = @mkdir -p $(@D); $(1) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 replace_if_changed = $(call replace_if_changed_by,printf '%s\n' '$(subst $(newline),' ',$(1))')
 
-.PHONY: sample FORCE
+.PHONY: sample track FORCE
 ifdef OBJECT
 $(call check_name,OBJECT)
 $(call check_name,NAME)
@@ -131,9 +131,20 @@ $(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice
 $(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_paths)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
+# Every frame rendered, and the printed markers found in the images.
+$(SAMPLE)/frames/render.yaml: $(SAMPLE)/press/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
+	$(call run,render,--press $(SAMPLE)/press --gel $(OUT)/gels/$(SENSOR)-$(MESH)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
+$(SAMPLE)/track/track.yaml: $(SAMPLE)/frames/render.yaml configs/track/default.yaml | build
+	$(call run,track,--render $(SAMPLE)/frames --config configs/track/default.yaml)
+
+track: $(SAMPLE)/track/track.yaml ## Printed markers of a sample measured in its images: OBJECT=path.stl [as of sample]
+	@sed -n '/^summary:/,$$p' $<
+
 sample: $(SAMPLE)/report/report.yaml ## One object of your own: OBJECT=path.stl [MOTION=shear|twist|release|…; see pipelines/sample.mk]
 	$(call look,$(SAMPLE))
 else
+track:
+	@echo "track: say which object: make -f Makefile.data track OBJECT=path.stl" >&2; exit 2
 sample:
 	@echo "sample: say which object: make -f Makefile.data sample OBJECT=path.stl" >&2; exit 2
 endif
