@@ -10,16 +10,6 @@
 namespace tacipc {
 namespace {
 
-/// A word that Make and the shell take for one, or a path of such words.
-std::string plain(ConfigReader& in, const std::string& key) {
-  const std::string text = in.text(key);
-  const bool fine = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
-  });
-  if (!fine) in.fault(key, "has characters other than letters, digits and . _ / + -");
-  return fine ? text : "x";
-}
-
 std::array<int, 4> read_box(ConfigReader& in) {
   const auto values = in.numbers("box_px", 4, Range::between(0.0, 1e6));
   std::array<int, 4> box{};
@@ -62,6 +52,15 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
 }
 
 }  // namespace
+
+std::string plain(ConfigReader& in, const std::string& key) {
+  const std::string text = in.text(key);
+  const bool fine = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
+  });
+  if (!fine) in.fault(key, "has characters other than letters, digits and . _ / + -");
+  return fine ? text : "x";
+}
 
 BenchmarkCases BenchmarkCases::read(ConfigReader& in) {
   BenchmarkCases cases;

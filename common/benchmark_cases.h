@@ -12,6 +12,9 @@
 
 namespace tacipc {
 
+/// A text that Make and the shell take for one word, or a path of such words; anything else is a fault.
+std::string plain(ConfigReader& in, const std::string& key);
+
 /// A photograph of an object pressed to a depth, or of a ball whose contact circle alone is known.
 struct PhotographCase {
   std::string name;

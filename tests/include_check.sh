@@ -13,7 +13,7 @@ hits=$(grep -nE '#include "common/optics/' common/*.h common/*.cpp || true)
 [ -z "$hits" ] || { echo "$hits"; echo '  ^ what has no pictures may not need Embree'; faults=1; }
 for stage in stages/*/; do
   name=$(basename "$stage")
-  hits=$(grep -rnoE '#include "stages/[a-z]+/' "$stage" | grep -v "stages/$name/\$" || true)
+  hits=$(grep -rnoE '#include "stages/[a-z_]+/' "$stage" | grep -v "stages/$name/\$" || true)
   [ -z "$hits" ] || { echo "$hits"; echo "  ^ a stage may not include another"; faults=1; }
 done
 complain 'stages/press/(energy|solve|simulate|outputs)' stages/press/contact 'contact is geometry only'

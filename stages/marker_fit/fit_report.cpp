@@ -1,0 +1,74 @@
+#include "stages/marker_fit/fit_report.h"
+
+#include <fmt/format.h>
+
+namespace tacipc {
+namespace {
+
+std::string cells(const FieldErrors& e) {
+  return fmt::format("{:.2f} | {:.2f} | {:.1f} | {} | {:.2f} |", e.mean_px, e.median_px, e.max_px,
+                     e.directions > 0 && e.ratio > 0.0 ? fmt::format("{:.0f}°", e.angle_deg) : "", e.ratio);
+}
+
+}  // namespace
+
+std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShear& measured,
+                      const MarkerBenchmark& benchmark) {
+  const FieldFit& first = rows.front().fit.value();
+  const auto errors = [&](const Eigen::Matrix2Xd& press, const Eigen::Matrix2Xd& press_truth,
+                          const Eigen::Matrix2Xd& shear, const Eigen::Matrix2Xd& shear_truth) {
+    return fmt::format("{} {}", cells(field_errors(press, press_truth, benchmark.least_length_px, std::nullopt)),
+                       cells(field_errors(shear, shear_truth, benchmark.least_length_px, measured.shear_marker)));
+  };
+  std::string out = fmt::format(
+      "| {} | Depth, mm | Way, mm | Press, {} vectors: error, px: mean | median | largest | angle | length | Shear, {} "
+      "vectors: error, px: mean | median | largest | angle | length |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      benchmark.title, first.press.markers, first.shear.markers);
+  for (const FitRow& row : rows) {
+    if (row.fit) {
+      constexpr double kReachedPx = 0.5;  // as exact as it was measured
+      const std::string missed = row.fit->way_missed_px > kReachedPx
+                                     ? fmt::format(" (its marker off by {:.1f} px)", row.fit->way_missed_px)
+                                     : "";
+      out += fmt::format("| {} | {:.2f} | {:.2f}{} | {} {}\n", row.name, 1e3 * row.fit->depth_m, 1e3 * row.fit->way_m,
+                         missed, cells(row.fit->press), cells(row.fit->shear));
+    } else {
+      out += fmt::format("| {} | | | {} |\n", row.name, row.no_fit);
+    }
+  }
+  const Eigen::Matrix2Xd none_press = Eigen::Matrix2Xd::Zero(2, first.press_px.cols());
+  const Eigen::Matrix2Xd none_shear = Eigen::Matrix2Xd::Zero(2, first.shear_px.cols());
+  out += fmt::format("| no displacement at all | | | {}\n",
+                     errors(none_press, measured.press.moved_px, none_shear, measured.shear.moved_px));
+  const auto rounded = [](const Eigen::Matrix2Xd& v) { return Eigen::Matrix2Xd(v.array().round().matrix()); };
+  out += fmt::format("| rounding of the first row alone | | | {}\n",
+                     errors(rounded(first.press_px), first.press_px, rounded(first.shear_px), first.shear_px));
+  const MarkerAssumptions& held = benchmark.assumed;
+  out += fmt::format(
+      "\nHeld in the first row: ball of {:g} mm, friction {:g}, {:g} px/mm, contact at ({:g}, {:g}) px. Fitted: the "
+      "depth to all vectors "
+      "of the press, the way to the one of the marker at ({:g}, {:g}) px, which the shear's columns leave out. Error: "
+      "length of simulated minus "
+      "measured. Angle: mean over vectors measured {:g} px long or longer ({} of the press, {} of the shear). Length: "
+      "sum of simulated over sum "
+      "of measured lengths.\n",
+      1e3 * held.ball_radius_m, held.friction, 1e-3 * held.px_per_m, held.contact_px.x(), held.contact_px.y(),
+      benchmark.shear_marker_px.x(), benchmark.shear_marker_px.y(), benchmark.least_length_px, first.press.directions,
+      first.shear.directions);
+  return out;
+}
+
+std::string vectors_csv(const FieldFit& fit, const MeasuredPressAndShear& measured) {
+  std::string out = "field,x_px,y_px,measured_dx_px,measured_dy_px,simulated_dx_px,simulated_dy_px\n";
+  const auto add = [&](const char* name, const MarkerField& field, const Eigen::Matrix2Xd& simulated) {
+    for (Eigen::Index i = 0; i < field.rest_px.cols(); ++i)
+      out += fmt::format("{},{:g},{:g},{:g},{:g},{:.4f},{:.4f}\n", name, field.rest_px(0, i), field.rest_px(1, i),
+                         field.moved_px(0, i), field.moved_px(1, i), simulated(0, i), simulated(1, i));
+  };
+  add("press", measured.press, fit.press_px);
+  add("shear", measured.shear, fit.shear_px);
+  return out;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,94 @@
+#include "stages/marker_fit/marker_lattice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "common/error.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kTolerance = 1e-3;  // of the spacing
+
+/// Distinct values among ascending ones.
+std::vector<double> distinct(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double tolerance = kTolerance * (values.back() - values.front()) / static_cast<double>(values.size());
+  std::vector<double> out;
+  for (const double v : values)
+    if (out.empty() || v - out.back() > tolerance) out.push_back(v);
+  return out;
+}
+
+/// Catmull–Rom's weights of four values at −1, 0, 1, 2 for a point at t in [0, 1].
+std::array<double, 4> catmull_rom(double t) {
+  return {0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (-5.0 + 3.0 * t), 0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
+          0.5 * t * t * (t - 1.0)};
+}
+
+}  // namespace
+
+MarkerLattice::MarkerLattice(std::span<const double> rest_m, const std::string& source) : source_(source) {
+  const auto no_lattice = [&] {
+    throw DataError("{}: the markers at rest are no lattice of rows and columns", source);
+  };
+  const std::size_t markers = rest_m.size() / 3;
+  if (markers < 16) no_lattice();
+  for (int k = 0; k < 2; ++k) {
+    std::vector<double> values;
+    for (std::size_t m = 0; m < markers; ++m) values.push_back(rest_m[3 * m + static_cast<std::size_t>(k)]);
+    const std::vector<double> lines = distinct(std::move(values));
+    if (lines.size() < 4) no_lattice();
+    first_m_[k] = lines.front();
+    count_[k] = static_cast<int>(lines.size());
+    spacing_m_[k] = (lines.back() - lines.front()) / static_cast<double>(lines.size() - 1);
+  }
+  if (static_cast<std::size_t>(count_.x()) * static_cast<std::size_t>(count_.y()) != markers) no_lattice();
+  marker_ = Eigen::MatrixXi::Constant(count_.y(), count_.x(), -1);
+  for (std::size_t m = 0; m < markers; ++m) {
+    const Eigen::Vector2d place =
+        (Eigen::Vector2d(rest_m[3 * m], rest_m[3 * m + 1]) - first_m_).cwiseQuotient(spacing_m_);
+    const Eigen::Vector2d whole = place.array().round().matrix();
+    if ((place - whole).cwiseAbs().maxCoeff() > kTolerance) no_lattice();
+    int& here = marker_(static_cast<int>(whole.y()), static_cast<int>(whole.x()));
+    if (here >= 0) no_lattice();
+    here = static_cast<int>(m);
+  }
+}
+
+Eigen::Vector2d MarkerLattice::at(const Eigen::Vector2d& point_m, const double* vectors, std::size_t stride) const {
+  const Eigen::Vector2d place = (point_m - first_m_).cwiseQuotient(spacing_m_);
+  std::array<std::array<double, 4>, 2> weight{};
+  Eigen::Vector2i cell;
+  for (int k = 0; k < 2; ++k) {
+    if (!(place[k] >= 0.0 && place[k] <= count_[k] - 1))
+      throw DataError("{}: a measured marker at ({:.3f}, {:.3f}) mm lies outside the simulated ones", source_,
+                      1e3 * point_m.x(), 1e3 * point_m.y());
+    cell[k] = std::min(static_cast<int>(place[k]), count_[k] - 2);
+    auto& w = weight[static_cast<std::size_t>(k)] = catmull_rom(place[k] - cell[k]);
+    // Beyond the edge the field goes on straight: v(−1) = 2 v(0) − v(1).
+    if (cell[k] == 0) {
+      w[1] += 2.0 * w[0];
+      w[2] -= w[0];
+      w[0] = 0.0;
+    }
+    if (cell[k] == count_[k] - 2) {
+      w[2] += 2.0 * w[3];
+      w[1] -= w[3];
+      w[3] = 0.0;
+    }
+  }
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const double w = weight[0][static_cast<std::size_t>(i)] * weight[1][static_cast<std::size_t>(j)];
+      if (w == 0.0) continue;
+      const double* v = vectors + stride * static_cast<std::size_t>(marker_(cell.y() + j - 1, cell.x() + i - 1));
+      sum += w * Eigen::Vector2d(v[0], v[1]);
+    }
+  return sum;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,30 @@
+// Simulated displacements between the markers they were computed at.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+
+namespace tacipc {
+
+/// Markers at rest on a lattice parallel to the axes of S, row by row or in any other order.
+class MarkerLattice {
+ public:
+  /// From rest places (x, y, z of each marker, m). \throw DataError, naming `source`, if they are no full lattice of at
+  /// least 4 × 4, within a thousandth of its spacing
+  MarkerLattice(std::span<const double> rest_m, const std::string& source);
+
+  /// Displacement in x and y at a point of the undeformed front, m, from `vectors` (x, y, z of each marker; `stride`
+  /// doubles from one marker to the next): cubic in each direction (Catmull and Rom's), its slopes one-sided in the
+  /// outermost cells. \throw DataError if the point lies outside the lattice
+  Eigen::Vector2d at(const Eigen::Vector2d& point_m, const double* vectors, std::size_t stride) const;
+
+ private:
+  std::string source_;
+  Eigen::Vector2d first_m_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d spacing_m_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2i count_ = Eigen::Vector2i::Zero();  // columns, rows
+  Eigen::MatrixXi marker_;                           // row, column → marker
+};
+
+}  // namespace tacipc
