@@ -1,7 +1,11 @@
 # The friction experiments of the paper: board3 pressed 0.5 mm into a 3 mm gel, then dragged by 1 mm or turned by 0.25 rad, and how
 # evenly the markers follow. MESH= another file of configs/tetmesh, import_paper_3mm for the published gel (long); PRESS= another file of
 # configs/press (friction_every: every pair counts, as in the reference code; friction: no viscosity).
-# SHARED is a folder with data/tacipc_release (not part of this repository).
+# SHARED is a folder with data/tacipc_release (not part of this repository). ALSO= folders of the same motions by other simulators,
+# drawn beside ours (markers.csv, markers.npy, marker_displacement.npy, object_pose.npy, phase.npy).
+
+ALSO ?=#  runs of other simulators
+override ALSO := $(strip $(ALSO))
 
 BOARD3 := $(OUT)/board3
 BOARD3_MESH := $(if $(filter MESH,$(given)),$(MESH),focused_0200um)
@@ -32,8 +36,8 @@ $(OUT)/gels/mctac_3mm-import_paper_3mm/tetmesh.yaml: $(PAPER_GEL) configs/tetmes
 
 $(foreach s,$(BOARD3_SAMPLES),$(eval $(call sample_rules,$(BOARD3_RUN)/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(BOARD3_MESH),configs/samples/$(s).yaml,configs/press/$(BOARD3_PRESS).yaml,,try)))
 
-$(BOARD3_RECORD): configs/marker_curve/board3.yaml $(BOARD3_SAMPLES:%=$(BOARD3_RUN)/%/press/press.yaml) | build-verification
-	$(call try,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3_RUN)/%/press))
+$(BOARD3_RECORD): configs/marker_curve/board3.yaml $(BOARD3_SAMPLES:%=$(BOARD3_RUN)/%/press/press.yaml) $(if $(filter board3,$(MAKECMDGOALS)),$(wildcard $(ALSO:%=%/*.npy))) | build-verification
+	$(call try,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3_RUN)/%/press) $(if $(filter board3,$(MAKECMDGOALS)),$(ALSO:%=--other %)))
 
 .PHONY: board3 board3-page
 board3-page: $(BOARD3_RECORD)

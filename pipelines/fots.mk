@@ -1,9 +1,9 @@
 # Marker vectors measured in photographs against simulated ones: make -f Makefile.data fots [MARKERS=configs/benchmarks/fots_markers.yaml]
 # The file says which vectors (below SHARED), what is simulated and what is held; docs/fots.md has the table. ALSO= folders of the
-# same presses by another simulator (markers.npy, marker_displacement.npy, object_pose.npy, phase.npy in any folder below) add rows.
+# same presses by another simulator (markers.npy, marker_displacement.npy, object_pose.npy, phase.npy in any folder below) add rows
+# (ALSO is declared in board3.mk).
 
 MARKERS ?= configs/benchmarks/fots_markers.yaml#  the benchmark
-ALSO    ?=#                                       runs of other simulators
 override MARKERS := $(strip $(MARKERS))
 FOTS := $(OUT)/fots/$(basename $(notdir $(MARKERS)))
 
@@ -43,7 +43,7 @@ endef
 $(foreach v,$(MARKERS_VARIANTS),$(eval $(call fots_variant,$(v)))$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_run,$(v),$(d)))))
 
 $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
-    $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(wildcard $(addsuffix /*,$(ALSO))) | build
+    $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(foreach a,$(ALSO),$(shell find $(a) -name "*.npy")) | build
 	$(call run,marker_fit,--config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
 	  $(foreach v,$(MARKERS_VARIANTS),--runs $(FOTS)/runs/$(v)) $(addprefix --runs ,$(ALSO)))
 

@@ -1,20 +1,19 @@
 // How markers follow an object that is dragged or turned over the gel, and whether they do so evenly.
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/config.h"
+#include "tests/verification/marker_motion.h"
 
 namespace tacipc::verify {
 
 /// Which markers are evaluated, and when their curve counts as smooth.
 struct MarkerCurveConfig {
-  int first_row = 0, last_row = 0;        // of the marker grid, both inclusive, from 0 …
-  int first_column = 0, last_column = 0;  // … at the smallest y and x
+  MarkerChoice chosen;
   double settled_load = 0.0;  // of the largest friction load after the press: from here on sliding is settled
   double second_difference_limit = 0.0;  // of the largest first difference
 
@@ -22,20 +21,13 @@ struct MarkerCurveConfig {
 };
 
 /// What a press folder tells of its motion after the press; frames count from the end of the press, entry 0.
-struct SlidingRun {
-  std::string name;
+struct SlidingRun : MarkerMotion {
   std::string verdict;
   int gel_vertices = 0;
-  int press_end_frame = 0;
-  bool turns = false;                     // the object is turned; else it is dragged
-  std::vector<double> way;                // of the object: m, or rad if it turns
-  std::vector<double> press_force_n;      // against z
-  std::vector<double> load;               // tangential force, N, or torque about the object's axis, N m
-  std::vector<double> sticking;           // share of the touching front vertices that stick
-  std::vector<Eigen::Matrix2Xd> markers;  // displacement in x and y since the end of the press, m, per frame
-  Eigen::Matrix2Xd rest;                  // of each marker in frame 0, m
-  std::vector<int> rows, columns;         // of each marker
-  std::optional<double> gross_slip_way;   // where all touching vertices first slip
+  std::vector<double> press_force_n;     // against z
+  std::vector<double> load;              // tangential force, N, or torque about the object's axis, N m
+  std::vector<double> sticking;          // share of the touching front vertices that stick
+  std::optional<double> gross_slip_way;  // where all touching vertices first slip
   double max_balance_relative = 0.0, min_distance_m = 0.0, min_volume_ratio = 0.0;
 };
 
@@ -55,15 +47,16 @@ struct MarkerCurve {
 /// \throw DataError if none of the chosen markers is there, or fewer than three frames are settled
 MarkerCurve marker_curve(const SlidingRun& run, const MarkerCurveConfig& config);
 
-/// The page, the curve with its differences, and the arrows of all markers in the last frame.
-std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve);
+/// The page, the curve (beside it those of `others`, motions of the same kind by other simulators) with its
+/// differences.
+std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve, const std::vector<MarkerMotion>& others,
+                             const MarkerCurveConfig& config);
 std::string marker_difference_svg(const SlidingRun& run, const MarkerCurve& curve);
-std::string marker_quiver_svg(const SlidingRun& run, const MarkerCurveConfig& config);
 std::string marker_curve_csv(const SlidingRun& run, const MarkerCurve& curve);
 /// The evenness of each run in one line.
 std::string marker_curve_found(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
                                const MarkerCurveConfig& config);
 std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
-                              const MarkerCurveConfig& config);
+                              const std::vector<MarkerMotion>& others, const MarkerCurveConfig& config);
 
 }  // namespace tacipc::verify

@@ -14,13 +14,23 @@ const StageSpec kMarkerCurve{
     .name = "marker_curve",
     .summary = "Judge how evenly markers follow a dragged or turned object.",
     .inputs = {{"--config", "which markers, and what counts as settled and as even (YAML)"},
-               {"--press", "folder of a press whose object is dragged or turned", true, true}}};
+               {"--press", "folder of a press whose object is dragged or turned", true, true},
+               {"--other", "folder of the same motion by another simulator, drawn beside it", false, true}}};
+
+/// Lines of all markers in the last frame, and their vectors in every frame.
+void write_motion(Stage& stage, const std::string& name, const verify::MarkerMotion& motion,
+                  const verify::MarkerCurveConfig& config) {
+  write_file(stage.output(name + "_quiver.svg"), verify::marker_quiver_svg(motion, config.chosen));
+  write_file(stage.output(name + "_vectors.csv"), verify::marker_vectors_csv(motion));
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
   return run_stage(kMarkerCurve, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<verify::MarkerCurveConfig>("--config");
+    std::vector<verify::MarkerMotion> others;
+    for (const auto& folder : stage.inputs("--other")) others.push_back(verify::read_other_motion(folder));
     std::vector<verify::SlidingRun> runs;
     std::vector<verify::MarkerCurve> curves;
     Value::List samples;
@@ -43,11 +53,13 @@ int main(int argc, char** argv) {
                                       {"ratio", curve.ratio()},
                                       {"holds", holds}});
       write_file(stage.output(run.name + ".csv"), verify::marker_curve_csv(run, curve));
-      write_file(stage.output(run.name + "_curve.svg"), verify::marker_curve_svg(run, curve));
+      write_file(stage.output(run.name + "_curve.svg"), verify::marker_curve_svg(run, curve, others, config));
       write_file(stage.output(run.name + "_differences.svg"), verify::marker_difference_svg(run, curve));
-      write_file(stage.output(run.name + "_quiver.svg"), verify::marker_quiver_svg(run, config));
+      write_motion(stage, run.name, run, config);
+      for (const verify::MarkerMotion& other : others)
+        if (other.turns == run.turns) write_motion(stage, run.name + "_" + other.name, other, config);
     }
-    write_file(stage.output("tables.md"), verify::marker_curve_page(runs, curves, config));
+    write_file(stage.output("tables.md"), verify::marker_curve_page(runs, curves, others, config));
     stage.summarize({{"missed", missed},
                      {"holds", missed == 0},
                      {"found", verify::marker_curve_found(runs, curves, config)},

@@ -20,15 +20,31 @@ std::string way_unit(const SlidingRun& run) { return run.turns ? "°" : " mm"; }
 /// N, or N mm of a torque.
 double shown_load(const SlidingRun& run, double load) { return run.turns ? load / kMillimetre : load; }
 
+/// Those that are dragged like our run, or turned like it.
+std::vector<MarkerMotion> of_kind(const std::vector<MarkerMotion>& others, const SlidingRun& run) {
+  std::vector<MarkerMotion> out;
+  for (const MarkerMotion& other : others)
+    if (other.turns == run.turns) out.push_back(other);
+  return out;
+}
+
 }  // namespace
 
-std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve) {
-  Curve mean{.label = "mean displacement of the markers"}, settled{.label = "from here on settled", .dots = true};
-  for (std::size_t f = 0; f < curve.mean_m.size(); ++f)
-    mean.points.emplace_back(shown_way(run, run.way[f]), curve.mean_m[f] / kMicrometre);
+std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve, const std::vector<MarkerMotion>& others,
+                             const MarkerCurveConfig& config) {
+  const auto points = [&](const std::vector<double>& way, const std::vector<double>& mean_m) {
+    std::vector<Eigen::Vector2d> out;
+    for (std::size_t f = 0; f < mean_m.size(); ++f) out.emplace_back(shown_way(run, way[f]), mean_m[f] / kMicrometre);
+    return out;
+  };
+  Curve mean{.label = "mean displacement of the markers", .points = points(run.way, curve.mean_m)};
+  Curve settled{.label = "from here on settled", .dots = true};
   settled.points.push_back(mean.points[static_cast<std::size_t>(curve.settled)]);
-  return to_svg(
-      {.title = run.name, .x_label = way_label(run), .y_label = "displacement (um)", .curves = {mean, settled}});
+  std::vector<Curve> curves{mean, settled};
+  for (const MarkerMotion& other : of_kind(others, run))
+    curves.push_back(
+        {.label = "the same by " + other.name, .points = points(other.way, mean_displacements(other, config.chosen))});
+  return to_svg({.title = run.name, .x_label = way_label(run), .y_label = "displacement (um)", .curves = curves});
 }
 
 std::string marker_difference_svg(const SlidingRun& run, const MarkerCurve& curve) {
@@ -47,42 +63,6 @@ std::string marker_difference_svg(const SlidingRun& run, const MarkerCurve& curv
                  .x_label = way_label(run),
                  .y_label = "of the largest first difference (%)",
                  .curves = {first, second, load}});
-}
-
-std::string marker_quiver_svg(const SlidingRun& run, const MarkerCurveConfig& config) {
-  constexpr double kSide = 420.0, kEdge = 30.0;
-  const Eigen::Matrix2Xd& moved = run.markers.back();
-  const Eigen::Vector2d low = run.rest.rowwise().minCoeff(), high = run.rest.rowwise().maxCoeff();
-  const double extent = std::max(1e-12, (high - low).maxCoeff());
-  const double largest = std::max(1e-12, moved.colwise().norm().maxCoeff());
-  // Arrows are enlarged so that the longest is as long as the grid is wide over its markers in a row, doubled.
-  const double spacing = extent / std::max(1.0, std::sqrt(static_cast<double>(run.rest.cols())) - 1.0);
-  const double scale = 2.0 * spacing / largest;
-  const auto px = [&](double v, double from) { return kEdge + (v - from) / extent * (kSide - 2.0 * kEdge); };
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "
-      "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"white\"/>\n"
-      "<defs><marker id=\"head\" markerWidth=\"5\" markerHeight=\"4\" refX=\"4\" refY=\"2\" orient=\"auto\">"
-      "<path d=\"M0 0L5 2L0 4Z\" fill=\"context-stroke\"/></marker></defs>\n",
-      kSide, kSide + 40.0);
-  for (Eigen::Index m = 0; m < moved.cols(); ++m) {
-    const Eigen::Vector2d from = run.rest.col(m), to = from + scale * moved.col(m);
-    const auto i = static_cast<std::size_t>(m);
-    const bool chosen = run.rows[i] >= config.first_row && run.rows[i] <= config.last_row &&
-                        run.columns[i] >= config.first_column && run.columns[i] <= config.last_column;
-    out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.2\" fill=\"#888\"/>", px(from.x(), low.x()),
-                       px(from.y(), low.y()));
-    if (moved.col(m).norm() > 0.01 * largest)
-      out += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\" marker-end=\"url(#head)\"/>",
-                         px(from.x(), low.x()), px(from.y(), low.y()), px(to.x(), low.x()), px(to.y(), low.y()),
-                         chosen ? "#c2571a" : "#1f5fa8");
-    out += '\n';
-  }
-  out += fmt::format(
-      "<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"middle\">{2}: longest {3:.0f} um, drawn {4:.1f} times as long"
-      "<tspan x=\"{0:.1f}\" dy=\"14\">orange: the markers that are judged</tspan></text>\n</svg>\n",
-      kSide / 2, kSide + 12.0, run.name, largest / kMicrometre, scale);
-  return out;
 }
 
 std::string marker_curve_csv(const SlidingRun& run, const MarkerCurve& curve) {
@@ -105,7 +85,7 @@ std::string marker_curve_found(const std::vector<SlidingRun>& runs, const std::v
 }
 
 std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
-                              const MarkerCurveConfig& config) {
+                              const std::vector<MarkerMotion>& others, const MarkerCurveConfig& config) {
   std::string out = fmt::format(
       "# Markers under a dragged or turned object\n\nWritten by `make -f Makefile.data board3`; what it shows: "
       "[board3](../board3.md). Markers of rows {} to {} and columns {} to {}, "
@@ -113,7 +93,8 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
       "Settled: the friction load stays above {:g} % of its largest.\n\n"
       "| Sample | Gel vertices | Frames after the press | Largest first difference | Settled from | Largest second "
       "difference from there | Limit | | Over the whole motion |\n|---|---|---|---|---|---|---|---|---|\n",
-      config.first_row, config.last_row, config.first_column, config.last_column, 100.0 * config.settled_load);
+      config.chosen.first_row, config.chosen.last_row, config.chosen.first_column, config.chosen.last_column,
+      100.0 * config.settled_load);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SlidingRun& run = runs[i];
     const MarkerCurve& c = curves[i];
@@ -139,10 +120,24 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
         run.gross_slip_way ? fmt::format("{:.3g}{}", shown_way(run, *run.gross_slip_way), way_unit(run)) : "never",
         run.max_balance_relative, run.min_distance_m / kMicrometre, run.min_volume_ratio);
   }
-  out += '\n';
+  if (!others.empty())
+    out +=
+        "\nAt the end of the way, the same markers by another simulator:\n\n| Sample | Simulator | Markers at the end "
+        "| Of "
+        "ours | Difference of the vectors, mean | largest |\n|---|---|---|---|---|---|\n";
   for (const SlidingRun& run : runs)
+    for (const MarkerMotion& other : of_kind(others, run)) {
+      const MotionComparison c = compare(run, other, config.chosen);
+      out += fmt::format("| {} | {} | {:.1f} µm | {:.3f} | {:.1f} µm | {:.1f} µm |\n", run.name, other.name,
+                         c.mean_m / kMicrometre, c.ratio, c.error_m / kMicrometre, c.largest_m / kMicrometre);
+    }
+  out += '\n';
+  for (const SlidingRun& run : runs) {
     for (const char* picture : {"curve", "differences", "quiver"})
       out += fmt::format("![{0}: {1}]({0}_{1}.svg)\n", run.name, picture);
+    for (const MarkerMotion& other : of_kind(others, run))
+      out += fmt::format("![{0} by {1}: quiver]({0}_{1}_quiver.svg)\n", run.name, other.name);
+  }
   return out;
 }
 

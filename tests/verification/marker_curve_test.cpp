@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
@@ -52,10 +53,7 @@ std::filesystem::path write_press(const ScratchFolder& folder, const std::vector
   return press;
 }
 
-const MarkerCurveConfig kConfig{.first_row = 8,
-                                .last_row = 12,
-                                .first_column = 8,
-                                .last_column = 11,
+const MarkerCurveConfig kConfig{.chosen = {.first_row = 8, .last_row = 12, .first_column = 8, .last_column = 11},
                                 .settled_load = 0.9,
                                 .second_difference_limit = 0.05};
 
@@ -120,7 +118,7 @@ TEST(MarkerCurve, RefusesWhatCannotBeJudged) {
   EXPECT_EQ(message_of<DataError>([&] { marker_curve(run, kConfig); }),
             "made up: sliding settles at frame 9 of 10 after the press: too late to judge");
   MarkerCurveConfig elsewhere = kConfig;
-  elsewhere.first_row = elsewhere.last_row = 15;
+  elsewhere.chosen.first_row = elsewhere.chosen.last_row = 15;
   EXPECT_EQ(message_of<DataError>([&] { marker_curve(run, elsewhere); }),
             "made up: no marker is in rows 15 to 15 and columns 8 to 11");
   std::vector<Instant> still(4);
@@ -139,7 +137,7 @@ TEST(MarkerCurve, TheTableSaysWhetherItHolds) {
   const ScratchFolder folder;
   const SlidingRun run = read_sliding_run(write_press(folder, slide(0.2)));
   const MarkerCurve curve = marker_curve(run, kConfig);
-  const std::string page = marker_curve_page({run}, {curve}, kConfig);
+  const std::string page = marker_curve_page({run}, {curve}, {}, kConfig);
   EXPECT_NE(page.find("| made up | 7 | 10 | 5.000 µm | 0.05 mm | 0.4000 µm = 8.00 % | 5 % | **missed** | 40.00 % |"),
             std::string::npos)
       << page;
@@ -147,7 +145,80 @@ TEST(MarkerCurve, TheTableSaysWhetherItHolds) {
   EXPECT_EQ(marker_curve_found({run}, {curve}, kConfig),
             "second differences of the markers' way once settled: made up 8.00 % (7 gel vertices); limit 5 % of the "
             "largest first difference");
-  EXPECT_NE(marker_quiver_svg(run, kConfig).find("longest 280 um"), std::string::npos);
+  EXPECT_NE(marker_quiver_svg(run, kConfig.chosen).find("mean of the green markers 28 um, longest 280 um"),
+            std::string::npos);
+}
+
+/// The folder of another simulator: the same arrays without press.yaml and wrench.npy, no record of its own.
+std::filesystem::path write_other(const ScratchFolder& folder, const std::string& name, double part) {
+  std::vector<Instant> motion = slide(0.0);
+  for (Instant& at : motion) at.marker_um *= part;
+  motion.push_back({1.2e-4, 0.0, 0.0});  // farther than ours goes: does not count
+  const auto press = write_press(folder, motion);
+  const auto other = folder / name;
+  std::filesystem::create_directories(other);
+  for (const char* file : {"markers.csv", "markers.npy", "marker_displacement.npy", "object_pose.npy"})
+    std::filesystem::copy_file(press / file, other / file);
+  std::vector<std::uint8_t> phase{0, 2, 2};
+  phase.resize(kPressEnd + motion.size(), 3);
+  write_npy(other / "phase.npy", {phase.size()}, phase.data());
+  std::filesystem::remove_all(press);
+  return other;
+}
+
+TEST(MarkerMotion, AnotherSimulatorsFilesStandBesideOurs) {
+  const ScratchFolder folder;
+  const MarkerMotion other = read_other_motion(write_other(folder, "mpm", 0.5));
+  EXPECT_EQ(other.name, "mpm");
+  EXPECT_EQ(other.press_end_frame, kPressEnd);
+  EXPECT_NEAR(mean_displacements(other, kConfig.chosen)[4], 10e-6, 1e-15);
+  const SlidingRun run = read_sliding_run(write_press(folder, slide(0.0)));
+  const MotionComparison found = compare(run, other, kConfig.chosen);
+  EXPECT_NEAR(found.mean_m, 14e-6, 1e-12);
+  EXPECT_NEAR(found.ratio, 0.5, 1e-9);
+  EXPECT_NEAR(found.error_m, 14e-6, 1e-12);
+  EXPECT_NEAR(found.largest_m, 14e-6, 1e-12);
+
+  const MarkerCurve curve = marker_curve(run, kConfig);
+  EXPECT_NE(marker_curve_svg(run, curve, {other}, kConfig).find("the same by mpm"), std::string::npos);
+  const std::string page = marker_curve_page({run}, {curve}, {other}, kConfig);
+  EXPECT_NE(page.find("| made up | mpm | 14.0 µm | 0.500 | 14.0 µm | 14.0 µm |"), std::string::npos) << page;
+  EXPECT_NE(page.find("(made up_mpm_quiver.svg)"), std::string::npos) << page;
+  MarkerMotion turned = other;
+  turned.turns = true;  // a twist is no rival of a shear
+  EXPECT_EQ(marker_curve_page({run}, {curve}, {turned}, kConfig).find("| mpm |"), std::string::npos);
+  EXPECT_EQ(marker_curve_svg(run, curve, {turned}, kConfig), marker_curve_svg(run, curve, {}, kConfig));
+}
+
+TEST(MarkerMotion, VectorsOfEveryMarkerAndFrame) {
+  const ScratchFolder folder;
+  const MarkerMotion other = read_other_motion(write_other(folder, "mpm", 1.0));
+  const std::string csv = marker_vectors_csv(other);
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "frame,marker,row,column,x_mm,y_mm,dx_um,dy_um");
+  EXPECT_NE(csv.find("\n6,1,9,11,1,2,12.0000,16.0000\n"), std::string::npos) << csv;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 12 * kMarkers);
+}
+
+TEST(MarkerMotion, WhatCannotBeComparedIsSaid) {
+  const ScratchFolder folder;
+  const auto place = write_other(folder, "mpm", 1.0);
+  MarkerMotion other = read_other_motion(place);
+  const SlidingRun run = read_sliding_run(write_press(folder, slide(0.0)));
+  other.rows[1] = 10;
+  EXPECT_EQ(message_of<DataError>([&] { compare(run, other, kConfig.chosen); }),
+            "mpm: has no marker in row 9, column 11");
+  other.way.resize(8);
+  EXPECT_EQ(message_of<DataError>([&] { compare(run, other, kConfig.chosen); }),
+            "mpm: goes 7e-05, made up goes 0.0001");
+  const std::vector<std::uint8_t> phase(14, 3);
+  write_npy(place / "phase.npy", {14}, phase.data());
+  EXPECT_EQ(message_of<DataError>([&] { read_other_motion(place); }),
+            (place / "phase.npy").string() + ": nothing follows a press");
+  folder.file("mpm/mpm.yaml", "stage: rival\n");
+  std::vector<std::uint8_t> again(14, 3);
+  again[2] = 2;
+  write_npy(place / "phase.npy", {14}, again.data());
+  EXPECT_EQ(read_other_motion(place).name, "rival");
 }
 
 TEST(MarkerCurveConfig, ReadsItsKeys) {
