@@ -19,7 +19,9 @@ MarkerVariant read_variant(ConfigReader& in, const MarkerAssumptions& base) {
   if (const auto friction = in.optional_number("friction", Range::non_negative())) variant.assumed.friction = *friction;
   if (const auto scale = in.optional_number("px_per_mm", Range::positive())) variant.assumed.px_per_m = 1e3 * *scale;
   if (in.has("contact_px")) variant.assumed.contact_px = pair_of(in, "contact_px");
-  variant.own_runs = in.has("ball_radius_mm") || in.has("friction");
+  if (const auto thickness = in.optional_number("gel_thickness_mm", Range::positive()))
+    variant.gel_thickness_m = 1e-3 * *thickness;
+  variant.own_runs = in.has("ball_radius_mm") || in.has("friction") || in.has("gel_thickness_mm");
   return variant;
 }
 

@@ -21,7 +21,8 @@ struct MarkerAssumptions {
 struct MarkerVariant {
   std::string name;
   MarkerAssumptions assumed;
-  bool own_runs = false;  // another ball or friction: what was simulated for the base does not serve
+  std::optional<double> gel_thickness_m = std::nullopt;  // in place of the sensor's
+  bool own_runs = false;  // another ball, friction or gel: what was simulated for the base does not serve
 };
 
 /// configs/benchmarks/fots_markers.yaml and files like it. Paths of settings are relative to the file, those of data to

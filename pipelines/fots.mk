@@ -24,21 +24,23 @@ $(FOTS)/cases/cases.yaml: $(MARKERS) | build
 $(FOTS)/cases/cases.mk: $(FOTS)/cases/cases.yaml ;
 include $(FOTS)/cases/cases.mk
 
-$(FOTS)/gel/tetmesh.yaml: $(MARKERS_SENSOR) $(MARKERS_MESH) | build
-	$(call run,tetmesh,--sensor $(MARKERS_SENSOR) --config $(MARKERS_MESH))
-
-# The ball and the press configuration of the base and of each variant, then a press to each depth.
+# The ball, the gel and the press configuration of the base and of each variant, then a press to each depth.
 define fots_variant
 $(FOTS)/runs/$(1)/indenter/indenter.yaml: $(FOTS)/cases/cases.yaml | build
 	$$(call run,indenter,--config $(FOTS)/cases/$(1)/indenter.yaml)
-$(FOTS)/runs/$(1)/press.yaml: $(MARKERS_PRESS) $(FOTS)/cases/cases.yaml
+$(FOTS)/runs/$(1)/settings/sensor.yaml: $(MARKERS_SENSOR) $(FOTS)/cases/cases.yaml
+	mkdir -p $$(@D)
+	sed '$(if $(MARKERS_THICKNESS_MM_$(1)),s/^  thickness_mm: [0-9.]*/  thickness_mm: $(MARKERS_THICKNESS_MM_$(1))/)' $(MARKERS_SENSOR) > $$@
+$(FOTS)/runs/$(1)/settings/press.yaml: $(MARKERS_PRESS) $(FOTS)/cases/cases.yaml
 	mkdir -p $$(@D)
 	cat $(MARKERS_PRESS) $(FOTS)/cases/$(1)/friction.yaml > $$@
+$(FOTS)/runs/$(1)/gel/tetmesh.yaml: $(FOTS)/runs/$(1)/settings/sensor.yaml $(MARKERS_MESH) | build
+	$$(call run,tetmesh,--sensor $(FOTS)/runs/$(1)/settings/sensor.yaml --config $(MARKERS_MESH))
 endef
 define fots_run
-$(FOTS)/runs/$(1)/$(2)/press.yaml: $(FOTS)/runs/$(1)/indenter/indenter.yaml $(FOTS)/runs/$(1)/press.yaml $(FOTS)/gel/tetmesh.yaml $(MARKERS_SENSOR) | build
-	$$(call run,press,--name $(1)_$(2) --object $(FOTS)/runs/$(1)/indenter/object.ply --object-config configs/objects/embossed.yaml \
-	  --gel $(FOTS)/gel/gel.msh --sensor $(MARKERS_SENSOR) --config $(FOTS)/runs/$(1)/press.yaml --sample $(FOTS)/cases/motion_$(2).yaml)
+$(FOTS)/runs/$(1)/$(2)/press.yaml: $(FOTS)/runs/$(1)/indenter/indenter.yaml $(FOTS)/runs/$(1)/gel/tetmesh.yaml $(FOTS)/runs/$(1)/settings/press.yaml | build
+	$$(call run,press,--name $(1)_$(2) --object $(FOTS)/runs/$(1)/indenter/object.ply --object-config configs/objects/embossed.yaml --gel $(FOTS)/runs/$(1)/gel/gel.msh \
+	  --sensor $(FOTS)/runs/$(1)/settings/sensor.yaml --config $(FOTS)/runs/$(1)/settings/press.yaml --sample $(FOTS)/cases/motion_$(2).yaml)
 endef
 $(foreach v,$(MARKERS_VARIANTS),$(eval $(call fots_variant,$(v)))$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_run,$(v),$(d)))))
 

@@ -62,6 +62,9 @@ std::vector<std::pair<std::string, std::string>> marker_files(const MarkerBenchm
   set("PRESS", setting(benchmark.press));
   set("DEPTHS", depths);
   set("VARIANTS", variants);
+  for (const MarkerVariant& variant : benchmark.variants)
+    if (variant.gel_thickness_m)
+      set("THICKNESS_MM_" + variant.name, fmt::format("{:.10g}", 1e3 * *variant.gel_thickness_m));
   files.emplace_back("cases.mk", text);
   return files;
 }

@@ -32,6 +32,7 @@ variants:
   - {name: smooth, friction: 0}
   - {name: wide, ball_radius_mm: 3.0}
   - {name: scaled, px_per_mm: 18.8}
+  - {name: thick, gel_thickness_mm: 7.5}
 )";
 
 TEST(MarkerFiles, SayWhatEachStageNeeds) {
@@ -52,7 +53,8 @@ TEST(MarkerFiles, SayWhatEachStageNeeds) {
             "# Made by the stage cases.\nMARKERS_PRESSED := shots/a.csv\nMARKERS_SHEARED := shots/b.csv\n"
             "MARKERS_SENSOR := configs/benchmarks/s.yaml\nMARKERS_MESH := configs/m.yaml\n"
             "MARKERS_PRESS := configs/benchmarks/p.yaml\nMARKERS_DEPTHS := 0600um 1200um 1800um\n"
-            "MARKERS_VARIANTS := base smooth wide\n");
+            "MARKERS_VARIANTS := base smooth wide thick\n"
+            "MARKERS_THICKNESS_MM_thick := 7.5\n");
 }
 
 class MarkerCases : public ProgramTest {};
