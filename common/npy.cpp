@@ -1,5 +1,7 @@
 #include "common/npy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -155,6 +157,14 @@ NpyArray read_npy(const std::filesystem::path& path) {
   if (kind == "i4") read_values<std::int32_t>(in, array.data);
   if (kind == "u1") read_values<std::uint8_t>(in, array.data);
   if (fortran) array.data = from_fortran(array.data, array.shape);
+  return array;
+}
+
+NpyArray read_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape) {
+  NpyArray array = read_npy(path);
+  if (array.shape != shape)
+    throw DataError("{}: has the shape ({}), expected ({})", path.string(), fmt::join(array.shape, ", "),
+                    fmt::join(shape, ", "));
   return array;
 }
 

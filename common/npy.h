@@ -19,5 +19,7 @@ void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>
 void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::uint8_t* data);
 /// Reads f8, f4, i8, i4 or u1 arrays in C or Fortran order. \throw DataError for anything else, with what was found.
 NpyArray read_npy(const std::filesystem::path& path);
+/// The same, which must have this shape. \throw DataError naming both shapes
+NpyArray read_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape);
 
 }  // namespace tacipc

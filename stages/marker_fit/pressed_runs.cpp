@@ -1,7 +1,5 @@
 #include "stages/marker_fit/pressed_runs.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -15,16 +13,6 @@ namespace {
 
 constexpr double kPressPhase = 2, kShearPhase = 3;  // of phase.npy; below: reference and approach
 
-NpyArray array_of(const std::filesystem::path& file, std::size_t frames, const std::vector<std::size_t>& rest) {
-  NpyArray array = read_npy(file);
-  std::vector<std::size_t> wanted{frames};
-  wanted.insert(wanted.end(), rest.begin(), rest.end());
-  if (array.shape != wanted)
-    throw DataError("{}: has the shape ({}), expected ({})", file.string(), fmt::join(array.shape, ", "),
-                    fmt::join(wanted, ", "));
-  return array;
-}
-
 PressedRun read_run(const std::filesystem::path& folder, double ball_radius_m) {
   const NpyArray phase = read_npy(folder / "phase.npy");
   if (phase.shape.size() != 1) throw DataError("{}: has another shape than (frames,)", (folder / "phase.npy").string());
@@ -36,9 +24,9 @@ PressedRun read_run(const std::filesystem::path& folder, double ball_radius_m) {
   PressedRun run{.source = folder.string(),
                  .lattice = MarkerLattice(std::span(markers.data).first(3 * count), (folder / "markers.npy").string()),
                  .num_markers = count};
-  NpyArray moved = array_of(folder / "marker_displacement.npy", frames, {run.num_markers, 2, 3});
+  NpyArray moved = read_npy(folder / "marker_displacement.npy", {frames, run.num_markers, 2, 3});
   run.displacement_m = std::move(moved.data);
-  const NpyArray pose = array_of(folder / "object_pose.npy", frames, {4, 4});
+  const NpyArray pose = read_npy(folder / "object_pose.npy", {frames, 4, 4});
   const auto place = [&](std::size_t f) {
     return Eigen::Vector3d(pose.data[16 * f + 3], pose.data[16 * f + 7], pose.data[16 * f + 11]);
   };

@@ -88,6 +88,12 @@ TEST(Npy, RefusesWhatDoesNotFit) {
             name + ": the NPY shape '(2, x), }         ");
   EXPECT_EQ(error(npy_bytes("<f8", "'shape': (2,), ", "")), name + ": the NPY header has no 'fortran_order'");
   const double one = 1.0;
+  write_npy(scratch / "a.npy", {1, 1}, &one);
+  EXPECT_EQ(read_npy(scratch / "a.npy", {1, 1}).data, std::vector<double>{1.0});
+  EXPECT_EQ(message_of<DataError>([&] {
+              read_npy(scratch / "a.npy", {1, 2});
+            }),
+            name + ": has the shape (1, 1), expected (1, 2)");
   EXPECT_EQ(message_of<DataError>([&] { write_npy("/dev/full", {1}, &one); }),
             "/dev/full: cannot be written: No space left on device");
 }

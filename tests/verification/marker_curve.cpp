@@ -37,8 +37,8 @@ SlidingRun read_sliding_run(const std::filesystem::path& press) {
   const std::size_t frames = lines.size(), end = static_cast<std::size_t>(press_end);
   if (frames < end + 2) throw DataError("{}: nothing follows the press, which ends at frame {}", press.string(), end);
 
-  const NpyArray wrench = read_frames(press / "wrench.npy", frames, {6});
-  const NpyArray poses = read_frames(press / "object_pose.npy", frames, {4, 4});
+  const NpyArray wrench = read_npy(press / "wrench.npy", {frames, 6});
+  const NpyArray poses = read_npy(press / "object_pose.npy", {frames, 4, 4});
   static_cast<MarkerMotion&>(run) = read_marker_motion(press, run.name, frames, end);
   for (std::size_t f = end; f < frames; ++f) {
     const double* w = wrench.data.data() + 6 * f;

@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "common/files.h"
+#include "common/npy.h"
 
 namespace tacipc::verify {
 namespace {
@@ -60,16 +61,6 @@ MarkerChoice MarkerChoice::read(ConfigReader& in) {
   return chosen;
 }
 
-NpyArray read_frames(const std::filesystem::path& file, std::size_t frames, const std::vector<std::size_t>& rest) {
-  NpyArray array = read_npy(file);
-  std::vector<std::size_t> wanted{frames};
-  wanted.insert(wanted.end(), rest.begin(), rest.end());
-  if (array.shape != wanted)
-    throw DataError("{}: has the shape ({}), expected ({})", file.string(), fmt::join(array.shape, ", "),
-                    fmt::join(wanted, ", "));
-  return array;
-}
-
 MarkerMotion read_marker_motion(const std::filesystem::path& folder, const std::string& name, std::size_t frames,
                                 std::size_t press_end) {
   MarkerMotion motion;
@@ -77,9 +68,9 @@ MarkerMotion read_marker_motion(const std::filesystem::path& folder, const std::
   motion.press_end_frame = static_cast<int>(press_end);
   read_marker_grid(folder / "markers.csv", motion);
   const std::size_t count = motion.rows.size();
-  const NpyArray poses = read_frames(folder / "object_pose.npy", frames, {4, 4});
-  const NpyArray moved = read_frames(folder / "marker_displacement.npy", frames, {count, 2, 3});
-  const NpyArray markers = read_frames(folder / "markers.npy", frames, {count, 3});
+  const NpyArray poses = read_npy(folder / "object_pose.npy", {frames, 4, 4});
+  const NpyArray moved = read_npy(folder / "marker_displacement.npy", {frames, count, 2, 3});
+  const NpyArray markers = read_npy(folder / "markers.npy", {frames, count, 3});
   const auto pose = [&](std::size_t f) { return Eigen::Matrix4d(Eigen::Map<const Pose>(poses.data.data() + 16 * f)); };
   const Eigen::Matrix4d start = pose(press_end), last = pose(frames - 1);
   const Eigen::Vector2d dragged = (last - start).block<2, 1>(0, 3);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/config.h"
-#include "common/npy.h"
 
 namespace tacipc::verify {
 
@@ -42,9 +41,6 @@ MarkerMotion read_marker_motion(const std::filesystem::path& folder, const std::
 /// The same of another simulator: frames and the end of the press (the last one of phase 2) from phase.npy, the name
 /// that of its record, <name>.yaml, else of the folder. \throw DataError also if nothing follows the press
 MarkerMotion read_other_motion(const std::filesystem::path& folder);
-
-/// An array whose shape must begin with the number of frames and end as given.
-NpyArray read_frames(const std::filesystem::path& file, std::size_t frames, const std::vector<std::size_t>& rest);
 
 /// Mean length of the chosen markers' displacement, m, per frame. \throw DataError if none of them is there
 std::vector<double> mean_displacements(const MarkerMotion& motion, const MarkerChoice& chosen);
