@@ -1,9 +1,7 @@
 #include "common/optics/ray_scene.h"
 
 #include <embree3/rtcore.h>
-#include <pmmintrin.h>
 #include <tbb/task_arena.h>
-#include <xmmintrin.h>
 
 #include <cstring>
 #include <limits>
@@ -123,12 +121,5 @@ std::uint32_t RayScene::blocked(const RayPacket& rays) const {
   for (int i = 0; i < RayPacket::kSize; ++i) bits |= query.tfar[i] < 0.0f ? 1u << i : 0u;
   return bits & rays.valid;
 }
-
-FlushDenormals::FlushDenormals() : before_(_mm_getcsr()) {
-  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-}
-
-FlushDenormals::~FlushDenormals() { _mm_setcsr(before_); }
 
 }  // namespace tacipc

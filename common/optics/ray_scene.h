@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "common/flush_denormals.h"
 #include "common/types.h"
 
 namespace tacipc {
@@ -53,18 +54,6 @@ class RayScene {
  private:
   struct Handles;
   std::unique_ptr<Handles> handles_;
-};
-
-/// While it lives, denormal numbers count as zero on this thread: Embree needs that for speed.
-class FlushDenormals {
- public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned int before_;
 };
 
 }  // namespace tacipc

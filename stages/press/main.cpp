@@ -3,6 +3,7 @@
 
 #include "common/log.h"
 #include "common/object.h"
+#include "common/placement.h"
 #include "common/stage.h"
 #include "stages/press/checkpoint.h"
 #include "stages/press/outputs.h"

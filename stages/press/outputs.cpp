@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "common/files.h"
+#include "common/markers.h"
 #include "common/npy.h"
 #include "stages/press/measure/contact_patch.h"
-#include "stages/press/measure/markers.h"
 #include "stages/press/measure/traction_grid.h"
 #include "stages/press/verdict.h"
 
@@ -28,21 +28,6 @@ void write_stacked(const std::filesystem::path& path, const std::vector<Frame>& 
   for (const Frame& frame : frames) part(frame, all);
   shape.insert(shape.begin(), frames.size());
   write_npy(path, shape, all.data());
-}
-
-/// Last frame of the first press, or none.
-std::optional<std::size_t> press_end(const Simulation& simulation, const SampleSpec& sample) {
-  std::optional<std::size_t> end;
-  for (std::size_t f = 1; f < simulation.frames.size(); ++f) {
-    const int index = simulation.frames[f].phase_index;
-    if (sample.motion[static_cast<std::size_t>(index)].kind != PhaseKind::press) {
-      if (end) break;
-      continue;
-    }
-    if (end && simulation.frames[*end].phase_index != index) break;
-    end = f;
-  }
-  return end;
 }
 
 void write_markers(Stage& stage, const Sensor& sensor, const TetMesh& gel, const Simulation& simulation,
@@ -161,7 +146,9 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
     append(all, f.force_n);
     append(all, f.torque_n_m);
   });
-  const auto end = press_end(simulation, sample);
+  std::vector<int> phases;
+  for (const Frame& f : frames) phases.push_back(f.phase_index);
+  const auto end = press_end_frame(sample, phases);
   write_contact(stage, sensor, simulation);
   write_markers(stage, sensor, gel, simulation, end);
 

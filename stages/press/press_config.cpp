@@ -1,9 +1,5 @@
 #include "stages/press/press_config.h"
 
-#include <numbers>
-
-#include "stages/press/placement.h"
-
 namespace tacipc {
 
 FrictionConfig FrictionConfig::read(ConfigReader& in) {
@@ -64,25 +60,6 @@ PressConfig PressConfig::read(ConfigReader& in) {
   config.max_newton_iterations = newton.integer_or("max_iterations", 200, 1);
   config.max_halvings = newton.integer_or("max_halvings", 5, 0, 20);
   return config;
-}
-
-SampleSpec SampleSpec::read(ConfigReader& in) {
-  SampleSpec spec;
-  if (auto placement = in.optional_section("placement")) {
-    if (placement->has("face")) spec.face = placement->choice("face", face_names());
-    spec.rotate_rad = placement->number_or("rotate_deg", 0.0) * std::numbers::pi / 180.0;
-    const auto center_mm = placement->numbers_or("center_mm", {0.0, 0.0});
-    spec.center_x_m = 1e-3 * center_mm[0];
-    spec.center_y_m = 1e-3 * center_mm[1];
-  }
-  if (auto object = in.optional_section("object"))
-    spec.density_kg_m3 = object->number("density_kg_m3", Range::positive());
-  for (ConfigReader& phase : in.one_or_more_sections("motion")) {
-    spec.motion.push_back(Phase::read(phase));
-    if (spec.motion.back().load_n && !spec.density_kg_m3)
-      phase.fault("force_n", "a force moves the object only if its object.density_kg_m3 is given");
-  }
-  return spec;
 }
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// What a press needs to be told: numerics that hold for a dataset, and the motion of one sample.
+// What a press needs to be told: numerics that hold for a dataset.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,6 @@
 
 #include "common/config.h"
 #include "stages/press/contact/pair_counting.h"
-#include "stages/press/motion.h"
 #include "stages/press/solve/linear_solver.h"
 
 namespace tacipc {
@@ -49,18 +48,6 @@ struct PressConfig {
   int max_halvings = 0;           // of a time step; reaching it is a failure
 
   static PressConfig read(ConfigReader& in);
-};
-
-/// configs/samples/*.yaml: how the object is placed and moved.
-struct SampleSpec {
-  std::optional<std::string> face;  // side that presses; absent: as the object's YAML says
-  double rotate_rad = 0.0;
-  double center_x_m = 0.0;
-  double center_y_m = 0.0;
-  std::optional<double> density_kg_m3;  // of the object, where a load moves it
-  std::vector<Phase> motion;
-
-  static SampleSpec read(ConfigReader& in);
 };
 
 }  // namespace tacipc

@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "common/log.h"
+#include "common/placement.h"
 #include "stages/press/energy/elasticity.h"
 #include "stages/press/energy/element.h"
 #include "stages/press/measure/front_surface.h"
@@ -74,7 +75,11 @@ class Motion {
     PhaseStart start{};
     for (std::size_t p = 0; p < sample_.motion.size(); ++p) {
       const Phase& phase = sample_.motion[p];
-      start = phase_start(start.free, start.load_n);
+      const std::array<bool, 3> free = start.free;
+      const Vector3 load_n = start.load_n;
+      start = phase_start(sample_, object_.positions, placed_, pose_, start_z_m_);
+      start.free = free;
+      start.load_n = load_n;
       progress_.yield_m.setZero();
       const double phase_start_s = time_s_;
       for (int index = 1; index <= phase.steps; ++index) {
@@ -125,17 +130,6 @@ class Motion {
                            .relative_lag_tolerance = friction.relative_lag_tolerance};
     }
     return settings;
-  }
-
-  PhaseStart phase_start(const std::array<bool, 3>& free, const Vector3& load_n) const {
-    const Vector3 reference(sample_.center_x_m, sample_.center_y_m, start_z_m_);
-    return {.gel_from_object = pose_,
-            .placed = placed_,
-            .reference_m = placed_.topLeftCorner<3, 3>().transpose() * (reference - placed_.topRightCorner<3, 1>()),
-            .lowest_z_m = transformed(pose_, object_.positions).col(2).minCoeff(),
-            .start_z_m = start_z_m_,
-            .free = free,
-            .load_n = load_n};
   }
 
   /// Time steps from `from` to `to`, counted from the start of the phase; divided in two where Newton does not get

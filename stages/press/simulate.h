@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "common/sample_spec.h"
 #include "common/sensor.h"
 #include "common/tet_mesh.h"
 #include "common/triangle_mesh.h"
 #include "stages/press/contact/intersection_check.h"
 #include "stages/press/measure/balance.h"
 #include "stages/press/measure/contact_patch.h"
-#include "stages/press/placement.h"
 #include "stages/press/press_config.h"
 #include "stages/press/solve/time_step.h"
 

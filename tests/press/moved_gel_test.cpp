@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "common/placement.h"
 #include "stages/press/checkpoint.h"
 #include "stages/press/energy/elasticity.h"
 #include "stages/press/energy/element.h"

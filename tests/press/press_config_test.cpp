@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
-
 #include "tests/config_text.h"
 
 namespace tacipc {
@@ -54,29 +52,6 @@ TEST(PressConfig, StartGapMustExceedDHat) {
           "time_step_s: 0.01\nnewton: {}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6, start_gap_d_hat: 1}\n",
           "x.yaml"),
       ElementsAre("x.yaml:3:66: barrier.start_gap_d_hat: 1 is outside (1, 100]"));
-}
-
-TEST(SampleSpec, ReadsPlacementAndMotionInSi) {
-  const auto sample = config_from_text<SampleSpec>(
-      "placement: {face: +x, rotate_deg: 90, center_mm: [1, -2]}\nmotion: {kind: press, depth_mm: 0.5, steps: 5}\n",
-      "x.yaml");
-  EXPECT_EQ(sample.face, "+x");
-  EXPECT_DOUBLE_EQ(sample.rotate_rad, std::numbers::pi / 2);
-  EXPECT_DOUBLE_EQ(sample.center_y_m, -0.002);
-  ASSERT_EQ(sample.motion.size(), 1u);
-  EXPECT_EQ(sample.motion[0].kind, PhaseKind::press);
-  EXPECT_DOUBLE_EQ(sample.motion[0].depth_m, 0.0005);
-  EXPECT_EQ(sample.motion[0].steps, 5);
-}
-
-TEST(SampleSpec, NamesWhatIsWrong) {
-  EXPECT_THAT(
-      faults_in<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n", "x.yaml"),
-      ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
-                  "x.yaml:2:16: motion.kind: 'push' is not one of press, shear, twist, hold, release, tilt, path, "
-                  "load (did you mean path?)",
-                  "x.yaml:2:32: motion.depth_mm: 0 is outside (0, inf)",
-                  "x.yaml:2:42: motion.steps: 0 is outside [1, 100000]"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "common/placement.h"
 #include "tests/press/reference_scene.h"
 #include "tests/press/small_scene.h"
 #include "tests/shared_data.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/sample_spec.h"
 #include "common/sensor.h"
 #include "stages/press/press_config.h"
 #include "tests/verification/gel_shapes.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "common/placement.h"
 
 namespace tacipc::verify {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "common/error.h"
-#include "stages/press/measure/markers.h"
+#include "common/markers.h"
 #include "tests/verification/run_case.h"
 
 namespace tacipc::verify {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "common/error.h"
-#include "stages/press/placement.h"
+#include "common/placement.h"
 
 namespace tacipc::verify {
 namespace {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 
+#include "common/placement.h"
 #include "stages/press/contact/near_pairs.h"
 #include "stages/press/contact/pair_counting.h"
 #include "stages/press/energy/barrier.h"

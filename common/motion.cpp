@@ -1,4 +1,4 @@
-#include "stages/press/motion.h"
+#include "common/motion.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Phases: where they put the object, and what of a file they refuse.
-#include "stages/press/motion.h"
+#include "common/motion.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/error.h"
-#include "stages/press/press_config.h"
+#include "common/sample_spec.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 

@@ -1,4 +1,4 @@
-#include "stages/press/placement.h"
+#include "common/placement.h"
 
 #include <gtest/gtest.h>
 

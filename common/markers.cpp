@@ -1,4 +1,4 @@
-#include "stages/press/measure/markers.h"
+#include "common/markers.h"
 
 #include <algorithm>
 #include <cassert>
