@@ -1,0 +1,33 @@
+# One object in a gel of material points: the sample of pipelines/sample.mk without its friction, which MPM's grid does not know.
+
+MPM ?= legacy_mctac#  a file of configs/mpm
+override MPM := $(strip $(MPM))
+
+.PHONY: mpm-sample build-bench-mpm bench-mpm bench-mpm-page
+ifdef OBJECT
+ifeq ($(wildcard configs/mpm/$(MPM).yaml),)
+  $(error MPM: there is no configs/mpm/$(MPM).yaml (there are: $(basename $(notdir $(wildcard configs/mpm/*.yaml)))))
+endif
+MPM_SAMPLE := $(SAMPLE)/mpm-$(MPM)
+$(MPM_SAMPLE)/mpm.yaml: $(SAMPLE)/object/decimate.yaml $(SAMPLE)/object.yaml $(sample_spec) $(motion_paths) configs/sensors/$(SENSOR).yaml configs/mpm/$(MPM).yaml $(SAMPLE)/choice.txt | build
+	$(call run,mpm,--name $(NAME) --object $(SAMPLE)/object/object.ply --object-config $(SAMPLE)/object.yaml --sensor configs/sensors/$(SENSOR).yaml \
+	  --config configs/mpm/$(MPM).yaml --sample $(sample_spec))
+
+mpm-sample: $(MPM_SAMPLE)/mpm.yaml ## The same with Tacchi's material points instead of press: OBJECT=path.stl [MPM=legacy|legacy_mctac|physical and the variables of sample]
+	@echo; echo "Look at $(MPM_SAMPLE)/frame_*/indentation.png"
+else
+mpm-sample:
+	@echo "mpm-sample: say which object: make -f Makefile.data mpm-sample OBJECT=path.stl" >&2; exit 2
+endif
+
+# What material points cost, beside what the memory allows. Nothing else should run beside it.
+build-bench-mpm: build
+	@cmake --build $(BUILD) --target bench_mpm -j $(JOBS) -- --quiet
+
+# Measured anew at every call.
+bench-mpm-page: $(OUT)/objects/star/decimate.yaml | build-bench-mpm
+	$(BIN)/bench_mpm --out $(OUT)/bench_mpm --threads 2 --sensor configs/sensors/mctac.yaml --object $(OUT)/objects/star/object.ply \
+	  --config configs/mpm/legacy_mctac.yaml --config configs/mpm/physical.yaml
+	cp $(OUT)/bench_mpm/mpm_performance.md docs/mpm_performance.md
+
+bench-mpm: bench-mpm-page ## Speed of the material points: writes docs/mpm_performance.md (two minutes)
