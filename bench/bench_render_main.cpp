@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <thread>
 
 #include "bench/embree_rate.h"
+#include "bench/machine.h"
 #include "bench/render_report.h"
 #include "common/error.h"
 #include "common/files.h"
@@ -29,8 +27,8 @@ const StageSpec kBench{.name = "bench_render",
                                   {.flag = "--gel", .help = "gel.msh of tetmesh"},
                                   {.flag = "--press", .help = "folder of a press"}}};
 
-double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+using bench::processor_s;
+using bench::wall_s;
 
 /// Least seconds of several runs, by a clock.
 template <typename Work>
@@ -42,15 +40,6 @@ double least_s(int repeats, const Work& work, double (*clock_s)() = wall_s) {
     least = std::min(least, clock_s() - start);
   }
   return least;
-}
-
-/// Its model, as the kernel names it.
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "a processor without a name";
 }
 
 /// The sensor with eight equal lights on the ring of its first LED, each a group.
@@ -155,7 +144,7 @@ int main(int argc, char** argv) {
         measure("area lights", scene, membrane, with_eight(sensor, 5e-3), {.subpixels = 2, .led_samples = 3}, fields, 3,
                 3000.0, 4)};
     write_file(stage.output("render_performance.md"),
-               bench::render_page(costs, update, processor(), load, std::thread::hardware_concurrency()));
+               bench::render_page(costs, update, bench::processor(), load, std::thread::hardware_concurrency()));
     stage.summarize({{"point_lights_2_threads_ms", costs[0].two_threads_ms},
                      {"area_lights_2_threads_ms", costs[1].two_threads_ms},
                      {"of_embree", std::min(costs[0].of_embree(), costs[1].of_embree())},

@@ -1,8 +1,7 @@
 // Puts the presses of the benchmark together: tables, a plot, the cost model.
-#include <fstream>
-
 #include "bench/bench_report.h"
 #include "bench/element_study.h"
+#include "bench/machine.h"
 #include "common/error.h"
 #include "common/files.h"
 #include "common/stage.h"
@@ -14,15 +13,6 @@ namespace {
 const StageSpec kTable{.name = "bench_table",
                        .summary = "Put presses of the benchmark together as tables, a plot and the cost model.",
                        .inputs = {{"--press", "folder of a press, named gel-object-motion-route[-how]", true, true}}};
-
-/// Its model, as the kernel names it.
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "a processor without a name";
-}
 
 }  // namespace
 
@@ -38,7 +28,7 @@ int main(int argc, char** argv) {
     }
     if (usual.size() < 5) throw DataError("{} presses by the default route: the cost model needs five", usual.size());
     const bench::CostModel model = bench::fit_cost_model(usual);
-    write_file(stage.output("performance.md"), bench::bench_page(runs, model, processor()));
+    write_file(stage.output("performance.md"), bench::bench_page(runs, model, bench::processor()));
     write_file(stage.output("bench_press.svg"), bench::bench_svg(runs));
     write_file(stage.output("bench_elements.svg"), bench::element_svg(runs));
     write_file(stage.output("cost_model.yaml"), bench::to_yaml_text(model));

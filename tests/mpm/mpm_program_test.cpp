@@ -27,8 +27,8 @@ class MpmProgram : public ProgramTest {
     config_ = read_file(std::string(TACIPC_SOURCE_DIR) + "/configs/mpm/physical_checked.yaml");
     replace(config_, "spacing_mm: 0.1", "spacing_mm: 0.2");
     replace(config_, "spacing_mm: 0.2           #", "spacing_mm: 0.4  #");
-    replace(config_, "press_speed_mm_s: 100", "press_speed_mm_s: 400");
-    replace(config_, "move_speed_mm_s: 100", "move_speed_mm_s: 400");
+    replace(config_, "press_speed_mm_s: 50", "press_speed_mm_s: 400");
+    replace(config_, "move_speed_mm_s: 50", "move_speed_mm_s: 400");
     replace(config_, "largest_change: 0.02", "largest_change: 0.5");
     scratch_.file("mpm.yaml", config_);
     scratch_.file("sample.yaml",
