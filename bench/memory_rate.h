@@ -3,8 +3,8 @@
 
 namespace tacipc::bench {
 
-/// Bytes per second of a = b + s c over arrays far larger than any cache, on `threads` threads; what is written is
-/// counted twice, as it is first fetched. Best of `repeats`, by wall time.
-double memory_bytes_per_s(int threads, int repeats);
+/// Bytes per second of processor time of a = b + s c on one thread, over arrays far larger than any cache; what is
+/// written is counted twice, as it is first fetched. Best of `repeats`.
+double memory_bytes_per_s(int repeats);
 
 }  // namespace tacipc::bench

@@ -4,36 +4,38 @@
 
 namespace tacipc::bench {
 
-std::string mpm_page(const std::vector<MpmCost>& costs, const MemoryRate& memory, const std::string& processor,
+std::string mpm_page(const std::vector<MpmCost>& costs, double memory_bytes_per_s, const std::string& processor,
                      double load, unsigned cores) {
   std::string out = fmt::format(
       "# What material points cost\n\nMade by `make -f Makefile.data bench-mpm` on {}: steps of the gel of "
-      "`configs/sensors/mctac.yaml` while a star presses into it, with sorting, without files. Best of several runs. "
-      "When "
-      "it began, {:.1f} processes were running on {} cores: above that number wall times say little, and processor "
-      "time "
-      "only that of caches and memory shared with others.\n\n"
-      "Memory streams {:.1f} GB/s on one thread and {:.1f} on two (a = b + s c over 128 MiB each, in the same run). "
-      "*Limit* is that rate over the bytes that a particle moves in a step when nothing stays in a cache: all it is "
-      "made "
-      "of twice, and its share of the grid's nodes (zeroed, added to, updated, read). A gel that a cache holds can be "
-      "faster.\n\n"
-      "| Configuration | Particles | Nodes | Bytes per particle and step | Limit, 1 thread | 1 thread, CPU | of the "
-      "limit "
-      "| 1 thread | 2 threads | Limit, 2 threads | 1 mm takes |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-      processor, load, cores, 1e-9 * memory.one_thread_bytes_per_s, 1e-9 * memory.two_threads_bytes_per_s);
+      "`configs/sensors/mctac.yaml` while a star presses into it, with sorting, without files. Best of several runs, "
+      "in "
+      "millions of particles · steps per second; *CPU* is of processor time on one thread. When it began, {:.1f} "
+      "processes "
+      "were running on {} cores: above that number wall times say little, and processor time is that of caches and "
+      "memory "
+      "shared with others.\n\n"
+      "One thread streams {:.1f} GB per second of processor time (a = b + s c over 128 MiB each, in the same run). "
+      "*Limit* is "
+      "that over the bytes that a particle moves in a step when nothing stays in a cache: what it is made of, "
+      "scattered, "
+      "gathered and written, and its share of the grid's nodes, zeroed, added to, updated, read. A gel that a cache "
+      "holds "
+      "can be faster.\n\n"
+      "| Configuration | Particles | Nodes | Bytes per particle and step | Limit | CPU | of the limit | 1 thread | 2 "
+      "threads "
+      "| 1 mm takes |\n|---|---|---|---|---|---|---|---|---|---|\n",
+      processor, load, cores, 1e-9 * memory_bytes_per_s);
   for (const MpmCost& cost : costs) {
-    const double limit = memory.one_thread_bytes_per_s / cost.bytes;
+    const double limit = memory_bytes_per_s / cost.bytes;
     out += fmt::format(
-        "| {} | {} | {} | {:.0f} | {:.1f} | {:.1f} | {:.0f} % | {:.1f} | {:.1f} | {:.1f} | {:.0f} steps of {:.3g} µs, "
-        "{:.0f} s "
+        "| {} | {} | {} | {:.0f} | {:.1f} | {:.1f} | {:.0f} % | {:.1f} | {:.1f} | {:.0f} steps of {:.3g} µs, {:.0f} s "
         "CPU |\n",
         cost.name, cost.particles, cost.nodes, cost.bytes, 1e-6 * limit, 1e-6 * cost.processor_rate,
         100.0 * cost.processor_rate / limit, 1e-6 * cost.one_thread_rate, 1e-6 * cost.two_threads_rate,
-        1e-6 * memory.two_threads_bytes_per_s / cost.bytes, cost.press_steps, 1e6 * cost.step_s,
+        cost.press_steps, 1e6 * cost.step_s,
         static_cast<double>(cost.particles) * cost.press_steps / cost.processor_rate);
   }
-  out += "\nRates are in millions of particles · steps per second.\n";
   return out;
 }
 

@@ -20,13 +20,8 @@ struct MpmCost {
   double two_threads_rate = 0.0;
 };
 
-struct MemoryRate {
-  double one_thread_bytes_per_s = 0.0;
-  double two_threads_bytes_per_s = 0.0;
-};
-
 /// `load` is the number of runnable processes of the last minute on `cores` cores.
-std::string mpm_page(const std::vector<MpmCost>& costs, const MemoryRate& memory, const std::string& processor,
+std::string mpm_page(const std::vector<MpmCost>& costs, double memory_bytes_per_s, const std::string& processor,
                      double load, unsigned cores);
 
 }  // namespace tacipc::bench

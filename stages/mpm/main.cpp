@@ -2,8 +2,7 @@
 
 #include "common/error.h"
 #include "common/log.h"
-#include "common/object.h"
-#include "common/placement.h"
+#include "common/sample_inputs.h"
 #include "common/stage.h"
 #include "stages/mpm/outputs.h"
 
@@ -55,16 +54,8 @@ int main(int argc, char** argv) {
   return run_stage(kMpm, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<MpmConfig>("--config");
     const auto sensor = stage.read_config<Sensor>("--sensor");
-    const auto sample = stage.read_config<SampleSpec>("--sample");
-    std::string face = "-z";
-    if (stage.optional_input("--object-config")) {
-      if (const auto up = stage.read_config<ObjectSpec>("--object-config").up) face = opposite_face(*up);
-    }
-    for (const Phase& phase : sample.motion) {
-      if (phase.kind == PhaseKind::path) stage.add_input("path", phase.file);
-    }
-    const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
-    const MpmScene scene = make_scene(config, sensor, sample, object, face);
+    const SampleInputs inputs = read_sample(stage);
+    const MpmScene scene = make_scene(config, sensor, inputs.sample, inputs.object, inputs.face);
     log_info("{} particles, steps of {:.3g} s, {} points of the object", scene.lattice.rest_m.rows(),
              scene.setup.step_s, scene.object_points_m.rows());
     const double start_s = wall_s();

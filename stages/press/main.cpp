@@ -2,8 +2,7 @@
 #include <malloc.h>
 
 #include "common/log.h"
-#include "common/object.h"
-#include "common/placement.h"
+#include "common/sample_inputs.h"
 #include "common/stage.h"
 #include "stages/press/checkpoint.h"
 #include "stages/press/outputs.h"
@@ -40,24 +39,16 @@ int main(int argc, char** argv) {
   return run_stage(kPress, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<PressConfig>("--config");
     const auto sensor = stage.read_config<Sensor>("--sensor");
-    const auto sample = stage.read_config<SampleSpec>("--sample");
-    std::string face = "-z";
-    if (stage.optional_input("--object-config")) {
-      if (const auto up = stage.read_config<ObjectSpec>("--object-config").up) face = opposite_face(*up);
-    }
-    for (const Phase& phase : sample.motion) {
-      if (phase.kind == PhaseKind::path) stage.add_input("path", phase.file);
-    }
+    const SampleInputs inputs = read_sample(stage);
     const TetMesh gel = read_tet_mesh(stage.input("--gel"));
-    const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
     ScratchFrames frames(stage);
     const Simulation simulation = simulate(
-        sensor, gel, object, config, sample, face,
+        sensor, gel, inputs.object, config, inputs.sample, inputs.face,
         [](int frame, int count, int iteration, double residual) {
           show_progress((frame - 1.0) / count, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s",
                                                            frame, count, iteration, residual));
         },
         &frames);
-    write_outputs(stage, sensor, gel, config, sample, simulation);
+    write_outputs(stage, sensor, gel, config, inputs.sample, simulation);
   });
 }

@@ -41,15 +41,16 @@ TEST(MpmConfig, LegacyHasThePublishedConstants) {
 }
 
 TEST(MpmConfig, PhysicalTakesTheSensorsMaterialAndAStepByTheWave) {
-  for (const std::string name : {"physical", "physical_checked"}) {
+  for (const std::string name : {"physical", "physical_checked", "coarse_checked"}) {
     const MpmConfig config = shipped(name);
     EXPECT_FALSE(config.density_kg_m3);
     EXPECT_FALSE(config.gel.volume_m3);
     EXPECT_FALSE(config.step_s);
     EXPECT_GT(config.courant, 0.0);
-    EXPECT_EQ(config.largest_change.has_value(), name == "physical_checked");
+    EXPECT_EQ(config.largest_change.has_value(), name != "physical");
   }
   EXPECT_EQ(shipped("physical_checked").largest_change, 0.02);
+  EXPECT_EQ(shipped("coarse_checked").largest_change, 0.02);
 }
 
 TEST(MpmConfig, NamesWhatIsWrong) {

@@ -1,0 +1,22 @@
+// What every simulator of a sample reads: the motion, the object, and which side of it presses.
+#pragma once
+
+#include <string>
+
+#include "common/sample_spec.h"
+#include "common/stage.h"
+#include "common/triangle_mesh.h"
+
+namespace tacipc {
+
+struct SampleInputs {
+  SampleSpec sample;
+  std::string face;     // that presses where the sample does not say
+  TriangleMesh object;  // m
+};
+
+/// Reads the flags --sample, --object-config (where given: its `up` says which side looks away) and --object; the files
+/// of paths become inputs of the stage.
+SampleInputs read_sample(Stage& stage);
+
+}  // namespace tacipc
