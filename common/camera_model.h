@@ -39,6 +39,8 @@ class CameraModel {
   /// Where the ray through an image point meets the plane z = 0.
   std::optional<Eigen::Vector2d> on_plane(double column, double row) const;
 
+  /// Rotation whose columns are the camera's axes (x right, y down, z along the view) in S.
+  const Matrix3& s_from_camera() const { return s_from_camera_; }
   /// fx, fy, cx, cy of pinhole and fisheye.
   const std::array<double, 4>& intrinsics_px() const { return intrinsics_; }
 

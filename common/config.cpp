@@ -251,6 +251,18 @@ Vector3 ConfigReader::vector3(const std::string& key) {
   return {values[0], values[1], values[2]};
 }
 
+std::vector<std::string> ConfigReader::texts(const std::string& key) {
+  std::vector<std::string> words;
+  if (const Node* node = find(key, false)) {
+    if (node->kind != Node::Kind::list)
+      add_fault(*node, path_of(key), fmt::format("expected a list of words, found {}", node->kind_name()));
+    for (std::size_t i = 0; i < node->items.size(); ++i)
+      words.push_back(to_scalar(*node->items[i], fmt::format("{}[{}]", key, i)).value_or(""));
+  }
+  keep(key, Value::List(words.begin(), words.end()));
+  return words;
+}
+
 bool ConfigReader::has(const std::string& key) const {
   return std::any_of(node_->entries.begin(), node_->entries.end(), [&](const auto& entry) { return entry.key == key; });
 }

@@ -63,6 +63,8 @@ class ConfigReader {
   std::vector<double> numbers_or(const std::string& key, std::vector<double> fallback,
                                  const Range& range = Range::any());
   Vector3 vector3(const std::string& key);
+  /// A list of words (empty where the key is absent).
+  std::vector<std::string> texts(const std::string& key);
 
   bool has(const std::string& key) const;
   bool is_list(const std::string& key) const;

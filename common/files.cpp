@@ -20,21 +20,29 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-std::string hash_hex(std::string_view bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+std::string hash_hex(const XXH128_hash_t& hash) { return fmt::format("{:016x}{:016x}", hash.high64, hash.low64); }
+
+std::string file_hash(const std::filesystem::path& path) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  for_each_part(path, [&](std::string_view part) { XXH3_128bits_update(state.get(), part.data(), part.size()); });
+  return hash_hex(XXH3_128bits_digest(state.get()));
 }
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+void for_each_part(const std::filesystem::path& path, const std::function<void(std::string_view)>& use) {
   if (std::filesystem::is_directory(path)) throw DataError("{}: is a folder, expected a file", path.string());
   const File file(std::fopen(path.c_str(), "rb"));
   if (!file) throw DataError("{}: cannot be read: {}", path.string(), std::strerror(errno));
-  std::string bytes;
   char buffer[1 << 16];
-  while (const std::size_t count = std::fread(buffer, 1, sizeof(buffer), file.get())) bytes.append(buffer, count);
+  while (const std::size_t count = std::fread(buffer, 1, sizeof(buffer), file.get())) use({buffer, count});
   if (std::ferror(file.get())) throw DataError("{}: cannot be read: {}", path.string(), std::strerror(errno));
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::string bytes;
+  for_each_part(path, [&](std::string_view part) { bytes += part; });
   return bytes;
 }
 
@@ -49,7 +57,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 std::string content_hash(const std::filesystem::path& path) {
-  if (!std::filesystem::is_directory(path)) return hash_hex(read_file(path));
+  if (!std::filesystem::is_directory(path)) return file_hash(path);
   std::map<std::string, std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
     const std::string name = entry.path().lexically_relative(path).generic_string();
@@ -59,8 +67,8 @@ std::string content_hash(const std::filesystem::path& path) {
     files.emplace(name, entry.path());
   }
   std::string listing;
-  for (const auto& [name, file] : files) listing += name + '\0' + hash_hex(read_file(file)) + '\n';
-  return hash_hex(listing);
+  for (const auto& [name, file] : files) listing += name + '\0' + file_hash(file) + '\n';
+  return hash_hex(XXH3_128bits(listing.data(), listing.size()));
 }
 
 }  // namespace tacipc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,10 @@ namespace tacipc {
 
 /// The bytes of a file. \throw DataError naming the file and why it cannot be read.
 std::string read_file(const std::filesystem::path& path);
+
+/// The bytes of a file in parts of at most 64 KiB, for files that need not fit into memory. \throw DataError as
+/// read_file
+void for_each_part(const std::filesystem::path& path, const std::function<void(std::string_view)>& use);
 
 /// Writes a whole file, creating its folder. \throw DataError (no space, not writable, …); a file left behind then is
 /// incomplete.

@@ -40,6 +40,8 @@ FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::st
 
 /// 8-bit PNG, 1 (grey) or 3 (RGB) channels; the bytes depend on nothing but the pixels.
 void write_png(const std::filesystem::path& path, const ByteImage& image);
+/// The same as bytes; `name` stands for the file in messages.
+std::string png_bytes(const ByteImage& image, const std::string& name);
 /// As RGB (channels = 3) or grey (channels = 1), 8 bit. \throw DataError if it is no readable image.
 ByteImage read_png(const std::filesystem::path& path, int channels);
 

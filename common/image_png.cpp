@@ -58,8 +58,7 @@ void check_png(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const ByteImage& image) {
-  const std::string name = path.string();
+std::string png_bytes(const ByteImage& image, const std::string& name) {
   if (image.width < 1 || image.height < 1 || (image.channels != 1 && image.channels != 3))
     throw DataError("{}: an image of {} x {} pixels and {} channels is not written (1 or 3 channels are)", name,
                     image.width, image.height, image.channels);
@@ -78,7 +77,11 @@ void write_png(const std::filesystem::path& path, const ByteImage& image) {
   } catch (const cv::Exception& error) {
     throw DataError("{}: cannot be written as PNG: {}", name, error.what());
   }
-  write_file(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  return {bytes.begin(), bytes.end()};
+}
+
+void write_png(const std::filesystem::path& path, const ByteImage& image) {
+  write_file(path, png_bytes(image, path.string()));
 }
 
 ByteImage read_png(const std::filesystem::path& path, int channels) {

@@ -60,11 +60,6 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
   return text + (shape.size() == 1 ? ",)" : ")");
 }
 
-template <typename T>
-void read_values(ByteReader& in, std::vector<double>& data) {
-  for (double& value : data) value = static_cast<double>(in.read<T>("the data"));
-}
-
 /// Column-major to row-major: walks the source in order while counting up the indices, first index fastest.
 std::vector<double> from_fortran(const std::vector<double>& source, const std::vector<std::size_t>& shape) {
   std::vector<std::size_t> stride(shape.size(), 1);
@@ -84,44 +79,19 @@ std::vector<double> from_fortran(const std::vector<double>& source, const std::v
   return target;
 }
 
-/// `data` holds the values as they lie in memory, `each` bytes long.
-void write_array(const std::filesystem::path& path, const std::vector<std::size_t>& shape, std::string_view type,
-                 const void* data, std::size_t each) {
-  static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
-  const std::optional<std::size_t> count = volume(shape);
-  if (!count) throw DataError("{}: shape {} is too large", path.string(), shape_text(shape));
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape_text(shape));
-  // Magic, version, header length and header together fill whole blocks, so that the data is aligned.
-  const std::size_t before = kMagic.size() + 4;
-  header.append(kAlignment - (before + header.size() + 1) % kAlignment, ' ');
-  header.push_back('\n');
-  if (header.size() > 0xffff) throw DataError("{}: {} dimensions are too many", path.string(), shape.size());
-  std::string bytes(kMagic);
-  bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff), static_cast<char>(header.size() >> 8)};
-  bytes += header;
-  bytes.append(static_cast<const char*>(data), *count * each);
-  write_file(path, bytes);
-}
+struct Header {
+  std::vector<std::size_t> shape;
+  std::string kind;  // "f8"
+  bool big_endian = false;
+  bool fortran = false;
+  std::size_t data_at = 0;
+  std::size_t count = 0;
+};
 
-}  // namespace
-
-void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const double* data) {
-  write_array(path, shape, "<f8", data, sizeof *data);
-}
-
-void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::int32_t* data) {
-  write_array(path, shape, "<i4", data, sizeof *data);
-}
-
-void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::uint8_t* data) {
-  write_array(path, shape, "|u1", data, sizeof *data);
-}
-
-NpyArray read_npy(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  const std::string name = path.string();
-  if (!bytes.starts_with(kMagic)) throw DataError("{}: is no NPY file", name);
-  ByteReader in(bytes, name);
+/// `begin` holds at least the header, or what there is of the file.
+Header parse_header(std::string_view begin, std::size_t file_size, const std::string& name) {
+  if (!begin.starts_with(kMagic)) throw DataError("{}: is no NPY file", name);
+  ByteReader in(begin, name);
   in.skip(kMagic.size(), "the magic");
   const int major = in.read<std::uint8_t>("the version");
   const int minor = in.read<std::uint8_t>("the version");
@@ -131,32 +101,88 @@ NpyArray read_npy(const std::filesystem::path& path) {
       major == 1 ? in.read<std::uint16_t>("the header length") : in.read<std::uint32_t>("the header length");
   const std::size_t header_at = in.at();
   in.skip(length, "the header");
-  const std::string_view header = std::string_view(bytes).substr(header_at, length);
+  const std::string_view header = begin.substr(header_at, length);
 
   std::string_view type = value_of(header, "descr", name);
   type = type.starts_with("'") ? type.substr(1, type.find('\'', 1) - 1) : type.substr(0, type.find(','));
-  const bool fortran = value_of(header, "fortran_order", name).starts_with("True");
-  NpyArray array{.shape = parse_shape(value_of(header, "shape", name), name), .data = {}};
-
+  Header found;
+  found.shape = parse_shape(value_of(header, "shape", name), name);
+  found.fortran = value_of(header, "fortran_order", name).starts_with("True");
+  found.data_at = header_at + length;
   constexpr std::string_view kKinds = "f8f4i8i4u1";
   const std::string_view kind = type.size() == 3 ? type.substr(1) : std::string_view("?");
   const std::size_t kind_at = kKinds.find(kind);
   if (kind_at == std::string_view::npos || kind_at % 2 != 0 ||
       std::string_view("<>|=").find(type[0]) == std::string_view::npos)
     throw DataError("{}: NPY type '{}' is not supported (f8, f4, i8, i4 and u1 are)", name, shown(type));
-  const std::size_t each = static_cast<std::size_t>(kind[1] - '0');
-  const std::optional<std::size_t> count = volume(array.shape);
-  if (!count || *count * each != in.left())
+  found.kind = kind;
+  found.big_endian = type[0] == '>';
+  const std::size_t each = static_cast<std::size_t>(kind[1] - '0'), left = file_size - found.data_at;
+  const std::optional<std::size_t> count = volume(found.shape);
+  if (!count || *count * each != left)
     throw DataError("{}: shape {} of {} takes {} bytes, the file has {} after its header", name,
-                    shape_text(array.shape), type, count ? fmt::format("{}", *count * each) : "too many", in.left());
-  if (type[0] == '>') in.set_order(std::endian::big);
-  array.data.resize(*count);
-  if (kind == "f8") read_values<double>(in, array.data);
-  if (kind == "f4") read_values<float>(in, array.data);
-  if (kind == "i8") read_values<std::int64_t>(in, array.data);
-  if (kind == "i4") read_values<std::int32_t>(in, array.data);
-  if (kind == "u1") read_values<std::uint8_t>(in, array.data);
-  if (fortran) array.data = from_fortran(array.data, array.shape);
+                    shape_text(found.shape), type, count ? fmt::format("{}", *count * each) : "too many", left);
+  found.count = *count;
+  return found;
+}
+
+std::vector<double> read_values(ByteReader& in, const std::string& kind, std::size_t count) {
+  std::vector<double> data(count);
+  const auto read = [&]<typename T>(T) {
+    for (double& value : data) value = static_cast<double>(in.read<T>("the data"));
+  };
+  if (kind == "f8") read(double{});
+  if (kind == "f4") read(float{});
+  if (kind == "i8") read(std::int64_t{});
+  if (kind == "i4") read(std::int32_t{});
+  if (kind == "u1") read(std::uint8_t{});
+  return data;
+}
+
+template <typename T>
+void write_array(const std::filesystem::path& path, const std::vector<std::size_t>& shape, std::string_view type,
+                 const T* data) {
+  const std::optional<std::size_t> count = volume(shape);
+  if (!count) throw DataError("{}: shape {} is too large", path.string(), shape_text(shape));
+  write_file(path, npy_bytes(shape, type, {reinterpret_cast<const char*>(data), *count * sizeof(T)}));
+}
+
+}  // namespace
+
+std::string npy_bytes(const std::vector<std::size_t>& shape, std::string_view type, std::string_view values) {
+  static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape_text(shape));
+  // Magic, version, header length and header together fill whole blocks, so that the data is aligned.
+  const std::size_t before = kMagic.size() + 4;
+  header.append(kAlignment - (before + header.size() + 1) % kAlignment, ' ');
+  header.push_back('\n');
+  if (header.size() > 0xffff) throw DataError("NPY: {} dimensions are too many", shape.size());
+  std::string bytes(kMagic);
+  bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff), static_cast<char>(header.size() >> 8)};
+  bytes += header;
+  bytes += values;
+  return bytes;
+}
+
+void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const double* data) {
+  write_array(path, shape, "<f8", data);
+}
+
+void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::int32_t* data) {
+  write_array(path, shape, "<i4", data);
+}
+
+void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::uint8_t* data) {
+  write_array(path, shape, "|u1", data);
+}
+
+NpyArray read_npy(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  const Header header = parse_header(bytes, bytes.size(), path.string());
+  ByteReader in(bytes, path.string(), header.big_endian ? std::endian::big : std::endian::little);
+  in.seek(header.data_at);
+  NpyArray array{.shape = header.shape, .data = read_values(in, header.kind, header.count)};
+  if (header.fortran) array.data = from_fortran(array.data, array.shape);
   return array;
 }
 
@@ -166,6 +192,34 @@ NpyArray read_npy(const std::filesystem::path& path, const std::vector<std::size
     throw DataError("{}: has the shape ({}), expected ({})", path.string(), fmt::join(array.shape, ", "),
                     fmt::join(shape, ", "));
   return array;
+}
+
+NpyFrames::NpyFrames(const std::filesystem::path& path) : name_(path.string()), file_(path, std::ios::binary) {
+  constexpr std::size_t kLongestHeader = (1 << 16) + 16;
+  if (!file_ || std::filesystem::is_directory(path)) throw DataError("{}: cannot be read", name_);
+  std::string begin(kLongestHeader, '\0');
+  file_.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file_.gcount()));
+  const Header header = parse_header(begin, std::filesystem::file_size(path), name_);
+  if (header.fortran || header.shape.empty())
+    throw DataError("{}: cannot be read by its first axis: {}", name_,
+                    header.fortran ? "it is in Fortran order" : "it has none");
+  shape_ = header.shape;
+  kind_ = header.kind;
+  big_endian_ = header.big_endian;
+  data_at_ = header.data_at;
+  frame_values_ = shape_[0] == 0 ? 0 : header.count / shape_[0];
+}
+
+std::vector<double> NpyFrames::frame(std::size_t frame) {
+  const std::size_t size = frame_values_ * static_cast<std::size_t>(kind_[1] - '0');
+  std::string bytes(size, '\0');
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(data_at_ + frame * size));
+  file_.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::size_t>(file_.gcount()) != size) throw DataError("{}: ends inside frame {}", name_, frame);
+  ByteReader in(bytes, name_, big_endian_ ? std::endian::big : std::endian::little);
+  return read_values(in, kind_, frame_values_);
 }
 
 }  // namespace tacipc

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tacipc {
@@ -17,9 +20,33 @@ struct NpyArray {
 void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const double* data);
 void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::int32_t* data);
 void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::uint8_t* data);
+/// The same as bytes, for values of any type as they lie in memory: `type` is NumPy's, such as "<f4".
+std::string npy_bytes(const std::vector<std::size_t>& shape, std::string_view type, std::string_view values);
 /// Reads f8, f4, i8, i4 or u1 arrays in C or Fortran order. \throw DataError for anything else, with what was found.
 NpyArray read_npy(const std::filesystem::path& path);
 /// The same, which must have this shape. \throw DataError naming both shapes
 NpyArray read_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape);
+
+/// An array read one entry of its first axis at a time, for files that need not fit into memory.
+class NpyFrames {
+ public:
+  /// \throw DataError as read_npy, and for Fortran order
+  explicit NpyFrames(const std::filesystem::path& path);
+
+  const std::vector<std::size_t>& shape() const { return shape_; }
+  /// Shape of one entry: without the first axis.
+  std::vector<std::size_t> frame_shape() const { return {shape_.begin() + 1, shape_.end()}; }
+  /// \throw DataError if the file has been cut since. \pre frame < shape()[0]
+  std::vector<double> frame(std::size_t frame);
+
+ private:
+  std::string name_;
+  std::ifstream file_;
+  std::vector<std::size_t> shape_;
+  std::string kind_;
+  bool big_endian_ = false;
+  std::size_t data_at_ = 0;
+  std::size_t frame_values_ = 1;
+};
 
 }  // namespace tacipc

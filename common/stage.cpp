@@ -68,7 +68,25 @@ const std::vector<fs::path>& Stage::inputs(const std::string& flag) const { retu
 const std::string& Stage::option(const std::string& flag) const { return options_.at(flag); }
 
 fs::path Stage::output(const std::string& name) {
-  outputs_.push_back(name);
+  outputs_.push_back({name});
+  return partial_path(name);
+}
+
+fs::path Stage::varying_output(const std::string& name) {
+  outputs_.push_back({name, "varies"});
+  return partial_path(name);
+}
+
+void Stage::link_output(const std::string& name, const fs::path& file, const std::string& hash) {
+  const fs::path path = partial_path(name);
+  std::error_code error;
+  fs::create_hard_link(fs::canonical(file, error), path, error);
+  if (error) fs::copy_file(file, path, error);
+  if (error) throw DataError("{}: cannot be linked or copied to {}: {}", file.string(), path.string(), error.message());
+  outputs_.push_back({name, hash});
+}
+
+fs::path Stage::partial_path(const std::string& name) const {
   const fs::path path = partial_ / name;
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
@@ -114,8 +132,10 @@ Value Stage::input_hashes() const {
   return inputs;
 }
 
-void Stage::add_input(const std::string& name, const fs::path& path) {
-  added_inputs_.emplace_back(name, path);
+void Stage::add_input(const std::string& name, const fs::path& path) { add_inputs({{name, path}}); }
+
+void Stage::add_inputs(const std::vector<std::pair<std::string, fs::path>>& named) {
+  added_inputs_.insert(added_inputs_.end(), named.begin(), named.end());
   inputs_at_start_ = input_hashes();
   open_scratch();
 }
@@ -167,7 +187,8 @@ std::string Stage::record() const {
   // A record must name what was really read.
   if (inputs_changed()) throw DataError(kInputChanged);
   Value::Map outputs;
-  for (const std::string& name : outputs_) outputs.emplace_back(name, content_hash(partial_ / name));
+  for (const Output& output : outputs_)
+    outputs.emplace_back(output.name, output.hash ? *output.hash : content_hash(partial_ / output.name));
   Value::Map record{{"stage", spec_.name},
                     {"version", program_version()},
                     {"instruction_set", instruction_set()},
@@ -225,7 +246,7 @@ void Stage::publish() {
   const fs::path record_name = spec_.name + ".yaml";
   fs::create_directories(partial_);
   write_file(partial_ / record_name, text);
-  for (const std::string& name : outputs_) {
+  for (const auto& [name, hash] : outputs_) {
     if ((out_ / name).has_parent_path()) fs::create_directories((out_ / name).parent_path());
     fs::rename(partial_ / name, out_ / name);
   }

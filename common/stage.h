@@ -53,6 +53,7 @@ class Stage {
 
   /// A file that no flag names but a configuration does: from here on an input like the others.
   void add_input(const std::string& name, const std::filesystem::path& path);
+  void add_inputs(const std::vector<std::pair<std::string, std::filesystem::path>>& named);
 
   /// Reads a configuration file; every value of it goes into the record under `config`.
   template <typename T>
@@ -66,6 +67,11 @@ class Stage {
 
   /// Where to write an output of this name. It appears under --out only when the whole stage has succeeded.
   std::filesystem::path output(const std::string& name);
+  /// The same for what no two runs agree in, such as times: the record names the file without a hash.
+  std::filesystem::path varying_output(const std::string& name);
+  /// An output that is a file of another stage's, under a hard link (copied where the file system has none). `hash` is
+  /// the one in that stage's record, so that large files need not be read again.
+  void link_output(const std::string& name, const std::filesystem::path& file, const std::string& hash);
   /// Folder the outputs end in (for relative links).
   const std::filesystem::path& out() const { return out_; }
 
@@ -90,6 +96,7 @@ class Stage {
 
  private:
   friend int run_stage(const StageSpec&, int, char**, const std::function<void(Stage&)>&);
+  std::filesystem::path partial_path(const std::string& name) const;
   void note_config(const std::string& flag, Value config);
   /// The whole life of a stage under the lock of its folder. Returns the exit code.
   int run(const std::function<void(Stage&)>& body);
@@ -118,7 +125,11 @@ class Stage {
   std::map<std::string, std::vector<std::filesystem::path>> inputs_;
   std::vector<std::pair<std::string, std::filesystem::path>> added_inputs_;
   std::map<std::string, std::string> options_;
-  std::vector<std::string> outputs_;
+  struct Output {
+    std::string name;
+    std::optional<std::string> hash = std::nullopt;  // absent: of the file when all is done
+  };
+  std::vector<Output> outputs_;
   std::optional<Value> inputs_at_start_;
   bool scratch_belongs_to_inputs_ = false;
   Value::Map configs_;

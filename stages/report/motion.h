@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/report/record.h"
+#include "common/record.h"
 
 namespace tacipc {
 

@@ -9,7 +9,7 @@
 #include "common/files.h"
 #include "common/npy.h"
 #include "common/triangle_mesh.h"
-#include "stages/report/record.h"
+#include "common/record.h"
 
 namespace tacipc {
 namespace {

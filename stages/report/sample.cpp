@@ -5,7 +5,7 @@
 #include "common/error.h"
 #include "common/files.h"
 #include "stages/report/press_folder.h"
-#include "stages/report/record.h"
+#include "common/record.h"
 #include "stages/report/stage_log.h"
 
 namespace tacipc {

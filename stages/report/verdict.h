@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/report/record.h"
+#include "common/record.h"
 
 namespace tacipc {
 

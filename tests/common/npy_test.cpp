@@ -98,5 +98,38 @@ TEST(Npy, RefusesWhatDoesNotFit) {
             "/dev/full: cannot be written: No space left on device");
 }
 
+TEST(Npy, FramesAreReadOneByOne) {
+  const ScratchFolder scratch;
+  const std::vector<double> values{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  write_npy(scratch / "a.npy", {3, 2, 2}, values.data());
+  NpyFrames frames(scratch / "a.npy");
+  EXPECT_EQ(frames.shape(), (std::vector<std::size_t>{3, 2, 2}));
+  EXPECT_EQ(frames.frame_shape(), (std::vector<std::size_t>{2, 2}));
+  EXPECT_EQ(frames.frame(2), (std::vector<double>{9, 10, 11, 12}));
+  EXPECT_EQ(frames.frame(0), (std::vector<double>{1, 2, 3, 4}));
+  const std::vector<std::uint8_t> codes{7, 8};
+  write_npy(scratch / "b.npy", {2}, codes.data());
+  EXPECT_EQ(NpyFrames(scratch / "b.npy").frame(1), std::vector<double>{8});
+}
+
+TEST(Npy, FramesRefuseWhatHasNone) {
+  const ScratchFolder scratch;
+  const std::string name = (scratch / "a.npy").string();
+  const double one = 1.0;
+  write_npy(scratch / "a.npy", {}, &one);
+  EXPECT_EQ(message_of<DataError>([&] { NpyFrames frames(name); }),
+            name + ": cannot be read by its first axis: it has none");
+  scratch.file("a.npy", npy_bytes("<f8", "'fortran_order': True, 'shape': (1, 1), ", std::string(8, '\0')));
+  EXPECT_EQ(message_of<DataError>([&] { NpyFrames frames(name); }),
+            name + ": cannot be read by its first axis: it is in Fortran order");
+  EXPECT_EQ(message_of<DataError>([&] { NpyFrames frames(scratch / "none.npy"); }),
+            (scratch / "none.npy").string() + ": cannot be read");
+  const std::vector<double> two{1.0, 2.0};
+  write_npy(name, {2}, two.data());
+  NpyFrames cut(name);
+  std::filesystem::resize_file(name, std::filesystem::file_size(name) - 8);
+  EXPECT_EQ(message_of<DataError>([&] { cut.frame(1); }), name + ": ends inside frame 1");
+}
+
 }  // namespace
 }  // namespace tacipc

@@ -160,5 +160,38 @@ TEST(WriteFile, FullDiskIsAnError) {
       DataError);
 }
 
+TEST_F(StageTest, VaryingOutputsStandInTheRecordWithoutAHash) {
+  int seconds = 0;
+  const auto body = [&](Stage& stage) { write_file(stage.varying_output("times.csv"), std::to_string(++seconds)); };
+  ASSERT_EQ(run(body), 0);
+  const std::string record = read_file(root_ / "out/copy.yaml");
+  EXPECT_THAT(record, ::testing::HasSubstr("outputs:\n  times.csv: varies\n"));
+  ASSERT_EQ(run(body), 0);
+  EXPECT_EQ(read_file(root_ / "out/times.csv"), "2");
+  EXPECT_EQ(read_file(root_ / "out/copy.yaml"), record);
+}
+
+TEST_F(StageTest, LinkedOutputsShareTheFileAndOutliveIts) {
+  const fs::path big = root_.file("other/big.bin", "large");
+  const auto body = [&](Stage& stage) { stage.link_output("shards/big.bin", big, "its hash"); };
+  ASSERT_EQ(run(body), 0);
+  EXPECT_TRUE(fs::equivalent(big, root_ / "out/shards/big.bin"));
+  EXPECT_THAT(read_file(root_ / "out/copy.yaml"), ::testing::HasSubstr("shards/big.bin: its hash\n"));
+  // A stage never changes a file in place, so the link keeps what it was.
+  fs::remove(big);
+  EXPECT_EQ(read_file(root_ / "out/shards/big.bin"), "large");
+  ASSERT_EQ(run(body), 1);
+}
+
+TEST_F(StageTest, InputsAddedTogetherAreInTheRecord) {
+  ASSERT_EQ(run([&](Stage& stage) {
+              stage.add_inputs({{"one", root_.file("1.txt", "1")}, {"two", root_.file("2.txt", "2")}});
+            }),
+            0);
+  EXPECT_THAT(read_file(root_ / "out/copy.yaml"),
+              ::testing::AllOf(::testing::HasSubstr("  one:\n    path: ../1.txt\n"),
+                               ::testing::HasSubstr("  two:\n    path: ../2.txt\n")));
+}
+
 }  // namespace
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-#include "stages/report/record.h"
+#include "common/record.h"
 
 #include <charconv>
 #include <cmath>
@@ -79,6 +79,13 @@ std::optional<bool> Record::flag(const std::string& key) const {
   const std::string word = text(key).value_or("");
   if (word != "true" && word != "false") refuse(key, fmt::format("expected true or false, found '{}'", word));
   return word == "true";
+}
+
+std::vector<std::string> Record::texts(const std::string& key) const {
+  if (!has(key)) return {};
+  ConfigReader reader = *reader_;
+  if (!reader.is_list(key)) refuse(key, "expected a list");
+  return reader.texts(key);
 }
 
 std::optional<std::vector<double>> Record::numbers(const std::string& key, std::size_t how_many) const {

@@ -1,4 +1,4 @@
-#include "stages/report/record.h"
+#include "common/record.h"
 
 #include <gtest/gtest.h>
 

@@ -23,15 +23,20 @@ class Record {
   /// A map, or the maps of a list: what may be written either way. Empty where the key is absent.
   std::vector<Record> one_or_many(const std::string& key) const;
   bool has(const std::string& key) const { return reader_ && reader_->has(key); }
+  /// The keys of this map, in file order.
+  std::vector<std::string> keys() const { return reader_ ? reader_->keys() : std::vector<std::string>(); }
 
   /// Absent: nullopt. \throw DataError naming file and key if the value is of another type.
   std::optional<std::string> text(const std::string& key) const;
   std::optional<double> number(const std::string& key) const;
   std::optional<int> count(const std::string& key) const;  // a whole number ≥ 0
   std::optional<bool> flag(const std::string& key) const;
+  /// The words of a list; empty where the key is absent.
+  std::vector<std::string> texts(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key, std::size_t how_many) const;
 
   /// \throw DataError naming file and key if the value is absent.
+  std::string required_text(const std::string& key) const { return present(text(key), key); }
   double required_number(const std::string& key) const { return present(number(key), key); }
   int required_count(const std::string& key) const { return present(count(key), key); }
   bool required_flag(const std::string& key) const { return present(flag(key), key); }
