@@ -1,0 +1,42 @@
+# A made dataset as files to give away: make -f Makefile.data pack DATASET_DIR=out/datasets/name [PACK=slim]
+# The samples stand in $(DATASET_DIR)/plan/samples.csv; shards are written side by side, each by one process.
+
+PACK ?= full#        a file of configs/pack
+CARD ?= default#     a file of configs/card
+DATASET_DIR ?=#      folder of the dataset
+PACK_AFTER  ?=#      files that must be there first, such as what says that all samples have been tried
+$(foreach v,PACK CARD DATASET_DIR,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
+
+.PHONY: pack
+ifneq ($(and $(DATASET_DIR),$(filter pack repack,$(MAKECMDGOALS))),)
+$(call check_name,DATASET_DIR)
+SHARDS_DIR := $(DATASET_DIR)/shards
+
+# PACK_SHARDS, and for each shard the records and failures of its samples, so that a sample made anew packs its shard anew.
+$(SHARDS_DIR)/shards.mk: $(DATASET_DIR)/plan/samples.csv
+	@mkdir -p $(@D); awk -F, -v dir=$(DATASET_DIR) ' \
+	  NR == 1 { for (i = 1; i <= NF; ++i) at[$$i] = i; next } \
+	  { if (!($$at["shard"] in folders)) names = names " " $$at["shard"]; folders[$$at["shard"]] = folders[$$at["shard"]] " " dir "/" $$at["folder"] } \
+	  END { print "PACK_SHARDS :=" names; for (s in folders) print dir "/shards/" s "/pack.yaml: $$(call results_in," folders[s] ")" }' $< > $@.new; \
+	mv $@.new $@
+results_in = $(wildcard $(foreach f,$(1),$(f)/press/press.yaml $(f)/press/press.failed.yaml $(f)/render/render.yaml $(f)/render/render.failed.yaml))
+include $(SHARDS_DIR)/shards.mk
+
+# Another profile is another dataset however old its file is.
+$(SHARDS_DIR)/pack.choice $(SHARDS_DIR)/card.choice: $(SHARDS_DIR)/%.choice: FORCE
+	@mkdir -p $(@D); echo '$(if $(filter pack,$*),$(PACK),$(CARD))' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+
+$(SHARDS_DIR)/%/pack.yaml: $(DATASET_DIR)/plan/samples.csv $(DATASET_DIR)/plan/dataset.yaml configs/pack/$(PACK).yaml $(SHARDS_DIR)/pack.choice $(PACK_AFTER) | build
+	$(call run,pack,--config configs/pack/$(PACK).yaml --plan $< --dataset $(DATASET_DIR)/plan/dataset.yaml --shard $*)
+
+SHARD_RECORDS := $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml)
+$(DATASET_DIR)/pack/card.yaml: configs/card/$(CARD).yaml configs/card/loader.py $(SHARDS_DIR)/card.choice $(SHARD_RECORDS) | build
+	$(call run,card,--name $(notdir $(DATASET_DIR)) --config $< --plan $(DATASET_DIR)/plan/samples.csv --dataset $(DATASET_DIR)/plan/dataset.yaml \
+	  --shard $(SHARD_RECORDS) --loader configs/card/loader.py $(if $(wildcard CITATION.cff),--citation CITATION.cff))
+
+pack: $(DATASET_DIR)/pack/card.yaml ## A made dataset as HDF5 shards with tables, card and checksums: DATASET_DIR=out/datasets/name [PACK=slim]
+	@echo; echo "Give away $(DATASET_DIR)/pack; begin with its README.md"
+else
+pack:
+	@echo "pack: say which dataset: make -f Makefile.data pack DATASET_DIR=out/datasets/name" >&2; exit 2
+endif

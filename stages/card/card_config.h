@@ -1,0 +1,24 @@
+// What a dataset card says that no measurement can.
+#pragma once
+
+#include <string>
+
+#include "common/config.h"
+
+namespace tacipc {
+
+struct CardConfig {
+  std::string purpose;
+  std::string licence;
+  std::string contact;  // empty: none
+  std::string notes;    // empty: none; Markdown
+
+  static CardConfig read(ConfigReader& in) {
+    return {.purpose = in.text("purpose"),
+            .licence = in.text("licence"),
+            .contact = in.text_or("contact", ""),
+            .notes = in.text_or("notes", "")};
+  }
+};
+
+}  // namespace tacipc

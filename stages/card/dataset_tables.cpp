@@ -1,0 +1,123 @@
+#include "stages/card/dataset_tables.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <memory>
+
+#include "common/csv.h"
+#include "common/error.h"
+
+namespace tacipc {
+namespace fs = std::filesystem;
+namespace {
+
+/// A table that is written line by line.
+class TableWriter {
+ public:
+  explicit TableWriter(const fs::path& path) : name_(path.string()), file_(path, std::ios::binary) {}
+  void add(const std::string& line) { file_ << line; }
+  void close() {
+    file_.close();
+    if (!file_) throw DataError("{}: cannot be written (is the disk full?)", name_);
+  }
+
+ private:
+  std::string name_;
+  std::ofstream file_;
+};
+
+/// One of a shard's tables, at the sample that the plan has reached.
+class ShardTable {
+ public:
+  explicit ShardTable(const fs::path& path) : name_(path.string()), rows_(path) {}
+  const CsvReader& row_of(const std::string& id) {
+    if (!rows_.next() || rows_["id"] != id)
+      throw DataError("{}: is of another plan: expected {} next (pack the shard again)", name_, id);
+    return rows_;
+  }
+  const CsvReader& rows() const { return rows_; }
+
+ private:
+  std::string name_;
+  CsvReader rows_;
+};
+
+struct ShardTables {
+  ShardTable manifest;
+  ShardTable failures;
+  ShardTable timings;
+  explicit ShardTables(const fs::path& folder)
+      : manifest(folder / "manifest.csv"), failures(folder / "failures.csv"), timings(folder / "timings.csv") {}
+};
+
+constexpr const char* kCounted[] = {"split", "sensor", "object", "motion"};
+constexpr const char* kMeasured[] = {
+    "n_frames",        "press_force_N",    "tangential_force_N",    "max_indentation_mm",
+    "min_distance_mm", "min_volume_ratio", "max_force_balance_rel", "clipped_fraction"};
+
+void count(const CsvReader& row, DatasetCounts& counts) {
+  ++counts.status[row["status"]];
+  const bool made = row["status"] == "made";
+  for (const char* column : kCounted) ++(made ? counts.made : counts.not_made)[column][row[column]];
+  if (!made) return;
+  for (const char* column : kMeasured) {
+    const std::string& text = row[column];
+    double value = 0.0;
+    if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc()) continue;
+    Extent& extent = counts.extents[column];
+    extent.low = std::min(extent.low, value);
+    extent.high = std::max(extent.high, value);
+  }
+}
+
+}  // namespace
+
+DatasetCounts join_tables(const fs::path& plan, const ShardRecords& records,
+                          const std::function<fs::path(const std::string&)>& output) {
+  std::map<std::string, std::unique_ptr<ShardTables>> tables;
+  for (const PackedShard& shard : records.shards)
+    tables.emplace(shard.name, std::make_unique<ShardTables>(shard.folder));
+  TableWriter manifest(output("manifest.csv")), failures(output("failures.csv")), timings(output("timings.csv"));
+  std::map<std::string, TableWriter> splits;
+  for (const char* split : {"train", "val", "test"}) {
+    splits.emplace(split, output(fmt::format("splits/{}.txt", split)));
+    splits.emplace(std::string("pose_") + split, output(fmt::format("splits/pose/{}.txt", split)));
+  }
+  DatasetCounts counts;
+  std::set<std::string> seen;
+  if (!tables.empty()) {
+    const ShardTables& first = *tables.begin()->second;
+    manifest.add(csv_line(first.manifest.rows().columns()));
+    failures.add(csv_line(first.failures.rows().columns()));
+    timings.add(csv_line(first.timings.rows().columns()));
+  }
+  CsvReader planned(plan);
+  while (planned.next()) {
+    const std::string &id = planned["id"], &shard = planned["shard"];
+    const auto found = tables.find(shard);
+    if (found == tables.end()) throw DataError("{}: shard {} has not been packed", plan.string(), shard);
+    seen.insert(shard);
+    ShardTables& own = *found->second;
+    const CsvReader& row = own.manifest.row_of(id);
+    count(row, counts);
+    manifest.add(csv_line(row.row()));
+    timings.add(csv_line(own.timings.row_of(id).row()));
+    if (row["status"] != "made") {
+      failures.add(csv_line(own.failures.row_of(id).row()));
+      continue;
+    }
+    for (const std::string& list : {row["split"], "pose_" + row["split_pose"]}) {
+      const auto to = splits.find(list);
+      if (to == splits.end()) throw DataError("{}:{}: '{}' is no split", plan.string(), planned.line(), list);
+      to->second.add(id + "\n");
+    }
+  }
+  for (const auto& [name, own] : tables)
+    if (!seen.contains(name)) throw DataError("{}: has no shard {}, which was packed", plan.string(), name);
+  for (TableWriter* table : {&manifest, &failures, &timings}) table->close();
+  for (auto& [name, table] : splits) table.close();
+  return counts;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,43 @@
+// What the samples of a shard were made from and by: sensors, gels, objects, programs, limits.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/value.h"
+#include "stages/pack/plan.h"
+#include "stages/pack/sample_frames.h"
+
+namespace tacipc {
+
+/// Name of a sensor in the packed dataset: the plan's, and where the plan gives a sample a sensor file of its own (any
+/// but `<sensor>.yaml`) also the first eight digits of its hash.
+std::string sensor_id_of(const PlannedSample& plan, const SampleFrames& sample);
+
+class Origins {
+ public:
+  /// \throw DataError if two samples mean different files by one name
+  void add(const PlannedSample& plan, const std::string& sensor_id, const SampleFrames& sample);
+  /// Lines `sensors`, `objects` (each with the paths and hashes of its files, as seen from `folder`), `versions` and
+  /// `limits` (each different one once).
+  Value::Map lines(const std::filesystem::path& folder) const;
+
+ private:
+  struct File {
+    std::filesystem::path path;
+    std::string hash;
+  };
+  /// name → file's role → file
+  using Files = std::map<std::string, std::map<std::string, File>>;
+  static void add_file(Files& files, const std::string& name, const std::string& role, const File& file);
+  static Value::List lines_of(const Files& files, const std::filesystem::path& folder);
+
+  Files sensors_;
+  Files objects_;
+  std::map<std::string, bool> versions_;
+  std::map<std::string, Value::Map> limits_;  // by their text
+};
+
+}  // namespace tacipc

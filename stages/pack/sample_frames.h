@@ -1,0 +1,87 @@
+// A finished sample, read frame by frame: what press and render left, checked against their records.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/image.h"
+#include "common/npy.h"
+#include "common/record.h"
+#include "common/sensor.h"
+
+namespace tacipc {
+
+/// Numbers of one frame, row-major, in SI or codes.
+struct Numbers {
+  std::vector<std::size_t> shape;
+  std::vector<double> values;
+};
+
+/// Why a field is not there.
+struct Absent {
+  std::string reason;
+};
+
+using FieldData = std::variant<Numbers, Absent>;
+
+/// Pictures are read from `picture_folder`, a variant's or empty for the sensor itself.
+class SampleFrames {
+ public:
+  /// \throw DataError if a record is missing or malformed, the image was made of another press or with another sensor,
+  /// or there is no image of frame 0
+  explicit SampleFrames(std::filesystem::path folder);
+
+  /// Frames of the press that have images, ascending, the first is 0: frame i of the packed sample is frames()[i].
+  const std::vector<std::size_t>& frames() const { return frames_; }
+  std::size_t press_frames() const { return per_frame_.size(); }
+  const std::vector<std::string>& variants() const { return variants_; }
+  void look_at(const std::string& variant) { variant_ = variant; }
+  bool in_variant() const { return !variant_.empty(); }
+
+  const Record& press() const { return press_; }
+  const Record& render() const { return render_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  /// The file that press was given with a flag ("sensor", "gel", "object", "sample").
+  std::filesystem::path press_input(const std::string& flag) const;
+  /// Text of a configuration that press or render was given. \throw DataError if it has changed since
+  std::string config_text(const std::string& stage, const std::string& flag) const;
+  const Sensor& sensor() const { return sensor_; }
+
+  /// Channels of a frame's EXR or PNG, or Absent with `reason` where there is no such file.
+  FieldData exr(std::size_t frame, const std::string& name, const std::vector<std::string>& channels,
+                const std::string& reason);
+  FieldData png(std::size_t frame, const std::string& name, int channels, const std::string& reason);
+  /// (markers, 2) column and row.
+  FieldData marker_px(std::size_t frame, const std::string& reason);
+  /// One frame of an array of the press, or a whole one without frames.
+  Numbers press_array(std::size_t frame, const std::string& name);
+  Numbers whole_press_array(const std::string& name);
+  /// Rows of positions.npy that lie on the front.
+  Numbers front_positions(std::size_t frame);
+  /// A number of the frame in the press's record.
+  double press_number(std::size_t frame, const std::string& key) const;
+  /// Triangles of the front over the rows of front_vertices.npy.
+  Numbers front_triangles();
+
+ private:
+  std::optional<std::filesystem::path> picture(std::size_t frame, const std::string& name);
+  NpyFrames& open(const std::string& name);
+
+  std::filesystem::path folder_;
+  Record press_;
+  Record render_;
+  std::map<std::string, std::string> picture_hashes_;
+  std::vector<Record> per_frame_;
+  std::vector<std::size_t> frames_;
+  std::vector<std::string> variants_;
+  std::string variant_;
+  Sensor sensor_;
+  std::map<std::string, std::unique_ptr<NpyFrames>> arrays_;
+};
+
+}  // namespace tacipc
