@@ -1,14 +1,16 @@
-# A made dataset as files to give away: make -f Makefile.data pack DATASET_DIR=out/datasets/name [PACK=slim]
-# The samples stand in $(DATASET_DIR)/plan/samples.csv; shards are written side by side, each by one process.
+# A made dataset as files to give away: make -f Makefile.data pack CONFIG=configs/datasets/mini.yaml [PACK=slim]
+# Its samples stand in $(DATASET_DIR)/plan/samples.csv; shards are written side by side, each by one process.
 
-PACK ?= full#        a file of configs/pack
-CARD ?= default#     a file of configs/card
-DATASET_DIR ?=#      folder of the dataset
-PACK_AFTER  ?=#      files that must be there first, such as what says that all samples have been tried
-$(foreach v,PACK CARD DATASET_DIR,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
+PACK   ?= full#        a file of configs/pack
+CARD   ?= default#     a file of configs/card
+FORMAT ?= webdataset#  of repack: a file of configs/repack
+CONFIG ?=#             the dataset's configuration, by which its folder is named; or instead
+DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the folder
+$(foreach v,PACK CARD FORMAT DATASET_DIR,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
 
-.PHONY: pack
-ifneq ($(and $(DATASET_DIR),$(filter pack repack,$(MAKECMDGOALS))),)
+.PHONY: pack dataset-pack repack
+PACK_GOALS := $(filter pack dataset-pack dataset-last repack,$(MAKECMDGOALS))
+ifneq ($(and $(DATASET_DIR),$(PACK_GOALS)),)
 $(call check_name,DATASET_DIR)
 SHARDS_DIR := $(DATASET_DIR)/shards
 
@@ -26,7 +28,7 @@ include $(SHARDS_DIR)/shards.mk
 $(SHARDS_DIR)/pack.choice $(SHARDS_DIR)/card.choice: $(SHARDS_DIR)/%.choice: FORCE
 	@mkdir -p $(@D); echo '$(if $(filter pack,$*),$(PACK),$(CARD))' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
-$(SHARDS_DIR)/%/pack.yaml: $(DATASET_DIR)/plan/samples.csv $(DATASET_DIR)/plan/dataset.yaml configs/pack/$(PACK).yaml $(SHARDS_DIR)/pack.choice $(PACK_AFTER) | build
+$(SHARDS_DIR)/%/pack.yaml: $(DATASET_DIR)/plan/samples.csv $(DATASET_DIR)/plan/dataset.yaml configs/pack/$(PACK).yaml $(SHARDS_DIR)/pack.choice | build
 	$(call run,pack,--config configs/pack/$(PACK).yaml --plan $< --dataset $(DATASET_DIR)/plan/dataset.yaml --shard $*)
 
 SHARD_RECORDS := $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml)
@@ -34,9 +36,15 @@ $(DATASET_DIR)/pack/card.yaml: configs/card/$(CARD).yaml configs/card/loader.py 
 	$(call run,card,--name $(notdir $(DATASET_DIR)) --config $< --plan $(DATASET_DIR)/plan/samples.csv --dataset $(DATASET_DIR)/plan/dataset.yaml \
 	  --shard $(SHARD_RECORDS) --loader configs/card/loader.py $(if $(wildcard CITATION.cff),--citation CITATION.cff))
 
-pack: $(DATASET_DIR)/pack/card.yaml ## A made dataset as HDF5 shards with tables, card and checksums: DATASET_DIR=out/datasets/name [PACK=slim]
+$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/repack/$(FORMAT).yaml $(SHARDS_DIR)/%/pack.yaml | build
+	$(call run,repack,--config $< --shard $(SHARDS_DIR)/$*/$*.h5)
+
+pack: $(DATASET_DIR)/pack/card.yaml ## A made dataset as HDF5 shards with tables, card and checksums: CONFIG= (or DATASET_DIR=) [PACK=slim]
 	@echo; echo "Give away $(DATASET_DIR)/pack; begin with its README.md"
+dataset-pack: pack
+repack: $(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml) ## The same in another layout: CONFIG= FORMAT=webdataset|univtac|folder
+	@echo; echo "Look into $(DATASET_DIR)/repack/$(FORMAT)"
 else
-pack:
-	@echo "pack: say which dataset: make -f Makefile.data pack DATASET_DIR=out/datasets/name" >&2; exit 2
+pack repack dataset-pack:
+	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
 endif

@@ -19,7 +19,7 @@ done
 complain 'stages/press/(energy|solve|simulate|outputs)' stages/press/contact 'contact is geometry only'
 complain 'stages/press/(solve|simulate|outputs)' stages/press/energy 'energies know no solver'
 complain 'stages/press/(simulate|outputs|press_config)' stages/press/solve 'the solver knows no motion'
-for header in tetgen.h embree3/ OpenMesh/ cholmod.h opencv2/ yaml-cpp/ hdf5.h ; do
+for header in tetgen.h embree3/ OpenMesh/ cholmod.h opencv2/ yaml-cpp/ hdf5.h archive.h ; do
   files=$(grep -rlE "#include <$header" common stages --include=*.cpp --include=*.h || true)
   bad=$(grep -E '\.h$' <<<"$files" || true)
   [ -z "$bad" ] || { echo "$bad: includes <$header>; only a .cpp may"; faults=1; }

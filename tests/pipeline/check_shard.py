@@ -1,11 +1,13 @@
 """Loads a packed dataset as a user would, and holds it against what press left and schema.json says.
 
 check_shard.py DATASET SOURCE_DIR: DATASET has samples/, plan/ and pack/."""
-import csv, glob, json, os, re, struct, sys, zlib
+import csv, glob, json, os, re, sys
 
 import h5py
 import numpy as np
 import torch
+
+from read_png import read_png
 
 dataset, source = sys.argv[1:]
 pack = os.path.join(dataset, "pack")
@@ -15,31 +17,8 @@ manifest = {row["id"]: row for row in csv.DictReader(open(os.path.join(pack, "ma
 assert list(manifest) == list(planned)
 
 
-def read_png(path):
-    """8-bit grey or RGB, by hand: nothing that the packing used."""
-    data = open(path, "rb").read()
-    at, body = 8, b""
-    while at < len(data):
-        (size,), kind = struct.unpack(">I", data[at:at + 4]), data[at + 4:at + 8]
-        if kind == b"IHDR":
-            width, height, bits, colour = struct.unpack(">IIBB", data[at + 8:at + 18])
-        if kind == b"IDAT":
-            body += data[at + 8:at + 8 + size]
-        at += 12 + size
-    channels = {0: 1, 2: 3}[colour]
-    assert bits == 8
-    raw = np.frombuffer(zlib.decompress(body), np.uint8).reshape(height, 1 + width * channels).astype(int)
-    image = np.zeros((height, width * channels), int)
-    for y in range(height):
-        above = image[y - 1] if y else np.zeros(width * channels, int)
-        for x in range(width * channels):
-            left = image[y, x - channels] if x >= channels else 0
-            corner = above[x - channels] if x >= channels else 0
-            guess = left + above[x] - corner
-            near = min((left, above[x], corner), key=lambda v: abs(guess - v))
-            image[y, x] = (raw[y, 1 + x] + (0, left, above[x], (left + above[x]) // 2, near)[raw[y, 0]]) % 256
-    image = image.reshape(height, width, channels).astype(np.uint8)
-    return image if channels == 3 else image[..., 0]
+def picture(path):
+    return read_png(open(path, "rb").read())
 
 
 checked = 0
@@ -105,10 +84,10 @@ for path in sorted(glob.glob(os.path.join(pack, "shards/*.h5"))):
             assert (obs["time_s"] == np.load(press + "/time.npy")[frames]).all()
             for i, frame in enumerate(frames):
                 folder = f"{render}/frame_{frame:04}/"
-                assert (obs["rgb"][i] == read_png(folder + "tactile.png")).all()
-                assert (obs["contact_mask"][i] == (read_png(folder + "contact.png") == 255)).all()
-                assert (127 * obs["slip_state"][i].astype(int) == read_png(folder + "stick_slip.png")).all()
-                assert (sample["variants/white/rgb"][i] == read_png(folder + "white/tactile.png")).all()
+                assert (obs["rgb"][i] == picture(folder + "tactile.png")).all()
+                assert (obs["contact_mask"][i] == (picture(folder + "contact.png") == 255)).all()
+                assert (127 * obs["slip_state"][i].astype(int) == picture(folder + "stick_slip.png")).all()
+                assert (sample["variants/white/rgb"][i] == picture(folder + "white/tactile.png")).all()
             seen = np.isfinite(obs["marker_px"][:, 1]).all(-1)
             assert (seen == (obs["marker_visible"] == 1)).all() and seen.any()
             # Images, markers and frame S agree: the rectified camera sees each marker of frame 0 where its map says.

@@ -79,6 +79,16 @@ with h5py.File(sys.argv[1]) as f:
     for sample in f["data"].values():
         assert "rgb" in sample["obs"] and "normal" not in sample["obs"] and "min_distance_mm" in sample["check"], list(sample["obs"])
 END
+# Other layouts hold the same numbers, with the same bytes each time.
+cp -a one again
+for format in webdataset univtac folder; do
+  for folder in one again; do
+    make -s -f Makefile.data repack DATASET_DIR=$folder FORMAT=$format BUILD="$build_dir" PACKAGES=no > /dev/null
+  done
+done
+same_files one/repack again/repack
+"$python" "$source_dir/tests/pipeline/check_repack.py" one/shards one/repack || fail "an export does not hold what was packed"
+
 code=0
 pack_dataset nowhere 2> said.txt || code=$?
 [ "$code" = 2 ] || fail "a dataset that is not there is not refused"
