@@ -23,6 +23,7 @@ using Object = Handle<&H5Oclose>;
 namespace {
 
 constexpr unsigned kGzipLevel = 4;
+constexpr std::size_t kMetadataCache = 1 << 20;
 
 template <typename T, typename Store>
 std::string packed(const std::vector<double>& values, Store&& store) {
@@ -148,8 +149,16 @@ struct Hdf5Writer::File {
     const std::string name = path.string();
     const Properties access(H5Pcreate(H5P_FILE_ACCESS), name, "/", "no file properties");
     const Properties creation(H5Pcreate(H5P_FILE_CREATE), name, "/", "no file properties");
-    if (H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 || H5Pset_obj_track_times(creation, 0) < 0)
+    H5AC_cache_config_t cache{};
+    cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+    if (H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 || H5Pset_obj_track_times(creation, 0) < 0 ||
+        H5Pget_mdc_config(access, &cache) < 0)
       return -1;
+    // Left alone the cache of groups and attributes grows with the file, up to 32 MB.
+    cache.set_initial_size = true;
+    cache.initial_size = cache.max_size = kMetadataCache;
+    cache.min_size = kMetadataCache;
+    if (H5Pset_mdc_config(access, &cache) < 0) return -1;
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
   }
 

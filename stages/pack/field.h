@@ -25,7 +25,7 @@ struct Field {
   NumberType type;
   std::string shape;  // in letters: T frames, H rows, W columns of the image, h, w of the grid, N markers, V, F
   std::string unit;
-  std::string frame;  // of reference: "S", "image" or "none"
+  std::string frame;  // of reference: "S", "camera", "image" or "none"
   std::string sign;   // what a positive value means, or "none"
   std::string meaning;
   std::string source;  // stage and file
