@@ -128,11 +128,6 @@ bool Hdf5Reader::has(const std::string& path) const {
   }
 }
 
-bool Hdf5Reader::is_group(const std::string& path) const {
-  const Object open(H5Oopen(file_->id, path.c_str(), H5P_DEFAULT), file_->name, path, "is not there");
-  return H5Iget_type(open) == H5I_GROUP;
-}
-
 Value::Map Hdf5Reader::attributes(const std::string& object) const {
   const Object owner(H5Oopen(file_->id, object.c_str(), H5P_DEFAULT), file_->name, object, "is not there");
   std::vector<std::string> names;

@@ -22,7 +22,6 @@ class Hdf5Reader {
   /// Names in a group, sorted.
   std::vector<std::string> names(const std::string& group) const;
   bool has(const std::string& path) const;
-  bool is_group(const std::string& path) const;
 
   /// Attributes by name, sorted; lists of lists as they were written.
   Value::Map attributes(const std::string& object) const;

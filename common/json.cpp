@@ -34,7 +34,6 @@ bool holds_no_map(const Value& value) {
 
 struct Write {
   std::string& out;
-  bool one_line;
   int depth = 0;
 
   void operator()(bool value) const { out += value ? "true" : "false"; }
@@ -42,11 +41,11 @@ struct Write {
   void operator()(double value) const { out += std::isfinite(value) ? fmt::format("{}", value) : "null"; }
   void operator()(const std::string& value) const { out += quoted(value); }
   void operator()(const Value::List& list) const {
-    const bool flat = one_line || holds_no_map(Value(list));
+    const bool flat = holds_no_map(Value(list));
     items('[', ']', list.size(), flat, [&](std::size_t i, const Write& inner) { std::visit(inner, list[i].data()); });
   }
   void operator()(const Value::Map& map) const {
-    items('{', '}', map.size(), one_line, [&](std::size_t i, const Write& inner) {
+    items('{', '}', map.size(), false, [&](std::size_t i, const Write& inner) {
       out += quoted(map[i].first);
       out += ": ";
       std::visit(inner, map[i].second.data());
@@ -64,7 +63,7 @@ struct Write {
     for (std::size_t i = 0; i < count; ++i) {
       if (i > 0) out += flat ? ", " : ",";
       if (!flat) new_line(depth + 1);
-      item(i, Write{out, flat, depth + 1});
+      item(i, Write{out, depth + 1});
     }
     if (!flat && count > 0) new_line(depth);
     out += close;
@@ -75,14 +74,8 @@ struct Write {
 
 std::string to_json(const Value& value) {
   std::string out;
-  std::visit(Write{out, false}, value.data());
+  std::visit(Write{out}, value.data());
   out += '\n';
-  return out;
-}
-
-std::string to_json_line(const Value& value) {
-  std::string out;
-  std::visit(Write{out, true}, value.data());
   return out;
 }
 

@@ -11,7 +11,4 @@ namespace tacipc {
 /// the same bits. Numbers that are not finite become null: JSON has none.
 std::string to_json(const Value& value);
 
-/// The same on a single line.
-std::string to_json_line(const Value& value);
-
 }  // namespace tacipc

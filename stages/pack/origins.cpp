@@ -34,8 +34,8 @@ void Origins::add(const PlannedSample& plan, const std::string& sensor_id, const
   if (inputs.has("object-config")) add_file(objects_, plan.object, "object-config", given("object-config"));
   const fs::path report = sample.press_input("object").parent_path() / "decimate.yaml";
   if (fs::exists(report)) add_file(objects_, plan.object, "decimate", {report, content_hash(report)});
-  versions_["press " + sample.press().required_text("version")] = true;
-  versions_["render " + sample.render().required_text("version")] = true;
+  versions_.insert("press " + sample.press().required_text("version"));
+  versions_.insert("render " + sample.render().required_text("version"));
   const Record limits = sample.press().section("summary").section("limits");
   Value::Map numbers;
   for (const std::string& name : limits.keys()) numbers.emplace_back(name, limits.required_number(name));
@@ -56,7 +56,7 @@ Value::List Origins::lines_of(const Files& files, const fs::path& folder) {
 
 Value::Map Origins::lines(const fs::path& folder) const {
   Value::List versions, limits;
-  for (const auto& [version, used] : versions_) versions.emplace_back(version);
+  for (const std::string& version : versions_) versions.emplace_back(version);
   for (const auto& [text, numbers] : limits_) limits.emplace_back(numbers);
   return {{"sensors", lines_of(sensors_, folder)},
           {"objects", lines_of(objects_, folder)},

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ class Origins {
 
   Files sensors_;
   Files objects_;
-  std::map<std::string, bool> versions_;
+  std::set<std::string> versions_;
   std::map<std::string, Value::Map> limits_;  // by their text
 };
 

@@ -75,6 +75,7 @@ Value::Map sample_attributes(const PlannedSample& plan, const std::string& senso
       {"sample_yaml", sample.config_text("press", "sample")},
       {"press_yaml", sample.config_text("press", "config")},
       {"render_yaml", sample.config_text("render", "config")}};
+  if (sample.press().section("inputs").has("path")) lines.emplace_back("path_csv", sample.config_text("press", "path"));
   for (const std::string& name : limits.keys()) lines.emplace_back("limit_" + name, limits.required_number(name));
   return lines;
 }

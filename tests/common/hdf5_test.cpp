@@ -88,8 +88,6 @@ TEST_F(Hdf5Test, WhatIsWrittenReadsBack) {
   EXPECT_EQ(file.read_texts("/mask/val"), std::vector<std::string>{});
   EXPECT_TRUE(file.has("/a/b/uint8"));
   EXPECT_FALSE(file.has("/a/c/uint8"));
-  EXPECT_TRUE(file.is_group("/a"));
-  EXPECT_FALSE(file.is_group("/a/whole"));
 }
 
 TEST_F(Hdf5Test, TheSameContentIsTheSameBytes) {

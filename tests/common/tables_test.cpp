@@ -63,15 +63,12 @@ TEST(Json, ListsOfNumbersStandOnALineAndMapsDoNot) {
   EXPECT_EQ(to_json(value),
             "{\n  \"n\": 1,\n  \"x\": 0.1,\n  \"ok\": true,\n  \"rows\": [[1, 2], [3, 4]],\n  \"items\": [\n    {\n"
             "      \"a\": \"b\"\n    }\n  ],\n  \"none\": {}\n}\n");
-  EXPECT_EQ(to_json_line(value),
-            "{\"n\": 1, \"x\": 0.1, \"ok\": true, \"rows\": [[1, 2], [3, 4]], \"items\": [{\"a\": \"b\"}], \"none\": "
-            "{}}");
 }
 
 TEST(Json, EscapesAndHasNoInfinity) {
-  EXPECT_EQ(to_json_line(Value("a\"b\\c\nd\x01")), "\"a\\\"b\\\\c\\u000ad\\u0001\"");
+  EXPECT_EQ(to_json(Value("a\"b\\c\nd\x01")), "\"a\\\"b\\\\c\\u000ad\\u0001\"\n");
   const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(to_json_line(Value(Value::List{inf, nan, 1e-9})), "[null, null, 1e-09]");
+  EXPECT_EQ(to_json(Value(Value::List{inf, nan, 1e-9})), "[null, null, 1e-09]\n");
 }
 
 }  // namespace

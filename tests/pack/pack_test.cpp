@@ -188,6 +188,7 @@ TEST_F(PackTest, TheShardTellsItsCameraAndItsSamples) {
   EXPECT_EQ(file.read_texts("/mask/pose_val"), std::vector<std::string>{kId});
   EXPECT_EQ(file.text_attribute(group(), "seed"), "18446744073709551615");
   EXPECT_EQ(file.text_attribute(group(), "sample_yaml"), "motion: {kind: press, depth_mm: 1, steps: 2}\n");
+  EXPECT_EQ(file.text_attribute(group(), "path_csv"), "0,0,0,0,0,0,0,1\n");
   CsvReader manifest(scratch_ / "out/manifest.csv");
   ASSERT_TRUE(manifest.next());
   EXPECT_EQ(manifest["status"], "made");

@@ -51,6 +51,7 @@ class MadeSample {
     write_tet_mesh(root_ / "made_from/gel.msh", cube_gel());
     root_.file("made_from/object.ply", "the object\n");
     root_.file("made_from/press.yaml", "time_step_s: 0.01\n");
+    root_.file("made_from/path.csv", "0,0,0,0,0,0,0,1\n");
     root_.file("made_from/render.yaml", "frames: all\n");
     root_.file(folder + "/sample.yaml", "motion: {kind: press, depth_mm: 1, steps: 2}\n");
     write_press();
@@ -90,15 +91,18 @@ class MadeSample {
           0.5 * f, 1e-5 * (f + 1), 7 * f, f);
     write_file(
         path("press.yaml"),
-        fmt::format(
-            "stage: press\nversion: 1-test\ninputs:\n{}summary:\n  frames: 3\n  element: linear\n  d_hat_m: "
-            "4.0e-05\n  friction_coefficient: 0.75\n  newton_iterations: 21\n  press_force_n: 1\n  "
-            "tangential_force_n: 0.5\n  min_distance_m: 1.0e-05\n  min_volume_ratio: 0.5\n  "
-            "max_balance_relative: 0.125\n  verdict: pass\n  limits: {{balance_relative: 0.001}}\n  "
-            "per_frame:\n{}",
-            inputs({{"config", "press.yaml"}, {"sensor", "toy.yaml"}, {"gel", "gel.msh"}, {"object", "object.ply"}}) +
-                input("sample", "../sample.yaml", root_ / (folder_ + "/sample.yaml")),
-            per_frame));
+        fmt::format("stage: press\nversion: 1-test\ninputs:\n{}summary:\n  frames: 3\n  element: linear\n  d_hat_m: "
+                    "4.0e-05\n  friction_coefficient: 0.75\n  newton_iterations: 21\n  press_force_n: 1\n  "
+                    "tangential_force_n: 0.5\n  min_distance_m: 1.0e-05\n  min_volume_ratio: 0.5\n  "
+                    "max_balance_relative: 0.125\n  verdict: pass\n  limits: {{balance_relative: 0.001}}\n  "
+                    "per_frame:\n{}",
+                    inputs({{"config", "press.yaml"},
+                            {"sensor", "toy.yaml"},
+                            {"gel", "gel.msh"},
+                            {"object", "object.ply"},
+                            {"path", "path.csv"}}) +
+                        input("sample", "../sample.yaml", root_ / (folder_ + "/sample.yaml")),
+                    per_frame));
   }
 
   void write_render() {
