@@ -8,8 +8,8 @@
 #include "common/error.h"
 #include "common/files.h"
 #include "common/npy.h"
-#include "common/triangle_mesh.h"
 #include "common/record.h"
+#include "common/triangle_mesh.h"
 
 namespace tacipc {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "common/error.h"
 #include "common/files.h"
-#include "stages/report/press_folder.h"
 #include "common/record.h"
+#include "stages/report/press_folder.h"
 #include "stages/report/stage_log.h"
 
 namespace tacipc {
