@@ -13,106 +13,13 @@
 
 #include "common/error.h"
 #include "common/files.h"
-#include "common/light_field.h"
-#include "common/optics/seen_membrane.h"
-#include "tests/common/optics/test_surfaces.h"
-#include "tests/program_test.h"
+#include "tests/render/render_stage.h"
 
 namespace tacipc {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-const char* const kSensor = R"(name: slab
-gel: {outline: rectangle, size_mm: [4.0, 3.0], thickness_mm: 1.0}
-material: {law: neo_hookean, density_kg_m3: 1010, youngs_modulus_pa: 1.23e5, poissons_ratio: 0.43}
-coating: {albedo: [0.5, 0.5, 0.5]}
-leds:
-  size_mm: 1.0
-  ring:
-    {radius_mm: 4.0, z_mm: -5.0, count: 3, lit: [{index: 0, rgb_linear: [1, 0.1, 0.1], intensity: 1},
-     {index: 1, rgb_linear: [0.1, 1, 0.1], intensity: 1}, {index: 2, cct_k: 9000, intensity: 1}]}
-camera: {position_mm: [0, 0, -5], width_px: 32, height_px: 24, window_mm: [3.2, 2.4]}
-response: {mean_level: 0.5, curve: srgb}
-noise: {full_well_e: 5000, read_e: 4}
-)";
-const char* const kConfig = "frames: last\nnoise: {seed: 1}\n";
-
-/// A slab of 4 × 3 × 1 mm, one cell thick, each cell cut into six tets about its diagonal.
-TetMesh slab(int nx, int ny) {
-  TetMesh gel;
-  gel.positions.resize(2 * (nx + 1) * (ny + 1), 3);
-  const auto index = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
-  for (int k = 0; k < 2; ++k) {
-    for (int j = 0; j <= ny; ++j) {
-      for (int i = 0; i <= nx; ++i) {
-        gel.positions.row(index(i, j, k)) << kMm * (4.0 * i / nx - 2.0), kMm * (3.0 * j / ny - 1.5), kMm * (k - 1.0);
-      }
-    }
-  }
-  gel.tets.resize(6 * nx * ny, 4);
-  // Paths from corner 000 to 111 along the axes in all six orders; odd orders swap two vertices to stay positive.
-  const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}};
-  int tet = 0;
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      for (int o = 0; o < 6; ++o) {
-        int at[3] = {i, j, 0}, path[4] = {index(i, j, 0), 0, 0, 0};
-        for (int step = 0; step < 3; ++step) {
-          ++at[orders[o][step]];
-          path[step + 1] = index(at[0], at[1], at[2]);
-        }
-        if (o >= 3) std::swap(path[1], path[2]);
-        gel.tets.row(tet++) << path[0], path[1], path[2], path[3];
-      }
-    }
-  }
-  gel.boundary = boundary_triangles(gel.tets, gel.num_vertices());
-  for (Eigen::Index f = 0; f < gel.boundary.rows(); ++f) {
-    const double z[3] = {gel.positions(gel.boundary(f, 0), 2), gel.positions(gel.boundary(f, 1), 2),
-                         gel.positions(gel.boundary(f, 2), 2)};
-    const bool level = z[0] == z[1] && z[1] == z[2];
-    gel.tags.push_back(!level ? BoundaryTag::side : z[0] == 0.0 ? BoundaryTag::front : BoundaryTag::glued);
-  }
-  return gel;
-}
-
-class RenderStage : public ProgramTest {
- protected:
-  void SetUp() override {
-    gel_ = slab(16, 12);
-    positions_.shape = {3, static_cast<std::size_t>(gel_.num_vertices()), 3};
-    for (int frame = 0; frame < 3; ++frame) {
-      for (Eigen::Index v = 0; v < gel_.num_vertices(); ++v) {
-        const double x = gel_.positions(v, 0), y = gel_.positions(v, 1), z = gel_.positions(v, 2);
-        const double depth = 0.2e-3 * frame * std::exp(-(x * x + y * y) / (2.0 * 0.6e-3 * 0.6e-3));
-        positions_.data.insert(positions_.data.end(), {x, y, z - depth * (1.0 + z / kMm)});
-      }
-    }
-    write_file(scratch_ / "sensor.yaml", kSensor);
-    write_file(scratch_ / "config.yaml", kConfig);
-    write_file(scratch_ / "press/press.yaml", "stage: press\n");
-    write_tet_mesh(scratch_ / "gel.msh", gel_);
-    write_positions();
-  }
-  void write_positions() { write_npy(scratch_ / "press/positions.npy", positions_.shape, positions_.data.data()); }
-
-  /// Runs the program; what it says is in said_, with the scratch folder's name left out.
-  int run(const std::string& out = "out", const std::string& more = "--threads 1") {
-    const int code = run_command(
-        fmt::format("{}/render --log-level warning --config {} --sensor {} --gel {} --press {} --out {} {}",
-                    TACIPC_BIN_DIR, (scratch_ / "config.yaml").string(), (scratch_ / "sensor.yaml").string(),
-                    (scratch_ / "gel.msh").string(), (scratch_ / "press").string(), (scratch_ / out).string(), more));
-    const std::string root = (scratch_ / "").string();
-    for (std::size_t at = said_.find(root); at != std::string::npos; at = said_.find(root))
-      said_.erase(at, root.size());
-    return code;
-  }
-
-  TetMesh gel_;
-  NpyArray positions_;
-};
 
 TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
   ASSERT_EQ(run(), 0) << said_;
@@ -386,79 +293,6 @@ TEST_F(RenderStage, RefusesASensorThatSaysNothingOfItsReference) {
   EXPECT_EQ(run(), 1);
   EXPECT_EQ(said_,
             "render: error: slab: the sensor has neither a reference_image nor a section noise to make one with\n");
-}
-
-/// kSensor with light calibrated on photographs in place of its LEDs.
-std::string calibrated_sensor(const LightField& light) {
-  std::string text = kSensor;
-  for (const char* key : {"coating:", "leds:", "response:"}) {
-    const std::size_t first = text.find(key), after = text.find_first_of("\n", first);
-    std::size_t last = after + 1;
-    while (last < text.size() && text[last] == ' ') last = text.find('\n', last) + 1;
-    text.erase(first, last - first);
-  }
-  return text + "reference_image: photograph.png\n" + to_yaml(light.to_value());
-}
-
-LightField two_lamps() {
-  LightField light{.geometry = {.lamps_m = {{6e-3, 1e-3, -3e-3}, {-3e-3, 6e-3, -3e-3}},
-                                .shadow_softness = 0.2,
-                                .environment_degree = 1,
-                                .field_half_width_m = 2e-3},
-                   .weights = {},
-                   .blur_px = 0.7};
-  light.weights.resize(light.geometry.num_features(), 3);
-  for (Eigen::Index i = 0; i < light.weights.size(); ++i)
-    light.weights.data()[i] = 30.0 * std::sin(1.0 + 3.0 * double(i));
-  return light;
-}
-
-TEST_F(RenderStage, ALightFieldChangesThePhotographAsItIsCalibratedTo) {
-  const ByteImage photograph(32, 24, 3, 130);
-  write_png(scratch_ / "photograph.png", photograph);
-  write_file(scratch_ / "sensor.yaml", calibrated_sensor(two_lamps()));
-  write_file(
-      scratch_ / "config.yaml",
-      "subpixels: 1\nindirect_rays: 16\nnoise: {seed: 1}\nvariants: [{name: other, reference_image: other.png}]\n");
-  write_png(scratch_ / "other.png", ByteImage(32, 24, 3, 100));
-  ASSERT_EQ(run(), 0) << said_;
-  ASSERT_EQ(run("again", "--threads 3"), 0) << said_;
-  EXPECT_EQ(content_hash(scratch_ / "out"), content_hash(scratch_ / "again"));
-  EXPECT_EQ(read_png(scratch_ / "out/frame_0000/tactile.png", 3).pixels, photograph.pixels);
-  EXPECT_FALSE(fs::exists(scratch_ / "out/frame_0002/linear.exr"));
-  // What calibrate and shade see: the same front, moved, one ray a pixel.
-  const Sensor sensor = read_config<Sensor>(scratch_ / "sensor.yaml");
-  const Membrane front = make_membrane(gel_, frame_positions(positions_, 2));
-  const FloatImage change = code_change(two_lamps(), view_membrane(front.positions, front.triangles, sensor));
-  const ByteImage expected = add_change(photograph, change),
-                  seen = read_png(scratch_ / "out/frame_0002/tactile.png", 3);
-  const ByteImage other = read_png(scratch_ / "out/frame_0002/other/tactile.png", 3);
-  int changed = 0;
-  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
-    EXPECT_NEAR(seen.pixels[i], expected.pixels[i], 1) << i;
-    EXPECT_NEAR(seen.pixels[i], other.pixels[i] + 30, 1) << i;
-    changed += std::abs(seen.pixels[i] - 130) > 5;
-  }
-  EXPECT_GT(changed, 100);
-}
-
-TEST_F(RenderStage, WhatALightFieldCannotDoIsSaid) {
-  write_png(scratch_ / "photograph.png", ByteImage(32, 24, 3, 130));
-  write_file(scratch_ / "sensor.yaml", calibrated_sensor(two_lamps()));
-  write_file(scratch_ / "config.yaml", "transfer: none\nnoise: {seed: 1}\n");
-  EXPECT_EQ(run(), 1);
-  EXPECT_THAT(said_, HasSubstr("slab: a light_field changes a photograph's codes: transfer must be encoded, "
-                               "noise.every_frame false\n"));
-  write_file(scratch_ / "config.yaml", "noise: {seed: 1}\nvariants: [{name: v, coating_albedo: [1, 1, 1]}]\n");
-  EXPECT_EQ(run(), 1);
-  EXPECT_THAT(said_, HasSubstr("variant v: a light_field has neither light groups nor a coating to change\n"));
-  write_file(scratch_ / "sensor.yaml", std::string(kSensor) + to_yaml(two_lamps().to_value()));
-  EXPECT_EQ(run(), 2);
-  for (const char* fault :
-       {"leds: does not go with a light_field, which says by itself how codes change", "coating: does not go with",
-        "response: does not go with", "reference_image: missing: a light_field changes its codes"})
-    EXPECT_THAT(said_, HasSubstr(fault));
-  EXPECT_THAT(said_, testing::Not(HasSubstr("unknown")));
 }
 
 }  // namespace
