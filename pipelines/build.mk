@@ -19,8 +19,12 @@ $(BUILD)/build.ninja: | packages
 	@cmake --preset $(PRESET) -B $(BUILD) -G Ninja
 
 # Ninja rebuilds what a killed build left half done, which make would take for finished.
+ifeq ($(REBUILD),no)
+build:
+else
 build: $(BUILD)/build.ninja ## Build all stages
 	@cmake --build $(BUILD) --target stages -j $(JOBS) -- --quiet
+endif
 
 build-all: build # one after the other: two builds in one folder would trip over each other
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet

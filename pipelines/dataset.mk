@@ -1,0 +1,103 @@
+# Datasets: one YAML to thousands of samples, on this machine or on a cluster. make -f Makefile.data dataset CONFIG=configs/datasets/mini.yaml
+# docs/datasets.md is the guide. Everything of a dataset lies in $(OUT)/datasets/<name of the file>.
+
+CONFIG ?=#       the dataset: a file of configs/datasets or your own
+PARTS  ?= 1#     into how many parts the samples are divided, for a cluster;
+PART   ?=#       the one to make, from 0 on
+STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
+$(foreach v,CONFIG PARTS PART STOP_AFTER,$(eval override $(v) := $(strip $($(v)))))
+
+DATASET_PLANNED := plan dataset dataset-part dataset-shared retry#  goals that need the plan's rules;
+DATASET_READ := status clean-plan clean-press clean-render#         and those that only look into its folder
+DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
+.PHONY: $(DATASET_GOALS) dataset-samples
+
+ifeq ($(filter $(DATASET_GOALS),$(MAKECMDGOALS)),)
+else ifeq ($(CONFIG),)
+$(filter $(DATASET_GOALS),$(MAKECMDGOALS)):
+	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
+else
+$(call check_name,CONFIG)
+ifeq ($(wildcard $(CONFIG)),)
+  $(error CONFIG: $(CONFIG) does not exist)
+endif
+DATASET_DIR := $(OUT)/datasets/$(basename $(notdir $(CONFIG)))
+
+# A gel, $(call dataset_gel,name,sensor,mesh,mesh to import,photograph of the sensor); an object, by its pattern or mesh.
+define dataset_gel
+DATASET_SENSOR_$(1) := $(2)
+DATASET_PHOTOGRAPH_$(1) := $(5)
+$(DATASET_DIR)/gels/$(1)/tetmesh.yaml: $(2) $(3) $(4) | build
+	$$(call run,tetmesh,--sensor $(2) --config $(3) $(if $(4),--import $(4)))
+DATASET_SHARED += $(DATASET_DIR)/gels/$(1)/tetmesh.yaml
+endef
+define dataset_mesh
+$(DATASET_DIR)/objects/$(1)/decimate.yaml: $(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $$(DATASET_DECIMATE) | build
+	$$(call run,decimate,--mesh $(2) --object $$(@D)/object.yaml --config $$(DATASET_DECIMATE))
+DATASET_SHARED += $(DATASET_DIR)/objects/$(1)/decimate.yaml
+endef
+define dataset_embossed
+$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml: $(2) $(wildcard $(dir $(2))*.png) | build
+	$$(call run,emboss,--config $(2))
+$(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/emboss/object.ply,$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml)
+endef
+
+# A stage of a sample: failures are noted in failures.csv and do not stop make, unless there are many in a row.
+DATASET_RUN := $(DATASET_DIR)/.runs/$(shell hostname)-$(shell echo $$PPID)
+dataset_stage = @RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
+  bash pipelines/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) $@ '$^' $(call run,$(1),$(2) --log-level warning)
+define dataset_sample
+$(DATASET_DIR)/samples/$(1)/press/press.yaml: $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5) | build
+	$$(call dataset_stage,press,--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
+$(DATASET_DIR)/samples/$(1)/render/render.yaml: $(DATASET_DIR)/samples/$(1)/press/press.yaml $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_PHOTOGRAPH_$(3)) | build
+	$$(call dataset_stage,render,--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER))
+endef
+
+ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)
+# The plan is made first, then make starts anew with its rules: gels and objects, then the samples in blocks of a
+# thousand, of which a part takes what it needs.
+$(DATASET_DIR)/plan/plan.yaml: $(CONFIG) | build
+	$(call run,plan,--config $(CONFIG))
+$(DATASET_DIR)/plan/%.mk: $(DATASET_DIR)/plan/plan.yaml ;
+-include $(DATASET_DIR)/plan/inputs.mk
+include $(DATASET_DIR)/plan/dataset.mk
+hash := \#
+ifdef DATASET_SAMPLES
+DATASET_FIRST := $(if $(PART),$(shell echo $$(($(DATASET_SAMPLES) * $(PART) / $(PARTS)))),0)
+DATASET_END := $(if $(PART),$(shell echo $$(($(DATASET_SAMPLES) * ($(PART) + 1) / $(PARTS)))),$(DATASET_SAMPLES))
+DATASET_TAKEN := $(if $(PART),$(shell for b in $(DATASET_BLOCKS); do f=$$((10$(hash)$$b * 1000)); [ $$f -ge $(DATASET_END) ] || [ $$((f + 1000)) -le $(DATASET_FIRST) ] || echo $$b; done),$(DATASET_BLOCKS))
+include $(DATASET_TAKEN:%=$(DATASET_DIR)/plan/blocks/%.mk)
+DATASET_LIST := $(foreach b,$(DATASET_TAKEN),$(DATASET_BLOCK_$(b)))
+ifneq ($(PART),)
+  dataset_from := $(shell echo $$(($(DATASET_FIRST) - 10$(hash)$(or $(firstword $(DATASET_TAKEN)),0) * 1000)))
+  DATASET_LIST := $(wordlist $(shell echo $$(($(dataset_from) + 1))),$(shell echo $$(($(dataset_from) + $(DATASET_END) - $(DATASET_FIRST)))),$(DATASET_LIST))
+endif
+endif
+
+DATASET_RETRY := $(if $(filter retry,$(MAKECMDGOALS)),yes)
+dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml)
+
+plan: $(DATASET_DIR)/plan/plan.yaml ## Samples of a dataset, without making them: CONFIG=configs/datasets/mini.yaml
+	@echo; echo "$(DATASET_SAMPLES) samples; look at $(DATASET_DIR)/plan/samples.csv"
+
+# A failed sample does not stop the others; the last line does not let it pass unseen.
+dataset: dataset-samples ## Everything of a dataset: CONFIG=configs/datasets/mini.yaml (resumes; failed samples are left alone)
+	@rm -f $(DATASET_RUN)
+	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)'
+
+retry: dataset ## What of a dataset failed or is missing, once more: CONFIG=
+
+dataset-shared: $(DATASET_SHARED)
+dataset-part: dataset-samples
+	@rm -f $(DATASET_RUN)
+	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)' $(DATASET_FIRST) $(DATASET_END)
+endif
+
+status: ## How many samples of a dataset are made, failed, running, and how fast: CONFIG=
+	@bash pipelines/dataset_status.sh '$(DATASET_DIR)'
+
+clean-plan: ## Remove the plan of a dataset (samples stay): CONFIG=
+	rm -rf '$(DATASET_DIR)/plan'
+clean-press clean-render: clean-%: ## Remove what a stage made of every sample: CONFIG=
+	@[ ! -d '$(DATASET_DIR)/samples' ] || find '$(DATASET_DIR)/samples' -mindepth 3 -maxdepth 3 -name '$*' -exec rm -rf {} +
+endif

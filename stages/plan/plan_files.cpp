@@ -1,0 +1,123 @@
+#include "stages/plan/plan_files.h"
+
+#include <fmt/core.h>
+
+#include <map>
+
+#include "common/files.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text.append(" ").append(word);
+  return text;
+}
+
+/// `samples/017/<id>` → `017`, and `017/<id>`.
+std::string block_of(const PlannedSample& sample) { return sample.folder().substr(8, 3); }
+std::string place_of(const PlannedSample& sample) { return sample.folder().substr(8); }
+
+std::string object_yaml(const ObjectChoice& object) {
+  return fmt::format("unit: {}\n", object.unit) + (object.up ? fmt::format("up: \"{}\"\n", *object.up) : "");
+}
+
+std::string dataset_mk(const DatasetConfig& config, const std::vector<Sensor>& sensors,
+                       const std::vector<std::string>& blocks, std::size_t samples) {
+  std::string text = "# Made by the stage plan.\n";
+  const auto set = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("DATASET_{} := {}\n", name, value);
+  };
+  set("SAMPLES", std::to_string(samples));
+  set("BLOCKS", joined(blocks));
+  set("RENDER", config.render.generic_string());
+  set("DECIMATE", config.decimate.generic_string());
+  set("KEEP", joined(config.keep));
+  text += fmt::format("DATASET_STOP_AFTER ?= {}\n", config.stop_after_failures);
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const SensorChoice& choice = config.sensors[s];
+    const auto& reference = sensors[s].reference_image;
+    text += fmt::format("$(eval $(call dataset_gel,{},{},{},{},{}))\n", choice.gel(), choice.sensor.generic_string(),
+                        choice.mesh_config.generic_string(), choice.import ? choice.import->generic_string() : "",
+                        reference ? reference->lexically_normal().generic_string() : "");
+  }
+  for (const ObjectChoice& object : config.objects)
+    text += fmt::format("$(eval $(call dataset_{},{},{}))\n", object.embossed ? "embossed" : "mesh", object.name,
+                        object.file.generic_string());
+  return text;
+}
+
+/// Missing files are a matter of the plan, which says so better than make.
+std::string inputs_mk(const DatasetConfig& config) {
+  std::string text = "$(DATASET_DIR)/plan/plan.yaml:", rules;
+  for (const fs::path& path : config.named) {
+    text.append(" ").append(path.generic_string());
+    rules += path.generic_string() + ":\n";
+  }
+  return "# Made by the stage plan.\n" + text + "\n" + rules;
+}
+
+/// Whole or not at all, so that a plan that is killed here can be made again. Returns whether it wrote.
+bool write_if_changed(const fs::path& file, const std::string& text) {
+  std::error_code error;
+  if (fs::is_regular_file(file, error) && read_file(file) == text) return false;
+  const fs::path beside = file.parent_path() / fmt::format(".{}", file.filename().string());
+  write_file(beside, text);
+  fs::rename(beside, file);
+  return true;
+}
+
+/// Path files that a motion follows.
+std::string paths_of(const MotionChoice& motion) {
+  std::string text;
+  for (const PhaseTemplate& phase : motion.motion.phases)
+    if (!phase.path_file.empty()) text.append(" ").append(phase.path_file.generic_string());
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig& config,
+                                                            const std::vector<Sensor>& sensors,
+                                                            const std::vector<PlannedSample>& samples) {
+  std::vector<std::pair<std::string, std::string>> files{{"samples.csv", samples_csv(config, samples)}};
+  std::map<std::string, std::string> rules, members;
+  std::vector<std::string> blocks;
+  for (const PlannedSample& sample : samples) {
+    const std::string block = block_of(sample);
+    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+    const MotionChoice& motion = config.motions[static_cast<std::size_t>(sample.motion)];
+    rules[block] += fmt::format("$(eval $(call dataset_sample,{},{},{},{},{}))\n", place_of(sample),
+                                config.objects[static_cast<std::size_t>(sample.object)].name,
+                                config.sensors[static_cast<std::size_t>(sample.sensor)].gel(),
+                                motion.press.generic_string(), paths_of(motion));
+    members[block].append(" ").append(place_of(sample));
+  }
+  for (const std::string& block : blocks)
+    files.emplace_back("blocks/" + block + ".mk",
+                       rules[block] + "DATASET_BLOCK_" + block + " :=" + members[block] + "\n");
+  files.emplace_back("dataset.mk", dataset_mk(config, sensors, blocks, samples.size()));
+  files.emplace_back("inputs.mk", inputs_mk(config));
+  for (std::size_t m = 0; m < config.motions.size(); ++m) {
+    const auto& phases = config.motions[m].motion.phases;
+    for (std::size_t p = 0; p < phases.size(); ++p)
+      if (!phases[p].path_file.empty())
+        files.emplace_back(path_name(config, static_cast<int>(m), static_cast<int>(p)), read_file(phases[p].path_file));
+  }
+  return files;
+}
+
+int write_dataset_files(const DatasetConfig& config, const std::vector<PlannedSample>& samples,
+                        const fs::path& dataset) {
+  for (const ObjectChoice& object : config.objects)
+    write_if_changed(dataset / "objects" / object.name / "object.yaml", object_yaml(object));
+  int written = 0;
+  for (const PlannedSample& sample : samples)
+    written += write_if_changed(dataset / sample.folder() / "sample.yaml", sample_yaml(config, sample));
+  return written;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# A dataset from one file: equal bytes whole, in parts and by two runs at once; failures are noted, left alone and retried; a changed
+# motion redoes just its own samples; a killed run loses nothing.
+. "$(dirname "$0")/common.sh"
+sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/*.yaml
+mkdir mine
+cat > mine/set.yaml <<'END'
+seed: 1
+sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/tetmesh/tiny.yaml}
+objects:
+  - {emboss: ../configs/emboss, only: [star, gear]}
+  - {meshes: .., only: [pyramid], unit: mm}
+motions:
+  - name: down
+    samples: 2
+    placement: {center_mm: {x: [-1, 1], y: [-1, 1]}, rotate_deg: [0, 90]}
+    motion: {kind: press, depth_mm: [0.2, 0.3], steps: 1}
+  - name: along
+    samples: 1
+    file: along.yaml
+splits: {val: 0.1, test_objects: [star]}
+stop_after_failures: 3
+END
+echo 'motion: [{kind: press, depth_mm: 0.2, steps: 1}, {kind: path, file: away.csv}]' > mine/along.yaml
+printf '0,0,0,0,0,0,0,1\n0.01,0.0001,0,0,0,0,0,1\n' > mine/away.csv
+goal() { # goal OUT GOAL [VARIABLE=value …]
+  local out=$1 goal=$2
+  shift 2
+  make -s -f Makefile.data "$goal" CONFIG=mine/set.yaml OUT="$out" BUILD="$build_dir" PACKAGES=no "$@"
+}
+stamp() { find "$1/datasets/set/samples" -name '*.yaml' -not -name '*.timings.yaml' -printf '%p %T@\n' | sort; }
+samples() { (cd "$1/datasets/set" && find gels objects samples -type f -not -name '*.log' -not -name '*.timings.yaml' -not -name '.*' -print0 | sort -z | xargs -0 md5sum); }
+
+goal whole dataset JOBS=2 2> /dev/null | grep -q '^set: 9 samples: 9 made, 0 failed, 0 running, 0 left$' || fail "not all samples are made"
+[ "$(tail -n +2 whole/datasets/set/plan/samples.csv | cut -d, -f1 | sort -u | wc -l)" = 9 ] || fail "ids are not unique"
+grep '__star__' whole/datasets/set/plan/samples.csv | cut -d, -f3 | sort -u | grep -qx test || fail "star is not in test"
+before=$(stamp whole)
+goal whole dataset > /dev/null
+[ "$before" = "$(stamp whole)" ] || fail "a second run did something"
+
+# Two parts at once, one of them given twice.
+goal parts dataset-shared > /dev/null 2>&1
+for task in 0 1 2; do goal parts dataset-part PART=$((task % 2)) PARTS=2 JOBS=1 > part_$task.txt 2>&1 & done
+wait
+[ "$(cat part_?.txt | grep -c ' 0 left$')" = 3 ] || fail "a part is not made: $(cat part_?.txt)"
+[ "$(samples whole)" = "$(samples parts)" ] || fail "the parts are not the whole"
+
+# Only what a change concerns.
+sleep 1.1
+printf '0,0,0,0,0,0,0,1\n0.01,0.0002,0,0,0,0,0,1\n' > mine/away.csv
+goal whole dataset > /dev/null
+comm -13 <(echo "$before") <(stamp whole) | grep -v '__along__' && fail "another path redid other samples"
+comm -13 <(echo "$before") <(stamp whole) | grep -c press.yaml | grep -qx 3 || fail "another path did not redo its samples"
+before=$(stamp whole)
+sleep 1.1
+sed -i 's/samples: 2/samples: 3/' mine/set.yaml
+goal whole dataset > /dev/null
+[ "$before" = "$(comm -12 <(echo "$before") <(stamp whole))" ] || fail "more samples redid those there were"
+
+# Failures: noted, not tried again unless asked, and a run of them ends the run.
+cat configs/press/friction.yaml > mine/hopeless.yaml
+printf '  max_iterations: 1\n  max_halvings: 0\n' >> mine/hopeless.yaml
+sed -i 's/^  - name: along/&\n    press: hopeless.yaml/' mine/set.yaml
+goal failing dataset JOBS=1 > failing.txt 2>&1 && fail "a failed sample went unseen"
+ledger=failing/datasets/set/failures.csv
+grep -q '^set: 12 samples: 9 made, 3 failed, 0 running, 0 left$' failing.txt || fail "the failures are not counted: $(cat failing.txt)"
+[ "$(head -n 1 $ledger)" = id,stage,reason,log,time,host ] || fail "the ledger has no heading"
+[ "$(grep -c '^mctac__[a-z]*__along__[0-9]*,press,".*Newton.*",samples/000/mctac__[a-z]*__along__[0-9]*/press/press.log,' $ledger)" = 3 ] || fail "the ledger does not tell: $(cat $ledger)"
+goal failing dataset > /dev/null 2>&1 && fail "old failures went unseen"
+[ "$(wc -l < $ledger)" = 4 ] || fail "failed samples were tried again"
+goal failing retry STOP_AFTER=2 JOBS=1 > failing.txt 2>&1 && fail "a retry that fails went unseen"
+grep -q '^2 failures in a row' failing.txt || fail "failures in a row did not end the run"
+[ "$(wc -l < $ledger)" = 6 ] || fail "a retry did not stop after two failures"
+sed -i 's/max_iterations: 1/max_iterations: 200/' mine/hopeless.yaml
+goal failing retry > failing.txt || fail "a retry did not complete the dataset"
+
+# A wrong configuration of a stage is no failed sample.
+sed -i 's/^  max_iter/  max_itre/' mine/hopeless.yaml
+goal failing dataset > failing.txt 2>&1 && fail "a wrong key was taken"
+grep -q 'unknown key (did you mean max_iterations?)' failing.txt || fail "a wrong key was not told"
+[ "$(wc -l < $ledger)" = 6 ] || fail "a wrong key counts as a failed sample"
+sed -i 's/^  max_itre/  max_iter/' mine/hopeless.yaml
+
+# Killed in the middle, at any moment, then run again.
+goal again dataset > /dev/null 2>&1
+for delay in 0.6 1.1 1.7; do
+  rm -rf killed
+  setsid make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=killed BUILD="$build_dir" PACKAGES=no JOBS=2 > /dev/null 2>&1 &
+  leader=$!
+  for _ in $(seq 2000); do [ ! -d killed/datasets/set/samples/000 ] || [ -z "$(find killed/datasets/set/samples -name press.log)" ] || break; sleep 0.01; done
+  sleep "$delay"
+  kill -KILL -- "-$leader"
+  wait "$leader" 2> /dev/null || :
+  goal killed dataset > /dev/null 2>&1 || fail "what was killed cannot be completed"
+  diff <(samples again) <(samples killed) || fail "what was killed ends in other bytes"
+done
+
+# A stage that dies by itself, a disk that is full, and a wrong plan.
+goal again status | grep -q '12 made' || fail "status does not count"
+goal again clean-render
+mkdir broken_bin
+for stage in "$build_dir"/bin/*; do ln -s "$stage" "broken_bin/"; done
+printf '#!/bin/sh\nkill -SEGV $$\n' > broken
+chmod +x broken
+mkdir -p broken_build/bin && cp -d broken_bin/* broken_build/bin/ && rm broken_build/bin/render && cp broken broken_build/bin/render
+make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=again BUILD="$PWD/broken_build" REBUILD=no PACKAGES=no STOP_AFTER=2 JOBS=1 > failing.txt 2>&1 && fail "a crash went unseen"
+grep -q 'render failed: killed by signal 11' failing.txt || fail "a crash was not told: $(cat failing.txt)"
+goal again retry > /dev/null || fail "crashed samples cannot be made again"
+[ "$(samples again)" = "$(samples killed)" ] || fail "crashed samples end in other bytes"
+sed -i 's/depth_mm: \[0.2, 0.3\]/depth_mm: [0.2, 2.3]/' mine/set.yaml
+goal wrong dataset > failing.txt 2>&1 && fail "a press through the gel was planned"
+grep -q 'motion down: a press to 2.3 mm is not possible in the gel of mctac, 2 mm thick' failing.txt || fail "the fault is not told: $(cat failing.txt)"
+[ ! -d wrong/datasets/set/samples ] || fail "a wrong plan made samples"
+echo "1 passed, 0 failed"
