@@ -108,7 +108,7 @@ class Reader {
     } else {
       files.push_back(path);
     }
-    const std::vector<std::string> only = item.texts_or("only", {});
+    const std::vector<std::string> only = item.texts("only");
     for (const std::string& name : only)
       if (std::none_of(files.begin(), files.end(), [&](const fs::path& f) { return f.stem() == name; }))
         item.fault("only", path.generic_string() + " has no " + name);
@@ -154,8 +154,8 @@ class Reader {
     config_.splits.test = splits.number_or("test", 0.0, Range{.low = 0.0, .high = 1.0, .open_high = true});
     if (!(config_.splits.val + config_.splits.test < 1.0))
       splits.fault("test", "val and test leave nothing to train on");
-    config_.splits.val_objects = splits.texts_or("val_objects", {});
-    config_.splits.test_objects = splits.texts_or("test_objects", {});
+    config_.splits.val_objects = splits.texts("val_objects");
+    config_.splits.test_objects = splits.texts("test_objects");
     std::set<std::string> seen;
     for (const auto& [key, list] :
          {std::pair{"val_objects", &config_.splits.val_objects}, {"test_objects", &config_.splits.test_objects}})
@@ -170,7 +170,7 @@ class Reader {
     auto outputs = in_.optional_section("outputs");
     if (!outputs) return;
     config_.shard_bytes = 1e6 * outputs->number_or("shard_mb", 1000.0, Range::positive());
-    config_.keep = outputs->texts_or("keep", config_.keep);
+    if (outputs->has("keep")) config_.keep = outputs->texts("keep");
     for (const std::string& stage : config_.keep)
       if (stage != "press" && stage != "render") outputs->fault("keep", "'" + stage + "' is none of press, render");
   }

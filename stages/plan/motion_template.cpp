@@ -41,7 +41,7 @@ Draw Draw::read(ConfigReader& in, const std::string& key, const Range& range) {
     return {value, value};
   }
   const auto ends = in.numbers(key, 2, range);
-  if (!(ends[0] < ends[1])) in.fault(key, "a range goes from the lower to the higher number");
+  if (ends[0] > ends[1]) in.fault(key, "a range goes from the lower to the higher number");
   return {ends[0], ends[1]};
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <map>
+#include <set>
 
 #include "common/files.h"
 
@@ -26,7 +27,8 @@ std::string object_yaml(const ObjectChoice& object) {
 }
 
 std::string dataset_mk(const DatasetConfig& config, const std::vector<Sensor>& sensors,
-                       const std::vector<std::string>& blocks, std::size_t samples) {
+                       const std::vector<std::string>& blocks, const std::vector<std::string>& shards,
+                       std::size_t samples) {
   std::string text = "# Made by the stage plan.\n";
   const auto set = [&](const std::string& name, const std::string& value) {
     text += fmt::format("DATASET_{} := {}\n", name, value);
@@ -36,6 +38,7 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Sensor>& s
   set("RENDER", config.render.generic_string());
   set("DECIMATE", config.decimate.generic_string());
   set("KEEP", joined(config.keep));
+  set("SHARDS", joined(shards));
   text += fmt::format("DATASET_STOP_AFTER ?= {}\n", config.stop_after_failures);
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     const SensorChoice& choice = config.sensors[s];
@@ -86,6 +89,7 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
   std::vector<std::pair<std::string, std::string>> files{{"samples.csv", samples_csv(config, samples)}};
   std::map<std::string, std::string> rules, members;
   std::vector<std::string> blocks;
+  std::set<std::string> shards;
   for (const PlannedSample& sample : samples) {
     const std::string block = block_of(sample);
     if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
@@ -94,12 +98,13 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
                                 config.objects[static_cast<std::size_t>(sample.object)].name,
                                 config.sensors[static_cast<std::size_t>(sample.sensor)].gel(),
                                 motion.press.generic_string(), paths_of(motion));
+    shards.insert(sample.shard);
     members[block].append(" ").append(place_of(sample));
   }
   for (const std::string& block : blocks)
     files.emplace_back("blocks/" + block + ".mk",
                        rules[block] + "DATASET_BLOCK_" + block + " :=" + members[block] + "\n");
-  files.emplace_back("dataset.mk", dataset_mk(config, sensors, blocks, samples.size()));
+  files.emplace_back("dataset.mk", dataset_mk(config, sensors, blocks, {shards.begin(), shards.end()}, samples.size()));
   files.emplace_back("inputs.mk", inputs_mk(config));
   for (std::size_t m = 0; m < config.motions.size(); ++m) {
     const auto& phases = config.motions[m].motion.phases;
