@@ -4,13 +4,25 @@
 CONFIG ?=#       the dataset: a file of configs/datasets or your own
 PARTS  ?= 1#     into how many parts the samples are divided, for a cluster;
 PART   ?=#       the one to make, from 0 on
+SHARDS ?= 8#     parts that submit hands to the cluster
+SITE   ?= configs/slurm/default.sh#  what submit needs to know of it
+RETRY  ?=#       yes: try failed samples again
+PILOT  ?= 0#     samples that estimate makes first, to measure
 STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
-$(foreach v,CONFIG PARTS PART STOP_AFTER,$(eval override $(v) := $(strip $($(v)))))
+$(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT STOP_AFTER,$(eval override $(v) := $(strip $($(v)))))
 
-DATASET_PLANNED := plan dataset dataset-part dataset-shared retry#  goals that need the plan's rules;
+DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate#  goals that need the plan's rules;
 DATASET_READ := status clean-plan clean-press clean-render#         and those that only look into its folder
 DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
 .PHONY: $(DATASET_GOALS) dataset-samples
+
+# A Slurm of one machine, to try submit.
+LOCAL_SLURM ?= $(or $(TMPDIR),/tmp)/local-slurm-$(shell id -un)#  its folder
+.PHONY: local-slurm local-slurm-stop
+local-slurm: ## Start a Slurm on this machine alone, to try submit (says what to export)
+	@bash pipelines/local_slurm.sh start '$(strip $(LOCAL_SLURM))'
+local-slurm-stop: ## Stop it
+	@bash pipelines/local_slurm.sh stop '$(strip $(LOCAL_SLURM))'
 
 ifeq ($(filter $(DATASET_GOALS),$(MAKECMDGOALS)),)
 else ifeq ($(CONFIG),)
@@ -74,7 +86,7 @@ ifneq ($(PART),)
 endif
 endif
 
-DATASET_RETRY := $(if $(filter retry,$(MAKECMDGOALS)),yes)
+DATASET_RETRY := $(if $(filter retry,$(MAKECMDGOALS)),yes,$(RETRY))
 dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml)
 
 plan: $(DATASET_DIR)/plan/plan.yaml ## Samples of a dataset, without making them: CONFIG=configs/datasets/mini.yaml
@@ -91,6 +103,19 @@ dataset-shared: $(DATASET_SHARED)
 dataset-part: dataset-samples
 	@rm -f $(DATASET_RUN)
 	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)' $(DATASET_FIRST) $(DATASET_END)
+
+# A pilot is spread over the plan by the golden ratio, so that it meets all motions and objects alike.
+DATASET_PILOT := $(if $(filter estimate,$(MAKECMDGOALS)),$(if $(filter-out 0,$(PILOT)),$(shell awk -F, -v n='$(PILOT)' -v all='$(DATASET_SAMPLES)' \
+  'BEGIN { for (i = 0; i < n; ++i) { x = 0.5 + i * 0.6180339887; take[int(all * (x - int(x)))] = 1 } } $$2 in take { print substr($$11, 9) }' $(DATASET_DIR)/plan/samples.csv)))
+estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/render.yaml) ## Core-hours and disk of a dataset before it is made: CONFIG= [PILOT=20: measured on 20 samples]
+	@bash pipelines/dataset_estimate.sh '$(DATASET_DIR)' configs/cost_model.yaml
+
+# On a cluster: gels and objects, then the parts, then what comes last, as three jobs.
+DATASET_PACK := $(if $(wildcard pipelines/pack.mk),dataset-pack)
+dataset-last: $(DATASET_PACK)
+	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)'
+submit: $(DATASET_DIR)/plan/plan.yaml ## A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/slurm/default.sh RETRY=yes]
+	@bash pipelines/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
 endif
 
 status: ## How many samples of a dataset are made, failed, running, and how fast: CONFIG=
