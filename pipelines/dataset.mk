@@ -8,11 +8,13 @@ SHARDS ?= 8#     parts that submit hands to the cluster
 SITE   ?= configs/slurm/default.sh#  what submit needs to know of it
 RETRY  ?=#       yes: try failed samples again
 PILOT  ?= 0#     samples that estimate makes first, to measure
+SAMPLES ?=#      folders of samples below samples/, for dataset-some
+K      ?= 3#     samples that reproduce makes again
 STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
-$(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT STOP_AFTER,$(eval override $(v) := $(strip $($(v)))))
+$(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT SAMPLES K STOP_AFTER,$(eval override $(v) := $(strip $($(v)))))
 
-DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate#  goals that need the plan's rules;
-DATASET_READ := status clean-plan clean-press clean-render#         and those that only look into its folder
+DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some#  goals that need the plan's rules;
+DATASET_READ := status reproduce bundle clean-plan clean-press clean-render#         and those that only look into its folder
 DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
 .PHONY: $(DATASET_GOALS) dataset-samples
 
@@ -34,6 +36,8 @@ ifeq ($(wildcard $(CONFIG)),)
   $(error CONFIG: $(CONFIG) does not exist)
 endif
 DATASET_DIR := $(OUT)/datasets/$(basename $(notdir $(CONFIG)))
+
+dataset_variables := CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) PACKAGES=$(PACKAGES) REBUILD=$(REBUILD)
 
 # A gel, $(call dataset_gel,name,sensor,mesh,mesh to import,photograph of the sensor); an object, by its pattern or mesh.
 define dataset_gel
@@ -100,6 +104,7 @@ dataset: dataset-samples ## Everything of a dataset: CONFIG=configs/datasets/min
 retry: dataset ## What of a dataset failed or is missing, once more: CONFIG=
 
 dataset-shared: $(DATASET_SHARED)
+dataset-some: $(SAMPLES:%=$(DATASET_DIR)/samples/%/render/render.yaml)
 dataset-part: dataset-samples
 	@rm -f $(DATASET_RUN)
 	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)' $(DATASET_FIRST) $(DATASET_END)
@@ -115,11 +120,17 @@ DATASET_PACK := $(if $(wildcard pipelines/pack.mk),dataset-pack)
 dataset-last: $(DATASET_PACK)
 	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)'
 submit: $(DATASET_DIR)/plan/plan.yaml ## A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/slurm/default.sh RETRY=yes]
-	@bash pipelines/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
+	@bash pipelines/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
 endif
 
 status: ## How many samples of a dataset are made, failed, running, and how fast: CONFIG=
 	@bash pipelines/dataset_status.sh '$(DATASET_DIR)'
+
+reproduce: | build ## Make K=3 random samples of a dataset again and compare bytes: CONFIG=
+	@bash pipelines/dataset_reproduce.sh '$(DATASET_DIR)' '$(K)' $(dataset_variables) JOBS=$(JOBS)
+bundle: ## A small archive that replays one sample anywhere: CONFIG= SAMPLE=id (failed ones too)
+	$(if $(SAMPLE),,$(error bundle: say which sample: SAMPLE=its id))
+	@bash pipelines/dataset_bundle.sh '$(DATASET_DIR)' '$(SAMPLE)' '$(DATASET_DIR)/bundles/$(notdir $(SAMPLE)).tar.gz' '$(abspath $(BIN))'
 
 clean-plan: ## Remove the plan of a dataset (samples stay): CONFIG=
 	rm -rf '$(DATASET_DIR)/plan'

@@ -50,6 +50,7 @@ if current "$record"; then exit 0; fi
 if [ "${RETRY:-}" != yes ] && current "$failed"; then exit 0; fi
 stop_if_many
 
+echo "$*" > "$folder/.command"  # for a bundle
 status=0
 env "$@" 2> "$said" || status=$?
 case $status in

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Makes some samples of a dataset once more, from their plan on, and compares bytes: dataset_reproduce.sh DATASET COUNT MAKE-VARIABLES...
+# It works in a folder beside the dataset, from where everything has the same relative path, so that records are equal too.
+set -euo pipefail
+export LC_ALL=C
+dataset=$1 count=$2
+shift 2
+scratch=$(dirname "$dataset")/.reproduce-$$
+trap 'rm -rf "$scratch"' EXIT
+mapfile -t picked < <(find "$dataset/samples" -mindepth 4 -maxdepth 4 -name render.yaml -printf '%P\n' | sed 's|/render/render.yaml$||' | sort | shuf -n "$count")
+[ "${#picked[@]}" -gt 0 ] || { echo "reproduce: no sample of $dataset is made" >&2; exit 1; }
+make -s -f Makefile.data dataset-some "$@" DATASET_DIR="$scratch" SAMPLES="${picked[*]}" > "$dataset/.reproduce.log" 2>&1 ||
+  { cat "$dataset/.reproduce.log" >&2; exit 1; }
+differ=0
+for sample in "${picked[@]}"; do
+  if diff -rq --exclude='.*' --exclude='*.log' --exclude='*.timings.yaml' "$dataset/samples/$sample" "$scratch/samples/$sample"; then
+    echo "$(basename "$sample"): equal bytes"
+  else
+    differ=$((differ + 1))
+  fi
+done
+[ "$differ" = 0 ] || { echo "reproduce: $differ of ${#picked[@]} samples differ (another processor? docs/files.md)" >&2; exit 1; }
