@@ -9,8 +9,14 @@ dataset=$1 first=${2:-0} end=${3:-1000000000}
 plan=$dataset/plan/samples.csv
 [ -e "$plan" ] || { echo "status: there is no $plan yet: make -f Makefile.data plan CONFIG=..." >&2; exit 1; }
 
-# Records, failures and logs of all samples with their times: one walk that stays above the frames.
-found() { find "$dataset/samples" -mindepth 4 -maxdepth 4 \( -name press.yaml -o -name render.yaml -o -name '*.failed.yaml' -o -name '*.log' \) -printf '%T@ %P\n'; }
+# Records, failures and logs of the samples with their times: one walk that stays above the frames.
+blocks() {
+  local block
+  for block in "$dataset"/samples/[0-9][0-9][0-9]; do
+    if [ $((10#${block##*/} * 1000)) -lt "$end" ] && [ $((10#${block##*/} * 1000 + 1000)) -gt "$first" ]; then printf '%s\0' "$block"; fi
+  done
+}
+found() { blocks | xargs -0 -r -I'{}' find '{}' -mindepth 3 -maxdepth 3 \( -name press.yaml -o -name render.yaml -o -name '*.failed.yaml' -o -name '*.log' \) -printf '%T@ %P\n'; }
 
 # Begun and neither made nor failed: running if someone holds the lock, else interrupted.
 counts=$(found | awk -F'[ /]' -v plan="$plan" -v first="$first" -v end="$end" -v now="$(date +%s)" '
@@ -22,13 +28,13 @@ counts=$(found | awk -F'[ /]' -v plan="$plan" -v first="$first" -v end="$end" -v
       ++samples
     }
   }
-  !($3 in planned) { next }
+  !($2 in planned) { next }
   {
-    id = $3
+    id = $2
     seen[id] = 1
-    if ($5 == "press.yaml") press[id] = 1
-    else if ($5 == "render.yaml") render[id] = $1
-    else if ($5 ~ /\.failed\.yaml$/) failed[id] = 1
+    if ($4 == "press.yaml") press[id] = 1
+    else if ($4 == "render.yaml") render[id] = $1
+    else if ($4 ~ /\.failed\.yaml$/) failed[id] = 1
   }
   END {
     for (id in seen) {
