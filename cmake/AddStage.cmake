@@ -8,6 +8,7 @@ function(tacipc_add_stage name)
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE tacipc_${name} tacipc::warnings)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
 
 # tacipc_add_test(<name> SOURCES a_test.cpp … [LINK lib …] [LABEL fast|slow|dev])

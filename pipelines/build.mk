@@ -26,6 +26,12 @@ build: $(BUILD)/build.ninja ## Build all stages
 	@cmake --build $(BUILD) --target stages -j $(JOBS) -- --quiet
 endif
 
+PREFIX ?= out/prefix#  where install puts everything
+.PHONY: install
+install: build ## Programs, configurations and pipelines into PREFIX=, from where they run wherever it is moved
+	@cmake --install $(BUILD) --prefix '$(strip $(PREFIX))' > /dev/null
+	@echo "make -C $(strip $(PREFIX))/share/tacipc -f Makefile.data dataset CONFIG=/your.yaml OUT=/your/out"
+
 build-all: build # one after the other: two builds in one folder would trip over each other
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 

@@ -13,7 +13,7 @@ K      ?= 3#     samples that reproduce makes again
 STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
 $(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT SAMPLES K STOP_AFTER,$(eval override $(v) := $(strip $($(v)))))
 
-DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some#  goals that need the plan's rules;
+DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some drop#  goals that need the plan's rules;
 DATASET_READ := status reproduce bundle clean-plan clean-press clean-render#         and those that only look into its folder
 DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
 .PHONY: $(DATASET_GOALS) dataset-samples
@@ -119,6 +119,8 @@ estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/re
 DATASET_PACK := $(if $(wildcard pipelines/pack.mk),dataset-pack)
 dataset-last: $(DATASET_PACK)
 	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)'
+drop: ## Remove what outputs.keep of the dataset does not name, of packed samples: CONFIG=
+	@bash pipelines/dataset_drop.sh '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)
 submit: $(DATASET_DIR)/plan/plan.yaml ## A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/slurm/default.sh RETRY=yes]
 	@bash pipelines/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
 endif

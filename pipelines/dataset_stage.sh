@@ -50,6 +50,11 @@ if current "$record"; then exit 0; fi
 if [ "${RETRY:-}" != yes ] && current "$failed"; then exit 0; fi
 stop_if_many
 
+if [ "$stage" = render ] && [ -e "$folder/../press/.dropped" ]; then
+  echo "$sample: what press wrote was dropped after packing; clean-press, then it is made again" >&2
+  exit 1
+fi
+rm -f "$folder/.dropped"
 echo "$*" > "$folder/.command"  # for a bundle
 status=0
 env "$@" 2> "$said" || status=$?

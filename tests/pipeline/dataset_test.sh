@@ -107,6 +107,50 @@ make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=again BUILD="$PWD/brok
 grep -q 'render failed: killed by signal 11' failing.txt || fail "a crash was not told: $(cat failing.txt)"
 goal again retry > /dev/null || fail "crashed samples cannot be made again"
 [ "$(samples again)" = "$(samples killed)" ] || fail "crashed samples end in other bytes"
+
+# What it costs, made again, one sample elsewhere (a failed one too), and what is left after packing.
+goal again estimate PILOT=4 | grep -Eq '^set: 12 samples: [0-9.e-]+ core-hours .* GB on disk$' || fail "no estimate"
+goal again reproduce K=2 | grep -c ': equal bytes$' | grep -qx 2 || fail "samples cannot be reproduced"
+replayed() { # replayed OUT ID EXPECTED
+  goal "$1" bundle SAMPLE="$2" > /dev/null || fail "no bundle of $2"
+  mkdir -p elsewhere
+  tar -C elsewhere -xzf "$1/datasets/set/bundles/$2.tar.gz"
+  BIN=$build_dir/bin bash "elsewhere/$2/replay.sh" 2> /dev/null | grep -qx "$3" || fail "$2 cannot be replayed: $(BIN=$build_dir/bin bash "elsewhere/$2/replay.sh" 2>&1)"
+}
+id() { sed -n "s/^\(mctac__$1__[0-9]*\),.*/\1/p" again/datasets/set/plan/samples.csv | head -n 1; }
+replayed again "$(id star__down)" 'render.yaml is as it was'
+replayed again "$(id pyramid__along)" 'press.yaml is as it was'
+sed -i 's/max_iterations: 200/max_iterations: 1/' mine/hopeless.yaml
+goal again dataset > /dev/null 2>&1 && fail "failures went unseen"
+replayed again "$(id gear__along)" 'press.failed.yaml is as it was'
+sed -i 's/max_iterations: 1$/max_iterations: 200/' mine/hopeless.yaml
+goal again dataset > /dev/null || fail "an input that changed did not let failed samples be tried again"
+sed -i 's/^stop_after/outputs: {keep: [render]}\n&/' mine/set.yaml
+goal again drop 2> /dev/null && fail "what is not packed was dropped"
+mkdir again/datasets/set/pack
+{ echo id,status; sed '1d; s/,.*/,made/; /__gear__/d' again/datasets/set/plan/samples.csv; } > again/datasets/set/pack/manifest.csv
+goal again drop > /dev/null
+[ "$(find again/datasets/set/samples -name positions.npy | grep -vc __gear__)" = 0 ] || fail "files of press are still there"
+[ "$(find again/datasets/set/samples -name positions.npy | wc -l)" = 4 ] || fail "what is not packed was dropped"
+[ "$(find again/datasets/set/samples -name tactile.png | wc -l)" = 24 ] || fail "files to keep were dropped"
+before=$(stamp again)
+goal again dataset | grep -q '12 made' || fail "dropped samples do not count"
+[ "$before" = "$(stamp again)" ] || fail "dropped samples were made again"
+touch configs/render/default.yaml
+goal again dataset > failing.txt 2>&1 && fail "images of presses that are gone"
+grep -q 'clean-press, then it is made again' failing.txt || fail "it is not told that presses are gone"
+
+# An installed copy runs where it is moved to, and makes the same.
+cmake --install "$build_dir" --prefix "$PWD/installed" > /dev/null
+mkdir prefixes
+mv installed prefixes/moved
+cp -r configs/sensors prefixes/moved/share/tacipc/configs/
+mv configs configs_here
+ln -s prefixes/moved/share/tacipc/configs configs
+cp -r configs_here/emboss configs/
+make -s -C prefixes/moved/share/tacipc -f Makefile.data dataset-some SAMPLES="000/$(id star__down)" CONFIG="$PWD/mine/set.yaml" OUT="$PWD/moved" > /dev/null 2>&1 || fail "an installed copy does not work"
+cmp {killed,moved}/datasets/set/samples/000/"$(id star__down)"/press/positions.npy || fail "an installed copy makes other bytes"
+
 sed -i 's/depth_mm: \[0.2, 0.3\]/depth_mm: [0.2, 2.3]/' mine/set.yaml
 goal wrong dataset > failing.txt 2>&1 && fail "a press through the gel was planned"
 grep -q 'motion down: a press to 2.3 mm is not possible in the gel of mctac, 2 mm thick' failing.txt || fail "the fault is not told: $(cat failing.txt)"
