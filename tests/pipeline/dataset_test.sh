@@ -115,7 +115,8 @@ replayed() { # replayed OUT ID EXPECTED
   goal "$1" bundle SAMPLE="$2" > /dev/null || fail "no bundle of $2"
   mkdir -p elsewhere
   tar -C elsewhere -xzf "$1/datasets/set/bundles/$2.tar.gz"
-  BIN=$build_dir/bin bash "elsewhere/$2/replay.sh" 2> /dev/null | grep -qx "$3" || fail "$2 cannot be replayed: $(BIN=$build_dir/bin bash "elsewhere/$2/replay.sh" 2>&1)"
+  BIN=$build_dir/bin bash "elsewhere/$2/replay.sh" > replayed.txt 2>&1 || true
+  grep -qx "$3" replayed.txt || fail "$2 cannot be replayed: $(cat replayed.txt)"
 }
 id() { sed -n "s/^\(mctac__$1__[0-9]*\),.*/\1/p" again/datasets/set/plan/samples.csv | head -n 1; }
 replayed again "$(id star__down)" 'render.yaml is as it was'
