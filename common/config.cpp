@@ -261,12 +261,6 @@ std::vector<std::string> ConfigReader::texts(const std::string& key) {
   }
   keep(key, Value::List(words.begin(), words.end()));
   return words;
-std::vector<std::string> ConfigReader::texts_or(const std::string& key, std::vector<std::string> fallback) {
-    fallback.clear();
-      add_fault(*node, path_of(key), std::string("expected a list of words, found ") + std::string(node->kind_name()));
-      fallback.push_back(to_scalar(*node->items[i], fmt::format("{}[{}]", key, i)).value_or(""));
-  keep(key, Value::List(fallback.begin(), fallback.end()));
-  return fallback;
 }
 
 bool ConfigReader::has(const std::string& key) const {

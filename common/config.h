@@ -65,8 +65,6 @@ class ConfigReader {
   Vector3 vector3(const std::string& key);
   /// A list of words (empty where the key is absent).
   std::vector<std::string> texts(const std::string& key);
-  /// A list of words.
-  std::vector<std::string> texts_or(const std::string& key, std::vector<std::string> fallback);
 
   bool has(const std::string& key) const;
   bool is_list(const std::string& key) const;
