@@ -58,15 +58,18 @@ $(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml: $(2) $(wildcard $(dir $(2))*.png
 $(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/emboss/object.ply,$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml)
 endef
 
-# A stage of a sample: failures are noted in failures.csv and do not stop make, unless there are many in a row.
+# The stages of a sample, one after the other: one rule, so that with several jobs samples are finished one by one. Failures are noted in
+# failures.csv and do not stop make, unless there are many in a row. $(call dataset_stage,stage,record,what it is made of,flags)
 DATASET_RUN := $(DATASET_DIR)/.runs/$(shell hostname)-$(shell echo $$PPID)
 dataset_stage = @RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
-  bash pipelines/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) $@ '$^' $(call run,$(1),$(2) --log-level warning)
+  bash pipelines/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) '$(2)' '$(3)' \
+  OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(patsubst %/,%,$(dir $(2))) --threads $(THREADS) $(4) --log-level warning
+dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5)
+dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_PHOTOGRAPH_$(3))
 define dataset_sample
-$(DATASET_DIR)/samples/$(1)/press/press.yaml: $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5) | build
-	$$(call dataset_stage,press,--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
-$(DATASET_DIR)/samples/$(1)/render/render.yaml: $(DATASET_DIR)/samples/$(1)/press/press.yaml $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_PHOTOGRAPH_$(3)) | build
-	$$(call dataset_stage,render,--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER))
+$(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
+	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
+	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER))
 endef
 
 ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)
@@ -136,6 +139,7 @@ bundle: ## A small archive that replays one sample anywhere: CONFIG= SAMPLE=id (
 
 clean-plan: ## Remove the plan of a dataset (samples stay): CONFIG=
 	rm -rf '$(DATASET_DIR)/plan'
-clean-press clean-render: clean-%: ## Remove what a stage made of every sample: CONFIG=
+clean-press: clean-render
+clean-press clean-render: clean-%: ## Remove what a stage, and those after it, made of every sample: CONFIG=
 	@[ ! -d '$(DATASET_DIR)/samples' ] || find '$(DATASET_DIR)/samples' -mindepth 3 -maxdepth 3 -name '$*' -exec rm -rf {} +
 endif

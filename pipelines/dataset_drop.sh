@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Removes what stages wrote for samples that are packed, but their records, times and logs: dataset_drop.sh DATASET STAGES...
-# A sample stays made: its records are there. Only samples that the manifest of the pack lists are touched.
+# A sample stays made: its records are there. Only samples that the manifest of the pack lists as made are touched.
 set -euo pipefail
 export LC_ALL=C
 dataset=$1
@@ -20,5 +20,7 @@ while read -r folder; do
     find "$folder/$stage" -mindepth 1 -depth -type d -empty -delete
     dropped=$((dropped + 1))
   done
-done < <(awk -F, -v dataset="$dataset" 'NR == FNR { packed[$1] = 1; next } ($1 in packed) && FNR > 1 { print dataset "/" $11 }' "$manifest" "$dataset/plan/samples.csv")
+done < <(awk -F, -v dataset="$dataset" '
+  NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "status") status = i }
+  NR == FNR { if ($status == "made") packed[$1] = 1; next } ($1 in packed) && FNR > 1 { print dataset "/" $11 }' "$manifest" "$dataset/plan/samples.csv")
 echo "$(basename "$dataset"): files of $dropped stages dropped ($*)"
