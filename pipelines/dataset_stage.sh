@@ -62,7 +62,7 @@ case $status in
   0)
     rm -f "$said"
     [ ! -s "$run" ] || : > "$run" ;;
-  2)
+  2 | 126 | 127)  # wrong configuration; a program that is not there or cannot be started
     cat "$said" >&2
     exit 2 ;;
   1)
