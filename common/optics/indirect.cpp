@@ -10,6 +10,7 @@
 
 #include "common/optics/light_path.h"
 #include "common/rng.h"
+#include "common/sobol.h"
 
 namespace tacipc {
 namespace {
@@ -62,17 +63,6 @@ double fresnel_reflectance(double sine, double from, double to) {
   const double c = to * std::sqrt(1.0 - sine * sine), d = from * std::sqrt(1.0 - bent * bent);
   const double rp = (c - d) / (c + d);
   return 0.5 * (rs * rs + rp * rp);
-}
-
-std::array<double, 2> sobol_point(std::uint32_t index) {
-  // First dimension: the bits reversed. Second: direction numbers v_k = v_(k−1) xor v_(k−1)/2 of the polynomial x + 1.
-  std::uint32_t x = 0, y = 0, direction = 1u << 31;
-  for (std::uint32_t bit = 0; bit < 32 && index >> bit != 0; ++bit, direction ^= direction >> 1) {
-    if ((index >> bit & 1u) == 0) continue;
-    x ^= 1u << (31 - bit);
-    y ^= direction;
-  }
-  return {x * 0x1p-32, y * 0x1p-32};
 }
 
 VertexLight direct_vertex_light(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, int led_samples,
@@ -134,8 +124,8 @@ VertexLight gather_indirect(const RayScene& scene, const Membrane& membrane, con
       RayPacket packet;
       std::array<Vector3, kLanes> directions;
       for (int l = 0; l < kLanes; ++l) {
-        const auto point = sobol_point(static_cast<std::uint32_t>(start + l));
-        const double u = std::fmod(point[0] + shift_x, 1.0), w = std::fmod(point[1] + shift_y, 1.0);
+        const auto index = static_cast<std::uint32_t>(start + l);
+        const double u = std::fmod(sobol(index, 0) + shift_x, 1.0), w = std::fmod(sobol(index, 1) + shift_y, 1.0);
         const double sine = std::sqrt(u), azimuth = 2.0 * std::numbers::pi * w;
         directions[static_cast<std::size_t>(l)] =
             sine * std::cos(azimuth) * first + sine * std::sin(azimuth) * second + std::sqrt(1.0 - u) * normal;

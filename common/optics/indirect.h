@@ -24,9 +24,6 @@ VertexLight direct_vertex_light(const RayScene& scene, const Membrane& membrane,
 VertexLight gather_indirect(const RayScene& scene, const Membrane& membrane, const VertexLight& light,
                             const Sensor& sensor, int rays, bool refract);
 
-/// Point `index` of Sobol's sequence in two dimensions, in [0, 1)², with 32 bits.
-std::array<double, 2> sobol_point(std::uint32_t index);
-
 /// Fresnel reflectance for unpolarised light that comes from index `from` at an angle with this sine and meets index
 /// `to`; 1 beyond the critical angle.
 double fresnel_reflectance(double sine, double from, double to);

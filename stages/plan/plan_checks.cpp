@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "stages/plan/sobol.h"
+#include "common/sobol.h"
 
 namespace tacipc {
 namespace {

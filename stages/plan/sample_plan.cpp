@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/sobol.h"
 #include "stages/plan/seeds.h"
-#include "stages/plan/sobol.h"
 
 namespace tacipc {
 namespace {

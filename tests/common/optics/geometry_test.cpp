@@ -59,15 +59,7 @@ TEST(Trace, CapHasTheSphereDepthAndNormals) {
 }
 
 TEST(Trace, StepCastsItsShadowWhereTheLineOfSightEnds) {
-  // A plateau 1 mm towards the light on x > 0 with a vertical wall; vertices are not shared, so the edges are sharp.
-  Positions positions(12, 3);
-  positions << -4, -4, 0, 0, -4, 0, 0, 4, 0, -4, 4, 0,  // floor
-      0, -4, -1, 4, -4, -1, 4, 4, -1, 0, 4, -1,         // plateau
-      0, -4, 0, 0, -4, -1, 0, 4, -1, 0, 4, 0;           // wall, facing −x from inside
-  positions *= kMm;
-  Triangles triangles(6, 3);
-  triangles << 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11;
-  const Membrane step = make_membrane(positions, positions, triangles);
+  const Membrane step = step_of_1mm();
   Sensor sensor = plain_sensor(400, 3);
   const double a = 8.0 * kMm, h = 9.0 * kMm, d = 1.0 * kMm;
   sensor.leds = {point_light({a, 0.0, -h})};

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "common/optics/trace.h"
+#include "common/sobol.h"
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
@@ -21,7 +23,7 @@ TEST(Sobol, PutsOnePointIntoEveryBoxOfAPowerOfTwo) {
       const int columns = 1 << across, rows = 1 << (bits - across);
       std::vector<int> filled(static_cast<std::size_t>(columns * rows), 0);
       for (std::uint32_t i = 0; i < (1u << bits); ++i) {
-        const auto point = sobol_point(i);
+        const std::array point{sobol(i, 0), sobol(i, 1)};
         ++filled[static_cast<std::size_t>(static_cast<int>(point[0] * columns) * rows +
                                           static_cast<int>(point[1] * rows))];
       }

@@ -108,15 +108,7 @@ TEST(Trace, QuarterTurnOfTheLightTurnsTheLayeredImage) {
 }
 
 TEST(Trace, ShadowOfAStepEndsWhereTheRefractedLightPassesItsEdge) {
-  // A plateau 1 mm towards the light on x > 0 with a vertical wall; vertices are not shared, so the edges are sharp.
-  Positions positions(12, 3);
-  positions << -4, -4, 0, 0, -4, 0, 0, 4, 0, -4, 4, 0,  // floor
-      0, -4, -1, 4, -4, -1, 4, 4, -1, 0, 4, -1,         // plateau
-      0, -4, 0, 0, -4, -1, 0, 4, -1, 0, 4, 0;           // wall, facing −x from inside
-  positions *= kMm;
-  Triangles triangles(6, 3);
-  triangles << 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11;
-  const Membrane step = make_membrane(positions, positions, triangles);
+  const Membrane step = step_of_1mm();
   Sensor sensor = layered_sensor(400, 3);
   sensor.leds = {point_light({8.0 * kMm, 0.0, -12.0 * kMm})};
   const TraceResult result = trace(step, sensor, {.subpixels = 1});

@@ -37,6 +37,17 @@ Membrane height_field(double half_width, double half_height, double spacing,
   return make_membrane(positions, rest, triangles);
 }
 
+Membrane step_of_1mm() {
+  Positions positions(12, 3);
+  positions << -4, -4, 0, 0, -4, 0, 0, 4, 0, -4, 4, 0,  // floor
+      0, -4, -1, 4, -4, -1, 4, 4, -1, 0, 4, -1,         // plateau
+      0, -4, 0, 0, -4, -1, 0, 4, -1, 0, 4, 0;           // wall, facing −x from inside
+  positions *= kMm;
+  Triangles triangles(6, 3);
+  triangles << 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11;
+  return make_membrane(positions, positions, triangles);
+}
+
 Sensor plain_sensor(int width_px, int height_px) {
   Sensor sensor;
   sensor.name = "plain";

@@ -18,6 +18,10 @@ constexpr double kMm = 1e-3;
 Membrane height_field(double half_width, double half_height, double spacing,
                       const std::function<double(double, double)>& z);
 
+/// A plateau 1 mm towards the light on x > 0 with a vertical wall, 8 mm square; vertices are not shared, so the edges
+/// are sharp.
+Membrane step_of_1mm();
+
 /// A sensor with a camera 12 mm behind the front face, a window of 4 by 3 mm, no lights, response linear 0.5.
 Sensor plain_sensor(int width_px, int height_px);
 

@@ -1,4 +1,4 @@
-#include "stages/plan/sobol.h"
+#include "common/sobol.h"
 
 #include <array>
 #include <cassert>
