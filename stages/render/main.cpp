@@ -1,12 +1,16 @@
 #include <fmt/core.h>
 
+#include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "common/error.h"
 #include "common/files.h"
 #include "common/picture.h"
 #include "common/stage.h"
+#include "stages/render/height_maps.h"
+#include "stages/render/press_folder.h"
 #include "stages/render/render.h"
 
 namespace {
@@ -18,8 +22,12 @@ const StageSpec kRender{
     .summary = "Make tactile images of a pressed gel: light, shadows, depth, normals, contact, markers, noise.",
     .inputs = {{.flag = "--config", .help = "render settings (YAML)"},
                {.flag = "--sensor", .help = "the sensor: lights, camera, coating (YAML)"},
-               {.flag = "--gel", .help = "gel.msh of tetmesh"},
-               {.flag = "--press", .help = "folder that press wrote: positions.npy and press.yaml"}}};
+               {.flag = "--gel", .help = "gel.msh of tetmesh", .required = false},
+               {.flag = "--press", .help = "folder that press wrote: positions.npy and press.yaml", .required = false},
+               {.flag = "--shapes",
+                .help = "indentation maps (EXR), one per frame, in place of a press",
+                .required = false,
+                .many = true}}};
 
 /// Labels as grey values far enough apart to be seen.
 ByteImage spread(const ByteImage& labels, int step) {
@@ -105,6 +113,20 @@ std::vector<RenderUnit> all_units(Stage& stage, const Sensor& sensor, const Rend
   return units;
 }
 
+RenderSummary render_press(Stage& stage, const std::vector<RenderUnit>& units, const RenderConfig& config,
+                           const std::function<void(const RenderedFrame&)>& deliver) {
+  const TetMesh gel = read_tet_mesh(*stage.optional_input("--gel"));
+  const PressFrames press = read_press(*stage.optional_input("--press"), gel);
+  return render(units, config, PressedGel(gel, press), deliver);
+}
+
+RenderSummary render_shapes(Stage& stage, const std::vector<RenderUnit>& units, const RenderConfig& config,
+                            const std::function<void(const RenderedFrame&)>& deliver) {
+  const Sensor& sensor = units.front().sensor;
+  auto maps = read_height_maps(stage.inputs("--shapes"), sensor.camera);
+  return render(units, config, HeightMaps(std::move(maps), sensor, config.trace.refract), deliver);
+}
+
 Value::Map summary_of(const UnitSummary& unit) {
   Value::Map lines;
   if (unit.exposure) lines.emplace_back("exposure", *unit.exposure);
@@ -117,6 +139,9 @@ Value::Map summary_of(const UnitSummary& unit) {
 
 int main(int argc, char** argv) {
   return run_stage(kRender, argc, argv, [](Stage& stage) {
+    const bool press = stage.optional_input("--press").has_value(), gel = stage.optional_input("--gel").has_value();
+    if (press != gel) throw UsageError("--press and --gel belong together");
+    if (press != stage.inputs("--shapes").empty()) throw UsageError("give either --press and --gel, or --shapes");
     const auto config = stage.read_config<RenderConfig>("--config");
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const std::vector<RenderUnit> units = all_units(stage, sensor, config);
@@ -125,11 +150,9 @@ int main(int argc, char** argv) {
     } else {
       stage.note("reference", "synthetic");
     }
-    const TetMesh gel = read_tet_mesh(stage.input("--gel"));
-    const PressFrames press = read_press(stage.input("--press"), gel);
-
-    const RenderSummary summary =
-        render(units, config, gel, press, [&](const RenderedFrame& frame) { write_frame(stage, frame); });
+    const auto deliver = [&](const RenderedFrame& frame) { write_frame(stage, frame); };
+    const RenderSummary summary = stage.inputs("--shapes").empty() ? render_press(stage, units, config, deliver)
+                                                                   : render_shapes(stage, units, config, deliver);
     Value::Map lines = {{"frames", Value::List(summary.frames.begin(), summary.frames.end())}};
     for (auto& line : summary_of(summary.units.front())) lines.push_back(line);
     lines.insert(lines.end(), {{"rays", summary.rays},

@@ -11,6 +11,7 @@
 #include "common/optics/trace.h"
 #include "common/tet_mesh.h"
 #include "common/types.h"
+#include "stages/render/deformation.h"
 
 namespace tacipc {
 
@@ -40,5 +41,24 @@ SurfaceFields surface_fields(const PressFrames& press, std::size_t frame, const 
 
 /// Markers of one frame, #M × 3, m; no rows if the press has none.
 Positions frame_markers(const PressFrames& press, std::size_t frame);
+
+/// The front face of a pressed gel. Refers to both, which must outlive it.
+class PressedGel : public Deformation {
+ public:
+  PressedGel(const TetMesh& gel, const PressFrames& press) : gel_(gel), press_(press) {}
+  std::size_t num_frames() const override { return press_.num_frames(); }
+  Membrane at_rest() const override { return make_membrane(gel_, gel_.positions); }
+  void move(Membrane& membrane, std::size_t frame) const override {
+    move_membrane(membrane, frame_positions(press_.positions, frame));
+  }
+  SurfaceFields fields(std::size_t frame, const Membrane& membrane) const override {
+    return surface_fields(press_, frame, membrane);
+  }
+  Positions markers(std::size_t frame) const override { return frame_markers(press_, frame); }
+
+ private:
+  const TetMesh& gel_;
+  const PressFrames& press_;
+};
 
 }  // namespace tacipc

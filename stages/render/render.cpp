@@ -64,11 +64,11 @@ Positions project_markers(const Positions& markers, const Sensor& sensor, bool r
   return out;
 }
 
-RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const TetMesh& gel,
-                     const PressFrames& press, const std::function<void(const RenderedFrame&)>& deliver) {
+RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const Deformation& front,
+                     const std::function<void(const RenderedFrame&)>& deliver) {
   assert(!units.empty() && units.front().needs_rays);
   RenderSummary summary;
-  const std::size_t last = press.num_frames() - 1;
+  const std::size_t last = front.num_frames() - 1;
   if (config.all_frames) {
     for (std::size_t frame = 0; frame <= last; ++frame) summary.frames.push_back(frame);
   } else {
@@ -76,14 +76,14 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
   }
   std::vector<std::unique_ptr<Developer>> developers;
   for (const RenderUnit& unit : units) developers.push_back(make_developer(unit, config));
-  Membrane membrane = make_membrane(gel, gel.positions);
+  Membrane membrane = front.at_rest();
   RayScene scene(membrane.positions, membrane.triangles);
   for (const std::size_t index : summary.frames) {
     if (index > 0) {
-      move_membrane(membrane, frame_positions(press.positions, index));
+      front.move(membrane, index);
       scene.move(membrane.positions);
     }
-    const SurfaceFields fields = surface_fields(press, index, membrane);
+    const SurfaceFields fields = front.fields(index, membrane);
     TraceResult first;
     for (std::size_t u = 0; u < units.size(); ++u) {
       const Sensor& sensor = units[u].sensor;
@@ -112,8 +112,7 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
       }
       frame.tactile = developer.develop(traced, false, index);
       if (sensor.markers.radius_m) frame.marker = developer.develop(traced, true, index);
-      if (units[u].needs_rays)
-        frame.marker_px = project_markers(frame_markers(press, index), sensor, config.trace.refract);
+      if (units[u].needs_rays) frame.marker_px = project_markers(front.markers(index), sensor, config.trace.refract);
       if (u == 0) {
         summary.max_indentation_m = largest(traced.indentation);
         summary.indirect_share = indirect_share(traced, sensor);

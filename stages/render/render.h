@@ -1,4 +1,4 @@
-// Tactile images of the frames of one press.
+// Tactile images of the frames of one press, or of height maps.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,8 @@
 #include "common/optics/develop.h"
 #include "common/optics/trace.h"
 #include "common/sensor.h"
-#include "common/tet_mesh.h"
+#include "stages/render/deformation.h"
 #include "stages/render/developer.h"
-#include "stages/render/press_folder.h"
 #include "stages/render/render_config.h"
 
 namespace tacipc {
@@ -51,7 +50,7 @@ Positions project_markers(const Positions& markers, const Sensor& sensor, bool r
 /// Renders frame 0 (the reference, from the gel at rest), then the frames asked for, with every unit, and hands each to
 /// `deliver`. \pre the first unit needs rays
 /// \throw DataError if a unit without reference has no noise model, if nothing lights the gel or the camera sees none.
-RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const TetMesh& gel,
-                     const PressFrames& press, const std::function<void(const RenderedFrame&)>& deliver);
+RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const Deformation& front,
+                     const std::function<void(const RenderedFrame&)>& deliver);
 
 }  // namespace tacipc
