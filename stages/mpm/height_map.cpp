@@ -11,29 +11,21 @@ namespace {
 /// How far outside a triangle, in barycentric coordinates, a pixel on its edge may seem to lie by rounding.
 constexpr double kOutside = 1e-9;
 
-/// Pixels of one row or column: the place of pixel i is first + i · step.
-struct PixelLine {
-  double first, step;
-  int count;
-
-  PixelLine(double center_m, double window_m, int pixels, PixelPlaces places)
-      : first(center_m - 0.5 * window_m), step(window_m / pixels), count(pixels) {
-    if (places == PixelPlaces::ends)
-      step = pixels > 1 ? window_m / (pixels - 1) : 0.0;
-    else
-      first += 0.5 * step;
-  }
-  double place(int i) const { return first + i * step; }
-  /// The first and the last pixel that can lie in an interval.
-  int from(double low) const {
-    return step > 0.0 ? std::max(0, static_cast<int>(std::floor((low - first) / step))) : 0;
-  }
-  int to(double high) const {
-    return step > 0.0 ? static_cast<int>(std::min(count - 1.0, std::ceil((high - first) / step))) : count - 1;
-  }
-};
-
 }  // namespace
+
+PixelLine::PixelLine(double center_m, double window_m, int pixels, PixelPlaces places)
+    : first(center_m - 0.5 * window_m), step(window_m / pixels), count(pixels) {
+  if (places == PixelPlaces::ends)
+    step = pixels > 1 ? window_m / (pixels - 1) : 0.0;
+  else
+    first += 0.5 * step;
+}
+
+int PixelLine::from(double low) const { return step > 0.0 ? std::max(0, static_cast<int>(std::floor(pixel(low)))) : 0; }
+
+int PixelLine::to(double high) const {
+  return step > 0.0 ? static_cast<int>(std::min(count - 1.0, std::ceil(pixel(high)))) : count - 1;
+}
 
 FloatImage indentation_map(const GelLattice& lattice, const Positions& front_m, const Camera& camera,
                            PixelPlaces places) {

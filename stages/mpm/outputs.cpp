@@ -9,6 +9,7 @@
 #include "common/npy.h"
 #include "common/picture.h"
 #include "stages/mpm/height_map.h"
+#include "stages/mpm/seen_map.h"
 
 namespace tacipc {
 namespace {
@@ -48,6 +49,7 @@ void write_maps(Stage& stage, const Sensor& sensor, const MpmScene& scene, const
     FloatImage depth = indentation;
     for (float& value : depth.pixels) value = static_cast<float>(-sensor.camera.position_m.z()) - value;
     write_exr(stage.output(folder + "indentation.exr"), indentation, {"Y"});
+    write_exr(stage.output(folder + "seen_indentation.exr"), seen_along_rays(indentation, sensor, places), {"Y"});
     write_exr(stage.output(folder + "depth.exr"), depth, {"Z"});
     const double top = *std::max_element(indentation.pixels.begin(), indentation.pixels.end());
     write_png(stage.output(folder + "indentation.png"), picture_of_scalar(indentation, 0.0, std::max(top, 1e-6)));
