@@ -71,4 +71,18 @@ std::string content_hash(const std::filesystem::path& path) {
   return hash_hex(XXH3_128bits(listing.data(), listing.size()));
 }
 
+std::vector<std::string> short_names(const std::vector<std::filesystem::path>& files) {
+  std::filesystem::path folder = files.front().parent_path();
+  for (const auto& file : files) {
+    std::filesystem::path shared;
+    for (auto a = folder.begin(), b = file.begin(); a != folder.end() && b != file.end() && *a == *b; ++a, ++b)
+      shared /= *a;
+    folder = shared;
+  }
+  std::vector<std::string> names;
+  for (const auto& file : files)
+    names.push_back((folder.empty() ? file : file.lexically_relative(folder)).generic_string());
+  return names;
+}
+
 }  // namespace tacipc

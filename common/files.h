@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tacipc {
 
@@ -22,5 +23,9 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// Content hash as 32 hex digits (XXH3, 128 bit). Of a folder: over the names and contents of its regular files in name
 /// order, leaving out logs, timings and hidden names, so that it changes exactly when a result in it does.
 std::string content_hash(const std::filesystem::path& path);
+
+/// Paths below the longest folder that holds all files, with slashes: names for rows of a table that do not depend on
+/// where that folder lies. \pre not empty
+std::vector<std::string> short_names(const std::vector<std::filesystem::path>& files);
 
 }  // namespace tacipc

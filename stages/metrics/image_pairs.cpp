@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "common/error.h"
+#include "common/files.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -40,18 +41,6 @@ void expect_all(const Names& names, const fs::path& folder, const Names& others,
   throw DataError("{} has no counterpart in {}{}", (folder / *missing.begin()).string(), other.string(), more);
 }
 
-/// The longest folder that holds all files.
-fs::path common_folder(const std::vector<fs::path>& files) {
-  fs::path folder = files.front().parent_path();
-  for (const fs::path& file : files) {
-    fs::path shared;
-    for (auto a = folder.begin(), b = file.begin(); a != folder.end() && b != file.end() && *a == *b; ++a, ++b)
-      shared /= *a;
-    folder = shared;
-  }
-  return folder;
-}
-
 std::vector<ImagePair> pair_lists(const std::vector<fs::path>& listed, const std::vector<fs::path>& references) {
   for (const auto* list : {&listed, &references})
     for (const fs::path& file : *list)
@@ -62,12 +51,9 @@ std::vector<ImagePair> pair_lists(const std::vector<fs::path>& listed, const std
   }
   std::vector<fs::path> images;
   for (const fs::path& image : listed) images.push_back(image.lexically_normal());
-  const fs::path folder = common_folder(images);
+  const std::vector<std::string> names = short_names(images);
   std::vector<ImagePair> pairs;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const fs::path name = folder.empty() ? images[i] : images[i].lexically_relative(folder);
-    pairs.push_back({name.generic_string(), images[i], references[i]});
-  }
+  for (std::size_t i = 0; i < images.size(); ++i) pairs.push_back({names[i], images[i], references[i]});
   return pairs;
 }
 

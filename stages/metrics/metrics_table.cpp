@@ -9,6 +9,7 @@
 #include <exception>
 #include <iterator>
 
+#include "common/csv.h"
 #include "common/error.h"
 #include "stages/metrics/image_error.h"
 #include "stages/metrics/ssim.h"
@@ -104,14 +105,6 @@ std::vector<MetricsRow> measure_pair(const ImagePair& pair, const MetricsConfig&
   return rows;
 }
 
-/// A field of a CSV line, quoted where it must be.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 Value::Map mean_and_deviation(const std::vector<double>& values) {
   double sum = 0.0, squares = 0.0;
   for (const double value : values) sum += value;
@@ -145,9 +138,9 @@ std::string to_csv(const std::vector<MetricsRow>& rows) {
   for (const Column& column : kColumns) text += fmt::format(",{}", column.name);
   text += '\n';
   for (const MetricsRow& row : rows) {
-    text += fmt::format("{},{}", csv_field(row.name), row.region);
-    for (const Column& column : kColumns) text += fmt::format(",{}", row.*column.value);
-    text += '\n';
+    std::vector<std::string> fields{row.name, row.region};
+    for (const Column& column : kColumns) fields.push_back(fmt::format("{}", row.*column.value));
+    text += csv_line(fields);
   }
   return text;
 }
