@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <exception>
 #include <iterator>
 
 #include "common/csv.h"
 #include "common/error.h"
+#include "common/mean_deviation.h"
 #include "stages/metrics/image_error.h"
 #include "stages/metrics/ssim.h"
 
@@ -105,13 +105,7 @@ std::vector<MetricsRow> measure_pair(const ImagePair& pair, const MetricsConfig&
   return rows;
 }
 
-Value::Map mean_and_deviation(const std::vector<double>& values) {
-  double sum = 0.0, squares = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / static_cast<double>(values.size());
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {{"mean", mean}, {"std", std::sqrt(squares / static_cast<double>(values.size()))}};
-}
+Value::Map lines_of(const MeanDeviation& value) { return {{"mean", value.mean}, {"std", value.deviation}}; }
 
 }  // namespace
 
@@ -158,7 +152,7 @@ Value::Map summary_of(const std::vector<MetricsRow>& rows) {
     for (const Column& column : kColumns) {
       std::vector<double> values;
       for (const MetricsRow& row : some) values.push_back(row.*column.value);
-      means.emplace_back(column.name, mean_and_deviation(values));
+      means.emplace_back(column.name, lines_of(mean_and_deviation(values)));
     }
     means.emplace_back("psnr_db_of_mean_mse", psnr_db(mse));
     summary.emplace_back(region, std::move(means));

@@ -1,0 +1,95 @@
+#include "stages/image_table/image_table_config.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tacipc {
+namespace {
+
+/// Reports a second item with the same value of `member`.
+template <typename Item>
+void refuse_repeats(ConfigReader& in, const std::string& key, const std::vector<Item>& items,
+                    std::string Item::*member) {
+  const auto same = [&](const Item& other) { return other.*member == items.back().*member; };
+  if (std::count_if(items.begin(), items.end(), same) > 1) in.fault(key, "is given twice");
+}
+
+PrintedRows read_printed(ConfigReader in, const ImageTableConfig& config) {
+  PrintedRows printed{.label = in.text("label"), .source = in.text("source"), .region = in.text("region"), .rows = {}};
+  if (std::none_of(config.regions.begin(), config.regions.end(),
+                   [&](const ShownRegion& shown) { return shown.region == printed.region; }))
+    in.fault("region", "is none of the regions");
+  for (ConfigReader& item : in.one_or_more_sections("rows")) {
+    PrintedRow row{.name = item.text("name"), .values = {}};
+    ConfigReader values = item.section("values");
+    for (const std::string& column : values.keys()) {
+      row.values.emplace_back(column, values.number(column));
+      if (std::none_of(config.columns.begin(), config.columns.end(),
+                       [&](const ShownColumn& shown) { return shown.column == column; }))
+        values.fault(column, "is none of the columns");
+    }
+    printed.rows.push_back(std::move(row));
+  }
+  return printed;
+}
+
+SheetConfig read_sheet(ConfigReader& in) {
+  constexpr int kWidest = 4096;
+  SheetConfig sheet{.name = in.text("name"),
+                    .alt = in.text("alt"),
+                    .crop_px = std::nullopt,
+                    .picture_px = in.integer("picture_px", 8, kWidest),
+                    .columns = {}};
+  if (sheet.name.find('/') != std::string::npos) in.fault("name", "must be a file's name, not a path");
+  if (in.has("crop_px")) {
+    const auto box = in.numbers("crop_px", 4, Range::between(0.0, 1e6));
+    std::array<int, 4> crop{};
+    for (std::size_t i = 0; i < 4; ++i) crop[i] = static_cast<int>(box[i]);
+    if (!std::equal(box.begin(), box.end(), crop.begin()) || crop[2] < 1 || crop[3] < 1)
+      in.fault("crop_px", "expected whole pixels, at least one wide and high");
+    sheet.crop_px = crop;
+  }
+  for (ConfigReader& item : in.one_or_more_sections("columns")) {
+    sheet.columns.push_back({.heading = item.text("heading"), .folder = item.text("folder")});
+    refuse_repeats(item, "folder", sheet.columns, &SheetColumn::folder);
+  }
+  return sheet;
+}
+
+}  // namespace
+
+std::optional<double> PrintedRow::value(const std::string& column) const {
+  for (const auto& [key, number] : values)
+    if (key == column) return number;
+  return std::nullopt;
+}
+
+ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
+  ImageTableConfig config;
+  config.title = in.text("title");
+  config.caption = in.text_or("caption", "");
+  config.link_folder = in.text_or("link_folder", "");
+  for (ConfigReader& item : in.one_or_more_sections("columns")) {
+    config.columns.push_back(
+        {.column = item.text("column"), .heading = item.text("heading"), .digits = item.integer("digits", 0, 9)});
+    refuse_repeats(item, "column", config.columns, &ShownColumn::column);
+  }
+  for (ConfigReader& item : in.one_or_more_sections("regions")) {
+    config.regions.push_back(
+        {.region = item.choice("region", {"full", "crop", "box"}), .heading = item.text("heading")});
+    refuse_repeats(item, "region", config.regions, &ShownRegion::region);
+  }
+  for (ConfigReader& item : in.one_or_more_sections("rows")) {
+    config.rows.push_back(
+        {.name = item.text("name"), .folder = item.text("folder"), .group = item.text_or("group", "")});
+    refuse_repeats(item, "folder", config.rows, &MeasuredRow::folder);
+  }
+  if (auto printed = in.optional_section("printed")) config.printed = read_printed(*printed, config);
+  for (ConfigReader& item : in.sections("sheets")) {
+    config.sheets.push_back(read_sheet(item));
+    refuse_repeats(item, "name", config.sheets, &SheetConfig::name);
+  }
+  return config;
+}
+
+}  // namespace tacipc

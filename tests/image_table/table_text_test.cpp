@@ -1,0 +1,58 @@
+#include "stages/image_table/table_text.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/image_table/small_table.h"
+
+namespace tacipc {
+namespace {
+
+constexpr const char* kPrinted =
+    "printed: {label: elsewhere, source: a paper, region: full, rows: [{name: p|q, values: {psnr_ln: 55.92}}]}\n";
+
+TEST(TableText, HasATablePerRegionAndPrintedRowsInTheirsAlone) {
+  const ScratchFolder scratch;
+  const auto config =
+      small_table(std::string(kPrinted) +
+                  "caption: What it means.\nlink_folder: figures\n"
+                  "sheets: [{name: s, alt: pictures, picture_px: 20, columns: [{heading: A, folder: a}]}]\n");
+  const auto rows = read_method_rows({samples_in(scratch, "a"), samples_in(scratch, "b", "inf")}, config);
+  EXPECT_EQ(to_markdown(rows, config),
+            "| Whole image | SSIM-S | PSNR ln |\n"
+            "|---|---|---|\n"
+            "| first | 0.625 ± 0.125 | 12.0 ± 2.0 |\n"
+            "| **others** |  |  |\n"
+            "| second | 0.625 ± 0.125 | 12.0 ± 2.0 |\n"
+            "| **elsewhere** |  |  |\n"
+            "| p\\|q | – | 55.92 |\n"
+            "\n"
+            "| Contact box | SSIM-S | PSNR ln |\n"
+            "|---|---|---|\n"
+            "| first | 0.250 ± 0.000 | 25.0 ± 5.0 |\n"
+            "| **others** |  |  |\n"
+            "| second | 0.250 ± 0.000 | ∞ ± – |\n"
+            "\n"
+            "balls: mean ± standard deviation over 2 images. Printed numbers: a paper.\n"
+            "\n"
+            "What it means.\n"
+            "\n"
+            "![pictures](figures/s.png)\n");
+}
+
+TEST(TableText, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
+  const ScratchFolder scratch;
+  auto config = small_table(kPrinted);
+  config.columns.pop_back();
+  config.printed->rows[0].values = {{"ssim_s", 0.9}};
+  const auto rows = read_method_rows({samples_in(scratch, "a"), samples_in(scratch, "b")}, config);
+  EXPECT_EQ(to_csv(rows, config),
+            "row,group,region,column,images,mean,std,source\n"
+            "first,,full,ssim_s,2,0.625,0.125,\n"
+            "second,others,full,ssim_s,2,0.625,0.125,\n"
+            "first,,box,ssim_s,2,0.25,0,\n"
+            "second,others,box,ssim_s,2,0.25,0,\n"
+            "p|q,elsewhere,full,ssim_s,,0.9,,a paper\n");
+}
+
+}  // namespace
+}  // namespace tacipc
