@@ -12,6 +12,7 @@
 #include "common/error.h"
 #include "common/mean_deviation.h"
 #include "stages/metrics/image_error.h"
+#include "stages/metrics/sharpness.h"
 #include "stages/metrics/ssim.h"
 
 namespace tacipc {
@@ -22,9 +23,13 @@ struct Column {
   double MetricsRow::*value;
 };
 
-constexpr std::array kColumns = {Column{"mae", &MetricsRow::mae},         Column{"mse", &MetricsRow::mse},
-                                 Column{"psnr_db", &MetricsRow::psnr_db}, Column{"psnr_ln", &MetricsRow::psnr_ln},
-                                 Column{"ssim_w", &MetricsRow::ssim_w},   Column{"ssim_s", &MetricsRow::ssim_s}};
+constexpr std::array kColumns = {Column{"mae", &MetricsRow::mae},
+                                 Column{"mse", &MetricsRow::mse},
+                                 Column{"psnr_db", &MetricsRow::psnr_db},
+                                 Column{"psnr_ln", &MetricsRow::psnr_ln},
+                                 Column{"ssim_w", &MetricsRow::ssim_w},
+                                 Column{"ssim_s", &MetricsRow::ssim_s},
+                                 Column{"sharpness", &MetricsRow::sharpness}};
 
 ByteImage cropped(const ByteImage& image, const Box& box) {
   ByteImage out(box.width, box.height, image.channels);
@@ -42,10 +47,11 @@ MetricsRow compare(const ByteImage& image, const ByteImage& reference, std::stri
           .psnr_db = psnr_db(error.mse),
           .psnr_ln = psnr_ln(error.mse),
           .ssim_w = ssim(image, reference, gaussian_window()),
-          .ssim_s = ssim(image, reference, box_window())};
+          .ssim_s = ssim(image, reference, box_window()),
+          .sharpness = sharpness(image, reference, {0, 0, image.width, image.height})};
 }
 
-/// Errors of the box's pixels, SSIM of the whole image's map there.
+/// Errors of the box's pixels, SSIM and sharpness of the whole image's maps there.
 MetricsRow compare_in_box(const ByteImage& image, const ByteImage& reference, const Box& box, std::string name) {
   const ImageError error = image_error(cropped(image, box), cropped(reference, box));
   return {.name = std::move(name),
@@ -55,7 +61,8 @@ MetricsRow compare_in_box(const ByteImage& image, const ByteImage& reference, co
           .psnr_db = psnr_db(error.mse),
           .psnr_ln = psnr_ln(error.mse),
           .ssim_w = ssim_in_box(image, reference, gaussian_window(), box),
-          .ssim_s = ssim_in_box(image, reference, box_window(), box)};
+          .ssim_s = ssim_in_box(image, reference, box_window(), box),
+          .sharpness = sharpness(image, reference, box)};
 }
 
 void check_inside(const Box& box, const ByteImage& image, const ImagePair& pair, const char* key) {

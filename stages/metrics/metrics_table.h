@@ -23,6 +23,7 @@ struct MetricsRow {
   double psnr_ln = 0.0;
   double ssim_w = 0.0;
   double ssim_s = 0.0;
+  double sharpness = 0.0;
 };
 
 /// Rows in the order of the pairs, after the whole image the crop, then the box; pairs run in parallel. \throw

@@ -80,10 +80,11 @@ TEST(Csv, ShortestNumbersInfinityAndQuotes) {
                        .psnr_db = INFINITY,
                        .psnr_ln = INFINITY,
                        .ssim_w = 1,
-                       .ssim_s = 1};
+                       .ssim_s = 1,
+                       .sharpness = 0.5};
   EXPECT_EQ(to_csv({row}),
-            "name,region,mae,mse,psnr_db,psnr_ln,ssim_w,ssim_s\n"
-            "\"a,\"\"b\"\".png\",full,0.1,0,inf,inf,1,1\n");
+            "name,region,mae,mse,psnr_db,psnr_ln,ssim_w,ssim_s,sharpness\n"
+            "\"a,\"\"b\"\".png\",full,0.1,0,inf,inf,1,1,0.5\n");
 }
 
 TEST(Summary, MeansDeviationsAndPooledPsnr) {
