@@ -1,4 +1,4 @@
-// Images in memory, and their files: EXR (float) and PNG (8 bit).
+// Images in memory, and their files: EXR (float), PNG and JPEG (8 bit).
 #pragma once
 
 #include <cstdint>
@@ -42,6 +42,8 @@ FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::st
 void write_png(const std::filesystem::path& path, const ByteImage& image);
 /// The same as bytes; `name` stands for the file in messages.
 std::string png_bytes(const ByteImage& image, const std::string& name);
+/// 8-bit JPEG of 3 channels (RGB) as bytes, quality 1 … 100: for people, not for data. `name` as in png_bytes.
+std::string jpeg_bytes(const ByteImage& image, int quality, const std::string& name);
 /// As RGB (channels = 3) or grey (channels = 1), 8 bit. \throw DataError if it is no readable image.
 ByteImage read_png(const std::filesystem::path& path, int channels);
 

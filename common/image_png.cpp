@@ -56,12 +56,8 @@ void check_png(const std::string& bytes, const std::string& name) {
   }
 }
 
-}  // namespace
-
-std::string png_bytes(const ByteImage& image, const std::string& name) {
-  if (image.width < 1 || image.height < 1 || (image.channels != 1 && image.channels != 3))
-    throw DataError("{}: an image of {} x {} pixels and {} channels is not written (1 or 3 channels are)", name,
-                    image.width, image.height, image.channels);
+/// Rows as OpenCV wants them: colours from blue to red.
+cv::Mat opencv_pixels(const ByteImage& image) {
   cv::Mat pixels(image.height, image.width, image.channels == 1 ? CV_8UC1 : CV_8UC3);
   const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
   for (int y = 0; y < image.height; ++y) {
@@ -70,14 +66,33 @@ std::string png_bytes(const ByteImage& image, const std::string& name) {
     std::copy(source, source + row, target);
     for (std::size_t i = 0; image.channels == 3 && i < row; i += 3) std::swap(target[i], target[i + 2]);
   }
+  return pixels;
+}
+
+/// The image in a format that knows colours, and grey where `grey` is set.
+std::string encoded(const ByteImage& image, const std::string& name, const std::string& format, bool grey,
+                    const std::vector<int>& settings) {
+  if (image.width < 1 || image.height < 1 || (image.channels != 3 && !(grey && image.channels == 1)))
+    throw DataError("{}: an image of {} x {} pixels and {} channels is not written ({} channels are)", name,
+                    image.width, image.height, image.channels, grey ? "1 or 3" : "3");
   std::vector<std::uint8_t> bytes;
   try {
-    if (!cv::imencode(".png", pixels, bytes, {cv::IMWRITE_PNG_COMPRESSION, kCompression}))
-      throw DataError("{}: cannot be written as PNG", name);
+    if (!cv::imencode("." + format, opencv_pixels(image), bytes, settings))
+      throw DataError("{}: cannot be written as {}", name, format);
   } catch (const cv::Exception& error) {
-    throw DataError("{}: cannot be written as PNG: {}", name, error.what());
+    throw DataError("{}: cannot be written as {}: {}", name, format, error.what());
   }
   return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+std::string png_bytes(const ByteImage& image, const std::string& name) {
+  return encoded(image, name, "png", true, {cv::IMWRITE_PNG_COMPRESSION, kCompression});
+}
+
+std::string jpeg_bytes(const ByteImage& image, int quality, const std::string& name) {
+  return encoded(image, name, "jpg", false, {cv::IMWRITE_JPEG_QUALITY, quality});
 }
 
 void write_png(const std::filesystem::path& path, const ByteImage& image) {

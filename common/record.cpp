@@ -99,4 +99,14 @@ std::optional<std::vector<double>> Record::numbers(const std::string& key, std::
   return values;
 }
 
+std::optional<std::pair<double, double>> Record::range(const std::string& key) const {
+  if (!has(key)) return std::nullopt;
+  if (!reader_->is_list(key)) {
+    const double value = required_number(key);
+    return std::pair(value, value);
+  }
+  const auto ends = numbers(key, 2);
+  return std::pair((*ends)[0], (*ends)[1]);
+}
+
 }  // namespace tacipc

@@ -34,6 +34,8 @@ class Record {
   /// The words of a list; empty where the key is absent.
   std::vector<std::string> texts(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key, std::size_t how_many) const;
+  /// A number, or a list of two: lowest and highest. Of a number both are that.
+  std::optional<std::pair<double, double>> range(const std::string& key) const;
 
   /// \throw DataError naming file and key if the value is absent.
   std::string required_text(const std::string& key) const { return present(text(key), key); }

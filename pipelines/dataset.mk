@@ -11,10 +11,11 @@ PILOT  ?= 0#     samples that estimate makes first, to measure
 SAMPLES ?=#      folders of samples below samples/, for dataset-some
 K      ?= 3#     samples that reproduce makes again
 STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
-$(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT SAMPLES K STOP_AFTER,$(eval override $(v) := $(strip $($(v)))))
+REPORT ?= configs/report/default.yaml#  how much dataset-report shows sample by sample
+$(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT SAMPLES K STOP_AFTER REPORT,$(eval override $(v) := $(strip $($(v)))))
 
 DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some drop#  goals that need the plan's rules;
-DATASET_READ := status reproduce bundle clean-plan clean-press clean-render#         and those that only look into its folder
+DATASET_READ := status dataset-report reproduce bundle clean-plan clean-press clean-render#         and those that only look into its folder
 DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
 .PHONY: $(DATASET_GOALS) dataset-samples
 
@@ -130,6 +131,12 @@ endif
 
 status: ## How many samples of a dataset are made, failed, running, and how fast: CONFIG=
 	@bash pipelines/dataset_status.sh '$(DATASET_DIR)'
+
+dataset-report: | build ## Pages over a dataset, however far it is: coverage, failures, costs, contact sheets, samples: CONFIG=
+	@[ -e '$(DATASET_DIR)/plan/plan.yaml' ] || { echo "dataset-report: there is no plan yet: make -f Makefile.data plan CONFIG=$(CONFIG)" >&2; exit 1; }
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/report --plan $(DATASET_DIR)/plan/samples.csv --dataset $(DATASET_DIR)/plan/dataset.yaml --config $(REPORT) \
+	  --title $(notdir $(DATASET_DIR)) --out $(DATASET_DIR)/report --threads $(JOBS)
+	@echo; echo "Look at $(DATASET_DIR)/report/index.html"
 
 reproduce: | build ## Make K=3 random samples of a dataset again and compare bytes: CONFIG=
 	@bash pipelines/dataset_reproduce.sh '$(DATASET_DIR)' '$(K)' $(dataset_variables) JOBS=$(JOBS)

@@ -27,7 +27,7 @@ const StageSpec kPack{
     .options = {{.flag = "--shard", .help = "which shard of the plan", .fallback = ""}}};
 
 struct ShardSample {
-  PlannedSample plan;
+  PlannedRow plan;
   fs::path folder;
   std::optional<Failure> failure;
 };
@@ -38,7 +38,7 @@ std::vector<ShardSample> find_samples(Stage& stage, const PackConfig& config) {
   const fs::path dataset = fs::absolute(plan).parent_path().parent_path();
   std::vector<ShardSample> samples;
   std::vector<std::pair<std::string, fs::path>> records;
-  for_each_planned(plan, stage.option("--shard"), [&](const PlannedSample& planned) {
+  for_each_planned(plan, stage.option("--shard"), [&](const PlannedRow& planned) {
     ShardSample sample{planned, dataset / planned.folder, failure_of(dataset / planned.folder)};
     if (sample.failure && sample.failure->made_nothing && !config.list_unmade)
       throw DataError(

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What both kinds of sample have.
-std::vector<std::string> planned(const PlannedSample& plan) {
+std::vector<std::string> planned(const PlannedRow& plan) {
   return {plan.id,     plan.index, plan.split,  plan.split_pose, plan.seed,
           plan.sensor, plan.mesh,  plan.object, plan.motion,     plan.shard};
 }
@@ -47,7 +47,7 @@ std::vector<std::string> manifest_columns() {
           "render_sha256"};
 }
 
-std::vector<std::string> manifest_row(const PlannedSample& plan, const std::string& sensor_id, std::size_t offset,
+std::vector<std::string> manifest_row(const PlannedRow& plan, const std::string& sensor_id, std::size_t offset,
                                       const SampleFrames& sample) {
   const Record press = sample.press().section("summary"), render = sample.render().section("summary");
   std::vector<std::string> row = planned(plan);
@@ -63,7 +63,7 @@ std::vector<std::string> manifest_row(const PlannedSample& plan, const std::stri
   return row;
 }
 
-std::vector<std::string> manifest_row(const PlannedSample& plan, const Failure& failure) {
+std::vector<std::string> manifest_row(const PlannedRow& plan, const Failure& failure) {
   std::vector<std::string> row = planned(plan);
   row.emplace_back();
   row.emplace_back(failure.made_nothing ? "unmade" : "failed");
@@ -75,7 +75,7 @@ std::vector<std::string> failure_columns() {
   return {"id", "stage", "reason", "frame", "check", "value", "limit", "log"};
 }
 
-std::vector<std::string> failure_row(const PlannedSample& plan, const Failure& failure) {
+std::vector<std::string> failure_row(const PlannedRow& plan, const Failure& failure) {
   return {plan.id,        failure.stage,
           failure.reason, failure.frame,
           failure.check,  failure.value,

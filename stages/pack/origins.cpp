@@ -6,7 +6,7 @@
 namespace tacipc {
 namespace fs = std::filesystem;
 
-std::string sensor_id_of(const PlannedSample& plan, const SampleFrames& sample) {
+std::string sensor_id_of(const PlannedRow& plan, const SampleFrames& sample) {
   const fs::path file = sample.press_input("sensor");
   if (file.filename() == plan.sensor + ".yaml") return plan.sensor;
   return plan.sensor + "-" + sample.press().section("inputs").section("sensor").required_text("hash").substr(0, 8);
@@ -19,7 +19,7 @@ void Origins::add_file(Files& files, const std::string& name, const std::string&
                     file.path.string());
 }
 
-void Origins::add(const PlannedSample& plan, const std::string& sensor_id, const SampleFrames& sample) {
+void Origins::add(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample) {
   const Record inputs = sample.press().section("inputs");
   const auto given = [&](const std::string& flag) {
     return File{sample.press_input(flag), inputs.section(flag).required_text("hash")};

@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "common/value.h"
-#include "stages/pack/plan.h"
+#include "common/dataset_plan.h"
 #include "stages/pack/sample_frames.h"
 
 namespace tacipc {
 
 /// Name of a sensor in the packed dataset: the plan's, and where the plan gives a sample a sensor file of its own (any
 /// but `<sensor>.yaml`) also the first eight digits of its hash.
-std::string sensor_id_of(const PlannedSample& plan, const SampleFrames& sample);
+std::string sensor_id_of(const PlannedRow& plan, const SampleFrames& sample);
 
 class Origins {
  public:
   /// \throw DataError if two samples mean different files by one name
-  void add(const PlannedSample& plan, const std::string& sensor_id, const SampleFrames& sample);
+  void add(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample);
   /// Lines `sensors`, `objects` (each with the paths and hashes of its files, as seen from `folder`), `versions` and
   /// `limits` (each different one once).
   Value::Map lines(const std::filesystem::path& folder) const;

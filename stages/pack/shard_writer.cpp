@@ -40,7 +40,7 @@ std::string bytes_of(const Field& field, const Numbers& numbers) {
 
 }  // namespace
 
-Value::Map sample_attributes(const PlannedSample& plan, const std::string& sensor_id, const SampleFrames& sample) {
+Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample) {
   const Record summary = sample.press().section("summary"), limits = summary.section("limits");
   const Sensor& sensor = sample.sensor();
   Value::Map lines{
@@ -137,7 +137,7 @@ void ShardWriter::write_section(Section section, const std::string& group, Sampl
   }
 }
 
-void ShardWriter::add_sample(const PlannedSample& plan, const std::string& sensor_id, SampleFrames& sample) {
+void ShardWriter::add_sample(const PlannedRow& plan, const std::string& sensor_id, SampleFrames& sample) {
   const std::string group = "/data/" + plan.id;
   file_.group(group);
   for (const auto& [name, value] : sample_attributes(plan, sensor_id, sample)) file_.attribute(group, name, value);

@@ -7,13 +7,13 @@
 
 #include "common/hdf5_writer.h"
 #include "stages/pack/pack_config.h"
-#include "stages/pack/plan.h"
+#include "common/dataset_plan.h"
 #include "stages/pack/sample_frames.h"
 
 namespace tacipc {
 
 /// What one sample tells beside its arrays, in the order of the group's attributes.
-Value::Map sample_attributes(const PlannedSample& plan, const std::string& sensor_id, const SampleFrames& sample);
+Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample);
 
 class ShardWriter {
  public:
@@ -22,7 +22,7 @@ class ShardWriter {
 
   /// Camera of a sensor, under /sensors/<id>.
   void add_sensor(const std::string& id, const Value::Map& camera);
-  void add_sample(const PlannedSample& plan, const std::string& sensor_id, SampleFrames& sample);
+  void add_sample(const PlannedRow& plan, const std::string& sensor_id, SampleFrames& sample);
   /// The lists of ids and what is known only at the end.
   void close();
 

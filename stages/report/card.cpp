@@ -73,6 +73,10 @@ std::string image_figures(const SampleReport& sample, const fs::path& folder) {
   html += picture(images.tactile, folder, "tactile image of " + sample.name,
                   fmt::format("<b>Tactile image</b>, last frame (<a href=\"{}\">without contact</a>)",
                               html_link(images.no_contact, folder)));
+  if (images.markers) {
+    html += picture(*images.markers, folder, "tactile image of " + sample.name + " with markers",
+                    "<b>With printed markers</b>, last frame");
+  }
   html += picture(images.indentation, folder, "indentation map of " + sample.name,
                   fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
                               number_text(sample.max_indentation_m, 1e3)));
@@ -197,11 +201,8 @@ std::string verdict_badge(const SampleReport& sample) {
                          : "<span class=\"verdict failed\">FAILED</span>";
 }
 
-std::string sample_card(const SampleReport& sample, std::size_t index, const fs::path& folder) {
-  std::string card = fmt::format("<article class=\"card\" id=\"{}\">\n<header><h3>{}</h3>{}", card_id(index),
-                                 html_text(sample.name), verdict_badge(sample));
-  if (!sample.object.empty()) card += "<span class=\"quiet\">object " + html_text(sample.object) + "</span>";
-  card += "</header>\n";
+std::string sample_body(const SampleReport& sample, const fs::path& folder) {
+  std::string card;
   if (sample.failure) card += "<p class=\"note bad\">" + html_text(*sample.failure) + "</p>\n";
   for (const std::string& warning : sample.warnings) card += "<p class=\"note warn\">" + html_text(warning) + "</p>\n";
   card += pictures(sample, folder);
@@ -210,8 +211,14 @@ std::string sample_card(const SampleReport& sample, std::size_t index, const fs:
   if (sample.decimate) card += decimate_facts(*sample.decimate);
   card += checks_table(sample) + "</div>\n" + frames_table(sample);
   card += file_links("Records and logs:", sample.records, folder);
-  card += file_links("Data:", sample.data, folder);
-  return card + "</article>\n";
+  return card + file_links("Data:", sample.data, folder);
+}
+
+std::string sample_card(const SampleReport& sample, std::size_t index, const fs::path& folder) {
+  std::string card = fmt::format("<article class=\"card\" id=\"{}\">\n<header><h3>{}</h3>{}", card_id(index),
+                                 html_text(sample.name), verdict_badge(sample));
+  if (!sample.object.empty()) card += "<span class=\"quiet\">object " + html_text(sample.object) + "</span>";
+  return card + "</header>\n" + sample_body(sample, folder) + "</article>\n";
 }
 
 }  // namespace tacipc

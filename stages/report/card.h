@@ -14,6 +14,10 @@ std::string card_id(std::size_t index);
 /// "passed" or "FAILED", coloured.
 std::string verdict_badge(const SampleReport& sample);
 
+/// What went wrong, pictures, curves, numbers, checks and files; `folder` is where the page will lie.
+std::string sample_body(const SampleReport& sample, const std::filesystem::path& folder);
+
+/// The same under the sample's name, as one of many on a page.
 std::string sample_card(const SampleReport& sample, std::size_t index, const std::filesystem::path& folder);
 
 }  // namespace tacipc

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "stages/report/html.h"
+#include "stages/report/scaled_picture.h"
 
 namespace tacipc {
 namespace {
@@ -84,16 +85,11 @@ void draw_text(cv::Mat& sheet, const Text& text, int x, int baseline) {
 }
 
 /// Scales the picture into the box, keeping its proportions.
-void draw_picture(cv::Mat& sheet, ByteImage image, const cv::Rect& box) {
-  const cv::Mat source(image.height, image.width, CV_8UC3, image.pixels.data());
-  const double scale =
-      std::min(static_cast<double>(box.width) / image.width, static_cast<double>(box.height) / image.height);
-  const cv::Size size(std::max(1, static_cast<int>(std::lround(scale * image.width))),
-                      std::max(1, static_cast<int>(std::lround(scale * image.height))));
-  cv::Mat scaled;
-  cv::resize(source, scaled, size, 0, 0, scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+void draw_picture(cv::Mat& sheet, const ByteImage& image, const cv::Rect& box) {
+  ByteImage copy = fitted_picture(image, box.width, box.height);
+  const cv::Mat scaled(copy.height, copy.width, CV_8UC3, copy.pixels.data());
   scaled.copyTo(
-      sheet({box.x + (box.width - size.width) / 2, box.y + (box.height - size.height) / 2, size.width, size.height}));
+      sheet({box.x + (box.width - copy.width) / 2, box.y + (box.height - copy.height) / 2, copy.width, copy.height}));
 }
 
 /// Breaks at spaces so that each line fits; words that are too long are shortened. At most `max_lines`.

@@ -13,7 +13,10 @@ std::string phase_text(const Record& phase) {
   const std::string kind = phase.text("kind").value_or("motion");
   std::string words = kind;
   const auto add = [&](const char* before, const char* key, const char* after) {
-    if (const auto value = phase.number(key)) words += fmt::format("{}{:g}{}", before, *value, after);
+    const auto range = phase.range(key);
+    if (!range) return;
+    const auto [low, high] = *range;
+    words += before + (low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high)) + after;
   };
   add(" ", "depth_mm", " mm");
   // A load is a list of three forces, a press one number.

@@ -15,7 +15,8 @@ struct PhaseReport {
   int last = 0;
 };
 
-/// "press 0.5 mm, shear 1 mm towards 90°": the `motion` of a sample, one map or a list of them. Empty if there is none.
+/// "press 0.5 mm, shear 1 mm towards 90°": the `motion` of a sample, one map or a list of them; of a dataset's motion
+/// "press 0.3 to 0.7 mm". Empty if there is none.
 std::string motion_text(const Record& sample);
 
 /// Depth of the first press that names one, in mm.

@@ -168,7 +168,7 @@ void read_object(const fs::path& press_folder, const Record& press, SampleReport
   sample.decimate = read_decimate(record);
 }
 
-void read_summary(const fs::path& folder, const Record& summary, SampleReport& sample) {
+void read_summary(const Record& summary, SampleReport& sample) {
   sample.press_force_n = summary.required_number("press_force_n");
   sample.tangential_force_n = summary.number("tangential_force_n");
   sample.min_distance_m = summary.required_number("min_distance_m");
@@ -182,27 +182,19 @@ void read_summary(const fs::path& folder, const Record& summary, SampleReport& s
   sample.frames = read_frames(summary);
   sample.press_end_frame = summary.count("press_end_frame");
   sample.balance_limit = summary.section("limits").number("balance_relative");
-  if (sample.press_end_frame.value_or(0) >= static_cast<int>(sample.frames.size())) {
-    throw DataError("{}: summary.press_end_frame: {} is not one of the {} frames", (folder / "press.yaml").string(),
-                    *sample.press_end_frame, sample.frames.size());
-  }
 }
 
-/// \throw SolverError for the first check that is not held.
-void judge_checks(const Record& summary, const std::vector<CheckReport>& checks) {
-  if (!summary.required_flag("converged")) throw SolverError("press: Newton did not converge");
-  const CountLimits limits = count_limits(summary);
-  if (const int count = summary.required_count("intersections"); count > limits.intersections)
-    throw SolverError("press: {} triangle pairs intersect", count);
-  if (const int count = summary.required_count("inverted_tets"); count > limits.inverted_tets)
-    throw SolverError("press: {} tetrahedra are inverted", count);
-  for (const CheckReport& check : checks) {
-    if (check.held) continue;
-    const std::string where = check.frame ? fmt::format(" in frame {}", *check.frame) : "";
-    throw SolverError("press: {} is {}{}, the limit is {}", check.name, check.value, where, check.limit);
+/// What the arrays tell; nothing where they were dropped after packing.
+void add_arrays(const fs::path& folder, const Record& press, SampleReport& sample) {
+  if (was_dropped(folder)) {
+    sample.warnings.push_back(
+        "press: its arrays were dropped after packing, so depths per frame, torques and markers are not shown");
+    return;
   }
-  if (const auto verdict = summary.text("verdict"); verdict.value_or("pass") != "pass")
-    throw SolverError("press: its verdict is {}", *verdict);
+  add_depths(folder, press, sample);
+  add_torques(folder / "wrench.npy", sample.frames);
+  sample.marker_pictures = read_marker_pictures(folder, static_cast<int>(sample.frames.size()), sample.press_end_frame,
+                                                pictured_frames(sample));
 }
 
 }  // namespace
@@ -217,25 +209,49 @@ std::vector<int> pictured_frames(const SampleReport& sample) {
   return chosen_frames(sample.phases, static_cast<int>(sample.frames.size()), kMaxPictures);
 }
 
-void read_press(const fs::path& folder, SampleReport& sample) {
-  const Record press = Record::from_file(folder / "press.yaml");
+bool was_dropped(const fs::path& stage_folder) { return fs::exists(stage_folder / ".dropped"); }
+
+void read_press_record(const Record& press, SampleReport& sample) {
   const Record summary = press.section("summary");
   sample.name = press.text("name").value_or(sample.name);
-  read_summary(folder, summary, sample);
+  read_summary(summary, sample);
   sample.placement = read_placement(press);
-  read_object(folder, press, sample);
   const Record asked = press.section("config").section("sample");
   sample.motion = motion_text(asked);
   if (const auto depth_mm = asked_depth_mm(asked)) sample.depth_m = 1e-3 * *depth_mm;
-  add_depths(folder, press, sample);
-  add_torques(folder / "wrench.npy", sample.frames);
   std::vector<std::string> names;
   for (const FrameReport& frame : sample.frames) names.push_back(frame.phase);
   sample.phases = phases_of(names, asked);
-  sample.marker_pictures = read_marker_pictures(folder, static_cast<int>(sample.frames.size()), sample.press_end_frame,
-                                                pictured_frames(sample));
   sample.checks = checks_of(summary, sample.frames);
-  judge_checks(summary, sample.checks);
+}
+
+void judge_press(const Record& press, const SampleReport& sample) {
+  const Record summary = press.section("summary");
+  if (!summary.required_flag("converged")) throw SolverError("press: Newton did not converge");
+  const CountLimits limits = count_limits(summary);
+  if (const int count = summary.required_count("intersections"); count > limits.intersections)
+    throw SolverError("press: {} triangle pairs intersect", count);
+  if (const int count = summary.required_count("inverted_tets"); count > limits.inverted_tets)
+    throw SolverError("press: {} tetrahedra are inverted", count);
+  for (const CheckReport& check : sample.checks) {
+    if (check.held) continue;
+    const std::string where = check.frame ? fmt::format(" in frame {}", *check.frame) : "";
+    throw SolverError("press: {} is {}{}, the limit is {}", check.name, check.value, where, check.limit);
+  }
+  if (const auto verdict = summary.text("verdict"); verdict.value_or("pass") != "pass")
+    throw SolverError("press: its verdict is {}", *verdict);
+}
+
+void read_press(const fs::path& folder, SampleReport& sample) {
+  const Record press = Record::from_file(folder / "press.yaml");
+  read_press_record(press, sample);
+  if (sample.press_end_frame.value_or(0) >= static_cast<int>(sample.frames.size())) {
+    throw DataError("{}: summary.press_end_frame: {} is not one of the {} frames", (folder / "press.yaml").string(),
+                    *sample.press_end_frame, sample.frames.size());
+  }
+  read_object(folder, press, sample);
+  add_arrays(folder, press, sample);
+  judge_press(press, sample);
 }
 
 }  // namespace tacipc

@@ -6,9 +6,19 @@
 #include <utility>
 #include <vector>
 
+#include "common/record.h"
 #include "stages/report/sample.h"
 
 namespace tacipc {
+
+/// Whether `drop` removed what the stage wrote into its folder but the record, times and log.
+bool was_dropped(const std::filesystem::path& stage_folder);
+
+/// Fills in what press.yaml alone tells. \throw DataError for what is malformed.
+void read_press_record(const Record& press, SampleReport& sample);
+
+/// \throw SolverError for the first check of `read_press_record` that is not held.
+void judge_press(const Record& press, const SampleReport& sample);
 
 /// Fills in what the finished press in `folder` tells, as far as it is sound.
 /// \throw DataError for what is malformed, SolverError for a check that is not held.

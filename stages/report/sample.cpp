@@ -16,16 +16,23 @@ namespace fs = std::filesystem;
 void read_render(const fs::path& folder, SampleReport& sample) {
   const Record render = Record::from_file(folder / "render.yaml");
   const auto press_hash = render.section("inputs").section("press").text("hash");
-  if (press_hash && *press_hash != content_hash(sample.folder / "press"))
+  const fs::path press = sample.folder / "press";
+  if (press_hash && !was_dropped(press) && *press_hash != content_hash(press))
     throw DataError("render: the images are of an older press; render again");
   sample.synthetic_reference = render.text("reference") == "synthetic";
   sample.max_indentation_m = 1e-3 * render.section("summary").required_number("max_indentation_mm");
   if (sample.frames.empty()) return;
+  if (was_dropped(folder)) {
+    sample.warnings.push_back("render: its images were dropped after packing");
+    return;
+  }
   const fs::path last = folder / fmt::format("frame_{:04}", sample.frames.size() - 1);
-  const SampleImages images{.tactile = last / "tactile.png",
-                            .indentation = last / "indentation.png",
-                            .normal = last / "normal.png",
-                            .no_contact = folder / "frame_0000" / "tactile.png"};
+  const SampleImages images{
+      .tactile = last / "tactile.png",
+      .indentation = last / "indentation.png",
+      .normal = last / "normal.png",
+      .no_contact = folder / "frame_0000" / "tactile.png",
+      .markers = fs::is_regular_file(last / "marker.png") ? std::optional(last / "marker.png") : std::nullopt};
   for (const fs::path& path : {images.tactile, images.indentation, images.normal, images.no_contact}) {
     if (!fs::is_regular_file(path)) throw DataError("{}: is missing", path.string());
   }

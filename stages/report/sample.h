@@ -56,6 +56,7 @@ struct DecimateReport {
 /// Pictures of the last frame, and of the gel without contact.
 struct SampleImages {
   std::filesystem::path tactile, indentation, normal, no_contact;
+  std::optional<std::filesystem::path> markers = std::nullopt;  // the tactile image with printed markers
 };
 
 /// A tactile image from the middle of a motion.

@@ -92,6 +92,26 @@ TEST(Png, FaultsAreNamed) {
             name + ": an image of 9 x 4 pixels and 2 channels is not written (1 or 3 channels are)");
 }
 
+TEST(Jpeg, IsAlmostThePictureInFewerBytes) {
+  const ScratchFolder scratch;
+  ByteImage image(64, 48, 3);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      image.at(x, y, 0) = static_cast<std::uint8_t>(2 * x);
+      image.at(x, y, 1) = static_cast<std::uint8_t>(3 * y);
+      image.at(x, y, 2) = 200;
+    }
+  }
+  const std::string bytes = jpeg_bytes(image, 90, "a.jpg");
+  EXPECT_EQ(bytes, jpeg_bytes(image, 90, "a.jpg"));
+  EXPECT_LT(jpeg_bytes(image, 40, "a.jpg").size(), bytes.size());
+  const ByteImage back = read_png(scratch.file("a.jpg", bytes), 3);
+  ASSERT_EQ(back.pixels.size(), image.pixels.size());
+  for (std::size_t i = 0; i < back.pixels.size(); ++i) EXPECT_NEAR(back.pixels[i], image.pixels[i], 8) << i;
+  EXPECT_EQ(message_of<DataError>([&] { jpeg_bytes(pattern(1), 90, "a.jpg"); }),
+            "a.jpg: an image of 9 x 4 pixels and 1 channels is not written (3 channels are)");
+}
+
 TEST(Png, RealPhotographIsRead) {
   TACIPC_SHARED_DATA(photo, "data/gelsight_sim2real/images/background_real.png");
   const ByteImage image = read_png(photo, 3);

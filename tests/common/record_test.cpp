@@ -29,6 +29,9 @@ TEST_F(RecordTest, FindsWhatIsThereAndNothingElse) {
   EXPECT_EQ(r.text("none"), std::nullopt);
   EXPECT_EQ(r.numbers("none", 2), std::nullopt);
   EXPECT_TRUE(r.sections("none").empty());
+  EXPECT_EQ(r.range("pair"), std::pair(1.0, -2.5));
+  EXPECT_EQ(r.section("a").range("b"), std::pair(1.5e-5, 1.5e-5));
+  EXPECT_EQ(r.range("none"), std::nullopt);
 }
 
 TEST_F(RecordTest, NamesThePlaceOfWhatIsMissingOrOfTheWrongType) {
@@ -39,6 +42,8 @@ TEST_F(RecordTest, NamesThePlaceOfWhatIsMissingOrOfTheWrongType) {
   EXPECT_EQ(said([&] { r.section("a").count("n"); }), file() + ": a.n: expected a whole number from 0, found '-3'");
   EXPECT_EQ(said([&] { r.section("a").flag("yes"); }), file() + ": a.yes: expected true or false, found '1'");
   EXPECT_EQ(said([&] { r.numbers("pair", 2); }), file() + ": pair: expected a list of 2 numbers");
+  EXPECT_EQ(said([&] { r.range("pair"); }), file() + ": pair: expected a list of 2 numbers");
+  EXPECT_EQ(said([&] { r.section("a").range("b"); }), file() + ": a.b: expected a number, found 'many'");
   EXPECT_EQ(said([&] { r.sections("list")[0].number("k"); }), file() + ": list[0].k: expected a number, found 'x'");
   EXPECT_EQ(said([&] { r.section("a").required_number("z"); }), file() + ": a.z: missing");
   EXPECT_EQ(said([&] { r.section("none").required_flag("z"); }), file() + ": none.z: missing");

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A dataset from one file: equal bytes whole, in parts and by two runs at once; failures are noted, left alone and retried; a changed
-# motion redoes just its own samples; a killed run loses nothing.
+# motion redoes just its own samples; a killed run loses nothing. Leaves pages for dataset_page_test.sh.
 . "$(dirname "$0")/common.sh"
 sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/*.yaml
 mkdir mine
@@ -68,6 +68,12 @@ grep -q '^set: 12 samples: 9 made, 3 failed, 0 running, 0 left$' failing.txt || 
 [ "$(grep -c '^mctac__[a-z]*__along__[0-9]*,press,".*Newton.*",samples/000/mctac__[a-z]*__along__[0-9]*/press/press.log,' $ledger)" = 3 ] || fail "the ledger does not tell: $(cat $ledger)"
 goal failing dataset > /dev/null 2>&1 && fail "old failures went unseen"
 [ "$(wc -l < $ledger)" = 4 ] || fail "failed samples were tried again"
+pages=$build_dir/tests/pipeline/dataset_pages  # for dataset_page_test.sh, which opens them in a browser
+rm -rf "$pages" && mkdir -p "$pages"
+goal failing dataset-report > /dev/null 2>&1 || fail "no pages of a dataset with failures"
+grep -q '9 of 12 samples are made' failing/datasets/set/report/index.html || fail "the first page does not say how far it is"
+[ "$(find failing/datasets/set/report/samples -name '*.html' | wc -l)" = 12 ] || fail "not every finished sample has a page"
+cp -r failing/datasets/set "$pages/failing"
 goal failing retry STOP_AFTER=2 JOBS=1 > failing.txt 2>&1 && fail "a retry that fails went unseen"
 grep -q '^2 failures in a row' failing.txt || fail "failures in a row did not end the run"
 [ "$(wc -l < $ledger)" = 6 ] || fail "a retry did not stop after two failures"
@@ -137,6 +143,9 @@ goal again drop > /dev/null
 before=$(stamp again)
 goal again dataset | grep -q '12 made' || fail "dropped samples do not count"
 [ "$before" = "$(stamp again)" ] || fail "dropped samples were made again"
+goal again dataset-report > /dev/null 2>&1 || fail "no pages of a dataset of which files were dropped"
+grep -q 'Of 8 samples files were removed after packing' again/datasets/set/report/index.html || fail "the first page does not say what is dropped"
+cp -r again/datasets/set "$pages/dropped"
 touch configs/render/default.yaml
 goal again dataset > failing.txt 2>&1 && fail "images of presses that are gone"
 grep -q 'clean-press, then it is made again' failing.txt || fail "it is not told that presses are gone"

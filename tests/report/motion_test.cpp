@@ -36,6 +36,10 @@ TEST_F(MotionTest, IsToldInWords) {
                                "  - {kind: release, steps: 5}\n")),
             "press until 4 N, shear 1 mm towards 90°, twist 14.3°, tilt 5° towards -30°, hold, load (0.1, 0, -0.5) N, "
             "path along path.csv, release");
+  EXPECT_EQ(motion_text(sample("motion:\n"
+                               "  - {kind: press, depth_mm: [0.3, 0.7], steps: 5}\n"
+                               "  - {kind: twist, angle_deg: [-10, 10], steps: 4}\n")),
+            "press 0.3 to 0.7 mm, twist -10 to 10°");
   EXPECT_EQ(motion_text(sample("placement: {rotate_deg: 3}\n")), "");
 }
 

@@ -79,7 +79,8 @@ TEST_F(ReportStageTest, AFolderThatIsMissingOrNoSampleIsRefused) {
             "report: error: out/gels: has neither a press folder nor a sample.yaml, so it is no sample's folder\n");
   EXPECT_FALSE(fs::exists(scratch_ / "out/demo/report/index.html"));
   EXPECT_EQ(run({}, "out/demo/report"), 2);
-  EXPECT_EQ(said_, "report: error: --sample is required (see report --help)\n");
+  EXPECT_EQ(said_,
+            "report: error: say either --sample, once for each, or --plan, --dataset and --config of a dataset\n");
 }
 
 }  // namespace

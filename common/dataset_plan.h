@@ -11,7 +11,7 @@
 namespace tacipc {
 
 /// One row of samples.csv.
-struct PlannedSample {
+struct PlannedRow {
   std::string id;
   std::string index;
   std::string split;       // by object
@@ -25,12 +25,12 @@ struct PlannedSample {
   std::filesystem::path folder;  // as the table says, relative to the dataset
 };
 
-/// Calls `use` for every sample of a shard in the order of the table, of which one row at a time is in memory.
-/// \throw DataError if a column is missing, an id names no part of a path, or the plan has no such shard
-void for_each_planned(const std::filesystem::path& samples_csv, const std::string& shard,
-                      const std::function<void(const PlannedSample&)>& use);
+/// Calls `use` for every sample of a shard, or of all, in the order of the table, of which one row at a time is in
+/// memory. \throw DataError if a column is missing, an id names no part of a path, or the plan has no such shard
+void for_each_planned(const std::filesystem::path& samples_csv, const std::optional<std::string>& shard,
+                      const std::function<void(const PlannedRow&)>& use);
 
-/// Why a sample cannot be packed.
+/// Why there is no finished sample.
 struct Failure {
   std::string stage;
   std::string reason;

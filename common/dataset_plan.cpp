@@ -1,4 +1,4 @@
-#include "stages/pack/plan.h"
+#include "common/dataset_plan.h"
 
 #include "common/csv.h"
 #include "common/error.h"
@@ -6,29 +6,29 @@
 namespace tacipc {
 namespace fs = std::filesystem;
 
-void for_each_planned(const fs::path& samples_csv, const std::string& shard,
-                      const std::function<void(const PlannedSample&)>& use) {
+void for_each_planned(const fs::path& samples_csv, const std::optional<std::string>& shard,
+                      const std::function<void(const PlannedRow&)>& use) {
   CsvReader rows(samples_csv);
   bool found = false;
   while (rows.next()) {
-    if (rows["shard"] != shard) continue;
+    if (shard && rows["shard"] != *shard) continue;
     found = true;
-    const PlannedSample sample{.id = rows["id"],
-                               .index = rows["index"],
-                               .split = rows["split"],
-                               .split_pose = rows["split_pose"],
-                               .seed = rows["seed"],
-                               .sensor = rows["sensor"],
-                               .mesh = rows["mesh"],
-                               .object = rows["object"],
-                               .motion = rows["motion"],
-                               .shard = rows["shard"],
-                               .folder = rows["folder"]};
+    const PlannedRow sample{.id = rows["id"],
+                            .index = rows["index"],
+                            .split = rows["split"],
+                            .split_pose = rows["split_pose"],
+                            .seed = rows["seed"],
+                            .sensor = rows["sensor"],
+                            .mesh = rows["mesh"],
+                            .object = rows["object"],
+                            .motion = rows["motion"],
+                            .shard = rows["shard"],
+                            .folder = rows["folder"]};
     if (sample.id.empty() || sample.id.find('/') != std::string::npos || sample.id.front() == '.')
       throw DataError("{}:{}: '{}' is no sample's id", samples_csv.string(), rows.line(), sample.id);
     use(sample);
   }
-  if (!found) throw DataError("{}: has no shard '{}'", samples_csv.string(), shard);
+  if (shard && !found) throw DataError("{}: has no shard '{}'", samples_csv.string(), *shard);
 }
 
 std::optional<Failure> failure_of(const fs::path& sample_folder) {

@@ -1,0 +1,58 @@
+// What a dataset's page knows of every sample: where it stands, a few numbers, what it cost.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/dataset_plan.h"
+#include "common/record.h"
+
+namespace tacipc {
+
+enum class SampleStatus { made, failed, running, unmade };
+const char* status_word(SampleStatus status);
+
+/// Where a sample stands, from which files are there and whether a make holds its lock; reads nothing.
+SampleStatus status_of(const std::filesystem::path& sample_folder);
+
+/// Each is the largest over the frames of the sample.
+struct SampleNumbers {
+  std::optional<double> depth_mm = std::nullopt;  // into the gel, where the camera sees it
+  std::optional<double> press_force_n = std::nullopt;
+  std::optional<double> tangential_force_n = std::nullopt;
+  std::optional<double> shear_ratio = std::nullopt;  // tangential over press force, where the latter is above 1 %
+  std::optional<double> twist_deg = std::nullopt;    // turn about z since the first frame, with its sign
+  std::optional<double> area_mm2 = std::nullopt;     // of contact
+  std::optional<double> balance_relative = std::nullopt;
+  std::optional<double> min_distance_m = std::nullopt;  // these two: the smallest
+  std::optional<double> min_volume_ratio = std::nullopt;
+};
+
+/// Seconds and memory of a stage, from its `<stage>.timings.yaml`.
+struct StageCost {
+  double wall_s = 0.0;
+  double processor_s = 0.0;
+  double peak_memory_mb = 0.0;
+};
+/// Nothing if there is no such file. \throw DataError if it is malformed
+std::optional<StageCost> read_cost(const std::filesystem::path& timings);
+
+struct SampleRow {
+  PlannedRow plan;
+  SampleStatus status = SampleStatus::unmade;
+  std::optional<Failure> failure = std::nullopt;  // of a failed one
+  bool dropped = false;                           // files of a stage were removed after packing
+  SampleNumbers numbers;
+  std::optional<StageCost> press = std::nullopt, render = std::nullopt;
+};
+
+/// Reads the records of a sample and judges them anew. A made sample whose records cannot be read, or miss a check,
+/// comes back as a failed one.
+SampleRow read_row(const PlannedRow& plan, const std::filesystem::path& dataset, SampleStatus status);
+
+/// Turn about z from the first to another pose (4 × 4 by rows, `gel_from_object`), degrees in (−180, 180]: the angle by
+/// which the turn between them would have to be undone for the least rest, atan2(R₁₀ − R₀₁, R₀₀ + R₁₁) of R = R₂ R₁ᵀ.
+double turn_about_z_deg(const double* first, const double* second);
+
+}  // namespace tacipc

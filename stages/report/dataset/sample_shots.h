@@ -1,0 +1,20 @@
+// Samples that have a page of their own, and what contact sheets and lists show of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/dataset_plan.h"
+
+namespace tacipc {
+
+struct SampleShot {
+  PlannedRow plan;
+  bool passed = true;
+  bool has_picture = false;  // pictures/<id>/thumb.jpg
+};
+
+/// The pictures of these samples as links to their pages.
+std::string shots_list(const std::vector<SampleShot>& shots, std::size_t first, std::size_t count);
+
+}  // namespace tacipc
