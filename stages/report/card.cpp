@@ -14,14 +14,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A picture that opens in full when clicked. `caption` is HTML.
-std::string picture(const fs::path& file, const fs::path& folder, const std::string& alt, const std::string& caption) {
-  const std::string link = html_link(file, folder);
-  return fmt::format(
-      "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=\"lazy\"></a><figcaption>{2}</figcaption>"
-      "</figure>\n",
-      link, html_text(alt), caption);
-}
+/// Pictures of one page that open in full when clicked.
+struct Pictures {
+  const fs::path& folder;  // of the page
+  Loading loading;
+
+  /// `caption` is HTML.
+  std::string figure(const fs::path& file, const std::string& alt, const std::string& caption) const {
+    const std::string link = html_link(file, folder);
+    return fmt::format(
+        "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"{3}></a><figcaption>{2}</figcaption>"
+        "</figure>\n",
+        link, html_text(alt), caption, loading == Loading::in_sight ? " loading=\"lazy\"" : "");
+  }
+};
 
 /// Colours of the normal picture for a flat face and one that leans 45° to each side.
 std::string normal_swatches() {
@@ -61,27 +67,28 @@ std::string marker_caption(const MarkerPicture& picture, const std::vector<Phase
   return caption;
 }
 
-std::string image_figures(const SampleReport& sample, const fs::path& folder) {
+std::string image_figures(const SampleReport& sample, const fs::path& folder, Loading loading) {
   if (!sample.images) return "";
   const SampleImages& images = *sample.images;
+  const Pictures pictures{folder, loading};
   std::string html;
   for (const PhaseImage& image : sample.phase_images) {
-    html += picture(image.tactile, folder, fmt::format("tactile image of {}, frame {}", sample.name, image.frame),
-                    fmt::format("<b>Tactile image</b>, frame {}{}", image.frame,
-                                image.phase.empty() ? "" : " (end of " + html_text(image.phase) + ")"));
+    html += pictures.figure(image.tactile, fmt::format("tactile image of {}, frame {}", sample.name, image.frame),
+                            fmt::format("<b>Tactile image</b>, frame {}{}", image.frame,
+                                        image.phase.empty() ? "" : " (end of " + html_text(image.phase) + ")"));
   }
-  html += picture(images.tactile, folder, "tactile image of " + sample.name,
-                  fmt::format("<b>Tactile image</b>, last frame (<a href=\"{}\">without contact</a>)",
-                              html_link(images.no_contact, folder)));
+  html += pictures.figure(images.tactile, "tactile image of " + sample.name,
+                          fmt::format("<b>Tactile image</b>, last frame (<a href=\"{}\">without contact</a>)",
+                                      html_link(images.no_contact, folder)));
   if (images.markers) {
-    html += picture(*images.markers, folder, "tactile image of " + sample.name + " with markers",
-                    "<b>With printed markers</b>, last frame");
+    html += pictures.figure(*images.markers, "tactile image of " + sample.name + " with markers",
+                            "<b>With printed markers</b>, last frame");
   }
-  html += picture(images.indentation, folder, "indentation map of " + sample.name,
-                  fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
-                              number_text(sample.max_indentation_m, 1e3)));
-  return html + picture(images.normal, folder, "normals of " + sample.name,
-                        "<b>Normals</b>: the face looks" + normal_swatches());
+  html += pictures.figure(images.indentation, "indentation map of " + sample.name,
+                          fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
+                                      number_text(sample.max_indentation_m, 1e3)));
+  return html + pictures.figure(images.normal, "normals of " + sample.name,
+                                "<b>Normals</b>: the face looks" + normal_swatches());
 }
 
 /// Force over depth says something only while depth is what changes.
@@ -98,7 +105,7 @@ std::string figure_row(const std::string& figures) {
   return figures.empty() ? "" : "<div class=\"pictures\">\n" + figures + "</div>\n";
 }
 
-std::string pictures(const SampleReport& sample, const fs::path& folder) {
+std::string pictures(const SampleReport& sample, const fs::path& folder, Loading loading) {
   std::string curves, markers;
   if (has_press_curve(sample)) {
     curves = "<figure>" + press_curve_svg(sample.frames) +
@@ -110,7 +117,7 @@ std::string pictures(const SampleReport& sample, const fs::path& folder) {
     markers += "<figure>" + quiver_svg(picture, view) + "<figcaption>" + marker_caption(picture, sample.phases) +
                "</figcaption></figure>\n";
   }
-  return figure_row(image_figures(sample, folder)) + figure_row(curves) + figure_row(markers);
+  return figure_row(image_figures(sample, folder, loading)) + figure_row(curves) + figure_row(markers);
 }
 
 /// One group of facts; `lines` are pairs of a name and HTML.
@@ -201,11 +208,11 @@ std::string verdict_badge(const SampleReport& sample) {
                          : "<span class=\"verdict failed\">FAILED</span>";
 }
 
-std::string sample_body(const SampleReport& sample, const fs::path& folder) {
+std::string sample_body(const SampleReport& sample, const fs::path& folder, Loading loading) {
   std::string card;
   if (sample.failure) card += "<p class=\"note bad\">" + html_text(*sample.failure) + "</p>\n";
   for (const std::string& warning : sample.warnings) card += "<p class=\"note warn\">" + html_text(warning) + "</p>\n";
-  card += pictures(sample, folder);
+  card += pictures(sample, folder, loading);
   card += "<div class=\"facts\">\n" + press_facts(sample) + friction_facts(sample);
   if (sample.placement) card += placement_facts(*sample.placement);
   if (sample.decimate) card += decimate_facts(*sample.decimate);
@@ -218,7 +225,7 @@ std::string sample_card(const SampleReport& sample, std::size_t index, const fs:
   std::string card = fmt::format("<article class=\"card\" id=\"{}\">\n<header><h3>{}</h3>{}", card_id(index),
                                  html_text(sample.name), verdict_badge(sample));
   if (!sample.object.empty()) card += "<span class=\"quiet\">object " + html_text(sample.object) + "</span>";
-  return card + "</header>\n" + sample_body(sample, folder) + "</article>\n";
+  return card + "</header>\n" + sample_body(sample, folder, Loading::in_sight) + "</article>\n";
 }
 
 }  // namespace tacipc

@@ -49,7 +49,7 @@ std::string upright_text(const char* kind, double x, double y, const char* ancho
 std::string labels_svg(const std::string& x_label, const std::string& left_label, double right_end) {
   return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (Drawing::kLeft + right_end),
                      Drawing::kBottom + 40, html_text(x_label)) +
-         upright_text("label", 16, 0.5 * (Drawing::kTop + Drawing::kBottom), "middle", left_label);
+         upright_text("label", 12, 0.5 * (Drawing::kTop + Drawing::kBottom), "middle", left_label);
 }
 
 }  // namespace tacipc

@@ -59,6 +59,7 @@ tbody tr:hover { background: color-mix(in srgb, var(--accent) 7%, transparent); 
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(300px, 100%), 1fr)); gap: 1rem; }
 .pictures + .pictures { margin-top: 1rem; }
 figure { margin: 0; min-width: 0; }
+figure > a { display: block; }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; }
 figcaption { margin-top: .35rem; font-size: .85rem; color: var(--quiet); }
 figcaption b { color: var(--ink); }

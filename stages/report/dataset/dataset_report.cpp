@@ -16,6 +16,7 @@
 #include "stages/report/dataset/sample_page.h"
 #include "stages/report/dataset/site.h"
 #include "stages/report/dataset/tally.h"
+#include "stages/report/press_folder.h"
 
 namespace tacipc {
 namespace {
@@ -41,27 +42,38 @@ void for_each_block(const fs::path& plan, const std::function<void(const std::ve
   flush();
 }
 
-std::vector<SampleStatus> read_status(const fs::path& plan, const fs::path& dataset) {
-  std::vector<SampleStatus> status;
+/// Where a sample stands, and whether its images are still there.
+struct SampleState {
+  SampleStatus status = SampleStatus::unmade;
+  bool images_dropped = false;
+};
+
+std::vector<SampleState> read_states(const fs::path& plan, const fs::path& dataset) {
+  std::vector<SampleState> states;
   for_each_block(plan, [&](const std::vector<PlannedRow>& rows, std::size_t first) {
-    status.resize(first + rows.size());
-    tbb::parallel_for(std::size_t{0}, rows.size(),
-                      [&](std::size_t i) { status[first + i] = status_of(dataset / rows[i].folder); });
+    states.resize(first + rows.size());
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+      const fs::path folder = dataset / rows[i].folder;
+      states[first + i] = {status_of(folder), was_dropped(folder / "render")};
+    });
   });
-  return status;
+  return states;
 }
 
-/// Positions in the plan of the samples that get a page, ascending.
-std::vector<std::size_t> chosen_samples(const std::vector<SampleStatus>& status, const DatasetReportConfig& config) {
-  std::vector<std::size_t> chosen;
-  for (const auto& [which, how_many] :
-       {std::pair{SampleStatus::made, config.made}, {SampleStatus::failed, config.failed}}) {
-    std::vector<std::size_t> those;
-    for (std::size_t i = 0; i < status.size(); ++i)
-      if (status[i] == which) those.push_back(i);
-    for (const std::size_t i : evenly_chosen(those.size(), static_cast<std::size_t>(how_many)))
-      chosen.push_back(those[i]);
+/// Positions in the plan of the samples that get a page, ascending: of the made ones those that still have images, if
+/// there are any.
+std::vector<std::size_t> chosen_samples(const std::vector<SampleState>& states, const DatasetReportConfig& config) {
+  std::vector<std::size_t> made, dropped, failed, chosen;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i].status == SampleStatus::made) (states[i].images_dropped ? dropped : made).push_back(i);
+    if (states[i].status == SampleStatus::failed) failed.push_back(i);
   }
+  const auto choose = [&](const std::vector<std::size_t>& among, int how_many) {
+    for (const std::size_t i : evenly_chosen(among.size(), static_cast<std::size_t>(how_many)))
+      chosen.push_back(among[i]);
+  };
+  choose(made.empty() ? dropped : made, config.made);
+  choose(failed, config.failed);
   std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
@@ -129,19 +141,19 @@ void report_dataset(Stage& stage) {
   const std::string& name = stage.option("--title");
   DatasetFacts facts = read_dataset_facts(name, stage.input("--dataset"));
 
-  const std::vector<SampleStatus> status = read_status(plan, dataset);
-  const std::vector<PlannedRow> chosen = rows_at(plan, chosen_samples(status, config));
+  const std::vector<SampleState> states = read_states(plan, dataset);
+  const std::vector<PlannedRow> chosen = rows_at(plan, chosen_samples(states, config));
   std::set<std::string> with_page;
   for (const PlannedRow& row : chosen) with_page.insert(row.id);
 
   DatasetTally tally(static_cast<std::size_t>(config.failed));
-  ListPages list(name, status.size(), static_cast<std::size_t>(config.rows), with_page,
+  ListPages list(name, states.size(), static_cast<std::size_t>(config.rows), with_page,
                  [&](const std::string& file, const std::string& html) { write_file(stage.output(file), html); });
   for_each_block(plan, [&](const std::vector<PlannedRow>& planned, std::size_t first) {
-    show_progress(static_cast<double>(first) / static_cast<double>(status.size()), planned.front().id);
+    show_progress(static_cast<double>(first) / static_cast<double>(states.size()), planned.front().id);
     std::vector<SampleRow> rows(planned.size());
     tbb::parallel_for(std::size_t{0}, planned.size(),
-                      [&](std::size_t i) { rows[i] = read_row(planned[i], dataset, status[first + i]); });
+                      [&](std::size_t i) { rows[i] = read_row(planned[i], dataset, states[first + i].status); });
     for (const SampleRow& row : rows) {
       tally.add(row);
       list.add(row);

@@ -31,8 +31,7 @@ void ListPages::add(const SampleRow& row) {
                 : id;
   const char* kind = row.status == SampleStatus::unmade ? "unmade" : status_word(row.status);
   table_ += fmt::format("</td><td class=\"word status-{}\">{}</td>", kind, status_word(row.status));
-  for (const std::string& word :
-       {row.plan.split, row.plan.split_pose, row.plan.object, row.plan.motion, gel_of(row.plan)})
+  for (const std::string& word : {row.plan.split, row.plan.split_pose})
     table_ += "<td class=\"word\">" + html_text(word) + "</td>";
   for (const Quantity& quantity : kQuantities) table_ += "<td>" + number_text(row.numbers.*quantity.number) + "</td>";
   table_ += "</tr>\n";
@@ -44,18 +43,18 @@ void ListPages::flush() {
   std::string main =
       scroll_start("Samples") +
       "<table>\n<thead><tr><th>index</th><th class=\"word\">sample</th><th class=\"word\">status</th><th "
-      "class=\"word\">split</th><th class=\"word\">pose split</th><th class=\"word\">object</th><th "
-      "class=\"word\">motion</th><th class=\"word\">gel</th>";
+      "class=\"word\">split</th><th class=\"word\">pose split</th>";
   for (const Quantity& quantity : kQuantities) main += "<th>" + quantity.label() + "</th>";
   main += "</tr></thead>\n<tbody>\n" + std::exchange(table_, "") + "</tbody></table></div>\n";
   const std::string links = pager(page_, pages, list_page_name);
   const std::string heading = pages == 1 ? "All samples" : fmt::format("Samples, page {} of {}", page_ + 1, pages);
-  write_(list_page_name(page_),
-         site_page({.dataset = dataset_,
-                    .heading = heading,
-                    .up = "",
-                    .main = main + links,
-                    .nav = "<p>Each number is the largest over the frames of the sample.</p>\n" + links}));
+  write_(list_page_name(page_), site_page({.dataset = dataset_,
+                                           .heading = heading,
+                                           .up = "",
+                                           .main = main + links,
+                                           .nav = "<p>A name is sensor, object, motion and index. Each number is the "
+                                                  "largest over the frames of the sample.</p>\n" +
+                                                  links}));
   ++page_;
   rows_ = 0;
 }

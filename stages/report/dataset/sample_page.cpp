@@ -29,11 +29,13 @@ class PictureCopies {
     sample_.data.emplace_back(label, picture);
     picture = folder_ / picture_name(page_.shot.plan.id, name);
   }
-  void add(const ByteImage& image, const std::string& name, int largest_px) {
-    const bool smaller = std::max(image.width, image.height) > largest_px;
+  /// Width and height of the copy.
+  std::pair<int, int> add(const ByteImage& image, const std::string& name, int largest_px) {
+    const ByteImage copy =
+        std::max(image.width, image.height) > largest_px ? fitted_picture(image, largest_px, largest_px) : image;
     const std::string file = picture_name(page_.shot.plan.id, name);
-    page_.pictures.emplace_back(
-        file, jpeg_bytes(smaller ? fitted_picture(image, largest_px, largest_px) : image, kQuality, file));
+    page_.pictures.emplace_back(file, jpeg_bytes(copy, kQuality, file));
+    return {copy.width, copy.height};
   }
 
  private:
@@ -47,8 +49,7 @@ void copy_pictures(SamplePage& page, SampleReport& sample, const fs::path& folde
   if (!sample.images) return;
   PictureCopies copies(page, sample, folder, config.picture_px);
   SampleImages& images = *sample.images;
-  copies.add(read_png(images.tactile, 3), "thumb", config.thumb_px);
-  page.shot.has_picture = true;
+  page.shot.thumb_px = copies.add(read_png(images.tactile, 3), "thumb", config.thumb_px);
   copies.take(images.tactile, "tactile", "tactile.png");
   copies.take(images.no_contact, "no_contact", "tactile.png without contact");
   if (images.markers) copies.take(*images.markers, "markers", "marker.png");
@@ -83,12 +84,12 @@ SamplePage make_sample_page(const PlannedRow& plan, const fs::path& dataset, con
     sample.images.reset();
     sample.phase_images.clear();
     page.pictures.clear();
-    page.shot.has_picture = false;
+    page.shot.thumb_px.reset();
     if (!sample.failure) sample.failure = error.what();
   }
   page.shot.passed = sample.passed();
   page.body = "<p>" + verdict_badge(sample) + "</p>\n" + planned_facts(plan) + "<article class=\"card\">\n" +
-              sample_body(sample, folder / "samples") + "</article>\n";
+              sample_body(sample, folder / "samples", Loading::at_once) + "</article>\n";
   return page;
 }
 

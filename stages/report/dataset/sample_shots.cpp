@@ -16,9 +16,13 @@ std::string shots_list(const std::vector<SampleShot>& shots, std::size_t first, 
     const std::string words = fmt::format("{}, {}, {}", html_text(shot.plan.object), html_text(shot.plan.motion),
                                           html_text(shot.plan.sensor));
     const std::string picture =
-        shot.has_picture ? fmt::format("<img src=\"{}\" alt=\"last tactile image of {}\" loading=\"lazy\">",
-                                       html_link(picture_name(shot.plan.id, "thumb"), "."), words)
-                         : fmt::format("<span class=\"none\">{}</span>", shot.passed ? "no image left" : "failed");
+        shot.thumb_px
+            ? fmt::format(
+                  "<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"last tactile image of {}\" loading=\"lazy\">",
+                  html_link(picture_name(shot.plan.id, "thumb"), "."), shot.thumb_px->first, shot.thumb_px->second,
+                  words)
+        : shot.passed ? "<span class=\"none gone\">no image left</span>"
+                      : "<span class=\"none\">failed</span>";
     html += fmt::format("<li><a href=\"{}\">{}<b>{}</b> {}<br><span class=\"quiet\">{} · {}</span></a></li>\n",
                         html_link(sample_page_name(shot.plan.id), "."), picture, html_text(shot.plan.object),
                         html_text(shot.plan.motion), html_text(shot.plan.sensor), html_text(shot.plan.index));

@@ -1,7 +1,9 @@
 // Samples that have a page of their own, and what contact sheets and lists show of them.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/dataset_plan.h"
@@ -11,7 +13,7 @@ namespace tacipc {
 struct SampleShot {
   PlannedRow plan;
   bool passed = true;
-  bool has_picture = false;  // pictures/<id>/thumb.jpg
+  std::optional<std::pair<int, int>> thumb_px = std::nullopt;  // width and height of pictures/<id>/thumb.jpg
 };
 
 /// The pictures of these samples as links to their pages.

@@ -9,6 +9,7 @@ a:focus-visible, summary:focus-visible, .scroll:focus-visible {
   outline: 3px solid var(--accent); outline-offset: 2px; border-radius: 4px;
 }
 main:focus { outline: none; }
+main > .card { margin-top: .8rem; }
 .skip { position: absolute; left: -999px; top: .5rem; padding: .5rem 1rem; background: var(--card); border-radius: 8px; }
 .skip:focus { left: .8rem; z-index: 1; }
 header.site { margin-bottom: 1.6rem; padding-bottom: .7rem; border-bottom: 1px solid var(--line); }
@@ -35,6 +36,7 @@ footer { margin-top: 3rem; padding-top: .8rem; border-top: 1px solid var(--line)
 .sheet a:hover { border-color: var(--accent); text-decoration: none; }
 .sheet img { display: block; width: 100%; height: auto; margin-bottom: .3rem; border-radius: 6px; }
 .sheet .none { display: grid; place-items: center; aspect-ratio: 4 / 3; margin-bottom: .3rem; border-radius: 6px; background: var(--bad-paper); color: var(--bad); font-weight: 600; }
+.sheet .gone { background: var(--line); color: var(--quiet); }
 .tables { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(480px, 100%), 1fr)); gap: 1rem; align-items: start; }
 .tables h3, .facts-list h3, h3.over { margin: 0 0 .5rem; font-size: 1rem; }
 h3.over { margin-top: 1.4rem; }

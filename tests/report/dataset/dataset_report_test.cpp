@@ -99,9 +99,18 @@ TEST_F(DatasetReportTest, SaysWhatWasDroppedAfterPacking) {
   write_file(data.sample(1) / "render/.dropped", "");
   ASSERT_EQ(report(data), 0) << said_;
   EXPECT_THAT(page(data, "index.html"), HasSubstr("Of 2 samples files were removed after packing"));
-  for (const int i : {0, 1}) EXPECT_THAT(page(data, "samples/" + data.id(i) + ".html"), HasSubstr(">passed</span>"));
-  EXPECT_THAT(page(data, "samples/" + data.id(0) + ".html"), HasSubstr("its arrays were dropped after packing"));
-  EXPECT_THAT(page(data, "samples/" + data.id(1) + ".html"), HasSubstr("its images were dropped after packing"));
+  const std::string first = page(data, "samples/" + data.id(0) + ".html");
+  EXPECT_THAT(first, HasSubstr(">passed</span>"));
+  EXPECT_THAT(first, HasSubstr("its arrays were dropped after packing"));
+  // A sample without images has a page only where none has images.
+  EXPECT_FALSE(fs::exists(data.dataset() / "report/samples" / (data.id(1) + ".html")));
+  fs::remove_all(data.sample(0) / "render/frame_0004");
+  write_file(data.sample(0) / "render/.dropped", "");
+  ASSERT_EQ(report(data), 0) << said_;
+  const std::string second = page(data, "samples/" + data.id(1) + ".html");
+  EXPECT_THAT(second, HasSubstr(">passed</span>"));
+  EXPECT_THAT(second, HasSubstr("its images were dropped after packing"));
+  EXPECT_THAT(page(data, "sheet-001.html"), HasSubstr("no image left"));
 }
 
 TEST_F(DatasetReportTest, ListsManySamplesOverManyPagesInLittleMemory) {
