@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "common/value.h"
 #include "common/dataset_plan.h"
+#include "common/value.h"
 #include "stages/pack/sample_frames.h"
 
 namespace tacipc {

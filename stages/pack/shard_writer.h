@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "common/dataset_plan.h"
 #include "common/hdf5_writer.h"
 #include "stages/pack/pack_config.h"
-#include "common/dataset_plan.h"
 #include "stages/pack/sample_frames.h"
 
 namespace tacipc {

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <regex>
+#include <cmath>
+
+#include "tests/report/svg_numbers.h"
 
 namespace tacipc {
 namespace {
@@ -20,15 +22,6 @@ Chart chart_of(std::vector<std::optional<double>> values) {
 int count(const std::string& text, const std::string& part) {
   int found = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
-
-/// Numbers behind `attribute="` of all elements that match.
-std::vector<double> numbers(const std::string& svg, const std::string& pattern) {
-  std::vector<double> found;
-  const std::regex regex(pattern);
-  for (std::sregex_iterator it(svg.begin(), svg.end(), regex), end; it != end; ++it)
-    found.push_back(std::stod((*it)[1]));
   return found;
 }
 

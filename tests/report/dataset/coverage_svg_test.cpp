@@ -2,22 +2,15 @@
 
 #include <gmock/gmock.h>
 
-#include <regex>
+#include <cmath>
+
+#include "tests/report/svg_numbers.h"
 
 namespace tacipc {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-/// A number of each element that matches.
-std::vector<double> numbers(const std::string& svg, const std::string& pattern) {
-  std::vector<double> found;
-  const std::regex regex(pattern);
-  for (std::sregex_iterator it(svg.begin(), svg.end(), regex), end; it != end; ++it)
-    found.push_back(std::stod((*it)[1]));
-  return found;
-}
 
 TEST(HistogramSvg, BarsAreAsHighAsTheirCountsAndStandOnEachOther) {
   const Histogram h = histogram({{0, 0, 0, 0, 1}, {0, 0}}, 2);
