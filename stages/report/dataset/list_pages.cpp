@@ -44,7 +44,7 @@ void ListPages::flush() {
       scroll_start("Samples") +
       "<table>\n<thead><tr><th>index</th><th class=\"word\">sample</th><th class=\"word\">status</th><th "
       "class=\"word\">split</th><th class=\"word\">pose split</th>";
-  for (const Quantity& quantity : kQuantities) main += "<th>" + quantity.label() + "</th>";
+  for (const Quantity& quantity : kQuantities) main += fmt::format("<th>{}<br>{}</th>", quantity.name, quantity.unit);
   main += "</tr></thead>\n<tbody>\n" + std::exchange(table_, "") + "</tbody></table></div>\n";
   const std::string links = pager(page_, pages, list_page_name);
   const std::string heading = pages == 1 ? "All samples" : fmt::format("Samples, page {} of {}", page_ + 1, pages);

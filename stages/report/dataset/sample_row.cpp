@@ -138,7 +138,9 @@ double turn_about_z_deg(const double* first, const double* second) {
     for (int k = 0; k < 3; ++k) sum += second[4 * i + k] * first[4 * j + k];
     return sum;
   };
-  return std::atan2(entry(1, 0) - entry(0, 1), entry(0, 0) + entry(1, 1)) * 180.0 / std::numbers::pi;
+  constexpr double kNothingDeg = 1e-9;  // rounding of a motion that does not turn
+  const double turn = std::atan2(entry(1, 0) - entry(0, 1), entry(0, 0) + entry(1, 1)) * 180.0 / std::numbers::pi;
+  return std::abs(turn) < kNothingDeg ? 0.0 : turn;
 }
 
 }  // namespace tacipc

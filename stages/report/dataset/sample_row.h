@@ -52,7 +52,8 @@ struct SampleRow {
 SampleRow read_row(const PlannedRow& plan, const std::filesystem::path& dataset, SampleStatus status);
 
 /// Turn about z from the first to another pose (4 × 4 by rows, `gel_from_object`), degrees in (−180, 180]: the angle by
-/// which the turn between them would have to be undone for the least rest, atan2(R₁₀ − R₀₁, R₀₀ + R₁₁) of R = R₂ R₁ᵀ.
+/// which the turn between them would have to be undone for the least rest, atan2(R₁₀ − R₀₁, R₀₀ + R₁₁) of R = R₂ R₁ᵀ; 0
+/// where only rounding is left.
 double turn_about_z_deg(const double* first, const double* second);
 
 }  // namespace tacipc

@@ -94,6 +94,9 @@ TEST(TurnAboutZ, DoesNotSeeATilt) {
   EXPECT_EQ(turn_about_z_deg(rest.data(), tilted.data()), 0);
   EXPECT_DOUBLE_EQ(turn_about_z_deg(rest.data(), turned.data()), 90);
   EXPECT_DOUBLE_EQ(turn_about_z_deg(turned.data(), rest.data()), -90);
+  std::vector<double> rounded = rest;
+  rounded[4] = 1e-16;
+  EXPECT_EQ(turn_about_z_deg(rest.data(), rounded.data()), 0);
 }
 
 TEST_F(SampleRowTest, AMadeSampleThatMissesACheckIsNotTakenAtItsWord) {
