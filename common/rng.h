@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 
 namespace tacipc {
 
@@ -20,6 +21,13 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
 constexpr std::uint64_t random_bits(std::uint64_t seed, std::uint64_t stream, std::uint64_t counter) {
   constexpr std::uint64_t kOddStep = 0x9e3779b97f4a7c15ULL;  // 2⁶⁴ / golden ratio: spreads small numbers
   return mix_bits(mix_bits(mix_bits(seed + kOddStep) ^ (stream * kOddStep)) + (counter + 1) * kOddStep);
+}
+
+/// FNV-1a of the bytes, mixed: what a name counts as in a seed, the same on every machine. [Fowler, Noll, Vo]
+constexpr std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return mix_bits(hash);
 }
 
 /// Uniform in the open interval (0, 1), 52 bits.

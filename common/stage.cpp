@@ -157,7 +157,10 @@ std::string Stage::resume_key() const {
 
 void Stage::add_notes(Value::Map& record) const {
   record.insert(record.end(), notes_.begin(), notes_.end());
-  for (const OptionSpec& option : spec_.options) record.emplace_back(option.flag.substr(2), options_.at(option.flag));
+  for (const OptionSpec& option : spec_.options) {
+    const std::string& value = options_.at(option.flag);
+    if (!value.empty()) record.emplace_back(option.flag.substr(2), value);
+  }
 }
 
 void Stage::remove_old_results() const {

@@ -70,7 +70,7 @@ dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_PHOTO
 define dataset_sample
 $(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
 	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
-	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER))
+	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) --seed $(6))
 endef
 
 ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)

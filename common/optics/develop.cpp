@@ -133,7 +133,7 @@ FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel
     for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
       const double electrons = noise.full_well_e * exposure * std::max(0.0f, signal.pixels[i]);
       const double deviation = std::sqrt(electrons + noise.read_e * noise.read_e);
-      const double noisy = electrons + deviation * random_normal(static_cast<std::uint64_t>(noise.seed), stream, i);
+      const double noisy = electrons + deviation * random_normal(noise.seed, stream, i);
       out.pixels[i] = static_cast<float>(noisy / (noise.full_well_e * exposure));
     }
   });

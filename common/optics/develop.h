@@ -13,7 +13,7 @@ namespace tacipc {
 struct NoiseModel {
   double full_well_e = 0.0;  // electrons at full scale
   double read_e = 0.0;       // standard deviation of the read-out, electrons
-  int seed = 0;
+  std::uint64_t seed = 0;
 };
 
 /// 255 f(v) with f the response curve, for v = exposure × signal. Values above full scale are kept: clipping happens
@@ -39,8 +39,8 @@ FloatImage encode(const FloatImage& signal, double exposure, const Response& res
 /// ξ ~ N(0, 1) a function of seed, stream, pixel and channel alone. Returned over the exposure again, as a signal.
 FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel& noise, std::uint64_t stream);
 
-/// What a photograph of the reference might look like: noise, then curve and rounding. Every sample of a sensor gets
-/// the same one.
+/// What a photograph of the reference might look like: noise, then curve and rounding. The same seed gives
+/// every sample of a sensor the same one.
 ByteImage synthetic_reference(const FloatImage& signal, double exposure, const Response& response,
                               const NoiseModel& noise);
 

@@ -94,10 +94,10 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
     const std::string block = block_of(sample);
     if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
     const MotionChoice& motion = config.motions[static_cast<std::size_t>(sample.motion)];
-    rules[block] += fmt::format("$(eval $(call dataset_sample,{},{},{},{},{}))\n", place_of(sample),
+    rules[block] += fmt::format("$(eval $(call dataset_sample,{},{},{},{},{},{}))\n", place_of(sample),
                                 config.objects[static_cast<std::size_t>(sample.object)].name,
                                 config.sensors[static_cast<std::size_t>(sample.sensor)].gel(),
-                                motion.press.generic_string(), paths_of(motion));
+                                motion.press.generic_string(), paths_of(motion), sample.seed);
     shards.insert(sample.shard);
     members[block].append(" ").append(place_of(sample));
   }

@@ -124,7 +124,7 @@ std::string path_name(const DatasetConfig& config, int motion, int phase) {
 
 std::string sample_yaml(const DatasetConfig& config, const PlannedSample& sample) {
   const MotionTemplate& motion = config.motions[static_cast<std::size_t>(sample.motion)].motion;
-  return "# " + sample.id + "\n" +
+  return fmt::format("# {}, seed {}\n", sample.id, sample.seed) +
          motion.sample_yaml([&](int d) { return drawn_number(config, sample, d); },
                             [&](int phase) { return "../../../plan/" + path_name(config, sample.motion, phase); });
 }

@@ -8,13 +8,6 @@
 
 namespace tacipc {
 
-/// FNV-1a of the bytes, mixed: the same on every machine. [Fowler, Noll, Vo]
-constexpr std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return mix_bits(hash);
-}
-
 /// Seed of what has this name in a dataset of this global seed; 53 bits, which every reader of numbers keeps.
 constexpr std::uint64_t seed_of(std::uint64_t global_seed, std::string_view name) {
   return random_bits(global_seed, hash_of(name), 0) >> 11;

@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <charconv>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -27,7 +29,9 @@ const StageSpec kRender{
                {.flag = "--shapes",
                 .help = "indentation maps (EXR), one per frame, in place of a press",
                 .required = false,
-                .many = true}}};
+                .many = true}},
+    .options = {
+        {.flag = "--seed", .help = "seed of the sample (a count), whose noise is then its own", .fallback = ""}}};
 
 /// Labels as grey values far enough apart to be seen.
 ByteImage spread(const ByteImage& labels, int step) {
@@ -91,6 +95,15 @@ Value::List groups_of(const Sensor& sensor) {
   return lines;
 }
 
+/// \throw UsageError if it is no count
+std::optional<std::uint64_t> sample_seed(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  std::uint64_t seed = 0;
+  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || at != text.data() + text.size()) throw UsageError("--seed: '" + text + "' is no count");
+  return seed;
+}
+
 /// A photograph becomes an input of the stage; without one the record says `synthetic`.
 std::optional<ByteImage> load_reference(Stage& stage, const Sensor& sensor, const std::string& name) {
   if (!sensor.reference_image) return std::nullopt;
@@ -142,7 +155,9 @@ int main(int argc, char** argv) {
     const bool press = stage.optional_input("--press").has_value(), gel = stage.optional_input("--gel").has_value();
     if (press != gel) throw UsageError("--press and --gel belong together");
     if (press != stage.inputs("--shapes").empty()) throw UsageError("give either --press and --gel, or --shapes");
-    const auto config = stage.read_config<RenderConfig>("--config");
+    auto config = stage.read_config<RenderConfig>("--config");
+    if (const auto seed = sample_seed(stage.option("--seed")))
+      config.noise_seed = noise_seed_of_sample(config.noise_seed, *seed);
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const std::vector<RenderUnit> units = all_units(stage, sensor, config);
     if (sensor.reference_image) {

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <set>
 
+#include "common/rng.h"
+
 namespace tacipc {
 namespace {
 
@@ -69,7 +71,7 @@ RenderConfig RenderConfig::read(ConfigReader& in) {
                     : transfer == "linear" ? Transfer::linear
                                            : Transfer::none;
   ConfigReader noise = in.section("noise");
-  config.noise_seed = noise.integer("seed", 0);
+  config.noise_seed = static_cast<std::uint64_t>(noise.integer("seed", 0));
   config.noise_in_every_frame = noise.flag_or("every_frame", false);
   std::set<std::string> names;
   for (ConfigReader& item : in.sections("variants")) {
@@ -77,6 +79,10 @@ RenderConfig RenderConfig::read(ConfigReader& in) {
     if (!names.insert(config.variants.back().name).second) item.fault("name", "given twice");
   }
   return config;
+}
+
+std::uint64_t noise_seed_of_sample(std::uint64_t noise_seed, std::uint64_t sample_seed) {
+  return random_bits(sample_seed, hash_of("render"), noise_seed);
 }
 
 }  // namespace tacipc

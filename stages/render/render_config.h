@@ -51,12 +51,16 @@ struct RenderConfig {
   TraceSettings trace;
   bool basis_images = false;  // also the image of each light group alone
   Transfer transfer = Transfer::encoded;
-  int noise_seed = 0;
+  std::uint64_t noise_seed = 0;
   bool noise_in_every_frame = false;  // fresh noise in each simulated frame, beside what the reference carries
   std::vector<Variant> variants = {};
 
   static RenderConfig read(ConfigReader& in);
 };
+
+/// Seed of the noise of one sample of a dataset, a hash of the configuration's, the sample's and the stage: samples
+/// must not carry the same pattern, which is all that a network would have to learn to tell noise from shape.
+std::uint64_t noise_seed_of_sample(std::uint64_t noise_seed, std::uint64_t sample_seed);
 
 /// The sensor that a variant means. `other` is its sensor file, read.
 /// \throw DataError if it names a light group that the sensor has not.

@@ -50,6 +50,11 @@ motions:
   ASSERT_EQ(plan(write("0.4")), 0) << said_;
   EXPECT_EQ(fs::last_write_time(a), old);
   EXPECT_NE(fs::last_write_time(b), old);
+  // Another seed is another sample, though nothing is drawn: its noise differs.
+  std::string text = read_file(write("0.4"));
+  scratch_.file("d.yaml", text.replace(0, 7, "seed: 2"));
+  ASSERT_EQ(plan(scratch_ / "d.yaml"), 0) << said_;
+  EXPECT_NE(fs::last_write_time(a), old);
 }
 
 TEST_F(PlanProgram, FaultsAreAllSaidAndNothingIsPlanned) {

@@ -286,6 +286,42 @@ TEST_F(RenderStage, EveryFrameMayHaveNoiseOfItsOwn) {
   EXPECT_LT(rms, 5.0);
 }
 
+TEST_F(RenderStage, SamplesOfADatasetHaveNoiseOfTheirOwn) {
+  ASSERT_EQ(run("alone"), 0) << said_;
+  EXPECT_EQ(read_file(scratch_ / "alone/render.yaml").find("\nseed:"), std::string::npos);
+  for (const auto& [out, more] : {std::pair{"a", "--seed 4503599627370497"},
+                                  {"again", "--seed 4503599627370497 --threads 2"},
+                                  {"b", "--seed 4503599627370498"}})
+    ASSERT_EQ(run(out, more), 0) << said_;
+  EXPECT_EQ(content_hash(scratch_ / "a"), content_hash(scratch_ / "again"));
+  EXPECT_NE(read_file(scratch_ / "a/render.yaml").find("\nseed: 4503599627370497\n"), std::string::npos);
+  const auto image = [&](const std::string& out, const char* frame) {
+    return read_png(scratch_ / (out + "/" + frame + "/tactile.png"), 3);
+  };
+  // Independent noise of two images: the difference has √2 times the deviation of one, some 2 codes (above).
+  for (const std::string other : {"alone", "b"}) {
+    for (const char* frame : {"frame_0000", "frame_0002"}) {
+      const ByteImage a = image("a", frame), b = image(other, frame);
+      double squares = 0.0;
+      for (std::size_t i = 0; i < a.pixels.size(); ++i) squares += std::pow(a.pixels[i] - b.pixels[i], 2.0);
+      const double rms = std::sqrt(squares / static_cast<double>(a.pixels.size()));
+      EXPECT_GT(rms, 2.1) << other << " " << frame;
+      EXPECT_LT(rms, 7.1) << other << " " << frame;
+    }
+  }
+  // What the press did is the same whatever the noise.
+  for (const char* file : {"depth.exr", "linear.exr", "normal.png"})
+    EXPECT_EQ(content_hash(scratch_ / "a/frame_0002" / file), content_hash(scratch_ / "b/frame_0002" / file)) << file;
+  // A number of the configuration's gives other noise to the same sample.
+  write_file(scratch_ / "config.yaml", "frames: last\nnoise: {seed: 2}\n");
+  ASSERT_EQ(run("c", "--seed 4503599627370497"), 0) << said_;
+  EXPECT_NE(image("a", "frame_0000").pixels, image("c", "frame_0000").pixels);
+  for (const char* wrong : {"--seed -1", "--seed 1.5", "--seed x", "--seed 18446744073709551616"}) {
+    EXPECT_EQ(run("wrong", wrong), 2) << wrong;
+    EXPECT_NE(said_.find("is no count"), std::string::npos) << said_;
+  }
+}
+
 TEST_F(RenderStage, RefusesASensorThatSaysNothingOfItsReference) {
   std::string sensor = kSensor;
   sensor.erase(sensor.find("noise:"));
