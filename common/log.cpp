@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <memory>
 
 namespace tacipc {
@@ -17,8 +18,11 @@ std::string stage_name;
 bool progress_shown = false;
 std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 
+/// Unlike fmt::print it does not throw where nothing can be written: what is to be said may be just that.
+void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 void end_progress_line() {
-  if (progress_shown) fmt::print(stderr, "\r\033[K");
+  if (progress_shown) say("\r\033[K");
   progress_shown = false;
 }
 
@@ -36,6 +40,7 @@ void open_log_file(const std::string& path) {
   file = std::make_shared<spdlog::logger>(stage_name, std::make_shared<spdlog::sinks::basic_file_sink_st>(path, true));
   file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
   file->set_level(spdlog::level::debug);
+  file->set_error_handler([](const std::string&) {});  // a full disk has a message of its own
   file->flush_on(spdlog::level::info);
 }
 
@@ -49,7 +54,7 @@ void log_message(int level, const std::string& text) {
 void log_error(const std::string& text) {
   end_progress_line();
   // Straight to the terminal: an error is said whatever level was asked for.
-  fmt::print(stderr, "{}\n", text);
+  say(text + "\n");
   if (file) file->error(text);
 }
 
@@ -65,7 +70,7 @@ void show_progress(double fraction, const std::string& text) {
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   std::string left;
   if (fraction > 0.01 && fraction < 1.0) left = fmt::format(", {:.0f} s left", spent * (1.0 - fraction) / fraction);
-  fmt::print(stderr, "\r\033[K{}: {}{}", stage_name, text, left);
+  say(fmt::format("\r\033[K{}: {}{}", stage_name, text, left));
   std::fflush(stderr);
   progress_shown = true;
 }

@@ -100,10 +100,19 @@ dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml)
 plan: $(DATASET_DIR)/plan/plan.yaml ## Samples of a dataset, without making them: CONFIG=configs/datasets/mini.yaml
 	@echo; echo "$(DATASET_SAMPLES) samples; look at $(DATASET_DIR)/plan/samples.csv"
 
-# A failed sample does not stop the others; the last line does not let it pass unseen.
+# What a run ends with: samples that are made are packed, failed ones listed, and what outputs.keep does not name is dropped. Make begins
+# anew for it, as what there is to pack has only now been made. A failed sample does not stop the others; the last line does not let it pass unseen.
+dataset_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) -s -f Makefile.data $(1) $(dataset_variables) REBUILD=no JOBS=$(JOBS) THREADS=$(THREADS) CARD=$(CARD) \
+  $(if $(PACK_GIVEN),PACK=$(PACK))
+define dataset_end
+	@ended=0; $(if $(filter none,$(DATASET_PROFILE)),,{ $(call dataset_again,dataset-pack) && \
+	  bash pipelines/dataset_drop.sh --whole-shards '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render); } || ended=$$?;) \
+	bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)' && exit $$ended
+endef
+
 dataset: dataset-samples ## Everything of a dataset: CONFIG=configs/datasets/mini.yaml (resumes; failed samples are left alone)
 	@rm -f $(DATASET_RUN)
-	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)'
+	$(dataset_end)
 
 retry: dataset ## What of a dataset failed or is missing, once more: CONFIG=
 
@@ -120,9 +129,8 @@ estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/re
 	@bash pipelines/dataset_estimate.sh '$(DATASET_DIR)' configs/cost_model.yaml
 
 # On a cluster: gels and objects, then the parts, then what comes last, as three jobs.
-DATASET_PACK := $(if $(wildcard pipelines/pack.mk),dataset-pack)
-dataset-last: $(DATASET_PACK)
-	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)'
+dataset-last:
+	$(dataset_end)
 drop: ## Remove what outputs.keep of the dataset does not name, of packed samples: CONFIG=
 	@bash pipelines/dataset_drop.sh '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)
 submit: $(DATASET_DIR)/plan/plan.yaml ## A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/slurm/default.sh RETRY=yes]

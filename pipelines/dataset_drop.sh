@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# Removes what stages wrote for samples that are packed, but their records, times and logs: dataset_drop.sh DATASET STAGES...
-# A sample stays made: its records are there. Only samples that the manifest of the pack lists as made are touched.
+# Removes what stages wrote for samples that are packed, but their records, times and logs: dataset_drop.sh [--whole-shards] DATASET STAGES...
+# A sample stays made: its records are there. Only samples that the manifest of the pack lists as made are touched; with --whole-shards only
+# those in shards where no sample failed, as such a shard is packed again when one is made after all.
 set -euo pipefail
 export LC_ALL=C
+whole=no
+if [ "$1" = --whole-shards ]; then whole=yes; shift; fi
 dataset=$1
 shift
 [ "$#" -gt 0 ] || exit 0
@@ -20,7 +23,8 @@ while read -r folder; do
     find "$folder/$stage" -mindepth 1 -depth -type d -empty -delete
     dropped=$((dropped + 1))
   done
-done < <(awk -F, -v dataset="$dataset" '
-  NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "status") status = i }
-  NR == FNR { if ($status == "made") packed[$1] = 1; next } ($1 in packed) && FNR > 1 { print dataset "/" $11 }' "$manifest" "$dataset/plan/samples.csv")
-echo "$(basename "$dataset"): files of $dropped stages dropped ($*)"
+done < <(awk -F, -v dataset="$dataset" -v whole="$whole" '
+  NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+  NR == FNR { if ($at["status"] == "made") packed[$1] = 1; else if (whole == "yes") open[$at["shard"]] = 1; next }
+  ($1 in packed) && !($10 in open) && FNR > 1 { print dataset "/" $11 }' "$manifest" "$dataset/plan/samples.csv")
+[ "$dropped" = 0 ] || echo "$(basename "$dataset"): files of $dropped stages dropped ($*)"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # One stage of one sample, for make: dataset_stage.sh DATASET RUN STAGE RECORD PREREQUISITES COMMAND...
 # Exit 0: made, made by someone else meanwhile, or failed and noted in DATASET/failures.csv, so that make goes on with the others.
-# Exit 1: too many failures in a row (STOP_AFTER), or nothing can be noted any more. Exit 2: the configuration is wrong.
-# A sample that failed before is left alone until an input changes or RETRY=yes.
+# Exit 1: too many failures in a row (STOP_AFTER), or the disk takes nothing more, which is no fault of the sample: it counts as not tried.
+# Exit 2: the configuration is wrong. A sample that failed before is left alone until an input changes or RETRY=yes.
 set -euo pipefail
 export LC_ALL=C
 dataset=$1 run=$2 stage=$3 record=$4 prerequisites=$5
@@ -10,7 +10,7 @@ shift 5
 folder=$(dirname "$record")
 sample=$(basename "$(dirname "$folder")")
 failed=$folder/$stage.failed.yaml
-said=$folder/.stderr  # hidden, as all that is no result
+said=''
 
 # Whether a file is there and no prerequisite is newer.
 current() {
@@ -26,23 +26,46 @@ stop_if_many() {
     { echo "$STOP_AFTER failures in a row, see $dataset/failures.csv; stopped" >&2; exit 1; }
 }
 
-# One row per failed try, for people and for pack: one line each, whatever the message holds.
+# One row per failed try, for people and for pack: one line each, whatever the message holds, and whole or not at all.
+row() { # row REASON; with the lock
+  local ledger=$dataset/failures.csv reason=${1//[$'\n\r']/ } heading='' text size
+  [ -s "$ledger" ] || heading=$'id,stage,reason,log,time,host\n'
+  printf -v text '%s%s,%s,"%s",%s,%s,%s' "$heading" "$sample" "$stage" "${reason//\"/\"\"}" "${folder#"$dataset"/}/$stage.log" "$(date -u +%FT%TZ)" "$(hostname)"
+  size=$(stat -c %s "$ledger" 2> /dev/null || echo 0)
+  { echo "$text" >> "$ledger"; } 2> /dev/null || { truncate -c -s "$size" "$ledger"; return 1; }
+}
+# The lock is the plan's table: it is there, and takes no room.
 note_failure() { # note_failure REASON
-  local reason=${1//[$'\n\r']/ }
-  mkdir -p "$(dirname "$run")"
+  { flock 8 && row "$1"; } 8<> "$dataset/plan/samples.csv" || no_room "$dataset/failures.csv cannot be written"
+  mkdir -p "$(dirname "$run")" && echo "$sample" >> "$run" || no_room "$run cannot be written"
+  echo "$sample: $stage failed: $1" >&2
+}
+
+# The disk takes nothing more: no other sample would fare better. The first to meet it says so; nothing is left that makes its sample count as failed.
+full='nothing more can be written'
+reserve=$dataset/.reserve  # room for a row at that time
+disk_is_full() { [ -e "$run" ] && grep -qx "$full" "$run"; }
+no_room() { # no_room REASON
+  rm -f "$failed"
   {
     flock 8
-    [ -s "$dataset/failures.csv" ] || echo 'id,stage,reason,log,time,host' >&8
-    printf '%s,%s,"%s",%s,%s,%s\n' "$sample" "$stage" "${reason//\"/\"\"}" "${folder#"$dataset"/}/$stage.log" "$(date -u +%FT%TZ)" "$(hostname)" >&8
-  } 8>> "$dataset/failures.csv" || { echo "$dataset/failures.csv cannot be written" >&2; exit 1; }
-  echo "$sample" >> "$run" || exit 1
-  echo "$sample: $stage failed: $reason" >&2
+    rm -f "$reserve"
+    row "$1" || disk_is_full || echo "$dataset/failures.csv takes no further row" >&2
+    if ! disk_is_full; then
+      { mkdir -p "$(dirname "$run")" && echo "$full" >> "$run"; } 2> /dev/null || true
+      echo "$sample: $stage: $1" >&2
+      echo "stopped: $full in $dataset ($(df -P -k "$dataset" | awk 'NR == 2 { printf "%d MB", $4 / 1000 }') free); make room and give the same line again" >&2
+    fi
+  } 8<> "$dataset/plan/samples.csv"
+  exit 1
 }
 
 # Without the stage before it (which failed) there is nothing to do.
 for p in $prerequisites; do [ -e "$p" ] || exit 0; done
 stop_if_many
-mkdir -p "$folder"
+if disk_is_full; then exit 1; fi
+{ mkdir -p "$folder" && : > "$folder/.making"; } 2> /dev/null || no_room "$folder/.making cannot be written"
+[ -e "$reserve" ] || { head -c 16384 /dev/urandom > "$reserve-$$" && mv "$reserve-$$" "$reserve"; } 2> /dev/null || { rm -f "$reserve-$$"; no_room "$reserve cannot be written"; }
 # Two runs that were given the same sample: one makes it, the other waits and finds it made. A stage that outlives its make keeps the lock.
 exec 9> "$folder/.making"
 if ! flock -n 9; then flock 9; fi
@@ -55,25 +78,27 @@ if [ "$stage" = render ] && [ -e "$folder/../press/.dropped" ]; then
   exit 1
 fi
 rm -f "$folder/.dropped"
-echo "$*" > "$folder/.command"  # for a bundle
+{ echo "$*" > "$folder/.command"; } 2> /dev/null || no_room "$folder/.command cannot be written"  # for a bundle
 status=0
-env "$@" 2> "$said" || status=$?
+{ said=$(env "$@" 2>&1 >&7); } 7>&1 || status=$?
 case $status in
   0)
-    rm -f "$said"
     [ ! -s "$run" ] || : > "$run" ;;
   2 | 126 | 127)  # wrong configuration; a program that is not there or cannot be started
-    cat "$said" >&2
+    echo "$said" >&2
     exit 2 ;;
   1)
     reason=$(sed -n 's/^message: //p' "$failed" 2> /dev/null || true)
-    if [ -z "$reason" ]; then reason=$(tail -n 1 "$said" 2> /dev/null || true); fi
+    if [ -z "$reason" ]; then reason=${said##*$'\n'}; fi
+    case $reason in
+      *'No space left on device'* | *'Disk quota exceeded'* | *'File too large'* | *'Input/output error'* | *'Read-only file system'*) no_room "$reason" ;;
+    esac
     note_failure "${reason:-no reason given}" ;;
   129 | 130 | 143) exit "$status" ;;  # interrupted, as make itself is: begun again next time
   *)
     # Killed, by the kernel for want of memory or by itself. Where the whole job is being killed, this does not live to say so.
     sleep 1
     signal=$((status - 128))
-    printf 'stage: %s\nname: %s\nmessage: killed by signal %s\n' "$stage" "$sample" "$signal" > "$failed" || true
+    printf 'stage: %s\nname: %s\nmessage: killed by signal %s\n' "$stage" "$sample" "$signal" 2> /dev/null > "$failed" || no_room "$failed cannot be written"
     note_failure "killed by signal $signal" ;;
 esac

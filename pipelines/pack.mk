@@ -1,35 +1,32 @@
 # A made dataset as files to give away: make -f Makefile.data pack CONFIG=configs/datasets/mini.yaml [PACK=slim]
 # Its samples stand in $(DATASET_DIR)/plan/samples.csv; shards are written side by side, each by one process.
 
-PACK   ?= full#        a file of configs/pack
 CARD   ?= default#     a file of configs/card
 FORMAT ?= webdataset#  of repack: a file of configs/repack
 CONFIG ?=#             the dataset's configuration, by which its folder is named; or instead
 DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the folder
-$(foreach v,PACK CARD FORMAT DATASET_DIR,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
+PACK   ?= $(or $(filter-out none,$(shell sed -n 's/^  pack: *//p' '$(strip $(DATASET_DIR))/plan/dataset.yaml' 2> /dev/null)),full)# a file of configs/pack; as the dataset says
+PACK_GIVEN := $(filter command environment,$(firstword $(origin PACK)))
+$(foreach v,CARD FORMAT DATASET_DIR PACK,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
 
 .PHONY: pack dataset-pack repack
-PACK_GOALS := $(filter pack dataset-pack dataset-last repack,$(MAKECMDGOALS))
+PACK_GOALS := $(filter pack dataset-pack repack,$(MAKECMDGOALS))
 ifneq ($(and $(DATASET_DIR),$(PACK_GOALS)),)
 $(call check_name,DATASET_DIR)
 SHARDS_DIR := $(DATASET_DIR)/shards
 
-# PACK_SHARDS, and for each shard the records and failures of its samples, so that a sample made anew packs its shard anew.
-$(SHARDS_DIR)/shards.mk: $(DATASET_DIR)/plan/samples.csv
-	@mkdir -p $(@D); awk -F, -v dir=$(DATASET_DIR) ' \
-	  NR == 1 { for (i = 1; i <= NF; ++i) at[$$i] = i; next } \
-	  { if (!($$at["shard"] in folders)) names = names " " $$at["shard"]; folders[$$at["shard"]] = folders[$$at["shard"]] " " dir "/" $$at["folder"] } \
-	  END { print "PACK_SHARDS :=" names; for (s in folders) print dir "/shards/" s "/pack.yaml: $$(call results_in," folders[s] ")" }' $< > $@.new; \
-	mv $@.new $@
-results_in = $(wildcard $(foreach f,$(1),$(f)/press/press.yaml $(f)/press/press.failed.yaml $(f)/render/render.yaml $(f)/render/render.failed.yaml))
+# PACK_SHARDS, and for each shard a file that changes when anything does that is packed into it: a sample made anew packs its shard anew.
+ifneq ($(shell bash pipelines/pack_inputs.sh '$(DATASET_DIR)' configs/pack/$(PACK).yaml && echo done),done)
+  $(error pack: not possible)
+endif
 include $(SHARDS_DIR)/shards.mk
 
-# Another profile is another dataset however old its file is.
-$(SHARDS_DIR)/pack.choice $(SHARDS_DIR)/card.choice: $(SHARDS_DIR)/%.choice: FORCE
-	@mkdir -p $(@D); echo '$(if $(filter pack,$*),$(PACK),$(CARD))' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+# Another card is another dataset however old its file is.
+$(SHARDS_DIR)/card.choice: FORCE
+	@echo '$(CARD)' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
-$(SHARDS_DIR)/%/pack.yaml: $(DATASET_DIR)/plan/samples.csv $(DATASET_DIR)/plan/dataset.yaml configs/pack/$(PACK).yaml $(SHARDS_DIR)/pack.choice | build
-	$(call run,pack,--config configs/pack/$(PACK).yaml --plan $< --dataset $(DATASET_DIR)/plan/dataset.yaml --shard $*)
+$(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml): $(SHARDS_DIR)/%/pack.yaml: $(SHARDS_DIR)/%.inputs | build
+	$(call run,pack,--config configs/pack/$(PACK).yaml --plan $(DATASET_DIR)/plan/samples.csv --dataset $(DATASET_DIR)/plan/dataset.yaml --shard $*)
 
 SHARD_RECORDS := $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml)
 $(DATASET_DIR)/pack/card.yaml: configs/card/$(CARD).yaml configs/card/loader.py $(SHARDS_DIR)/card.choice $(SHARD_RECORDS) | build

@@ -116,7 +116,10 @@ int main(int argc, char** argv) {
     write_file(stage.output("checksums.sha256"), sums.text());
     int samples = 0;
     for (const PackedShard& shard : records.shards) samples += shard.samples;
-    stage.summarize({{"shards", records.shards.size()}, {"samples", samples}});
+    const auto clipped = counts.extents.find("clipped_fraction");
+    stage.summarize({{"shards", records.shards.size()},
+                     {"samples", samples},
+                     {"max_clipped_fraction", clipped == counts.extents.end() ? 0.0 : clipped->second.high}});
     log_info("{} shards, {} samples", records.shards.size(), samples);
   });
 }

@@ -25,6 +25,15 @@ std::optional<std::size_t> frame_number(const std::string& output) {
 
 std::string frame_folder(std::size_t frame) { return fmt::format("frame_{:04}/", frame); }
 
+/// Files of a dataset that was packed once may have been removed since, records excepted.
+fs::path refuse_dropped(fs::path folder) {
+  for (const std::string stage : {"press", "render"})
+    if (fs::exists(folder / stage / ".dropped"))
+      throw DataError("{}: was dropped after packing and cannot be packed again; clean-{}, then it is made anew",
+                      (folder / stage).string(), stage);
+  return folder;
+}
+
 template <typename T>
 Numbers numbers_of(const Image<T>& image) {
   Numbers numbers{.shape = {static_cast<std::size_t>(image.height), static_cast<std::size_t>(image.width)},
@@ -36,7 +45,7 @@ Numbers numbers_of(const Image<T>& image) {
 }  // namespace
 
 SampleFrames::SampleFrames(fs::path folder)
-    : folder_(std::move(folder)),
+    : folder_(refuse_dropped(std::move(folder))),
       press_(Record::from_file(folder_ / "press/press.yaml")),
       render_(Record::from_file(folder_ / "render/render.yaml")),
       per_frame_(press_.section("summary").sections("per_frame")) {

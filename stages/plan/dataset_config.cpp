@@ -170,6 +170,7 @@ class Reader {
     auto outputs = in_.optional_section("outputs");
     if (!outputs) return;
     config_.shard_bytes = 1e6 * outputs->number_or("shard_mb", 1000.0, Range::positive());
+    config_.pack = outputs->choice_or("pack", config_.pack, {"full", "slim", "full_sim", "none"});
     if (outputs->has("keep")) config_.keep = outputs->texts("keep");
     for (const std::string& stage : config_.keep)
       if (stage != "press" && stage != "render") outputs->fault("keep", "'" + stage + "' is none of press, render");

@@ -59,6 +59,7 @@ struct DatasetConfig {
   std::filesystem::path render;
   Splits splits;
   double shard_bytes = 1e9;
+  std::string pack = "full";           // profile that a finished run packs with, or none
   std::vector<std::string> keep = {};  // stages whose files stay once the dataset is packed
   int stop_after_failures = 10;        // in a row
 

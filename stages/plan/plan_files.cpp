@@ -37,6 +37,7 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Sensor>& s
   set("BLOCKS", joined(blocks));
   set("RENDER", config.render.generic_string());
   set("DECIMATE", config.decimate.generic_string());
+  set("PROFILE", config.pack);
   set("KEEP", joined(config.keep));
   set("SHARDS", joined(shards));
   text += fmt::format("DATASET_STOP_AFTER ?= {}\n", config.stop_after_failures);

@@ -19,6 +19,7 @@ motions:
     samples: 1
     file: along.yaml
 splits: {val: 0.1, test_objects: [star]}
+outputs: {pack: none}
 stop_after_failures: 3
 END
 echo 'motion: [{kind: press, depth_mm: 0.2, steps: 1}, {kind: path, file: away.csv}]' > mine/along.yaml
@@ -34,6 +35,7 @@ samples() { (cd "$1/datasets/set" && find gels objects samples -type f -not -nam
 goal whole dataset JOBS=2 2> /dev/null | grep -q '^set: 9 samples: 9 made, 0 failed, 0 running, 0 left$' || fail "not all samples are made"
 [ "$(tail -n +2 whole/datasets/set/plan/samples.csv | cut -d, -f1 | sort -u | wc -l)" = 9 ] || fail "ids are not unique"
 grep '__star__' whole/datasets/set/plan/samples.csv | cut -d, -f3 | sort -u | grep -qx test || fail "star is not in test"
+[ "$(md5sum whole/datasets/set/samples/000/*/render/frame_0000/tactile.png | cut -d' ' -f1 | sort -u | wc -l)" = 9 ] || fail "samples have the same noise"
 before=$(stamp whole)
 goal whole dataset > /dev/null
 [ "$before" = "$(stamp whole)" ] || fail "a second run did something"
@@ -132,7 +134,7 @@ goal again dataset > /dev/null 2>&1 && fail "failures went unseen"
 replayed again "$(id gear__along)" 'press.failed.yaml is as it was'
 sed -i 's/max_iterations: 1$/max_iterations: 200/' mine/hopeless.yaml
 goal again dataset > /dev/null || fail "an input that changed did not let failed samples be tried again"
-sed -i 's/^stop_after/outputs: {keep: [render]}\n&/' mine/set.yaml
+sed -i 's/pack: none/pack: none, keep: [render]/' mine/set.yaml
 goal again drop 2> /dev/null && fail "what is not packed was dropped"
 mkdir again/datasets/set/pack
 { echo id,status; sed '1d; s/,.*/,made/; /__gear__/d' again/datasets/set/plan/samples.csv; } > again/datasets/set/pack/manifest.csv

@@ -48,7 +48,7 @@ pack_dataset one THREADS=1
 pack_dataset two THREADS=2 JOBS=2
 sed -i 's/^# two$/# one/' two/pack/README.md # the only file that holds the folder's name
 for what in shards pack; do
-  diff -r --exclude='*.log' --exclude='*.timings.yaml' --exclude=timings.csv --exclude=card.yaml --exclude=checksums.sha256 --exclude=shards.mk --exclude='*.choice' \
+  diff -r --exclude='*.log' --exclude='*.timings.yaml' --exclude=timings.csv --exclude=card.yaml --exclude=checksums.sha256 --exclude=shards.mk --exclude='*.choice' --exclude='*.inputs' \
     one/$what two/$what || fail "one/$what and two/$what differ"
 done
 (cd one/pack && sha256sum --quiet -c checksums.sha256 && cd shards && sha256sum --quiet -c -- *.sha256) || fail "the checksums do not hold"

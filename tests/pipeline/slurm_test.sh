@@ -87,6 +87,7 @@ diff <(cd "$(set_of local)" && find gels objects -type f -not -name '*.log' -not
 cmp "$(set_of local)/plan/samples.csv" "$(set_of cluster)/plan/samples.csv" || fail "the plans differ"
 [ ! -e "$(set_of cluster)/failures.csv" ] || fail "a sample failed: $(cat "$(set_of cluster)/failures.csv")"
 grep -q "$count samples: $count made" "$(set_of cluster)/slurm/logs/last.log" || fail "the last job did not see it complete"
+cmp "$(set_of local)/pack/checksums.sha256" "$(set_of cluster)/pack/checksums.sha256" || fail "the last job did not pack it, or to other bytes"
 
 goal cluster reproduce K=2 || fail "samples cannot be reproduced"
 echo "1 passed, 0 failed"
