@@ -89,7 +89,10 @@ case $status in
     exit 2 ;;
   1)
     reason=$(sed -n 's/^message: //p' "$failed" 2> /dev/null || true)
-    if [ -z "$reason" ]; then reason=${said##*$'\n'}; fi
+    case $reason in
+      '') reason=${said##*$'\n'} ;;
+      \"*\") reason=${reason:1:-1} reason=${reason//\\\"/\"} ;;  # as YAML quotes it
+    esac
     case $reason in
       *'No space left on device'* | *'Disk quota exceeded'* | *'File too large'* | *'Input/output error'* | *'Read-only file system'*) no_room "$reason" ;;
     esac

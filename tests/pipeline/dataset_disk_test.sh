@@ -28,6 +28,7 @@ samples() { (cd "$1/datasets/set" && find gels objects samples -type f -not -nam
 made() { find disk/datasets/set/samples -path '*/render/render.yaml' | wc -l; }
 goal whole dataset > /dev/null 2>&1 || fail "the dataset is not made"
 
+[ "${MOUNTED:-}" = yes ] || echo "no file system may be mounted here: a limit on the size of files instead"
 for jobs in 1 2; do
   if [ "${MOUNTED:-}" = yes ]; then
     # Room for gel, object and some three samples.
@@ -38,7 +39,6 @@ for jobs in 1 2; do
     limited() { "$@"; }
     reason='No space left on device'
   else
-    echo "no file system may be mounted here: a limit on the size of files instead"
     goal disk dataset-shared > /dev/null 2>&1
     more() { :; }
     # Pictures are larger than what the press writes.
