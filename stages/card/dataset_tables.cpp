@@ -43,12 +43,40 @@ class ShardTable {
   CsvReader rows_;
 };
 
-struct ShardTables {
-  ShardTable manifest;
-  ShardTable failures;
-  ShardTable timings;
-  explicit ShardTables(const fs::path& folder)
-      : manifest(folder / "manifest.csv"), failures(folder / "failures.csv"), timings(folder / "timings.csv") {}
+/// Tables of one shard, open from its first sample to its last: a plan fills one shard of each split after the other,
+/// and a process may have no more than some thousand files open.
+class ShardTables {
+ public:
+  struct Tables {
+    ShardTable manifest;
+    ShardTable failures;
+    ShardTable timings;
+    explicit Tables(const fs::path& folder)
+        : manifest(folder / "manifest.csv"), failures(folder / "failures.csv"), timings(folder / "timings.csv") {}
+  };
+
+  explicit ShardTables(const PackedShard& shard) : folder_(shard.folder), left_(shard.planned) {}
+  bool begun() const { return begun_; }
+  /// The tables at the next sample. \throw DataError if there are no more
+  Tables& next(const std::string& id) {
+    if (left_ == 0)
+      throw DataError("{}: is of another plan: expected {} next (pack the shard again)",
+                      (folder_ / "manifest.csv").string(), id);
+    if (!begun_) tables_ = std::make_unique<Tables>(folder_);
+    begun_ = true;
+    --left_;
+    return *tables_;
+  }
+  /// To be called when all of the sample is taken.
+  void close_after_last() {
+    if (left_ == 0) tables_.reset();
+  }
+
+ private:
+  fs::path folder_;
+  int left_;
+  bool begun_ = false;
+  std::unique_ptr<Tables> tables_;
 };
 
 constexpr const char* kCounted[] = {"split", "sensor", "object", "motion"};
@@ -75,9 +103,8 @@ void count(const CsvReader& row, DatasetCounts& counts) {
 
 DatasetCounts join_tables(const fs::path& plan, const ShardRecords& records,
                           const std::function<fs::path(const std::string&)>& output) {
-  std::map<std::string, std::unique_ptr<ShardTables>> tables;
-  for (const PackedShard& shard : records.shards)
-    tables.emplace(shard.name, std::make_unique<ShardTables>(shard.folder));
+  std::map<std::string, ShardTables> tables;
+  for (const PackedShard& shard : records.shards) tables.emplace(shard.name, shard);
   TableWriter manifest(output("manifest.csv")), failures(output("failures.csv")), timings(output("timings.csv"));
   std::map<std::string, TableWriter> splits;
   for (const char* split : {"train", "val", "test"}) {
@@ -85,9 +112,8 @@ DatasetCounts join_tables(const fs::path& plan, const ShardRecords& records,
     splits.emplace(std::string("pose_") + split, output(fmt::format("splits/pose/{}.txt", split)));
   }
   DatasetCounts counts;
-  std::set<std::string> seen;
-  if (!tables.empty()) {
-    const ShardTables& first = *tables.begin()->second;
+  if (!records.shards.empty()) {
+    const ShardTables::Tables first(records.shards.front().folder);
     manifest.add(csv_line(first.manifest.rows().columns()));
     failures.add(csv_line(first.failures.rows().columns()));
     timings.add(csv_line(first.timings.rows().columns()));
@@ -97,24 +123,24 @@ DatasetCounts join_tables(const fs::path& plan, const ShardRecords& records,
     const std::string &id = planned["id"], &shard = planned["shard"];
     const auto found = tables.find(shard);
     if (found == tables.end()) throw DataError("{}: shard {} has not been packed", plan.string(), shard);
-    seen.insert(shard);
-    ShardTables& own = *found->second;
+    ShardTables::Tables& own = found->second.next(id);
     const CsvReader& row = own.manifest.row_of(id);
     count(row, counts);
     manifest.add(csv_line(row.row()));
     timings.add(csv_line(own.timings.row_of(id).row()));
     if (row["status"] != "made") {
       failures.add(csv_line(own.failures.row_of(id).row()));
-      continue;
+    } else {
+      for (const std::string& list : {row["split"], "pose_" + row["split_pose"]}) {
+        const auto to = splits.find(list);
+        if (to == splits.end()) throw DataError("{}:{}: '{}' is no split", plan.string(), planned.line(), list);
+        to->second.add(id + "\n");
+      }
     }
-    for (const std::string& list : {row["split"], "pose_" + row["split_pose"]}) {
-      const auto to = splits.find(list);
-      if (to == splits.end()) throw DataError("{}:{}: '{}' is no split", plan.string(), planned.line(), list);
-      to->second.add(id + "\n");
-    }
+    found->second.close_after_last();
   }
   for (const auto& [name, own] : tables)
-    if (!seen.contains(name)) throw DataError("{}: has no shard {}, which was packed", plan.string(), name);
+    if (!own.begun()) throw DataError("{}: has no shard {}, which was packed", plan.string(), name);
   for (TableWriter* table : {&manifest, &failures, &timings}) table->close();
   for (auto& [name, table] : splits) table.close();
   return counts;

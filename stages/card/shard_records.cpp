@@ -44,6 +44,7 @@ ShardRecords read_shard_records(const std::vector<fs::path>& records) {
                           .file_hash = outputs.required_text(name + ".h5"),
                           .sha256 = summary.required_text("sha256"),
                           .samples = summary.required_count("samples"),
+                          .planned = summary.required_count("samples") + summary.required_count("not_made"),
                           .frames = summary.required_count("frames"),
                           .bytes = summary.required_number("bytes")});
     const std::string schema = outputs.required_text("schema.json");

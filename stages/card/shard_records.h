@@ -17,6 +17,7 @@ struct PackedShard {
   std::string file_hash;         // of the HDF5 file, as the record has it
   std::string sha256;
   int samples = 0;
+  int planned = 0;  // samples and those not made: rows of its tables
   int frames = 0;
   double bytes = 0.0;
 };

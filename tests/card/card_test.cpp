@@ -72,6 +72,30 @@ TEST_F(CardTest, TablesAndSplitsFollowThePlan) {
   EXPECT_EQ(text("splits/pose/test.txt"), "toy__cube__press__000000\ntoy__cube__press__000002\n");
 }
 
+TEST_F(CardTest, ThereMayBeMoreShardsThanFilesThatAProcessOpens) {
+  plan_ = kPlanHeader;
+  std::vector<std::string> shards;
+  for (int i = 0; i < 24; ++i) {
+    shards.push_back(fmt::format("train-{:05}-of-00024", i));
+    for (const int index : {2 * i, 2 * i + 1}) {
+      plan_ += row(index, "train", "ball", shards.back());
+      scratch_.file(fmt::format("data/samples/000/toy__ball__press__{:06}/press/press.failed.yaml", index),
+                    "stage: press\nmessage: no\n");
+    }
+  }
+  scratch_.file("data/plan/samples.csv", plan_);
+  std::filesystem::remove_all(scratch_ / "shards");
+  for (const std::string& shard : shards) pack(shard);
+  ASSERT_EQ(run_command(fmt::format("cd {} && ulimit -n 40 && {}/card --config card.yaml --plan data/plan/samples.csv "
+                                    "--dataset data/plan/dataset.yaml --shard shards/*/pack.yaml --loader loader.py "
+                                    "--out out --threads 1 --log-level error",
+                                    (scratch_ / "").string(), TACIPC_BIN_DIR)),
+            0)
+      << said_;
+  const std::string failures = text("failures.csv");
+  EXPECT_EQ(std::count(failures.begin(), failures.end(), '\n'), 49);
+}
+
 TEST_F(CardTest, EveryFileHasItsChecksumButTheTimes) {
   ASSERT_EQ(card(), 0) << said_;
   const std::string sums = text("checksums.sha256");

@@ -20,7 +20,7 @@ printf '  max_iterations: 1\n  max_halvings: 0\n' >> mine/hopeless.yaml
 goal() { # goal OUT GOAL [VARIABLE=value …]
   local out=$1 goal=$2
   shift 2
-  make -s -f Makefile.data "$goal" CONFIG=mine/set.yaml OUT="$out" BUILD="$build_dir" PACKAGES=no "$@"
+  make -s -f Makefile.data "$goal" CONFIG=mine/set.yaml OUT="$out" BUILD="$build_dir" PACKAGES=no REBUILD=no "$@"
 }
 set=out/datasets/set
 files() { find $set/samples -name "$1" | wc -l; }

@@ -27,7 +27,7 @@ printf '0,0,0,0,0,0,0,1\n0.01,0.0001,0,0,0,0,0,1\n' > mine/away.csv
 goal() { # goal OUT GOAL [VARIABLE=value …]
   local out=$1 goal=$2
   shift 2
-  make -s -f Makefile.data "$goal" CONFIG=mine/set.yaml OUT="$out" BUILD="$build_dir" PACKAGES=no "$@"
+  make -s -f Makefile.data "$goal" CONFIG=mine/set.yaml OUT="$out" BUILD="$build_dir" PACKAGES=no REBUILD=no "$@"
 }
 stamp() { find "$1/datasets/set/samples" -name '*.yaml' -not -name '*.timings.yaml' -printf '%p %T@\n' | sort; }
 samples() { (cd "$1/datasets/set" && find gels objects samples -type f -not -name '*.log' -not -name '*.timings.yaml' -not -name '.*' -print0 | sort -z | xargs -0 md5sum); }
@@ -93,7 +93,7 @@ sed -i 's/^  max_itre/  max_iter/' mine/hopeless.yaml
 goal again dataset > /dev/null 2>&1
 for delay in 0.6 1.1 1.7; do
   rm -rf killed
-  setsid make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=killed BUILD="$build_dir" PACKAGES=no JOBS=2 > /dev/null 2>&1 &
+  setsid make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=killed BUILD="$build_dir" PACKAGES=no REBUILD=no JOBS=2 > /dev/null 2>&1 &
   leader=$!
   for _ in $(seq 2000); do [ ! -d killed/datasets/set/samples/000 ] || [ -z "$(find killed/datasets/set/samples -name press.log)" ] || break; sleep 0.01; done
   sleep "$delay"
