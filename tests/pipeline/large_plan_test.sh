@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # A dataset of many samples of which one was made and the others are links to it: what planning, looking and packing cost when nothing is
-# computed. SAMPLES=3000 unless given; SAMPLES=100000 gives the figures of docs/datasets.md (some 3 GB in TMPDIR).
+# computed. SAMPLES=2000 unless given; SAMPLES=100000 gives the figures of docs/datasets.md (some 3 GB in TMPDIR).
 . "$(dirname "$0")/common.sh"
-samples=${SAMPLES:-3000}
+samples=${SAMPLES:-2000}
 mkdir mine meshes
 mv pyramid.stl meshes
 sed -i 's/width_px: 64/width_px: 16/; s/height_px: 48/height_px: 12/' configs/sensors/mctac.yaml
