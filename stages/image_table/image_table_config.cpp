@@ -76,7 +76,7 @@ ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
   }
   for (ConfigReader& item : in.one_or_more_sections("regions")) {
     config.regions.push_back(
-        {.region = item.choice("region", {"full", "crop", "box"}), .heading = item.text("heading")});
+        {.region = item.choice("region", {"full", "crop", "box", "pressed"}), .heading = item.text("heading")});
     refuse_repeats(item, "region", config.regions, &ShownRegion::region);
   }
   for (ConfigReader& item : in.one_or_more_sections("rows")) {

@@ -20,7 +20,7 @@ struct ShownColumn {
 
 /// A part of the images that gets a table of its own.
 struct ShownRegion {
-  std::string region;  // full, crop or box
+  std::string region;  // full, crop, box; of depth_metrics full, pressed
   std::string heading;
 };
 

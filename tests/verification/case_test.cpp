@@ -4,7 +4,7 @@
 #include "common/files.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 #include "tests/verification/run_case.h"
 
 namespace tacipc::verify {

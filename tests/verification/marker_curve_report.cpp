@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "tests/verification/marker_curve.h"
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 
 namespace tacipc::verify {
 namespace {
@@ -37,10 +37,10 @@ std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve, co
     for (std::size_t f = 0; f < mean_m.size(); ++f) out.emplace_back(shown_way(run, way[f]), mean_m[f] / kMicrometre);
     return out;
   };
-  Curve mean{.label = "mean displacement of the markers", .points = points(run.way, curve.mean_m)};
-  Curve settled{.label = "from here on settled", .dots = true};
+  PlotCurve mean{.label = "mean displacement of the markers", .points = points(run.way, curve.mean_m)};
+  PlotCurve settled{.label = "from here on settled", .dots = true};
   settled.points.push_back(mean.points[static_cast<std::size_t>(curve.settled)]);
-  std::vector<Curve> curves{mean, settled};
+  std::vector<PlotCurve> curves{mean, settled};
   for (const MarkerMotion& other : of_kind(others, run))
     curves.push_back(
         {.label = "the same by " + other.name, .points = points(other.way, mean_displacements(other, config.chosen))});
@@ -48,7 +48,7 @@ std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve, co
 }
 
 std::string marker_difference_svg(const SlidingRun& run, const MarkerCurve& curve) {
-  Curve first{.label = "first difference"}, second{.label = "second difference"},
+  PlotCurve first{.label = "first difference"}, second{.label = "second difference"},
       load{.label = "friction load, of its largest"};
   const std::vector<double>& l = curve.mean_m;
   const double largest_load = *std::max_element(run.load.begin(), run.load.end());

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 #include "tests/verification/stage_record.h"
 
 namespace tacipc::verify {
@@ -167,7 +167,7 @@ std::string refinement_svg(const RefinementResult& result) {
             .y_label = "difference from the next finer level",
             .logarithmic = true};
   for (const RefinementCurve& curve : result.curves) {
-    Curve line{.label = fmt::format("{} ({})", curve.quantity, shown_unit(curve))};
+    PlotCurve line{.label = fmt::format("{} ({})", curve.quantity, shown_unit(curve))};
     for (std::size_t k = 0; k < curve.against_next.size(); ++k)
       line.points.emplace_back(result.parameter_values[k], shown(curve, curve.against_next[k]));
     if (curve.quantity.find("largest") == std::string::npos) plot.curves.push_back(std::move(line));

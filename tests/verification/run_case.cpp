@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/error.h"
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 #include "tests/verification/shared_files.h"
 
 namespace tacipc::verify {
@@ -103,7 +103,7 @@ std::string to_svg(const CaseResult& result) {
     moves = moves || sideways_m(outcome, f) > 1e-9;
     turns = turns || std::abs(turned_rad(outcome, f)) > 1e-9;
   }
-  Curve measured{.label = "press"}, tangential{.label = "tangential"}, torque{.label = "torque (N mm)"};
+  PlotCurve measured{.label = "press"}, tangential{.label = "tangential"}, torque{.label = "torque (N mm)"};
   for (int f = 0; f < frames; ++f) {
     const double x = moves   ? 1e3 * sideways_m(outcome, f)
                      : turns ? 180.0 / std::numbers::pi * turned_rad(outcome, f)
@@ -122,7 +122,7 @@ std::string to_svg(const CaseResult& result) {
   if (moves) plot.x_label = "way sideways (mm)";
   if (turns && !moves) plot.x_label = "turn (degrees)";
   // What was expected of the forces, where it was.
-  Curve expected{.label = "expected", .dots = true};
+  PlotCurve expected{.label = "expected", .dots = true};
   for (std::size_t i = 0; i < result.spec.expect.size(); ++i) {
     const Row& row = result.judgement.rows[i];
     const bool shown = row.unit == "N" || (turns && row.unit == "N m");

@@ -5,19 +5,20 @@
 #include <string>
 #include <vector>
 
-namespace tacipc::verify {
+namespace tacipc {
 
-struct Curve {
+struct PlotCurve {
   std::string label;
   std::vector<Eigen::Vector2d> points = {};
-  bool dots = false;  // open circles instead of a line
+  bool dots = false;   // open circles instead of a line
+  bool marks = false;  // open circles beside the line
 };
 
 struct Plot {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::vector<Curve> curves = {};
+  std::vector<PlotCurve> curves = {};
   bool logarithmic = false;  // both axes; points that are not positive are left out
 };
 
@@ -27,4 +28,4 @@ std::string to_svg(const Plot& plot);
 /// Steps of 1, 2 or 5 times a power of ten that cut [low, high] into three to eight pieces: the ticks inside.
 std::vector<double> round_ticks(double low, double high);
 
-}  // namespace tacipc::verify
+}  // namespace tacipc

@@ -1,4 +1,4 @@
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tacipc::verify {
+namespace tacipc {
 namespace {
 
 constexpr double kWidth = 480.0, kHeight = 320.0, kLeft = 62.0, kRight = 12.0, kTop = 28.0, kBottom = 44.0;
@@ -64,7 +64,7 @@ std::vector<double> round_ticks(double low, double high) {
 std::string to_svg(const Plot& plot) {
   const auto shown = [&](double v) { return plot.logarithmic ? std::log10(v) : v; };
   std::vector<double> xs, ys;
-  for (const Curve& curve : plot.curves) {
+  for (const PlotCurve& curve : plot.curves) {
     for (const auto& p : curve.points) {
       if (plot.logarithmic && !(p.minCoeff() > 0.0)) continue;
       xs.push_back(shown(p.x()));
@@ -96,17 +96,15 @@ std::string to_svg(const Plot& plot) {
   out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}\" fill=\"none\" stroke=\"#444\"/>\n", kLeft, kTop,
                      kHeight - kBottom, kWidth - kRight);
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
-    const Curve& curve = plot.curves[i];
+    const PlotCurve& curve = plot.curves[i];
     const char* color = kColors[i % kColors.size()];
     std::string path;
     for (const auto& p : curve.points) {
       if (plot.logarithmic && !(p.minCoeff() > 0.0)) continue;
       const double a = px(shown(p.x())), b = py(shown(p.y()));
-      if (curve.dots) {
+      if (curve.dots || curve.marks)
         out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"none\" stroke=\"{}\"/>\n", a, b, color);
-      } else {
-        path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", a, b);
-      }
+      if (!curve.dots) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", a, b);
     }
     if (!path.empty())
       out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", path, color);
@@ -122,4 +120,4 @@ std::string to_svg(const Plot& plot) {
   return out;
 }
 
-}  // namespace tacipc::verify
+}  // namespace tacipc

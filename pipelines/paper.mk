@@ -1,0 +1,53 @@
+# The paper's benchmark, one page: make -f Makefile.data paper writes docs/paper-results.md, its pictures and, in OUT/paper, the page as HTML.
+# paper-quick is the same at reduced size, in OUT/paper-quick alone.
+
+PAPER_KIND ?= full
+PAPER_full  := $(OUT)/paper
+PAPER_quick := $(OUT)/paper-quick
+PAPER := $(PAPER_$(PAPER_KIND))
+PAPER_OBJECTS_full  := $(PATTERNS)#         files of configs/emboss
+PAPER_OBJECTS_quick := star dots
+PAPER_ABLATED_full  := star letter_r cobbles
+PAPER_ABLATED_quick := star
+PAPER_MESHES_full   := uniform_0500um uniform_0375um uniform_0250um adaptive_0400um adaptive_0250um adaptive_0100um
+PAPER_MESHES_quick  := uniform_0500um adaptive_0400um
+PAPER_FINE_full     := adaptive_0050um#     mesh of the reference
+PAPER_FINE_quick    := adaptive_0250um
+PAPER_OURS_full     := adaptive_0100um#     mesh of TacIPC
+PAPER_OURS_quick    := adaptive_0400um
+PAPER_TABLES_full   := paper#               beginning of the names of the tables' configurations
+PAPER_TABLES_quick  := paper_quick
+$(foreach v,OBJECTS ABLATED MESHES FINE OURS TABLES,$(eval PAPER_$(v) := $(strip $(PAPER_$(v)_$(PAPER_KIND)))))
+
+include pipelines/paper_coins.mk
+
+PAPER_FRAGMENTS := $(PAPER)/objects-table/image_table.yaml $(PAPER)/objects-depth/image_table.yaml $(PAPER)/ablation/table/mesh_ablation.yaml \
+  $(PAPER)/ablation/images/image_table.yaml $(PAPER)/cost/cost_table.yaml
+
+
+# Each part in a make of its own: some read files first that others make.
+.PHONY: paper paper-quick paper-parts paper-page
+paper_part = $(MAKE) -f Makefile.data --no-print-directory PAPER_KIND=$(PAPER_KIND) $(1)
+paper-parts: | build
+	$(call paper_part,-k paper-coins)
+	$(call paper_part,paper-real$(if $(filter quick,$(PAPER_KIND)),-quick))
+	$(call paper_part,$(if $(filter quick,$(PAPER_KIND)),paper-quick-markers,paper-markers))
+paper-coins: $(PAPER_FRAGMENTS)
+.PHONY: paper-coins
+
+paper_fragments := real=$(PAPER)/real/table.md objects=$(PAPER)/objects-table/table.md depth=$(PAPER)/objects-depth/table.md board3=$(PAPER)/markers/board3.md \
+  fots=$(PAPER)/markers/fots.md meshes=$(PAPER)/ablation/table/table.md mesh_images=$(PAPER)/ablation/images/table.md cost=$(PAPER)/cost/table.md
+paper-page:
+	rm -rf $(PAPER)/paper_results
+	mkdir -p $(PAPER)/paper_results
+	for part in real objects-table markers ablation/table ablation/images; do cp $(PAPER)/$$part/paper_results/* $(PAPER)/paper_results/ 2>/dev/null || true; done
+	bash pipelines/paper_page.sh docs/paper-results.md $(PAPER) $(paper_fragments)
+	$(if $(filter full,$(PAPER_KIND)),rm -rf docs/paper_results && cp -r $(PAPER)/paper_results docs/ && cp $(PAPER)/paper-results.md docs/)
+	@echo; echo "Look at $(PAPER)/paper-results.html"
+
+paper: ## The paper's benchmark: image tables, markers, ablation, cost; writes docs/paper-results.md (hours; parts need SHARED)
+	$(call paper_part,paper-parts PAPER_KIND=full)
+	$(call paper_part,paper-page PAPER_KIND=full)
+paper-quick: ## The same at reduced size, in OUT/paper-quick (minutes)
+	$(call paper_part,paper-parts PAPER_KIND=quick)
+	$(call paper_part,paper-page PAPER_KIND=quick)
