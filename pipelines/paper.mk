@@ -15,9 +15,11 @@ PAPER_FINE_full     := adaptive_0050um#     mesh of the reference
 PAPER_FINE_quick    := adaptive_0250um
 PAPER_OURS_full     := adaptive_0100um#     mesh of TacIPC
 PAPER_OURS_quick    := adaptive_0400um
+PAPER_LIGHT_full    := full_transport#       of the reference
+PAPER_LIGHT_quick   := full_transport_quick
 PAPER_TABLES_full   := paper#               beginning of the names of the tables' configurations
 PAPER_TABLES_quick  := paper_quick
-$(foreach v,OBJECTS ABLATED MESHES FINE OURS TABLES,$(eval PAPER_$(v) := $(strip $(PAPER_$(v)_$(PAPER_KIND)))))
+$(foreach v,OBJECTS ABLATED MESHES FINE OURS LIGHT TABLES,$(eval PAPER_$(v) := $(strip $(PAPER_$(v)_$(PAPER_KIND)))))
 
 include pipelines/paper_coins.mk
 
@@ -36,11 +38,14 @@ paper-coins: $(PAPER_FRAGMENTS)
 .PHONY: paper-coins
 
 paper_fragments := real=$(PAPER)/real/table.md objects=$(PAPER)/objects-table/table.md depth=$(PAPER)/objects-depth/table.md board3=$(PAPER)/markers/board3.md \
-  fots=$(PAPER)/markers/fots.md meshes=$(PAPER)/ablation/table/table.md mesh_images=$(PAPER)/ablation/images/table.md cost=$(PAPER)/cost/table.md
+  fots=$(PAPER)/markers/fots.md meshes=$(PAPER)/ablation/table/table.md mesh_images=$(PAPER)/ablation/images/table.md cost=$(PAPER)/cost/total.md
 paper-page:
 	rm -rf $(PAPER)/paper_results
 	mkdir -p $(PAPER)/paper_results
 	for part in real objects-table markers ablation/table ablation/images; do cp $(PAPER)/$$part/paper_results/* $(PAPER)/paper_results/ 2>/dev/null || true; done
+	@# Everything that was run for this page, whichever call ran it.
+	find $(PAPER) -name '*.timings.yaml' -exec cat {} + | awk '/^processor_s: / { sum += $$2 } END { printf "\nAll runs of this page together: %.1f processor hours.\n", sum / 3600 }' \
+	  | cat $(wildcard $(PAPER)/cost/table.md) - > $(PAPER)/cost/total.md
 	bash pipelines/paper_page.sh docs/paper-results.md $(PAPER) $(paper_fragments)
 	$(if $(filter full,$(PAPER_KIND)),rm -rf docs/paper_results && cp -r $(PAPER)/paper_results docs/ && cp $(PAPER)/paper-results.md docs/)
 	@echo; echo "Look at $(PAPER)/paper-results.html"
