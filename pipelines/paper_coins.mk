@@ -17,7 +17,7 @@ define coins_rules
 $(call sample_rules,$(1)/tacipc,$(2),$(OUT)/objects/$(2),configs/objects/embossed.yaml,mctac,$(PAPER_OURS),$(COINS_MOTION),configs/press/default.yaml)
 $(1)/fine/press/press.yaml: $(OUT)/objects/$(2)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/press/default.yaml | build
 	$$(call run,press,--name $(2) $(call coins_object,$(2)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/default.yaml --sample $(COINS_MOTION))
-$(call coins_render,$(1)/fine/render,$(1)/fine/press,$(PAPER_FINE),full_transport)
+$(call coins_render,$(1)/fine/render,$(1)/fine/press,$(PAPER_FINE),$(PAPER_LIGHT))
 $(call coins_render,$(1)/noise/render,$(1)/fine/press,$(PAPER_FINE),default)
 $(1)/tacchi/mpm/mpm.yaml: $(OUT)/objects/$(2)/decimate.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/mpm/legacy_mctac.yaml | build
 	$$(call run,mpm,--name $(2) $(call coins_object,$(2)) --sensor $(COINS_SENSOR) --config configs/mpm/legacy_mctac.yaml --sample $(COINS_MOTION))
