@@ -6,7 +6,7 @@
 #include <map>
 
 #include "bench/element_study.h"
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 
 namespace tacipc::bench {
 namespace {

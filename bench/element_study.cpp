@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 
 namespace tacipc::bench {
 namespace {
