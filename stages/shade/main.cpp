@@ -32,15 +32,19 @@ const StageSpec kShade{
                 .required = false,
                 .many = true}}};
 
-/// Pictures one membrane and writes it under its name.
-void deliver(Stage& stage, const std::string& name, const MembraneView& view, const LightField& light,
-             const ByteImage& background) {
+/// Pictures one membrane and writes it under its name, with its normals and its depth along the camera's axis.
+void deliver(Stage& stage, const std::string& name, const MembraneView& view, const Sensor& sensor,
+             const LightField& light, const ByteImage& background) {
   write_png(stage.output(name + ".png"), add_change(background, code_change(light, view)));
   FloatImage normals(view.width, view.height, 3);
   for (std::size_t i = 0; i < view.normal.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       normals.pixels[3 * i + k] = static_cast<float>(view.normal[i][static_cast<Eigen::Index>(k)]);
   write_png(stage.output("normals/" + name + ".png"), picture_of_normals(normals));
+  FloatImage depth(view.width, view.height, 1);
+  for (std::size_t i = 0; i < view.point.size(); ++i)
+    depth.pixels[i] = static_cast<float>(view.point[i].z() - sensor.camera.position_m.z());
+  write_exr(stage.output("depth/" + name + ".exr"), depth, {"Z"});
 }
 
 void shade_shapes(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
@@ -50,7 +54,7 @@ void shade_shapes(Stage& stage, const ShadeConfig& config, const Sensor& sensor,
     throw UsageError(fmt::format("{} --shapes for {} images", shapes.size(), config.images.size()));
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, sensor.camera);
-    deliver(stage, config.images[i].name, view_height_map(indentation, sensor), light, background);
+    deliver(stage, config.images[i].name, view_height_map(indentation, sensor), sensor, light, background);
   }
   stage.summarize({{"images", shapes.size()}});
 }
@@ -74,14 +78,16 @@ void shade_press(Stage& stage, const ShadeConfig& config, const Sensor& sensor, 
   for (const NamedFrame& image : config.images) {
     const auto frame = static_cast<std::size_t>(image.frame);
     deliver(stage, image.name,
-            view_membrane(at_place(press.frames[frame], fitted.place, sensor), press.triangles, sensor), light,
+            view_membrane(at_place(press.frames[frame], fitted.place, sensor), press.triangles, sensor), sensor, light,
             background);
     const Matrix4 pose = place_pose(fitted.place, sensor) * press.gel_from_object[frame];
     for (int i = 0; i < 16; ++i) poses.push_back(pose(i / 4, i % 4));
   }
   write_npy(stage.output("object_pose.npy"), {config.images.size(), 4, 4}, poses.data());
+  const Vector3 center_m = place_pose(fitted.place, sensor).topRightCorner<3, 1>();
   Value::Map summary{{"images", config.images.size()},
                      {"center_px", Value::List{fitted.place.x_px, fitted.place.y_px}},
+                     {"center_mm", Value::List{1e3 * center_m.x(), 1e3 * center_m.y()}},
                      {"yaw_deg", fitted.place.yaw_rad * 180.0 / std::numbers::pi}};
   if (config.fit)
     summary.emplace_back("fit", Value::Map{{"image", config.fit->image},
@@ -110,7 +116,7 @@ void shade_contacts(Stage& stage, const ShadeConfig& config, const Sensor& senso
         press.depth_of_contact(contact.radius_px * sensor.camera.window_width_m / sensor.camera.width_px, image.name);
     const Matrix4 place = place_pose(contact.center, sensor);
     deliver(stage, image.name,
-            view_membrane(at_place(press.at_depth(depth), contact.center, sensor), press.front, sensor), light,
+            view_membrane(at_place(press.at_depth(depth), contact.center, sensor), press.front, sensor), sensor, light,
             background);
     const Matrix4 pose = ball_pose(place(0, 3), place(1, 3), depth, radius_m);
     for (int i = 0; i < 16; ++i) poses.push_back(pose(i / 4, i % 4));
