@@ -27,18 +27,21 @@ DeformationConfig DeformationConfig::read(ConfigReader& in) {
   const std::string method = in.choice("method", {"difference_of_gaussians", "exponential_kernel", "none"});
   if (method == "none") config.method = Method::none;
   if (method == "exponential_kernel") config.method = Method::exponential_kernel;
-  if (config.method != Method::difference_of_gaussians) return config;
+  if (config.method == Method::none) return config;
+  if (in.has("designed_width_px")) config.designed_width_px = in.integer("designed_width_px", 1, 16384);
+  if (config.method == Method::exponential_kernel) return config;
   config.near_kernel = read_gaussian(in.section("near_kernel"));
   config.far_kernel = read_gaussian(in.section("far_kernel"));
   config.iterations = in.integer("iterations", 1, 100);
-  if (in.has("designed_width_px")) config.designed_width_px = in.integer("designed_width_px", 1, 16384);
   return config;
 }
 
 DeformationConfig DeformationConfig::scaled_to(int width_px) const {
   DeformationConfig out = *this;
-  if (!designed_width_px || method != Method::difference_of_gaussians) return out;
+  if (!designed_width_px || method == Method::none) return out;
   const double factor = static_cast<double>(width_px) / *designed_width_px;
+  out.exponential_factor = exponential_factor * factor;
+  if (method == Method::exponential_kernel) return out;
   out.near_kernel = scaled(near_kernel, factor);
   out.far_kernel = scaled(far_kernel, factor);
   return out;

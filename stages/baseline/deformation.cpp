@@ -49,7 +49,7 @@ Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig&
       return difference_of_gaussians(protrusion_m, config);
     case DeformationConfig::Method::exponential_kernel:
       // The kernel's sum is 1, so padding the depth with the front's depth is padding the protrusion with zero.
-      return correlate(protrusion_m, exponential_kernel(), Border::constant, 0.0);
+      return correlate(protrusion_m, exponential_kernel(config.exponential_factor), Border::constant, 0.0);
     case DeformationConfig::Method::none:
       return protrusion_m;
   }

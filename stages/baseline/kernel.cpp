@@ -44,13 +44,13 @@ Raster folded_gaussian(int size, double sigma) {
   return kernel;
 }
 
-Raster exponential_kernel() {
-  constexpr int kReach = 6;
-  Raster kernel(2 * kReach + 1, 2 * kReach + 1);
+Raster exponential_kernel(double factor) {
+  const int reach = static_cast<int>(std::lround(6.0 * factor));
+  Raster kernel(2 * reach + 1, 2 * reach + 1);
   double sum = 0.0;
-  for (int y = -kReach; y <= kReach; ++y)
-    for (int x = -kReach; x <= kReach; ++x)
-      sum += kernel.at(x + kReach, y + kReach) = 201.0 / (200.0 + std::exp(std::hypot(x, y)));
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x)
+      sum += kernel.at(x + reach, y + reach) = 201.0 / (200.0 + std::exp(std::hypot(x, y) / factor));
   for (double& weight : kernel.values) weight /= sum;
   return kernel;
 }

@@ -6,6 +6,8 @@
 
 #include "common/error.h"
 #include "stages/baseline/deformation.h"
+#include "stages/baseline/kernel.h"
+#include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -105,6 +107,14 @@ TEST(Kernels, ScaleWithTheWidthAndKeepTheirParity) {
   EXPECT_EQ(config.scaled_to(640).far_kernel.size_px, 52);
   config.designed_width_px.reset();
   EXPECT_EQ(config.scaled_to(320).near_kernel.size_px, 21);
+  const auto older = config_from_text<BaselineConfig>(
+      "{deformation: {method: exponential_kernel, designed_width_px: 640}, texture_sigma_mm: 0}", "b.yaml");
+  EXPECT_EQ(older.deformation.scaled_to(640).exponential_factor, 1.0);
+  EXPECT_EQ(older.deformation.scaled_to(320).exponential_factor, 0.5);
+  const Raster small = exponential_kernel(0.5), large = exponential_kernel();
+  ASSERT_EQ(small.width, 7);
+  EXPECT_NEAR(small.at(0, 3) / small.at(3, 3), large.at(0, 6) / large.at(6, 6), 1e-12)
+      << "3 pixels are 6 of half the size";
 }
 
 TEST(Texture, HasItsDeviationAndDependsOnTheSeedAlone) {
