@@ -7,7 +7,7 @@ override CASES := $(strip $(CASES))
 SIM2REAL := $(OUT)/sim2real/$(basename $(notdir $(CASES)))
 
 .PHONY: sim2real sim2real-page
-ifneq ($(filter sim2real sim2real-page,$(MAKECMDGOALS)),)
+ifneq ($(filter sim2real sim2real-page paper-real,$(MAKECMDGOALS)),)
 $(call check_name,CASES)
 $(call check_name,SHARED)
 ifeq ($(wildcard $(CASES)),)

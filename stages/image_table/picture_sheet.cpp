@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "common/error.h"
 
@@ -14,12 +15,16 @@ namespace fs = std::filesystem;
 constexpr int kGap = 4, kHeadingHeight = 18, kLetterHeight = 9;
 constexpr int kOversampling = 4;  // letters are drawn larger and averaged
 
-bool lies_below(const fs::path& picture, const std::string& folder) {
-  const fs::path above = fs::absolute(picture).lexically_normal().parent_path();
-  return std::any_of(above.begin(), above.end(), [&](const fs::path& part) { return part == folder; });
+/// Number of the column that a picture belongs to.
+std::optional<std::size_t> column_of(const fs::path& picture, const SheetConfig& config) {
+  for (fs::path above = fs::absolute(picture).lexically_normal().parent_path(); above.has_relative_path();
+       above = above.parent_path())
+    for (std::size_t c = 0; c < config.columns.size(); ++c)
+      if (above.filename() == config.columns[c].folder) return c;
+  return std::nullopt;
 }
 
-/// The column's picture i, cropped and scaled.
+/// A picture, cropped and scaled.
 cv::Mat picture(const fs::path& path, const SheetConfig& config) {
   ByteImage image = read_png(path, 3);
   cv::Mat whole(image.height, image.width, CV_8UC3, image.pixels.data());
@@ -60,16 +65,8 @@ cv::Mat words(const std::string& text, int width) {
 std::vector<std::vector<fs::path>> pictures_of_columns(const std::vector<fs::path>& pictures,
                                                        const SheetConfig& config) {
   std::vector<std::vector<fs::path>> columns(config.columns.size());
-  for (const fs::path& path : pictures) {
-    const SheetColumn* owner = nullptr;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      const SheetColumn& column = config.columns[c];
-      if (!lies_below(path, column.folder)) continue;
-      if (owner) throw DataError("{}: lies below {} and {}", path.string(), owner->folder, column.folder);
-      owner = &column;
-      columns[c].push_back(path);
-    }
-  }
+  for (const fs::path& path : pictures)
+    if (const auto column = column_of(path, config)) columns[*column].push_back(path);
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (columns[c].empty() || columns[c].size() != columns.front().size())
       throw DataError("sheet {}: {} pictures below {}, {} below {}", config.name, columns.front().size(),

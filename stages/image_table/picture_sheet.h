@@ -10,9 +10,9 @@
 
 namespace tacipc {
 
-/// The pictures of each column, in the order they were given: a picture belongs to the column whose folder is the name
-/// of a folder on its path. Pictures of no column are left out.
-/// \throw DataError if columns have different numbers of pictures, or a picture belongs to two of them
+/// The pictures of each column, in the order they were given: of the folders on a picture's path, the deepest that is a
+/// column's tells which. Pictures of no column are left out.
+/// \throw DataError if columns have different numbers of pictures
 std::vector<std::vector<std::filesystem::path>> pictures_of_columns(const std::vector<std::filesystem::path>& pictures,
                                                                     const SheetConfig& config);
 
