@@ -1,0 +1,57 @@
+# Shared by the tests against photographs: settings of a small benchmark in configs/benchmarks/made, and below truth/ what makes
+# its photographs: gel, press of a ball, light of two lamps, background.
+export OPENBLAS_NUM_THREADS=1
+bin=$build_dir/bin
+sed -i 's/width_px: 320/width_px: 100/; s/height_px: 240/height_px: 75/' configs/sensors/gelsight_mini.yaml
+
+make_truth() {
+mkdir configs/benchmarks/made
+sed 's/centre_mm: 0.18/centre_mm: 0.35/; s/inner_mm: 0.3/inner_mm: 0.6/' configs/benchmarks/gsmini_balls/mesh.yaml > configs/benchmarks/made/mesh.yaml
+cp configs/benchmarks/gsmini_balls/press.yaml configs/benchmarks/made/press.yaml
+cat > configs/benchmarks/made/calibrate.yaml <<'END'
+ball_radius_mm: 3.0
+contact_gap_mm: 0.02
+fit_contact_gap: true
+label_sigma_px: 2.0
+fit_radius_px: 24
+fit_stride_px: 1
+drift_radius_px: 40
+lamps:
+  - {azimuth_deg: 265, distance_mm: 16, elevation_tan: 0.5}
+  - {azimuth_deg: 10, distance_mm: 20, elevation_tan: 0.6}
+lamp_bounds: {azimuth_deg: 25, elevation_tan: [0.2, 0.9], distance_mm: [11, 40]}
+environment_degree: 1
+shadow_softness: 0.15
+blur_px: 0
+ridge: 1.0e-6
+folds: 5
+END
+
+$bin/tetmesh --sensor configs/sensors/gelsight_mini.yaml --config configs/benchmarks/made/mesh.yaml --out truth/gel
+echo 'ball: {radius_mm: 3.0, edge_mm: 0.5}' > truth/indenter.yaml
+$bin/indenter --config truth/indenter.yaml --out truth/ball
+echo 'motion: {kind: press, depth_mm: 1.0, steps: 5}' > truth/motion.yaml
+$bin/press --name ball --object truth/ball/object.ply --object-config configs/objects/embossed.yaml --gel truth/gel/gel.msh \
+  --sensor configs/sensors/gelsight_mini.yaml --config configs/benchmarks/made/press.yaml --sample truth/motion.yaml --out truth/press
+cat > truth/light.yaml <<'END'
+light_field:
+  field_half_width_mm: 10.145
+  shadow_softness: 0.15
+  blur_px: 0
+  lamps:
+    - position_mm: [0, -14, -7.7]
+      linear_codes: {red: [70, 5, -10], green: [-10, 0, 0], blue: [-8, 0, 0]}
+      quadratic_codes: {red: [0, 0, 0], green: [0, 0, 0], blue: [0, 0, 0]}
+    - position_mm: [17, 0, -9]
+      linear_codes: {red: [-12, 0, 0], green: [50, 10, 0], blue: [60, 0, 5]}
+      quadratic_codes: {red: [0, 0, 0], green: [0, 0, 0], blue: [0, 0, 0]}
+END
+awk 'BEGIN { print "P3\n100 75\n255"; for (y = 0; y < 75; ++y) for (x = 0; x < 100; ++x) print 90 + int(x / 4), 110 - int(y / 3), 95 + (7 * x + 13 * y) % 5 }' > truth/background.png
+echo 'contact_gap_mm: 0.06' > truth/contact.yaml
+mkdir -p shared/shots/images
+}
+
+shade_truth() { # shade_truth CONFIG OUT [FLAG …]
+  $bin/shade --config "$1" --out "$2" --sensor configs/sensors/gelsight_mini.yaml --light truth/light.yaml --background truth/background.png \
+    --press truth/press --gel truth/gel/gel.msh "${@:3}"
+}

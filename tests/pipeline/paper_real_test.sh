@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# The goal paper-real on photographs that our own light made of our own press: every row of the table is there, ours are nearly
+# the photographs, a second run does nothing, and other published optics make nothing anew but their own rows.
+. "$(dirname "$0")/common.sh"
+. "$(dirname "$0")/made_photographs.sh"
+cat > configs/benchmarks/made.yaml <<'END'
+title: made
+data: shots
+background: background.png
+photographs: images
+labels: labels.txt
+ending: .png
+sensor: ../sensors/gelsight_mini.yaml
+mesh: made/mesh.yaml
+press: made/press.yaml
+calibrate: made/calibrate.yaml
+baseline: ../baseline/height_map.yaml
+calibration_ball: {radius_mm: 3.0, deepest_mm: 1.0, steps: 5}
+ball_edge_mm: 0.5
+mesh_spacing_mm: 0.1
+must: {ssim_s: 0.95, mae: 0.01, psnr_db: 35}
+objects:
+  - name: ball
+    ball_radius_mm: 3.0
+    center_px: [50, 40]
+    box_px: [36, 26, 30, 28]
+    fit: {image: ball_0.4, yaw: false}
+    images:
+      - {name: ball_0.4, depth_mm: 0.4}
+      - {name: ball_0.8, depth_mm: 0.8}
+END
+sed -i 's/size_mm: \[25.25, 20.75\]/size_mm: [25, 21]/; s/thickness_mm: 4.25/thickness_mm: 4/' configs/sensors/gelsight_mini.yaml # whole lattice spacings
+make_truth
+sed -i 's/contact_gap_mm: .*/contact_gap_mm: 0.06/; s/fit_contact_gap: true/fit_contact_gap: false/' configs/benchmarks/made/calibrate.yaml
+# A coarse gel of material points, and the published optics as they are shipped.
+made=configs/benchmarks/made
+cp configs/benchmarks/gelsight_sim2real/legacy_*.yaml $made
+sed -e 's/spacing_mm: 0.2$/spacing_mm: 0.5/; s/spacing_mm: 0.12890625.*/spacing_mm: 0.5/; s/samples: 100000.*/samples: 20000/; s/step_s: 5.0e-5/step_s: 1.0e-4/' \
+  configs/benchmarks/gelsight_sim2real/mpm.yaml > $made/mpm.yaml
+grep -v crop_px configs/image_table/gelsight_sim2real.yaml > configs/image_table/made.yaml
+
+# Five balls to calibrate, two frames of the press to test.
+awk 'BEGIN {
+  print "images:" > "truth/balls.yaml"
+  n = split("25.5 22.0,72.0 24.5,48.5 38.0,30.0 50.0,75.5 52.0", c, ",")
+  for (i = 1; i <= n; ++i) {
+    split(c[i], p, " "); r = 6.5 + 0.25 * (i % 4)
+    printf "  - {name: b%d, center_px: [%s, %s], contact_px: %s}\n", i, p[1], p[2], r > "truth/balls.yaml"
+    printf "b%d.png (%s, %s) %s\n", i, p[1], p[2], r > "shared/shots/labels.txt"
+  }
+  print "ball: {radius_mm: 3.0}" > "truth/balls.yaml"
+}'
+echo '{images: [{name: ball_0.4, frame: 2}, {name: ball_0.8, frame: 4}], place: {center_px: [50.5, 39.75]}}' > truth/objects.yaml
+shade_truth truth/balls.yaml truth/balls --contact truth/contact.yaml
+shade_truth truth/objects.yaml truth/objects
+cp truth/balls/b?.png truth/objects/ball_*.png shared/shots/images
+cp truth/background.png shared/shots
+
+goal() { make -s -f Makefile.data paper-real CASES=configs/benchmarks/"$1".yaml OUT=out BUILD="$build_dir" PACKAGES=no SHARED=shared >log.txt 2>&1; }
+goal made || { cat log.txt; fail "paper-real"; }
+real=out/paper/real
+for folder in ours tacchi depth-based tacchi-our-light depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential background; do
+  grep -q "folder: $folder$" $real/image_table.yaml || fail "$folder is no row"
+done
+error_of() { awk -F, '$2 == "box" { sum += $3; ++n } END { print sum / n }' "$1/samples.csv"; }
+awk -v ours="$(error_of out/sim2real/made/metrics/ours)" -v tacchi="$(error_of $real/metrics/tacchi)" -v legacy="$(error_of $real/metrics/legacy-tacchi)" \
+  -v none="$(error_of out/sim2real/made/metrics/background)" \
+  'BEGIN { print "mean errors:", ours, tacchi, legacy, none; exit !(ours < 0.005 && ours < tacchi && tacchi < none && none < legacy) }' || fail "mean errors in the box"
+for sheet in real_same_optics real_published_optics; do
+  grep -q "paper_results/$sheet.png" $real/table.md && [ -s $real/paper_results/$sheet.png ] || fail "no sheet $sheet"
+done
+# Tacchi's ball stands where ours does.
+grep -q 'depth_mm: 0.8, steps: 1' $real/tacchi/objects/ball/motion.yaml || fail "other depths"
+
+stamp() { find out -name '*.yaml' -not -name '*.timings.yaml' -printf '%p %T@\n' | sort; }
+stamp > before.txt
+goal made || fail "paper-real again"
+stamp | cmp - before.txt || fail "a second run did something"
+sed -i 's/ambient: 0.8/ambient: 0.7/' $made/legacy_tacchi.yaml
+goal made || fail "paper-real with other optics"
+stamp | comm -13 before.txt - | sed 's/ .*//' > after.txt
+grep -q legacy-tacchi after.txt || fail "other optics change nothing"
+! grep -qE 'mpm.yaml|calibrate.yaml|sim2real/|simulated/tacchi/|legacy-depth-based/' after.txt || { cat after.txt; fail "more than the rows of those optics was made anew"; }
+
+cp configs/benchmarks/made.yaml configs/benchmarks/other.yaml
+! goal other || fail "a benchmark without its table"
+grep -q 'configs/image_table/other.yaml does not exist' log.txt || { cat log.txt; fail "what is missing is not said"; }
+[ ! -e out/sim2real/other ] || fail "something ran"
+echo "7 passed, 0 failed"
