@@ -28,7 +28,7 @@ $(PAPER_REAL)/tacchi/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.y
 	awk -F, -v ball=$* 'NR == ball + 2 { printf "placement: {center_mm: [%s, %s]}\nmotion: {kind: press, depth_mm: %s, steps: 1}\n", $$2, $$3, $$4 }' \
 	  $(<D)/balls.csv > $@
 $(PAPER_REAL)/tacchi/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/mpm.yaml) $(CASES_CALIBRATE) | build
-	$(call run,calibrate,$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/frame_0001/indentation.exr))
+	$(call run,calibrate,$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/frame_0001/seen_indentation.exr))
 
 # $(call paper_frames,object,folder,first frame,file): one per photograph
 paper_frames = $(foreach k,$(shell seq -f %04.0f $(3) $$(($(3) + $(words $(CASES_IMAGES_$(1))) - 1))),$(2)/frame_$(k)/$(4))
@@ -54,11 +54,11 @@ $(PAPER_REAL)/tacchi/objects/$(1)/motion.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml 
 	awk '/^  center_mm: / { sub(/^ *center_mm: /, ""); center = $$$$0 } /^  yaw_deg: / { printf "placement: {center_mm: %s, rotate_deg: %s}\n", center, $$$$2 }' $$< > $$@
 	cat $(SIM2REAL)/cases/objects/$(1)/motion.yaml >> $$@
 $(call paper_mpm,$(PAPER_REAL)/tacchi/objects/$(1),$(SIM2REAL)/objects/$(1)/indenter)
-$(call paper_shade,tacchi,$(1),$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call paper_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,indentation.exr))
-$(call paper_shade,tacchi-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call paper_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,indentation.exr))
+$(call paper_shade,tacchi,$(1),$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call paper_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
+$(call paper_shade,tacchi-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call paper_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
 $(call paper_shade,depth-based-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(SIM2REAL)/rival/objects/$(1)/baseline.yaml,$(call paper_frames,$(1),$(SIM2REAL)/rival/objects/$(1),0,indentation.exr))
 $(call paper_legacy,legacy-ours,$(1),tacchi,$(SIM2REAL)/ours/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(SIM2REAL)/ours/$(1)/depth/$(i).exr))
-$(call paper_legacy,legacy-tacchi,$(1),tacchi,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,--depth $(call paper_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,depth.exr))
+$(call paper_legacy,legacy-tacchi,$(1),tacchi,$(PAPER_REAL)/simulated/tacchi/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(PAPER_REAL)/simulated/tacchi/$(1)/depth/$(i).exr))
 $(call paper_legacy,legacy-depth-based,$(1),gomes_2021,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call paper_object,$(1)))
 $(call paper_legacy,legacy-exponential,$(1),exponential_13,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call paper_object,$(1)))
 endef
