@@ -24,7 +24,7 @@ struct DeformationConfig {
   GaussianSize near_kernel;  // k1 [difference of Gaussians only, as what follows]
   GaussianSize far_kernel;   // k2
   int iterations = 0;
-  double exponential_factor = 1.0;  // f of the exponential kernel
+  double exponential_factor = 1.0;       // f of the exponential kernel
   std::optional<int> designed_width_px;  // of the images the kernels were made for; absent: taken as they are
 
   static DeformationConfig read(ConfigReader& in);

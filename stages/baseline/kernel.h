@@ -12,8 +12,9 @@ namespace tacipc {
 std::vector<double> folded_gaussian_profile(int size, double sigma);
 Raster folded_gaussian(int size, double sigma);
 
-/// w(i, j) = 201 / (200 + exp (√(i² + j²) / f)), |i|, |j| ≤ 6 f to the nearest whole number, divided by its sum: at f = 1
-/// the older 13 × 13 kernel with which Tacchi compares [Tacchi2023], else the same on pixels of another size. \pre f > 0
+/// w(i, j) = 201 / (200 + exp (√(i² + j²) / f)), |i|, |j| ≤ 6 f to the nearest whole number, divided by its sum: at f =
+/// 1 the older 13 × 13 kernel with which Tacchi compares [Tacchi2023], else the same on pixels of another size. \pre f
+/// > 0
 Raster exponential_kernel(double factor = 1.0);
 
 enum class Border { reflect_101, constant };
