@@ -23,7 +23,8 @@ PrintedRows read_printed(ConfigReader in, const ImageTableConfig& config) {
     PrintedRow row{.name = item.text("name"), .values = {}};
     ConfigReader values = item.section("values");
     for (const std::string& column : values.keys()) {
-      row.values.emplace_back(column, values.number(column));
+      values.number(column);  // a fault unless it is one; the text keeps its digits
+      row.values.emplace_back(column, values.text(column));
       if (std::none_of(config.columns.begin(), config.columns.end(),
                        [&](const ShownColumn& shown) { return shown.column == column; }))
         values.fault(column, "is none of the columns");
@@ -58,7 +59,7 @@ SheetConfig read_sheet(ConfigReader& in) {
 
 }  // namespace
 
-std::optional<double> PrintedRow::value(const std::string& column) const {
+std::optional<std::string> PrintedRow::value(const std::string& column) const {
   for (const auto& [key, number] : values)
     if (key == column) return number;
   return std::nullopt;
@@ -71,7 +72,10 @@ ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
   config.link_folder = in.text_or("link_folder", "");
   for (ConfigReader& item : in.one_or_more_sections("columns")) {
     config.columns.push_back(
-        {.column = item.text("column"), .heading = item.text("heading"), .digits = item.integer("digits", 0, 9)});
+        {.column = item.text("column"),
+         .heading = item.text("heading"),
+         .digits = item.integer("digits", 0, 9),
+         .geometric = item.choice_or("mean", "arithmetic", {"arithmetic", "geometric"}) == "geometric"});
     refuse_repeats(item, "column", config.columns, &ShownColumn::column);
   }
   for (ConfigReader& item : in.one_or_more_sections("regions")) {

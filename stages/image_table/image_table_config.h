@@ -15,7 +15,8 @@ namespace tacipc {
 struct ShownColumn {
   std::string column;
   std::string heading;
-  int digits = 3;  // after the point
+  int digits = 3;          // after the point
+  bool geometric = false;  // mean and deviation of logarithms: for ratios, of which 2 and 1/2 are equally far from 1
 };
 
 /// A part of the images that gets a table of its own.
@@ -34,9 +35,9 @@ struct MeasuredRow {
 /// Means that somebody else printed, beside the measured ones.
 struct PrintedRow {
   std::string name;
-  std::vector<std::pair<std::string, double>> values;  // column of samples.csv, and the mean
+  std::vector<std::pair<std::string, std::string>> values;  // column of samples.csv, and the mean as it was printed
 
-  std::optional<double> value(const std::string& column) const;
+  std::optional<std::string> value(const std::string& column) const;
 };
 
 struct PrintedRows {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 
@@ -15,6 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string folder_of(const fs::path& table) { return fs::absolute(table).parent_path().filename().string(); }
+
+MeanDeviation cell_of(std::vector<double> values, const ShownColumn& column) {
+  if (!column.geometric) return mean_and_deviation(values);
+  for (double& value : values) value = std::log(value);
+  const MeanDeviation logarithms = mean_and_deviation(values);
+  return {.mean = std::exp(logarithms.mean), .deviation = std::exp(logarithms.deviation)};
+}
 
 MethodRow read_row(const fs::path& table, const MeasuredRow& row, const ImageTableConfig& config) {
   std::map<std::string, std::vector<std::string>> images;  // by region
@@ -45,7 +53,7 @@ MethodRow read_row(const fs::path& table, const MeasuredRow& row, const ImageTab
       throw DataError("{}: region {} has other images than region {}", table.string(), shown.region,
                       config.regions.front().region);
     for (const ShownColumn& column : config.columns)
-      out.cells[{shown.region, column.column}] = mean_and_deviation(values.at({shown.region, column.column}));
+      out.cells[{shown.region, column.column}] = cell_of(values.at({shown.region, column.column}), column);
   }
   return out;
 }

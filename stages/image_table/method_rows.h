@@ -15,8 +15,9 @@ namespace tacipc {
 /// One method in all regions and columns of the table.
 struct MethodRow {
   MeasuredRow row;
-  std::vector<std::string> images;                                     // ascending
-  std::map<std::pair<std::string, std::string>, MeanDeviation> cells;  // by region and column of samples.csv
+  std::vector<std::string> images;  // ascending
+  /// By region and column of samples.csv. Of geometric columns exp(mean ln) and exp(deviation of ln), a factor.
+  std::map<std::pair<std::string, std::string>, MeanDeviation> cells;
 
   const MeanDeviation& cell(const std::string& region, const std::string& column) const {
     return cells.at({region, column});

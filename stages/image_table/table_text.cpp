@@ -54,7 +54,8 @@ std::string region_table(const ShownRegion& region, const std::vector<MethodRow>
     std::vector<std::string> cells{escaped(row.row.name)};
     for (const ShownColumn& column : config.columns) {
       const MeanDeviation& cell = row.cell(region.region, column.column);
-      cells.push_back(number(cell.mean, column.digits) + " ± " + number(cell.deviation, column.digits));
+      cells.push_back(number(cell.mean, column.digits) + (column.geometric ? " ×÷ " : " ± ") +
+                      number(cell.deviation, column.digits));
     }
     text += line(cells);
   }
@@ -64,7 +65,7 @@ std::string region_table(const ShownRegion& region, const std::vector<MethodRow>
     std::vector<std::string> cells{escaped(row.name)};
     for (const ShownColumn& column : config.columns) {
       const auto value = row.value(column.column);
-      cells.push_back(value ? fmt::format("{}", *value) : "–");
+      cells.push_back(value.value_or("–"));
     }
     text += line(cells);
   }
@@ -100,8 +101,8 @@ std::string to_csv(const std::vector<MethodRow>& rows, const ImageTableConfig& c
   if (!config.printed) return text;
   for (const PrintedRow& row : config.printed->rows)
     for (const auto& [column, value] : row.values)
-      text += csv_line({row.name, config.printed->label, config.printed->region, column, "", fmt::format("{}", value),
-                        "", config.printed->source});
+      text += csv_line(
+          {row.name, config.printed->label, config.printed->region, column, "", value, "", config.printed->source});
   return text;
 }
 

@@ -11,12 +11,12 @@ using testing::ElementsAre;
 
 TEST(ImageTableConfig, ReadsRowsPrintedNumbersAndSheets) {
   const auto config = small_table(
-      "printed: {label: elsewhere, source: a paper, region: box, rows: [{name: p, values: {ssim_s: 0.9}}]}\n"
+      "printed: {label: elsewhere, source: a paper, region: box, rows: [{name: p, values: {ssim_s: 0.90}}]}\n"
       "sheets: [{name: s, alt: pictures, picture_px: 20, crop_px: [1, 2, 3, 4], columns: [{heading: A, folder: "
       "a}]}]\n");
   EXPECT_EQ(config.rows[1].group, "others");
   EXPECT_EQ(config.rows[0].group, "");
-  EXPECT_EQ(config.printed->rows[0].value("ssim_s"), 0.9);
+  EXPECT_EQ(config.printed->rows[0].value("ssim_s"), "0.90");
   EXPECT_EQ(config.printed->rows[0].value("psnr_ln"), std::nullopt);
   EXPECT_THAT(*config.sheets[0].crop_px, ElementsAre(1, 2, 3, 4));
 }

@@ -30,6 +30,16 @@ TEST(MethodRows, AreFoundByTheirFolderInTheOrderOfTheConfiguration) {
   EXPECT_DOUBLE_EQ(rows[1].cell("box", "psnr_ln").mean, 30.0);
 }
 
+TEST(MethodRows, RatiosHaveGeometricMeans) {
+  const ScratchFolder scratch;
+  auto config = small_table();
+  config.columns[1].geometric = true;
+  const auto rows = read_method_rows({samples_in(scratch, "a", "80"), samples_in(scratch, "b")}, config);
+  EXPECT_NEAR(rows[0].cell("box", "psnr_ln").mean, 40.0, 1e-12);  // of 20 and 80
+  EXPECT_NEAR(rows[0].cell("box", "psnr_ln").deviation, 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(rows[0].cell("box", "ssim_s").mean, 0.25);
+}
+
 TEST(MethodRows, RefuseWhatDoesNotBelongTogether) {
   const ScratchFolder scratch;
   const auto a = samples_in(scratch, "a"), b = samples_in(scratch, "b"), c = samples_in(scratch, "c");

@@ -39,11 +39,20 @@ TEST(TableText, HasATablePerRegionAndPrintedRowsInTheirsAlone) {
             "![pictures](figures/s.png)\n");
 }
 
+TEST(TableText, GeometricMeansHaveAFactor) {
+  const ScratchFolder scratch;
+  auto config = small_table();
+  config.columns[1].geometric = true;
+  const std::string text =
+      to_markdown(read_method_rows({samples_in(scratch, "a", "80"), samples_in(scratch, "b")}, config), config);
+  EXPECT_NE(text.find("| first | 0.250 ± 0.000 | 40.0 ×÷ 2.0 |\n"), std::string::npos) << text;
+}
+
 TEST(TableText, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
   const ScratchFolder scratch;
   auto config = small_table(kPrinted);
   config.columns.pop_back();
-  config.printed->rows[0].values = {{"ssim_s", 0.9}};
+  config.printed->rows[0].values = {{"ssim_s", "0.90"}};
   const auto rows = read_method_rows({samples_in(scratch, "a"), samples_in(scratch, "b")}, config);
   EXPECT_EQ(to_csv(rows, config),
             "row,group,region,column,images,mean,std,source\n"
@@ -51,7 +60,7 @@ TEST(TableText, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
             "second,others,full,ssim_s,2,0.625,0.125,\n"
             "first,,box,ssim_s,2,0.25,0,\n"
             "second,others,box,ssim_s,2,0.25,0,\n"
-            "p|q,elsewhere,full,ssim_s,,0.9,,a paper\n");
+            "p|q,elsewhere,full,ssim_s,,0.90,,a paper\n");
 }
 
 }  // namespace
