@@ -79,7 +79,9 @@ MpmConfig MpmConfig::read(ConfigReader& in) {
   config.depth_of_gel = motion.choice("depth_of", {"gel", "object"}) == "gel";
   config.check_every = motion.integer_or("check_every", 1, 1, 1000);
   config.hold_frame_s = motion.number("hold_frame_s", Range::positive());
-  config.pixels_at_ends = in.choice("pixels", {"ends", "centres"}) == "ends";
+  const std::string pixels = in.choice("pixels", {"ends", "centres", "none"});
+  config.pixels_at_ends = pixels == "ends";
+  config.height_maps = pixels != "none";
   if (auto check = in.optional_section("half_speed"))
     config.largest_change = check->number("largest_change", Range::positive());
   return config;

@@ -50,6 +50,7 @@ struct MpmConfig {
   bool depth_of_gel = false;    // a press is as deep as the gel's front is, else as the object's lowest point
   int check_every = 1;          // steps between looks at the front's depth
   double hold_frame_s = 0.0;    // a frame in which nothing moves
+  bool height_maps = true;      // of every frame; else markers only
   bool pixels_at_ends = false;  // the first and last pixel look at the window's edges, else at half a pixel inside
   std::optional<double> largest_change =
       std::nullopt;  // of the markers when the object moves half as fast; absent: not tried

@@ -83,7 +83,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const MpmScene& scene, co
   }
   const auto press_end = press_end_frame(scene.sample, phases);
   write_arrays(stage, sensor, scene, run, markers, press_end);
-  write_maps(stage, sensor, scene, run);
+  if (scene.config.height_maps) write_maps(stage, sensor, scene, run);
 
   const MpmSetup& setup = scene.setup;
   const MpmFrame& last = run.frames.back();

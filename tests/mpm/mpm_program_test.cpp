@@ -102,6 +102,15 @@ TEST_F(MpmProgram, FailsWhereHalfTheSpeedChangesTooMuch) {
   EXPECT_THAT(read_file(scratch_ / "out/mpm.failed.yaml"), HasSubstr("check: marker_change_at_half_speed"));
 }
 
+TEST_F(MpmProgram, WritesNoHeightMapsWhereNoneAreWanted) {
+  replace(config_, "pixels: centres", "pixels: none");
+  config_.resize(config_.find("half_speed:"));
+  scratch_.file("mpm.yaml", config_);
+  ASSERT_EQ(run_mpm("out"), 0) << said_;
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "out/marker_displacement.npy"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/frame_0004"));
+}
+
 TEST_F(MpmProgram, RefusesLoads) {
   scratch_.file("load.yaml", "object: {density_kg_m3: 1000}\nmotion: {kind: press, force_n: 1, steps: 2}\n");
   EXPECT_EQ(run_mpm("out", "", "load.yaml"), 2);
