@@ -79,7 +79,7 @@ MeasuredPressAndShear::MeasuredPressAndShear(MarkerField press_field, MarkerFiel
 }
 
 FieldFit fit_field(const PressedRuns& runs, const MeasuredPressAndShear& measured, const MarkerAssumptions& assumed,
-                   const MarkerBenchmark& benchmark) {
+                   const MarkerBenchmark& benchmark, bool take_deepest) {
   const Eigen::Matrix2Xd press_places = from_axis(measured.press, assumed);
   const Eigen::Matrix2Xd shear_places = from_axis(measured.shear, assumed);
   const auto pressed_px = [&](double depth_m) {
@@ -94,10 +94,11 @@ FieldFit fit_field(const PressedRuns& runs, const MeasuredPressAndShear& measure
     return px;
   };
   bool last = false;
-  std::tie(fit.depth_m, last) = least(0.0, runs.deepest_m(), [&](double depth_m) {
+  std::tie(fit.depth_m, fit.deepest) = least(0.0, runs.deepest_m(), [&](double depth_m) {
     return (pressed_px(depth_m) - measured.press.moved_px).squaredNorm();
   });
-  if (last) throw DataError("the deepest press, {:g} mm, fits best: simulate deeper ones", 1e3 * fit.depth_m);
+  if (fit.deepest && !take_deepest)
+    throw DataError("the deepest press, {:g} mm, fits best: simulate deeper ones", 1e3 * fit.depth_m);
   if (fit.depth_m < runs.shallowest_m())
     throw DataError("a press of {:g} mm fits best, but the shallowest one that is sheared has {:g} mm",
                     1e3 * fit.depth_m, 1e3 * runs.shallowest_m());

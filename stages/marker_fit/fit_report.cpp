@@ -31,8 +31,9 @@ std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShe
       const std::string missed = row.fit->way_missed_px > kReachedPx
                                      ? fmt::format(" (its marker off by {:.1f} px)", row.fit->way_missed_px)
                                      : "";
-      out += fmt::format("| {} | {:.2f} | {:.2f}{} | {} {}\n", row.name, 1e3 * row.fit->depth_m, 1e3 * row.fit->way_m,
-                         missed, cells(row.fit->press), cells(row.fit->shear));
+      out += fmt::format("| {} | {:.2f}{} | {:.2f}{} | {} {}\n", row.name, 1e3 * row.fit->depth_m,
+                         row.fit->deepest ? " (the deepest)" : "", 1e3 * row.fit->way_m, missed, cells(row.fit->press),
+                         cells(row.fit->shear));
     } else {
       out += fmt::format("| {} | | | {} |\n", row.name, row.no_fit);
     }
@@ -57,6 +58,28 @@ std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShe
       benchmark.shear_marker_px.x(), benchmark.shear_marker_px.y(), benchmark.least_length_px, first.press.directions,
       first.shear.directions);
   return out;
+}
+
+std::string comparison_text(const std::vector<FitRow>& simulators) {
+  const FitRow& first = simulators.front();
+  const auto field = [&](const char* name, FieldErrors FieldFit::*errors) {
+    const FieldErrors& own = first.fit.value().*errors;
+    std::string out =
+        fmt::format("{}, mean end-point error of {} vectors: {} {:.2f} px", name, own.markers, first.name, own.mean_px);
+    const FitRow* nearest = &first;
+    for (std::size_t i = 1; i < simulators.size(); ++i) {
+      const FitRow& row = simulators[i];
+      if (!row.fit) {
+        out += fmt::format(", {} no fit", row.name);
+        continue;
+      }
+      const double mean_px = (*row.fit.*errors).mean_px;
+      out += fmt::format(", {} {:.2f} px ({:.2f} times)", row.name, mean_px, mean_px / own.mean_px);
+      if (mean_px < (*nearest->fit.*errors).mean_px) nearest = &row;
+    }
+    return out + fmt::format(". Nearest: {}.\n", nearest->name);
+  };
+  return field("Shear", &FieldFit::shear) + field("Press", &FieldFit::press);
 }
 
 std::string vectors_csv(const FieldFit& fit, const MeasuredPressAndShear& measured) {

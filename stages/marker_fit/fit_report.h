@@ -21,6 +21,10 @@ struct FitRow {
 std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShear& measured,
                       const MarkerBenchmark& benchmark);
 
+/// In words, how far each simulator's vectors of press and shear are from the measured ones, beside the first's.
+/// \pre the first has a fit
+std::string comparison_text(const std::vector<FitRow>& simulators);
+
 /// field,x_px,y_px,measured_dx_px,measured_dy_px,simulated_dx_px,simulated_dy_px for each marker of press and shear.
 std::string vectors_csv(const FieldFit& fit, const MeasuredPressAndShear& measured);
 

@@ -14,28 +14,56 @@ using namespace tacipc;
 const StageSpec kMarkerFit{
     .name = "marker_fit",
     .summary = "Fit depth and way of a ball to measured marker vectors, and compare all others with simulated ones.",
-    .inputs = {
-        {.flag = "--config", .help = "the benchmark (YAML)"},
-        {.flag = "--pressed", .help = "vectors measured after the press (CSV: Mx,My,dx,dy in px)"},
-        {.flag = "--sheared", .help = "vectors measured after the shear (CSV)"},
-        {.flag = "--runs",
-         .help = "folder of presses to several depths: first the base, then variants and other simulators, each by its "
-                 "folder's name",
-         .many = true}}};
+    .inputs =
+        {{.flag = "--config", .help = "the benchmark (YAML)"},
+         {.flag = "--pressed", .help = "vectors measured after the press (CSV: Mx,My,dx,dy in px)"},
+         {.flag = "--sheared", .help = "vectors measured after the shear (CSV)"},
+         {.flag = "--runs",
+          .help =
+              "folder of presses to several depths: first the base, then variants and other simulators, each by its "
+              "folder's name",
+          .many = true}},
+    .options = {
+        {.flag = "--name", .help = "what the first row is called (default: its folder's name)", .fallback = ""}}};
 
 std::string name_of(const std::filesystem::path& folder) {
   const auto path = folder.lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
-FitRow row_of(const std::string& name, const PressedRuns& runs, const MeasuredPressAndShear& measured,
-              const MarkerAssumptions& assumed, const MarkerBenchmark& benchmark) {
+template <typename Fit>
+FitRow tried_row(const std::string& name, const Fit& fit) {
   try {
-    return {.name = name, .fit = fit_field(runs, measured, assumed, benchmark)};
+    return {.name = name, .fit = fit()};
   } catch (const DataError& error) {
     log_warning("{}: {}", name, error.what());
     return {.name = name, .no_fit = error.what()};
   }
+}
+
+FitRow row_of(const std::string& name, const PressedRuns& runs, const MeasuredPressAndShear& measured,
+              const MarkerAssumptions& assumed, const MarkerBenchmark& benchmark) {
+  return tried_row(name, [&] { return fit_field(runs, measured, assumed, benchmark); });
+}
+
+/// Another simulator's. What came out of it may be no presses at all; a depth at the end of what it simulated is taken,
+/// for it may well have no other.
+FitRow row_of_other(const std::filesystem::path& folder, const MeasuredPressAndShear& measured,
+                    const MarkerBenchmark& benchmark) {
+  return tried_row(name_of(folder), [&] {
+    const PressedRuns runs(folder, benchmark.assumed.ball_radius_m);
+    return fit_field(runs, measured, benchmark.assumed, benchmark, true);
+  });
+}
+
+/// Both fields, measured and simulated; names begin with `prefix`.
+void write_pictures(Stage& stage, const std::string& prefix, const FieldFit& fit, const MeasuredPressAndShear& measured,
+                    const MarkerBenchmark& benchmark) {
+  constexpr double kEnlargedPress = 4.0, kEnlargedShear = 2.0;
+  write_file(stage.output(prefix + "press.svg"),
+             quiver_svg(measured.press, fit.press_px, benchmark.image_px, kEnlargedPress, "press"));
+  write_file(stage.output(prefix + "shear.svg"),
+             quiver_svg(measured.shear, fit.shear_px, benchmark.image_px, kEnlargedShear, "press and shear"));
 }
 
 Value::Map values_of(const FieldErrors& e) {
@@ -62,12 +90,11 @@ int main(int argc, char** argv) {
       else
         others.push_back(folders[i]);
     }
+    const std::string& name = stage.option("--name");
     const PressedRuns base(folders.front(), benchmark.assumed.ball_radius_m);
-    std::vector<FitRow> rows{
-        {.name = name_of(folders.front()), .fit = fit_field(base, measured, benchmark.assumed, benchmark)}};
-    for (const auto& folder : others)
-      rows.push_back(row_of(name_of(folder), PressedRuns(folder, benchmark.assumed.ball_radius_m), measured,
-                            benchmark.assumed, benchmark));
+    std::vector<FitRow> rows{{.name = name.empty() ? name_of(folders.front()) : name,
+                              .fit = fit_field(base, measured, benchmark.assumed, benchmark)}};
+    for (const auto& folder : others) rows.push_back(row_of_other(folder, measured, benchmark));
     for (const MarkerVariant& variant : benchmark.variants) {
       if (variant.own_runs && !of_variant.contains(variant.name)) {
         rows.push_back({.name = variant.name, .no_fit = "not simulated"});
@@ -81,14 +108,24 @@ int main(int argc, char** argv) {
     const FieldFit& fit = *rows.front().fit;
     write_file(stage.output("table.md"), fit_table(rows, measured, benchmark));
     write_file(stage.output("vectors.csv"), vectors_csv(fit, measured));
-    constexpr double kEnlargedPress = 4.0, kEnlargedShear = 2.0;
-    write_file(stage.output("press.svg"),
-               quiver_svg(measured.press, fit.press_px, benchmark.image_px, kEnlargedPress, "press"));
-    write_file(stage.output("shear.svg"),
-               quiver_svg(measured.shear, fit.shear_px, benchmark.image_px, kEnlargedShear, "press and shear"));
+    write_pictures(stage, "", fit, measured, benchmark);
+    const std::vector<FitRow> simulators(rows.begin(), rows.begin() + 1 + static_cast<std::ptrdiff_t>(others.size()));
+    Value::List of_others;
+    for (std::size_t i = 1; i < simulators.size(); ++i) {
+      const FitRow& row = simulators[i];
+      if (!row.fit) continue;
+      write_pictures(stage, row.name + "_", *row.fit, measured, benchmark);
+      of_others.emplace_back(Value::Map{{"name", row.name},
+                                        {"depth_mm", 1e3 * row.fit->depth_m},
+                                        {"way_mm", 1e3 * row.fit->way_m},
+                                        {"press", values_of(row.fit->press)},
+                                        {"shear", values_of(row.fit->shear)}});
+    }
+    if (!others.empty()) write_file(stage.output("others.md"), comparison_text(simulators));
     stage.summarize({{"depth_mm", 1e3 * fit.depth_m},
                      {"way_mm", 1e3 * fit.way_m},
                      {"press", values_of(fit.press)},
                      {"shear", values_of(fit.shear)}});
+    if (!of_others.empty()) stage.summarize({{"others", std::move(of_others)}});
   });
 }

@@ -22,7 +22,8 @@ Eigen::Vector2d made_up(const Eigen::Vector2d& from_axis, double depth_m, double
 }
 
 /// A run that presses in steps of 0.1 mm from 0.1 mm above and drags in steps of 0.1 mm, its markers 0.25 mm apart.
-void write_run(const std::filesystem::path& folder, int tenths_deep, int tenths_far) {
+/// Markers go `part` of what they should along x.
+void write_run(const std::filesystem::path& folder, int tenths_deep, int tenths_far, double part = 1.0) {
   std::vector<double> pose, markers, moved;
   std::vector<std::uint8_t> phase;
   const auto frames = static_cast<std::size_t>(tenths_deep + 2 + tenths_far);
@@ -35,7 +36,8 @@ void write_run(const std::filesystem::path& folder, int tenths_deep, int tenths_
     for (int r = 0; r < 25; ++r)
       for (int c = 0; c < 29; ++c) {
         const Eigen::Vector2d rest(-3.5e-3 + 0.25e-3 * c, -3e-3 + 0.25e-3 * r);
-        const Eigen::Vector2d u = made_up(rest - kPlace, std::max(0.0, depth), way);
+        Eigen::Vector2d u = made_up(rest - kPlace, std::max(0.0, depth), way);
+        u.x() *= part;
         markers.insert(markers.end(), {rest.x() + u.x(), rest.y() + u.y(), 0.0});
         moved.insert(moved.end(), {u.x(), u.y(), 0.0, 0.0, 0.0, 0.0});
       }
@@ -88,6 +90,19 @@ class FitField : public ProgramTest {
   FitField() {
     write_run(scratch_ / "base/shallow", 4, 6);
     write_run(scratch_ / "base/deep/press", 10, 7);
+  }
+
+  /// The benchmark and what a camera measured, in whole pixels.
+  void write_measured() {
+    scratch_.file("b.yaml", kBenchmark);
+    for (const auto& [name, field] :
+         {std::pair{"0.csv", measured(0.7e-3, 0.0, {1, -1})}, {"1.csv", measured(0.7e-3, 0.4e-3, {0, 0})}}) {
+      std::string csv = "Mx,My,dx,dy\n";
+      for (int i = 0; i < 42; ++i)
+        csv += fmt::format("{:g},{:g},{:.0f},{:.0f}\n", field.rest_px(0, i), field.rest_px(1, i), field.moved_px(0, i),
+                           field.moved_px(1, i));
+      scratch_.file(name, csv);
+    }
   }
 };
 
@@ -167,15 +182,7 @@ TEST_F(FitField, TheProgramWritesTableVectorsAndPictures) {
     write_run(scratch_ / (std::string("runs/") + other + "/a"), 4, 6);
     write_run(scratch_ / (std::string("runs/") + other + "/b"), 10, 2);
   }
-  scratch_.file("b.yaml", kBenchmark);
-  for (const auto& [name, field] :
-       {std::pair{"0.csv", measured(0.7e-3, 0.0, {1, -1})}, {"1.csv", measured(0.7e-3, 0.4e-3, {0, 0})}}) {
-    std::string csv = "Mx,My,dx,dy\n";
-    for (int i = 0; i < 42; ++i)
-      csv += fmt::format("{:g},{:g},{:.0f},{:.0f}\n", field.rest_px(0, i), field.rest_px(1, i), field.moved_px(0, i),
-                         field.moved_px(1, i));
-    scratch_.file(name, csv);
-  }
+  write_measured();
   const std::string command = fmt::format(
       "cd '{}' && {}/marker_fit --config b.yaml --pressed 0.csv --sheared 1.csv --runs base --runs runs/slippery/ "
       "--runs "
@@ -199,6 +206,42 @@ TEST_F(FitField, TheProgramWritesTableVectorsAndPictures) {
   EXPECT_NEAR(summary.number("way_mm"), 0.4, 0.03);
   ConfigReader shear = summary.section("shear");
   EXPECT_LT(shear.number("mean_px"), 0.5);  // of rounding alone
+}
+
+// A rival whose markers go sideways too little, one without a fit and one without presses, beside ours under a name.
+TEST_F(FitField, OtherSimulatorsStandBesideOurs) {
+  write_run(scratch_ / "runs/rival/a", 4, 6, 0.7);
+  write_run(scratch_ / "runs/rival/b", 10, 7, 0.7);
+  write_run(scratch_ / "runs/short/a", 4, 6);
+  write_run(scratch_ / "runs/short/b", 10, 2);
+  write_run(scratch_ / "runs/shallow/a", 4, 6);
+  write_run(scratch_ / "runs/shallow/b", 6, 7);
+  std::filesystem::create_directories(scratch_ / "runs/none");
+  write_measured();
+  const std::string command = fmt::format(
+      "cd '{}' && {}/marker_fit --name ours --config b.yaml --pressed 0.csv --sheared 1.csv --runs base --runs "
+      "runs/rival "
+      "--runs runs/short --runs runs/none --runs runs/shallow --log-level error --out fit",
+      (scratch_ / "").string(), TACIPC_BIN_DIR);
+  ASSERT_EQ(run_command(command), 0) << said_;
+  const std::string table = read_file(scratch_ / "fit/table.md");
+  for (const char* row : {"\n| ours | 0.7", "\n| rival | 0.", "\n| short | | | the longest shear", "\n| none | | | ",
+                          "\n| shallow | 0.60 (the deepest) | 0."})
+    EXPECT_THAT(table, ::testing::HasSubstr(row));
+  ConfigReader record = ConfigReader::from_file(scratch_ / "fit/marker_fit.yaml");
+  ConfigReader summary = record.section("summary");
+  const double own = summary.section("shear").number("mean_px");
+  std::vector<ConfigReader> others = summary.sections("others");
+  ASSERT_EQ(others.size(), 2u);
+  const double theirs = others[0].section("shear").number("mean_px");
+  EXPECT_GT(theirs, own);
+  const std::string text = read_file(scratch_ / "fit/others.md");
+  EXPECT_THAT(text, ::testing::HasSubstr(fmt::format("Shear, mean end-point error of 41 vectors: ours {:.2f} px, rival "
+                                                     "{:.2f} px ({:.2f} times), short no fit, none no fit, shallow ",
+                                                     own, theirs, theirs / own)));
+  EXPECT_THAT(text, ::testing::HasSubstr(" times). Nearest: "));
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "fit/rival_shear.svg"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "fit/short_shear.svg"));
 }
 
 TEST(MarkerBenchmark, SaysWhatIsWrong) {
