@@ -49,6 +49,16 @@ std::vector<std::size_t> chosen_of(const MarkerMotion& motion, const MarkerChoic
   return out;
 }
 
+std::vector<double> mean_lengths(const std::vector<Eigen::Matrix2Xd>& frames, const std::vector<std::size_t>& chosen) {
+  std::vector<double> means;
+  for (const Eigen::Matrix2Xd& displacement : frames) {
+    double sum = 0.0;
+    for (const std::size_t m : chosen) sum += displacement.col(static_cast<Eigen::Index>(m)).norm();
+    means.push_back(sum / static_cast<double>(chosen.size()));
+  }
+  return means;
+}
+
 }  // namespace
 
 MarkerChoice MarkerChoice::read(ConfigReader& in) {
@@ -85,11 +95,17 @@ MarkerMotion read_marker_motion(const std::filesystem::path& folder, const std::
     const Eigen::Matrix4d at = pose(f);
     motion.way.push_back(motion.turns ? std::abs(turn_between(start, at)) : (at - start).block<2, 1>(0, 3).norm());
     Eigen::Matrix2Xd displacement(2, static_cast<Eigen::Index>(count));
+    Eigen::Matrix2Xd carried(2, static_cast<Eigen::Index>(count));
+    const Eigen::Matrix4d moved_by = at * start.inverse();
     for (std::size_t m = 0; m < count; ++m) {
       const double* d = moved.data.data() + ((f * count + m) * 2 + 1) * 3;
       displacement.col(static_cast<Eigen::Index>(m)) << d[0], d[1];
+      const double* p = markers.data.data() + (press_end * count + m) * 3;
+      const Eigen::Vector4d pressed(p[0], p[1], p[2], 1.0);
+      carried.col(static_cast<Eigen::Index>(m)) = (moved_by * pressed - pressed).head<2>();
     }
     motion.markers.push_back(std::move(displacement));
+    motion.carried.push_back(std::move(carried));
   }
   return motion;
 }
@@ -107,16 +123,15 @@ MarkerMotion read_other_motion(const std::filesystem::path& folder) {
   return read_marker_motion(folder, name, phase.data.size(), end);
 }
 
-std::vector<double> mean_displacements(const MarkerMotion& motion, const MarkerChoice& choice) {
-  const std::vector<std::size_t> chosen = chosen_of(motion, choice);
-  std::vector<double> means;
-  for (const Eigen::Matrix2Xd& displacement : motion.markers) {
-    double sum = 0.0;
-    for (const std::size_t m : chosen) sum += displacement.col(static_cast<Eigen::Index>(m)).norm();
-    means.push_back(sum / static_cast<double>(chosen.size()));
-  }
-  return means;
+std::vector<double> mean_displacements(const MarkerMotion& motion, const MarkerChoice& chosen) {
+  return mean_lengths(motion.markers, chosen_of(motion, chosen));
 }
+
+std::vector<double> mean_of_carried(const MarkerMotion& motion, const MarkerChoice& chosen) {
+  return mean_lengths(motion.carried, chosen_of(motion, chosen));
+}
+
+double longest_displacement(const MarkerMotion& motion) { return motion.markers.back().colwise().norm().maxCoeff(); }
 
 MotionComparison compare(const MarkerMotion& ours, const MarkerMotion& other, const MarkerChoice& choice) {
   const double way = ours.way.back();
@@ -150,15 +165,14 @@ MotionComparison compare(const MarkerMotion& ours, const MarkerMotion& other, co
   return out;
 }
 
-std::string marker_quiver_svg(const MarkerMotion& motion, const MarkerChoice& chosen) {
+std::string marker_quiver_svg(const MarkerMotion& motion, const MarkerChoice& chosen, std::optional<double> longest_m) {
   constexpr double kSide = 420.0, kEdge = 30.0;
   const Eigen::Matrix2Xd& moved = motion.markers.back();
   const Eigen::Vector2d low = motion.rest.rowwise().minCoeff(), high = motion.rest.rowwise().maxCoeff();
   const double extent = std::max(1e-12, (high - low).maxCoeff());
-  const double largest = std::max(1e-12, moved.colwise().norm().maxCoeff());
-  // Lines are enlarged so that the longest is as long as the grid is wide over its markers in a row, doubled.
+  const double largest = std::max(1e-12, longest_displacement(motion));
   const double spacing = extent / std::max(1.0, std::sqrt(static_cast<double>(motion.rest.cols())) - 1.0);
-  const double scale = 2.0 * spacing / largest;
+  const double scale = 2.0 * spacing / longest_m.value_or(largest);
   const auto px = [&](double v, double from) { return kEdge + (v - from) / extent * (kSide - 2.0 * kEdge); };
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct MarkerMotion {
   bool turns = false;                     // the object is turned; else it is dragged
   std::vector<double> way;                // of the object: m, or rad if it turns
   std::vector<Eigen::Matrix2Xd> markers;  // displacement in x and y since the end of the press, m, per frame
+  std::vector<Eigen::Matrix2Xd> carried;  // the same as if every marker had moved with the object
   Eigen::Matrix2Xd rest;                  // of each marker in frame 0, m
   std::vector<int> rows, columns;         // of each marker
 };
@@ -44,6 +46,8 @@ MarkerMotion read_other_motion(const std::filesystem::path& folder);
 
 /// Mean length of the chosen markers' displacement, m, per frame. \throw DataError if none of them is there
 std::vector<double> mean_displacements(const MarkerMotion& motion, const MarkerChoice& chosen);
+/// The same as if they had moved with the object.
+std::vector<double> mean_of_carried(const MarkerMotion& motion, const MarkerChoice& chosen);
 
 /// How another simulator's chosen markers end up beside ours, those of the same row and column.
 struct MotionComparison {
@@ -58,8 +62,12 @@ struct MotionComparison {
 MotionComparison compare(const MarkerMotion& ours, const MarkerMotion& other, const MarkerChoice& chosen);
 
 /// The markers in the last frame as the paper draws them: lines from where they were at rest, there a dot, green for
-/// the chosen ones; the mean displacement below.
-std::string marker_quiver_svg(const MarkerMotion& motion, const MarkerChoice& chosen);
+/// the chosen ones; the mean displacement below. Lines are enlarged so that one of `longest_m` is twice as long as the
+/// grid is wide over its markers in a row; without it, the longest line there is.
+std::string marker_quiver_svg(const MarkerMotion& motion, const MarkerChoice& chosen,
+                              std::optional<double> longest_m = std::nullopt);
+/// Length of the longest displacement in the last frame, m.
+double longest_displacement(const MarkerMotion& motion);
 
 /// frame,marker,row,column,x_mm,y_mm,dx_um,dy_um: every marker in every frame from the end of the press.
 std::string marker_vectors_csv(const MarkerMotion& motion);
