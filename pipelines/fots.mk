@@ -7,8 +7,8 @@ MARKERS ?= configs/benchmarks/fots_markers.yaml#  the benchmark
 override MARKERS := $(strip $(MARKERS))
 FOTS := $(OUT)/fots/$(basename $(notdir $(MARKERS)))
 
-.PHONY: fots fots-page
-ifneq ($(filter fots fots-page,$(MAKECMDGOALS)),)
+.PHONY: fots fots-page fots-tacchi
+ifneq ($(filter fots fots-page fots-tacchi,$(MAKECMDGOALS)),)
 $(call check_name,MARKERS)
 $(call check_name,SHARED)
 ifeq ($(wildcard $(MARKERS)),)
@@ -48,6 +48,37 @@ $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreac
     $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(foreach a,$(ALSO),$(shell find $(a) -name "*.npy")) | build
 	$(call run,marker_fit,--config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
 	  $(foreach v,$(MARKERS_VARIANTS),--runs $(FOTS)/runs/$(v)) $(addprefix --runs ,$(ALSO)))
+
+# The same with rows of Tacchi, for pipelines/paper_markers.mk. As published: its particles in a block as large as the gel, and its material,
+# for with the sensor's, which is stiffer, the published step is too long; then that material with a shorter step. With the true
+# density: as deep as the ball goes, checked at half the speed in the shallowest press. Keys given with FOTS_TACCHI_KEYS go last.
+FOTS_TACCHI_KEYS ?=
+FOTS_TACCHI ?= tacchi_legacy tacchi_legacy_sensor_material tacchi_physical
+FOTS_BLOCK := gel.lattice=block gel.counts=[127,105,22]
+FOTS_NUMERICS_tacchi_legacy := $(PAPER_LEGACY)
+FOTS_KEYS_tacchi_legacy := $(FOTS_BLOCK) material.youngs_modulus_pa=1.45e+5 material.poissons_ratio=0.45
+FOTS_NUMERICS_tacchi_legacy_sensor_material := $(PAPER_LEGACY)
+FOTS_KEYS_tacchi_legacy_sensor_material := $(FOTS_BLOCK) time.step_s=2.0e-5 motion.check_every=10
+FOTS_NUMERICS_tacchi_physical := $(PAPER_PHYSICAL)
+FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.press_speed_mm_s=60 object.move_speed_mm_s=60 motion.depth_of=object $(FOTS_TACCHI_KEYS)
+FOTS_UNCHECKED := $(filter-out $(firstword $(MARKERS_DEPTHS)),$(MARKERS_DEPTHS))
+$(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call tacchi_run,$(FOTS)/runs/$(t)/$(d),$(t)_$(d),$(FOTS_NUMERICS_$(t)),$(FOTS_KEYS_$(t)) $(if $(filter $(d),$(FOTS_UNCHECKED)),half_speed=),$(FOTS)/runs/base/settings/sensor.yaml,$(FOTS)/cases/motion_$(d).yaml,$(FOTS)/runs/base/indenter/indenter.yaml,$(FOTS)/runs/base/indenter/object.ply,configs/objects/embossed.yaml))))
+
+$(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
+    $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(t)/$(d)/mpm.yaml)) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) | build
+	$(call run,marker_fit,--name TacIPC --config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
+	  $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),--runs $(FOTS)/runs/$(v)))
+
+fots-tacchi: $(FOTS)/fit_tacchi/marker_fit.yaml
+	@mkdir -p $(PAPER_MARKERS)/paper_results
+	@for picture in $(<D)/*.svg; do cp "$$picture" $(PAPER_MARKERS)/paper_results/fots_$$(basename "$$picture"); done
+	@{ cat $(<D)/others.md; echo; \
+	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_physical`: its true density too.'; \
+	  echo; cat $(<D)/table.md; for field in shear press; do printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf ' %s |' $$row; done; \
+	  printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf -- '---|'; done; printf '\n|'; \
+	  printf ' ![TacIPC: %s](paper_results/fots_%s.svg) |' $$field $$field; \
+	  for row in $(FOTS_TACCHI); do [ ! -e $(<D)/$${row}_$$field.svg ] && printf ' no fit |' || printf ' ![%s: %s](paper_results/fots_%s_%s.svg) |' $$row $$field $$row $$field; done; echo; done; } > $(PAPER_MARKERS)/fots.md
+	@cat $(PAPER_MARKERS)/fots.md
 
 # docs/ holds the table of the shipped benchmark; its prose stays, the lines between the marks are replaced.
 fots_name := $(basename $(notdir $(MARKERS)))

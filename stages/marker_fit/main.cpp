@@ -56,14 +56,15 @@ FitRow row_of_other(const std::filesystem::path& folder, const MeasuredPressAndS
   });
 }
 
-/// Both fields, measured and simulated; names begin with `prefix`.
-void write_pictures(Stage& stage, const std::string& prefix, const FieldFit& fit, const MeasuredPressAndShear& measured,
-                    const MarkerBenchmark& benchmark) {
+/// Both fields, measured and simulated; names of files begin with `prefix`, titles with `simulator` where there is one.
+void write_pictures(Stage& stage, const std::string& prefix, const std::string& simulator, const FieldFit& fit,
+                    const MeasuredPressAndShear& measured, const MarkerBenchmark& benchmark) {
   constexpr double kEnlargedPress = 4.0, kEnlargedShear = 2.0;
+  const std::string title = simulator.empty() ? "" : simulator + ", ";
   write_file(stage.output(prefix + "press.svg"),
-             quiver_svg(measured.press, fit.press_px, benchmark.image_px, kEnlargedPress, "press"));
+             quiver_svg(measured.press, fit.press_px, benchmark.image_px, kEnlargedPress, title + "press"));
   write_file(stage.output(prefix + "shear.svg"),
-             quiver_svg(measured.shear, fit.shear_px, benchmark.image_px, kEnlargedShear, "press and shear"));
+             quiver_svg(measured.shear, fit.shear_px, benchmark.image_px, kEnlargedShear, title + "press and shear"));
 }
 
 Value::Map values_of(const FieldErrors& e) {
@@ -108,13 +109,13 @@ int main(int argc, char** argv) {
     const FieldFit& fit = *rows.front().fit;
     write_file(stage.output("table.md"), fit_table(rows, measured, benchmark));
     write_file(stage.output("vectors.csv"), vectors_csv(fit, measured));
-    write_pictures(stage, "", fit, measured, benchmark);
+    write_pictures(stage, "", name, fit, measured, benchmark);
     const std::vector<FitRow> simulators(rows.begin(), rows.begin() + 1 + static_cast<std::ptrdiff_t>(others.size()));
     Value::List of_others;
     for (std::size_t i = 1; i < simulators.size(); ++i) {
       const FitRow& row = simulators[i];
       if (!row.fit) continue;
-      write_pictures(stage, row.name + "_", *row.fit, measured, benchmark);
+      write_pictures(stage, row.name + "_", row.name, *row.fit, measured, benchmark);
       of_others.emplace_back(Value::Map{{"name", row.name},
                                         {"depth_mm", 1e3 * row.fit->depth_m},
                                         {"way_mm", 1e3 * row.fit->way_m},

@@ -240,7 +240,7 @@ TEST_F(FitField, OtherSimulatorsStandBesideOurs) {
                                                      "{:.2f} px ({:.2f} times), short no fit, none no fit, shallow ",
                                                      own, theirs, theirs / own)));
   EXPECT_THAT(text, ::testing::HasSubstr(" times). Nearest: "));
-  EXPECT_TRUE(std::filesystem::exists(scratch_ / "fit/rival_shear.svg"));
+  EXPECT_THAT(read_file(scratch_ / "fit/rival_shear.svg"), ::testing::HasSubstr(">rival, press and shear: "));
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "fit/short_shear.svg"));
 }
 

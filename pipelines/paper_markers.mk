@@ -1,0 +1,109 @@
+# The marker part of the paper's benchmark: where TacIPC and Tacchi take the markers, under board3 dragged and turned, and against
+# vectors measured in photographs (FOTS). Leaves fragments of a page and their pictures in $(OUT)/paper/markers: board3.md, fots.md,
+# paper_results/*.svg. Needs SHARED (data/tacipc_release, data/fots_markers); without it the fragments say so.
+
+PAPER_MARKERS := $(OUT)/paper/markers
+PAPER_RUNS := $(OUT)/paper/marker_runs
+
+# $(call changed_config,target,configuration,keys): with some of its values changed (pipelines/set_keys.sh), rewritten only when they are.
+define changed_config
+$(1): $(2) pipelines/set_keys.sh FORCE
+	@mkdir -p $$(@D); bash pipelines/set_keys.sh $(2) $(foreach k,$(3),'$(k)') > $$@.new; cmp -s $$@.new $$@ && rm $$@.new || mv $$@.new $$@
+endef
+# $(call tacchi_run,folder,name,configuration of mpm,changed keys,sensor,sample,record of the object,object.ply,its YAML). Only markers are
+# looked at: no height maps. A run that its half-speed check refuses is a row that says so.
+define tacchi_run
+$(call changed_config,$(1).config.yaml,configs/mpm/$(3).yaml,pixels=none $(4))
+$(1)/mpm.yaml: $(1).config.yaml $(5) $(6) $(7) $(9) | build
+	$$(call try,mpm,--name $(2) --config $(1).config.yaml --sensor $(5) --sample $(6) --object $(8) --object-config $(9))
+endef
+
+# How Tacchi runs: its numerics on the gel of the sensor, and with the true density on a coarse grid, checked at half the speed. 25 mm/s keep
+# that check below 2 %; the rim of board3 may turn faster, as its contact is a third as far from the axis.
+PAPER_LEGACY := legacy_mctac
+PAPER_PHYSICAL := coarse_checked
+PAPER_PHYSICAL_KEYS_shear := object.press_speed_mm_s=25 object.move_speed_mm_s=25
+PAPER_PHYSICAL_KEYS_twist := object.press_speed_mm_s=25 object.move_speed_mm_s=75
+
+# board3. The press runs are those of the goal board3, on our own gel and on the published one.
+PAPER_BOARD3 := $(PAPER_RUNS)/board3
+PAPER_MESHES := focused_0200um import_paper_3mm
+paper_press = $(BOARD3)/$(1)-friction_viscous/board3_$(2)/press
+$(foreach m,$(filter-out $(if $(filter friction_viscous,$(BOARD3_PRESS)),$(BOARD3_MESH)),$(PAPER_MESHES)),$(foreach s,$(BOARD3_SAMPLES), \
+  $(eval $(call sample_rules,$(BOARD3)/$(m)-friction_viscous/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(m),configs/samples/$(s).yaml,configs/press/friction_viscous.yaml,,try))))
+
+# $(call board3_tacchi,name,motion,configuration,keys)
+board3_tacchi = $(call tacchi_run,$(PAPER_BOARD3)/$(1)/$(2),$(1),$(3),$(4),configs/sensors/mctac_3mm.yaml,configs/samples/board3_$(2).yaml,$(BOARD3)/object/decimate.yaml,$(BOARD3)/object/object.ply,configs/objects/printed_indenter.yaml)
+$(foreach m,shear twist,$(eval $(call board3_tacchi,tacchi_legacy,$(m),$(PAPER_LEGACY)))$(eval $(call board3_tacchi,tacchi_physical,$(m),$(PAPER_PHYSICAL),$(PAPER_PHYSICAL_KEYS_$(m)))))
+
+# One value changed at a time, in the shear. Of Tacchi's, as published: name and keys. The true density takes the time step that keeps the
+# Courant number (0.1 ms / sqrt(1e6 / 1010)).
+PAPER_FACTORS := points_1000 points_10000 points_1000000 light_object drag_20 depth_of_object grid_0400um true_density glued_nodes published_material
+PAPER_KEYS_points_1000 := object.samples=1000
+PAPER_KEYS_points_10000 := object.samples=10000
+PAPER_KEYS_points_1000000 := object.samples=1000000
+PAPER_KEYS_light_object := object.mass_ratio=0.01
+PAPER_KEYS_drag_20 := object.move_speed_mm_s=20
+PAPER_KEYS_depth_of_object := motion.depth_of=object
+PAPER_KEYS_grid_0400um := grid.spacing_mm=0.4
+PAPER_KEYS_true_density := material.density_kg_m3=1010 time.step_s=3.178e-6
+PAPER_KEYS_glued_nodes := gel.glued=nodes gel.fixed_layers=
+PAPER_KEYS_published_material := material.youngs_modulus_pa=1.45e+5 material.poissons_ratio=0.45
+$(foreach f,$(PAPER_FACTORS),$(eval $(call board3_tacchi,$(f),shear,$(PAPER_LEGACY),$(PAPER_KEYS_$(f)))))
+# Of TacIPC's: so much friction that nothing slips.
+PAPER_FRICTIONS := 5
+$(foreach f,$(PAPER_FRICTIONS),$(eval $(call changed_config,$(PAPER_BOARD3)/friction_$(f).config.yaml,configs/press/friction_viscous.yaml,friction.coefficient=$(f))) \
+  $(eval $(call sample_rules,$(PAPER_BOARD3)/friction_$(f),friction_$(f),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,focused_0200um,configs/samples/board3_shear.yaml,$(PAPER_BOARD3)/friction_$(f).config.yaml,,try)))
+
+PAPER_BOARD3_RUNS := $(foreach m,$(PAPER_MESHES),$(foreach s,shear twist,$(call paper_press,$(m),$(s)))) \
+  $(foreach t,tacchi_legacy tacchi_physical,$(foreach s,shear twist,$(PAPER_BOARD3)/$(t)/$(s)))
+PAPER_BOARD3_FACTORS := $(PAPER_FRICTIONS:%=$(PAPER_BOARD3)/friction_%/press) $(PAPER_FACTORS:%=$(PAPER_BOARD3)/%/shear)
+
+# The same with a ball, coarse and short.
+PAPER_QUICK := $(PAPER_RUNS)/quick
+$(PAPER_QUICK)/ball/indenter.yaml: configs/paper_markers/quick_ball.yaml | build
+	$(call run,indenter,--config $<)
+$(PAPER_QUICK)/object/decimate.yaml: $(PAPER_QUICK)/ball/indenter.yaml configs/objects/embossed.yaml configs/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(PAPER_QUICK)/ball/object.ply --object configs/objects/embossed.yaml --config configs/decimate/default.yaml)
+$(eval $(call sample_rules,$(PAPER_QUICK)/tacipc,tacipc,$(PAPER_QUICK)/object,configs/objects/embossed.yaml,mctac_3mm,adaptive_0400um,configs/paper_markers/quick_shear.yaml,configs/press/friction_viscous.yaml,,try))
+# $(call quick_tacchi,name,configuration,keys)
+quick_tacchi = $(call tacchi_run,$(PAPER_QUICK)/$(1),$(1),$(2),$(3),configs/sensors/mctac_3mm.yaml,configs/paper_markers/quick_shear.yaml,$(PAPER_QUICK)/object/decimate.yaml,$(PAPER_QUICK)/object/object.ply,configs/objects/embossed.yaml)
+PAPER_QUICK_PHYSICAL := gel.spacing_mm=0.5 grid.spacing_mm=1 object.press_speed_mm_s=200 object.move_speed_mm_s=200 half_speed.largest_change=0.2
+$(eval $(call quick_tacchi,tacchi_legacy,$(PAPER_LEGACY),object.samples=20000))
+$(eval $(call quick_tacchi,tacchi_physical,$(PAPER_PHYSICAL),$(PAPER_QUICK_PHYSICAL)))
+$(eval $(call quick_tacchi,points_1000,$(PAPER_LEGACY),object.samples=1000))
+
+# $(call comparison_rule,title,runs,factors): $(PAPER_RUNS)/pages/<title>
+define comparison_rule
+$(PAPER_RUNS)/pages/$(1)/compare_simulators.yaml: configs/paper_markers/$(1).yaml $(foreach r,$(2) $(3),$(r)/$(if $(filter %/press,$(r)),press,mpm).yaml) | build-verification
+	$$(call run,compare_simulators,--config configs/paper_markers/$(1).yaml $(2:%=--run %) $(3:%=--factor %))
+endef
+$(eval $(call comparison_rule,board3,$(PAPER_BOARD3_RUNS),$(PAPER_BOARD3_FACTORS)))
+$(eval $(call comparison_rule,quick,$(PAPER_QUICK)/tacipc/press $(PAPER_QUICK)/tacchi_legacy $(PAPER_QUICK)/tacchi_physical,$(PAPER_QUICK)/points_1000))
+
+.PHONY: paper-markers paper-quick-markers paper-board3-fragment paper-quick-fragment
+paper-board3-fragment: $(if $(wildcard $(BOARD3_OBJECT)),$(PAPER_RUNS)/pages/board3/compare_simulators.yaml)
+paper-quick-fragment: $(PAPER_RUNS)/pages/quick/compare_simulators.yaml
+# $(call put_fragment,page,here if there is such a file): the fragment and its pictures, or why there are none
+put_fragment = @mkdir -p $(PAPER_MARKERS)/paper_results; \
+  if [ -e $(2) ]; then cp $(PAPER_RUNS)/pages/$(1)/$(1).md $(PAPER_MARKERS)/board3.md && cp $(PAPER_RUNS)/pages/$(1)/paper_results/*.svg $(PAPER_MARKERS)/paper_results/; \
+  else echo "Not run: there is no $(notdir $(2)) below SHARED." > $(PAPER_MARKERS)/board3.md; fi
+paper-board3-fragment:
+	$(call put_fragment,board3,$(BOARD3_OBJECT))
+paper-quick-fragment:
+	$(call put_fragment,quick,configs/paper_markers/quick.yaml)
+
+# Marker vectors of FOTS: rules of pipelines/fots.mk with Tacchi's rows, in a make of its own, as they are made from the benchmark's file.
+paper_fots = @if [ -e $(SHARED)/data/fots_markers ]; then $(MAKE) -f Makefile.data --no-print-directory fots-tacchi MARKERS=$(1) $(2); \
+  else mkdir -p $(PAPER_MARKERS); echo "Not run: there is no fots_markers below SHARED." > $(PAPER_MARKERS)/fots.md; fi
+.PHONY: paper-fots-fragment paper-quick-fots-fragment
+paper-fots-fragment: | build
+	$(call paper_fots,configs/benchmarks/fots_markers.yaml)
+paper-quick-fots-fragment: | build
+	$(call paper_fots,configs/paper_markers/quick_fots.yaml,FOTS_TACCHI='tacchi_legacy tacchi_physical' \
+	  FOTS_TACCHI_KEYS='gel.spacing_mm=0.425 grid.spacing_mm=0.85 object.press_speed_mm_s=400 object.move_speed_mm_s=400 half_speed=')
+
+paper-markers: paper-board3-fragment paper-fots-fragment ## Marker displacement by TacIPC and Tacchi (needs SHARED; an hour and a half): fragments in OUT/paper/markers
+	@echo; echo "Look at $(PAPER_MARKERS)/board3.md and fots.md"
+paper-quick-markers: paper-quick-fragment paper-quick-fots-fragment ## The same in a minute, coarse and short
+	@echo; echo "Look at $(PAPER_MARKERS)/board3.md and fots.md"
