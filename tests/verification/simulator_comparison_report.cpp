@@ -24,9 +24,9 @@ Ending ending(const SimulatorRun& run, const MarkerChoice& chosen) {
           run.motion->markers.back().colwise().norm().mean()};
 }
 
-std::string way_text(const MarkerMotion& motion, double way) {
-  return motion.turns ? fmt::format("turned by {:.3g}°", way / kDegree)
-                      : fmt::format("dragged by {:.3g} mm", way / kMillimetre);
+std::string way_text(const MarkerMotion& motion, double way, const char* by = "by") {
+  return motion.turns ? fmt::format("turned {} {:.3g}°", by, way / kDegree)
+                      : fmt::format("dragged {} {:.3g} mm", by, way / kMillimetre);
 }
 
 std::string row_of(const ComparedRuns& all, std::size_t s, std::size_t m) {
@@ -43,6 +43,15 @@ std::string row_of(const ComparedRuns& all, std::size_t s, std::size_t m) {
   return fmt::format("| {} | {:.1f} | {:.0f} % {} | {:.1f} | {} |\n", label, end.mean_m / kMicrometre,
                      100.0 * end.of_way, beside, end.all_m / kMicrometre,
                      run.half_speed_change ? fmt::format("{:.2f} %", 100.0 * *run.half_speed_change) : "");
+}
+
+/// The way up to which the other's mean stays below ours, where that ends before the last frame and after the first.
+std::optional<double> shorter_up_to(const MarkerMotion& ours, const MarkerMotion& other, const MarkerChoice& chosen) {
+  const std::vector<double> own = mean_displacements(ours, chosen), their = mean_displacements(other, chosen);
+  std::size_t f = 1;
+  while (f < own.size() && f < their.size() && their[f] < own[f] * other.way[f] / ours.way[f]) ++f;
+  if (f == 1 || f >= std::min(own.size(), their.size())) return std::nullopt;
+  return ours.way[f - 1];
 }
 
 /// How the others' markers end up beside the first one's, in words, and whether the paper's finding comes out.
@@ -64,6 +73,8 @@ std::string finding(const ComparedRuns& all, std::size_t m) {
       out += ratio < all.config.reported_below         ? ", shorter, as the paper reports"
              : ratio > 1.0 / all.config.reported_below ? ", longer; the paper reports clearly shorter ones"
                                                        : ", about as long; the paper reports clearly shorter ones";
+    if (const auto way = shorter_up_to(*ours.motion, *run.motion, all.config.chosen); way && run.stage != ours.stage)
+      out += fmt::format(" (shorter while the object is {})", way_text(*ours.motion, *way, "up to"));
     out += ".";
   }
   return out;
@@ -125,8 +136,10 @@ std::string factor_finding(const ComparedRuns& all) {
       if (!longest || mean(run) > mean(*longest)) longest = &run;
     }
     if (!shortest) continue;
-    out += fmt::format("{}, one value changed: shortest vectors with {}; longest with {}.\n", label_of(all, *base),
-                       said(*shortest), said(*longest));
+    out += fmt::format("{}, one value changed: ", label_of(all, *base));
+    out += shortest == longest
+               ? fmt::format("with {}.\n", said(*shortest))
+               : fmt::format("shortest vectors with {}; longest with {}.\n", said(*shortest), said(*longest));
   }
   return out;
 }

@@ -124,6 +124,15 @@ TEST(ComparisonPage, SaysWhetherThePapersFindingComesOut) {
     EXPECT_THAT(longer, HasSubstr(link));
 }
 
+TEST(ComparisonPage, SaysHowFarTheRivalStaysBehind) {
+  const ScratchFolder folder;
+  ComparedRuns all = compared(folder, 0.6);
+  EXPECT_THAT(comparison_page(all, "pics"), Not(HasSubstr("shorter while")));
+  for (const std::size_t f : {1, 2}) all.runs[1].motion->markers[f] *= 0.5;  // 30 and 60 of ours' 40 and 80 um
+  EXPECT_THAT(comparison_page(all, "pics"),
+              HasSubstr("reports clearly shorter ones (shorter while the object is dragged up to 0.2 mm)."));
+}
+
 TEST(ComparisonPage, FactorsStandBesideWhatTheyVary) {
   const ScratchFolder folder;
   ComparedRuns all = compared(folder, 0.6);
@@ -132,10 +141,12 @@ TEST(ComparisonPage, FactorsStandBesideWhatTheyVary) {
   EXPECT_THAT(page, HasSubstr("| The rival | `points` 1 (9) | 30.0 | 10 % | 0.17 | 0.25 |\n"));
   EXPECT_THAT(page, HasSubstr("| Ours | `mu` 5 (0.7) | 240.0 | 80 % | 2.00 | 2.00 |\n"));
   EXPECT_THAT(page, HasSubstr("| broken | | **failed**: through the gel | | | |\n"));
-  EXPECT_THAT(
-      page,
-      HasSubstr(
-          "The rival, one value changed: shortest vectors with `points` 1 (9): 30 µm, 0.25 times those of Ours;"));
+  EXPECT_THAT(page, HasSubstr("The rival, one value changed: with `points` 1 (9): 30 µm, 0.25 times those of Ours.\n"));
+  all.factors.push_back(all.runs[1]);
+  all.factors.back().settings = {{"points", "99"}};
+  EXPECT_THAT(comparison_page(all, "pics"),
+              HasSubstr("shortest vectors with `points` 1 (9): 30 µm, 0.25 times those of Ours; longest with `points` "
+                        "99 (9): 180 µm, 1.50 times those of Ours.\n"));
   all.factors.clear();
   EXPECT_THAT(comparison_page(all, "pics"), Not(HasSubstr("One value changed")));
 }
