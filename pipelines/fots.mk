@@ -60,7 +60,7 @@ FOTS_KEYS_tacchi_legacy := $(FOTS_BLOCK) material.youngs_modulus_pa=1.45e+5 mate
 FOTS_NUMERICS_tacchi_legacy_sensor_material := $(PAPER_LEGACY)
 FOTS_KEYS_tacchi_legacy_sensor_material := $(FOTS_BLOCK) time.step_s=2.0e-5 motion.check_every=10
 FOTS_NUMERICS_tacchi_physical := $(PAPER_PHYSICAL)
-FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.press_speed_mm_s=60 object.move_speed_mm_s=60 motion.depth_of=object $(FOTS_TACCHI_KEYS)
+FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 motion.depth_of=object $(FOTS_TACCHI_KEYS)
 FOTS_UNCHECKED := $(filter-out $(firstword $(MARKERS_DEPTHS)),$(MARKERS_DEPTHS))
 $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call tacchi_run,$(FOTS)/runs/$(t)/$(d),$(t)_$(d),$(FOTS_NUMERICS_$(t)),$(FOTS_KEYS_$(t)) $(if $(filter $(d),$(FOTS_UNCHECKED)),half_speed=),$(FOTS)/runs/base/settings/sensor.yaml,$(FOTS)/cases/motion_$(d).yaml,$(FOTS)/runs/base/indenter/indenter.yaml,$(FOTS)/runs/base/indenter/object.ply,configs/objects/embossed.yaml))))
 
