@@ -55,11 +55,11 @@ $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreac
 FOTS_TACCHI_KEYS ?=
 FOTS_TACCHI ?= tacchi_legacy tacchi_legacy_sensor_material tacchi_physical
 FOTS_BLOCK := gel.lattice=block gel.counts=[127,105,22]
-FOTS_NUMERICS_tacchi_legacy := $(PAPER_LEGACY)
+FOTS_NUMERICS_tacchi_legacy := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy := $(FOTS_BLOCK) material.youngs_modulus_pa=1.45e+5 material.poissons_ratio=0.45
-FOTS_NUMERICS_tacchi_legacy_sensor_material := $(PAPER_LEGACY)
+FOTS_NUMERICS_tacchi_legacy_sensor_material := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy_sensor_material := $(FOTS_BLOCK) time.step_s=2.0e-5 motion.check_every=10
-FOTS_NUMERICS_tacchi_physical := $(PAPER_PHYSICAL)
+FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
 FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 motion.depth_of=object $(FOTS_TACCHI_KEYS)
 FOTS_UNCHECKED := $(filter-out $(firstword $(MARKERS_DEPTHS)),$(MARKERS_DEPTHS))
 $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call tacchi_run,$(FOTS)/runs/$(t)/$(d),$(t)_$(d),$(FOTS_NUMERICS_$(t)),$(FOTS_KEYS_$(t)) $(if $(filter $(d),$(FOTS_UNCHECKED)),half_speed=),$(FOTS)/runs/base/settings/sensor.yaml,$(FOTS)/cases/motion_$(d).yaml,$(FOTS)/runs/base/indenter/indenter.yaml,$(FOTS)/runs/base/indenter/object.ply,configs/objects/embossed.yaml))))
@@ -70,15 +70,15 @@ $(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$
 	  $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),--runs $(FOTS)/runs/$(v)))
 
 fots-tacchi: $(FOTS)/fit_tacchi/marker_fit.yaml
-	@mkdir -p $(PAPER_MARKERS)/paper_results
-	@for picture in $(<D)/*.svg; do cp "$$picture" $(PAPER_MARKERS)/paper_results/fots_$$(basename "$$picture"); done
+	@mkdir -p $(RIVALS_MARKERS)/paper_results
+	@for picture in $(<D)/*.svg; do cp "$$picture" $(RIVALS_MARKERS)/paper_results/fots_$$(basename "$$picture"); done
 	@{ cat $(<D)/others.md; echo; \
 	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_physical`: its true density too.'; \
 	  echo; cat $(<D)/table.md; for field in shear press; do printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf ' %s |' $$row; done; \
 	  printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf -- '---|'; done; printf '\n|'; \
 	  printf ' ![TacIPC: %s](paper_results/fots_%s.svg) |' $$field $$field; \
-	  for row in $(FOTS_TACCHI); do [ ! -e $(<D)/$${row}_$$field.svg ] && printf ' no fit |' || printf ' ![%s: %s](paper_results/fots_%s_%s.svg) |' $$row $$field $$row $$field; done; echo; done; } > $(PAPER_MARKERS)/fots.md
-	@cat $(PAPER_MARKERS)/fots.md
+	  for row in $(FOTS_TACCHI); do [ ! -e $(<D)/$${row}_$$field.svg ] && printf ' no fit |' || printf ' ![%s: %s](paper_results/fots_%s_%s.svg) |' $$row $$field $$row $$field; done; echo; done; } > $(RIVALS_MARKERS)/fots.md
+	@cat $(RIVALS_MARKERS)/fots.md
 
 # docs/ holds the table of the shipped benchmark; its prose stays, the lines between the marks are replaced.
 fots_name := $(basename $(notdir $(MARKERS)))
