@@ -51,7 +51,7 @@ $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreac
 
 # The same with rows of Tacchi, for pipelines/paper_markers.mk. As published: its particles in a block as large as the gel, and its material,
 # for with the sensor's, which is stiffer, the published step is too long; then that material with a shorter step. With the true
-# density: as deep as the ball goes, checked at half the speed in the shallowest press. Keys given with FOTS_TACCHI_KEYS go last.
+# density: checked at half the speed in the shallowest press. Presses end when the front is as deep as asked; the ball is then less deep. Keys given with FOTS_TACCHI_KEYS go last.
 FOTS_TACCHI_KEYS ?=
 FOTS_TACCHI ?= tacchi_legacy tacchi_legacy_sensor_material tacchi_physical
 FOTS_BLOCK := gel.lattice=block gel.counts=[127,105,22]
@@ -60,7 +60,7 @@ FOTS_KEYS_tacchi_legacy := $(FOTS_BLOCK) material.youngs_modulus_pa=1.45e+5 mate
 FOTS_NUMERICS_tacchi_legacy_sensor_material := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy_sensor_material := $(FOTS_BLOCK) time.step_s=2.0e-5 motion.check_every=10
 FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
-FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 motion.depth_of=object $(FOTS_TACCHI_KEYS)
+FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
 FOTS_UNCHECKED := $(filter-out $(firstword $(MARKERS_DEPTHS)),$(MARKERS_DEPTHS))
 $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call tacchi_run,$(FOTS)/runs/$(t)/$(d),$(t)_$(d),$(FOTS_NUMERICS_$(t)),$(FOTS_KEYS_$(t)) $(if $(filter $(d),$(FOTS_UNCHECKED)),half_speed=),$(FOTS)/runs/base/settings/sensor.yaml,$(FOTS)/cases/motion_$(d).yaml,$(FOTS)/runs/base/indenter/indenter.yaml,$(FOTS)/runs/base/indenter/object.ply,configs/objects/embossed.yaml))))
 
