@@ -79,7 +79,7 @@ MeasuredPressAndShear::MeasuredPressAndShear(MarkerField press_field, MarkerFiel
 }
 
 FieldFit fit_field(const PressedRuns& runs, const MeasuredPressAndShear& measured, const MarkerAssumptions& assumed,
-                   const MarkerBenchmark& benchmark, bool take_deepest) {
+                   const MarkerBenchmark& benchmark, bool take_ends) {
   const Eigen::Matrix2Xd press_places = from_axis(measured.press, assumed);
   const Eigen::Matrix2Xd shear_places = from_axis(measured.shear, assumed);
   const auto pressed_px = [&](double depth_m) {
@@ -94,14 +94,19 @@ FieldFit fit_field(const PressedRuns& runs, const MeasuredPressAndShear& measure
     return px;
   };
   bool last = false;
-  std::tie(fit.depth_m, fit.deepest) = least(0.0, runs.deepest_m(), [&](double depth_m) {
+  std::tie(fit.depth_m, last) = least(0.0, runs.deepest_m(), [&](double depth_m) {
     return (pressed_px(depth_m) - measured.press.moved_px).squaredNorm();
   });
-  if (fit.deepest && !take_deepest)
+  const bool shallower = fit.depth_m < runs.shallowest_m();
+  if (take_ends && (last || shallower)) {
+    fit.depth_end = last ? "the deepest" : "the shallowest";
+    fit.depth_m = std::clamp(fit.depth_m, runs.shallowest_m(), runs.deepest_m());
+  } else if (last) {
     throw DataError("the deepest press, {:g} mm, fits best: simulate deeper ones", 1e3 * fit.depth_m);
-  if (fit.depth_m < runs.shallowest_m())
+  } else if (shallower) {
     throw DataError("a press of {:g} mm fits best, but the shallowest one that is sheared has {:g} mm",
                     1e3 * fit.depth_m, 1e3 * runs.shallowest_m());
+  }
   const Eigen::Index marker = measured.shear_marker;
   std::tie(fit.way_m, last) = least(0.0, runs.longest_way_m(), [&](double way_m) {
     return (sheared_px(way_m).col(marker) - measured.shear.moved_px.col(marker)).squaredNorm();

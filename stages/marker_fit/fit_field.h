@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "common/marker_benchmark.h"
 #include "stages/marker_fit/measured_field.h"
@@ -35,7 +36,8 @@ struct MeasuredPressAndShear {
 
 struct FieldFit {
   double depth_m = 0.0;
-  bool deepest = false;  // the depth is the end of what was simulated: a deeper press might fit better
+  std::string depth_end =
+      {};  // "the shallowest" or "the deepest" that is sheared, where one beyond it might fit better
   double way_m = 0.0;
   double way_missed_px = 0.0;           // by how much the fitted marker is still off
   Eigen::Matrix2Xd press_px, shear_px;  // simulated, at the measured markers
@@ -45,9 +47,9 @@ struct FieldFit {
 /// The depth is the one of 1001 even ones up to the deepest press whose vectors are nearest to the measured press
 /// (least squares over all markers); the way the one of 1001 up to the longest shear that brings the chosen marker
 /// nearest to where it was measured. A median that was removed from measured vectors is removed from simulated ones
-/// too. \throw DataError if the depth is shallower than any sheared press, or the way ends at the longest one
-/// simulated, or the depth at the deepest and that is not to be taken
+/// too. \throw DataError if the way ends at the longest one simulated, or the depth beyond those that are sheared and
+/// the nearest of them is not to be taken
 FieldFit fit_field(const PressedRuns& runs, const MeasuredPressAndShear& measured, const MarkerAssumptions& assumed,
-                   const MarkerBenchmark& benchmark, bool take_deepest = false);
+                   const MarkerBenchmark& benchmark, bool take_ends = false);
 
 }  // namespace tacipc

@@ -32,8 +32,8 @@ std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShe
                                      ? fmt::format(" (its marker off by {:.1f} px)", row.fit->way_missed_px)
                                      : "";
       out += fmt::format("| {} | {:.2f}{} | {:.2f}{} | {} {}\n", row.name, 1e3 * row.fit->depth_m,
-                         row.fit->deepest ? " (the deepest)" : "", 1e3 * row.fit->way_m, missed, cells(row.fit->press),
-                         cells(row.fit->shear));
+                         row.fit->depth_end.empty() ? "" : " (" + row.fit->depth_end + ")", 1e3 * row.fit->way_m,
+                         missed, cells(row.fit->press), cells(row.fit->shear));
     } else {
       out += fmt::format("| {} | | | {} |\n", row.name, row.no_fit);
     }

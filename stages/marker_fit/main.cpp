@@ -46,8 +46,8 @@ FitRow row_of(const std::string& name, const PressedRuns& runs, const MeasuredPr
   return tried_row(name, [&] { return fit_field(runs, measured, assumed, benchmark); });
 }
 
-/// Another simulator's. What came out of it may be no presses at all; a depth at the end of what it simulated is taken,
-/// for it may well have no other.
+/// Another simulator's. What came out of it may be no presses at all; where a depth beyond those it simulated would
+/// fit better the nearest of them is taken, for it may well have no other.
 FitRow row_of_other(const std::filesystem::path& folder, const MeasuredPressAndShear& measured,
                     const MarkerBenchmark& benchmark) {
   return tried_row(name_of(folder), [&] {

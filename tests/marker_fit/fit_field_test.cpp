@@ -216,23 +216,25 @@ TEST_F(FitField, OtherSimulatorsStandBesideOurs) {
   write_run(scratch_ / "runs/short/b", 10, 2);
   write_run(scratch_ / "runs/shallow/a", 4, 6);
   write_run(scratch_ / "runs/shallow/b", 6, 7);
+  write_run(scratch_ / "runs/deep/a", 9, 6);
+  write_run(scratch_ / "runs/deep/b", 10, 7);
   std::filesystem::create_directories(scratch_ / "runs/none");
   write_measured();
   const std::string command = fmt::format(
       "cd '{}' && {}/marker_fit --name ours --config b.yaml --pressed 0.csv --sheared 1.csv --runs base --runs "
       "runs/rival "
-      "--runs runs/short --runs runs/none --runs runs/shallow --log-level error --out fit",
+      "--runs runs/short --runs runs/none --runs runs/shallow --runs runs/deep --log-level error --out fit",
       (scratch_ / "").string(), TACIPC_BIN_DIR);
   ASSERT_EQ(run_command(command), 0) << said_;
   const std::string table = read_file(scratch_ / "fit/table.md");
   for (const char* row : {"\n| ours | 0.7", "\n| rival | 0.", "\n| short | | | the longest shear", "\n| none | | | ",
-                          "\n| shallow | 0.60 (the deepest) | 0."})
+                          "\n| shallow | 0.60 (the deepest) | 0.", "\n| deep | 0.90 (the shallowest) | 0."})
     EXPECT_THAT(table, ::testing::HasSubstr(row));
   ConfigReader record = ConfigReader::from_file(scratch_ / "fit/marker_fit.yaml");
   ConfigReader summary = record.section("summary");
   const double own = summary.section("shear").number("mean_px");
   std::vector<ConfigReader> others = summary.sections("others");
-  ASSERT_EQ(others.size(), 2u);
+  ASSERT_EQ(others.size(), 3u);
   const double theirs = others[0].section("shear").number("mean_px");
   EXPECT_GT(theirs, own);
   const std::string text = read_file(scratch_ / "fit/others.md");
