@@ -50,15 +50,22 @@ $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreac
 	  $(foreach v,$(MARKERS_VARIANTS),--runs $(FOTS)/runs/$(v)) $(addprefix --runs ,$(ALSO)))
 
 # The same with rows of Tacchi, for pipelines/paper_markers.mk. As published: its particles in a block as large as the gel, and its material,
-# for with the sensor's, which is stiffer, the published step is too long; then that material with a shorter step. With the true
+# for with the sensor's, which is stiffer, the published step is too long; then that material with a shorter step; a tenth of the density,
+# with the time step that keeps the Courant number; cells with eight particles instead of one for four cells; both, with a hundredth of the density. With the true
 # density: checked at half the speed in the shallowest press. Presses end when the front is as deep as asked; the ball is then less deep. Keys given with FOTS_TACCHI_KEYS go last.
 FOTS_TACCHI_KEYS ?=
-FOTS_TACCHI ?= tacchi_legacy tacchi_legacy_sensor_material tacchi_physical
+FOTS_TACCHI ?= tacchi_legacy tacchi_legacy_sensor_material tacchi_legacy_tenth_density tacchi_legacy_grid_0400um tacchi_legacy_grid_and_density tacchi_physical
 FOTS_BLOCK := gel.lattice=block gel.counts=[127,105,22]
 FOTS_NUMERICS_tacchi_legacy := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy := $(FOTS_BLOCK) material.youngs_modulus_pa=1.45e+5 material.poissons_ratio=0.45
 FOTS_NUMERICS_tacchi_legacy_sensor_material := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy_sensor_material := $(FOTS_BLOCK) time.step_s=2.0e-5 motion.check_every=10
+FOTS_NUMERICS_tacchi_legacy_tenth_density := $(RIVALS_LEGACY)
+FOTS_KEYS_tacchi_legacy_tenth_density := $(FOTS_KEYS_tacchi_legacy) material.density_kg_m3=1.0e+5 time.step_s=3.16e-5 motion.check_every=6
+FOTS_NUMERICS_tacchi_legacy_grid_0400um := $(RIVALS_LEGACY)
+FOTS_KEYS_tacchi_legacy_grid_0400um := $(FOTS_KEYS_tacchi_legacy) grid.spacing_mm=0.4
+FOTS_NUMERICS_tacchi_legacy_grid_and_density := $(RIVALS_LEGACY)
+FOTS_KEYS_tacchi_legacy_grid_and_density := $(FOTS_KEYS_tacchi_legacy_grid_0400um) material.density_kg_m3=1.0e+4 time.step_s=3.1e-5 motion.check_every=6
 FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
 FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
 FOTS_UNCHECKED := $(filter-out $(firstword $(MARKERS_DEPTHS)),$(MARKERS_DEPTHS))
@@ -73,7 +80,7 @@ fots-tacchi: $(FOTS)/fit_tacchi/marker_fit.yaml
 	@mkdir -p $(RIVALS_MARKERS)/paper_results
 	@for picture in $(<D)/*.svg; do cp "$$picture" $(RIVALS_MARKERS)/paper_results/fots_$$(basename "$$picture"); done
 	@{ cat $(<D)/others.md; echo; \
-	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_physical`: its true density too.'; \
+	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_legacy_tenth_density`: as published, but a tenth as heavy. `tacchi_legacy_grid_0400um`: as published, but on cells that hold eight particles. `tacchi_legacy_grid_and_density`: on those and a hundredth as heavy. `tacchi_physical`: the material and density of the gel, and a coarse grid.'; \
 	  echo; cat $(<D)/table.md; for field in shear press; do printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf ' %s |' $$row; done; \
 	  printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf -- '---|'; done; printf '\n|'; \
 	  printf ' ![TacIPC: %s](paper_results/fots_%s.svg) |' $$field $$field; \
