@@ -15,6 +15,7 @@
 #include "common/error.h"
 #include "common/files.h"
 #include "common/stage.h"
+#include "stages/render/press_folder.h"
 #include "stages/render/render.h"
 
 using namespace tacipc;

@@ -120,7 +120,7 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
 }
 
 std::string bench_svg(const std::vector<Run>& runs) {
-  std::map<std::string, verify::Curve> curves;
+  std::map<std::string, PlotCurve> curves;
   for (const Run& run : runs) {
     if (!run.name.how.empty() || run.name.motion != "press" || run.name.route == kAveraged) continue;
     const std::string label = run.name.object + ", " + run.name.route;
@@ -129,13 +129,12 @@ std::string bench_svg(const std::vector<Run>& runs) {
     curve.dots = run.name.route != kFast;
     curve.points.emplace_back(run.gel_vertices, run.processor_s);
   }
-  verify::Plot plot{
-      .title = "One press of 0.5 mm", .x_label = "gel vertices", .y_label = "CPU seconds", .logarithmic = true};
+  Plot plot{.title = "One press of 0.5 mm", .x_label = "gel vertices", .y_label = "CPU seconds", .logarithmic = true};
   for (auto& [label, curve] : curves) {
     std::sort(curve.points.begin(), curve.points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
     plot.curves.push_back(std::move(curve));
   }
-  return verify::to_svg(plot);
+  return to_svg(plot);
 }
 
 }  // namespace tacipc::bench

@@ -80,18 +80,18 @@ std::string element_section(const std::vector<Run>& runs) {
 }
 
 std::string element_svg(const std::vector<Run>& runs) {
-  verify::Plot plot{.title = "Press of a sphere: force against its limit",
-                    .x_label = "CPU seconds",
-                    .y_label = "relative error of the force",
-                    .logarithmic = true};
+  Plot plot{.title = "Press of a sphere: force against its limit",
+            .x_label = "CPU seconds",
+            .y_label = "relative error of the force",
+            .logarithmic = true};
   if (const auto limit = limit_of(presses(runs, "averaged"))) {
     for (const auto& [route, label] : {std::pair("fast", "linear"), std::pair("averaged", "averaged volume")}) {
-      verify::Curve& curve = plot.curves.emplace_back(verify::Curve{.label = label});
+      PlotCurve& curve = plot.curves.emplace_back(PlotCurve{.label = label});
       for (const Run* run : presses(runs, route))
         curve.points.emplace_back(run->processor_s, std::abs(run->press_force_n / limit->value - 1.0));
     }
   }
-  return verify::to_svg(plot);
+  return to_svg(plot);
 }
 
 }  // namespace tacipc::bench

@@ -32,17 +32,17 @@ PAPER_FRAGMENTS := $(PAPER)/objects-table/image_table.yaml $(PAPER)/objects-dept
 paper_part = $(MAKE) -f Makefile.data --no-print-directory PAPER_KIND=$(PAPER_KIND) $(1)
 paper-parts: | build
 	$(call paper_part,-k paper-coins)
-	$(call paper_part,paper-real$(if $(filter quick,$(PAPER_KIND)),-quick))
+	@if [ -e '$(SHARED)/data/gelsight_sim2real' ]; then $(call paper_part,paper-real); else echo 'paper: there is no data/gelsight_sim2real below SHARED; Table I (a) is left out'; fi
 	$(call paper_part,$(if $(filter quick,$(PAPER_KIND)),paper-quick-markers,paper-markers))
 paper-coins: $(PAPER_FRAGMENTS)
 .PHONY: paper-coins
 
-paper_fragments := real=$(PAPER)/real/table.md objects=$(PAPER)/objects-table/table.md depth=$(PAPER)/objects-depth/table.md board3=$(PAPER)/markers/board3.md \
+paper_fragments := real=$(OUT)/paper/real/table.md objects=$(PAPER)/objects-table/table.md depth=$(PAPER)/objects-depth/table.md board3=$(PAPER)/markers/board3.md \
   fots=$(PAPER)/markers/fots.md meshes=$(PAPER)/ablation/table/table.md mesh_images=$(PAPER)/ablation/images/table.md cost=$(PAPER)/cost/total.md
 paper-page:
 	rm -rf $(PAPER)/paper_results
 	mkdir -p $(PAPER)/paper_results
-	for part in real objects-table markers ablation/table ablation/images; do cp $(PAPER)/$$part/paper_results/* $(PAPER)/paper_results/ 2>/dev/null || true; done
+	for part in $(OUT)/paper/real $(addprefix $(PAPER)/,objects-table markers ablation/table ablation/images); do cp $$part/paper_results/* $(PAPER)/paper_results/ 2>/dev/null || true; done
 	@# Everything that was run for this page, whichever call ran it.
 	find $(PAPER) -name '*.timings.yaml' -exec cat {} + | awk '/^processor_s: / { sum += $$2 } END { printf "\nAll runs of this page together: %.1f processor hours.\n", sum / 3600 }' \
 	  | cat $(wildcard $(PAPER)/cost/table.md) - > $(PAPER)/cost/total.md

@@ -1,8 +1,8 @@
 # The marker part of the paper's benchmark: where TacIPC and Tacchi take the markers, under board3 dragged and turned, and against
-# vectors measured in photographs (FOTS). Leaves fragments of a page and their pictures in $(OUT)/paper/markers: board3.md, fots.md,
+# vectors measured in photographs (FOTS). Leaves fragments of a page and their pictures in $(OUT)/paper/markers (of paper-quick in $(OUT)/paper-quick/markers): board3.md, fots.md,
 # paper_results/*.svg. Needs SHARED (data/tacipc_release, data/fots_markers); without it the fragments say so.
 
-RIVALS_MARKERS := $(OUT)/paper/markers
+RIVALS_MARKERS := $(PAPER)/markers
 RIVALS_RUNS := $(OUT)/paper/marker_runs
 
 # $(call changed_config,target,configuration,keys): with some of its values changed (pipelines/set_keys.sh), rewritten only when they are.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tests/verification/plot.h"
+#include "common/plot.h"
 #include "tests/verification/simulator_comparison.h"
 
 namespace tacipc::verify {
@@ -150,7 +150,7 @@ std::string comparison_curve_svg(const ComparedRuns& all, std::size_t m) {
   Plot plot{.title = all.config.title + ": " + all.config.motions[m],
             .x_label = "",
             .y_label = "mean displacement of the markers (um)"};
-  Curve stuck{.label = "stuck to the object"};
+  PlotCurve stuck{.label = "stuck to the object"};
   for (std::size_t s = 0; s < all.config.simulators.size(); ++s) {
     const SimulatorRun& run = all.at(s, m);
     if (!run.motion) continue;
