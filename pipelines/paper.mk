@@ -44,7 +44,7 @@ paper-page:
 	mkdir -p $(PAPER)/paper_results
 	for part in $(OUT)/paper/real $(addprefix $(PAPER)/,objects-table markers ablation/table ablation/images); do cp $$part/paper_results/* $(PAPER)/paper_results/ 2>/dev/null || true; done
 	@# Everything that was run for this page, whichever call ran it.
-	find $(PAPER) -name '*.timings.yaml' -exec cat {} + | awk '/^processor_s: / { sum += $$2 } END { printf "\nAll runs of this page together: %.1f processor hours.\n", sum / 3600 }' \
+	find $(wildcard $(addprefix $(OUT)/,emboss objects gels sim2real board3 fots paper/real paper/marker_runs) $(PAPER)) -name '*.timings.yaml' -print0 | sort -zu | xargs -0 cat | awk '/^processor_s: / { sum += $$2 } END { printf "\nAll runs of this page together: %.1f processor hours.\n", sum / 3600 }' \
 	  | cat $(wildcard $(PAPER)/cost/table.md) - > $(PAPER)/cost/total.md
 	bash pipelines/paper_page.sh docs/paper-results.md $(PAPER) $(paper_fragments)
 	$(if $(filter full,$(PAPER_KIND)),rm -rf docs/paper_results && cp -r $(PAPER)/paper_results docs/ && cp $(PAPER)/paper-results.md docs/)

@@ -83,7 +83,7 @@ std::string curve_svg(const Curve& curve, const std::vector<double>& x_values, c
 
 std::string chart_svg(const Chart& chart) {
   assert(!chart.x.empty());
-  const double right_end = chart.right.empty() ? 386 : 338;
+  const double right_end = chart.right.empty() ? Drawing::kRight : 338.0;
   const auto [first, last] = std::minmax_element(chart.x.begin(), chart.x.end());
   Axis across = round_axis(std::min(0.0, *first), std::max(0.0, *last), Drawing::kMaxTicks);
   if (chart.whole_x && across.step < 1.0)

@@ -11,7 +11,7 @@ namespace tacipc {
 /// Coordinates of a drawing; the plot lies between kLeft, a right end, kTop and kBottom.
 struct Drawing {
   static constexpr double kWidth = 400, kHeight = 300;
-  static constexpr double kLeft = 62, kRight = 386, kTop = 24, kBottom = 248;
+  static constexpr double kLeft = 62, kRight = 378, kTop = 24, kBottom = 248;
   static constexpr int kMaxTicks = 7;
 };
 

@@ -44,7 +44,7 @@ TEST(Chart, FramesAreCountedInWholeNumbersToTheLast) {
     EXPECT_THAT(svg, Not(HasSubstr("nan")));
     // The last frame lies at the right end.
     if (frames > 1) {
-      EXPECT_THAT(svg, HasSubstr(" 386.00,"));
+      EXPECT_THAT(svg, HasSubstr(" 378.00,"));
     }
   }
 }

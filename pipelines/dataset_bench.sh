@@ -1,0 +1,46 @@
+#!/bin/bash
+# dataset_bench.sh FOLDER JOBS: the page of bench-dataset.
+set -euo pipefail
+folder=$1 jobs=$2
+dataset=$folder/datasets/press_64
+made=$(find "$dataset/samples" -name render.yaml | wc -l)
+seconds=$(($(cat "$folder/ended") - $(cat "$folder/began")))
+processor=$(find "$folder" -name '*.timings.yaml' -exec cat {} + | awk '/^processor_s: / { sum += $2 } END { printf "%.0f", sum }')
+frames=$(find "$dataset/samples" -name tactile.png | grep -vc '/frame_0000/')
+choices=$folder/choices first=$dataset/samples/000/mctac__dots__press__000000
+value() { sed -n "s/^ *$2: //p" "$1" | tail -1; }       # of a record: the last line of this key
+codes() { awk -F, 'NR == 2 { printf "%.2f", 255 * $3 }' "$1/samples.csv"; }
+root() { awk -F, 'NR == 2 { printf "%.2f", 255 * sqrt($4) }' "$1/samples.csv"; }
+{
+  echo '| the first sample | press, processor s | press force, N |'
+  echo '|---|---|---|'
+  printf '| friction lagged once per step (`configs/press/friction_once.yaml`, as the IPC code does) | %.1f | %.3f |\n' "$(value "$first/press/press.timings.yaml" processor_s)" "$(value "$first/press/press.yaml" press_force_n)"
+  printf '| friction iterated (`configs/press/friction.yaml`, the default of datasets) | %.1f | %.3f |\n' "$(value "$choices/iterated/press.timings.yaml" processor_s)" "$(value "$choices/iterated/press.yaml" press_force_n)"
+  echo
+  echo '| its last frame against 4 × 4 camera rays a pixel and 8 × 8 points of each lamp | rays a pixel | mean difference, codes | root mean square, codes |'
+  echo '|---|---|---|---|'
+  echo "| \`configs/render/many_frames.yaml\` | 1 | $(codes "$choices/metrics_many_frames") | $(root "$choices/metrics_many_frames") |"
+  echo "| \`configs/render/default.yaml\` | 4 | $(codes "$choices/metrics_default") | $(root "$choices/metrics_default") |"
+} > "$folder/choices.md"
+cat <<PAGE
+# What a dataset of presses costs
+
+Made by \`make -f Makefile.data bench-dataset\` on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1): \`configs/datasets/press_64.yaml\`, from nothing to packed shards and the card, objects and gel
+included, $jobs stages at a time, one thread each. When it began, $(cat "$folder/load") processes were running.
+
+| | |
+|---|---|
+| samples made | $made |
+| frames in contact | $frames |
+| minutes | $(awk -v s="$seconds" 'BEGIN { printf "%.1f", s / 60 }') (must: 15 on two cores) |
+| processor seconds of all stages | $processor |
+| samples per core-hour, by $jobs cores' wall time | $(awk -v n="$made" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.0f", n * 3600 / (s * j) }') (must: 200) |
+| frames per core-hour | $(awk -v n="$frames" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.0f", n * 3600 / (s * j) }') (must: 1000) |
+| packed, GB | $(du -sb "$dataset/pack" | awk '{ printf "%.2f", $1 / 1e9 }') |
+
+$(cat "$folder/cost/table.md")
+
+## What the settings change
+
+$(cat "$folder/choices.md")
+PAGE
