@@ -84,7 +84,7 @@ $(PAPER)/ablation/$(1)/images/collected: $(PAPER_ABLATED:%=$(PAPER)/ablation/$(1
 	mkdir -p $$(@D)
 	for o in $(PAPER_ABLATED); do cp $(PAPER)/ablation/$(1)/$$$$o/render/$(COINS_LAST)/tactile.png $$(@D)/$$$$o.png; done
 	touch $$@
-$(PAPER)/ablation/$(1)/metrics/metrics.yaml: $(PAPER)/ablation/$(1)/images/collected $(PAPER)/ablation/fine/collected configs/metrics/paper_objects.yaml | build
+$(PAPER)/ablation/metrics/$(1)/metrics.yaml: $(PAPER)/ablation/$(1)/images/collected $(PAPER)/ablation/fine/collected configs/metrics/paper_objects.yaml | build
 	$$(call run,metrics,--config configs/metrics/paper_objects.yaml --images $(PAPER)/ablation/$(1)/images --reference $(PAPER)/ablation/fine)
 $(PAPER)/ablation/$(1)/depth/depth_metrics.yaml: $(PAPER_ABLATED:%=$(PAPER)/ablation/$(1)/%/render/render.yaml) $(PAPER_ABLATED:%=$(PAPER)/objects/%/fine/render/render.yaml) configs/depth_metrics/default.yaml | build
 	$$(call run,depth_metrics,--config configs/depth_metrics/default.yaml --images $(PAPER_ABLATED:%=$(PAPER)/ablation/$(1)/%/render/$(COINS_LAST)/depth.exr) \
@@ -101,8 +101,8 @@ coins_ablation = $(foreach m,$(PAPER_MESHES),$(foreach o,$(PAPER_ABLATED),$(PAPE
 $(PAPER)/ablation/table/mesh_ablation.yaml: configs/mesh_ablation/$(PAPER_TABLES).yaml $(PAPER_MESHES:%=$(PAPER)/ablation/%/depth/depth_metrics.yaml) | build
 	$(call run,mesh_ablation,--config $< --gel $(PAPER_MESHES:%=$(OUT)/gels/mctac-%/tetmesh.yaml) --press $(call coins_ablation,press/press.yaml) \
 	  --render $(call coins_ablation,render/render.yaml) --depth $(PAPER_MESHES:%=$(PAPER)/ablation/%/depth/depth_metrics.yaml))
-$(PAPER)/ablation/images/image_table.yaml: configs/image_table/$(PAPER_TABLES)_ablation.yaml $(PAPER_MESHES:%=$(PAPER)/ablation/%/metrics/metrics.yaml) | build
-	$(call run,image_table,--config $< --samples $(PAPER_MESHES:%=$(PAPER)/ablation/%/metrics/samples.csv) \
+$(PAPER)/ablation/images/image_table.yaml: configs/image_table/$(PAPER_TABLES)_ablation.yaml $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/metrics.yaml) | build
+	$(call run,image_table,--config $< --samples $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/samples.csv) \
 	  --pictures $(PAPER_ABLATED:%=$(PAPER)/ablation/fine/%.png) $(foreach m,$(PAPER_MESHES),$(PAPER_ABLATED:%=$(PAPER)/ablation/$(m)/images/%.png)))
 
 # What the image table cost.
