@@ -20,21 +20,10 @@ using ::testing::HasSubstr;
 class HeightMapRender : public RenderStage {
  protected:
   void SetUp() override {
-    gel_ = slab(80, 60);
-    positions_.shape = {2, static_cast<std::size_t>(gel_.num_vertices()), 3};
-    for (int frame = 0; frame < 2; ++frame) {
-      for (Eigen::Index v = 0; v < gel_.num_vertices(); ++v) {
-        const double x = gel_.positions(v, 0), y = gel_.positions(v, 1), z = gel_.positions(v, 2);
-        const double dx = x - 0.3e-3,
-                     depth = 0.3e-3 * frame * std::exp(-(dx * dx + 2.0 * y * y) / (2.0 * 0.6e-3 * 0.6e-3));
-        positions_.data.insert(positions_.data.end(), {x, y, z - depth * (1.0 + z / kMm)});
-      }
-    }
-    write_file(scratch_ / "sensor.yaml", kSensor);
-    write_file(scratch_ / "config.yaml", kConfig);
-    write_file(scratch_ / "press/press.yaml", "stage: press\n");
-    write_tet_mesh(scratch_ / "gel.msh", gel_);
-    write_positions();
+    press(slab(80, 60), 2, [](double x, double y) {
+      const double dx = x - 0.3e-3;
+      return 0.3e-3 * std::exp(-(dx * dx + 2.0 * y * y) / (2.0 * 0.6e-3 * 0.6e-3));
+    });
   }
   int run_shapes(const std::string& files, const std::string& out = "shapes") {
     return run_command(fmt::format("{}/render --log-level warning --config {} --sensor {} {} --out {}", TACIPC_BIN_DIR,

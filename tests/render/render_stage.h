@@ -4,7 +4,9 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "common/files.h"
 #include "common/npy.h"
@@ -71,13 +73,19 @@ inline TetMesh slab(int nx, int ny) {
 class RenderStage : public ProgramTest {
  protected:
   void SetUp() override {
-    gel_ = slab(16, 12);
-    positions_.shape = {3, static_cast<std::size_t>(gel_.num_vertices()), 3};
-    for (int frame = 0; frame < 3; ++frame) {
+    press(slab(16, 12), 3,
+          [](double x, double y) { return 0.2e-3 * std::exp(-(x * x + y * y) / (2.0 * 0.6e-3 * 0.6e-3)); });
+  }
+  /// Writes all inputs of a run: in frame k the front of the gel has sunk by k times `depth(x, y)`, what lies below by
+  /// less.
+  void press(TetMesh gel, int frames, const std::function<double(double, double)>& depth) {
+    gel_ = std::move(gel);
+    positions_ = {};
+    positions_.shape = {static_cast<std::size_t>(frames), static_cast<std::size_t>(gel_.num_vertices()), 3};
+    for (int frame = 0; frame < frames; ++frame) {
       for (Eigen::Index v = 0; v < gel_.num_vertices(); ++v) {
         const double x = gel_.positions(v, 0), y = gel_.positions(v, 1), z = gel_.positions(v, 2);
-        const double depth = 0.2e-3 * frame * std::exp(-(x * x + y * y) / (2.0 * 0.6e-3 * 0.6e-3));
-        positions_.data.insert(positions_.data.end(), {x, y, z - depth * (1.0 + z / kMm)});
+        positions_.data.insert(positions_.data.end(), {x, y, z - frame * depth(x, y) * (1.0 + z / kMm)});
       }
     }
     write_file(scratch_ / "sensor.yaml", kSensor);
