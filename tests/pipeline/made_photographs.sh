@@ -4,6 +4,19 @@ export OPENBLAS_NUM_THREADS=1
 bin=$build_dir/bin
 sed -i 's/width_px: 320/width_px: 100/; s/height_px: 240/height_px: 75/' configs/sensors/gelsight_mini.yaml
 
+made_settings() { # what every benchmark of these tests has
+  cat <<'END'
+sensor: ../sensors/gelsight_mini.yaml
+mesh: made/mesh.yaml
+press: made/press.yaml
+calibrate: made/calibrate.yaml
+baseline: ../baseline/height_map.yaml
+calibration_ball: {radius_mm: 3.0, deepest_mm: 1.0, steps: 5}
+ball_edge_mm: 0.5
+mesh_spacing_mm: 0.1
+END
+}
+
 make_truth() {
 mkdir configs/benchmarks/made
 sed 's/centre_mm: 0.18/centre_mm: 0.35/; s/inner_mm: 0.3/inner_mm: 0.6/' configs/benchmarks/gsmini_balls/mesh.yaml > configs/benchmarks/made/mesh.yaml

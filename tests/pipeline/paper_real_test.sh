@@ -3,21 +3,13 @@
 # the photographs, a second run does nothing, and other published optics make nothing anew but their own rows.
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/made_photographs.sh"
-cat > configs/benchmarks/made.yaml <<'END'
+{ made_settings; cat; } > configs/benchmarks/made.yaml <<'END'
 title: made
 data: shots
 background: background.png
 photographs: images
 labels: labels.txt
 ending: .png
-sensor: ../sensors/gelsight_mini.yaml
-mesh: made/mesh.yaml
-press: made/press.yaml
-calibrate: made/calibrate.yaml
-baseline: ../baseline/height_map.yaml
-calibration_ball: {radius_mm: 3.0, deepest_mm: 1.0, steps: 5}
-ball_edge_mm: 0.5
-mesh_spacing_mm: 0.1
 must: {ssim_s: 0.95, mae: 0.01, psnr_db: 35}
 objects:
   - name: ball

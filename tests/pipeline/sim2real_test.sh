@@ -3,21 +3,13 @@
 # what made them must be found again, and nothing of the tested half may enter the fit.
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/made_photographs.sh"
-cat > configs/benchmarks/made.yaml <<'END'
+{ made_settings; cat; } > configs/benchmarks/made.yaml <<'END'
 title: made
 data: shots
 photographs: images
 ending: /shot.png
 circles: circles.csv
 circle_table: {image: name, diameter_mm: diameter, x_px: x, y_px: y, radius_px: radius, leave_out: cut, calibrate_every: 2, box_radii: 1.5, background_radii: 2.0, image_px: [100, 75]}
-sensor: ../sensors/gelsight_mini.yaml
-mesh: made/mesh.yaml
-press: made/press.yaml
-calibrate: made/calibrate.yaml
-baseline: ../baseline/height_map.yaml
-calibration_ball: {radius_mm: 3.0, deepest_mm: 1.0, steps: 5}
-ball_edge_mm: 0.5
-mesh_spacing_mm: 0.1
 must: {ssim_s: 0.99, mae: 0.004, psnr_db: 45}
 END
 make_truth

@@ -98,7 +98,7 @@ OtherCost other_cost(const fs::path& dataset, const std::string& stage, const st
     files.push_back(entry.path() / below / (stage + ".timings.yaml"));
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files)
-    if (const auto found = read_cost(file)) cost.costs.add(*found);
+    if (const auto found = timings_if_there(file)) cost.costs.add(*found);
   return cost;
 }
 

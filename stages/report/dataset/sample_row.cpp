@@ -106,12 +106,9 @@ SampleStatus status_of(const fs::path& folder) {
   return SampleStatus::unmade;
 }
 
-std::optional<StageCost> read_cost(const fs::path& timings) {
-  if (!fs::is_regular_file(timings)) return std::nullopt;
-  const Record record = Record::from_file(timings);
-  return StageCost{.wall_s = record.required_number("wall_s"),
-                   .processor_s = record.required_number("processor_s"),
-                   .peak_memory_mb = record.required_number("peak_memory_mb")};
+std::optional<StageTimings> timings_if_there(const fs::path& file) {
+  if (!fs::is_regular_file(file)) return std::nullopt;
+  return read_timings(file);
 }
 
 SampleRow read_row(const PlannedRow& plan, const fs::path& dataset, SampleStatus status) {
@@ -119,8 +116,8 @@ SampleRow read_row(const PlannedRow& plan, const fs::path& dataset, SampleStatus
   const fs::path folder = dataset / plan.folder;
   row.dropped = was_dropped(folder / "press") || was_dropped(folder / "render");
   try {
-    row.press = read_cost(folder / "press/press.timings.yaml");
-    row.render = read_cost(folder / "render/render.timings.yaml");
+    row.press = timings_if_there(folder / "press/press.timings.yaml");
+    row.render = timings_if_there(folder / "render/render.timings.yaml");
     if (status == SampleStatus::failed) row.failure = failure_of(folder);
     if (status == SampleStatus::made) read_numbers(folder, row);
   } catch (const std::runtime_error& error) {

@@ -7,6 +7,7 @@
 
 #include "common/dataset_plan.h"
 #include "common/record.h"
+#include "common/stage_timings.h"
 
 namespace tacipc {
 
@@ -29,14 +30,8 @@ struct SampleNumbers {
   std::optional<double> min_volume_ratio = std::nullopt;
 };
 
-/// Seconds and memory of a stage, from its `<stage>.timings.yaml`.
-struct StageCost {
-  double wall_s = 0.0;
-  double processor_s = 0.0;
-  double peak_memory_mb = 0.0;
-};
 /// Nothing if there is no such file. \throw DataError if it is malformed
-std::optional<StageCost> read_cost(const std::filesystem::path& timings);
+std::optional<StageTimings> timings_if_there(const std::filesystem::path& file);
 
 struct SampleRow {
   PlannedRow plan;
@@ -44,7 +39,7 @@ struct SampleRow {
   std::optional<Failure> failure = std::nullopt;  // of a failed one
   bool dropped = false;                           // files of a stage were removed after packing
   SampleNumbers numbers;
-  std::optional<StageCost> press = std::nullopt, render = std::nullopt;
+  std::optional<StageTimings> press = std::nullopt, render = std::nullopt;
 };
 
 /// Reads the records of a sample and judges them anew. A made sample whose records cannot be read, or miss a check,

@@ -6,7 +6,7 @@
 
 namespace tacipc {
 
-void CostColumn::add(const StageCost& cost) {
+void CostColumn::add(const StageTimings& cost) {
   wall_s.push_back(cost.wall_s);
   processor_s.push_back(cost.processor_s);
   memory_mb.push_back(cost.peak_memory_mb);

@@ -40,7 +40,7 @@ struct StatusCounts {
 /// Costs of one stage over many samples.
 struct CostColumn {
   std::vector<double> wall_s, processor_s, memory_mb;
-  void add(const StageCost& cost);
+  void add(const StageTimings& cost);
 };
 
 struct FailedSample {
