@@ -76,10 +76,17 @@ endef
 ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)
 # The plan is made first, then make starts anew with its rules: gels and objects, then the samples in blocks of a
 # thousand, of which a part takes what it needs.
+DATASET_BEGAN := $(shell date +%s.%N)
+# Parts take the plan as they find it: others of the same run are at work by it. (A folder of meshes is newer with every file that comes into it.)
+ifeq ($(and $(filter dataset-part dataset-last,$(MAKECMDGOALS)),$(wildcard $(DATASET_DIR)/plan/plan.yaml)),)
+# Of several runs that miss the plan together, one makes it and the others take that one: made anew, it would be gone for a moment while they read it.
 $(DATASET_DIR)/plan/plan.yaml: $(CONFIG) | build
-	$(call run,plan,--config $(CONFIG))
-$(DATASET_DIR)/plan/%.mk: $(DATASET_DIR)/plan/plan.yaml ;
+	@mkdir -p $(@D); exec 9> $(@D)/.making; flock 9; \
+	if [ -e $@ ] && [ "$$(date -r $@ +%s.%N)" \> '$(DATASET_BEGAN)' ]; then exit 0; fi; \
+	$(call run,plan,--config $(CONFIG)) 9>&-
 -include $(DATASET_DIR)/plan/inputs.mk
+endif
+$(DATASET_DIR)/plan/%.mk: $(DATASET_DIR)/plan/plan.yaml ;
 include $(DATASET_DIR)/plan/dataset.mk
 hash := \#
 ifdef DATASET_SAMPLES

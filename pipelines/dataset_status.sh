@@ -7,6 +7,7 @@ strict=no
 if [ "$1" = --all-made ]; then strict=yes; shift; fi
 dataset=$1 first=${2:-0} end=${3:-1000000000}
 plan=$dataset/plan/samples.csv
+[ -e "$plan" ] || [ ! -e "$dataset/plan/.lock-plan" ] || flock -s -w 600 "$dataset/plan/.lock-plan" true  # being made anew
 [ -e "$plan" ] || { echo "status: there is no $plan yet: make -f Makefile.data plan CONFIG=..." >&2; exit 1; }
 
 # Records, failures and logs of the samples with their times: one walk that stays above the frames.

@@ -40,11 +40,21 @@ before=$(stamp whole)
 goal whole dataset > /dev/null
 [ "$before" = "$(stamp whole)" ] || fail "a second run did something"
 
-# Two parts at once, one of them given twice.
+# Of runs that miss the plan together one makes it.
+mkdir -p race/datasets
+touch race_{0,1,2}.txt
+for task in 0 1 2; do goal race plan > race_$task.txt 2>&1 & done
+wait
+[ "$(cat race_?.txt | grep -c 'samples; look at')" = 3 ] || fail "a plan is not made: $(cat race_?.txt)"
+[ "$(cat race_?.txt | grep -c 'new or changed')" = 1 ] || fail "a plan is made more than once: $(cat race_?.txt)"
+
+# Two parts at once, one of them given twice. A new file in a folder of meshes does not take the plan from under them.
 goal parts dataset-shared > /dev/null 2>&1
+touch .
 for task in 0 1 2; do goal parts dataset-part PART=$((task % 2)) PARTS=2 JOBS=1 > part_$task.txt 2>&1 & done
 wait
 [ "$(cat part_?.txt | grep -c ' 0 left$')" = 3 ] || fail "a part is not made: $(cat part_?.txt)"
+grep -q 'new or changed' part_?.txt && fail "a part made the plan anew: $(cat part_?.txt)"
 [ "$(samples whole)" = "$(samples parts)" ] || fail "the parts are not the whole"
 
 # Only what a change concerns.
