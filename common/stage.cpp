@@ -214,7 +214,7 @@ void Stage::write_timings() const {
                    {"threads", threads_},
                    {"wall_s", wall.count()},
                    {"processor_s", seconds(used.ru_utime) + seconds(used.ru_stime)},
-                   {"peak_memory_mb", static_cast<double>(used.ru_maxrss) / 1024.0}};
+                   {"peak_memory_mb", 1.024e-3 * static_cast<double>(used.ru_maxrss)}};
   lines.insert(lines.end(), cost_.begin(), cost_.end());
   const std::filesystem::path name = spec_.name + ".timings.yaml";
   write_file(partial_ / name, to_yaml(lines));

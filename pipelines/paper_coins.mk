@@ -12,6 +12,17 @@ $(1)/render.yaml: $(2)/press.yaml $(COINS_SENSOR) configs/render/$(4).yaml $$(RE
 	$$(call run,render,--press $(2) --gel $(OUT)/gels/mctac-$(3)/gel.msh --sensor $(COINS_SENSOR) --config configs/render/$(4).yaml)
 endef
 
+# Tacchi as published ends when its gel is as deep as asked; here also when its object is, as in the other simulators.
+COINS_DEEP := $(PAPER)/objects/tacchi_deep.config.yaml
+$(eval $(call changed_config,$(COINS_DEEP),configs/mpm/legacy_mctac.yaml,motion.depth_of=object))
+# $(call coins_tacchi,folder,object,configuration)
+define coins_tacchi
+$(1)/mpm/mpm.yaml: $(OUT)/objects/$(2)/decimate.yaml $(COINS_SENSOR) $(COINS_MOTION) $(3) | build
+	$$(call run,mpm,--name $(2) $(call coins_object,$(2)) --sensor $(COINS_SENSOR) --config $(3) --sample $(COINS_MOTION))
+$(1)/render/render.yaml: $(1)/mpm/mpm.yaml $(COINS_SENSOR) configs/render/default.yaml | build
+	$$(call run,render,--shapes $(1)/mpm/$(COINS_LAST)/seen_indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
+endef
+
 # $(call coins_rules,folder,object)
 define coins_rules
 $(call sample_rules,$(1)/tacipc,$(2),$(OUT)/objects/$(2),configs/objects/embossed.yaml,mctac,$(PAPER_OURS),$(COINS_MOTION),configs/press/default.yaml)
@@ -19,24 +30,30 @@ $(1)/fine/press/press.yaml: $(OUT)/objects/$(2)/decimate.yaml $(OUT)/gels/mctac-
 	$$(call run,press,--name $(2) $(call coins_object,$(2)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/default.yaml --sample $(COINS_MOTION))
 $(call coins_render,$(1)/fine/render,$(1)/fine/press,$(PAPER_FINE),$(PAPER_LIGHT))
 $(call coins_render,$(1)/noise/render,$(1)/fine/press,$(PAPER_FINE),default)
-$(1)/tacchi/mpm/mpm.yaml: $(OUT)/objects/$(2)/decimate.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/mpm/legacy_mctac.yaml | build
-	$$(call run,mpm,--name $(2) $(call coins_object,$(2)) --sensor $(COINS_SENSOR) --config configs/mpm/legacy_mctac.yaml --sample $(COINS_MOTION))
-$(1)/tacchi/render/render.yaml: $(1)/tacchi/mpm/mpm.yaml $(COINS_SENSOR) configs/render/default.yaml | build
-	$$(call run,render,--shapes $(1)/tacchi/mpm/$(COINS_LAST)/seen_indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
-$(1)/tacchi/legacy/baseline.yaml: $(1)/tacchi/mpm/mpm.yaml $(1)/tacipc/render/render.yaml configs/baseline/tacchi.yaml | build
-	$$(call run,baseline,--config configs/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacchi/mpm/$(COINS_LAST)/depth.exr)
+$(call coins_tacchi,$(1)/tacchi,$(2),configs/mpm/legacy_mctac.yaml)
+$(call coins_tacchi,$(1)/tacchi_deep,$(2),$(COINS_DEEP))
+$(1)/tacchi/legacy/baseline.yaml: $(1)/tacchi/render/render.yaml $(1)/tacipc/render/render.yaml configs/baseline/tacchi.yaml | build
+	$$(call run,baseline,--config configs/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacchi/render/frame_0001/depth.exr)
 $(1)/tacipc/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/baseline/tacchi.yaml | build
 	$$(call run,baseline,--config configs/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacipc/render/$(COINS_LAST)/depth.exr)
 $(1)/depth-based/heights/baseline.yaml: $(1)/tacipc/press/press.yaml configs/baseline/height_map.yaml | build
 	$$(call run,baseline,--config configs/baseline/height_map.yaml --sensor $(COINS_SENSOR) $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 $(1)/depth-based/render/render.yaml: $(1)/depth-based/heights/baseline.yaml configs/render/default.yaml | build
 	$$(call run,render,--shapes $(1)/depth-based/heights/$(COINS_LAST)/indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
-$(1)/depth-based/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/baseline/gomes_2021.yaml | build
-	$$(call run,baseline,--config configs/baseline/gomes_2021.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
-$(1)/older_kernel/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/baseline/exponential_13.yaml | build
-	$$(call run,baseline,--config configs/baseline/exponential_13.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+$(1)/depth-based/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/baseline/gomes_2021_own_front.yaml | build
+	$$(call run,baseline,--config configs/baseline/gomes_2021_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+$(1)/older_kernel/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/baseline/exponential_13_own_front.yaml | build
+	$$(call run,baseline,--config configs/baseline/exponential_13_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 endef
 $(foreach o,$(PAPER_OBJECTS),$(eval $(call coins_rules,$(PAPER)/objects/$(o),$(o))))
+
+# Of the ablation's objects also with a fifth of the barrier's width: the barrier holds the reference's gel off the object, which deepens it by that much.
+define coins_near
+$(PAPER)/objects/$(1)/near/press/press.yaml: $(OUT)/objects/$(1)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/press/small_gap.yaml | build
+	$$(call run,press,--name $(1) $(call coins_object,$(1)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/small_gap.yaml --sample $(COINS_MOTION))
+$(call coins_render,$(PAPER)/objects/$(1)/near/render,$(PAPER)/objects/$(1)/near/press,$(PAPER_FINE),default)
+endef
+$(foreach o,$(PAPER_ABLATED),$(eval $(call coins_near,$(o))))
 
 # What each method makes of each object under the object's name, so that all are compared alike: the folder of a method below that of its object, and its picture.
 COINS_IMAGES := $(PAPER)/objects-table/images
@@ -45,13 +62,15 @@ COINS_FROM_noise               := noise/render $(COINS_LAST)/tactile.png
 COINS_FROM_rest                := noise/render frame_0000/tactile.png
 COINS_FROM_tacipc              := tacipc/render $(COINS_LAST)/tactile.png
 COINS_FROM_tacchi              := tacchi/render frame_0001/tactile.png
+COINS_FROM_tacchi_deep         := tacchi_deep/render frame_0001/tactile.png
 COINS_FROM_depth-based         := depth-based/render frame_0001/tactile.png
 COINS_FROM_tacipc_legacy       := tacipc/legacy frame_0000/tactile.png
 COINS_FROM_tacchi_legacy       := tacchi/legacy frame_0000/tactile.png
 COINS_FROM_depth-based_legacy  := depth-based/legacy $(COINS_LAST)/tactile.png
 COINS_FROM_older_kernel_legacy := older_kernel/legacy $(COINS_LAST)/tactile.png
-COINS_METHODS := fine noise rest tacipc tacchi depth-based tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
-COINS_SHAPES  := fine tacipc tacchi depth-based# methods whose depth is compared
+COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep depth-based tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
+COINS_SHAPES  := fine tacipc tacchi tacchi_deep depth-based# methods whose depth is compared
+COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep depth-based rest# and those compared with the reference's gel in the light that they have themselves
 
 coins_record = $(firstword $(COINS_FROM_$(1)))/$(if $(filter render,$(notdir $(firstword $(COINS_FROM_$(1))))),render,baseline).yaml
 define coins_images
@@ -66,36 +85,51 @@ $(PAPER)/objects-table/metrics/$(1)/metrics.yaml: $(COINS_IMAGES)/$(1)/collected
 $(PAPER)/objects-table/depth/$(1)/depth_metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(COINS_IMAGES)/fine/collected configs/depth_metrics/default.yaml | build
 	$$(call run,depth_metrics,--config configs/depth_metrics/default.yaml --images $(PAPER_OBJECTS:%=$(COINS_IMAGES)/$(1)/%.exr) \
 	  --reference $(PAPER_OBJECTS:%=$(COINS_IMAGES)/fine/%.exr) --rest $(PAPER)/objects/$(firstword $(PAPER_OBJECTS))/fine/render/frame_0000/depth.exr)
+$(PAPER)/objects-near/depth/$(1)/depth_metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(PAPER_ABLATED:%=$(PAPER)/objects/%/near/render/render.yaml) configs/depth_metrics/default.yaml | build
+	$$(call run,depth_metrics,--config configs/depth_metrics/default.yaml --images $(PAPER_ABLATED:%=$(COINS_IMAGES)/$(1)/%.exr) \
+	  --reference $(PAPER_ABLATED:%=$(PAPER)/objects/%/near/render/$(COINS_LAST)/depth.exr) --rest $(PAPER)/objects/$(firstword $(PAPER_ABLATED))/near/render/frame_0000/depth.exr)
 endef
 $(foreach m,$(COINS_METHODS),$(eval $(call coins_images,$(m))))
 
-COINS_RIVALS := $(filter-out fine,$(COINS_METHODS))
+define coins_in_one_light
+$(PAPER)/objects-table/metrics/$(1)_one_light/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(COINS_IMAGES)/noise/collected configs/metrics/paper_objects.yaml | build
+	$$(call run,metrics,--config configs/metrics/paper_objects.yaml --images $(COINS_IMAGES)/$(1) --reference $(COINS_IMAGES)/noise)
+endef
+$(foreach m,$(COINS_IN_ONE_LIGHT),$(eval $(call coins_in_one_light,$(m))))
+
+COINS_RIVALS := $(filter-out fine,$(COINS_METHODS)) $(COINS_IN_ONE_LIGHT:%=%_one_light)
 $(PAPER)/objects-table/image_table.yaml: configs/image_table/$(PAPER_TABLES)_objects.yaml $(COINS_RIVALS:%=$(PAPER)/objects-table/metrics/%/metrics.yaml) | build
 	$(call run,image_table,--config $< --samples $(COINS_RIVALS:%=$(PAPER)/objects-table/metrics/%/samples.csv) --pictures $(foreach m,$(COINS_METHODS),$(PAPER_OBJECTS:%=$(COINS_IMAGES)/$(m)/%.png)))
 $(PAPER)/objects-depth/image_table.yaml: configs/image_table/paper_objects_depth.yaml $(foreach m,$(filter-out fine,$(COINS_SHAPES)),$(PAPER)/objects-table/depth/$(m)/depth_metrics.yaml) | build
 	$(call run,image_table,--config $< --samples $(foreach m,$(filter-out fine,$(COINS_SHAPES)),$(PAPER)/objects-table/depth/$(m)/samples.csv))
 
-# The ablation: the same presses on other meshes, depth against the reference's.
+$(PAPER)/objects-near/table/image_table.yaml: configs/image_table/paper_near_depth.yaml $(COINS_SHAPES:%=$(PAPER)/objects-near/depth/%/depth_metrics.yaml) | build
+	$(call run,image_table,--config $< --samples $(COINS_SHAPES:%=$(PAPER)/objects-near/depth/%/samples.csv))
+
+# The ablation: some of the objects on other meshes, against the finest, all with the same barrier, light and noise.
 define coins_mesh
 $(foreach o,$(PAPER_ABLATED),$(call sample_rules,$(PAPER)/ablation/$(1)/$(o),$(o),$(OUT)/objects/$(o),configs/objects/embossed.yaml,mctac,$(1),$(COINS_MOTION),configs/press/default.yaml)
 )
-$(PAPER)/ablation/$(1)/images/collected: $(PAPER_ABLATED:%=$(PAPER)/ablation/$(1)/%/render/render.yaml)
+endef
+# Where a press on a mesh was rendered, $(call coins_seen,mesh,object): of the finest it is one of those above.
+coins_seen = $(if $(filter $(PAPER_FINE),$(1)),$(PAPER)/objects/$(2)/noise/render,$(PAPER)/ablation/$(1)/$(2)/render)
+coins_depths = $(foreach o,$(PAPER_ABLATED),$(call coins_seen,$(1),$(o))/$(COINS_LAST)/depth.exr)
+define coins_mesh_images
+$(PAPER)/ablation/$(1)/images/collected: $(foreach o,$(PAPER_ABLATED),$(call coins_seen,$(1),$(o))/render.yaml)
 	rm -rf $$(@D)
 	mkdir -p $$(@D)
-	for o in $(PAPER_ABLATED); do cp $(PAPER)/ablation/$(1)/$$$$o/render/$(COINS_LAST)/tactile.png $$(@D)/$$$$o.png; done
+	for o in $(PAPER_ABLATED); do cp $(call coins_seen,$(1),$$$$o)/$(COINS_LAST)/tactile.png $$(@D)/$$$$o.png; done
 	touch $$@
-$(PAPER)/ablation/metrics/$(1)/metrics.yaml: $(PAPER)/ablation/$(1)/images/collected $(PAPER)/ablation/fine/collected configs/metrics/paper_objects.yaml | build
-	$$(call run,metrics,--config configs/metrics/paper_objects.yaml --images $(PAPER)/ablation/$(1)/images --reference $(PAPER)/ablation/fine)
-$(PAPER)/ablation/$(1)/depth/depth_metrics.yaml: $(PAPER_ABLATED:%=$(PAPER)/ablation/$(1)/%/render/render.yaml) $(PAPER_ABLATED:%=$(PAPER)/objects/%/fine/render/render.yaml) configs/depth_metrics/default.yaml | build
-	$$(call run,depth_metrics,--config configs/depth_metrics/default.yaml --images $(PAPER_ABLATED:%=$(PAPER)/ablation/$(1)/%/render/$(COINS_LAST)/depth.exr) \
-	  --reference $(PAPER_ABLATED:%=$(PAPER)/objects/%/fine/render/$(COINS_LAST)/depth.exr) --rest $(PAPER)/objects/$(firstword $(PAPER_ABLATED))/fine/render/frame_0000/depth.exr)
 endef
-$(foreach m,$(PAPER_MESHES),$(eval $(call coins_mesh,$(m))))
-$(PAPER)/ablation/fine/collected: $(PAPER_ABLATED:%=$(PAPER)/objects/%/fine/render/render.yaml)
-	rm -rf $(@D)
-	mkdir -p $(@D)
-	for o in $(PAPER_ABLATED); do cp $(PAPER)/objects/$$o/fine/render/$(COINS_LAST)/tactile.png $(@D)/$$o.png; done
-	touch $@
+define coins_compared_mesh
+$(PAPER)/ablation/metrics/$(1)/metrics.yaml: $(PAPER)/ablation/$(1)/images/collected $(PAPER)/ablation/$(PAPER_FINE)/images/collected configs/metrics/paper_objects.yaml | build
+	$$(call run,metrics,--config configs/metrics/paper_objects.yaml --images $(PAPER)/ablation/$(1)/images --reference $(PAPER)/ablation/$(PAPER_FINE)/images)
+$(PAPER)/ablation/$(1)/depth/depth_metrics.yaml: $(foreach m,$(1) $(PAPER_FINE),$(PAPER)/ablation/$(m)/images/collected) configs/depth_metrics/default.yaml | build
+	$$(call run,depth_metrics,--config configs/depth_metrics/default.yaml --images $(call coins_depths,$(1)) \
+	  --reference $(call coins_depths,$(PAPER_FINE)) --rest $(call coins_seen,$(PAPER_FINE),$(firstword $(PAPER_ABLATED)))/frame_0000/depth.exr)
+endef
+$(foreach m,$(PAPER_MESHES),$(eval $(call coins_mesh,$(m)))$(eval $(call coins_compared_mesh,$(m))))
+$(foreach m,$(PAPER_MESHES) $(PAPER_FINE),$(eval $(call coins_mesh_images,$(m))))
 
 coins_ablation = $(foreach m,$(PAPER_MESHES),$(foreach o,$(PAPER_ABLATED),$(PAPER)/ablation/$(m)/$(o)/$(1)))
 $(PAPER)/ablation/table/mesh_ablation.yaml: configs/mesh_ablation/$(PAPER_TABLES).yaml $(PAPER_MESHES:%=$(PAPER)/ablation/%/depth/depth_metrics.yaml) | build
@@ -103,7 +137,7 @@ $(PAPER)/ablation/table/mesh_ablation.yaml: configs/mesh_ablation/$(PAPER_TABLES
 	  --render $(call coins_ablation,render/render.yaml) --depth $(PAPER_MESHES:%=$(PAPER)/ablation/%/depth/depth_metrics.yaml))
 $(PAPER)/ablation/images/image_table.yaml: configs/image_table/$(PAPER_TABLES)_ablation.yaml $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/metrics.yaml) | build
 	$(call run,image_table,--config $< --samples $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/samples.csv) \
-	  --pictures $(PAPER_ABLATED:%=$(PAPER)/ablation/fine/%.png) $(foreach m,$(PAPER_MESHES),$(PAPER_ABLATED:%=$(PAPER)/ablation/$(m)/images/%.png)))
+	  --pictures $(foreach m,$(PAPER_FINE) $(PAPER_MESHES),$(PAPER_ABLATED:%=$(PAPER)/ablation/$(m)/images/%.png))
 
 # What the image table cost.
 coins_costs = $(foreach o,$(PAPER_OBJECTS),$(OUT)/emboss/$(o)/emboss.timings.yaml $(OUT)/objects/$(o)/decimate.timings.yaml \

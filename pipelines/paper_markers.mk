@@ -5,11 +5,6 @@
 RIVALS_MARKERS := $(PAPER)/markers
 RIVALS_RUNS := $(OUT)/paper/marker_runs
 
-# $(call changed_config,target,configuration,keys): with some of its values changed (pipelines/set_keys.sh), rewritten only when they are.
-define changed_config
-$(1): $(2) pipelines/set_keys.sh FORCE
-	@mkdir -p $$(@D); bash pipelines/set_keys.sh $(2) $(foreach k,$(3),'$(k)') > $$@.new; cmp -s $$@.new $$@ && rm $$@.new || mv $$@.new $$@
-endef
 # $(call tacchi_run,folder,name,configuration of mpm,changed keys,sensor,sample,record of the object,object.ply,its YAML). Only markers are
 # looked at: no height maps. A run that its half-speed check refuses is a row that says so.
 define tacchi_run

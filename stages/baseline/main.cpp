@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "common/camera_image.h"
@@ -49,6 +50,16 @@ void check_flags(const Stage& stage) {
   if (mesh != stage.inputs("--depth").empty()) throw UsageError("give either --depth or --object");
 }
 
+/// An object's depth counts from this sensor's camera: above another's front, all of the image would be pressed.
+void check_front(double front_depth_m, const Raster& own_front) {
+  constexpr double kSame_m = 1e-5;
+  for (const double depth_m : own_front.values)
+    if (std::abs(depth_m - front_depth_m) > kSame_m)
+      throw UsageError(
+          fmt::format("front_depth_mm: {:g} is not this sensor's, {:g}, which --object needs; leave it out",
+                      1e3 * front_depth_m, 1e3 * depth_m));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,8 +75,10 @@ int main(int argc, char** argv) {
     const Camera& camera = sensor.camera;
     std::optional<ByteImage> background;
     if (photograph) background = read_photograph(*photograph, camera);
+    const Raster own_front = front_depth(sensor);
+    if (config.front_depth_m && stage.optional_input("--object")) check_front(*config.front_depth_m, own_front);
     const Raster front =
-        config.front_depth_m ? Raster(camera.width_px, camera.height_px, *config.front_depth_m) : front_depth(sensor);
+        config.front_depth_m ? Raster(camera.width_px, camera.height_px, *config.front_depth_m) : own_front;
     double deepest_m = 0.0;
     const std::vector<Raster> maps = depth_maps(stage, camera);
     for (std::size_t i = 0; i < maps.size(); ++i) {

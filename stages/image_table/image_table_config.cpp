@@ -14,24 +14,41 @@ void refuse_repeats(ConfigReader& in, const std::string& key, const std::vector<
   if (std::count_if(items.begin(), items.end(), same) > 1) in.fault(key, "is given twice");
 }
 
+template <typename Item>
+void must_be_one_of(ConfigReader& in, const std::string& key, const std::string& value, const std::vector<Item>& items,
+                    std::string Item::*member, const std::string& what) {
+  if (std::none_of(items.begin(), items.end(), [&](const Item& item) { return item.*member == value; }))
+    in.fault(key, "is none of the " + what);
+}
+
 PrintedRows read_printed(ConfigReader in, const ImageTableConfig& config) {
   PrintedRows printed{.label = in.text("label"), .source = in.text("source"), .region = in.text("region"), .rows = {}};
-  if (std::none_of(config.regions.begin(), config.regions.end(),
-                   [&](const ShownRegion& shown) { return shown.region == printed.region; }))
-    in.fault("region", "is none of the regions");
+  must_be_one_of(in, "region", printed.region, config.regions, &ShownRegion::region, "regions");
   for (ConfigReader& item : in.one_or_more_sections("rows")) {
     PrintedRow row{.name = item.text("name"), .values = {}};
     ConfigReader values = item.section("values");
     for (const std::string& column : values.keys()) {
       values.number(column);  // a fault unless it is one; the text keeps its digits
       row.values.emplace_back(column, values.text(column));
-      if (std::none_of(config.columns.begin(), config.columns.end(),
-                       [&](const ShownColumn& shown) { return shown.column == column; }))
-        values.fault(column, "is none of the columns");
+      must_be_one_of(values, column, column, config.columns, &ShownColumn::column, "columns");
     }
     printed.rows.push_back(std::move(row));
   }
   return printed;
+}
+
+Finding read_finding(ConfigReader& in, const ImageTableConfig& config) {
+  Finding finding{.region = in.text("region"),
+                  .column = in.text("column"),
+                  .row = in.text("row"),
+                  .against = in.text("against"),
+                  .below = in.text("below"),
+                  .above = in.text("above")};
+  must_be_one_of(in, "region", finding.region, config.regions, &ShownRegion::region, "regions");
+  must_be_one_of(in, "column", finding.column, config.columns, &ShownColumn::column, "columns");
+  must_be_one_of(in, "row", finding.row, config.rows, &MeasuredRow::folder, "rows' folders");
+  must_be_one_of(in, "against", finding.against, config.rows, &MeasuredRow::folder, "rows' folders");
+  return finding;
 }
 
 SheetConfig read_sheet(ConfigReader& in) {
@@ -89,6 +106,7 @@ ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
     refuse_repeats(item, "folder", config.rows, &MeasuredRow::folder);
   }
   if (auto printed = in.optional_section("printed")) config.printed = read_printed(*printed, config);
+  for (ConfigReader& item : in.sections("findings")) config.findings.push_back(read_finding(item, config));
   for (ConfigReader& item : in.sections("sheets")) {
     config.sheets.push_back(read_sheet(item));
     refuse_repeats(item, "name", config.sheets, &SheetConfig::name);

@@ -53,6 +53,16 @@ struct SheetColumn {
   std::string folder;
 };
 
+/// A sentence below the tables: how the first row's mean compares with the second's in one column of one region.
+struct Finding {
+  std::string region;
+  std::string column;
+  std::string row;  // folders of rows
+  std::string against;
+  std::string below;  // what it means if the ratio of the means is below 1,
+  std::string above;  // and if it is not
+};
+
 struct SheetConfig {
   std::string name;                           // of the file, without .png
   std::string alt;                            // what the page says for who does not see it
@@ -69,6 +79,7 @@ struct ImageTableConfig {
   std::vector<ShownRegion> regions;
   std::vector<MeasuredRow> rows;
   std::optional<PrintedRows> printed;
+  std::vector<Finding> findings;
   std::vector<SheetConfig> sheets;
 
   static ImageTableConfig read(ConfigReader& in);

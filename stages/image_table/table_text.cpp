@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/csv.h"
@@ -72,6 +73,32 @@ std::string region_table(const ShownRegion& region, const std::vector<MethodRow>
   return text;
 }
 
+const MethodRow& row_in(const std::vector<MethodRow>& rows, const std::string& folder) {
+  return *std::find_if(rows.begin(), rows.end(), [&](const MethodRow& row) { return row.row.folder == folder; });
+}
+
+template <typename Item>
+const std::string& heading_of(const std::vector<Item>& items, std::string Item::*member, const std::string& value) {
+  return std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.*member == value; })->heading;
+}
+
+std::string named(const MeasuredRow& row) {
+  return escaped(row.name) + (row.group.empty() ? "" : " (" + escaped(row.group) + ")");
+}
+
+/// `- <region>, <column>: <row> 0.62 times <row>: <what that means>`
+std::string sentence(const Finding& finding, const std::vector<MethodRow>& rows, const ImageTableConfig& config) {
+  const MethodRow &row = row_in(rows, finding.row), &against = row_in(rows, finding.against);
+  const double ratio =
+      row.cell(finding.region, finding.column).mean / against.cell(finding.region, finding.column).mean;
+  const bool same_group = row.row.group == against.row.group;
+  return fmt::format("- {}, {}: {} has {} times that of {}: {}\n",
+                     escaped(heading_of(config.regions, &ShownRegion::region, finding.region)),
+                     escaped(heading_of(config.columns, &ShownColumn::column, finding.column)), named(row.row),
+                     number(ratio, 2), same_group ? escaped(against.row.name) : named(against.row),
+                     ratio < 1.0 ? finding.below : finding.above);
+}
+
 }  // namespace
 
 std::string to_markdown(const std::vector<MethodRow>& rows, const ImageTableConfig& config) {
@@ -82,6 +109,8 @@ std::string to_markdown(const std::vector<MethodRow>& rows, const ImageTableConf
   if (config.printed) text += fmt::format(" Printed numbers: {}.", config.printed->source);
   text += "\n";
   if (!config.caption.empty()) text += "\n" + config.caption + (config.caption.ends_with('\n') ? "" : "\n");
+  if (!config.findings.empty()) text += "\n";
+  for (const Finding& finding : config.findings) text += sentence(finding, rows, config);
   for (const SheetConfig& sheet : config.sheets)
     text += fmt::format("\n![{}]({}{}{}.png)\n", sheet.alt, config.link_folder, config.link_folder.empty() ? "" : "/",
                         sheet.name);

@@ -9,8 +9,8 @@
 namespace tacipc {
 
 /// A table per region: a row per method, mean ± standard deviation, or geometric mean ×÷ factor; a line above the first
-/// row of each group; printed means last, in the table of their region alone. Then the caption and the sheets.
-/// Characters that Markdown takes for a cell's end are escaped.
+/// row of each group; printed means last, in the table of their region alone. Then the caption, the findings and the
+/// sheets. Characters that Markdown takes for a cell's end are escaped.
 std::string to_markdown(const std::vector<MethodRow>& rows, const ImageTableConfig& config);
 
 /// One line per number: `row,group,region,column,images,mean,std,source`. Measured numbers are in the shortest form

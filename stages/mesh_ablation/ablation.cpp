@@ -13,28 +13,38 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The files of one mesh. \throw DataError if there are none
-std::vector<fs::path> of_mesh(const std::vector<fs::path>& files, const std::string& mesh, const char* what) {
+std::vector<fs::path> of_mesh(const std::vector<fs::path>& files, const std::string& mesh, const fs::path& root,
+                              const char* what) {
   std::vector<fs::path> out;
   for (const fs::path& file : files)
-    if (lies_in(file, mesh)) out.push_back(file);
+    if (lies_in(file, mesh, root)) out.push_back(file);
   if (out.empty()) throw DataError("no {} of {} was given", what, mesh);
   return out;
 }
 
-fs::path only_one(const std::vector<fs::path>& files, const std::string& mesh, const char* what) {
-  const auto found = of_mesh(files, mesh, what);
+fs::path only_one(const std::vector<fs::path>& files, const std::string& mesh, const fs::path& root, const char* what) {
+  const auto found = of_mesh(files, mesh, root, what);
   if (found.size() > 1)
     throw DataError("{} and {} are both the {} of {}", found[0].string(), found[1].string(), what, mesh);
   return found.front();
 }
 
+/// The folder that all files lie in.
+fs::path root_of(const AblationFiles& files) {
+  std::vector<fs::path> all;
+  for (const auto* some : {&files.gels, &files.presses, &files.renders, &files.depths})
+    all.insert(all.end(), some->begin(), some->end());
+  return common_folder(all);
+}
+
 MeshCost read_mesh(const AblationFiles& files, const MeshAblationConfig::Mesh& mesh) {
+  const fs::path root = root_of(files);
   MeshCost cost{.name = mesh.name, .remark = mesh.remark};
-  const Record gel = Record::from_file(only_one(files.gels, mesh.name, "gel")).section("summary");
+  const Record gel = Record::from_file(only_one(files.gels, mesh.name, root, "gel")).section("summary");
   cost.vertices = gel.required_count("vertices");
   cost.tets = gel.required_count("tets");
-  const auto presses = of_mesh(files.presses, mesh.name, "press"),
-             renders = of_mesh(files.renders, mesh.name, "render");
+  const auto presses = of_mesh(files.presses, mesh.name, root, "press"),
+             renders = of_mesh(files.renders, mesh.name, root, "render");
   cost.presses = presses.size();
   for (const fs::path& press : presses) {
     const StageTimings timings = read_timings_of(press);
@@ -44,7 +54,7 @@ MeshCost read_mesh(const AblationFiles& files, const MeshAblationConfig::Mesh& m
   for (const fs::path& render : renders)
     cost.render_s += read_timings_of(render).processor_s / static_cast<double>(renders.size());
   const Record depth =
-      Record::from_file(only_one(files.depths, mesh.name, "depth error")).section("summary").section("pressed");
+      Record::from_file(only_one(files.depths, mesh.name, root, "depth error")).section("summary").section("pressed");
   cost.depth_error_mm = depth.required_number("mae_mm");
   cost.largest_error_mm = depth.required_number("max_mm");
   return cost;

@@ -19,6 +19,10 @@ std::string grouped(double number) {
   return text;
 }
 
+std::string times(double ratio) {
+  return ratio < 1.0 ? fmt::format("{:.1f} times more", 1.0 / ratio) : fmt::format("{:.1f} times fewer", ratio);
+}
+
 /// What each mesh of one family would take of another's vertices.
 std::string comparison(const FamilyCost& family, const FamilyCost& other) {
   std::string text;
@@ -26,17 +30,17 @@ std::string comparison(const FamilyCost& family, const FamilyCost& other) {
     const std::string start =
         fmt::format("- {} ({} vertices, {:.4f} mm): ", mesh.name, grouped(mesh.vertices), mesh.depth_error_mm);
     if (const auto vertices = vertices_at(other, mesh.depth_error_mm)) {
-      text += start + fmt::format("a mesh of the {} kind has that error with some {} vertices, {:.1f} times fewer\n",
-                                  other.name, grouped(*vertices), mesh.vertices / *vertices);
+      text += start + fmt::format("a mesh of the {} kind has that error with some {} vertices, {}\n", other.name,
+                                  grouped(*vertices), times(mesh.vertices / *vertices));
       continue;
     }
     const auto better = std::find_if(other.meshes.begin(), other.meshes.end(), [&](const MeshCost& candidate) {
       return candidate.depth_error_mm < mesh.depth_error_mm;
     });
     if (better != other.meshes.end())
-      text += start + fmt::format("{} is nearer ({:.4f} mm) with {} vertices, {:.1f} times fewer\n", better->name,
-                                  better->depth_error_mm, grouped(better->vertices),
-                                  static_cast<double>(mesh.vertices) / better->vertices);
+      text +=
+          start + fmt::format("{} is nearer ({:.4f} mm) with {} vertices, {}\n", better->name, better->depth_error_mm,
+                              grouped(better->vertices), times(static_cast<double>(mesh.vertices) / better->vertices));
     else
       text += start + fmt::format("no mesh of the {} kind comes so near\n", other.name);
   }

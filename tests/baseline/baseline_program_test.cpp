@@ -70,7 +70,10 @@ TEST_F(BaselineProgram, WrongFlagsAndFilesAreSaidOnce) {
   EXPECT_EQ(run("height_map", object_ + " --background background.png --out a"), 2);
   EXPECT_EQ(said_, "baseline: error: --background: the configuration has no shading to use it\n");
   write_png(scratch_ / "small.png", ByteImage(32, 48, 3, 128));
-  EXPECT_EQ(run("gomes_2021", object_ + " --background small.png --out a"), 1);
+  EXPECT_EQ(run("gomes_2021", object_ + " --background background.png --out a"), 2);
+  EXPECT_EQ(said_,
+            "baseline: error: front_depth_mm: 30 is not this sensor's, 12, which --object needs; leave it out\n");
+  EXPECT_EQ(run("gomes_2021_own_front", object_ + " --background small.png --out a"), 1);
   EXPECT_EQ(said_, "baseline: error: small.png: is 32 x 48 pixels, the sensor's camera has 64 x 48\n");
   std::vector<double> mirror(16, 0.0);
   for (const std::size_t i : {0, 5, 10, 15}) mirror[i] = 1.0;

@@ -16,6 +16,8 @@ rows:
   - {name: ours, stage: press, folder: tacipc, per: sample}
   - {name: all presses, stage: press, per: sample}
   - {name: gel, stage: tetmesh, folder: coarse, per: sensor}
+sums:
+  - {name: both, per: sample, of: [ours, gel]}
 caption: One thread.
 )";
 
@@ -53,8 +55,25 @@ TEST_F(CostTable, MeansOfWhatBelongsToARow) {
   EXPECT_EQ(costs[2].runs, 1u) << "the folder's name ends so";
   const std::string table = to_markdown(costs, config);
   EXPECT_THAT(table, HasSubstr("| ours | sample | 2 | 12.0 ± 2.0 | 14.0 | 0.20 |\n"));
-  EXPECT_THAT(table, HasSubstr("\n\nOne thread.\n"));
+  EXPECT_THAT(table, HasSubstr("| **both** | sample | | 13.5 | | 0.20 |\n\nOne thread.\n"));
   EXPECT_THAT(to_csv(costs), HasSubstr("gel,sensor,1,1.5,0,1.5,80\n"));
+}
+
+TEST_F(CostTable, FoldersAboveAllTimingsTellNothingApart) {
+  write_file(scratch_ / "one.yaml", "title: t\nrows: [{name: ours, stage: press, folder: tacipc, per: sample}]\n");
+  ConfigReader in = ConfigReader::from_file(scratch_ / "one.yaml");
+  const auto config = CostTableConfig::read(in);
+  files_.clear();
+  write("my-tacipc/star/tacipc/press/press", 10.0, 200.0);
+  write("my-tacipc/star/fine/press/press", 60.0, 900.0);
+  EXPECT_EQ(costs_of(files_, config)[0].runs, 1u);
+}
+
+TEST_F(CostTable, ASumIsOfRows) {
+  ConfigReader in = ConfigReader::from_text(
+      "title: t\nrows: [{name: a, stage: press, per: x}]\nsums: [{name: s, per: x, of: [b]}]\n", "one.yaml");
+  CostTableConfig::read(in);
+  EXPECT_THROW(in.finish(), ConfigError);
 }
 
 TEST_F(CostTable, ARowNeedsTimings) {

@@ -34,6 +34,12 @@ TEST(ImageTableConfig, NamesEveryFault) {
                   "t.yaml:6:42: sheets[0].picture_px: 4 is outside [8, 4096]",
                   "t.yaml:6:54: sheets[0].crop_px: expected whole pixels, at least one wide and high",
                   "t.yaml:6:126: sheets[0].columns[1].folder: is given twice"));
+  EXPECT_THAT(
+      faults_in<ImageTableConfig>(
+          kSmallTable + "findings: [{region: crop, column: mae, row: c, against: a, below: l, above: a}]\n", "t.yaml"),
+      ElementsAre("t.yaml:5:21: findings[0].region: is none of the regions",
+                  "t.yaml:5:35: findings[0].column: is none of the columns",
+                  "t.yaml:5:45: findings[0].row: is none of the rows' folders"));
   EXPECT_THAT(faults_in<ImageTableConfig>(kSmallTable.substr(0, kSmallTable.find("rows:")) +
                                               "rows: [{name: m, folder: a}, {name: n, folder: a}]\n",
                                           "t.yaml"),

@@ -48,6 +48,20 @@ TEST(TableText, GeometricMeansHaveAFactor) {
   EXPECT_NE(text.find("| first | 0.250 ± 0.000 | 40.0 ×÷ 2.0 |\n"), std::string::npos) << text;
 }
 
+TEST(TableText, FindingsCompareTwoRows) {
+  const ScratchFolder scratch;
+  const auto config = small_table(
+      "findings:\n"
+      "  - {region: box, column: psnr_ln, row: a, against: b, below: less., above: as much.}\n"
+      "  - {region: box, column: psnr_ln, row: b, against: a, below: less., above: as much.}\n");
+  const auto rows = read_method_rows({samples_in(scratch, "a", "10"), samples_in(scratch, "b", "40")}, config);
+  const std::string text = to_markdown(rows, config);
+  EXPECT_NE(text.find("\n\n- Contact box, PSNR ln: first has 0.50 times that of second (others): less.\n"
+                      "- Contact box, PSNR ln: second (others) has 2.00 times that of first: as much.\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(TableText, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
   const ScratchFolder scratch;
   auto config = small_table(kPrinted);

@@ -80,6 +80,13 @@ TEST_F(MeshAblation, ErrorsNobodyReachesAreSaid) {
                         "times fewer\n"));
 }
 
+TEST_F(MeshAblation, AKindThatNeedsMoreIsSaidToNeedMore) {
+  write("graded_1", 40000, 0.02);
+  write("graded_2", 400000, 0.01);
+  ASSERT_EQ(run(), 0) << said_;
+  EXPECT_THAT(read_file(scratch_ / "out/table.md"), HasSubstr("with some 40,000 vertices, 4.0 times more\n"));
+}
+
 TEST_F(MeshAblation, EveryMeshNeedsItsFiles) {
   std::filesystem::remove_all(scratch_ / "depth/even_2");
   EXPECT_EQ(run(), 1);
