@@ -78,6 +78,7 @@ $(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$
 
 fots-tacchi: $(FOTS)/fit_tacchi/marker_fit.yaml
 	@mkdir -p $(RIVALS_MARKERS)/paper_results
+	@cp $(<D)/vectors.csv $(RIVALS_MARKERS)/fots_vectors.csv
 	@for picture in $(<D)/*.svg; do cp "$$picture" $(RIVALS_MARKERS)/paper_results/fots_$$(basename "$$picture"); done
 	@{ cat $(<D)/others.md; echo; \
 	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_legacy_tenth_density`: as published, but a tenth as heavy. `tacchi_legacy_grid_0400um`: as published, but on cells that hold eight particles. `tacchi_legacy_grid_and_density`: on those and a hundredth as heavy. `tacchi_physical`: the material and density of the gel, and a coarse grid.'; \

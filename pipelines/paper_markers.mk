@@ -82,7 +82,7 @@ paper-board3-fragment: $(if $(wildcard $(BOARD3_OBJECT)),$(RIVALS_RUNS)/pages/bo
 paper-quick-fragment: $(RIVALS_RUNS)/pages/quick/compare_simulators.yaml
 # $(call put_fragment,page,here if there is such a file): the fragment and its pictures, or why there are none
 put_fragment = @mkdir -p $(RIVALS_MARKERS)/paper_results; \
-  if [ -e $(2) ]; then cp $(RIVALS_RUNS)/pages/$(1)/$(1).md $(RIVALS_MARKERS)/board3.md && cp $(RIVALS_RUNS)/pages/$(1)/paper_results/*.svg $(RIVALS_MARKERS)/paper_results/; \
+  if [ -e $(2) ]; then cp $(RIVALS_RUNS)/pages/$(1)/$(1).md $(RIVALS_MARKERS)/board3.md && cp $(RIVALS_RUNS)/pages/$(1)/*.csv $(RIVALS_MARKERS)/ && cp $(RIVALS_RUNS)/pages/$(1)/paper_results/*.svg $(RIVALS_MARKERS)/paper_results/; \
   else echo "Not run: there is no $(notdir $(2)) below SHARED." > $(RIVALS_MARKERS)/board3.md; fi
 paper-board3-fragment:
 	$(call put_fragment,board3,$(BOARD3_OBJECT))
