@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <new>
+#include <sstream>
 #include <system_error>
 
 #include "common/checked_file.h"
@@ -19,6 +20,7 @@ namespace {
 // Hidden, so that no output can have their names.
 constexpr const char* kScratchFolder = ".scratch";
 constexpr const char* kResumeKey = ".resume-key";
+constexpr const char* kReplacing = ".replacing-";  // with the stage's name: files that may be there without a record
 constexpr const char* kInputChanged = "an input changed while the stage ran; run it again";
 
 const char* instruction_set() {
@@ -163,27 +165,57 @@ void Stage::add_notes(Value::Map& record) const {
   }
 }
 
+std::set<std::string> Stage::old_outputs() const {
+  std::set<std::string> names;
+  std::error_code error;
+  if (const fs::path record = out_ / (spec_.name + ".yaml"); fs::exists(record, error)) {
+    try {
+      for (std::string& name : ConfigReader::from_file(record).section("outputs").keys()) names.insert(std::move(name));
+    } catch (const std::exception&) {
+      // Not a record of ours; nothing of it can be told from the user's own files.
+    }
+  }
+  if (const fs::path list = out_ / (kReplacing + spec_.name); fs::exists(list, error)) {
+    std::istringstream lines(read_file(list));
+    for (std::string name; std::getline(lines, name);) names.insert(name);
+  }
+  return names;
+}
+
+void Stage::remove_output(const std::string& name) const {
+  const fs::path path = fs::path(name).lexically_normal();
+  if (path.is_absolute() || *path.begin() == "..") return;
+  remove_quietly(out_ / path);
+  std::error_code ignored;
+  if (path.has_parent_path()) fs::remove(out_ / path.parent_path(), ignored);  // only if empty now
+}
+
 void Stage::remove_old_results() const {
-  remove_quietly(out_ / (spec_.name + ".failed.yaml"));
   remove_quietly(out_ / (spec_.name + ".timings.yaml"));
   const fs::path record = out_ / (spec_.name + ".yaml");
   std::error_code error;
   if (!fs::exists(record, error)) return;
   // The record goes first: what it lists may then be missing without anyone taking it for complete.
-  std::vector<std::string> names;
-  try {
-    names = ConfigReader::from_file(record).section("outputs").keys();
-  } catch (const std::exception&) {
-    // Not a record of ours; nothing of it can be told from the user's own files.
-  }
+  const std::set<std::string> names = old_outputs();
   fs::remove(record, error);
   if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
-  for (const std::string& name : names) {
-    const fs::path path = fs::path(name).lexically_normal();
-    if (path.is_absolute() || *path.begin() == "..") continue;
-    remove_quietly(out_ / path);
-    if (path.has_parent_path()) fs::remove(out_ / path.parent_path(), error);  // only if empty now
-  }
+  for (const std::string& name : names) remove_output(name);
+}
+
+void Stage::retire_old_record() {
+  // Which files are of old and new runs must outlive the records, or what a run that is killed now leaves beside the
+  // next one's outputs could not be told from a user's own.
+  std::set<std::string> names = old_outputs();
+  for (const Output& output : outputs_) names.insert(output.name);
+  std::string list;
+  for (const std::string& name : names) list += name + "\n";
+  const fs::path beside = partial_path(kReplacing + spec_.name);
+  write_file(beside, list);
+  fs::rename(beside, out_ / (kReplacing + spec_.name));
+  const fs::path record = out_ / (spec_.name + ".yaml");
+  std::error_code error;
+  fs::remove(record, error);
+  if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
 }
 
 std::string Stage::record() const {
@@ -203,7 +235,7 @@ std::string Stage::record() const {
   return to_yaml(record);
 }
 
-void Stage::write_timings() const {
+std::string Stage::timings() const {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   const auto seconds = [](const timeval& t) {
@@ -216,13 +248,12 @@ void Stage::write_timings() const {
                    {"processor_s", seconds(used.ru_utime) + seconds(used.ru_stime)},
                    {"peak_memory_mb", 1.024e-3 * static_cast<double>(used.ru_maxrss)}};
   lines.insert(lines.end(), cost_.begin(), cost_.end());
-  const std::filesystem::path name = spec_.name + ".timings.yaml";
-  write_file(partial_ / name, to_yaml(lines));
-  fs::rename(partial_ / name, out_ / name);
+  return to_yaml(lines);
 }
 
 void Stage::begin() {
-  remove_old_results();
+  remove_quietly(out_ / (spec_.name + ".failed.yaml"));
+  if (!spec_.keeps_old_until_done) remove_old_results();
   write_file(out_ / (spec_.name + ".log"), "");
   open_log_file((out_ / (spec_.name + ".log")).string());
   if (!spec_.resumable) remove_quietly(partial_);
@@ -245,21 +276,33 @@ void Stage::open_scratch() {
 }
 
 void Stage::publish() {
+  // All that needs room on the disk comes first: what follows removes and renames.
   const std::string text = record();
-  const fs::path record_name = spec_.name + ".yaml";
-  fs::create_directories(partial_);
-  write_file(partial_ / record_name, text);
-  for (const auto& [name, hash] : outputs_) {
-    if ((out_ / name).has_parent_path()) fs::create_directories((out_ / name).parent_path());
-    fs::rename(partial_ / name, out_ / name);
+  const fs::path record_name = spec_.name + ".yaml", timings_name = spec_.name + ".timings.yaml";
+  write_file(partial_path(record_name), text);
+  write_file(partial_path(timings_name), timings());
+  for (const Output& output : outputs_)
+    if ((out_ / output.name).has_parent_path()) fs::create_directories((out_ / output.name).parent_path());
+  std::set<std::string> leftovers;
+  if (spec_.keeps_old_until_done) {
+    // Without a record from here to the end, so that a mixture of old and new never counts. Files that both have are
+    // never missing; those of the old alone go when the new ones are in place.
+    retire_old_record();
+    leftovers = old_outputs();
   }
-  write_timings();
+  for (const Output& output : outputs_) {
+    fs::rename(partial_ / output.name, out_ / output.name);
+    leftovers.erase(output.name);
+  }
+  for (const std::string& name : leftovers) remove_output(name);
+  fs::rename(partial_ / timings_name, out_ / timings_name);
   fs::rename(partial_ / record_name, out_ / record_name);
+  if (spec_.keeps_old_until_done) remove_quietly(out_ / (kReplacing + spec_.name));
 }
 
 void Stage::clean_up(int code) noexcept {
   try {
-    if (code != 0) remove_quietly(out_ / (spec_.name + ".yaml"));
+    if (code != 0 && !spec_.keeps_old_until_done) remove_quietly(out_ / (spec_.name + ".yaml"));
     if (code == 1 && spec_.resumable) {
       // Without the hashes the stage has not begun, and what an earlier run left may still be good.
       if (!inputs_at_start_) return;
@@ -313,6 +356,9 @@ int Stage::run(const std::function<void(Stage&)>& body) {
     write_failure(error);
   }
   clean_up(code);
+  std::error_code ignored;
+  if (code != 0 && spec_.keeps_old_until_done && fs::exists(out_ / (spec_.name + ".yaml"), ignored))
+    log_warning("{} stays as it was before", out_.string());
   return code;
 }
 

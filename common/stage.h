@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,6 +39,9 @@ struct StageSpec {
   std::vector<InputSpec> inputs;
   std::vector<OptionSpec> options = {};
   bool resumable = false;  // scratch files of a run that was killed or failed are there again in the next equal one
+  // Others need the earlier result while a new one is made, and it may be all there is where the new one is refused:
+  // old record and outputs stay until the new ones are whole, and stay when the run fails.
+  bool keeps_old_until_done = false;
 };
 
 /// What a stage's body sees of the outside.
@@ -72,6 +76,9 @@ class Stage {
   /// An output that is a file of another stage's, under a hard link (copied where the file system has none). `hash` is
   /// the one in that stage's record, so that large files need not be read again.
   void link_output(const std::string& name, const std::filesystem::path& file, const std::string& hash);
+  /// Takes away the old record of a stage that keeps its old results, which publishing would do in any case. For a body
+  /// that is about to change files beside its outputs: killed there, it must not leave a record that they do not fit.
+  void retire_old_record();
   /// Folder the outputs end in (for relative links).
   const std::filesystem::path& out() const { return out_; }
 
@@ -107,6 +114,10 @@ class Stage {
   void clean_up(int code) noexcept;
   void write_failure(const std::exception& error) const noexcept;
   void remove_old_results() const;
+  void remove_output(const std::string& name) const;
+  /// Outputs of the runs before, as their record lists them or, where one did not live to finish its publishing, the
+  /// list it left for that.
+  std::set<std::string> old_outputs() const;
   Value input_hashes() const;
   bool inputs_changed() const;
   /// What scratch files depend on, as text.
@@ -114,9 +125,9 @@ class Stage {
   /// Notes and options, as record and failure file repeat them.
   void add_notes(Value::Map& record) const;
   std::string record() const;
-  /// `<stage>.timings.yaml`: wall and processor time, peak memory and the stage's own lines. Not part of the record, as
-  /// no two runs agree in it.
-  void write_timings() const;
+  /// Text of `<stage>.timings.yaml`: wall and processor time, peak memory and the stage's own lines. Not part of the
+  /// record, as no two runs agree in it.
+  std::string timings() const;
 
   const StageSpec& spec_;
   std::filesystem::path out_;
@@ -139,9 +150,9 @@ class Stage {
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
-/// Runs one stage: parses flags, removes the old record, calls `body`, moves outputs into place, writes the record
-/// last. Returns the exit code: 0 done, 1 the work failed, 2 wrong flags or configuration. Work that failed leaves
-/// `<stage>.failed.yaml` with the reason, which the next start removes.
+/// Runs one stage: parses flags, removes the old record (of one that keeps old results after the body), calls `body`,
+/// moves outputs into place, writes the record last. Returns the exit code: 0 done, 1 the work failed, 2 wrong flags or
+/// configuration. Work that failed leaves `<stage>.failed.yaml` with the reason, which the next start removes.
 int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body);
 
 /// Version of the program, from git when it was built.

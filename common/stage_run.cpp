@@ -91,7 +91,7 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
   } catch (const std::exception& error) {
     log_error(fmt::format("{}: error: {}", spec.name, error.what()));
     std::error_code ignored;
-    fs::remove(stage.out_ / (spec.name + ".yaml"), ignored);
+    if (!spec.keeps_old_until_done) fs::remove(stage.out_ / (spec.name + ".yaml"), ignored);
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

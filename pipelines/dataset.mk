@@ -77,16 +77,21 @@ ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)
 # The plan is made first, then make starts anew with its rules: gels and objects, then the samples in blocks of a
 # thousand, of which a part takes what it needs.
 DATASET_BEGAN := $(shell date +%s.%N)
+# A plan that is being made anew is waited for: what is read below is of one plan, and without its record only where nobody lived to write that.
+dataset_plan_lock := $(DATASET_DIR)/plan/.lock-plan
+$(shell [ ! -e '$(dataset_plan_lock)' ] || flock -s -w 600 '$(dataset_plan_lock)' true)
 # Parts take the plan as they find it: others of the same run are at work by it. (A folder of meshes is newer with every file that comes into it.)
+# They have no rule for its files, so that nothing looks for the record once more while another run replaces it.
 ifeq ($(and $(filter dataset-part dataset-last,$(MAKECMDGOALS)),$(wildcard $(DATASET_DIR)/plan/plan.yaml)),)
-# Of several runs that miss the plan together, one makes it and the others take that one: made anew, it would be gone for a moment while they read it.
+# Of several runs that miss the plan together, one makes it and the others take that one. A plan that is refused leaves record and times of
+# the old one, so .DELETE_ON_ERROR finds nothing to delete; make stops here, and parts go on with what was planned before.
 $(DATASET_DIR)/plan/plan.yaml: $(CONFIG) | build
 	@mkdir -p $(@D); exec 9> $(@D)/.making; flock 9; \
 	if [ -e $@ ] && [ "$$(date -r $@ +%s.%N)" \> '$(DATASET_BEGAN)' ]; then exit 0; fi; \
 	$(call run,plan,--config $(CONFIG)) 9>&-
+$(DATASET_DIR)/plan/%.mk: $(DATASET_DIR)/plan/plan.yaml ;
 -include $(DATASET_DIR)/plan/inputs.mk
 endif
-$(DATASET_DIR)/plan/%.mk: $(DATASET_DIR)/plan/plan.yaml ;
 include $(DATASET_DIR)/plan/dataset.mk
 hash := \#
 ifdef DATASET_SAMPLES

@@ -26,7 +26,8 @@ const StageSpec kCard{
                {.flag = "--shard", .help = "pack.yaml of each shard", .many = true},
                {.flag = "--loader", .help = "Python lines that load a shard"},
                {.flag = "--citation", .help = "CITATION.cff", .required = false}},
-    .options = {{.flag = "--name", .help = "the dataset's name", .fallback = "dataset"}}};
+    .options = {{.flag = "--name", .help = "the dataset's name", .fallback = "dataset"}},
+    .keeps_old_until_done = true};
 
 /// Names the outputs of which a user gets the digest.
 class Checksums {

@@ -23,8 +23,11 @@ const StageSpec kPack{
     .summary = "Pack the made samples of one shard into an HDF5 file that loaders read.",
     .inputs = {{.flag = "--config", .help = "which fields (YAML)"},
                {.flag = "--plan", .help = "samples.csv of plan; its samples lie beside the folder it is in"},
-               {.flag = "--dataset", .help = "dataset.yaml of plan, whose hash the shard carries", .required = false}},
-    .options = {{.flag = "--shard", .help = "which shard of the plan", .fallback = ""}}};
+               {.flag = "--dataset",
+                .help = "what all samples share of dataset.yaml, whose hash the shard carries",
+                .required = false}},
+    .options = {{.flag = "--shard", .help = "which shard of the plan", .fallback = ""}},
+    .keeps_old_until_done = true};
 
 struct ShardSample {
   PlannedRow plan;
@@ -99,6 +102,7 @@ int main(int argc, char** argv) {
       writer.add_sample(at.plan, sensor_id, sample);
     }
     writer.close();
+    for (const auto& [copy, file] : origins.copies()) write_file(stage.output(copy), read_file(file));
 
     const std::string digest = sha256_of_file(path);
     write_file(stage.output(name + ".sha256"), fmt::format("{}  {}\n", digest, name));

@@ -1,5 +1,7 @@
 #include "stages/pack/origins.h"
 
+#include <fmt/core.h>
+
 #include "common/error.h"
 #include "common/files.h"
 
@@ -27,7 +29,10 @@ void Origins::add(const PlannedRow& plan, const std::string& sensor_id, const Sa
   add_file(sensors_, sensor_id, "sensor", given("sensor"));
   add_file(sensors_, sensor_id, "gel-" + plan.mesh, given("gel"));
   const fs::path markers = sample.folder() / "press/markers.csv";
-  if (fs::exists(markers)) add_file(sensors_, sensor_id, "markers-" + plan.mesh, {markers, content_hash(markers)});
+  const std::string role = "markers-" + plan.mesh;
+  if (fs::exists(markers))
+    add_file(sensors_, sensor_id, role,
+             {markers, content_hash(markers), fmt::format("sensors/{}/{}.csv", sensor_id, role)});
   if (const auto& reference = sample.sensor().reference_image)
     add_file(sensors_, sensor_id, "reference", {*reference, content_hash(*reference)});
   add_file(objects_, plan.object, "object", given("object"));
@@ -46,12 +51,21 @@ Value::List Origins::lines_of(const Files& files, const fs::path& folder) {
   Value::List list;
   for (const auto& [name, roles] : files) {
     Value::List parts;
-    for (const auto& [role, file] : roles)
-      parts.emplace_back(
-          Value::Map{{"role", role}, {"path", fs::proximate(file.path, folder).generic_string()}, {"hash", file.hash}});
+    for (const auto& [role, file] : roles) {
+      const std::string path = file.copy.empty() ? fs::proximate(file.path, folder).generic_string() : file.copy;
+      parts.emplace_back(Value::Map{{"role", role}, {"path", path}, {"hash", file.hash}});
+    }
     list.emplace_back(Value::Map{{"id", name}, {"files", std::move(parts)}});
   }
   return list;
+}
+
+std::map<std::string, fs::path> Origins::copies() const {
+  std::map<std::string, fs::path> copies;
+  for (const auto& [name, roles] : sensors_)
+    for (const auto& [role, file] : roles)
+      if (!file.copy.empty()) copies.emplace(file.copy, file.path);
+  return copies;
 }
 
 Value::Map Origins::lines(const fs::path& folder) const {

@@ -21,14 +21,18 @@ class Origins {
  public:
   /// \throw DataError if two samples mean different files by one name
   void add(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample);
-  /// Lines `sensors`, `objects` (each with the paths and hashes of its files, as seen from `folder`), `versions` and
-  /// `limits` (each different one once).
+  /// Lines `sensors`, `objects` (each with the paths and hashes of its files, as seen from `folder`, that of the
+  /// shard), `versions` and `limits` (each different one once).
   Value::Map lines(const std::filesystem::path& folder) const;
+  /// Files of samples that the lines name as the shard's own, by the name in its folder: a sample's may be dropped once
+  /// it is packed, and the download is put together after that.
+  std::map<std::string, std::filesystem::path> copies() const;
 
  private:
   struct File {
     std::filesystem::path path;
     std::string hash;
+    std::string copy = {};  // its name among the shard's own files
   };
   /// name → file's role → file
   using Files = std::map<std::string, std::map<std::string, File>>;

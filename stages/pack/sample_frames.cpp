@@ -29,8 +29,10 @@ std::string frame_folder(std::size_t frame) { return fmt::format("frame_{:04}/",
 fs::path refuse_dropped(fs::path folder) {
   for (const std::string stage : {"press", "render"})
     if (fs::exists(folder / stage / ".dropped"))
-      throw DataError("{}: was dropped after packing and cannot be packed again; clean-{}, then it is made anew",
-                      (folder / stage).string(), stage);
+      throw DataError(
+          "{}: was dropped after packing and cannot be packed again; clean-{}, then it is made anew (or undo what "
+          "changed since: plan, profile, other samples)",
+          (folder / stage).string(), stage);
   return folder;
 }
 

@@ -15,7 +15,8 @@ const StageSpec kPlan{.name = "plan",
                       .summary =
                           "From the one file of a dataset, its samples: poses, seeds, splits, and what make "
                           "needs to be told. --out is the folder plan of the dataset.",
-                      .inputs = {{.flag = "--config", .help = "the dataset (YAML)"}}};
+                      .inputs = {{.flag = "--config", .help = "the dataset (YAML)"}},
+                      .keeps_old_until_done = true};
 
 std::vector<Sensor> read_sensors(Stage& stage, const DatasetConfig& config) {
   std::vector<Sensor> sensors;
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
                      {"motions", config.motions.size()},
                      {"split_by_object", split_lines(by_object)},
                      {"split_by_pose", split_lines(count(samples, &PlannedSample::split_pose))}});
+    stage.retire_old_record();  // the samples' files are no outputs, and from here on those of another plan
     const int written = write_dataset_files(config, samples, stage.out().parent_path());
     log_info("{} samples of {} objects, {} motions, {} sensors; {} new or changed", samples.size(),
              config.objects.size(), config.motions.size(), config.sensors.size(), written);

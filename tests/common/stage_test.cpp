@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "common/error.h"
 #include "common/files.h"
@@ -88,6 +89,99 @@ TEST_F(StageTest, WhatAnEarlierRunLeftGoesWithItsRecord) {
   EXPECT_FALSE(fs::exists(root_ / "out/frame_2/a.txt"));
   EXPECT_TRUE(fs::exists(root_ / "out/frame_2/mine.txt"));
   EXPECT_TRUE(fs::exists(root_ / "out/frame_3/a.txt"));
+}
+
+/// Of a stage that others go on reading while it makes its results anew.
+class KeepingStageTest : public StageTest {
+ protected:
+  void SetUp() override {
+    StageTest::SetUp();
+    spec_.keeps_old_until_done = true;
+    ASSERT_EQ(make("one", {"a/both.txt", "a/old.txt", "gone/old.txt"}), 0);
+    first_ = whole();
+  }
+  int make(const std::string& content, const std::vector<std::string>& names) {
+    return run([&](Stage& stage) {
+      for (const std::string& name : names) write_file(stage.output(name), content);
+    });
+  }
+  /// Every file but log and lock, with its bytes.
+  std::map<std::string, std::string> whole() {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(root_ / "out")) {
+      const std::string name = entry.path().lexically_relative(root_ / "out").generic_string();
+      if (entry.is_regular_file() && name != "copy.log" && name != ".lock-copy") files[name] = read_file(entry.path());
+    }
+    return files;
+  }
+
+  std::map<std::string, std::string> first_;
+};
+
+TEST_F(KeepingStageTest, WhatWasThereStaysWhileAnotherIsMadeAndWhereItIsRefused) {
+  EXPECT_EQ(run([&](Stage& stage) {
+              write_file(stage.output("a/both.txt"), "two");
+              std::map<std::string, std::string> meanwhile = whole();
+              EXPECT_EQ(meanwhile.erase(".partial-copy/a/both.txt"), 1u);
+              EXPECT_EQ(meanwhile, first_);
+              throw ConfigError({"a.yaml:1:1: x: missing"});
+            }),
+            2);
+  EXPECT_EQ(whole(), first_);
+  EXPECT_EQ(run([&](Stage& stage) {
+              write_file(stage.output("a/both.txt"), "two");
+              throw DataError("no more");
+            }),
+            1);
+  std::map<std::string, std::string> then = whole();
+  EXPECT_EQ(then.erase("copy.failed.yaml"), 1u);
+  EXPECT_EQ(then, first_);
+  EXPECT_EQ(run([&](Stage& stage) {
+              write_file(stage.output("a/both.txt"), "two");
+              write_file(root_ / "in.txt", "edited");
+            }),
+            1);
+  then = whole();
+  EXPECT_EQ(then.erase("copy.failed.yaml"), 1u);
+  EXPECT_EQ(then, first_);
+}
+
+TEST_F(KeepingStageTest, TheNewResultIsAllThatIsLeft) {
+  ASSERT_EQ(make("two", {"a/both.txt", "new.txt"}), 0);
+  std::map<std::string, std::string> files = whole();
+  EXPECT_NE(files["copy.yaml"], first_["copy.yaml"]);
+  EXPECT_EQ(files.erase("copy.yaml") + files.erase("copy.timings.yaml"), 2u);
+  EXPECT_EQ(files, (std::map<std::string, std::string>{{"a/both.txt", "two"}, {"new.txt", "two"}}));
+  EXPECT_FALSE(fs::exists(root_ / "out/gone"));
+}
+
+TEST_F(KeepingStageTest, AMixtureOfOldAndNewHasNoRecordAndIsNotForgotten) {
+  // A folder with something in it stands in the way of the second file.
+  fs::remove(root_ / "out/a/old.txt");
+  root_.file("out/a/old.txt/mine.txt", "the user's own");
+  ASSERT_EQ(make("two", {"a/both.txt", "a/old.txt", "new.txt"}), 1);
+  EXPECT_EQ(read_file(root_ / "out/a/both.txt"), "two");
+  EXPECT_EQ(read_file(root_ / "out/gone/old.txt"), "one");
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.yaml"));
+  // Files of both runs before are known to the next.
+  fs::remove_all(root_ / "out/a/old.txt");
+  ASSERT_EQ(make("three", {"third.txt"}), 0);
+  std::map<std::string, std::string> files = whole();
+  EXPECT_EQ(files.erase("copy.yaml") + files.erase("copy.timings.yaml"), 2u);
+  EXPECT_EQ(files, (std::map<std::string, std::string>{{"third.txt", "three"}}));
+}
+
+TEST_F(KeepingStageTest, WhatABodyChangesBesideItsOutputsTakesTheRecordAway) {
+  EXPECT_EQ(run([&](Stage& stage) {
+              stage.retire_old_record();
+              EXPECT_FALSE(fs::exists(root_ / "out/copy.yaml"));
+              EXPECT_EQ(read_file(root_ / "out/a/old.txt"), "one");
+              throw DataError("killed");
+            }),
+            1);
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.yaml"));
+  ASSERT_EQ(make("two", {"new.txt"}), 0);
+  EXPECT_FALSE(fs::exists(root_ / "out/a"));
 }
 
 TEST_F(StageTest, AnInputThatChangesMeanwhileIsAFailure) {

@@ -38,9 +38,10 @@ class PackTest : public ProgramTest {
                     "data/plan/dataset.yaml --shard {} --out {} --log-level error {}",
                     (scratch_ / "").string(), TACIPC_BIN_DIR, kShard, out, more));
   }
-  Hdf5Reader shard(const std::string& out = "out") {
-    return Hdf5Reader(scratch_ / fmt::format("{}/{}.h5", out, kShard));
+  std::filesystem::path shard_file(const std::string& out = "out") {
+    return scratch_ / fmt::format("{}/{}.h5", out, kShard);
   }
+  Hdf5Reader shard(const std::string& out = "out") { return Hdf5Reader(shard_file(out)); }
   static std::string group(const std::string& rest = "") { return fmt::format("/data/{}{}", kId, rest); }
   /// Turns a field on that no shipped configuration packs.
   void also(const std::string& field) {
@@ -251,8 +252,10 @@ TEST_F(PackTest, FilesThatAreNotWhatTheRecordsSpeakOfAreRefused) {
   write_png(picture, test_picture(9, 3));
   EXPECT_EQ(pack(), 1);
   EXPECT_THAT(said_, HasSubstr("frame_0002/tactile.png: is not the file that its record speaks of"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/pack.yaml"));
   write_png(picture, test_picture(2, 3));
   ASSERT_EQ(pack(), 0) << said_;
+  const std::string record = read_file(scratch_ / "out/pack.yaml"), bytes = content_hash(shard_file());
   const std::vector<double> times{0.0, 0.5, 1.0};
   write_npy(scratch_ / (folder + "/press/time.npy"), {3}, times.data());
   EXPECT_EQ(pack(), 1);
@@ -261,7 +264,22 @@ TEST_F(PackTest, FilesThatAreNotWhatTheRecordsSpeakOfAreRefused) {
   scratch_.file("made_from/press.yaml", "time_step_s: 0.02\n");
   EXPECT_EQ(pack(), 1);
   EXPECT_THAT(said_, HasSubstr("made_from/press.yaml: has changed since press of"));
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/pack.yaml"));
+  // What was packed before may be all there is of samples that were dropped since.
+  EXPECT_EQ(read_file(scratch_ / "out/pack.yaml"), record);
+  EXPECT_EQ(content_hash(shard_file()), bytes);
+}
+
+TEST_F(PackTest, WhatADownloadNeedsOfSamplesIsKeptBesideTheShard) {
+  const std::string press = std::string("data/samples/000/") + kId + "/press";
+  scratch_.file(press + "/markers.csv", "row,column\n");
+  sample_->write_render();
+  ASSERT_EQ(pack(), 0) << said_;
+  std::filesystem::remove(scratch_ / (press + "/markers.csv"));
+  const Record record = Record::from_file(scratch_ / "out/pack.yaml");
+  EXPECT_TRUE(record.section("outputs").has("sensors/toy/markers-tiny.csv"));
+  for (const Record& sensor : record.section("summary").sections("sensors"))
+    for (const Record& file : sensor.sections("files"))
+      EXPECT_EQ(content_hash(scratch_ / ("out/" + file.required_text("path"))), file.required_text("hash"));
 }
 
 TEST_F(PackTest, OneNameForTwoFilesIsRefused) {

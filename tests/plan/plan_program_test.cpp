@@ -57,6 +57,23 @@ motions:
   EXPECT_NE(fs::last_write_time(a), old);
 }
 
+TEST_F(PlanProgram, ARefusedPlanLeavesTheOneThereWas) {
+  const auto write = [&](const std::string& more) {
+    return scratch_.file("d.yaml", fmt::format(R"(seed: 1
+sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/tetmesh/tiny.yaml}}
+objects: {{emboss: {0}/configs/emboss/star.yaml}}
+motions: {{name: a, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
+{1})",
+                                               TACIPC_SOURCE_DIR, more));
+  };
+  ASSERT_EQ(plan(write("")), 0) << said_;
+  const std::string before = content_hash(scratch_ / "set");
+  EXPECT_EQ(plan(write("stop_after_failure: 3\n")), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("unknown key (did you mean stop_after_failures?)"));
+  EXPECT_EQ(content_hash(scratch_ / "set"), before);
+  EXPECT_TRUE(fs::exists(scratch_ / "set/plan/plan.yaml"));
+}
+
 TEST_F(PlanProgram, FaultsAreAllSaidAndNothingIsPlanned) {
   const auto file = scratch_.file("d.yaml", fmt::format(R"(seed: 1
 sensors: {{sensor: {0}/configs/sensors/none.yaml, mesh: {0}/configs/tetmesh/tiny.yaml}}
