@@ -117,8 +117,8 @@ plan: $(DATASET_DIR)/plan/plan.yaml ## Samples of a dataset, without making them
 dataset_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) -s -f Makefile.data $(1) $(dataset_variables) REBUILD=no JOBS=$(JOBS) THREADS=$(THREADS) CARD=$(CARD) \
   $(if $(PACK_GIVEN),PACK=$(PACK))
 define dataset_end
-	@ended=0; $(if $(filter none,$(DATASET_PROFILE)),,{ $(call dataset_again,dataset-pack) && \
-	  bash pipelines/dataset_drop.sh --whole-shards '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render); } || ended=$$?;) \
+	@ended=0; $(if $(filter none,$(DATASET_PROFILE)),,($(call dataset_alone,$@) && $(call dataset_again,dataset-pack) && \
+	  bash pipelines/dataset_drop.sh --whole-shards '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)) || ended=$$?;) \
 	bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)' && exit $$ended
 endef
 
@@ -144,7 +144,7 @@ estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/re
 dataset-last:
 	$(dataset_end)
 drop: ## Remove what outputs.keep of the dataset does not name, of packed samples: CONFIG=
-	@bash pipelines/dataset_drop.sh '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)
+	@$(call dataset_alone,$@) && bash pipelines/dataset_drop.sh '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)
 submit: $(DATASET_DIR)/plan/plan.yaml ## A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/slurm/default.sh RETRY=yes]
 	@bash pipelines/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
 endif

@@ -9,12 +9,26 @@ PACK   ?= $(or $(filter-out none,$(shell sed -n 's/^  pack: *//p' '$(strip $(DAT
 PACK_GIVEN := $(filter command environment,$(firstword $(origin PACK)))
 $(foreach v,CARD FORMAT DATASET_DIR PACK,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
 
-.PHONY: pack dataset-pack repack
-PACK_GOALS := $(filter pack dataset-pack repack,$(MAKECMDGOALS))
-ifneq ($(and $(DATASET_DIR),$(PACK_GOALS)),)
-$(call check_name,DATASET_DIR)
+.PHONY: pack repack dataset-pack dataset-repack
 SHARDS_DIR := $(DATASET_DIR)/shards
 
+# Who packs or drops does it alone: to be said in the shell of a recipe, which holds the lock until it and what it started end. Only then make
+# looks at what there is to do.
+dataset_alone = { [ ! -d '$(DATASET_DIR)' ] || { exec 9> '$(DATASET_DIR)/.packing'; flock -n 9 || { echo "$(1): waiting for another run that packs or drops" >&2; flock 9; }; }; }
+pack_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) $(if $(findstring s,$(firstword -$(MAKEFLAGS))),-s) -f Makefile.data $(1) $(MAKEOVERRIDES)
+
+ifeq ($(and $(DATASET_DIR),$(filter pack repack dataset-pack dataset-repack,$(MAKECMDGOALS))),)
+pack repack dataset-pack dataset-repack:
+	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
+else
+$(call check_name,DATASET_DIR)
+pack: ## A made dataset as HDF5 shards with tables, card and checksums: CONFIG= (or DATASET_DIR=) [PACK=slim]
+	@$(call dataset_alone,$@) && $(call pack_again,dataset-pack)
+repack: ## The same in another layout: CONFIG= FORMAT=webdataset|univtac|folder
+	@$(call dataset_alone,$@) && $(call pack_again,dataset-repack)
+endif
+
+ifneq ($(and $(DATASET_DIR),$(filter dataset-pack dataset-repack,$(MAKECMDGOALS))),)
 # PACK_SHARDS, and for each shard a file that changes when anything does that is packed into it: a sample made anew packs its shard anew.
 ifneq ($(shell bash pipelines/pack_inputs.sh '$(DATASET_DIR)' configs/pack/$(PACK).yaml && echo done),done)
   $(error pack: not possible)
@@ -23,25 +37,23 @@ include $(SHARDS_DIR)/shards.mk
 
 # Another card is another dataset however old its file is.
 $(SHARDS_DIR)/card.choice: FORCE
-	@echo '$(CARD)' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+	@echo '$(CARD)' > $@.new-$$$$; cmp -s $@.new-$$$$ $@ && rm $@.new-$$$$ || mv $@.new-$$$$ $@
 
+# Beside the record, what it was packed from; without it (or older) that is not known.
 $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml): $(SHARDS_DIR)/%/pack.yaml: $(SHARDS_DIR)/%.inputs | build
-	$(call run,pack,--config configs/pack/$(PACK).yaml --plan $(DATASET_DIR)/plan/samples.csv --dataset $(DATASET_DIR)/plan/dataset.yaml --shard $*)
+	$(call run,pack,--config configs/pack/$(PACK).yaml --plan $(DATASET_DIR)/plan/samples.csv --dataset $(SHARDS_DIR)/dataset.yaml --shard $*)
+	@cp $< $(@D)/packed.inputs || rm -f $(@D)/packed.inputs
 
 SHARD_RECORDS := $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml)
 $(DATASET_DIR)/pack/card.yaml: configs/card/$(CARD).yaml configs/card/loader.py $(SHARDS_DIR)/card.choice $(SHARD_RECORDS) | build
-	$(call run,card,--name $(notdir $(DATASET_DIR)) --config $< --plan $(DATASET_DIR)/plan/samples.csv --dataset $(DATASET_DIR)/plan/dataset.yaml \
+	$(call run,card,--name $(notdir $(DATASET_DIR)) --config $< --plan $(DATASET_DIR)/plan/samples.csv --dataset $(SHARDS_DIR)/dataset.yaml \
 	  --shard $(SHARD_RECORDS) --loader configs/card/loader.py $(if $(wildcard CITATION.cff),--citation CITATION.cff))
 
 $(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/repack/$(FORMAT).yaml $(SHARDS_DIR)/%/pack.yaml | build
 	$(call run,repack,--config $< --shard $(SHARDS_DIR)/$*/$*.h5)
 
-pack: $(DATASET_DIR)/pack/card.yaml ## A made dataset as HDF5 shards with tables, card and checksums: CONFIG= (or DATASET_DIR=) [PACK=slim]
+dataset-pack: $(DATASET_DIR)/pack/card.yaml
 	@echo; echo "Give away $(DATASET_DIR)/pack; begin with its README.md"
-dataset-pack: pack
-repack: $(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml) ## The same in another layout: CONFIG= FORMAT=webdataset|univtac|folder
+dataset-repack: $(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml)
 	@echo; echo "Look into $(DATASET_DIR)/repack/$(FORMAT)"
-else
-pack repack dataset-pack:
-	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
 endif

@@ -47,15 +47,61 @@ touch mine/set.yaml configs/pack/slim.yaml # the same plan and profile, later
 goal out dataset > said.txt 2>&1 || fail "a run after all was dropped fails: $(cat said.txt)"
 [ "$before" = "$(stamp)" ] || fail "a run after all was dropped did something: $(diff <(echo "$before") <(stamp))"
 grep -q '^set: 6 samples: 6 made, 0 failed' said.txt || fail "dropped samples do not count"
+
+# What can no longer be packed stays as it was, and what users download with it; another card and keys that no sample depends on ask for nothing of it.
+whole() { (cd $set/pack && sha256sum --quiet -c checksums.sha256) && [ "$(find $set/pack/shards -name '*.h5' | wc -l)" = 2 ]; }
+shards() { stat -c '%n %y' $set/shards/*/*.h5; }
+before=$(stamp)
 goal out pack PACK=full > said.txt 2>&1 && fail "what is gone was packed"
 grep -q 'was dropped after packing and cannot be packed again; clean-press, then it is made anew' said.txt || fail "it is not said why: $(cat said.txt)"
+grep -q 'shards/[a-z]*-00000-of-00001 stays as it was before' said.txt || fail "it is not said what became of the shard: $(cat said.txt)"
+whole || fail "a shard that was refused took what was packed with it"
+goal out pack PACK=slim > said.txt 2>&1 || fail "with the profile of before it is not as before: $(cat said.txt)"
+[ "$before" = "$(stamp | grep -v '/pack\.failed\.yaml ')" ] || fail "a shard that was refused did something: $(diff <(echo "$before") <(stamp))"
+packed=$(shards)
+sed -i 's/keep: \[\]}/keep: [], shard_mb: 900}/' mine/set.yaml
+echo 'stop_after_failures: 7' >> mine/set.yaml
+goal out dataset > said.txt 2>&1 || fail "a key that no sample depends on asks for them: $(cat said.txt)"
+sed -i 's/^purpose:.*/purpose: Another one./' configs/card/default.yaml
+goal out pack > said.txt 2>&1 || fail "what is packed gets no other card: $(cat said.txt)"
+grep -qx 'Another one\.' $set/pack/README.md && whole && [ "$packed" = "$(shards)" ] || fail "another card is not there, or packed anew"
+for shard in $set/pack/shards/*.h5; do
+  [ "$(/usr/bin/python3 -c 'import h5py, sys; print(h5py.File(sys.argv[1]).attrs["config_sha256"])' "$shard")" = "$(sha256sum < $set/pack/dataset.yaml | cut -c1-64)" ] || fail "$shard is of another dataset.yaml"
+done
+
+# A file of the dataset that is wrong leaves the plan, by which parts and status go on.
+cp mine/set.yaml right.yaml
+echo 'stop_after_failure: 7' >> mine/set.yaml
+before=$(stamp)
+for goal in plan dataset; do
+  code=0
+  goal out $goal > said.txt 2>&1 || code=$?
+  [ "$code" = 2 ] && [ "$(grep -c 'unknown key (did you mean stop_after_failures?)' said.txt)" = 1 ] || fail "$goal does not refuse a wrong key: $(cat said.txt)"
+  grep -q 'plan stays as it was before' said.txt || fail "it is not said what became of the plan: $(cat said.txt)"
+done
+goal out dataset-part PART=0 PARTS=2 > said.txt 2>&1 && goal out status >> said.txt 2>&1 || fail "without another plan there is none: $(cat said.txt)"
+grep -q '^set: 6 samples: 6 made, 0 failed' said.txt && [ "$before" = "$(stamp)" ] || fail "a wrong key did something: $(cat said.txt)"
+cp right.yaml mine/set.yaml
+
 goal out clean-press
 goal out dataset > said.txt 2>&1 || fail "what was dropped is not made anew: $(cat said.txt)"
 [ "$(files press.yaml)" = 6 ] || fail "not all was made anew"
 
 # Or nothing of this.
-sed -i 's/pack: slim, keep: \[\]/pack: none/' mine/set.yaml
+sed -i 's/pack: slim, keep: \[\], shard_mb: 900/pack: none/' mine/set.yaml
 goal plain dataset > /dev/null 2>&1 || fail "without packing it is not made"
 [ ! -e plain/datasets/set/pack ] || fail "it is packed though it should not"
 [ "$(find plain/datasets/set/samples -name positions.npy | wc -l)" = 6 ] || fail "what is not packed is dropped"
+
+# Two endings at once: one packs and drops, the other finds it done.
+sed -i 's/pack: none/pack: slim, keep: []/' mine/set.yaml
+goal plain plan > /dev/null 2>&1
+for task in 0 1 2; do
+  if [ $task = 2 ]; then goal plain pack PACK=slim > last_$task.txt 2>&1 & else goal plain dataset-last > last_$task.txt 2>&1 & fi
+  endings[task]=$!
+done
+for task in 0 1 2; do wait "${endings[task]}" || fail "an ending beside others fails: $(cat last_$task.txt)"; done
+[ "$(cat last_?.txt | grep -c '^pack: [a-z]*-00000-of-00001: ')" = 2 ] && [ "$(cat last_?.txt | grep -c '^card: ')" = 1 ] || fail "it is packed more than once: $(cat last_?.txt)"
+(cd plain/datasets/set/pack && sha256sum --quiet -c checksums.sha256) || fail "the checksums do not hold"
+[ "$(find plain/datasets/set/samples -name positions.npy | wc -l)" = 0 ] || fail "what is packed is not dropped"
 echo "1 passed, 0 failed"
