@@ -83,6 +83,14 @@ goal out dataset-part PART=0 PARTS=2 > said.txt 2>&1 && goal out status >> said.
 grep -q '^set: 6 samples: 6 made, 0 failed' said.txt && [ "$before" = "$(stamp)" ] || fail "a wrong key did something: $(cat said.txt)"
 cp right.yaml mine/set.yaml
 
+# Dropped samples are made again to the same records, which have the hashes of what was dropped.
+goal out reproduce K=2 > said.txt 2>&1 && [ "$(grep -c ': equal bytes$' said.txt)" = 2 ] || fail "dropped samples cannot be reproduced: $(cat said.txt)"
+cp -a out tampered
+for record in tampered/datasets/set/samples/000/*/render/render.yaml; do
+  sed -i -E '/^outputs:/,/^summary:/s|(indentation\.exr: )[0-9a-f]{4}|\1beef|' "$record"
+done
+goal tampered reproduce K=1 > said.txt 2>&1 && fail "other bytes than the record's went unseen"
+grep -q 'reproduce: 1 of 1 samples differ' said.txt || fail "it is not said that a sample differs: $(cat said.txt)"
 goal out clean-press
 goal out dataset > said.txt 2>&1 || fail "what was dropped is not made anew: $(cat said.txt)"
 [ "$(files press.yaml)" = 6 ] || fail "not all was made anew"
