@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # What each shard of a dataset is packed from: pack_inputs.sh DATASET PROFILE writes DATASET/shards/<shard>.inputs where it is not there with
-# these bytes already, and shards.mk
-# with their names; to be run by one at a time. Contents count, not times of plan and profile; of records
-# their times do. Of dataset.yaml counts what all samples share: how a run ends, when it stops and how shards are divided (which their rows say) do not.
+# these bytes already, and shards.mk and shards.txt with their names; to be run by one at a time. Contents count, not times of plan and profile; of
+# records their times do. Of dataset.yaml counts what all samples share: not how a run ends or when it stops, nor how shards are divided, which rows say.
 set -euo pipefail
 export LC_ALL=C
 dataset=$1 profile=$2
@@ -35,7 +34,7 @@ common=$(sha256sum < "$new/dataset.yaml" | cut -c1-64)$(sha256sum < "$profile" |
         if (open[split_of] != shard) {
           if (open[split_of] != "") close(new "/" open[split_of] ".inputs")
           open[split_of] = shard
-          if (!(shard in known)) { known[shard] = 1; print common > (new "/" shard ".inputs"); names = names " " shard }
+          if (!(shard in known)) { known[shard] = 1; print common > (new "/" shard ".inputs"); names = names " " shard; print shard "/pack.yaml" > (new "/shards.txt") }
         }
         place = substr(f[at["folder"]], 9)
         print line, found[place, "press.yaml"], found[place, "press.failed.yaml"], found[place, "render.yaml"], found[place, "render.failed.yaml"] >> (new "/" shard ".inputs")

@@ -23,7 +23,8 @@ const StageSpec kCard{
     .inputs = {{.flag = "--config", .help = "purpose, licence (YAML)"},
                {.flag = "--plan", .help = "samples.csv of plan"},
                {.flag = "--dataset", .help = "dataset.yaml of plan"},
-               {.flag = "--shard", .help = "pack.yaml of each shard", .many = true},
+               {.flag = "--shards",
+                .help = "text file with the record of each shard (pack.yaml), a line each, as seen from the file"},
                {.flag = "--loader", .help = "Python lines that load a shard"},
                {.flag = "--citation", .help = "CITATION.cff", .required = false}},
     .options = {{.flag = "--name", .help = "the dataset's name", .fallback = "dataset"}},
@@ -55,6 +56,13 @@ class Checksums {
   std::vector<std::pair<std::string, std::string>> lines_;
 };
 
+/// Inputs as the record has them.
+std::vector<std::pair<std::string, fs::path>> named_by_folder(const std::vector<fs::path>& records) {
+  std::vector<std::pair<std::string, fs::path>> named;
+  for (const fs::path& path : records) named.emplace_back("shards/" + path.parent_path().filename().string(), path);
+  return named;
+}
+
 /// Copies, never links: a user of the project may edit a sensor file in place.
 void copy_origins(Stage& stage, Checksums& sums, const std::string& folder,
                   const std::map<std::string, std::map<std::string, OriginFile>>& origins) {
@@ -83,7 +91,9 @@ void write_cameras(Checksums& sums, const ShardRecords& records) {
 int main(int argc, char** argv) {
   return run_stage(kCard, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<CardConfig>("--config");
-    const ShardRecords records = read_shard_records(stage.inputs("--shard"));
+    const std::vector<fs::path> listed = listed_records(stage.input("--shards"));
+    stage.add_inputs(named_by_folder(listed));
+    const ShardRecords records = read_shard_records(listed);
     Checksums sums(stage);
     const DatasetCounts counts = join_tables(stage.input("--plan"), records, [&](const std::string& name) {
       return name == "timings.csv" ? stage.varying_output(name) : sums.output(name);

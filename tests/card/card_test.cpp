@@ -45,11 +45,15 @@ class CardTest : public ProgramTest {
         << said_;
   }
   int card(const std::string& shards = "shards/*/pack.yaml") {
+    list(shards);
     return run_command(
         fmt::format("cd {} && {}/card --config card.yaml --plan data/plan/samples.csv --dataset "
-                    "data/plan/dataset.yaml --shard {} --loader loader.py --name toys --out out --log-level "
+                    "data/plan/dataset.yaml --shards shards.txt --loader loader.py --name toys --out out --log-level "
                     "error",
-                    (scratch_ / "").string(), TACIPC_BIN_DIR, shards));
+                    (scratch_ / "").string(), TACIPC_BIN_DIR));
+  }
+  void list(const std::string& shards) {
+    ASSERT_EQ(run_command(fmt::format("cd {} && printf '%s\\n' {} > shards.txt", (scratch_ / "").string(), shards)), 0);
   }
   std::string text(const std::string& name) { return read_file(scratch_ / ("out/" + name)); }
 
@@ -86,8 +90,9 @@ TEST_F(CardTest, ThereMayBeMoreShardsThanFilesThatAProcessOpens) {
   scratch_.file("data/plan/samples.csv", plan_);
   std::filesystem::remove_all(scratch_ / "shards");
   for (const std::string& shard : shards) pack(shard);
+  list("shards/*/pack.yaml");
   ASSERT_EQ(run_command(fmt::format("cd {} && ulimit -n 36 && {}/card --config card.yaml --plan data/plan/samples.csv "
-                                    "--dataset data/plan/dataset.yaml --shard shards/*/pack.yaml --loader loader.py "
+                                    "--dataset data/plan/dataset.yaml --shards shards.txt --loader loader.py "
                                     "--out out --threads 1 --log-level error",
                                     (scratch_ / "").string(), TACIPC_BIN_DIR)),
             0)
@@ -137,6 +142,26 @@ TEST_F(CardTest, ShardsMustBeThoseOfThePlan) {
   scratch_.file("data/plan/samples.csv", kPlanHeader + row(3, "train", "cube", kTrain) + row(2, "val", "cube", kVal));
   EXPECT_EQ(card(), 1);
   EXPECT_THAT(said_, HasSubstr("is of another plan: expected toy__cube__press__000003 next"));
+}
+
+TEST_F(CardTest, TheListNamesShardsThatAreThere) {
+  EXPECT_EQ(card(fmt::format("shards/{}/pack.yaml shards/gone/pack.yaml", kTrain)), 1);
+  EXPECT_THAT(said_, HasSubstr("shards/gone/pack.yaml has not been packed: there is no shards/gone/pack.yaml"));
+  EXPECT_EQ(card("''"), 1);
+  EXPECT_THAT(said_, HasSubstr("shards.txt: names no shard"));
+  ASSERT_EQ(card(), 0) << said_;
+  EXPECT_THAT(text("card.yaml"),
+              HasSubstr(fmt::format("  shards/{}:\n    path: ../shards/{}/pack.yaml\n", kVal, kVal)));
+}
+
+TEST_F(CardTest, ARefusedCardLeavesWhatUsersDownload) {
+  ASSERT_EQ(card(), 0) << said_;
+  const std::string before = content_hash(scratch_ / "out");
+  std::filesystem::remove(scratch_ / "made_from/object.ply");
+  EXPECT_EQ(card(), 1);
+  EXPECT_THAT(said_, HasSubstr("object.ply: has changed or gone since the samples were made from it"));
+  std::filesystem::remove(scratch_ / "out/card.failed.yaml");
+  EXPECT_EQ(content_hash(scratch_ / "out"), before);
 }
 
 TEST_F(CardTest, ShardsMustHaveTheSameFieldsAndFiles) {

@@ -89,6 +89,21 @@ done
 same_files one/repack again/repack
 "$python" "$source_dir/tests/pipeline/check_repack.py" one/shards one/repack || fail "an export does not hold what was packed"
 
+# More shards than a command line has room for: the card is told by a file.
+mkdir -p many/plan fake/bin
+echo 'name: many' > many/plan/dataset.yaml
+awk 'BEGIN { print "id,index,split,split_pose,seed,sensor,mesh,object,motion,shard,folder"
+  for (i = 0; i < 1200; ++i) { id = sprintf("s__o__m__%06d", i); printf "%s,%d,train,train,1,s,m,o,m,train-%s%05d-of-01200,samples/000/%s\n", id, i, "with_a_long_name_so_that_twelve_hundred_of_them_take_more_than_128_kilobytes-", i, id } }' > many/plan/samples.csv
+echo '#!/bin/sh
+while [ "$1" != --out ]; do shift; done; echo packed > "$2/pack.yaml"' > fake/bin/pack
+echo '#!/bin/sh
+for word; do case $before in --shards) (cd "${word%/*}" && xargs cat < "${word##*/}") | grep -c packed ;; --out) out=$word ;; esac; before=$word; done; : > "$out/card.yaml"' > fake/bin/card
+chmod +x fake/bin/*
+bash pipelines/pack_inputs.sh many configs/pack/full.yaml
+mkdir many/pack && (cd many/shards && sed 's|/pack.yaml||' shards.txt | xargs mkdir && xargs touch < shards.txt && for record in $(cat shards.txt); do echo packed > "$record"; done)
+make -s -f Makefile.data pack DATASET_DIR=many BUILD=fake PACKAGES=no REBUILD=no > said.txt 2>&1 || fail "twelve hundred shards get no card: $(tail -n 5 said.txt | cut -c1-300)"
+grep -qx 1200 said.txt || fail "the card is not told of all shards: $(cut -c1-300 said.txt)"
+
 code=0
 pack_dataset nowhere 2> said.txt || code=$?
 [ "$code" = 2 ] || fail "a dataset that is not there is not refused"
