@@ -114,10 +114,8 @@ plan: $(DATASET_DIR)/plan/plan.yaml ## Samples of a dataset, without making them
 
 # What a run ends with: samples that are made are packed, failed ones listed, and what outputs.keep does not name is dropped. Make begins
 # anew for it, as what there is to pack has only now been made. A failed sample does not stop the others; the last line does not let it pass unseen.
-dataset_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) -s -f Makefile.data $(1) $(dataset_variables) REBUILD=no JOBS=$(JOBS) THREADS=$(THREADS) CARD=$(CARD) \
-  $(if $(PACK_GIVEN),PACK=$(PACK))
 define dataset_end
-	@ended=0; $(if $(filter none,$(DATASET_PROFILE)),,($(call dataset_alone,$@) && $(call dataset_again,dataset-pack) && \
+	@ended=0; $(if $(filter none,$(DATASET_PROFILE)),,($(call dataset_alone,$@) && $(call make_again,-s dataset-pack REBUILD=no) && \
 	  bash pipelines/dataset_drop.sh --whole-shards '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)) || ended=$$?;) \
 	bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)' && exit $$ended
 endef

@@ -6,7 +6,6 @@ FORMAT ?= webdataset#  of repack: a file of configs/repack
 CONFIG ?=#             the dataset's configuration, by which its folder is named; or instead
 DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the folder
 PACK   ?= $(or $(filter-out none,$(shell sed -n 's/^  pack: *//p' '$(strip $(DATASET_DIR))/plan/dataset.yaml' 2> /dev/null)),full)# a file of configs/pack; as the dataset says
-PACK_GIVEN := $(filter command environment,$(firstword $(origin PACK)))
 $(foreach v,CARD FORMAT DATASET_DIR PACK,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
 
 .PHONY: pack repack dataset-pack dataset-repack
@@ -15,7 +14,7 @@ SHARDS_DIR := $(DATASET_DIR)/shards
 # Who packs or drops does it alone: to be said in the shell of a recipe, which holds the lock until it and what it started end. Only then make
 # looks at what there is to do.
 dataset_alone = { [ ! -d '$(DATASET_DIR)' ] || { exec 9> '$(DATASET_DIR)/.packing'; flock -n 9 || { echo "$(1): waiting for another run that packs or drops" >&2; flock 9; }; }; }
-pack_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) $(if $(findstring s,$(firstword -$(MAKEFLAGS))),-s) -f Makefile.data $(1) $(MAKEOVERRIDES)
+make_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) $(if $(findstring s,$(firstword -$(MAKEFLAGS))),-s) -f Makefile.data $(MAKEOVERRIDES) $(1)
 
 ifeq ($(and $(DATASET_DIR),$(filter pack repack dataset-pack dataset-repack,$(MAKECMDGOALS))),)
 pack repack dataset-pack dataset-repack:
@@ -23,9 +22,9 @@ pack repack dataset-pack dataset-repack:
 else
 $(call check_name,DATASET_DIR)
 pack: ## A made dataset as HDF5 shards with tables, card and checksums: CONFIG= (or DATASET_DIR=) [PACK=slim]
-	@$(call dataset_alone,$@) && $(call pack_again,dataset-pack)
+	@$(call dataset_alone,$@) && $(call make_again,dataset-pack)
 repack: ## The same in another layout: CONFIG= FORMAT=webdataset|univtac|folder
-	@$(call dataset_alone,$@) && $(call pack_again,dataset-repack)
+	@$(call dataset_alone,$@) && $(call make_again,dataset-repack)
 endif
 
 ifneq ($(and $(DATASET_DIR),$(filter dataset-pack dataset-repack,$(MAKECMDGOALS))),)

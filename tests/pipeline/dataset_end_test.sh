@@ -65,6 +65,7 @@ goal out dataset > said.txt 2>&1 || fail "a key that no sample depends on asks f
 sed -i 's/^purpose:.*/purpose: Another one./' configs/card/default.yaml
 goal out pack > said.txt 2>&1 || fail "what is packed gets no other card: $(cat said.txt)"
 grep -qx 'Another one\.' $set/pack/README.md && whole && [ "$packed" = "$(shards)" ] || fail "another card is not there, or packed anew"
+[ -s $set/pack/sensors/mctac/markers-tiny.csv ] || fail "the download has no markers"
 for shard in $set/pack/shards/*.h5; do
   [ "$(/usr/bin/python3 -c 'import h5py, sys; print(h5py.File(sys.argv[1]).attrs["config_sha256"])' "$shard")" = "$(sha256sum < $set/pack/dataset.yaml | cut -c1-64)" ] || fail "$shard is of another dataset.yaml"
 done
@@ -82,6 +83,20 @@ done
 goal out dataset-part PART=0 PARTS=2 > said.txt 2>&1 && goal out status >> said.txt 2>&1 || fail "without another plan there is none: $(cat said.txt)"
 grep -q '^set: 6 samples: 6 made, 0 failed' said.txt && [ "$before" = "$(stamp)" ] || fail "a wrong key did something: $(cat said.txt)"
 cp right.yaml mine/set.yaml
+
+# What begins while the plan is replaced waits for the new one.
+(
+  flock 9
+  mv $set/plan/plan.yaml replaced.yaml
+  sleep 2
+  mv replaced.yaml $set/plan/plan.yaml
+) 9> $set/plan/.lock-plan &
+for _ in $(seq 100); do [ -e $set/plan/plan.yaml ] || break; sleep 0.02; done
+goal out pack > pack.txt 2>&1 &
+packing=$!
+goal out dataset-part PART=0 PARTS=2 > said.txt 2>&1 || fail "a part does not wait for a plan that is being replaced: $(cat said.txt)"
+grep -q 'new or changed' said.txt && fail "a part made the plan anew while another did: $(cat said.txt)"
+wait $packing || fail "packing does not wait for a plan that is being replaced: $(cat pack.txt)"
 
 # Dropped samples are made again to the same records, which have the hashes of what was dropped.
 goal out reproduce K=2 > said.txt 2>&1 && [ "$(grep -c ': equal bytes$' said.txt)" = 2 ] || fail "dropped samples cannot be reproduced: $(cat said.txt)"
