@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
     auto faults = faults_of_plan(config, sensors, stage.input("--config").string());
     if (!faults.empty()) throw ConfigError(std::move(faults));
     const auto samples = plan_samples(config, packed_bytes(stage, config, sensors));
-    for (const auto& [name, content] : plan_files(config, sensors, samples)) write_file(stage.output(name), content);
+    const std::vector<Choice> choices = choices_of(config, sensors);
+    for (const auto& [name, content] : plan_files(config, choices, samples)) write_file(stage.output(name), content);
     write_file(stage.output("dataset.yaml"), resolved_text(stage.input("--config")));
 
     const auto by_object = count(samples, &PlannedSample::split);
@@ -85,7 +86,7 @@ int main(int argc, char** argv) {
                      {"split_by_object", split_lines(by_object)},
                      {"split_by_pose", split_lines(count(samples, &PlannedSample::split_pose))}});
     stage.retire_old_record();  // the samples' files are no outputs, and from here on those of another plan
-    const int written = write_dataset_files(config, samples, stage.out().parent_path());
+    const int written = write_dataset_files(config, choices, samples, stage.out().parent_path());
     log_info("{} samples of {} objects, {} motions, {} sensors; {} new or changed", samples.size(),
              config.objects.size(), config.motions.size(), config.sensors.size(), written);
   });

@@ -26,13 +26,24 @@ std::string object_yaml(const ObjectChoice& object) {
   return fmt::format("unit: {}\n", object.unit) + (object.up ? fmt::format("up: \"{}\"\n", *object.up) : "");
 }
 
-std::string dataset_mk(const DatasetConfig& config, const std::vector<Sensor>& sensors,
+/// Files that render reads for a gel, but its settings.
+std::string files_of_render(const std::vector<Choice>& choices, const SensorChoice& sensor) {
+  std::vector<std::string> files;
+  for (const Choice& choice : choices)
+    if (choice.name == "render-" + sensor.gel())
+      for (auto chosen = choice.files.begin() + 1; chosen != choice.files.end(); ++chosen)
+        files.push_back(chosen->file.generic_string());
+  return joined(files);
+}
+
+std::string dataset_mk(const DatasetConfig& config, const std::vector<Choice>& choices,
                        const std::vector<std::string>& blocks, const std::vector<std::string>& shards,
                        std::size_t samples) {
   std::string text = "# Made by the stage plan.\n";
   const auto set = [&](const std::string& name, const std::string& value) {
     text += fmt::format("DATASET_{} := {}\n", name, value);
   };
+  set("CHOICES", "$(DATASET_DIR)/choices");
   set("SAMPLES", std::to_string(samples));
   set("BLOCKS", joined(blocks));
   set("RENDER", config.render.generic_string());
@@ -41,13 +52,10 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Sensor>& s
   set("KEEP", joined(config.keep));
   set("SHARDS", joined(shards));
   text += fmt::format("DATASET_STOP_AFTER ?= {}\n", config.stop_after_failures);
-  for (std::size_t s = 0; s < sensors.size(); ++s) {
-    const SensorChoice& choice = config.sensors[s];
-    const auto& reference = sensors[s].reference_image;
+  for (const SensorChoice& choice : config.sensors)
     text += fmt::format("$(eval $(call dataset_gel,{},{},{},{},{}))\n", choice.gel(), choice.sensor.generic_string(),
                         choice.mesh_config.generic_string(), choice.import ? choice.import->generic_string() : "",
-                        reference ? reference->lexically_normal().generic_string() : "");
-  }
+                        files_of_render(choices, choice));
   for (const ObjectChoice& object : config.objects)
     text += fmt::format("$(eval $(call dataset_{},{},{}))\n", object.embossed ? "embossed" : "mesh", object.name,
                         object.file.generic_string());
@@ -55,9 +63,12 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Sensor>& s
 }
 
 /// Missing files are a matter of the plan, which says so better than make.
-std::string inputs_mk(const DatasetConfig& config) {
+std::string inputs_mk(const DatasetConfig& config, const std::vector<Choice>& choices) {
+  std::set<fs::path> paths(config.named.begin(), config.named.end());
+  for (const Choice& choice : choices)
+    for (const ChosenFile& chosen : choice.files) paths.insert(chosen.file);
   std::string text = "$(DATASET_DIR)/plan/plan.yaml:", rules;
-  for (const fs::path& path : config.named) {
+  for (const fs::path& path : paths) {
     text.append(" ").append(path.generic_string());
     rules += path.generic_string() + ":\n";
   }
@@ -85,7 +96,7 @@ std::string paths_of(const MotionChoice& motion) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig& config,
-                                                            const std::vector<Sensor>& sensors,
+                                                            const std::vector<Choice>& choices,
                                                             const std::vector<PlannedSample>& samples) {
   std::vector<std::pair<std::string, std::string>> files{{"samples.csv", samples_csv(config, samples)}};
   std::map<std::string, std::string> rules, members;
@@ -95,18 +106,18 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
     const std::string block = block_of(sample);
     if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
     const MotionChoice& motion = config.motions[static_cast<std::size_t>(sample.motion)];
-    rules[block] += fmt::format("$(eval $(call dataset_sample,{},{},{},{},{},{}))\n", place_of(sample),
+    rules[block] += fmt::format("$(eval $(call dataset_sample,{},{},{},{},{},{},{}))\n", place_of(sample),
                                 config.objects[static_cast<std::size_t>(sample.object)].name,
                                 config.sensors[static_cast<std::size_t>(sample.sensor)].gel(),
-                                motion.press.generic_string(), paths_of(motion), sample.seed);
+                                motion.press.generic_string(), paths_of(motion), sample.seed, motion.name);
     shards.insert(sample.shard);
     members[block].append(" ").append(place_of(sample));
   }
   for (const std::string& block : blocks)
     files.emplace_back("blocks/" + block + ".mk",
                        rules[block] + "DATASET_BLOCK_" + block + " :=" + members[block] + "\n");
-  files.emplace_back("dataset.mk", dataset_mk(config, sensors, blocks, {shards.begin(), shards.end()}, samples.size()));
-  files.emplace_back("inputs.mk", inputs_mk(config));
+  files.emplace_back("dataset.mk", dataset_mk(config, choices, blocks, {shards.begin(), shards.end()}, samples.size()));
+  files.emplace_back("inputs.mk", inputs_mk(config, choices));
   for (std::size_t m = 0; m < config.motions.size(); ++m) {
     const auto& phases = config.motions[m].motion.phases;
     for (std::size_t p = 0; p < phases.size(); ++p)
@@ -116,8 +127,9 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
   return files;
 }
 
-int write_dataset_files(const DatasetConfig& config, const std::vector<PlannedSample>& samples,
-                        const fs::path& dataset) {
+int write_dataset_files(const DatasetConfig& config, const std::vector<Choice>& choices,
+                        const std::vector<PlannedSample>& samples, const fs::path& dataset) {
+  write_choices(choices, dataset / "choices");
   for (const ObjectChoice& object : config.objects)
     write_if_changed(dataset / "objects" / object.name / "object.yaml", object_yaml(object));
   int written = 0;

@@ -124,7 +124,9 @@ std::string path_name(const DatasetConfig& config, int motion, int phase) {
 
 std::string sample_yaml(const DatasetConfig& config, const PlannedSample& sample) {
   const MotionTemplate& motion = config.motions[static_cast<std::size_t>(sample.motion)].motion;
-  return fmt::format("# {}, seed {}\n", sample.id, sample.seed) +
+  // The gel is not part of the name, and decides which press belongs to it.
+  return fmt::format("# {} in gel {}, seed {}\n", sample.id,
+                     config.sensors[static_cast<std::size_t>(sample.sensor)].gel(), sample.seed) +
          motion.sample_yaml([&](int d) { return drawn_number(config, sample, d); },
                             [&](int phase) { return "../../../plan/" + path_name(config, sample.motion, phase); });
 }
