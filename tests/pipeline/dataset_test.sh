@@ -147,7 +147,20 @@ goal again dataset > /dev/null || fail "an input that changed did not let failed
 sed -i 's/pack: none/pack: none, keep: [render]/' mine/set.yaml
 goal again drop 2> /dev/null && fail "what is not packed was dropped"
 mkdir again/datasets/set/pack
-{ echo id,status; sed '1d; s/,.*/,made/; /__gear__/d' again/datasets/set/plan/samples.csv; } > again/datasets/set/pack/manifest.csv
+sha() { sha256sum < "$1" | cut -c1-64; }
+{
+  echo id,status,press_sha256,render_sha256
+  sed '1d; /__gear__/d' again/datasets/set/plan/samples.csv | while IFS=, read -r id _ _ _ _ _ _ _ _ _ folder; do
+    echo "$id,made,$(sha "again/datasets/set/$folder/press/press.yaml"),$(sha "again/datasets/set/$folder/render/render.yaml")"
+  done
+} > again/datasets/set/pack/manifest.csv
+# One that is not as it was packed, one that another run is at work at.
+cp again/datasets/set/pack/manifest.csv manifest.csv
+sed -i "/^$(id star__along),/s/,[0-9a-f]*$/,0/" again/datasets/set/pack/manifest.csv
+{ flock 9; goal again drop > /dev/null 2> said.txt; } 9> "again/datasets/set/samples/000/$(id pyramid__along)/render/.making"
+[ "$(find again/datasets/set/samples -name positions.npy | wc -l)" = 6 ] || fail "what is not as it was packed was dropped, or is being made"
+grep -q '^set: 2 samples are not as they were packed, or are being made, and keep their files$' said.txt || fail "it is not told: $(cat said.txt)"
+cp manifest.csv again/datasets/set/pack/manifest.csv
 goal again drop > /dev/null
 [ "$(find again/datasets/set/samples -name positions.npy | grep -vc __gear__)" = 0 ] || fail "files of press are still there"
 [ "$(find again/datasets/set/samples -name positions.npy | wc -l)" = 4 ] || fail "what is not packed was dropped"
