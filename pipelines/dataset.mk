@@ -39,34 +39,39 @@ endif
 DATASET_DIR := $(OUT)/datasets/$(basename $(notdir $(CONFIG)))
 
 dataset_variables := CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) PACKAGES=$(PACKAGES) REBUILD=$(REBUILD)
+submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter command environment,$(firstword $(origin $(v)))),$(v)=$(strip $($(v)))))# where they are given
 
-# A gel, $(call dataset_gel,name,sensor,mesh,mesh to import,photograph of the sensor); an object, by its pattern or mesh.
+# A file that changes when another file was chosen for a gel, an object, a motion or a rendering, however old that one is. (A plan made by an earlier version has none.)
+dataset_choice = $(if $(DATASET_CHOICES),$(DATASET_CHOICES)/$(1))
+# Of runs that miss a gel or an object together one makes it, and the others take that one. $(call dataset_shared,stage,what it is made of,flags)
+dataset_shared = bash pipelines/dataset_shared.sh '$@' '$(2)' $(call run,$(1),$(3))
+# A gel, $(call dataset_gel,name,sensor,mesh,mesh to import,photographs and further sensors for render); an object, by its pattern or mesh.
 define dataset_gel
 DATASET_SENSOR_$(1) := $(2)
-DATASET_PHOTOGRAPH_$(1) := $(5)
-$(DATASET_DIR)/gels/$(1)/tetmesh.yaml: $(2) $(3) $(4) | build
-	$$(call run,tetmesh,--sensor $(2) --config $(3) $(if $(4),--import $(4)))
+DATASET_RENDERED_$(1) := $(5)
+$(DATASET_DIR)/gels/$(1)/tetmesh.yaml: $(2) $(3) $(4) $(call dataset_choice,gel-$(1)) | build
+	$$(call dataset_shared,tetmesh,$(2) $(3) $(4) $(call dataset_choice,gel-$(1)),--sensor $(2) --config $(3) $(if $(4),--import $(4)))
 DATASET_SHARED += $(DATASET_DIR)/gels/$(1)/tetmesh.yaml
 endef
 define dataset_mesh
-$(DATASET_DIR)/objects/$(1)/decimate.yaml: $(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $$(DATASET_DECIMATE) | build
-	$$(call run,decimate,--mesh $(2) --object $$(@D)/object.yaml --config $$(DATASET_DECIMATE))
+$(DATASET_DIR)/objects/$(1)/decimate.yaml: $(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)) | build
+	$$(call dataset_shared,decimate,$(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)),--mesh $(2) --object $$(@D)/object.yaml --config $(DATASET_DECIMATE))
 DATASET_SHARED += $(DATASET_DIR)/objects/$(1)/decimate.yaml
 endef
 define dataset_embossed
-$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml: $(2) $(wildcard $(dir $(2))*.png) | build
-	$$(call run,emboss,--config $(2))
+$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml: $(2) $(wildcard $(dir $(2))*.png) $(call dataset_choice,object-$(1)) | build
+	$$(call dataset_shared,emboss,$(2) $(dir $(2))*.png $(call dataset_choice,object-$(1)),--config $(2))
 $(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/emboss/object.ply,$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml)
 endef
 
 # The stages of a sample, one after the other: one rule, so that with several jobs samples are finished one by one. Failures are noted in
 # failures.csv and do not stop make, unless there are many in a row. $(call dataset_stage,stage,record,what it is made of,flags)
-DATASET_RUN := $(DATASET_DIR)/.runs/$(shell hostname)-$(shell echo $$PPID)
+DATASET_RUN := $(DATASET_DIR)/.runs/$(shell hostname)-$(shell echo $$PPID)-$(shell date +%s%N)
 dataset_stage = @RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
   bash pipelines/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) '$(2)' '$(3)' \
   OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(patsubst %/,%,$(dir $(2))) --threads $(THREADS) $(4) --log-level warning
-dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5)
-dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_PHOTOGRAPH_$(3))
+dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5) $(call dataset_choice,motion-$(7))
+dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_RENDERED_$(3)) $(call dataset_choice,render-$(3))
 define dataset_sample
 $(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
 	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
@@ -91,6 +96,12 @@ $(DATASET_DIR)/plan/plan.yaml: $(CONFIG) | build
 	$(call run,plan,--config $(CONFIG)) 9>&-
 $(DATASET_DIR)/plan/%.mk: $(DATASET_DIR)/plan/plan.yaml ;
 -include $(DATASET_DIR)/plan/inputs.mk
+DATASET_INPUTS := $(shell bash pipelines/dataset_inputs.sh '$(DATASET_DIR)' '$(CONFIG)')
+ifeq ($(DATASET_INPUTS),future)
+  $(error plan: not possible)
+else ifeq ($(DATASET_INPUTS),changed)
+  $(DATASET_DIR)/plan/plan.yaml: FORCE
+endif
 endif
 include $(DATASET_DIR)/plan/dataset.mk
 hash := \#
@@ -144,7 +155,7 @@ dataset-last:
 drop: ## Remove what outputs.keep of the dataset does not name, of packed samples: CONFIG=
 	@$(call dataset_alone,$@) && bash pipelines/dataset_drop.sh '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)
 submit: $(DATASET_DIR)/plan/plan.yaml ## A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/slurm/default.sh RETRY=yes]
-	@bash pipelines/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
+	@bash pipelines/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(submit_variables) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
 endif
 
 status: ## How many samples of a dataset are made, failed, running, and how fast: CONFIG=

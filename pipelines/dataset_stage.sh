@@ -21,6 +21,19 @@ current() {
   done
 }
 
+# Whether all that it is made of is there. A gel or an object is gone for a moment while another run makes it anew; without the stage before it
+# (which failed) there is nothing to do.
+inputs_are_there() {
+  local p
+  for p in $prerequisites; do
+    [ ! -e "$p" ] || continue
+    [ ! -e "${p%/*}/.making" ] || { flock -s "${p%/*}/.making" true && ls -a "${p%/*}" > /dev/null; }
+    [ -e "$p" ] || return 1
+  done
+}
+# Differs when one of them changed, or is gone.
+state_of_inputs() { stat -L -c '%n %i %s %.Y' $prerequisites 2> /dev/null || true; }
+
 stop_if_many() {
   [ ! -e "$run" ] || [ "$(wc -l < "$run")" -lt "$STOP_AFTER" ] ||
     { echo "$STOP_AFTER failures in a row, see $dataset/failures.csv; stopped" >&2; exit 1; }
@@ -34,9 +47,10 @@ row() { # row REASON; with the lock
   size=$(stat -c %s "$ledger" 2> /dev/null || echo 0)
   { echo "$text" >> "$ledger"; } 2> /dev/null || { truncate -c -s "$size" "$ledger"; return 1; }
 }
-# The lock is the plan's table: it is there, and takes no room.
+# The lock is made early, while there is room.
+lock=$dataset/.ledger-lock
 note_failure() { # note_failure REASON
-  { flock 8 && row "$1"; } 8<> "$dataset/plan/samples.csv" || no_room "$dataset/failures.csv cannot be written"
+  { flock 8 && row "$1"; } 8<> "$lock" || no_room "$dataset/failures.csv cannot be written"
   mkdir -p "$(dirname "$run")" && echo "$sample" >> "$run" || no_room "$run cannot be written"
   echo "$sample: $stage failed: $1" >&2
 }
@@ -47,6 +61,7 @@ reserve=$dataset/.reserve  # room for a row at that time
 disk_is_full() { [ -e "$run" ] && grep -qx "$full" "$run"; }
 no_room() { # no_room REASON
   rm -f "$failed"
+  [ -e "$lock" ] || lock=/dev/null  # full from the beginning
   {
     flock 8
     rm -f "$reserve"
@@ -56,19 +71,23 @@ no_room() { # no_room REASON
       echo "$sample: $stage: $1" >&2
       echo "stopped: $full in $dataset ($(df -P -k "$dataset" | awk 'NR == 2 { printf "%d MB", $4 / 1000 }') free); make room and give the same line again" >&2
     fi
-  } 8<> "$dataset/plan/samples.csv"
+  } 8<> "$lock"
   exit 1
 }
 
-# Without the stage before it (which failed) there is nothing to do.
-for p in $prerequisites; do [ -e "$p" ] || exit 0; done
+inputs_are_there || exit 0
 stop_if_many
 if disk_is_full; then exit 1; fi
+[ -e "$lock" ] || { : >> "$lock"; } 2> /dev/null || no_room "$lock cannot be written"
 { mkdir -p "$folder" && : > "$folder/.making"; } 2> /dev/null || no_room "$folder/.making cannot be written"
-[ -e "$reserve" ] || { head -c 16384 /dev/urandom > "$reserve-$$" && mv "$reserve-$$" "$reserve"; } 2> /dev/null || { rm -f "$reserve-$$"; no_room "$reserve cannot be written"; }
+mine=$reserve-$(hostname)-$$
+[ -e "$reserve" ] || { head -c 16384 /dev/urandom > "$mine" && mv "$mine" "$reserve"; } 2> /dev/null || { rm -f "$mine"; no_room "$reserve cannot be written"; }
 # Two runs that were given the same sample: one makes it, the other waits and finds it made. A stage that outlives its make keeps the lock.
 exec 9> "$folder/.making"
-if ! flock -n 9; then flock 9; fi
+if ! flock -n 9; then
+  flock 9
+  ls -a "$folder" > /dev/null  # a client of NFS looks at the folder anew
+fi
 if current "$record"; then exit 0; fi
 if [ "${RETRY:-}" != yes ] && current "$failed"; then exit 0; fi
 stop_if_many
@@ -78,9 +97,20 @@ if [ "$stage" = render ] && [ -e "$folder/../press/.dropped" ]; then
   exit 1
 fi
 rm -f "$folder/.dropped"
+# Images of another press do not count as made while this one, or render after it, is interrupted.
+if [ "$stage" = press ]; then rm -f "$folder/../render/render.yaml" "$folder/../render/render.failed.yaml"; fi
 { echo "$*" > "$folder/.command"; } 2> /dev/null || no_room "$folder/.command cannot be written"  # for a bundle
-status=0
-{ said=$(env "$@" 2>&1 >&7); } 7>&1 || status=$?
+# What ends because an input changed meanwhile, or was gone for a moment, is no failure: once more with the new one.
+for try in 1 2 3; do
+  before=$(state_of_inputs)
+  status=0
+  { said=$(env "$@" 2>&1 >&7); } 7>&1 || status=$?
+  case $status in 1 | 2) ;; *) break ;; esac
+  [ "$(state_of_inputs)" != "$before" ] || [[ "$said" = *'an input changed while the stage ran'* ]] || break
+  rm -f "$failed"
+  inputs_are_there || exit 0
+  [ "$try" -lt 3 ] || { echo "$sample: $stage: its inputs changed again and again; left to the next run" >&2; exit 0; }
+done
 case $status in
   0)
     [ ! -s "$run" ] || : > "$run" ;;

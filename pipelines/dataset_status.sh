@@ -48,6 +48,8 @@ counts=$(found | awk -F'[ /]' -v plan="$plan" -v first="$first" -v end="$end" -v
     print "counts " samples + 0, made + 0, bad + 0, recent + 0, (recent > 1 ? now - oldest : 0)
   }')
 read -r _ samples made failed recent seconds <<< "$(grep '^counts ' <<< "$counts")"
+expected=$((end == 1000000000 ? (samples > 0 ? samples : 1) : end - first))
+[ "$samples" = "$expected" ] || { echo "status: $plan has $samples rows where there should be $expected: it is damaged or being made anew; if it stays so: make -f Makefile.data clean-plan CONFIG=..." >&2; exit 1; }
 running=0
 while read -r _ folder; do
   for lock in "$dataset/$folder"/{press,render}/.making; do

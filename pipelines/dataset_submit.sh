@@ -12,6 +12,17 @@ partition='' account='' time='' memory_mb='' throttle='' options='' setup='' run
 command -v sbatch > /dev/null || { echo "submit: there is no sbatch here; on this machine alone use the goal dataset (or local-slurm to try)" >&2; exit 1; }
 [[ "$dataset" = /* ]] || dataset=$PWD/$dataset
 name=$(basename "$dataset")
+threads=1
+for variable in "$@"; do
+  case $variable in THREADS=*) threads=${variable#*=} ;; esac
+done
+# memory_mb is of a part, Slurm's of a core.
+[ -z "$memory_mb" ] || memory_mb=$(((memory_mb + threads - 1) / threads))
+# A lock that other nodes do not see lets two of them make the same sample.
+mounted=$(findmnt -n -o SOURCE,FSTYPE,OPTIONS -T "$(dirname "$dataset")" 2> /dev/null || true)
+if grep -Eq '[ ,](localflock|noflock|nolock|local_lock=(all|flock))(,|$)' <<< "$mounted"; then
+  echo "submit: locks on this file system stay on one node ($mounted): submit again only when no job of $name is left" >&2
+fi
 mkdir -p "$dataset/slurm/logs"
 
 script() { # script NAME LOG SBATCH-OPTIONS... -- GOAL [VARIABLE=value ...]
@@ -20,7 +31,7 @@ script() { # script NAME LOG SBATCH-OPTIONS... -- GOAL [VARIABLE=value ...]
     echo '#!/bin/bash'
     echo "#SBATCH --job-name=$name-$1"
     shift 2
-    printf '#SBATCH --%s\n' "output=$dataset/slurm/logs/$log" open-mode=append requeue nodes=1 ntasks=1 cpus-per-task=1
+    printf '#SBATCH --%s\n' "output=$dataset/slurm/logs/$log" open-mode=append requeue nodes=1 ntasks=1 cpus-per-task="$threads"
     for option in ${partition:+--partition=$partition} ${account:+--account=$account} ${time:+--time=$time} \
       ${memory_mb:+--mem-per-cpu=$memory_mb} $options; do
       echo "#SBATCH $option"
