@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "common/files.h"
+#include "common/plot.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
-#include "common/plot.h"
 #include "tests/verification/run_case.h"
 
 namespace tacipc::verify {

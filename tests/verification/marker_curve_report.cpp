@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/verification/marker_curve.h"
 #include "common/plot.h"
+#include "tests/verification/marker_curve.h"
 
 namespace tacipc::verify {
 namespace {
