@@ -78,7 +78,7 @@ TEST(MarkerFiles, TheShippedBenchmarkIsWhole) {
   const auto benchmark = read_config<MarkerBenchmark>(source / "configs/benchmarks/fots_markers.yaml");
   for (const std::string& path : {benchmark.sensor, benchmark.mesh, benchmark.press})
     EXPECT_TRUE(std::filesystem::exists(source / "configs/benchmarks" / path)) << path;
-  EXPECT_EQ(benchmark.depths_m().size(), 4u);
+  EXPECT_EQ(benchmark.depths_m().size(), 6u);
 }
 
 }  // namespace
