@@ -35,7 +35,7 @@ PAPER_FRAGMENTS := $(PAPER)/objects-table/image_table.yaml $(PAPER)/objects-dept
 
 # Each part in a make of its own: some read files first that others make.
 .PHONY: paper paper-quick paper-parts paper-page
-paper_part = $(MAKE) -f Makefile.data --no-print-directory PAPER_KIND=$(PAPER_KIND) $(1)
+paper_part = $(call make_again,--no-print-directory PAPER_KIND=$(PAPER_KIND) $(1))
 paper-parts: | build
 	@status=0; \
 	$(call paper_part,-k paper-coins) || status=$$?; \

@@ -137,7 +137,7 @@ $(PAPER)/ablation/table/mesh_ablation.yaml: configs/mesh_ablation/$(PAPER_TABLES
 	  --render $(call coins_ablation,render/render.yaml) --depth $(PAPER_MESHES:%=$(PAPER)/ablation/%/depth/depth_metrics.yaml))
 $(PAPER)/ablation/images/image_table.yaml: configs/image_table/$(PAPER_TABLES)_ablation.yaml $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/metrics.yaml) | build
 	$(call run,image_table,--config $< --samples $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/samples.csv) \
-	  --pictures $(foreach m,$(PAPER_FINE) $(PAPER_MESHES),$(PAPER_ABLATED:%=$(PAPER)/ablation/$(m)/images/%.png))
+	  --pictures $(foreach m,$(PAPER_FINE) $(PAPER_MESHES),$(PAPER_ABLATED:%=$(PAPER)/ablation/$(m)/images/%.png)))
 
 # What the image table cost.
 coins_costs = $(foreach o,$(PAPER_OBJECTS),$(OUT)/emboss/$(o)/emboss.timings.yaml $(OUT)/objects/$(o)/decimate.timings.yaml \

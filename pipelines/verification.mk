@@ -13,7 +13,7 @@ LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BO
 # The programs belong to the tests; never built beside another build in the same folder.
 .PHONY: build-verification
 build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
-	@cmake --build $(BUILD) --target verification_test verify verify_table stress_case stress_table refinement refinement_table marker_curve compare_simulators -j $(JOBS) -- --quiet
+	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verification_test verify verify_table stress_case stress_table refinement refinement_table marker_curve compare_simulators -j $(JOBS) -- --quiet
 
 $(VERIFICATION)/%/verify.yaml: configs/verification/%.yaml | build-verification
 	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
