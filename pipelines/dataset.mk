@@ -132,7 +132,7 @@ define dataset_end
 endef
 
 dataset: dataset-samples ## Everything of a dataset: CONFIG=configs/datasets/mini.yaml (resumes; failed samples are left alone)
-	@rm -f $(DATASET_RUN)
+	@rm -f $(DATASET_RUN) $(DATASET_RUN).full
 	$(dataset_end)
 
 retry: dataset ## What of a dataset failed or is missing, once more: CONFIG=
@@ -140,7 +140,7 @@ retry: dataset ## What of a dataset failed or is missing, once more: CONFIG=
 dataset-shared: $(DATASET_SHARED)
 dataset-some: $(SAMPLES:%=$(DATASET_DIR)/samples/%/render/render.yaml)
 dataset-part: dataset-samples
-	@rm -f $(DATASET_RUN)
+	@rm -f $(DATASET_RUN) $(DATASET_RUN).full
 	@bash pipelines/dataset_status.sh --all-made '$(DATASET_DIR)' $(DATASET_FIRST) $(DATASET_END)
 
 # A pilot is spread over the plan by the golden ratio, so that it meets all motions and objects alike.

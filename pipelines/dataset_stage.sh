@@ -51,14 +51,14 @@ row() { # row REASON; with the lock
 lock=$dataset/.ledger-lock
 note_failure() { # note_failure REASON
   { flock 8 && row "$1"; } 8<> "$lock" || no_room "$dataset/failures.csv cannot be written"
-  mkdir -p "$(dirname "$run")" && echo "$sample" >> "$run" || no_room "$run cannot be written"
+  write "$run" 'echo "$sample" >> "$run"'
   echo "$sample: $stage failed: $1" >&2
 }
 
 # The disk takes nothing more: no other sample would fare better. The first to meet it says so; nothing is left that makes its sample count as failed.
 full='nothing more can be written'
 reserve=$dataset/.reserve  # room for a row at that time
-disk_is_full() { [ -e "$run" ] && grep -qx "$full" "$run"; }
+disk_is_full() { [ -e "$run.full" ]; }
 no_room() { # no_room REASON
   rm -f "$failed"
   [ -e "$lock" ] || lock=/dev/null  # full from the beginning
@@ -67,7 +67,7 @@ no_room() { # no_room REASON
     rm -f "$reserve"
     row "$1" || disk_is_full || echo "$dataset/failures.csv takes no further row" >&2
     if ! disk_is_full; then
-      { mkdir -p "$(dirname "$run")" && echo "$full" >> "$run"; } 2> /dev/null || true
+      { ln -f "$lock" "$run.full" || : > "$run.full"; } 2> /dev/null || true  # another name takes no room
       echo "$sample: $stage: $1" >&2
       echo "stopped: $full in $dataset ($(df -P -k "$dataset" | awk 'NR == 2 { printf "%d MB", $4 / 1000 }') free); make room and give the same line again" >&2
     fi
@@ -75,13 +75,19 @@ no_room() { # no_room REASON
   exit 1
 }
 
+# What is written beside the stage says what stands against it, as stages do: write FILE COMMANDS
+write() {
+  local said
+  said=$(eval "$2" 2>&1) || no_room "$1 cannot be written: ${said##*: }"
+}
+
 inputs_are_there || exit 0
 stop_if_many
 if disk_is_full; then exit 1; fi
-[ -e "$lock" ] || { : >> "$lock"; } 2> /dev/null || no_room "$lock cannot be written"
-{ mkdir -p "$folder" && : > "$folder/.making"; } 2> /dev/null || no_room "$folder/.making cannot be written"
+[ -e "$lock" ] && [ -d "${run%/*}" ] || write "$lock" 'mkdir -p "${run%/*}" && : >> "$lock"'
+write "$folder/.making" 'mkdir -p "$folder" && : > "$folder/.making"'
 mine=$reserve-$(hostname)-$$
-[ -e "$reserve" ] || { head -c 16384 /dev/urandom > "$mine" && mv "$mine" "$reserve"; } 2> /dev/null || { rm -f "$mine"; no_room "$reserve cannot be written"; }
+[ -e "$reserve" ] || write "$reserve" '{ head -c 16384 /dev/urandom > "$mine" && mv "$mine" "$reserve"; } || { rm -f "$mine"; false; }'
 # Two runs that were given the same sample: one makes it, the other waits and finds it made. A stage that outlives its make keeps the lock.
 exec 9> "$folder/.making"
 if ! flock -n 9; then
@@ -99,7 +105,8 @@ fi
 rm -f "$folder/.dropped"
 # Images of another press do not count as made while this one, or render after it, is interrupted.
 if [ "$stage" = press ]; then rm -f "$folder/../render/render.yaml" "$folder/../render/render.failed.yaml"; fi
-{ echo "$*" > "$folder/.command"; } 2> /dev/null || no_room "$folder/.command cannot be written"  # for a bundle
+command="$*"
+write "$folder/.command" 'echo "$command" > "$folder/.command"'  # for a bundle
 # What ends because an input changed meanwhile, or was gone for a moment, is no failure: once more with the new one.
 for try in 1 2 3; do
   before=$(state_of_inputs)
@@ -132,6 +139,6 @@ case $status in
     # Killed, by the kernel for want of memory or by itself. Where the whole job is being killed, this does not live to say so.
     sleep 1
     signal=$((status - 128))
-    printf 'stage: %s\nname: %s\nmessage: killed by signal %s\n' "$stage" "$sample" "$signal" 2> /dev/null > "$failed" || no_room "$failed cannot be written"
+    write "$failed" 'printf "stage: %s\nname: %s\nmessage: killed by signal %s\n" "$stage" "$sample" "$signal" > "$failed"'
     note_failure "killed by signal $signal" ;;
 esac
