@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-constexpr double kWidth = 480.0, kHeight = 320.0, kLeft = 62.0, kRight = 12.0, kTop = 28.0, kBottom = 44.0;
+constexpr double kWidth = 480.0, kHeight = 320.0, kLeft = 62.0, kRight = 22.0, kTop = 28.0, kBottom = 44.0;
 constexpr double kLine = 14.0;  // of the labels of curves, below the plot
 constexpr std::array<const char*, 8> kColors{"#1f5fa8", "#c2571a", "#3a8a4a", "#7a4fa0",
                                              "#b0306a", "#7d6608", "#4d9aa6", "#55555f"};
@@ -43,7 +43,9 @@ Axis cover(const std::vector<double>& values, bool with_zero) {
   if (values.empty()) return {};
   if (with_zero) axis.low = std::min(axis.low, 0.0);
   if (!(axis.high > axis.low)) axis.high = axis.low + std::max(1e-12, std::abs(axis.low));
-  axis.high += 0.04 * (axis.high - axis.low);
+  const double room = 0.04 * (axis.high - axis.low);
+  axis.high += room;
+  if (!with_zero) axis.low -= room;
   return axis;
 }
 
@@ -59,6 +61,20 @@ std::vector<double> round_ticks(double low, double high) {
   const double first = std::ceil(low / step - 1e-9);
   for (int i = 0; (first + i) * step <= high + 1e-9 * step; ++i) ticks.push_back((first + i) * step + 0.0);
   return ticks;
+}
+
+std::vector<double> decade_ticks(double low, double high) {
+  constexpr std::size_t kMost = 8;
+  std::vector<double> ticks, decades;
+  for (int decade = static_cast<int>(std::floor(low)); decade <= high; ++decade) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double tick = decade + std::log10(factor);
+      if (tick < low - 1e-9 || tick > high + 1e-9) continue;
+      ticks.push_back(tick);
+      if (factor == 1.0) decades.push_back(tick);
+    }
+  }
+  return ticks.size() > kMost ? decades : ticks;
 }
 
 std::string to_svg(const Plot& plot) {
@@ -79,15 +95,18 @@ std::string to_svg(const Plot& plot) {
       "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"white\"/>\n",
       kWidth, kHeight + kLine * static_cast<double>(plot.curves.size()));
   const auto label = [&](double tick) {
-    return plot.logarithmic ? fmt::format("{:.3g}", std::pow(10.0, tick)) : fmt::format("{:.4g}", tick);
+    return plot.logarithmic ? fmt::format("{:.6g}", std::pow(10.0, tick)) : fmt::format("{:.4g}", tick);
   };
-  for (const double tick : round_ticks(x.low, x.high)) {
+  const auto ticks = [&](const Axis& axis) {
+    return plot.logarithmic ? decade_ticks(axis.low, axis.high) : round_ticks(axis.low, axis.high);
+  };
+  for (const double tick : ticks(x)) {
     out += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
         "text-anchor=\"middle\">{4}</text>\n",
         px(tick), kTop, kHeight - kBottom, kHeight - kBottom + 15, label(tick));
   }
-  for (const double tick : round_ticks(y.low, y.high)) {
+  for (const double tick : ticks(y)) {
     out += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}H{2:.1f}\" stroke=\"#ddd\"/><text x=\"{3:.1f}\" y=\"{4:.1f}\" "
         "text-anchor=\"end\">{5}</text>\n",

@@ -28,4 +28,8 @@ std::string to_svg(const Plot& plot);
 /// Steps of 1, 2 or 5 times a power of ten that cut [low, high] into three to eight pieces: the ticks inside.
 std::vector<double> round_ticks(double low, double high);
 
+/// Ticks of a logarithmic axis: the decimal logarithms of 1, 2 and 5 times the powers of ten in [10^low, 10^high], or
+/// of the powers alone where those would be more than eight.
+std::vector<double> decade_ticks(double low, double high);
+
 }  // namespace tacipc

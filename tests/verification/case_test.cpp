@@ -1,6 +1,9 @@
 // Cases as users write them: what is read, and every fault at its place.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "common/files.h"
 #include "common/plot.h"
 #include "tests/config_text.h"
@@ -119,6 +122,11 @@ TEST(Case, SharedDataThatAreNotThereSkip) {
 TEST(Plot, TicksAreRound) {
   EXPECT_EQ(round_ticks(0.0, 1.0), (std::vector<double>{0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0}));
   EXPECT_EQ(round_ticks(0.0, 0.037).size(), 4u);
+  const std::vector<double> ticks = decade_ticks(std::log10(0.004), std::log10(0.04));
+  ASSERT_EQ(ticks.size(), 3u);
+  for (const std::size_t i : {0u, 1u, 2u})
+    EXPECT_NEAR(std::pow(10.0, ticks[i]), (std::array{0.005, 0.01, 0.02})[i], 1e-12);
+  EXPECT_EQ(decade_ticks(0.0, 4.0), (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
 }
 
 TEST(Plot, WritesWhatItShows) {
