@@ -1,6 +1,8 @@
 #include "common/files.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include <cerrno>
@@ -19,6 +21,20 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
+
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& path) : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (number_ < 0) throw DataError("{}: cannot be read: {}", path.string(), std::strerror(errno));
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { ::close(number_); }
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
 
 std::string hash_hex(const XXH128_hash_t& hash) { return fmt::format("{:016x}{:016x}", hash.high64, hash.low64); }
 
@@ -54,6 +70,16 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   if (!file) fail();
   if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() || std::fflush(file.get()) != 0) fail();
   if (std::fclose(file.release()) != 0) fail();
+}
+
+void flush_to_disk(const std::vector<std::filesystem::path>& paths) {
+  // All are set going before any is waited for: file systems with a journal then write it once and not once for each.
+  // What does not know this (a folder, some network) fails here and is waited for below.
+  if (paths.size() > 1)
+    for (const auto& path : paths) ::sync_file_range(Descriptor(path).number(), 0, 0, SYNC_FILE_RANGE_WRITE);
+  for (const auto& path : paths)
+    if (::fsync(Descriptor(path).number()) != 0 && errno != EINVAL && errno != ENOSYS && errno != EROFS)
+      throw DataError("{}: cannot be written: {}", path.string(), std::strerror(errno));
 }
 
 std::string content_hash(const std::filesystem::path& path) {

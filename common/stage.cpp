@@ -281,8 +281,14 @@ void Stage::publish() {
   const fs::path record_name = spec_.name + ".yaml", timings_name = spec_.name + ".timings.yaml";
   write_file(partial_path(record_name), text);
   write_file(partial_path(timings_name), timings());
-  for (const Output& output : outputs_)
-    if ((out_ / output.name).has_parent_path()) fs::create_directories((out_ / output.name).parent_path());
+  std::vector<fs::path> written{partial_ / record_name};
+  std::set<fs::path> folders{out_};
+  for (const Output& output : outputs_) {
+    written.push_back(partial_ / output.name);
+    folders.insert((out_ / output.name).parent_path());
+    fs::create_directories((out_ / output.name).parent_path());
+  }
+  flush_to_disk(written);
   std::set<std::string> leftovers;
   if (spec_.keeps_old_until_done) {
     // Without a record from here to the end, so that a mixture of old and new never counts. Files that both have are
@@ -296,7 +302,10 @@ void Stage::publish() {
   }
   for (const std::string& name : leftovers) remove_output(name);
   fs::rename(partial_ / timings_name, out_ / timings_name);
+  // On the disk, too, the record comes last, and before what a later stage does because of it (drop removes samples).
+  flush_to_disk({folders.begin(), folders.end()});
   fs::rename(partial_ / record_name, out_ / record_name);
+  flush_to_disk({out_});
   if (spec_.keeps_old_until_done) remove_quietly(out_ / (kReplacing + spec_.name));
 }
 

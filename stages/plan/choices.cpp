@@ -102,6 +102,7 @@ void write_choice(const Choice& choice, const fs::path& folder) {
     if (::utimensat(AT_FDCWD, new_file.c_str(), times, 0) != 0)
       throw DataError("{}: {}", new_file.string(), std::strerror(errno));
   }
+  flush_to_disk({new_file});
   fs::rename(new_file, file);
 }
 

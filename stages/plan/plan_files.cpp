@@ -81,6 +81,7 @@ bool write_if_changed(const fs::path& file, const std::string& text) {
   if (fs::is_regular_file(file, error) && read_file(file) == text) return false;
   const fs::path beside = file.parent_path() / fmt::format(".{}", file.filename().string());
   write_file(beside, text);
+  flush_to_disk({beside});
   fs::rename(beside, file);
   return true;
 }
