@@ -20,9 +20,9 @@ void for_each_part(const std::filesystem::path& path, const std::function<void(s
 /// incomplete.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Waits until the bytes of files, or the names in folders, are on the disk: a name given after that (rename) never comes
-/// back empty from a power cut. Where a file system knows no such thing it does nothing. \throw DataError naming the path
-/// that could not be written
+/// Waits until the bytes of files, or the names in folders, are on the disk: a name given after that (rename) never
+/// comes back empty from a power cut. Where a file system knows no such thing it does nothing. \throw DataError naming
+/// the path that could not be written
 void flush_to_disk(const std::vector<std::filesystem::path>& paths);
 
 /// Content hash as 32 hex digits (XXH3, 128 bit). Of a folder: over the names and contents of its regular files in name
