@@ -9,11 +9,11 @@
 #include "bench/machine.h"
 #include "bench/memory_rate.h"
 #include "bench/mpm_report.h"
-#include "common/error.h"
-#include "common/files.h"
-#include "common/placement.h"
-#include "common/stage.h"
-#include "stages/mpm/run_motion.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/sample/placement.h"
+#include "common/stage/stage.h"
+#include "stages/rival/mpm/run_motion.h"
 
 using namespace tacipc;
 
@@ -87,8 +87,7 @@ bench::MpmCost measure(const std::filesystem::path& file, const Sensor& sensor, 
 
 int main(int argc, char** argv) {
   return run_stage(kBench, argc, argv, [](Stage& stage) {
-    double load = 0.0;
-    if (getloadavg(&load, 1) != 1) throw DataError("the kernel does not say how busy it is");
+    const double load = bench::load_average();
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
     std::vector<bench::MpmCost> costs;

@@ -1,7 +1,7 @@
 // Writes one of the shapes of verification cases as a mesh, for programs that take files.
-#include "common/stage.h"
-#include "common/triangle_mesh.h"
-#include "tests/verification/object_shapes.h"
+#include "common/mesh/triangle_mesh.h"
+#include "common/stage/stage.h"
+#include "verification/object_shapes.h"
 
 using namespace tacipc;
 

@@ -12,11 +12,11 @@
 #include "bench/embree_rate.h"
 #include "bench/machine.h"
 #include "bench/render_report.h"
-#include "common/error.h"
-#include "common/files.h"
-#include "common/stage.h"
-#include "stages/render/press_folder.h"
-#include "stages/render/render.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/stage/stage.h"
+#include "stages/image/render/pressed_gel.h"
+#include "stages/image/render/render.h"
 
 using namespace tacipc;
 
@@ -127,19 +127,18 @@ bench::RenderCost measure(const std::string& name, const RayScene& scene, const 
 
 int main(int argc, char** argv) {
   return run_stage(kBench, argc, argv, [](Stage& stage) {
-    double load = 0.0;
-    if (getloadavg(&load, 1) != 1) throw DataError("the kernel does not say how busy it is");
+    const double load = bench::load_average();
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const TetMesh gel = read_tet_mesh(stage.input("--gel"));
-    const PressFrames press = read_press(stage.input("--press"), gel);
+    const PressedGel press(stage.input("--press"), gel);
     const std::size_t last = press.num_frames() - 1;
     Membrane membrane = make_membrane(gel, gel.positions);
     RayScene scene(membrane.positions, membrane.triangles);
-    const Positions pressed = frame_positions(press.positions, last);
+    const Positions pressed = press.positions(last);
     const bench::SceneUpdate update{.triangles = static_cast<std::size_t>(membrane.triangles.rows()),
                                     .membrane_ms = 1e3 * least_s(20, [&] { move_membrane(membrane, pressed); }),
                                     .tree_ms = 1e3 * least_s(20, [&] { scene.move(membrane.positions); })};
-    const SurfaceFields fields = surface_fields(press, last, membrane);
+    const SurfaceFields fields = press.fields(last, membrane);
     const std::vector<bench::RenderCost> costs = {
         measure("point lights", scene, membrane, with_eight(sensor, 0.0), {.subpixels = 1}, fields, 7, 200.0, 1),
         measure("area lights", scene, membrane, with_eight(sensor, 5e-3), {.subpixels = 2, .led_samples = 3}, fields, 3,

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "bench/element_study.h"
-#include "common/plot.h"
+#include "common/image/plot.h"
 
 namespace tacipc::bench {
 namespace {
@@ -23,14 +23,14 @@ const Run* find(const std::vector<Run>& runs, const std::string& text) {
 
 std::string routes_table(const std::vector<Run>& runs) {
   std::string out =
-      "| Scene | Gel vertices | Route | CPU s | Less than | Whole-gel iterations | Patch iterations | Linear systems | "
-      "Products each | Peak memory, MB | Force, N | Apart: largest, rms, force "
+      "| Scene | Gel vertices | Route | CPU s | Speed-up | Whole-gel iterations | Patch iterations | Linear systems | "
+      "Products each | Peak memory, MB | Force, N | Difference: largest, rms, force "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Run& run : runs) {
     if (!run.name.how.empty()) continue;
     const Run* direct = run.name.route == kFast ? find(runs, run.name.with_route(kDirect)) : nullptr;
     const Run* plain = run.name.route == kFast ? find(runs, run.name.with_route(kPlain)) : nullptr;
-    std::string apart = "", times = "";
+    std::string difference_text, times;
     const auto less_than = [&](const Run* other, const char* route) {
       if (other)
         times += fmt::format("{}{:.1f} × *{}*", times.empty() ? "" : ", ", other->processor_s / run.processor_s, route);
@@ -39,14 +39,15 @@ std::string routes_table(const std::vector<Run>& runs) {
     less_than(plain, kPlain);
     if (direct) {
       if (const auto d = difference(run, *direct))
-        apart = fmt::format("{:.2g} µm, {:.2g} µm, {:+.3f} %", 1e6 * d->largest_m, 1e6 * d->rms_m, 100.0 * d->force);
+        difference_text =
+            fmt::format("{:.2g} µm, {:.2g} µm, {:+.3f} %", 1e6 * d->largest_m, 1e6 * d->rms_m, 100.0 * d->force);
     }
     const double systems = run.parts.at("linear_systems"), products = run.parts.at("products");
     out += fmt::format("| {} {} | {} | {} | {:.1f} | {} | {} | {} | {:.0f} | {} | {:.0f} | {:.4f} | {} |\n",
                        run.name.object, run.name.motion, run.gel_vertices, run.name.route, run.processor_s, times,
                        run.newton(), run.patch(), systems,
                        products > 0 ? fmt::format("{:.0f}", products / systems) : "factor", run.peak_memory_mb,
-                       run.press_force_n, apart);
+                       run.press_force_n, difference_text);
   }
   return out;
 }
@@ -76,9 +77,9 @@ std::string parts_table(const std::vector<Run>& runs) {
   return out;
 }
 
-std::string how_table(const std::vector<Run>& runs) {
+std::string runs_table(const std::vector<Run>& runs) {
   std::string out =
-      "| Scene | Gel vertices | How | Wall s | CPU s | Against one process, one thread: wall "
+      "| Scene | Gel vertices | Run | Wall s | CPU s | Wall time over one process, one thread "
       "|\n|---|---|---|---|---|---|\n";
   for (const Run& run : runs) {
     if (run.name.how.empty()) continue;
@@ -93,28 +94,32 @@ std::string how_table(const std::vector<Run>& runs) {
 }  // namespace
 
 std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor) {
-  return "# What a press costs\n\nMade by `make -f Makefile.data bench-press` on " + processor +
-         ", one process and one thread where nothing else is said. *press*: 0.5 mm in five frames into the MC-Tac gel, "
+  return "# Cost of a press\n\nMade by `make -f Makefile.data bench-press` on " + processor +
+         ", one process and one thread unless noted. *press*: 0.5 mm in five frames into the MC-Tac gel, "
          "friction 0.5 with one lag per step, d̂ 10⁻³, κ 10⁵; *shear*: then 1 mm sideways in twenty frames; *settled*: "
-         "friction renewed until it belongs to its own forces; *tight*: a tenth of the tolerances; *thin*: a fifth of "
+         "friction renewed until it is consistent with its own contact forces; *tight*: a tenth of the tolerances; "
+         "*thin*: a fifth of "
          "d̂, κ × 125; *stiff*: κ × 10, that of the paper. Gels are the paper's mesh with its lengths scaled, the "
-         "scenes are `configs/benchmarks/*.yaml`; "
-         "`BENCH_GELS=` and the other variables of `pipelines/bench.mk` choose what is measured.\n\n## Routes\n\n" +
+         "scenes are `configs/studies/speed/*.yaml`; "
+         "`BENCH_GELS=` and the other variables of `pipelines/verification/bench.mk` select what is measured.\n\n## "
+         "Routes\n\n" +
          routes_table(runs) +
          "\n*fast* is the default solver with the paper's linear tetrahedra. *direct* factorises every linear system "
          "instead (CHOLMOD, METIS, one symbolic "
-         "analysis) and is the same in all else. *plain* is projected Newton as usual: factorised, for the whole gel "
-         "in every "
-         "iteration, with the positive Hessian of contact (`newton.contact_hessian: positive`). *averaged* is *fast* "
-         "with volumes averaged over patches, the default element of this gel. *Apart*: gel vertices "
-         "in the last frame, and the press force, against *direct*. *Products each*: sweeps of conjugate gradients for "
-         "a linear system.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
-         "\n## Where the time goes\n\nShares of the wall time.\n\n" +
-         parts_table(runs) + element_section(runs) + "\n## Threads and processes\n\n" + how_table(runs) +
+         "analysis) and is otherwise the same. *plain* is textbook projected Newton: factorised, for the whole gel in "
+         "every iteration, with the projected Hessian of contact (`newton.contact_hessian: positive`). *averaged* is "
+         "*fast* "
+         "with volumes averaged over clusters, the default element of this gel. *Difference*: of gel vertices in the "
+         "last frame, and of the press force, from *direct*. *Products each*: iterations of conjugate gradients per "
+         "linear system. *Speed-up*: 2 × *direct* is half its CPU seconds.\n\n![CPU seconds over "
+         "vertices](performance/bench_press.svg)\n"
+         "\n## Time by part\n\nShares of the wall time.\n\n" +
+         parts_table(runs) + element_section(runs) + "\n## Threads and processes\n\n" + runs_table(runs) +
          fmt::format(
-             "\n## Cost model\n\n`configs/cost_model.yaml`: seconds of a frame = c (vertices / 1000)^{:.2f} (1 + "
+             "\n## Cost model\n\n`configs/studies/speed/cost_model.yaml`: seconds of a frame = c (vertices / "
+             "1000)^{:.2f} (1 + "
              "touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging, {:.2f} times that with "
-             "averaged volumes; fitted to {} presses, none off by more than a factor of {:.2f}.\n",
+             "averaged volumes; fitted to {} presses, largest error a factor of {:.2f}.\n",
              model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s, model.averaged_factor,
              model.runs, model.largest_ratio);
 }

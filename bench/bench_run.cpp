@@ -3,9 +3,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "common/config.h"
-#include "common/error.h"
-#include "common/npy.h"
+#include "common/base/error.h"
+#include "common/config/config.h"
+#include "common/sample/press_folder.h"
 
 namespace tacipc::bench {
 
@@ -40,8 +40,8 @@ Run read_run(const std::filesystem::path& folder) {
   run.press_force_n = summary.number("press_force_n");
   for (ConfigReader& line : summary.sections("per_frame")) {
     const std::string phase = line.text("phase");
-    if (phase == "reference") continue;
-    run.frames.push_back({.press = phase == "press",
+    if (phase == name_of(PhaseKind::reference)) continue;
+    run.frames.push_back({.press = phase == name_of(PhaseKind::press),
                           .contacts = line.integer("sticking", 0) + line.integer("slipping", 0),
                           .newton = line.integer("newton_iterations", 0),
                           .patch = line.integer("patch_iterations", 0)});
@@ -55,19 +55,16 @@ Run read_run(const std::filesystem::path& folder) {
                            "patches_s", "linear_systems", "products"})
     run.parts[part] = timings.number(part);
 
-  const NpyArray all = read_npy(folder / "positions.npy");
-  const std::vector<double>& values = all.data;
-  const auto size = static_cast<std::size_t>(3 * run.gel_vertices);
-  if (values.size() < size) throw DataError("{}: positions.npy is too short", folder.string());
-  run.last = Eigen::Map<const Positions>(values.data() + values.size() - size, run.gel_vertices, 3);
+  PressFolder press(folder, {{kVertices, static_cast<std::size_t>(run.gel_vertices)}});
+  run.last = press.positions(press.extent(PressArray::positions, kFrames) - 1);
   return run;
 }
 
 std::optional<Difference> difference(const Run& run, const Run& from) {
   if (run.last.rows() != from.last.rows()) return std::nullopt;
-  const Eigen::VectorXd apart = (run.last - from.last).rowwise().norm();
-  return Difference{.largest_m = apart.maxCoeff(),
-                    .rms_m = std::sqrt(apart.squaredNorm() / static_cast<double>(apart.size())),
+  const Eigen::VectorXd distance = (run.last - from.last).rowwise().norm();
+  return Difference{.largest_m = distance.maxCoeff(),
+                    .rms_m = std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size())),
                     .force = run.press_force_n / from.press_force_n - 1.0};
 }
 

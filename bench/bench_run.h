@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/types.h"
+#include "common/base/types.h"
 
 namespace tacipc::bench {
 
@@ -46,7 +46,7 @@ struct Run {
 /// \throw DataError, ConfigError where the folder does not hold a finished press with its timings
 Run read_run(const std::filesystem::path& folder);
 
-/// How far two answers of one scene are apart, m.
+/// Differences between two results of one scene, m.
 struct Difference {
   double largest_m = 0.0, rms_m = 0.0, force = 0.0;  // force: relative
 };

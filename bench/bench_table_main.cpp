@@ -2,9 +2,9 @@
 #include "bench/bench_report.h"
 #include "bench/element_study.h"
 #include "bench/machine.h"
-#include "common/error.h"
-#include "common/files.h"
-#include "common/stage.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/stage/stage.h"
 
 using namespace tacipc;
 

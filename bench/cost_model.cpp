@@ -68,12 +68,11 @@ CostModel fit_cost_model(const std::vector<Run>& runs) {
 
 std::string to_yaml_text(const CostModel& m) {
   return fmt::format(
-      "# What a press costs on one core, fitted to {} presses by make -f Makefile.data bench-press:\n"
+      "# Cost of a press on one core, fitted to {} presses by make -f Makefile.data bench-press:\n"
       "# seconds of a frame = c (gel vertices / 1000)^vertices_exponent (1 + touching front vertices / "
       "100)^contacts_exponent,\n"
-      "# c for frames of a press and of motions after it; times averaged_volume_factor with that element. No press it "
-      "was "
-      "fitted to is off\n# by more than a factor of {:.2f}.\n"
+      "# c for frames of a press and of motions after it; times averaged_volume_factor with that element. Largest\n# "
+      "error of the fit: a factor of {:.2f}.\n"
       "press_frame_s: {:.4g}\n"
       "motion_frame_s: {:.4g}\n"
       "vertices_exponent: {:.3f}\n"

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/plot.h"
+#include "common/image/plot.h"
 
 namespace tacipc::bench {
 namespace {
@@ -61,12 +61,12 @@ std::string element_section(const std::vector<Run>& runs) {
   if (!limit) return "";
   std::string out = fmt::format(
       "\n## Elements\n\nThe sphere's press force with linear tetrahedra (*fast*) and with volumes averaged over "
-      "patches "
+      "clusters "
       "([elements](elements.md)), against the limit of the latter's three finest meshes, {:.4f} N (order {:.1f} in the "
       "edge length){}.\n\n| Gel vertices | Linear: force, N | off | CPU s | Averaged: force, N | off | CPU s "
       "|\n|---|---|---|---|---|---|---|\n",
       limit->value, limit->order,
-      of_linear ? fmt::format("; the linear element's three finest point to {:.4f} N", of_linear->value) : "");
+      of_linear ? fmt::format("; the linear element's three finest extrapolate to {:.4f} N", of_linear->value) : "");
   for (const Run* b : averaged) {
     const auto a =
         std::find_if(linear.begin(), linear.end(), [&](const Run* run) { return run->name.gel == b->name.gel; });

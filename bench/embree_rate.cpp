@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "common/error.h"
+#include "common/base/error.h"
 
 namespace tacipc::bench {
 namespace {
@@ -65,8 +65,8 @@ EmbreeSeconds embree_seconds(const Positions& positions, const Triangles& triang
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  constexpr double kLong = std::numeric_limits<double>::infinity();
-  EmbreeSeconds seconds{kLong, kLong};
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  EmbreeSeconds seconds{kUnbounded, kUnbounded};
   for (int repeat = 0; repeat < repeats; ++repeat) {
     std::vector<CameraQuery> first(camera.size());
     for (std::size_t i = 0; i < camera.size(); ++i) {

@@ -3,13 +3,13 @@
 
 #include <vector>
 
+#include "common/base/types.h"
 #include "common/optics/ray_scene.h"
-#include "common/types.h"
 
 namespace tacipc::bench {
 
 /// Seconds of processor and wall time (one thread) that bare loops over rtcIntersect8 and rtcOccluded8 take for the
-/// packets, which lie ready in Embree's own form; the scene is built as RayScene builds it. Least of `repeats`.
+/// packets, which are already in Embree's own form; the scene is built as RayScene builds it. Minimum of `repeats`.
 struct EmbreeSeconds {
   double camera = 0.0;
   double shadow = 0.0;

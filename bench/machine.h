@@ -2,9 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <string>
+
+#include "common/base/error.h"
 
 namespace tacipc::bench {
 
@@ -15,6 +18,13 @@ inline std::string processor() {
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   }
   return "a processor without a name";
+}
+
+/// How many processes wanted a processor in the last minute.
+inline double load_average() {
+  double load = 0.0;
+  if (getloadavg(&load, 1) != 1) throw DataError("the kernel does not say how busy it is");
+  return load;
 }
 
 inline double wall_s() {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/machine.h"
-#include "common/error.h"
+#include "common/base/error.h"
 
 namespace tacipc::bench {
 

@@ -7,28 +7,22 @@
 #include <map>
 #include <utility>
 
-#include "common/error.h"
-#include "tests/verification/stage_record.h"
+#include "common/base/error.h"
+#include "common/base/statistics.h"
+#include "verification/stage_record.h"
 
 namespace tacipc::bench {
 namespace {
-
-double median(std::vector<double> all) {
-  if (all.empty()) return 0.0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
-}
 
 std::string line(const std::string& object, const std::vector<RoutePair>& pairs, const RouteLimits& limits) {
   const RouteSummary sum = summarize(pairs, limits);
   int fast_newton = 0, direct_newton = 0;
   Difference worst;
   for (const RoutePair& pair : pairs) {
-    if (const auto apart = pair.apart()) {
-      worst.largest_m = std::max(worst.largest_m, apart->largest_m);
-      worst.rms_m = std::max(worst.rms_m, apart->rms_m);
-      worst.force = std::max(worst.force, std::abs(apart->force));
+    if (const auto d = pair.route_difference()) {
+      worst.largest_m = std::max(worst.largest_m, d->largest_m);
+      worst.rms_m = std::max(worst.rms_m, d->rms_m);
+      worst.force = std::max(worst.force, std::abs(d->force));
       fast_newton += pair.fast.run->newton();
       direct_newton += pair.direct.run->newton();
     }
@@ -50,12 +44,12 @@ RouteLimits RouteLimits::read(ConfigReader& in) {
 }
 
 bool RoutePair::agrees(const RouteLimits& limits) const {
-  const auto d = apart();
+  const auto d = route_difference();
   return d && d->rms_m <= limits.rms_m && std::abs(d->force) <= limits.force;
 }
 
-bool RoutePair::to_the_vertex(const RouteLimits& limits) const {
-  return agrees(limits) && apart()->largest_m <= limits.largest_m;
+bool RoutePair::agrees_at_every_vertex(const RouteLimits& limits) const {
+  return agrees(limits) && route_difference()->largest_m <= limits.largest_m;
 }
 
 std::vector<RoutePair> read_route_pairs(const std::vector<std::filesystem::path>& folders) {
@@ -87,64 +81,66 @@ RouteSummary summarize(const std::vector<RoutePair>& pairs, const RouteLimits& l
     sum.fast_converged += pair.fast.run ? 1 : 0;
     sum.direct_converged += pair.direct.run ? 1 : 0;
     sum.agree += pair.agrees(limits) ? 1 : 0;
-    sum.to_the_vertex += pair.to_the_vertex(limits) ? 1 : 0;
-    if (const auto apart = pair.apart()) {
-      largest.push_back(apart->largest_m);
-      rms.push_back(apart->rms_m);
-      force.push_back(std::abs(apart->force));
+    sum.agrees_at_every_vertex += pair.agrees_at_every_vertex(limits) ? 1 : 0;
+    if (const auto d = pair.route_difference()) {
+      largest.push_back(d->largest_m);
+      rms.push_back(d->rms_m);
+      force.push_back(std::abs(d->force));
       sum.fast_s += pair.fast.run->processor_s;
       sum.direct_s += pair.direct.run->processor_s;
     }
   }
-  sum.median_largest_m = median(std::move(largest));
-  sum.median_rms_m = median(std::move(rms));
-  sum.median_force = median(std::move(force));
+  if (largest.empty()) return sum;
+  sum.median_largest_m = upper_median(std::move(largest));
+  sum.median_rms_m = upper_median(std::move(rms));
+  sum.median_force = upper_median(std::move(force));
   return sum;
 }
 
 std::string routes_page(const std::vector<RoutePair>& pairs, const RouteLimits& limits) {
   const RouteSummary sum = summarize(pairs, limits);
   std::string out = fmt::format(
-      "# Two routes, one answer\n\n"
-      "Every mesh of the shared data in five poses (`configs/benchmarks/poses/*.yaml`: pressed, aside, dragged, "
+      "# Default solver against factorisation\n\n"
+      "Every mesh of the shared data in five poses (`configs/studies/speed/poses/*.yaml`: pressed, aside, dragged, "
       "turned, "
       "tilted) on a gel of 12k vertices, friction 0.5 with one lag per step, the paper's stiffness, a tenth of the "
       "usual "
       "tolerances: by the default route, and with every linear system factorised. Made by "
       "`make -f Makefile.data routes SHARED=…`.\n\n"
-      "{} samples: {} converged by the default route, {} by factorisation; in {} the answers agree in the last frame "
+      "{} samples: {} converged by the default route, {} by factorisation; in {} the results agree in the last frame "
       "within "
-      "{:g} µm rms over the gel's vertices and {:g} % of the press force, in {} of these no vertex is further apart "
+      "{:g} µm rms over the gel's vertices and {:g} % of the press force, in {} of these no vertex differs by more "
       "than "
-      "{:g} µm. In the median they are {:.2g} µm rms, {:.2g} µm at the largest and {:.2g} % of the force apart. CPU "
-      "seconds "
-      "in all: {:.0f} against {:.0f}.\n\n"
+      "{:g} µm. Median differences: {:.2g} µm rms, {:.2g} µm largest, {:.2g} % of the force. CPU seconds in total: "
+      "{:.0f} against {:.0f}.\n\n"
       "| Object | Converged | by factorisation | Agree | Largest, µm | rms, µm | Force, % | Newton iterations | CPU s "
       "|\n|---|---|---|---|---|---|---|---|---|\n",
       sum.samples, sum.fast_converged, sum.direct_converged, sum.agree, 1e6 * limits.rms_m, 100.0 * limits.force,
-      sum.to_the_vertex, 1e6 * limits.largest_m, 1e6 * sum.median_rms_m, 1e6 * sum.median_largest_m,
+      sum.agrees_at_every_vertex, 1e6 * limits.largest_m, 1e6 * sum.median_rms_m, 1e6 * sum.median_largest_m,
       100.0 * sum.median_force, sum.fast_s, sum.direct_s);
   for (auto first = pairs.begin(); first != pairs.end();) {
     const auto last = std::find_if(first, pairs.end(), [&](const RoutePair& p) { return p.object != first->object; });
     out += line(first->object, {first, last}, limits);
     first = last;
   }
-  out += "\nThe largest of the poses each; Newton iterations and CPU seconds of all, default / factorised.\n";
-  std::string apart;
+  out +=
+      "\nDifferences are the largest over the poses; Newton iterations and CPU seconds are sums over them, default / "
+      "factorised.\n";
+  std::string exceptions;
   for (const RoutePair& pair : pairs) {
-    if (pair.to_the_vertex(limits)) continue;
+    if (pair.agrees_at_every_vertex(limits)) continue;
     const std::string name = fmt::format("- {}, {}: ", pair.object, pair.pose);
-    if (const auto d = pair.apart()) {
-      apart += fmt::format("{}apart by {:.2g} µm largest, {:.2g} µm rms, {:+.2g} % of the force\n", name,
-                           1e6 * d->largest_m, 1e6 * d->rms_m, 100.0 * d->force);
+    if (const auto d = pair.route_difference()) {
+      exceptions += fmt::format("{}{:.2g} µm largest, {:.2g} µm rms, {:+.2g} % of the force\n", name,
+                                1e6 * d->largest_m, 1e6 * d->rms_m, 100.0 * d->force);
     } else if (pair.both()) {
-      apart += name + "on different gels\n";
+      exceptions += name + "on different gels\n";
     } else {
-      if (!pair.fast.run) apart += fmt::format("{}by the default route: {}\n", name, pair.fast.failure);
-      if (!pair.direct.run) apart += fmt::format("{}by factorisation: {}\n", name, pair.direct.failure);
+      if (!pair.fast.run) exceptions += fmt::format("{}by the default route: {}\n", name, pair.fast.failure);
+      if (!pair.direct.run) exceptions += fmt::format("{}by factorisation: {}\n", name, pair.direct.failure);
     }
   }
-  if (!apart.empty()) out += "\n## Samples that failed, or with a vertex further apart than that\n\n" + apart;
+  if (!exceptions.empty()) out += "\n## Samples that failed, or in which a vertex differs by more\n\n" + exceptions;
   return out;
 }
 

@@ -1,4 +1,4 @@
-// The same samples by two routes: which converged, and how far the answers are apart.
+// The same samples by two routes: which converged, and the differences between their results.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "bench/bench_run.h"
-#include "common/config.h"
+#include "common/config/config.h"
 
 namespace tacipc::bench {
 
-/// How far two answers to one sample may be apart and still agree.
+/// Largest differences with which two results of one sample agree.
 struct RouteLimits {
   double rms_m = 0.0;      // over the gel's vertices in the last frame
   double force = 0.0;      // of the press force, relative
@@ -32,9 +32,11 @@ struct RoutePair {
   RouteRun fast, direct;
 
   bool both() const { return fast.run && direct.run; }
-  std::optional<Difference> apart() const { return both() ? difference(*fast.run, *direct.run) : std::nullopt; }
+  std::optional<Difference> route_difference() const {
+    return both() ? difference(*fast.run, *direct.run) : std::nullopt;
+  }
   bool agrees(const RouteLimits& limits) const;
-  bool to_the_vertex(const RouteLimits& limits) const;
+  bool agrees_at_every_vertex(const RouteLimits& limits) const;
 };
 
 /// From folders of presses that are named gel-object-pose-fast and gel-object-pose-direct; by object, then pose.
@@ -43,7 +45,7 @@ std::vector<RoutePair> read_route_pairs(const std::vector<std::filesystem::path>
 
 struct RouteSummary {
   int samples = 0, fast_converged = 0, direct_converged = 0, agree = 0;
-  int to_the_vertex = 0;  // of those that agree: no vertex beyond the limit
+  int agrees_at_every_vertex = 0;  // of those that agree: no vertex differs by more than the limit
   double median_largest_m = 0.0, median_rms_m = 0.0, median_force = 0.0;  // of those that converged in both
   double fast_s = 0.0, direct_s = 0.0;                                    // CPU seconds of those
   bool holds() const { return agree == samples; }

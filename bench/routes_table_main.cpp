@@ -1,7 +1,7 @@
 // Puts the same samples by two routes side by side. The record's `holds` says whether all of them agree.
 #include "bench/routes_report.h"
-#include "common/files.h"
-#include "common/stage.h"
+#include "common/base/files.h"
+#include "common/stage/stage.h"
 
 using namespace tacipc;
 
@@ -10,7 +10,7 @@ namespace {
 const StageSpec kTable{
     .name = "routes_table",
     .summary = "Put samples that were pressed by two routes side by side.",
-    .inputs = {{"--limits", "how far two answers may be apart (YAML)"},
+    .inputs = {{"--limits", "largest differences between agreeing results (YAML)"},
                {"--press", "folder of a press, named gel-object-pose-fast or gel-object-pose-direct", true, true}}};
 
 }  // namespace

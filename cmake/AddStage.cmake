@@ -11,6 +11,16 @@ function(tacipc_add_stage name)
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
 
+# tacipc_add_program(<name> SOURCES a.cpp … LINK lib …)
+# A program of a study: an executable bin/<name> that is not installed.
+function(tacipc_add_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} tacipc::warnings)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+endfunction()
+
 # tacipc_add_test(<name> SOURCES a_test.cpp … [LINK lib …] [LABEL fast|slow|dev])
 # Every GoogleTest case becomes a CTest case named <name>.<suite>.<case>.
 function(tacipc_add_test name)

@@ -12,6 +12,6 @@ else()
   set(version "${PROJECT_VERSION}")
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[
-#include "common/stage.h"
+#include "common/stage/stage.h"
 std::string tacipc::program_version() { return "@version@"; }
 ]] @ONLY)

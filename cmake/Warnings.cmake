@@ -8,5 +8,5 @@ if(TACIPC_WARNINGS_AS_ERRORS)
 endif()
 # No contraction into fused multiply-adds behind our back: the same source gives the same bits at any optimisation level.
 target_compile_options(tacipc_warnings INTERFACE -ffp-contract=off -march=${TACIPC_MARCH})
-# Packs (common/simd.h) are passed between inlined functions only, so how they would be passed is no matter.
+# Packs (common/base/simd.h) are passed between inlined functions only, so how they would be passed is no matter.
 target_compile_options(tacipc_warnings INTERFACE -Wno-psabi)

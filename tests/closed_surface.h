@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "common/types.h"
+#include "common/base/types.h"
 
 namespace tacipc {
 

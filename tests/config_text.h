@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/config.h"
-#include "common/error.h"
+#include "common/base/error.h"
+#include "common/config/config.h"
 
 namespace tacipc {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "common/triangle_mesh.h"
+#include "common/mesh/triangle_mesh.h"
 
 namespace tacipc {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/files.h"
+#include "common/base/files.h"
 
 namespace tacipc {
 

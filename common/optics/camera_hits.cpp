@@ -6,7 +6,8 @@ namespace {
 constexpr int kRays = RayPacket::kSize;
 static_assert(kRays == kLanes);
 
-/// Tries rays that met nothing again, 1e-6 beside: a ray exactly through a vertex may slip through all its triangles.
+/// Retries rays that met nothing with an offset of 1e-6: a ray exactly through a vertex may slip through all its
+/// triangles.
 void nudge(const RayScene& scene, const CameraRays& rays, std::uint32_t missed, std::array<int, kRays>& triangles,
            HitCounts& counts) {
   for (const Vector3& aside : {Vector3(1e-6, 0.0, 0.0), Vector3(0.0, 1e-6, 0.0)}) {

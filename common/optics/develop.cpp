@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "common/camera_model.h"
-#include "common/error.h"
-#include "common/rng.h"
+#include "common/base/error.h"
+#include "common/base/rng.h"
+#include "common/sensor/camera_model.h"
 
 namespace tacipc {
 namespace {
@@ -89,15 +89,16 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
     low_excess = high_excess;
     high_excess = total(std::exp(high += step)) - wanted;
   }
-  constexpr int kMost = 100;
-  constexpr double kClose = 1e-12;  // of the exposure and of the mean: what summing leaves of a double's digits
-  int stayed = 0;                   // > 0: `high` did so often, < 0: `low`
-  for (int i = 0; i < kMost && high - low > kClose && high_excess > 0.0; ++i) {
+  constexpr int kMaxIterations = 100;
+  constexpr double kRelativeTolerance =
+      1e-12;       // of the exposure and of the mean: what summing leaves of a double's digits
+  int stayed = 0;  // > 0: `high` did so often, < 0: `low`
+  for (int i = 0; i < kMaxIterations && high - low > kRelativeTolerance && high_excess > 0.0; ++i) {
     const double share = std::clamp(low_excess / (low_excess - high_excess), 1e-3, 1.0 - 1e-3);
     const double at = low + share * (high - low);
     if (!(low < at && at < high)) break;
     const double excess = total(std::exp(at)) - wanted;
-    if (std::abs(excess) <= kClose * wanted) return std::exp(at);
+    if (std::abs(excess) <= kRelativeTolerance * wanted) return std::exp(at);
     if (excess < 0.0) {
       low = at;
       low_excess = excess;
@@ -178,15 +179,15 @@ TactileImage transfer_ratio(const ByteImage& reference, const FloatImage& simula
                             const FloatImage& simulated_reference, double exposure, const Response& response) {
   assert(reference.pixels.size() == simulated.pixels.size());
   assert(reference.pixels.size() == simulated_reference.pixels.size());
-  constexpr double kDark = 1e-4;  // of full scale: below it a ratio says nothing
+  constexpr double kSmallestDivisor = 1e-4;  // of full scale: below it a ratio says nothing
   FloatImage codes(reference.width, reference.height, reference.channels);
   tbb::parallel_for(0, reference.height, [&](int y) {
     const std::size_t length = row_length(codes), row = static_cast<std::size_t>(y);
     for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
       const double real = value_of(reference.pixels[i], response);
       const double with = exposure * simulated.pixels[i], without = exposure * simulated_reference.pixels[i];
-      codes.pixels[i] =
-          static_cast<float>(code_of(without > kDark ? real * with / without : real + with - without, response));
+      codes.pixels[i] = static_cast<float>(
+          code_of(without > kSmallestDivisor ? real * with / without : real + with - without, response));
     }
   });
   return quantise(codes);

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "common/config.h"
-#include "common/image.h"
-#include "common/sensor.h"
+#include "common/config/config.h"
+#include "common/image/image.h"
+#include "common/sensor/sensor.h"
 
 namespace tacipc {
 

@@ -11,8 +11,8 @@
 namespace tacipc {
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMostCells = 160;  // along the longer side
-constexpr int kReach = 8;        // cells that the search goes sideways at most
+constexpr int kMaxCells = 160;         // along the longer side
+constexpr int kSearchRadiusCells = 8;  // cells that the search goes sideways at most
 }  // namespace
 
 Horizon::Horizon(const Membrane& membrane) {
@@ -21,7 +21,7 @@ Horizon::Horizon(const Membrane& membrane) {
   low_x_ = low.x();
   low_y_ = low.y();
   const Vector3 size = high - low;
-  width_ = std::max({size.x() / kMostCells, size.y() / kMostCells, deepest / kFloor / kReach, 1e-9});
+  width_ = std::max({size.x() / kMaxCells, size.y() / kMaxCells, deepest / kFloor / kSearchRadiusCells, 1e-9});
   columns_ = static_cast<int>(size.x() / width_) + 1;
   rows_ = static_cast<int>(size.y() / width_) + 1;
   const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
@@ -42,15 +42,16 @@ Horizon::Horizon(const Membrane& membrane) {
     }
   }
   bound_.assign(cells, kFloor);
-  std::array<std::array<double, kReach + 1>, kReach + 1> gap{};  // between cells with so many others between them
-  for (int j = 0; j <= kReach; ++j)
-    for (int i = 0; i <= kReach; ++i) gap[j][i] = width_ * std::hypot(i, j);
+  std::array<std::array<double, kSearchRadiusCells + 1>, kSearchRadiusCells + 1>
+      gap{};  // between cells with so many others between them
+  for (int j = 0; j <= kSearchRadiusCells; ++j)
+    for (int i = 0; i <= kSearchRadiusCells; ++i) gap[j][i] = width_ * std::hypot(i, j);
   tbb::parallel_for(0, rows_, [&](int row) {
     for (int column = 0; column < columns_; ++column) {
       double& bound = bound_[at(column, row)];
       const double here = back[at(column, row)];
       // Farther off nothing is high enough to rise by kFloor.
-      const double reach = std::clamp((here - low.z()) / (kFloor * width_), 0.0, double{kReach});
+      const double reach = std::clamp((here - low.z()) / (kFloor * width_), 0.0, double{kSearchRadiusCells});
       const int cells_away = static_cast<int>(reach) + 1;
       for (int j = std::max(0, row - cells_away); j <= std::min(rows_ - 1, row + cells_away); ++j) {
         for (int i = std::max(0, column - cells_away); i <= std::min(columns_ - 1, column + cells_away); ++i) {

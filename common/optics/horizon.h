@@ -1,4 +1,4 @@
-// Where the membrane is too level to stand in its own light: rays that need not be traced.
+// Where the membrane is too flat to shadow itself: rays that need not be traced.
 #pragma once
 
 #include <vector>

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <optional>
 
+#include "common/base/rng.h"
+#include "common/base/sobol.h"
 #include "common/optics/light_path.h"
-#include "common/rng.h"
-#include "common/sobol.h"
 
 namespace tacipc {
 namespace {

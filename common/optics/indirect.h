@@ -1,4 +1,4 @@
-// Light that reaches the membrane by way of the membrane: from wall to wall, and back from the window by total
+// Light that reaches the membrane from the membrane itself: from wall to wall, and back from the window by total
 // reflection. One bounce, gathered at the vertices by quasi-Monte-Carlo.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 #include "common/optics/membrane.h"
 #include "common/optics/ray_scene.h"
-#include "common/sensor.h"
+#include "common/sensor/sensor.h"
 
 namespace tacipc {
 

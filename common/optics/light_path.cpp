@@ -28,10 +28,11 @@ TACIPC_INLINE Pack past_screen(const LightSample& sample, const Pack3& direction
 }
 
 TACIPC_CLONES void straight(const Pack3& point, const LightSample& sample, IncidencePack& out) {
-  const Pack3 way = {sample.position_m.x() - point.x, sample.position_m.y() - point.y, sample.position_m.z() - point.z};
-  const Pack squared_distance = dot(way, way);
+  const Pack3 offset = {sample.position_m.x() - point.x, sample.position_m.y() - point.y,
+                        sample.position_m.z() - point.z};
+  const Pack squared_distance = dot(offset, offset);
   out.length = root(squared_distance);
-  out.direction = (1.0 / out.length) * way;
+  out.direction = (1.0 / out.length) * offset;
   const Pack cosine = -(out.direction.x * sample.normal.x() + out.direction.y * sample.normal.y() +
                         out.direction.z * sample.normal.z());
   out.irradiance = sample.weight * emitted(sample, cosine) / squared_distance;
@@ -85,10 +86,10 @@ void add_diffused(const Led& led, const LightSample& like, std::vector<LightSamp
     for (int j = 0; j < kSectors; ++j) {
       const double azimuth = 2.0 * std::numbers::pi * (j + 0.5) / kSectors;
       const Vector3 place(radius * std::cos(azimuth), radius * std::sin(azimuth), ring.z_m);
-      const Vector3 way = place - led.position_m;
-      const double distance = way.norm(), cosine = way.dot(led.normal) / distance;
+      const Vector3 offset = place - led.position_m;
+      const double distance = offset.norm(), cosine = offset.dot(led.normal) / distance;
       const double intensity = emitted(like, Pack{} + cosine)[0];
-      const double irradiance = intensity * (way.z() / distance) / (distance * distance);
+      const double irradiance = intensity * (offset.z() / distance) / (distance * distance);
       const double area = 2.0 * std::numbers::pi / kSectors * radius * width;
       LightSample patch = like;
       patch.position_m = place;
@@ -137,7 +138,7 @@ std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, b
         for (int b = 0; b < n; ++b) {
           const double u = (a + 0.5) / n - 0.5, v = (b + 0.5) / n - 0.5;
           sample.position_m = led.position_m + u * led.size_m[0] * first + v * led.size_m[1] * second;
-          // A tilted emitter's points lie at different heights, so each has its own way through the first medium.
+          // A tilted emitter's points lie at different heights, so each has its own path through the first medium.
           if (sample.stack)
             sample.stack = sensor.stack.from(std::min(sample.position_m.z(), -sensor.stack.gel_thickness_m - 1e-9));
           samples.push_back(sample);

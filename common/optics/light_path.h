@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/layered_path.h"
-#include "common/sensor.h"
-#include "common/types.h"
+#include "common/base/types.h"
+#include "common/sensor/layered_path.h"
+#include "common/sensor/sensor.h"
 
 namespace tacipc {
 
@@ -24,7 +24,7 @@ struct LightSample {
 };
 
 /// Midpoints of an edge_samples × edge_samples grid on each emitter, a single point for lights without size. The
-/// rectangles are turned so that an edge faces the sensor's axis, as packages on a ring board sit.
+/// rectangles are turned so that an edge faces the sensor's axis, as packages are mounted on a ring board.
 /// Where the sensor has a diffuser, each LED also lights patches of it: a patch of area A that receives E from it emits
 /// as a Lambert source of intensity τ E A / π along its normal, and the direct light through the ring is cut off.
 std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, bool refract = true);
@@ -37,7 +37,7 @@ struct SurfacePack {
   Pack3 shadow_origin;  // where rays to the lights start
 };
 
-/// Light that arrives at them on the way from one light sample.
+/// Light that arrives at them from one light sample.
 struct IncidencePack {
   Pack3 direction;  // unit, from the point towards the light, in the gel
   Pack length;      // of the path in the gel, m: what blocks it there makes shadow

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "common/error.h"
+#include "common/base/error.h"
 
 namespace tacipc {
 

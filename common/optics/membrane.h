@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "common/tet_mesh.h"
-#include "common/types.h"
+#include "common/base/types.h"
+#include "common/mesh/tet_mesh.h"
 
 namespace tacipc {
 

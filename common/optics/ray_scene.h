@@ -1,12 +1,12 @@
-// Which triangle a ray meets first, and whether anything blocks a segment (Embree behind it).
+// First triangle on a ray, and occlusion of segments (by Embree).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
 
-#include "common/flush_denormals.h"
-#include "common/types.h"
+#include "common/base/flush_denormals.h"
+#include "common/base/types.h"
 
 namespace tacipc {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "common/camera_model.h"
-#include "common/error.h"
+#include "common/base/error.h"
 #include "common/optics/camera_hits.h"
+#include "common/sensor/camera_model.h"
 
 namespace tacipc {
 
@@ -38,7 +38,7 @@ MembraneView view_membrane(const Positions& positions, const Triangles& triangle
   });
   for (int y = 0; y < view.height; ++y) {
     if (const auto& x = fallen[static_cast<std::size_t>(y)])
-      throw DataError("a camera ray slips through the front face at pixel ({}, {}), even after a nudge", *x, y);
+      throw DataError("a camera ray slips through the front face at pixel ({}, {}), even after a retry", *x, y);
   }
   return view;
 }

@@ -10,12 +10,12 @@
 #include <optional>
 #include <vector>
 
-#include "common/camera_model.h"
-#include "common/error.h"
+#include "common/base/error.h"
 #include "common/optics/camera_hits.h"
 #include "common/optics/horizon.h"
 #include "common/optics/indirect.h"
 #include "common/optics/light_path.h"
+#include "common/sensor/camera_model.h"
 
 namespace tacipc {
 namespace {
@@ -100,7 +100,7 @@ class RowTracer {
           const auto pixel = static_cast<std::size_t>((first + l) / subpixels_);
           const auto& hit = hits[static_cast<std::size_t>(l)];
           if (!hit) {
-            ++pixels[pixel].segments[0];
+            ++pixels[pixel].segments[static_cast<std::size_t>(Segment::beside)];
             continue;
           }
           const bool on_marker = add_geometry(*hit, pixels[pixel]);
@@ -138,7 +138,7 @@ class RowTracer {
  private:
   using Hits = std::array<std::optional<SurfaceHit>, kLanes>;
 
-  /// Adds up what reaches the hits from every light and goes on to the camera.
+  /// Adds up what reaches the hits from every light and is reflected to the camera.
   void gather_light(const Hits& hits, const CameraRays& rays, std::vector<GroupLight>& light) const {
     std::fill(light.begin(), light.end(), GroupLight{});
     SurfacePack surface;
@@ -161,7 +161,7 @@ class RowTracer {
       CoatingResponse response = coating_response(surface, incidence.direction, sensor_.coating);
       response.diffuse *= incidence.irradiance * rays.transmittance;
       response.gloss *= incidence.irradiance * rays.transmittance;
-      // What climbs more steeply than anything around stands free: all of a flat face, most of a pressed one.
+      // What is steeper than any surface around it is unobstructed: all of a flat face, most of a pressed one.
       const Pack3& w = incidence.direction;
       const Pack over = w.z * w.z - squared_steepness * (w.x * w.x + w.y * w.y);
       std::uint32_t reached = 0, doubtful = 0;
@@ -208,7 +208,7 @@ class RowTracer {
     return sum;
   }
 
-  /// Adds all that is no light; true if the point belongs to a printed marker.
+  /// Adds all that is not a light; true if the point belongs to a printed marker.
   bool add_geometry(const SurfaceHit& hit, PixelSums& pixel) const {
     ++pixel.hits;
     pixel.depth += hit.point.z() - sensor_.camera.position_m.z();
@@ -216,7 +216,7 @@ class RowTracer {
     pixel.normal -= hit.inner_normal;
     int nearest = 0;
     hit.weights.maxCoeff(&nearest);
-    std::size_t contact = 0;
+    ContactState contact = ContactState::none;
     if (!fields_.contact.empty())
       contact = fields_.contact[static_cast<std::size_t>(membrane_.triangles(hit.triangle, nearest))];
     bool on_marker = false;
@@ -229,8 +229,11 @@ class RowTracer {
     }
     if (sensor_.markers.radius_m) on_marker = sensor_.markers.covers(rest.x(), rest.y());
     pixel.on_marker += on_marker;
-    ++pixel.contacts[contact];
-    ++pixel.segments[on_marker ? (contact > 0 ? 4 : 3) : (contact > 0 ? 2 : 1)];
+    ++pixel.contacts[static_cast<std::size_t>(contact)];
+    const bool touched = contact != ContactState::none;
+    const Segment segment = on_marker ? (touched ? Segment::marker_in_contact : Segment::marker)
+                                      : (touched ? Segment::contact : Segment::gel);
+    ++pixel.segments[static_cast<std::size_t>(segment)];
     return on_marker;
   }
 
@@ -292,7 +295,7 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
   out.rays = std::int64_t{width} * height * settings.subpixels * settings.subpixels;
   for (const RowCounts& row : rows) {
     if (row.fallen_pixel) {
-      throw DataError("a camera ray slips through the front face at pixel ({}, {}), even after a nudge",
+      throw DataError("a camera ray slips through the front face at pixel ({}, {}), even after a retry",
                       (*row.fallen_pixel)[0], (*row.fallen_pixel)[1]);
     }
     out.nudged_rays += row.rays.nudged;

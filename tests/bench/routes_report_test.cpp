@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "common/error.h"
+#include "common/base/error.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
@@ -35,7 +35,7 @@ TEST(Routes, AnswersAgreeWithinEveryLimit) {
   EXPECT_FALSE(sample("a", "p", 1e-7, 0.9998).agrees(kLimits));  // force
   EXPECT_FALSE(sample("a", "p", 5e-7, 1.0).agrees(kLimits));     // rms 2.5e-7
   EXPECT_TRUE(sample("a", "p", 1.1e-6, 1.0).agrees({.rms_m = 1.0, .force = 1.0, .largest_m = 1e-6}));
-  EXPECT_FALSE(sample("a", "p", 1.1e-6, 1.0).to_the_vertex({.rms_m = 1.0, .force = 1.0, .largest_m = 1e-6}));
+  EXPECT_FALSE(sample("a", "p", 1.1e-6, 1.0).agrees_at_every_vertex({.rms_m = 1.0, .force = 1.0, .largest_m = 1e-6}));
 }
 
 TEST(Routes, ARunThatFailedAgreesWithNothingAndIsNamed) {
@@ -53,7 +53,7 @@ TEST(Routes, ARunThatFailedAgreesWithNothingAndIsNamed) {
   EXPECT_THAT(page, HasSubstr("| a | 1 of 1 | 1 of 1 | 1 of 1 |"));
   EXPECT_THAT(page, HasSubstr("| b | 2 of 2 | 1 of 2 | 0 of 2 |"));
   EXPECT_THAT(page, HasSubstr("- b, p: by factorisation: Newton did not converge\n"));
-  EXPECT_THAT(page, HasSubstr("- b, q: apart by 10 µm largest, 5 µm rms"));
+  EXPECT_THAT(page, HasSubstr("- b, q: 10 µm largest, 5 µm rms"));
   EXPECT_THAT(page, Not(HasSubstr("- a, p")));
   EXPECT_TRUE(summarize({pairs[0]}, kLimits).holds());
 }

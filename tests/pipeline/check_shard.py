@@ -107,8 +107,8 @@ failures = list(csv.DictReader(open(os.path.join(pack, "failures.csv"))))
 assert [row["id"] for row in failures] == [s for s, row in manifest.items() if row["status"] != "made"]
 assert all(row["reason"] for row in failures)
 
-# The ten lines of the card, of the documentation and of configs/card are the same, and load batches.
-loader = open(os.path.join(source, "configs/card/loader.py")).read()
+# The ten lines of the card, of the documentation and of configs/datasets/card are the same, and load batches.
+loader = open(os.path.join(source, "configs/datasets/card/loader.py")).read()
 assert loader in open(os.path.join(pack, "README.md")).read() and loader in open(os.path.join(source, "docs/pack.md")).read()
 code = {}
 exec(loader, code)

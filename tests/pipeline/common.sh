@@ -1,11 +1,15 @@
+# shellcheck shell=bash
 # Shared by the pipeline tests: a scratch copy of the pipelines beside the built executables.
 # Arguments of every test: SOURCE_DIR BUILD_DIR
 set -euo pipefail
 source_dir=$1
 build_dir=$2
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cp -r "$source_dir"/{Makefile.data,pipelines,configs,packages.txt} "$scratch"
+# The copy lies in folders that are called like methods and outputs of the pipelines: nothing may be told by what a folder above is called.
+scratch_root=$(mktemp -d)
+trap 'rm -rf "$scratch_root"' EXIT
+scratch=$scratch_root/tacipc/fine/out
+mkdir -p "$scratch"
+cp -r "$source_dir"/{Makefile.data,pipelines,configs,packages} "$scratch"
 cd "$scratch"
 unset MAKEFLAGS MFLAGS MAKELEVEL  # ctest itself may run under make
 

@@ -9,12 +9,12 @@ sed 's/vertex \(.*\) 2$/vertex \1 3/' pyramid.stl > mine/older/pyramid.stl
 sed 's/coefficient: .*/coefficient: 0.1/' configs/press/friction.yaml > mine/slippery.yaml
 cp configs/press/friction.yaml mine/friction.yaml
 cp configs/press/friction.yaml mine/twin.yaml
-cp configs/tetmesh/tiny.yaml mine/coarse.yaml
+cp configs/gels/tiny.yaml mine/coarse.yaml
 sed 's/^frames: .*/frames: all/' configs/render/default.yaml > mine/quick.yaml
-touch -d '2020-01-01' mine/*.yaml mine/*/pyramid.stl configs/tetmesh/tiny.yaml
+touch -d '2020-01-01' mine/*.yaml mine/*/pyramid.stl configs/gels/tiny.yaml
 cat > mine/small.yaml <<'END'
 seed: 1
-sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/tetmesh/tiny.yaml}
+sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/gels/tiny.yaml}
 objects: {meshes: meshes, unit: mm}
 press: friction.yaml
 motions:
@@ -55,8 +55,8 @@ cp -p mine/friction.yaml mine/slippery.yaml
 [ "$(made_anew '')" = 'press.yaml render.yaml ' ] || fail "a press file that an older one replaced redoes something else"
 says 'coefficient: 0.7' "a press file that an older one replaced"
 [ "$(made_anew 's|meshes: moved|meshes: older|')" = 'decimate.yaml press.yaml render.yaml ' ] || fail "an older mesh redoes something else"
-[ "$(made_anew 's|../configs/tetmesh/tiny.yaml|coarse.yaml|')" = 'press.yaml render.yaml sample.yaml tetmesh.yaml ' ] || fail "another gel redoes something else"
-[ "$(made_anew 's|coarse.yaml|../configs/tetmesh/tiny.yaml|')" = 'press.yaml render.yaml sample.yaml ' ] || fail "a gel that was there before redoes something else"
+[ "$(made_anew 's|../configs/gels/tiny.yaml|coarse.yaml|')" = 'press.yaml render.yaml sample.yaml tetmesh.yaml ' ] || fail "another gel redoes something else"
+[ "$(made_anew 's|coarse.yaml|../configs/gels/tiny.yaml|')" = 'press.yaml render.yaml sample.yaml ' ] || fail "a gel that was there before redoes something else"
 says 'gels/mctac-tiny/gel.msh' "a gel that was there before"
 [ "$(made_anew '$s|$|\nrender: quick.yaml|')" = 'render.yaml ' ] || fail "another older render file redoes something else"
 
@@ -73,7 +73,7 @@ small_with() { small "$@" BUILD="$PWD/stub_build" JOBS=1; }
 stubs render 'exit 143'
 touch mine/slippery.yaml
 small_with dataset > said.txt 2>&1 && fail "an interrupted run ends well"
-small status | grep -q '^small: 2 samples: 1 made, 0 failed, 0 running, 1 left$' || fail "new press and old images count as made: $(small status)"
+grep -q '^small: 2 samples: 1 made, 0 failed, 0 running, 1 left$' <<< "$(small status)" || fail "new press and old images count as made: $(small status)"
 
 # Inputs that change in mid-run, or are gone for a moment, are no failure and no wrong configuration: the stage runs once more.
 stubs press 'echo >> tries
@@ -95,14 +95,14 @@ grep -q '2 made' said.txt || fail "what an earlier run left stops this one: $(ca
 
 # Without a whole table nothing counts as complete, and no failure makes one.
 mv $set/plan/samples.csv table.csv
-STOP_AFTER=9 bash pipelines/dataset_stage.sh $set $set/.runs/test press $set/samples/000/none/press/press.yaml mine/slippery.yaml false 2> said.txt
-tail -n 1 $set/failures.csv | grep -q ',press,"no reason given",' || fail "a failure without a table is not noted: $(cat said.txt)"
+TACIPC=$build_dir/bin/tacipc STOP_AFTER=9 bash pipelines/dataset/dataset_stage.sh $set $set/.runs/test press $set/samples/000/none/press/press.yaml mine/slippery.yaml false 2> said.txt
+grep -q ',press,"no reason given",' <<< "$(tail -n 1 $set/failures.csv)" || fail "a failure without a table is not noted: $(cat said.txt)"
 [ ! -e $set/plan/samples.csv ] || fail "a failure makes an empty table"
 head -n 1 table.csv > $set/plan/samples.csv
-bash pipelines/dataset_status.sh --all-made $set > said.txt 2>&1 && fail "an empty table is complete: $(cat said.txt)"
+"$build_dir/bin/survey" status --all-made $set > said.txt 2>&1 && fail "an empty table is complete: $(cat said.txt)"
 grep -q 'has 0 rows where there should be 1' said.txt || fail "it is not told that the table is empty: $(cat said.txt)"
 head -n 2 table.csv > $set/plan/samples.csv
-bash pipelines/dataset_status.sh --all-made $set 0 2 > said.txt 2>&1 && fail "half a table is complete: $(cat said.txt)"
+"$build_dir/bin/survey" status --all-made $set --first 0 --end 2 > said.txt 2>&1 && fail "half a table is complete: $(cat said.txt)"
 mv table.csv $set/plan/samples.csv
 
 # A file of the future.

@@ -9,10 +9,10 @@ if [ "${MOUNTED:-}" = "" ]; then
   done
 fi
 mkdir mine disk
-trap 'umount "$scratch/disk" 2> /dev/null || true; rm -rf "$scratch"' EXIT
+trap 'umount "$scratch/disk" 2> /dev/null || true; rm -rf "$scratch_root"' EXIT
 cat > mine/set.yaml <<'END'
 seed: 1
-sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/tetmesh/tiny.yaml}
+sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/gels/tiny.yaml}
 objects: {meshes: .., only: [pyramid], unit: mm}
 motions:
   - {name: down, samples: 8, placement: {rotate_deg: [0, 90]}, motion: {kind: press, depth_mm: [0.2, 0.3], steps: 1}}
@@ -55,7 +55,7 @@ for jobs in 1 2; do
   [ "${MOUNTED:-}" != yes ] || [ "$before" -ge 1 ] || fail "the disk was full from the beginning"
   tries=$(tail -n +2 disk/datasets/set/failures.csv | wc -l)
   [ "$tries" -ge 1 ] && [ "$tries" -le $jobs ] || fail "samples failed one after another: $(cat disk/datasets/set/failures.csv)"
-  grep -v '^id,stage,reason,log,time,host$' disk/datasets/set/failures.csv | grep -qv "^mctac__pyramid__down__[0-9]*,[a-z]*,\".*$reason\",samples/000/.*$" && fail "the ledger is damaged: $(cat disk/datasets/set/failures.csv)"
+  grep -qv -e '^id,stage,reason,log,time,host$' -e "^mctac__pyramid__down__[0-9]*,[a-z]*,\".*$reason\",samples/000/.*$" disk/datasets/set/failures.csv && fail "the ledger is damaged: $(cat disk/datasets/set/failures.csv)"
   goal disk status > status.txt
   grep -q "^set: 8 samples: $before made, 0 failed, 0 running, $((8 - before)) left$" status.txt || fail "half a sample counts, or a failed one: $(cat status.txt)"
   # What counts as made is whole.

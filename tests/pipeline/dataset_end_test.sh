@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # What a run of a dataset ends with: all that is made is packed, failed samples are listed, what is not kept is dropped; nothing is done twice.
 . "$(dirname "$0")/common.sh"
-sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/*.yaml
+sed -i 's/^vertices: .*/vertices: 3000/' configs/objects/patterns/*.yaml
 mkdir mine
 cat > mine/set.yaml <<'END'
 seed: 1
-sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/tetmesh/tiny.yaml}
+sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/gels/tiny.yaml}
 objects:
-  - {emboss: ../configs/emboss, only: [star]}
+  - {emboss: ../configs/objects/patterns, only: [star]}
   - {meshes: .., only: [pyramid], unit: mm}
 motions:
   - {name: down, samples: 2, placement: {rotate_deg: [0, 90]}, motion: {kind: press, depth_mm: [0.2, 0.3], steps: 1}}
@@ -43,7 +43,7 @@ goal out dataset > said.txt 2>&1 || fail "it is not completed: $(cat said.txt)"
 [ "$(grep -c ',made,' $set/pack/manifest.csv)" = 6 ] && [ "$(wc -l < $set/pack/failures.csv)" = 1 ] || fail "not all is packed"
 [ "$(files positions.npy)" = 0 ] && [ "$(files tactile.png)" = 0 ] && [ "$(files press.yaml)" = 6 ] || fail "what is packed is not dropped, or more than that"
 before=$(stamp)
-touch mine/set.yaml configs/pack/slim.yaml # the same plan and profile, later
+touch mine/set.yaml configs/datasets/pack/slim.yaml # the same plan and profile, later
 goal out dataset > said.txt 2>&1 || fail "a run after all was dropped fails: $(cat said.txt)"
 [ "$before" = "$(stamp)" ] || fail "a run after all was dropped did something: $(diff <(echo "$before") <(stamp))"
 grep -q '^set: 6 samples: 6 made, 0 failed' said.txt || fail "dropped samples do not count"
@@ -53,7 +53,7 @@ whole() { (cd $set/pack && sha256sum --quiet -c checksums.sha256) && [ "$(find $
 shards() { stat -c '%n %y' $set/shards/*/*.h5; }
 before=$(stamp)
 goal out pack PACK=full > said.txt 2>&1 && fail "what is gone was packed"
-grep -q 'was dropped after packing and cannot be packed again; clean-press, then it is made anew' said.txt || fail "it is not said why: $(cat said.txt)"
+grep -q 'was dropped after packing and cannot be packed again; clean-press, then it is made again' said.txt || fail "it is not said why: $(cat said.txt)"
 grep -q 'shards/[a-z]*-00000-of-00001 stays as it was before' said.txt || fail "it is not said what became of the shard: $(cat said.txt)"
 whole || fail "a shard that was refused took what was packed with it"
 goal out pack PACK=slim > said.txt 2>&1 || fail "with the profile of before it is not as before: $(cat said.txt)"
@@ -62,11 +62,11 @@ packed=$(shards)
 sed -i 's/keep: \[\]}/keep: [], shard_mb: 900}/' mine/set.yaml
 echo 'stop_after_failures: 7' >> mine/set.yaml
 goal out dataset > said.txt 2>&1 || fail "a key that no sample depends on asks for them: $(cat said.txt)"
-sed -i 's/^purpose:.*/purpose: Another one./' configs/card/default.yaml
+sed -i 's/^purpose:.*/purpose: Another one./' configs/datasets/card/default.yaml
 goal out pack > said.txt 2>&1 || fail "what is packed gets no other card: $(cat said.txt)"
 grep -qx 'Another one\.' $set/pack/README.md && whole && [ "$packed" = "$(shards)" ] || fail "another card is not there, or packed anew"
 [ -s $set/pack/sensors/mctac/markers-tiny.csv ] || fail "the download has no markers"
-for shard in $set/pack/shards/*.h5; do
+for shard in "$set"/pack/shards/*.h5; do
   [ "$(/usr/bin/python3 -c 'import h5py, sys; print(h5py.File(sys.argv[1]).attrs["config_sha256"])' "$shard")" = "$(sha256sum < $set/pack/dataset.yaml | cut -c1-64)" ] || fail "$shard is of another dataset.yaml"
 done
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # What estimate says after a pilot is what the dataset then costs, within a quarter: processor seconds and bytes on disk.
 . "$(dirname "$0")/common.sh"
-sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/*.yaml
+sed -i 's/^vertices: .*/vertices: 3000/' configs/objects/patterns/*.yaml
 mkdir mine meshes
 mv pyramid.stl meshes
 cat > mine/set.yaml <<'END'
 seed: 3
-sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/tetmesh/tiny.yaml}
+sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/gels/tiny.yaml}
 objects:
-  - {emboss: ../configs/emboss, only: [star, dots]}
+  - {emboss: ../configs/objects/patterns, only: [star, dots]}
   - {meshes: ../meshes, unit: mm}
 motions:
   - {name: down, samples: 4, placement: {rotate_deg: [0, 90]}, motion: {kind: press, depth_mm: [0.2, 0.4], steps: 2}}
@@ -26,7 +26,7 @@ within() { # within WHAT SAID MEASURED
   awk -v said="$2" -v measured="$3" -v what="$1" 'BEGIN { printf "%s: %g estimated, %g measured\n", what, said, measured; exit !(said > 0.75 * measured && said < 1.25 * measured) }' || fail "the estimate of $1 is off by more than a quarter"
 }
 goal estimate PILOT=8 > said.txt 2>&1 || fail "no estimate: $(cat said.txt)"
-[ "$(find $set/samples -name render.yaml | wc -l)" = 8 ] || fail "it is no pilot of eight samples"
+[ "$(find $set/samples -name render.yaml | wc -l)" = 8 ] || fail "it is not a pilot of eight samples"
 line=$(grep '^set: 24 samples: ' said.txt) || fail "the estimate does not say: $(cat said.txt)"
 grep -q '^  measured on 8 made samples' said.txt || fail "the pilot does not count: $(cat said.txt)"
 goal dataset > said.txt 2>&1 || fail "the dataset is not made: $(cat said.txt)"

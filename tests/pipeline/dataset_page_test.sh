@@ -5,7 +5,7 @@ set -euo pipefail
 pages=$2/tests/pipeline/dataset_pages
 for set in failing dropped; do
   report=$pages/$set/report
-  samples=$(cd "$report" && ls samples/*__star__down__*.html samples/*__along__*.html | sed -n '1p;$p')
-  python3 "$1/tests/pipeline/browse_pages.py" "$report" "$pages/screenshots/$set" index.html list-001.html sheet-001.html $samples
+  mapfile -t samples < <(cd "$report" && find samples -maxdepth 1 \( -name "*__star__down__*.html" -o -name "*__along__*.html" \) | LC_ALL=C sort | sed -n "1p;\$p")
+  python3 "$1/tests/pipeline/browse_pages.py" "$report" "$pages/screenshots/$set" index.html list-001.html sheet-001.html "${samples[@]}"
 done
 echo "1 passed, 0 failed"

@@ -2,13 +2,13 @@
 # A dataset from one file: equal bytes whole, in parts and by two runs at once; failures are noted, left alone and retried; a changed
 # motion redoes just its own samples; a killed run loses nothing. Leaves pages for dataset_page_test.sh.
 . "$(dirname "$0")/common.sh"
-sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/*.yaml
+sed -i 's/^vertices: .*/vertices: 3000/' configs/objects/patterns/*.yaml
 mkdir mine
 cat > mine/set.yaml <<'END'
 seed: 1
-sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/tetmesh/tiny.yaml}
+sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/gels/tiny.yaml}
 objects:
-  - {emboss: ../configs/emboss, only: [star, gear]}
+  - {emboss: ../configs/objects/patterns, only: [star, gear]}
   - {meshes: .., only: [pyramid], unit: mm}
 motions:
   - name: down
@@ -29,12 +29,13 @@ goal() { # goal OUT GOAL [VARIABLE=value …]
   shift 2
   make -s -f Makefile.data "$goal" CONFIG=mine/set.yaml OUT="$out" BUILD="$build_dir" PACKAGES=no REBUILD=no "$@"
 }
+table() { "$build_dir/bin/tacipc" table "$1/datasets/set/plan/samples.csv" "${@:2}"; } # table OUT [FLAG …]
 stamp() { find "$1/datasets/set/samples" -name '*.yaml' -not -name '*.timings.yaml' -printf '%p %T@\n' | sort; }
 samples() { (cd "$1/datasets/set" && find gels objects samples -type f -not -name '*.log' -not -name '*.timings.yaml' -not -name '.*' -print0 | sort -z | xargs -0 md5sum); }
 
-goal whole dataset JOBS=2 2> /dev/null | grep -q '^set: 9 samples: 9 made, 0 failed, 0 running, 0 left$' || fail "not all samples are made"
-[ "$(tail -n +2 whole/datasets/set/plan/samples.csv | cut -d, -f1 | sort -u | wc -l)" = 9 ] || fail "ids are not unique"
-grep '__star__' whole/datasets/set/plan/samples.csv | cut -d, -f3 | sort -u | grep -qx test || fail "star is not in test"
+grep -q '^set: 9 samples: 9 made, 0 failed, 0 running, 0 left$' <<< "$(goal whole dataset JOBS=2 2> /dev/null)" || fail "not all samples are made"
+[ "$(table whole --columns id | sort -u | wc -l)" = 9 ] || fail "ids are not unique"
+[ "$(table whole --columns split --where object=star | sort -u)" = test ] || fail "star is not in test"
 [ "$(md5sum whole/datasets/set/samples/000/*/render/frame_0000/tactile.png | cut -d' ' -f1 | sort -u | wc -l)" = 9 ] || fail "samples have the same noise"
 before=$(stamp whole)
 goal whole dataset > /dev/null
@@ -92,7 +93,7 @@ grep -q '^2 failures in a row' failing.txt || fail "failures in a row did not en
 sed -i 's/max_iterations: 1/max_iterations: 200/' mine/hopeless.yaml
 goal failing retry > failing.txt || fail "a retry did not complete the dataset"
 
-# A wrong configuration of a stage is no failed sample.
+# A wrong configuration of a stage is not a failed sample.
 sed -i 's/^  max_iter/  max_itre/' mine/hopeless.yaml
 goal failing dataset > failing.txt 2>&1 && fail "a wrong key was taken"
 grep -q 'unknown key (did you mean max_iterations?)' failing.txt || fail "a wrong key was not told"
@@ -114,7 +115,7 @@ for delay in 0.6 1.1 1.7; do
 done
 
 # A stage that dies by itself, a disk that is full, and a wrong plan.
-goal again status | grep -q '12 made' || fail "status does not count"
+grep -q '12 made' <<< "$(goal again status)" || fail "status does not count"
 goal again clean-render
 mkdir broken_bin
 for stage in "$build_dir"/bin/*; do ln -s "$stage" "broken_bin/"; done
@@ -127,7 +128,7 @@ goal again retry > /dev/null || fail "crashed samples cannot be made again"
 [ "$(samples again)" = "$(samples killed)" ] || fail "crashed samples end in other bytes"
 
 # What it costs, made again, one sample elsewhere (a failed one too), and what is left after packing.
-goal again estimate PILOT=4 | grep -Eq '^set: 12 samples: [0-9.e-]+ core-hours .* GB on disk$' || fail "no estimate"
+grep -Eq '^set: 12 samples: [0-9.e-]+ core-hours .* GB on disk$' <<< "$(goal again estimate PILOT=4)" || fail "no estimate"
 goal again reproduce K=2 | grep -c ': equal bytes$' | grep -qx 2 || fail "samples cannot be reproduced"
 replayed() { # replayed OUT ID EXPECTED
   goal "$1" bundle SAMPLE="$2" > /dev/null || fail "no bundle of $2"
@@ -136,7 +137,7 @@ replayed() { # replayed OUT ID EXPECTED
   BIN=$build_dir/bin bash "elsewhere/$2/replay.sh" > replayed.txt 2>&1 || true
   grep -qx "$3" replayed.txt || fail "$2 cannot be replayed: $(cat replayed.txt)"
 }
-id() { sed -n "s/^\(mctac__$1__[0-9]*\),.*/\1/p" again/datasets/set/plan/samples.csv | head -n 1; }
+id() { table again --columns id --where "object=${1%__*}" --where "motion=${1#*__}" | sed -n 1p; }
 replayed again "$(id star__down)" 'render.yaml is as it was'
 replayed again "$(id pyramid__along)" 'press.yaml is as it was'
 sed -i 's/max_iterations: 200/max_iterations: 1/' mine/hopeless.yaml
@@ -150,8 +151,8 @@ mkdir again/datasets/set/pack
 sha() { sha256sum < "$1" | cut -c1-64; }
 {
   echo id,status,press_sha256,render_sha256
-  sed '1d; /__gear__/d' again/datasets/set/plan/samples.csv | while IFS=, read -r id _ _ _ _ _ _ _ _ _ folder; do
-    echo "$id,made,$(sha "again/datasets/set/$folder/press/press.yaml"),$(sha "again/datasets/set/$folder/render/render.yaml")"
+  table again --columns id,object,folder | while IFS=$'\t' read -r id object folder; do
+    [ "$object" = gear ] || echo "$id,made,$(sha "again/datasets/set/$folder/press/press.yaml"),$(sha "again/datasets/set/$folder/render/render.yaml")"
   done
 } > again/datasets/set/pack/manifest.csv
 # One that is not as it was packed, one that another run is at work at.
@@ -166,7 +167,7 @@ goal again drop > /dev/null
 [ "$(find again/datasets/set/samples -name positions.npy | wc -l)" = 4 ] || fail "what is not packed was dropped"
 [ "$(find again/datasets/set/samples -name tactile.png | wc -l)" = 24 ] || fail "files to keep were dropped"
 before=$(stamp again)
-goal again dataset | grep -q '12 made' || fail "dropped samples do not count"
+grep -q '12 made' <<< "$(goal again dataset)" || fail "dropped samples do not count"
 [ "$before" = "$(stamp again)" ] || fail "dropped samples were made again"
 goal again dataset-report > /dev/null 2>&1 || fail "no pages of a dataset of which files were dropped"
 grep -q 'Of 8 samples files were removed after packing' again/datasets/set/report/index.html || fail "the first page does not say what is dropped"
@@ -182,7 +183,7 @@ mv installed prefixes/moved
 cp -r configs/sensors prefixes/moved/share/tacipc/configs/
 mv configs configs_here
 ln -s prefixes/moved/share/tacipc/configs configs
-cp -r configs_here/emboss configs/
+cp -r configs_here/objects/patterns configs/objects/
 make -s -C prefixes/moved/share/tacipc -f Makefile.data dataset-some SAMPLES="000/$(id star__down)" CONFIG="$PWD/mine/set.yaml" OUT="$PWD/moved" > /dev/null 2>&1 || fail "an installed copy does not work"
 cmp {killed,moved}/datasets/set/samples/000/"$(id star__down)"/press/positions.npy || fail "an installed copy makes other bytes"
 

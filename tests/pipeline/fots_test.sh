@@ -4,11 +4,11 @@
 . "$(dirname "$0")/common.sh"
 export OPENBLAS_NUM_THREADS=1
 bin=$build_dir/bin
-mkdir -p configs/benchmarks/made shots/data/made
-sed 's/centre_mm: .*/centre_mm: 0.6/; s/inner_mm: .*/inner_mm: 1.2/; s/rim_mm: .*/rim_mm: 4/' configs/benchmarks/fots_markers/mesh.yaml > configs/benchmarks/made/mesh.yaml
-sed 's/rows: 53/rows: 16/; s/columns: 69/columns: 20/; s/pitch_mm: 0.25/pitch_mm: 0.8/' configs/benchmarks/fots_markers/sensor.yaml > configs/benchmarks/made/sensor.yaml
-cp configs/benchmarks/fots_markers/press.yaml configs/benchmarks/made/press.yaml
-cat > configs/benchmarks/made.yaml <<'END'
+mkdir -p configs/studies/fots/made shots/data/made
+sed 's/centre_mm: .*/centre_mm: 0.6/; s/inner_mm: .*/inner_mm: 1.2/; s/rim_mm: .*/rim_mm: 4/' configs/studies/fots/fots_markers/mesh.yaml > configs/studies/fots/made/mesh.yaml
+sed 's/rows: 53/rows: 16/; s/columns: 69/columns: 20/; s/pitch_mm: 0.25/pitch_mm: 0.8/' configs/studies/fots/fots_markers/sensor.yaml > configs/studies/fots/made/sensor.yaml
+cp configs/studies/fots/fots_markers/press.yaml configs/studies/fots/made/press.yaml
+cat > configs/studies/fots/made.yaml <<'END'
 title: made
 data: data/made
 fields: {press: p.csv, shear: s.csv, remove_press_median: true, remove_shear_median: false, image_px: [320, 240], px_per_mm: 20,
@@ -25,13 +25,13 @@ variants:
 END
 
 # What a camera would see of a press between those: 0.45 mm deep, 0.32 mm far.
-"$bin/cases" --config configs/benchmarks/made.yaml --out told --log-level error
+"$bin/cases" --config configs/studies/fots/made.yaml --out told --log-level error
 "$bin/indenter" --config told/base/indenter.yaml --out ball --log-level error
-"$bin/tetmesh" --sensor configs/benchmarks/made/sensor.yaml --config configs/benchmarks/made/mesh.yaml --out gel --log-level error
-cat configs/benchmarks/made/press.yaml told/base/friction.yaml > press.yaml
+"$bin/tetmesh" --sensor configs/studies/fots/made/sensor.yaml --config configs/studies/fots/made/mesh.yaml --out gel --log-level error
+cat configs/studies/fots/made/press.yaml told/base/friction.yaml > press.yaml
 truth() { # truth OUT DEPTH_MM STEPS
   sed "s/depth_mm: [0-9.]*, steps: [0-9]*/depth_mm: $2, steps: $3/; s/distance_mm: [0-9.]*, steps: [0-9]*/distance_mm: 0.4, steps: 5/" told/motion_0400um.yaml > motion.yaml
-  "$bin/press" --name "$2" --sensor configs/benchmarks/made/sensor.yaml --config press.yaml --sample motion.yaml --gel gel/gel.msh --object ball/object.ply \
+  "$bin/press" --name "$2" --sensor configs/studies/fots/made/sensor.yaml --config press.yaml --sample motion.yaml --gel gel/gel.msh --object ball/object.ply \
     --object-config configs/objects/embossed.yaml --out "$1" --log-level error
 }
 truth true/a 0.45 5
@@ -45,7 +45,7 @@ seen 9 0 > shots/data/made/s.csv
 [ "$(wc -l < shots/data/made/s.csv)" -gt 200 ] || fail "too few markers in the image: $(head -3 shots/data/made/s.csv)"
 
 truth true/b 0.55 6
-make -s -f Makefile.data fots MARKERS=configs/benchmarks/made.yaml SHARED=shots OUT=out BUILD="$build_dir" PACKAGES=no ALSO=true > page.txt 2> said.txt || { tail -5 said.txt; fail "the goal failed"; }
+make -s -f Makefile.data fots MARKERS=configs/studies/fots/made.yaml SHARED=shots OUT=out BUILD="$build_dir" PACKAGES=no ALSO=true > page.txt 2> said.txt || { tail -5 said.txt; fail "the goal failed"; }
 value() { sed -n "/^summary:/,\$s/^ *$1: //p" out/fots/made/fit/marker_fit.yaml | head -1; }
 near() { awk -v a="$(value "$1")" -v b="$2" -v by="$3" 'BEGIN { d = a - b; exit !(a != "" && d < by && d > -by) }' || fail "$1 is $(value "$1"), not $2"; }
 near depth_mm 0.45 0.01
@@ -57,6 +57,6 @@ done
 for row in base true smoother finer; do grep -q "^| $row | 0\.[45]" page.txt || { cat page.txt; fail "no row $row"; }; done
 grep -q '^| true | 0.45 | 0.32 |' page.txt || { cat page.txt; fail "the other simulator's fit is not its own"; }
 before=$(find out -name '*.yaml' -printf '%p %T@\n' | sort)
-make -s -f Makefile.data fots MARKERS=configs/benchmarks/made.yaml SHARED=shots OUT=out BUILD="$build_dir" PACKAGES=no ALSO=true > /dev/null 2>&1
+make -s -f Makefile.data fots MARKERS=configs/studies/fots/made.yaml SHARED=shots OUT=out BUILD="$build_dir" PACKAGES=no ALSO=true > /dev/null 2>&1
 [ "$before" = "$(find out -name '*.yaml' -printf '%p %T@\n' | sort)" ] || fail "a second run did something"
 echo "1 passed, 0 failed"

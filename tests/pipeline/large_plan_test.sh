@@ -8,7 +8,7 @@ mv pyramid.stl meshes
 sed -i 's/width_px: 64/width_px: 16/; s/height_px: 48/height_px: 12/' configs/sensors/mctac.yaml
 cat > mine/set.yaml <<END
 seed: 1
-sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/tetmesh/tiny.yaml}
+sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/gels/tiny.yaml}
 objects: {meshes: ../meshes, unit: mm}
 motions:
   - {name: down, samples: $samples, placement: {rotate_deg: [0, 90]}, motion: {kind: press, depth_mm: [0.2, 0.3], steps: 1}}
@@ -41,11 +41,12 @@ set=out/datasets/set
 
 measured plan bash -c 'goal plan' || fail "no plan"
 goal dataset-shared > said.txt 2>&1
-first=$(awk -F, 'NR == 2 { print substr($11, 9) }' $set/plan/samples.csv)
+first=$("$build_dir/bin/tacipc" table $set/plan/samples.csv --columns folder --where index=0)
+first=${first#samples/}
 goal dataset-some SAMPLES="$first" > said.txt 2>&1 || fail "the first sample is not made: $(cat said.txt)"
 # Each folder of a thousand has a copy, as a file has no more than 65,000 names; the others of the folder are links to it.
 /usr/bin/python3 - $set "$first" <<'END'
-import os, shutil, sys
+import csv, os, shutil, sys
 dataset, first = sys.argv[1:]
 made = os.path.join(dataset, "samples", first)
 folders, files = [], []
@@ -55,9 +56,8 @@ for at, below, names in os.walk(made):
     files += [os.path.join(at, name) for name in names if not name.startswith((".lock", ".making"))]
 copies = {}
 with open(os.path.join(dataset, "plan/samples.csv")) as plan:
-    next(plan)
-    for line in plan:
-        sample = os.path.join(dataset, line.rstrip("\n").split(",")[10])
+    for row in csv.DictReader(plan):
+        sample = os.path.join(dataset, row["folder"])
         if sample == made: continue
         block = os.path.dirname(sample)
         shutil.rmtree(sample)

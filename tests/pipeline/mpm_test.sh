@@ -4,7 +4,7 @@
 . "$(dirname "$0")/common.sh"
 
 # Coarse numerics, and a block of 6 x 6 x 1.6 mm in place of the published one.
-sed -i -e 's/counts: .*/counts: [31, 31, 9]/; s/samples: 100000 .*/samples: 20000/' configs/mpm/legacy.yaml
+sed -i -e 's/counts: .*/counts: [31, 31, 9]/; s/samples: 100000 .*/samples: 20000/' configs/rivals/mpm/legacy.yaml
 sed -i -e 's/rows: 19 /rows: 3 /; s/columns: 19/columns: 3/; s/window_mm: .*/window_mm: [5.0, 3.75]/' configs/sensors/mctac.yaml
 sample() { make -s -f Makefile.data mpm-sample OBJECT=pyramid.stl STEPS=2 MPM=legacy BUILD="$build_dir" PACKAGES=no "$@"; }
 material_points() { # material_points OUT [VARIABLE=value …]
@@ -28,7 +28,7 @@ material_points one
 
 # Its depth maps are what the depth-based stage shades: Tacchi's own image. The picture of the gel at rest is one colour
 # everywhere, hence a background.
-"$build_dir/bin/baseline" --config configs/baseline/tacchi.yaml --sensor configs/sensors/mctac.yaml --background "$folder/frame_0000/indentation.png" \
+"$build_dir/bin/baseline" --config configs/rivals/baseline/tacchi.yaml --sensor configs/sensors/mctac.yaml --background "$folder/frame_0000/indentation.png" \
   --depth "$folder"/frame_*/depth.exr --out tacchi
 [ -s tacchi/frame_0002/tactile.png ] || fail "there is no image"
 cmp -s tacchi/frame_000{0,2}/tactile.png && fail "the press does not show"
@@ -38,7 +38,7 @@ cmp -s tacchi/frame_0002/indentation.exr "$folder/frame_0002/indentation.exr" &&
 # Loads are not prescribed motions, and a spacing must fit the gel.
 if sample OUT=one NAME=loaded FORCE_N=1 2> said.txt; then fail "a load was accepted"; fi
 grep -q 'mpm moves it by prescribed motions only' said.txt || fail "the refusal does not say why"
-sed -i 's/spacing_mm: 0.1 *$/spacing_mm: 0.3/' configs/mpm/physical.yaml
+sed -i 's/spacing_mm: 0.1 *$/spacing_mm: 0.3/' configs/rivals/mpm/physical.yaml
 if material_points one MPM=physical 2> said.txt; then fail "a spacing that does not fit was accepted"; fi
-grep -q 'is no multiple of the spacing of 0.3 mm' said.txt || fail "the refusal does not say why"
+grep -q 'is not a multiple of the spacing of 0.3 mm' said.txt || fail "the refusal does not say why"
 echo "1 passed, 0 failed"

@@ -9,9 +9,9 @@ python=/usr/bin/python3 # Debian's, which has the packages
 sed -i 's/^frames: last/frames: all/' configs/render/default.yaml
 echo 'variants: [{name: white, lights: [{group: red, cct_k: 6500}, {group: green, cct_k: 6500}, {group: blue, cct_k: 6500}]}]' >> configs/render/default.yaml
 echo 'unit: mm' > object.yaml
-quiet="--log-level warning"
-"$bin"/tetmesh --sensor configs/sensors/mctac.yaml --config configs/tetmesh/tiny.yaml --out gel $quiet
-"$bin"/decimate --mesh pyramid.stl --object object.yaml --config configs/decimate/default.yaml --out object $quiet
+quiet=(--log-level warning)
+"$bin"/tetmesh --sensor configs/sensors/mctac.yaml --config configs/gels/tiny.yaml --out gel "${quiet[@]}"
+"$bin"/decimate --mesh pyramid.stl --object object.yaml --config configs/objects/decimate/default.yaml --out object "${quiet[@]}"
 make_sample() { # make_sample FOLDER DEPTH
   mkdir -p "$1"
   cat > "$1/sample.yaml" <<END
@@ -21,8 +21,8 @@ motion:
   - {kind: shear, distance_mm: 0.1, direction_deg: 30, steps: 1}
 END
   "$bin"/press --config configs/press/friction.yaml --sensor configs/sensors/mctac.yaml --sample "$1/sample.yaml" --gel gel/gel.msh \
-    --object object/object.ply --out "$1/press" $quiet
-  "$bin"/render --config configs/render/default.yaml --sensor configs/sensors/mctac.yaml --gel gel/gel.msh --press "$1/press" --out "$1/render" $quiet
+    --object object/object.ply --out "$1/press" "${quiet[@]}"
+  "$bin"/render --config configs/render/default.yaml --sensor configs/sensors/mctac.yaml --gel gel/gel.msh --press "$1/press" --out "$1/render" "${quiet[@]}"
 }
 a=mctac__pyramid__shear__000000 b=mctac__pyramid__shear__000001 c=mctac__cone__shear__000002
 mkdir -p one/plan
@@ -55,7 +55,7 @@ done
 [ "$(cd one/pack && find . -type f | wc -l)" = "$(($(wc -l < one/pack/checksums.sha256) + 6))" ] || # timings, checksums, record, its times, log, lock
   fail "some files have no checksum: $(cd one/pack && find . -type f)"
 "$python" "$source_dir/tests/pipeline/check_shard.py" one "$source_dir" || fail "what was packed does not load back"
-for said in 'Fields, units and frames' 'How far to trust it' 'balance_relative' 'CC-BY-4.0' 'Citation' '| `obs/indentation_mm` | float32 | (T,H,W) | mm | S |'; do
+for said in 'Fields, units and frames' 'What the checks prove' 'balance_relative' 'CC-BY-4.0' 'Citation' '| `obs/indentation_mm` | float32 | (T,H,W) | mm | S |'; do
   grep -qF "$said" one/pack/README.md || fail "the card does not say: $said"
 done
 
@@ -99,8 +99,9 @@ while [ "$1" != --out ]; do shift; done; echo packed > "$2/pack.yaml"' > fake/bi
 echo '#!/bin/sh
 for word; do case $before in --shards) (cd "${word%/*}" && xargs cat < "${word##*/}") | grep -c packed ;; --out) out=$word ;; esac; before=$word; done; : > "$out/card.yaml"' > fake/bin/card
 chmod +x fake/bin/*
-bash pipelines/pack_inputs.sh many configs/pack/full.yaml
-mkdir many/pack && (cd many/shards && sed 's|/pack.yaml||' shards.txt | xargs mkdir && xargs touch < shards.txt && for record in $(cat shards.txt); do echo packed > "$record"; done)
+ln -s "$build_dir"/bin/{survey,tacipc} fake/bin
+fake/bin/survey pack-inputs many configs/datasets/pack/full.yaml
+mkdir many/pack && (cd many/shards && sed 's|/pack.yaml||' shards.txt | xargs mkdir && xargs touch < shards.txt && while read -r record; do echo packed > "$record"; done < shards.txt)
 make -s -f Makefile.data pack DATASET_DIR=many BUILD=fake PACKAGES=no REBUILD=no > said.txt 2>&1 || fail "twelve hundred shards get no card: $(tail -n 5 said.txt | cut -c1-300)"
 grep -qx 1200 said.txt || fail "the card is not told of all shards: $(cut -c1-300 said.txt)"
 

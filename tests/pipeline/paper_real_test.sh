@@ -3,7 +3,7 @@
 # the photographs, a second run does nothing, and other published optics make nothing anew but their own rows.
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/made_photographs.sh"
-{ made_settings; cat; } > configs/benchmarks/made.yaml <<'END'
+{ made_settings; cat; } > configs/studies/sim2real/made.yaml <<'END'
 title: made
 data: shots
 background: background.png
@@ -23,13 +23,13 @@ objects:
 END
 sed -i 's/size_mm: \[25.25, 20.75\]/size_mm: [25, 21]/; s/thickness_mm: 4.25/thickness_mm: 4/' configs/sensors/gelsight_mini.yaml # whole lattice spacings
 make_truth
-sed -i 's/contact_gap_mm: .*/contact_gap_mm: 0.06/; s/fit_contact_gap: true/fit_contact_gap: false/' configs/benchmarks/made/calibrate.yaml
+sed -i 's/contact_gap_mm: .*/contact_gap_mm: 0.06/; s/fit_contact_gap: true/fit_contact_gap: false/' configs/studies/sim2real/made/calibrate.yaml
 # A coarse gel of material points, and the published optics as they are shipped.
-made=configs/benchmarks/made
-cp configs/benchmarks/gelsight_sim2real/legacy_*.yaml $made
+made=configs/studies/sim2real/made
+cp configs/studies/sim2real/gelsight_sim2real/legacy_*.yaml $made
 sed -e 's/spacing_mm: 0.2$/spacing_mm: 0.5/; s/spacing_mm: 0.12890625.*/spacing_mm: 0.5/; s/samples: 100000.*/samples: 20000/; s/step_s: 5.0e-5/step_s: 1.0e-4/' \
-  configs/benchmarks/gelsight_sim2real/mpm.yaml > $made/mpm.yaml
-grep -v crop_px configs/image_table/gelsight_sim2real.yaml > configs/image_table/made.yaml
+  configs/studies/sim2real/gelsight_sim2real/mpm.yaml > $made/mpm.yaml
+grep -v crop_px configs/studies/sim2real/gelsight_sim2real/table.yaml > $made/table.yaml
 
 # Five balls to calibrate, two frames of the press to test.
 awk 'BEGIN {
@@ -48,11 +48,11 @@ shade_truth truth/objects.yaml truth/objects
 cp truth/balls/b?.png truth/objects/ball_*.png shared/shots/images
 cp truth/background.png shared/shots
 
-goal() { make -s -f Makefile.data paper-real CASES=configs/benchmarks/"$1".yaml OUT=out BUILD="$build_dir" PACKAGES=no SHARED=shared >log.txt 2>&1; }
+goal() { make -s -f Makefile.data paper-real CASES=configs/studies/sim2real/"$1".yaml OUT=out BUILD="$build_dir" PACKAGES=no SHARED=shared >log.txt 2>&1; }
 goal made || { cat log.txt; fail "paper-real"; }
-real=out/paper/real
-for folder in ours tacchi depth-based tacchi-our-light depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential background; do
-  grep -q "folder: $folder$" $real/image_table.yaml || fail "$folder is no row"
+real=out/paper/real/made
+for method in ours tacchi depth-based tacchi-our-light depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential background; do
+  grep -q "method: $method$" $real/tabulate.yaml || fail "$method is not a row"
 done
 error_of() { awk -F, '$2 == "box" { sum += $3; ++n } END { print sum / n }' "$1/samples.csv"; }
 awk -v ours="$(error_of out/sim2real/made/metrics/ours)" -v tacchi="$(error_of $real/metrics/tacchi)" -v legacy="$(error_of $real/metrics/legacy-tacchi)" \
@@ -74,8 +74,8 @@ stamp | comm -13 before.txt - | sed 's/ .*//' > after.txt
 grep -q legacy-tacchi after.txt || fail "other optics change nothing"
 ! grep -qE 'mpm.yaml|calibrate.yaml|sim2real/|simulated/tacchi/|legacy-depth-based/' after.txt || { cat after.txt; fail "more than the rows of those optics was made anew"; }
 
-cp configs/benchmarks/made.yaml configs/benchmarks/other.yaml
+cp configs/studies/sim2real/made.yaml configs/studies/sim2real/other.yaml
 ! goal other || fail "a benchmark without its table"
-grep -q 'configs/image_table/other.yaml does not exist' log.txt || { cat log.txt; fail "what is missing is not said"; }
+grep -q 'configs/studies/sim2real/other/table.yaml does not exist' log.txt || { cat log.txt; fail "what is missing is not said"; }
 [ ! -e out/sim2real/other ] || fail "something ran"
 echo "7 passed, 0 failed"

@@ -12,14 +12,14 @@ sed -e 's/radius_mm: 10.0 /radius_mm: 10.3 /; s/z_mm: -13.0/z_mm: -13.5/; s/gamm
 for want in 'radius_mm: 10.3' 'z_mm: -13.5' 'gamma: 2.1' 'v2: -0.15' '0.9, 0.2'; do grep -q -- "$want" true.yaml || fail "true.yaml lacks $want"; done
 
 # A gel fine enough under the ball for a rim.
-sed 's/centre_mm: 1.2/centre_mm: 0.35/; s/centre_radius_mm: 2/centre_radius_mm: 2.5/; s/max_vertices: 2000/max_vertices: 6000/' configs/tetmesh/tiny.yaml > configs/tetmesh/small.yaml
+sed 's/centre_mm: 1.2/centre_mm: 0.35/; s/centre_radius_mm: 2/centre_radius_mm: 2.5/; s/max_vertices: 2000/max_vertices: 6000/' configs/gels/tiny.yaml > configs/gels/small.yaml
 # One press of the ball over the middle, photographed at two depths.
-"$bin/tetmesh" --sensor true.yaml --config configs/tetmesh/small.yaml --out truth/gel
+"$bin/tetmesh" --sensor true.yaml --config configs/gels/small.yaml --out truth/gel
 echo 'ball: {radius_mm: 4.0, edge_mm: 0.5}' > truth/indenter.yaml
 "$bin/indenter" --config truth/indenter.yaml --out truth/ball
 echo 'motion: {kind: press, depth_mm: 0.7, steps: 7}' > truth/motion.yaml
 "$bin/press" --name ball --object truth/ball/object.ply --object-config configs/objects/embossed.yaml --gel truth/gel/gel.msh \
-  --sensor true.yaml --config configs/benchmarks/gsmini_balls/press.yaml --sample truth/motion.yaml --out truth/press
+  --sensor true.yaml --config configs/studies/sim2real/gsmini_balls/press.yaml --sample truth/motion.yaml --out truth/press
 sed 's/^frames: last */frames: all /; s/^transfer: encoded/transfer: none/; s/^noise: {seed: 1}/noise: {seed: 1, every_frame: true}/' configs/render/default.yaml > plain.yaml
 "$bin/render" --config plain.yaml --sensor true.yaml --gel truth/gel/gel.msh --press truth/press --out truth/render
 mkdir -p my/balls
@@ -28,7 +28,7 @@ cp truth/render/frame_0004/tactile.png my/balls/shallow.png
 cp truth/render/frame_0006/tactile.png my/balls/deep.png
 # Hertz's radius, √(R d), in pixels of 15 / 160 mm: near enough for labels of 3 px.
 printf 'shallow.png (79.5, 59.5) %s\ndeep.png (79.5, 59.5) %s\n' 13.5 16.5 > my/labels.txt
-sed 's/block_px: 8/block_px: 2/; s/sigma_codes: 0.5/sigma_codes: 0.3/; /camera_[xy]_mm/d; /window_scale/d' configs/calibrate/ring.yaml > my/fit.yaml
+sed 's/block_px: 8/block_px: 2/; s/sigma_codes: 0.5/sigma_codes: 0.3/; /camera_[xy]_mm/d; /window_scale/d' configs/sensors/calibrate/ring.yaml > my/fit.yaml
 
 goal() { make -s -f Makefile.data calibrate-sensor SENSOR_FILE=mine.yaml BACKGROUND=my/background.png FIT=my/fit.yaml MESH=small OUT="$1" BUILD="$build_dir" PACKAGES=no "${@:2}" >log.txt 2>&1; }
 goal out PHOTOGRAPHS=my/balls LABELS=my/labels.txt BALL_MM=4 LABEL_PX=3 GAP_MM=0.05 || { cat log.txt; fail "calibrate-sensor"; }
@@ -44,9 +44,9 @@ found ring_z_mm -13.5 0.1
 found ring_azimuth_deg 0 0.1
 found vignetting_v2 -0.15 0.01
 found gamma 2.1 0.02
-grep -qE '^ring_z_mm +-13\.[0-9]+ ± 0\.[0-9]+ +told by the photographs$' log.txt || { cat log.txt; fail "the goal does not say what it found"; }
+grep -qE '^ring_z_mm +-13\.[0-9]+ ± 0\.[0-9]+ +determined by the photographs$' log.txt || { cat log.txt; fail "the goal does not say what it found"; }
 grep -q "The sensor is $fit/sensor.yaml" log.txt || fail "the goal does not say where to look"
-[ "$(ls $fit/residuals | tr '\n' ' ')" = 'background.exr background.png deep.exr deep.png shallow.exr shallow.png ' ] || fail "residuals: $(ls $fit/residuals)"
+[ "$(cd "$fit"/residuals && printf '%s ' *)" = 'background.exr background.png deep.exr deep.png shallow.exr shallow.png ' ] || fail "residuals: $(ls "$fit"/residuals)"
 
 # The file is a sensor: with its photograph as reference, and without noise like the photographs to within theirs.
 "$bin/render" --config configs/render/default.yaml --sensor $fit/sensor.yaml --gel truth/gel/gel.msh --press truth/press --out again
@@ -58,7 +58,7 @@ for name in true fit; do
   mkdir -p pairs/$name
   for frame in 0 4 6; do cp quiet/$name/frame_000$frame/tactile.png pairs/$name/$frame.png; done
 done
-"$bin/metrics" --config configs/metrics/default.yaml --images pairs/fit --reference pairs/true --out scores
+"$bin/metrics" --config configs/metrics/images.yaml --images pairs/fit --reference pairs/true --out scores
 awk -F, 'NR > 1 && !($3 <= 0.5 / 255) { print; bad = 1 } END { exit bad || NR != 4 }' scores/samples.csv || fail "the fitted sensor makes other images"
 
 # Any number of threads, the same bytes; again, nothing to do; without balls another fit.

@@ -3,7 +3,7 @@
 # what made them must be found again, and nothing of the tested half may enter the fit.
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/made_photographs.sh"
-{ made_settings; cat; } > configs/benchmarks/made.yaml <<'END'
+{ made_settings; cat; } > configs/studies/sim2real/made.yaml <<'END'
 title: made
 data: shots
 photographs: images
@@ -29,7 +29,7 @@ awk 'BEGIN {
 shade_truth truth/shade.yaml truth/shots --contact truth/contact.yaml
 for i in 1 2 3 4 5 6 7 8 9 10; do mkdir shared/shots/images/b$i && cp truth/shots/b$i.png shared/shots/images/b$i/shot.png; done
 
-goal() { make -s -f Makefile.data sim2real CASES=configs/benchmarks/made.yaml OUT="$1" BUILD="$build_dir" PACKAGES=no SHARED=shared "${@:2}" >log.txt 2>&1; }
+goal() { make -s -f Makefile.data sim2real CASES=configs/studies/sim2real/made.yaml OUT="$1" BUILD="$build_dir" PACKAGES=no SHARED=shared "${@:2}" >log.txt 2>&1; }
 goal out || { cat log.txt out/sim2real/made/comparison/table.md; fail "sim2real"; }
 made=out/sim2real/made
 awk -v gap="$(awk '/^contact_gap_mm:/ { print $2 }' $made/calibrate/contact.yaml)" 'BEGIN { exit !(gap > 0.05 && gap < 0.07) }' || fail "the rim's gap of 0.06 mm was not found: $(cat $made/calibrate/contact.yaml)"
@@ -46,8 +46,8 @@ cmp before/rest/background.png $made/rest/background.png || fail "a tested photo
 cmp before/calibrate/light.yaml $made/calibrate/light.yaml || fail "a tested photograph enters the light"
 
 # A table that is not there is said before anything runs.
-sed 's/circles.csv/nowhere.csv/' configs/benchmarks/made.yaml > configs/benchmarks/lost.yaml
-! make -s -f Makefile.data sim2real CASES=configs/benchmarks/lost.yaml OUT=lost BUILD="$build_dir" PACKAGES=no SHARED=shared >log.txt 2>&1 || fail "a table that is not there"
-grep -q 'CASES: configs/benchmarks/lost.yaml names shared/shots/nowhere.csv, which does not exist' log.txt || { cat log.txt; fail "a table that is not there is not named"; }
+sed 's/circles.csv/nowhere.csv/' configs/studies/sim2real/made.yaml > configs/studies/sim2real/lost.yaml
+! make -s -f Makefile.data sim2real CASES=configs/studies/sim2real/lost.yaml OUT=lost BUILD="$build_dir" PACKAGES=no SHARED=shared >log.txt 2>&1 || fail "a table that is not there"
+grep -q 'CASES: configs/studies/sim2real/lost.yaml names shared/shots/nowhere.csv, which does not exist' log.txt || { cat log.txt; fail "a table that is not there is not named"; }
 [ ! -e lost ] || fail "something ran"
 echo "3 passed, 0 failed"

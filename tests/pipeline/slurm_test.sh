@@ -6,8 +6,8 @@ export PATH=$PATH:/usr/sbin:/sbin
 for program in slurmctld slurmd munged sbatch; do
   command -v $program > /dev/null || { echo "skipped: $program is not installed"; exit 77; }
 done
-sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/*.yaml
-sed -i 's/^memory_mb=.*/memory_mb=300/; s/^throttle=.*/throttle=2/' configs/slurm/default.sh
+sed -i 's/^vertices: .*/vertices: 3000/' configs/objects/patterns/*.yaml
+sed -i 's/^memory_mb=.*/memory_mb=300/; s/^throttle=.*/throttle=2/' configs/datasets/slurm/default.sh
 [ "${SAMPLES:-40}" = 200 ] || sed -i 's/samples: 10/samples: 2/; s/samples: 5/samples: 1/' configs/datasets/tiny_200.yaml
 goal() { # goal OUT GOAL [VARIABLE=value …]
   local out=$1 goal=$2
@@ -44,7 +44,7 @@ goal local dataset JOBS=2 > local.txt 2>&1 || fail "the dataset is not made loca
 count=$(grep -o '[0-9]* made' local.txt | cut -d' ' -f1)
 
 export SLURM_CONF=$PWD/slurm/slurm.conf
-trap 'bash pipelines/local_slurm.sh stop slurm; rm -rf "$scratch"' EXIT
+trap 'bash pipelines/dataset/local_slurm.sh stop slurm; rm -rf "$scratch_root"' EXIT
 goal . local-slurm LOCAL_SLURM=slurm CPUS=2 MEMORY_MB=2000
 node=$(sinfo -h -N -o %N)
 
@@ -60,7 +60,7 @@ scontrol update nodename="$node" state=resume
 wait_for 60 "a part runs" working
 kill -KILL "$(cat slurm/slurmd.pid)"
 wait_for 60 "the node is given up" node_is down
-bash pipelines/local_slurm.sh slurmd slurm
+bash pipelines/dataset/local_slurm.sh slurmd slurm
 wait_for 60 "the node comes back" node_is '[im]'
 same_where_made "after slurmd was killed"
 
@@ -79,7 +79,8 @@ grep -q "$count samples: $before made, 0 failed, 0 running" status.txt || fail "
 touch mark
 goal cluster submit SHARDS=3 RETRY=yes
 wait_for 300 "the jobs end" queue_is_empty
-goal cluster status | grep -q "$count samples: $count made, 0 failed" || { goal cluster status; fail "not all samples are made"; }
+goal cluster status | tee status.txt
+grep -q "$count samples: $count made, 0 failed" status.txt || fail "not all samples are made"
 [ "$(find "$(set_of cluster)/samples" -path '*/render/render.yaml' -newer mark | wc -l)" = $((count - before)) ] || fail "samples that were there were made again"
 same_where_made "in the end"
 diff <(cd "$(set_of local)" && find gels objects -type f -not -name '*.log' -not -name '*.timings.yaml' -not -name '.*' -exec md5sum {} + | sort) \

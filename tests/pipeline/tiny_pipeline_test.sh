@@ -61,13 +61,13 @@ along
 [ "$before" != "$(cat one/sample/along/press/press.yaml)" ] || fail "another path changed nothing"
 
 # Embossed objects: touching the decimation's configuration leaves the embossing alone.
-sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/star.yaml
+sed -i 's/^vertices: .*/vertices: 3000/' configs/objects/patterns/star.yaml
 emboss_star() { make -s -f Makefile.data "$PWD/e/objects/star/decimate.yaml" OUT="$PWD/e" BUILD="$build_dir" PACKAGES=no; }
 emboss_star
 [ -s e/emboss/star/emboss.yaml ] || fail "the record of the embossing is gone"
 before=$(find e -name '*.yaml' -not -name '*.timings.yaml' -printf '%f %T@\n' | sort)
 sleep 1.1
-touch configs/decimate/default.yaml
+touch configs/objects/decimate/default.yaml
 emboss_star
 changed=$(comm -13 <(echo "$before") <(find e -name '*.yaml' -not -name '*.timings.yaml' -printf '%f %T@\n' | sort) | cut -d' ' -f1 | tr '\n' ' ')
 [ "$changed" = "decimate.yaml " ] || fail "touching the decimation's configuration redid: $changed"

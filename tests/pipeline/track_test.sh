@@ -13,7 +13,7 @@ track() { # track OUT [VARIABLE=value …]
 track one THREADS=1 > summary.txt
 track two THREADS=2 > /dev/null
 same_files one two
-value() { sed -n "s/^  $1: //p" summary.txt; }
+value() { sed -n "s/^$1: //p" summary.txt; }
 [ "$(value frames)" = "[0, 1, 2, 3, 4]" ] || { cat summary.txt; fail "not every frame was rendered"; }
 [ "$(value known_places_lost)" = 0 ] || { cat summary.txt; fail "markers were lost"; }
 [ "$(value known_places)" = $((5 * $(value markers))) ] || { cat summary.txt; fail "not every place is known"; }

@@ -15,10 +15,10 @@ refuses() {
   [ ! -e "$record" ] || fail "'$*' left $record"
   # A stage that can go on may keep what it has solved, but nothing half-written.
   [ -z "$(find . -path '*/.partial-*' -type f -not -path '*/.scratch/*' -not -name .resume-key -print -quit)" ] || fail "'$*' left a partial file"
-  rm -rf $(find . -name '.partial-*')
+  find . -depth -name '.partial-*' -exec rm -rf {} +
   count=$((count + 1))
 }
-decimate() { "$bin/decimate" --mesh "$1" --object configs/objects/millimetres.yaml --config configs/decimate/default.yaml --out o "${@:2}"; }
+decimate() { "$bin/decimate" --mesh "$1" --object configs/objects/millimetres.yaml --config configs/objects/decimate/default.yaml --out o "${@:2}"; }
 refuse_mesh() { refuses 1 "$2" o/decimate.yaml decimate "$1"; }
 echo 'unit: mm' > configs/objects/millimetres.yaml
 
@@ -30,9 +30,9 @@ printf 'v 0 0 0\nv 5 0 0\nv 0 5 0\nf 1 2 3\n' > open.obj;   refuse_mesh open.obj
 printf 'v 0 0 0\nv 5 0 0\nv 0 5 0\nf 1 2 9\n' > index.obj;  refuse_mesh index.obj 'index.obj:4'
 head -c 5000 /dev/zero > zeros.stl;                     refuse_mesh zeros.stl 'zeros.stl'
 
-"$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/tetmesh/tiny.yaml --out gel --log-level off
-"$bin/decimate" --mesh pyramid.stl --object configs/objects/millimetres.yaml --config configs/decimate/default.yaml --out ok --log-level off
-press() { "$bin/press" --config configs/press/paper.yaml --sensor "$1" --sample configs/samples/press_0500um.yaml --gel "$2" --object ok/object.ply --out "${3:-p}" --log-level "${4:-warning}"; }
+"$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/gels/tiny.yaml --out gel --log-level off
+"$bin/decimate" --mesh pyramid.stl --object configs/objects/millimetres.yaml --config configs/objects/decimate/default.yaml --out ok --log-level off
+press() { "$bin/press" --config configs/press/paper.yaml --sensor "$1" --sample configs/motions/press_0500um.yaml --gel "$2" --object ok/object.ply --out "${3:-p}" --log-level "${4:-warning}"; }
 head -c 3000 gel/gel.msh > cut.msh
 refuses 1 'cut.msh' p/press.yaml press configs/sensors/mctac.yaml cut.msh
 
@@ -62,16 +62,16 @@ fi
 
 # A full disk, as a limit on the size of files.
 limited() { (ulimit -f 8; "$@"); }
-refuses 1 'cannot be written' g/tetmesh.yaml limited "$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/tetmesh/tiny.yaml --out g
+refuses 1 'cannot be written' g/tetmesh.yaml limited "$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/gels/tiny.yaml --out g
 refuses 1 'cannot be written' p/press.yaml limited press configs/sensors/mctac.yaml gel/gel.msh
-sed -i 's/^vertices: .*/vertices: 3000/' configs/emboss/star.yaml
-refuses 1 'cannot be written' e/emboss.yaml limited "$bin/emboss" --config configs/emboss/star.yaml --out e
+sed -i 's/^vertices: .*/vertices: 3000/' configs/objects/patterns/star.yaml
+refuses 1 'cannot be written' e/emboss.yaml limited "$bin/emboss" --config configs/objects/patterns/star.yaml --out e
 press configs/sensors/mctac.yaml gel/gel.msh ready off
 refuses 1 'cannot be written' r/render.yaml limited "$bin/render" --config configs/render/default.yaml --sensor configs/sensors/mctac.yaml --gel gel/gel.msh --press ready --out r
 
-"$bin/emboss" --config configs/emboss/star.yaml --out fine --log-level off
+"$bin/emboss" --config configs/objects/patterns/star.yaml --out fine --log-level off
 echo 'unit: m' > configs/objects/metres.yaml
-refuses 1 'cannot be written' d/decimate.yaml limited "$bin/decimate" --mesh fine/object.ply --object configs/objects/metres.yaml --config configs/decimate/default.yaml --out d
+refuses 1 'cannot be written' d/decimate.yaml limited "$bin/decimate" --mesh fine/object.ply --object configs/objects/metres.yaml --config configs/objects/decimate/default.yaml --out d
 refuses 1 '/proc/tacipc' /proc/tacipc/press.yaml press configs/sensors/mctac.yaml gel/gel.msh /proc/tacipc
 
 make_refuses() { # make_refuses 'MESSAGE PART' VARIABLE=value…
@@ -91,12 +91,12 @@ make_refuses "MOTION: 'slide' is none of press, shear, twist, tilt, hold, releas
 make_refuses 'MOTION: no_such.yaml does not exist' OBJECT=pyramid.stl MOTION=no_such.yaml
 for path in 'my path.csv' gone.csv; do echo "motion: {kind: path, file: $path}" > "${path%%[ .]*}.yaml"; done
 touch 'my path.csv'
-make_refuses "MOTION: my.yaml names the path 'my path.csv', which is empty or has characters" OBJECT=pyramid.stl MOTION=my.yaml
-make_refuses "MOTION: gone.yaml names the path './gone.csv', which does not exist" OBJECT=pyramid.stl MOTION=gone.yaml
+make_refuses "MOTION: my.yaml names the path 'my path.csv', which has characters" OBJECT=pyramid.stl MOTION=my.yaml
+make_refuses "MOTION: gone.yaml names the path 'gone.csv', which does not exist" OBJECT=pyramid.stl MOTION=gone.yaml
 make_refuses 'TWIST_DEG: has no effect with MOTION=shear' OBJECT=pyramid.stl MOTION=shear TWIST_DEG=3
-make_refuses 'ROTATE: has no effect with MOTION=configs/samples/press_0500um.yaml' OBJECT=pyramid.stl MOTION=configs/samples/press_0500um.yaml ROTATE=3
+make_refuses 'ROTATE: has no effect with MOTION=configs/motions/press_0500um.yaml' OBJECT=pyramid.stl MOTION=configs/motions/press_0500um.yaml ROTATE=3
 make_refuses 'DEPTH_MM, FORCE_N: say one of them' OBJECT=pyramid.stl DEPTH_MM=1 FORCE_N=2
 make_refuses 'PRESS: there is no configs/press/fast.yaml' OBJECT=pyramid.stl PRESS=fast
-make_refuses 'FRICTION: configs/press/paper.yaml has no section friction' OBJECT=pyramid.stl PRESS=paper FRICTION=0.3
+make_refuses 'configs/press/paper.yaml:1:1: friction.coefficient: there is no such key' OBJECT=pyramid.stl PRESS=paper FRICTION=0.3
 make_refuses "'up' is not one of" OBJECT=pyramid.stl MESH=tiny FACE=up
 echo "$count passed, 0 failed"

@@ -1,11 +1,11 @@
 // Long rows: what their records say, and what stands in the page where there is none.
-#include "tests/verification/long_rows.h"
+#include "verification/long_rows.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
-#include "tests/verification/table_report.h"
+#include "verification/table_report.h"
 
 namespace tacipc::verify {
 namespace {
@@ -65,13 +65,13 @@ TEST(LongRows, StandBetweenCasesAndSources) {
   const auto result = folder.file("x/result.yaml", "title: t\nsource: s\nstate: skipped\nreason: no data\n");
   const std::string page = to_markdown({read_result(result)}, {{kRow, "missed", "1 of 2"}}, "p");
   EXPECT_NE(page.find("**skipped**: no data |\n\n## Long rows\n\n"), std::string::npos) << page;
-  EXPECT_NE(page.find("| 1 of 2 | **missed** |\n\n## Where the numbers come from\n\n"), std::string::npos) << page;
+  EXPECT_NE(page.find("| 1 of 2 | **missed** |\n\n## Sources of the expected values\n\n"), std::string::npos) << page;
   EXPECT_EQ(to_markdown({read_result(result)}, {}, "p").find("Long rows"), std::string::npos);
 }
 
 TEST(LongRows, TheListReads) {
-  const auto list =
-      read_config<LongRows>(std::filesystem::path(TACIPC_SOURCE_DIR) / "configs/verify_table/long_rows.yaml");
+  const auto list = read_config<LongRows>(std::filesystem::path(TACIPC_SOURCE_DIR) /
+                                          "configs/studies/verification/table/long_rows.yaml");
   ASSERT_EQ(list.rows.size(), 4u);
   EXPECT_EQ(list.rows.back().goal, "board3");
   EXPECT_EQ(*list.rows.back().needs, "shared:data/tacipc_release/objects/board3.obj");

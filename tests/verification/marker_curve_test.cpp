@@ -1,5 +1,5 @@
 // Marker curves of press folders written by hand: what is measured, what counts as settled, what is refused.
-#include "tests/verification/marker_curve.h"
+#include "verification/marker_curve.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/error.h"
-#include "common/npy.h"
+#include "common/base/error.h"
+#include "common/format/npy.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
@@ -116,7 +116,7 @@ TEST(MarkerCurve, RefusesWhatCannotBeJudged) {
   for (std::size_t f = 0; f < rising.size(); ++f) rising[f].load_n = 0.1 * static_cast<double>(f);
   const SlidingRun run = read_sliding_run(write_press(folder, rising));
   EXPECT_EQ(message_of<DataError>([&] { marker_curve(run, kConfig); }),
-            "made up: sliding settles at frame 9 of 10 after the press: too late to judge");
+            "made up: sliding becomes steady at frame 9 of 10 after the press: too late to judge");
   MarkerCurveConfig elsewhere = kConfig;
   elsewhere.chosen.first_row = elsewhere.chosen.last_row = 15;
   EXPECT_EQ(message_of<DataError>([&] { marker_curve(run, elsewhere); }),
@@ -130,7 +130,7 @@ TEST(MarkerCurve, RefusesWhatCannotBeJudged) {
             (folder / "press" / "wrench.npy").string() + ": has the shape (1, 6), expected (6, 6)");
   folder.file("board3_shear/press/press.failed.yaml", "stage: press\nmessage: Newton did not converge\n");
   EXPECT_EQ(message_of<DataError>([&] { read_sliding_run(folder / "board3_shear/press"); }),
-            "board3_shear: the press did not come out: Newton did not converge");
+            "board3_shear: the press failed: Newton did not converge");
 }
 
 TEST(MarkerCurve, TheTableSaysWhetherItHolds) {
@@ -142,9 +142,10 @@ TEST(MarkerCurve, TheTableSaysWhetherItHolds) {
             std::string::npos)
       << page;
   EXPECT_NE(page.find("| 0.3, 0.3 N | 0.05 mm |"), std::string::npos) << page;
-  EXPECT_EQ(marker_curve_found({run}, {curve}, kConfig),
-            "second differences of the markers' way once settled: made up 8.00 % (7 gel vertices); limit 5 % of the "
-            "largest first difference");
+  EXPECT_EQ(
+      marker_curve_found({run}, {curve}, kConfig),
+      "second differences of the markers' displacement once settled: made up 8.00 % (7 gel vertices); limit 5 % of the "
+      "largest first difference");
   EXPECT_NE(marker_quiver_svg(run, kConfig.chosen).find("mean of the green markers 28 um, longest 280 um"),
             std::string::npos);
 }
@@ -185,7 +186,7 @@ TEST(MarkerMotion, AnotherSimulatorsFilesStandBesideOurs) {
   EXPECT_NE(page.find("| made up | mpm | 14.0 µm | 0.500 | 14.0 µm | 14.0 µm |"), std::string::npos) << page;
   EXPECT_NE(page.find("(made up_mpm_quiver.svg)"), std::string::npos) << page;
   MarkerMotion turned = other;
-  turned.turns = true;  // a twist is no rival of a shear
+  turned.turns = true;  // a twist is not a rival of a shear
   EXPECT_EQ(marker_curve_page({run}, {curve}, {turned}, kConfig).find("| mpm |"), std::string::npos);
   EXPECT_EQ(marker_curve_svg(run, curve, {turned}, kConfig), marker_curve_svg(run, curve, {}, kConfig));
 }

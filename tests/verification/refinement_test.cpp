@@ -1,15 +1,15 @@
 // Refinement: what is refined, and the orders seen of sequences whose order is known.
-#include "tests/verification/refinement.h"
+#include "verification/refinement.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "common/error.h"
-#include "common/files.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
-#include "tests/verification/refinement_report.h"
+#include "verification/refinement_report.h"
 
 namespace tacipc::verify {
 namespace {
@@ -56,7 +56,7 @@ TEST(Refinement, ChangesOneNumberOnly) {
 TEST(Refinement, RefusesWhatCannotBeRefined) {
   RefinementSpec spec = read(kScene);
   EXPECT_EQ(message_of<UsageError>([&] { refined(spec.scene, "time_step", 0.75); }),
-            "refine: 2 steps divided by 0.75 is no whole number");
+            "refine: 2 steps divided by 0.75 is not a whole number");
   EXPECT_EQ(message_of<UsageError>([&] { spec.study("mesh"); }),
             "--study: 'mesh' is not refined (there are: time_step, d_hat)");
   spec.scene.press.friction.reset();
@@ -119,7 +119,7 @@ TEST(Refinement, ResultsReadBackAndSayWhatDoesNotSettle) {
   const RefinementResult again = read_refinement(folder / "r");
   EXPECT_EQ(again.parameter_values, result.parameter_values);
   EXPECT_EQ(again.curves[2].against_next, result.curves[2].against_next);
-  EXPECT_EQ(not_settling(again), (std::vector<std::string>{"press force", "markers since the press, rms"}));
+  EXPECT_EQ(not_converging(again), (std::vector<std::string>{"press force", "markers since the press, rms"}));
   const std::string tables = refinement_tables({again}, "plots");
   EXPECT_NE(tables.find("| 17.44 | 10 | 2.40000 N | 33.3 % | 0.84000 N | 12.5 % |"), std::string::npos) << tables;
   EXPECT_NE(tables.find("![reach of the barrier d̂](plots/refinement_d_hat.svg)"), std::string::npos);
@@ -127,11 +127,11 @@ TEST(Refinement, ResultsReadBackAndSayWhatDoesNotSettle) {
   EXPECT_FALSE(holds({again}));
   EXPECT_EQ(
       found({again}),
-      "the last refinement changes the forces by 22.22 % (reach of the barrier d̂); refining the reach of the barrier "
-      "d̂ does not settle: press force, markers since the press, rms");
-  RefinementResult settles = again;
-  settles.curves = compare_levels({level(0.4), level(0.2), level(0.1)}, 2.0);
-  EXPECT_TRUE(holds({settles}));
+      "the last refinement changes the forces by 22.22 % (reach of the barrier d̂); no convergence in the reach of "
+      "the barrier d̂: press force, markers since the press, rms");
+  RefinementResult converging = again;
+  converging.curves = compare_levels({level(0.4), level(0.2), level(0.1)}, 2.0);
+  EXPECT_TRUE(holds({converging}));
 }
 
 TEST(Refinement, AStudyThatFailedIsShownAndDoesNotHold) {

@@ -1,12 +1,12 @@
 // Folders of several simulators written by hand: what is read, what differs, what the page says.
-#include "tests/verification/simulator_comparison.h"
+#include "verification/simulator_comparison.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "common/npy.h"
+#include "common/format/npy.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
@@ -116,7 +116,7 @@ TEST(ComparisonPage, SaysWhetherThePapersFindingComesOut) {
   EXPECT_THAT(longer, HasSubstr("| The rival | 180.0 | 60 % | 1.50 | 60 | 60 | 180.0 | 1.23 % |\n"));
   EXPECT_THAT(longer,
               HasSubstr("The object is dragged by 0.3 mm. Ours: the markers around its middle move by 120 µm, 40 % "
-                        "of the way of the object over them. The rival: 1.50 times that, longer; the paper"));
+                        "of the object's travel over them. The rival: 1.50 times that, longer; the paper"));
   EXPECT_THAT(comparison_page(compared(folder, 0.2), "pics"),
               HasSubstr("The rival: 0.50 times that, shorter, as the paper reports."));
   EXPECT_THAT(comparison_page(compared(folder, 0.42), "pics"), HasSubstr("1.05 times that, about as long;"));
@@ -176,7 +176,7 @@ TEST(MarkerQuiver, OneScaleForSeveralPictures) {
   const ComparedRuns all = compared(folder, 0.8);
   const auto scale = [&](std::size_t s, std::optional<double> longest_m) {
     const std::string svg = marker_quiver_svg(*all.at(s, 0).motion, kConfig.chosen, longest_m);
-    return svg.substr(svg.find("lines drawn"));
+    return svg.substr(svg.find("arrows drawn"));
   };
   EXPECT_NE(scale(0, std::nullopt), scale(1, std::nullopt));
   const double longest_m = longest_displacement(*all.at(1, 0).motion);
@@ -187,8 +187,8 @@ TEST(MarkerQuiver, OneScaleForSeveralPictures) {
 
 TEST(SimulatorComparison, ReadsItsKeys) {
   for (const char* name : {"board3", "quick"}) {
-    const auto config =
-        read_config<SimulatorComparison>(std::string(TACIPC_SOURCE_DIR) + "/configs/paper_markers/" + name + ".yaml");
+    const auto config = read_config<SimulatorComparison>(std::string(TACIPC_SOURCE_DIR) +
+                                                         "/configs/studies/paper/markers/" + name + ".yaml");
     EXPECT_EQ(config.simulators.front().label, "TacIPC");
     EXPECT_TRUE(config.chosen.has(12, 11));
   }

@@ -3,17 +3,17 @@
 
 #include <map>
 
-#include "common/files.h"
-#include "stages/press/contact/intersection_check.h"
+#include "common/base/files.h"
+#include "stages/gel/press/contact/intersection_check.h"
 #include "tests/closed_surface.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
-#include "tests/verification/stress_summary.h"
+#include "verification/stress_summary.h"
 
 namespace tacipc::verify {
 namespace {
 
-const char* const kRanges = TACIPC_SOURCE_DIR "/configs/verification/stress.yaml";
+const char* const kRanges = TACIPC_SOURCE_DIR "/configs/studies/stress/stress.yaml";
 
 const StressConfig& ranges() {
   static const StressConfig config = read_config<StressConfig>(kRanges);

@@ -1,9 +1,9 @@
 // The page that results become.
-#include "tests/verification/table_report.h"
+#include "verification/table_report.h"
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "common/base/error.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc::verify {
@@ -28,8 +28,9 @@ rows:
   EXPECT_EQ(result.name, "hertz");
   const std::string page = to_markdown({result}, {}, "verification");
   EXPECT_NE(
-      page.find("| [a sphere](../configs/verification/hertz.yaml) | 12 | press_force_n | 1.1 N | 1 N | +10.00 % | "
-                "within 3 % | **missed** |"),
+      page.find(
+          "| [a sphere](../configs/studies/verification/hertz.yaml) | 12 | press_force_n | 1.1 N | 1 N | +10.00 % | "
+          "within 3 % | **missed** |"),
       std::string::npos)
       << page;
   EXPECT_NE(page.find("![a sphere](verification/hertz.svg)"), std::string::npos);

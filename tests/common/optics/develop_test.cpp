@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "common/error.h"
-#include "common/rng.h"
+#include "common/base/error.h"
+#include "common/base/rng.h"
 
 namespace tacipc {
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "common/base/sobol.h"
 #include "common/optics/trace.h"
-#include "common/sobol.h"
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/image.h"
+#include "common/image/image.h"
 #include "common/optics/membrane.h"
-#include "common/sensor.h"
+#include "common/sensor/sensor.h"
 
 namespace tacipc {
 

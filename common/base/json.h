@@ -1,0 +1,14 @@
+// Values as JSON text (RFC 8259), for readers outside.
+#pragma once
+
+#include <string>
+
+#include "common/base/value.h"
+
+namespace tacipc {
+
+/// JSON with two blanks of indentation, lists without maps on one line, numbers in the shortest form that reads back to
+/// the same bits. Numbers that are not finite become null: JSON has none.
+std::string to_json(const Value& value);
+
+}  // namespace tacipc

@@ -1,0 +1,92 @@
+// Eight doubles at a time, on whatever the processor has.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace tacipc {
+
+/// Eight doubles; arithmetic and comparisons go lane by lane, so that a result does not depend on how many of them the
+/// processor does at once.
+using Pack = double __attribute__((vector_size(64), aligned(64)));
+constexpr int kLanes = 8;
+
+// A function marked with this is compiled for AVX-512, AVX2 and the baseline (x86-64-v2), and the loader takes what the
+// processor has. What it calls on packs must be inlined into it (TACIPC_INLINE). Without contraction into fused
+// multiply-adds all give the same bits.
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define TACIPC_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define TACIPC_CLONES
+#endif
+#define TACIPC_INLINE inline __attribute__((always_inline))
+
+/// Eight vectors.
+struct Pack3 {
+  Pack x, y, z;
+};
+
+TACIPC_INLINE Pack3 operator+(const Pack3& a, const Pack3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+TACIPC_INLINE Pack3 operator-(const Pack3& a, const Pack3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+TACIPC_INLINE Pack3 operator*(const Pack& s, const Pack3& a) { return {s * a.x, s * a.y, s * a.z}; }
+TACIPC_INLINE Pack dot(const Pack3& a, const Pack3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+TACIPC_INLINE Pack3 cross(const Pack3& a, const Pack3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+/// `yes` in the lanes where key > 0. (One comparison in place: compilers split masks that are stored or combined lane
+/// by lane.)
+TACIPC_INLINE Pack choose(const Pack& key, const Pack& yes, const Pack& no) { return key > Pack{} ? yes : no; }
+TACIPC_INLINE Pack3 choose(const Pack& key, const Pack3& yes, const Pack3& no) {
+  return {choose(key, yes.x, no.x), choose(key, yes.y, no.y), choose(key, yes.z, no.z)};
+}
+TACIPC_INLINE Pack smaller(const Pack& a, const Pack& b) { return b < a ? b : a; }
+
+/// Rows of a table of three columns, a lane each.
+TACIPC_INLINE Pack3 load_rows(const double* table, const std::array<int, kLanes>& rows) {
+  Pack3 out;
+  for (int l = 0; l < kLanes; ++l) {
+    const double* row = table + 3 * static_cast<std::ptrdiff_t>(rows[l]);
+    out.x[l] = row[0];
+    out.y[l] = row[1];
+    out.z[l] = row[2];
+  }
+  return out;
+}
+
+/// Four doubles: a vector of three and a zero.
+using Quad = double __attribute__((vector_size(32), aligned(32)));
+using UnalignedQuad = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+TACIPC_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
+TACIPC_INLINE void store_quad(double* to, const Quad& value) { *reinterpret_cast<UnalignedQuad*>(to) = value; }
+
+/// out[l] = (rows[0], rows[1], rows[2], 0) of lane l of the lower (half 0) or upper four lanes.
+TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
+  const auto four_of = [&](int r) __attribute__((always_inline)) {
+    return half == 0 ? __builtin_shufflevector(rows[r], rows[r], 0, 1, 2, 3)
+                     : __builtin_shufflevector(rows[r], rows[r], 4, 5, 6, 7);
+  };
+  const Quad r0 = four_of(0), r1 = four_of(1), r2 = four_of(2), none = {};
+  const Quad even01 = __builtin_shufflevector(r0, r1, 0, 4, 2, 6), odd01 = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
+  const Quad even2 = __builtin_shufflevector(r2, none, 0, 4, 2, 6),
+             odd2 = __builtin_shufflevector(r2, none, 1, 5, 3, 7);
+  out[0] = __builtin_shufflevector(even01, even2, 0, 1, 4, 5);
+  out[1] = __builtin_shufflevector(odd01, odd2, 0, 1, 4, 5);
+  out[2] = __builtin_shufflevector(even01, even2, 2, 3, 6, 7);
+  out[3] = __builtin_shufflevector(odd01, odd2, 2, 3, 6, 7);
+}
+
+/// Four floats, and what comparing them gives: −1 where true.
+using FloatQuad = float __attribute__((vector_size(16)));
+using IntQuad = int __attribute__((vector_size(16)));
+
+TACIPC_INLINE bool all_of(const IntQuad& lanes) {
+  const auto halves = reinterpret_cast<const long long __attribute__((vector_size(16), may_alias))&>(lanes);
+  return (halves[0] & halves[1]) == -1;
+}
+TACIPC_INLINE bool none_of(const IntQuad& lanes) {
+  const auto halves = reinterpret_cast<const long long __attribute__((vector_size(16), may_alias))&>(lanes);
+  return (halves[0] | halves[1]) == 0;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,100 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/command/command_run.h"
+#include "common/command/file_commands.h"
+#include "common/config/config.h"
+#include "common/config/key_path.h"
+
+namespace tacipc {
+namespace {
+
+/// A single value as a line, a list as one line per item, a map as the lines of its YAML.
+std::string lines_of(const Value& value, const std::string& place) {
+  if (const auto* text = std::get_if<std::string>(&value.data())) return *text + "\n";
+  if (std::holds_alternative<Value::Map>(value.data())) return to_yaml(value);
+  std::string lines;
+  for (const Value& item : std::get<Value::List>(value.data())) {
+    const auto* text = std::get_if<std::string>(&item.data());
+    if (!text) throw DataError("{}: is not a list of single values; ask for a part, such as [0]", place);
+    lines += *text + "\n";
+  }
+  return lines;
+}
+
+/// Of each map of a list a line: what it holds by these keys, separated by tabs.
+std::string rows_of(const Value& value, const std::vector<std::string>& fields, const std::string& place) {
+  const auto* list = std::get_if<Value::List>(&value.data());
+  if (!list) throw DataError("{}: is not a list", place);
+  std::string lines;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    for (const std::string& field : fields) {
+      const KeyPath found = follow((*list)[i], field);
+      const auto* text = found.rest.empty() ? std::get_if<std::string>(&found.at->data()) : nullptr;
+      if (!text) throw DataError("{}[{}]: has no single value {}", place, i, field);
+      lines += *text + '\t';
+    }
+    lines.back() = '\n';
+  }
+  return lines;
+}
+
+std::string keys_of(const Value& value, const std::string& place) {
+  const auto* map = std::get_if<Value::Map>(&value.data());
+  if (!map) throw DataError("{}: has no keys", place);
+  std::string lines;
+  for (const auto& entry : *map) lines += entry.first + "\n";
+  return lines;
+}
+
+}  // namespace
+
+int get_command(const std::vector<std::string>& arguments) {
+  CLI::App app("Prints values of a record or configuration (YAML), one line each; of a list one line per item.");
+  std::string file, fallback;
+  std::vector<std::string> paths;
+  bool only_keys = false;
+  std::string joined_fields;
+  app.add_option("file", file, "the record or configuration")->required()->type_name("FILE");
+  app.add_option("key", paths, "keys that lead to a value, joined by points; items of lists as [0]")
+      ->required()
+      ->type_name("KEY");
+  auto* has_fallback = app.add_option("--default", fallback, "printed for what is not there")->type_name("TEXT");
+  app.add_flag("--keys", only_keys, "the keys of a map instead of what they hold");
+  app.add_option("--fields", joined_fields,
+                 "of a list of maps: these of each (a,b,c), a line for each, separated by tabs")
+      ->type_name("NAMES")
+      ->excludes("--keys");
+  return run_command("get", app, arguments, [&] {
+    std::optional<Value> content;
+    std::error_code error;
+    if (!*has_fallback || std::filesystem::exists(file, error)) {
+      ConfigReader in = ConfigReader::from_file(file);
+      for (const std::string& key : in.keys()) in.ignore(key);
+      in.finish();
+      content = in.content();
+    }
+    const std::vector<std::string> fields = names_of(joined_fields);
+    std::string lines;
+    for (const std::string& path : paths) {
+      const std::string place = fmt::format("{}: {}", file, path);
+      const KeyPath found = content ? follow(*content, path) : KeyPath{.steps = {}, .rest = path, .at = nullptr};
+      if (found.rest.empty()) {
+        lines += only_keys         ? keys_of(*found.at, place)
+                 : !fields.empty() ? rows_of(*found.at, fields, place)
+                                   : lines_of(*found.at, place);
+      } else if (*has_fallback) {
+        lines += fallback + "\n";
+      } else {
+        throw DataError("{}: there is no such key{}", place, suggestion(*found.at, first_key(found.rest)));
+      }
+    }
+    fmt::print("{}", lines);
+  });
+}
+
+}  // namespace tacipc

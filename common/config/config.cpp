@@ -1,0 +1,357 @@
+#include "common/config/config.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "common/base/files.h"
+#include "common/config/config_document.h"
+
+namespace tacipc {
+
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return (open_low ? value > low : value >= low) && (open_high ? value < high : value <= high);
+}
+
+std::string Range::text() const {
+  const bool no_low = std::isinf(low), no_high = std::isinf(high);
+  return fmt::format("{}{}, {}{}", open_low || no_low ? "(" : "[",
+                     no_low ? std::string("-inf") : fmt::format("{}", low),
+                     no_high ? std::string("inf") : fmt::format("{}", high), open_high || no_high ? ")" : "]");
+}
+
+std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& known) {
+  std::optional<std::string> best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+ConfigReader ConfigReader::from_file(const std::filesystem::path& path) {
+  return parse(read_file(path), path.lexically_normal().string());
+}
+
+ConfigReader ConfigReader::from_text(const std::string& text, const std::string& name) { return parse(text, name); }
+
+ConfigReader ConfigReader::parse(const std::string& text, const std::string& name) {
+  std::shared_ptr<Document> document = Document::parse(text, name);
+  Node* root = document->root.get();
+  return ConfigReader(std::move(document), root);
+}
+
+std::string ConfigReader::source() const { return document_->name; }
+
+std::string ConfigReader::path_of(const std::string& key) const { return joined_path(node_->path, key); }
+
+void ConfigReader::add_fault(const Node& node, const std::string& path, const std::string& reason) {
+  document_->add(node.line, node.column, path, reason);
+}
+
+ConfigReader::Node* ConfigReader::find(const std::string& key, bool required) {
+  if (std::find(node_->asked.begin(), node_->asked.end(), key) == node_->asked.end()) node_->asked.push_back(key);
+  for (Node::Entry& entry : node_->entries) {
+    if (entry.key == key) {
+      entry.known = true;
+      return entry.value.get();
+    }
+  }
+  if (required) add_fault(*node_, path_of(key), "missing");
+  return nullptr;
+}
+
+template <typename T>
+T ConfigReader::keep(const std::string& key, T value) {
+  for (auto& [name, kept] : node_->resolved) {
+    if (name == key) {
+      kept = Value(value);
+      return value;
+    }
+  }
+  node_->resolved.emplace_back(key, Value(value));
+  return value;
+}
+
+std::optional<std::string> ConfigReader::to_scalar(const Node& node, const std::string& key) {
+  if (node.kind == Node::Kind::scalar) return node.scalar;
+  add_fault(node, path_of(key), fmt::format("expected a single value, found {}", node.kind_name()));
+  return std::nullopt;
+}
+
+double ConfigReader::to_number(const Node& node, const std::string& key, const Range& range, double otherwise) {
+  const auto scalar = to_scalar(node, key);
+  if (!scalar) return otherwise;
+  std::string_view digits = *scalar;
+  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (status != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
+    add_fault(node, path_of(key), fmt::format("expected a number, found '{}'", *scalar));
+    return otherwise;
+  }
+  if (!range.contains(value)) {
+    add_fault(node, path_of(key), fmt::format("{} is outside {}", *scalar, range.text()));
+    return otherwise;
+  }
+  return value;
+}
+
+namespace {
+double inside(const Range& range) {
+  if (range.contains(1.0)) return 1.0;
+  if (std::isinf(range.low)) return range.high - 1.0;
+  return std::isinf(range.high) ? range.low + 1.0 : 0.5 * (range.low + range.high);
+}
+}  // namespace
+
+double ConfigReader::number(const std::string& key, const Range& range) {
+  const Node* node = find(key, true);
+  return keep(key, node ? to_number(*node, key, range, inside(range)) : inside(range));
+}
+
+double ConfigReader::number_or(const std::string& key, double fallback, const Range& range) {
+  const Node* node = find(key, false);
+  return keep(key, node ? to_number(*node, key, range, fallback) : fallback);
+}
+
+std::optional<double> ConfigReader::optional_number(const std::string& key, const Range& range) {
+  const Node* node = find(key, false);
+  if (!node) return std::nullopt;
+  return keep(key, to_number(*node, key, range, inside(range)));
+}
+
+int ConfigReader::integer(const std::string& key, int low, int high) {
+  if (!find(key, true)) return keep(key, low);
+  return integer_or(key, low, low, high);
+}
+
+int ConfigReader::integer_or(const std::string& key, int fallback, int low, int high) {
+  const Node* node = find(key, false);
+  if (!node) return keep(key, fallback);
+  const auto scalar = to_scalar(*node, key);
+  if (!scalar) return keep(key, fallback);
+  long long value = 0;
+  const auto [end, status] = std::from_chars(scalar->data(), scalar->data() + scalar->size(), value);
+  if (status != std::errc() || end != scalar->data() + scalar->size()) {
+    add_fault(*node, path_of(key), fmt::format("expected a whole number, found '{}'", *scalar));
+    return keep(key, fallback);
+  }
+  if (value < low || value > high) {
+    const Range range{.low = static_cast<double>(low), .high = static_cast<double>(high)};
+    add_fault(*node, path_of(key),
+              high == std::numeric_limits<int>::max() ? fmt::format("{} is below {}", value, low)
+                                                      : fmt::format("{} is outside {}", value, range.text()));
+    return keep(key, fallback);
+  }
+  return keep(key, static_cast<int>(value));
+}
+
+bool ConfigReader::flag(const std::string& key) {
+  if (!find(key, true)) return keep(key, false);
+  return flag_or(key, false);
+}
+
+bool ConfigReader::flag_or(const std::string& key, bool fallback) {
+  const Node* node = find(key, false);
+  if (!node) return keep(key, fallback);
+  const auto scalar = to_scalar(*node, key);
+  if (!scalar) return keep(key, fallback);
+  if (*scalar == "true" || *scalar == "false") return keep(key, *scalar == "true");
+  add_fault(*node, path_of(key), fmt::format("expected true or false, found '{}'", *scalar));
+  return keep(key, fallback);
+}
+
+std::string ConfigReader::text(const std::string& key) {
+  const Node* node = find(key, true);
+  return keep(key, node ? to_scalar(*node, key).value_or("") : std::string());
+}
+
+std::string ConfigReader::text_or(const std::string& key, const std::string& fallback) {
+  const Node* node = find(key, false);
+  return keep(key, node ? to_scalar(*node, key).value_or(fallback) : fallback);
+}
+
+std::optional<std::string> ConfigReader::optional_text(const std::string& key) {
+  const Node* node = find(key, false);
+  if (!node) return std::nullopt;
+  return keep(key, to_scalar(*node, key).value_or(""));
+}
+
+std::string ConfigReader::choice(const std::string& key, const std::vector<std::string>& options) {
+  if (!find(key, true)) return keep(key, options.front());
+  return choice_or(key, options.front(), options);
+}
+
+std::string ConfigReader::choice_or(const std::string& key, const std::string& fallback,
+                                    const std::vector<std::string>& options) {
+  const Node* node = find(key, false);
+  if (!node) return keep(key, fallback);
+  const auto scalar = to_scalar(*node, key);
+  if (!scalar) return keep(key, fallback);
+  if (std::find(options.begin(), options.end(), *scalar) != options.end()) return keep(key, *scalar);
+  const auto near = nearest_word(*scalar, options);
+  add_fault(*node, path_of(key),
+            fmt::format("'{}' is not one of {}{}", *scalar, fmt::join(options, ", "),
+                        near ? fmt::format(" (did you mean {}?)", *near) : std::string()));
+  return keep(key, fallback);
+}
+
+std::vector<double> ConfigReader::numbers(const std::string& key, std::size_t count, const Range& range) {
+  std::vector<double> fallback(count, inside(range));
+  if (!find(key, true)) return keep(key, fallback);
+  return numbers_or(key, std::move(fallback), range);
+}
+
+std::vector<double> ConfigReader::numbers_or(const std::string& key, std::vector<double> fallback, const Range& range) {
+  const Node* node = find(key, false);
+  if (!node) return keep(key, fallback);
+  if (node->kind != Node::Kind::list || node->items.size() != fallback.size()) {
+    const std::string found =
+        node->kind == Node::Kind::list ? fmt::format("a list of {}", node->items.size()) : node->kind_name();
+    add_fault(*node, path_of(key), fmt::format("expected a list of {} numbers, found {}", fallback.size(), found));
+    return keep(key, fallback);
+  }
+  std::vector<double> values;
+  for (std::size_t i = 0; i < node->items.size(); ++i) {
+    values.push_back(to_number(*node->items[i], fmt::format("{}[{}]", key, i), range, fallback[i]));
+  }
+  return keep(key, values);
+}
+
+Vector3 ConfigReader::vector3(const std::string& key) {
+  const auto values = numbers(key, 3);
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<std::string> ConfigReader::texts(const std::string& key) {
+  std::vector<std::string> words;
+  if (const Node* node = find(key, false)) {
+    if (node->kind != Node::Kind::list)
+      add_fault(*node, path_of(key), fmt::format("expected a list of words, found {}", node->kind_name()));
+    for (std::size_t i = 0; i < node->items.size(); ++i)
+      words.push_back(to_scalar(*node->items[i], fmt::format("{}[{}]", key, i)).value_or(""));
+  }
+  keep(key, Value::List(words.begin(), words.end()));
+  return words;
+}
+
+bool ConfigReader::has(const std::string& key) const {
+  return std::any_of(node_->entries.begin(), node_->entries.end(), [&](const auto& entry) { return entry.key == key; });
+}
+
+bool ConfigReader::is_list(const std::string& key) const {
+  return std::any_of(node_->entries.begin(), node_->entries.end(),
+                     [&](const auto& entry) { return entry.key == key && entry.value->kind == Node::Kind::list; });
+}
+
+std::vector<std::string> ConfigReader::keys() const {
+  std::vector<std::string> names;
+  for (const auto& entry : node_->entries) names.push_back(entry.key);
+  return names;
+}
+
+void ConfigReader::ignore(const std::string& key) { find(key, false); }
+
+ConfigReader ConfigReader::section(const std::string& key) {
+  Node* node = find(key, true);
+  if (node && node->kind == Node::Kind::map) {
+    if (!node->read) {
+      node->read = true;
+      node_->resolved_children.emplace_back(node_->resolved.size(), node);
+      node_->resolved.emplace_back(key, Value());
+    }
+    return ConfigReader(document_, node);
+  }
+  if (node) add_fault(*node, path_of(key), fmt::format("expected a map, found {}", node->kind_name()));
+  // Reading continues inside an empty map of a document of its own, whose faults would only repeat this one.
+  ConfigReader nowhere = from_text("{}", document_->name);
+  return nowhere;
+}
+
+std::optional<ConfigReader> ConfigReader::optional_section(const std::string& key) {
+  if (!find(key, false)) return std::nullopt;
+  return section(key);
+}
+
+std::vector<ConfigReader> ConfigReader::sections(const std::string& key) {
+  std::vector<ConfigReader> readers;
+  Node* node = find(key, false);
+  if (!node) return readers;
+  if (node->kind != Node::Kind::list) {
+    add_fault(*node, path_of(key), fmt::format("expected a list of maps, found {}", node->kind_name()));
+    return readers;
+  }
+  node_->resolved_children.emplace_back(node_->resolved.size(), node);
+  node_->resolved.emplace_back(key, Value());
+  for (const auto& item : node->items) {
+    if (item->kind != Node::Kind::map) {
+      add_fault(*item, item->path, fmt::format("expected a map, found {}", item->kind_name()));
+      continue;
+    }
+    item->read = true;
+    readers.push_back(ConfigReader(document_, item.get()));
+  }
+  return readers;
+}
+
+std::vector<ConfigReader> ConfigReader::one_or_more_sections(const std::string& key) {
+  const Node* node = find(key, true);
+  if (!node) return {};
+  if (node->kind == Node::Kind::map) return {section(key)};
+  std::vector<ConfigReader> readers = sections(key);
+  if (node->kind == Node::Kind::list && node->items.empty())
+    add_fault(*node, path_of(key), "expected at least one map");
+  return readers;
+}
+
+void ConfigReader::accept_sources() { document_->accepts_sources = true; }
+
+std::vector<std::pair<std::string, std::string>> ConfigReader::sources() const {
+  std::vector<std::pair<std::string, std::string>> out;
+  Document::collect_sources(*node_, "unstated", out);
+  return out;
+}
+
+void ConfigReader::fault(const std::string& key, const std::string& reason) {
+  const Node* node = find(key, false);
+  add_fault(node ? *node : *node_, path_of(key), reason);
+}
+
+void ConfigReader::finish() {
+  document_->collect_unknown(*document_->root);
+  if (!document_->faults.empty()) document_->raise();
+}
+
+Value ConfigReader::resolved() const { return Value(Document::resolve(*node_)); }
+
+Value ConfigReader::content() const { return Document::content(*node_); }
+
+}  // namespace tacipc

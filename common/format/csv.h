@@ -1,0 +1,42 @@
+// Tables as CSV (RFC 4180) with a line of column names.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tacipc {
+
+/// One line: fields with a comma, a quote or a line break in them are quoted.
+std::string csv_line(const std::vector<std::string>& fields);
+
+/// Reads a table row by row, so that it need not fit into memory.
+class CsvReader {
+ public:
+  /// \throw DataError if the file cannot be read or has no line of names
+  explicit CsvReader(const std::filesystem::path& path);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// Moves to the next row; false after the last one. \throw DataError if a row has not one field per column, or a
+  /// quote is not terminated
+  bool next();
+  /// Field of the current row. \throw DataError if the table has no such column
+  const std::string& operator[](std::string_view column) const;
+  const std::vector<std::string>& row() const { return row_; }
+  /// Number of the line that the current row ended on.
+  int line() const { return line_; }
+
+ private:
+  std::optional<std::vector<std::string>> read_row();
+
+  std::string name_;
+  std::ifstream file_;
+  std::vector<std::string> columns_;
+  std::vector<std::string> row_;
+  int line_ = 0;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,40 @@
+// Handles of the HDF5 library, closed when they go; shared by its reader and writer alone.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/format/hdf5_writer.h"
+
+namespace tacipc::hdf5 {
+
+/// The library's hid_t, whose header only .cpp files include.
+using Id = std::int64_t;
+
+/// Owns an identifier; Close is the library's function for its kind.
+template <auto Close>
+class Handle {
+ public:
+  Handle(Id id, const std::string& file, const std::string& object, const char* what) : id_(id) {
+    if (id_ < 0) throw DataError("{}: {}: {}", file, object, what);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Handle() {
+    if (id_ >= 0) Close(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator Id() const { return id_; }
+  /// Closes now and tells whether that worked.
+  bool close() { return Close(std::exchange(id_, -1)) >= 0; }
+
+ private:
+  Id id_;
+};
+
+}  // namespace tacipc::hdf5

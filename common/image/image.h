@@ -1,0 +1,50 @@
+// Images in memory, and their files: EXR (float), PNG and JPEG (8 bit).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tacipc {
+
+/// Row-major pixels, channels interleaved, row 0 on top.
+template <typename T>
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  std::vector<T> pixels;
+
+  Image() = default;
+  Image(int w, int h, int c, T value = T{})
+      : width(w),
+        height(h),
+        channels(c),
+        pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c), value) {}
+  T& at(int x, int y, int c) {
+    return pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                      static_cast<std::size_t>(channels) +
+                  static_cast<std::size_t>(c)];
+  }
+  const T& at(int x, int y, int c) const { return const_cast<Image*>(this)->at(x, y, c); }
+};
+using FloatImage = Image<float>;
+using ByteImage = Image<std::uint8_t>;
+
+/// Float EXR, lossless (ZIP). Channel names by count: 1 `names[0]`, 3 the given three (for instance R G B, or X Y Z).
+void write_exr(const std::filesystem::path& path, const FloatImage& image,
+               const std::vector<std::string>& channel_names);
+/// Reads the named channels. \throw DataError if the file is not an EXR or lacks one, naming what it has.
+FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::string>& channel_names);
+
+/// 8-bit PNG, 1 (grey) or 3 (RGB) channels; the bytes depend on nothing but the pixels.
+void write_png(const std::filesystem::path& path, const ByteImage& image);
+/// The same as bytes; `name` stands for the file in messages.
+std::string png_bytes(const ByteImage& image, const std::string& name);
+/// 8-bit JPEG of 3 channels (RGB) as bytes, quality 1 … 100: for people, not for data. `name` as in png_bytes.
+std::string jpeg_bytes(const ByteImage& image, int quality, const std::string& name);
+/// As RGB (channels = 3) or grey (channels = 1), 8 bit. \throw DataError if it is not a readable image.
+ByteImage read_png(const std::filesystem::path& path, int channels);
+
+}  // namespace tacipc

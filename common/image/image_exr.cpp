@@ -1,0 +1,164 @@
+#include <ImfArray.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfVersion.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <mutex>
+
+#include "common/base/byte_reader.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/image/image.h"
+
+namespace tacipc {
+namespace {
+
+constexpr int kLargestSide = 32768;
+/// No EXR compression shrinks real pixels further; a file that claims so is corrupt.
+constexpr std::uint64_t kLargestRatio = 10'000;
+/// Coding in the calling thread keeps the order of chunks, and so the bytes, fixed.
+constexpr int kThreads = 0;
+
+/// Files pass through memory, so that disk errors are read_file's and write_file's.
+class MemoryOut final : public Imf::OStream {
+ public:
+  MemoryOut() : OStream("memory") {}
+  void write(const char* bytes, int count) override {
+    const std::size_t end = at_ + static_cast<std::size_t>(count);
+    if (end > bytes_.size()) bytes_.resize(end);
+    std::memcpy(bytes_.data() + at_, bytes, static_cast<std::size_t>(count));
+    at_ = end;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+class MemoryIn final : public Imf::IStream {
+ public:
+  explicit MemoryIn(const std::string& bytes) : IStream("memory"), bytes_(bytes) {}
+  bool read(char* target, int count) override {
+    const auto wanted = static_cast<std::size_t>(count);
+    if (at_ > bytes_.size() || wanted > bytes_.size() - at_) throw std::runtime_error("the file ends too early");
+    std::memcpy(target, bytes_.data() + at_, wanted);
+    at_ += wanted;
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t position) override { at_ = position; }
+
+ private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Imf addresses pixels from (0, 0) of the image plane, which need not lie in the data window.
+Imf::Slice slice(const FloatImage& image, int channel, int x_min, int y_min) {
+  const auto x_stride = sizeof(float) * static_cast<std::size_t>(image.channels);
+  const auto y_stride = x_stride * static_cast<std::size_t>(image.width);
+  auto* first = reinterpret_cast<char*>(const_cast<float*>(image.pixels.data() + channel));
+  char* origin = first - static_cast<std::ptrdiff_t>(x_stride) * x_min - static_cast<std::ptrdiff_t>(y_stride) * y_min;
+  return Imf::Slice(Imf::FLOAT, origin, x_stride, y_stride);
+}
+
+std::string channel_list(const Imf::ChannelList& channels) {
+  std::string text;
+  for (auto it = channels.begin(); it != channels.end(); ++it)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", it.name());
+  return text.empty() ? "none" : text;
+}
+
+/// Header attributes are `name\0 type\0 size value`, ended by an empty name. The library allocates `size` before it
+/// looks whether the file is that long.
+void check_header(const std::string& bytes, const std::string& name) {
+  constexpr std::size_t kMagicAndVersion = 8;
+  ByteReader in(bytes, name);
+  in.skip(kMagicAndVersion, "the EXR header");
+  const auto skip_text = [&] {
+    bool empty = true;
+    while (in.read<char>("the EXR header") != '\0') empty = false;
+    return !empty;
+  };
+  while (skip_text()) {
+    skip_text();
+    const auto size = in.read<std::int32_t>("the EXR header");
+    if (size < 0) in.fail(fmt::format("attribute size {} is negative", size));
+    in.skip(static_cast<std::size_t>(size), "an EXR attribute");
+  }
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& path, const FloatImage& image,
+               const std::vector<std::string>& channel_names) {
+  const std::string name = path.string();
+  if (image.width < 1 || image.height < 1 || image.pixels.empty())
+    throw DataError("{}: an image of {} x {} pixels is not written", name, image.width, image.height);
+  if (channel_names.size() != static_cast<std::size_t>(image.channels))
+    throw DataError("{}: {} channel names for {} channels", name, channel_names.size(), image.channels);
+  MemoryOut memory;
+  try {
+    Imf::Header header(image.width, image.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer frame;
+    for (int c = 0; c < image.channels; ++c) {
+      header.channels().insert(channel_names[static_cast<std::size_t>(c)], Imf::Channel(Imf::FLOAT));
+      frame.insert(channel_names[static_cast<std::size_t>(c)], slice(image, c, 0, 0));
+    }
+    Imf::OutputFile file(memory, header, kThreads);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  } catch (const std::exception& error) {
+    throw DataError("{}: cannot be written: {}", name, error.what());
+  }
+  write_file(path, memory.bytes());
+}
+
+FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::string>& channel_names) {
+  const std::string name = path.string();
+  const std::string bytes = read_file(path);
+  if (bytes.size() >= 4 && Imf::isImfMagic(bytes.data())) check_header(bytes, name);
+  static std::once_flag limits;
+  std::call_once(limits, [] {
+    Imf::Header::setMaxImageSize(kLargestSide, kLargestSide);
+    Imf::Header::setMaxTileSize(kLargestSide, kLargestSide);
+  });
+  try {
+    MemoryIn memory(bytes);
+    Imf::InputFile file(memory, kThreads);
+    const Imf::ChannelList& channels = file.header().channels();
+    for (const std::string& channel : channel_names)
+      if (channels.findChannel(channel.c_str()) == nullptr)
+        throw DataError("{}: has no channel '{}' (it has: {})", name, channel, channel_list(channels));
+    const auto& window = file.header().dataWindow();
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    const std::uint64_t needed = static_cast<std::uint64_t>(width * height) * channel_names.size() * sizeof(float);
+    if (width < 1 || height < 1 || needed / kLargestRatio > bytes.size())
+      throw DataError("{}: {} x {} pixels cannot be in a file of {} bytes", name, width, height, bytes.size());
+    FloatImage image(static_cast<int>(width), static_cast<int>(height), static_cast<int>(channel_names.size()));
+    Imf::FrameBuffer frame;
+    for (int c = 0; c < image.channels; ++c)
+      frame.insert(channel_names[static_cast<std::size_t>(c)], slice(image, c, window.min.x, window.min.y));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    return image;
+  } catch (const DataError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw DataError("{}: is not a readable EXR image: {}", name, error.what());
+  }
+}
+
+}  // namespace tacipc

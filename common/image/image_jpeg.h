@@ -1,0 +1,16 @@
+// Pictures of cameras, by libjpeg-turbo.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/image/image.h"
+
+namespace tacipc {
+
+/// Whether the bytes begin as a JPEG does.
+bool is_jpeg(std::string_view bytes);
+/// 3 channels (RGB) or 1 (grey), in the orientation of the camera. \throw DataError naming the file
+ByteImage decode_jpeg(std::string_view bytes, int channels, const std::string& name);
+
+}  // namespace tacipc

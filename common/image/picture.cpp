@@ -1,0 +1,65 @@
+#include "common/image/picture.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace tacipc {
+namespace {
+
+/// Linear light to the sRGB curve (IEC 61966-2-1), then to a code.
+std::uint8_t srgb_code(double linear) {
+  const double v = std::clamp(linear, 0.0, 1.0);
+  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+}
+
+double cube(double v) { return v * v * v; }
+
+std::uint8_t unit_code(double value) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 3> perceptual_color(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  const double lightness = 0.22 + 0.73 * t;
+  const double hue = (290.0 - 185.0 * t) * std::numbers::pi / 180.0;
+  // Chroma bends so that every colour stays inside sRGB: the gamut is narrow at the dark and the teal.
+  const double chroma = 0.095 + 0.055 * t - 0.03 * std::sin(std::numbers::pi * t);
+  const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
+  const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
+  const double m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
+  const double s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
+  return {srgb_code(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          srgb_code(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+          srgb_code(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+ByteImage picture_of_scalar(const FloatImage& image, double low, double high) {
+  assert(low < high);
+  ByteImage picture(image.width, image.height, 3);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double value = image.at(x, y, 0);
+      if (std::isnan(value)) continue;
+      const auto color = perceptual_color((value - low) / (high - low));
+      for (int c = 0; c < 3; ++c) picture.at(x, y, c) = color[static_cast<std::size_t>(c)];
+    }
+  }
+  return picture;
+}
+
+ByteImage picture_of_normals(const FloatImage& normals) {
+  assert(normals.channels == 3);
+  ByteImage picture(normals.width, normals.height, 3);
+  for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
+    const double value = normals.pixels[i];
+    if (!std::isnan(value)) picture.pixels[i] = unit_code(0.5 * (value + 1.0));
+  }
+  return picture;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,37 @@
+// A triangle mesh and its files: STL (binary, ASCII), OBJ, OFF, PLY in; binary PLY out.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/base/types.h"
+
+namespace tacipc {
+
+struct TriangleMesh {
+  Positions positions;  // #V × 3, metres
+  Triangles triangles;  // #F × 3, counter-clockwise seen from outside
+
+  Eigen::Index num_vertices() const { return positions.rows(); }
+  Eigen::Index num_triangles() const { return triangles.rows(); }
+};
+
+/// What a file's numbers mean: metres per unit.
+double metres_per_unit(const std::string& unit);  // "m", "cm", "mm", "um", "in"; \throw UsageError otherwise
+
+/// Reads a surface by the file's suffix (.stl .obj .off .ply, any case) and scales it to metres. Polygons are split
+/// into triangles (a fan from the first corner of convex ones, ear clipping of concave ones); STL corners with equal
+/// coordinates become one vertex; vertex order of indexed formats is kept, unreferenced vertices too. \throw DataError
+/// `FILE:LINE: …` (text) or `FILE: … at byte N` (binary) for truncated, corrupt or empty files, indices out of range,
+/// `FILE: vertex N is not finite` (counted from 0 in file order), `FILE: has no triangles`.
+TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres_per_unit);
+
+/// Σ a · (b × c) / 6 over the triangles (a, b, c), m³: what a closed mesh encloses, by the divergence theorem. Positive
+/// if the triangles look outwards, negative if inwards; of an open mesh it depends on the origin and means nothing.
+double signed_volume(const TriangleMesh& mesh);
+
+/// Binary little-endian PLY with double coordinates in metres. \throw DataError if it cannot be written.
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+}  // namespace tacipc

@@ -1,0 +1,20 @@
+// Colours of light as linear sRGB: black bodies, spectral lines, tone curve.
+#pragma once
+
+#include <array>
+
+#include "common/base/types.h"
+
+namespace tacipc {
+
+/// CIE 1931 colour-matching functions at a wavelength (piecewise Gaussian fit of Wyman et al. 2013): X, Y, Z.
+Vector3 color_matching(double nanometre);
+
+/// Linear sRGB of a black body at `kelvin`, largest channel 1 (Planck's law).
+std::array<double, 3> color_of_temperature(double kelvin);
+
+/// Linear sRGB per unit luminance of a Gaussian spectrum with peak and full width at half maximum in nm. Saturated
+/// lights lie outside what sRGB can show: those have negative channels.
+std::array<double, 3> color_of_line(double peak_nm, double fwhm_nm);
+
+}  // namespace tacipc

@@ -1,0 +1,142 @@
+#include "common/sensor/light_field.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "common/base/units.h"
+#include "common/sensor/membrane_view.h"
+
+namespace tacipc {
+namespace {
+
+/// Height of the membrane at fractional pixels (bilinear); nothing outside the image.
+bool height_at(const MembraneView& view, double x, double y, double& z) {
+  if (!(x >= 0.0 && y >= 0.0 && x <= view.width - 1 && y <= view.height - 1)) return false;
+  const int x0 = std::min(static_cast<int>(x), view.width - 2), y0 = std::min(static_cast<int>(y), view.height - 2);
+  const double u = x - x0, v = y - y0;
+  const std::size_t i = view.index(x0, y0), j = view.index(x0, y0 + 1);
+  z = (1 - v) * ((1 - u) * view.point[i].z() + u * view.point[i + 1].z()) +
+      v * ((1 - u) * view.point[j].z() + u * view.point[j + 1].z());
+  return true;
+}
+
+double irradiance(const Vector3& point, const Vector3& normal, const Vector3& lamp) {
+  const Vector3 way = lamp - point;
+  const double squared = way.squaredNorm();
+  return std::max(-normal.dot(way), 0.0) / (squared * std::sqrt(squared));
+}
+
+}  // namespace
+
+double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& lamp_m, double softness) {
+  constexpr double kStepPx = 1.5;  // the membrane is smoother than this
+  constexpr int kMaxSteps = 400;
+  const std::size_t here = view.index(x, y);
+  const Vector3& point = view.point[here];
+  const Vector3 way = lamp_m - point;
+  const double distance = std::hypot(way.x(), way.y());
+  if (distance == 0.0 || view.width < 2 || view.height < 2) return 1.0;
+  const double fall = way.z() / distance;  // < 0: towards the lamp the path goes into the gel
+  // One pixel of the undeformed front: parallax within a shadow's length is neglected.
+  const double pixel_x = view.rest[1].x() - view.rest[0].x();
+  const double pixel_y = view.rest[static_cast<std::size_t>(view.width)].y() - view.rest[0].y();
+  const double step = kStepPx * pixel_x;
+  const double dx = way.x() / distance * step / pixel_x, dy = way.y() / distance * step / pixel_y;
+  double clearance = -fall;
+  for (int i = 1; i <= kMaxSteps; ++i) {
+    double z = 0.0;
+    if (!height_at(view, x + i * dx, y + i * dy, z)) break;
+    clearance = std::min(clearance, (z - point.z()) / (i * step) - fall);
+    // Nothing lies deeper than the object went, a gel's thickness at most; 3 mm covers every press a gel survives.
+    constexpr double kMaxDepthM = 3e-3;
+    if (point.z() + fall * i * step < -kMaxDepthM) break;
+  }
+  return std::clamp(0.5 + clearance / softness, 0.0, 1.0);
+}
+
+double relative_irradiance(const MembraneView& view, int x, int y, const Vector3& lamp_m, double softness) {
+  const std::size_t i = view.index(x, y);
+  const double flat = irradiance(view.rest[i], Vector3::UnitZ(), lamp_m);
+  const double lit = irradiance(view.point[i], view.normal[i], lamp_m);
+  if (lit == 0.0) return -1.0;
+  return lamp_visibility(view, x, y, lamp_m, softness) * lit / flat - 1.0;
+}
+
+void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out) {
+  const std::size_t i = view.index(x, y);
+  const double field_x = view.rest[i].x() / geometry.field_half_width_m;
+  const double field_y = view.rest[i].y() / geometry.field_half_width_m;
+  const auto put = [&](double value) {
+    for (int degree = 0; degree <= geometry.field_degree; ++degree) {
+      for (int power_y = 0; power_y <= degree; ++power_y) {
+        double f = value;
+        for (int k = 0; k < degree; ++k) f *= k < degree - power_y ? field_x : field_y;
+        *out++ = f;
+      }
+    }
+  };
+  for (const Vector3& lamp : geometry.lamps_m) {
+    const double q = relative_irradiance(view, x, y, lamp, geometry.shadow_softness);
+    put(q);
+    put(q * q);
+  }
+  const Vector3& n = view.normal[i];
+  for (int degree = 1; degree <= geometry.environment_degree; ++degree)
+    for (int power_y = 0; power_y <= degree; ++power_y)
+      put(std::pow(n.x(), degree - power_y) * std::pow(n.y(), power_y));
+  if (geometry.environment_depth) put((view.rest[i].z() - view.point[i].z()) / kMillimetre);
+}
+
+FloatImage code_change(const LightField& light, const MembraneView& view) {
+  FloatImage change(view.width, view.height, 3);
+  tbb::parallel_for(0, view.height, [&](int y) {
+    Eigen::VectorXd features(light.geometry.num_features());
+    for (int x = 0; x < view.width; ++x) {
+      light_features(light.geometry, view, x, y, features.data());
+      const Vector3 codes = light.weights.transpose() * features;
+      for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes[c]);
+    }
+  });
+  return gaussian_blurred(change, light.blur_px);
+}
+
+ByteImage add_change(const ByteImage& background, const FloatImage& change) {
+  assert(background.pixels.size() == change.pixels.size());
+  ByteImage out = background;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] =
+        static_cast<std::uint8_t>(std::clamp(std::round(background.pixels[i] + double{change.pixels[i]}), 0.0, 255.0));
+  return out;
+}
+
+FloatImage gaussian_blurred(const FloatImage& image, double sigma_px) {
+  if (sigma_px == 0.0) return image;
+  const int radius = static_cast<int>(std::ceil(4.0 * sigma_px));
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (int i = -radius; i <= radius; ++i) sum += weights.emplace_back(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
+  const auto mirrored = [](int i, int n) {
+    if (n == 1) return 0;
+    const int phase = std::abs(i) % (2 * n - 2);
+    return phase < n ? phase : 2 * n - 2 - phase;
+  };
+  const auto pass = [&](const FloatImage& in, bool along_x) {
+    FloatImage out(in.width, in.height, in.channels);
+    for (int y = 0; y < in.height; ++y)
+      for (int x = 0; x < in.width; ++x)
+        for (int c = 0; c < in.channels; ++c) {
+          double total = 0.0;
+          for (int i = -radius; i <= radius; ++i)
+            total += weights[static_cast<std::size_t>(i + radius)] *
+                     (along_x ? in.at(mirrored(x + i, in.width), y, c) : in.at(x, mirrored(y + i, in.height), c));
+          out.at(x, y, c) = static_cast<float>(total / sum);
+        }
+    return out;
+  };
+  return pass(pass(image, true), false);
+}
+
+}  // namespace tacipc

@@ -1,0 +1,94 @@
+// The file of a light field: section `light_field`, lengths in mm, weights in codes.
+#include <array>
+
+#include "common/sensor/light_field.h"
+
+namespace tacipc {
+namespace {
+
+constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
+
+Value rows_to_value(const LightField& light, int first) {
+  Value::Map map;
+  for (int c = 0; c < 3; ++c) {
+    Value::List codes;
+    for (int f = 0; f < light.geometry.num_field_terms(); ++f) codes.push_back(light.weights(first + f, c));
+    map.emplace_back(kChannels[static_cast<std::size_t>(c)], std::move(codes));
+  }
+  return map;
+}
+
+void read_rows(ConfigReader in, const LightGeometry& geometry, std::vector<std::array<double, 3>>& rows) {
+  const auto terms = static_cast<std::size_t>(geometry.num_field_terms());
+  std::vector<std::array<double, 3>> of_field(terms);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto values = in.numbers(kChannels[c], terms);
+    for (std::size_t f = 0; f < terms; ++f) of_field[f][c] = values[f];
+  }
+  rows.insert(rows.end(), of_field.begin(), of_field.end());
+}
+
+std::string monomial_key(int power_x, int power_y) {
+  return "nx" + std::to_string(power_x) + "_ny" + std::to_string(power_y);
+}
+
+}  // namespace
+
+LightField LightField::read(ConfigReader& file) {
+  ConfigReader in = file.section("light_field");
+  LightField light;
+  LightGeometry& geometry = light.geometry;
+  geometry.field_half_width_m = 1e-3 * in.number("field_half_width_mm", Range::positive());
+  geometry.field_degree = in.integer_or("field_degree", 1, 0, 4);
+  geometry.shadow_softness = in.number("shadow_softness", Range::positive());
+  light.blur_px = in.number("blur_px", Range::between(0.0, 100.0));
+  std::vector<std::array<double, 3>> rows;
+  for (ConfigReader& lamp : in.sections("lamps")) {
+    geometry.lamps_m.push_back(1e-3 * lamp.vector3("position_mm"));
+    if (!(geometry.lamps_m.back().z() < 0.0))
+      lamp.fault("position_mm", "a lamp must lie behind the front face (z < 0)");
+    read_rows(lamp.section("linear_codes"), geometry, rows);
+    read_rows(lamp.section("quadratic_codes"), geometry, rows);
+  }
+  if (auto environment = in.optional_section("environment")) {
+    geometry.environment_degree = environment->integer("degree", 1, 8);
+    for (int degree = 1; degree <= geometry.environment_degree; ++degree)
+      for (int y = 0; y <= degree; ++y) read_rows(environment->section(monomial_key(degree - y, y)), geometry, rows);
+    geometry.environment_depth = environment->has("depth");
+    if (geometry.environment_depth) read_rows(environment->section("depth"), geometry, rows);
+  }
+  if (rows.empty()) in.fault("lamps", "give lamps, an environment or both");
+  light.weights.resize(static_cast<Eigen::Index>(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      light.weights(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = rows[i][c];
+  return light;
+}
+
+Value LightField::to_value() const {
+  Value::Map out{{"field_half_width_mm", 1e3 * geometry.field_half_width_m},
+                 {"field_degree", geometry.field_degree},
+                 {"shadow_softness", geometry.shadow_softness},
+                 {"blur_px", blur_px}};
+  const int terms = geometry.num_field_terms();
+  int row = 0;
+  Value::List lamps;
+  for (const Vector3& lamp : geometry.lamps_m) {
+    lamps.push_back(Value::Map{{"position_mm", Value::List{1e3 * lamp.x(), 1e3 * lamp.y(), 1e3 * lamp.z()}},
+                               {"linear_codes", rows_to_value(*this, row)},
+                               {"quadratic_codes", rows_to_value(*this, row + terms)}});
+    row += 2 * terms;
+  }
+  if (!lamps.empty()) out.emplace_back("lamps", std::move(lamps));
+  if (geometry.environment_degree > 0) {
+    Value::Map environment{{"degree", geometry.environment_degree}};
+    for (int degree = 1; degree <= geometry.environment_degree; ++degree)
+      for (int y = 0; y <= degree; ++y, row += terms)
+        environment.emplace_back(monomial_key(degree - y, y), rows_to_value(*this, row));
+    if (geometry.environment_depth) environment.emplace_back("depth", rows_to_value(*this, row));
+    out.emplace_back("environment", std::move(environment));
+  }
+  return Value::Map{{"light_field", std::move(out)}};
+}
+
+}  // namespace tacipc

@@ -1,0 +1,14 @@
+// A file with the name by which a stage is told what it is: NAME=PATH on the command line.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tacipc {
+
+struct NamedPath {
+  std::string name;
+  std::filesystem::path path;
+};
+
+}  // namespace tacipc

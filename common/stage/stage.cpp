@@ -1,0 +1,376 @@
+#include "common/stage/stage.h"
+
+#include <sys/resource.h>
+
+#include <fmt/core.h>
+
+#include <new>
+#include <sstream>
+#include <system_error>
+
+#include "common/base/checked_file.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/instruction_set.h"
+#include "common/base/log.h"
+
+namespace tacipc {
+namespace fs = std::filesystem;
+namespace {
+
+// Hidden, so that no output can have their names.
+constexpr const char* kScratchFolder = ".scratch";
+constexpr const char* kResumeKey = ".resume-key";
+constexpr const char* kReplacing = ".replacing-";  // with the stage's name: files that may be there without a record
+constexpr const char* kInputChanged = "an input changed while the stage ran; run it again";
+
+void remove_quietly(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
+/// Leaves what a later run may resume from.
+void remove_unfinished_outputs(const fs::path& partial) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(partial, ignored)) {
+    if (entry.path().filename() != kScratchFolder && entry.path().filename() != kResumeKey)
+      remove_quietly(entry.path());
+  }
+}
+
+/// As seen from the output folder, so that a moved or second copy of everything gives the same record.
+std::string relative_to(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path relative = fs::proximate(path, folder, error);
+  return (error ? path : relative).generic_string();
+}
+
+}  // namespace
+
+Stage::Stage(const StageSpec& spec, fs::path out, int threads)
+    : spec_(spec), out_(std::move(out)), partial_(out_ / (".partial-" + spec.name)), threads_(threads) {}
+
+const fs::path& Stage::input(const std::string& flag) const { return inputs_.at(flag).front(); }
+
+std::optional<fs::path> Stage::optional_input(const std::string& flag) const {
+  const auto found = inputs_.find(flag);
+  if (found == inputs_.end() || found->second.empty()) return std::nullopt;
+  return found->second.front();
+}
+
+const std::vector<fs::path>& Stage::inputs(const std::string& flag) const { return inputs_.at(flag); }
+
+const std::vector<NamedPath>& Stage::named_inputs(const std::string& flag) const { return named_inputs_.at(flag); }
+
+const std::string& Stage::option(const std::string& flag) const { return options_.at(flag); }
+
+fs::path Stage::output(const std::string& name) {
+  outputs_.push_back({name});
+  return partial_path(name);
+}
+
+fs::path Stage::varying_output(const std::string& name) {
+  outputs_.push_back({name, "varies"});
+  return partial_path(name);
+}
+
+void Stage::link_output(const std::string& name, const fs::path& file, const std::string& hash) {
+  const fs::path path = partial_path(name);
+  std::error_code error;
+  fs::create_hard_link(fs::canonical(file, error), path, error);
+  if (error) fs::copy_file(file, path, error);
+  if (error) throw DataError("{}: cannot be linked or copied to {}: {}", file.string(), path.string(), error.message());
+  outputs_.push_back({name, hash});
+}
+
+fs::path Stage::partial_path(const std::string& name) const {
+  const fs::path path = partial_ / name;
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) throw DataError("{}: cannot be created: {}", path.parent_path().string(), error.message());
+  return path;
+}
+
+fs::path Stage::scratch(const std::string& name) const { return partial_ / kScratchFolder / name; }
+
+void Stage::save_scratch(const std::string& name, std::string_view bytes) {
+  if (!scratch_belongs_to_inputs_ && inputs_changed()) throw DataError(kInputChanged);
+  scratch_belongs_to_inputs_ = true;
+  write_checked_file(scratch(name), bytes);
+}
+
+std::optional<std::string> Stage::load_scratch(const std::string& name) const {
+  return read_checked_file(scratch(name));
+}
+
+void Stage::note(const std::string& key, Value value) { notes_.emplace_back(key, std::move(value)); }
+
+void Stage::note_config(const std::string& flag, Value config) {
+  configs_.emplace_back(flag.substr(2), std::move(config));
+}
+
+void Stage::summarize(const Value::Map& lines) { summary_.insert(summary_.end(), lines.begin(), lines.end()); }
+
+void Stage::cost(const Value::Map& lines) { cost_.insert(cost_.end(), lines.begin(), lines.end()); }
+
+Value Stage::input_hashes() const {
+  Value::Map inputs;
+  for (const InputSpec& spec : spec_.inputs) {
+    if (spec.named) {
+      Value::List list;
+      for (const auto& [name, path] : named_inputs_.at(spec.flag))
+        list.emplace_back(Value::Map{{"name", name}, {"path", relative_to(path, out_)}, {"hash", content_hash(path)}});
+      if (!list.empty()) inputs.emplace_back(spec.flag.substr(2), std::move(list));
+      continue;
+    }
+    const auto found = inputs_.find(spec.flag);
+    if (found == inputs_.end() || found->second.empty()) continue;
+    Value::List list;
+    for (const fs::path& path : found->second) {
+      list.emplace_back(Value::Map{{"path", relative_to(path, out_)}, {"hash", content_hash(path)}});
+    }
+    inputs.emplace_back(spec.flag.substr(2), spec.many ? Value(std::move(list)) : list.front());
+  }
+  for (const auto& [name, path] : added_inputs_)
+    inputs.emplace_back(name, Value::Map{{"path", relative_to(path, out_)}, {"hash", content_hash(path)}});
+  return inputs;
+}
+
+void Stage::add_input(const std::string& name, const fs::path& path) { add_inputs({{name, path}}); }
+
+void Stage::add_inputs(const std::vector<std::pair<std::string, fs::path>>& named) {
+  added_inputs_.insert(added_inputs_.end(), named.begin(), named.end());
+  inputs_at_start_ = input_hashes();
+  open_scratch();
+}
+
+bool Stage::inputs_changed() const { return to_yaml(input_hashes()) != to_yaml(inputs_at_start_.value()); }
+
+std::string Stage::resume_key() const {
+  std::error_code ignored;
+  const fs::path program = "/proc/self/exe";
+  Value::Map key{{"stage", spec_.name},
+                 {"version", program_version()},
+                 // Two builds of edited sources have the same version.
+                 {"program", fs::is_regular_file(program, ignored) ? content_hash(program) : ""},
+                 {"instruction_set", instruction_set()},
+                 {"inputs", inputs_at_start_.value()}};
+  for (const OptionSpec& option : spec_.options) key.emplace_back(option.flag.substr(2), options_.at(option.flag));
+  return to_yaml(key);
+}
+
+void Stage::add_notes(Value::Map& record) const {
+  record.insert(record.end(), notes_.begin(), notes_.end());
+  for (const OptionSpec& option : spec_.options) {
+    const std::string& value = options_.at(option.flag);
+    if (!value.empty()) record.emplace_back(option.flag.substr(2), value);
+  }
+}
+
+std::set<std::string> Stage::old_outputs() const {
+  std::set<std::string> names;
+  std::error_code error;
+  if (const fs::path record = out_ / (spec_.name + ".yaml"); fs::exists(record, error)) {
+    try {
+      for (std::string& name : ConfigReader::from_file(record).section("outputs").keys()) names.insert(std::move(name));
+    } catch (const std::exception&) {
+      // Not a record of ours; nothing of it can be told from the user's own files.
+    }
+  }
+  if (const fs::path list = out_ / (kReplacing + spec_.name); fs::exists(list, error)) {
+    std::istringstream lines(read_file(list));
+    for (std::string name; std::getline(lines, name);) names.insert(name);
+  }
+  return names;
+}
+
+void Stage::remove_output(const std::string& name) const {
+  const fs::path path = fs::path(name).lexically_normal();
+  if (path.is_absolute() || *path.begin() == "..") return;
+  remove_quietly(out_ / path);
+  std::error_code ignored;
+  if (path.has_parent_path()) fs::remove(out_ / path.parent_path(), ignored);  // only if empty now
+}
+
+void Stage::remove_old_results() const {
+  remove_quietly(out_ / (spec_.name + ".timings.yaml"));
+  const fs::path record = out_ / (spec_.name + ".yaml");
+  std::error_code error;
+  if (!fs::exists(record, error)) return;
+  // The record goes first: what it lists may then be missing without anyone taking it for complete.
+  const std::set<std::string> names = old_outputs();
+  fs::remove(record, error);
+  if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
+  for (const std::string& name : names) remove_output(name);
+}
+
+void Stage::retire_old_record() {
+  // Which files are of old and new runs must outlive the records, or what a run that is killed now leaves beside the
+  // next one's outputs could not be told from a user's own.
+  std::set<std::string> names = old_outputs();
+  for (const Output& output : outputs_) names.insert(output.name);
+  std::string list;
+  for (const std::string& name : names) list += name + "\n";
+  const fs::path beside = partial_path(kReplacing + spec_.name);
+  write_file(beside, list);
+  fs::rename(beside, out_ / (kReplacing + spec_.name));
+  const fs::path record = out_ / (spec_.name + ".yaml");
+  std::error_code error;
+  fs::remove(record, error);
+  if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
+}
+
+std::string Stage::record() const {
+  // A record must name what was really read.
+  if (inputs_changed()) throw DataError(kInputChanged);
+  Value::Map outputs;
+  for (const Output& output : outputs_)
+    outputs.emplace_back(output.name, output.hash ? *output.hash : content_hash(partial_ / output.name));
+  Value::Map record{{"stage", spec_.name},
+                    {"version", program_version()},
+                    {"instruction_set", instruction_set()},
+                    {"inputs", inputs_at_start_.value()},
+                    {"outputs", std::move(outputs)}};
+  add_notes(record);
+  record.emplace_back("config", configs_);
+  record.emplace_back("summary", summary_);
+  return to_yaml(record);
+}
+
+std::string Stage::timings() const {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started_;
+  Value::Map lines{{"stage", spec_.name},
+                   {"threads", threads_},
+                   {"wall_s", wall.count()},
+                   {"processor_s", seconds(used.ru_utime) + seconds(used.ru_stime)},
+                   {"peak_memory_mb", 1.024e-3 * static_cast<double>(used.ru_maxrss)}};
+  lines.insert(lines.end(), cost_.begin(), cost_.end());
+  return to_yaml(lines);
+}
+
+void Stage::begin() {
+  remove_quietly(out_ / (spec_.name + ".failed.yaml"));
+  if (!spec_.keeps_old_until_done) remove_old_results();
+  write_file(out_ / (spec_.name + ".log"), "");
+  open_log_file((out_ / (spec_.name + ".log")).string());
+  if (!spec_.resumable) remove_quietly(partial_);
+  inputs_at_start_ = input_hashes();
+  open_scratch();
+}
+
+void Stage::open_scratch() {
+  if (!spec_.resumable) return;
+  const std::string key = resume_key();
+  if (read_checked_file(partial_ / kResumeKey) == key) {
+    remove_unfinished_outputs(partial_);
+    return;
+  }
+  std::error_code error;
+  fs::remove_all(partial_, error);
+  // A new key beside old files would pass them off as its own.
+  if (error) throw DataError("{}: cannot be removed: {}", partial_.string(), error.message());
+  write_checked_file(partial_ / kResumeKey, key);
+}
+
+void Stage::publish() {
+  // All that needs room on the disk comes first: what follows removes and renames.
+  const std::string text = record();
+  const fs::path record_name = spec_.name + ".yaml", timings_name = spec_.name + ".timings.yaml";
+  write_file(partial_path(record_name), text);
+  write_file(partial_path(timings_name), timings());
+  std::vector<fs::path> written{partial_ / record_name};
+  std::set<fs::path> folders{out_};
+  for (const Output& output : outputs_) {
+    written.push_back(partial_ / output.name);
+    folders.insert((out_ / output.name).parent_path());
+    fs::create_directories((out_ / output.name).parent_path());
+  }
+  flush_to_disk(written);
+  std::set<std::string> leftovers;
+  if (spec_.keeps_old_until_done) {
+    // Without a record from here to the end, so that a mixture of old and new never counts. Files that both have are
+    // never missing; those of the old alone go when the new ones are in place.
+    retire_old_record();
+    leftovers = old_outputs();
+  }
+  for (const Output& output : outputs_) {
+    fs::rename(partial_ / output.name, out_ / output.name);
+    leftovers.erase(output.name);
+  }
+  for (const std::string& name : leftovers) remove_output(name);
+  fs::rename(partial_ / timings_name, out_ / timings_name);
+  // On the disk, too, the record comes last, and before what a later stage does because of it (drop removes samples).
+  flush_to_disk({folders.begin(), folders.end()});
+  fs::rename(partial_ / record_name, out_ / record_name);
+  flush_to_disk({out_});
+  if (spec_.keeps_old_until_done) remove_quietly(out_ / (kReplacing + spec_.name));
+}
+
+void Stage::clean_up(int code) noexcept {
+  try {
+    if (code != 0 && !spec_.keeps_old_until_done) remove_quietly(out_ / (spec_.name + ".yaml"));
+    if (code == 1 && spec_.resumable) {
+      // Without the hashes the stage has not begun, and what an earlier run left may still be good.
+      if (!inputs_at_start_) return;
+      const bool saved = fs::exists(partial_ / kScratchFolder) && !fs::is_empty(partial_ / kScratchFolder);
+      if (saved && !inputs_changed()) return remove_unfinished_outputs(partial_);
+    }
+  } catch (const std::exception&) {
+    // An input cannot be read any more: what was made of it cannot be trusted.
+  }
+  remove_quietly(partial_);
+}
+
+void Stage::write_failure(const std::exception& error) const noexcept {
+  try {
+    Value::Map failure{{"stage", spec_.name}, {"version", program_version()}};
+    add_notes(failure);
+    failure.emplace_back("message", error.what());
+    if (const auto* verdict = dynamic_cast<const VerdictError*>(&error)) {
+      const Miss& miss = verdict->miss();
+      failure.emplace_back("frame", miss.frame);
+      failure.emplace_back("check", miss.check);
+      failure.emplace_back("value", miss.value);
+      failure.emplace_back("limit", miss.limit);
+    }
+    const fs::path beside = out_ / (".failed-" + spec_.name);
+    write_file(beside, to_yaml(failure));
+    fs::rename(beside, out_ / (spec_.name + ".failed.yaml"));
+  } catch (const std::exception&) {
+    // The message has been logged; a full disk must not hide it behind a second one.
+  }
+}
+
+int Stage::run(const std::function<void(Stage&)>& body) {
+  int code = 1;
+  try {
+    begin();
+    body(*this);
+    publish();
+    code = 0;
+  } catch (const ConfigError& error) {
+    log_error(error.what());
+    code = 2;
+  } catch (const UsageError& error) {
+    log_error(fmt::format("{}: error: {}", spec_.name, error.what()));
+    code = 2;
+  } catch (const std::bad_alloc&) {
+    log_error(fmt::format("{}: error: out of memory", spec_.name));
+    write_failure(std::runtime_error("out of memory"));
+  } catch (const std::exception& error) {
+    log_error(fmt::format("{}: error: {}", spec_.name, error.what()));
+    write_failure(error);
+  }
+  clean_up(code);
+  std::error_code ignored;
+  if (code != 0 && spec_.keeps_old_until_done && fs::exists(out_ / (spec_.name + ".yaml"), ignored))
+    log_warning("{} stays as it was before", out_.string());
+  return code;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,71 @@
+# Packages, build and tests.
+
+# packages/<group>.txt: `chain` is what every goal needs; a goal that needs more says packages_for_<goal> := <groups>.
+PACKAGE_GROUPS := $(basename $(notdir $(wildcard packages/*.txt)))
+groups_wanted   = $(sort chain $(foreach g,$(MAKECMDGOALS),$(packages_for_$(g))))
+packages_wanted = $(sort $(foreach g,$(groups_wanted),$(file < packages/$(g).txt)))
+packages_for_packages    := $(GROUPS)
+packages_for_check       := tests loaders
+packages_for_check-slow  := tests loaders cluster pages
+
+# A goal that needs but some stages says programs_for_<goal> := <their names>; any other builds them all.
+programs_wanted = $(sort $(or $(foreach g,$(MAKECMDGOALS),$(or $(programs_for_$(g)),stages)),stages))
+
+.PHONY: packages build build-all check check-slow clean
+
+packages: ## development: Install the Debian packages that are missing: of the chain, or GROUPS="tests cluster" too (PACKAGES=no: only say which)
+	$(foreach g,$(filter-out $(PACKAGE_GROUPS),$(groups_wanted)),$(error GROUPS: there is no packages/$(g).txt (there are: $(PACKAGE_GROUPS))))
+	@command -v dpkg-query >/dev/null || { echo "packages: not a Debian system; packages/*.txt list what is needed"; exit 0; }; \
+	missing=""; \
+	for p in $(packages_wanted); do \
+	  [ "$$(dpkg-query -W -f='$${db:Status-Status}' $$p 2>/dev/null || true)" = installed ] || missing="$$missing $$p"; \
+	done; \
+	[ -n "$$missing" ] || exit 0; \
+	if [ "$(PACKAGES)" = no ]; then echo "packages: missing:$$missing"; exit 0; fi; \
+	sudo=""; [ "$$(id -u)" = 0 ] || sudo=sudo; \
+	echo "packages: installing$$missing"; \
+	$$sudo apt-get update -q; \
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
+
+# Of libopenmesh-dev the headers alone: it depends on OpenSceneGraph, a hundred packages that nothing here needs.
+OPENMESH_HEADERS := $(firstword $(wildcard /usr/include/OpenMesh) $(BUILD)/unpacked/usr/include/OpenMesh)
+$(BUILD)/unpacked/usr/include/OpenMesh: | packages
+	@if [ "$(PACKAGES)" = no ] || ! command -v apt-get >/dev/null; then echo "packages: no headers of OpenMesh (libopenmesh-dev)"; exit 0; fi; \
+	mkdir -p $(BUILD)/unpacked.new && cd $(BUILD)/unpacked.new && apt-get download -q libopenmesh-dev && dpkg-deb -x libopenmesh-dev_*.deb . && \
+	mkdir -p ../unpacked && cp -r usr ../unpacked && rm -rf ../unpacked.new
+
+# Without tests, until with-tests switches them on.
+$(BUILD)/build.ninja: | packages $(OPENMESH_HEADERS)
+	@cmake --preset $(PRESET) -B $(BUILD) -G Ninja -DTACIPC_TESTS=OFF
+
+# Ninja rebuilds what a killed build left half done, which make would take for finished.
+ifeq ($(REBUILD),no)
+build:
+else
+build: $(BUILD)/build.ninja ## development: Build all stages
+	@cmake --build $(BUILD) --target $(programs_wanted) -j $(JOBS) -- --quiet
+endif
+
+PREFIX ?= out/prefix#  where install puts everything
+.PHONY: install
+install: build ## development: Programs, configurations and pipelines into PREFIX=, which may be moved
+	@cmake --install $(BUILD) --prefix '$(strip $(PREFIX))' > /dev/null
+	@echo "make -C $(strip $(PREFIX))/share/tacipc -f Makefile.data dataset CONFIG=/your.yaml OUT=/your/out"
+
+# From here on the build folder has the tests.
+.PHONY: with-tests
+with-tests: build
+	@[ '$(REBUILD)' = no ] || grep -qs '^TACIPC_TESTS:BOOL=ON' $(BUILD)/CMakeCache.txt || cmake -DTACIPC_TESTS=ON $(BUILD) > /dev/null
+
+build-all: with-tests # one after the other: two builds in one folder would trip over each other
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+
+check: build-all ## start: Build and run the tests (under 15 minutes)
+	ctest --test-dir $(BUILD) -LE "slow|dev" -j $(JOBS) --output-on-failure --no-tests=error
+
+check-slow: build-all ## development: Build and run the long tests
+	ctest --test-dir $(BUILD) -L slow -j $(JOBS) --output-on-failure --no-tests=error
+
+clean: ## development: Remove the build folder (generated data stay)
+	$(if $(filter-out clean,$(MAKECMDGOALS)),$(error clean goes alone))
+	rm -rf $(BUILD)

@@ -1,0 +1,20 @@
+# Files that recipes write themselves.
+
+comma := ,
+space := $(subst ,, )
+define newline
+
+
+endef
+
+.PHONY: FORCE# for targets that are looked at in every run
+
+# A file that is rewritten only when what it is to say has changed.
+replace_if_changed_by = @mkdir -p $(@D); $(1) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+replace_if_changed = $(call replace_if_changed_by,printf '%s\n' '$(subst $(newline),' ',$(1))')
+
+# $(call changed_config,target,configuration,keys): with some of its values changed (`tacipc set`: KEY=VALUE, +KEY=VALUE, -KEY), rewritten only when they are.
+define changed_config
+$(1): $(2) FORCE | build
+	@mkdir -p $$(@D); $(BIN)/tacipc set $(2) $(foreach k,$(3),'$(k)') > $$@.new; cmp -s $$@.new $$@ && rm $$@.new || mv $$@.new $$@
+endef

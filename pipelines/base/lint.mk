@@ -1,0 +1,21 @@
+# What CI asks of the sources beside the tests: form, scripts, what clang-tidy finds; readers, contact and solver under sanitizers.
+
+SINCE ?=#  lint: C++ sources that differ from this commit go through clang-tidy (default: the last commit; all: every source)
+override SINCE := $(strip $(SINCE))
+
+packages_for_lint            := tests lint
+packages_for_check-sanitized := tests
+.PHONY: lint check-sanitized
+lint: build-all ## development: clang-format, shellcheck and clang-tidy (SINCE=commit, or SINCE=all for every source)
+	git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror
+	git ls-files '*.sh' .ci/run | xargs shellcheck --severity=info
+	bash tests/lint/tidy.sh . $(BUILD) $(JOBS) $(or $(SINCE),HEAD~1)
+
+# Their own programs alone, in a build folder of their own.
+SANITIZED_TESTS := common_files_test press_contact_test press_test
+SANITIZED := build/sanitize
+$(SANITIZED)/build.ninja: | build-all
+	@cmake --preset sanitize -B $(SANITIZED) -G Ninja
+check-sanitized: $(SANITIZED)/build.ninja ## development: Tests of readers, contact and solver under address and undefined-behaviour sanitizers
+	@cmake --build $(SANITIZED) --target $(SANITIZED_TESTS) -j $(JOBS) -- --quiet
+	ctest --test-dir $(SANITIZED) -R '^($(subst $(eval ) ,|,$(SANITIZED_TESTS)))\.' -LE slow -j $(JOBS) --output-on-failure --no-tests=error

@@ -1,0 +1,54 @@
+# How each stage makes its record from those before it.
+
+# $(call run,stage,flags): a stage writes its record $@ into the folder of $@. OpenBLAS would start a thread per core as it is
+# loaded, whatever --threads says; no stage wants them.
+run = OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(2)
+# $(call try,stage,flags): the same, but work that fails does not stop make: the page above it shows the reason in <stage>.failed.yaml.
+try = $(call run,$(1),$(2)) || { [ $$? != 2 ] && echo "$@: not made" >&2; }
+# $(call holds,record): fails unless the record's summary says so.
+holds = @[ "$$($(BIN)/tacipc get $(1) summary.holds --default false)" = true ] || { echo "$(1): does not hold or is missing" >&2; exit 1; }
+
+SENSORS := $(basename $(notdir $(wildcard configs/sensors/*.yaml)))
+MESHES  := $(basename $(notdir $(wildcard configs/gels/*.yaml)))
+
+# Gels: one per sensor and mesh, $(OUT)/gels/<sensor>-<mesh>/gel.msh
+define gel_rule
+$$(OUT)/gels/$(1)-$(2)/tetmesh.yaml: configs/sensors/$(1).yaml configs/gels/$(2).yaml | build
+	$$(call run,tetmesh,--sensor configs/sensors/$(1).yaml --config configs/gels/$(2).yaml)
+endef
+$(foreach s,$(SENSORS),$(foreach m,$(filter-out import_%,$(MESHES)),$(eval $(call gel_rule,$(s),$(m)))))
+
+# Embossed objects: $(OUT)/emboss/<pattern>/object.ply, then decimated in $(OUT)/objects/<pattern>
+# (a picture that a pattern names lies beside its YAML)
+$(OUT)/emboss/%/emboss.yaml: configs/objects/patterns/%.yaml $(wildcard configs/objects/patterns/*.png) | build
+	$(call run,emboss,--config $<)
+
+$(OUT)/objects/%/decimate.yaml: $(OUT)/emboss/%/emboss.yaml configs/objects/embossed.yaml configs/objects/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(OUT)/emboss/$*/object.ply --object configs/objects/embossed.yaml --config configs/objects/decimate/default.yaml)
+
+REFERENCES := $(wildcard configs/sensors/*.png)# photographs that sensors name
+
+# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml,press yaml[,further prerequisites[,try]])
+define sample_rules
+$(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml $(8) $(7) $(9) | build
+	$$(call $(or $(10),run),press,--name $(2) --object $(3)/object.ply --object-config $(4) --gel $$(OUT)/gels/$(5)-$(6)/gel.msh \
+	  --sensor configs/sensors/$(5).yaml --config $(8) --sample $(7))
+$(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(5).yaml configs/render/default.yaml $$(REFERENCES) | build
+	$$(call run,render,--press $(1)/press --gel $$(OUT)/gels/$(5)-$(6)/gel.msh --sensor configs/sensors/$(5).yaml --config configs/render/default.yaml)
+endef
+
+# A page over samples: $(call report_rules,folder,title,sample folders)
+define report_rules
+$(1)/report/report.yaml: $(addsuffix /render/render.yaml,$(3)) | build
+	$$(call run,report,--title "$(2)" $(addprefix --sample ,$(3)))
+endef
+
+# What of a dataset there is, failures and their reasons included: the page that make cannot make while a sample fails.
+.PHONY: page
+page: | build ## own: Page over the samples of OUT/DATASET, failed ones too: DATASET=demo (after make -k)
+	$(if $(DATASET),,$(error page: say which, for instance DATASET=demo))
+	$(BIN)/report --out $(OUT)/$(DATASET)/report --title "$(DATASET)" $(addprefix --sample ,$(patsubst %/press/,%,$(wildcard $(OUT)/$(DATASET)/*/press/)))
+	$(call look,$(OUT)/$(DATASET))
+
+# Where to look, said when a goal is done.
+look = @echo; echo "Look at $(1)/report/index.html and $(1)/report/contact_sheet.png"

@@ -1,0 +1,181 @@
+# Datasets: one YAML to thousands of samples, on this machine or on a cluster. make -f Makefile.data dataset CONFIG=configs/datasets/mini.yaml
+# docs/datasets.md is the guide. Everything of a dataset lies in $(OUT)/datasets/<name of the file>.
+
+CONFIG ?=#       the dataset: a file of configs/datasets or your own
+PARTS  ?= 1#     into how many parts the samples are divided, for a cluster;
+PART   ?=#       the one to make, from 0 on
+SHARDS ?= 8#     parts that submit hands to the cluster
+SITE   ?= configs/datasets/slurm/default.sh#  what submit needs to know of it
+RETRY  ?=#       yes: try failed samples again
+PILOT  ?= 0#     samples that estimate makes first, to measure
+SAMPLES ?=#      folders of samples below samples/, for dataset-some
+K      ?= 3#     samples that reproduce makes again
+STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
+REPORT ?= configs/datasets/report/default.yaml#  how much dataset-report shows sample by sample
+$(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT SAMPLES K STOP_AFTER REPORT,$(eval override $(v) := $(strip $($(v)))))
+
+DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some drop#  goals that need the plan's rules;
+DATASET_READ := status dataset-report reproduce bundle clean-plan clean-press clean-render#         and those that only look into its folder
+DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
+.PHONY: $(DATASET_GOALS) dataset-samples
+
+# A Slurm of one machine, to try submit.
+LOCAL_SLURM ?= $(or $(TMPDIR),/tmp)/local-slurm-$(shell id -un)#  its folder
+packages_for_local-slurm := cluster
+.PHONY: local-slurm local-slurm-stop
+local-slurm: | packages ## datasets: Start a Slurm on this machine alone, to try submit (says what to export)
+	@bash pipelines/dataset/local_slurm.sh start '$(strip $(LOCAL_SLURM))'
+local-slurm-stop: ## datasets: Stop it
+	@bash pipelines/dataset/local_slurm.sh stop '$(strip $(LOCAL_SLURM))'
+
+ifeq ($(filter $(DATASET_GOALS),$(MAKECMDGOALS)),)
+else ifeq ($(CONFIG),)
+$(filter $(DATASET_GOALS),$(MAKECMDGOALS)):
+	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
+else
+$(call check_name,CONFIG)
+ifeq ($(wildcard $(CONFIG)),)
+  $(error CONFIG: $(CONFIG) does not exist)
+endif
+DATASET_DIR := $(OUT)/datasets/$(basename $(notdir $(CONFIG)))
+
+dataset_variables := CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) PACKAGES=$(PACKAGES) REBUILD=$(REBUILD)
+submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter command environment,$(firstword $(origin $(v)))),$(v)=$(strip $($(v)))))# where they are given
+
+# A file that changes when another file was chosen for a gel, an object, a motion or a rendering, however old that one is. (A plan made by an earlier version has none.)
+dataset_choice = $(if $(DATASET_CHOICES),$(DATASET_CHOICES)/$(1))
+# Of runs that miss a gel or an object together one makes it, and the others take that one. $(call dataset_shared,stage,what it is made of,flags)
+dataset_shared = bash pipelines/dataset/dataset_shared.sh '$@' '$(2)' $(call run,$(1),$(3))
+# A gel, $(call dataset_gel,name,sensor,mesh,mesh to import,photographs and further sensors for render); an object, by its pattern or mesh.
+define dataset_gel
+DATASET_SENSOR_$(1) := $(2)
+DATASET_RENDERED_$(1) := $(5)
+$(DATASET_DIR)/gels/$(1)/tetmesh.yaml: $(2) $(3) $(4) $(call dataset_choice,gel-$(1)) | build
+	$$(call dataset_shared,tetmesh,$(2) $(3) $(4) $(call dataset_choice,gel-$(1)),--sensor $(2) --config $(3) $(if $(4),--import $(4)))
+DATASET_SHARED += $(DATASET_DIR)/gels/$(1)/tetmesh.yaml
+endef
+define dataset_mesh
+$(DATASET_DIR)/objects/$(1)/decimate.yaml: $(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)) | build
+	$$(call dataset_shared,decimate,$(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)),--mesh $(2) --object $$(@D)/object.yaml --config $(DATASET_DECIMATE))
+DATASET_SHARED += $(DATASET_DIR)/objects/$(1)/decimate.yaml
+endef
+define dataset_embossed
+$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml: $(2) $(wildcard $(dir $(2))*.png) $(call dataset_choice,object-$(1)) | build
+	$$(call dataset_shared,emboss,$(2) $(dir $(2))*.png $(call dataset_choice,object-$(1)),--config $(2))
+$(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/emboss/object.ply,$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml)
+endef
+
+# The stages of a sample, one after the other: one rule, so that with several jobs samples are finished one by one. Failures are noted in
+# failures.csv and do not stop make, unless there are many in a row. $(call dataset_stage,stage,record,what it is made of,flags)
+DATASET_RUN := $(DATASET_DIR)/.runs/$(shell hostname)-$(shell echo $$PPID)-$(shell date +%s%N)
+dataset_stage = @TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
+  bash pipelines/dataset/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) '$(2)' '$(3)' \
+  OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(patsubst %/,%,$(dir $(2))) --threads $(THREADS) $(4) --log-level warning
+dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5) $(call dataset_choice,motion-$(7))
+dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_RENDERED_$(3)) $(call dataset_choice,render-$(3))
+define dataset_sample
+$(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
+	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
+	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) --seed $(6))
+endef
+
+ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)
+# The plan is made first, then make restarts with its rules: gels and objects, then the samples in blocks of a
+# thousand, of which a part takes what it needs.
+DATASET_BEGAN := $(shell date +%s.%N)
+# A plan that is being made again is waited for: what is read below is of one plan, and without its record only where nobody lived to write that.
+dataset_plan_lock := $(DATASET_DIR)/plan/.lock-plan
+$(shell [ ! -e '$(dataset_plan_lock)' ] || flock -s -w 600 '$(dataset_plan_lock)' true)
+# Parts take the plan as they find it: others of the same run are at work by it. (A folder of meshes is newer with every file that comes into it.)
+# They have no rule for its files, so that nothing looks for the record once more while another run replaces it.
+ifeq ($(and $(filter dataset-part dataset-last,$(MAKECMDGOALS)),$(wildcard $(DATASET_DIR)/plan/plan.yaml)),)
+# Of several runs that miss the plan together, one makes it and the others take that one. A plan that is refused leaves record and times of
+# the old one, so .DELETE_ON_ERROR finds nothing to delete; make stops here, and parts go on with what was planned before.
+$(DATASET_DIR)/plan/plan.yaml: $(CONFIG) | build
+	@mkdir -p $(@D); exec 9> $(@D)/.making; flock 9; \
+	if [ -e $@ ] && [ "$$(date -r $@ +%s.%N)" \> '$(DATASET_BEGAN)' ]; then exit 0; fi; \
+	$(call run,plan,--config $(CONFIG)) 9>&-
+$(DATASET_DIR)/plan/%.mk: $(DATASET_DIR)/plan/plan.yaml ;
+-include $(DATASET_DIR)/plan/inputs.mk
+DATASET_INPUTS := $(shell bash pipelines/dataset/dataset_inputs.sh '$(DATASET_DIR)' '$(CONFIG)')
+ifeq ($(DATASET_INPUTS),future)
+  $(error plan: not possible)
+else ifeq ($(DATASET_INPUTS),changed)
+  $(DATASET_DIR)/plan/plan.yaml: FORCE
+endif
+endif
+include $(DATASET_DIR)/plan/dataset.mk
+hash := \#
+ifdef DATASET_SAMPLES
+DATASET_FIRST := $(if $(PART),$(shell echo $$(($(DATASET_SAMPLES) * $(PART) / $(PARTS)))),0)
+DATASET_END := $(if $(PART),$(shell echo $$(($(DATASET_SAMPLES) * ($(PART) + 1) / $(PARTS)))),$(DATASET_SAMPLES))
+DATASET_TAKEN := $(if $(PART),$(shell for b in $(DATASET_BLOCKS); do f=$$((10$(hash)$$b * 1000)); [ $$f -ge $(DATASET_END) ] || [ $$((f + 1000)) -le $(DATASET_FIRST) ] || echo $$b; done),$(DATASET_BLOCKS))
+include $(DATASET_TAKEN:%=$(DATASET_DIR)/plan/blocks/%.mk)
+DATASET_LIST := $(foreach b,$(DATASET_TAKEN),$(DATASET_BLOCK_$(b)))
+ifneq ($(PART),)
+  dataset_from := $(shell echo $$(($(DATASET_FIRST) - 10$(hash)$(or $(firstword $(DATASET_TAKEN)),0) * 1000)))
+  DATASET_LIST := $(wordlist $(shell echo $$(($(dataset_from) + 1))),$(shell echo $$(($(dataset_from) + $(DATASET_END) - $(DATASET_FIRST)))),$(DATASET_LIST))
+endif
+endif
+
+DATASET_RETRY := $(if $(filter retry,$(MAKECMDGOALS)),yes,$(RETRY))
+dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml)
+
+plan: $(DATASET_DIR)/plan/plan.yaml ## datasets: Samples of a dataset, without making them: CONFIG=configs/datasets/mini.yaml
+	@echo; echo "$(DATASET_SAMPLES) samples; look at $(DATASET_DIR)/plan/samples.csv"
+
+# What a run ends with: samples that are made are packed, failed ones listed, and what outputs.keep does not name is dropped. Make begins
+# anew for it, as what there is to pack has only now been made. A failed sample does not stop the others; the last line does not let it pass unseen.
+define dataset_end
+	@ended=0; $(if $(filter none,$(DATASET_PROFILE)),,($(call dataset_alone,$@) && $(call make_again,-s dataset-pack REBUILD=no) && \
+	  $(BIN)/survey drop --whole-shards '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)) || ended=$$?;) \
+	$(BIN)/survey status --all-made '$(DATASET_DIR)' && exit $$ended
+endef
+
+dataset: dataset-samples ## datasets: Make and pack a dataset: CONFIG=configs/datasets/mini.yaml (resumes; failed samples are skipped)
+	@rm -f $(DATASET_RUN) $(DATASET_RUN).full
+	$(dataset_end)
+
+retry: dataset ## datasets: Samples of a dataset that failed or are missing, again: CONFIG=
+
+dataset-shared: $(DATASET_SHARED)
+dataset-some: $(SAMPLES:%=$(DATASET_DIR)/samples/%/render/render.yaml)
+dataset-part: dataset-samples
+	@rm -f $(DATASET_RUN) $(DATASET_RUN).full
+	@$(BIN)/survey status --all-made '$(DATASET_DIR)' --first $(DATASET_FIRST) --end $(DATASET_END)
+
+DATASET_PILOT := $(if $(and $(filter estimate,$(MAKECMDGOALS)),$(DATASET_SAMPLES)),$(if $(filter-out 0,$(PILOT)),$(shell $(BIN)/survey pilot '$(DATASET_DIR)' '$(PILOT)')))
+estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/render.yaml) ## datasets: Core-hours and disk of a dataset in advance: CONFIG= [PILOT=20: measured on 20 samples]
+	@$(BIN)/survey estimate '$(DATASET_DIR)' --model $(COST_MODEL)
+	@echo "  cost model: $(COST_MODEL)$(if $(filter $(COST_MODEL_SHIPPED),$(COST_MODEL)),$(comma) as shipped: bench-press measures this machine)"
+
+# On a cluster: gels and objects, then the parts, then what comes last, as three jobs.
+dataset-last:
+	$(dataset_end)
+drop: ## datasets: Remove files of packed samples that outputs.keep does not name: CONFIG=
+	@$(call dataset_alone,$@) && $(BIN)/survey drop '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)
+submit: $(DATASET_DIR)/plan/plan.yaml ## datasets: A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/datasets/slurm/default.sh RETRY=yes]
+	@bash pipelines/dataset/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(submit_variables) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
+endif
+
+status: | $(if $(wildcard $(BIN)/survey),,build) ## datasets: How many samples of a dataset are made, failed, running, and how fast: CONFIG=
+	@$(BIN)/survey status '$(DATASET_DIR)'
+
+dataset-report: | build ## datasets: Pages over a dataset, at any time: coverage, failures, costs, contact sheets, samples: CONFIG=
+	@[ -e '$(DATASET_DIR)/plan/plan.yaml' ] || { echo "dataset-report: there is no plan yet: make -f Makefile.data plan CONFIG=$(CONFIG)" >&2; exit 1; }
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/report --plan $(DATASET_DIR)/plan/samples.csv --dataset $(DATASET_DIR)/plan/dataset.yaml --config $(REPORT) \
+	  --title $(notdir $(DATASET_DIR)) --out $(DATASET_DIR)/report --threads $(JOBS)
+	@echo; echo "Look at $(DATASET_DIR)/report/index.html"
+
+reproduce: | build ## datasets: Make K=3 random samples of a dataset again and compare bytes: CONFIG=
+	@bash pipelines/dataset/dataset_reproduce.sh '$(DATASET_DIR)' '$(K)' $(dataset_variables) JOBS=$(JOBS)
+bundle: | $(if $(wildcard $(BIN)/tacipc),,build) ## datasets: A small archive that replays one sample elsewhere: CONFIG= SAMPLE=id (failed ones too)
+	$(if $(SAMPLE),,$(error bundle: say which sample: SAMPLE=its id))
+	@bash pipelines/dataset/dataset_bundle.sh '$(DATASET_DIR)' '$(SAMPLE)' '$(DATASET_DIR)/bundles/$(notdir $(SAMPLE)).tar.gz' '$(abspath $(BIN))'
+
+clean-plan: ## datasets: Remove the plan of a dataset (samples stay): CONFIG=
+	rm -rf '$(DATASET_DIR)/plan'
+clean-press: clean-render
+clean-press clean-render: clean-%: ## Remove what a stage, and those after it, made of every sample: CONFIG=
+	@[ ! -d '$(DATASET_DIR)/samples' ] || find '$(DATASET_DIR)/samples' -mindepth 3 -maxdepth 3 -name '$*' -exec rm -rf {} +
+endif

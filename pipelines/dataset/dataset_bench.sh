@@ -1,0 +1,49 @@
+#!/bin/bash
+# dataset_bench.sh FOLDER JOBS TACIPC: the page of bench-dataset.
+# shellcheck disable=SC2016  # backquotes of the page
+set -euo pipefail
+folder=$1 jobs=$2 tacipc=$3
+dataset=$folder/datasets/press_64
+made=$(find "$dataset/samples" -name render.yaml | wc -l)
+seconds=$(($(cat "$folder/ended") - $(cat "$folder/began")))
+processor=$(find "$folder" -name '*.timings.yaml' -exec "$tacipc" get {} processor_s \; | awk '{ sum += $1 } END { printf "%.0f", sum }')
+frames=$(find "$dataset/samples" -name tactile.png | grep -vc '/frame_0000/')
+choices=$folder/choices first=$dataset/samples/000/mctac__dots__press__000000
+seconds_of() { "$tacipc" get "$1.timings.yaml" processor_s; }
+force_of() { "$tacipc" get "$1.yaml" summary.press_force_n; }
+a_frame() { set -- "$1"/frame_* "$1"; awk -v s="$(seconds_of "${!#}/render")" -v n="$(($# - 1))" 'BEGIN { printf "%.1f", s / n }'; }
+codes() { awk -v mae="$("$tacipc" table "$1/samples.csv" --columns mae)" 'BEGIN { printf "%.2f", 255 * mae }'; }
+root() { awk -v mse="$("$tacipc" table "$1/samples.csv" --columns mse)" 'BEGIN { printf "%.2f", 255 * sqrt(mse) }'; }
+{
+  echo '| the first sample | press, processor s | press force, N |'
+  echo '|---|---|---|'
+  printf '| friction lagged once per step (`configs/press/friction_once.yaml`, as the IPC code does) | %.1f | %.3f |\n' "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
+  printf '| friction iterated (`configs/press/friction.yaml`, the default of datasets) | %.1f | %.3f |\n' "$(seconds_of "$choices/iterated/press")" "$(force_of "$choices/iterated/press")"
+  echo
+  echo '| its last frame against 4 × 4 camera rays a pixel and 8 × 8 points of each lamp | rays a pixel | processor s a frame | mean difference, codes | root mean square, codes |'
+  echo '|---|---|---|---|---|'
+  echo "| \`configs/render/many_frames.yaml\` | 1 | $(a_frame "$choices/many_frames") | $(codes "$choices/metrics_many_frames") | $(root "$choices/metrics_many_frames") |"
+  echo "| \`configs/render/default.yaml\` | 4 | $(a_frame "$choices/default") | $(codes "$choices/metrics_default") | $(root "$choices/metrics_default") |"
+} > "$folder/choices.md"
+cat <<PAGE
+# Cost of a dataset of presses
+
+Made by \`make -f Makefile.data bench-dataset\` on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1): \`configs/datasets/press_64.yaml\`, from nothing to packed shards and the card, objects and gel
+included, $jobs stages at a time, one thread each. When it began, $(cat "$folder/load") processes were running.
+
+| | |
+|---|---|
+| samples made | $made |
+| frames in contact | $frames |
+| minutes | $(awk -v s="$seconds" 'BEGIN { printf "%.1f", s / 60 }') (at most 15 on two cores) |
+| processor seconds of all stages | $processor |
+| samples per core-hour, by $jobs cores' wall time | $(awk -v n="$made" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.0f", n * 3600 / (s * j) }') (at least 200) |
+| frames per core-hour | $(awk -v n="$frames" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.0f", n * 3600 / (s * j) }') (at least 1000) |
+| packed, GB | $(du -sb "$dataset/pack" | awk '{ printf "%.2f", $1 / 1e9 }') |
+
+$(cat "$folder/cost/table.md")
+
+## What the settings change
+
+$(cat "$folder/choices.md")
+PAGE

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# What make cannot see of the files that a plan is made of: dataset_inputs.sh DATASET CONFIG. Says `changed` if one of them has been replaced since
+# by an older one (cp -p, unzip), `future` and on stderr which if one has a time still to come: nothing made of it would ever be newer.
+# shellcheck disable=SC2016  # what the inner bash expands
+set -euo pipefail
+export LC_ALL=C
+dataset=$1 config=$2
+# The time that counts is what a file made here gets now: the clock of a file server may be another one.
+{ mkdir -p "$dataset" && now=$(mktemp "$dataset/.now-XXXXXX"); } 2> /dev/null || exit 0  # plan will say what is wrong
+trap 'rm -f "$now"' EXIT
+# What is not there (yet, or any more) is the plan's to say.
+named() { echo "$config"; cat "$dataset/plan/inputs.txt" 2> /dev/null || true; }
+of_named() { named | xargs -r bash -c 'tests=$1; shift; find -L "$@" -prune $tests' bash "$1" 2> /dev/null || true; }
+for try in 1 2 3; do  # clocks of two machines differ a little
+  future=$(of_named "-newer $now -printf %p,\\040of\\040%t\\n")
+  [ -n "$future" ] || break
+  [ "$try" = 3 ] || sleep 1
+  touch "$now"
+done
+if [ -n "$future" ]; then
+  { head -n 5 <<< "$future"; echo "is newer than anything made now, at $(date -r "$now"): mend the clock or touch the file"; } | sed 's/^/plan: /' >&2
+  echo future
+elif [ -e "$dataset/plan/plan.yaml" ] && [ -n "$(of_named "-newercm $dataset/plan/plan.yaml ! -newercm $now")" ]; then
+  echo changed
+fi

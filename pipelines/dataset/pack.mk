@@ -1,0 +1,59 @@
+# A made dataset as files to give away: make -f Makefile.data pack CONFIG=configs/datasets/mini.yaml [PACK=slim]
+# Its samples stand in $(DATASET_DIR)/plan/samples.csv; shards are written side by side, each by one process.
+$(call uses,dataset/dataset)
+
+CARD   ?= default#     a file of configs/datasets/card
+FORMAT ?= webdataset#  of repack: a file of configs/datasets/repack
+CONFIG ?=#             the dataset's configuration, by which its folder is named; or instead
+DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the folder
+PACK   ?= $(or $(filter-out none,$(shell $(BIN)/tacipc get '$(strip $(DATASET_DIR))/plan/dataset.yaml' outputs.pack --default full 2> /dev/null)),full)# a file of configs/datasets/pack; as the dataset says
+$(foreach v,CARD FORMAT DATASET_DIR PACK,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
+
+.PHONY: pack repack dataset-pack dataset-repack
+SHARDS_DIR := $(DATASET_DIR)/shards
+
+# Who packs or drops does it alone: to be said in the shell of a recipe, which holds the lock until it and what it started end. Only then make
+# looks at what there is to do.
+dataset_alone = { [ ! -d '$(DATASET_DIR)' ] || { exec 9> '$(DATASET_DIR)/.packing'; flock -n 9 || { echo "$(1): waiting for another run that packs or drops" >&2; flock 9; }; }; }
+make_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) $(if $(findstring s,$(firstword -$(MAKEFLAGS))),-s) -f Makefile.data $(MAKEOVERRIDES) $(1)
+
+ifeq ($(and $(DATASET_DIR),$(filter pack repack dataset-pack dataset-repack,$(MAKECMDGOALS))),)
+pack repack dataset-pack dataset-repack:
+	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
+else
+$(call check_name,DATASET_DIR)
+pack: | build ## datasets: A made dataset as HDF5 shards with tables, card and checksums: CONFIG= (or DATASET_DIR=) [PACK=slim]
+	@$(call dataset_alone,$@) && $(call make_again,dataset-pack)
+repack: | build ## datasets: Packed shards in another layout: CONFIG= FORMAT=webdataset|univtac|folder
+	@$(call dataset_alone,$@) && $(call make_again,dataset-repack)
+endif
+
+ifneq ($(and $(DATASET_DIR),$(filter dataset-pack dataset-repack,$(MAKECMDGOALS))),)
+# PACK_SHARDS, and for each shard a file that changes when anything does that is packed into it: a sample made again packs its shard again.
+ifneq ($(shell $(BIN)/survey pack-inputs '$(DATASET_DIR)' configs/datasets/pack/$(PACK).yaml && echo done),done)
+  $(error pack: not possible)
+endif
+include $(SHARDS_DIR)/shards.mk
+
+# Another card is another dataset however old its file is.
+$(SHARDS_DIR)/card.choice: FORCE
+	@echo '$(CARD)' > $@.new-$$$$; cmp -s $@.new-$$$$ $@ && rm $@.new-$$$$ || mv $@.new-$$$$ $@
+
+# Beside the record, what it was packed from; without it (or older) that is not known.
+$(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml): $(SHARDS_DIR)/%/pack.yaml: $(SHARDS_DIR)/%.inputs | build
+	$(call run,pack,--config configs/datasets/pack/$(PACK).yaml --plan $(DATASET_DIR)/plan/samples.csv --dataset $(SHARDS_DIR)/dataset.yaml --shard $*)
+	@cp $< $(@D)/packed.inputs || rm -f $(@D)/packed.inputs
+
+SHARD_RECORDS := $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml)
+$(DATASET_DIR)/pack/card.yaml: configs/datasets/card/$(CARD).yaml configs/datasets/card/loader.py $(SHARDS_DIR)/card.choice $(SHARDS_DIR)/shards.txt $(SHARD_RECORDS) | build
+	$(call run,card,--name $(notdir $(DATASET_DIR)) --config $< --plan $(DATASET_DIR)/plan/samples.csv --dataset $(SHARDS_DIR)/dataset.yaml \
+	  --shards $(SHARDS_DIR)/shards.txt --loader configs/datasets/card/loader.py $(if $(wildcard CITATION.cff),--citation CITATION.cff))
+
+$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/datasets/repack/$(FORMAT).yaml $(SHARDS_DIR)/%/pack.yaml | build
+	$(call run,repack,--config $< --shard $(SHARDS_DIR)/$*/$*.h5)
+
+dataset-pack: $(DATASET_DIR)/pack/card.yaml
+	@echo; echo "Look at $(DATASET_DIR)/pack/README.md; that folder is what users download"
+dataset-repack: $(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml)
+	@echo; echo "Look into $(DATASET_DIR)/repack/$(FORMAT)"
+endif

@@ -1,0 +1,112 @@
+# The marker part of the paper's benchmark: where TacIPC and Tacchi take the markers, under board3 dragged and turned, and against
+# vectors measured in photographs (FOTS). Leaves fragments of a page and their pictures in $(OUT)/paper/markers (of paper-quick in $(OUT)/paper-quick/markers): board3.md, fots.md,
+# paper_results/*.svg. Needs SHARED (data/tacipc_release, data/fots_markers); without it the fragments say so.
+$(call uses,paper/paper paper/board3)
+
+RIVALS_MARKERS := $(PAPER)/markers
+RIVALS_RUNS := $(OUT)/paper/marker_runs
+
+# $(call tacchi_run,folder,name,configuration of mpm,changed keys,sensor,sample,record of the object,object.ply,its YAML). Only markers are
+# looked at: no height maps. A run that its half-speed check refuses is a row that says so.
+define tacchi_run
+$(call changed_config,$(1).config.yaml,configs/rivals/mpm/$(3).yaml,pixels=none $(4))
+$(1)/mpm.yaml: $(1).config.yaml $(5) $(6) $(7) $(9) | build
+	$$(call try,mpm,--name $(2) --config $(1).config.yaml --sensor $(5) --sample $(6) --object $(8) --object-config $(9))
+endef
+
+# How Tacchi runs: its numerics on the gel of the sensor, and with the true density on a coarse grid, checked at half the speed. Nodes at the
+# rim of what the object reaches feel little of its mass, and gel creeps there, the more the slower it is dragged: 1e5 times a particle's mass is not
+# enough (docs/mpm.md). The rim of board3 may turn faster, as its contact is a third as far from the axis.
+RIVALS_LEGACY := legacy_mctac
+RIVALS_PHYSICAL := coarse_checked
+RIVALS_PHYSICAL_KEYS_shear := object.mass_ratio=1.0e+7 object.press_speed_mm_s=75 object.move_speed_mm_s=75
+RIVALS_PHYSICAL_KEYS_twist := object.mass_ratio=1.0e+7 object.press_speed_mm_s=75 object.move_speed_mm_s=200
+
+# board3. The press runs are those of the goal board3, on our own gel and on the published one.
+RIVALS_BOARD3 := $(RIVALS_RUNS)/board3
+RIVALS_MESHES := focused_0200um import_paper_3mm
+rivals_press = $(BOARD3)/$(1)-friction_viscous/board3_$(2)/press
+$(foreach m,$(filter-out $(if $(filter friction_viscous,$(BOARD3_PRESS)),$(BOARD3_MESH)),$(RIVALS_MESHES)),$(foreach s,$(BOARD3_SAMPLES), \
+  $(eval $(call sample_rules,$(BOARD3)/$(m)-friction_viscous/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(m),configs/studies/board3/$(s).yaml,configs/press/friction_viscous.yaml,,try))))
+
+# $(call board3_tacchi,name,motion,configuration,keys)
+board3_tacchi = $(call tacchi_run,$(RIVALS_BOARD3)/$(1)/$(2),$(1),$(3),$(4),configs/sensors/mctac_3mm.yaml,configs/studies/board3/board3_$(2).yaml,$(BOARD3)/object/decimate.yaml,$(BOARD3)/object/object.ply,configs/objects/printed_indenter.yaml)
+$(foreach m,shear twist,$(eval $(call board3_tacchi,tacchi_legacy,$(m),$(RIVALS_LEGACY)))$(eval $(call board3_tacchi,tacchi_physical,$(m),$(RIVALS_PHYSICAL),$(RIVALS_PHYSICAL_KEYS_$(m)))))
+
+# One value changed at a time, in the shear. Of Tacchi's, as published: name and keys. The true density takes the time step that keeps the
+# Courant number (0.1 ms / sqrt(1e6 / 1010)).
+RIVALS_FACTORS := points_1000 points_10000 points_1000000 light_object drag_20 depth_of_object grid_0400um true_density glued_nodes published_material
+RIVALS_KEYS_points_1000 := object.samples=1000
+RIVALS_KEYS_points_10000 := object.samples=10000
+RIVALS_KEYS_points_1000000 := object.samples=1000000
+RIVALS_KEYS_light_object := object.mass_ratio=0.01
+RIVALS_KEYS_drag_20 := object.move_speed_mm_s=20
+RIVALS_KEYS_depth_of_object := motion.depth_of=object
+RIVALS_KEYS_grid_0400um := grid.spacing_mm=0.4
+RIVALS_KEYS_true_density := material.density_kg_m3=1010 time.step_s=3.178e-6
+RIVALS_KEYS_glued_nodes := gel.glued=nodes -gel.fixed_layers
+RIVALS_KEYS_published_material := +material.youngs_modulus_pa=1.45e+5 +material.poissons_ratio=0.45
+$(foreach f,$(RIVALS_FACTORS),$(eval $(call board3_tacchi,$(f),shear,$(RIVALS_LEGACY),$(RIVALS_KEYS_$(f)))))
+# Of TacIPC's: so much friction that nothing slips.
+RIVALS_FRICTIONS := 5
+$(foreach f,$(RIVALS_FRICTIONS),$(eval $(call changed_config,$(RIVALS_BOARD3)/friction_$(f).config.yaml,configs/press/friction_viscous.yaml,friction.coefficient=$(f))) \
+  $(eval $(call sample_rules,$(RIVALS_BOARD3)/friction_$(f),friction_$(f),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,focused_0200um,configs/studies/board3/board3_shear.yaml,$(RIVALS_BOARD3)/friction_$(f).config.yaml,,try)))
+
+RIVALS_BOARD3_RUNS := $(foreach m,$(RIVALS_MESHES),$(foreach s,shear twist,$(call rivals_press,$(m),$(s)))) \
+  $(foreach t,tacchi_legacy tacchi_physical,$(foreach s,shear twist,$(RIVALS_BOARD3)/$(t)/$(s)))
+RIVALS_BOARD3_FACTORS := $(RIVALS_FRICTIONS:%=$(RIVALS_BOARD3)/friction_%/press) $(RIVALS_FACTORS:%=$(RIVALS_BOARD3)/%/shear)
+
+# The same with a ball, coarse and short.
+RIVALS_QUICK := $(RIVALS_RUNS)/quick
+$(RIVALS_QUICK)/ball/indenter.yaml: configs/studies/paper/markers/quick_ball.yaml | build
+	$(call run,indenter,--config $<)
+$(RIVALS_QUICK)/object/decimate.yaml: $(RIVALS_QUICK)/ball/indenter.yaml configs/objects/embossed.yaml configs/objects/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(RIVALS_QUICK)/ball/object.ply --object configs/objects/embossed.yaml --config configs/objects/decimate/default.yaml)
+$(eval $(call sample_rules,$(RIVALS_QUICK)/tacipc,tacipc,$(RIVALS_QUICK)/object,configs/objects/embossed.yaml,mctac_3mm,adaptive_0400um,configs/studies/paper/markers/quick_shear.yaml,configs/press/friction_viscous.yaml,,try))
+# $(call quick_tacchi,name,configuration,keys)
+quick_tacchi = $(call tacchi_run,$(RIVALS_QUICK)/$(1),$(1),$(2),$(3),configs/sensors/mctac_3mm.yaml,configs/studies/paper/markers/quick_shear.yaml,$(RIVALS_QUICK)/object/decimate.yaml,$(RIVALS_QUICK)/object/object.ply,configs/objects/embossed.yaml)
+RIVALS_QUICK_PHYSICAL := gel.spacing_mm=0.5 grid.spacing_mm=1 object.press_speed_mm_s=200 object.move_speed_mm_s=200 half_speed.largest_change=0.2
+$(eval $(call quick_tacchi,tacchi_legacy,$(RIVALS_LEGACY),object.samples=20000))
+$(eval $(call quick_tacchi,tacchi_physical,$(RIVALS_PHYSICAL),$(RIVALS_QUICK_PHYSICAL)))
+$(eval $(call quick_tacchi,points_1000,$(RIVALS_LEGACY),object.samples=1000))
+
+# $(call comparison_rule,title,runs,factors): $(RIVALS_RUNS)/pages/<title>
+define comparison_rule
+$(RIVALS_RUNS)/pages/$(1)/compare_simulators.yaml: configs/studies/paper/markers/$(1).yaml $(foreach r,$(2) $(3),$(r)/$(if $(filter %/press,$(r)),press,mpm).yaml) | build-verification
+	$$(call run,compare_simulators,--config configs/studies/paper/markers/$(1).yaml $(2:%=--run %) $(3:%=--factor %))
+endef
+$(eval $(call comparison_rule,board3,$(RIVALS_BOARD3_RUNS),$(RIVALS_BOARD3_FACTORS)))
+$(eval $(call comparison_rule,quick,$(RIVALS_QUICK)/tacipc/press $(RIVALS_QUICK)/tacchi_legacy $(RIVALS_QUICK)/tacchi_physical,$(RIVALS_QUICK)/points_1000))
+
+.PHONY: paper-markers paper-quick-markers paper-board3-fragment paper-quick-fragment paper-board3-folders paper-quick-folders
+paper-board3-folders:
+	$(call paper_folders,board3,$(RIVALS_BOARD3_RUNS) $(RIVALS_BOARD3_FACTORS) $(BOARD3)/object $(RIVALS_MESHES:%=$(OUT)/gels/mctac_3mm-%) $(RIVALS_RUNS)/pages/board3)
+paper-quick-folders:
+	$(call paper_folders,quick,$(RIVALS_QUICK) $(OUT)/gels/mctac_3mm-adaptive_0400um $(RIVALS_RUNS)/pages/quick)
+paper-board3-fragment: paper-board3-folders
+paper-quick-fragment: paper-quick-folders
+paper-board3-fragment: $(if $(wildcard $(BOARD3_OBJECT)),$(RIVALS_RUNS)/pages/board3/compare_simulators.yaml)
+paper-quick-fragment: $(RIVALS_RUNS)/pages/quick/compare_simulators.yaml
+# $(call put_fragment,page,here if there is such a file): the fragment and its pictures, or why there are none
+put_fragment = @mkdir -p $(RIVALS_MARKERS)/paper_results; \
+  if [ -e $(2) ]; then cp $(RIVALS_RUNS)/pages/$(1)/$(1).md $(RIVALS_MARKERS)/board3.md && cp $(RIVALS_RUNS)/pages/$(1)/*.csv $(RIVALS_MARKERS)/ && cp $(RIVALS_RUNS)/pages/$(1)/paper_results/*.svg $(RIVALS_MARKERS)/paper_results/; \
+  else echo "Not run: there is no $(notdir $(2)) below SHARED." > $(RIVALS_MARKERS)/board3.md; fi
+paper-board3-fragment:
+	$(call put_fragment,board3,$(BOARD3_OBJECT))
+paper-quick-fragment:
+	$(call put_fragment,quick,configs/studies/paper/markers/quick.yaml)
+
+# Marker vectors of FOTS: rules of pipelines/paper/fots.mk with Tacchi's rows, in a make of its own, as they are made from the benchmark's file.
+rivals_fots = @if [ -e $(SHARED)/data/fots_markers ]; then $(MAKE) -f Makefile.data --no-print-directory fots-tacchi MARKERS=$(1) $(2); \
+  else mkdir -p $(RIVALS_MARKERS); echo "Not run: there is no fots_markers below SHARED." > $(RIVALS_MARKERS)/fots.md; fi
+.PHONY: paper-fots-fragment paper-quick-fots-fragment
+paper-fots-fragment: | build
+	$(call rivals_fots,configs/studies/fots/fots_markers.yaml)
+paper-quick-fots-fragment: | build
+	$(call rivals_fots,configs/studies/paper/markers/quick_fots.yaml,FOTS_TACCHI='tacchi_legacy tacchi_physical' \
+	  FOTS_TACCHI_KEYS='gel.spacing_mm=0.425 grid.spacing_mm=0.85 object.press_speed_mm_s=400 object.move_speed_mm_s=400' FOTS_CHECKED=)
+
+paper-markers: paper-board3-fragment paper-fots-fragment ## studies: Marker displacement by TacIPC and Tacchi (needs SHARED; an hour and a half): fragments in OUT/paper/markers
+	@echo; echo "Look at $(RIVALS_MARKERS)/board3.md and fots.md"
+paper-quick-markers: paper-quick-fragment paper-quick-fots-fragment ## studies: paper-markers in a minute, coarse and short
+	@echo; echo "Look at $(RIVALS_MARKERS)/board3.md and fots.md"

@@ -1,0 +1,20 @@
+# VTK files of one sample, for ParaView: make -f Makefile.data export SAMPLE=out/demo/star
+$(call uses,sample/sample)
+
+.PHONY: export
+ifneq ($(strip $(SAMPLE)),)
+override SAMPLE := $(patsubst %/,%,$(strip $(SAMPLE)))
+$(call check_name,SAMPLE)
+
+# $(call press_input,gel): the file the press was made with; its record says where, as seen from its own folder.
+press_input = $(SAMPLE)/press/$$($(BIN)/tacipc get $(SAMPLE)/press/press.yaml inputs.$(1).path)
+
+$(SAMPLE)/export/export.yaml: $(SAMPLE)/press/press.yaml | build
+	$(call run,export,--press $(SAMPLE)/press --gel $(call press_input,gel) --object $(call press_input,object))
+
+export: $(SAMPLE)/export/export.yaml ## own: VTK files of one sample for ParaView: SAMPLE=out/demo/star
+	@echo; echo "Open $(SAMPLE)/export/surface.pvd, volume.pvd and object.pvd in ParaView"
+else
+export:
+	@echo "export: say which sample: make -f Makefile.data export SAMPLE=out/demo/star" >&2; exit 2
+endif

@@ -1,0 +1,43 @@
+# Real objects, to see that the press is robust: every mesh of the shared data into our own gel, ten of them into the paper's.
+# SHARED is a folder with data/tacipc_release and data/printed_indenters (not part of this repository).
+
+TABLE := $(OUT)/objects-table
+
+RELEASE_OBJECTS := $(filter-out %/pen.obj %/wood_block.obj,$(wildcard $(SHARED)/data/tacipc_release/objects/*.obj))
+PRINTED_OBJECTS := $(wildcard $(SHARED)/data/printed_indenters/*.stl)
+TABLE_FILES := $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)
+PAPER_GEL_OBJECTS := Bear_8028 Wave_8134 board3 coin_5002 dragon_01 sphere cone dots triangle parallel_lines
+
+ifneq ($(filter objects-table routes,$(MAKECMDGOALS)),)
+ifneq ($(words $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)),22)
+  $(error SHARED: $(SHARED) lacks some of the 22 meshes of data/tacipc_release/objects and data/printed_indenters)
+endif
+endif
+
+name_of = $(basename $(notdir $(1)))
+
+# $(call table_object,file): decimated as every object is, the relief side pressing.
+define table_object
+$(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml | build
+	$$(call run,decimate,--mesh $(1) --object configs/objects/printed_indenter.yaml --config configs/objects/decimate/default.yaml)
+$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/motions/press_0500um.yaml,configs/press/default.yaml)
+endef
+$(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
+
+# The paper's own gel.
+PAPER_GEL := $(SHARED)/data/tacipc_release/gel/gelslim-gel-l_0.1.msh
+$(OUT)/gels/mctac-import_paper/tetmesh.yaml: $(PAPER_GEL) configs/gels/import_paper.yaml configs/sensors/mctac.yaml | build
+	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac.yaml --config configs/gels/import_paper.yaml)
+$(foreach o,$(PAPER_GEL_OBJECTS),$(eval $(call sample_rules,$(TABLE)/paper/$(o),$(o),$(TABLE)/objects/$(o),configs/objects/printed_indenter.yaml,mctac,import_paper,configs/motions/press_0500um.yaml,configs/press/paper.yaml)))
+
+TABLE_SAMPLES := $(foreach f,$(TABLE_FILES),$(TABLE)/own/$(call name_of,$(f))) $(foreach o,$(PAPER_GEL_OBJECTS),$(TABLE)/paper/$(o))
+$(eval $(call report_rules,$(TABLE),TacIPC: real objects,$(TABLE_SAMPLES)))
+
+$(TABLE)/objects.md: $(addsuffix /press/press.yaml,$(TABLE_SAMPLES)) pipelines/sample/objects_table.sh
+	bash pipelines/sample/objects_table.sh $(TABLE) $(BIN)/tacipc > $@.new
+	mv $@.new $@
+
+.PHONY: objects-table
+objects-table: $(TABLE)/objects.md $(TABLE)/report/report.yaml ## studies: Real objects of SHARED into our gel and the paper's; writes objects.md (minutes)
+	@cat $(TABLE)/objects.md
+	$(call look,$(TABLE))

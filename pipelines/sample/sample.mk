@@ -1,0 +1,139 @@
+# One object of the user's own: make -f Makefile.data sample OBJECT=path.stl [variables below]
+
+SENSOR   ?= mctac#            a file of configs/sensors
+MESH     ?= adaptive_0250um#  a file of configs/gels
+PRESS    ?=#                  a file of configs/press (default: friction if something drags or FRICTION is given, else default)
+FRICTION ?=#                  friction coefficient (default: as PRESS says)
+MOTION   ?= press#            press and what follows it: shear twist tilt hold release, joined by +; or a file.yaml with motion and placement
+DEPTH_MM ?= 0.5#              how deep the lowest point goes
+FORCE_N  ?=#                  press until this force instead of a depth
+DENSITY  ?= 7800#             of the object, kg/m3, for FORCE_N
+STEPS    ?= 5#                frames of the press
+SHEAR_MM  ?= 0.5#             how far it is dragged
+DIRECTION ?= 0#               where to: degrees from x (image right) towards y (image down); of tilt too
+TWIST_DEG ?= 10#              how far it is turned about z
+TILT_DEG  ?= 5#               how far it is tilted
+MOVE_STEPS ?= 20#             frames of each motion after the press
+UNIT     ?= mm#               of the object's file: m, cm, mm, um, in
+UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
+FACE     ?=#                  side that presses (default: opposite of UP, else -z)
+ROTATE   ?= 0#                degrees about the sensor's z axis
+CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands
+NAME     ?= $(basename $(notdir $(OBJECT)))# of the sample
+SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UNIT UP FACE ROTATE CENTER NAME
+given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# on the command line
+$(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
+
+.PHONY: sample track
+ifdef OBJECT
+$(call check_name,OBJECT)
+$(call check_name,NAME)
+ifeq ($(wildcard $(OBJECT)),)
+  $(error OBJECT: $(OBJECT) does not exist)
+endif
+ifeq ($(wildcard configs/sensors/$(SENSOR).yaml),)
+  $(error SENSOR: there is no configs/sensors/$(SENSOR).yaml (there are: $(SENSORS)))
+endif
+ifeq ($(wildcard configs/gels/$(MESH).yaml),)
+  $(error MESH: there is no configs/gels/$(MESH).yaml (there are: $(MESHES)))
+endif
+SAMPLE := $(OUT)/sample/$(NAME)
+
+# The motion: a file, or words.
+MOVES := shear twist tilt hold release
+$(call check_name,MOTION)
+motion_file := $(filter %.yaml,$(MOTION))
+motion_paths :=
+ifneq ($(motion_file),)
+  ifeq ($(wildcard $(motion_file)),)
+    $(error MOTION: $(motion_file) does not exist)
+  endif
+  useless := $(filter DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS FACE ROTATE CENTER,$(given))
+else
+  asked := $(subst +, ,$(MOTION))
+  moves := $(if $(filter press,$(firstword $(asked))),$(wordlist 2,$(words $(asked)),$(asked)),$(asked))
+  unknown := $(if $(asked),$(filter-out $(MOVES),$(moves)),nothing)
+  ifneq ($(unknown),)
+    $(error MOTION: '$(firstword $(unknown))' is none of press, $(subst $(space),$(comma) ,$(MOVES)) (several joined by +) and no file.yaml)
+  endif
+  ifneq ($(and $(FORCE_N),$(filter DEPTH_MM,$(given))),)
+    $(error DEPTH_MM, FORCE_N: say one of them)
+  endif
+  useless := $(filter $(if $(filter shear,$(moves)),,SHEAR_MM) $(if $(filter shear tilt,$(moves)),,DIRECTION) $(if $(filter twist,$(moves)),,TWIST_DEG) \
+    $(if $(filter tilt,$(moves)),,TILT_DEG) $(if $(moves),,MOVE_STEPS) $(if $(FORCE_N),,DENSITY),$(given))
+endif
+ifneq ($(useless),)
+  $(error $(firstword $(useless)): has no effect with MOTION=$(MOTION)$(if $(filter DENSITY,$(firstword $(useless))), without FORCE_N))
+endif
+
+ifeq ($(PRESS),)
+  override PRESS := $(if $(FRICTION)$(motion_file)$(filter shear twist tilt,$(moves)),friction,default)
+endif
+ifeq ($(wildcard configs/press/$(PRESS).yaml),)
+  $(error PRESS: there is no configs/press/$(PRESS).yaml (there are: $(basename $(notdir $(wildcard configs/press/*.yaml)))))
+endif
+ifneq ($(FRICTION),)
+  $(call check_name,FRICTION)
+endif
+sample_spec  := $(or $(motion_file),$(SAMPLE)/sample.yaml)
+press_config := $(if $(FRICTION),$(SAMPLE)/press_config.yaml,configs/press/$(PRESS).yaml)
+
+# The variables as configuration files, rewritten only when they change.
+press_phase   = {kind: press, $(if $(FORCE_N),force_n: $(FORCE_N),depth_mm: $(DEPTH_MM)), steps: $(STEPS)}
+shear_phase   = {kind: shear, direction_deg: $(DIRECTION), distance_mm: $(SHEAR_MM), steps: $(MOVE_STEPS)}
+twist_phase   = {kind: twist, angle_deg: $(TWIST_DEG), steps: $(MOVE_STEPS)}
+tilt_phase    = {kind: tilt, direction_deg: $(DIRECTION), angle_deg: $(TILT_DEG), steps: $(MOVE_STEPS)}
+hold_phase    = {kind: hold, steps: $(MOVE_STEPS)}
+release_phase = {kind: release, steps: $(MOVE_STEPS)}
+define sample_yaml
+placement:
+  rotate_deg: $(ROTATE)
+  center_mm: [$(CENTER)]
+$(if $(FACE),  face: "$(FACE)")
+$(if $(FORCE_N),object: {density_kg_m3: $(DENSITY)})
+motion: $(if $(moves),,$(press_phase))
+$(if $(moves),  - $(press_phase)$(foreach m,$(moves),$(newline)  - $($(m)_phase)))
+endef
+define object_yaml
+unit: $(UNIT)
+$(if $(UP),up: "$(UP)")
+endef
+# Which files a motion follows; what is wrong with them or with FRICTION is said before anything is made.
+ifneq ($(motion_file)$(FRICTION),)
+$(SAMPLE)/paths.mk: $(motion_file) $(if $(FRICTION),$(SAMPLE)/press_config.yaml) FORCE | build
+	$(call replace_if_changed_by,bash pipelines/sample/motion_paths.sh $(BIN)/tacipc $(motion_file))
+include $(SAMPLE)/paths.mk
+endif
+# Which files are meant: another object, sensor, mesh, press or motion under the same name must redo the sample however old its files are.
+choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), motion: $(or $(abspath $(motion_file)),as said)}
+$(SAMPLE)/sample.yaml: FORCE
+	$(call replace_if_changed,$(sample_yaml))
+$(SAMPLE)/object.yaml: FORCE
+	$(call replace_if_changed,$(object_yaml))
+$(SAMPLE)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< 'friction.coefficient=$(FRICTION)')
+$(SAMPLE)/choice.txt: FORCE
+	$(call replace_if_changed,$(choice_yaml))
+	$(if $(motion_file),@rm -f $(SAMPLE)/sample.yaml)
+$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config configs/objects/decimate/default.yaml)
+$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_paths)))
+$(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
+
+# Every frame rendered, and the printed markers found in the images.
+$(SAMPLE)/frames/render.yaml: $(SAMPLE)/press/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
+	$(call run,render,--press $(SAMPLE)/press --gel $(OUT)/gels/$(SENSOR)-$(MESH)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
+$(SAMPLE)/track/track.yaml: $(SAMPLE)/frames/render.yaml configs/render/track/default.yaml | build
+	$(call run,track,--render $(SAMPLE)/frames --config configs/render/track/default.yaml)
+
+track: $(SAMPLE)/track/track.yaml ## own: Printed markers of a sample measured in its images: OBJECT=path.stl [as of sample]
+	@$(BIN)/tacipc get $< summary
+
+sample: $(SAMPLE)/report/report.yaml ## own: One object of your own: OBJECT=path.stl [MOTION=shear|twist|release|…; see pipelines/sample/sample.mk]
+	$(call look,$(SAMPLE))
+else
+track:
+	@echo "track: say which object: make -f Makefile.data track OBJECT=path.stl" >&2; exit 2
+sample:
+	@echo "sample: say which object: make -f Makefile.data sample OBJECT=path.stl" >&2; exit 2
+endif

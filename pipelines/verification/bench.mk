@@ -1,0 +1,79 @@
+# What a press costs: the same presses by the default route and by factorisation, over sizes of gel, objects and motions, with threads
+# and beside each other. Every press is a folder; an interrupted benchmark resumes. Nothing else should run beside it.
+# The coin of the paper's release is measured too where SHARED has it.
+
+BENCH := $(OUT)/bench
+BENCH_GELS ?= 3k 12k 24k 50k 100k#     of configs/studies/speed/gel_*.yaml, pressed;
+BENCH_SHEAR_GELS ?= 3k 12k 24k#        sheared,
+BENCH_DIRECT_GELS ?= 3k 12k 24k#       pressed with every system factorised
+BENCH_OBJECTS := sphere coin weave
+BENCH_RELEASED := $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)#  pressed with the paper's stiffness
+BENCH_SHEAR_OBJECTS ?= $(BENCH_OBJECTS)#  sheared,
+BENCH_DIRECT_OBJECTS ?= sphere coin#      compared with other routes and in other scenes
+bench_config = configs/studies/speed/$(if $(filter shear,$(1)),press,$(1))_$(2).yaml
+bench_sample = configs/$(if $(filter shear,$(1)),studies/speed/shear,motions/press_0500um).yaml
+bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_indenter.yaml,configs/objects/embossed.yaml)
+
+.PHONY: build-bench
+build-bench: build
+	@cmake --build $(BUILD) --target bench_object bench_table routes_table -j $(JOBS) -- --quiet
+
+$(BENCH)/gels/%/tetmesh.yaml: configs/studies/speed/gel_%.yaml configs/sensors/mctac.yaml | build
+	$(call run,tetmesh,--sensor configs/sensors/mctac.yaml --config $<)
+
+$(BENCH)/objects/sphere/bench_object.yaml: configs/studies/speed/sphere.yaml | build-bench
+	$(call run,bench_object,--config $<)
+$(BENCH)/emboss/coin/emboss.yaml: configs/studies/speed/coin.yaml | build
+	$(call run,emboss,--config $<)
+$(BENCH)/emboss/weave/emboss.yaml: configs/objects/patterns/weave.yaml | build
+	$(call run,emboss,--config $<)
+$(BENCH)/objects/coin/decimate.yaml $(BENCH)/objects/weave/decimate.yaml: $(BENCH)/objects/%/decimate.yaml: $(BENCH)/emboss/%/emboss.yaml configs/objects/embossed.yaml configs/objects/decimate/default.yaml | build
+	$(call run,decimate,--mesh $(BENCH)/emboss/$*/object.ply --object configs/objects/embossed.yaml --config configs/objects/decimate/default.yaml)
+$(BENCH)/objects/coin_5002/decimate.yaml: $(SHARED)/data/tacipc_release/objects/coin_5002.obj configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml | build
+	$(call run,decimate,--mesh $< --object configs/objects/printed_indenter.yaml --config configs/objects/decimate/default.yaml)
+bench_object_record = $(BENCH)/objects/$(1)/$(if $(filter sphere,$(1)),bench_object,decimate).yaml
+
+# $(call bench_press,gel,object,motion,route): flags of one press.
+bench_press = --gel $(BENCH)/gels/$(1)/gel.msh --object $(BENCH)/objects/$(2)/object.ply $(if $(filter-out sphere,$(2)),--object-config $(call bench_object_config,$(2))) \
+  --sensor configs/sensors/mctac.yaml --config $(call bench_config,$(3),$(4)) --sample $(call bench_sample,$(3))
+bench_needs = $(BENCH)/gels/$(1)/tetmesh.yaml $(call bench_object_record,$(2)) $(call bench_config,$(3),$(4)) $(call bench_sample,$(3)) configs/sensors/mctac.yaml
+
+# One thread, one process.
+define bench_rule
+$(BENCH)/runs/$(1)-$(2)-$(3)-$(4)/press.yaml: $(call bench_needs,$(1),$(2),$(3),$(4)) | build
+	$(BIN)/press --out $$(@D) --threads 1 --name $(1)-$(2)-$(3)-$(4) $(call bench_press,$(1),$(2),$(3),$(4))
+BENCH_RUNS += $(BENCH)/runs/$(1)-$(2)-$(3)-$(4)
+endef
+BENCH_RUNS :=
+$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,fast))))
+$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_RELEASED),$(eval $(call bench_rule,$(g),$(o),stiff,fast))))
+$(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,averaged))))
+$(if $(filter 12k,$(BENCH_SHEAR_GELS)),$(eval $(call bench_rule,12k,coin,shear,averaged)))
+$(foreach g,$(BENCH_SHEAR_GELS),$(foreach o,$(BENCH_SHEAR_OBJECTS),$(eval $(call bench_rule,$(g),$(o),shear,fast))))
+$(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,direct))))
+$(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach r,press-plain settled-fast tight-fast tight-direct thin-fast,$(eval $(call bench_rule,24k,$(o),$(word 1,$(subst -, ,$(r))),$(word 2,$(subst -, ,$(r)))))))
+# One press of 50k vertices by factorisation.
+$(if $(filter 50k,$(BENCH_GELS)),$(eval $(call bench_rule,50k,sphere,press,direct)))
+
+# Two threads; two processes at once (the slower one counts).
+BENCH_HOW := 24k-coin-press-fast
+$(BENCH)/runs/$(BENCH_HOW)-2threads/press.yaml: $(call bench_needs,24k,coin,press,fast) | build
+	$(BIN)/press --out $(@D) --threads 2 --name $(BENCH_HOW)-2threads $(call bench_press,24k,coin,press,fast)
+$(BENCH)/runs/$(BENCH_HOW)-2processes/press.yaml: $(call bench_needs,24k,coin,press,fast) | build
+	$(BIN)/press --out $(@D)-beside --threads 1 --name beside $(call bench_press,24k,coin,press,fast) & beside=$$!; \
+	$(BIN)/press --out $(@D) --threads 1 --name $(BENCH_HOW)-2processes $(call bench_press,24k,coin,press,fast) && wait $$beside
+BENCH_RUNS += $(BENCH)/runs/$(BENCH_HOW)-2threads $(BENCH)/runs/$(BENCH_HOW)-2processes
+
+$(BENCH)/page/bench_table.yaml: $(addsuffix /press.yaml,$(BENCH_RUNS)) | build-bench
+	$(call run,bench_table,$(addprefix --press ,$(BENCH_RUNS)))
+
+.PHONY: bench-press bench-page
+bench-page: $(BENCH)/page/bench_table.yaml
+	$(call to_docs,$(BENCH)/page/performance.md)
+	$(call to_docs,$(BENCH)/page/bench_press.svg $(BENCH)/page/bench_elements.svg,performance)
+	@cat $(DOCS)/performance.md
+	@echo; echo "estimate reads $(COST_MODEL_MEASURED) from now on"
+
+# One after the other, whatever JOBS says: what runs beside a press is measured with it.
+bench-press: | build build-bench ## development: Cost of a press by route, size, object and motion (a quarter of an hour; BENCH_GELS= and others); writes OUT/docs/performance.md and the cost model that estimate reads
+	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1

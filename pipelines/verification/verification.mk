@@ -1,0 +1,87 @@
+# The press against closed forms, measurements and other solvers: one folder and record per case, then one page. Campaigns that answer
+# one question each are long rows of the page; their goals are in refinement.mk, stress.mk and board3.mk.
+
+VERIFICATION := $(OUT)/verification
+VERIFICATION_CASES := $(sort $(basename $(notdir $(wildcard configs/studies/verification/*.yaml))))
+VERIFICATION_RESULTS := $(VERIFICATION_CASES:%=$(VERIFICATION)/%)
+
+# The long rows that this call makes; the page waits for them. Without SHARED board3 is skipped, as cases are.
+LONG_ROWS := $(filter closed-forms refinement stress board3,$(MAKECMDGOALS) $(if $(filter verification,$(MAKECMDGOALS)),closed-forms refinement stress $(if $(wildcard $(SHARED)),board3)))
+LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
+
+# Never built beside another build in the same folder.
+.PHONY: build-verification build-closed-forms
+build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
+	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verify verify_table stress_case stress_table refinement refinement_table marker_curve compare_simulators -j $(JOBS) -- --quiet
+build-closed-forms: build-verification with-tests # the closed forms are tests
+	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verification_test -j $(JOBS) -- --quiet
+packages_for_closed-forms := tests
+packages_for_verification := tests
+
+$(VERIFICATION)/%/verify.yaml: configs/studies/verification/%.yaml | build-verification
+	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
+
+# What needs no scene: a second of tests, run every time.
+CLOSED_FORMS_RECORD := $(OUT)/closed_forms/closed_forms.yaml
+.PHONY: closed-forms closed-forms-page
+closed-forms-page: | build-closed-forms
+	mkdir -p $(dir $(CLOSED_FORMS_RECORD))
+	rm -f $(CLOSED_FORMS_RECORD)
+	rm -f $(dir $(CLOSED_FORMS_RECORD))tests.json
+	holds=true; $(BUILD)/tests/verification/verification_test --gtest_filter='*PatchTest*:*WideLayerTest*' --gtest_brief=1 \
+	  --gtest_output=json:$(dir $(CLOSED_FORMS_RECORD))tests.json > $(dir $(CLOSED_FORMS_RECORD))log.txt 2>&1 || holds=false; \
+	{ read -r tests; read -r failed; } < <($(BIN)/tacipc get $(dir $(CLOSED_FORMS_RECORD))tests.json tests failures --default 0); \
+	found="$$((tests - failed)) tests passed"; [ "$$failed" = 0 ] || found="$$found, $$failed failed"; \
+	printf 'stage: closed_forms\nsummary:\n  holds: %s\n  found: "%s"\n' $$holds "$$found" > $(CLOSED_FORMS_RECORD)
+
+closed-forms: closed-forms-page ## studies: Patch test, compression, simple shear, momentum and energy against closed forms (a second)
+	$(call holds,$(CLOSED_FORMS_RECORD))
+
+# $(call verification_table,folder,results,flags). A case that missed, failed or was skipped is run again next time: its record goes.
+define verification_table
+	TACIPC_SHARED='$(SHARED)' $(BIN)/verify_table --out $(1) --threads $(THREADS) $(addprefix --result ,$(2)) $(3)
+	while read -r folder; do rm -f "$$folder/verify.yaml"; done < $(1)/unfinished.txt
+endef
+
+# $(call none_missed,record,keys): fails unless all of these numbers are 0.
+none_missed = @[ "$$($(BIN)/tacipc get $(1) $(2) | sort -u)" = 0 ] || { echo "$(1): cases missed" >&2; exit 1; }
+
+# What there is of the long rows, whichever call made it: a record, or why there is none.
+long_rows_there = $$(for record in $(LONG_RECORDS) $(LONG_RECORDS:.yaml=.failed.yaml); do [ ! -e $$record ] || echo "--long $$record"; done)
+
+# $(call copy_tables,name,record): tables and plots of a long row, for the page to link to; nothing where its work failed.
+define copy_tables
+	@mkdir -p $(DOCS)/verification
+	@[ ! -e $(2) ] || { cp $(dir $(2))tables.md $(DOCS)/verification/$(1).md; find $(dir $(2)) -name '*.svg' -exec cp {} $(DOCS)/verification/ ';'; }
+endef
+
+# The documentation shows the stress campaign of 300 cases of seed 1 only.
+.PHONY: verification verification-cases verification-page verify-case
+verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuffix -page,$(LONG_ROWS))
+	$(call verification_table,$(VERIFICATION)/page,$(VERIFICATION_RESULTS),--rows configs/studies/verification/table/long_rows.yaml $(long_rows_there))
+	$(if $(filter 1-300,$(SEED)-$(N)),$(call to_docs,$(VERIFICATION)/page/verification.md))
+	$(call to_docs,$(VERIFICATION)/page/verification/*.svg,verification)
+	@echo; echo "Look at $(VERIFICATION)/page/verification.md"
+
+verification: verification-page ## studies: Every case of configs/studies/verification, then closed-forms, refinement, stress and board3; writes OUT/docs/verification.md with its plots (a quarter of an hour)
+	$(call none_missed,$(VERIFICATION)/page/verify_table.yaml,summary.missed summary.long_missed)
+
+verification-cases: verification-page ## studies: The cases of verification only; the long rows of the page stay unchanged
+	$(call none_missed,$(VERIFICATION)/page/verify_table.yaml,summary.missed)
+
+ifdef CASE
+override CASE := $(strip $(CASE))
+$(call check_name,CASE)
+ifeq ($(wildcard $(CASE)),)
+  $(error CASE: $(CASE) does not exist)
+endif
+CASE_RESULT := $(OUT)/verify-case/$(basename $(notdir $(CASE)))
+$(CASE_RESULT)/verify.yaml: $(CASE) | build-verification
+	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
+verify-case: $(CASE_RESULT)/verify.yaml ## studies: One case of your own: CASE=file.yaml (docs/verification_cases.md)
+	$(call verification_table,$(CASE_RESULT)/page,$(CASE_RESULT))
+	$(call none_missed,$(CASE_RESULT)/page/verify_table.yaml,summary.missed)
+else
+verify-case:
+	@echo "verify-case: say which case: make -f Makefile.data verify-case CASE=file.yaml" >&2; exit 2
+endif

@@ -1,0 +1,46 @@
+// What a packed dataset holds: one table of fields, from which datasets, attributes and schema.json all follow.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/base/value.h"
+#include "common/format/hdf5_writer.h"
+#include "stages/dataset/pack/sample_frames.h"
+
+namespace tacipc {
+
+/// Part of a sample's group.
+enum class Section { obs, sim, check };
+
+const char* name_of(Section section);
+
+/// One field. Units, frames and signs of a packed dataset stand in this table and nowhere else: `read` gives SI or
+/// codes as the stages left them, the file holds `scale` times that.
+struct Field {
+  Section section;
+  std::string name;
+  NumberType type;
+  std::string shape;  // in letters: T frames, H rows, W columns of the image, h, w of the grid, N markers, V, F
+  std::string unit;
+  std::string frame;  // of reference: "S", "camera", "image" or "none"
+  std::string sign;   // what a positive value means, or "none"
+  std::string meaning;
+  std::string source;  // stage and file
+  double scale = 1.0;
+  std::function<FieldData(SampleFrames& sample, std::size_t frame)> read = nullptr;
+  bool in_variants = false;                                    // a variant's folder may have it too
+  bool per_frame = true;                                       // else one value for the sample, read at frame 0
+  std::vector<std::pair<std::string, std::string>> more = {};  // further attributes: codes, quat_order
+
+  std::string path() const { return std::string(name_of(section)) + "/" + name; }
+};
+
+const std::vector<Field>& fields();
+
+/// Attributes of the field's dataset; schema.json has the same lines.
+Value::Map attributes_of(const Field& field);
+
+}  // namespace tacipc

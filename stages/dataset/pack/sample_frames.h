@@ -1,0 +1,81 @@
+// A finished sample, read frame by frame: what press and render left, checked against their records.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/image/image.h"
+#include "common/sample/press_folder.h"
+#include "common/sample/render_folder.h"
+#include "common/sensor/sensor.h"
+#include "common/stage/record.h"
+
+namespace tacipc {
+
+/// Numbers of one frame, row-major, in SI or codes.
+struct Numbers {
+  std::vector<std::size_t> shape;
+  std::vector<double> values;
+};
+
+/// Why a field is not there.
+struct Absent {
+  std::string reason;
+};
+
+using FieldData = std::variant<Numbers, Absent>;
+
+/// Pictures are read from `picture_folder`, a variant's or empty for the sensor itself.
+class SampleFrames {
+ public:
+  /// \throw DataError if a record is missing or malformed, the image was made of another press or with another sensor,
+  /// or there is no image of frame 0
+  explicit SampleFrames(std::filesystem::path folder);
+
+  /// Frames of the press that have images, ascending, the first is 0: frame i of the packed sample is frames()[i].
+  const std::vector<std::size_t>& frames() const { return frames_; }
+  std::size_t press_frames() const { return per_frame_.size(); }
+  const std::vector<std::string>& variants() const { return variants_; }
+  void look_at(const std::string& variant) { variant_ = variant; }
+  bool in_variant() const { return !variant_.empty(); }
+
+  const Record& press() const { return press_; }
+  const Record& render() const { return render_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  /// The file that press was given with a flag ("sensor", "gel", "object", "sample").
+  std::filesystem::path press_input(const std::string& flag) const;
+  /// Text of a configuration that press or render was given. \throw DataError if it has changed since
+  std::string config_text(const std::string& stage, const std::string& flag) const;
+  const Sensor& sensor() const { return sensor_; }
+
+  /// Channels of a frame's image, or Absent with `reason` where there is no such file.
+  FieldData image(std::size_t frame, FrameFile file, const std::string& reason);
+  /// (markers, 2) column and row.
+  FieldData marker_px(std::size_t frame, const std::string& reason);
+  /// The arrays of the press.
+  const PressFolder& arrays() const { return arrays_; }
+  /// A number of the frame in the press's record.
+  double press_number(std::size_t frame, const std::string& key) const;
+  /// Triangles of the front over its vertices.
+  Numbers front_triangles();
+
+ private:
+  std::optional<std::filesystem::path> picture(std::size_t frame, const std::string& name);
+
+  std::filesystem::path folder_;
+  Record press_;
+  Record render_;
+  std::map<std::string, std::string> picture_hashes_;
+  std::vector<Record> per_frame_;
+  PressFolder arrays_;
+  std::vector<std::size_t> frames_;
+  std::vector<std::string> variants_;
+  std::string variant_;
+  Sensor sensor_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,171 @@
+#include "stages/dataset/pack/shard_writer.h"
+
+#include <charconv>
+#include <map>
+
+#include "common/base/error.h"
+#include "common/base/packed_units.h"
+#include "common/base/sha256.h"
+
+namespace tacipc {
+namespace {
+
+/// Datasets with smaller frames lie in one piece: a chunk each would cost more than it holds.
+constexpr std::size_t kSmallestChunk = 2048;
+
+std::size_t count_of(const std::vector<std::size_t>& shape) {
+  std::size_t count = 1;
+  for (const std::size_t extent : shape) count *= extent;
+  return count;
+}
+
+std::string shape_text(const std::vector<std::size_t>& shape) {
+  std::string text;
+  for (const std::size_t extent : shape) text += fmt::format("{}{}", text.empty() ? "" : " x ", extent);
+  return text.empty() ? "one number" : text;
+}
+
+std::int64_t whole_number(const std::string& text) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) throw DataError("index '{}' is not a number", text);
+  return number;
+}
+
+std::string bytes_of(const Field& field, const Numbers& numbers) {
+  std::vector<double> values = numbers.values;
+  for (double& value : values) value *= field.scale;
+  return to_bytes(field.type, values);
+}
+
+}  // namespace
+
+Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample) {
+  const Record summary = sample.press().section("summary"), limits = summary.section("limits");
+  const Sensor& sensor = sample.sensor();
+  Value::Map lines{
+      {"id", plan.id},
+      {"index", whole_number(plan.index)},
+      {"split", plan.split},
+      {"split_pose", plan.split_pose},
+      {"seed", plan.seed},
+      {"sensor_id", sensor_id},
+      {"mesh", plan.mesh},
+      {"object_id", plan.object},
+      {"motion", plan.motion},
+      {"status", "made"},
+      {"n_frames", sample.frames().size()},
+      {"num_samples", sample.frames().size()},  // robomimic's name
+      {"press_frames", sample.press_frames()},
+      {"mu", summary.required_number("friction_coefficient")},
+      {"material_law", sensor.material.law},
+      {"E_Pa", sensor.material.youngs_modulus_pa},
+      {"nu", sensor.material.poissons_ratio},
+      {"density_kg_m3", sensor.material.density_kg_m3},
+      {"gel_thickness_mm", kMmPerM * sensor.gel.thickness_m},
+      {"element", summary.required_text("element")},
+      {"d_hat_mm", kMmPerM * summary.required_number("d_hat_m")},
+      {"verdict", summary.required_text("verdict")},
+      {"image_reference", sample.render().text("reference").value_or("") == "synthetic" ? "synthetic" : "photograph"},
+      {"clipped_fraction", sample.render().section("summary").required_number("clipped_fraction")},
+      {"press_version", sample.press().required_text("version")},
+      {"render_version", sample.render().required_text("version")},
+      {"press_sha256", sha256_of_file(sample.folder() / "press/press.yaml")},
+      {"render_sha256", sha256_of_file(sample.folder() / "render/render.yaml")},
+      {"sample_yaml", sample.config_text("press", "sample")},
+      {"press_yaml", sample.config_text("press", "config")},
+      {"render_yaml", sample.config_text("render", "config")}};
+  if (sample.press().section("inputs").has("path")) lines.emplace_back("path_csv", sample.config_text("press", "path"));
+  for (const std::string& name : limits.keys()) lines.emplace_back("limit_" + name, limits.required_number(name));
+  return lines;
+}
+
+ShardWriter::ShardWriter(const std::filesystem::path& path, const PackConfig& config, const Value::Map& root)
+    : config_(config), file_(path) {
+  for (const auto& [name, value] : root) file_.attribute("/", name, value);
+  file_.group("/data");
+  file_.group("/mask");
+  file_.group("/sensors");
+}
+
+void ShardWriter::add_sensor(const std::string& id, const Value::Map& camera) {
+  for (const auto& [known, lines] : sensors_)
+    if (known == id) return;
+  const std::string group = "/sensors/" + id;
+  file_.group(group);
+  for (const auto& [name, value] : camera) file_.attribute(group, name, value);
+  sensors_.emplace_back(id, camera);
+}
+
+void ShardWriter::write_field(const Field& field, const std::string& group, SampleFrames& sample) {
+  const std::string path = group + "/" + field.name;
+  const std::vector<std::size_t>& frames = sample.frames();
+  std::vector<std::size_t> frame_shape;
+  for (std::size_t i = 0; i < (field.per_frame ? frames.size() : 1); ++i) {
+    const FieldData data = field.read(sample, frames[i]);
+    const auto* numbers = std::get_if<Numbers>(&data);
+    if (!numbers && i == 0) {
+      file_.attribute(group, "absent_" + field.name, std::get<Absent>(data).reason);
+      return;
+    }
+    if (!numbers)
+      throw DataError("{}: {}: frame {} has none, frame 0 has", sample.folder().string(), field.path(), frames[i]);
+    const std::string bytes = bytes_of(field, *numbers);
+    if (i == 0) {
+      frame_shape = numbers->shape;
+      if (!field.per_frame) {
+        file_.write(path, field.type, frame_shape, bytes);
+        break;
+      }
+      std::vector<std::size_t> shape = frame_shape;
+      shape.insert(shape.begin(), frames.size());
+      file_.dataset(path, field.type, shape, count_of(frame_shape) * size_of(field.type) >= kSmallestChunk);
+    }
+    if (numbers->shape != frame_shape)
+      throw DataError("{}: {}: frame {} is {}, frame 0 is {}", sample.folder().string(), field.path(), frames[i],
+                      shape_text(numbers->shape), shape_text(frame_shape));
+    file_.write_frame(path, i, bytes);
+  }
+  for (const auto& [name, value] : attributes_of(field)) file_.attribute(path, name, value);
+}
+
+void ShardWriter::write_section(Section section, const std::string& group, SampleFrames& sample, bool variant) {
+  for (const Field* field : config_.packed) {
+    if (field->section != section || (variant && !field->in_variants)) continue;
+    file_.group(group);
+    write_field(*field, group, sample);
+  }
+}
+
+void ShardWriter::add_sample(const PlannedRow& plan, const std::string& sensor_id, SampleFrames& sample) {
+  const std::string group = "/data/" + plan.id;
+  file_.group(group);
+  for (const auto& [name, value] : sample_attributes(plan, sensor_id, sample)) file_.attribute(group, name, value);
+  for (const Section section : {Section::obs, Section::sim, Section::check})
+    write_section(section, fmt::format("{}/{}", group, name_of(section)), sample, false);
+  for (const std::string& variant : config_.variants ? sample.variants() : std::vector<std::string>()) {
+    sample.look_at(variant);
+    write_section(Section::obs, group + "/variants/" + variant, sample, true);
+    sample.look_at("");
+  }
+  ids_.push_back(plan.id);
+  splits_.emplace_back(plan.split, plan.id);
+  splits_.emplace_back("pose_" + plan.split_pose, plan.id);
+  frames_ += sample.frames().size();
+}
+
+void ShardWriter::close() {
+  std::map<std::string, std::vector<std::string>> lists;
+  for (const auto& [list, id] : splits_) lists[list].push_back(id);
+  for (const auto& [list, ids] : lists) file_.write_texts("/mask/" + list, ids);
+  file_.attribute("/data", "total", frames_);  // robomimic's name
+  file_.attribute("/", "samples", ids_.size());
+  if (sensors_.size() == 1) {
+    for (const auto& [name, value] : sensors_.front().second) file_.attribute("/", name, value);
+  } else {
+    file_.attribute("/", "absent_camera", fmt::format("the shard is of {} sensors: see /sensors", sensors_.size()));
+  }
+  file_.close();
+}
+
+}  // namespace tacipc

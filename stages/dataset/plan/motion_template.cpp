@@ -1,0 +1,167 @@
+#include "stages/dataset/plan/motion_template.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "common/base/files.h"
+
+namespace tacipc {
+namespace {
+
+constexpr int kMaxSteps = 100000;
+const std::vector<std::string> kKinds{"press", "shear", "twist", "tilt", "hold", "release", "load", "path"};
+
+/// Six digits: finer than any of these lengths and angles can be set, and short to read.
+std::string number_text(double value) { return fmt::format("{:.6g}", value); }
+
+int rows_of(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  int rows = 0;
+  bool blank = true, numeric = true, started = false;
+  for (const char c : text + "\n") {
+    if (c == '\n') {
+      if (!blank && (numeric || rows > 0)) ++rows;
+      blank = numeric = true;
+      started = false;
+    } else if (c != ' ' && c != '\t' && c != '\r') {
+      blank = false;
+      if (!started) numeric = (c >= '0' && c <= '9') || c == '.' || c == '+' || c == '-';  // else a heading
+      started = true;
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+Draw Draw::read(ConfigReader& in, const std::string& key, const Range& range) {
+  if (!in.is_list(key)) {
+    const double value = in.number(key, range);
+    return {value, value};
+  }
+  const auto ends = in.numbers(key, 2, range);
+  if (ends[0] > ends[1]) in.fault(key, "a range goes from the lower to the higher number");
+  return {ends[0], ends[1]};
+}
+
+Draw Draw::read_or(ConfigReader& in, const std::string& key, double fallback, const Range& range) {
+  if (in.has(key)) return read(in, key, range);
+  in.number_or(key, fallback);
+  return {fallback, fallback};
+}
+
+PhaseTemplate PhaseTemplate::read(ConfigReader& in) {
+  PhaseTemplate phase;
+  phase.kind = in.choice("kind", kKinds);
+  const auto take = [&](const std::string& key, const Range& range) {
+    phase.numbers.push_back({key, Draw::read(in, key, range)});
+  };
+  const auto take_if_given = [&](const std::string& key, const Range& range) {
+    if (in.has(key)) take(key, range);
+  };
+  if (phase.kind == "press") {
+    if (in.has("force_n") && in.has("depth_mm")) in.fault("force_n", "a press has a depth_mm or a force_n, not both");
+    take_if_given("force_n", Range::positive());
+    if (!in.has("force_n") || in.has("depth_mm")) take("depth_mm", Range::positive());
+  } else if (phase.kind == "shear") {
+    take("distance_mm", Range::positive());
+    take_if_given("direction_deg", Range::any());
+  } else if (phase.kind == "twist") {
+    take("angle_deg", Range::any());
+  } else if (phase.kind == "tilt") {
+    take("angle_deg", Range::between(-89.0, 89.0));
+    take_if_given("direction_deg", Range::any());
+  } else if (phase.kind == "release") {
+    take_if_given("height_mm", Range::any());
+  } else if (phase.kind == "load") {
+    const Vector3 force = in.vector3("force_n");
+    phase.words.push_back({"force_n", fmt::format("[{}, {}, {}]", number_text(force.x()), number_text(force.y()),
+                                                  number_text(force.z()))});
+    phase.words.push_back({"free", in.text_or("free", "xyz")});
+  }
+  if (phase.kind == "path") {
+    phase.path_file = (std::filesystem::path(in.source()).parent_path() / in.text("file")).lexically_normal();
+    phase.words.push_back({"relative_to", in.choice_or("relative_to", "placement", {"placement", "sensor"})});
+    if (in.has("file")) {
+      if (!std::filesystem::is_regular_file(phase.path_file)) {
+        in.fault("file", phase.path_file.string() + " does not exist");
+      } else {
+        phase.frames = rows_of(phase.path_file) - 1;
+        if (phase.frames < 1) in.fault("file", phase.path_file.string() + " has fewer than two rows");
+      }
+    }
+  } else {
+    phase.frames = in.integer("steps", 1, kMaxSteps);
+    phase.words.push_back({"steps", std::to_string(phase.frames)});
+  }
+  phase.words.push_back({"substeps", std::to_string(in.integer_or("substeps", 1, 1, 1000))});
+  return phase;
+}
+
+const Draw* PhaseTemplate::number(const std::string& key) const {
+  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const Number& n) { return n.key == key; });
+  return found == numbers.end() ? nullptr : &found->draw;
+}
+
+MotionTemplate MotionTemplate::read(ConfigReader& in) {
+  MotionTemplate motion;
+  if (auto placement = in.optional_section("placement")) {
+    if (placement->has("face")) motion.face = placement->choice("face", {"+x", "-x", "+y", "-y", "+z", "-z"});
+    motion.rotate_deg = Draw::read_or(*placement, "rotate_deg", 0.0, Range::any());
+    if (placement->is_list("center_mm")) {
+      const auto center = placement->numbers("center_mm", 2);
+      motion.center_x_mm = {center[0], center[0]};
+      motion.center_y_mm = {center[1], center[1]};
+    } else if (auto center = placement->optional_section("center_mm")) {
+      motion.center_x_mm = Draw::read(*center, "x", Range::any());
+      motion.center_y_mm = Draw::read(*center, "y", Range::any());
+    }
+  }
+  if (auto object = in.optional_section("object"))
+    motion.object_density_kg_m3 = object->number("density_kg_m3", Range::positive());
+  for (ConfigReader& phase : in.one_or_more_sections("motion")) motion.phases.push_back(PhaseTemplate::read(phase));
+  return motion;
+}
+
+int MotionTemplate::dimensions() const {
+  int count = center_x_mm.ranged() + center_y_mm.ranged() + rotate_deg.ranged();
+  for (const PhaseTemplate& phase : phases)
+    for (const auto& number : phase.numbers) count += number.draw.ranged();
+  return count;
+}
+
+int MotionTemplate::frames() const {
+  int frames = 0;
+  for (const PhaseTemplate& phase : phases) frames += phase.frames;
+  return frames;
+}
+
+double MotionTemplate::max_depth_mm() const {
+  double depth = 0.0;
+  for (const PhaseTemplate& phase : phases)
+    if (const Draw* draw = phase.number("depth_mm")) depth = std::max(depth, draw->high);
+  return depth;
+}
+
+std::string MotionTemplate::sample_yaml(const std::function<double(int)>& u,
+                                        const std::function<std::string(int)>& path_name) const {
+  int dimension = 0;
+  const auto value = [&](const Draw& draw) { return number_text(draw.ranged() ? draw.at(u(dimension++)) : draw.low); };
+  const std::string x = value(center_x_mm), y = value(center_y_mm);
+  std::string text = fmt::format("placement:\n  center_mm: [{}, {}]\n  rotate_deg: {}\n", x, y, value(rotate_deg));
+  if (face) text += fmt::format("  face: \"{}\"\n", *face);
+  if (object_density_kg_m3) text += fmt::format("object: {{density_kg_m3: {}}}\n", number_text(*object_density_kg_m3));
+  text += "motion:\n";
+  for (std::size_t p = 0; p < phases.size(); ++p) {
+    const PhaseTemplate& phase = phases[p];
+    text += "  - {kind: " + phase.kind;
+    if (phase.kind == "path") text += ", file: " + path_name(static_cast<int>(p));
+    for (const auto& number : phase.numbers) text += ", " + number.key + ": " + value(number.draw);
+    for (const auto& word : phase.words) text += ", " + word.key + ": " + word.text;
+    text += "}\n";
+  }
+  return text;
+}
+
+}  // namespace tacipc

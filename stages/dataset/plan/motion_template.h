@@ -1,0 +1,65 @@
+// Motions with ranges: what `press` takes as --sample, a number or [low, high] in each place that may vary.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/config.h"
+
+namespace tacipc {
+
+/// A number, or the interval that each sample draws it from.
+struct Draw {
+  double low = 0.0;
+  double high = 0.0;
+
+  bool ranged() const { return low < high; }
+  /// The value at u in [0, 1): low + u (high − low).
+  double at(double u) const { return low + u * (high - low); }
+  static Draw read(ConfigReader& in, const std::string& key, const Range& range);
+  static Draw read_or(ConfigReader& in, const std::string& key, double fallback, const Range& range);
+};
+
+/// One phase of a motion: the keys of press in the order they are written.
+struct PhaseTemplate {
+  struct Number {
+    std::string key;
+    Draw draw;
+  };
+  struct Word {
+    std::string key, text;
+  };
+  std::string kind;
+  std::vector<Number> numbers;
+  std::vector<Word> words;
+  int frames = 1;
+  std::filesystem::path path_file;  // of kind path
+
+  static PhaseTemplate read(ConfigReader& in);
+  const Draw* number(const std::string& key) const;
+};
+
+/// Placement and phases, as press reads them. Each ranged number is one dimension, in the order of `draws`.
+struct MotionTemplate {
+  Draw center_x_mm, center_y_mm, rotate_deg;
+  std::optional<std::string> face = std::nullopt;
+  std::optional<double> object_density_kg_m3 = std::nullopt;
+  std::vector<PhaseTemplate> phases = {};
+
+  /// The keys `placement`, `object` and `motion` of a map.
+  static MotionTemplate read(ConfigReader& in);
+  /// Numbers that samples draw.
+  int dimensions() const;
+  /// Frames after the first.
+  int frames() const;
+  /// Lowest place of the object below the undeformed front that a press to a depth may ask for, mm; 0 without one.
+  double max_depth_mm() const;
+  /// The sample that has u(d) in [0, 1) along dimension d, as YAML for press. `path_name(p)` is the file of phase p as
+  /// seen from the sample's folder.
+  std::string sample_yaml(const std::function<double(int)>& u, const std::function<std::string(int)>& path_name) const;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,145 @@
+#include "stages/dataset/plan/plan_files.h"
+
+#include <fmt/core.h>
+
+#include <map>
+#include <set>
+
+#include "common/base/checked_file.h"
+#include "common/base/files.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text.append(" ").append(word);
+  return text;
+}
+
+/// `samples/017/<id>` → `017`, and `017/<id>`.
+std::string block_of(const PlannedSample& sample) { return sample.folder().substr(8, 3); }
+std::string place_of(const PlannedSample& sample) { return sample.folder().substr(8); }
+
+std::string object_yaml(const ObjectChoice& object) {
+  return fmt::format("unit: {}\n", object.unit) + (object.up ? fmt::format("up: \"{}\"\n", *object.up) : "");
+}
+
+/// Files that render reads for a gel, but its settings.
+std::string files_of_render(const std::vector<Choice>& choices, const SensorChoice& sensor) {
+  std::vector<std::string> files;
+  for (const Choice& choice : choices)
+    if (choice.name == "render-" + sensor.gel())
+      for (auto chosen = choice.files.begin() + 1; chosen != choice.files.end(); ++chosen)
+        files.push_back(chosen->file.generic_string());
+  return joined(files);
+}
+
+std::string dataset_mk(const DatasetConfig& config, const std::vector<Choice>& choices,
+                       const std::vector<std::string>& blocks, const std::vector<std::string>& shards,
+                       std::size_t samples) {
+  std::string text = "# Made by the stage plan.\n";
+  const auto set = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("DATASET_{} := {}\n", name, value);
+  };
+  set("CHOICES", "$(DATASET_DIR)/choices");
+  set("SAMPLES", std::to_string(samples));
+  set("BLOCKS", joined(blocks));
+  set("RENDER", config.render.generic_string());
+  set("DECIMATE", config.decimate.generic_string());
+  set("PROFILE", config.pack);
+  set("KEEP", joined(config.keep));
+  set("SHARDS", joined(shards));
+  text += fmt::format("DATASET_STOP_AFTER ?= {}\n", config.stop_after_failures);
+  for (const SensorChoice& choice : config.sensors)
+    text += fmt::format("$(eval $(call dataset_gel,{},{},{},{},{}))\n", choice.gel(), choice.sensor.generic_string(),
+                        choice.mesh_config.generic_string(), choice.import ? choice.import->generic_string() : "",
+                        files_of_render(choices, choice));
+  for (const ObjectChoice& object : config.objects)
+    text += fmt::format("$(eval $(call dataset_{},{},{}))\n", object.embossed ? "embossed" : "mesh", object.name,
+                        object.file.generic_string());
+  return text;
+}
+
+/// Files and folders that the plan depends on.
+std::set<fs::path> inputs_of(const DatasetConfig& config, const std::vector<Choice>& choices) {
+  std::set<fs::path> paths(config.named.begin(), config.named.end());
+  for (const Choice& choice : choices)
+    for (const ChosenFile& chosen : choice.files) paths.insert(chosen.file);
+  return paths;
+}
+
+std::string inputs_txt(const std::set<fs::path>& inputs) {
+  std::string text;
+  for (const fs::path& path : inputs) text += path.generic_string() + "\n";
+  return text;
+}
+
+/// Missing files are a matter of the plan, which says so better than make.
+std::string inputs_mk(const std::set<fs::path>& inputs) {
+  std::string text = "$(DATASET_DIR)/plan/plan.yaml:", rules;
+  for (const fs::path& path : inputs) {
+    text.append(" ").append(path.generic_string());
+    rules += path.generic_string() + ":\n";
+  }
+  return "# Made by the stage plan.\n" + text + "\n" + rules;
+}
+
+/// Path files that a motion follows.
+std::string paths_of(const MotionChoice& motion) {
+  std::string text;
+  for (const PhaseTemplate& phase : motion.motion.phases)
+    if (!phase.path_file.empty()) text.append(" ").append(phase.path_file.generic_string());
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig& config,
+                                                            const std::vector<Choice>& choices,
+                                                            const std::vector<PlannedSample>& samples) {
+  std::vector<std::pair<std::string, std::string>> files{{"samples.csv", samples_csv(config, samples)}};
+  std::map<std::string, std::string> rules, members;
+  std::vector<std::string> blocks;
+  std::set<std::string> shards;
+  for (const PlannedSample& sample : samples) {
+    const std::string block = block_of(sample);
+    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+    const MotionChoice& motion = config.motions[static_cast<std::size_t>(sample.motion)];
+    rules[block] += fmt::format("$(eval $(call dataset_sample,{},{},{},{},{},{},{}))\n", place_of(sample),
+                                config.objects[static_cast<std::size_t>(sample.object)].name,
+                                config.sensors[static_cast<std::size_t>(sample.sensor)].gel(),
+                                motion.press.generic_string(), paths_of(motion), sample.seed, motion.name);
+    shards.insert(sample.shard);
+    members[block].append(" ").append(place_of(sample));
+  }
+  for (const std::string& block : blocks)
+    files.emplace_back("blocks/" + block + ".mk",
+                       rules[block] + "DATASET_BLOCK_" + block + " :=" + members[block] + "\n");
+  files.emplace_back("dataset.mk", dataset_mk(config, choices, blocks, {shards.begin(), shards.end()}, samples.size()));
+  const std::set<fs::path> inputs = inputs_of(config, choices);
+  files.emplace_back("inputs.mk", inputs_mk(inputs));
+  files.emplace_back("inputs.txt", inputs_txt(inputs));
+  for (std::size_t m = 0; m < config.motions.size(); ++m) {
+    const auto& phases = config.motions[m].motion.phases;
+    for (std::size_t p = 0; p < phases.size(); ++p)
+      if (!phases[p].path_file.empty())
+        files.emplace_back(path_name(config, static_cast<int>(m), static_cast<int>(p)), read_file(phases[p].path_file));
+  }
+  return files;
+}
+
+int write_dataset_files(const DatasetConfig& config, const std::vector<Choice>& choices,
+                        const std::vector<PlannedSample>& samples, const fs::path& dataset) {
+  write_choices(choices, dataset / "choices");
+  for (const ObjectChoice& object : config.objects)
+    replace_if_changed(dataset / "objects" / object.name / "object.yaml", object_yaml(object));
+  int written = 0;
+  for (const PlannedSample& sample : samples)
+    written += replace_if_changed(dataset / sample.folder() / "sample.yaml", sample_yaml(config, sample));
+  return written;
+}
+
+}  // namespace tacipc

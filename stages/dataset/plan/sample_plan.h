@@ -1,0 +1,52 @@
+// The samples of a dataset: names, seeds, splits, shards, and the numbers that each draws.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "stages/dataset/plan/dataset_config.h"
+
+namespace tacipc {
+
+enum class Split { train, val, test };
+const char* name_of(Split split);
+
+struct PlannedSample {
+  std::string id;  // <sensor>__<object>__<motion>__<index>
+  int index = 0;
+  int sensor = 0, object = 0, motion = 0;  // of the configuration's lists
+  int repetition = 0;                      // how many of the same sensor, object and motion there are before it
+  std::uint64_t seed = 0;                  // hash of the dataset's seed and the id
+  Split split = Split::train;              // by object: none of a split's objects is in another
+  Split split_pose = Split::train;         // by pose: a motion's n-th sample has the same for all objects and sensors
+  std::string shard = {};                  // <split>-00000-of-00001
+
+  /// Where it lies in the dataset: at most a thousand beside each other.
+  std::string folder() const;
+};
+
+/// Packed bytes of one rendered frame per pixel: 2.75 MB for 640 × 480 with the profile `full` (docs/pack.md).
+constexpr double kPackedBytesPerPixel = 9.0;
+
+/// Every sample, in the order of their indices: repetitions outermost, so that the first part of a dataset has all
+/// objects and motions in it, and more repetitions come last. `packed_bytes[sensor][motion]` is what a sample is
+/// expected to take in a shard.
+std::vector<PlannedSample> plan_samples(const DatasetConfig& config,
+                                        const std::vector<std::vector<double>>& packed_bytes);
+
+/// The number in [0, 1) that a sample draws along dimension d. Low discrepancy: point `repetition` of Sobol's sequence,
+/// shifted by a number of object and motion alone (modulo 1), so that all sensors see the same poses and the samples of
+/// an object fill the ranges evenly. Else a random number of the sample's own. [Cranley and Patterson 1976]
+double drawn_number(const DatasetConfig& config, const PlannedSample& sample, int dimension);
+
+/// What press reads as --sample. `plan_folder` is the plan's as seen from the sample's.
+std::string sample_yaml(const DatasetConfig& config, const PlannedSample& sample);
+
+/// Name in the plan's folder of the path file of a motion's phase.
+std::string path_name(const DatasetConfig& config, int motion, int phase);
+
+/// samples.csv: one row per sample.
+std::string samples_csv(const DatasetConfig& config, const std::vector<PlannedSample>& samples);
+
+}  // namespace tacipc

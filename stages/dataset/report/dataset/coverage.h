@@ -1,0 +1,50 @@
+// How numbers of many samples are spread: histograms, maps of pairs.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/axis.h"
+
+namespace tacipc {
+
+/// What a table tells of many values.
+struct Spread {
+  std::size_t count = 0;
+  double mean = 0.0, sum = 0.0;
+  double low = 0.0, p5 = 0.0, median = 0.0, p95 = 0.0, high = 0.0;
+};
+/// Nothing of no values. \pre all are finite
+std::optional<Spread> spread_of(std::vector<double> values);
+
+/// Counts in bins of equal, round width, of several groups. Bin i is [tick(i), tick(i + 1)); the last one includes its
+/// upper end.
+struct Histogram {
+  Axis bins;                                     // the bins' edges as ticks
+  std::vector<std::vector<std::size_t>> counts;  // group × bin
+
+  int num_bins() const { return bins.num_ticks() - 1; }
+  /// Of all groups together.
+  std::size_t total(int bin) const;
+  std::size_t largest() const;
+};
+/// At most `max_bins` bins over the values of all groups. \pre all are finite; max_bins ≥ 2
+Histogram histogram(const std::vector<std::vector<double>>& groups, int max_bins);
+
+/// Counts in cells of a plane: how often pairs of numbers occur.
+struct PairMap {
+  Axis x, y;  // cells reach from the axes' low to their high ends
+  int columns = 0, rows = 0;
+  std::vector<std::size_t> counts;  // row × column, row 0 at the smallest y
+
+  std::size_t largest() const;
+};
+/// Of equally many x and y. Axes have at most `max_ticks` ticks and hold zero. \pre all are finite; max_ticks ≥ 3
+PairMap pair_map(const std::vector<double>& x, const std::vector<double>& y, int columns, int rows, int max_ticks);
+
+/// `count` of `among` positions, evenly spread, the first among them; all where there are not more. Ascending.
+std::vector<std::size_t> evenly_chosen(std::size_t among, std::size_t count);
+
+}  // namespace tacipc

@@ -1,0 +1,25 @@
+// Spreads as drawings.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stages/dataset/report/dataset/coverage.h"
+
+namespace tacipc {
+
+/// Bars of a histogram, its groups in colours 1, 2, … one on the other. `what` is said to those who cannot see it.
+std::string histogram_svg(const Histogram& histogram, const std::vector<std::string>& groups, const std::string& what,
+                          const std::string& x_label);
+
+/// Cells of a map of pairs, the fuller the darker (by the logarithm of the count, so that single samples show).
+std::string pair_map_svg(const PairMap& map, const std::string& what, const std::string& x_label,
+                         const std::string& y_label);
+
+/// A row per name: a line from the smallest to the largest value, a bar from the 5th to the 95th percentile, a mark at
+/// the median.
+std::string spreads_svg(const std::vector<std::pair<std::string, Spread>>& rows, const std::string& what,
+                        const std::string& x_label);
+
+}  // namespace tacipc

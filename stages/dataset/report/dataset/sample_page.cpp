@@ -1,0 +1,114 @@
+#include "stages/dataset/report/dataset/sample_page.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "common/format/html_text.h"
+#include "common/image/image.h"
+#include "common/sample/render_folder.h"
+#include "stages/dataset/report/card.h"
+#include "stages/dataset/report/dataset/tally.h"
+#include "stages/dataset/report/scaled_picture.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kQuality = 88;
+
+/// Puts a smaller copy in the place of a picture, and links the original among the data.
+class PictureCopies {
+ public:
+  PictureCopies(SamplePage& page, SampleReport& sample, const fs::path& folder, int picture_px)
+      : page_(page), sample_(sample), folder_(folder), picture_px_(picture_px) {}
+
+  void take(fs::path& picture, const std::string& name, const std::string& label) {
+    const ByteImage image = read_png(picture, 3);
+    add(image, name, picture_px_);
+    sample_.data.emplace_back(label, picture);
+    picture = folder_ / picture_name(page_.shot.plan.id, name);
+  }
+  /// Width and height of the copy.
+  std::pair<int, int> add(const ByteImage& image, const std::string& name, int largest_px) {
+    const ByteImage copy =
+        std::max(image.width, image.height) > largest_px ? fitted_picture(image, largest_px, largest_px) : image;
+    const std::string file = picture_name(page_.shot.plan.id, name);
+    page_.pictures.emplace_back(file, jpeg_bytes(copy, kQuality, file));
+    return {copy.width, copy.height};
+  }
+
+ private:
+  SamplePage& page_;
+  SampleReport& sample_;
+  const fs::path& folder_;
+  int picture_px_;
+};
+
+void copy_pictures(SamplePage& page, SampleReport& sample, const fs::path& folder, const DatasetReportConfig& config) {
+  if (!sample.images) return;
+  PictureCopies copies(page, sample, folder, config.picture_px);
+  SampleImages& images = *sample.images;
+  page.shot.thumb_px = copies.add(read_png(images.tactile, 3), "thumb", config.thumb_px);
+  copies.take(images.tactile, "tactile", field_of(FrameFile::tactile).file);
+  copies.take(images.no_contact, "no_contact", field_of(FrameFile::tactile).file + " without contact");
+  if (images.markers) copies.take(*images.markers, "markers", field_of(FrameFile::marker).file);
+  copies.take(images.indentation, "indentation", field_of(FrameFile::indentation_picture).file);
+  copies.take(images.normal, "normal", field_of(FrameFile::normal_picture).file);
+  for (PhaseImage& image : sample.phase_images) {
+    const std::string name = frame_name(static_cast<std::size_t>(image.frame));
+    copies.take(image.tactile, name, name + "/" + field_of(FrameFile::tactile).file);
+  }
+}
+
+std::string planned_facts(const PlannedRow& plan) {
+  const std::pair<const char*, const std::string&> lines[] = {
+      {"object", plan.object}, {"motion", plan.motion},         {"sensor", plan.sensor}, {"mesh", plan.mesh},
+      {"split", plan.split},   {"pose split", plan.split_pose}, {"shard", plan.shard},   {"seed", plan.seed}};
+  std::string html = "<p class=\"files\">";
+  for (const auto& [name, value] : lines)
+    html += fmt::format("{}<span class=\"quiet\">{}</span> {}", name == lines[0].first ? "" : " · ", name,
+                        html_text(value));
+  return html + "</p>\n";
+}
+
+}  // namespace
+
+SamplePage make_sample_page(const PlannedRow& plan, const fs::path& dataset, const fs::path& folder,
+                            const DatasetReportConfig& config) {
+  SamplePage page{.shot = {.plan = plan}, .pictures = {}, .body = ""};
+  SampleReport sample = read_sample(dataset / plan.folder);
+  try {
+    copy_pictures(page, sample, folder, config);
+  } catch (const std::runtime_error& error) {
+    sample.images.reset();
+    sample.phase_images.clear();
+    page.pictures.clear();
+    page.shot.thumb_px.reset();
+    if (!sample.failure) sample.failure = error.what();
+  }
+  page.shot.passed = sample.passed();
+  page.body = "<p>" + verdict_badge(sample) + "</p>\n" + planned_facts(plan) + "<article class=\"card\">\n" +
+              sample_body(sample, folder / "samples", Loading::at_once) + "</article>\n";
+  return page;
+}
+
+std::string sample_page_html(const std::string& dataset, const SamplePage& page, const PlannedRow* before,
+                             const PlannedRow* after, const std::string& list_page) {
+  const auto neighbour = [](const PlannedRow* plan) -> std::optional<Neighbour> {
+    if (plan == nullptr) return std::nullopt;
+    return Neighbour{plan->id + ".html", fmt::format("{}, {} ({})", plan->object, plan->motion, plan->index)};
+  };
+  const std::string links = neighbours(neighbour(before), neighbour(after));
+  return site_page({.dataset = dataset,
+                    .heading = page.shot.plan.id,
+                    .up = "../",
+                    .main = page.body + links +
+                            fmt::format("<p><a href=\"../{}\">In the list of all samples</a> · <a "
+                                        "href=\"../index.html#legend\">How to read this page</a></p>\n",
+                                        list_page),
+                    .nav = links});
+}
+
+}  // namespace tacipc

@@ -1,0 +1,82 @@
+#include "stages/dataset/report/dataset/site.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "common/format/html_text.h"
+#include "stages/dataset/report/dataset/site_style.h"
+#include "stages/dataset/report/html.h"
+#include "stages/dataset/report/page_parts.h"
+
+namespace tacipc {
+namespace {
+
+/// A name as a link writes it.
+std::string linked(const std::string& name) { return html_link(name, "."); }
+
+}  // namespace
+
+std::string list_page_name(std::size_t page) { return fmt::format("list-{:03}.html", page + 1); }
+std::string sheet_page_name(std::size_t page) { return fmt::format("sheet-{:03}.html", page + 1); }
+std::string sample_page_name(const std::string& id) { return "samples/" + id + ".html"; }
+std::string picture_name(const std::string& id, const std::string& picture) {
+  return "pictures/" + id + "/" + picture + ".jpg";
+}
+
+std::string site_page(const SitePage& page) {
+  std::string html =
+      page_head(page.heading + (page.heading == page.dataset ? "" : " – " + page.dataset),
+                "<link rel=\"stylesheet\" href=\"" + page.up + "style.css\">\n<link rel=\"icon\" href=\"data:,\">");
+  html += "<body>\n<a class=\"skip\" href=\"#main\">Skip to the content</a>\n<header class=\"site\">\n";
+  html += fmt::format(
+      "<nav aria-label=\"Dataset\"><a class=\"home\" href=\"{0}index.html\">{1}</a> <a href=\"{0}{2}\">Contact "
+      "sheets</a> <a href=\"{0}{3}\">All samples</a> <a href=\"{0}index.html#coverage\">Coverage</a> <a "
+      "href=\"{0}index.html#frames\">Units and frames</a> <a href=\"{0}index.html#trust\">What the checks "
+      "prove</a></nav>\n",
+      page.up, html_text(page.dataset), sheet_page_name(0), list_page_name(0));
+  html += "</header>\n<main id=\"main\" tabindex=\"-1\">\n<h1>" + html_text(page.heading) + "</h1>\n" + page.nav +
+          page.main + "</main>\n";
+  return html + fmt::format(
+                    "<footer class=\"quiet\">Record of these pages: <a href=\"{}report.yaml\">report.yaml</a>"
+                    "</footer>\n</body>\n</html>\n",
+                    page.up);
+}
+
+std::string neighbours(const std::optional<Neighbour>& before, const std::optional<Neighbour>& after) {
+  std::string html = "<nav class=\"pager\" aria-label=\"Neighbours\">";
+  if (before)
+    html += fmt::format("<a rel=\"prev\" accesskey=\"p\" href=\"{}\">← {}</a> ", linked(before->link),
+                        html_text(before->words));
+  if (after)
+    html += fmt::format("<a rel=\"next\" accesskey=\"n\" href=\"{}\">{} →</a>", linked(after->link),
+                        html_text(after->words));
+  return html + "</nav>\n";
+}
+
+std::string pager(std::size_t page, std::size_t pages, std::string (*name)(std::size_t)) {
+  if (pages < 2) return "";
+  constexpr std::size_t kNear = 3;
+  std::string html = "<nav class=\"pager\" aria-label=\"Pages\">";
+  if (page > 0) html += fmt::format("<a rel=\"prev\" accesskey=\"p\" href=\"{}\">← previous</a> ", name(page - 1));
+  const std::size_t from = page > kNear ? page - kNear : 0, to = std::min(pages, page + kNear + 1);
+  const auto link = [&](std::size_t i) {
+    html += i == page ? fmt::format("<b aria-current=\"page\">{}</b> ", i + 1)
+                      : fmt::format("<a href=\"{}\">{}</a> ", name(i), i + 1);
+  };
+  if (from > 0) link(0);
+  if (from > 1) html += "… ";
+  for (std::size_t i = from; i < to; ++i) link(i);
+  if (to + 1 < pages) html += "… ";
+  if (to < pages) link(pages - 1);
+  if (page + 1 < pages) html += fmt::format("<a rel=\"next\" accesskey=\"n\" href=\"{}\">next →</a>", name(page + 1));
+  return html + "</nav>\n";
+}
+
+std::string site_style() { return page_style() + kSiteStyle; }
+
+std::string scroll_start(const std::string& label) {
+  return fmt::format("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">", html_text(label));
+}
+
+}  // namespace tacipc

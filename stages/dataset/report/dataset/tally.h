@@ -1,0 +1,102 @@
+// A dataset's samples counted and their numbers gathered, a few dozen bytes for each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "stages/dataset/report/dataset/coverage.h"
+#include "stages/dataset/report/dataset/sample_row.h"
+
+namespace tacipc {
+
+/// What coverage is shown of.
+struct Quantity {
+  const char* name;
+  const char* unit;  // empty: none
+  const char* meaning;
+  std::optional<double> SampleNumbers::*number;
+
+  std::string label() const { return unit[0] == '\0' ? name : std::string(name) + " (" + unit + ")"; }
+};
+inline constexpr std::array<Quantity, 5> kQuantities{{
+    {"depth", "mm", "deepest indentation that the camera sees", &SampleNumbers::depth_mm},
+    {"press force", "N", "into the gel", &SampleNumbers::press_force_n},
+    {"shear ratio", "", "tangential over press force", &SampleNumbers::shear_ratio},
+    {"twist", "°", "turn of the object about z since the first frame", &SampleNumbers::twist_deg},
+    {"contact area", "mm²", "of the front face that feels the object", &SampleNumbers::area_mm2},
+}};
+enum QuantityIndex : std::size_t { kDepth, kPressForce, kShearRatio, kTwist, kArea };
+
+struct StatusCounts {
+  std::array<std::size_t, 4> of{};
+
+  std::size_t operator[](SampleStatus status) const { return of[static_cast<std::size_t>(status)]; }
+  std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
+};
+
+/// Costs of one stage over many samples.
+struct CostColumn {
+  std::vector<double> wall_s, processor_s, memory_mb;
+  void add(const StageTimings& cost);
+};
+
+struct FailedSample {
+  PlannedRow plan;
+  Failure failure;
+};
+
+class DatasetTally {
+ public:
+  /// Keeps the first `kept_failures` failed samples; the others are counted.
+  explicit DatasetTally(std::size_t kept_failures) : kept_failures_(kept_failures) {}
+  void add(const SampleRow& row);
+
+  const StatusCounts& all() const { return all_; }
+  std::size_t dropped() const { return dropped_; }
+  /// By column ("split", "pose split", "gel", "object", "motion") and word.
+  const std::map<std::string, std::map<std::string, StatusCounts>>& counts() const { return counts_; }
+
+  /// Values of a quantity of made samples, by the word of a column, for those that have it.
+  std::map<std::string, std::vector<double>> values(std::size_t quantity, const std::string& column) const;
+  /// Two quantities of the made samples that have both.
+  std::pair<std::vector<double>, std::vector<double>> pairs(std::size_t first, std::size_t second) const;
+
+  const CostColumn& press() const { return press_; }
+  const CostColumn& render() const { return render_; }
+
+  const std::vector<FailedSample>& failures() const { return failures_; }
+  /// How often samples failed by stage and check.
+  const std::map<std::string, std::size_t>& failures_by_kind() const { return failure_kinds_; }
+
+  /// Over all made samples.
+  std::optional<double> worst_balance() const { return worst_balance_; }
+  std::optional<double> smallest_distance_m() const { return smallest_distance_m_; }
+  std::optional<double> smallest_volume_ratio() const { return smallest_volume_ratio_; }
+
+ private:
+  /// Words of a column as numbers, and which each made sample has.
+  struct Words {
+    std::map<std::string, std::uint32_t> number;
+    std::vector<std::uint32_t> of_sample;
+    void add(const std::string& word);
+  };
+
+  std::size_t kept_failures_;
+  StatusCounts all_;
+  std::size_t dropped_ = 0;
+  std::map<std::string, std::map<std::string, StatusCounts>> counts_;
+  std::map<std::string, Words> words_;                           // of made samples
+  std::array<std::vector<double>, kQuantities.size()> numbers_;  // of made samples; NaN where there is none
+  CostColumn press_, render_;
+  std::vector<FailedSample> failures_;
+  std::map<std::string, std::size_t> failure_kinds_;
+  std::optional<double> worst_balance_, smallest_distance_m_, smallest_volume_ratio_;
+};
+
+/// Sensor and mesh, as the plan names gels.
+inline std::string gel_of(const PlannedRow& plan) { return plan.sensor + "-" + plan.mesh; }
+
+}  // namespace tacipc

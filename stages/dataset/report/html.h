@@ -1,0 +1,19 @@
+// Small pieces of HTML: links between folders, numbers people can read.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace tacipc {
+
+/// How a page in `folder` names `file`: a relative path with '/', bytes other than letters, digits and -._~/ as %XX.
+/// Both are taken as they are written, without following links, as a browser does.
+std::string html_link(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// `value` × `scale` with `digits` significant digits and no exponent between 1e-3 and 1e6; "–" if there is none.
+std::string number_text(std::optional<double> value, double scale = 1.0, int digits = 3);
+/// Whole numbers with a narrow gap between thousands; "–" if there is none.
+std::string count_text(std::optional<int> value);
+
+}  // namespace tacipc

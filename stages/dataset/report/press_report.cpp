@@ -1,0 +1,238 @@
+#include "stages/dataset/report/press_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/mesh/triangle_mesh.h"
+#include "common/sample/press_folder.h"
+#include "common/sample/sample_status.h"
+#include "common/stage/record.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file's name, or where every file is called object.ply its folder's.
+std::string object_name(const fs::path& mesh) {
+  const std::string stem = mesh.stem().string();
+  return stem == "object" && mesh.has_parent_path() ? mesh.parent_path().filename().string() : stem;
+}
+
+PlacementReport read_placement(const Record& press) {
+  const Record chosen = press.section("config").section("sample").section("placement");
+  const auto up = press.section("config").section("object-config").text("up");
+  PlacementReport placement;
+  placement.face = press.section("summary").text("face").value_or("unknown");
+  placement.chosen = chosen.has("face") ? "named by the sample"
+                     : up               ? "opposite of the object's up side " + *up
+                                        : "default";
+  placement.rotate_deg = chosen.number("rotate_deg").value_or(0.0);
+  const auto center = chosen.numbers("center_mm", 2).value_or(std::vector<double>{0.0, 0.0});
+  placement.center_x_mm = center[0];
+  placement.center_y_mm = center[1];
+  return placement;
+}
+
+/// The object that was pressed, or, where it is not there any more, why not.
+std::optional<Positions> read_pressed_object(const fs::path& folder, const Record& press, std::string& why) {
+  const Record object = press.section("inputs").section("object");
+  const fs::path path = (folder / object.text("path").value_or("")).lexically_normal();
+  if (!object.has("path") || !fs::is_regular_file(path))
+    why = "the object's mesh is not there";
+  else if (object.text("hash") != content_hash(path))
+    why = "the object's mesh has changed since the press";
+  else
+    return read_triangle_mesh(path, 1.0).positions;
+  return std::nullopt;
+}
+
+/// Depth of the object's lowest point below z = 0, whatever way it moved and turned.
+double depth_at(const Matrix4& gel_from_object, const Positions& object) {
+  const Vector3 up = gel_from_object.row(2).head<3>();  // how height grows in the object's own frame
+  return 0.0 - ((object * up).minCoeff() + gel_from_object(2, 3));
+}
+
+std::vector<FrameReport> read_frames(const Record& summary) {
+  std::vector<FrameReport> frames;
+  for (const Record& record : summary.sections("per_frame")) {
+    frames.push_back({.depth_m = std::nullopt,
+                      .press_force_n = record.required_number("press_force_n"),
+                      .newton_iterations = record.required_count("newton_iterations"),
+                      .min_gap_m = record.required_number("min_gap_m"),
+                      .min_volume_ratio = record.required_number("min_volume_ratio"),
+                      .time_s = record.number("time_s"),
+                      .phase = record.text("phase").value_or(""),
+                      .tangential_force_n = record.number("tangential_force_n"),
+                      .torque_z_n_m = std::nullopt,
+                      .balance_n = record.number("balance_n"),
+                      .balance_relative = record.number("balance_relative"),
+                      .contact_area_mm2 = record.number("contact_area_mm2"),
+                      .mean_pressure_pa = record.number("mean_pressure_pa"),
+                      .peak_pressure_pa = record.number("peak_pressure_pa"),
+                      .pose_error_m = record.number("pose_error_m"),
+                      .sticking = record.count("sticking"),
+                      .slipping = record.count("slipping"),
+                      .substeps = record.count("substeps")});
+  }
+  if (frames.empty()) throw DataError("press.yaml: summary.per_frame: has no frames");
+  return frames;
+}
+
+void add_torques(const PressFolder& press, std::vector<FrameReport>& frames) {
+  if (!press.has(PressArray::wrench)) return;
+  const std::vector<Wrench> wrenches = press.wrenches();
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].torque_z_n_m = wrenches[i].torque_n_m.z();
+}
+
+/// Depths of all frames, and the one that counts for the sample: at the end of the press, or else the deepest.
+void add_depths(const PressFolder& arrays, const Record& press, SampleReport& sample) {
+  const std::vector<Matrix4> poses = arrays.poses();
+  std::string why;
+  const auto object = read_pressed_object(arrays.folder(), press, why);
+  if (!object) {
+    sample.warnings.push_back("press: " + why + ", so the depths per frame are not known");
+    return;
+  }
+  for (std::size_t i = 0; i < sample.frames.size(); ++i) sample.frames[i].depth_m = depth_at(poses[i], *object);
+  if (sample.press_end_frame) {
+    sample.depth_m = sample.frames[static_cast<std::size_t>(*sample.press_end_frame)].depth_m;
+  } else {
+    sample.depth_m.reset();
+    for (const FrameReport& frame : sample.frames) sample.depth_m = std::max(sample.depth_m, frame.depth_m);
+  }
+}
+
+DecimateReport read_decimate(const Record& record) {
+  constexpr std::pair<const char*, const char*> kRepairs[] = {{"unreferenced_vertices", "unused vertices removed"},
+                                                              {"merged_vertices", "vertices merged"},
+                                                              {"degenerate_faces", "faces without area treated"},
+                                                              {"duplicate_faces", "duplicate faces removed"},
+                                                              {"reoriented_faces", "faces turned over"},
+                                                              {"split_vertices", "vertices split"},
+                                                              {"filled_holes", "holes filled"},
+                                                              {"hole_faces", "faces added in holes"},
+                                                              {"debris_components", "loose bits removed"},
+                                                              {"hidden_components", "hidden parts removed"}};
+  constexpr std::pair<const char*, const char*> kLeft[] = {{"overlapping_components", "parts that overlap"},
+                                                           {"self_intersections", "crossing faces in the scan"}};
+  const Record summary = record.section("summary");
+  DecimateReport report;
+  report.vertices_in = summary.count("input_vertices");
+  report.vertices_out = summary.count("vertices");
+  report.hausdorff_mm = summary.section("hausdorff_mm").number("max");
+  report.passed_through = summary.flag("passed_through").value_or(false);
+  const auto add = [&](const Record& record_part, const auto& keys) {
+    for (const auto& [key, words] : keys) {
+      if (const int count = record_part.count(key).value_or(0); count > 0) report.findings.emplace_back(words, count);
+    }
+  };
+  add(summary.section("repairs"), kRepairs);
+  add(summary, kLeft);
+  return report;
+}
+
+void read_object(const fs::path& press_folder, const Record& press, SampleReport& sample) {
+  const auto gel = press.section("inputs").section("gel").text("path");
+  if (gel) link_if_there(sample.records, "tetmesh.yaml", (press_folder / *gel).parent_path() / "tetmesh.yaml");
+  const auto object = press.section("inputs").section("object").text("path");
+  if (!object) return;
+  sample.object = object_name(*object);
+  const fs::path record_path = ((press_folder / *object).parent_path() / "decimate.yaml").lexically_normal();
+  if (!fs::is_regular_file(record_path)) return;
+  link_if_there(sample.records, "decimate.yaml", record_path);
+  const Record record = Record::from_file(record_path);
+  if (const auto scan = record.section("inputs").section("mesh").text("path")) sample.object = object_name(*scan);
+  sample.decimate = read_decimate(record);
+}
+
+void read_summary(const Record& summary, SampleReport& sample) {
+  sample.press_force_n = summary.required_number("press_force_n");
+  sample.tangential_force_n = summary.number("tangential_force_n");
+  sample.min_distance_m = summary.required_number("min_distance_m");
+  sample.min_volume_ratio = summary.required_number("min_volume_ratio");
+  sample.newton_iterations = summary.required_count("newton_iterations");
+  sample.gel_vertices = summary.required_count("gel_vertices");
+  sample.friction_coefficient = summary.number("friction_coefficient");
+  sample.first_slip_time_s = summary.number("first_slip_time_s");
+  sample.gross_slip_time_s = summary.number("gross_slip_time_s");
+  sample.element = summary.text("element").value_or("");
+  sample.frames = read_frames(summary);
+  sample.press_end_frame = summary.count("press_end_frame");
+  sample.balance_limit = summary.section("limits").number("balance_relative");
+}
+
+/// What the arrays tell; nothing where they were dropped after packing.
+void add_arrays(const fs::path& folder, const Record& press, SampleReport& sample) {
+  if (was_dropped(folder)) {
+    sample.warnings.push_back(
+        "press: its arrays were dropped after packing, so depths per frame, torques and markers are not shown");
+    return;
+  }
+  const PressFolder arrays(folder, {{kFrames, sample.frames.size()}});
+  add_depths(arrays, press, sample);
+  add_torques(arrays, sample.frames);
+  sample.marker_pictures = read_marker_pictures(folder, static_cast<int>(sample.frames.size()), sample.press_end_frame,
+                                                pictured_frames(sample));
+}
+
+}  // namespace
+
+void link_if_there(std::vector<std::pair<std::string, fs::path>>& links, const std::string& label,
+                   const fs::path& path) {
+  if (fs::is_regular_file(path)) links.emplace_back(label, path);
+}
+
+std::vector<int> pictured_frames(const SampleReport& sample) {
+  constexpr int kMaxPictures = 4;
+  return chosen_frames(sample.phases, static_cast<int>(sample.frames.size()), kMaxPictures);
+}
+
+void read_press_record(const Record& press, SampleReport& sample) {
+  const Record summary = press.section("summary");
+  sample.name = press.text("name").value_or(sample.name);
+  read_summary(summary, sample);
+  sample.placement = read_placement(press);
+  const Record asked = press.section("config").section("sample");
+  sample.motion = motion_text(asked);
+  if (const auto depth_mm = asked_depth_mm(asked)) sample.depth_m = 1e-3 * *depth_mm;
+  std::vector<std::string> names;
+  for (const FrameReport& frame : sample.frames) names.push_back(frame.phase);
+  sample.phases = phases_of(names, asked);
+  sample.checks = checks_of(summary, sample.frames);
+}
+
+void judge_press(const Record& press, const SampleReport& sample) {
+  const Record summary = press.section("summary");
+  if (!summary.required_flag("converged")) throw SolverError("press: Newton did not converge");
+  const CountLimits limits = count_limits(summary);
+  if (const int count = summary.required_count("intersections"); count > limits.intersections)
+    throw SolverError("press: {} triangle pairs intersect", count);
+  if (const int count = summary.required_count("inverted_tets"); count > limits.inverted_tets)
+    throw SolverError("press: {} tetrahedra are inverted", count);
+  for (const CheckReport& check : sample.checks) {
+    if (check.held) continue;
+    const std::string where = check.frame ? fmt::format(" in frame {}", *check.frame) : "";
+    throw SolverError("press: {} is {}{}, the limit is {}", check.name, check.value, where, check.limit);
+  }
+  if (const auto verdict = summary.text("verdict"); verdict.value_or("pass") != "pass")
+    throw SolverError("press: its verdict is {}", *verdict);
+}
+
+void read_press(const fs::path& folder, SampleReport& sample) {
+  const Record press = Record::from_file(folder / "press.yaml");
+  read_press_record(press, sample);
+  if (sample.press_end_frame.value_or(0) >= static_cast<int>(sample.frames.size())) {
+    throw DataError("{}: summary.press_end_frame: {} is not one of the {} frames", (folder / "press.yaml").string(),
+                    *sample.press_end_frame, sample.frames.size());
+  }
+  read_object(folder, press, sample);
+  add_arrays(folder, press, sample);
+  judge_press(press, sample);
+}
+
+}  // namespace tacipc

@@ -1,0 +1,97 @@
+#include "stages/dataset/report/verdict.h"
+
+#include <fmt/core.h>
+
+#include <functional>
+
+#include "stages/dataset/report/html.h"
+#include "stages/dataset/report/sample.h"
+
+namespace tacipc {
+namespace {
+
+struct Extreme {
+  double value;
+  std::optional<int> frame;
+};
+
+/// The worst of a summary's number and the frames' own, with the frame where it occurred.
+template <typename Number, typename Worse>
+std::optional<Extreme> extreme(std::optional<double> in_summary, const std::vector<FrameReport>& frames,
+                               Number&& number, Worse&& worse) {
+  std::optional<Extreme> found;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::optional<double> value = number(frames[i]);
+    if (value && (!found || worse(*value, found->value))) found = Extreme{*value, static_cast<int>(i)};
+  }
+  if (in_summary && (!found || worse(*in_summary, found->value))) found = Extreme{*in_summary, std::nullopt};
+  return found;
+}
+
+std::string with_unit(double value, double scale, const char* unit) { return number_text(value, scale) + unit; }
+
+CheckReport at_most(const Record& summary, const char* key, const char* name, int limit) {
+  const int count = summary.required_count(key);
+  return {name, count_text(count), count_text(limit), std::nullopt, count <= limit};
+}
+
+CheckReport above(const char* name, const Extreme& smallest, double limit, double scale, const char* unit) {
+  const std::string text = limit == 0.0 ? "0" : with_unit(limit, scale, unit);
+  return {name, with_unit(smallest.value, scale, unit), "above " + text, smallest.frame, smallest.value > limit};
+}
+
+}  // namespace
+
+CountLimits count_limits(const Record& summary) {
+  const Record limits = summary.section("limits");
+  return {.intersections = limits.count("intersections").value_or(0),
+          .inverted_tets = limits.count("inverted_tets").value_or(0)};
+}
+
+std::vector<CheckReport> checks_of(const Record& summary, const std::vector<FrameReport>& frames) {
+  const bool converged = summary.required_flag("converged");
+  std::vector<CheckReport> checks;
+  checks.push_back({"Newton's method", converged ? "converged" : "did not converge", "converged in every frame",
+                    std::nullopt, converged});
+  const Record limits = summary.section("limits");
+  const CountLimits counts = count_limits(summary);
+  checks.push_back(at_most(summary, "intersections", "triangle pairs that intersect", counts.intersections));
+  checks.push_back(at_most(summary, "inverted_tets", "tetrahedra that are inverted", counts.inverted_tets));
+  const auto gap = extreme(
+      summary.required_number("min_distance_m"), frames,
+      [](const FrameReport& f) { return std::optional(f.min_gap_m); }, std::less<>());
+  checks.push_back(above("smallest distance", *gap, limits.number("smallest_distance_m").value_or(0.0), 1e6, " µm"));
+  const auto ratio = extreme(
+      summary.required_number("min_volume_ratio"), frames,
+      [](const FrameReport& f) { return std::optional(f.min_volume_ratio); }, std::less<>());
+  checks.push_back(above("smallest volume ratio", *ratio, limits.number("volume_ratio").value_or(0.0), 1, ""));
+  const auto balance = extreme(
+      summary.number("max_balance_relative"), frames, [](const FrameReport& f) { return f.balance_relative; },
+      std::greater<>());
+  if (const auto limit = limits.number("balance_relative"); balance && limit) {
+    std::string text = with_unit(*limit, 100, " %");
+    if (const auto smallest_n = limits.number("smallest_contact_n"))
+      text += ", or " + with_unit(*limit * *smallest_n, 1e6, " µN");
+    checks.push_back({"force imbalance", with_unit(balance->value, 100, " % of the contact force"), text,
+                      balance->frame, balance->value <= *limit});
+  }
+  const auto pose = extreme(
+      summary.number("max_pose_error_m"), frames, [](const FrameReport& f) { return f.pose_error_m; },
+      std::greater<>());
+  if (const auto limit = limits.number("pose_error_m"); pose && limit) {
+    checks.push_back({"distance from the asked pose", with_unit(pose->value, 1e9, " nm"), with_unit(*limit, 1e9, " nm"),
+                      pose->frame, pose->value <= *limit});
+  }
+  return checks;
+}
+
+FailedCheck read_failed_check(const Record& failed) {
+  FailedCheck result{.message = failed.text("message").value_or(""), .check = std::nullopt};
+  if (const auto name = failed.text("check")) {
+    const auto as_written = [&](const char* key) { return failed.text(key).value_or("–"); };
+    result.check = CheckReport{*name, as_written("value"), as_written("limit"), failed.count("frame"), false};
+  }
+  return result;
+}
+
+}  // namespace tacipc

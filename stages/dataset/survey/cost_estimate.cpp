@@ -1,0 +1,204 @@
+#include "stages/dataset/survey/cost_estimate.h"
+
+#include <fmt/core.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/sample/dataset_plan.h"
+#include "common/sample/sample_spec.h"
+#include "common/sensor/averaged_volume.h"
+#include "common/stage/record.h"
+#include "common/stage/stage_timings.h"
+#include "stages/dataset/survey/plan_lock.h"
+
+namespace tacipc {
+namespace fs = std::filesystem;
+namespace {
+
+/// Made samples whose bytes are counted.
+constexpr std::size_t kMeasuredFolders = 200;
+
+/// Samples of one gel and one motion.
+struct Group {
+  std::size_t planned = 0;
+  std::size_t timed = 0, weighed = 0;                   // made samples with known seconds, and with known bytes
+  double seconds = 0.0, bytes = 0.0;                    // of these
+  double modelled_seconds = 0.0, modelled_bytes = 0.0;  // of one sample
+};
+
+GelSize size_of(const Record& tetmesh) {
+  const Record summary = tetmesh.section("summary"), sensor = tetmesh.section("config").section("sensor"),
+               camera = sensor.section("camera");
+  return {.vertices = summary.required_number("vertices"),
+          .front_vertices = summary.section("front").required_number("vertices"),
+          .pixels = camera.required_number("width_px") * camera.required_number("height_px"),
+          .poissons_ratio = sensor.section("material").required_number("poissons_ratio")};
+}
+
+MotionLength length_of(const SampleSpec& sample) {
+  MotionLength length;
+  for (const Phase& phase : sample.motion)
+    (phase.kind == PhaseKind::press ? length.press_frames : length.other_frames) += phase.steps;
+  return length;
+}
+
+/// Whether the samples are rendered in all their frames. Of the configuration of render nothing else matters here.
+bool renders_all_frames(const fs::path& dataset) {
+  const Record plan = Record::from_file(dataset / "plan/plan.yaml");
+  const fs::path path = plan.section("inputs").section("render").required_text("path");
+  return Record::from_file(dataset / "plan" / path).text("frames") == "all";
+}
+
+std::optional<double> processor_seconds(const fs::path& sample) {
+  std::optional<double> seconds;
+  for (const char* file : {"press/press.timings.yaml", "render/render.timings.yaml"})
+    if (fs::exists(sample / file)) seconds = seconds.value_or(0.0) + read_timings(sample / file).processor_s;
+  return seconds;
+}
+
+double allocated_bytes(const fs::path& path) {
+  struct stat found {};
+  return ::lstat(path.c_str(), &found) == 0 ? 512.0 * static_cast<double>(found.st_blocks) : 0.0;
+}
+
+/// What a folder takes on the disk.
+double disk_bytes(const fs::path& folder) {
+  double bytes = allocated_bytes(folder);
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    bytes += allocated_bytes(entry.path());
+  return bytes;
+}
+
+/// Whether the i-th of `count` is among kMeasuredFolders that are spread over all.
+bool is_weighed(std::size_t i, std::size_t count) {
+  return count <= kMeasuredFolders || (i + 1) * kMeasuredFolders / count != i * kMeasuredFolders / count;
+}
+
+}  // namespace
+
+CostModel CostModel::read(ConfigReader& in) {
+  return {.press_frame_s = in.number("press_frame_s", Range::positive()),
+          .motion_frame_s = in.number("motion_frame_s", Range::positive()),
+          .vertices_exponent = in.number("vertices_exponent"),
+          .contacts_exponent = in.number("contacts_exponent"),
+          .averaged_volume_factor = in.number("averaged_volume_factor", Range::positive())};
+}
+
+double modelled_seconds(const CostModel& model, const GelSize& gel, const MotionLength& motion, bool all_frames) {
+  // On average over a press half of a third of the front touches.
+  const double touching = gel.front_vertices / 6.0;
+  const double frame = std::pow(gel.vertices / 1000.0, model.vertices_exponent) *
+                       std::pow(1.0 + touching / 100.0, model.contacts_exponent) *
+                       (gel.poissons_ratio >= kAveragedVolumeFrom ? model.averaged_volume_factor : 1.0);
+  constexpr double kStart_s = 0.1, kPixel_s = 5e-6;  // of both stages; of render, for a frame
+  const int rendered = all_frames ? motion.press_frames + motion.other_frames + 1 : 2;
+  return frame * (model.press_frame_s * motion.press_frames + model.motion_frame_s * motion.other_frames) + kStart_s +
+         kPixel_s * gel.pixels * rendered;
+}
+
+double modelled_bytes(const GelSize& gel, const MotionLength& motion, bool all_frames) {
+  // Of a frame of press: a position of each vertex; two forces and a state of each one of the front; the rest, most of
+  // it tractions and markers. Of a pixel that render makes: its pictures.
+  constexpr double kVertex = 24.0, kFrontVertex = 49.0, kFrame = 63000.0, kPixel = 53.0;
+  const int frames = motion.press_frames + motion.other_frames + 1;
+  return frames * (kVertex * gel.vertices + kFrontVertex * gel.front_vertices + kFrame) +
+         kPixel * gel.pixels * (all_frames ? frames : 2);
+}
+
+CostEstimate estimate_cost(const fs::path& dataset, const CostModel& model) {
+  const fs::path table = samples_table(dataset);
+  const bool all_frames = renders_all_frames(dataset);
+  const auto is_made = [&](const PlannedRow& row) { return fs::exists(dataset / row.folder / "render/render.yaml"); };
+  std::size_t made = 0;
+  for_each_planned(table, std::nullopt, [&](const PlannedRow& row) { made += is_made(row) ? 1 : 0; });
+
+  std::map<std::string, GelSize> gels;
+  std::map<std::string, MotionLength> motions;
+  std::map<std::pair<std::string, std::string>, Group> groups;
+  std::size_t made_before = 0;
+  for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
+    const std::string gel = row.sensor + "-" + row.mesh;
+    if (!gels.contains(gel)) gels[gel] = size_of(Record::from_file(dataset / "gels" / gel / "tetmesh.yaml"));
+    if (!motions.contains(row.motion))
+      motions[row.motion] = length_of(read_config<SampleSpec>(dataset / row.folder / "sample.yaml"));
+    Group& group = groups[{gel, row.motion}];
+    if (group.planned++ == 0) {
+      group.modelled_seconds = modelled_seconds(model, gels[gel], motions[row.motion], all_frames);
+      group.modelled_bytes = modelled_bytes(gels[gel], motions[row.motion], all_frames);
+    }
+    if (!is_made(row)) return;
+    if (const auto seconds = processor_seconds(dataset / row.folder)) {
+      ++group.timed;
+      group.seconds += *seconds;
+    }
+    if (is_weighed(made_before++, made)) {
+      ++group.weighed;
+      group.bytes += disk_bytes(dataset / row.folder);
+    }
+  });
+
+  double seconds = 0.0, by_model_s = 0.0, bytes = 0.0, by_model_bytes = 0.0;
+  for (const auto& [name, group] : groups) {
+    seconds += group.seconds;
+    by_model_s += static_cast<double>(group.timed) * group.modelled_seconds;
+    bytes += group.bytes;
+    by_model_bytes += static_cast<double>(group.weighed) * group.modelled_bytes;
+  }
+  const double scale_s = by_model_s > 0.0 ? seconds / by_model_s : 1.0;
+  const double scale_bytes = by_model_bytes > 0.0 ? bytes / by_model_bytes : 1.0;
+  CostEstimate estimate{.seconds_spent = seconds};
+  for (const auto& [name, group] : groups) {
+    const double planned = static_cast<double>(group.planned), timed = static_cast<double>(group.timed);
+    const double each_s = group.timed > 0 ? group.seconds / timed : scale_s * group.modelled_seconds;
+    const double each_bytes =
+        group.weighed > 0 ? group.bytes / static_cast<double>(group.weighed) : scale_bytes * group.modelled_bytes;
+    estimate.samples += group.planned;
+    estimate.made += group.timed;
+    estimate.unmeasured += group.timed > 0 ? 0 : group.planned;
+    estimate.seconds += planned * each_s;
+    estimate.bytes += planned * each_bytes;
+    estimate.bytes_left += (planned - timed) * each_bytes;
+  }
+  return estimate;
+}
+
+std::string to_text(const CostEstimate& estimate, const fs::path& dataset) {
+  std::string text = fmt::format("{}: {} samples: {:.3g} core-hours ({:.3g} s a sample), {:.3g} GB on disk\n",
+                                 name_of_dataset(dataset), estimate.samples, estimate.seconds / 3600.0,
+                                 estimate.seconds / static_cast<double>(estimate.samples), estimate.bytes / 1e9);
+  if (estimate.made == 0)
+    return text +
+           "  by the cost model alone, within a factor of three or so; PILOT=20 makes twenty samples first and "
+           "measures\n";
+  text += fmt::format("  measured on {} made samples, {:.3g} core-hours so far", estimate.made,
+                      estimate.seconds_spent / 3600.0);
+  if (estimate.unmeasured > 0)
+    text += fmt::format("; {} samples of other motions or gels by the cost model", estimate.unmeasured);
+  return text + "\n";
+}
+
+std::vector<std::string> pilot_samples(const fs::path& dataset, std::size_t count) {
+  const fs::path table = samples_table(dataset);
+  std::size_t all = 0;
+  for_each_planned(table, std::nullopt, [&](const PlannedRow&) { ++all; });
+  constexpr double kGoldenRatio = 0.6180339887;
+  std::set<std::size_t> taken;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = 0.5 + static_cast<double>(i) * kGoldenRatio;
+    taken.insert(static_cast<std::size_t>(static_cast<double>(all) * (x - std::floor(x))));
+  }
+  std::vector<std::string> folders;
+  std::size_t i = 0;
+  for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
+    if (taken.contains(i++)) folders.push_back(fs::path(row.folder).lexically_relative("samples").string());
+  });
+  return folders;
+}
+
+}  // namespace tacipc

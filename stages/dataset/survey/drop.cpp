@@ -1,0 +1,105 @@
+#include "stages/dataset/survey/drop.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/sha256.h"
+#include "common/format/csv.h"
+#include "common/sample/dataset_plan.h"
+#include "common/sample/sample_status.h"
+#include "common/stage/record.h"
+#include "stages/dataset/survey/plan_lock.h"
+
+namespace tacipc {
+namespace fs = std::filesystem;
+namespace {
+
+/// The lock of a stage of a sample, if nobody else has it.
+class MakingLock {
+ public:
+  explicit MakingLock(const fs::path& stage_folder)
+      : file_(::open((stage_folder / ".making").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)),
+        held_(file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0) {}
+  ~MakingLock() {
+    if (file_ >= 0) ::close(file_);
+  }
+  MakingLock(const MakingLock&) = delete;
+  MakingLock& operator=(const MakingLock&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  int file_;
+  bool held_;
+};
+
+struct Packed {
+  std::string press_sha256, render_sha256;
+};
+
+/// By id. Samples of `open` shards, in which one is not made, are among them.
+std::map<std::string, Packed> packed_samples(const fs::path& manifest, std::set<std::string>& open_shards) {
+  if (!fs::exists(manifest))
+    throw DataError("{} is not packed; nothing is removed", manifest.parent_path().parent_path().string());
+  CsvReader rows(manifest);
+  for (const std::string column : {"press_sha256", "render_sha256"})
+    if (std::find(rows.columns().begin(), rows.columns().end(), column) == rows.columns().end())
+      throw DataError("{} has no {}; pack it again; nothing is removed", manifest.string(), column);
+  std::map<std::string, Packed> packed;
+  while (rows.next()) {
+    if (rows["status"] == "made")
+      packed[rows["id"]] = {rows["press_sha256"], rows["render_sha256"]};
+    else
+      open_shards.insert(rows["shard"]);
+  }
+  return packed;
+}
+
+void remove_outputs(const fs::path& folder, const std::string& stage) {
+  // First the mark, so that nobody takes what is left for whole.
+  write_file(folder / ".dropped", "");
+  std::set<fs::path> folders;
+  for (const std::string& name : Record::from_file(folder / (stage + ".yaml")).section("outputs").keys()) {
+    fs::remove(folder / name);
+    for (fs::path above = fs::path(name).parent_path(); !above.empty(); above = above.parent_path())
+      folders.insert(above);
+  }
+  std::error_code not_empty;
+  for (auto below = folders.rbegin(); below != folders.rend(); ++below) fs::remove(folder / *below, not_empty);
+}
+
+}  // namespace
+
+Dropped drop_packed(const fs::path& dataset, const std::vector<std::string>& stages, bool whole_shards) {
+  Dropped dropped;
+  std::set<std::string> open_shards;
+  const auto packed = packed_samples(dataset / "pack/manifest.csv", open_shards);
+  for_each_planned(samples_table(dataset), std::nullopt, [&](const PlannedRow& row) {
+    const auto found = packed.find(row.id);
+    if (found == packed.end() || (whole_shards && open_shards.contains(row.shard))) return;
+    const fs::path folder = dataset / row.folder;
+    const fs::path press = folder / "press/press.yaml", render = folder / "render/render.yaml";
+    const auto is_open = [&](const std::string& stage) { return !was_dropped(folder / stage); };
+    if (std::none_of(stages.begin(), stages.end(), is_open) || !fs::exists(press) || !fs::exists(render)) return;
+    const MakingLock press_lock(folder / "press"), render_lock(folder / "render");
+    if (!press_lock.held() || !render_lock.held() || !fs::exists(press) || !fs::exists(render) ||
+        sha256_of_file(press) != found->second.press_sha256 || sha256_of_file(render) != found->second.render_sha256) {
+      ++dropped.samples;
+      return;
+    }
+    for (const std::string& stage : stages) {
+      if (!is_open(stage)) continue;
+      remove_outputs(folder / stage, stage);
+      ++dropped.stages;
+    }
+  });
+  return dropped;
+}
+
+}  // namespace tacipc

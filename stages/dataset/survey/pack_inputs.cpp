@@ -1,0 +1,92 @@
+#include "stages/dataset/survey/pack_inputs.h"
+
+#include <fmt/core.h>
+#include <sys/stat.h>
+
+#include <map>
+#include <string>
+
+#include "common/base/checked_file.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/sha256.h"
+#include "common/config/config_text.h"
+#include "common/sample/dataset_plan.h"
+#include "common/stage/record.h"
+#include "stages/dataset/survey/plan_lock.h"
+
+namespace tacipc {
+namespace fs = std::filesystem;
+namespace {
+
+/// When a file was last written, to the nanosecond; empty if there is none.
+std::string time_text(const fs::path& file) {
+  struct stat found {};
+  if (::stat(file.c_str(), &found) != 0) return "";
+  return fmt::format("{}.{:09}0", found.st_mtim.tv_sec, found.st_mtim.tv_nsec);
+}
+
+std::string shared_configuration(const fs::path& dataset_yaml) {
+  ConfigText text(read_file(dataset_yaml), dataset_yaml.string());
+  const Record record = Record::from_file(dataset_yaml);
+  for (const char* key : {"outputs", "stop_after_failures"})
+    if (record.has(key)) text.remove(key);
+  return text.text();
+}
+
+bool holds(const fs::path& file, const std::string& text) {
+  std::error_code error;
+  return fs::is_regular_file(file, error) && read_file(file) == text;
+}
+
+}  // namespace
+
+void write_pack_inputs(const fs::path& dataset, const fs::path& profile) {
+  const fs::path table = dataset / "plan/samples.csv", configuration = dataset / "plan/dataset.yaml";
+  if (fs::exists(dataset / "plan/.lock-plan")) {
+    if (!wait_for_plan(dataset))
+      throw DataError("the plan of {} has been in the making for ten minutes", dataset.string());
+    if (!fs::exists(dataset / "plan/plan.yaml"))
+      throw DataError("the plan of {} is half replaced; make it again: make -f Makefile.data plan CONFIG=...",
+                      dataset.string());
+  }
+  for (const fs::path& file : {table, configuration, profile})
+    if (!fs::exists(file)) throw UsageError(fmt::format("there is no {}", file.string()));
+
+  const std::string shared = shared_configuration(configuration);
+  const std::string common = sha256(shared) + sha256_of_file(profile) + "\n";
+  std::map<std::string, std::string> inputs;  // of each shard
+  std::string names, records;
+  for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
+    std::string& text = inputs[row.shard];
+    if (text.empty()) {
+      names.append(" ").append(row.shard);
+      records += row.shard + "/pack.yaml\n";
+      text = common;
+    }
+    std::string line = plan_line(row);
+    line.pop_back();
+    for (const char* record :
+         {"press/press.yaml", "press/press.failed.yaml", "render/render.yaml", "render/render.failed.yaml"})
+      line.append(" ").append(time_text(dataset / row.folder / record));
+    text += line + "\n";
+  });
+  if (inputs.empty()) throw DataError("{} has no samples", table.string());
+
+  const fs::path shards = dataset / "shards";
+  replace_if_changed(shards / "dataset.yaml", shared);
+  replace_if_changed(shards / "shards.txt", records);
+  for (const auto& [shard, text] : inputs) {
+    const fs::path file = shards / (shard + ".inputs");
+    if (!replace_if_changed(file, text)) continue;
+    // A shard of which a new packing was refused still is what it was packed from: where that has come back, it is not
+    // packed again.
+    const fs::path record = shards / shard / "pack.yaml", packed_from = shards / shard / "packed.inputs";
+    if (fs::exists(record) && holds(packed_from, text) &&
+        fs::last_write_time(record) <= fs::last_write_time(packed_from))
+      fs::last_write_time(file, fs::last_write_time(record));
+  }
+  replace_if_changed(shards / "shards.mk", "PACK_SHARDS :=" + names + "\n");
+}
+
+}  // namespace tacipc

@@ -1,0 +1,87 @@
+#include "stages/gel/export/frame_grids.h"
+
+#include <algorithm>
+
+namespace tacipc {
+namespace {
+
+std::vector<double> numbers(const Positions& rows) { return {rows.data(), rows.data() + rows.size()}; }
+
+/// Displacement and forces of every gel vertex.
+std::vector<VtuArray> gel_data(const TetMesh& gel, const PressFolder& press, std::size_t frame, const Positions& x) {
+  const ContactParts forces = press.contact_forces(frame);
+  const std::vector<int> front = press.front_vertices();
+  const auto of_all = [&](const Positions& of_front) {
+    Positions all = Positions::Zero(x.rows(), 3);
+    all(front, Eigen::all) = of_front;
+    return numbers(all);
+  };
+  return {{"displacement", 3, numbers(x - gel.positions)},
+          {"normal_force", 3, of_all(forces.normal)},
+          {"friction_force", 3, of_all(forces.friction)}};
+}
+
+/// Keeps the points that cells use, in their order, with their data.
+void drop_unused_points(VtuGrid& grid) {
+  std::vector<int> used(grid.cells.data(), grid.cells.data() + grid.cells.size());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (Eigen::Index i = 0; i < grid.cells.size(); ++i) {
+    int& vertex = grid.cells.data()[i];
+    vertex = static_cast<int>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
+  }
+  grid.points = Positions(grid.points(used, Eigen::all));
+  for (VtuArray& array : grid.point_data) {
+    std::visit(
+        [&](auto& values) {
+          auto to = values.begin();
+          for (const int vertex : used)
+            to = std::copy_n(values.begin() + std::ptrdiff_t{vertex} * array.components, array.components, to);
+          values.erase(to, values.end());
+        },
+        array.values);
+  }
+}
+
+double tet_volume(const Positions& x, const Tetrahedra& tets, Eigen::Index t) {
+  Matrix3 edges;
+  for (int c = 0; c < 3; ++c) edges.col(c) = (x.row(tets(t, c + 1)) - x.row(tets(t, 0))).transpose();
+  return edges.determinant() / 6.0;
+}
+
+}  // namespace
+
+VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame) {
+  VtuGrid grid{.points = press.positions(frame), .cells = gel.boundary};
+  grid.point_data = gel_data(gel, press, frame, grid.points);
+  std::vector<std::uint8_t> states(static_cast<std::size_t>(gel.num_vertices()), 0);
+  const std::vector<int> front = press.front_vertices();
+  const std::vector<ContactState> of_front = press.contact_states(frame);
+  for (std::size_t v = 0; v < front.size(); ++v)
+    states[static_cast<std::size_t>(front[v])] = static_cast<std::uint8_t>(of_front[v]);
+  grid.point_data.push_back({"contact_state", 1, std::move(states)});
+  std::vector<std::uint8_t> tags;
+  for (const BoundaryTag tag : gel.tags) tags.push_back(static_cast<std::uint8_t>(tag));
+  grid.cell_data.push_back({"boundary", 1, std::move(tags)});
+  drop_unused_points(grid);
+  return grid;
+}
+
+VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame) {
+  VtuGrid grid{.points = press.positions(frame), .cells = gel.tets};
+  grid.point_data = gel_data(gel, press, frame, grid.points);
+  std::vector<double> ratios(static_cast<std::size_t>(gel.num_tets()));
+  for (Eigen::Index t = 0; t < gel.num_tets(); ++t)
+    ratios[static_cast<std::size_t>(t)] = tet_volume(grid.points, gel.tets, t) / tet_volume(gel.positions, gel.tets, t);
+  grid.cell_data.push_back({"volume_ratio", 1, std::move(ratios)});
+  return grid;
+}
+
+VtuGrid object_grid(const TriangleMesh& object, const Matrix4& gel_from_object) {
+  VtuGrid grid{.points = object.positions * gel_from_object.topLeftCorner<3, 3>().transpose(),
+               .cells = object.triangles};
+  grid.points.rowwise() += gel_from_object.topRightCorner<3, 1>().transpose();
+  return grid;
+}
+
+}  // namespace tacipc

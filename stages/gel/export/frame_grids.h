@@ -1,0 +1,23 @@
+// One frame of a press as grids: the gel's surface, its volume, the object.
+#pragma once
+
+#include "common/mesh/tet_mesh.h"
+#include "common/mesh/triangle_mesh.h"
+#include "common/sample/press_folder.h"
+#include "stages/gel/export/vtu.h"
+
+namespace tacipc {
+
+/// All boundary triangles of the gel and the vertices they use, where they are in this frame. Points: displacement from
+/// the undeformed gel (m), normal_force and friction_force on the gel (N), contact_state (a ContactState), the last
+/// three zero off the front. Cells: boundary (1 front, 2 side, 3 glued).
+VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame);
+
+/// The tetrahedra. Points: displacement, normal_force, friction_force. Cells: volume_ratio, deformed over undeformed
+/// volume.
+VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame);
+
+/// The object's triangles where a pose puts them.
+VtuGrid object_grid(const TriangleMesh& object, const Matrix4& gel_from_object);
+
+}  // namespace tacipc

@@ -1,0 +1,41 @@
+// VTK XML files that ParaView opens: unstructured grids (.vtu) and collections of them over time (.pvd).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/base/types.h"
+
+namespace tacipc {
+
+/// Values per point or cell, row after row.
+struct VtuArray {
+  std::string name;
+  int components = 1;
+  std::variant<std::vector<double>, std::vector<std::uint8_t>> values;  // Float64 or UInt8
+};
+
+/// Triangles (three columns) or tetrahedra (four) between points.
+struct VtuGrid {
+  Positions points;
+  Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cells;
+  std::vector<VtuArray> point_data = {};
+  std::vector<VtuArray> cell_data = {};
+};
+
+/// The file: an XML header and, behind the underscore of its AppendedData, for each array its size in bytes as UInt64
+/// and its values, all little-endian. Offsets in the header count from that underscore. Same grid, same bytes.
+/// \pre each array has its components for every point or cell
+std::string vtu_bytes(const VtuGrid& grid);
+
+/// One entry of a collection; `file` is relative to the collection.
+struct PvdEntry {
+  double time_s = 0.0;
+  std::string file;
+};
+
+std::string pvd_text(const std::vector<PvdEntry>& entries);
+
+}  // namespace tacipc

@@ -1,0 +1,148 @@
+#include "stages/gel/press/checkpoint.h"
+
+#include <fmt/core.h>
+
+#include <cstring>
+#include <type_traits>
+
+#include "common/base/error.h"
+
+namespace tacipc {
+namespace {
+
+/// Appends to, or takes from, a string of bytes: one description of a frame serves both directions.
+class Writer {
+ public:
+  template <typename T>
+  void plain(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  }
+  void rows(const Positions& array) {
+    plain(static_cast<std::int64_t>(array.rows()));
+    bytes_.append(reinterpret_cast<const char*>(array.data()), sizeof(double) * static_cast<std::size_t>(array.size()));
+  }
+  void states(const std::vector<ContactState>& states) {
+    plain(static_cast<std::int64_t>(states.size()));
+    for (const ContactState state : states) plain(state);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  template <typename T>
+  void plain(T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
+  }
+  void rows(Positions& array) {
+    const auto count = size(3 * sizeof(double));
+    array.resize(count, 3);
+    std::memcpy(array.data(), take(3 * sizeof(double) * static_cast<std::size_t>(count)),
+                3 * sizeof(double) * static_cast<std::size_t>(count));
+  }
+  void states(std::vector<ContactState>& states) {
+    states.resize(static_cast<std::size_t>(size(1)));
+    for (ContactState& state : states) plain(state);
+  }
+  bool at_end() const { return bytes_.empty(); }
+
+ private:
+  const char* take(std::size_t count) {
+    if (count > bytes_.size()) throw DataError("a saved frame ends too early");
+    const char* at = bytes_.data();
+    bytes_.remove_prefix(count);
+    return at;
+  }
+  Eigen::Index size(std::size_t bytes_each) {
+    std::int64_t count = 0;
+    plain(count);
+    if (count < 0 || static_cast<std::size_t>(count) > bytes_.size() / bytes_each)
+      throw DataError("a saved frame ends too early");
+    return static_cast<Eigen::Index>(count);
+  }
+  std::string_view bytes_;
+};
+
+void each(auto& io, auto& matrix) {
+  for (Eigen::Index i = 0; i < matrix.size(); ++i) io.plain(matrix.data()[i]);
+}
+
+void solver(auto& io, auto& report) {
+  io.plain(report.time_steps);
+  io.plain(report.newton_iterations);
+  io.plain(report.moving_iterations);
+  io.plain(report.patches);
+  io.plain(report.patch_iterations);
+  io.plain(report.lag_iterations);
+  io.plain(report.velocity_residual_m_s);
+  io.plain(report.force_residual_n);
+  io.plain(report.friction_residual_n);
+  io.plain(report.barrier_factor);
+  io.plain(report.contact_force_n);
+  each(io, report.object_shift_m);
+}
+
+void contents(auto& io, auto& frame, auto& progress) {
+  io.plain(frame.time_s);
+  io.plain(frame.phase);
+  io.plain(frame.phase_index);
+  io.rows(frame.positions);
+  each(io, frame.gel_from_object);
+  io.rows(frame.normal_force_n);
+  io.rows(frame.friction_force_n);
+  io.states(frame.contact_state);
+  each(io, frame.force_n);
+  each(io, frame.torque_n_m);
+  io.plain(frame.balance.force_n);
+  io.plain(frame.balance.torque_n_m);
+  io.plain(frame.balance.relative);
+  each(io, frame.balance.contact_n);
+  each(io, frame.balance.inertia_n);
+  each(io, frame.balance.mount_n);
+  io.plain(frame.min_gap_m);
+  io.plain(frame.stand_off_m);
+  io.plain(frame.min_volume_ratio);
+  io.plain(frame.pose_error_m);
+  io.plain(frame.intersections);
+  io.plain(frame.inverted_tets);
+  solver(io, frame.solver);
+  io.rows(progress.state.x);
+  io.rows(progress.state.velocity_m_s);
+  each(io, progress.state.object_velocity_m_s);
+  io.plain(progress.state.barrier_factor);
+  each(io, progress.object_shift_m);
+}
+
+}  // namespace
+
+std::string pack_frame(const Frame& frame, const Progress& progress) {
+  Writer writer;
+  contents(writer, frame, progress);
+  return writer.take();
+}
+
+void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress) {
+  Reader reader(bytes);
+  contents(reader, frame, progress);
+  if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");
+}
+
+void ScratchFrames::save(const Frame& frame, const Progress& progress) {
+  stage_.save_scratch(fmt::format("frame_{:05d}", next_++), pack_frame(frame, progress));
+}
+
+bool ScratchFrames::load(Frame& frame, Progress& progress) {
+  const auto bytes = stage_.load_scratch(fmt::format("frame_{:05d}", next_));
+  if (!bytes) return false;
+  unpack_frame(*bytes, frame, progress);
+  ++next_;
+  return true;
+}
+
+}  // namespace tacipc

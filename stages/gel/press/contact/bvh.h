@@ -1,0 +1,141 @@
+// The solver's broad phase: a tree over axis-aligned boxes that is refitted as the boxes move.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "common/base/simd.h"
+
+namespace tacipc {
+
+using Box = Eigen::AlignedBox3d;
+
+/// Binary tree, split at the median centre along the widest axis; the same boxes always give the same tree.
+/// Nodes lie depth first, each knowing where the next subtree starts, so that a query needs neither stack nor memory.
+/// Boxes in single precision, rounded outwards, rule out most nodes and items, four numbers at a time; the others are
+/// compared exactly.
+class Bvh {
+ public:
+  /// \pre no box is empty (min ≤ max in each coordinate) and all corners are finite.
+  explicit Bvh(std::span<const Box> boxes);
+
+  int num_boxes() const { return static_cast<int>(box_of_item_.size()); }
+
+  /// Moves the boxes but keeps the tree. \pre boxes.size() == num_boxes()
+  void refit(std::span<const Box> boxes);
+
+  /// Calls visit(i) once for each box i that touches `box` (shared faces count), in an order fixed by the tree.
+  /// Safe to call from several threads at once.
+  template <typename Visit>
+  void query(const Box& box, Visit&& visit) const {
+    const int num_nodes = static_cast<int>(nodes_.size());
+    const RoughBox rough(box);
+    for (int n = 0; n < num_nodes;) {
+      const Node& node = nodes_[n];
+      if (!touches(node.box, rough)) {
+        n = node.next;
+        continue;
+      }
+      if (is_leaf(n)) for_each_in_leaf(node, rough, box, 0, [&](int i) { visit(item_[i]); });
+      ++n;
+    }
+  }
+
+  /// Calls visit(i, j) once for each box i of this tree that touches box j of the other, in an order fixed by the
+  /// trees, for part `part` of kParts; the parts together find all. For a tree with itself each two boxes are found
+  /// once, either first, and none with itself.
+  template <typename Visit>
+  void overlaps(const Bvh& other, int part, Visit&& visit) const {
+    if (nodes_.empty() || other.nodes_.empty()) return;
+    const std::vector<std::array<int, 2>> tasks = split(other);
+    for (std::size_t i = tasks.size() * part / kParts; i < tasks.size() * (part + 1) / kParts; ++i)
+      descend(other, tasks[i][0], tasks[i][1], visit);
+  }
+  static constexpr int kParts = 16;
+
+ private:
+  static constexpr int kLeafSize = 4;
+
+  /// A box in single precision around a box; the fourth number is the same in all.
+  struct RoughBox {
+    FloatQuad low = {}, high = {};
+    RoughBox() = default;
+    explicit RoughBox(const Box& box);
+  };
+  struct Node {
+    RoughBox box;
+    int next;         // first node after this subtree
+    int first, last;  // items of a leaf; an inner node has none
+    int leaf;         // its number among leaves
+  };
+  /// The boxes of a leaf's items side by side, lane by lane; missing items touch nothing.
+  struct LeafBoxes {
+    std::array<FloatQuad, 3> low, high;
+  };
+
+  static bool touches(const Box& a, const Box& b) {
+    return a.min().x() <= b.max().x() && b.min().x() <= a.max().x() && a.min().y() <= b.max().y() &&
+           b.min().y() <= a.max().y() && a.min().z() <= b.max().z() && b.min().z() <= a.max().z();
+  }
+  static bool touches(const RoughBox& a, const RoughBox& b) { return all_of((a.low <= b.high) & (b.low <= a.high)); }
+
+  bool is_leaf(int node) const { return nodes_[node].first != nodes_[node].last; }
+
+  /// Calls visit(i) for the leaf's items, from the `from`-th on, that touch the box.
+  template <typename Visit>
+  void for_each_in_leaf(const Node& leaf, const RoughBox& rough, const Box& box, int from, Visit&& visit) const {
+    const LeafBoxes& items = leaves_[static_cast<std::size_t>(leaf.leaf)];
+    IntQuad touching = IntQuad{-1, -1, -1, -1};
+    for (int c = 0; c < 3; ++c) {
+      const FloatQuad low = FloatQuad{} + rough.low[c], high = FloatQuad{} + rough.high[c];
+      touching &= (items.low[c] <= high) & (low <= items.high[c]);
+    }
+    if (none_of(touching)) return;
+    for (int i = leaf.first + from; i < leaf.last; ++i) {
+      if (touching[i - leaf.first] && touches(box_of_item_[i], box)) visit(i);
+    }
+  }
+
+  /// Pairs of nodes whose boxes touch and that together have all that descend() would find from the roots.
+  std::vector<std::array<int, 2>> split(const Bvh& other) const;
+  /// Children of a pair of nodes: those of the larger one, or of both for a node of this tree with itself.
+  template <typename Step>
+  void divide(const Bvh& other, int a, int b, Step&& step) const {
+    if (this == &other && a == b) {
+      const int left = a + 1, right = nodes_[left].next;
+      step(left, left), step(left, right), step(right, right);
+    } else if (other.is_leaf(b) || (!is_leaf(a) && nodes_[a].next - a >= other.nodes_[b].next - b)) {
+      const int left = a + 1, right = nodes_[left].next;
+      step(left, b), step(right, b);
+    } else {
+      const int left = b + 1, right = other.nodes_[left].next;
+      step(a, left), step(a, right);
+    }
+  }
+  template <typename Visit>
+  void descend(const Bvh& other, int a, int b, Visit&& visit) const {
+    if (!touches(nodes_[a].box, other.nodes_[b].box)) return;
+    if (!is_leaf(a) || !other.is_leaf(b)) {
+      divide(other, a, b, [&](int c, int d) { descend(other, c, d, visit); });
+      return;
+    }
+    const bool self = this == &other && a == b;
+    for (int i = nodes_[a].first; i < nodes_[a].last; ++i) {
+      other.for_each_in_leaf(other.nodes_[b], rough_box_of_item_[i], box_of_item_[i],
+                             self ? i - nodes_[a].first + 1 : 0, [&](int j) { visit(item_[i], other.item_[j]); });
+    }
+  }
+
+  void build(std::span<const Box> boxes, int first, int last);
+  void fit();
+
+  std::vector<Node> nodes_;
+  std::vector<LeafBoxes> leaves_;
+  std::vector<int> item_;         // box index of each leaf item
+  std::vector<Box> box_of_item_;  // its box, in leaf order
+  std::vector<RoughBox> rough_box_of_item_;
+};
+
+}  // namespace tacipc

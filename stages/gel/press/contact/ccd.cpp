@@ -1,0 +1,84 @@
+#include "stages/gel/press/contact/ccd.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "stages/gel/press/contact/pair_motion.h"
+#include "stages/gel/press/contact/precise_separation.h"
+
+namespace tacipc {
+namespace {
+
+/// A pair this near to the separation wanted (relative) is not moved any further.
+constexpr double kCloseEnough = 1e-2;
+/// Tries of a longer interval are this much shorter each time.
+constexpr double kShrink = 0.25;
+constexpr int kMaxTries = 24;
+
+double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
+  assert(options.slack >= 0 && options.slack < 1 && options.minimum_separation_m >= 0);
+  const PairMotion motion(kind, x, displacement);
+  const ClosestFeature start = motion.closest(0);
+  const double separation = std::max(options.slack * std::sqrt(start.squared_distance), options.minimum_separation_m);
+  std::optional<Vector3> n = motion.direction(start);
+  double t = 0;
+  double reach = 1;  // length of the next interval to try
+  for (int iteration = 0; n && iteration < options.max_iterations; ++iteration) {
+    // A fixed plane through the gap: one step to the end for most pairs, and a Newton step towards an impact for the
+    // others.
+    const double exit = motion.gap_exit(t, *n, separation);
+    if (exit == 1) return 1;
+    if (!(motion.gap(t, *n) > (1 + kCloseEnough) * separation)) return t;
+
+    // A longer interval, by a plane that turns with the pair or by the volume.
+    bool longer = false;
+    double to = std::min(1.0, t + reach);
+    for (int tries = 0; to > exit && tries < kMaxTries; ++tries, to = t + kShrink * (to - t)) {
+      const std::optional<Vector3> n_to = motion.direction(motion.closest(to));
+      if (!n_to) continue;
+      if (motion.plane_separates(t, to, *n, *n_to, separation) ||
+          motion.plane_separates(t, to, *n_to, *n_to, separation) || motion.volume_separates(t, to, separation)) {
+        longer = true;
+        n = n_to;
+        break;
+      }
+    }
+    if (!longer && exit == t) return t;
+    if (!longer) {
+      to = exit;
+      n = motion.direction(motion.closest(exit));
+    }
+    if (to == 1) return 1;
+    reach = (to - t) / kShrink / kShrink;
+    t = to;
+  }
+  return t;
+}
+
+bool may_collide(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
+  FourPoints displacement;
+  for (int i = 0; i < 4; ++i) displacement[i] = x_end[i] - x_start[i];
+  const double apart_until = time_of_impact(kind, x_start, displacement, {.slack = 0});
+  return apart_until < 1 && !provably_apart(kind, x_start, x_end, apart_until);
+}
+
+}  // namespace
+
+double time_of_impact_point_triangle(const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
+  return time_of_impact(PairKind::point_triangle, x, displacement, options);
+}
+
+double time_of_impact_edge_edge(const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
+  return time_of_impact(PairKind::edge_edge, x, displacement, options);
+}
+
+bool may_collide_point_triangle(const FourPoints& x_start, const FourPoints& x_end) {
+  return may_collide(PairKind::point_triangle, x_start, x_end);
+}
+
+bool may_collide_edge_edge(const FourPoints& x_start, const FourPoints& x_end) {
+  return may_collide(PairKind::edge_edge, x_start, x_end);
+}
+
+}  // namespace tacipc

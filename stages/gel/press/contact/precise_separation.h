@@ -1,0 +1,14 @@
+// Decides pairs that pass each other closer than double precision can resolve: the proofs of pair_motion.h with 113
+// bits.
+#pragma once
+
+#include "stages/gel/press/contact/pair_motion.h"
+
+namespace tacipc {
+
+/// True only if the pair provably stays apart while its vertices go straight from x_start to x_end. Sees gaps down to
+/// about 1e-30 of the size of the pair; slow (up to milliseconds), and about exact paths, not about
+/// positions rounded in between.
+bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& x_end, double known_apart_until = 0);
+
+}  // namespace tacipc

@@ -1,0 +1,53 @@
+// What the two broad phases share.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "common/base/types.h"
+#include "stages/gel/press/contact/bvh.h"
+
+namespace tacipc {
+
+/// Vertices as primitives of one vertex each.
+struct OneVertex {
+  const std::vector<int>& vertices;
+  std::size_t size() const { return vertices.size(); }
+  std::array<int, 1> operator[](std::size_t i) const { return {vertices[i]}; }
+};
+
+/// The box around rows of x.
+template <typename Vertices>
+Box box_around(const Positions& x, const Vertices& vertices) {
+  Box box;
+  for (const int v : vertices) box.extend(Vector3(x.row(v)));
+  return box;
+}
+
+inline Box grown(Box box, double by) {
+  box.min().array() -= by;
+  box.max().array() += by;
+  return box;
+}
+
+template <typename Primitives>
+std::vector<Box> boxes_at(const Primitives& primitives, const Positions& x) {
+  std::vector<Box> boxes(primitives.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = box_around(x, primitives[i]);
+  return boxes;
+}
+
+/// Runs fill(first, last, found) for chunks of 0 … count and joins what they found in order.
+template <typename Item, typename Fill>
+void collect(std::size_t count, std::vector<Item>& out, Fill&& fill) {
+  constexpr std::size_t kChunk = 512;
+  std::vector<std::vector<Item>> found((count + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+    fill(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), found[chunk]);
+  });
+  for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+}
+
+}  // namespace tacipc

@@ -1,0 +1,59 @@
+// Energy that keeps gel and object, and the gel and itself, apart.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "stages/gel/press/contact/contact_search.h"
+#include "stages/gel/press/energy/contact_term.h"
+
+namespace tacipc {
+
+/// B(x) = Σ_k c_k m_k(x) b(s_k(x), ŝ_k), in m⁴: c_k the weight of pair k (pair_counting.h), s_k its squared distance, b
+/// of barrier.h, m_k the mollifier of nearly parallel edges (1 for point–triangle pairs).   [Eq. 5; Li et al. 2020] ŝ_k
+/// = d̂², but for gel–gel pairs at most a quarter of the squared distance at rest: neighbours on the undeformed gel must
+/// not push each other however fine the mesh is.
+class ContactBarrier final : public ContactTerm {
+ public:
+  /// \pre the mesh stays where it is
+  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m)
+      : mesh_(&mesh), pairs_(std::move(pairs)), s_hat_(d_hat_m * d_hat_m) {}
+
+  std::string_view name() const override { return "barrier"; }
+  int num_stencils() const override { return static_cast<int>(pairs_.size()); }
+  std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
+  void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
+
+  double value(const Positions& x) const override;
+  std::vector<int> active(const Positions& x) const override;
+  bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
+  bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
+  void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend, WantedVertices wanted,
+                     PackedBlocks& out) const override;
+
+  const std::vector<ContactPair>& pairs() const { return pairs_; }
+  /// Whether pair i is one of the gel with itself.
+  bool of_gel_alone(int i) const;
+
+  /// How one pair pushes: its closest feature and 2 d c m |b′(d²)| in m³, zero from d̂ on. Times κ it is the force
+  /// between the two sides along the line that joins their closest points; negative where the weight c is.
+  struct Push {
+    ClosestFeature feature;
+    double force;
+  };
+  Push push(int i, const FourPoints& points) const;
+
+ private:
+  /// ŝ and the mollifier's threshold of one pair; zero: never mollified. Both follow from the shape at rest, and are
+  /// computed only for pairs that are near: most never are.
+  double s_hat_of(int i) const;
+  double mollifier_threshold(int i) const;
+  double value_of(int i, const FourPoints& points) const;
+  bool mollified(int i, const FourPoints& x) const;
+
+  const ContactMesh* mesh_;
+  std::vector<ContactPair> pairs_;
+  double s_hat_;  // d̂²: ŝ of all pairs but some of gel and gel
+};
+
+}  // namespace tacipc

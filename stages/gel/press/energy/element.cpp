@@ -1,0 +1,14 @@
+#include "stages/gel/press/energy/element.h"
+
+#include "stages/gel/press/energy/averaged_elasticity.h"
+#include "stages/gel/press/energy/elasticity.h"
+
+namespace tacipc {
+
+std::shared_ptr<const EnergyTerm> make_elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law,
+                                                  Element element) {
+  if (element == Element::linear) return std::make_shared<Elasticity>(rest, tets, law);
+  return std::make_shared<AveragedElasticity>(rest, tets, law, make_tet_clusters(tets, kClusterSize));
+}
+
+}  // namespace tacipc

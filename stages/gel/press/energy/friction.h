@@ -1,0 +1,71 @@
+// Smoothed Coulomb friction with lagged normal forces and tangent planes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "stages/gel/press/energy/contact_barrier.h"
+
+namespace tacipc {
+
+/// f₁(y) = 2 y/ε − (y/ε)² for 0 ≤ y < ε, else 1: friction over its largest value once the two sides have slid
+/// by y.   [Eq. 7] C¹, so that Newton's method sees the transition from sticking to slipping.
+double friction_part(double y, double epsilon);
+/// f₀(y) = ∫ f₁ with f₀(ε) = ε: y² /ε − y³/(3 ε²) + ε/3 below ε, else y.   [Eq. 8]
+double friction_integral(double y, double epsilon);
+
+/// D(x) = Σ_k λ_k f₀(‖u_k‖), u_k = T_kᵀ Σ wᵢ (xᵢ − xᵢᵗ), in m⁴: the pairs of a barrier at a lagged position, with
+/// normal force λ_k = 2 d c m |b′(d²)| (times κ it is the force the barrier has between the two sides), weights w and
+/// tangent plane T held from there; xᵗ is the start of the time step. Times μκ, −∂D/∂x is Coulomb's friction.   [Eq.
+/// 6–9]
+class Friction final : public ContactTerm {
+ public:
+  /// \param epsilon_m ε_v h: how far a side slides in one step at the speed where friction is fully reached
+  Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m);
+
+  /// This friction and a newer one of the same time step: the pairs of both, with 1 − part and `part` of their normal
+  /// forces. Pairs whose share falls below a thousandth are dropped.
+  std::shared_ptr<const Friction> mixed_with(const Friction& newer, double part) const;
+
+  /// The pairs with any vertex that moves (one flag per vertex).
+  std::shared_ptr<const Friction> restricted_to(const std::vector<bool>& moves) const;
+
+  std::string_view name() const override { return "friction"; }
+  int num_stencils() const override { return static_cast<int>(pairs_.size()); }
+  std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
+  void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
+
+  double value(const Positions& x) const override;
+  std::vector<int> active(const Positions& x) const override;  // all
+  bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
+  bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
+  void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend, WantedVertices wanted,
+                     PackedBlocks& out) const override;
+
+  /// One pair's slide ‖u‖ / ε: below 1 it sticks.
+  double relative_slide(int i, const Positions& x) const;
+  /// λ_k, in m³.
+  double normal_force(int i) const { return pairs_[i].normal_force; }
+  const Eigen::Vector4d& weights(int i) const { return pairs_[i].weights; }
+
+ private:
+  struct Pair {
+    std::array<int, 4> vertices;
+    Eigen::Vector4d weights;
+    Eigen::Matrix<double, 3, 2> tangents;  // T, orthonormal columns
+    Vector3 start;                         // Σ wᵢ xᵢᵗ
+    double normal_force;
+    double share = 1.0;  // of the normal force that the barrier had
+  };
+  /// Σ wᵢ (xᵢ − xᵢᵗ) in the tangent plane.
+  static Eigen::Vector2d slide(const Pair& pair, const FourPoints& x);
+  /// On the first side, for a slide by u.
+  Vector3 force(const Pair& pair, const Eigen::Vector2d& u) const;
+  /// ∂²/∂u² the majorant f₁/y I less (1 − blend) of its excess over the exact Hessian.
+  Eigen::Matrix2d blended_inner(const Pair& pair, const Eigen::Vector2d& u, double blend) const;
+
+  std::vector<Pair> pairs_;
+  double epsilon_m_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,32 @@
+#include "stages/gel/press/energy/incremental_potential.h"
+
+namespace tacipc {
+
+double IncrementalPotential::value(const Positions& x) const {
+  double value = 0.0;
+  for (const WeightedTerm& part : terms) value += part.weight * part.term->value(x);
+  for (const WeightedContact* contact : {&friction, &barrier}) {
+    if (contact->term) value += contact->weight * contact->term->value(x);
+  }
+  return value;
+}
+
+IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& w) {
+  const double h = w.h_s, kappa = h * h * w.barrier_stiffness_j_m4;
+  IncrementalPotential out;
+  const auto add = [&](double weight, std::shared_ptr<const EnergyTerm> term) {
+    if (term) out.terms.push_back({weight, std::move(term)});
+  };
+  add(1.0, terms.inertia);
+  add(1.0, terms.object_inertia);
+  add(w.mass_damping_per_s * h, terms.mass_damping);
+  add(w.stiffness_damping_s * h, terms.stiffness_damping);
+  add(h * h, terms.gravity);
+  add(h * h, terms.constraint);
+  add(h * h, terms.elasticity);
+  out.friction = {kappa * w.friction_coefficient, terms.friction};
+  out.barrier = {kappa, terms.barrier};
+  return out;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,60 @@
+// The sum that a time step minimises.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "stages/gel/press/energy/contact_barrier.h"
+#include "stages/gel/press/energy/elasticity.h"
+#include "stages/gel/press/energy/inertia.h"
+
+namespace tacipc {
+
+struct WeightedTerm {
+  double weight;
+  std::shared_ptr<const EnergyTerm> term;
+};
+
+/// A term over contact pairs, which couples vertices that share no element; null where there is none.
+struct WeightedContact {
+  double weight = 0.0;
+  std::shared_ptr<const ContactTerm> term = nullptr;
+};
+
+/// The parts of one time step; null where a part is absent.
+struct StepTerms {
+  std::shared_ptr<const EnergyTerm> inertia;  // of the gel about x̂
+  std::shared_ptr<const EnergyTerm>
+      object_inertia;  // of an object with free axes, about its x̂ (which includes its load)
+  std::shared_ptr<const EnergyTerm> mass_damping;       // an inertia about the start of the step
+  std::shared_ptr<const EnergyTerm> stiffness_damping;  // ½ (x − xᵗ)ᵀ K (x − xᵗ)
+  std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where x̂ does not include it
+  std::shared_ptr<const EnergyTerm> constraint;         // what an augmented Lagrangian holds
+  std::shared_ptr<const EnergyTerm> elasticity;
+  std::shared_ptr<const ContactTerm> friction;
+  std::shared_ptr<const ContactBarrier> barrier;
+};
+
+struct StepWeights {
+  double h_s = 0.0;
+  double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step
+  double friction_coefficient = 0.0;
+  double mass_damping_per_s = 0.0;
+  double stiffness_damping_s = 0.0;
+};
+
+/// Ê(x) in kg m².   [Eq. 3, 5, 9]
+struct IncrementalPotential {
+  std::vector<WeightedTerm> terms;  // all but contact
+  WeightedContact friction = {};
+  WeightedContact barrier = {};
+
+  /// Ê(x), +∞ where x is not allowed. The sum runs in a fixed order: terms, friction, barrier.
+  double value(const Positions& x) const;
+};
+
+/// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity + constraint) + κ′(μ D + B), κ′ = h² × barrier stiffness: κ for the
+/// nominal h.
+IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& weights);
+
+}  // namespace tacipc

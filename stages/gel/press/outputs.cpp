@@ -1,0 +1,177 @@
+#include "stages/gel/press/outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "common/base/files.h"
+#include "common/sample/press_folder.h"
+#include "common/sensor/markers.h"
+#include "stages/gel/press/measure/contact_summary.h"
+#include "stages/gel/press/measure/traction_grid.h"
+#include "stages/gel/press/verdict.h"
+
+namespace tacipc {
+namespace {
+
+void write_markers(Stage& stage, const PressWriter& writer, const std::vector<Marker>& markers,
+                   const std::vector<Frame>& frames, const std::optional<std::size_t>& end) {
+  std::vector<Positions> positions;
+  for (const Frame& frame : frames) positions.push_back(marker_positions(markers, frame.positions));
+  writer.write(PressArray::markers, positions, std::identity());
+  writer.write(PressArray::marker_displacement, marker_displacements(positions, end));
+  write_file(stage.output(kMarkersCsv), markers_csv(markers));
+}
+
+/// Time at which each front vertex first slips, +∞ where it never does.
+std::vector<double> first_slip_s(const Simulation& simulation) {
+  std::vector<double> first(simulation.front.vertices.size(), std::numeric_limits<double>::infinity());
+  for (const Frame& frame : simulation.frames) {
+    for (std::size_t v = 0; v < first.size(); ++v) {
+      if (frame.contact_state[v] == ContactState::slip) first[v] = std::min(first[v], frame.time_s);
+    }
+  }
+  return first;
+}
+
+void write_contact(const PressWriter& writer, const Sensor& sensor, const Simulation& simulation) {
+  const auto& frames = simulation.frames;
+  const FrontSurface& front = simulation.front;
+  writer.write(PressArray::front_vertices, {front.vertices.begin(), front.vertices.end()});
+  writer.write(PressArray::contact_force, frames, [](const Frame& f) {
+    return ContactParts{f.normal_force_n, f.friction_force_n};
+  });
+  writer.write(PressArray::contact_state, frames, [](const Frame& f) { return f.contact_state; });
+  writer.write(PressArray::first_slip, first_slip_s(simulation));
+  const TractionGrid grid = TractionGrid::over_window(sensor.camera);
+  writer.write(PressArray::traction, frames, [&](const Frame& f) {
+    return spread_traction(grid, front, on_front(front, f.positions), f.normal_force_n, f.friction_force_n).pascal;
+  });
+}
+
+/// One frame's lines of the record.
+Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
+  const ContactSummary contact =
+      measure_contact(simulation.front, on_front(simulation.front, f.positions), f.normal_force_n, f.contact_state);
+  return {{"time_s", f.time_s},
+          {"phase", name_of(f.phase)},
+          {"press_force_n", 0.0 - f.force_n.z()},
+          {"tangential_force_n", f.force_n.head<2>().norm()},
+          {"balance_n", f.balance.force_n},
+          {"balance_relative", f.balance.relative},
+          {"inertia_n", f.balance.inertia_n.norm()},
+          {"mount_force_n", f.balance.mount_n.norm()},
+          {"contact_area_mm2", 1e6 * contact.area_m2},
+          {"mean_pressure_pa", contact.mean_pressure_pa},
+          {"peak_pressure_pa", contact.peak_pressure_pa},
+          {"sticking", contact.sticking},
+          {"slipping", contact.slipping},
+          {"substeps", f.solver.time_steps},
+          {"newton_iterations", f.solver.newton_iterations},
+          {"patch_iterations", f.solver.patch_iterations},
+          {"lag_iterations", f.solver.lag_iterations},
+          {"friction_residual_n", f.solver.friction_residual_n},
+          {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
+          {"force_residual_n", f.solver.force_residual_n},
+          {"barrier_stiffness", f.solver.barrier_factor * simulation.barrier_stiffness},
+          {"min_gap_m", f.min_gap_m},
+          {"stand_off_m", f.stand_off_m},
+          {"min_volume_ratio", f.min_volume_ratio},
+          {"intersections", f.intersections},
+          {"inverted_tets", f.inverted_tets},
+          {"pose_error_m", f.pose_error_m}};
+}
+
+/// What every frame was held to, for whoever judges the numbers of the record again.
+Value::Map limits() {
+  return {{"smallest_distance_m", kVerdictLimits.smallest_distance_m},
+          {"intersections", kVerdictLimits.intersections},
+          {"inverted_tets", kVerdictLimits.inverted_tets},
+          {"volume_ratio", kVerdictLimits.volume_ratio},
+          {"balance_relative", kVerdictLimits.balance_relative},
+          {"smallest_contact_n", kSmallestContactN},
+          {"pose_error_m", kVerdictLimits.pose_error_m}};
+}
+
+}  // namespace
+
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const SampleSpec& sample, const Simulation& simulation) {
+  const auto& frames = simulation.frames;
+  const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
+  const std::vector<Marker> markers = bind_markers(sensor.markers, gel.positions, gel.faces(BoundaryTag::front));
+  const PressWriter writer(stage, {{kFrames, frames.size()},
+                                   {kVertices, vertices},
+                                   {kFrontVertices, simulation.front.vertices.size()},
+                                   {kMarkers, markers.size()}});
+  writer.write(PressArray::positions, frames, [](const Frame& f) { return f.positions; });
+  writer.write(PressArray::object_pose, frames, [](const Frame& f) { return f.gel_from_object; });
+  writer.write(PressArray::time, frames, [](const Frame& f) { return f.time_s; });
+  writer.write(PressArray::phase, frames, [](const Frame& f) { return f.phase; });
+  writer.write(PressArray::wrench, frames, [](const Frame& f) { return Wrench{f.force_n, f.torque_n_m}; });
+  std::vector<int> phases;
+  for (const Frame& f : frames) phases.push_back(f.phase_index);
+  const auto end = press_end_frame(sample, phases);
+  write_contact(writer, sensor, simulation);
+  write_markers(stage, writer, markers, frames, end);
+
+  int iterations = 0, intersections = 0, inverted = 0;
+  double min_gap_m = simulation.gap_horizon_m, min_ratio = 1.0, balance = 0.0, pose_error_m = 0.0;
+  std::optional<double> first_slip, gross_slip;
+  Value::List per_frame;
+  for (const Frame& f : frames) {
+    iterations += f.solver.newton_iterations;
+    intersections += f.intersections;
+    inverted += f.inverted_tets;
+    min_gap_m = std::min(min_gap_m, f.min_gap_m);
+    min_ratio = std::min(min_ratio, f.min_volume_ratio);
+    balance = std::max(balance, f.balance.relative);
+    pose_error_m = std::max(pose_error_m, f.pose_error_m);
+    const auto slipping = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::slip);
+    const auto sticking = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::stick);
+    if (slipping > 0 && !first_slip) first_slip = f.time_s;
+    if (slipping > 0 && sticking == 0 && !gross_slip) gross_slip = f.time_s;
+    per_frame.emplace_back(frame_lines(simulation, f));
+  }
+  Value::Map summary{{"frames", frames.size()},
+                     {"gel_vertices", vertices},
+                     {"face", simulation.face},
+                     {"d_hat_m", simulation.d_hat_m},
+                     {"barrier_stiffness", frames.back().solver.barrier_factor * simulation.barrier_stiffness},
+                     {"element", simulation.element},
+                     {"friction_coefficient", config.friction ? config.friction->coefficient : 0.0},
+                     {"newton_iterations", iterations},
+                     {"press_force_n", 0.0 - frames.back().force_n.z()},
+                     {"tangential_force_n", frames.back().force_n.head<2>().norm()},
+                     {"min_distance_m", min_gap_m},
+                     {"stand_off_m", frames.back().stand_off_m},
+                     {"min_volume_ratio", min_ratio},
+                     {"intersections", intersections},
+                     {"inverted_tets", inverted},
+                     {"max_balance_relative", balance},
+                     {"max_pose_error_m", pose_error_m}};
+  if (simulation.object_mass_kg > 0.0) summary.emplace_back("object_mass_kg", simulation.object_mass_kg);
+  if (first_slip) summary.emplace_back("first_slip_time_s", *first_slip);
+  if (gross_slip) summary.emplace_back("gross_slip_time_s", *gross_slip);
+  if (end) summary.emplace_back("press_end_frame", *end);
+  // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
+  summary.emplace_back("converged", true);
+  summary.emplace_back("verdict", "pass");
+  summary.emplace_back("limits", limits());
+  summary.emplace_back("per_frame", std::move(per_frame));
+  stage.summarize(summary);
+
+  const SolverTimes& t = simulation.times;
+  stage.cost({{"search_s", t.search_s},
+              {"step_limits_s", t.limits_s},
+              {"line_search_s", t.line_search_s},
+              {"elastic_s", t.elastic_s},
+              {"contact_s", t.contact_s},
+              {"linear_s", t.linear_s},
+              {"patches_s", t.patches_s},
+              {"linear_systems", t.solves},
+              {"products", t.products}});
+}
+
+}  // namespace tacipc

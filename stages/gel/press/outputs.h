@@ -1,0 +1,13 @@
+// What a press leaves behind: arrays per frame and the numbers of its record.
+#pragma once
+
+#include "common/stage/stage.h"
+#include "stages/gel/press/simulate.h"
+
+namespace tacipc {
+
+/// Every array of the press folder, and the summary of the record.
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const SampleSpec& sample, const Simulation& simulation);
+
+}  // namespace tacipc

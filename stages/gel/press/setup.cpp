@@ -1,0 +1,84 @@
+#include "stages/gel/press/setup.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "common/sensor/averaged_volume.h"
+#include "stages/gel/press/energy/barrier_stiffness.h"
+#include "stages/gel/press/energy/elasticity.h"
+#include "stages/gel/press/energy/element.h"
+#include "stages/gel/press/measure/front_surface.h"
+
+namespace tacipc {
+
+Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh& gel) {
+  Scales scales;
+  scales.diagonal_m = (gel.positions.colwise().maxCoeff() - gel.positions.colwise().minCoeff()).norm();
+  scales.d_hat_m = config.relative_d_hat * scales.diagonal_m;
+  scales.gap_horizon_m = 2.0 * config.start_gap_d_hat * scales.d_hat_m;
+  scales.start_gap_m = config.start_gap_d_hat * scales.d_hat_m;
+  scales.barrier_stiffness = config.barrier_stiffness
+                                 ? *config.barrier_stiffness
+                                 : balanced_barrier_stiffness(config.relative_barrier_stiffness,
+                                                              {.h_s = config.time_step_s,
+                                                               .youngs_modulus_pa = sensor.material.youngs_modulus_pa,
+                                                               .front_edge_m = median_front_edge_m(gel),
+                                                               .d_hat_m = scales.d_hat_m});
+  return scales;
+}
+
+std::string element_of(const PressConfig& config, const Material& material) {
+  if (config.element != "auto") return config.element;
+  return material.poissons_ratio >= kAveragedVolumeFrom ? "averaged_volume" : "linear";
+}
+
+GelModel make_gel_model(const Material& material, const TetMesh& gel, const std::vector<RestTet>& rest,
+                        const std::string& element) {
+  const ElasticLaw law = make_elastic_law(material.law, material.lame_mu_pa(), material.lame_lambda_pa());
+  return {.elasticity = make_elasticity(gel.positions, gel.tets, law,
+                                        element == "averaged_volume" ? Element::averaged_volume : Element::linear),
+          .tets = gel.tets,
+          .mass_kg = lumped_masses(gel.tets, rest, gel.num_vertices(), material.density_kg_m3),
+          .glued = gel.vertices(BoundaryTag::glued)};
+}
+
+StepSettings step_settings(const PressConfig& config, const Scales& scales) {
+  StepSettings settings{.d_hat_m = scales.d_hat_m,
+                        .barrier_stiffness_j_m4 = scales.barrier_stiffness / (config.time_step_s * config.time_step_s),
+                        .adaptive_barrier = config.adaptive_barrier_stiffness,
+                        .pair_counting = config.pair_counting,
+                        .quasi_static = config.quasi_static,
+                        .augmented_lagrangian = config.augmented_lagrangian,
+                        .gravity_m_s2 = config.gravity_m_s2,
+                        .mass_damping_per_s = config.mass_damping_per_s,
+                        .stiffness_damping_s = config.stiffness_damping_s,
+                        .linear_solver = config.linear_solver,
+                        .newton = {.velocity_tolerance_m_s = config.relative_velocity_tolerance * scales.diagonal_m,
+                                   .relative_force_tolerance = config.relative_force_tolerance,
+                                   .force_tolerance_n = config.force_tolerance_n,
+                                   .max_iterations = config.max_newton_iterations,
+                                   .adaptive_contact_hessian = config.adaptive_contact_hessian,
+                                   .patches = config.patches}};
+  if (config.friction && config.friction->coefficient > 0.0) {
+    const FrictionConfig& friction = *config.friction;
+    settings.friction = {.coefficient = friction.coefficient,
+                         .speed_threshold_m_s = friction.relative_speed_threshold * scales.diagonal_m,
+                         .max_lag_iterations = friction.iterated ? friction.max_lag_iterations : 1,
+                         .relative_lag_tolerance = friction.relative_lag_tolerance};
+  }
+  return settings;
+}
+
+void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressConfig& config) {
+  for (const Phase& phase : sample.motion) {
+    if (phase.kind == PhaseKind::press && phase.depth_m >= sensor.gel.thickness_m) {
+      throw DataError("depth {:.3g} mm is not less than the gel's thickness {:.3g} mm", 1e3 * phase.depth_m,
+                      1e3 * sensor.gel.thickness_m);
+    }
+  }
+  if (config.augmented_lagrangian && std::any_of(sample.motion.begin(), sample.motion.end(),
+                                                 [](const Phase& phase) { return phase.load_n.has_value(); }))
+    throw UsageError("constraints: augmented_lagrangian holds the object to its pose; a load needs elimination");
+}
+
+}  // namespace tacipc

@@ -1,0 +1,37 @@
+// What a simulation derives from configuration, sensor and gel before its first step.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/mesh/tet_mesh.h"
+#include "common/sample/sample_spec.h"
+#include "common/sensor/sensor.h"
+#include "stages/gel/press/energy/tet_energy.h"
+#include "stages/gel/press/press_config.h"
+#include "stages/gel/press/solve/time_step.h"
+
+namespace tacipc {
+
+/// Numbers that follow from the configuration and the gel.
+struct Scales {
+  double diagonal_m = 0.0;         // of the undeformed gel's bounding box
+  double d_hat_m = 0.0;            // d̂
+  double gap_horizon_m = 0.0;      // gaps are measured up to this
+  double start_gap_m = 0.0;        // between the object's lowest point and z = 0 in frame 0
+  double barrier_stiffness = 0.0;  // κ, kg m⁻²
+};
+Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh& gel);
+
+/// The element that the configuration asks for, "auto" decided by Poisson's ratio: "linear" or "averaged_volume".
+std::string element_of(const PressConfig& config, const Material& material);
+
+GelModel make_gel_model(const Material& material, const TetMesh& gel, const std::vector<RestTet>& rest,
+                        const std::string& element);
+
+StepSettings step_settings(const PressConfig& config, const Scales& scales);
+
+/// \throw DataError or UsageError if the gel or the configuration does not allow the motion.
+void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressConfig& config);
+
+}  // namespace tacipc

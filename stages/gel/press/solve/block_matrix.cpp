@@ -1,0 +1,74 @@
+#include "stages/gel/press/solve/block_matrix.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace tacipc {
+FreeVertices::FreeVertices(int num_vertices, const std::vector<bool>& fixed)
+    : FreeVertices(
+          [&] {
+            std::vector<int> all(static_cast<std::size_t>(num_vertices));
+            std::iota(all.begin(), all.end(), 0);
+            return all;
+          }(),
+          fixed) {}
+
+FreeVertices::FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed)
+    : free_of_vertex(fixed.size(), -1) {
+  for (const int v : order) {
+    if (fixed[v]) continue;
+    free_of_vertex[v] = static_cast<int>(vertex_of_free.size());
+    vertex_of_free.push_back(v);
+  }
+}
+
+int BlockPattern::find(int r, int column) const {
+  const auto first = row.begin() + column_start[column], last = row.begin() + column_start[column + 1];
+  const auto found = std::lower_bound(first, last, r);
+  return found != last && *found == r ? static_cast<int>(found - row.begin()) : -1;
+}
+
+BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs) {
+  // Sorted by column first, which takes no comparisons, then within each column.
+  std::vector<int> start(static_cast<std::size_t>(size) + 1, 0);
+  for (const auto& [a, b] : pairs) ++start[std::min(a, b) + 1];
+  for (int c = 0; c < size; ++c) start[c + 1] += start[c];
+  std::vector<int> rows(pairs.size()), next(start.begin(), start.end() - 1);
+  for (const auto& [a, b] : pairs) rows[next[std::min(a, b)]++] = std::max(a, b);
+  BlockPattern pattern;
+  pattern.column_start.push_back(0);
+  for (int c = 0; c < size; ++c) {
+    const auto first = rows.begin() + start[c], last = rows.begin() + start[c + 1];
+    std::sort(first, last);
+    pattern.row.push_back(c);
+    for (auto it = first, end = std::unique(first, last); it != end; ++it) {
+      if (*it != c) pattern.row.push_back(*it);
+    }
+    pattern.column_start.push_back(pattern.num_blocks());
+  }
+  return pattern;
+}
+
+void BlockMatrix::clear(std::shared_ptr<const BlockPattern> p) {
+  pattern = std::move(p);
+  values.resize(kStride * static_cast<std::size_t>(pattern->num_blocks()));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 16), [&](const auto& range) {
+    std::fill(&values[range.begin()], &values[range.begin()] + range.size(), 0.0);
+  });
+}
+
+Eigen::VectorXd BlockMatrix::multiply(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+  for (int c = 0; c < pattern->size(); ++c) {
+    for (int k = pattern->column_start[c]; k < pattern->column_start[c + 1]; ++k) {
+      const int r = pattern->row[k];
+      y.segment<3>(3 * r) += block(k) * x.segment<3>(3 * c);
+      if (r != c) y.segment<3>(3 * c) += block(k).transpose() * x.segment<3>(3 * r);
+    }
+  }
+  return y;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,66 @@
+// Symmetric sparse matrix of 3 × 3 blocks over the free vertices; only the lower triangle of blocks is kept.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "common/base/types.h"
+
+namespace tacipc {
+
+/// Which vertices move freely, and their numbers among those.
+struct FreeVertices {
+  std::vector<int> free_of_vertex;  // −1 for a vertex whose position is prescribed
+  std::vector<int> vertex_of_free;
+
+  /// All of `num_vertices` but those marked as fixed, numbered by vertex.
+  FreeVertices(int num_vertices, const std::vector<bool>& fixed);
+  /// Those of `order` that are not marked as fixed, in that order; `fixed` has a mark for every vertex.
+  FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed);
+  int size() const { return static_cast<int>(vertex_of_free.size()); }
+};
+
+/// Positions of the blocks: column by column, rows ascending from the diagonal on.
+struct BlockPattern {
+  std::vector<int> column_start;  // size + 1
+  std::vector<int> row;
+
+  int size() const { return static_cast<int>(column_start.size()) - 1; }
+  int num_blocks() const { return static_cast<int>(row.size()); }
+  /// Index of block (row, column), row ≥ column, or −1 where there is none.
+  int find(int r, int column) const;
+};
+
+/// Pattern with every diagonal block and every listed pair of free vertices (in any order, repeated or not).
+BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs);
+
+struct BlockMatrix {
+  /// Numbers per block: three columns of three and a zero, so that a column is one load.
+  static constexpr std::size_t kStride = 12;
+  using Block = Eigen::Map<Matrix3, 0, Eigen::OuterStride<4>>;
+  using ConstBlock = Eigen::Map<const Matrix3, 0, Eigen::OuterStride<4>>;
+
+  std::shared_ptr<const BlockPattern> pattern;
+  std::vector<double> values;
+
+  BlockMatrix() = default;
+  explicit BlockMatrix(std::shared_ptr<const BlockPattern> p) { clear(std::move(p)); }
+  /// Makes it a matrix of zeros.
+  void clear(std::shared_ptr<const BlockPattern> p);
+  Block block(int index) { return Block(values.data() + kStride * static_cast<std::size_t>(index)); }
+  /// Block (row, column), row ≥ column. \throw std::logic_error if the pattern has none
+  Block block(int r, int column) {
+    const int index = pattern->find(r, column);
+    if (index < 0) throw std::logic_error("a block outside the matrix's pattern");
+    return block(index);
+  }
+  ConstBlock block(int index) const { return ConstBlock(values.data() + kStride * static_cast<std::size_t>(index)); }
+
+  /// A x for the whole symmetric matrix; faster code is tested against it.
+  Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
+};
+
+}  // namespace tacipc

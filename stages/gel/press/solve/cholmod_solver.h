@@ -1,0 +1,30 @@
+// Sparse Cholesky factorisation of a BlockMatrix: CHOLMOD with METIS ordering.
+#pragma once
+
+#include <memory>
+
+#include "stages/gel/press/solve/linear_solver.h"
+
+namespace tacipc {
+
+/// Orders and analyses once per pattern; factorises as often as asked. Always one thread: CHOLMOD and BLAS change the
+/// last bits of a result with the number of theirs.
+class CholmodSolver final : public LinearSolver {
+ public:
+  CholmodSolver();
+  ~CholmodSolver() override;
+  CholmodSolver(const CholmodSolver&) = delete;
+  CholmodSolver& operator=(const CholmodSolver&) = delete;
+
+  /// Factorises. \throw SolverError when out of memory or on an internal fault.
+  bool prepare(const BlockMatrix& matrix) override;
+  /// A⁻¹ b by the last factorisation, never empty.
+  std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
+  int num_analyses() const override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tacipc

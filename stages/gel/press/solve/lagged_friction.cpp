@@ -1,0 +1,87 @@
+// Friction within a time step: where its normal forces and tangent planes are taken, and how often they are renewed.
+#include <algorithm>
+#include <limits>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "stages/gel/press/solve/step_limit.h"
+#include "stages/gel/press/solve/step_under_way.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kLagSlack = 0.5;        // part of each gap left where friction is lagged once
+constexpr double kLooseness = 10.0;      // factor on the tolerances while friction is still to be renewed
+constexpr double kFarFromSettled = 5.0;  // × the limit of the friction residual, above which tolerances stay loose
+// Where a residual is more than this part of the last one, renewals converge too slowly: then only half of the new
+// friction is mixed in, a quarter, …, at least the second.
+constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
+
+}  // namespace
+
+std::shared_ptr<const Friction> TimeStepper::friction_at(const Positions& lagged, const Step& step) {
+  return std::make_shared<const Friction>(barrier(pairs_at(lagged)), lagged, step.start,
+                                          settings_.friction->speed_threshold_m_s * step.goal.h_s);
+}
+
+void TimeStepper::start_friction(Step& step) {
+  if (!settings_.friction) return;
+  if (settings_.friction->max_lag_iterations > 1) {
+    step.friction = friction_at(step.start, step);
+    step.looseness = kLooseness;
+    return;
+  }
+  // Normal forces and tangent planes are those after the object alone has moved as far as half of every gap allows, so
+  // that contacts of this step have friction, too. [where the IPC authors' code lags friction]
+  Positions motion = Positions::Zero(step.start.rows(), 3);
+  motion.bottomRows(mesh_.num_object_vertices) =
+      step.goal.object_target - step.start.bottomRows(mesh_.num_object_vertices);
+  // Pairs that are near already mostly stop the object soon; only up to there the others need be searched.
+  const GapRule rule{kLagSlack, kGapFloor * settings_.d_hat_m};
+  const double part = contact_step_limit(pairs_at(step.start), step.start, motion, rule);
+  motion *= part;
+  motion *= contact_step_limit(pairs_along(step.start, motion), step.start, motion, rule);
+  step.friction = friction_at(step.start + motion, step);
+}
+
+void TimeStepper::settle_friction(Step& step) {
+  if (!settings_.friction) return;
+  const FrictionSettings& friction = *settings_.friction;
+  StepReport& report = step.report;
+  double renewal = 1.0, last_residual = std::numeric_limits<double>::infinity();
+  while (true) {
+    // The residual force if normal forces and tangent planes were renewed now.
+    const auto renewed = friction_at(step.x, step);
+    const Positions change = gradient_of(*renewed, step.x) - gradient_of(*step.friction, step.x);
+    double sum = 0.0;
+    for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
+    report.friction_residual_n = friction.coefficient * step.weights.barrier_stiffness_j_m4 * sum;
+    log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", report.lag_iterations, report.friction_residual_n,
+              report.contact_force_n);
+    const double limit =
+        std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * report.contact_force_n);
+    // Renewed once at least: else some steps would keep older friction than others, and forces would jump between them
+    // by as much as the tolerance allows.
+    const bool renewed_once = report.lag_iterations > 0 || friction.max_lag_iterations == 1;
+    const bool settled = report.friction_residual_n <= (renewed_once ? limit : settings_.newton.force_tolerance_n);
+    const bool last = report.lag_iterations + 1 >= friction.max_lag_iterations;
+    if ((settled || last) && step.looseness == 1.0) {
+      if (settled || friction.max_lag_iterations == 1) return;
+      throw SolverError("friction did not settle: residual {:.2e} N after it was renewed {} times (limit {:.2e})",
+                        report.friction_residual_n, friction.max_lag_iterations, limit);
+    }
+    if (settled || last) {
+      step.looseness = 1.0;
+    } else {
+      ++report.lag_iterations;
+      if (report.friction_residual_n > kSlowRenewal * last_residual)
+        renewal = std::max(0.5 * renewal, kSmallestRenewal);
+      last_residual = report.friction_residual_n;
+      step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
+      step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
+    }
+    minimise_constrained(step);
+  }
+}
+
+}  // namespace tacipc

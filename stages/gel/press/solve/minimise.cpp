@@ -1,0 +1,182 @@
+// Within a time step: Newton's method to the minimum of the incremental potential.
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "stages/gel/press/solve/step_limit.h"
+#include "stages/gel/press/solve/step_under_way.h"
+
+namespace tacipc {
+namespace {
+
+// Part of each gap that a step leaves while the object moves, when no line search guards it.
+constexpr double kMovingSlack = 0.3;
+// Tolerances of the linear solver. The fine one is for the last part of the object's displacement.
+constexpr double kCoarseSolve = 1e-2, kFineSolve = 1e-3;
+constexpr double kFineSolveFrom = 10.0;  // × the velocity tolerance
+// A step this many times as long as the last one is a sign of an almost indefinite Hessian.
+constexpr double kLengthGrowth = 4.0;
+constexpr int kMaxExactHessianWaits = 10;
+constexpr int kMaxHalvings = 40;
+constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
+// Multipliers are renewed at minima known to this part of the constraint's tolerance.
+constexpr double kConstraintPart = 0.3;
+// After a move by less than the first part of what the object has left, the gel is relaxed twice as long as after the
+// move before; after more than the second, half as long.
+constexpr double kShortMove = 0.1, kLongMove = 0.3;
+constexpr int kFewestAfterShortMove = 2, kMostRelaxations = 16;
+
+int relaxations_after(double alpha, int before) {
+  if (alpha < kShortMove) return std::clamp(2 * before, kFewestAfterShortMove, kMostRelaxations);
+  return alpha > kLongMove ? before / 2 : std::max(1, before);
+}
+
+}  // namespace
+
+double largest_row(const Positions& p, Eigen::Index rows) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < rows; ++i) largest = std::max(largest, p.row(i).squaredNorm());
+  return std::sqrt(largest);
+}
+
+void raise_shares_of_farthest(const Positions& p, Blend& blend) {
+  const double far = kFarthest * largest_row(p, p.rows());
+  for (Eigen::Index v = 0; v < p.rows(); ++v) {
+    if (p.row(v).norm() >= far) blend.raise_after_shortening(static_cast<int>(v));
+  }
+}
+
+void TimeStepper::minimise(Step& step) {
+  const StepReport& report = step.report;
+  Minimisation run{.energy = potential(step, pairs_at(step.x))};
+  while (true) {
+    if (run.iterations >= settings_.newton.max_iterations) {
+      throw SolverError(
+          "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N "
+          "of {:.3e} N, smallest gap {:.2e} m)",
+          settings_.newton.max_iterations, report.velocity_residual_m_s, settings_.newton.velocity_tolerance_m_s,
+          report.force_residual_n, report.contact_force_n, smallest_gap(step.x, settings_.d_hat_m));
+    }
+    const bool moving = !step.arrived && run.relaxations_left == 0;
+    const NewtonDirection direction = find_direction(step, run, moving);
+    const bool converged = within_tolerances(step, direction);
+    if (converged && is_final(step, run, direction)) return;
+
+    std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
+    const double limit = step_limit(pairs, step, direction.p, moving ? kMovingSlack : kNewtonSlack);
+    run.energy = potential(step, std::move(pairs));
+    double alpha = limit;
+    const char* const kind = moving ? "move" : step.arrived ? "newton" : "relax";
+    if (moving) {
+      move_object(step, run, direction, alpha);
+    } else {
+      const std::optional<double> found = line_search(step, run, direction, limit);
+      if (!found && converged) return;  // what the exact Hessian could still change is below rounding
+      if (!found) {
+        throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
+                          run.residual_m_s, direction.slope, smallest_gap(step.x, settings_.d_hat_m));
+      }
+      alpha = *found;
+      if (!step.arrived) --run.relaxations_left;
+      if (step.arrived && !converged && relax_patch(step, direction)) {
+        run.energy = potential(step, pairs_at(step.x));
+        run.value.reset();
+      }
+    }
+    log_debug("  {} {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s residual {:.3e} N blend {:.3g}", kind,
+              report.newton_iterations, alpha, limit, run.residual_m_s, report.force_residual_n,
+              direction.largest_share);
+    step.observe(report.newton_iterations, run.residual_m_s);
+  }
+}
+
+NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool moving) {
+  const NewtonSettings& settings = settings_.newton;
+  const double h = step.goal.h_s;
+  Positions motion = Positions::Zero(step.x.rows(), 3);
+  if (moving) {
+    motion.bottomRows(mesh_.num_object_vertices) =
+        (step.goal.object_target - step.x.bottomRows(mesh_.num_object_vertices)).rowwise() +
+        step.object_shift.transpose();
+  }
+  // One direction differs from the next by more than a coarse solution leaves out of it. But while the object moves,
+  // where no line search guards the step, an error of the last part would stay.
+  const bool coarse = step.arrived || run.residual_m_s > kFineSolveFrom * settings.velocity_tolerance_m_s;
+  newton_.set_tolerance(coarse ? kCoarseSolve : kFineSolve);
+  const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
+  Blend from_psd(mesh_.num_gel_vertices, settings.adaptive_contact_hessian);
+  NewtonDirection direction = newton_.direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
+                                                step.arrived ? step.blend : from_psd);
+  ++run.iterations;
+  const Eigen::Index rows = settings_.augmented_lagrangian ? step.x.rows() : mesh_.num_gel_vertices;
+  run.residual_m_s = std::max(largest_row(direction.p, rows), direction.object_shift.norm()) / h;
+  StepReport& report = step.report;
+  ++report.newton_iterations;
+  report.velocity_residual_m_s = run.residual_m_s;
+  report.force_residual_n = direction.gradient_sum / (h * h);
+  report.contact_force_n = direction.contact_sum / (h * h);
+  return direction;
+}
+
+bool TimeStepper::within_tolerances(const Step& step, const NewtonDirection& direction) const {
+  const NewtonSettings& settings = settings_.newton;
+  const StepReport& report = step.report;
+  if (!step.arrived) return false;
+  if (step.constraint && !(step.constraint->largest(direction.p) < kConstraintPart * kConstraintTolerance))
+    return false;
+  if (!(report.velocity_residual_m_s < step.looseness * settings.velocity_tolerance_m_s)) return false;
+  return report.force_residual_n <
+         step.looseness *
+             std::max(settings.force_tolerance_n, settings.relative_force_tolerance * report.contact_force_n);
+}
+
+// The PSD approximation shortens steps, so that a vertex on the crest of one of the object's edges looks at rest. With
+// the exact Hessian it would not: a limited number of iterations is spent on waiting for it.
+bool TimeStepper::is_final(const Step& step, Minimisation& run, const NewtonDirection& direction) const {
+  const bool exact = direction.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
+  return exact || step.looseness > 1.0 || ++run.exact_hessian_waits > kMaxExactHessianWaits;
+}
+
+double TimeStepper::step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p,
+                               double slack) {
+  const Stopwatch watch(times_.limits_s);
+  const GapRule rule{slack, kGapFloor * settings_.d_hat_m};
+  return std::min(contact_step_limit(pairs, step.x, p, rule), inversion_step_limit(gel_.tets, step.x, p));
+}
+
+void TimeStepper::move_object(Step& step, Minimisation& run, const NewtonDirection& direction, double alpha) {
+  ++step.report.moving_iterations;
+  step.x += alpha * direction.p;
+  step.object_shift += alpha * direction.object_shift;
+  run.value.reset();
+  if (alpha == 1.0) {
+    step.arrived = true;
+    step.x.bottomRows(mesh_.num_object_vertices) = step.goal.object_target.rowwise() + step.object_shift.transpose();
+  }
+  run.relaxations_left = run.relaxations_wanted = relaxations_after(alpha, run.relaxations_wanted);
+}
+
+std::optional<double> TimeStepper::line_search(Step& step, Minimisation& run, const NewtonDirection& direction,
+                                               double limit) {
+  const auto value = [&](const Positions& at) {
+    return timed(times_.line_search_s, [&] { return run.energy.value(at); });
+  };
+  const double before = run.value ? *run.value : value(step.x);
+  // Near the minimum the decrease drowns in rounding; a step that changes nothing measurable is accepted, too.
+  const double rounding = kEnergyRounding * std::abs(before);
+  double alpha = limit;
+  for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, alpha *= 0.5) {
+    const Positions trial = step.x + alpha * direction.p;
+    const double after = value(trial);
+    if (!(after <= before + kSufficientDecrease * alpha * direction.slope + rounding)) continue;
+    if (step.arrived && halvings > 0) raise_shares_of_farthest(direction.p.topRows(mesh_.num_gel_vertices), step.blend);
+    step.x = trial;
+    step.object_shift += alpha * direction.object_shift;
+    run.value = after;
+    return alpha;
+  }
+  return std::nullopt;
+}
+
+}  // namespace tacipc

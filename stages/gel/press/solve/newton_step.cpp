@@ -1,0 +1,209 @@
+#include "stages/gel/press/solve/newton_step.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+
+#include "common/base/error.h"
+#include "stages/gel/press/solve/contact_assembly.h"
+
+namespace tacipc {
+namespace {
+
+// Failed factorisations after which shares are raised only about the vertices at fault; then about all.
+constexpr int kMaxLocalRaises = 8;
+// Relative: the object's vertices go from rounded positions to rounded positions.
+constexpr double kSameTranslation = 1e-10;
+
+/// Σᵢ |row i| of a vector of stacked triples.
+double sum_of_norms(const Eigen::VectorXd& stacked) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < stacked.size(); i += 3) sum += stacked.segment<3>(i).norm();
+  return sum;
+}
+
+}  // namespace
+
+NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const EnergyTerm> elasticity,
+                             LinearSolverKind solver)
+    : free_(std::move(free)),
+      first_object_vertex_(first_object_vertex),
+      elasticity_(std::move(elasticity)),
+      own_pattern_(mesh_pattern(free_, *elasticity_)),
+      pattern_(own_pattern_),
+      solver_(make_linear_solver(solver)) {
+  if (const auto* linear = dynamic_cast<const Elasticity*>(elasticity_.get()); linear && linear->packs())
+    packs_.emplace(*linear->packs(), free_);
+  if (const auto* averaged = dynamic_cast<const AveragedElasticity*>(elasticity_.get());
+      averaged && averaged->packs()) {
+    averaged_ = averaged;
+    packs_.emplace(*averaged->packs(), free_);
+    volumes_.emplace(*averaged, free_);
+  }
+}
+
+SolverTimes NewtonStepper::times() const {
+  SolverTimes times = times_;
+  times.products = solver_->num_products();
+  return times;
+}
+
+NewtonStepper::Call NewtonStepper::start(const NewtonProblem& problem) {
+  const auto active = [&](const WeightedContact& contact) -> std::vector<int> {
+    if (!contact.term) return {};
+    const Stopwatch watch(times_.contact_s);
+    std::vector<int> found = contact.term->active(problem.x);
+    pattern_ = cover_contacts(pattern_, free_, first_object_vertex_, *contact.term, found, problem.x);
+    return found;
+  };
+  std::vector<int> friction = active(problem.potential.friction), barrier = active(problem.potential.barrier);
+
+  const auto of_object = problem.motion.bottomRows(problem.motion.rows() - first_object_vertex_);
+  const Vector3 translation = of_object.rows() > 0 ? Vector3(of_object.row(0)) : Vector3::Zero();
+  const bool translates =
+      of_object.rows() == 0 || (of_object.rowwise() - translation.transpose()).cwiseAbs().maxCoeff() <=
+                                   kSameTranslation * translation.cwiseAbs().maxCoeff();
+  const bool in_full = !problem.free_axes.empty() || !translates;
+  return {problem,
+          {problem.motion, in_full, in_full ? Vector3::Zero() : translation},
+          std::move(friction),
+          std::move(barrier)};
+}
+
+bool NewtonStepper::assemble_packs(double weight, const Positions& x) {
+  if (!packs_) return false;
+  if (!averaged_) {
+    packs_->add(x, {}, weight, system_);
+    return true;
+  }
+  const auto volume = averaged_->volume_derivatives(x);
+  packs_->add(x, volume.pressure, weight, system_);
+  volumes_->add(volume.second, x, weight, system_);
+  return true;
+}
+
+double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
+  const Positions& x = call.problem.x;
+  timed(times_.elastic_s, [&] {
+    clear(system_, free_, pattern_);
+    for (const WeightedTerm& part : call.problem.potential.terms) {
+      if (part.term == elasticity_ && elastic == Order::hessian && assemble_packs(part.weight, x)) continue;
+      assemble(part, x, free_, first_object_vertex_, elastic, call.object.of_vertices, system_);
+    }
+  });
+  const Stopwatch watch(times_.contact_s);
+  const Vector3 without_contact = gel_gradient();
+  Vector3 so_far = without_contact, of_barrier = Vector3::Zero();
+  call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
+    assemble_contact(contact.weight, *contact.term, active, x, free_, first_object_vertex_, blend, call.object,
+                     system_);
+    const Vector3 of_term = gel_gradient() - so_far;
+    so_far += of_term;
+    if (&contact == &call.problem.potential.barrier) of_barrier = of_term;
+  });
+  return std::min(of_barrier.norm(), (so_far - without_contact).norm());
+}
+
+void NewtonStepper::reblend(const Call& call, const Blend& before, const Blend& after) {
+  const Stopwatch watch(times_.contact_s);
+  call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
+    reblend_contact(contact.weight, *contact.term, active, call.problem.x, free_, first_object_vertex_, before, after,
+                    call.object, system_);
+  });
+}
+
+/// Σ of the system's gradient over the gel's free vertices.
+Vector3 NewtonStepper::gel_gradient() const {
+  Vector3 sum = Vector3::Zero();
+  for (int i = 0; i < free_.size(); ++i) {
+    if (free_.vertex_of_free[i] < first_object_vertex_) sum += system_.gradient.segment<3>(3 * i);
+  }
+  return sum;
+}
+
+/// Solves [H B; Bᵀ C] [p; q] = [−g − c; −g_q − c_q] for the free vertices and the object's free axes.
+bool NewtonStepper::solve(const NewtonProblem& problem, NewtonDirection& out) {
+  const Stopwatch watch(times_.linear_s);
+  ++times_.solves;
+  if (!solver_->prepare(system_.hessian)) return false;
+  const auto solved = solver_->solve(-system_.gradient - system_.coupling);
+  if (!solved) return false;
+  Eigen::VectorXd step = *solved;
+  out.object_shift.setZero();
+  out.slope = 0.0;
+  const std::vector<int>& axes = problem.free_axes;
+  if (const auto k = static_cast<Eigen::Index>(axes.size()); k > 0) {
+    Eigen::MatrixXd Z(step.size(), k), B(step.size(), k), C(k, k);
+    Eigen::VectorXd rhs(k), gradient(k);
+    for (Eigen::Index a = 0; a < k; ++a) {
+      B.col(a) = system_.object_border.col(axes[a]);
+      const auto column = solver_->solve(B.col(a));
+      if (!column) return false;
+      Z.col(a) = *column;
+      gradient[a] = system_.object_gradient[axes[a]];
+      rhs[a] = -gradient[a] - system_.object_coupling[axes[a]];
+      for (Eigen::Index b = 0; b < k; ++b) C(a, b) = system_.object_hessian(axes[a], axes[b]);
+    }
+    const Eigen::MatrixXd schur = C - B.transpose() * Z;
+    const Eigen::LLT<Eigen::MatrixXd> factor(0.5 * (schur + schur.transpose()));
+    if (factor.info() != Eigen::Success) return false;
+    const Eigen::VectorXd q = factor.solve(rhs - B.transpose() * step);
+    step -= Z * q;
+    for (Eigen::Index a = 0; a < k; ++a) out.object_shift[axes[a]] = q[a];
+    out.slope = gradient.dot(q);
+  }
+  out.slope += system_.gradient.dot(step);
+  out.p = problem.motion;
+  for (int i = 0; i < free_.size(); ++i) out.p.row(free_.vertex_of_free[i]) = step.segment<3>(3 * i).transpose();
+  if (!axes.empty()) out.p.bottomRows(out.p.rows() - first_object_vertex_).rowwise() += out.object_shift.transpose();
+  return true;
+}
+
+std::vector<int> NewtonStepper::solve_or_find_indefinite(const NewtonProblem& problem, double longest_m,
+                                                         NewtonDirection& out) {
+  std::vector<int> at_fault;
+  if (solve(problem, out)) {
+    for (const int v : free_.vertex_of_free) {
+      if (out.p.row(v).squaredNorm() > longest_m * longest_m) at_fault.push_back(v);
+    }
+    return at_fault;
+  }
+  for (const int i : solver_->indefinite_rows()) at_fault.push_back(free_.vertex_of_free[i]);
+  return at_fault.empty() ? free_.vertex_of_free : at_fault;
+}
+
+NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& blend) {
+  const Call call = start(problem);
+  const auto raise_shares = [&](const std::vector<int>& vertices) {
+    bool raised = false;
+    for (const int v : vertices) {
+      if (v < first_object_vertex_) raised = blend.raise(v) || raised;
+    }
+    return raised;
+  };
+  NewtonDirection out;
+  out.contact_sum = assemble_all(call, Order::hessian, blend);
+  bool projected = false;
+  for (int tries = 1;; ++tries) {
+    constexpr double kAnyLength = std::numeric_limits<double>::infinity();
+    const std::vector<int> at_fault =
+        solve_or_find_indefinite(problem, projected ? kAnyLength : problem.longest_m, out);
+    if (at_fault.empty()) break;
+    const Blend before = blend;
+    if ((tries <= kMaxLocalRaises && raise_shares(at_fault)) || raise_shares(free_.vertex_of_free)) {
+      reblend(call, before, blend);
+    } else if (!projected) {
+      projected = true;
+      out.contact_sum = assemble_all(call, Order::psd, blend);
+    } else {
+      throw SolverError("the projected Hessian is not positive definite");
+    }
+  }
+  out.largest_share = blend.largest();
+  out.gradient_sum = sum_of_norms(system_.gradient);
+  for (const int axis : problem.free_axes) out.gradient_sum += std::abs(system_.object_gradient[axis]);
+  blend.lower();
+  return out;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,110 @@
+// One linear solve: the Newton step of the incremental potential while the object moves as prescribed, or freely along
+// some axes.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "stages/gel/press/solve/contact_assembly.h"
+#include "stages/gel/press/solve/elastic_assembly.h"
+#include "stages/gel/press/solve/linear_solver.h"
+#include "stages/gel/press/solve/solver_times.h"
+#include "stages/gel/press/solve/volume_assembly.h"
+
+namespace tacipc {
+
+/// Which Newton step is asked for.
+struct NewtonProblem {
+  const IncrementalPotential& potential;
+  const Positions& x;
+  const Positions& motion;          // rows like x: displacements of the prescribed vertices
+  std::vector<int> free_axes = {};  // along which the object as a whole is free besides
+  /// A step by which a vertex goes farther than this counts as a sign of a Hessian that is almost indefinite.
+  double longest_m = std::numeric_limits<double>::infinity();
+};
+
+/// A Newton step and what was learnt on the way to it.
+struct NewtonDirection {
+  Positions p;                             // all vertices
+  Vector3 object_shift = Vector3::Zero();  // the object's part of it beyond its prescribed motion
+  double slope = 0.0;                      // gᵀp over everything free
+  double gradient_sum = 0.0;               // Σ of |gradient| over free vertices, and over the object's free axes
+  /// What residual forces are measured by: |Σ gradient of contact| over the gel's free vertices, of the barrier alone
+  /// or with friction, whichever is smaller (friction may carry most of the normal force, and the rest must balance,
+  /// too).
+  double contact_sum = 0.0;
+  double largest_share = 0.0;  // of the contact Hessian's PSD approximation: 0 exact, 1 nothing else somewhere
+};
+
+class NewtonStepper {
+ public:
+  /// \param elasticity over every tetrahedron with a free vertex: its stencils are the matrix's pattern, but for
+  /// contact between parts of the gel
+  NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const EnergyTerm> elasticity,
+                LinearSolverKind solver);
+  NewtonStepper(const NewtonStepper&) = delete;
+  NewtonStepper& operator=(const NewtonStepper&) = delete;
+
+  /// Solves for the Newton step with H = (1 − share) H_exact + share H_psd for each contact, H_psd the PSD
+  /// approximation of its Hessian and the share that of its vertices. Shares are raised about those vertices where H is
+  /// not positive definite until it is; if it is not even with 1 there, elasticity is projected, too. Frictionless
+  /// contact slides along the object's edges: the PSD approximation alone is too stiff that way, and Newton takes many
+  /// short steps.
+  NewtonDirection direction(const NewtonProblem& problem, Blend& blend);
+
+  /// Forgets couplings that contacts have added, so that the next step does not depend on steps before.
+  void reset_pattern() { pattern_ = own_pattern_; }
+
+  /// Of the linear solver, where it is iterative.
+  void set_tolerance(double relative) { solver_->set_tolerance(relative); }
+
+  /// Of derivatives and linear systems.
+  SolverTimes times() const;
+
+  const FreeVertices& free() const { return free_; }
+  const LinearSolver& solver() const { return *solver_; }
+
+ private:
+  /// One call of direction().
+  struct Call {
+    const NewtonProblem& problem;
+    ObjectMotion object;
+    std::vector<int> active_friction, active_barrier;  // stencils
+
+    /// Calls use(contact, active stencils) for friction and then for the barrier, where there are such.
+    template <typename Use>
+    void for_each_contact(Use&& use) const {
+      if (problem.potential.friction.term) use(problem.potential.friction, active_friction);
+      if (problem.potential.barrier.term) use(problem.potential.barrier, active_barrier);
+    }
+  };
+
+  /// Finds the contacts that count, and extends the pattern by what they couple.
+  Call start(const NewtonProblem& problem);
+  /// Assembles the whole system, with elasticity to the given order. \return NewtonDirection::contact_sum
+  double assemble_all(const Call& call, Order elastic, const Blend& blend);
+  /// Adds the elasticity in packs; false where it has none.
+  bool assemble_packs(double weight, const Positions& x);
+  /// Makes the contact Hessians of the system those of another blend.
+  void reblend(const Call& call, const Blend& before, const Blend& after);
+  Vector3 gel_gradient() const;
+  /// Solves the system; false if it is not positive definite.
+  bool solve(const NewtonProblem& problem, NewtonDirection& out);
+  /// Solves the system. \return vertices about which it is not positive definite, or which go farther than
+  /// `longest_m`; none if the direction can be used
+  std::vector<int> solve_or_find_indefinite(const NewtonProblem& problem, double longest_m, NewtonDirection& out);
+
+  FreeVertices free_;
+  int first_object_vertex_;
+  std::shared_ptr<const EnergyTerm> elasticity_;
+  std::optional<ElasticAssembly> packs_;          // of the elasticity, where it comes in packs,
+  const AveragedElasticity* averaged_ = nullptr;  // and what it is besides, where volumes are averaged
+  std::optional<VolumeAssembly> volumes_;
+  std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
+  NewtonSystem system_;  // of the last call; its storage is used again
+  SolverTimes times_;
+  std::unique_ptr<LinearSolver> solver_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,120 @@
+// Within a time step: Newton's method for the few vertices that still move.
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "common/base/log.h"
+#include "stages/gel/press/solve/local_patch.h"
+#include "stages/gel/press/solve/step_limit.h"
+#include "stages/gel/press/solve/step_under_way.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kMostSeeds = 0.005;  // largest part of the free vertices that a patch starts from
+// Where more vertices than that move: the farthest of the seeds goes so many times as far as any other vertex.
+constexpr double kStandOut = 3.0;
+constexpr int kRings = 2;
+constexpr int kMaxIterations = 20;
+// A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
+// tolerance), so that the whole gel finds it at rest.
+constexpr double kPatchTolerance = 0.2;
+constexpr int kMaxHalvings = 20;
+constexpr double kReach = 1.0;          // largest displacement in a patch along each axis, × d̂
+constexpr double kSmallestStep = 1e-3;  // part of a Newton step below which a patch is given up
+
+/// Vertices that go farther than all others.
+struct Seeds {
+  std::vector<int> vertices;
+  double others_m;  // the longest displacement of all others, at least the tolerance
+};
+
+/// None where no displacement is above the tolerance, or too many are and none of them stands out.
+std::optional<Seeds> seeds(const Positions& p, const FreeVertices& free, double tolerance_m) {
+  std::vector<double> lengths;
+  for (const int v : free.vertex_of_free) lengths.push_back(p.row(v).norm());
+  std::vector<double> sorted = lengths;
+  const auto most = static_cast<std::ptrdiff_t>(kMostSeeds * static_cast<double>(lengths.size()));
+  const auto others = sorted.end() - 1 - most;
+  std::nth_element(sorted.begin(), others, sorted.end());
+  const double farthest = *std::max_element(others, sorted.end());
+  if (farthest <= tolerance_m || (*others > tolerance_m && farthest < kStandOut * *others)) return std::nullopt;
+  Seeds found{{}, std::max(*others, tolerance_m)};
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    if (lengths[i] > found.others_m) found.vertices.push_back(free.vertex_of_free[i]);
+  }
+  return found;
+}
+
+/// Largest part of the step p, at most 1, by which no vertex of the patch gets farther than `reach` from where it
+/// started along any axis: the pairs at hand are all there are within that.
+double reach_limit(const FreeVertices& free, const Positions& start, const Positions& x, const Positions& p,
+                   double reach) {
+  double alpha = 1.0;
+  for (const int v : free.vertex_of_free) {
+    for (int c = 0; c < 3; ++c) {
+      const double before = x(v, c) - start(v, c), step = p(v, c);
+      if (std::abs(before + alpha * step) > reach) alpha = std::max(0.0, ((step > 0 ? reach : -reach) - before) / step);
+    }
+  }
+  return alpha;
+}
+
+}  // namespace
+
+bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
+  if (!settings_.newton.patches || settings_.augmented_lagrangian || !step.goal.free_axes.empty()) return false;
+  const double h = step.goal.h_s, tolerance = settings_.newton.velocity_tolerance_m_s * h;
+  const Stopwatch watch(times_.patches_s);
+  const std::optional<Seeds> found = seeds(direction.p, newton_.free(), tolerance);
+  if (!found) return false;
+
+  const LocalPatch patch = grow_patch(found->vertices, kRings, gel_.tets, newton_.free());
+  const double reach = kReach * settings_.d_hat_m;
+  const Positions start = step.x;
+  const std::vector<ContactPair> pairs = search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach);
+  StepTerms terms = step.terms;
+  for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity, &terms.elasticity})
+    *term = restricted(*term, patch.moves);
+  terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
+  terms.barrier = std::make_shared<ContactBarrier>(barrier(pairs));
+  const IncrementalPotential energy = make_incremental_potential(terms, step.weights);
+
+  NewtonStepper newton(patch.free, mesh_.num_gel_vertices, terms.elasticity, settings_.linear_solver);
+  const Positions still = Positions::Zero(step.x.rows(), 3);
+  Blend blend = step.blend;
+  int iterations = 0;
+  for (bool within_reach = true; within_reach && iterations < kMaxIterations; ++iterations) {
+    const NewtonDirection local = newton.direction({energy, step.x, still}, blend);
+    const double longest = std::sqrt(local.p.rowwise().squaredNorm().maxCoeff());
+    const bool exact = local.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
+    if (longest < kPatchTolerance * found->others_m && (exact || found->others_m > tolerance)) break;
+    const double alpha = reach_limit(patch.free, start, step.x, local.p, reach);
+    if (alpha < kSmallestStep) break;
+    within_reach = alpha == 1.0;
+    const Positions p = alpha * local.p;
+    const double limit = std::min(contact_step_limit(pairs, step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m}),
+                                  inversion_step_limit(patch.tets, step.x, p));
+    const double before = energy.value(step.x), rounding = kEnergyRounding * std::abs(before);
+    double part = limit;
+    int halvings = 0;
+    Positions trial = step.x + part * p;
+    while (!(energy.value(trial) <= before + kSufficientDecrease * part * alpha * local.slope + rounding) &&
+           halvings < kMaxHalvings) {
+      ++halvings;
+      part *= 0.5;
+      trial = step.x + part * p;
+    }
+    if (halvings == kMaxHalvings) break;
+    step.x = trial;
+    if (halvings > 0) raise_shares_of_farthest(local.p.topRows(mesh_.num_gel_vertices), blend);
+    log_debug("    patch {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s blend {:.3g}", iterations + 1, part * alpha,
+              limit, longest / h, local.largest_share);
+  }
+  step.report.patch_iterations += iterations;
+  ++step.report.patches;
+  log_debug("  patch of {} vertices ({} moved): {} iterations", patch.free.size(), found->vertices.size(), iterations);
+  return iterations > 0;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,89 @@
+// Within a time step: the forces it ends with.
+#include <cmath>
+
+#include "stages/gel/press/solve/step_under_way.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kTouching = 1e-9;  // of the largest force on a vertex
+
+/// StepForces::stand_off_m.
+double stand_off(const ContactBarrier& barrier, const Positions& x) {
+  double force = 0.0, moment = 0.0;
+  for (const int i : barrier.active(x)) {
+    if (barrier.of_gel_alone(i)) continue;
+    const ContactBarrier::Push push = barrier.push(i, gather(x, barrier.pairs()[i]));
+    force += push.force;
+    moment += push.force * std::sqrt(push.feature.squared_distance);
+  }
+  return force > 0.0 ? moment / force : 0.0;
+}
+
+}  // namespace
+
+StepForces TimeStepper::no_forces() const {
+  const Positions zero = Positions::Zero(mesh_.num_gel_vertices, 3);
+  return {
+      .normal = zero,
+      .friction = zero,
+      .mount = zero,
+      .body = zero,
+      .contact_state = std::vector<ContactState>(static_cast<std::size_t>(mesh_.num_gel_vertices), ContactState::none)};
+}
+
+void TimeStepper::record_forces(const Step& step) {
+  const Eigen::Index n = mesh_.num_gel_vertices;
+  const double h2 = step.goal.h_s * step.goal.h_s;
+  // Ê is h² times an energy.
+  const auto force_of = [&](double weight, const EnergyTerm& term) -> Positions {
+    return -weight / h2 * gradient_of(term, step.x).topRows(n);
+  };
+  const auto take_from_mount = [&](const Positions& force) {
+    for (const int v : gel_.glued) forces_.mount.row(v) -= force.row(v);
+  };
+  forces_ = no_forces();
+  const std::vector<ContactPair> pairs = pairs_at(step.x);
+  forces_.stand_off_m = stand_off(barrier(pairs), step.x);
+  const IncrementalPotential energy = potential(step, pairs);
+  for (const WeightedTerm& part : energy.terms) {
+    if (part.term == step.terms.object_inertia || part.term == step.terms.constraint) continue;
+    if (part.term == gel_.elasticity) {
+      take_from_mount(force_of(part.weight, *elasticity_at_mount_));
+      continue;
+    }
+    const Positions force = force_of(part.weight, *part.term);
+    forces_.body += force;
+    take_from_mount(force);
+  }
+  if (energy.friction.term) {
+    forces_.friction = force_of(energy.friction.weight, *energy.friction.term);
+    take_from_mount(forces_.friction);
+  }
+  forces_.normal = force_of(energy.barrier.weight, *energy.barrier.term);
+  take_from_mount(forces_.normal);
+
+  // Where weights of both signs cancel, rounding is left.
+  const double touching_n = kTouching * std::sqrt(forces_.normal.rowwise().squaredNorm().maxCoeff());
+  std::vector<double> all(static_cast<std::size_t>(n), 0.0), slipping(static_cast<std::size_t>(n), 0.0);
+  for (Eigen::Index v = 0; v < n; ++v)
+    forces_.contact_state[v] = forces_.normal.row(v).norm() > touching_n ? ContactState::stick : ContactState::none;
+  if (!step.friction) return;
+  for (int i = 0; i < step.friction->num_stencils(); ++i) {
+    const auto stencil = step.friction->stencil(i);
+    const bool slips = step.friction->relative_slide(i, step.x) >= 1.0;
+    for (std::size_t k = 0; k < stencil.size(); ++k) {
+      if (stencil[k] >= n) continue;
+      const double share =
+          std::abs(step.friction->weights(i)[static_cast<Eigen::Index>(k)]) * step.friction->normal_force(i);
+      all[stencil[k]] += share;
+      if (slips) slipping[stencil[k]] += share;
+    }
+  }
+  for (Eigen::Index v = 0; v < n; ++v) {
+    if (forces_.contact_state[v] != ContactState::none && slipping[v] > 0.5 * all[v])
+      forces_.contact_state[v] = ContactState::slip;
+  }
+}
+
+}  // namespace tacipc

@@ -1,0 +1,53 @@
+// One time step while it is solved: what the files that solve it share.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "stages/gel/press/energy/dirichlet.h"
+#include "stages/gel/press/solve/time_step.h"
+
+namespace tacipc {
+
+struct TimeStepper::Step {
+  const StepGoal& goal;
+  const IterationObserver& observe;
+  const Positions& start;  // of gel and object
+  Positions x;
+  StepTerms terms = {};  // all but contact
+  StepWeights weights = {};
+  bool arrived = false;                    // the object is at its target
+  Vector3 object_shift = Vector3::Zero();  // along its free axes, so far
+  StepReport report = {};
+  std::shared_ptr<const Friction> friction = nullptr;
+  std::shared_ptr<const Dirichlet> constraint = nullptr;
+  Blend blend;             // of the contact Hessian, once the object has arrived
+  double looseness = 1.0;  // factor on the tolerances, while friction is still to be renewed
+};
+
+/// Newton's method at work on one minimum: what an iteration leaves for the next.
+struct TimeStepper::Minimisation {
+  IncrementalPotential energy;
+  std::optional<double> value = std::nullopt;  // of the energy at x, where the line search has found it
+  double residual_m_s = std::numeric_limits<double>::infinity();  // max |p| / h of the last direction
+  int iterations = 0;
+  int exact_hessian_waits = 0;  // iterations within the tolerances that went on for want of the exact Hessian
+  int relaxations_wanted = 0;   // iterations at a fixed object between two of its moves,
+  int relaxations_left = 0;     // and those left until the next
+};
+
+/// The line search had to shorten the step p: raises the PSD shares of the vertices that go farthest in it, the likely
+/// cause.
+void raise_shares_of_farthest(const Positions& p, Blend& blend);
+
+/// √(max |row i|²) over the first `rows` rows.
+double largest_row(const Positions& p, Eigen::Index rows);
+
+inline constexpr double kGapFloor = 1e-4;              // × d̂: no step leaves a smaller gap
+inline constexpr double kNewtonSlack = 0.1;            // part of each gap that a step leaves
+inline constexpr double kSufficientDecrease = 1e-4;    // Armijo: part of the decrease that the slope promises
+inline constexpr double kEnergyRounding = 1e-14;       // relative: changes of the energy below it are not measurable
+inline constexpr double kConstraintTolerance = 2e-10;  // m: augmented Lagrangian, when targets count as met
+
+}  // namespace tacipc

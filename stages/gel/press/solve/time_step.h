@@ -1,0 +1,191 @@
+// One time step: brings the object to its prescribed pose and the gel to the minimum of the incremental potential.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "common/sample/contact_state.h"
+#include "stages/gel/press/contact/pair_counting.h"
+#include "stages/gel/press/energy/friction.h"
+#include "stages/gel/press/solve/newton_step.h"
+
+namespace tacipc {
+
+/// When a step counts as solved, and what it may cost.
+struct NewtonSettings {
+  double velocity_tolerance_m_s = 0.0;     // max |p| / h of the Newton step p, below which it has converged …
+  double relative_force_tolerance = 5e-4;  // … if residual forces also sum to less than this part of the contact force
+  double force_tolerance_n = 1e-5;         // … or to less than this
+  int max_iterations = 200;                // reaching it is a failure
+  bool adaptive_contact_hessian = true;    // blend of the exact one and its PSD approximation, else the latter alone
+  bool patches = true;                     // solves for the last few moving vertices alone in between
+};
+
+struct FrictionSettings {
+  double coefficient = 0.0;
+  double speed_threshold_m_s = 0.0;  // ε_v
+  int max_lag_iterations = 1;        // 1: normal forces and tangent planes of the start of the step
+  double relative_lag_tolerance = 0.0;
+};
+
+/// What holds during a whole simulation.
+struct StepSettings {
+  double d_hat_m = 0.0;
+  double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step, which a divided step keeps
+  bool adaptive_barrier = false;        // State::barrier_factor grows where gaps get small
+  PairCounting pair_counting = {};
+  std::optional<FrictionSettings> friction = std::nullopt;
+  bool quasi_static = false;
+  bool augmented_lagrangian = false;  // glued and object vertices by multipliers, else eliminated
+  Vector3 gravity_m_s2 = Vector3::Zero();
+  double mass_damping_per_s = 0.0;
+  double stiffness_damping_s = 0.0;
+  LinearSolverKind linear_solver = LinearSolverKind::direct;
+  NewtonSettings newton;
+};
+
+/// The gel as the solver sees it; constant during a simulation.
+struct GelModel {
+  std::shared_ptr<const EnergyTerm> elasticity;  // over all tetrahedra
+  Tetrahedra tets;
+  Eigen::VectorXd mass_kg;
+  std::vector<int> glued;
+};
+
+/// Where the object goes in one step.
+struct StepGoal {
+  double h_s = 0.0;
+  Positions object_target;           // of its vertices; along free axes, where they would be without any shift
+  std::vector<int> free_axes = {};   // of S, along which the object moves as loads and contact have it
+  Vector3 load_n = Vector3::Zero();  // on the object, along these
+  double object_mass_kg = 0.0;       // its inertia along these; > 0 if there are any
+};
+
+/// What moves; rows of gel, then object.
+struct State {
+  Positions x;
+  Positions velocity_m_s;                         // gel rows
+  Vector3 object_velocity_m_s = Vector3::Zero();  // along free axes
+  double barrier_factor = 1.0;                    // on the barrier's stiffness in the next step
+};
+
+/// What a step took and where it ended.
+struct StepReport {
+  int time_steps = 0;         // more than asked for where a step had to be divided
+  int newton_iterations = 0;  // linear systems solved, those that moved the object included
+  int moving_iterations = 0;  // those that moved the object
+  int patches = 0;            // times that a few vertices were solved for alone,
+  int patch_iterations = 0;   // and Newton iterations of those
+  int lag_iterations = 0;     // how often friction was renewed, beyond the first time
+  double velocity_residual_m_s = 0.0;
+  double force_residual_n = 0.0;             // Σ over free vertices of |residual force|
+  double barrier_factor = 1.0;               // on the barrier's stiffness
+  double friction_residual_n = 0.0;          // residual force if normal forces and tangent planes were renewed now
+  double contact_force_n = 0.0;              // |Σ forces of the object on the gel|, with or without friction: the less
+  Vector3 object_shift_m = Vector3::Zero();  // displacement of the object along its free axes
+};
+
+/// Forces on the gel's vertices at the end of a step, N, one row per gel vertex.
+struct StepForces {
+  Positions normal;    // by contact
+  Positions friction;  // by friction
+  Positions mount;     // on the glued vertices, by the mount; zero elsewhere
+  Positions body;      // inertia (−m a), gravity and damping
+  /// Per gel vertex; slip where most of its normal force belongs to pairs that slide faster than ε_v.
+  std::vector<ContactState> contact_state;
+  /// Σ λ d / Σ λ over the pairs of gel and object, λ the force and d the distance between the two sides of each: the
+  /// mean gap between the surfaces where they press on each other. Zero where nothing touches.
+  double stand_off_m = 0.0;
+};
+
+/// Called after each Newton iteration, for progress lines.
+using IterationObserver = std::function<void(int iteration, double velocity_residual_m_s)>;
+
+class TimeStepper {
+ public:
+  TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings);
+
+  /// Advances the state by one step. But for its free axes the object ends bit-equal to the target.
+  /// \throw SolverError with the numbers if the step does not converge; the state is then as before but for the
+  /// barrier's factor.
+  StepReport advance(State& state, const StepGoal& goal, const IterationObserver& observe);
+
+  /// Forces at the end of the last step that succeeded.
+  const StepForces& forces() const { return forces_; }
+  /// Those of a gel that nothing touches.
+  StepForces no_forces() const;
+  /// Smallest gap between gel and object (not counting gel–gel), at most `none`.
+  double smallest_gap(const Positions& x, double none);
+  /// Of all steps so far.
+  SolverTimes times() const;
+  int num_analyses() const { return newton_.solver().num_analyses(); }
+
+ private:
+  struct Step;
+  struct Minimisation;
+
+  /// The step before its first iteration: terms, weights, friction.
+  Step start_step(const State& state, const StepGoal& goal, const IterationObserver& observe);
+  void add_gel_terms(Step& step, const State& state) const;
+  void add_object_inertia(Step& step, const State& state) const;
+  /// The augmented Lagrangian that holds glued and object vertices.
+  void add_constraint(Step& step) const;
+  /// Takes a solved step over into the state.
+  void finish_step(Step& step, State& state);
+  void record_forces(const Step& step);
+  /// Makes the barrier of the next steps stiffer if a gap at x is too small; true if it did.
+  bool stiffen_barrier(State& state, const Positions& x);
+
+  /// Newton's method to the minimum, the object moving to its target first. \throw SolverError if it does not converge
+  void minimise(Step& step);
+  NewtonDirection find_direction(Step& step, Minimisation& run, bool moving);
+  /// Whether the Newton step and the residual forces are below their tolerances.
+  bool within_tolerances(const Step& step, const NewtonDirection& direction) const;
+  /// Whether a direction within the tolerances ends the minimisation, or the exact Hessian is waited for.
+  bool is_final(const Step& step, Minimisation& run, const NewtonDirection& direction) const;
+  /// Part of the step p that leaves enough of every gap and every volume.
+  double step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p, double slack);
+  /// Moves object and gel together by the part `alpha` of the direction.
+  void move_object(Step& step, Minimisation& run, const NewtonDirection& direction, double alpha);
+  /// Takes the longest of the steps limit, limit/2, … that decreases the energy. \return that step; none, and nothing
+  /// moved, if there is none
+  std::optional<double> line_search(Step& step, Minimisation& run, const NewtonDirection& direction, double limit);
+  /// minimise(), with an augmented Lagrangian's multipliers renewed until all targets are met.
+  void minimise_constrained(Step& step);
+
+  /// Where only a few vertices are not yet at rest: Newton's method for the patch of those and their neighbours, all
+  /// others held. True if anything moved.
+  bool relax_patch(Step& step, const NewtonDirection& direction);
+
+  /// Friction of this step with normal forces and tangent planes of `lagged`. \pre there is friction
+  std::shared_ptr<const Friction> friction_at(const Positions& lagged, const Step& step);
+  /// The friction that the first minimum is sought with, if there is any.
+  void start_friction(Step& step);
+  /// From a minimum: renews friction and minimises again until it belongs to its own contact forces.
+  /// \throw SolverError if it does not settle
+  void settle_friction(Step& step);
+
+  ContactBarrier barrier(std::vector<ContactPair> pairs) const;
+  std::vector<ContactPair> pairs_at(const Positions& x);                         // within d̂ at x
+  std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);  // or anywhere between x and x + p
+  IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
+
+  const ContactMesh& mesh_;
+  GelModel gel_;
+  std::shared_ptr<const EnergyTerm> elasticity_at_mount_;  // stencils with a glued vertex
+  StepSettings settings_;
+  ContactSearch search_;
+  /// What pairs_at() found last: friction, forces and the gap of a solved step ask at the same place. Of this step
+  /// only.
+  struct {
+    Positions x;
+    std::vector<ContactPair> pairs;
+  } last_search_;
+  NewtonStepper newton_;
+  StepForces forces_;
+  SolverTimes times_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,36 @@
+// The part of Newton's system by which clusters couple all of their vertices through their volume.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "stages/gel/press/energy/averaged_elasticity.h"
+#include "stages/gel/press/solve/assembly.h"
+#include "stages/gel/press/solve/separate_groups.h"
+
+namespace tacipc {
+
+/// Adds u″ ∂v ∂vᵀ of every cluster (averaged_elasticity.h). Where the blocks go is looked up once per pattern.
+class VolumeAssembly {
+ public:
+  /// \pre both outlive it
+  VolumeAssembly(const AveragedElasticity& elasticity, const FreeVertices& free);
+
+  /// `second`: u″ of each cluster. \pre prescribed vertices of the gel stand still
+  void add(const std::vector<double>& second, const Positions& x, double weight, NewtonSystem& system);
+
+ private:
+  void look_up(const BlockPattern& pattern);
+
+  struct Cluster {
+    std::vector<int> members;  // of its stencil, those that are free, by their number among the free vertices
+    std::vector<int> places;   // of blocks (i, j) with i ≥ j in that order, column by column
+  };
+  const AveragedElasticity& elasticity_;
+  const FreeVertices& free_;
+  SeparateGroups groups_;                        // of clusters
+  std::shared_ptr<const BlockPattern> pattern_;  // that the places belong to
+  std::vector<Cluster> clusters_;
+};
+
+}  // namespace tacipc

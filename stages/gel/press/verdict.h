@@ -1,0 +1,46 @@
+// The judgement of one frame: what must hold before it may be saved.
+#pragma once
+
+#include <optional>
+
+#include "common/base/error.h"
+
+namespace tacipc {
+
+/// The limits that no configuration can move, as the record repeats them; docs/verdict.md says what each is for.
+struct VerdictLimits {
+  double smallest_distance_m = 0.0;  // between gel and object, must be exceeded
+  int intersections = 0;             // pairs of triangles that share a point, decided exactly
+  int inverted_tets = 0;             // tetrahedra whose exact volume is not positive
+  double volume_ratio = 0.0;         // smallest deformed over undeformed volume, must be exceeded
+  double balance_relative = 1e-3;    // of the contact force, which counts as at least kSmallestContactN
+  double pose_error_m = 1e-9;        // of the object's vertices from where the motion prescribes them
+};
+inline constexpr VerdictLimits kVerdictLimits;
+
+/// The limits that follow from the configuration and the frame's contact force: what the solver promised to reach.
+struct SolverLimits {
+  double velocity_residual_m_s = 0.0;
+  double force_residual_n = 0.0;
+  std::optional<double> friction_residual_n;  // absent where friction is lagged once, without a promise
+};
+
+/// What was measured of a frame.
+struct FrameNumbers {
+  double min_gap_m = 0.0;
+  int intersections = 0;
+  int inverted_tets = 0;
+  double min_volume_ratio = 0.0;
+  double velocity_residual_m_s = 0.0;
+  double force_residual_n = 0.0;
+  double friction_residual_n = 0.0;
+  double balance_n = 0.0;
+  double balance_relative = 0.0;
+  double pose_error_m = 0.0;
+};
+
+/// Checks in this order: exact test, inverted tetrahedra, smallest distance, volume ratio, velocity, force and friction
+/// residual, balance, pose. A number that is not a number misses its limit. \throw VerdictError for the first miss.
+void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits);
+
+}  // namespace tacipc

@@ -1,0 +1,26 @@
+// A gel from its sensor's shape and a sizing.
+#pragma once
+
+#include <cstdint>
+
+#include "common/mesh/tet_mesh.h"
+#include "stages/gel/tetmesh/sizing.h"
+#include "stages/gel/tetmesh/tet_fill.h"
+
+namespace tacipc {
+
+struct GenerateConfig {
+  SizingConfig sizing;
+  FillConfig fill;
+  double max_vertices = 0.0;      // refused, by estimate, before any work
+  double min_dihedral_deg = 0.0;  // a mesh with a smaller angle is not given out
+  std::uint64_t seed = 0;
+
+  static GenerateConfig read(ConfigReader& in);
+};
+
+/// Meshes a gel and checks it. If a tet is too flat, the fill is tried again with TetGen's strongest optimisation.
+/// \throw DataError for a sizing that is too fine or does not fit the gel, and for a mesh that fails the checks
+TetMesh generate_gel(const GelShape& gel, const GenerateConfig& config);
+
+}  // namespace tacipc

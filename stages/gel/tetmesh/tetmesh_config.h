@@ -1,0 +1,18 @@
+// The configuration of the stage: how to generate a gel, or how to import one.
+#pragma once
+
+#include <variant>
+
+#include "stages/gel/tetmesh/generate.h"
+#include "stages/gel/tetmesh/import.h"
+
+namespace tacipc {
+
+struct TetmeshConfig {
+  std::variant<GenerateConfig, ImportConfig> way;
+
+  /// `kind: generate` or `kind: import`.
+  static TetmeshConfig read(ConfigReader& in);
+};
+
+}  // namespace tacipc

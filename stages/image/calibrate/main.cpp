@@ -1,0 +1,181 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/sample/pose_file.h"
+#include "common/sensor/camera_image.h"
+#include "common/sensor/camera_model.h"
+#include "common/stage/stage.h"
+#include "stages/image/calibrate/fit_light.h"
+#include "stages/image/calibrate/modes.h"
+#include "stages/image/calibrate/sensor_file.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kCalibrate{
+    .name = "calibrate",
+    .summary = "Fit the light of a sensor, or its whole file, to photographs without and with contact of a ball.",
+    .inputs = {{.flag = "--config", .help = "ball, lamps, fit; or sensor_fit (YAML)"},
+               {.flag = "--sensor", .help = "the sensor: camera, for sensor_fit all (YAML)"},
+               {.flag = "--background", .help = "photograph without contact (PNG)"},
+               {.flag = "--basis",
+                .help = "image of each LED or group alone (EXR, R G B): fits colours of known LEDs",
+                .required = false,
+                .many = true},
+               {.flag = "--photographs", .help = "folder of the photographs of balls", .required = false},
+               {.flag = "--labels", .help = "lines `image.png (x, y) radius`, pixels", .required = false},
+               {.flag = "--press", .help = "folder of a press of the ball, with increasing depth", .required = false},
+               {.flag = "--gel", .help = "gel.msh of that press", .required = false},
+               {.flag = "--shapes",
+                .help = "indentation maps (EXR), one per label, in place of a press",
+                .required = false,
+                .many = true}}};
+
+/// Twice the residual of the model, about grey.
+ByteImage residual_picture(const ByteImage& simulated, const ByteImage& real) {
+  ByteImage out = simulated;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] =
+        static_cast<std::uint8_t>(std::clamp(128 + 2 * (int{simulated.pixels[i]} - int{real.pixels[i]}), 0, 255));
+  return out;
+}
+
+Value::List lamp_lines(const GaussNewtonResult& lamps) {
+  Value::List lines;
+  const Eigen::VectorXd& u = lamps.parameters;
+  const Eigen::VectorXd sigma = lamps.covariance.diagonal().cwiseSqrt();
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  for (Eigen::Index i = 0; i < u.size(); i += 3)
+    lines.push_back(Value::Map{{"azimuth_deg", kDegrees * u[i]},
+                               {"azimuth_sigma_deg", kDegrees * sigma[i]},
+                               {"elevation_tan", u[i + 1]},
+                               {"elevation_tan_sigma", sigma[i + 1]},
+                               {"distance_mm", 1e3 * std::exp(u[i + 2])},
+                               {"distance_relative_sigma", sigma[i + 2]}});
+  return lines;
+}
+
+Value::Map summary_of(const LightFit& fit, std::size_t balls) {
+  Value::Map held_out;
+  for (const HeldOut& one : fit.held_out) held_out.emplace_back(name_of(one.kind), one.rmse_codes);
+  Value::Map summary{{"photographs", balls},
+                     {"model", name_of(fit.kind)},
+                     {"held_out_rmse_codes", held_out},
+                     {"rmse_codes", Value::List{fit.rmse_codes[0], fit.rmse_codes[1], fit.rmse_codes[2]}},
+                     {"condition_number", fit.condition},
+                     {"clipped_fraction", fit.unused_fraction}};
+  if (!fit.lamps) return summary;
+  Value::List covariance;
+  for (Eigen::Index i = 0; i < fit.lamps->covariance.rows(); ++i) {
+    Value::List row;
+    for (Eigen::Index j = 0; j < fit.lamps->covariance.cols(); ++j) row.push_back(fit.lamps->covariance(i, j));
+    covariance.push_back(std::move(row));
+  }
+  summary.emplace_back("lamps", Value::Map{{"iterations", fit.lamps->iterations},
+                                           {"converged", fit.lamps->converged},
+                                           {"condition_number", fit.lamps->condition},
+                                           {"fitted", lamp_lines(*fit.lamps)},
+                                           {"covariance", std::move(covariance)}});
+  return summary;
+}
+
+/// The sensor with the light found in place of its LEDs, beside the photograph that this light changes.
+void write_calibrated_sensor(Stage& stage, const LightField& light) {
+  const auto section = light.to_value().map().front();
+  const std::vector<SensorChange> changes{{"leds"},
+                                          {"coating"},
+                                          {"ambient"},
+                                          {"response"},
+                                          {"markers.radius_mm"},
+                                          {"markers.albedo"},
+                                          {section.first, section.second},
+                                          {"reference_image", "reference.png", "known"}};
+  write_file(stage.output("sensor.yaml"),
+             changed_sensor(stage.input("--sensor"), changes, "Light found by calibrate."));
+  write_file(stage.output("reference.png"), read_file(stage.input("--background")));
+}
+
+void calibrate_balls(Stage& stage) {
+  if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
+    throw UsageError("give --photographs and --labels of balls, or --basis, or a configuration with sensor_fit");
+  const auto press_folder = stage.optional_input("--press"), gel = stage.optional_input("--gel");
+  const auto& shapes = stage.inputs("--shapes");
+  if (press_folder.has_value() != gel.has_value()) throw UsageError("--press and --gel belong together");
+  if (press_folder.has_value() != shapes.empty()) throw UsageError("give either --press or --shapes");
+  const auto config = stage.read_config<CalibrateConfig>("--config");
+  const auto sensor = stage.read_config<Sensor>("--sensor");
+  const Camera& camera = sensor.camera;
+  const ByteImage background = read_photograph(stage.input("--background"), camera);
+  const auto labels = read_labels(*stage.optional_input("--labels"));
+  if (!shapes.empty() && shapes.size() != labels.size())
+    throw UsageError(fmt::format("{} --shapes for {} labels", shapes.size(), labels.size()));
+  std::optional<BallPress> press;
+  if (press_folder) press = read_ball_press(*press_folder, *gel, config.ball_radius_m, config.contact_gap_m);
+
+  std::vector<Ball> balls;
+  std::vector<ByteImage> photographs;
+  const CameraModel rays(camera, sensor.stack);
+  const double pixel = camera.window_width_m / camera.width_px;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const BallLabel& label = labels[i];
+    photographs.push_back(read_photograph(*stage.optional_input("--photographs") / label.image, camera));
+    const auto center = rays.on_plane(label.x_px + 0.5, label.y_px + 0.5);
+    if (!center) throw DataError("{}: the camera does not see the front face at the label's centre", label.image);
+    Ball ball{.label = label,
+              .x_m = center->x(),
+              .y_m = center->y(),
+              .depth_m = 0.0,
+              .view = {},
+              .samples = make_samples(photographs.back(), background, label, config)};
+    if (press) {
+      ball.depth_m = press->depth_of_contact(label.radius_px * pixel, label.image);
+      ball.view = view_ball(*press, ball, sensor);
+    } else {
+      const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, camera);
+      ball.view = view_height_map(indentation, sensor);
+    }
+    balls.push_back(std::move(ball));
+  }
+  const LightFit fit = fit_light(balls, press ? &*press : nullptr, sensor, config);
+
+  write_file(stage.output("light.yaml"), to_yaml(fit.light.to_value()));
+  write_calibrated_sensor(stage, fit.light);
+  std::string table = "image,x_mm,y_mm,depth_mm,rmse_codes\n";
+  std::vector<Matrix4> poses;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Ball& ball = balls[i];
+    table += fmt::format("{},{},{},{},{}\n", ball.label.image, 1e3 * ball.x_m, 1e3 * ball.y_m, 1e3 * ball.depth_m,
+                         ball.rmse_codes);
+    poses.push_back(ball_pose(ball.x_m, ball.y_m, ball.depth_m, config.ball_radius_m));
+    const ByteImage simulated = add_change(background, code_change(fit.light, ball.view));
+    write_png(stage.output("residuals/" + ball.label.image), residual_picture(simulated, photographs[i]));
+  }
+  write_file(stage.output("balls.csv"), table);
+  if (press) {
+    write_poses(stage, ball_poses_field(), poses);
+    write_file(stage.output("contact.yaml"), to_yaml(Value::Map{{"contact_gap_mm", 1e3 * fit.contact_gap_m}}));
+  }
+  Value::Map summary = summary_of(fit, balls.size());
+  if (press) summary.emplace_back("contact_gap_mm", 1e3 * fit.contact_gap_m);
+  stage.summarize(summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kCalibrate, argc, argv, [](Stage& stage) {
+    const bool whole_sensor = ConfigReader::from_file(stage.input("--config")).has("sensor_fit");
+    if (whole_sensor)
+      calibrate_sensor(stage);
+    else if (stage.inputs("--basis").empty())
+      calibrate_balls(stage);
+    else
+      calibrate_leds(stage);
+  });
+}

@@ -1,0 +1,181 @@
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/image/picture.h"
+#include "common/sample/render_folder.h"
+#include "common/stage/stage.h"
+#include "stages/image/render/height_maps.h"
+#include "stages/image/render/pressed_gel.h"
+#include "stages/image/render/render.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kRender{
+    .name = "render",
+    .summary = "Make tactile images of a pressed gel: light, shadows, depth, normals, contact, markers, noise.",
+    .inputs = {{.flag = "--config", .help = "render settings (YAML)"},
+               {.flag = "--sensor", .help = "the sensor: lights, camera, coating (YAML)"},
+               {.flag = "--gel", .help = "gel.msh of tetmesh", .required = false},
+               {.flag = "--press", .help = "folder that press wrote", .required = false},
+               {.flag = "--shapes",
+                .help = "indentation maps (EXR), one per frame, in place of a press",
+                .required = false,
+                .many = true}},
+    .options = {{.flag = "--seed", .help = "seed of the sample (a count), for noise of its own", .fallback = ""}}};
+
+/// An image of labels as the codes that stand in its file.
+template <typename Label>
+ByteImage coded(const ByteImage& labels, std::uint8_t (*code)(Label)) {
+  ByteImage image = labels;
+  for (std::uint8_t& value : image.pixels) value = code(static_cast<Label>(value));
+  return image;
+}
+
+void write_maps(Stage& stage, const std::string& folder, const TraceResult& trace) {
+  write_frame(stage, folder, FrameFile::depth, trace.depth);
+  write_frame(stage, folder, FrameFile::normal, trace.normal);
+  write_frame(stage, folder, FrameFile::indentation, trace.indentation);
+  write_frame(stage, folder, FrameFile::normal_picture, picture_of_normals(trace.normal));
+  write_frame(stage, folder, FrameFile::indentation_picture, indentation_picture(trace.indentation));
+  write_frame(stage, folder, FrameFile::segment, coded(trace.segment, segment_code));
+  if (trace.traction.channels == 0) return;
+  write_frame(stage, folder, FrameFile::traction, trace.traction);
+  write_frame(stage, folder, FrameFile::contact, coded(trace.contact, contact_code));
+  write_frame(stage, folder, FrameFile::stick_slip, coded(trace.contact, stick_slip_code));
+}
+
+void write_files(Stage& stage, const RenderedFrame& frame) {
+  const std::string folder = frame_folder(static_cast<std::size_t>(frame.index), frame.unit);
+  if (!frame.linear.pixels.empty()) write_frame(stage, folder, FrameFile::linear, frame.linear);
+  for (std::size_t g = 0; g < frame.basis.size(); ++g) write_frame(stage, folder, FrameFile::basis, frame.basis[g], g);
+  write_frame(stage, folder, FrameFile::tactile, frame.tactile.image);
+  if (frame.marker) write_frame(stage, folder, FrameFile::marker, frame.marker->image);
+  if (frame.trace) write_maps(stage, folder, *frame.trace);
+  if (frame.marker_px.rows() > 0) write_marker_px(stage, folder, frame.marker_px.leftCols<2>());
+}
+
+/// How many values of the sensor file are known, derived, guessed.
+Value::Map count_sources(const Sensor& sensor) {
+  std::map<std::string, int> counts{{"known", 0}, {"derived", 0}, {"guess", 0}, {"unstated", 0}};
+  for (const ValueSource& value : sensor.sources) ++counts[value.source];
+  return {{"known", counts["known"]},
+          {"derived", counts["derived"]},
+          {"guess", counts["guess"]},
+          {"unstated", counts["unstated"]}};
+}
+
+/// Which LEDs the basis images show, in the order of their numbers.
+Value::List groups_of(const Sensor& sensor) {
+  Value::List lines;
+  for (const LightGroup& group : light_groups(sensor.leds)) {
+    Value::Map line;
+    if (!group.name.empty()) line.emplace_back("name", group.name);
+    line.emplace_back("leds", Value::List(group.leds.begin(), group.leds.end()));
+    lines.emplace_back(std::move(line));
+  }
+  return lines;
+}
+
+/// \throw UsageError if it is not a count
+std::optional<std::uint64_t> sample_seed(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  std::uint64_t seed = 0;
+  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || at != text.data() + text.size())
+    throw UsageError("--seed: '" + text + "' is not a count");
+  return seed;
+}
+
+/// A photograph becomes an input of the stage; without one the record says `synthetic`.
+std::optional<ByteImage> load_reference(Stage& stage, const Sensor& sensor, const std::string& name) {
+  if (!sensor.reference_image) return std::nullopt;
+  stage.add_input(name, *sensor.reference_image);
+  return read_reference(*sensor.reference_image, sensor.camera);
+}
+
+std::vector<RenderUnit> all_units(Stage& stage, const Sensor& sensor, const RenderConfig& config) {
+  std::vector<RenderUnit> units{{.sensor = sensor, .reference = load_reference(stage, sensor, "reference")}};
+  for (const Variant& variant : config.variants) {
+    std::optional<Sensor> other;
+    if (variant.sensor) {
+      stage.add_input(variant.name + "_sensor", *variant.sensor);
+      other = read_config<Sensor>(*variant.sensor);
+    }
+    RenderUnit unit{.name = variant.name, .sensor = varied(sensor, variant, other), .needs_rays = variant.needs_rays()};
+    unit.reference = load_reference(stage, unit.sensor, variant.name + "_reference");
+    units.push_back(std::move(unit));
+  }
+  return units;
+}
+
+RenderSummary render_press(Stage& stage, const std::vector<RenderUnit>& units, const RenderConfig& config,
+                           const std::function<void(const RenderedFrame&)>& deliver) {
+  const TetMesh gel = read_tet_mesh(*stage.optional_input("--gel"));
+  return render(units, config, PressedGel(*stage.optional_input("--press"), gel), deliver);
+}
+
+RenderSummary render_shapes(Stage& stage, const std::vector<RenderUnit>& units, const RenderConfig& config,
+                            const std::function<void(const RenderedFrame&)>& deliver) {
+  const Sensor& sensor = units.front().sensor;
+  auto maps = read_height_maps(stage.inputs("--shapes"), sensor.camera);
+  return render(units, config, HeightMaps(std::move(maps), sensor, config.trace.refract), deliver);
+}
+
+Value::Map summary_of(const UnitSummary& unit) {
+  Value::Map lines;
+  if (unit.exposure) lines.emplace_back("exposure", *unit.exposure);
+  lines.emplace_back("reference_mean_code", unit.reference_mean_code);
+  lines.emplace_back("clipped_fraction", unit.clipped_fraction);
+  return lines;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kRender, argc, argv, [](Stage& stage) {
+    const bool press = stage.optional_input("--press").has_value(), gel = stage.optional_input("--gel").has_value();
+    if (press != gel) throw UsageError("--press and --gel belong together");
+    if (press != stage.inputs("--shapes").empty()) throw UsageError("give either --press and --gel, or --shapes");
+    auto config = stage.read_config<RenderConfig>("--config");
+    if (const auto seed = sample_seed(stage.option("--seed")))
+      config.noise_seed = noise_seed_of_sample(config.noise_seed, *seed);
+    const auto sensor = stage.read_config<Sensor>("--sensor");
+    const std::vector<RenderUnit> units = all_units(stage, sensor, config);
+    if (sensor.reference_image) {
+      stage.note("reference", content_hash(*sensor.reference_image));
+    } else {
+      stage.note("reference", "synthetic");
+    }
+    const auto deliver = [&](const RenderedFrame& frame) { write_files(stage, frame); };
+    const RenderSummary summary = stage.inputs("--shapes").empty() ? render_press(stage, units, config, deliver)
+                                                                   : render_shapes(stage, units, config, deliver);
+    Value::Map lines = {{"frames", Value::List(summary.frames.begin(), summary.frames.end())}};
+    for (auto& line : summary_of(summary.units.front())) lines.push_back(line);
+    lines.insert(lines.end(), {{"rays", summary.rays},
+                               {"nudged_rays", summary.nudged_rays},
+                               {"outside_rays", summary.outside_rays},
+                               {"max_indentation_mm", 1e3 * summary.max_indentation_m},
+                               {"indirect_share", summary.indirect_share},
+                               {"sensor_values", count_sources(sensor)}});
+    if (config.basis_images) lines.emplace_back("basis", groups_of(sensor));
+    Value::List variants;
+    for (std::size_t u = 1; u < summary.units.size(); ++u) {
+      Value::Map line = {{"name", summary.units[u].name},
+                         {"reference", summary.units[u].real_reference ? "photograph" : "synthetic"}};
+      for (auto& entry : summary_of(summary.units[u])) line.push_back(entry);
+      variants.emplace_back(std::move(line));
+    }
+    if (!variants.empty()) lines.emplace_back("variants", std::move(variants));
+    stage.summarize(lines);
+  });
+}

@@ -1,0 +1,37 @@
+// The front face of a pressed gel, as render takes it from a press folder.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/mesh/tet_mesh.h"
+#include "common/sample/press_folder.h"
+#include "stages/image/render/deformation.h"
+
+namespace tacipc {
+
+/// Traction of one frame on the membrane's vertices: normal plus friction force over the vertex's share of the deformed
+/// area, a third of each triangle around it.
+Positions traction_of(const ContactParts& forces_n, const Membrane& membrane);
+
+/// Refers to the gel, which must outlive it.
+class PressedGel : public Deformation {
+ public:
+  /// Contact (both files or none) and markers may be absent. \throw DataError if the press did not finish, a file does
+  /// not fit the gel or the other files, a position is not finite, or frame 0 is not the gel at rest (within 1e-6 m)
+  PressedGel(const std::filesystem::path& press, const TetMesh& gel);
+
+  std::size_t num_frames() const override { return press_.extent(PressArray::positions, kFrames); }
+  Membrane at_rest() const override { return make_membrane(gel_, gel_.positions); }
+  void move(Membrane& membrane, std::size_t frame) const override { move_membrane(membrane, positions(frame)); }
+  SurfaceFields fields(std::size_t frame, const Membrane& membrane) const override;
+  Positions markers(std::size_t frame) const override;
+  /// Of the whole gel.
+  Positions positions(std::size_t frame) const { return press_.positions(frame); }
+
+ private:
+  const TetMesh& gel_;
+  PressFolder press_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,56 @@
+// Tactile images of the frames of one press, or of height maps.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/image.h"
+#include "common/optics/develop.h"
+#include "common/optics/trace.h"
+#include "common/sensor/sensor.h"
+#include "stages/image/render/deformation.h"
+#include "stages/image/render/developer.h"
+#include "stages/image/render/render_config.h"
+
+namespace tacipc {
+
+/// The photograph named by the sensor. \throw DataError if its size is not the camera's.
+ByteImage read_reference(const std::filesystem::path& path, const Camera& camera);
+
+struct RenderedFrame {
+  std::size_t index = 0;
+  std::string unit = {};
+  const TraceResult* trace = nullptr;  // null where another unit's serves
+  FloatImage linear = {};              // empty where the sensor's light is known in codes only
+  std::vector<FloatImage> basis = {};  // of each light group, if wanted; where the unit traced rays
+  TactileImage tactile = {};
+  std::optional<TactileImage> marker = std::nullopt;  // the same with the printed markers, if the sensor has any
+  Positions marker_px = {};                           // column, row and 1 where seen, else NaN and 0
+};
+
+struct RenderSummary {
+  std::vector<std::size_t> frames = {};
+  std::vector<UnitSummary> units = {};
+  std::int64_t rays = 0;
+  std::int64_t nudged_rays = 0;
+  std::int64_t outside_rays = 0;
+  double max_indentation_m = 0.0;  // in the last frame
+  double indirect_share = 0.0;     // of the last frame's light
+};
+
+/// Colours from 0 to the frame's deepest indentation (to 1 µm at least).
+ByteImage indentation_picture(const FloatImage& indentation);
+
+/// Image points of markers in columns 0 and 1, NaN where the picture does not show them; column 2 is 1 or 0.
+Positions project_markers(const Positions& markers, const Sensor& sensor, bool refract);
+
+/// Renders frame 0 (the reference, from the gel at rest), then the frames asked for, with every unit, and hands each to
+/// `deliver`. \pre the first unit needs rays
+/// \throw DataError if a unit without reference has no noise model, if nothing lights the gel or the camera sees none.
+RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const Deformation& front,
+                     const std::function<void(const RenderedFrame&)>& deliver);
+
+}  // namespace tacipc

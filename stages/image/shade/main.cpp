@@ -1,0 +1,149 @@
+#include <fmt/core.h>
+
+#include <numbers>
+#include <optional>
+
+#include "common/base/error.h"
+#include "common/benchmark/ball_press.h"
+#include "common/image/picture.h"
+#include "common/optics/seen_membrane.h"
+#include "common/sample/pose_file.h"
+#include "common/sensor/camera_image.h"
+#include "common/stage/stage.h"
+#include "stages/image/shade/fit_place.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kShade{
+    .name = "shade",
+    .summary = "Make tactile images of a press under a calibrated light, on a real background.",
+    .inputs = {{.flag = "--config", .help = "which frames, where in the image (YAML)"},
+               {.flag = "--sensor", .help = "the sensor: its camera (YAML)"},
+               {.flag = "--light", .help = "light.yaml of calibrate"},
+               {.flag = "--background", .help = "photograph without contact (PNG)"},
+               {.flag = "--press", .help = "folder that press wrote", .required = false},
+               {.flag = "--gel", .help = "gel.msh of that press", .required = false},
+               {.flag = "--contact", .help = "contact.yaml of calibrate: contacts of a ball", .required = false},
+               {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false},
+               {.flag = "--shapes",
+                .help = "indentation maps (EXR), one per image, in place of a press",
+                .required = false,
+                .many = true}}};
+
+/// Pictures one membrane and writes it under its name, with its normals and its depth along the camera's axis.
+void deliver(Stage& stage, const std::string& name, const MembraneView& view, const Sensor& sensor,
+             const LightField& light, const ByteImage& background) {
+  write_png(stage.output(name + ".png"), add_change(background, code_change(light, view)));
+  FloatImage normals(view.width, view.height, 3);
+  for (std::size_t i = 0; i < view.normal.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      normals.pixels[3 * i + k] = static_cast<float>(view.normal[i][static_cast<Eigen::Index>(k)]);
+  write_png(stage.output("normals/" + name + ".png"), picture_of_normals(normals));
+  FloatImage depth(view.width, view.height, 1);
+  for (std::size_t i = 0; i < view.point.size(); ++i)
+    depth.pixels[i] = static_cast<float>(view.point[i].z() - sensor.camera.position_m.z());
+  write_exr(stage.output("depth/" + name + ".exr"), depth, {"Z"});
+}
+
+void shade_shapes(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
+                  const ByteImage& background) {
+  const auto& shapes = stage.inputs("--shapes");
+  if (shapes.size() != config.images.size())
+    throw UsageError(fmt::format("{} --shapes for {} images", shapes.size(), config.images.size()));
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, sensor.camera);
+    deliver(stage, config.images[i].name, view_height_map(indentation, sensor), sensor, light, background);
+  }
+  stage.summarize({{"images", shapes.size()}});
+}
+
+void shade_press(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
+                 const ByteImage& background) {
+  const auto folder = *stage.optional_input("--press");
+  const FrontFrames press = read_front_frames(folder, *stage.optional_input("--gel"));
+  for (const NamedFrame& image : config.images)
+    if (static_cast<std::size_t>(image.frame) >= press.frames.size())
+      throw DataError("{}: {} is to be frame {}, the press has frames up to {}", folder.string(), image.name,
+                      image.frame, press.frames.size() - 1);
+  FittedPlace fitted{.place = config.place};
+  if (config.fit) {
+    const ByteImage photograph = read_photograph(*stage.optional_input("--photograph"), sensor.camera);
+    for (const NamedFrame& image : config.images)
+      if (image.name == config.fit->image)
+        fitted = fit_place(press, image.frame, config.place, *config.fit, photograph, background, light, sensor);
+  }
+  std::vector<Matrix4> poses;
+  for (const NamedFrame& image : config.images) {
+    const auto frame = static_cast<std::size_t>(image.frame);
+    deliver(stage, image.name,
+            view_membrane(at_place(press.frames[frame], fitted.place, sensor), press.triangles, sensor), sensor, light,
+            background);
+    poses.emplace_back(place_pose(fitted.place, sensor) * press.gel_from_object[frame]);
+  }
+  write_poses(stage, image_poses_field(), poses);
+  const Vector3 center_m = place_pose(fitted.place, sensor).topRightCorner<3, 1>();
+  Value::Map summary{{"images", config.images.size()},
+                     {"center_px", Value::List{fitted.place.x_px, fitted.place.y_px}},
+                     {"center_mm", Value::List{1e3 * center_m.x(), 1e3 * center_m.y()}},
+                     {"yaw_deg", fitted.place.yaw_rad * 180.0 / std::numbers::pi}};
+  if (config.fit)
+    summary.emplace_back("fit", Value::Map{{"image", config.fit->image},
+                                           {"rmse_codes_before", fitted.rmse_before},
+                                           {"rmse_codes_after", fitted.rmse_after},
+                                           {"views", fitted.views}});
+  stage.summarize(summary);
+}
+
+/// contact.yaml
+struct ContactRim {
+  double gap_m = 0.0;
+  static ContactRim read(ConfigReader& in) { return {1e-3 * in.number("contact_gap_mm", Range::positive())}; }
+};
+
+void shade_contacts(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
+                    const ByteImage& background) {
+  const double radius_m = config.ball_radius_m.value();
+  const BallPress press = read_ball_press(*stage.optional_input("--press"), *stage.optional_input("--gel"), radius_m,
+                                          stage.read_config<ContactRim>("--contact").gap_m);
+  std::vector<Matrix4> poses;
+  Value::Map depths;
+  for (const NamedFrame& image : config.images) {
+    const ContactPlace& contact = image.contact.value();
+    const double depth =
+        press.depth_of_contact(contact.radius_px * sensor.camera.window_width_m / sensor.camera.width_px, image.name);
+    const Matrix4 place = place_pose(contact.center, sensor);
+    deliver(stage, image.name,
+            view_membrane(at_place(press.at_depth(depth), contact.center, sensor), press.front, sensor), sensor, light,
+            background);
+    poses.push_back(ball_pose(place(0, 3), place(1, 3), depth, radius_m));
+    depths.emplace_back(image.name, 1e3 * depth);
+  }
+  write_poses(stage, image_poses_field(), poses);
+  stage.summarize({{"images", config.images.size()}, {"depth_mm", depths}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kShade, argc, argv, [](Stage& stage) {
+    const bool press = stage.optional_input("--press").has_value(), gel = stage.optional_input("--gel").has_value();
+    if (press != gel) throw UsageError("--press and --gel belong together");
+    if (press != stage.inputs("--shapes").empty()) throw UsageError("give either --press or --shapes");
+    const auto config = stage.read_config<ShadeConfig>("--config");
+    if (stage.optional_input("--photograph").has_value() != (press && config.fit.has_value()))
+      throw UsageError("--photograph: needed where a press is to be fitted to it, and only there");
+    if (stage.optional_input("--contact").has_value() != (press && config.ball_radius_m.has_value()))
+      throw UsageError("--contact: needed where a press is to match contacts of a ball, and only there");
+    const auto sensor = stage.read_config<Sensor>("--sensor");
+    const auto light = stage.read_config<LightField>("--light");
+    const ByteImage background = read_photograph(stage.input("--background"), sensor.camera);
+    if (press && config.ball_radius_m)
+      shade_contacts(stage, config, sensor, light, background);
+    else if (press)
+      shade_press(stage, config, sensor, light, background);
+    else
+      shade_shapes(stage, config, sensor, light, background);
+  });
+}

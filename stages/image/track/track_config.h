@@ -1,0 +1,24 @@
+// Criteria for a marker in an image, and limits of tracking.
+#pragma once
+
+#include <string>
+
+#include "common/config/config.h"
+
+namespace tacipc {
+
+struct TrackConfig {
+  std::string curve = "srgb";       // of the codes: srgb, or linear
+  double least_diameter_px = 0.0;   // of a dot at rest
+  double most_diameter_px = 0.0;    // of a dot at rest
+  double least_contrast = 0.3;      // of a dot: 1 − its light over that around it
+  int flow_window_px = 21;          // edge of the window that flow compares
+  int flow_levels = 3;              // halvings of the image, at most
+  double most_return_px = 1.0;      // largest error of the backward flow at its start
+  double most_correction_px = 3.0;  // from where flow leads to the dot's centre
+  double most_area_ratio = 2.0;     // of a dot's area to that at rest, either way
+
+  static TrackConfig read(ConfigReader& in);
+};
+
+}  // namespace tacipc

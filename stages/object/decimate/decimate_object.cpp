@@ -1,0 +1,74 @@
+#include "stages/object/decimate/decimate_object.h"
+
+#include "common/base/log.h"
+#include "stages/object/decimate/surface_topology.h"
+
+namespace tacipc {
+namespace {
+
+Value::Map repairs(const DoctorReport& report) {
+  return {{"unreferenced_vertices", report.unreferenced_vertices},
+          {"merged_vertices", report.merged_vertices},
+          {"degenerate_faces", report.degenerate_faces},
+          {"duplicate_faces", report.duplicate_faces},
+          {"reoriented_faces", report.reoriented_faces},
+          {"split_vertices", report.split_vertices},
+          {"filled_holes", report.filled_holes},
+          {"hole_faces", report.hole_faces},
+          {"debris_components", report.debris_components},
+          {"hidden_components", report.hidden_components}};
+}
+
+std::vector<double> extents_mm(const TriangleMesh& mesh) {
+  const Eigen::RowVector3d extents = mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff();
+  return {1e3 * extents[0], 1e3 * extents[1], 1e3 * extents[2]};
+}
+
+}  // namespace
+
+DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& config) {
+  log_info("{} vertices, {} faces read", scan.num_vertices(), scan.num_triangles());
+  DoctorReport found;
+  const TriangleMesh sound = treat_mesh(scan, config.doctor, found);
+  if (!found.changed_mesh()) log_info("nothing to repair");
+
+  // A union of overlapping parts, or a scan that crosses itself, cannot be asked not to.
+  const bool may_not_cross = found.self_intersections == 0 && found.overlapping_components == 0;
+  if (sound.num_vertices() > config.collapse.target_vertices)
+    log_info("collapsing edges until {} vertices are left", config.collapse.target_vertices);
+  CollapseReport collapsed;
+  TriangleMesh mesh = collapse_edges(sound, config.collapse, may_not_cross, collapsed);
+  if (collapsed.passed_through)
+    log_info("{} vertices are no more than the target {}: passed through unchanged", sound.num_vertices(),
+             config.collapse.target_vertices);
+  else
+    log_info("{} vertices, {} faces left", mesh.num_vertices(), mesh.num_triangles());
+  if (!collapsed.passed_through && mesh.num_vertices() > collapsed.target_vertices)
+    log_warning("{} vertices are left: no further edge can collapse without flipping a face", mesh.num_vertices());
+
+  // Against the scan as the doctor left it: what was removed as debris or hidden is not part of the object.
+  const Hausdorff distance = collapsed.passed_through ? Hausdorff{} : hausdorff_distance(sound, mesh, config.hausdorff);
+  if (!collapsed.passed_through) log_info("Hausdorff distance {:.4g} mm", 1e3 * distance.max_m());
+
+  DecimatedObject object;
+  object.summary = {{"input_vertices", static_cast<std::int64_t>(scan.num_vertices())},
+                    {"input_faces", static_cast<std::int64_t>(scan.num_triangles())},
+                    {"vertices", static_cast<std::int64_t>(mesh.num_vertices())},
+                    {"faces", static_cast<std::int64_t>(mesh.num_triangles())},
+                    {"passed_through", collapsed.passed_through},
+                    {"retries", collapsed.retries},
+                    {"hausdorff_mm", Value::Map{{"input_to_output", 1e3 * distance.first_to_second_m},
+                                                {"output_to_input", 1e3 * distance.second_to_first_m},
+                                                {"max", 1e3 * distance.max_m()}}},
+                    {"extents_mm", extents_mm(mesh)},
+                    {"volume_mm3", 1e9 * signed_volume(mesh)},
+                    {"area_mm2", 1e6 * surface_area(mesh)},
+                    {"components", found.components},
+                    {"overlapping_components", found.overlapping_components},
+                    {"self_intersections", found.self_intersections},
+                    {"repairs", repairs(found)}};
+  object.mesh = std::move(mesh);
+  return object;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,45 @@
+// The single treatments of the mesh doctor, in the order they are applied.
+#pragma once
+
+#include "stages/object/decimate/mesh_doctor.h"
+#include "stages/object/decimate/surface_topology.h"
+
+namespace tacipc {
+
+/// Vertices of open edges at the same place, then those within the distance, become one: the one of lowest index.
+void weld_open_vertices(TriangleMesh& mesh, double distance_m, DoctorReport& report);
+
+/// Removes faces that name a vertex twice, pulls faces with two corners at one place together, and turns the longest
+/// edge of other faces without area over to their neighbour.
+void remove_degenerate_faces(TriangleMesh& mesh, DoctorReport& report);
+
+/// Of faces with the same three vertices one stays if an edge needs it, else none.
+void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report);
+
+/// Removes parts with fewer than four faces or less than the given fraction of the area; the largest always stays.
+void remove_debris(TriangleMesh& mesh, double area_fraction, DoctorReport& report);
+
+/// Makes neighbours agree on the outside and each part enclose a positive volume (as far as it is closed).
+/// \throw DataError for one-sided surfaces.
+void orient_consistently(TriangleMesh& mesh, DoctorReport& report);
+
+/// Gives each fan of faces around a vertex a vertex of its own; the first fan keeps the old one.
+void split_vertices(TriangleMesh& mesh, DoctorReport& report);
+
+struct HoleLimits {
+  int max_edges;
+  double max_length_m;
+};
+/// Closes each boundary loop by the triangulation of least area without new vertices.
+/// \throw DataError `open mesh: …` for loops beyond the limits.
+void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& report);
+
+/// \throw DataError for closed parts that enclose no volume.
+void check_volumes(const TriangleMesh& mesh);
+
+/// Counts crossings and removes parts that lie wholly inside another.
+void examine_components(TriangleMesh& mesh, DoctorReport& report);
+
+void remove_unreferenced_vertices(TriangleMesh& mesh, DoctorReport& report);
+
+}  // namespace tacipc

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/base/error.h"
+#include "stages/object/decimate/doctor_steps.h"
+
+namespace tacipc {
+namespace {
+
+/// A closed part counts as flat where its volume is below this fraction of its area times its extent.
+constexpr double kFlatVolume = 1e-9;
+constexpr int kMinFaces = 4;  // of a closed surface
+
+/// Six times the volume between the faces of each part and the middle of its corners, and the area of each part.
+struct Sizes {
+  std::vector<double> volume;
+  std::vector<double> area;
+  std::vector<std::int64_t> faces;
+  std::vector<int> first_face;
+};
+
+Sizes sizes_of(const TriangleMesh& mesh, const Components& components, const std::vector<char>* turned = nullptr) {
+  const auto count = static_cast<std::size_t>(components.count);
+  Sizes sizes{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0), std::vector<std::int64_t>(count, 0),
+              std::vector<int>(count, -1)};
+  const int num_faces = static_cast<int>(mesh.num_triangles());
+  std::vector<Vector3> middle(count, Vector3::Zero());
+  for (int f = 0; f < num_faces; ++f) {
+    const int part = components.of_face[f];
+    if (sizes.first_face[part] < 0) sizes.first_face[part] = f;
+    ++sizes.faces[part];
+    middle[part] += (corner(mesh, f, 0) + corner(mesh, f, 1) + corner(mesh, f, 2)) / 3.0;
+  }
+  for (std::size_t part = 0; part < count; ++part) middle[part] /= static_cast<double>(sizes.faces[part]);
+  for (int f = 0; f < num_faces; ++f) {
+    const int part = components.of_face[f];
+    const Vector3 area = area_vector(mesh, f);
+    const double sign = turned != nullptr && (*turned)[f] != 0 ? -1.0 : 1.0;
+    sizes.area[part] += area.norm();
+    sizes.volume[part] += sign * (corner(mesh, f, 0) - middle[part]).dot(area) / 3.0;
+  }
+  return sizes;
+}
+
+}  // namespace
+
+void remove_debris(TriangleMesh& mesh, double area_fraction, DoctorReport& report) {
+  const Components components = connected_components(mesh.triangles, opposite_half_edges(mesh));
+  if (components.count == 1) return;
+  const Sizes sizes = sizes_of(mesh, components);
+  const double all = std::accumulate(sizes.area.begin(), sizes.area.end(), 0.0);
+  const auto largest = std::max_element(sizes.area.begin(), sizes.area.end()) - sizes.area.begin();
+  std::vector<char> debris(static_cast<std::size_t>(components.count), 0);
+  for (int part = 0; part < components.count; ++part)
+    if (part != largest && (sizes.faces[part] < kMinFaces || sizes.area[part] < area_fraction * all)) {
+      debris[part] = 1;
+      ++report.debris_components;
+    }
+  if (report.debris_components == 0) return;
+  std::vector<char> keep(static_cast<std::size_t>(mesh.num_triangles()));
+  for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = debris[components.of_face[f]] != 0 ? 0 : 1;
+  mesh.triangles = select_faces(mesh.triangles, keep);
+}
+
+void orient_consistently(TriangleMesh& mesh, DoctorReport& report) {
+  const std::vector<int> opposite = opposite_half_edges(mesh);
+  const int num_faces = static_cast<int>(mesh.num_triangles());
+  std::vector<char> turned(static_cast<std::size_t>(num_faces), 0);
+  std::vector<char> seen(turned.size(), 0);
+  std::vector<int> queue;
+  for (int seed = 0; seed < num_faces; ++seed) {
+    if (seen[seed] != 0) continue;
+    seen[seed] = 1;
+    queue.assign(1, seed);
+    while (!queue.empty()) {
+      const int face = queue.back();
+      queue.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const int h = 3 * face + k, other = opposite[h];
+        if (other == kOpen) continue;
+        // Neighbours agree if they run along their edge in opposite directions.
+        const bool same_way = origin_of(mesh.triangles, h) == origin_of(mesh.triangles, other);
+        const char wanted = static_cast<char>(turned[face] ^ (same_way ? 1 : 0));
+        if (seen[other / 3] == 0) {
+          seen[other / 3] = 1;
+          turned[other / 3] = wanted;
+          queue.push_back(other / 3);
+        } else if (turned[other / 3] != wanted) {
+          throw DataError("one-sided surface: the faces around {} have no common outside",
+                          place_mm(mesh.positions.row(origin_of(mesh.triangles, h))));
+        }
+      }
+    }
+  }
+  const Components components = connected_components(mesh.triangles, opposite);
+  const Sizes sizes = sizes_of(mesh, components, &turned);
+  for (int f = 0; f < num_faces; ++f)
+    if ((turned[f] != 0) != (sizes.volume[components.of_face[f]] < 0.0)) {
+      std::swap(mesh.triangles(f, 1), mesh.triangles(f, 2));
+      ++report.reoriented_faces;
+    }
+}
+
+void split_vertices(TriangleMesh& mesh, DoctorReport& report) {
+  const std::vector<int> opposite = opposite_half_edges(mesh);
+  // Corners of one fan are joined through the edges they share; half edge h stands for the corner it starts from.
+  std::vector<int> parent(opposite.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int h) {
+    while (parent[h] != h) h = parent[h] = parent[parent[h]];
+    return h;
+  };
+  const auto join = [&](int a, int b) {
+    const auto [low, high] = std::minmax({root(a), root(b)});
+    parent[high] = low;
+  };
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
+    if (opposite[h] == kOpen) continue;
+    join(h, next_in_face(opposite[h]));
+    join(next_in_face(h), opposite[h]);
+  }
+  constexpr int kNone = -1;
+  std::vector<int> fan_of_vertex(static_cast<std::size_t>(mesh.num_vertices()), kNone);
+  std::vector<int> vertex_of_fan(opposite.size(), kNone);
+  std::vector<int> copied;
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
+    const int fan = root(h);
+    if (fan != h) continue;
+    const int v = origin_of(mesh.triangles, h);
+    if (fan_of_vertex[v] == kNone) {
+      fan_of_vertex[v] = fan;
+      vertex_of_fan[fan] = v;
+    } else {
+      vertex_of_fan[fan] = static_cast<int>(mesh.num_vertices() + std::ssize(copied));
+      copied.push_back(v);
+    }
+  }
+  if (copied.empty()) return;
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) mesh.triangles.data()[h] = vertex_of_fan[root(h)];
+  const Eigen::Index before = mesh.num_vertices();
+  mesh.positions.conservativeResize(before + std::ssize(copied), 3);
+  for (std::size_t i = 0; i < copied.size(); ++i)
+    mesh.positions.row(before + static_cast<Eigen::Index>(i)) = mesh.positions.row(copied[i]);
+  report.split_vertices += std::ssize(copied);
+}
+
+void check_volumes(const TriangleMesh& mesh) {
+  const Components components = connected_components(mesh.triangles, opposite_half_edges(mesh));
+  const Sizes sizes = sizes_of(mesh, components);
+  const double extent = largest_extent(mesh);
+  for (int part = 0; part < components.count; ++part)
+    if (!(sizes.volume[part] > kFlatVolume * sizes.area[part] * extent))
+      throw DataError("a closed part of {} faces near {} encloses no volume ({:.3g} mm^3)", sizes.faces[part],
+                      place_mm(corner(mesh, sizes.first_face[part], 0).transpose()), 1e9 * sizes.volume[part]);
+}
+
+}  // namespace tacipc

@@ -1,0 +1,103 @@
+#include "stages/object/decimate/hausdorff.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "stages/object/decimate/surface_topology.h"
+#include "stages/object/decimate/triangle_tree.h"
+
+namespace tacipc {
+namespace {
+
+constexpr int kChunk = 256;
+constexpr std::int64_t kFewestPerFace = 4;  // corners and centroid
+
+struct OneSided {
+  double squared = 0.0;
+  std::int64_t samples = 0;
+};
+
+/// Points on one face: rows parallel to its longest edge, row 0 that edge, the last row the corner opposite to it.
+struct Lattice {
+  Vector3 from, to, apex;
+  int rows;        // after row 0
+  double spacing;  // neighbours in a row, and rows, are at most this far apart
+
+  Lattice(const TriangleMesh& mesh, int face, double wanted) : spacing(wanted) {
+    double longest = -1.0;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 a = corner(mesh, face, k), b = corner(mesh, face, (k + 1) % 3);
+      if ((b - a).norm() <= longest) continue;
+      longest = (b - a).norm();
+      from = a, to = b, apex = corner(mesh, face, (k + 2) % 3);
+    }
+    const double height = longest > 0.0 ? 2.0 * area_vector(mesh, face).norm() / longest : 0.0;
+    rows = steps(height);
+  }
+  int steps(double length) const { return static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, 1e6)); }
+  int row_steps(int row) const { return row == rows ? 0 : steps((to - from).norm() * (rows - row) / rows); }
+  Vector3 point(int row, int i) const {
+    const double up = static_cast<double>(row) / rows;
+    const double along = row == rows ? 0.0 : static_cast<double>(i) / row_steps(row);
+    return (1.0 - up) * ((1.0 - along) * from + along * to) + up * apex;
+  }
+  std::int64_t count() const {
+    std::int64_t sum = 1;  // the centroid
+    for (int row = 0; row <= rows; ++row) sum += row_steps(row) + 1;
+    return sum;
+  }
+};
+
+/// The target spacing, doubled until the lattices hold at most `max_samples` points.
+double affordable_spacing(const TriangleMesh& mesh, const HausdorffConfig& config) {
+  for (double spacing = config.spacing_m;; spacing *= 2.0) {
+    std::int64_t samples = 0;
+    const int num_faces = static_cast<int>(mesh.num_triangles());
+    for (int f = 0; f < num_faces; ++f) samples += Lattice(mesh, f, spacing).count();
+    // Corners and centroids remain however wide the spacing.
+    if (samples <= config.max_samples || samples <= kFewestPerFace * num_faces) return spacing;
+  }
+}
+
+OneSided farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const HausdorffConfig& config) {
+  const TriangleTree tree(to);
+  const double spacing = affordable_spacing(from, config);
+  const int num_faces = static_cast<int>(from.num_triangles());
+  const int num_chunks = (num_faces + kChunk - 1) / kChunk;
+  std::vector<OneSided> parts(static_cast<std::size_t>(num_chunks));
+  tbb::parallel_for(0, num_chunks, [&](int chunk) {
+    OneSided& part = parts[chunk];
+    for (int f = chunk * kChunk; f < std::min(num_faces, (chunk + 1) * kChunk); ++f) {
+      const Lattice lattice(from, f, spacing);
+      const auto look = [&](const Vector3& point) {
+        part.squared = std::max(part.squared, tree.squared_distance(point));
+        ++part.samples;
+      };
+      for (int row = 0; row <= lattice.rows; ++row)
+        for (int i = 0; i <= lattice.row_steps(row); ++i) look(lattice.point(row, i));
+      look((lattice.from + lattice.to + lattice.apex) / 3.0);
+    }
+  });
+  OneSided all;
+  for (const OneSided& part : parts) {
+    all.squared = std::max(all.squared, part.squared);
+    all.samples += part.samples;
+  }
+  return all;
+}
+
+}  // namespace
+
+Hausdorff hausdorff_distance(const TriangleMesh& first, const TriangleMesh& second, const HausdorffConfig& config) {
+  const OneSided forward = farthest_sample(first, second, config);
+  const OneSided backward = farthest_sample(second, first, config);
+  return {.first_to_second_m = std::sqrt(forward.squared),
+          .second_to_first_m = std::sqrt(backward.squared),
+          .first_samples = forward.samples,
+          .second_samples = backward.samples};
+}
+
+}  // namespace tacipc

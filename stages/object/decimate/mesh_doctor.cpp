@@ -1,0 +1,74 @@
+#include "stages/object/decimate/mesh_doctor.h"
+
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "stages/object/decimate/doctor_steps.h"
+
+namespace tacipc {
+namespace {
+
+void check_extent(const TriangleMesh& mesh, const DoctorConfig& config) {
+  const double extent = largest_extent(mesh);
+  if (extent < config.min_extent_m || extent > config.max_extent_m)
+    throw DataError("the mesh is {:.4g} mm wide, expected {:.4g} mm to {:.4g} mm; is the unit right?", 1e3 * extent,
+                    1e3 * config.min_extent_m, 1e3 * config.max_extent_m);
+}
+
+void say(std::int64_t count, const char* what) {
+  if (count > 0) log_info("{} {}", count, what);
+}
+
+void log_repairs(const DoctorReport& report) {
+  say(report.unreferenced_vertices, "vertices without a face removed");
+  say(report.merged_vertices, "vertices at the place of another merged into it");
+  say(report.degenerate_faces, "faces without area removed");
+  say(report.duplicate_faces, "duplicate faces removed");
+  say(report.debris_components, "small loose parts removed");
+  say(report.reoriented_faces, "faces turned to look outwards");
+  say(report.split_vertices, "vertices added where sheets met in one point");
+  say(report.hole_faces, "faces added to fill holes");
+  say(report.hidden_components, "parts inside another removed (nothing can touch them)");
+  if (report.overlapping_components > 0)
+    log_warning("{} pairs of closed parts overlap: the object is taken as their union", report.overlapping_components);
+}
+
+}  // namespace
+
+bool DoctorReport::changed_mesh() const {
+  return unreferenced_vertices + merged_vertices + degenerate_faces + duplicate_faces + reoriented_faces +
+             split_vertices + hole_faces + debris_components + hidden_components >
+         0;
+}
+
+TriangleMesh treat_mesh(TriangleMesh mesh, const DoctorConfig& config, DoctorReport& report) {
+  check_extent(mesh, config);
+  const double extent = largest_extent(mesh);
+  weld_open_vertices(mesh, config.relative_weld_distance * extent, report);
+  remove_degenerate_faces(mesh, report);
+  remove_duplicate_faces(mesh, report);
+  if (mesh.num_triangles() == 0) throw DataError("the mesh has no face with an area");
+  remove_debris(mesh, config.debris_area_fraction, report);
+  orient_consistently(mesh, report);
+  split_vertices(mesh, report);
+  fill_holes(mesh, {config.max_hole_edges, config.relative_max_hole_length * extent}, report);
+  remove_degenerate_faces(mesh, report);  // a crack of no width is closed by faces of no area
+  check_volumes(mesh);
+  examine_components(mesh, report);
+  remove_unreferenced_vertices(mesh, report);
+  // What is left decides the scale: a speck far away may have hidden a wrong unit.
+  check_extent(mesh, config);
+  log_repairs(report);
+  if (report.self_intersections > 0) {
+    if (config.refuse_self_intersections)
+      throw DataError("the surface crosses itself: {} pairs of faces of one part intersect", report.self_intersections);
+    log_warning(
+        "the surface crosses itself: {} pairs of faces of one part intersect (kept: a rigid object never touches "
+        "itself, and the gel stays outside all of it)",
+        report.self_intersections);
+  }
+  return mesh;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,21 @@
+// Where a surface crosses itself, decided exactly.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/mesh/triangle_mesh.h"
+
+namespace tacipc {
+
+struct FacePair {
+  int first;
+  int second;  // > first
+  friend bool operator==(const FacePair&, const FacePair&) = default;
+};
+
+/// All pairs of faces that share more than common vertices and edges, in ascending order. Vertices at the same place
+/// count as common, whatever their indices: parts that only touch there do not cross.
+std::vector<FacePair> self_intersections(const TriangleMesh& mesh);
+
+}  // namespace tacipc

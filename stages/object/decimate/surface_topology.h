@@ -1,0 +1,54 @@
+// Which triangles meet at which edges and vertices, from indices alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/mesh/triangle_mesh.h"
+
+namespace tacipc {
+
+/// Half edge h = 3 · face + k runs from corner k to corner k + 1 of its face.
+inline int next_in_face(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
+inline int origin_of(const Triangles& triangles, int half_edge) { return triangles(half_edge / 3, half_edge % 3); }
+inline int target_of(const Triangles& triangles, int half_edge) {
+  return origin_of(triangles, next_in_face(half_edge));
+}
+
+struct EdgeUse {
+  int low, high;  // the two vertices
+  int half_edge;
+};
+
+/// All half edges, those of one edge side by side, in ascending order of vertices and half edges.
+std::vector<EdgeUse> edge_uses(const Triangles& triangles);
+
+/// Marks a half edge whose edge belongs to no other face.
+inline constexpr int kOpen = -1;
+
+/// For each half edge the other one of its edge, or kOpen; the two may run the same way where faces disagree about the
+/// outside. \throw DataError where more than two faces share an edge, with the place.
+std::vector<int> opposite_half_edges(const TriangleMesh& mesh);
+
+struct Components {
+  std::vector<int> of_face;
+  int count = 0;
+};
+/// Faces connected through edges; numbered in the order of their first faces.
+Components connected_components(const Triangles& triangles, const std::vector<int>& opposite);
+
+/// Keeps the faces marked true, in order.
+Triangles select_faces(const Triangles& triangles, const std::vector<char>& keep);
+
+/// "(1.2, 3.4, 5.6) mm".
+std::string place_mm(const Eigen::RowVector3d& point_m);
+
+/// Extent along the longest axis of the box around the referenced vertices, m.
+double largest_extent(const TriangleMesh& mesh);
+
+Vector3 corner(const TriangleMesh& mesh, int face, int k);
+/// Area vector: normal times area, m².
+Vector3 area_vector(const TriangleMesh& mesh, int face);
+double surface_area(const TriangleMesh& mesh);
+
+}  // namespace tacipc

@@ -1,0 +1,34 @@
+// A pattern becomes a coin with a relief.
+#pragma once
+
+#include "common/image/image.h"
+#include "stages/object/emboss/emboss_config.h"
+
+namespace tacipc {
+
+/// Height of a wall across its outline, as a fraction: a ramp of width `wall` centred on d = 0, its two corners rounded
+/// by averaging over d ± rounding. With P(t) = ∫ ramp = 0, (t + w/2)² / 2w, t for t below, on and above the wall:
+/// (P(d + r) − P(d − r)) / 2r. C¹, 0 for d ≤ −w/2 − r, 1 for d ≥ w/2 + r. \pre wall > 0, rounding > 0
+double wall_height(double signed_distance_m, double wall_m, double rounding_m);
+
+/// The picture of a pattern of that kind. \throw DataError if the file is not a readable image or of one grey
+Height read_picture_height(const PictureSource& source, const ReliefShape& relief);
+
+/// Relief over the face as a fraction of its height; 0 from `free_radius_m` + wall/2 + rounding on.
+/// \throw DataError as read_picture_height
+Height face_relief(const EmbossConfig& config);
+
+struct EmbossedCoin {
+  TriangleMesh mesh;
+  double spacing_m = 0.0;        // of the vertices on the face
+  double relief_height_m = 0.0;  // highest point over the plain face
+  double raised_share = 0.0;     // of the face's area, higher than half the relief
+};
+
+/// \throw DataError if the pattern leaves the face plain.
+EmbossedCoin emboss(const EmbossConfig& config, const Height& relief);
+
+/// The relief seen from outside, x right, y up: grey 255 · fraction over the square around the coin.
+ByteImage relief_picture(const EmbossConfig& config, const Height& relief, int width_px);
+
+}  // namespace tacipc

@@ -1,0 +1,37 @@
+// configs/objects/patterns/*.yaml
+#pragma once
+
+#include "common/config/config.h"
+#include "stages/object/emboss/coin.h"
+#include "stages/object/emboss/pattern.h"
+
+namespace tacipc {
+
+struct ReliefShape {
+  double height_m = 0.0;
+  double wall_m = 0.0;      // width of a wall seen from above
+  double rounding_m = 0.0;  // half width of the rounding at a wall's foot and top
+};
+
+/// Fine noise upon everything inside the margin, as a print or a cast has it.
+struct Roughness {
+  double height_m = 0.0;  // none
+  double size_m = 1.0;    // of its grains
+  std::uint64_t seed = 0;
+};
+
+struct EmbossConfig {
+  CoinShape coin;
+  ReliefShape relief;
+  Roughness roughness;
+  double margin_m = 0.0;  // plain face between relief and fillet
+  int vertices = 0;       // of the mesh, at least
+  Pattern pattern;
+
+  /// Radius of the outline that bounds everything embossed; its wall ends `margin` before the fillet.
+  double free_radius_m() const;
+
+  static EmbossConfig read(ConfigReader& in);
+};
+
+}  // namespace tacipc

@@ -1,0 +1,36 @@
+// The kinds of patterns, each with its keys.
+#pragma once
+
+#include <filesystem>
+#include <variant>
+
+#include "common/config/config.h"
+#include "stages/object/emboss/outline.h"
+#include "stages/object/emboss/texture.h"
+
+namespace tacipc {
+
+/// What stands up by its outline; the relief puts walls on it.
+struct Outline {
+  Distance distance;
+};
+
+/// What has a height everywhere.
+struct Texture {
+  Height height;
+};
+
+/// A picture still to be read from its file.
+struct PictureSource {
+  std::filesystem::path path;
+  double width_m = 0.0;
+  bool dark_is_high = false;
+};
+
+using Pattern = std::variant<Outline, Texture, PictureSource>;
+
+/// Reads `pattern:`. `free_radius_m` is the radius of the circle that patterns may fill; one that must stay whole
+/// (text, polygon, star, gear) and reaches farther is a fault. A picture's path counts from the YAML's folder.
+Pattern read_pattern(ConfigReader& in, double free_radius_m);
+
+}  // namespace tacipc

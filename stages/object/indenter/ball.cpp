@@ -1,0 +1,95 @@
+#include "stages/object/indenter/ball.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "common/base/error.h"
+
+namespace tacipc {
+namespace {
+
+using Corners = std::array<int, 3>;
+
+/// The convex hull of (0, ±1, ±φ) and its cyclic turns: all triples of vertices two apart, turned outwards.
+void icosahedron(std::vector<Vector3>& vertices, std::vector<Corners>& faces) {
+  const double phi = (1.0 + std::sqrt(5.0)) / 2.0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double a : {-1.0, 1.0})
+      for (const double b : {-phi, phi}) {
+        Vector3 v = Vector3::Zero();
+        v[(axis + 1) % 3] = a;
+        v[(axis + 2) % 3] = b;
+        vertices.push_back(v);
+      }
+  const auto adjacent = [&](int i, int j) {
+    return std::abs((vertices[static_cast<std::size_t>(i)] - vertices[static_cast<std::size_t>(j)]).norm() - 2.0) <
+           1e-9;
+  };
+  for (int i = 0; i < 12; ++i)
+    for (int j = i + 1; j < 12; ++j)
+      for (int k = j + 1; k < 12; ++k) {
+        if (!adjacent(i, j) || !adjacent(j, k) || !adjacent(i, k)) continue;
+        const auto& [a, b, c] = std::tie(vertices[static_cast<std::size_t>(i)], vertices[static_cast<std::size_t>(j)],
+                                         vertices[static_cast<std::size_t>(k)]);
+        if (a.dot(b.cross(c)) > 0.0)
+          faces.push_back({i, j, k});
+        else
+          faces.push_back({i, k, j});
+      }
+  for (Vector3& v : vertices) v.normalize();
+}
+
+void split(std::vector<Vector3>& vertices, std::vector<Corners>& faces) {
+  std::map<std::array<int, 2>, int> middle_of;
+  const auto middle = [&](int i, int j) {
+    const auto [place, fresh] =
+        middle_of.try_emplace({std::min(i, j), std::max(i, j)}, static_cast<int>(vertices.size()));
+    if (fresh)
+      vertices.push_back((vertices[static_cast<std::size_t>(i)] + vertices[static_cast<std::size_t>(j)]).normalized());
+    return place->second;
+  };
+  std::vector<Corners> finer;
+  for (const auto& [a, b, c] : faces) {
+    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+  faces = std::move(finer);
+}
+
+}  // namespace
+
+TriangleMesh ball_mesh(double radius_m, double edge_m) {
+  constexpr int kMaxSplits = 8;
+  std::vector<Vector3> vertices;
+  std::vector<Corners> faces;
+  icosahedron(vertices, faces);
+  const auto longest = [&] {
+    double length = 0.0;
+    for (const Corners& f : faces)
+      for (std::size_t i = 0; i < 3; ++i)
+        length = std::max(
+            length,
+            (vertices[static_cast<std::size_t>(f[i])] - vertices[static_cast<std::size_t>(f[(i + 1) % 3])]).norm());
+    return radius_m * length;
+  };
+  for (int splits = 0; longest() > edge_m; ++splits) {
+    if (splits == kMaxSplits)
+      throw DataError("a ball with edges of {} m needs more than {} splits", edge_m, kMaxSplits);
+    split(vertices, faces);
+  }
+  TriangleMesh mesh;
+  mesh.positions.resize(static_cast<Eigen::Index>(vertices.size()), 3);
+  mesh.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    mesh.positions.row(static_cast<Eigen::Index>(i)) = radius_m * vertices[i].transpose();
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (Eigen::Index k = 0; k < 3; ++k)
+      mesh.triangles(static_cast<Eigen::Index>(i), k) = faces[i][static_cast<std::size_t>(k)];
+  return mesh;
+}
+
+}  // namespace tacipc

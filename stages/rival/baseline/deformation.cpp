@@ -1,0 +1,66 @@
+#include "stages/rival/baseline/deformation.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "common/base/rng.h"
+#include "stages/rival/baseline/kernel.h"
+
+namespace tacipc {
+namespace {
+
+double maximum(const Raster& raster) { return *std::max_element(raster.values.begin(), raster.values.end()); }
+
+/// S(f, k) of the header: blur, rescale to the full depth, and take the maximum with the object.
+Raster smeared(const Raster& f, const Raster& kernel, const Raster& h) {
+  Raster out = correlate(f, kernel);
+  const double top = maximum(out);
+  const double factor = top == 0.0 ? 1.0 : maximum(h) / top;
+  for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] = std::max(out.values[i] * factor, h.values[i]);
+  return out;
+}
+
+Raster difference_of_gaussians(const Raster& h, const DeformationConfig& config) {
+  const Raster near_kernel = folded_gaussian(config.near_kernel.size_px, config.near_kernel.sigma_px);
+  const Raster far_kernel = folded_gaussian(config.far_kernel.size_px, config.far_kernel.sigma_px);
+  Raster a = h, b = h;
+  for (int i = 0; i < config.iterations; ++i) a = smeared(a, near_kernel, h);
+  for (int i = 0; i < config.iterations; ++i) b = smeared(b, far_kernel, h);
+  for (int i = 0; i < config.iterations; ++i) b = smeared(b, near_kernel, h);
+  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] = 2.0 * a.values[i] - b.values[i];
+  return a;
+}
+
+}  // namespace
+
+Raster protrusion(const Raster& depth_m, const Raster& front_depth_m) {
+  assert(depth_m.values.size() == front_depth_m.values.size());
+  Raster h(depth_m.width, depth_m.height);
+  for (std::size_t i = 0; i < h.values.size(); ++i) {
+    const double in = front_depth_m.values[i] - depth_m.values[i];
+    h.values[i] = in > 0.0 ? in : 0.0;  // NaN compares false
+  }
+  return h;
+}
+
+Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config) {
+  switch (config.method) {
+    case DeformationConfig::Method::difference_of_gaussians:
+      return difference_of_gaussians(protrusion_m, config);
+    case DeformationConfig::Method::exponential_kernel:
+      // The kernel's sum is 1, so padding the depth with the front's depth is padding the protrusion with zero.
+      return correlate(protrusion_m, exponential_kernel(config.exponential_factor), Border::constant, 0.0);
+    case DeformationConfig::Method::none:
+      return protrusion_m;
+  }
+  return protrusion_m;
+}
+
+void add_texture(Raster& depth_m, double sigma_m, std::uint64_t seed) {
+  if (sigma_m == 0.0) return;
+  constexpr std::uint64_t kTextureStream = 0x74657874;  // "text"
+  for (std::size_t i = 0; i < depth_m.values.size(); ++i)
+    depth_m.values[i] += sigma_m * random_normal(seed, kTextureStream, i);
+}
+
+}  // namespace tacipc

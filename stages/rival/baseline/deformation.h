@@ -1,0 +1,23 @@
+// The membrane of the depth-based simulators: the object's own shape, blurred.
+#pragma once
+
+#include "stages/rival/baseline/baseline_config.h"
+#include "stages/rival/baseline/raster.h"
+
+namespace tacipc {
+
+/// h = max(front − depth, 0): how far the object sticks into the undeformed gel, m. NaN (nothing seen) counts as 0.
+/// \pre equal sizes
+Raster protrusion(const Raster& depth_m, const Raster& front_depth_m);
+
+/// Indentation of the membrane, m, > 0 into the gel, from the protrusion h:
+/// - difference of Gaussians [Gomes2021]: with S(f, k) = max(k * f · max h / max(k * f), h) (factor 1 where max(k * f)
+///   is 0), a = Sᵗ(h, k1), b = Sᵗ(Sᵗ(h, k2), k1) over t iterations, 2 a − b. It bulges (< 0) around the contact.
+/// - exponential kernel [Tacchi2023's rival]: the 13 × 13 kernel on h, 0 outside the image.
+/// - none: h.
+Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config);
+
+/// Adds N(0, σ) to every value, by seed and pixel alone.
+void add_texture(Raster& depth_m, double sigma_m, std::uint64_t seed);
+
+}  // namespace tacipc

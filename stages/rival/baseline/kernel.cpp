@@ -1,0 +1,72 @@
+#include "stages/rival/baseline/kernel.h"
+
+#include <cassert>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "common/image/mirrored.h"
+
+namespace tacipc {
+namespace {
+
+cv::Mat view(const Raster& raster) {
+  return cv::Mat(raster.height, raster.width, CV_64F, const_cast<double*>(raster.values.data()));
+}
+
+}  // namespace
+
+std::vector<double> folded_gaussian_profile(int size, double sigma) {
+  assert(size > 0 && sigma > 0.0);
+  constexpr double kTruncate = 4.0;
+  const int radius = static_cast<int>(kTruncate * sigma + 0.5);
+  double sum = 0.0;
+  for (int i = -radius; i <= radius; ++i) sum += std::exp(-0.5 * i * i / (sigma * sigma));
+  // Each tap carries the impulse to one place; places outside the window fold back into it.
+  std::vector<double> profile(static_cast<std::size_t>(size), 0.0);
+  for (int to = 0; to < size; ++to)
+    for (int i = -radius; i <= radius; ++i)
+      if (mirrored(to + i, size) == size / 2)
+        profile[static_cast<std::size_t>(to)] += std::exp(-0.5 * i * i / (sigma * sigma)) / sum;
+  return profile;
+}
+
+Raster folded_gaussian(int size, double sigma) {
+  const std::vector<double> profile = folded_gaussian_profile(size, sigma);
+  Raster kernel(size, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      kernel.at(x, y) = profile[static_cast<std::size_t>(x)] * profile[static_cast<std::size_t>(y)];
+  return kernel;
+}
+
+Raster exponential_kernel(double factor) {
+  const int reach = static_cast<int>(std::lround(6.0 * factor));
+  Raster kernel(2 * reach + 1, 2 * reach + 1);
+  double sum = 0.0;
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x)
+      sum += kernel.at(x + reach, y + reach) = 201.0 / (200.0 + std::exp(std::hypot(x, y) / factor));
+  for (double& weight : kernel.values) weight /= sum;
+  return kernel;
+}
+
+Raster correlate(const Raster& image, const Raster& kernel, Border border, double outside) {
+  Raster out(image.width, image.height);
+  cv::Mat source = view(image), target = view(out);
+  if (border == Border::reflect_101) {
+    cv::filter2D(source, target, CV_64F, view(kernel));
+    return out;
+  }
+  // filter2D pads with nothing but zeros: pad, filter, cut out.
+  const int left = kernel.width / 2, top = kernel.height / 2;
+  cv::Mat padded, filtered;
+  cv::copyMakeBorder(source, padded, top, kernel.height - 1 - top, left, kernel.width - 1 - left, cv::BORDER_CONSTANT,
+                     cv::Scalar(outside));
+  cv::filter2D(padded, filtered, CV_64F, view(kernel));
+  filtered(cv::Rect(left, top, image.width, image.height)).copyTo(target);
+  return out;
+}
+
+void keep_to_one_thread() { cv::setNumThreads(1); }
+
+}  // namespace tacipc

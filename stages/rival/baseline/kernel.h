@@ -1,0 +1,30 @@
+// The convolution kernels of the depth-based simulators, and convolution as they do it.
+#pragma once
+
+#include "stages/rival/baseline/raster.h"
+
+namespace tacipc {
+
+/// g(n, σ): SciPy's gaussian_filter (truncated at 4 σ, samples mirrored about the edge between pixels) of a unit
+/// impulse at index n/2 of n zeros, along each axis: a separable n × n kernel. The filter reaches beyond the window, so
+/// its mass folds back and the sum stays 1; for even n it is not symmetric. [Gomes2021]
+/// \pre size > 0, sigma > 0
+std::vector<double> folded_gaussian_profile(int size, double sigma);
+Raster folded_gaussian(int size, double sigma);
+
+/// w(i, j) = 201 / (200 + exp (√(i² + j²) / f)), |i|, |j| ≤ 6 f to the nearest whole number, divided by its sum: at f =
+/// 1 the older 13 × 13 kernel with which Tacchi compares [Tacchi2023], else the same on pixels of another size. \pre f
+/// > 0
+Raster exponential_kernel(double factor = 1.0);
+
+enum class Border { reflect_101, constant };
+
+/// Correlation Σ k(i, j) f(x + i − w/2, y + j − h/2) with the anchor at index size/2; outside the image f is mirrored
+/// about the outermost pixel centres, or is `outside`. \pre the mirrored image is wider and higher than the kernel's
+/// half
+Raster correlate(const Raster& image, const Raster& kernel, Border border = Border::reflect_101, double outside = 0.0);
+
+/// OpenCV's own threads would not heed --threads: from here on it has none.
+void keep_to_one_thread();
+
+}  // namespace tacipc

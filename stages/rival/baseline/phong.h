@@ -1,0 +1,24 @@
+// Phong shading as the depth-based simulators lay it over a photograph: light by light, in whole codes.
+#pragma once
+
+#include "common/image/image.h"
+#include "stages/rival/baseline/baseline_config.h"
+#include "stages/rival/baseline/raster.h"
+
+namespace tacipc {
+
+/// out = ⌊clamp((1 − opacity) image + opacity colour, 0, 255)⌋. The opacity may leave [0, 1]; only the code is clamped.
+std::uint8_t overlaid(double code, double opacity, double color);
+
+/// Opacity of one light on a membrane of unit normal (nx, ny, nz):
+///   max(k_d d, 0) + k_s R_z^p,  d = N · L, R = 2 d N − L   (L not normalised; odd powers keep the sign).
+double phong_opacity(const PhongLight& light, const std::array<double, 3>& normal, int shininess);
+
+/// The tactile image [Gomes2021]: ambient × background fades to black with protrusion / gel thickness (clamped to
+/// [0, 1]); then each light's colour is laid over it with its opacity, codes truncated every time; then the blur.
+/// Normals are (−dz/dx, −dz/dy, 1) / |…| of depth / metres_per_pixel, by central differences along columns (to the
+/// right) and rows (downwards); the mirrored border gives slope 0 on the outermost pixels. \pre equal sizes, RGB
+ByteImage phong_image(const ByteImage& background, const Raster& depth_m, const Raster& protrusion_m,
+                      const PhongConfig& config);
+
+}  // namespace tacipc

@@ -1,0 +1,20 @@
+#include "stages/rival/mpm/fixed_corotated.h"
+
+#include <Eigen/SVD>
+
+namespace tacipc {
+
+Matrix3 nearest_rotation(const Matrix3& F) {
+  const Eigen::JacobiSVD<Matrix3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // The smallest singular value takes the sign: the direction in which the particle is thinnest turned over.
+  Matrix3 signs = Matrix3::Identity();
+  signs(2, 2) = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * signs * svd.matrixV().transpose();
+}
+
+Matrix3 kirchhoff_stress(const Matrix3& F, double mu, double lambda) {
+  const double J = F.determinant();
+  return 2.0 * mu * (F - nearest_rotation(F)) * F.transpose() + lambda * J * (J - 1.0) * Matrix3::Identity();
+}
+
+}  // namespace tacipc

@@ -1,0 +1,102 @@
+// The gel as material points, and the object that moves through their grid.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/base/types.h"
+#include "stages/rival/mpm/tile_order.h"
+#include "stages/rival/mpm/transfer.h"
+
+namespace tacipc {
+
+/// Parameters of the scheme, SI units, frame S.
+struct MpmSetup {
+  double grid_spacing_m = 0.0;
+  Vector3 grid_origin_m = Vector3::Zero();  // where a node lies
+  double step_s = 0.0;
+  double mu_pa = 0.0;
+  double lambda_pa = 0.0;
+  double density_kg_m3 = 0.0;
+  double particle_volume_m3 = 0.0;
+  int num_fixed = 0;                                  // particles of the lowest ids, which never move
+  std::optional<double> held_below_m = std::nullopt;  // nodes at or below this height never move
+  double damping_per_s = 0.0;                         // v ← v (1 − Δt · this) on the grid
+  double object_mass_ratio = 1.0;                     // mass of a point of the object over that of a particle
+
+  /// √((λ + 2 μ) / ρ), the speed of pressure waves.
+  double wave_speed_m_s() const;
+  double particle_mass_kg() const { return density_kg_m3 * particle_volume_m3; }
+};
+
+/// One particle, SI units.
+struct ParticleState {
+  Vector3 shift_m = Vector3::Zero();
+  Vector3 velocity_m_s = Vector3::Zero();
+  Matrix3 velocity_gradient_per_s = Matrix3::Zero();
+  Matrix3 deformation = Matrix3::Identity();
+};
+
+class MaterialPoints {
+ public:
+  /// Particles at `rest_m`, at rest; row i has id i. \pre at least one
+  MaterialPoints(const Positions& rest_m, const MpmSetup& setup);
+
+  /// Points of the object in its own frame, m, where the first step begins. They move as a rigid body and carry it on
+  /// the grid: no slip, no stress.
+  void place_object(const Positions& points_m, const Matrix4& gel_from_object);
+
+  /// One step, in which the object goes to `gel_from_object`. \throw SolverError if particles move half a cell in it,
+  /// or are no longer finite.
+  void step(const Matrix4& gel_from_object);
+  /// One step with the object where it is.
+  void step() { step(gel_from_object_); }
+
+  /// Shifts of particles first … first + count − 1 since rest, m.
+  Positions shifts_m(int first, int count) const;
+  /// How far the lowest of the particles from `first` on has gone down, m; at least 0.
+  double deepest_m(int first) const;
+  std::vector<ParticleState> states() const;
+  void set_states(const std::vector<ParticleState>& states);
+
+  /// Σ m v of the gel, kg m/s; Σ x × m v with the part that turns within particles, about the origin, kg m²/s;
+  /// Σ ½ m v², J.
+  Vector3 momentum() const;
+  Vector3 angular_momentum() const;
+  double kinetic_energy_j() const;
+
+  int num_particles() const { return num_particles_; }
+  std::size_t num_nodes() const { return sorted_.slab.num_nodes(); }
+  int num_steps() const { return num_steps_; }
+  int num_sorts() const { return num_sorts_; }
+  /// Largest speed of a particle in the last step.
+  double largest_speed_m_s() const { return largest_speed_ * metres_per_cell() / setup_.step_s; }
+
+ private:
+  /// Where the object's points are in a pose, in cells of the whole grid.
+  void object_points(const Matrix4& gel_from_object, std::vector<std::array<double, 3>>& points) const;
+  void sort();
+  /// Points of the object of this step, after sorting where anything has drifted too far. How far they go, cells.
+  double move_object(const Matrix4& gel_from_object);
+  double metres_per_cell() const { return setup_.grid_spacing_m; }
+  template <typename Visit>
+  void for_each_particle(const Visit& visit) const;
+
+  MpmSetup setup_;
+  StepMaterial material_;
+  int num_particles_ = 0;
+  int num_steps_ = 0;
+  int num_sorts_ = 0;
+  double drift_ = 0.0;          // cells anything may have moved since it was sorted
+  double largest_speed_ = 0.0;  // cells per step
+  SortedParticles sorted_;
+  Matrix4 gel_from_object_ = Matrix4::Identity();
+  Positions object_m_ = Positions(0, 3);           // in the object's frame
+  std::vector<std::array<double, 3>> object_now_;  // cells
+  std::vector<std::array<double, 3>> object_next_;
+  std::vector<int> near_points_;       // of the object, tile by tile
+  std::vector<int> first_near_point_;  // of each tile, and the end
+  std::vector<MovingPoint> moving_;    // as near_points_
+};
+
+}  // namespace tacipc

@@ -1,0 +1,31 @@
+// Particles in tiles: which belong to which, in an order that depends on nothing but where they are.
+#pragma once
+
+#include <vector>
+
+#include "stages/rival/mpm/particle_pack.h"
+#include "stages/rival/mpm/slab.h"
+
+namespace tacipc {
+
+/// The packs of one tile: packs[first] … packs[first + count − 1].
+struct TilePacks {
+  int first = 0;
+  int count = 0;
+};
+
+struct SortedParticles {
+  Slab slab;  // large enough for everything to drift kDrift cells, and for points of the object that reach the gel
+  std::vector<ParticlePack> packs;  // tile by tile, in each along z, x, y of their cells
+  std::vector<TilePacks> tiles;
+};
+
+/// Sorts particles by tile and cell; those of one cell keep their order. Nodes at or below the height `held_below` (in
+/// cells of the whole grid; −∞ for none) are held.
+SortedParticles sort_particles(const std::vector<ParticlePack>& packs, double held_below);
+
+/// Tile of a point of the object (in cells of the whole grid), or −1 if it touches no node that a particle can touch
+/// before the next sort.
+int tile_of_point(const Slab& slab, const std::array<double, 3>& point);
+
+}  // namespace tacipc

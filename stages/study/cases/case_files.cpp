@@ -1,0 +1,125 @@
+#include "stages/study/cases/case_files.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+namespace tacipc {
+namespace {
+
+std::string ball_indenter(double radius_m, double edge_m) {
+  return fmt::format("ball: {{radius_mm: {}, edge_mm: {}}}\n", 1e3 * radius_m, 1e3 * edge_m);
+}
+
+std::string indenter(const ObjectCase& object, const BenchmarkCases& cases) {
+  if (object.ball_radius_m) return ball_indenter(*object.ball_radius_m, cases.ball_edge_m);
+  // Twice as deep as the deepest press, so that the cut is never touched.
+  const double relief_m = 2.0 * object.images.back().depth_m + 2.0 * object.edge_radius_m;
+  return fmt::format("mesh: {{unit: {}, edge_radius_mm: {}, spacing_mm: {}, relief_mm: {}}}\n", object.unit,
+                     1e3 * object.edge_radius_m, 1e3 * cases.mesh_spacing_m, 1e3 * relief_m);
+}
+
+/// One frame per image.
+std::string motion(const ObjectCase& object) {
+  std::string text = "motion:\n";
+  for (const PhotographCase& image : object.images)
+    text += fmt::format("  - {{kind: press, depth_mm: {}, steps: 1, substeps: 2}}\n", 1e3 * image.depth_m);
+  return text;
+}
+
+std::string shade(const ObjectCase& object) {
+  std::string text = "images:\n";
+  if (!object.images.empty() && object.images.front().circle) {
+    for (const PhotographCase& image : object.images)
+      text += fmt::format("  - {{name: {}, center_px: [{}, {}], contact_px: {}}}\n", image.name, image.circle->x_px,
+                          image.circle->y_px, image.circle->radius_px);
+    return text + fmt::format("ball: {{radius_mm: {}}}\n", 1e3 * object.ball_radius_m.value());
+  }
+  int frame = 0;
+  for (const PhotographCase& image : object.images)
+    text += fmt::format("  - {{name: {}, frame: {}}}\n", image.name, ++frame);
+  const auto& box = object.box_px;
+  return text + fmt::format("place: {{center_px: [{}, {}]}}\nfit: {{image: {}, box_px: [{}, {}, {}, {}], yaw: {}}}\n",
+                            object.center_px[0], object.center_px[1], object.fit_image, box[0], box[1], box[2], box[3],
+                            object.fit_yaw);
+}
+
+std::string metrics(const BenchmarkCases& cases) {
+  std::string text = "kind: images\noffset_outside_box: true\nboxes:\n";
+  // The metrics name images below the folder that all have in common, which with one object is the object's.
+  for (const ObjectCase& object : cases.objects)
+    for (const PhotographCase& image : object.images)
+      for (const std::string& name : {object.name + "/" + image.name + ".png", image.name + ".png"})
+        text += fmt::format("  - {{starts_with: {}, px: [{}, {}, {}, {}]}}\n", name, image.box_px[0], image.box_px[1],
+                            image.box_px[2], image.box_px[3]);
+  return text;
+}
+
+std::string labels(const std::vector<ContactCircle>& circles) {
+  std::string text;
+  for (const ContactCircle& circle : circles)
+    text += fmt::format("{} ({}, {}) {}\n", circle.image, circle.x_px, circle.y_px, circle.radius_px);
+  return text;
+}
+
+std::string variables(const BenchmarkCases& cases, const std::string& folder) {
+  const auto setting = [&](const std::string& path) {
+    return (std::filesystem::path(folder) / path).lexically_normal().generic_string();
+  };
+  std::string text = "# Made by the stage cases.\n";
+  const auto set = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("CASES_{} := {}\n", name, value);
+  };
+  set("DATA", cases.data);
+  set("CIRCLES", cases.circle_table ? cases.data + "/" + cases.circles : "");
+  if (!cases.circle_table) {
+    set("BACKGROUND", cases.data + "/" + cases.background);
+    set("LABELS", cases.data + "/" + cases.labels);
+  }
+  set("PHOTOGRAPHS", cases.data + "/" + cases.photographs);
+  for (const auto& [name, path] : {std::pair{"SENSOR", cases.sensor},
+                                   {"MESH", cases.mesh},
+                                   {"PRESS", cases.press},
+                                   {"CALIBRATE", cases.calibrate},
+                                   {"BASELINE", cases.baseline}})
+    set(name, setting(path));
+  std::string objects;
+  for (const ObjectCase& object : cases.objects) {
+    objects += (objects.empty() ? "" : " ") + object.name;
+    std::string images;
+    for (const PhotographCase& image : object.images) {
+      images += (images.empty() ? "" : " ") + image.name;
+      set("PHOTOGRAPH_" + image.name, cases.data + "/" + cases.photographs + "/" + image.photograph);
+    }
+    set("IMAGES_" + object.name, images);
+    set("FIT_" + object.name, object.fit_image);
+    set("MESH_" + object.name, object.mesh.empty() ? "" : cases.data + "/" + object.mesh);
+  }
+  set("OBJECTS", objects);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> case_files(const BenchmarkCases& cases, const std::string& folder) {
+  std::vector<std::pair<std::string, std::string>> files{
+      {"cases.mk", variables(cases, folder)},
+      {"metrics.yaml", metrics(cases)},
+      {"ball/indenter.yaml", ball_indenter(cases.ball_radius_m, cases.ball_edge_m)},
+      {"ball/motion.yaml",
+       fmt::format("motion: {{kind: press, depth_mm: {}, steps: {}}}\n", 1e3 * cases.ball_depth_m, cases.ball_steps)}};
+  if (cases.circle_table) {
+    files.emplace_back("labels.txt", labels(cases.labels_of_circles));
+    files.emplace_back("background.yaml", fmt::format("contact_radii: {}\n", cases.circle_table->background_radii));
+  }
+  for (const ObjectCase& object : cases.objects) {
+    if (!cases.circle_table) {  // else the press that calibrates serves
+      files.emplace_back("objects/" + object.name + "/indenter.yaml", indenter(object, cases));
+      files.emplace_back("objects/" + object.name + "/motion.yaml", motion(object));
+    }
+    files.emplace_back("objects/" + object.name + "/shade.yaml", shade(object));
+  }
+  return files;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,52 @@
+#include <optional>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/stage/stage.h"
+#include "stages/study/cases/case_files.h"
+#include "stages/study/cases/marker_files.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kCases{
+    .name = "cases",
+    .summary = "Write the inputs of the stages from the one file of a benchmark against photographs.",
+    .inputs = {{.flag = "--config", .help = "the benchmark (YAML)"},
+               {.flag = "--circles",
+                .help = "contact circles of its photographs (CSV), where it names them",
+                .required = false}}};
+
+/// Photographs, or marker vectors (`fields`) measured in them.
+struct Benchmark {
+  std::optional<BenchmarkCases> photographs;
+  std::optional<MarkerBenchmark> markers;
+
+  static Benchmark read(ConfigReader& in) {
+    if (in.has("fields")) return {.photographs = {}, .markers = MarkerBenchmark::read(in)};
+    return {.photographs = BenchmarkCases::read(in), .markers = {}};
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kCases, argc, argv, [](Stage& stage) {
+    const auto benchmark = stage.read_config<Benchmark>("--config");
+    const std::string folder = stage.input("--config").parent_path().generic_string();
+    if (benchmark.markers) {
+      if (stage.optional_input("--circles")) throw UsageError("--circles: the benchmark names no circles");
+      for (const auto& [name, content] : marker_files(*benchmark.markers, folder))
+        write_file(stage.output(name), content);
+      stage.summarize({{"depths", benchmark.markers->depths}, {"variants", benchmark.markers->variants.size()}});
+      return;
+    }
+    BenchmarkCases cases = *benchmark.photographs;
+    add_circles(cases, stage.optional_input("--circles"));
+    for (const auto& [name, content] : case_files(cases, folder)) write_file(stage.output(name), content);
+    std::size_t images = 0;
+    for (const ObjectCase& object : cases.objects) images += object.images.size();
+    stage.summarize({{"objects", cases.objects.size()}, {"images", images}});
+  });
+}

@@ -1,0 +1,100 @@
+#include "stages/study/marker_fit/pressed_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/sample/press_folder.h"
+
+namespace tacipc {
+namespace {
+
+PressedRun read_run(const std::filesystem::path& folder, double ball_radius_m) {
+  PressFolder press(folder);
+  const std::vector<PhaseKind> phases = press.phases();
+  const std::vector<Matrix4> poses = press.poses();
+  PressedRun run{.source = folder.string(),
+                 .lattice = MarkerLattice(press.markers(0), press.path(PressArray::markers).string())};
+  const auto place = [&](std::size_t f) -> Vector3 { return poses[f].topRightCorner<3, 1>(); };
+  for (std::size_t f = 0; f < phases.size(); ++f) {
+    run.displacement_m.push_back(press.marker_displacements(f).since_rest);
+    if (phases[f] <= PhaseKind::press) {
+      run.press_frame.push_back(f);
+      run.depth_m.push_back(ball_radius_m - place(f).z());
+    } else if (phases[f] == PhaseKind::shear) {
+      if (run.shear_frame.empty()) run.shear_frame.push_back(f - 1);
+      run.shear_frame.push_back(f);
+    }
+  }
+  if (run.press_frame.size() < 2 || run.shear_frame.empty() || run.shear_frame.front() != run.press_frame.back())
+    throw DataError("{}: is not a press followed by a shear", folder.string());
+  const Vector3 end = place(run.press_frame.back());
+  run.place_m = end.head<2>();
+  for (const std::size_t f : run.shear_frame) run.way_m.push_back((place(f) - end).head<2>().norm());
+  if (!std::is_sorted(run.depth_m.begin(), run.depth_m.end()) || !std::is_sorted(run.way_m.begin(), run.way_m.end()))
+    throw DataError("{}: the ball reverses its motion", folder.string());
+  return run;
+}
+
+/// Between which two of ascending values a value lies: the first's index, and how far towards the second.
+std::pair<std::size_t, double> between(const std::vector<double>& values, double value) {
+  const auto above = std::upper_bound(values.begin() + 1, values.end() - 1, value);
+  const auto i = static_cast<std::size_t>(above - values.begin()) - 1;
+  const double width = values[i + 1] - values[i];
+  return {i, width > 0.0 ? std::clamp((value - values[i]) / width, 0.0, 1.0) : 0.0};
+}
+
+Eigen::Matrix2Xd frame_at(const PressedRun& run, std::size_t frame, const Eigen::Matrix2Xd& from_axis_m) {
+  Eigen::Matrix2Xd out(2, from_axis_m.cols());
+  for (Eigen::Index i = 0; i < out.cols(); ++i)
+    out.col(i) = run.lattice.at(run.place_m + from_axis_m.col(i), run.displacement_m[frame]);
+  return out;
+}
+
+Eigen::Matrix2Xd blend(const PressedRun& run, const std::vector<std::size_t>& frames, std::pair<std::size_t, double> at,
+                       const Eigen::Matrix2Xd& from_axis_m) {
+  const auto& [i, part] = at;
+  return (1.0 - part) * frame_at(run, frames[i], from_axis_m) + part * frame_at(run, frames[i + 1], from_axis_m);
+}
+
+}  // namespace
+
+PressedRuns::PressedRuns(const std::vector<std::filesystem::path>& folders, double ball_radius_m) {
+  std::vector<std::filesystem::path> found;
+  for (const auto& folder : folders)
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.path().filename() == field_of(PressArray::marker_displacement).file)
+        found.push_back(entry.path().parent_path());
+  std::sort(found.begin(), found.end());
+  for (const auto& run : found) runs_.push_back(read_run(run, ball_radius_m));
+  std::stable_sort(runs_.begin(), runs_.end(),
+                   [](const PressedRun& a, const PressedRun& b) { return a.final_depth_m() < b.final_depth_m(); });
+  for (std::size_t i = 1; i < runs_.size(); ++i)
+    if (!(runs_[i].final_depth_m() > runs_[i - 1].final_depth_m()))
+      throw DataError("{}: is pressed as deep as {}", runs_[i].source, runs_[i - 1].source);
+  if (runs_.size() < 2) throw DataError("{}: has presses to fewer than two depths", folders.front().string());
+}
+
+double PressedRuns::longest_way_m() const {
+  double way = runs_.front().way_m.back();
+  for (const PressedRun& run : runs_) way = std::min(way, run.way_m.back());
+  return way;
+}
+
+Eigen::Matrix2Xd PressedRuns::pressed(const Eigen::Matrix2Xd& from_axis_m, double depth_m) const {
+  const PressedRun& run = runs_.back();
+  return blend(run, run.press_frame, between(run.depth_m, depth_m), from_axis_m);
+}
+
+Eigen::Matrix2Xd PressedRuns::sheared(const Eigen::Matrix2Xd& from_axis_m, double depth_m, double way_m) const {
+  std::vector<double> depths;
+  for (const PressedRun& run : runs_) depths.push_back(run.final_depth_m());
+  const auto [i, part] = between(depths, depth_m);
+  const auto of = [&](const PressedRun& run) {
+    return blend(run, run.shear_frame, between(run.way_m, way_m), from_axis_m);
+  };
+  return (1.0 - part) * of(runs_[i]) + part * of(runs_[i + 1]);
+}
+
+}  // namespace tacipc

@@ -1,0 +1,49 @@
+// Simulated presses of one ball to several depths, each dragged afterwards: displacement at any depth and way.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "stages/study/marker_fit/marker_lattice.h"
+
+namespace tacipc {
+
+/// One press and shear, as the files of the press stage tell it (those of any simulator may).
+struct PressedRun {
+  std::string source;
+  MarkerLattice lattice;
+  std::vector<Positions> displacement_m = {};                   // of the markers since rest, per frame
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();            // of the ball at the end of the press
+  std::vector<std::size_t> press_frame = {}, shear_frame = {};  // ascending; the shear begins with the end of the press
+  std::vector<double> depth_m = {};                             // of each press frame
+  std::vector<double> way_m = {};                               // of each shear frame
+
+  double final_depth_m() const { return depth_m.back(); }
+};
+
+/// Presses of one ball, ascending in depth.
+class PressedRuns {
+ public:
+  /// Every folder at or below `folders` that holds marker_displacement.npy, with markers.npy, object_pose.npy and
+  /// phase.npy. The depth is the ball's radius minus the height of its centre, the origin of the object's frame. \throw
+  /// DataError if files do not fit together, nothing follows a press, or there are fewer than two depths
+  PressedRuns(const std::vector<std::filesystem::path>& folders, double ball_radius_m);
+
+  double deepest_m() const { return runs_.back().final_depth_m(); }
+  double shallowest_m() const { return runs_.front().final_depth_m(); }
+  double longest_way_m() const;
+
+  /// Displacement since rest, m, at points given from the ball's axis, m: pressed to a depth, linear between the frames
+  /// of the deepest press. \pre 0 ≤ depth_m ≤ deepest_m()
+  Eigen::Matrix2Xd pressed(const Eigen::Matrix2Xd& from_axis_m, double depth_m) const;
+  /// The same pressed and then dragged by `way_m`: linear between the frames of a run and between the two runs next to
+  /// the depth. \pre shallowest_m() ≤ depth_m ≤ deepest_m(), 0 ≤ way_m ≤ longest_way_m()
+  Eigen::Matrix2Xd sheared(const Eigen::Matrix2Xd& from_axis_m, double depth_m, double way_m) const;
+
+ private:
+  std::vector<PressedRun> runs_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,33 @@
+// Errors of a depth map against a reference of the same view.
+#pragma once
+
+#include <cstddef>
+
+#include "common/image/image.h"
+
+namespace tacipc {
+
+/// With a, b the depths of map and reference (m along the camera's axis), r those of the gel at rest, means over the
+/// pixels of a region.
+struct DepthError {
+  std::size_t pixels = 0;
+  double mae_m = 0.0;     // mean |a − b|
+  double mse_m2 = 0.0;    // mean (a − b)²
+  double max_m = 0.0;     // max |a − b|
+  double mae_norm = 0.0;  // mae over the reference's deepest press, max (r − b) of the whole image
+  double slope_ratio =
+      0.0;  // √(Σ |∇a|² / Σ |∇b|²): below 1 the map is smoother than the reference; NaN where b is flat
+  double iou = 0.0;  // pixels pressed in both over pixels pressed in either, of the whole image; NaN if there are none
+};
+
+struct DepthErrors {
+  DepthError full;
+  DepthError pressed;  // where the reference is pressed
+};
+
+/// A pixel is pressed where the membrane came nearer than at rest by more than `pressed_m`. Pixels that are NaN in any
+/// map do not count; slopes are differences of neighbours to the right and below, in m per
+/// pixel. \pre maps of equal size. \throw DataError if no pixel counts, or the reference is pressed nowhere
+DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, const FloatImage& rest, double pressed_m);
+
+}  // namespace tacipc

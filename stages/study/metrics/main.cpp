@@ -1,0 +1,39 @@
+#include <variant>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/stage/stage.h"
+#include "stages/study/metrics/measure.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kMetrics{
+    .name = "metrics",
+    .summary = "Compare tactile images or depth maps with references: MAE, MSE, PSNR, SSIM; errors in mm, slopes.",
+    .inputs = {{.flag = "--config", .help = "images or depth maps, which of them, which part (YAML)"},
+               {.flag = "--images", .help = "folder of images (PNG) or depth maps (EXR, m), or files", .many = true},
+               {.flag = "--reference", .help = "folder with the same names, or as many files", .many = true},
+               {.flag = "--rest", .help = "depth map of the gel at rest, for depth maps", .required = false}}};
+
+std::vector<MetricsRow> measure(Stage& stage, const MetricsConfig& config) {
+  const auto rest = stage.optional_input("--rest");
+  const auto* depth = std::get_if<DepthMetrics>(&config.what);
+  if (depth && !rest) throw UsageError("--rest: is needed where depth maps are compared");
+  if (!depth && rest) throw UsageError("--rest: is for depth maps, and the configuration is for images");
+  const auto pairs = pair_images(stage.inputs("--images"), stage.inputs("--reference"), config.ends_with);
+  log_info("{} pairs", pairs.size());
+  return depth ? measure_depths(pairs, *rest, *depth) : measure_images(pairs, std::get<ImageMetrics>(config.what));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kMetrics, argc, argv, [](Stage& stage) {
+    const auto rows = measure(stage, stage.read_config<MetricsConfig>("--config"));
+    write_file(stage.output("samples.csv"), to_csv(rows));
+    stage.summarize(summary_of(rows));
+  });
+}

@@ -1,0 +1,21 @@
+// Tactile images and depth maps against references.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "stages/study/metrics/metrics_config.h"
+#include "stages/study/metrics/metrics_table.h"
+
+namespace tacipc {
+
+/// A row for the whole image (`full`), then those of its `crop` and `box`. \throw DataError for unreadable images,
+/// different sizes, images below 11 pixels, a crop or box that leaves the image, an image without a box.
+std::vector<MetricsRow> measure_images(const std::vector<ImagePair>& pairs, const ImageMetrics& config);
+
+/// A row for the whole map (`full`) and one for where the reference is `pressed`; `rest` is the map of the gel at rest.
+/// \throw DataError for unreadable maps or such of another size, and as depth_errors
+std::vector<MetricsRow> measure_depths(const std::vector<ImagePair>& pairs, const std::filesystem::path& rest,
+                                       const DepthMetrics& config);
+
+}  // namespace tacipc

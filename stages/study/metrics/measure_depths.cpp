@@ -1,0 +1,48 @@
+#include "stages/study/metrics/measure.h"
+
+#include "common/base/error.h"
+#include "common/image/image.h"
+#include "stages/study/metrics/depth_error.h"
+
+namespace tacipc {
+namespace {
+
+FloatImage read_depth(const std::filesystem::path& file) { return read_exr(file, {"Z"}); }
+
+FloatImage read_depth_like(const std::filesystem::path& file, const FloatImage& rest) {
+  FloatImage map = read_depth(file);
+  if (map.width != rest.width || map.height != rest.height)
+    throw DataError("{}: is {} x {} pixels, the gel at rest {} x {}", file.string(), map.width, map.height, rest.width,
+                    rest.height);
+  return map;
+}
+
+MetricsRow row_of(const ImagePair& pair, const char* region, const DepthError& error) {
+  return {.name = pair.name,
+          .region = region,
+          .values = {{"pixels", static_cast<double>(error.pixels)},
+                     {"mae_mm", 1e3 * error.mae_m},
+                     {"mse_mm2", 1e6 * error.mse_m2},
+                     {"max_mm", 1e3 * error.max_m},
+                     {"mae_norm", error.mae_norm},
+                     {"slope_ratio", error.slope_ratio},
+                     {"iou", error.iou}}};
+}
+
+}  // namespace
+
+std::vector<MetricsRow> measure_depths(const std::vector<ImagePair>& pairs, const std::filesystem::path& rest,
+                                       const DepthMetrics& config) {
+  const FloatImage at_rest = read_depth(rest);
+  return measure_pairs(pairs, [&](const ImagePair& pair) -> std::vector<MetricsRow> {
+    const FloatImage map = read_depth_like(pair.image, at_rest), reference = read_depth_like(pair.reference, at_rest);
+    try {
+      const DepthErrors errors = depth_errors(map, reference, at_rest, config.pressed_m);
+      return {row_of(pair, "full", errors.full), row_of(pair, "pressed", errors.pressed)};
+    } catch (const DataError& error) {
+      throw DataError("{} against {}: {}", pair.image.string(), pair.reference.string(), error.what());
+    }
+  });
+}
+
+}  // namespace tacipc

@@ -1,0 +1,99 @@
+#include "stages/study/metrics/measure.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "common/image/image.h"
+#include "stages/study/metrics/image_error.h"
+#include "stages/study/metrics/sharpness.h"
+#include "stages/study/metrics/ssim.h"
+
+namespace tacipc {
+namespace {
+
+ByteImage cropped(const ByteImage& image, const Box& box) {
+  ByteImage out(box.width, box.height, image.channels);
+  const auto width = static_cast<std::size_t>(box.width * image.channels);
+  for (int y = 0; y < box.height; ++y) std::copy_n(&image.at(box.x, box.y + y, 0), width, &out.at(0, y, 0));
+  return out;
+}
+
+MetricsRow row_of(const ImagePair& pair, const char* region, const ImageError& error, double ssim_w, double ssim_s,
+                  double sharpness) {
+  return {.name = pair.name,
+          .region = region,
+          .values = {{"mae", error.mae},
+                     {"mse", error.mse},
+                     {"psnr_db", psnr_db(error.mse)},
+                     {"psnr_ln", psnr_ln(error.mse)},
+                     {"ssim_w", ssim_w},
+                     {"ssim_s", ssim_s},
+                     {"sharpness", sharpness}}};
+}
+
+MetricsRow compare(const ByteImage& image, const ByteImage& reference, const ImagePair& pair, const char* region) {
+  return row_of(pair, region, image_error(image, reference), ssim(image, reference, gaussian_window()),
+                ssim(image, reference, box_window()), sharpness(image, reference, {0, 0, image.width, image.height}));
+}
+
+/// Errors of the box's pixels, SSIM and sharpness of the whole image's maps there.
+MetricsRow compare_in_box(const ByteImage& image, const ByteImage& reference, const Box& box, const ImagePair& pair) {
+  return row_of(pair, "box", image_error(cropped(image, box), cropped(reference, box)),
+                ssim_in_box(image, reference, gaussian_window(), box), ssim_in_box(image, reference, box_window(), box),
+                sharpness(image, reference, box));
+}
+
+void check_inside(const Box& box, const ByteImage& image, const ImagePair& pair, const char* key) {
+  if (box.x + box.width <= image.width && box.y + box.height <= image.height) return;
+  throw DataError("{}: is {} x {} pixels, {} reaches to {} x {}", pair.image.string(), image.width, image.height, key,
+                  box.x + box.width, box.y + box.height);
+}
+
+/// The image's box, if any is configured. \throw DataError if it does not fit, has no pixel with a whole window, or
+/// leaves no pixel outside although an offset is to be fitted there.
+const Box* checked_box(const ByteImage& image, const ImagePair& pair, const ImageMetrics& config) {
+  if (config.boxes.empty()) return nullptr;
+  const Box* box = config.box_of(pair.name);
+  if (!box) throw DataError("{}: no box of the configuration begins as its name, {}", pair.image.string(), pair.name);
+  check_inside(*box, image, pair, "boxes");
+  constexpr int kMargin = kLeastSide / 2;
+  if (box->x + box->width <= kMargin || box->x >= image.width - kMargin || box->y + box->height <= kMargin ||
+      box->y >= image.height - kMargin)
+    throw DataError("{}: its box lies within {} pixels of the border, where SSIM has no window", pair.image.string(),
+                    kMargin);
+  if (config.offset_outside_box && box->width == image.width && box->height == image.height)
+    throw DataError("{}: its box is the whole image, so no offset can be fitted outside", pair.image.string());
+  return box;
+}
+
+std::vector<MetricsRow> measure_pair(const ImagePair& pair, const ImageMetrics& config) {
+  // Grey images become three equal channels, which changes no mean.
+  ByteImage image = read_png(pair.image, 3);
+  const ByteImage reference = read_png(pair.reference, 3);
+  if (image.width != reference.width || image.height != reference.height) {
+    throw DataError("{} is {} x {} pixels, {} is {} x {}", pair.image.string(), image.width, image.height,
+                    pair.reference.string(), reference.width, reference.height);
+  }
+  if (std::min(image.width, image.height) < kLeastSide) {
+    throw DataError("{}: is {} x {} pixels, SSIM needs {} each way", pair.image.string(), image.width, image.height,
+                    kLeastSide);
+  }
+  const Box* box = checked_box(image, pair, config);
+  if (config.offset_outside_box)
+    image = offset_to(image, reference, box->x, box->y, box->x + box->width, box->y + box->height);
+  std::vector<MetricsRow> rows{compare(image, reference, pair, "full")};
+  if (const auto& crop = config.crop_px) {
+    check_inside(*crop, image, pair, "crop_px");
+    rows.push_back(compare(cropped(image, *crop), cropped(reference, *crop), pair, "crop"));
+  }
+  if (box) rows.push_back(compare_in_box(image, reference, *box, pair));
+  return rows;
+}
+
+}  // namespace
+
+std::vector<MetricsRow> measure_images(const std::vector<ImagePair>& pairs, const ImageMetrics& config) {
+  return measure_pairs(pairs, [&](const ImagePair& pair) { return measure_pair(pair, config); });
+}
+
+}  // namespace tacipc

@@ -1,0 +1,106 @@
+#include "stages/study/tabulate/image_table.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "common/format/csv.h"
+#include "stages/study/tabulate/markdown.h"
+
+namespace tacipc {
+namespace {
+
+/// A line with the name of a group, between rows of its table.
+std::string group_line(const std::string& group, std::size_t columns) {
+  std::string text = "| **" + markdown_cell(group) + "** |";
+  for (std::size_t i = 0; i < columns; ++i) text += "  |";
+  return text + "\n";
+}
+
+std::string region_table(const ShownRegion& region, const std::vector<MethodScores>& rows,
+                         const ImageTableConfig& config) {
+  std::vector<std::string> headings{markdown_cell(region.heading)};
+  for (const ShownColumn& column : config.columns) headings.push_back(markdown_cell(column.heading));
+  std::string text = markdown_head(headings), group;
+  for (const MethodScores& row : rows) {
+    if (row.row.group != group && !row.row.group.empty()) text += group_line(row.row.group, config.columns.size());
+    group = row.row.group;
+    std::vector<std::string> cells{markdown_cell(row.row.name)};
+    for (const ShownColumn& column : config.columns) {
+      const MeanDeviation& cell = row.cell(region.region, column.column);
+      cells.push_back(markdown_deviation(cell.mean, cell.deviation, column.digits, column.geometric ? "×÷" : "±"));
+    }
+    text += markdown_row(cells);
+  }
+  if (!config.printed || config.printed->region != region.region) return text;
+  text += group_line(config.printed->label, config.columns.size());
+  for (const PrintedRow& row : config.printed->rows) {
+    std::vector<std::string> cells{markdown_cell(row.name)};
+    for (const ShownColumn& column : config.columns) cells.push_back(row.value(column.column).value_or("–"));
+    text += markdown_row(cells);
+  }
+  return text;
+}
+
+const MethodScores& row_in(const std::vector<MethodScores>& rows, const std::string& method) {
+  return *std::find_if(rows.begin(), rows.end(), [&](const MethodScores& row) { return row.row.method == method; });
+}
+
+template <typename Item>
+const std::string& heading_of(const std::vector<Item>& items, std::string Item::*member, const std::string& value) {
+  return std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.*member == value; })->heading;
+}
+
+std::string named(const MeasuredRow& row) {
+  return markdown_cell(row.name) + (row.group.empty() ? "" : " (" + markdown_cell(row.group) + ")");
+}
+
+/// `- <region>, <column>: <row> 0.62 times <row>: <what that means>`
+std::string sentence(const Finding& finding, const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
+  const MethodScores &row = row_in(rows, finding.row), &against = row_in(rows, finding.against);
+  const double ratio =
+      row.cell(finding.region, finding.column).mean / against.cell(finding.region, finding.column).mean;
+  const bool same_group = row.row.group == against.row.group;
+  return fmt::format("- {}, {}: {} has {} times that of {}: {}\n",
+                     markdown_cell(heading_of(config.regions, &ShownRegion::region, finding.region)),
+                     markdown_cell(heading_of(config.columns, &ShownColumn::column, finding.column)), named(row.row),
+                     markdown_number(ratio, 2), same_group ? markdown_cell(against.row.name) : named(against.row),
+                     ratio < 1.0 ? finding.below : finding.above);
+}
+
+}  // namespace
+
+std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
+  std::string text;
+  for (const ShownRegion& region : config.regions) text += region_table(region, rows, config) + "\n";
+  text += fmt::format("{}: mean ± standard deviation over {} images.", markdown_cell(config.title),
+                      rows.front().images.size());
+  if (config.printed) text += fmt::format(" Printed numbers: {}.", config.printed->source);
+  text += "\n";
+  text += markdown_paragraph(config.caption);
+  if (!config.findings.empty()) text += "\n";
+  for (const Finding& finding : config.findings) text += sentence(finding, rows, config);
+  for (const SheetConfig& sheet : config.sheets)
+    text += markdown_picture(sheet.alt, config.link_folder, sheet.name + ".png");
+  return text;
+}
+
+std::string to_csv(const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
+  std::string text = csv_line({"row", "group", "region", "column", "images", "mean", "std", "source"});
+  for (const ShownRegion& region : config.regions)
+    for (const MethodScores& row : rows)
+      for (const ShownColumn& column : config.columns) {
+        const MeanDeviation& cell = row.cell(region.region, column.column);
+        text +=
+            csv_line({row.row.name, row.row.group, region.region, column.column, fmt::format("{}", row.images.size()),
+                      fmt::format("{}", cell.mean), fmt::format("{}", cell.deviation), ""});
+      }
+  if (!config.printed) return text;
+  for (const PrintedRow& row : config.printed->rows)
+    for (const auto& [column, value] : row.values)
+      text += csv_line(
+          {row.name, config.printed->label, config.printed->region, column, "", value, "", config.printed->source});
+  return text;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,20 @@
+// The rows as text: Markdown for people, CSV for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stages/study/tabulate/method_scores.h"
+
+namespace tacipc {
+
+/// A table per region: a row per method, mean ± standard deviation, or geometric mean ×÷ factor; a line above the first
+/// row of each group; printed means last, in the table of their region alone. Then the caption, the findings and the
+/// sheets. Characters that Markdown takes for a cell's end are escaped.
+std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config);
+
+/// One line per number: `row,group,region,column,images,mean,std,source`. Measured numbers are in the shortest form
+/// that reads back to the same bits and have no source; printed ones have no number of images and no deviation.
+std::string to_csv(const std::vector<MethodScores>& rows, const ImageTableConfig& config);
+
+}  // namespace tacipc

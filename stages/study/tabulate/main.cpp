@@ -1,0 +1,125 @@
+#include <map>
+#include <set>
+#include <variant>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/stage/stage.h"
+#include "stages/study/tabulate/comparison.h"
+#include "stages/study/tabulate/image_table.h"
+#include "stages/study/tabulate/markdown.h"
+#include "stages/study/tabulate/mesh_costs.h"
+#include "stages/study/tabulate/picture_sheet.h"
+#include "stages/study/tabulate/stage_costs.h"
+
+namespace {
+
+using namespace tacipc;
+
+const StageSpec kTabulate{
+    .name = "tabulate",
+    .summary = "Tables of what many runs measured: images of several methods, gel meshes, costs of stages.",
+    .inputs = {
+        {.flag = "--config", .help = "kind of table, its rows and columns (YAML)"},
+        {.flag = "--samples",
+         .help = "images, comparison: samples.csv of metrics, by the method of a row",
+         .required = false,
+         .many = true,
+         .named = true},
+        {.flag = "--pictures",
+         .help = "images, comparison: pictures (PNG), by method, in the order of the sheet's rows",
+         .required = false,
+         .many = true,
+         .named = true},
+        {.flag = "--benchmark", .help = "comparison: the photographs and what is required (YAML)", .required = false},
+        {.flag = "--circles", .help = "comparison: contact circles, where the benchmark names them", .required = false},
+        {.flag = "--records",
+         .help = "meshes: records of tetmesh, press, render and metrics, by the mesh's name",
+         .required = false,
+         .many = true,
+         .named = true},
+        {.flag = "--timings",
+         .help = "costs: <stage>.timings.yaml of all runs that count",
+         .required = false,
+         .many = true}}};
+
+struct TabulateConfig {
+  std::string kind;
+  std::variant<ImageTableConfig, ComparisonConfig, MeshTableConfig, StageCostsConfig> table;
+
+  static TabulateConfig read(ConfigReader& in) {
+    const std::string kind = in.choice("kind", {"images", "comparison", "meshes", "costs"});
+    if (kind == "comparison") return {kind, ComparisonConfig::read(in)};
+    if (kind == "meshes") return {kind, MeshTableConfig::read(in)};
+    if (kind == "costs") return {kind, StageCostsConfig::read(in)};
+    return {kind, ImageTableConfig::read(in)};
+  }
+};
+
+struct Flags {
+  std::set<std::string> required, optional;
+};
+const std::map<std::string, Flags> kFlags{{"images", {{"--samples"}, {"--pictures"}}},
+                                          {"comparison", {{"--samples", "--pictures", "--benchmark"}, {"--circles"}}},
+                                          {"meshes", {{"--records"}, {}}},
+                                          {"costs", {{"--timings"}, {}}}};
+
+/// \throw UsageError if a flag is missing that this kind of table needs, or one is given that it has no use for
+void check_flags(const Stage& stage, const std::string& kind) {
+  const Flags& flags = kFlags.at(kind);
+  for (const auto& [flag, help, required, many, named] : kTabulate.inputs) {
+    const bool given = named ? !stage.named_inputs(flag).empty() : !stage.inputs(flag).empty();
+    if (!given && flags.required.contains(flag))
+      throw UsageError(fmt::format("{}: is required for a table of kind {}", flag, kind));
+    if (given && !required && !flags.required.contains(flag) && !flags.optional.contains(flag))
+      throw UsageError(fmt::format("{}: is not for a table of kind {}", flag, kind));
+  }
+}
+
+void make(Stage& stage, const ImageTableConfig& config) {
+  const auto rows = read_methods(stage.named_inputs("--samples"), config.rows, config.regions, config.columns);
+  for (const SheetConfig& sheet : config.sheets) {
+    const auto pictures = pictures_of_columns(stage.named_inputs("--pictures"), sheet);
+    write_png(stage.output(in_folder(config.link_folder, sheet.name + ".png")), picture_sheet(pictures, sheet));
+  }
+  write_file(stage.output("table.md"), to_markdown(rows, config));
+  write_file(stage.output("table.csv"), to_csv(rows, config));
+  stage.summarize({{"rows", rows.size()}, {"images", rows.front().images.size()}});
+}
+
+void make(Stage& stage, const ComparisonConfig& config) {
+  auto cases = stage.read_config<BenchmarkCases>("--benchmark");
+  add_circles(cases, stage.optional_input("--circles"));
+  const auto methods = read_comparison(stage.named_inputs("--samples"), config, cases);
+  const auto pictures =
+      compared_pictures(stage.named_inputs("--pictures"), config.rows[0].method, config.rows[1].method, cases);
+  write_file(stage.output("table.md"), to_markdown(methods, cases));
+  write_png(stage.output("sheet.png"), difference_sheet(pictures));
+  stage.summarize(summary_of(methods, cases));
+}
+
+void make(Stage& stage, const MeshTableConfig& config) {
+  const auto families = read_costs(stage.named_inputs("--records"), config);
+  // No two runs agree in times.
+  write_file(stage.varying_output("table.md"), to_markdown(families, config));
+  write_file(stage.varying_output("table.csv"), to_csv(families));
+  write_file(stage.output(in_folder(config.link_folder, kMeshPlot)), error_svg(families, config));
+  stage.summarize({{"families", families.size()}});
+}
+
+void make(Stage& stage, const StageCostsConfig& config) {
+  const std::vector<Cost> costs = costs_of(stage.inputs("--timings"), config);
+  write_file(stage.varying_output("table.md"), to_markdown(costs, config));
+  write_file(stage.varying_output("table.csv"), to_csv(costs));
+  stage.summarize({{"rows", costs.size()}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kTabulate, argc, argv, [](Stage& stage) {
+    const auto config = stage.read_config<TabulateConfig>("--config");
+    check_flags(stage, config.kind);
+    std::visit([&](const auto& table) { make(stage, table); }, config.table);
+  });
+}

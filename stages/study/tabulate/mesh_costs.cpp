@@ -1,0 +1,98 @@
+#include "stages/study/tabulate/mesh_costs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/statistics.h"
+#include "common/stage/record.h"
+#include "common/stage/stage_timings.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The records of one stage of one mesh. \throw DataError if there are none
+std::vector<fs::path> records_of(const std::vector<NamedPath>& records, const std::string& mesh,
+                                 const std::string& stage) {
+  std::vector<fs::path> out;
+  for (const auto& [name, path] : records)
+    if (name == mesh && Record::from_file(path).required_text("stage") == stage) out.push_back(path);
+  if (out.empty()) throw DataError("no record of {} was given for {}", stage, mesh);
+  return out;
+}
+
+Record only_summary(const std::vector<NamedPath>& records, const std::string& mesh, const std::string& stage) {
+  const auto found = records_of(records, mesh, stage);
+  if (found.size() > 1)
+    throw DataError("{} and {} are both the {} of {}", found[0].string(), found[1].string(), stage, mesh);
+  return Record::from_file(found.front()).section("summary");
+}
+
+/// Processor seconds of the runs that left these records, their mean; and the largest memory of any.
+StageTimings mean_timings(const std::vector<fs::path>& records) {
+  StageTimings mean;
+  std::vector<double> seconds;
+  for (const fs::path& record : records) {
+    const StageTimings timings = read_timings_of(record);
+    seconds.push_back(timings.processor_s);
+    mean.peak_memory_mb = std::max(mean.peak_memory_mb, timings.peak_memory_mb);
+  }
+  mean.processor_s = mean_and_deviation(seconds).mean;
+  return mean;
+}
+
+MeshCost read_mesh(const std::vector<NamedPath>& records, const MeshTableConfig::Mesh& mesh) {
+  const Record gel = only_summary(records, mesh.name, "tetmesh"),
+               depth = only_summary(records, mesh.name, "metrics").section("pressed");
+  const auto presses = records_of(records, mesh.name, "press");
+  const StageTimings press = mean_timings(presses), render = mean_timings(records_of(records, mesh.name, "render"));
+  return {.name = mesh.name,
+          .remark = mesh.remark,
+          .vertices = gel.required_count("vertices"),
+          .tets = gel.required_count("tets"),
+          .presses = presses.size(),
+          .press_s = press.processor_s,
+          .render_s = render.processor_s,
+          .peak_memory_mb = press.peak_memory_mb,
+          .depth_error_mm = depth.section("mae_mm").required_number("mean"),
+          .largest_error_mm = depth.section("max_mm").required_number("mean")};
+}
+
+}  // namespace
+
+MeshTableConfig MeshTableConfig::read(ConfigReader& in) {
+  MeshTableConfig config{.title = in.text("title"), .link_folder = in.text_or("link_folder", ""), .families = {}};
+  for (ConfigReader& item : in.one_or_more_sections("families")) {
+    Family family{.name = item.text("name"), .meshes = {}};
+    for (ConfigReader& mesh : item.one_or_more_sections("meshes"))
+      family.meshes.push_back({.name = mesh.text("name"), .remark = mesh.text_or("remark", "")});
+    config.families.push_back(std::move(family));
+  }
+  return config;
+}
+
+std::vector<FamilyCost> read_costs(const std::vector<NamedPath>& records, const MeshTableConfig& config) {
+  std::vector<FamilyCost> families;
+  for (const auto& family : config.families) {
+    FamilyCost out{.name = family.name, .meshes = {}};
+    for (const auto& mesh : family.meshes) out.meshes.push_back(read_mesh(records, mesh));
+    families.push_back(std::move(out));
+  }
+  return families;
+}
+
+std::optional<double> vertices_at(const FamilyCost& family, double error_mm) {
+  for (std::size_t i = 0; i + 1 < family.meshes.size(); ++i) {
+    const MeshCost &a = family.meshes[i], &b = family.meshes[i + 1];
+    const double high = std::max(a.depth_error_mm, b.depth_error_mm),
+                 low = std::min(a.depth_error_mm, b.depth_error_mm);
+    if (!(error_mm <= high && error_mm >= low && high > low && low > 0.0)) continue;
+    const double t = std::log(error_mm / a.depth_error_mm) / std::log(b.depth_error_mm / a.depth_error_mm);
+    return a.vertices * std::pow(static_cast<double>(b.vertices) / a.vertices, t);
+  }
+  return std::nullopt;
+}
+
+}  // namespace tacipc

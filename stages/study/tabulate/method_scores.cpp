@@ -1,0 +1,97 @@
+#include "stages/study/tabulate/method_scores.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+
+#include "common/base/error.h"
+#include "common/format/csv.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+MeanDeviation mean_of(std::vector<double> values, bool geometric) {
+  if (!geometric) return mean_and_deviation(values);
+  for (double& value : values) value = std::log(value);
+  const MeanDeviation logarithms = mean_and_deviation(values);
+  return {.mean = std::exp(logarithms.mean), .deviation = std::exp(logarithms.deviation)};
+}
+
+std::vector<std::string> sorted(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+MethodScores read_method(const fs::path& table, const MeasuredRow& row, const std::vector<ShownRegion>& regions,
+                         const std::vector<ShownColumn>& columns) {
+  MethodScores scores{.row = row, .images = {}, .cells = {}};
+  std::map<std::string, std::vector<std::string>> images;  // by region
+  CsvReader csv(table);
+  while (csv.next()) {
+    const std::string region = csv["region"];
+    images[region].push_back(csv["name"]);
+    for (const ShownColumn& shown : columns) {
+      const std::string& text = csv[shown.column];
+      char* end = nullptr;
+      const double number = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0')
+        throw DataError("{}:{}: {}: '{}' is not a number", table.string(), csv.line(), shown.column, text);
+      scores.cells[{region, shown.column}].values.push_back(number);
+    }
+  }
+  for (const auto& [region, heading] : regions) {
+    const auto names = sorted(images[region]);
+    if (names.empty()) throw DataError("{}: has no row of region {}", table.string(), region);
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    if (twice != names.end()) throw DataError("{}: {} is there twice in region {}", table.string(), *twice, region);
+    if (scores.images.empty()) scores.images = images[region];
+    if (images[region] != scores.images)
+      throw DataError("{}: region {} has other images than region {}", table.string(), region, regions.front().region);
+    for (const ShownColumn& shown : columns) {
+      auto& cell = scores.cells[{region, shown.column}];
+      static_cast<MeanDeviation&>(cell) = mean_of(cell.values, shown.geometric);
+    }
+  }
+  return scores;
+}
+
+/// Which images one of two lists has and the other has not, for a message.
+std::string difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  std::vector<std::string> only;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
+  return only.front();
+}
+
+}  // namespace
+
+std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, const std::vector<MeasuredRow>& rows,
+                                       const std::vector<ShownRegion>& regions,
+                                       const std::vector<ShownColumn>& columns) {
+  std::map<std::string, fs::path> by_method;
+  for (const auto& [method, table] : tables) {
+    const auto [place, fresh] = by_method.emplace(method, table);
+    if (!fresh) throw DataError("{} and {}: are both given for {}", place->second.string(), table.string(), method);
+  }
+  std::vector<MethodScores> methods;
+  for (const MeasuredRow& row : rows) {
+    const auto place = by_method.find(row.method);
+    if (place == by_method.end()) throw DataError("row '{}': no table was given for {}", row.name, row.method);
+    methods.push_back(read_method(place->second, row, regions, columns));
+    const auto first = sorted(methods.front().images), these = sorted(methods.back().images);
+    if (these != first)
+      throw DataError("{}: was measured on other images than the first row; {} is only in one of them",
+                      place->second.string(), difference(these, first));
+    by_method.erase(place);
+  }
+  if (!by_method.empty())
+    throw DataError("{}: no row of the configuration has the method {}", by_method.begin()->second.string(),
+                    by_method.begin()->first);
+  return methods;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,35 @@
+// What `metrics` measured, method by method, with means and standard deviations.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/base/statistics.h"
+#include "common/stage/named_path.h"
+#include "stages/study/tabulate/image_table_config.h"
+
+namespace tacipc {
+
+/// One method in all regions and columns of a table.
+struct MethodScores {
+  /// Of geometric columns exp(mean ln) and exp(deviation of ln), a factor.
+  struct Cell : MeanDeviation {
+    std::vector<double> values;  // of each image
+  };
+  MeasuredRow row;
+  std::vector<std::string> images;                            // in the order of samples.csv, the same in all regions
+  std::map<std::pair<std::string, std::string>, Cell> cells;  // by region and column of samples.csv
+
+  const Cell& cell(const std::string& region, const std::string& column) const { return cells.at({region, column}); }
+};
+
+/// The samples.csv of metrics, given by their methods, in the order of the rows. \throw DataError if a row has no
+/// table, a table no row, a table lacks a column or region or has an image twice, or regions or methods were not
+/// measured on images of the same names
+std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, const std::vector<MeasuredRow>& rows,
+                                       const std::vector<ShownRegion>& regions,
+                                       const std::vector<ShownColumn>& columns);
+
+}  // namespace tacipc

@@ -1,0 +1,114 @@
+#include "common/config/config.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/config_text.h"
+
+namespace tacipc {
+namespace {
+
+using ::testing::ElementsAre;
+
+std::vector<std::string> faults_when(const std::string& text, const std::function<void(ConfigReader&)>& read) {
+  return faults_of([&] {
+    ConfigReader in = ConfigReader::from_text(text, "gel.yaml");
+    read(in);
+    in.finish();
+  });
+}
+
+TEST(ConfigReader, ReportsFiveFaultsAtOnceEachAtItsPlace) {
+  const std::string text =
+      "gel:\n"
+      "  young_modulus_pa: 1e5\n"
+      "  poissons_ratio: 0.6\n"
+      "  poissons_ratio: 0.4\n"
+      "  layers: many\n"
+      "steps: 2.5\n";
+  const auto faults = faults_when(text, [](ConfigReader& in) {
+    ConfigReader gel = in.section("gel");
+    gel.number("youngs_modulus_pa", Range::positive());
+    gel.number("poissons_ratio", Range::between(0.0, 0.4999));
+    gel.integer("layers", 1);
+    in.integer("steps", 1);
+  });
+  EXPECT_THAT(faults, ElementsAre("gel.yaml:2:3: gel.youngs_modulus_pa: missing",
+                                  "gel.yaml:2:3: gel.young_modulus_pa: unknown key (did you mean youngs_modulus_pa?)",
+                                  "gel.yaml:3:19: gel.poissons_ratio: 0.6 is outside [0, 0.4999]",
+                                  "gel.yaml:4:3: gel.poissons_ratio: key given twice (first in line 3)",
+                                  "gel.yaml:5:11: gel.layers: expected a whole number, found 'many'",
+                                  "gel.yaml:6:8: steps: expected a whole number, found '2.5'"));
+}
+
+TEST(ConfigReader, RejectsWhatIsNotYaml) {
+  EXPECT_THAT(faults_when("a: [1, 2", [](ConfigReader&) {}),
+              ElementsAre("gel.yaml:1:1: not valid YAML: end of sequence flow not found"));
+  EXPECT_THAT(faults_when("- 1\n- 2\n", [](ConfigReader&) {}),
+              ElementsAre("gel.yaml:1:1: expected a map of keys, found a list"));
+  EXPECT_THAT(faults_when("", [](ConfigReader&) {}),
+              ElementsAre("gel.yaml:1:1: expected a map of keys, found nothing"));
+}
+
+TEST(ConfigReader, RefusesASecondDocumentAndAnAliasInsideItself) {
+  EXPECT_THAT(faults_when("a: 1\n---\nb: 2\n", [](ConfigReader& in) { in.number("a"); }),
+              ElementsAre("gel.yaml:3:1: a second document begins; only one is read"));
+  EXPECT_THAT(faults_when("a: &x [*x]\n", [](ConfigReader& in) { in.numbers("a", 1); }),
+              ::testing::Not(::testing::IsEmpty()));
+}
+
+TEST(ConfigReader, ContentIsAllThatIsWritten) {
+  const auto in = ConfigReader::from_text("a: &x 1.50\nb: {c: [*x, {d: }], a: yes}\n", "gel.yaml");
+  EXPECT_EQ(to_yaml(in.content()), "a: 1.50\nb:\n  c:\n    - 1.50\n    - d: \"\"\n  a: yes\n");
+}
+
+TEST(ConfigReader, SuggestsTheNearestChoice) {
+  EXPECT_THAT(
+      faults_when("law: neo_hokean",
+                  [](ConfigReader& in) {
+                    in.choice("law", {"neo_hookean", "stvk"});
+                  }),
+      ElementsAre("gel.yaml:1:6: law: 'neo_hokean' is not one of neo_hookean, stvk (did you mean neo_hookean?)"));
+}
+
+TEST(ConfigReader, RefusesNumbersThatAreNone) {
+  for (const std::string bad : {"nan", ".inf", "1.0.0", "1e999", "0x10", "''"}) {
+    EXPECT_EQ(faults_when("a: " + bad, [](ConfigReader& in) { in.number("a"); }).size(), 1u) << bad;
+  }
+  for (const std::string good : {"1", "+1.5", "-2e-3", "1.23e5"}) {
+    EXPECT_TRUE(faults_when("a: " + good, [](ConfigReader& in) { in.number("a"); }).empty()) << good;
+  }
+}
+
+TEST(ConfigReader, RefusesListsOfTheWrongLengthAndMapsThatAreNone) {
+  const auto faults = faults_when("size: [1, 2, 3]\ngel: 4\nleds: {a: 1}\n", [](ConfigReader& in) {
+    in.numbers("size", 2);
+    in.section("gel").number("radius");
+    in.sections("leds");
+  });
+  EXPECT_THAT(faults, ElementsAre("gel.yaml:1:7: size: expected a list of 2 numbers, found a list of 3",
+                                  "gel.yaml:2:6: gel: expected a map, found a single value",
+                                  "gel.yaml:3:7: leds: expected a list of maps, found a map"));
+}
+
+TEST(ConfigReader, FindsUnknownKeysInsideListsOfMaps) {
+  const auto faults = faults_when("leds:\n  - {index: 1, intesity: 2}\n", [](ConfigReader& in) {
+    for (ConfigReader& led : in.sections("leds")) {
+      led.integer("index", 0);
+      led.number_or("intensity", 1.0);
+    }
+  });
+  EXPECT_THAT(faults, ElementsAre("gel.yaml:2:16: leds[0].intesity: unknown key (did you mean intensity?)"));
+}
+
+TEST(ConfigReader, ResolvedHoldsEveryValueInTheOrderReadWithDefaults) {
+  ConfigReader in = ConfigReader::from_text("b: 0.1\nlist: [{x: 1}, {x: 2}]\ns: {t: word}\n", "f");
+  in.number("b");
+  in.number_or("a", 1e-5);
+  for (ConfigReader& item : in.sections("list")) item.integer("x", 0);
+  in.section("s").text("t");
+  in.finish();
+  EXPECT_EQ(to_yaml(in.resolved()), "b: 0.1\na: 1.0e-05\nlist:\n  - x: 1\n  - x: 2\ns:\n  t: word\n");
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,117 @@
+// docs/files.md lists what the code declares, no more and no less.
+#include <gmock/gmock.h>
+
+#include <fmt/core.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "common/base/files.h"
+#include "common/sample/dataset_plan.h"
+#include "common/sample/pose_file.h"
+#include "common/sample/press_folder.h"
+#include "common/sample/render_folder.h"
+#include "stages/dataset/report/dataset/overview_text.h"
+#include "stages/image/track/track_arrays.h"
+
+namespace tacipc {
+namespace {
+
+const std::string kPage = read_file(TACIPC_SOURCE_DIR "/docs/files.md");
+
+/// The rows of the table below a heading, without its two lines of head.
+std::string table_below(const std::string& heading) {
+  std::istringstream lines(kPage);
+  std::string rows;
+  bool below = false;
+  int count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("## ")) below = line == "## " + heading;
+    if (below && line.starts_with("|") && ++count > 2) rows += line + "\n";
+  }
+  return rows;
+}
+
+std::string type_of(const NpyField& field) { return fmt::format("{} {}", name_of(field.type), shape_text(field)); }
+
+std::string row_of(const NpyField& field) {
+  return fmt::format("| `{}` | {} | {} | {} |\n", field.file, type_of(field), field.unit, field.meaning);
+}
+
+std::string row_of(const ImageField& field) {
+  std::string channels;
+  for (const std::string& channel : field.channels) channels += " " + channel;
+  const std::string name = std::regex_replace(field.file, std::regex(R"(\{:02\})"), "NN");
+  return fmt::format("| `{}` | {}{} | {} | {} |\n", name, field.is_float() ? "float" : "8 bit", channels, field.unit,
+                     field.meaning);
+}
+
+TEST(FilesPage, ListsThePressFolder) {
+  std::string expected;
+  for (const NpyField& field : press_fields()) expected += row_of(field);
+  EXPECT_EQ(table_below("The press folder"), expected);
+}
+
+TEST(FilesPage, ListsTheFolderOfAFrame) {
+  std::string expected;
+  for (const ImageField& field : frame_fields()) expected += row_of(field);
+  expected += row_of(marker_px_field());
+  EXPECT_EQ(table_below("The render folder"), expected);
+}
+
+TEST(FilesPage, ListsTheColumnsOfAPlan) {
+  std::string expected;
+  for (const PlanColumn& column : plan_columns())
+    expected += fmt::format("| `{}` | {} |\n", column.name, column.meaning);
+  EXPECT_EQ(table_below("The table of samples"), expected);
+}
+
+TEST(FilesPage, ListsTheArraysOfOtherStages) {
+  const std::pair<const char*, const NpyField&> others[] = {{"track", marker_track_field()},
+                                                            {"track", marker_quality_field()},
+                                                            {"calibrate", ball_poses_field()},
+                                                            {"shade", image_poses_field()}};
+  for (const auto& [stage, field] : others) {
+    const std::string row =
+        fmt::format("| `{}` | {} | {} | {}, {} |\n", field.file, stage, type_of(field), field.unit, field.meaning);
+    EXPECT_NE(kPage.find(row), std::string::npos) << row;
+  }
+}
+
+/// Unit that the page over a dataset gives for a file; empty if it does not show the file.
+std::string unit_on_overview(const std::string& file) {
+  const std::string page = kUnitsAndFrames, cell = "<td class=\"word\">";
+  const std::size_t at = page.find("/" + file);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = page.find(cell, at) + cell.size();
+  return page.substr(begin, page.find("</td>", begin) - begin);
+}
+
+TEST(FilesPage, ThePageOverADatasetHasTheSameUnits) {
+  std::set<std::string> shown;
+  const auto compare = [&](const std::string& file, const std::string& unit) {
+    const std::string there = unit_on_overview(file);
+    if (there.empty() || unit == "code") return;
+    shown.insert(file);
+    EXPECT_NE((", " + there + ",").find(", " + unit + ","), std::string::npos) << file << ": " << there;
+  };
+  for (const NpyField& field : press_fields()) compare(field.file, field.unit);
+  for (const ImageField& field : frame_fields()) compare(field.file, field.unit);
+  compare(marker_px_field().file, marker_px_field().unit);
+  EXPECT_THAT(shown, ::testing::UnorderedElementsAre("depth.exr", "indentation.exr", "marker_px.npy", "markers.npy",
+                                                     "normal.exr", "object_pose.npy", "traction.exr", "traction.npy",
+                                                     "wrench.npy"));
+}
+
+TEST(FilesPage, NamesNoArrayThatNobodyDeclares) {
+  std::set<std::string> declared{marker_px_field().file, marker_track_field().file, marker_quality_field().file,
+                                 ball_poses_field().file, image_poses_field().file};
+  for (const NpyField& field : press_fields()) declared.insert(field.file);
+  const std::regex name(R"((\w+\.npy))");
+  for (std::sregex_iterator at(kPage.begin(), kPage.end(), name), end; at != end; ++at)
+    EXPECT_TRUE(declared.contains(at->str())) << at->str();
+}
+
+}  // namespace
+}  // namespace tacipc

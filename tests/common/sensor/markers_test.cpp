@@ -1,0 +1,114 @@
+#include "common/sensor/markers.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "common/base/error.h"
+#include "tests/scratch_folder.h"
+#include "tests/stages/gel/press/measure/fronts.h"
+
+namespace tacipc {
+namespace {
+
+TEST(Markers, LieOnTheirGridAtRest) {
+  Positions rest;
+  const FrontSurface front = square_front(23, 0.02, 0.35, rest);
+  const MarkerGrid grid;
+  const auto markers = bind_markers(grid, rest, front.triangles);
+  ASSERT_EQ(markers.size(), 361u);
+  const Positions at = marker_positions(markers, rest);
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    EXPECT_EQ(markers[m].row, static_cast<int>(m) / 19);
+    EXPECT_EQ(markers[m].column, static_cast<int>(m) % 19);
+    EXPECT_GE(markers[m].weights.minCoeff(), 0.0);
+    EXPECT_NEAR(markers[m].weights.sum(), 1.0, 1e-15);
+    EXPECT_NEAR(at(static_cast<Eigen::Index>(m), 0), grid.x_m(markers[m].column), 1e-17);
+    EXPECT_NEAR(at(static_cast<Eigen::Index>(m), 1), grid.y_m(markers[m].row), 1e-17);
+  }
+}
+
+TEST(Markers, FollowALinearMapExactly) {
+  Positions rest;
+  const FrontSurface front = square_front(23, 0.02, 0.35, rest);
+  const auto markers = bind_markers(MarkerGrid{}, rest, front.triangles);
+  const Matrix3 stretch{{1.1, 0.2, 0.0}, {-0.1, 0.9, 0.0}, {0.3, 0.1, 1.0}};
+  const Positions moved = rest * stretch.transpose();
+  EXPECT_LT((marker_positions(markers, moved) - marker_positions(markers, rest) * stretch.transpose()).norm(), 1e-16);
+}
+
+TEST(Markers, OnADomedFrontLieWithinTheSagOfATriangle) {
+  Positions rest;
+  const double radius_m = 0.03, cell_m = 0.02 / 40;
+  const FrontSurface front = square_front(40, 0.02, 0.2, rest, radius_m);
+  const auto markers = bind_markers(MarkerGrid{}, rest, front.triangles);
+  ASSERT_EQ(markers.size(), 361u);
+  const Positions at = marker_positions(markers, rest);
+  for (Eigen::Index m = 0; m < at.rows(); ++m) {
+    const double sphere_z = std::sqrt(radius_m * radius_m - at.row(m).head<2>().squaredNorm()) - radius_m;
+    EXPECT_LE(at(m, 2), sphere_z + 1e-15);
+    EXPECT_GE(at(m, 2), sphere_z - 2.0 * cell_m * cell_m / (2.0 * radius_m));
+  }
+}
+
+TEST(Markers, OnVerticesAndEdgesAreFoundOnceAndAlwaysInTheSameTriangle) {
+  // Cells of 1 mm with corners on the marker grid: each inner marker lies on a vertex of six triangles.
+  Positions rest;
+  const FrontSurface front = square_front(20, 0.02, 0.0, rest);
+  const auto markers = bind_markers(MarkerGrid{}, rest, front.triangles);
+  ASSERT_EQ(markers.size(), 361u);
+  for (const Marker& marker : markers) EXPECT_NEAR(marker.weights.maxCoeff(), 1.0, 1e-12);
+  // The same mesh with its triangles in another order: the same points, whatever triangle carries them.
+  const Triangles reversed = front.triangles.colwise().reverse();
+  const auto again = bind_markers(MarkerGrid{}, rest, reversed);
+  EXPECT_LT((marker_positions(again, rest) - marker_positions(markers, rest)).norm(), 1e-15);
+  EXPECT_EQ(markers_csv(bind_markers(MarkerGrid{}, rest, front.triangles)), markers_csv(markers));
+  // On the very border.
+  const MarkerGrid border{.rows = 3, .columns = 3, .pitch_m = 0.01, .given = true};
+  EXPECT_EQ(bind_markers(border, rest, front.triangles).size(), 9u);
+}
+
+TEST(Markers, OffTheFrontAreNamedOrLeftOut) {
+  Positions rest;
+  const FrontSurface front = square_front(20, 0.016, 0.2, rest);
+  MarkerGrid grid;
+  EXPECT_EQ(bind_markers(grid, rest, front.triangles).size(), 17u * 17u);
+  EXPECT_EQ(bind_markers(grid, rest, front.triangles).front().row, 1);
+  grid.given = true;
+  EXPECT_EQ(message_of<DataError>([&] { bind_markers(grid, rest, front.triangles); }),
+            "marker in row 0, column 0 at (-9, -9) mm does not lie on the front face");
+  grid = {.rows = 1, .columns = 2, .pitch_m = 0.004, .center_x_m = 0.0065, .given = true};
+  EXPECT_EQ(message_of<DataError>([&] { bind_markers(grid, rest, front.triangles); }),
+            "marker in row 0, column 1 at (8.5, 0) mm does not lie on the front face");
+}
+
+TEST(Markers, TrianglesThatDoNotLookUpCarryNone) {
+  Positions rest{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-1, -1, -1}, {1, -1, -1}, {0, 1, -1}};
+  const MarkerGrid one{.rows = 1, .columns = 1};
+  // The lower one looks down and comes first.
+  const auto markers = bind_markers(one, rest, Triangles{{3, 5, 4}, {0, 1, 2}});
+  ASSERT_EQ(markers.size(), 1u);
+  EXPECT_EQ(markers[0].vertices, (std::array<int, 3>{0, 1, 2}));
+  EXPECT_TRUE(bind_markers(one, rest, Triangles{{3, 5, 4}, {0, 1, 1}}).empty());
+}
+
+TEST(Markers, DisplacementsCountFromRestAndFromTheEndOfThePress) {
+  const std::vector<Positions> frames{Positions{{0, 0, 0}, {1, 0, 0}}, Positions{{0, 0, -1}, {1, 0, -2}},
+                                      Positions{{5, 0, -1}, {6, 3, -2}}};
+  const std::vector<double> zero{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  auto wanted = zero;
+  wanted.insert(wanted.end(), {0, 0, -1, 0, 0, 0, 0, 0, -2, 0, 0, 0});
+  wanted.insert(wanted.end(), {5, 0, -1, 5, 0, 0, 5, 3, -2, 5, 3, 0});
+  EXPECT_EQ(marker_displacements(frames, 1), wanted);
+  const auto without = marker_displacements(frames, std::nullopt);
+  for (std::size_t i = 0; i < without.size(); ++i) EXPECT_EQ(without[i], i % 6 < 3 ? wanted[i] : 0.0);
+}
+
+TEST(Markers, TableHoldsTheBinding) {
+  const std::vector<Marker> markers{{.row = 0, .column = 1, .vertices = {4, 8, 9}, .weights = {0.1, 0.7, 0.2}}};
+  EXPECT_EQ(markers_csv(markers),
+            "marker,row,column,vertex0,vertex1,vertex2,weight0,weight1,weight2\n0,0,1,4,8,9,0.1,0.7,0.2\n");
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,92 @@
+#include "common/sensor/sensor.h"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/config_text.h"
+
+namespace tacipc {
+namespace {
+
+TEST(Sensor, ShippedMcTacReadsWithThePapersNumbers) {
+  const auto sensor = read_config<Sensor>(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
+  EXPECT_DOUBLE_EQ(sensor.gel.radius_m, 0.015);
+  EXPECT_DOUBLE_EQ(sensor.gel.thickness_m, 0.002);
+  EXPECT_EQ(sensor.leds.size(), 5u);
+  // LED 1 of 8 sits at 45 degrees from x towards y (image down), behind the gel.
+  EXPECT_NEAR(sensor.leds[0].position_m.x(), 0.01 * std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(sensor.leds[0].position_m.y(), 0.01 * std::sqrt(0.5), 1e-15);
+  EXPECT_DOUBLE_EQ(sensor.leds[0].position_m.z(), -0.013);
+}
+
+TEST(Material, LameParametersByHand) {
+  const Material gel{.law = "neo_hookean", .density_kg_m3 = 1010, .youngs_modulus_pa = 1.23e5, .poissons_ratio = 0.43};
+  EXPECT_NEAR(gel.lame_mu_pa(), 1.23e5 / 2.86, 1e-9);
+  EXPECT_NEAR(gel.lame_lambda_pa(), 1.23e5 * 0.43 / (1.43 * 0.14), 1e-9);
+}
+
+TEST(GelShape, DomeFrontLiesOnItsSphere) {
+  const GelShape gel{.radius_m = 0.01, .thickness_m = 0.004, .dome_radius_m = 0.03};
+  for (const double r : {0.0, 1e-6, 0.004, 0.0099}) {
+    const double z = gel.front_z(r, 0.0) + 0.03;
+    EXPECT_NEAR(std::hypot(r, z), 0.03, 1e-17 + 1e-15 * 0.03);
+  }
+}
+
+TEST(MarkerGrid, OfMcTacIsNineteenByNineteenAtOneMillimetre) {
+  const auto sensor = read_config<Sensor>(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
+  EXPECT_TRUE(sensor.markers.given);
+  EXPECT_EQ(sensor.markers.rows * sensor.markers.columns, 361);
+  EXPECT_DOUBLE_EQ(sensor.markers.x_m(0), -9e-3);
+  EXPECT_EQ(sensor.markers.x_m(9), 0.0);
+  EXPECT_DOUBLE_EQ(sensor.markers.y_m(18), 9e-3);
+}
+
+TEST(MarkerGrid, IsReadInMillimetresAndItsFaultsHaveAPlace) {
+  const auto grid = config_from_text<MarkerGrid>("{rows: 2, columns: 3, pitch_mm: 0.5, center_mm: [1, -2]}", "m.yaml");
+  EXPECT_TRUE(grid.given);
+  EXPECT_DOUBLE_EQ(grid.x_m(0), 0.5e-3);
+  EXPECT_DOUBLE_EQ(grid.x_m(2), 1.5e-3);
+  EXPECT_DOUBLE_EQ(grid.y_m(0), -2.25e-3);
+
+  EXPECT_THAT(
+      faults_in<MarkerGrid>("rows: 0\npitch_mm: 0\nspacing: 1\n", "m.yaml"),
+      ::testing::ElementsAre("m.yaml:1:7: rows: 0 is outside [1, 1000]", "m.yaml:2:11: pitch_mm: 0 is outside (0, inf)",
+                             "m.yaml:3:1: spacing: unknown key"));
+}
+
+TEST(Material, LawIsOneOfTwoAndIncompressibilityIsOutOfReach) {
+  for (const char* law : {"neo_hookean", "stvk_hencky"}) {
+    const auto material = config_from_text<Material>(
+        fmt::format("law: {}\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.4999\n", law), "m.yaml");
+    EXPECT_EQ(material.law, law);
+    EXPECT_NEAR(material.lame_lambda_pa(), 1e5 * 0.4999 / (1.4999 * 0.0002), 1e-2);
+  }
+  EXPECT_THAT(
+      faults_in<Material>("law: stvk\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.5\n", "m.yaml"),
+      ::testing::ElementsAre("m.yaml:1:6: law: 'stvk' is not one of neo_hookean, stvk_hencky",
+                             "m.yaml:4:17: poissons_ratio: 0.5 is outside [0, 0.4999]"));
+}
+
+TEST(Sensor, FaultsOfMeaningNameTheirPlace) {
+  const std::string text =
+      "name: odd\n"
+      "gel: {outline: disc, radius_mm: 15, thickness_mm: 2, dome_radius_mm: 20}\n"
+      "material: {law: neo_hookean, density_kg_m3: 1000, youngs_modulus_pa: 1e5, poissons_ratio: 0.4}\n"
+      "coating: {albedo: [0.5, 0.5, 0.5]}\n"
+      "leds:\n"
+      "  list:\n"
+      "    - {position_mm: [0, 0, -9], intensity: 1}\n"
+      "camera: {position_mm: [0, 0, 12], width_px: 64, height_px: 48, window_mm: [8, 6]}\n"
+      "response: {mean_level: 0.5, curve: srgb}\n";
+  EXPECT_THAT(
+      faults_in<Sensor>(text, "odd.yaml"),
+      ::testing::ElementsAre("odd.yaml:2:51: gel.thickness_mm: must exceed the dome's sag, 6.771 mm",
+                             "odd.yaml:7:7: leds.list[0].rgb_linear: give one of rgb_linear, cct_k and wavelength_nm",
+                             "odd.yaml:8:23: camera.position_mm: the camera must lie behind the front face (z < 0)"));
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Who includes whom: the rooms of common/ in their order, stages nothing but common/, and the parts of press only inwards.
+set -euo pipefail
+cd "$1"
+faults=0
+complain() { # complain PATTERN WHERE REASON
+  local hits
+  hits=$(grep -rnE "#include \"$1" "$2" --include=*.h --include=*.cpp || true)
+  [ -z "$hits" ] || { echo "$hits"; echo "  ^ $3"; faults=1; }
+}
+complain '(stages|verification|bench|tests)/' common 'common may not include what is built on it'
+complain '(verification|bench|tests)/' stages 'a stage may not include a study or a test'
+for stage in stages/*/*/; do
+  name=${stage%/}
+  hits=$(grep -rnoE '#include "stages/[a-z_]+/[a-z_]+/' "$stage" | grep -v "\"$name/\$" || true)
+  [ -z "$hits" ] || { echo "$hits"; echo "  ^ a stage may not include another"; faults=1; }
+done
+# Each room of common/ may include those before it in this list.
+later=""
+for room in command optics benchmark sample sensor mesh image format stage config base; do
+  [ -z "$later" ] || complain "common/($later)/" "common/$room" "$room comes before these in common/ (docs/design.md)"
+  later="${later:+$later|}$room"
+done
+for folder in common/*/; do [[ "|$later|" = *"|$(basename "$folder")|"* ]] || { echo "$folder: not in the order of rooms"; faults=1; }; done
+complain 'stages/gel/press/(energy|solve|simulate|outputs)' stages/gel/press/contact 'contact is geometry only'
+complain 'stages/gel/press/(solve|simulate|outputs)' stages/gel/press/energy 'energies know no solver'
+complain 'stages/gel/press/(simulate|outputs|press_config)' stages/gel/press/solve 'the solver knows no motion'
+for header in tetgen.h embree3/ OpenMesh/ cholmod.h opencv2/ yaml-cpp/ hdf5.h archive.h openssl/ Imath/ zlib.h png.h turbojpeg.h Imf; do
+  files=$(grep -rlE "#include <$header" common stages --include=*.cpp --include=*.h || true)
+  bad=$(grep -E '\.h$' <<<"$files" || true)
+  [ -z "$bad" ] || { echo "$bad: includes <$header>; only a .cpp may"; faults=1; }
+done
+exit $faults

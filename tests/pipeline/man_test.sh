@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# The front door lists every stage with the summary of its own; the manual page of a stage has every flag of its --help.
+. "$(dirname "$0")/common.sh"
+bin=$build_dir/bin
+stages=$(sed -n '/^set(all_stages/,/)/p' "$source_dir/CMakeLists.txt" | tr -d '()' | grep -oE '[a-z]+/[a-z_]+')
+
+"$bin/tacipc" help > help.txt
+for stage in $stages; do
+  name=${stage#*/}
+  summary=$("$bin/$name" --summary)
+  [ -n "$summary" ] || fail "$name has no summary"
+  grep -qxF "$(printf '  %-14s %s' "$name" "$summary")" help.txt || fail "$name is not listed with its summary"
+  grep -qx "${stage%/*}" help.txt || fail "there is no group ${stage%/*}"
+  "$bin/$name" --help-man > page.1
+  for flag in $("$bin/$name" --help | grep -oE '^ +(-h,)?--[a-z-]+' | grep -oE -e '--[a-z-]+'); do
+    grep -qF -e "${flag//-/\\-}" page.1 || fail "$flag of $name is not in its manual page"
+  done
+  if grep -qE -e '--summary|--help-man' <<< "$("$bin/$name" --help)"; then fail "$name shows its hidden flags"; fi
+  if command -v groff > /dev/null && command -v preconv > /dev/null; then
+    groff -K utf8 -man -Tutf8 -ww page.1 2> said.txt > read.txt || fail "groff: $name"
+    [ ! -s said.txt ] || fail "groff of $name: $(cat said.txt)"
+  fi
+done
+
+code=0
+"$bin/tacipc" press --nonsense 2> said.txt || code=$?
+[ $code = 2 ] || fail "tacipc press ends with $code"
+"$bin/tacipc" help press | cmp - <("$bin/press" --help) || fail "help press is not press --help"
+grep -q '^OpenBLAS [0-9]' <<< "$("$bin/tacipc" --version)" || fail "no version of OpenBLAS"

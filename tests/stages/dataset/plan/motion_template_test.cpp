@@ -1,0 +1,87 @@
+#include "stages/dataset/plan/motion_template.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/config_text.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc {
+namespace {
+
+using testing::ElementsAre;
+
+std::string drawn(const std::string& text, std::vector<double> u) {
+  const auto motion = config_from_text<MotionTemplate>(text, "m.yaml");
+  EXPECT_EQ(motion.dimensions(), static_cast<int>(u.size()));
+  return motion.sample_yaml([&](int d) { return u.at(static_cast<std::size_t>(d)); },
+                            [](int phase) { return "path_" + std::to_string(phase); });
+}
+
+TEST(MotionTemplate, RangesAreDrawnAndNumbersStay) {
+  EXPECT_EQ(drawn(R"(placement: {center_mm: {x: [-2, 2], y: 1}, rotate_deg: [0, 360], face: "+z"}
+object: {density_kg_m3: 7800}
+motion:
+  - {kind: press, depth_mm: [0.2, 0.6], steps: 3}
+  - {kind: shear, distance_mm: 0.5, direction_deg: [0, 100], steps: 4, substeps: 2}
+  - {kind: load, force_n: [0, 0, -2], free: z, steps: 1}
+  - {kind: release, steps: 2}
+)",
+                  {0.75, 0.5, 0.25, 0.1}),
+            R"(placement:
+  center_mm: [1, 1]
+  rotate_deg: 180
+  face: "+z"
+object: {density_kg_m3: 7800}
+motion:
+  - {kind: press, depth_mm: 0.3, steps: 3, substeps: 1}
+  - {kind: shear, distance_mm: 0.5, direction_deg: 10, steps: 4, substeps: 2}
+  - {kind: load, force_n: [0, 0, -2], free: z, steps: 1, substeps: 1}
+  - {kind: release, steps: 2, substeps: 1}
+)");
+}
+
+TEST(MotionTemplate, AFileForPressIsAMotionWithoutRanges) {
+  EXPECT_EQ(drawn("motion: {kind: press, force_n: 2, steps: 3}\n", {}),
+            "placement:\n  center_mm: [0, 0]\n  rotate_deg: 0\n"
+            "motion:\n  - {kind: press, force_n: 2, steps: 3, substeps: 1}\n");
+}
+
+TEST(MotionTemplate, APathHasAsManyFramesAsRowsAfterItsFirst) {
+  const ScratchFolder scratch;
+  for (const char* rows : {"t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n\n1,0,0,-1,0,0,0,1\n2,0,0,-2,0,0,0,1",
+                           "0,0,0,0,0,0,0,1\n1,0,0,-1,0,0,0,1\r\n2,0,0,-2,0,0,0,1\n"}) {
+    scratch.file("p.csv", rows);
+    const auto motion = config_from_text<MotionTemplate>("motion: [{kind: path, file: p.csv}]\n", scratch / "m.yaml");
+    EXPECT_EQ(motion.frames(), 2) << rows;
+    EXPECT_EQ(motion.phases[0].path_file, scratch / "p.csv");
+    EXPECT_THAT(motion.sample_yaml([](int) { return 0.0; }, [](int) { return "x/p.csv"; }),
+                testing::HasSubstr("{kind: path, file: x/p.csv, relative_to: placement, substeps: 1}"));
+  }
+}
+
+TEST(MotionTemplate, MaxDepthIsThatOfTheDeepestPress) {
+  const auto motion = config_from_text<MotionTemplate>(
+      "motion: [{kind: press, depth_mm: [0.2, 0.6], steps: 1}, {kind: press, depth_mm: 0.5, steps: 2}]\n", "m.yaml");
+  EXPECT_EQ(motion.max_depth_mm(), 0.6);
+  EXPECT_EQ(motion.frames(), 3);
+}
+
+TEST(MotionTemplate, FaultsAreSaidAtTheirPlace) {
+  EXPECT_THAT(faults_in<MotionTemplate>(R"(placement: {center_mm: {x: [2, -2], y: 0}}
+motion:
+  - {kind: press, depth_mm: [0, 1], steps: 1}
+  - {kind: press, depth_mm: 1, force_n: 1, steps: 1}
+  - {kind: shear, depth_mm: 1, steps: 1}
+  - {kind: path, file: none.csv}
+)",
+                                        "m.yaml"),
+              ElementsAre("m.yaml:1:28: placement.center_mm.x: a range goes from the lower to the higher number",
+                          testing::HasSubstr("motion[0].depth_mm[0]: 0 is outside"),
+                          testing::HasSubstr("motion[1].force_n: a press has a depth_mm or a force_n, not both"),
+                          testing::HasSubstr("motion[2].distance_mm: missing"),
+                          testing::HasSubstr("motion[2].depth_mm: unknown key"),
+                          testing::HasSubstr("motion[3].file: none.csv does not exist")));
+}
+
+}  // namespace
+}  // namespace tacipc

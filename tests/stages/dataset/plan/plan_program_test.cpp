@@ -1,0 +1,101 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include "common/base/files.h"
+#include "tests/program_test.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PlanProgram : public ProgramTest {
+ protected:
+  int plan(const fs::path& config) {
+    return run_command(fmt::format("cd {} && {}/plan --config '{}' --out '{}' --log-level error", TACIPC_SOURCE_DIR,
+                                   TACIPC_BIN_DIR, config.string(), (scratch_ / "set/plan").string()));
+  }
+};
+
+TEST_F(PlanProgram, TheShippedDatasetsArePlanned) {
+  int found = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(TACIPC_SOURCE_DIR) / "configs/datasets")) {
+    if (entry.is_directory()) continue;  // pack, card …: not datasets
+    fs::remove_all(scratch_ / "set");
+    ASSERT_EQ(plan(fs::relative(entry.path(), TACIPC_SOURCE_DIR)), 0) << entry.path() << ": " << said_;
+    const std::string csv = read_file(scratch_ / "set/plan/samples.csv");
+    EXPECT_TRUE(csv.starts_with("id,index,split,split_pose,seed,sensor,mesh,object,motion,shard,folder\n"));
+    const std::string first = csv.substr(csv.find('\n') + 1), id = first.substr(0, first.find(','));
+    EXPECT_TRUE(fs::exists(scratch_ / ("set/samples/000/" + id + "/sample.yaml"))) << id;
+    ++found;
+  }
+  EXPECT_GE(found, 2);
+}
+
+TEST_F(PlanProgram, OnlyChangedSamplesAreWrittenAgain) {
+  const auto write = [&](const std::string& depth) {
+    return scratch_.file("d.yaml", fmt::format(R"(seed: 1
+sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/gels/tiny.yaml}}
+objects: {{emboss: {0}/configs/objects/patterns/star.yaml}}
+motions:
+  - {{name: a, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
+  - {{name: b, samples: 1, motion: {{kind: press, depth_mm: {1}, steps: 1}}}}
+)",
+                                               TACIPC_SOURCE_DIR, depth));
+  };
+  ASSERT_EQ(plan(write("0.3")), 0) << said_;
+  const auto a = scratch_ / "set/samples/000/mctac__star__a__000000/sample.yaml",
+             b = scratch_ / "set/samples/000/mctac__star__b__000001/sample.yaml";
+  const auto old = fs::last_write_time(a) - std::chrono::hours(1);
+  for (const auto& file : {a, b}) fs::last_write_time(file, old);
+  ASSERT_EQ(plan(write("0.4")), 0) << said_;
+  EXPECT_EQ(fs::last_write_time(a), old);
+  EXPECT_NE(fs::last_write_time(b), old);
+  // Another seed is another sample, though nothing is drawn: its noise differs.
+  std::string text = read_file(write("0.4"));
+  scratch_.file("d.yaml", text.replace(0, 7, "seed: 2"));
+  ASSERT_EQ(plan(scratch_ / "d.yaml"), 0) << said_;
+  EXPECT_NE(fs::last_write_time(a), old);
+}
+
+TEST_F(PlanProgram, ARefusedPlanLeavesTheOneThereWas) {
+  const auto write = [&](const std::string& more) {
+    return scratch_.file("d.yaml", fmt::format(R"(seed: 1
+sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/gels/tiny.yaml}}
+objects: {{emboss: {0}/configs/objects/patterns/star.yaml}}
+motions: {{name: a, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
+{1})",
+                                               TACIPC_SOURCE_DIR, more));
+  };
+  ASSERT_EQ(plan(write("")), 0) << said_;
+  const std::string before = content_hash(scratch_ / "set");
+  EXPECT_EQ(plan(write("stop_after_failure: 3\n")), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("unknown key (did you mean stop_after_failures?)"));
+  EXPECT_EQ(content_hash(scratch_ / "set"), before);
+  EXPECT_TRUE(fs::exists(scratch_ / "set/plan/plan.yaml"));
+}
+
+TEST_F(PlanProgram, FaultsAreAllSaidAndNothingIsPlanned) {
+  const auto file = scratch_.file("d.yaml", fmt::format(R"(seed: 1
+sensors: {{sensor: {0}/configs/sensors/none.yaml, mesh: {0}/configs/gels/tiny.yaml}}
+objects:
+  - {{emboss: {0}/configs/objects/patterns, only: [star, sun]}}
+  - {{meshes: ., unit: mm}}
+  - {{emboss: {0}/configs/objects/patterns/star.yaml}}
+motions:
+  - {{name: a__b, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
+splits: {{val: 0.5, test: 0.5, test_objects: [moon]}}
+outputs: {{keep: [report]}}
+)",
+                                                        TACIPC_SOURCE_DIR));
+  EXPECT_EQ(plan(file), 2);
+  for (const char* fault :
+       {"configs/sensors/none.yaml does not exist", "has no sun", "has no meshes in it", "star exists already",
+        "'a__b' begins or ends with an underscore", "val and test leave nothing to train on",
+        "moon is not one of the objects", "'report' is not one of press, render"})
+    EXPECT_THAT(said_, testing::HasSubstr(fault));
+  EXPECT_FALSE(fs::exists(scratch_ / "set/samples"));
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,87 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <optional>
+
+#include "tests/program_test.h"
+#include "tests/stages/dataset/report/sample_folder.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class ReportStageTest : public ProgramTest {
+ protected:
+  /// Runs the program in the scratch folder or another; what it says is in said_.
+  int run(const std::vector<std::string>& samples, const std::string& out, const std::string& more = "",
+          const std::optional<fs::path>& working_folder = std::nullopt) {
+    const std::string root = working_folder.value_or(scratch_ / "").string();
+    std::string command = "cd " + root + " && " + std::string(TACIPC_BIN_DIR) + "/report";
+    for (const std::string& sample : samples) command += fmt::format(" --sample {}", sample);
+    return run_command(command + fmt::format(" --out {} {}", out, more));
+  }
+
+  fs::path star_ = write_sample(scratch_ / "", "star");
+  fs::path gear_ = write_sample(scratch_ / "", "gear");
+};
+
+TEST_F(ReportStageTest, WritesPageSheetAndRecordAndCountsTheFailed) {
+  fs::remove(gear_ / "press/press.yaml");
+  ASSERT_EQ(run({"out/demo/star", "out/demo/gear"}, "out/demo/report", "--title 'A & B'"), 0) << said_;
+  EXPECT_EQ(said_, "report: warning: gear: failed: press ended before it was done, without an error message\n");
+  EXPECT_THAT(read_file(scratch_ / "out/demo/report/index.html"), HasSubstr("<h1>A &amp; B</h1>"));
+  EXPECT_EQ(read_png(scratch_ / "out/demo/report/contact_sheet.png", 3).width, 2332);
+  const std::string record = read_file(scratch_ / "out/demo/report/report.yaml");
+  EXPECT_THAT(record, HasSubstr("summary:\n  samples: 2\n  passed: 1\n  failed: 1\n"));
+  EXPECT_THAT(record, HasSubstr("- path: ../star\n"));
+}
+
+TEST_F(ReportStageTest, TheSameSamplesGiveTheSameBytesWhereverTheyLie) {
+  ASSERT_EQ(run({"out/demo/star", "out/demo/gear"}, "out/demo/report", "--threads 1"), 0);
+  fs::copy(scratch_ / "out", scratch_ / "copied", fs::copy_options::recursive);
+  fs::remove_all(scratch_ / "copied/demo/report");
+  ASSERT_EQ(run({"copied/demo/star/", "copied/demo/gear/"}, "copied/demo/report", "--threads 4"), 0);
+  for (const char* name : {"index.html", "contact_sheet.png"})
+    EXPECT_EQ(read_file(scratch_ / "out/demo/report" / name), read_file(scratch_ / "copied/demo/report" / name))
+        << name;
+}
+
+TEST_F(ReportStageTest, TheCurrentFolderMayBeTheSample) {
+  write_file(star_ / "press/press.yaml", replaced(kPressRecord, "name: star-007\n", ""));
+  fs::remove(star_ / "render/frame_0002/normal.png");
+  ASSERT_EQ(run({"."}, "report", "", star_), 0) << said_;
+  EXPECT_EQ(said_, "report: warning: star: failed: render/frame_0002/normal.png: is missing\n");
+  EXPECT_THAT(read_file(star_ / "report/index.html"), HasSubstr("href=\"../press/press.yaml\""));
+}
+
+TEST_F(ReportStageTest, AReportInsideItsSampleIsNotPartOfWhatItReports) {
+  ASSERT_EQ(run({"out/demo/star"}, "out/demo/star/report"), 0);
+  const std::string first = read_file(star_ / "report/report.yaml");
+  ASSERT_EQ(run({"out/demo/star"}, "out/demo/star/report"), 0);
+  EXPECT_EQ(read_file(star_ / "report/report.yaml"), first);
+}
+
+TEST_F(ReportStageTest, TheRecordChangesWhenASampleDoes) {
+  ASSERT_EQ(run({"out/demo/star"}, "out/demo/report"), 0);
+  const std::string first = read_file(scratch_ / "out/demo/report/report.yaml");
+  write_file(star_ / "press/positions.npy", "other");
+  ASSERT_EQ(run({"out/demo/star"}, "out/demo/report"), 0);
+  EXPECT_NE(read_file(scratch_ / "out/demo/report/report.yaml"), first);
+}
+
+TEST_F(ReportStageTest, AFolderThatIsMissingOrNoSampleIsRefused) {
+  EXPECT_EQ(run({"out/demo/none"}, "out/demo/report"), 2);
+  EXPECT_EQ(said_, "report: error: --sample: Path does not exist: out/demo/none (see report --help)\n");
+  EXPECT_EQ(run({"out/gels"}, "out/demo/report"), 1);
+  EXPECT_EQ(said_,
+            "report: error: out/gels: has neither a press folder nor a sample.yaml, so it is not a sample's folder\n");
+  EXPECT_FALSE(fs::exists(scratch_ / "out/demo/report/index.html"));
+  EXPECT_EQ(run({}, "out/demo/report"), 2);
+  EXPECT_EQ(said_,
+            "report: error: give either --sample, once per sample, or --plan, --dataset and --config of a dataset\n");
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,54 @@
+// The program as a user runs it.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include "tests/program_test.h"
+#include "tests/stages/gel/export/pressed_cube.h"
+#include "tests/stages/gel/export/vtu_reader.h"
+
+namespace tacipc {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ExportStageTest : public ProgramTest {
+ protected:
+  void SetUp() override { write_pressed_cube(scratch_); }
+
+  int run(const std::string& out, const std::string& more = "") {
+    return run_command(fmt::format("cd {} && {}/export --press press --gel gel.msh --object object.ply --out {} {}",
+                                   (scratch_ / "").string(), TACIPC_BIN_DIR, out, more));
+  }
+};
+
+TEST_F(ExportStageTest, WritesThreeFilesAFrameAndThreeCollections) {
+  ASSERT_EQ(run("vtk"), 0) << said_;
+  for (const char* kind : {"surface", "volume", "object"}) {
+    const std::string collection = read_file(scratch_ / fmt::format("vtk/{}.pvd", kind));
+    for (const int frame : {0, 1}) {
+      const std::string name = fmt::format("{}_{:04}.vtu", kind, frame);
+      EXPECT_THAT(collection, HasSubstr(fmt::format("timestep=\"{}\" part=\"0\" file=\"{}\"", frame * 0.01, name)));
+      const VtuFile file = parse_vtu(read_file(scratch_ / ("vtk/" + name)));
+      EXPECT_EQ(file.points, std::string(kind) == "surface" ? 8u : std::string(kind) == "volume" ? 9u : 4u);
+    }
+  }
+  const VtuFile surface = parse_vtu(read_file(scratch_ / "vtk/surface_0001.vtu"));
+  EXPECT_EQ(surface.arrays.at("normal_force").values[3 * 7 + 2], -4.0);
+  EXPECT_EQ(surface.arrays.at("contact_state").values[7], 2.0);
+  const std::string record = read_file(scratch_ / "vtk/export.yaml");
+  EXPECT_THAT(record, HasSubstr("summary:\n  frames: 2\n  gel_vertices: 9\n  tets: 12\n  object_triangles: 4\n"));
+  ASSERT_EQ(run("again", "--threads 1"), 0);
+  EXPECT_EQ(read_file(scratch_ / "again/export.yaml"), record);
+}
+
+TEST_F(ExportStageTest, AnUnfinishedPressIsAFailureWithItsReason) {
+  std::filesystem::remove(scratch_ / "press/press.yaml");
+  EXPECT_EQ(run("vtk"), 1);
+  EXPECT_EQ(said_, "export: error: press: has no press.yaml, so the press did not finish\n");
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "vtk/export.yaml"));
+  EXPECT_THAT(read_file(scratch_ / "vtk/export.failed.yaml"),
+              HasSubstr("message: \"press: has no press.yaml, so the press did not finish\"\n"));
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,220 @@
+// Collision detection against closed forms, impacts built to be exact, and exact integer truth.
+#include "stages/gel/press/contact/ccd.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "tests/stages/gel/press/contact/exact_collision.h"
+#include "tests/stages/gel/press/contact/random_points.h"
+
+namespace tacipc {
+namespace {
+
+struct Kind {
+  PairKind kind;
+  double (*time_of_impact)(const FourPoints&, const FourPoints&, const CcdOptions&);
+  bool (*may_collide)(const FourPoints&, const FourPoints&);
+  ClosestFeature (*closest)(const FourPoints&);
+
+  const char* name() const { return kind == PairKind::point_triangle ? "point_triangle" : "edge_edge"; }
+  friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name(); }
+};
+const Kind kPointTriangle{PairKind::point_triangle, time_of_impact_point_triangle, may_collide_point_triangle,
+                          closest_point_triangle};
+const Kind kEdgeEdge{PairKind::edge_edge, time_of_impact_edge_edge, may_collide_edge_edge, closest_edge_edge};
+
+FourPoints difference(const FourPoints& end, const FourPoints& start) {
+  return {end[0] - start[0], end[1] - start[1], end[2] - start[2], end[3] - start[3]};
+}
+
+/// Rounded as the solver rounds.
+FourPoints at(const FourPoints& x, const FourPoints& displacement, double t) {
+  FourPoints y;
+  for (int i = 0; i < 4; ++i) y[i] = x[i] + t * displacement[i];
+  return y;
+}
+
+class Ccd : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Pairs, Ccd, testing::Values(kPointTriangle, kEdgeEdge),
+                         [](const auto& test) { return test.param.name(); });
+
+const Vector3 kDown(0, 0, -1);
+
+TEST(CcdClosedForm, FallingPointStopsAtTheSlack) {
+  const FourPoints x{Vector3(0.2, 0.3, 1), Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+  FourPoints d{2 * kDown, Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  // Height 1 − 2t reaches slack × 1 at t = (1 − slack) / 2.
+  for (const double slack : {0.0, 0.1, 0.5, 0.9}) {
+    const double t = time_of_impact_point_triangle(x, d, {.slack = slack});
+    EXPECT_LE(t, (1 - slack) / 2);
+    EXPECT_GE(t, (1 - slack) / 2 - 0.01 * slack / 2 - 1e-14) << slack;
+  }
+  EXPECT_NEAR(time_of_impact_point_triangle(x, d, {.slack = 0, .minimum_separation_m = 0.25}), 0.375, 2e-3);
+  EXPECT_EQ(time_of_impact_point_triangle(x, d, {.slack = 0, .minimum_separation_m = 1}), 0);
+  d[0] = 0.89 * kDown;
+  EXPECT_EQ(time_of_impact_point_triangle(x, d), 1);
+}
+
+TEST(CcdClosedForm, CrossingEdgesStopAtTheSlack) {
+  const FourPoints x{Vector3(-1, 0, 1), Vector3(1, 0, 1), Vector3(0, -1, 0), Vector3(0, 1, 0)};
+  const FourPoints d{kDown, kDown, -kDown, -kDown};
+  const double t = time_of_impact_edge_edge(x, d);
+  EXPECT_LE(t, 0.45);
+  EXPECT_GE(t, 0.449);
+}
+
+TEST(CcdClosedForm, ParallelEdgesMayTouchAllAlong) {
+  const FourPoints x{Vector3(-1, 0, 1), Vector3(1, 0, 1), Vector3(-1, 0, 0), Vector3(1, 0, 0)};
+  const FourPoints d{2 * kDown, 2 * kDown, Vector3::Zero(), Vector3::Zero()};
+  EXPECT_NEAR(time_of_impact_edge_edge(x, d), 0.45, 1e-3);
+}
+
+TEST(CcdClosedForm, SlidingAtATinyGapIsFree) {
+  for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const Vector3 slide(5, -3, 0);
+    const FourPoints parallel{Vector3(-1, 0, gap), Vector3(1, 0, gap), Vector3(-1, 0, 0), Vector3(1, 0, 0)};
+    EXPECT_EQ(time_of_impact_edge_edge(parallel, {slide, slide, -slide, Vector3::Zero()}), 1) << gap;
+    const FourPoints over{Vector3(0.1, 0.1, gap), Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+    EXPECT_EQ(time_of_impact_point_triangle(over, {slide, Vector3::Zero(), -slide, slide}), 1) << gap;
+  }
+}
+
+TEST(CcdClosedForm, RollingTogetherAtATinyGapIsFree) {
+  // Nothing but the gap keeps them apart, and each vertex moves by about 1.
+  const Matrix3 turn = Eigen::AngleAxisd(0.8, Vector3(1, 2, 0.5).normalized()).toRotationMatrix();
+  for (const double gap : {1e-3, 1e-6, 1e-9}) {
+    const FourPoints over{Vector3(0.3, 0.3, gap), Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+    const FourPoints across{Vector3(-1, 0, gap), Vector3(1, 0, gap), Vector3(0.2, -1, 0), Vector3(0.1, 1, 0)};
+    FourPoints over_end, across_end;
+    for (int i = 0; i < 4; ++i) {
+      over_end[i] = turn * over[i];
+      across_end[i] = turn * across[i];
+    }
+    EXPECT_EQ(time_of_impact_point_triangle(over, difference(over_end, over)), 1) << gap;
+    EXPECT_EQ(time_of_impact_edge_edge(across, difference(across_end, across)), 1) << gap;
+  }
+}
+
+TEST_P(Ccd, StartInContactCannotMove) {
+  std::mt19937 random(11);
+  int touching = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const FourPoints x = lattice_points(random, 1);
+    if (GetParam().closest(x).squared_distance > 1e-28) continue;
+    ++touching;
+    EXPECT_EQ(GetParam().time_of_impact(x, lattice_points(random, 3), {}), 0) << to_string(x);
+  }
+  EXPECT_GT(touching, 50);
+}
+
+TEST_P(Ccd, CommonMotionAndNoMotionAreFree) {
+  std::mt19937 random(12);
+  for (int i = 0; i < 500; ++i) {
+    const FourPoints x = random_points(random);
+    const Vector3 v = 1e3 * random_vector(random);
+    EXPECT_EQ(GetParam().time_of_impact(x, {v, v, v, v}, {}), 1) << to_string(x);
+  }
+}
+
+TEST_P(Ccd, NumbersThatAreNotFiniteCannotMove) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e308}) {
+    const FourPoints x{Vector3(bad, 0, 1), Vector3(1, 1, 1), Vector3(2, 0, 0), Vector3(0, 3, 0)};
+    const FourPoints d{Vector3(1, 1, 1), Vector3(-bad, 0, 0), Vector3(0, 0, 0), Vector3(1, 0, 0)};
+    EXPECT_EQ(GetParam().time_of_impact(x, d, {}), 0) << bad;
+  }
+}
+
+TEST_P(Ccd, KeepsTheSeparationAndUsesTheRoom) {
+  std::mt19937 random(13);
+  int stopped = 0, wasteful = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double size = i % 2 == 0 ? 1.0 : 1e-3;
+    FourPoints x = random_points(random);
+    FourPoints d = random_points(random);
+    for (int j = 0; j < 4; ++j) {
+      x[j] *= size;
+      d[j] *= 2 * size;
+    }
+    const double slack = 0.2;
+    const double t = GetParam().time_of_impact(x, d, {.slack = slack});
+    const double separation = slack * std::sqrt(GetParam().closest(x).squared_distance);
+    for (int j = 0; j <= 40; ++j) {
+      const double distance = std::sqrt(GetParam().closest(at(x, d, t * j / 40)).squared_distance);
+      ASSERT_GE(distance, separation * (1 - 1e-12)) << to_string(x) << " moving by " << to_string(d);
+    }
+    if (t == 1) continue;
+    ++stopped;
+    wasteful += std::sqrt(GetParam().closest(at(x, d, t)).squared_distance) > 1.02 * separation;
+  }
+  std::printf("  %d of 5000 stopped, %d of them with room left\n", stopped, wasteful);
+  EXPECT_GT(stopped, 200);
+  EXPECT_EQ(wasteful, 0);
+}
+
+/// Places of the four vertices at the moment of impact, on a lattice of 2⁻⁴ so that both paths' ends are exact.
+FourPoints touching(PairKind kind, std::mt19937& random) {
+  const double scale = 16;
+  FourPoints y = lattice_points(random, 64);
+  if (kind == PairKind::point_triangle) {
+    const int b1 = static_cast<int>(random() % 17), b2 = static_cast<int>(random() % (17u - b1));
+    y[0] = ((16 - b1 - b2) * y[1] + b1 * y[2] + b2 * y[3]) / scale;
+  } else {
+    // Edge x2x3 through a point of edge x0x1, cut there in a ratio of small integers.
+    const int s = static_cast<int>(random() % 17);
+    const Vector3 meeting = ((16 - s) * y[0] + s * y[1]) / scale;
+    const Vector3 along = y[3];
+    y[2] = meeting - static_cast<double>(random() % 4) * along;
+    y[3] = meeting + static_cast<double>(random() % 4) * along;
+  }
+  return y;
+}
+
+TEST_P(Ccd, FindsTenThousandImpactsThatAreKnownByConstruction) {
+  std::mt19937 random(14);
+  int missed = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const FourPoints y = touching(GetParam().kind, random);
+    const FourPoints v = lattice_points(random, i % 3 == 0 ? 1 : 100);
+    const double impact = static_cast<double>(random() % 17) / 16;
+    FourPoints start, end;
+    for (int j = 0; j < 4; ++j) {
+      start[j] = y[j] - impact * v[j];
+      end[j] = y[j] + (1 - impact) * v[j];
+    }
+    const double t = GetParam().time_of_impact(start, difference(end, start), {.slack = 0});
+    EXPECT_TRUE(t == 0 || t < impact) << "impact at " << impact << ": " << to_string(start) << " to " << to_string(end);
+    missed += !GetParam().may_collide(start, end);
+  }
+  std::printf("  10000 impacts, %d missed\n", missed);
+  EXPECT_EQ(missed, 0);
+}
+
+TEST_P(Ccd, AgreesWithExactTruthOnTenThousandRandomQueries) {
+  std::mt19937 random(15);
+  int hits = 0, undecided = 0, false_negatives = 0, false_positives = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const int size = i % 2 == 0 ? 1000 : 6;  // the small lattice is full of touching and coplanar pairs
+    const FourPoints start = lattice_points(random, size);
+    const FourPoints end = lattice_points(random, size);
+    const Collision truth = exact_collision(GetParam().kind, start, end);
+    const bool reported = GetParam().may_collide(start, end);
+    hits += truth == Collision::hit;
+    undecided += truth == Collision::undecided;
+    false_negatives += truth == Collision::hit && !reported;
+    false_positives += truth == Collision::free && reported;
+  }
+  const int free = 10000 - hits - undecided;
+  std::printf(
+      "  10000 queries: %d hits, %d free, %d undecided; false negatives %d, false positives %d (always-hit: %d)\n",
+      hits, free, undecided, false_negatives, false_positives, free);
+  EXPECT_GT(hits, 500);
+  EXPECT_GT(free, 2000);
+  EXPECT_EQ(false_negatives, 0);
+  EXPECT_LT(false_positives, free / 100);
+}
+
+}  // namespace
+}  // namespace tacipc

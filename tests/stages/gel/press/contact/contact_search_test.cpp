@@ -1,0 +1,240 @@
+// The broad phase against all pairs there are.
+#include "stages/gel/press/contact/contact_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <tuple>
+
+#include "tests/stages/gel/press/small_scene.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kRadius = 0.3e-3;
+
+bool same(const ContactPair& a, const ContactPair& b) { return a.kind == b.kind && a.vertices == b.vertices; }
+
+/// A block of gel under a pyramid whose tip is in reach.
+struct Scene {
+  TetMesh gel = block_gel(6, 0.006, 0.002);
+  TriangleMesh object = pyramid(0.003, 0.002);
+  ContactMesh mesh;
+  Positions x;
+  std::mt19937 random{7};
+
+  Scene() {
+    object.positions.col(2).array() += 0.1e-3 - object.positions.col(2).minCoeff();
+    mesh = make_contact_mesh(gel.positions, boundary_triangles(gel.tets, gel.positions.rows()), object.positions,
+                             object.triangles);
+    x = mesh.rest_positions;
+  }
+  Positions displacement(double largest) {
+    std::uniform_real_distribution<double> uniform(-largest, largest);
+    Positions p(x.rows(), 3);
+    for (double& c : p.reshaped()) c = uniform(random);
+    return p;
+  }
+};
+
+bool less(const ContactPair& a, const ContactPair& b) {
+  return a.kind != b.kind ? a.kind < b.kind : a.vertices < b.vertices;
+}
+
+/// In any order, the two edges of a pair of gel edges either first.
+std::vector<ContactPair> sorted(std::vector<ContactPair> pairs, int num_gel) {
+  for (ContactPair& pair : pairs) {
+    auto& v = pair.vertices;
+    if (pair.kind == ContactPair::Kind::edge_edge && v[0] < num_gel && v[2] < num_gel &&
+        std::pair(v[2], v[3]) < std::pair(v[0], v[1])) {
+      std::swap(v[0], v[2]);
+      std::swap(v[1], v[3]);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), less);
+  return pairs;
+}
+
+/// All pairs of primitives, gel–object and gel–gel without a common vertex.
+std::vector<ContactPair> all_pairs(const ContactMesh& mesh) {
+  std::vector<ContactPair> all;
+  const auto& [gel, object] = std::tie(mesh.gel, mesh.object);
+  const auto apart = [](const auto& a, const auto& b) {
+    return std::none_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+  };
+  for (const int v : gel.vertices) {
+    for (const auto& t : object.triangles) all.push_back(point_triangle_pair(v, t));
+    for (const auto& t : gel.triangles) {
+      if (apart(std::array{v}, t)) all.push_back(point_triangle_pair(v, t));
+    }
+  }
+  for (const int v : object.vertices) {
+    for (const auto& t : gel.triangles) all.push_back(point_triangle_pair(v, t));
+  }
+  for (std::size_t i = 0; i < gel.edges.size(); ++i) {
+    for (const auto& e : object.edges) all.push_back(edge_edge_pair(gel.edges[i], e));
+    for (std::size_t j = i + 1; j < gel.edges.size(); ++j) {
+      if (apart(gel.edges[i], gel.edges[j])) all.push_back(edge_edge_pair(gel.edges[i], gel.edges[j]));
+    }
+  }
+  return all;
+}
+
+/// How near a pair counts.
+double reach(const ContactMesh& mesh, const ContactPair& pair) {
+  const auto& v = pair.vertices;
+  if (std::max({v[0], v[1], v[2], v[3]}) >= mesh.num_gel_vertices) return kRadius;
+  const double at_rest = closest_feature(pair, gather(mesh.rest_positions, pair)).squared_distance;
+  return std::min(kRadius, 0.5 * std::sqrt(at_rest));
+}
+
+/// Moves object and gel about, in steps small and large, and counts pairs that come near in between; all of them must
+/// have been found.
+int expect_finds_all(Scene& scene, ContactSearch& search, const auto& way_of_call) {
+  const std::vector<ContactPair> all = all_pairs(scene.mesh);
+  int near = 0;
+  for (int call = 0; call < 24; ++call) {
+    const Positions p = way_of_call(call);
+    const std::vector<ContactPair> found = sorted(search.pairs(scene.x, p, kRadius), scene.mesh.num_gel_vertices);
+    EXPECT_TRUE(std::adjacent_find(found.begin(), found.end(), same) == found.end()) << "a pair counts twice";
+    EXPECT_LT(found.size(), all.size() / 2);
+    for (const ContactPair& pair : all) {
+      double nearest = 1.0;
+      for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        const Positions at = scene.x + t * p;
+        nearest = std::min(nearest, std::sqrt(closest_feature(pair, gather(at, pair)).squared_distance));
+      }
+      if (nearest >= reach(scene.mesh, pair)) continue;
+      ++near;
+      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less))
+          << "call " << call;
+    }
+    scene.x += p;
+  }
+  return near;
+}
+
+TEST(ContactSearch, FindsEveryPairThatComesNearOnTheWay) {
+  Scene scene;
+  ContactSearch search(scene.mesh);
+  // Mostly small steps, now and then one beyond the room.
+  const int near =
+      expect_finds_all(scene, search, [&](int call) { return scene.displacement(call % 8 == 7 ? 0.3e-3 : 4e-6); });
+  EXPECT_GT(near, 1000);
+  EXPECT_LT(search.with_itself().num_searches(), 12);
+}
+
+TEST(ContactSearch, FindsThemWhileTheObjectMovesAndTurnsAndDragsTheGelAlong) {
+  Scene scene;
+  ContactSearch search(scene.mesh);
+  const int near = expect_finds_all(scene, search, [&](int call) {
+    Positions p = scene.displacement(1e-6);
+    p.col(0).array() += 0.2e-3;  // everything, together
+    const double turn = call % 3 == 0 ? 0.02 : 1e-4;
+    for (Eigen::Index v = scene.mesh.num_gel_vertices; v < p.rows(); ++v) {
+      p(v, 0) -= turn * scene.x(v, 1);
+      p(v, 1) += turn * scene.x(v, 0);
+    }
+    return p;
+  });
+  EXPECT_GT(near, 500);
+}
+
+TEST(ContactSearch, LooksAgainOnlyAtWhatMovesRelativeToTheObject) {
+  Scene scene;
+  ContactSearch search(scene.mesh);
+  const Positions still = Positions::Zero(scene.x.rows(), 3);
+  const auto looks = [&](const Positions& p) {
+    const std::int64_t before = search.with_object().num_searches();
+    search.pairs(scene.x, p, kRadius);
+    scene.x += p;
+    return search.with_object().num_searches() - before;
+  };
+  const std::int64_t all = looks(still);
+  EXPECT_EQ(all, static_cast<std::int64_t>(scene.mesh.gel.vertices.size() + scene.mesh.gel.edges.size() +
+                                           scene.mesh.gel.triangles.size()));
+  EXPECT_EQ(looks(still), 0);
+  Positions together = still;
+  together.col(0).setConstant(5e-3);
+  EXPECT_EQ(looks(together), 0);
+  Positions one = still;
+  one(scene.mesh.gel.vertices[0], 2) = 0.5e-3;
+  const std::int64_t few = looks(one);
+  EXPECT_GT(few, 1);
+  EXPECT_LT(few, all / 4);
+  search.forget();
+  EXPECT_EQ(looks(still), all);
+  search.pairs(scene.x, still, 2.0 * kRadius);
+  EXPECT_EQ(looks(still), all) << "another radius";
+}
+
+/// Two pieces of gel side by side make the same long step, then different parts of it back: they have never been as
+/// near as then, though each is inside the box of its own path.
+TEST(ContactSearch, FindsWhatComesNearOnTheWayBack) {
+  const Positions one{{0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}, {0, 0, -1e-3}};
+  Positions rest(8, 3);
+  rest << one, one;
+  rest.bottomRows(4).col(0).array() += 2e-3;
+  const Tetrahedra tets{{0, 2, 1, 3}, {4, 6, 5, 7}};
+  const ContactMesh mesh = make_contact_mesh(rest, boundary_triangles(tets, 8), Positions(0, 3), Triangles(0, 3));
+  ContactSearch search(mesh);
+  Positions x = rest, p = Positions::Zero(8, 3);
+  p.rowwise() = Eigen::RowVector3d(3e-3, 3e-3, 0);
+  search.pairs(x, p, kRadius);
+  x += p;
+  p.topRows(4).rowwise() = Eigen::RowVector3d(0, -2.5e-3, 0);
+  p.bottomRows(4).rowwise() = Eigen::RowVector3d(-0.9e-3, -2.5e-3, 0);
+  const std::vector<ContactPair> found = search.pairs(x, p, kRadius);
+  x += p;
+  int near = 0;
+  for (const ContactPair& pair : all_pairs(mesh)) {
+    if (std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance) >= reach(mesh, pair)) continue;
+    ++near;
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const ContactPair& other) {
+      return same(sorted({pair}, 8)[0], sorted({other}, 8)[0]);
+    }));
+  }
+  EXPECT_GT(near, 0);
+}
+
+TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
+  Scene scene;
+  ContactSearch search(scene.mesh);
+  const Positions p = scene.displacement(20e-6);
+  search.pairs(scene.x, p, kRadius);
+  const Positions start = scene.x + p;  // where the call saw them come by
+
+  // The vertices under the tip move, each as far as it may: much farther than the room that searches leave.
+  const double far_m = 0.9e-3;
+  std::vector<bool> moves(static_cast<std::size_t>(scene.x.rows()), false);
+  for (int v = 0; v < scene.mesh.num_gel_vertices; ++v)
+    moves[v] = scene.x(v, 2) > -1e-9 && scene.x.row(v).head<2>().norm() < 1.2e-3;
+  ASSERT_GT(std::count(moves.begin(), moves.end(), true), 3);
+  std::vector<ContactPair> around = search.pairs_around(moves, start, kRadius, far_m);
+  around = sorted(std::move(around), scene.mesh.num_gel_vertices);
+  EXPECT_TRUE(std::adjacent_find(around.begin(), around.end(), same) == around.end()) << "a pair counts twice";
+  const std::vector<ContactPair> all = all_pairs(scene.mesh);
+  int near = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    Positions moved = start;
+    const Positions far = far_m * scene.displacement(1.0).cwiseSign();
+    for (Eigen::Index v = 0; v < moved.rows(); ++v) {
+      if (moves[v]) moved.row(v) += far.row(v);
+    }
+    for (const ContactPair& pair : all) {
+      const auto& v = pair.vertices;
+      if (!(moves[v[0]] || moves[v[1]] || moves[v[2]] || moves[v[3]])) continue;
+      const double within = reach(scene.mesh, pair);
+      if (closest_feature(pair, gather(moved, pair)).squared_distance >= within * within) continue;
+      ++near;
+      EXPECT_TRUE(
+          std::binary_search(around.begin(), around.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less));
+    }
+  }
+  EXPECT_GT(near, 200);
+}
+
+}  // namespace
+}  // namespace tacipc

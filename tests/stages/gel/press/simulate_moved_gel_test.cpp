@@ -1,0 +1,249 @@
+// Gels under motions of several phases: friction, loads, interruption, constraints by multipliers.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "common/base/error.h"
+#include "common/sample/placement.h"
+#include "stages/gel/press/checkpoint.h"
+#include "stages/gel/press/energy/elasticity.h"
+#include "stages/gel/press/energy/element.h"
+#include "tests/stages/gel/press/reference_scene.h"
+#include "tests/stages/gel/press/small_scene.h"
+
+namespace tacipc {
+namespace {
+
+PressConfig friction_config(double coefficient) {
+  PressConfig config = paper_config();
+  config.friction = FrictionConfig{.coefficient = coefficient,
+                                   .relative_speed_threshold = 1e-3,
+                                   .iterated = true,
+                                   .max_lag_iterations = 50,
+                                   .relative_lag_tolerance = 1e-2};
+  return config;
+}
+
+/// A flat-ended square punch.
+TriangleMesh punch(double half_width_m, double height_m) {
+  const double w = half_width_m, h = height_m;
+  return {Positions{{-w, -w, 0}, {w, -w, 0}, {w, w, 0}, {-w, w, 0}, {-w, -w, h}, {w, -w, h}, {w, w, h}, {-w, w, h}},
+          Triangles{{0, 2, 1},
+                    {0, 3, 2},
+                    {4, 5, 6},
+                    {4, 6, 7},
+                    {0, 1, 5},
+                    {0, 5, 4},
+                    {1, 2, 6},
+                    {1, 6, 5},
+                    {2, 3, 7},
+                    {2, 7, 6},
+                    {3, 0, 4},
+                    {3, 4, 7}}};
+}
+
+Simulation run(const TriangleMesh& object, const PressConfig& config, const SampleSpec& sample,
+               FrameStore* store = nullptr) {
+  return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), object, config, sample, "-z", ignore_progress, store);
+}
+
+/// Keeps packed frames; hands out the first `known` of them.
+class Memory final : public FrameStore {
+ public:
+  explicit Memory(std::vector<std::string> known = {}) : known_(std::move(known)) {}
+  void save(const Frame& frame, const Progress& progress) override { saved.push_back(pack_frame(frame, progress)); }
+  bool load(Frame& frame, Progress& progress) override {
+    if (saved.size() >= known_.size()) return false;
+    unpack_frame(known_[saved.size()], frame, progress);
+    saved.push_back(known_[saved.size()]);
+    return true;
+  }
+  std::vector<std::string> saved;
+
+ private:
+  std::vector<std::string> known_;
+};
+
+SampleSpec long_motion() {
+  SampleSpec sample;
+  sample.density_kg_m3 = 1000.0;
+  sample.motion = {{.kind = PhaseKind::press, .steps = 3, .depth_m = 0.3e-3},
+                   {.kind = PhaseKind::shear, .steps = 2, .shift_m = {0.2e-3, 0.1e-3, 0.0}},
+                   {.kind = PhaseKind::twist, .steps = 2, .angle_rad = 0.1},
+                   {.kind = PhaseKind::press, .steps = 2, .load_n = Vector3(0, 0, -0.4), .free = {false, false, true}},
+                   {.kind = PhaseKind::hold, .steps = 1},
+                   {.kind = PhaseKind::release, .steps = 2}};
+  return sample;
+}
+
+TEST(MovedGel, GoesOnFromAnyFrameToTheSameBytes) {
+  const TriangleMesh object = pyramid(0.003, 0.002);
+  Memory whole;
+  const Simulation simulation = run(object, friction_config(0.5), long_motion(), &whole);
+  ASSERT_EQ(simulation.frames.size(), 13u);
+  EXPECT_EQ(simulation.frames[4].phase, PhaseKind::shear);
+  EXPECT_GT(simulation.frames[5].force_n.head<2>().norm(), 0.01);
+  EXPECT_EQ(simulation.frames.back().force_n, Vector3::Zero());
+  for (const std::size_t known : {1, 4, 6, 9, 12}) {
+    Memory rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
+    run(object, friction_config(0.5), long_motion(), &rest);
+    EXPECT_TRUE(rest.saved == whole.saved) << "from " << known << " frames";
+  }
+}
+
+TEST(MovedGel, DamagedFramesAreRefused) {
+  Memory whole;
+  run(pyramid(0.003, 0.002), paper_config(), press(0.1e-3, 1), &whole);
+  Frame frame;
+  Progress progress;
+  EXPECT_THROW(unpack_frame(std::string_view(whole.saved[1]).substr(0, 1000), frame, progress), DataError);
+  EXPECT_THROW(unpack_frame(whole.saved[1] + "x", frame, progress), DataError);
+  EXPECT_NO_THROW(unpack_frame(whole.saved[1], frame, progress));
+  EXPECT_EQ(pack_frame(frame, progress), whole.saved[1]);
+}
+
+TEST(MovedGel, ALoadIsCarriedAndTheObjectStaysOnItsOtherAxes) {
+  SampleSpec sample;
+  sample.density_kg_m3 = 1000.0;
+  sample.motion = {{.kind = PhaseKind::press, .steps = 4, .load_n = Vector3(0, 0, -0.5), .free = {false, false, true}},
+                   {.kind = PhaseKind::hold, .steps = 3}};
+  const Simulation simulation = run(pyramid(0.003, 0.002), friction_config(0.5), sample);
+  EXPECT_NEAR(simulation.object_mass_kg, 1000.0 * 0.006 * 0.006 * 0.002 / 3.0, 1e-12);
+  for (std::size_t f = 1; f < simulation.frames.size(); ++f) {
+    const Frame& frame = simulation.frames[f];
+    const double load = std::min(1.0, static_cast<double>(f) / 4.0) * 0.5;
+    // The object's own inertia takes a little while it moves.
+    EXPECT_NEAR(-frame.force_n.z(), load, f < 5 ? 0.02 * 0.5 : 1e-3 * 0.5) << f;
+    EXPECT_EQ(frame.gel_from_object(0, 3), simulation.frames[0].gel_from_object(0, 3));
+    EXPECT_LE(frame.balance.relative, 1e-3);
+  }
+  EXPECT_LT(simulation.frames.back().gel_from_object(2, 3), simulation.frames[1].gel_from_object(2, 3));
+}
+
+TEST(MovedGel, APunchThatSlidesIsHeldByMuTimesItsLoad) {
+  SampleSpec sample;
+  sample.density_kg_m3 = 1000.0;
+  sample.motion = {{.kind = PhaseKind::press, .steps = 5, .load_n = Vector3(0, 0, -0.3), .free = {false, false, true}},
+                   {.kind = PhaseKind::shear, .steps = 1, .shift_m = {0.01e-3, 0.0, 0.0}},
+                   {.kind = PhaseKind::shear, .steps = 6, .shift_m = {2e-3, 0.0, 0.0}}};
+  const Simulation simulation = run(punch(0.003, 0.003), friction_config(0.3), sample);
+  const Frame& first = simulation.frames[6];
+  EXPECT_LT(first.force_n.x() / -first.force_n.z(), 0.29);  // sticks at first …
+  EXPECT_GT(std::count(first.contact_state.begin(), first.contact_state.end(), ContactState::stick), 0);
+  const Frame& last = simulation.frames.back();
+  EXPECT_GT(std::count(last.contact_state.begin(), last.contact_state.end(), ContactState::slip), 0);
+  // … and then slides: the friction forces are μ times the normal forces, vertex by vertex.
+  double friction = 0.0, normal = 0.0;
+  for (Eigen::Index v = 0; v < last.normal_force_n.rows(); ++v) {
+    friction += last.friction_force_n.row(v).norm();
+    normal += last.normal_force_n.row(v).norm();
+  }
+  EXPECT_NEAR(friction / normal, 0.3, 0.01 * 0.3);
+}
+
+TEST(MovedGel, AStepThatIsTooLongIsDivided) {
+  PressConfig config = friction_config(0.5);
+  config.max_newton_iterations = 14;
+  config.max_halvings = 8;
+  const Simulation simulation = run(pyramid(0.003, 0.002), config, press(0.6e-3, 1));
+  EXPECT_GT(simulation.frames[1].solver.time_steps, 1);
+  const Positions end = transformed(simulation.frames[1].gel_from_object, pyramid(0.003, 0.002).positions);
+  EXPECT_NEAR(end.col(2).minCoeff(), -0.6e-3, 1e-15);
+  EXPECT_NEAR(simulation.frames[1].time_s, 0.01, 1e-15);
+}
+
+TEST(MovedGel, AugmentedLagrangianGivesTheAnswerOfElimination) {
+  SampleSpec sample = press(0.3e-3, 3);
+  // Off every symmetry of the mesh: with one there are two answers, each the other's mirror image.
+  sample.rotate_rad = 0.4;
+  sample.center_x_m = 0.4e-3;
+  sample.center_y_m = 0.9e-3;
+  sample.motion.push_back({.kind = PhaseKind::shear, .steps = 2, .shift_m = {0.1e-3, 0.0, 0.0}});
+  PressConfig config = friction_config(0.4);
+  config.relative_force_tolerance = 1e-6;
+  config.force_tolerance_n = 1e-9;
+  config.friction->relative_lag_tolerance = 1e-5;
+  const Simulation eliminated = run(pyramid(0.003, 0.002), config, sample);
+  config.augmented_lagrangian = true;
+  const Simulation augmented = run(pyramid(0.003, 0.002), config, sample);
+  for (std::size_t f = 1; f < eliminated.frames.size(); ++f) {
+    const Frame &a = eliminated.frames[f], &b = augmented.frames[f];
+    EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 1e-8) << f;
+    EXPECT_LT((a.force_n - b.force_n).norm(), 1e-4 * a.force_n.norm()) << f;
+    EXPECT_LE(b.pose_error_m, 1e-9);
+    EXPECT_EQ(a.gel_from_object, b.gel_from_object);
+  }
+}
+
+TEST(MovedGel, ALoadNeedsElimination) {
+  PressConfig config = paper_config();
+  config.augmented_lagrangian = true;
+  EXPECT_THROW(run(pyramid(0.003, 0.002), config, long_motion()), UsageError);
+}
+
+/// Weight sags the gel by what its column carries: σ = ρ g (z + h) in a wide layer, so u = ρ g h² / (2 M) at the front.
+TEST(MovedGel, GravityAndQuasiStaticModeAgreeWithTheWeightOfALayer) {
+  PressConfig config = paper_config();
+  config.quasi_static = true;
+  config.gravity_m_s2 = Vector3(0, 0, -1000.0);
+  config.start_gap_d_hat = 20.0;
+  SampleSpec sample;
+  sample.motion = {{.kind = PhaseKind::hold, .steps = 1}};
+  const Sensor sensor = paper_sensor();
+  const TetMesh gel = block_gel(16, 0.04, 0.002);
+  const Simulation simulation =
+      simulate(sensor, gel, pyramid(0.001, 0.001), config, sample, "-z", ignore_progress, nullptr);
+  const double modulus = sensor.material.lame_lambda_pa() + 2.0 * sensor.material.lame_mu_pa();
+  const double expected = 1010.0 * 1000.0 * 0.002 * 0.002 / (2.0 * modulus);
+  double sum = 0.0;
+  int count = 0;
+  for (Eigen::Index v = 0; v < gel.num_vertices(); ++v) {
+    if (gel.positions(v, 2) < -1e-9 || gel.positions.row(v).cwiseAbs().maxCoeff() > 8e-3) continue;
+    sum -= simulation.frames[1].positions(v, 2);
+    ++count;
+  }
+  EXPECT_NEAR(sum / count, expected, 0.03 * expected);
+  EXPECT_LE(simulation.frames[1].balance.force_n, 1e-5);
+}
+
+/// A free gel that is shaken once swings less with damping of either kind, and loses nothing but to the integrator
+/// without.
+TEST(MovedGel, DampingTakesEnergyOutOfASwingingGel) {
+  const TetMesh gel = block_gel(4, 0.01, 0.002);
+  const TriangleMesh object = pyramid(0.003, 0.002);
+  Matrix4 above = Matrix4::Identity();
+  above(2, 3) = 0.01;
+  const ContactMesh mesh =
+      make_contact_mesh(gel.positions, gel.boundary, transformed(above, object.positions), object.triangles);
+  const auto swing = [&](double mass_damping, double stiffness_damping) {
+    const auto elasticity = make_elasticity(gel.positions, gel.tets, NeoHookean{4.3e4, 2.6e5}, Element::linear);
+    TimeStepper stepper(
+        mesh,
+        {.elasticity = elasticity,
+         .tets = gel.tets,
+         .mass_kg = lumped_masses(gel.tets, make_rest_tets(gel.positions, gel.tets), gel.num_vertices(), 1010.0),
+         .glued = gel.vertices(BoundaryTag::glued)},
+        {.d_hat_m = 1e-5,
+         .barrier_stiffness_j_m4 = 1e10,
+         .mass_damping_per_s = mass_damping,
+         .stiffness_damping_s = stiffness_damping,
+         .newton = {.velocity_tolerance_m_s = 1e-4}});
+    State state{.x = mesh.rest_positions, .velocity_m_s = Positions::Zero(gel.num_vertices(), 3)};
+    for (Eigen::Index v = 0; v < gel.num_vertices(); ++v)
+      state.velocity_m_s(v, 0) = 0.1 * (1.0 + gel.positions(v, 2) / 0.002);
+    const Positions far = mesh.rest_positions.bottomRows(mesh.num_object_vertices);
+    double sum = 0.0;
+    for (int step = 0; step < 40; ++step) {
+      stepper.advance(state, {.h_s = 5e-5, .object_target = far}, [](int, double) {});
+      if (step >= 20) sum += state.velocity_m_s.norm();
+    }
+    return sum;
+  };
+  const double free = swing(0.0, 0.0);
+  EXPECT_GT(free, 0.0);
+  EXPECT_LT(swing(2e3, 0.0), 0.5 * free);
+  EXPECT_LT(swing(0.0, 2e-4), 0.8 * free);
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,180 @@
+// Whole presses: against the reference solver, against itself, and starts that must be refused.
+#include "stages/gel/press/simulate.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include <numbers>
+
+#include "common/base/error.h"
+#include "common/sample/placement.h"
+#include "tests/shared_data.h"
+#include "tests/stages/gel/press/reference_scene.h"
+#include "tests/stages/gel/press/small_scene.h"
+
+namespace tacipc {
+namespace {
+
+TEST(Simulate, SharpTipIntoCoarseGelEndsExactlyAtItsPoseAndInBalance) {
+  const TetMesh gel = block_gel(8, 0.02, 0.002);
+  const TriangleMesh object = pyramid(0.003, 0.002);
+  PressConfig config = paper_config();
+  config.linear_solver = LinearSolverKind::direct;
+  const Simulation simulation = simulate(paper_sensor(), gel, object, config, press(0.5e-3, 5), "-z", ignore_progress);
+  ASSERT_EQ(simulation.frames.size(), 6u);
+  EXPECT_EQ(simulation.symbolic_analyses, 1);
+  EXPECT_GT(simulation.frames[0].min_gap_m, simulation.d_hat_m);
+  double last_force = 0.0;
+  for (std::size_t f = 1; f < simulation.frames.size(); ++f) {
+    const Frame& frame = simulation.frames[f];
+    EXPECT_GT(frame.min_gap_m, 0.0);
+    EXPECT_GT(frame.min_volume_ratio, 0.0);
+    EXPECT_GT(-frame.force_n.z(), last_force);
+    last_force = -frame.force_n.z();
+    EXPECT_GE(frame.stand_off_m, frame.min_gap_m);
+    EXPECT_LT(frame.stand_off_m, simulation.d_hat_m);
+    EXPECT_LE(frame.balance.force_n, frame.solver.force_residual_n);  // what is not balanced is what Newton left over
+  }
+  const Positions end = transformed(simulation.frames.back().gel_from_object, object.positions);
+  EXPECT_NEAR(end.col(2).minCoeff(), -0.5e-3, 1e-15);
+}
+
+TEST(Simulate, ForceDoesNotDependOnHowTheObjectIsTurned) {
+  // The block and its subdivision are the same after half a turn about z, so the press must be, too.
+  const TetMesh gel = block_gel(6, 0.02, 0.002);
+  const TriangleMesh object = pyramid(0.003, 0.002);
+  SampleSpec turned = press(0.3e-3, 2);
+  turned.rotate_rad = std::numbers::pi;
+  const double a = simulate(paper_sensor(), gel, object, paper_config(), press(0.3e-3, 2), "-z", ignore_progress)
+                       .frames.back()
+                       .force_n.z();
+  const double b =
+      simulate(paper_sensor(), gel, object, paper_config(), turned, "-z", ignore_progress).frames.back().force_n.z();
+  EXPECT_NEAR(a, b, 1e-3 * std::abs(a));
+}
+
+PressConfig tight_config_with_friction() {
+  PressConfig config = paper_config();
+  config.relative_velocity_tolerance = 1e-5;
+  config.friction = FrictionConfig{.coefficient = 0.5, .relative_speed_threshold = 1e-3, .max_lag_iterations = 1};
+  return config;
+}
+
+Simulation press_pyramid(const PressConfig& config) {
+  return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 2), "-z",
+                  ignore_progress);
+}
+
+TEST(Simulate, ConjugateGradientEndsWhereTheFactorisationDoes) {
+  PressConfig config = tight_config_with_friction();
+  const auto run = [&](LinearSolverKind solver) {
+    config.linear_solver = solver;
+    return press_pyramid(config);
+  };
+  const Simulation direct = run(LinearSolverKind::direct), iterative = run(LinearSolverKind::conjugate_gradient);
+  EXPECT_EQ(direct.symbolic_analyses, 1);
+  EXPECT_EQ(iterative.symbolic_analyses, 0);  // never factorised
+  const Frame &a = direct.frames.back(), &b = iterative.frames.back();
+  EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-4 * std::abs(a.force_n.z()));
+}
+
+TEST(Simulate, PositiveContactHessianEndsWhereTheAdaptiveOneDoes) {
+  PressConfig config = tight_config_with_friction();
+  const auto run = [&](bool adaptive) {
+    config.adaptive_contact_hessian = adaptive;
+    return press_pyramid(config);
+  };
+  const Simulation adaptive = run(true), positive = run(false);
+  const Frame &a = adaptive.frames.back(), &b = positive.frames.back();
+  EXPECT_GT((a.positions - b.positions).cwiseAbs().maxCoeff(), 0.0);  // by another route
+  EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-4 * std::abs(a.force_n.z()));
+}
+
+/// At the end of a step only the vertices at the pyramid's edges still move.
+TEST(Simulate, PatchesEndWhereTheWholeDoes) {
+  PressConfig config = paper_config();
+  config.relative_velocity_tolerance = 2e-4;
+  const auto run = [&](bool patches) {
+    config.patches = patches;
+    return simulate(paper_sensor(), block_gel(24, 0.012, 0.002), pyramid(0.003, 0.002), config, press(0.5e-3, 5), "-z",
+                    ignore_progress);
+  };
+  const Simulation with = run(true), without = run(false);
+  const auto sum = [](const Simulation& all, auto number) {
+    return std::accumulate(all.frames.begin(), all.frames.end(), 0,
+                           [&](int so_far, const Frame& frame) { return so_far + frame.solver.*number; });
+  };
+  EXPECT_GT(sum(with, &StepReport::patches), 0);
+  EXPECT_GT(sum(with, &StepReport::patch_iterations), 0);
+  EXPECT_EQ(sum(without, &StepReport::patches), 0);
+  EXPECT_LE(sum(with, &StepReport::newton_iterations), sum(without, &StepReport::newton_iterations));
+  const Frame &a = with.frames.back(), &b = without.frames.back();
+  EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 2e-8);
+  EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-3 * std::abs(a.force_n.z()));
+}
+
+TEST(Simulate, ASoftBarrierGetsStifferWhereATipComesTooNear) {
+  PressConfig config = paper_config();
+  const Simulation stiff = press_pyramid(config);
+  // All of the force is on one tip: the gap closes until no step can be certified, or until the barrier is stiffer.
+  config.barrier_stiffness = 1e4;
+  EXPECT_THROW(press_pyramid(config), SolverError);
+  config.adaptive_barrier_stiffness = true;
+  const Simulation adaptive = press_pyramid(config);
+  const auto factor = [](const Simulation& s, std::size_t frame) { return s.frames[frame].solver.barrier_factor; };
+  EXPECT_EQ(factor(stiff, 2), 1.0);
+  EXPECT_GT(factor(adaptive, 1), 1.0);
+  EXPECT_GE(factor(adaptive, 2), factor(adaptive, 1));
+  // The tip stands off by less than a micrometre either way.
+  const double force = stiff.frames[2].force_n.z();
+  EXPECT_NEAR(adaptive.frames[2].force_n.z(), force, 0.02 * std::abs(force));
+}
+
+TEST(Simulate, NotConvergingIsAFailureWithItsNumbers) {
+  PressConfig config = paper_config();
+  config.max_newton_iterations = 2;
+  try {
+    simulate(paper_sensor(), block_gel(4, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.5e-3, 1), "-z",
+             ignore_progress);
+    FAIL() << "a capped Newton passed for a result";
+  } catch (const SolverError& error) {
+    EXPECT_NE(std::string(error.what()).find("frame 1: Newton did not converge within 2 iterations"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Simulate, DepthBeyondTheGelIsRefused) {
+  try {
+    simulate(paper_sensor(), block_gel(4, 0.02, 0.002), pyramid(0.003, 0.002), paper_config(), press(2e-3, 5), "-z",
+             ignore_progress);
+    FAIL() << "accepted";
+  } catch (const DataError& error) {
+    EXPECT_STREQ(error.what(), "depth 2 mm is not less than the gel's thickness 2 mm");
+  }
+}
+
+/// The smaller of the two scenes of docs/paper.md.
+TEST(Simulate, AgreesWithTheReferenceSolver) {
+  TACIPC_SHARED_DATA(folder, "reference");
+  const ReferenceComparison found = compare_with_reference(folder, "gel3k.msh", "sphere1k.obj", "sphere_small_press");
+  EXPECT_NEAR(found.press_force_n.back(), 0.4201, 0.005 * 0.4201);
+  EXPECT_LT(found.rms_m, 0.5e-6);
+  EXPECT_LT(found.largest_m, 5e-6);
+}
+
+TEST(Simulate, ShearAgreesWithTheReferenceSolver) {
+  TACIPC_SHARED_DATA(folder, "reference");
+  const ReferenceComparison found =
+      compare_with_reference(folder, "gel3k.msh", "sphere1k.obj", "sphere_small_shear", true);
+  EXPECT_NEAR(found.press_force_n[4], 0.4534, 0.03 * 0.4534);
+  EXPECT_NEAR(found.press_force_n[9], 0.4216, 0.03 * 0.4216);
+  EXPECT_NEAR(found.tangential_force_n[9], 0.2374, 0.03 * 0.2374);
+  EXPECT_LT(found.front_rms_m, 1e-6);
+  EXPECT_LT(found.front_largest_m, 5e-6);
+}
+
+}  // namespace
+}  // namespace tacipc

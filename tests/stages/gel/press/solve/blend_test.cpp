@@ -1,0 +1,55 @@
+// How much of the PSD approximation a step takes.
+#include <gtest/gtest.h>
+
+#include "stages/gel/press/solve/blend.h"
+
+namespace tacipc {
+namespace {
+
+TEST(Blend, TakesAsLittleOfThePsdApproximationAsTheMatrixAllows) {
+  Blend blend(3);
+  EXPECT_EQ(blend.largest(), 1.0);
+  double last = 1.0;
+  for (int i = 0; i < 3 && last > 0.0; ++i, last = blend.share(1)) {
+    blend.lower();
+    EXPECT_LT(blend.largest(), last / 3);
+  }
+  EXPECT_EQ(blend.largest(), 0.0);
+  // Indefinite about one vertex: its share, and no other, rises to 1.
+  for (last = 0.0; blend.raise(1); last = blend.share(1)) EXPECT_GT(blend.share(1), last);
+  EXPECT_EQ(blend.share(1), 1.0);
+  EXPECT_EQ(blend.share(0) + blend.share(2), 0.0);
+  EXPECT_EQ(blend.share(std::vector<int>{0, 1, 7}), 1.0);
+  EXPECT_EQ(blend.share(std::vector<int>{0, 2, 7}), 0.0);
+  // And falls more slowly the more often it had to rise.
+  for (int i = 0; i < 10; ++i) {
+    blend.lower();
+    blend.raise(1);
+  }
+  while (blend.raise(1)) {
+  }
+  blend.lower();
+  EXPECT_GT(blend.share(1), 0.5);
+}
+
+TEST(Blend, RisesAfterAShortenedStep) {
+  Blend blend({0.0, 0.15, 0.0});
+  blend.lower();
+  EXPECT_EQ(blend.largest(), 0.15 / 4);
+  blend.raise_after_shortening(0);
+  blend.raise_after_shortening(1);
+  EXPECT_EQ(blend.share(0), 0.1);
+  EXPECT_EQ(blend.share(1), 0.6);
+  EXPECT_EQ(blend.share(2), 0.0);
+}
+
+TEST(Blend, StaysWithThePsdApproximationUnlessAdaptive) {
+  Blend blend(2, false);
+  for (int i = 0; i < 5; ++i) blend.lower();
+  blend.raise_after_shortening(0);
+  EXPECT_EQ(blend.share(0), 1.0);
+  EXPECT_EQ(blend.share(1), 1.0);
+}
+
+}  // namespace
+}  // namespace tacipc

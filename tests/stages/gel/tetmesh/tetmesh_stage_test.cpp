@@ -1,0 +1,72 @@
+// The program itself: files, records, exit codes, messages.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "common/base/files.h"
+#include "common/mesh/tet_mesh.h"
+#include "tests/program_test.h"
+#include "tests/stages/gel/tetmesh/gels.h"
+
+namespace tacipc {
+namespace {
+
+using ::testing::HasSubstr;
+
+class TetmeshStageTest : public ProgramTest {
+ protected:
+  int run(const std::string& config, const std::string& more = "") {
+    const int code = run_command(fmt::format("{}/tetmesh --log-level warning --config {} --sensor {} --out {} {} > {}",
+                                             TACIPC_BIN_DIR, config, config_path("sensors/mctac.yaml").string(),
+                                             (scratch_ / "out").string(), more, (scratch_ / "stdout.txt").string()));
+    EXPECT_EQ(read_file(scratch_ / "stdout.txt"), "");
+    return code;
+  }
+};
+
+TEST_F(TetmeshStageTest, GivesTheSameBytesTwiceAtAnyThreadCount) {
+  const std::string tiny = config_path("gels/tiny.yaml");
+  ASSERT_EQ(run(tiny, "--threads 1"), 0) << said_;
+  EXPECT_EQ(said_, "");
+  const std::string mesh = read_file(scratch_ / "out/gel.msh"), record = read_file(scratch_ / "out/tetmesh.yaml");
+  ASSERT_EQ(run(tiny, "--threads 3"), 0) << said_;
+  EXPECT_EQ(read_file(scratch_ / "out/gel.msh"), mesh);
+  EXPECT_EQ(read_file(scratch_ / "out/tetmesh.yaml"), record);
+  const TetMesh gel = read_tet_mesh(scratch_ / "out/gel.msh");
+  const TetMesh made = generate_gel(mctac_gel(), preset("tiny"));
+  EXPECT_EQ(gel.positions, made.positions);
+  EXPECT_EQ(gel.tets, made.tets);
+  EXPECT_THAT(record, HasSubstr(fmt::format("summary:\n  vertices: {}\n", gel.num_vertices())));
+  EXPECT_THAT(record, HasSubstr("analytic_volume_mm3: 1414"));
+}
+
+TEST_F(TetmeshStageTest, ImportsWhatItMade) {
+  ASSERT_EQ(run(config_path("gels/tiny.yaml")), 0) << said_;
+  const Positions made = read_tet_mesh(scratch_ / "out/gel.msh").positions;
+  std::filesystem::rename(scratch_ / "out/gel.msh", scratch_ / "finished.msh");
+  std::string config = read_file(config_path("gels/import_paper.yaml"));
+  config.replace(config.find("rotation_deg: 180"), 17, "rotation_deg: 0");
+  const std::string path = scratch_.file("import.yaml", config);
+  ASSERT_EQ(run(path, "--import " + (scratch_ / "finished.msh").string()), 0) << said_;
+  EXPECT_EQ(read_tet_mesh(scratch_ / "out/gel.msh").positions, made);
+  EXPECT_THAT(read_file(scratch_ / "out/tetmesh.yaml"), HasSubstr("summary:\n  tets_turned: false\n"));
+}
+
+TEST_F(TetmeshStageTest, KindAndFlagMustAgree) {
+  EXPECT_EQ(run(config_path("gels/import_paper.yaml")), 2);
+  EXPECT_THAT(said_, HasSubstr("--config says kind: import, so --import is needed"));
+  EXPECT_EQ(run(config_path("gels/tiny.yaml"), "--import " + config_path("gels/tiny.yaml").string()), 2);
+  EXPECT_THAT(said_, HasSubstr("--import needs a --config with kind: import"));
+}
+
+TEST_F(TetmeshStageTest, UnknownShapeAndTooFineSizingAreRefused) {
+  EXPECT_EQ(run(scratch_.file("odd.yaml", "kind: grow\n")), 2);
+  EXPECT_THAT(said_, HasSubstr("odd.yaml:1:7: kind: "));
+  std::string config = read_file(config_path("gels/uniform_0250um.yaml"));
+  config.replace(config.find("uniform_mm: 0.25"), 16, "uniform_mm: 0.05");
+  EXPECT_EQ(run(scratch_.file("fine.yaml", config)), 1);
+  EXPECT_THAT(said_, HasSubstr("the sizing asks for about 1.62e+07 vertices, more than max_vertices 2e+06"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/tetmesh.yaml"));
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,120 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "common/image/image.h"
+#include "common/sensor/light_field.h"
+#include "common/sensor/sensor.h"
+#include "tests/config_text.h"
+#include "tests/program_test.h"
+
+namespace tacipc {
+namespace {
+
+class CalibrateProgram : public ProgramTest {
+ protected:
+  void SetUp() override {
+    std::string sensor = read_file(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/gelsight_lab.yaml");
+    for (const auto& [from, to] : {std::pair{"width_px: 320", "width_px: 60"}, {"height_px: 320", "height_px: 60"}})
+      sensor.replace(sensor.find(from), std::string(from).size(), to);
+    scratch_.file("sensor.yaml", sensor);
+    write_png(scratch_ / "background.png", ByteImage(60, 60, 3, 120));
+    std::filesystem::create_directories(scratch_ / "photos");
+    std::string labels;
+    for (int i = 0; i < 4; ++i) {
+      // A bump whose slope along x brightens red and along y darkens blue.
+      ByteImage photo(60, 60, 3, 121);
+      FloatImage map(60, 60, 1);
+      const int cx = 24 + 4 * i, cy = 34 - 3 * i;
+      for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 60; ++x) {
+          const double u = 0.25 * (x - cx), v = 0.25 * (y - cy), z = 0.5e-3 * std::exp(-0.5 * (u * u + v * v));
+          map.at(x, y, 0) = static_cast<float>(z);
+          photo.at(x, y, 0) = static_cast<std::uint8_t>(std::lround(121 + 1e5 * z * -u * 0.8));
+          photo.at(x, y, 2) = static_cast<std::uint8_t>(std::lround(121 + 1e5 * z * v * 0.6));
+        }
+      write_png(scratch_ / fmt::format("photos/b{}.png", i), photo);
+      write_exr(scratch_ / fmt::format("s{}.exr", i), map, {"Y"});
+      labels += fmt::format("b{}.png ({}, {}) 8\n", i, cx, cy);
+    }
+    scratch_.file("labels.txt", labels);
+    scratch_.file("c.yaml",
+                  "ball_radius_mm: 3\ncontact_gap_mm: 0.02\nlabel_sigma_px: 0\nfit_radius_px: 18\nfit_stride_px: 1\n"
+                  "drift_radius_px: 20\nlamps: []\nenvironment_degree: 3\nshadow_softness: 0.2\nblur_px: 0\nridge: "
+                  "1.0e-6\nfolds: 2\n");
+    scratch_.file("i.yaml", "intensities: {curve: linear, shot_gain: 0, read_noise: 0.01, block_px: 2}\n");
+  }
+  int run(const std::string& more) {
+    return run_command(
+        fmt::format("cd '{}' && {}/calibrate --sensor sensor.yaml --background background.png --log-level error {}",
+                    (scratch_ / "").string(), TACIPC_BIN_DIR, more));
+  }
+  const std::string balls_ = "--config c.yaml --photographs photos --labels labels.txt ";
+  const std::string shapes_ = "--shapes s0.exr s1.exr s2.exr s3.exr ";
+};
+
+TEST_F(CalibrateProgram, AnEnvironmentFromShapesExplainsItsPhotographsWithAnyThreads) {
+  ASSERT_EQ(run(balls_ + shapes_ + "--out a --threads 1"), 0) << said_;
+  ASSERT_EQ(run(balls_ + shapes_ + "--out b --threads 3"), 0) << said_;
+  EXPECT_EQ(content_hash(scratch_ / "a"), content_hash(scratch_ / "b"));
+  const LightField light = config_from_text<LightField>(read_file(scratch_ / "a/light.yaml"), "light.yaml");
+  EXPECT_TRUE(light.geometry.lamps_m.empty());
+  EXPECT_EQ(light.geometry.environment_degree, 3);
+  const ByteImage residual = read_png(scratch_ / "a/residuals/b2.png", 3);
+  int worst = 0;
+  for (const std::uint8_t code : residual.pixels) worst = std::max(worst, std::abs(int{code} - 128));
+  EXPECT_LE(worst, 16);  // 8 codes of a change of up to 24
+  EXPECT_THAT(read_file(scratch_ / "a/calibrate.yaml"), testing::HasSubstr("model: environment\n"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "a/ball_poses.npy"));
+  // The same light in a sensor file that every stage takes, with the photograph it changes.
+  const Sensor sensor = read_config<Sensor>(scratch_ / "a/sensor.yaml");
+  EXPECT_TRUE(sensor.leds.empty());
+  EXPECT_EQ(sensor.light_field.value().weights, light.weights);
+  EXPECT_EQ(read_png(sensor.reference_image.value(), 3).pixels, read_png(scratch_ / "background.png", 3).pixels);
+}
+
+TEST_F(CalibrateProgram, LedColoursComeFromTheirBasisImages) {
+  FloatImage ramp(60, 60, 3), other(60, 60, 3);
+  ByteImage photo(60, 60, 3);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        ramp.at(x, y, c) = static_cast<float>(x) / 60.0f;
+        other.at(x, y, c) = static_cast<float>(y) / 60.0f;
+        photo.at(x, y, c) =
+            static_cast<std::uint8_t>(std::lround(255 * (0.1 + 0.2 * c * x / 60.0 + (0.4 - 0.2 * c) * y / 60.0)));
+      }
+    }
+  write_exr(scratch_ / "l0.exr", ramp, {"R", "G", "B"});
+  write_exr(scratch_ / "l1.exr", other, {"R", "G", "B"});
+  write_png(scratch_ / "background.png", photo);
+  ASSERT_EQ(run("--config i.yaml --basis l0.exr l1.exr --out a"), 0) << said_;
+  ConfigReader in = ConfigReader::from_text(read_file(scratch_ / "a/leds.yaml"), "leds.yaml");
+  auto leds = in.sections("leds");
+  ASSERT_EQ(leds.size(), 2u);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(leds[0].numbers("rgb_linear", 3)[c], 0.2 * static_cast<double>(c), 0.004);
+    EXPECT_NEAR(leds[1].numbers("rgb_linear", 3)[c], 0.4 - 0.2 * static_cast<double>(c), 0.004);
+    EXPECT_NEAR(in.section("ambient").numbers("rgb", 3)[c], 0.1, 0.004);
+  }
+}
+
+TEST_F(CalibrateProgram, WrongFlagsAndFilesAreSaidOnce) {
+  EXPECT_EQ(run("--config c.yaml --out a"), 2);
+  EXPECT_EQ(
+      said_,
+      "calibrate: error: give --photographs and --labels of balls, or --basis, or a configuration with sensor_fit\n");
+  EXPECT_EQ(run(balls_ + "--out a"), 2);
+  EXPECT_EQ(said_, "calibrate: error: give either --press or --shapes\n");
+  EXPECT_EQ(run(balls_ + "--shapes s0.exr --out a"), 2);
+  EXPECT_EQ(said_, "calibrate: error: 1 --shapes for 4 labels\n");
+  EXPECT_EQ(run("--config i.yaml --basis s0.exr --labels labels.txt --out a"), 2);
+  EXPECT_EQ(said_, "calibrate: error: --labels cannot be combined with --basis\n");
+  write_png(scratch_ / "photos/b1.png", ByteImage(60, 61, 3, 121));
+  EXPECT_EQ(run(balls_ + shapes_ + "--out a"), 1);
+  EXPECT_EQ(said_, "calibrate: error: photos/b1.png: is 60 x 61 pixels, the sensor's camera has 60 x 60\n");
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,87 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include "common/format/npy.h"
+#include "common/image/image.h"
+#include "tests/program_test.h"
+
+namespace tacipc {
+namespace {
+
+class BaselineProgram : public ProgramTest {
+ protected:
+  void SetUp() override {
+    const std::string sensor = read_file(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
+    std::string small = sensor;
+    for (const auto& [from, to] : {std::pair{"width_px: 640", "width_px: 64"}, {"height_px: 480", "height_px: 48"}})
+      small.replace(small.find(from), std::string(from).size(), to);
+    scratch_.file("sensor.yaml", small);
+    // A pyramid of 6 mm edge and 3 mm height, in millimetres, its tip down at the origin.
+    scratch_.file("tip.obj",
+                  "v 0 0 0\nv -3 -3 3\nv 3 -3 3\nv 3 3 3\nv -3 3 3\nf 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4 5\n");
+    scratch_.file("unit.yaml", "unit: mm\n");
+    std::vector<double> poses;
+    for (const double z : {1e-3, -1e-3})
+      for (const double v : {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, z, 0.0, 0.0, 0.0, 1.0})
+        poses.push_back(v);
+    write_npy(scratch_ / "pose.npy", {2, 4, 4}, poses.data());
+    write_png(scratch_ / "background.png", ByteImage(64, 48, 3, 128));
+  }
+
+  int run(const std::string& config, const std::string& more) {
+    return run_command(
+        fmt::format("cd '{}' && {}/baseline --config {}/configs/rivals/baseline/{}.yaml --sensor sensor.yaml "
+                    "--log-level error {}",
+                    (scratch_ / "").string(), TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, config, more));
+  }
+  const std::string object_ = " --object tip.obj --object-config unit.yaml --pose pose.npy";
+};
+
+TEST_F(BaselineProgram, AnObjectOverTheGelTouchesNothingAndOneInItDoes) {
+  ASSERT_EQ(run("height_map", object_ + " --out a --threads 1"), 0) << said_;
+  ASSERT_EQ(run("height_map", object_ + " --out b --threads 3"), 0) << said_;
+  EXPECT_EQ(content_hash(scratch_ / "a"), content_hash(scratch_ / "b"));
+  const FloatImage apart = read_exr(scratch_ / "a/frame_0000/indentation.exr", {"Y"});
+  EXPECT_EQ(*std::max_element(apart.pixels.begin(), apart.pixels.end()), 0.0f);
+  const FloatImage pressed = read_exr(scratch_ / "a/frame_0001/indentation.exr", {"Y"});
+  const float top = *std::max_element(pressed.pixels.begin(), pressed.pixels.end());
+  EXPECT_GT(top, 0.8e-3f);
+  EXPECT_LT(top, 1.2e-3f);
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "a/frame_0001/tactile.png"));
+  EXPECT_THAT(read_file(scratch_ / "a/baseline.yaml"), testing::HasSubstr("frames: 2"));
+}
+
+TEST_F(BaselineProgram, ItsOwnDepthMapGoesInAgain) {
+  ASSERT_EQ(run("height_map", object_ + " --out a"), 0) << said_;
+  ASSERT_EQ(run("exponential_13",
+                "--depth a/frame_0000/depth.exr a/frame_0001/depth.exr --background background.png --out b"),
+            0)
+      << said_;
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "b/frame_0001/tactile.png"));
+}
+
+TEST_F(BaselineProgram, WrongFlagsAndFilesAreSaidOnce) {
+  EXPECT_EQ(run("height_map", "--out a"), 2);
+  EXPECT_EQ(said_, "baseline: error: give either --depth or --object\n");
+  EXPECT_EQ(run("height_map", "--object tip.obj --out a"), 2);
+  EXPECT_EQ(said_, "baseline: error: --object, --object-config and --pose belong together\n");
+  EXPECT_EQ(run("gomes_2021", object_ + " --out a"), 2);
+  EXPECT_EQ(said_, "baseline: error: --background: needed where the configuration has shading\n");
+  EXPECT_EQ(run("height_map", object_ + " --background background.png --out a"), 2);
+  EXPECT_EQ(said_, "baseline: error: --background: the configuration has no shading to use it\n");
+  write_png(scratch_ / "small.png", ByteImage(32, 48, 3, 128));
+  EXPECT_EQ(run("gomes_2021", object_ + " --background background.png --out a"), 2);
+  EXPECT_EQ(said_,
+            "baseline: error: front_depth_mm: 30 is not this sensor's, 12, which --object needs; leave it out\n");
+  EXPECT_EQ(run("gomes_2021_own_front", object_ + " --background small.png --out a"), 1);
+  EXPECT_EQ(said_, "baseline: error: small.png: is 32 x 48 pixels, the sensor's camera has 64 x 48\n");
+  std::vector<double> mirror(16, 0.0);
+  for (const std::size_t i : {0, 5, 10, 15}) mirror[i] = 1.0;
+  mirror[10] = -1.0;
+  write_npy(scratch_ / "pose.npy", {4, 4}, mirror.data());
+  EXPECT_EQ(run("height_map", object_ + " --out a"), 1);
+  EXPECT_EQ(said_, "baseline: error: pose.npy: pose 0 is not a rigid motion\n");
+}
+
+}  // namespace
+}  // namespace tacipc

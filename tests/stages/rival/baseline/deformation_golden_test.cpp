@@ -1,0 +1,123 @@
+// Kernels and height maps equal SciPy's; make_golden.py prints the tables.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/config/config.h"
+#include "stages/rival/baseline/deformation.h"
+#include "stages/rival/baseline/kernel.h"
+
+namespace tacipc {
+namespace {
+
+struct Profile {
+  int size;
+  double sigma;
+  std::vector<double> weights;
+};
+
+const Profile kProfiles[] = {
+    {21, 7, {0.03712451905464882,  0.038051215786774444, 0.03982277568619698, 0.04230130759155264, 0.04524363228616621,
+             0.048400590546833426, 0.05149204042519486,  0.05424233377045748, 0.05640515536883367, 0.0577860900459463,
+             0.05826067887478995,  0.0577860900459463,   0.05640515536883367, 0.05424233377045748, 0.05149204042519486,
+             0.048400590546833426, 0.04524363228616621,  0.04230130759155264, 0.03982277568619698, 0.038051215786774444,
+             0.03712451905464882}},
+    {52,
+     9,
+     {0.001175494806628691,  0.0012864583044213433, 0.0015129503776180784, 0.0018638777635559898, 0.0023520338943828056,
+      0.002993398808262149,  0.003806179974702269,  0.004809586538701827,  0.006022343736058688,  0.00746097610853818,
+      0.00912844011286579,   0.011053563357638388,  0.01322045428718704,   0.015618121334982683,  0.018224245024769936,
+      0.021004320621163156,  0.023911458759774074,  0.02688696887169599,   0.029861798228324216,  0.03275883199203273,
+      0.0354959824072657,    0.03798991588335798,   0.040160194101405325,  0.041933548431719134,  0.04324797375340656,
+      0.04405632377783261,   0.04432911748341739,   0.04405632377783261,   0.04324797375340656,   0.041933548431719134,
+      0.040160194101405325,  0.03798991588335798,   0.0354959824072657,    0.03275883199203273,   0.029861798228324216,
+      0.02688696887169599,   0.023911458759774074,  0.021004320621163156,  0.018224245024769936,  0.015618121334982683,
+      0.01322045428718704,   0.011068434119881974,  0.009151490178677106,  0.007481395166768894,  0.006052659721391701,
+      0.004854007859435337,  0.003870415007688929,  0.003085060495098543,  0.0024810997476189126, 0.0020431907989637687,
+      0.0017587354529176057, 0.0016188152349314354}},
+    {3, 1, {0.29609640370191986, 0.4078071925961603, 0.29609640370191986}},
+    {5, 4, {0.19999006215637666, 0.20000611860403833, 0.20000763847917033, 0.20000611860403833, 0.19999006215637666}},
+};
+
+struct Sample {
+  int x, y;
+  double value;
+};
+
+const Sample kCorrelated[] = {{33, 27, 0.00034051256264528183}, {5, 5, 1.2633489406876865e-06},
+                              {50, 30, 0.00011166282994364863}, {70, 40, 0.00015722026262844093},
+                              {80, 52, 6.372970010398459e-05},  {99, 79, 0.0},
+                              {0, 40, 2.0591615277867585e-06},  {62, 28, 7.337054323033635e-05}};
+const Sample kDifference[] = {{33, 27, 0.0008},
+                              {5, 5, -0.00027299332302781844},
+                              {50, 30, -2.493672695749879e-05},
+                              {70, 40, 0.0003852234890466191},
+                              {80, 52, 0.00011220132239727492},
+                              {99, 79, -6.633858683536765e-05},
+                              {0, 40, -0.00025885770546163576},
+                              {62, 28, -6.807831524378958e-05}};
+const Sample kExponential[] = {{33, 27, 0.029273186270898786}, {5, 5, 0.03000000000000002},
+                               {50, 30, 0.029980510114841367}, {70, 40, 0.0297},
+                               {80, 52, 0.029945745287826255}, {99, 79, 0.03000000000000002},
+                               {0, 40, 0.03000000000000002},   {62, 28, 0.02994006533101761}};
+
+/// The heights that make_golden.py computes too.
+Raster object_height() {
+  Raster h(100, 80);
+  for (int y = 0; y < h.height; ++y) {
+    for (int x = 0; x < h.width; ++x) {
+      const double ball = 8e-4 - 4e-6 * ((x - 33) * (x - 33) + (y - 27) * (y - 27));
+      const double block = std::abs(x - 70) < 9 && std::abs(y - 40) < 12 ? 3e-4 + 1e-5 * (x - 70) : 0.0;
+      h.at(x, y) = std::max({ball, block, 0.0});
+    }
+  }
+  return h;
+}
+
+DeformationConfig published() {
+  return read_config<BaselineConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/rivals/baseline/gomes_2021.yaml")
+      .deformation;
+}
+
+TEST(Golden, ProfilesAreScipysFoldedGaussians) {
+  for (const Profile& golden : kProfiles) {
+    const auto profile = folded_gaussian_profile(golden.size, golden.sigma);
+    ASSERT_EQ(profile.size(), golden.weights.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+      EXPECT_NEAR(profile[i], golden.weights[i], 1e-12) << golden.size << " at " << i;
+      sum += profile[i];
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  }
+  // The wide one has no centre pixel: its ends differ.
+  const auto wide = folded_gaussian_profile(52, 9);
+  EXPECT_GT(wide.back() - wide.front(), 4e-4);
+}
+
+TEST(Golden, ExponentialKernel) {
+  const Raster kernel = exponential_kernel();
+  EXPECT_NEAR(kernel.at(6, 6), 0.010937773880737038, 1e-15);
+  EXPECT_NEAR(kernel.at(0, 0), 0.0004359528071966686, 1e-15);
+  EXPECT_NEAR(kernel.at(0, 6), 0.0036433338510463587, 1e-15);
+}
+
+TEST(Golden, CorrelationAnchorsAtHalfTheSizeAndMirrors) {
+  const Raster out = correlate(object_height(), folded_gaussian(52, 9));
+  for (const Sample& s : kCorrelated) EXPECT_NEAR(out.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+}
+
+TEST(Golden, DifferenceOfGaussians) {
+  const Raster out = membrane_indentation(object_height(), published());
+  for (const Sample& s : kDifference) EXPECT_NEAR(out.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+}
+
+TEST(Golden, ExponentialMembrane) {
+  DeformationConfig config;
+  config.method = DeformationConfig::Method::exponential_kernel;
+  const Raster out = membrane_indentation(object_height(), config);
+  for (const Sample& s : kExponential) EXPECT_NEAR(0.03 - out.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,74 @@
+#include "stages/study/metrics/depth_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/base/error.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kPressed = 0.02e-3;  // m
+constexpr float kRest = 12e-3f;
+
+FloatImage map_of(int width, int height, const auto& press) {
+  FloatImage map(width, height, 1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) map.at(x, y, 0) = static_cast<float>(12e-3 - press(x, y));
+  return map;
+}
+const auto kNothing = [](int, int) { return 0.0; };
+
+TEST(DepthError, AMapEqualsItself) {
+  const FloatImage map = map_of(20, 10, [](int x, int) { return 0.0101e-3 * x; });
+  const DepthErrors errors = depth_errors(map, map, map_of(20, 10, kNothing), kPressed);
+  EXPECT_EQ(errors.full.pixels, 200u);
+  EXPECT_EQ(errors.pressed.pixels, 180u);  // 18 columns deeper than 0.02 mm
+  EXPECT_EQ(errors.full.mae_m, 0.0);
+  EXPECT_EQ(errors.full.max_m, 0.0);
+  EXPECT_EQ(errors.pressed.slope_ratio, 1.0);
+  EXPECT_EQ(errors.full.iou, 1.0);
+}
+
+TEST(DepthError, HalfTheDepth) {
+  // Pressed by d in half of the image, by d / 2 in the map.
+  const auto press = [](double depth) { return [=](int x, int) { return x >= 10 ? depth : 0.0; }; };
+  const DepthErrors errors =
+      depth_errors(map_of(20, 10, press(0.2e-3)), map_of(20, 10, press(0.4e-3)), map_of(20, 10, kNothing), kPressed);
+  EXPECT_NEAR(errors.full.mae_m, 0.1e-3, 1e-8);
+  EXPECT_NEAR(errors.pressed.mae_m, 0.2e-3, 1e-8);
+  EXPECT_NEAR(errors.pressed.mse_m2, 0.04e-6, 1e-11);
+  EXPECT_NEAR(errors.full.mse_m2, 0.02e-6, 1e-11);
+  EXPECT_NEAR(errors.full.max_m, 0.2e-3, 1e-8);
+  EXPECT_NEAR(errors.full.mae_norm, 0.25, 1e-4);
+  EXPECT_NEAR(errors.full.slope_ratio, 0.5, 1e-4);
+  EXPECT_TRUE(std::isnan(errors.pressed.slope_ratio)) << "flat there";
+  EXPECT_EQ(errors.full.iou, 1.0);
+}
+
+TEST(DepthError, MasksThatOverlapByHalf) {
+  const auto press = [](int from) { return [=](int x, int) { return x >= from && x < from + 8 ? 0.3e-3 : 0.0; }; };
+  const DepthErrors errors =
+      depth_errors(map_of(20, 4, press(4)), map_of(20, 4, press(8)), map_of(20, 4, kNothing), kPressed);
+  EXPECT_DOUBLE_EQ(errors.full.iou, 4.0 / 12.0);
+}
+
+TEST(DepthError, UnknownPixelsDoNotCount) {
+  FloatImage map = map_of(20, 10, [](int x, int) { return x == 5 ? 0.3e-3 : 0.0; });
+  const FloatImage reference = map;
+  for (int y = 0; y < 10; ++y) map.at(6, y, 0) = std::numeric_limits<float>::quiet_NaN();
+  const DepthErrors errors = depth_errors(map, reference, map_of(20, 10, kNothing), kPressed);
+  EXPECT_EQ(errors.full.pixels, 190u);
+  EXPECT_EQ(errors.full.mae_m, 0.0);
+  EXPECT_TRUE(std::isfinite(errors.full.slope_ratio));
+}
+
+TEST(DepthError, WithoutAPressThereIsNothingToCompare) {
+  const FloatImage flat = map_of(20, 10, kNothing);
+  EXPECT_THROW(depth_errors(flat, flat, flat, kPressed), DataError);
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,57 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include "common/image/image.h"
+#include "tests/program_test.h"
+
+namespace tacipc {
+namespace {
+
+using ::testing::HasSubstr;
+
+class DepthMetrics : public ProgramTest {
+ protected:
+  void SetUp() override {
+    write("rest.exr", 0.0f);
+    write("ours/star.exr", 0.4e-3f);
+    write("ours/gear.exr", 0.3e-3f);
+    write("reference/star.exr", 0.5e-3f);
+    write("reference/gear.exr", 0.3e-3f);
+  }
+  void write(const std::string& name, float press, int width = 32) {
+    FloatImage map(width, 24, 1);
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < width; ++x) map.at(x, y, 0) = 12e-3f - (x < 8 ? press : 0.0f);
+    std::filesystem::create_directories((scratch_ / name).parent_path());
+    write_exr(scratch_ / name, map, {"Z"});
+  }
+  int run(const std::string& images, const std::string& references) {
+    return run_command(
+        fmt::format("cd '{}' && {}/metrics --config {}/configs/metrics/depth.yaml --rest rest.exr "
+                    "--images {} --reference {} --log-level error --out out",
+                    (scratch_ / "").string(), TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, images, references));
+  }
+};
+
+TEST_F(DepthMetrics, OneRowPerMapAndRegion) {
+  ASSERT_EQ(run("ours/star.exr ours/gear.exr", "reference/star.exr reference/gear.exr"), 0) << said_;
+  const std::string csv = read_file(scratch_ / "out/samples.csv");
+  EXPECT_THAT(csv, HasSubstr("name,region,pixels,mae_mm,mse_mm2,max_mm,mae_norm,slope_ratio,iou\n"));
+  EXPECT_THAT(csv, HasSubstr("\nstar.exr,pressed,192,0.0999"));
+  EXPECT_THAT(csv, HasSubstr("\ngear.exr,full,768,0,0,0,0,1,1\n"));
+  EXPECT_THAT(read_file(scratch_ / "out/metrics.yaml"),
+              HasSubstr("pressed:\n    images: 2\n    pixels:\n      mean: 192\n      std: 0\n"));
+}
+
+TEST_F(DepthMetrics, RefusesWhatDoesNotFit) {
+  EXPECT_EQ(run("ours/star.exr ours/gear.exr", "reference/star.exr"), 2);
+  EXPECT_EQ(said_, "metrics: error: 2 images but 1 references: lists are compared pair by pair\n");
+  write("narrow.exr", 0.2e-3f, 16);
+  EXPECT_EQ(run("narrow.exr", "reference/star.exr"), 1);
+  EXPECT_EQ(said_, "metrics: error: narrow.exr: is 16 x 24 pixels, the gel at rest 32 x 24\n");
+  EXPECT_EQ(run("ours/star.exr", "rest.exr"), 1);
+  EXPECT_THAT(said_, HasSubstr("ours/star.exr against rest.exr: the reference is nowhere pressed deeper than 0.02 mm"));
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,81 @@
+#include "stages/study/tabulate/image_table.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/stages/study/tabulate/small_table.h"
+
+namespace tacipc {
+namespace {
+
+constexpr const char* kPrinted =
+    "printed: {label: elsewhere, source: a paper, region: full, rows: [{name: p|q, values: {psnr_ln: 55.92}}]}\n";
+
+TEST(ImageTable, HasATablePerRegionAndPrintedRowsInTheirsAlone) {
+  const ScratchFolder scratch;
+  const auto config =
+      small_table(std::string(kPrinted) +
+                  "caption: What it means.\nlink_folder: figures\n"
+                  "sheets: [{name: s, alt: pictures, picture_px: 20, columns: [{heading: A, method: a}]}]\n");
+  const auto rows = read_methods({samples_of(scratch, "a"), samples_of(scratch, "b", "inf")}, config);
+  EXPECT_EQ(to_markdown(rows, config),
+            "| Whole image | SSIM-S | PSNR ln |\n"
+            "|---|---|---|\n"
+            "| first | 0.625 ± 0.125 | 12.0 ± 2.0 |\n"
+            "| **others** |  |  |\n"
+            "| second | 0.625 ± 0.125 | 12.0 ± 2.0 |\n"
+            "| **elsewhere** |  |  |\n"
+            "| p\\|q | – | 55.92 |\n"
+            "\n"
+            "| Contact box | SSIM-S | PSNR ln |\n"
+            "|---|---|---|\n"
+            "| first | 0.250 ± 0.000 | 25.0 ± 5.0 |\n"
+            "| **others** |  |  |\n"
+            "| second | 0.250 ± 0.000 | ∞ ± – |\n"
+            "\n"
+            "balls: mean ± standard deviation over 2 images. Printed numbers: a paper.\n"
+            "\n"
+            "What it means.\n"
+            "\n"
+            "![pictures](figures/s.png)\n");
+}
+
+TEST(ImageTable, GeometricMeansHaveAFactor) {
+  const ScratchFolder scratch;
+  auto config = small_table();
+  config.columns[1].geometric = true;
+  const std::string text =
+      to_markdown(read_methods({samples_of(scratch, "a", "80"), samples_of(scratch, "b")}, config), config);
+  EXPECT_NE(text.find("| first | 0.250 ± 0.000 | 40.0 ×÷ 2.0 |\n"), std::string::npos) << text;
+}
+
+TEST(ImageTable, FindingsCompareTwoRows) {
+  const ScratchFolder scratch;
+  const auto config = small_table(
+      "findings:\n"
+      "  - {region: box, column: psnr_ln, row: a, against: b, below: less., above: as much.}\n"
+      "  - {region: box, column: psnr_ln, row: b, against: a, below: less., above: as much.}\n");
+  const auto rows = read_methods({samples_of(scratch, "a", "10"), samples_of(scratch, "b", "40")}, config);
+  const std::string text = to_markdown(rows, config);
+  EXPECT_NE(text.find("\n\n- Contact box, PSNR ln: first has 0.50 times that of second (others): less.\n"
+                      "- Contact box, PSNR ln: second (others) has 2.00 times that of first: as much.\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(ImageTable, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
+  const ScratchFolder scratch;
+  auto config = small_table(kPrinted);
+  config.columns.pop_back();
+  config.printed->rows[0].values = {{"ssim_s", "0.90"}};
+  const auto rows = read_methods({samples_of(scratch, "a"), samples_of(scratch, "b")}, config);
+  EXPECT_EQ(to_csv(rows, config),
+            "row,group,region,column,images,mean,std,source\n"
+            "first,,full,ssim_s,2,0.625,0.125,\n"
+            "second,others,full,ssim_s,2,0.625,0.125,\n"
+            "first,,box,ssim_s,2,0.25,0,\n"
+            "second,others,box,ssim_s,2,0.25,0,\n"
+            "p|q,elsewhere,full,ssim_s,,0.90,,a paper\n");
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,65 @@
+#include "stages/study/tabulate/method_scores.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "common/base/error.h"
+#include "tests/stages/study/tabulate/small_table.h"
+
+namespace tacipc {
+namespace {
+
+TEST(MethodScores, StandInTheOrderOfTheConfigurationUnderTheirMethods) {
+  const ScratchFolder scratch;
+  const auto b = samples_of(scratch, "b", "40"), a = samples_of(scratch, "a");
+  const auto rows = read_methods({b, a}, small_table());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].row.name, "first");
+  EXPECT_DOUBLE_EQ(rows[0].cell("full", "ssim_s").mean, 0.625);
+  EXPECT_DOUBLE_EQ(rows[0].cell("full", "ssim_s").deviation, 0.125);
+  EXPECT_DOUBLE_EQ(rows[0].cell("box", "psnr_ln").mean, 25.0);
+  EXPECT_DOUBLE_EQ(rows[1].cell("box", "psnr_ln").mean, 30.0);
+}
+
+TEST(MethodScores, RatiosHaveGeometricMeans) {
+  const ScratchFolder scratch;
+  auto config = small_table();
+  config.columns[1].geometric = true;
+  const auto rows = read_methods({samples_of(scratch, "a", "80"), samples_of(scratch, "b")}, config);
+  EXPECT_NEAR(rows[0].cell("box", "psnr_ln").mean, 40.0, 1e-12);  // of 20 and 80
+  EXPECT_NEAR(rows[0].cell("box", "psnr_ln").deviation, 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(rows[0].cell("box", "ssim_s").mean, 0.25);
+}
+
+TEST(MethodScores, RefuseWhatDoesNotBelongTogether) {
+  const ScratchFolder scratch;
+  const auto a = samples_of(scratch, "a"), b = samples_of(scratch, "b"), c = samples_of(scratch, "c");
+  const auto said = [](const std::vector<NamedPath>& tables, const ImageTableConfig& config) {
+    return message_of<DataError>([&] { read_methods(tables, config); });
+  };
+  EXPECT_EQ(said({a}, small_table()), "row 'second': no table was given for b");
+  EXPECT_EQ(said({a, b, c}, small_table()), c.path.string() + ": no row of the configuration has the method c");
+  EXPECT_EQ(said({a, a}, small_table()), a.path.string() + " and " + a.path.string() + ": are both given for a");
+
+  auto lacking = small_table();
+  lacking.columns[0].column = "depth";
+  EXPECT_EQ(said({a, b}, lacking), a.path.string() + ": has no column 'depth'");
+  lacking = small_table();
+  lacking.regions[0].region = "crop";
+  EXPECT_EQ(said({a, b}, lacking), a.path.string() + ": has no row of region crop");
+
+  const std::string head = "name,region,psnr_ln,ssim_s\n";
+  scratch.file("b/samples.csv", head + "x.png,full,1,1\nx.png,box,1,1\n");
+  EXPECT_EQ(said({a, b}, small_table()),
+            b.path.string() + ": was measured on other images than the first row; y.png is only in one of them");
+  scratch.file("b/samples.csv", head + "x.png,full,1,1\ny.png,box,1,1\n");
+  EXPECT_EQ(said({a, b}, small_table()), b.path.string() + ": region box has other images than region full");
+  scratch.file("b/samples.csv", head + "x.png,full,1,1\nx.png,full,1,1\n");
+  EXPECT_EQ(said({a, b}, small_table()), b.path.string() + ": x.png is there twice in region full");
+  scratch.file("b/samples.csv", head + "x.png,full,many,1\n");
+  EXPECT_EQ(said({a, b}, small_table()), b.path.string() + ":2: psnr_ln: 'many' is not a number");
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,187 @@
+#include "verification/refinement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "common/base/error.h"
+#include "common/base/units.h"
+#include "common/sensor/markers.h"
+#include "verification/run_case.h"
+
+namespace tacipc::verify {
+namespace {
+
+const std::vector<std::string> kParameters{"mesh", "time_step", "d_hat", "speed_threshold"};
+
+double rms(const Positions& difference) {
+  return std::sqrt(difference.rowwise().squaredNorm().sum() / static_cast<double>(difference.rows()));
+}
+
+/// Displacement of points bound to the front between two frames.
+Positions moved(const std::vector<Marker>& points, const Frame& from, const Frame& to) {
+  return marker_positions(points, to.positions) - marker_positions(points, from.positions);
+}
+
+void append(std::string& bytes, const double* data, std::size_t count) {
+  bytes.append(reinterpret_cast<const char*>(data), sizeof(double) * count);
+}
+
+}  // namespace
+
+double RefinementStudy::scale(int level) const { return coarsest / std::pow(factor, level); }
+
+RefinementSpec RefinementSpec::read(ConfigReader& in) {
+  RefinementSpec spec;
+  spec.scene.title = in.text("title");
+  spec.scene.source = spec.scene.title;
+  ConfigReader gel = in.section("gel"), material = in.section("material"), shape = in.section("shape"),
+               press = in.section("press"), front = in.section("front");
+  spec.scene.gel = GelSpec::read(gel);
+  spec.scene.material = Material::read(material);
+  spec.scene.object = ObjectShape::read(shape);
+  spec.scene.press = PressConfig::read(press);
+  spec.scene.sample = SampleSpec::read(in);
+  spec.front_half_m = kMillimetre * front.number("half_mm", Range::positive());
+  spec.front_pitch_m = kMillimetre * front.number("pitch_mm", Range::positive());
+  if (spec.front_pitch_m > spec.front_half_m) front.fault("pitch_mm", "must be at most half_mm");
+  for (ConfigReader& row : in.sections("refine")) {
+    RefinementStudy study;
+    study.parameter = row.choice("parameter", kParameters);
+    study.coarsest = row.number("coarsest", Range::positive());
+    study.factor = row.number("factor", Range{.low = 1.0, .open_low = true});
+    study.levels = row.integer("levels", 3, 10);
+    for (const RefinementStudy& other : spec.studies)
+      if (other.parameter == study.parameter) row.fault("parameter", "is refined twice");
+    spec.studies.push_back(study);
+  }
+  if (spec.studies.empty()) in.fault("refine", "nothing is refined");
+  return spec;
+}
+
+const RefinementStudy& RefinementSpec::study(const std::string& parameter) const {
+  std::string known;
+  for (const RefinementStudy& study : studies) {
+    if (study.parameter == parameter) return study;
+    known += (known.empty() ? "" : ", ") + study.parameter;
+  }
+  throw UsageError(fmt::format("--study: '{}' is not refined (there are: {})", parameter, known));
+}
+
+CaseSpec refined(const CaseSpec& scene, const std::string& parameter, double scale) {
+  CaseSpec out = scene;
+  if (parameter == "mesh") {
+    auto* box = std::get_if<BoxGel>(&out.gel.shape);
+    if (!box) throw UsageError("refine: only the mesh of a box is refined");
+    for (double* length : {&box->near_m, &box->far_m, &box->layer_m}) *length *= scale;
+    for (double* growth : {&box->growth, &box->layer_growth}) *growth = std::pow(*growth, scale);
+  } else if (parameter == "time_step") {
+    out.press.time_step_s *= scale;
+    for (Phase& phase : out.sample.motion) {
+      const double steps = phase.steps / scale;
+      if (std::abs(steps - std::round(steps)) > 1e-9 || steps < 0.5)
+        throw UsageError(fmt::format("refine: {} steps divided by {:g} is not a whole number", phase.steps, scale));
+      phase.steps = static_cast<int>(std::lround(steps));
+    }
+  } else if (parameter == "d_hat") {
+    out.press.relative_d_hat *= scale;
+  } else {
+    if (!out.press.friction) throw UsageError("refine: a scene without friction has no speed_threshold");
+    out.press.friction->relative_speed_threshold *= scale;
+  }
+  return out;
+}
+
+ParameterValue parameter_value(const CaseSpec& scene, const std::string& parameter) {
+  const auto* box = std::get_if<BoxGel>(&scene.gel.shape);
+  if (!box) throw UsageError("refine: the gel must be a box");
+  const double diagonal = Vector3(box->width_m, box->height_m, box->thickness_m).norm();
+  if (parameter == "mesh") return {box->near_m / kMillimetre, "cells under the object", "mm"};
+  if (parameter == "time_step") return {1e3 * scene.press.time_step_s, "time step", "ms"};
+  if (parameter == "d_hat") return {1e6 * scene.press.relative_d_hat * diagonal, "reach of the barrier d̂", "µm"};
+  return {1e6 * scene.press.friction.value().relative_speed_threshold * diagonal, "sticking below ε_v", "µm/s"};
+}
+
+std::string RefinementLevel::pack() const {
+  const std::array<double, 5> head{static_cast<double>(gel_vertices), press_force_n, tangential_force_n,
+                                   static_cast<double>(markers_m.rows()), static_cast<double>(front_m.rows())};
+  std::string bytes;
+  append(bytes, head.data(), head.size());
+  append(bytes, markers_m.data(), static_cast<std::size_t>(markers_m.size()));
+  append(bytes, front_m.data(), static_cast<std::size_t>(front_m.size()));
+  return bytes;
+}
+
+std::optional<RefinementLevel> RefinementLevel::unpack(std::string_view bytes) {
+  std::array<double, 5> head{};
+  if (bytes.size() < sizeof(head)) return std::nullopt;
+  std::memcpy(head.data(), bytes.data(), sizeof(head));
+  bytes.remove_prefix(sizeof(head));
+  if (!(head[3] >= 0.0) || !(head[4] >= 0.0) ||
+      static_cast<double>(bytes.size()) != 3.0 * sizeof(double) * (head[3] + head[4]))
+    return std::nullopt;
+  RefinementLevel level{.gel_vertices = static_cast<int>(head[0]),
+                        .press_force_n = head[1],
+                        .tangential_force_n = head[2],
+                        .markers_m = Positions(static_cast<Eigen::Index>(head[3]), 3),
+                        .front_m = Positions(static_cast<Eigen::Index>(head[4]), 3)};
+  for (Positions* field : {&level.markers_m, &level.front_m}) {
+    const std::size_t count = sizeof(double) * static_cast<std::size_t>(field->size());
+    if (count > 0) std::memcpy(field->data(), bytes.data(), count);
+    bytes.remove_prefix(count);
+  }
+  return level;
+}
+
+RefinementLevel run_level(const RefinementSpec& spec, const CaseSpec& scene, const std::filesystem::path& shared) {
+  const CaseResult result = run_case(scene, shared, [](int, int, int, double) {});
+  if (result.skipped) throw DataError("{}", *result.skipped);
+  if (!result.simulation) throw SolverError("{}", result.failed.value_or("no frames"));
+  const Outcome outcome{result.spec, result.gel, result.object, *result.simulation};
+  const auto& frames = result.simulation->frames;
+  const int last = static_cast<int>(frames.size()) - 1;
+  const auto pressed = static_cast<std::size_t>(find_frame(outcome, {.index = {}, .phase = "press", .depth_m = {}}));
+  const Triangles front = result.gel.faces(BoundaryTag::front);
+  const int across = 1 + 2 * static_cast<int>(std::lround(spec.front_half_m / spec.front_pitch_m));
+  const MarkerGrid dense{.rows = across, .columns = across, .pitch_m = spec.front_pitch_m, .given = true};
+  RefinementLevel level;
+  level.gel_vertices = static_cast<int>(result.gel.num_vertices());
+  level.press_force_n = measure(outcome, "press_force_n", last);
+  level.tangential_force_n = measure(outcome, "tangential_force_n", last);
+  level.markers_m = moved(bind_markers({}, result.gel.positions, front), frames[pressed], frames.back());
+  level.front_m = moved(bind_markers(dense, result.gel.positions, front), frames.front(), frames.back());
+  return level;
+}
+
+std::vector<RefinementCurve> compare_levels(const std::vector<RefinementLevel>& levels, double factor) {
+  using Level = RefinementLevel;
+  using Distance = std::function<double(const Level&, const Level&)>;
+  const auto curve = [&](const char* quantity, const char* unit, const Distance& distance) {
+    RefinementCurve out{.quantity = quantity, .unit = unit};
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+      out.against_finest.push_back(distance(levels[k], levels.back()));
+      out.against_next.push_back(distance(levels[k], levels[k + 1]));
+    }
+    for (std::size_t k = 0; k + 1 < out.against_next.size(); ++k)
+      if (out.against_next[k] > 0.0 && out.against_next[k + 1] > 0.0)
+        out.orders.push_back(std::log(out.against_next[k] / out.against_next[k + 1]) / std::log(factor));
+    return out;
+  };
+  const auto scalar = [&](const char* quantity, double Level::*member) {
+    RefinementCurve out =
+        curve(quantity, "N", [=](const Level& a, const Level& b) { return std::abs(a.*member - b.*member); });
+    for (const Level& level : levels) out.values.push_back(level.*member);
+    return out;
+  };
+  return {scalar("press force", &Level::press_force_n), scalar("tangential force", &Level::tangential_force_n),
+          curve("markers since the press, rms", "m",
+                [](const Level& a, const Level& b) { return rms(a.markers_m - b.markers_m); }),
+          curve("front face, rms", "m", [](const Level& a, const Level& b) { return rms(a.front_m - b.front_m); }),
+          curve("front face, largest", "m",
+                [](const Level& a, const Level& b) { return (a.front_m - b.front_m).rowwise().norm().maxCoeff(); })};
+}
+
+}  // namespace tacipc::verify

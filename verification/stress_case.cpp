@@ -1,0 +1,245 @@
+#include "verification/stress_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.h"
+#include "common/sample/placement.h"
+
+namespace tacipc::verify {
+namespace {
+
+using std::numbers::pi;
+
+int steps_for(double way, double step) { return std::max(1, static_cast<int>(std::ceil(way / step - 1e-9))); }
+
+/// Phases of a case, drawn one by one while following where the object is.
+class MotionDrawer {
+ public:
+  MotionDrawer(const StressConfig::Motion& ranges, Draws& draws, StressCase& stress)
+      : ranges_(ranges), draws_(draws), stress_(stress), step_m_(draws.in(ranges.step_m)) {}
+
+  void draw() {
+    const double thickness_m = stress_.gel.shape.thickness_m;
+    const double part = draws_.in(ranges_.depth);
+    deepest_m_ = ranges_.deep * thickness_m;
+    if (contact_radius_m(stress_.object.mesh, part * deepest_m_) >= thickness_m)
+      deepest_m_ = ranges_.shallow * thickness_m;
+    stress_.depth_m = part * deepest_m_;
+    stress_.contact_radius_m = contact_radius_m(stress_.object.mesh, stress_.depth_m);
+    placed_ = pose_ = place(stress_.object.mesh.positions,
+                            {"-z", 0.0, stress_.sample.center_x_m, stress_.sample.center_y_m}, start_z_m());
+    add({.kind = PhaseKind::press,
+         .steps = steps_for(stress_.depth_m + start_z_m(), step_m_),
+         .depth_m = stress_.depth_m});
+    const int further = draws_.below(3);
+    for (int i = 0; i < further; ++i) draw_further();
+  }
+
+ private:
+  double start_z_m() const {
+    const Positions& x = stress_.gel.mesh.positions;
+    return stress_.press.start_gap_d_hat * stress_.press.relative_d_hat *
+           (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+  }
+
+  void draw_further() {
+    const double shear_m = draws_.in(ranges_.shear_m), direction = draws_.in({0.0, 2.0 * pi});
+    const double twist_rad = draws_.in(ranges_.twist_rad) * (draws_.chance(0.5) ? 1.0 : -1.0);
+    const double tilt_rad = draws_.in(ranges_.tilt_rad);
+    const double twist_step = draws_.in(ranges_.twist_step_rad), tilt_step = draws_.in(ranges_.tilt_step_rad);
+    switch (draws_.below(4)) {
+      case 0:
+        break;
+      case 1:
+        add({.kind = PhaseKind::twist, .steps = steps_for(std::abs(twist_rad), twist_step), .angle_rad = twist_rad});
+        return;
+      case 2: {
+        // As far as the object gets no deeper than it may; shear where no travel is left.
+        Phase tilt{.kind = PhaseKind::tilt, .steps = 1, .angle_rad = tilt_rad, .direction_rad = direction};
+        while (tilt.angle_rad > 0.5 * tilt_step && lowest_z_m(end_of(tilt)) < -deepest_m_) tilt.angle_rad *= 0.9;
+        if (tilt.angle_rad <= 0.5 * tilt_step) break;
+        tilt.steps = steps_for(tilt.angle_rad, tilt_step);
+        add(tilt);
+        return;
+      }
+      default:
+        add({.kind = PhaseKind::release, .steps = steps_for(start_z_m() - lowest_z_m(pose_), step_m_)});
+        return;
+    }
+    add({.kind = PhaseKind::shear,
+         .steps = steps_for(shear_m, step_m_),
+         .shift_m = shear_m * Vector3(std::cos(direction), std::sin(direction), 0.0)});
+  }
+
+  double lowest_z_m(const Matrix4& pose) const {
+    return transformed(pose, stress_.object.mesh.positions).col(2).minCoeff();
+  }
+
+  Matrix4 end_of(const Phase& phase) const {
+    const Vector3 reference(stress_.sample.center_x_m, stress_.sample.center_y_m, start_z_m());
+    const PhaseStart start{
+        .gel_from_object = pose_,
+        .placed = placed_,
+        .reference_m = placed_.topLeftCorner<3, 3>().transpose() * (reference - placed_.topRightCorner<3, 1>()),
+        .lowest_z_m = lowest_z_m(pose_),
+        .start_z_m = start_z_m()};
+    return goal_of(phase, time_steps(phase), start, stress_.press.time_step_s).gel_from_object;
+  }
+
+  void add(const Phase& phase) {
+    pose_ = end_of(phase);
+    stress_.sample.motion.push_back(phase);
+  }
+
+  const StressConfig::Motion& ranges_;
+  Draws& draws_;
+  StressCase& stress_;
+  double step_m_, deepest_m_ = 0.0;
+  Matrix4 placed_, pose_;
+};
+
+/// Sums up frames as they are judged; keeps none.
+class Tally final : public FrameStore {
+ public:
+  explicit Tally(StressResult& result) : result_(result) {}
+
+  void save(const Frame& frame, const Progress&) override {
+    result_.min_distance_m = first_ ? frame.min_gap_m : std::min(result_.min_distance_m, frame.min_gap_m);
+    result_.min_volume_ratio = std::min(result_.min_volume_ratio, frame.min_volume_ratio);
+    result_.press_force_n = std::max(result_.press_force_n, -frame.force_n.z());
+    result_.frames += first_ ? 0 : 1;
+    result_.time_steps += frame.solver.time_steps;
+    result_.newton_iterations += frame.solver.newton_iterations;
+    result_.moving_iterations += frame.solver.moving_iterations;
+    result_.lag_iterations += frame.solver.lag_iterations;
+    first_ = false;
+  }
+  bool load(Frame&, Progress&) override { return false; }
+
+ private:
+  StressResult& result_;
+  bool first_ = true;
+};
+
+StressOutcome outcome_of(const Miss& miss) {
+  if (miss.check == "intersections" || miss.check == "smallest_distance") return StressOutcome::intersected;
+  if (miss.check == "inverted_tets" || miss.check == "volume_ratio") return StressOutcome::inverted;
+  return StressOutcome::not_converged;
+}
+
+}  // namespace
+
+const char* name_of(StressOutcome outcome) {
+  static const char* const kNames[] = {"converged", "not_converged", "intersected", "inverted"};
+  return kNames[static_cast<int>(outcome)];
+}
+
+StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64_t index) {
+  Draws draws(seed, index);
+  StressCase stress;
+  stress.gel = draw_gel(config.gel, config.object.exact_share, draws);
+  const GelShape& shape = stress.gel.shape;
+  stress.sensor.name = "stress";
+  stress.sensor.gel = shape;
+  stress.sensor.material.law = draws.chance(config.material.stvk_hencky_share) ? "stvk_hencky" : "neo_hookean";
+  stress.sensor.material.density_kg_m3 = config.material.density_kg_m3;
+  stress.sensor.material.youngs_modulus_pa = draws.log(config.material.youngs_modulus_pa);
+  stress.sensor.material.poissons_ratio = draws.in(config.material.poissons_ratio);
+  stress.object = draw_object(config.object, stress.gel.front_edge_m, draws);
+
+  // The lowest point comes to lie within a part of the half width; placement speaks of the bounding box.
+  const Positions& x = stress.object.mesh.positions;
+  const double reach = config.object.place * 0.5 * std::min(shape.width_m, shape.height_m);
+  const double radius = reach * std::sqrt(draws.unit()), angle = draws.in({0.0, 2.0 * pi});
+  Eigen::Vector2d at = radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  if (draws.chance(config.object.exact_share)) at.setZero();
+  Eigen::Index lowest = 0;
+  x.col(2).minCoeff(&lowest);
+  const Eigen::Vector2d middle =
+      0.5 * (x.leftCols<2>().colwise().minCoeff() + x.leftCols<2>().colwise().maxCoeff()).transpose();
+  const Eigen::Vector2d center = at + middle - x.row(lowest).head<2>().transpose();
+  stress.sample.center_x_m = center.x();
+  stress.sample.center_y_m = center.y();
+
+  stress.press = config.press;
+  const bool frictionless = draws.chance(config.friction.none_share),
+             iterated = draws.chance(config.friction.iterated_share);
+  const double coefficient = draws.in(config.friction.coefficient);
+  if (!frictionless) {
+    ConfigReader numerics =
+        ConfigReader::from_text(iterated ? "coefficient: 0\nlag: iterated\n" : "coefficient: 0\n", "friction");
+    stress.press.friction = FrictionConfig::read(numerics);
+    stress.press.friction->coefficient = coefficient;
+  }
+  MotionDrawer(config.motion, draws, stress).draw();
+  stress.press.pair_counting.once = draws.chance(config.pairs_once_share);
+  return stress;
+}
+
+Value StressCase::description() const {
+  constexpr double kDegrees = 180.0 / pi;
+  Value::Map out{{"gel", gel.shape.outline == GelShape::Outline::disc ? "disc" : "rectangle"},
+                 {"gel_vertices", static_cast<std::int64_t>(gel.mesh.num_vertices())},
+                 {"thickness_mm", 1e3 * gel.shape.thickness_m},
+                 {"front_edge_mm", 1e3 * gel.front_edge_m},
+                 {"law", sensor.material.law},
+                 {"youngs_modulus_pa", sensor.material.youngs_modulus_pa},
+                 {"poissons_ratio", sensor.material.poissons_ratio},
+                 {"object", object.kind},
+                 {"object_vertices", static_cast<std::int64_t>(object.mesh.num_vertices())},
+                 {"size_mm", 1e3 * object.size_m},
+                 {"half_angle_deg", kDegrees * object.half_angle_rad},
+                 {"tilt_deg", kDegrees * object.tilt_rad},
+                 {"depth_mm", 1e3 * depth_m},
+                 {"contact_radius_mm", 1e3 * contact_radius_m},
+                 {"friction", press.friction ? press.friction->coefficient : 0.0},
+                 {"lag", !press.friction            ? "none"
+                         : press.friction->iterated ? "iterated"
+                                                    : "once"},
+                 {"pairs", press.pair_counting.once ? "once" : "every"}};
+  Value::List phases;
+  for (const Phase& phase : sample.motion) {
+    Value::Map line{{"kind", name_of(phase.kind)}, {"steps", phase.steps}};
+    if (phase.kind == PhaseKind::shear) line.emplace_back("distance_mm", 1e3 * phase.shift_m.norm());
+    if (phase.angle_rad != 0.0) line.emplace_back("angle_deg", kDegrees * phase.angle_rad);
+    phases.emplace_back(std::move(line));
+  }
+  out.emplace_back("motion", std::move(phases));
+  return out;
+}
+
+Value StressResult::to_value() const {
+  Value::Map out{{"outcome", name_of(outcome)}};
+  if (outcome != StressOutcome::converged) out.emplace_back("reason", reason);
+  const Value::Map rest{{"frames_asked", frames_asked},
+                        {"frames", frames},
+                        {"time_steps", time_steps},
+                        {"newton_iterations", newton_iterations},
+                        {"moving_iterations", moving_iterations},
+                        {"lag_iterations", lag_iterations},
+                        {"min_distance_m", min_distance_m},
+                        {"min_volume_ratio", min_volume_ratio},
+                        {"press_force_n", press_force_n}};
+  out.insert(out.end(), rest.begin(), rest.end());
+  return out;
+}
+
+StressResult run_stress_case(const StressCase& stress, const ProgressObserver& observe) {
+  StressResult result;
+  for (const Phase& phase : stress.sample.motion) result.frames_asked += phase.steps;
+  Tally tally(result);
+  try {
+    simulate(stress.sensor, stress.gel.mesh, stress.object.mesh, stress.press, stress.sample, "-z", observe, &tally);
+  } catch (const VerdictError& error) {
+    result.outcome = outcome_of(error.miss());
+    result.reason = error.what();
+  } catch (const SolverError& error) {
+    result.outcome = StressOutcome::not_converged;
+    result.reason = error.what();
+  }
+  return result;
+}
+
+}  // namespace tacipc::verify

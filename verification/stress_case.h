@@ -1,0 +1,50 @@
+// One case of the stress campaign: drawn from seed and index, run and judged.
+#pragma once
+
+#include <string>
+
+#include "common/base/value.h"
+#include "stages/gel/press/simulate.h"
+#include "verification/stress_gel.h"
+#include "verification/stress_object.h"
+
+namespace tacipc::verify {
+
+struct StressCase {
+  Sensor sensor;
+  StressGel gel;
+  StressObject object;
+  PressConfig press;
+  SampleSpec sample;
+  double depth_m = 0.0;
+  double contact_radius_m = 0.0;  // of the object at that depth
+
+  /// What was drawn, for the record.
+  Value description() const;
+};
+
+/// \throw DataError where a gel cannot be meshed
+StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64_t index);
+
+/// How a case ended. `intersected` and `inverted` are what must never happen, by the exact tests of the verdict.
+enum class StressOutcome { converged, not_converged, intersected, inverted };
+const char* name_of(StressOutcome outcome);
+
+struct StressResult {
+  StressOutcome outcome = StressOutcome::converged;
+  std::string reason;    // the solver's words, unless it converged
+  int frames_asked = 0;  // beyond frame 0
+  int frames = 0;        // that were reached
+  int time_steps = 0;    // of these
+  int newton_iterations = 0, moving_iterations = 0, lag_iterations = 0;
+  double min_distance_m = 0.0;  // over the frames reached, frame 0 included
+  double min_volume_ratio = 1.0;
+  double press_force_n = 0.0;  // largest
+
+  Value to_value() const;
+};
+
+/// Runs a case. What the solver or the verdict refuse is a result.
+StressResult run_stress_case(const StressCase& stress, const ProgressObserver& observe);
+
+}  // namespace tacipc::verify

@@ -1,0 +1,242 @@
+#include "verification/stress_object.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/make_mesh.h"
+#include "verification/object_shapes.h"
+
+namespace tacipc::verify {
+namespace {
+
+using std::numbers::pi;
+
+double longest_edge_m(const TriangleMesh& mesh) {
+  double longest = 0.0;
+  for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      longest = std::max(
+          longest,
+          (mesh.positions.row(mesh.triangles(f, k)) - mesh.positions.row(mesh.triangles(f, (k + 1) % 3))).norm());
+    }
+  }
+  return longest;
+}
+
+double largest_extent(const Positions& x) { return (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff(); }
+
+/// Tip down at the origin, n sides, height 1.
+TriangleMesh pyramid(int sides, double half_angle_rad) {
+  std::vector<Vector3> points{Vector3::Zero()};
+  std::vector<std::array<int, 3>> triangles;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * pi * i / sides, radius = std::tan(half_angle_rad);
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 1.0);
+    const int a = 1 + i, b = 1 + (i + 1) % sides;
+    triangles.push_back({0, b, a});
+    if (i > 0 && i + 1 < sides) triangles.push_back({1, a, b});
+  }
+  return make_mesh(points, triangles);
+}
+
+/// A sphere whose radius is 1 plus bumps and dents at random places.
+TriangleMesh blob(int n, Draws& draws) {
+  TriangleMesh mesh = octahedral_sphere(n);
+  struct Bump {
+    Vector3 at;
+    double height, width;
+  };
+  std::vector<Bump> bumps(static_cast<std::size_t>(3 + draws.below(8)));
+  for (Bump& bump : bumps) {
+    const double z = draws.in({-1.0, 1.0}), angle = draws.in({0.0, 2.0 * pi}), r = std::sqrt(1.0 - z * z);
+    bump = {{r * std::cos(angle), r * std::sin(angle), z}, draws.in({-0.3, 0.5}), draws.in({0.2, 0.6})};
+  }
+  for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v) {
+    const Vector3 at = mesh.positions.row(v);
+    double radius = 1.0;
+    for (const Bump& bump : bumps)
+      radius += bump.height * std::exp(-(at - bump.at).squaredNorm() / (bump.width * bump.width));
+    mesh.positions.row(v) = std::max(radius, 0.3) * at;
+  }
+  return mesh;
+}
+
+/// A rotation from (0, 1)³, evenly distributed over all of them (Shoemake).
+Matrix3 any_rotation(Draws& draws) {
+  const double u = draws.unit(), a = 2.0 * pi * draws.unit(), b = 2.0 * pi * draws.unit();
+  return Eigen::Quaterniond(std::sqrt(u) * std::cos(b), std::sqrt(1.0 - u) * std::sin(a),
+                            std::sqrt(1.0 - u) * std::cos(a), std::sqrt(u) * std::sin(b))
+      .toRotationMatrix();
+}
+
+Matrix3 leaning(double tilt_rad, double direction_rad) {
+  const Vector3 axis(-std::sin(direction_rad), std::cos(direction_rad), 0.0);
+  return Eigen::AngleAxisd(tilt_rad, axis).toRotationMatrix();
+}
+
+/// Pieces of a circle of this radius no longer than an edge.
+int pieces(double radius, double edge, int least) {
+  return std::max(least, static_cast<int>(std::ceil(2.0 * pi * radius / edge)));
+}
+
+}  // namespace
+
+TriangleMesh split_triangles(TriangleMesh mesh, double edge_m, int max_vertices) {
+  while (longest_edge_m(mesh) > edge_m && 4 * mesh.num_vertices() <= max_vertices) {
+    std::vector<Vector3> points;
+    for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v) points.emplace_back(mesh.positions.row(v));
+    std::map<std::pair<int, int>, int> middle;
+    const auto middle_of = [&](int a, int b) {
+      const auto [found, is_new] = middle.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
+      if (is_new) points.emplace_back(0.5 * (points[a] + points[b]));
+      return found->second;
+    };
+    std::vector<std::array<int, 3>> triangles;
+    for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
+      const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
+      const int ab = middle_of(a, b), bc = middle_of(b, c), ca = middle_of(c, a);
+      for (const std::array<int, 3>& part :
+           {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}})
+        triangles.push_back(part);
+    }
+    mesh = make_mesh(points, triangles);
+  }
+  return mesh;
+}
+
+TriangleMesh octahedral_sphere(int n) {
+  std::vector<Vector3> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::map<std::array<int, 3>, int> number;
+  for (int octant = 0; octant < 8; ++octant) {
+    const int sx = octant & 1 ? -1 : 1, sy = octant & 2 ? -1 : 1, sz = octant & 4 ? -1 : 1;
+    const auto vertex = [&](int i, int j) {
+      const std::array<int, 3> at{sx * i, sy * j, sz * (n - i - j)};
+      const auto [found, is_new] = number.try_emplace(at, static_cast<int>(points.size()));
+      if (is_new) points.push_back(Vector3(at[0], at[1], at[2]).normalized());
+      return found->second;
+    };
+    const auto add = [&](int a, int b, int c) {
+      if (sx * sy * sz < 0) std::swap(b, c);
+      triangles.push_back({a, b, c});
+    };
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        add(vertex(i, j), vertex(i + 1, j), vertex(i, j + 1));
+        if (i + j + 1 < n) add(vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+      }
+    }
+  }
+  return make_mesh(points, triangles);
+}
+
+TriangleMesh torus(double tube, int around, int across) {
+  std::vector<Vector3> points;
+  std::vector<std::array<int, 3>> triangles;
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double u = 2.0 * pi * i / around, v = 2.0 * pi * j / across, radius = 1.0 + tube * std::cos(v);
+      points.emplace_back(radius * std::cos(u), radius * std::sin(u), tube * std::sin(v));
+      const int a = i * across + j, b = (i + 1) % around * across + j;
+      const int c = (i + 1) % around * across + (j + 1) % across, d = i * across + (j + 1) % across;
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    }
+  }
+  return make_mesh(points, triangles);
+}
+
+double contact_radius_m(const TriangleMesh& mesh, double depth_m) {
+  const double level = mesh.positions.col(2).minCoeff() + depth_m;
+  std::vector<Eigen::Vector2d> points;
+  for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 a = mesh.positions.row(mesh.triangles(f, k)),
+                    b = mesh.positions.row(mesh.triangles(f, (k + 1) % 3));
+      if (a.z() <= level) points.emplace_back(a.head<2>());
+      if ((a.z() <= level) != (b.z() <= level)) {
+        const Vector3 at = a + (level - a.z()) / (b.z() - a.z()) * (b - a);
+        points.emplace_back(at.head<2>());
+      }
+    }
+  }
+  Eigen::Vector2d low = points.front(), high = points.front();
+  for (const auto& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  double radius = 0.0;
+  for (const auto& p : points) radius = std::max(radius, (p - 0.5 * (low + high)).norm());
+  return radius;
+}
+
+StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, Draws& draws) {
+  StressObject object;
+  object.kind = ranges.kinds[static_cast<std::size_t>(draws.below(static_cast<int>(ranges.kinds.size())))];
+  object.size_m = draws.in(ranges.size_m);
+  object.edge_m = gel_edge_m * draws.log(ranges.edges_over_gel);
+  const double half_angle = draws.in(ranges.half_angle_rad);
+  const bool upright = draws.chance(ranges.exact_share);
+  object.tilt_rad = upright ? 0.0 : draws.in({0.0, ranges.tilt_rad});
+  const double direction = draws.in({0.0, 2.0 * pi}), spin = draws.in({0.0, 2.0 * pi});
+  const Matrix3 spun = Eigen::AngleAxisd(spin, Vector3::UnitZ()).toRotationMatrix();
+  Matrix3 turn = leaning(object.tilt_rad, direction) * spun;
+
+  // Every shape is first made in a size of about 1; `edge` is the wanted edge in that size, not finer than allowed.
+  const auto edge_for = [&](double extent, double area) {
+    return std::max(object.edge_m * extent / object.size_m, std::sqrt(1.16 * area / ranges.max_vertices));
+  };
+  const auto prism = [&](std::vector<Eigen::Vector2d> polygon, double length) { return extrude(polygon, length, 1); };
+  if (object.kind == "cone") {
+    const double radius = std::tan(half_angle), slope = std::hypot(1.0, radius);
+    object.half_angle_rad = half_angle;
+    ObjectShape cone{.kind = ObjectShape::Kind::cone, .radius_m = radius, .height_m = 1.0};
+    cone.edge_m = edge_for(std::max(1.0, 2.0 * radius), pi * radius * slope);
+    object.mesh = make_object(cone, {});
+  } else if (object.kind == "pyramid") {
+    object.half_angle_rad = half_angle;
+    object.mesh = pyramid(3 + draws.below(4), half_angle);
+  } else if (object.kind == "wedge") {
+    object.half_angle_rad = half_angle;
+    const double half_width = std::tan(half_angle);
+    object.mesh = prism({{0.0, 0.0}, {half_width, 1.0}, {-half_width, 1.0}}, draws.in({0.3, 2.0}));
+  } else if (object.kind == "box") {
+    const double a = draws.in({0.2, 1.0}), b = draws.in({0.2, 1.0});
+    object.mesh = prism({{-a / 2, -b / 2}, {a / 2, -b / 2}, {a / 2, b / 2}, {-a / 2, b / 2}}, 1.0);
+    const int stands_on = draws.below(3);  // a corner, an edge, a face
+    const Matrix3 any = any_rotation(draws);
+    const double roll = draws.in({0.0, pi / 2});
+    object.tilt_rad = 0.0;
+    if (stands_on == 0) turn = any;
+    if (stands_on > 0) {
+      turn = spun * Eigen::AngleAxisd(stands_on == 1 ? roll : 0.0, Vector3::UnitY()).toRotationMatrix();
+    }
+  } else if (object.kind == "sphere" || object.kind == "blob") {
+    const double edge = edge_for(2.0, 4.0 * pi);
+    const int n = std::max(2, static_cast<int>(std::ceil(pi / 2 / edge)));
+    object.mesh = object.kind == "sphere" ? octahedral_sphere(n) : blob(n, draws);
+    turn = any_rotation(draws);
+  } else if (object.kind == "cylinder") {
+    const double radius = draws.in({0.1, 0.5});
+    const int sides = pieces(radius, edge_for(1.0, 2.0 * pi * radius), 8);
+    std::vector<Eigen::Vector2d> polygon;
+    for (int i = 0; i < sides; ++i)
+      polygon.emplace_back(radius * std::sin(2.0 * pi * i / sides), -radius * std::cos(2.0 * pi * i / sides));
+    object.mesh = prism(polygon, 1.0);
+  } else {
+    const double tube = draws.in({0.2, 0.6});
+    const double edge = edge_for(2.0 + 2.0 * tube, 4.0 * pi * pi * tube);
+    object.mesh = torus(tube, pieces(1.0, edge, 8), pieces(tube, edge, 5));
+  }
+  object.mesh.positions *= object.size_m / largest_extent(object.mesh.positions);
+  if (object.kind == "pyramid" || object.kind == "wedge" || object.kind == "box" || object.kind == "cylinder")
+    object.mesh = split_triangles(std::move(object.mesh), object.edge_m, ranges.max_vertices);
+  object.mesh.positions *= turn.transpose();
+  object.mesh.positions.col(2).array() -= object.mesh.positions.col(2).minCoeff();
+  return object;
+}
+
+}  // namespace tacipc::verify

@@ -1,0 +1,36 @@
+// Puts the cases of a stress campaign together. The record's `holds` says whether the campaign does.
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/stage/stage.h"
+#include "verification/stress_summary.h"
+
+using namespace tacipc;
+
+namespace {
+
+const StageSpec kStressTable{.name = "stress_table",
+                             .summary = "Put the cases of a stress campaign together as one page.",
+                             .inputs = {{"--case", "folder of a case", true, true}},
+                             .options = {{"--seed", "seed of the campaign", "1"}}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kStressTable, argc, argv, [](Stage& stage) {
+    std::vector<verify::StressLine> lines;
+    for (const auto& folder : stage.inputs("--case")) lines.push_back(verify::read_stress_line(folder));
+    write_file(stage.output("summary.md"), verify::to_markdown(lines, stage.option("--seed")));
+    const verify::StressSummary sum = verify::summarize(lines);
+    const std::string found = verify::found(sum, stage.option("--seed"));
+    log_info("{}: {}", found, sum.holds() ? "holds" : "DOES NOT HOLD");
+    stage.summarize({{"cases", sum.cases},
+                     {"converged", sum.converged},
+                     {"not_converged", sum.not_converged},
+                     {"intersected", sum.intersected},
+                     {"inverted", sum.inverted},
+                     {"crashed", sum.crashed},
+                     {"holds", sum.holds()},
+                     {"found", found}});
+  });
+}
