@@ -5,7 +5,6 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/command/command_run.h"
 #include "common/command/file_commands.h"
 #include "common/config/config.h"
 #include "common/config/key_path.h"
@@ -53,48 +52,30 @@ std::string keys_of(const Value& value, const std::string& place) {
 
 }  // namespace
 
-int get_command(const std::vector<std::string>& arguments) {
-  CLI::App app("Prints values of a record or configuration (YAML), one line each; of a list one line per item.");
-  std::string file, fallback;
-  std::vector<std::string> paths;
-  bool only_keys = false;
-  std::string joined_fields;
-  app.add_option("file", file, "the record or configuration")->required()->type_name("FILE");
-  app.add_option("key", paths, "keys that lead to a value, joined by points; items of lists as [0]")
-      ->required()
-      ->type_name("KEY");
-  auto* has_fallback = app.add_option("--default", fallback, "printed for what is not there")->type_name("TEXT");
-  app.add_flag("--keys", only_keys, "the keys of a map instead of what they hold");
-  app.add_option("--fields", joined_fields,
-                 "of a list of maps: these of each (a,b,c), a line for each, separated by tabs")
-      ->type_name("NAMES")
-      ->excludes("--keys");
-  return run_command("get", app, arguments, [&] {
-    std::optional<Value> content;
-    std::error_code error;
-    if (!*has_fallback || std::filesystem::exists(file, error)) {
-      ConfigReader in = ConfigReader::from_file(file);
-      for (const std::string& key : in.keys()) in.ignore(key);
-      in.finish();
-      content = in.content();
+std::string get_values(const GetRequest& request) {
+  std::optional<Value> content;
+  std::error_code error;
+  if (!request.fallback || std::filesystem::exists(request.file, error)) {
+    ConfigReader in = ConfigReader::from_file(request.file);
+    for (const std::string& key : in.keys()) in.ignore(key);
+    in.finish();
+    content = in.content();
+  }
+  std::string lines;
+  for (const std::string& path : request.keys) {
+    const std::string place = fmt::format("{}: {}", request.file, path);
+    const KeyPath found = content ? follow(*content, path) : KeyPath{.steps = {}, .rest = path, .at = nullptr};
+    if (found.rest.empty()) {
+      lines += request.only_keys         ? keys_of(*found.at, place)
+               : !request.fields.empty() ? rows_of(*found.at, request.fields, place)
+                                         : lines_of(*found.at, place);
+    } else if (request.fallback) {
+      lines += *request.fallback + "\n";
+    } else {
+      throw DataError("{}: there is no such key{}", place, suggestion(*found.at, first_key(found.rest)));
     }
-    const std::vector<std::string> fields = names_of(joined_fields);
-    std::string lines;
-    for (const std::string& path : paths) {
-      const std::string place = fmt::format("{}: {}", file, path);
-      const KeyPath found = content ? follow(*content, path) : KeyPath{.steps = {}, .rest = path, .at = nullptr};
-      if (found.rest.empty()) {
-        lines += only_keys         ? keys_of(*found.at, place)
-                 : !fields.empty() ? rows_of(*found.at, fields, place)
-                                   : lines_of(*found.at, place);
-      } else if (*has_fallback) {
-        lines += fallback + "\n";
-      } else {
-        throw DataError("{}: there is no such key{}", place, suggestion(*found.at, first_key(found.rest)));
-      }
-    }
-    fmt::print("{}", lines);
-  });
+  }
+  return lines;
 }
 
 }  // namespace tacipc

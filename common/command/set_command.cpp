@@ -4,7 +4,6 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/command/command_run.h"
 #include "common/command/file_commands.h"
 #include "common/config/config_text.h"
 
@@ -26,33 +25,18 @@ void apply(ConfigText& text, const std::string& change) {
 
 }  // namespace
 
-int set_command(const std::vector<std::string>& arguments) {
-  CLI::App app(
-      "Prints a configuration (YAML) with some of its values changed; layout and comments of the rest stay.\n"
-      "  KEY=VALUE   changes a value that is there\n"
-      "  +KEY=VALUE  adds a key that is not there\n"
-      "  -KEY        takes a key out\n"
-      "Keys are joined by points, items of lists are [0]; a value is YAML on one line.");
-  std::string file;
-  std::vector<std::string> changes;
-  app.add_option("file", file, "the configuration")->required()->type_name("FILE");
-  app.add_option("change", changes, "what to change")->type_name("CHANGE");
-  std::vector<std::string> marked = arguments;
-  // What takes a key out is no flag.
-  if (!marked.empty() && !marked.front().starts_with('-')) marked.insert(marked.begin() + 1, "--");
-  return run_command("set", app, marked, [&] {
-    ConfigText text(read_file(file), std::filesystem::path(file).lexically_normal().string());
-    std::vector<std::string> faults;
-    for (const std::string& change : changes) {
-      try {
-        apply(text, change);
-      } catch (const ConfigError& error) {
-        faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-      }
+std::string changed_configuration(const std::filesystem::path& file, const std::vector<std::string>& changes) {
+  ConfigText text(read_file(file), file.lexically_normal().string());
+  std::vector<std::string> faults;
+  for (const std::string& change : changes) {
+    try {
+      apply(text, change);
+    } catch (const ConfigError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
-    if (!faults.empty()) throw ConfigError(faults);
-    fmt::print("{}", text.text());
-  });
+  }
+  if (!faults.empty()) throw ConfigError(faults);
+  return text.text();
 }
 
 }  // namespace tacipc

@@ -21,7 +21,7 @@ std::string plain(const std::string& text) {
 }
 
 /// An argument of a roff request.
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : plain(text)) out += c == '"' ? std::string("\\(dq") : std::string(1, c);
   return out + "\"";
@@ -33,7 +33,7 @@ std::string to_roff(const ManPage& page) {
   std::string upper;
   for (const char c : page.name) upper += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   // No date: the same program gives the same bytes.
-  std::string roff = fmt::format(".TH {} 1 \"\" {} \"TacIPC\"\n", quoted(upper), quoted("TacIPC " + page.version));
+  std::string roff = fmt::format(".TH {} 1 \"\" {} \"TacIPC\"\n", in_quotes(upper), in_quotes("TacIPC " + page.version));
   roff += fmt::format(".SH NAME\n{} \\- {}\n", plain(page.name), plain(page.summary));
   roff += fmt::format(".SH SYNOPSIS\n.B {}\n", plain(page.command));
   for (const ManOption& option : page.options) {
@@ -47,7 +47,7 @@ std::string to_roff(const ManPage& page) {
     roff += fmt::format("\n{}{}\n", plain(option.help), option.note.empty() ? "" : plain(" (" + option.note + ")"));
   }
   for (const ManSection& section : page.sections) {
-    roff += fmt::format(".SH {}\n", quoted(section.title));
+    roff += fmt::format(".SH {}\n", in_quotes(section.title));
     for (std::size_t i = 0; i < section.paragraphs.size(); ++i)
       roff += fmt::format("{}{}\n", i > 0 ? ".PP\n" : "", plain(section.paragraphs[i]));
   }

@@ -169,7 +169,7 @@ void read_summary(const Record& summary, SampleReport& sample) {
 /// What the arrays tell; nothing where they were dropped after packing.
 void add_arrays(const fs::path& folder, const Record& press, SampleReport& sample) {
   if (was_dropped(folder)) {
-    sample.warnings.push_back(
+    sample.warnings.emplace_back(
         "press: its arrays were dropped after packing, so depths per frame, torques and markers are not shown");
     return;
   }

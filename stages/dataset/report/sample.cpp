@@ -26,7 +26,7 @@ void read_render(const fs::path& folder, SampleReport& sample) {
   sample.max_indentation_m = 1e-3 * render.section("summary").required_number("max_indentation_mm");
   if (sample.frames.empty()) return;
   if (was_dropped(folder)) {
-    sample.warnings.push_back("render: its images were dropped after packing");
+    sample.warnings.emplace_back("render: its images were dropped after packing");
     return;
   }
   const std::size_t last = sample.frames.size() - 1;
