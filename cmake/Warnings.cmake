@@ -10,3 +10,5 @@ endif()
 target_compile_options(tacipc_warnings INTERFACE -ffp-contract=off -march=${TACIPC_MARCH})
 # Packs (common/base/simd.h) are passed between inlined functions only, so how they would be passed is no matter.
 target_compile_options(tacipc_warnings INTERFACE -Wno-psabi)
+# GCC 12 suspects its own std::string of these; in headers compiled in advance it no longer knows that they are not ours.
+target_compile_options(tacipc_warnings INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
