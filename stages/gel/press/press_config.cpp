@@ -7,7 +7,9 @@ FrictionConfig FrictionConfig::read(ConfigReader& in) {
   config.coefficient = in.number("coefficient", {.low = 0.0, .high = 10.0});
   config.relative_speed_threshold =
       in.number_or("relative_speed_threshold", 1e-3, {.low = 0.0, .high = 1.0, .open_low = true});
-  config.iterated = in.choice_or("lag", "once", {"once", "iterated"}) == "iterated";
+  const std::string lag = in.choice_or("lag", "once", {"once", "iterated", "iterated_at_minima"});
+  config.iterated = lag != "once";
+  config.only_at_minima = lag == "iterated_at_minima";
   config.max_lag_iterations = in.integer_or("max_lag_iterations", 50, 1);
   config.relative_lag_tolerance = in.number_or("relative_lag_tolerance", 1e-2, Range::positive());
   return config;

@@ -16,6 +16,7 @@ struct FrictionConfig {
   double coefficient = 0.0;               // μ
   double relative_speed_threshold = 0.0;  // ε_v as part of the diagonal per second: slower sliding counts as sticking
   bool iterated = false;                  // normal forces and tangent planes renewed until they fit, else once per step
+  bool only_at_minima = false;            // iterated: not before each iteration of Newton's method
   int max_lag_iterations = 0;
   double relative_lag_tolerance = 0.0;  // residual forces after renewing, as part of the contact force
 

@@ -64,6 +64,7 @@ StepSettings step_settings(const PressConfig& config, const Scales& scales) {
     settings.friction = {.coefficient = friction.coefficient,
                          .speed_threshold_m_s = friction.relative_speed_threshold * scales.diagonal_m,
                          .max_lag_iterations = friction.iterated ? friction.max_lag_iterations : 1,
+                         .renewed_only_at_minima = friction.only_at_minima,
                          .relative_lag_tolerance = friction.relative_lag_tolerance};
   }
   return settings;

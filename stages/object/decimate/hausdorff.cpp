@@ -1,10 +1,11 @@
 #include "stages/object/decimate/hausdorff.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <vector>
 
 #include "stages/object/decimate/surface_topology.h"
 #include "stages/object/decimate/triangle_tree.h"
@@ -66,27 +67,29 @@ OneSided farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const
   const TriangleTree tree(to);
   const double spacing = affordable_spacing(from, config);
   const int num_faces = static_cast<int>(from.num_triangles());
-  const int num_chunks = (num_faces + kChunk - 1) / kChunk;
-  std::vector<OneSided> parts(static_cast<std::size_t>(num_chunks));
-  tbb::parallel_for(0, num_chunks, [&](int chunk) {
-    OneSided& part = parts[chunk];
-    for (int f = chunk * kChunk; f < std::min(num_faces, (chunk + 1) * kChunk); ++f) {
+  std::atomic<double> farthest = 0.0;  // squared; of all threads, and the largest of all samples in the end
+  std::atomic<std::int64_t> samples = 0;
+  tbb::parallel_for(tbb::blocked_range<int>(0, num_faces, kChunk), [&](const auto& chunk) {
+    int near = 0;
+    std::int64_t looked = 0;
+    const auto look = [&](const Vector3& point) {
+      ++looked;
+      double known = farthest.load(std::memory_order_relaxed);
+      // Most samples are nearer than another one: that is seen sooner than how near they are.
+      if (tree.within(point, known, near)) return;
+      const double squared = tree.squared_distance(point);
+      while (squared > known && !farthest.compare_exchange_weak(known, squared, std::memory_order_relaxed)) {
+      }
+    };
+    for (int f = chunk.begin(); f < chunk.end(); ++f) {
       const Lattice lattice(from, f, spacing);
-      const auto look = [&](const Vector3& point) {
-        part.squared = std::max(part.squared, tree.squared_distance(point));
-        ++part.samples;
-      };
       for (int row = 0; row <= lattice.rows; ++row)
         for (int i = 0; i <= lattice.row_steps(row); ++i) look(lattice.point(row, i));
       look((lattice.from + lattice.to + lattice.apex) / 3.0);
     }
+    samples.fetch_add(looked, std::memory_order_relaxed);
   });
-  OneSided all;
-  for (const OneSided& part : parts) {
-    all.squared = std::max(all.squared, part.squared);
-    all.samples += part.samples;
-  }
-  return all;
+  return {.squared = farthest, .samples = samples};
 }
 
 }  // namespace

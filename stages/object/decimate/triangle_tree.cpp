@@ -79,12 +79,30 @@ double TriangleTree::squared_distance(const Vector3& point) const {
   return best;
 }
 
+double TriangleTree::squared_distance(const Vector3& point, int face) const {
+  const auto x = [&](int k) -> Vector3 { return mesh_.positions.row(mesh_.triangles(face, k)).transpose(); };
+  return squared_distance_to_triangle(point, x(0), x(1), x(2));
+}
+
+bool TriangleTree::within(const Vector3& point, double squared, int& face) const {
+  return squared_distance(point, face) <= squared || reaches(0, point, squared, face);
+}
+
+bool TriangleTree::reaches(int n, const Vector3& point, double squared, int& face) const {
+  const Node& node = nodes_[n];
+  if (node.box.squaredExteriorDistance(point) > squared) return false;
+  for (int i = node.first; i < node.last; ++i) {
+    if (squared_distance(point, faces_[i]) > squared) continue;
+    face = faces_[i];
+    return true;
+  }
+  if (node.first < node.last) return false;
+  return reaches(n + 1, point, squared, face) || reaches(nodes_[n + 1].next, point, squared, face);
+}
+
 void TriangleTree::nearest(int n, const Vector3& point, double& best) const {
   const Node& node = nodes_[n];
-  for (int i = node.first; i < node.last; ++i) {
-    const auto x = [&](int k) -> Vector3 { return mesh_.positions.row(mesh_.triangles(faces_[i], k)).transpose(); };
-    best = std::min(best, squared_distance_to_triangle(point, x(0), x(1), x(2)));
-  }
+  for (int i = node.first; i < node.last; ++i) best = std::min(best, squared_distance(point, faces_[i]));
   if (node.first < node.last) return;
   std::pair<double, int> near{0.0, n + 1}, far{0.0, nodes_[n + 1].next};
   near.first = nodes_[near.second].box.squaredExteriorDistance(point);

@@ -20,6 +20,10 @@ class TriangleTree {
   /// Squared distance from a point to the nearest triangle, m²; exact up to rounding.
   double squared_distance(const Vector3& point) const;
 
+  /// Whether some triangle is at most this far from a point: as squared_distance() finds, but at the first that is.
+  /// `face`: where to look first, and afterwards where it was found; any face to begin with.
+  bool within(const Vector3& point, double squared, int& face) const;
+
   /// Calls visit(face) for each face whose box touches `box`, in an order fixed by the mesh.
   template <typename Visit>
   void overlaps(const Eigen::AlignedBox3d& box, Visit&& visit) const {
@@ -48,6 +52,8 @@ class TriangleTree {
     return (a.min().array() <= b.max().array()).all() && (b.min().array() <= a.max().array()).all();
   }
   void build(const std::vector<Eigen::AlignedBox3d>& boxes, int first, int last);
+  bool reaches(int node, const Vector3& point, double squared, int& face) const;
+  double squared_distance(const Vector3& point, int face) const;
   void nearest(int node, const Vector3& point, double& best) const;
 
   const TriangleMesh& mesh_;

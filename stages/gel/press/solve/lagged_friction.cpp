@@ -10,6 +10,10 @@
 namespace tacipc {
 namespace {
 
+// Renewals before iterations of Newton's method end when they change less than this part of the limit, or so many have
+// not halved the change.
+constexpr double kSettledPart = 0.3;
+constexpr int kMostRenewals = 6;
 constexpr double kLagSlack = 0.5;        // part of each gap left where friction is lagged once
 constexpr double kLooseness = 10.0;      // factor on the tolerances while friction is still to be renewed
 constexpr double kFarFromSettled = 5.0;  // × the limit of the friction residual, above which tolerances stay loose
@@ -20,7 +24,7 @@ constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
 }  // namespace
 
 std::shared_ptr<const Friction> TimeStepper::friction_at(const Positions& lagged, const Step& step) {
-  return std::make_shared<const Friction>(barrier(pairs_at(lagged)), lagged, step.start,
+  return std::make_shared<const Friction>(*barrier(pairs_at(lagged)), lagged, step.start,
                                           settings_.friction->speed_threshold_m_s * step.goal.h_s);
 }
 
@@ -28,7 +32,11 @@ void TimeStepper::start_friction(Step& step) {
   if (!settings_.friction) return;
   if (settings_.friction->max_lag_iterations > 1) {
     step.friction = friction_at(step.start, step);
-    step.looseness = kLooseness;
+    if (settings_.friction->renewed_only_at_minima || settings_.augmented_lagrangian) {
+      step.looseness = kLooseness;
+    } else {
+      step.renewals_left = kMostRenewals;
+    }
     return;
   }
   // Normal forces and tangent planes are those after the object alone has moved as far as half of every gap allows, so
@@ -44,27 +52,58 @@ void TimeStepper::start_friction(Step& step) {
   step.friction = friction_at(step.start + motion, step);
 }
 
+double TimeStepper::friction_change(const Friction& renewed, const Step& step) const {
+  const Positions change = gradient_of(renewed, step.x) - gradient_of(*step.friction, step.x);
+  double sum = 0.0;
+  for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
+  return settings_.friction->coefficient * step.weights.barrier_stiffness_j_m4 * sum;
+}
+
+double TimeStepper::friction_limit(const Step& step) const {
+  return std::max(settings_.newton.force_tolerance_n,
+                  settings_.friction->relative_lag_tolerance * step.report.contact_force_n);
+}
+
+void TimeStepper::renew_friction(Step& step, Minimisation& run) {
+  auto renewed = std::make_shared<const Friction>(*run.barrier, step.x, step.start,
+                                                  settings_.friction->speed_threshold_m_s * step.goal.h_s);
+  if (step.arrived) {
+    const double change = friction_change(*renewed, step);
+    log_debug("  renewal {}: {:.3e} N", step.report.lag_iterations + 1, change);
+    if (change < 0.5 * step.least_friction_change_n) {
+      step.least_friction_change_n = change;
+      step.renewals_left = kMostRenewals;
+    }
+    // What is left changes less than the tolerance; or vertices go to and fro, which only friction that stays ends.
+    if (--step.renewals_left == 0 || change <= kSettledPart * friction_limit(step)) {
+      step.renewals_left = 0;
+      return;
+    }
+  }
+  ++step.report.lag_iterations;
+  step.friction = std::move(renewed);
+  run.energy = potential(step, run.barrier);
+  run.value.reset();
+}
+
 void TimeStepper::settle_friction(Step& step) {
   if (!settings_.friction) return;
   const FrictionSettings& friction = *settings_.friction;
   StepReport& report = step.report;
   double renewal = 1.0, last_residual = std::numeric_limits<double>::infinity();
+  int renewed_here = 0;
   while (true) {
     // The residual force if normal forces and tangent planes were renewed now.
     const auto renewed = friction_at(step.x, step);
-    const Positions change = gradient_of(*renewed, step.x) - gradient_of(*step.friction, step.x);
-    double sum = 0.0;
-    for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
-    report.friction_residual_n = friction.coefficient * step.weights.barrier_stiffness_j_m4 * sum;
+    report.friction_residual_n = friction_change(*renewed, step);
     log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", report.lag_iterations, report.friction_residual_n,
               report.contact_force_n);
-    const double limit =
-        std::max(settings_.newton.force_tolerance_n, friction.relative_lag_tolerance * report.contact_force_n);
+    const double limit = friction_limit(step);
     // Renewed once at least: else some steps would keep older friction than others, and forces would jump between them
     // by as much as the tolerance allows.
     const bool renewed_once = report.lag_iterations > 0 || friction.max_lag_iterations == 1;
     const bool settled = report.friction_residual_n <= (renewed_once ? limit : settings_.newton.force_tolerance_n);
-    const bool last = report.lag_iterations + 1 >= friction.max_lag_iterations;
+    const bool last = renewed_here + 1 >= friction.max_lag_iterations;
     if ((settled || last) && step.looseness == 1.0) {
       if (settled || friction.max_lag_iterations == 1) return;
       throw SolverError("friction did not settle: residual {:.2e} N after it was renewed {} times (limit {:.2e})",
@@ -74,6 +113,7 @@ void TimeStepper::settle_friction(Step& step) {
       step.looseness = 1.0;
     } else {
       ++report.lag_iterations;
+      ++renewed_here;
       if (report.friction_residual_n > kSlowRenewal * last_residual)
         renewal = std::max(0.5 * renewal, kSmallestRenewal);
       last_residual = report.friction_residual_n;

@@ -49,7 +49,8 @@ void raise_shares_of_farthest(const Positions& p, Blend& blend) {
 
 void TimeStepper::minimise(Step& step) {
   const StepReport& report = step.report;
-  Minimisation run{.energy = potential(step, pairs_at(step.x))};
+  Minimisation run{.barrier = barrier(pairs_at(step.x)), .energy = {}};
+  run.energy = potential(step, run.barrier);
   while (true) {
     if (run.iterations >= settings_.newton.max_iterations) {
       throw SolverError(
@@ -59,13 +60,15 @@ void TimeStepper::minimise(Step& step) {
           report.force_residual_n, report.contact_force_n, smallest_gap(step.x, settings_.d_hat_m));
     }
     const bool moving = !step.arrived && run.relaxations_left == 0;
+    if (step.renewals_left > 0) renew_friction(step, run);
     const NewtonDirection direction = find_direction(step, run, moving);
     const bool converged = within_tolerances(step, direction);
     if (converged && is_final(step, run, direction)) return;
 
     std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
     const double limit = step_limit(pairs, step, direction.p, moving ? kMovingSlack : kNewtonSlack);
-    run.energy = potential(step, std::move(pairs));
+    run.barrier = barrier(std::move(pairs));
+    run.energy = potential(step, run.barrier);
     double alpha = limit;
     const char* const kind = moving ? "move" : step.arrived ? "newton" : "relax";
     if (moving) {
@@ -80,7 +83,8 @@ void TimeStepper::minimise(Step& step) {
       alpha = *found;
       if (!step.arrived) --run.relaxations_left;
       if (step.arrived && !converged && relax_patch(step, direction)) {
-        run.energy = potential(step, pairs_at(step.x));
+        run.barrier = barrier(pairs_at(step.x));
+        run.energy = potential(step, run.barrier);
         run.value.reset();
       }
     }

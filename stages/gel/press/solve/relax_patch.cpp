@@ -77,7 +77,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity, &terms.elasticity})
     *term = restricted(*term, patch.moves);
   terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
-  terms.barrier = std::make_shared<ContactBarrier>(barrier(pairs));
+  terms.barrier = barrier(pairs);
   const IncrementalPotential energy = make_incremental_potential(terms, step.weights);
 
   NewtonStepper newton(patch.free, mesh_.num_gel_vertices, terms.elasticity, settings_.linear_solver);

@@ -43,9 +43,9 @@ void TimeStepper::record_forces(const Step& step) {
     for (const int v : gel_.glued) forces_.mount.row(v) -= force.row(v);
   };
   forces_ = no_forces();
-  const std::vector<ContactPair> pairs = pairs_at(step.x);
-  forces_.stand_off_m = stand_off(barrier(pairs), step.x);
-  const IncrementalPotential energy = potential(step, pairs);
+  const auto touching = barrier(pairs_at(step.x));
+  forces_.stand_off_m = stand_off(*touching, step.x);
+  const IncrementalPotential energy = potential(step, touching);
   for (const WeightedTerm& part : energy.terms) {
     if (part.term == step.terms.object_inertia || part.term == step.terms.constraint) continue;
     if (part.term == gel_.elasticity) {

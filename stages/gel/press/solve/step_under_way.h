@@ -24,10 +24,14 @@ struct TimeStepper::Step {
   std::shared_ptr<const Dirichlet> constraint = nullptr;
   Blend blend;             // of the contact Hessian, once the object has arrived
   double looseness = 1.0;  // factor on the tolerances, while friction is still to be renewed
+  /// How often friction may still be renewed before an iteration of Newton's method, instead of at its minima.
+  int renewals_left = 0;
+  double least_friction_change_n = std::numeric_limits<double>::infinity();  // of those renewals since arrival
 };
 
 /// Newton's method at work on one minimum: what an iteration leaves for the next.
 struct TimeStepper::Minimisation {
+  std::shared_ptr<const ContactBarrier> barrier;
   IncrementalPotential energy;
   std::optional<double> value = std::nullopt;  // of the energy at x, where the line search has found it
   double residual_m_s = std::numeric_limits<double>::infinity();  // max |p| / h of the last direction

@@ -46,15 +46,16 @@ TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettin
   elasticity_at_mount_ = restricted(gel_.elasticity, held);
 }
 
-IncrementalPotential TimeStepper::potential(const Step& step, std::vector<ContactPair> pairs) const {
+IncrementalPotential TimeStepper::potential(const Step& step, std::shared_ptr<const ContactBarrier> barrier) const {
   StepTerms terms = step.terms;
   terms.friction = step.friction;
-  terms.barrier = std::make_shared<ContactBarrier>(barrier(std::move(pairs)));
+  terms.barrier = std::move(barrier);
   return make_incremental_potential(terms, step.weights);
 }
 
-ContactBarrier TimeStepper::barrier(std::vector<ContactPair> pairs) const {
-  return {mesh_, weighted(std::move(pairs), mesh_, settings_.pair_counting), settings_.d_hat_m};
+std::shared_ptr<const ContactBarrier> TimeStepper::barrier(std::vector<ContactPair> pairs) const {
+  return std::make_shared<ContactBarrier>(mesh_, weighted(std::move(pairs), mesh_, settings_.pair_counting),
+                                          settings_.d_hat_m);
 }
 
 std::vector<ContactPair> TimeStepper::pairs_at(const Positions& x) {

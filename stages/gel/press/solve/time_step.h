@@ -27,6 +27,7 @@ struct FrictionSettings {
   double coefficient = 0.0;
   double speed_threshold_m_s = 0.0;  // ε_v
   int max_lag_iterations = 1;        // 1: normal forces and tangent planes of the start of the step
+  bool renewed_only_at_minima = false;
   double relative_lag_tolerance = 0.0;
 };
 
@@ -161,16 +162,22 @@ class TimeStepper {
 
   /// Friction of this step with normal forces and tangent planes of `lagged`. \pre there is friction
   std::shared_ptr<const Friction> friction_at(const Positions& lagged, const Step& step);
+  /// Σ over free vertices of |force| by which other friction would differ from that of the step, at its x.
+  double friction_change(const Friction& renewed, const Step& step) const;
+  /// What that may be at the end.
+  double friction_limit(const Step& step) const;
+  /// Friction and the energy with normal forces and tangent planes of where the gel is now.
+  void renew_friction(Step& step, Minimisation& run);
   /// The friction that the first minimum is sought with, if there is any.
   void start_friction(Step& step);
   /// From a minimum: renews friction and minimises again until it belongs to its own contact forces.
   /// \throw SolverError if it does not settle
   void settle_friction(Step& step);
 
-  ContactBarrier barrier(std::vector<ContactPair> pairs) const;
+  std::shared_ptr<const ContactBarrier> barrier(std::vector<ContactPair> pairs) const;
   std::vector<ContactPair> pairs_at(const Positions& x);                         // within d̂ at x
   std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);  // or anywhere between x and x + p
-  IncrementalPotential potential(const Step& step, std::vector<ContactPair> pairs) const;
+  IncrementalPotential potential(const Step& step, std::shared_ptr<const ContactBarrier> barrier) const;
 
   const ContactMesh& mesh_;
   GelModel gel_;

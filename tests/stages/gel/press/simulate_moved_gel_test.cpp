@@ -91,6 +91,31 @@ TEST(MovedGel, GoesOnFromAnyFrameToTheSameBytes) {
   }
 }
 
+TEST(MovedGel, FrictionRenewedBeforeIterationsIsThatRenewedAtMinima) {
+  const TriangleMesh object = pyramid(0.003, 0.002);
+  PressConfig config = friction_config(0.7);
+  config.relative_velocity_tolerance = 1e-5;
+  config.relative_force_tolerance = 1e-6;
+  config.friction->relative_lag_tolerance = 1e-5;
+  SampleSpec sample;
+  sample.motion = {{.kind = PhaseKind::press, .steps = 3, .depth_m = 0.3e-3},
+                   {.kind = PhaseKind::shear, .steps = 3, .shift_m = {0.3e-3, 0.1e-3, 0.0}}};
+  const Simulation often = run(object, config, sample);
+  config.friction->only_at_minima = true;
+  const Simulation at_minima = run(object, config, sample);
+  config.friction->iterated = false;
+  const Simulation once = run(object, config, sample);
+  double lag_matters = 0.0;
+  for (std::size_t f = 1; f < often.frames.size(); ++f) {
+    const double force = at_minima.frames[f].force_n.norm();
+    EXPECT_LT((often.frames[f].force_n - at_minima.frames[f].force_n).norm(), 1e-4 * force) << f;
+    EXPECT_LT((often.frames[f].positions - at_minima.frames[f].positions).rowwise().norm().maxCoeff(), 2e-7) << f;
+    EXPECT_GT(often.frames[f].solver.lag_iterations, 0) << f;
+    lag_matters = std::max(lag_matters, (once.frames[f].force_n - at_minima.frames[f].force_n).norm() / force);
+  }
+  EXPECT_GT(lag_matters, 5e-3);  // the yardstick tells friction lagged once from both
+}
+
 TEST(MovedGel, DamagedFramesAreRefused) {
   Memory whole;
   run(pyramid(0.003, 0.002), paper_config(), press(0.1e-3, 1), &whole);
