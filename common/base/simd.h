@@ -60,6 +60,15 @@ using UnalignedQuad = double __attribute__((vector_size(32), aligned(8), may_ali
 TACIPC_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
 TACIPC_INLINE void store_quad(double* to, const Quad& value) { *reinterpret_cast<UnalignedQuad*>(to) = value; }
 
+/// Four floats as a Quad, and back.
+using UnalignedFloatQuad = float __attribute__((vector_size(16), aligned(4), may_alias));
+TACIPC_INLINE Quad load_quad(const float* from) {
+  return __builtin_convertvector(*reinterpret_cast<const UnalignedFloatQuad*>(from), Quad);
+}
+TACIPC_INLINE void store_quad(float* to, const Quad& value) {
+  *reinterpret_cast<UnalignedFloatQuad*>(to) = __builtin_convertvector(value, UnalignedFloatQuad);
+}
+
 /// out[l] = (rows[0], rows[1], rows[2], 0) of lane l of the lower (half 0) or upper four lanes.
 TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
   const auto four_of = [&](int r) __attribute__((always_inline)) {

@@ -13,6 +13,8 @@ namespace {
 // Vectors are padded: four numbers per row, the last of them zero, in the order of the sweeps. Blocks of L lie nine
 // numbers apart, so a column loaded as four has a foreign number at its end.
 constexpr std::ptrdiff_t kBlock = 9;
+// Residuals below this part of the right-hand side are found again from the matrix itself.
+constexpr double kFloatTolerance = 1e-4;
 // Rows count as indefinite that contribute at least this part of the most negative contribution to a curvature.
 constexpr double kIndefinitePart = 0.1;
 constexpr int kMinRowsForParts = 4000;  // sweeps go in parts from here on
@@ -52,7 +54,7 @@ struct Blocks {
 
 /// C_r⁻¹ B C_c⁻ᵀ of the blocks below the diagonal in columns first … last − 1.
 TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* values, const double* inverse_cholesky,
-                         double* lower) {
+                         float* lower) {
   constexpr auto kStride = static_cast<std::ptrdiff_t>(BlockMatrix::kStride);
   for (std::ptrdiff_t c = first; c < last; ++c) {
     const double* right = inverse_cholesky + kStride * c;  // columns of C_c⁻¹, zero above the diagonal
@@ -67,23 +69,23 @@ TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* val
         t[j] = l0 * block[across * j] + l1 * block[across * j + down] + l2 * block[across * j + 2 * down];
       // The fourth number of a column is the first of the next, which comes after it; the last one's is left alone, for
       // it may be another part's.
-      double* out = lower + kBlock * k;
+      float* out = lower + kBlock * k;
       store_quad(out, t[0] * right[0]);
       store_quad(out + 3, t[0] * right[1] + t[1] * right[5]);
       const Quad third = t[0] * right[2] + t[1] * right[6] + t[2] * right[10];
-      for (int r = 0; r < 3; ++r) out[6 + r] = third[r];
+      for (int r = 0; r < 3; ++r) out[6 + r] = static_cast<float>(third[r]);
     }
   }
 }
 
 /// p = r + β p, t = (I + Lᵀ)⁻¹ p and q = p − t in rows first … last − 1, where t is known in all that come later.
-TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const double* lower, double beta, const double* r,
+TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* lower, double beta, const double* r,
                             double* p, double* t, double* q) {
   for (std::ptrdiff_t c = last - 1; c >= first; --c) {
     Quad s0 = {}, s1 = {}, s2 = {};
     // Near rows last: they have only just been found.
     for (std::ptrdiff_t k = L.column_start[c + 1] - 1; k >= L.column_start[c]; --k) {
-      const double* block = lower + kBlock * k;
+      const float* block = lower + kBlock * k;
       const Quad tr = load_quad(t + 4 * static_cast<std::ptrdiff_t>(L.row[k]));
       s0 += load_quad(block) * tr;
       s1 += load_quad(block + 3) * tr;
@@ -99,7 +101,7 @@ TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const double* 
 
 /// y = (I + L)⁻¹ y in rows first … last − 1, but t + that where there is a t; what it contributes to the separator's
 /// rows is added to `separator`, which begins with row `separator_row`. Returns pᵀy where there is a p.
-TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const double* lower, const double* t,
+TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const float* lower, const double* t,
                                 const double* p, double* y, double* separator, int separator_row) {
   Quad sum = {};
   for (std::ptrdiff_t c = first; c < last; ++c) {
@@ -109,7 +111,7 @@ TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const doub
     if (p) sum += load_quad(p + 4 * c) * whole;
     const double y0 = yc[0], y1 = yc[1], y2 = yc[2];
     const auto subtract = [&](std::ptrdiff_t k, double* from, int base) __attribute__((always_inline)) {
-      const double* block = lower + kBlock * k;
+      const float* block = lower + kBlock * k;
       double* yr = from + 4 * static_cast<std::ptrdiff_t>(L.row[k] - base);
       store_quad(yr, load_quad(yr) - (load_quad(block) * y0 + load_quad(block + 3) * y1 + load_quad(block + 6) * y2));
     };
@@ -212,7 +214,7 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
   if (!indefinite_rows_.empty()) return false;
   // One number more: the last column is loaded as four, too.
   lower_.resize(static_cast<std::size_t>(kBlock) * order_.row.size() + 1);
-  lower_.back() = 0.0;
+  lower_.back() = 0.0F;
   const auto scale_columns = [&](int /*part*/, int first, int last) {
     scale(Blocks(order_), first, last, matrix.values.data(), inverse_cholesky_.data(), lower_.data());
     return 0.0;
@@ -229,7 +231,7 @@ void ConjugateGradient::find_indefinite_rows() {
   std::vector<double> product = q_;
   for (int c = 0; c < n; ++c) {
     for (int k = order_.column_start[c]; k < order_.column_start[c + 1]; ++k) {
-      const Eigen::Map<const Matrix3> block(lower_.data() + kBlock * k);
+      const Matrix3 block = Eigen::Map<const Eigen::Matrix3f>(lower_.data() + kBlock * k).cast<double>();
       Eigen::Map<Vector3>(product.data() + 4 * static_cast<std::ptrdiff_t>(order_.row[k])) +=
           block * Eigen::Map<const Vector3>(q_.data() + 4 * static_cast<std::ptrdiff_t>(c));
     }
@@ -254,6 +256,17 @@ std::optional<Eigen::VectorXd> ConjugateGradient::factorize(const Eigen::VectorX
 }
 
 std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b) {
+  auto x = iterate(b, std::max(tolerance_, kFloatTolerance));
+  // What rounding the matrix left out of it.
+  for (double left = kFloatTolerance; x && left > tolerance_; left *= kFloatTolerance) {
+    const auto rest = iterate(b - matrix_->multiply(*x), std::max(tolerance_ / left, kFloatTolerance));
+    if (!rest) return std::nullopt;
+    *x += *rest;
+  }
+  return x;
+}
+
+std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd& b, double tolerance) {
   const int n = order_.num_rows(), separator = order_.separator();
   const Blocks L(order_);
   // The fourth numbers of all are zero once and stay so.
@@ -267,7 +280,7 @@ std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b
     return of_parts + rows(separator, n);
   };
   double rr = separator_too([&](int first, int last) { return dot_product(r_.data(), r_.data(), first, last); });
-  const double target = tolerance_ * tolerance_ * rr;
+  const double target = tolerance * tolerance * rr;
   double beta = 0.0;
   for (int i = 0; rr > target; ++i) {
     if (i == max_products_) return factorize(b);

@@ -18,7 +18,8 @@ namespace tacipc {
 /// two sweeps over L with as many operations as a product with A, for less than half of the iterations that D alone as
 /// M takes. In every iteration xᵀAx = xᵀb, so an unfinished solution is a descent direction, too. A gel is thin and
 /// glued at the back: forces reach about a thickness far, and some twenty iterations are enough whatever its size.
-/// Sweeps and sums run in a fixed order. Where the iterations do not suffice, the system is factorised.
+/// L is kept in single precision: a sweep waits for memory, and Newton steps are asked for to a hundredth or a thousandth.
+/// Where more is asked for, solutions are refined with the matrix itself. Sweeps and sums run in a fixed order. Where the iterations do not suffice, the system is factorised.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(double tolerance = 1e-3, int max_products = 1000)
@@ -43,6 +44,7 @@ class ConjugateGradient final : public LinearSolver {
   double over_parts(Part&& part);
   double forward(const double* t, const double* p, double* y);
   void find_indefinite_rows();
+  std::optional<Eigen::VectorXd> iterate(const Eigen::VectorXd& b, double tolerance);
   std::optional<Eigen::VectorXd> factorize(const Eigen::VectorXd& b);
 
   double tolerance_;
@@ -50,7 +52,7 @@ class ConjugateGradient final : public LinearSolver {
   const BlockMatrix* matrix_ = nullptr;
   std::shared_ptr<const BlockPattern> pattern_;  // that order_ belongs to
   SweepOrder order_;
-  std::vector<double> lower_;              // L, scaled, nine numbers a block, as order_ has them
+  std::vector<float> lower_;               // L, scaled, nine numbers a block, as order_ has them
   std::vector<double> inverse_cholesky_;   // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks
   std::vector<double> x_, r_, p_, t_, q_;  // of the last solve; their storage is used again
   std::array<std::vector<double>, kParts> to_separator_;  // from each part in a sweep
