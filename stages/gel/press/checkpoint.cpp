@@ -80,6 +80,8 @@ void solver(auto& io, auto& report) {
   io.plain(report.patches);
   io.plain(report.patch_iterations);
   io.plain(report.lag_iterations);
+  io.plain(report.exact_hessian_waits);
+  io.plain(report.approximated_share);
   io.plain(report.velocity_residual_m_s);
   io.plain(report.force_residual_n);
   io.plain(report.friction_residual_n);
@@ -111,6 +113,7 @@ void contents(auto& io, auto& frame, auto& progress) {
   io.plain(frame.pose_error_m);
   io.plain(frame.intersections);
   io.plain(frame.inverted_tets);
+  io.plain(frame.gel_in_object);
   solver(io, frame.solver);
   io.rows(progress.state.x);
   io.rows(progress.state.velocity_m_s);

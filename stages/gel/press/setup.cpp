@@ -1,6 +1,7 @@
 #include "stages/gel/press/setup.h"
 
 #include <algorithm>
+#include <array>
 
 #include "common/base/error.h"
 #include "common/sensor/averaged_volume.h"
@@ -68,6 +69,24 @@ StepSettings step_settings(const PressConfig& config, const Scales& scales) {
                          .relative_lag_tolerance = friction.relative_lag_tolerance};
   }
   return settings;
+}
+
+bool check_object(const TriangleMesh& object, const PressConfig& config) {
+  std::vector<std::array<int, 2>> edges;
+  for (Eigen::Index t = 0; t < object.num_triangles(); ++t)
+    for (int k = 0; k < 3; ++k) edges.push_back({object.triangles(t, k), object.triangles(t, (k + 1) % 3)});
+  std::sort(edges.begin(), edges.end());
+  const auto alone = std::find_if(edges.begin(), edges.end(), [&](const std::array<int, 2>& edge) {
+    return !std::binary_search(edges.begin(), edges.end(), std::array<int, 2>{edge[1], edge[0]});
+  });
+  const bool outwards = signed_volume(object) > 0.0;
+  if (alone == edges.end() && outwards) return true;
+  if (!config.pair_counting.once) return false;
+  if (alone != edges.end())
+    throw DataError(
+        "the object is not closed: the edge of its vertices {} and {} has one face (barrier.pairs: once counts on it)",
+        (*alone)[0], (*alone)[1]);
+  throw DataError("the object's faces look inwards (barrier.pairs: once counts on their looking outwards)");
 }
 
 void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressConfig& config) {

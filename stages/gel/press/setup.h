@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.h"
+#include "common/mesh/triangle_mesh.h"
 #include "common/sample/sample_spec.h"
 #include "common/sensor/sensor.h"
 #include "stages/gel/press/energy/tet_energy.h"
@@ -30,6 +31,10 @@ GelModel make_gel_model(const Material& material, const TetMesh& gel, const std:
                         const std::string& element);
 
 StepSettings step_settings(const PressConfig& config, const Scales& scales);
+
+/// Whether the object's surface is closed and looks outwards. \throw DataError if it is not, but `pairs: once` counts
+/// on it: which pieces of surface are near a vertex is told by what their edges and corners have in common
+bool check_object(const TriangleMesh& object, const PressConfig& config);
 
 /// \throw DataError or UsageError if the gel or the configuration does not allow the motion.
 void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressConfig& config);

@@ -29,6 +29,7 @@ class Motion {
         settings_(step_settings(config, scales_)),
         rest_tets_(make_rest_tets(gel.positions, gel.tets)) {
     check_motion(sample, sensor, config);
+    closed_ = check_object(object, config);
     for (const Phase& phase : sample.motion) num_frames_ += phase.steps;
     out_.d_hat_m = scales_.d_hat_m;
     out_.gap_horizon_m = scales_.gap_horizon_m;
@@ -106,6 +107,8 @@ class Motion {
       report.patches += before.patches;
       report.patch_iterations += before.patch_iterations;
       report.lag_iterations += before.lag_iterations;
+      report.exact_hessian_waits += before.exact_hessian_waits;
+      report.approximated_share = std::max(report.approximated_share, before.approximated_share);
     } catch (const SolverError& error) {
       if (halvings >= config_.max_halvings) throw;
       log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
@@ -174,6 +177,9 @@ class Motion {
     const IntersectionReport crossings =
         find_intersections({frame.positions, gel_.boundary}, {object_positions, object_.triangles});
     frame.intersections = static_cast<int>(crossings.gel_object + crossings.gel_gel);
+    if (closed_)
+      frame.gel_in_object =
+          winding_number(frame.positions.row(out_.front.vertices[0]), {object_positions, object_.triangles});
     frame.inverted_tets = static_cast<int>(count_inverted_tets(frame.positions, gel_.tets));
     judge(frame);
     log_info(
@@ -199,6 +205,7 @@ class Motion {
                 {.min_gap_m = frame.min_gap_m,
                  .intersections = frame.intersections,
                  .inverted_tets = frame.inverted_tets,
+                 .gel_in_object = frame.gel_in_object,
                  .min_volume_ratio = frame.min_volume_ratio,
                  .velocity_residual_m_s = frame.solver.velocity_residual_m_s,
                  .force_residual_n = frame.solver.force_residual_n,
@@ -225,7 +232,7 @@ class Motion {
   double time_s_ = 0.0;
   Matrix4 placed_, pose_;
   int num_frames_ = 0;
-  bool touched_ = false, restoring_ = true;
+  bool touched_ = false, restoring_ = true, closed_ = false;
   Progress progress_;
 };
 

@@ -33,9 +33,10 @@ struct Frame {
   double min_gap_m = 0.0;    // gel–object, at most `gap_horizon_m`
   double stand_off_m = 0.0;  // mean gap where they press on each other, by force
   double min_volume_ratio = 1.0;
-  double pose_error_m = 0.0;  // largest distance of an object vertex from where its pose puts it
-  int intersections = 0;      // pairs of triangles, by an exact test
-  int inverted_tets = 0;      // the same
+  double pose_error_m = 0.0;   // largest distance of an object vertex from where its pose puts it
+  int intersections = 0;       // pairs of triangles, by an exact test
+  int inverted_tets = 0;       // the same
+  double gel_in_object = 0.0;  // how many times a closed object's surface winds around the gel
   StepReport solver;
 };
 

@@ -1,5 +1,7 @@
 #include "stages/gel/press/verdict.h"
 
+#include <cmath>
+
 namespace tacipc {
 
 void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits) {
@@ -20,6 +22,10 @@ void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& lim
   if (numbers.intersections > kVerdictLimits.intersections) {
     miss("intersections", numbers.intersections, kVerdictLimits.intersections,
          fmt::format("{} pairs of triangles intersect", numbers.intersections));
+  }
+  if (!(std::abs(numbers.gel_in_object) < kVerdictLimits.gel_in_object)) {
+    miss("containment", numbers.gel_in_object, kVerdictLimits.gel_in_object,
+         fmt::format("the gel is inside the object (its surface winds {:.2g} times around it)", numbers.gel_in_object));
   }
   if (numbers.inverted_tets > kVerdictLimits.inverted_tets) {
     miss("inverted_tets", numbers.inverted_tets, kVerdictLimits.inverted_tets,

@@ -11,6 +11,7 @@ namespace tacipc {
 struct VerdictLimits {
   double smallest_distance_m = 0.0;  // between gel and object, must be exceeded
   int intersections = 0;             // pairs of triangles that share a point, decided exactly
+  double gel_in_object = 0.5;        // how many times the object's surface winds around the gel: 0 or 1, to rounding
   int inverted_tets = 0;             // tetrahedra whose exact volume is not positive
   double volume_ratio = 0.0;         // smallest deformed over undeformed volume, must be exceeded
   double balance_relative = 1e-3;    // of the contact force, which counts as at least kSmallestContactN
@@ -30,6 +31,7 @@ struct FrameNumbers {
   double min_gap_m = 0.0;
   int intersections = 0;
   int inverted_tets = 0;
+  double gel_in_object = 0.0;  // how many times the object's surface winds around the gel
   double min_volume_ratio = 0.0;
   double velocity_residual_m_s = 0.0;
   double force_residual_n = 0.0;
@@ -39,8 +41,9 @@ struct FrameNumbers {
   double pose_error_m = 0.0;
 };
 
-/// Checks in this order: exact test, inverted tetrahedra, smallest distance, volume ratio, velocity, force and friction
-/// residual, balance, pose. A number that is not a number misses its limit. \throw VerdictError for the first miss.
+/// Checks in this order: exact test, containment, inverted tetrahedra, smallest distance, volume ratio, velocity, force
+/// and friction residual, balance, pose. A number that is not a number misses its limit. \throw VerdictError for the
+/// first miss.
 void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits);
 
 }  // namespace tacipc

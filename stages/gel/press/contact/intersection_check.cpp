@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "common/base/error.h"
 #include "common/base/statistics.h"
@@ -170,6 +171,22 @@ IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView&
   keep_first(report.gel_gel_examples, max_examples);
   keep_first(report.gel_object_examples, max_examples);
   return report;
+}
+
+double winding_number(const Vector3& point, const SurfaceView& surface) {
+  double angle = 0.0;
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    std::array<Vector3, 3> r;
+    std::array<double, 3> d{};
+    for (int k = 0; k < 3; ++k) {
+      r[k] = surface.positions.row(surface.triangles(t, k)).transpose() - point;
+      d[k] = r[k].norm();
+    }
+    const double volume = r[0].dot(r[1].cross(r[2]));
+    const double scale = d[0] * d[1] * d[2] + r[0].dot(r[1]) * d[2] + r[1].dot(r[2]) * d[0] + r[2].dot(r[0]) * d[1];
+    angle += 2.0 * std::atan2(volume, scale);
+  }
+  return angle / (4.0 * std::numbers::pi);
 }
 
 std::int64_t count_inverted_tets(const Positions& positions, const Tetrahedra& tets) {

@@ -34,6 +34,10 @@ struct IntersectionReport {
 /// \throw DataError where a vertex is not finite or an index is out of range.
 IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples = 8);
 
+/// How many times a closed surface winds around a point [Van Oosterom and Strackee 1983: solid angles of triangles]: 1
+/// inside a surface that looks outwards, 0 outside, to rounding.
+double winding_number(const Vector3& point, const SurfaceView& surface);
+
 /// Tetrahedra whose exact volume det[x1 − x0, x2 − x0, x3 − x0] / 6 is not positive.
 /// \throw DataError as above.
 std::int64_t count_inverted_tets(const Positions& positions, const Tetrahedra& tets);

@@ -18,8 +18,9 @@ namespace tacipc {
 /// two sweeps over L with as many operations as a product with A, for less than half of the iterations that D alone as
 /// M takes. In every iteration xᵀAx = xᵀb, so an unfinished solution is a descent direction, too. A gel is thin and
 /// glued at the back: forces reach about a thickness far, and some twenty iterations are enough whatever its size.
-/// L is kept in single precision: a sweep waits for memory, and Newton steps are asked for to a hundredth or a thousandth.
-/// Where more is asked for, solutions are refined with the matrix itself. Sweeps and sums run in a fixed order. Where the iterations do not suffice, the system is factorised.
+/// L is kept in single precision: a sweep waits for memory, and Newton steps are asked for to a hundredth or a
+/// thousandth. Where more is asked for, solutions are refined with the matrix itself. Sweeps and sums run in a fixed
+/// order. Where the iterations do not suffice, the system is factorised.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(double tolerance = 1e-3, int max_products = 1000)
@@ -35,7 +36,7 @@ class ConjugateGradient final : public LinearSolver {
   /// Products with Â so far.
   std::int64_t num_products() const override { return products_; }
   /// Systems that had to be factorised.
-  int num_factorized() const { return factorized_; }
+  int num_factorized() const override { return factorized_; }
 
  private:
   static constexpr int kParts = 4;

@@ -33,6 +33,8 @@ class LinearSolver {
 
   /// Matrix–vector products so far, where it solves by them.
   virtual std::int64_t num_products() const { return 0; }
+  /// Systems that an iterative solver had to leave to a factorisation.
+  virtual int num_factorized() const { return 0; }
   /// Symbolic analyses so far.
   virtual int num_analyses() const = 0;
 };

@@ -63,6 +63,7 @@ void TimeStepper::minimise(Step& step) {
     if (step.renewals_left > 0) renew_friction(step, run);
     const NewtonDirection direction = find_direction(step, run, moving);
     const bool converged = within_tolerances(step, direction);
+    step.report.approximated_share = settings_.newton.adaptive_contact_hessian ? direction.largest_share : 0.0;
     if (converged && is_final(step, run, direction)) return;
 
     std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
@@ -137,9 +138,12 @@ bool TimeStepper::within_tolerances(const Step& step, const NewtonDirection& dir
 
 // The PSD approximation shortens steps, so that a vertex on the crest of one of the object's edges looks at rest. With
 // the exact Hessian it would not: a limited number of iterations is spent on waiting for it.
-bool TimeStepper::is_final(const Step& step, Minimisation& run, const NewtonDirection& direction) const {
+bool TimeStepper::is_final(Step& step, Minimisation& run, const NewtonDirection& direction) const {
   const bool exact = direction.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
-  return exact || step.looseness > 1.0 || ++run.exact_hessian_waits > kMaxExactHessianWaits;
+  if (exact || step.looseness > 1.0 || run.exact_hessian_waits == kMaxExactHessianWaits) return true;
+  ++run.exact_hessian_waits;
+  ++step.report.exact_hessian_waits;
+  return false;
 }
 
 double TimeStepper::step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p,

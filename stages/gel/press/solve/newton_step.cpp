@@ -45,6 +45,7 @@ NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::sh
 SolverTimes NewtonStepper::times() const {
   SolverTimes times = times_;
   times.products = solver_->num_products();
+  times.factorised = solver_->num_factorized();
   return times;
 }
 

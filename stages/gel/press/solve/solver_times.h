@@ -16,7 +16,8 @@ struct SolverTimes {
   double linear_s = 0.0;       // linear systems
   double patches_s = 0.0;
   std::int64_t solves = 0;    // linear systems of the whole gel,
-  std::int64_t products = 0;  // and matrix–vector products for them
+  std::int64_t products = 0;  // and matrix–vector products for them;
+  int factorised = 0;         // those where the products did not suffice
 };
 
 /// Adds the time it lives to a sum.

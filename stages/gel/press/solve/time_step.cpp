@@ -77,6 +77,7 @@ SolverTimes TimeStepper::times() const {
   all.linear_s = newton.linear_s;
   all.solves = newton.solves;
   all.products = newton.products;
+  all.factorised = newton.factorised;
   return all;
 }
 

@@ -74,12 +74,14 @@ struct State {
 
 /// What a step took and where it ended.
 struct StepReport {
-  int time_steps = 0;         // more than asked for where a step had to be divided
-  int newton_iterations = 0;  // linear systems solved, those that moved the object included
-  int moving_iterations = 0;  // those that moved the object
-  int patches = 0;            // times that a few vertices were solved for alone,
-  int patch_iterations = 0;   // and Newton iterations of those
-  int lag_iterations = 0;     // how often friction was renewed, beyond the first time
+  int time_steps = 0;           // more than asked for where a step had to be divided
+  int newton_iterations = 0;    // linear systems solved, those that moved the object included
+  int moving_iterations = 0;    // those that moved the object
+  int patches = 0;              // times that a few vertices were solved for alone,
+  int patch_iterations = 0;     // and Newton iterations of those
+  int lag_iterations = 0;       // how often friction was renewed, beyond the first time
+  int exact_hessian_waits = 0;  // iterations that were within the tolerances and went on for want of the exact Hessian
+  double approximated_share = 0.0;  // largest share of the contact Hessian's PSD approximation in the last direction
   double velocity_residual_m_s = 0.0;
   double force_residual_n = 0.0;             // Σ over free vertices of |residual force|
   double barrier_factor = 1.0;               // on the barrier's stiffness
@@ -145,7 +147,7 @@ class TimeStepper {
   /// Whether the Newton step and the residual forces are below their tolerances.
   bool within_tolerances(const Step& step, const NewtonDirection& direction) const;
   /// Whether a direction within the tolerances ends the minimisation, or the exact Hessian is waited for.
-  bool is_final(const Step& step, Minimisation& run, const NewtonDirection& direction) const;
+  bool is_final(Step& step, Minimisation& run, const NewtonDirection& direction) const;
   /// Part of the step p that leaves enough of every gap and every volume.
   double step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p, double slack);
   /// Moves object and gel together by the part `alpha` of the direction.

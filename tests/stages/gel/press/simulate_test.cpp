@@ -1,6 +1,7 @@
 // Whole presses: against the reference solver, against itself, and starts that must be refused.
 #include "stages/gel/press/simulate.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -174,6 +175,29 @@ TEST(Simulate, ShearAgreesWithTheReferenceSolver) {
   EXPECT_NEAR(found.tangential_force_n[9], 0.2374, 0.03 * 0.2374);
   EXPECT_LT(found.front_rms_m, 1e-6);
   EXPECT_LT(found.front_largest_m, 5e-6);
+}
+
+std::string refusal(const TriangleMesh& object, bool once) {
+  PressConfig config = paper_config();
+  config.pair_counting.once = once;
+  try {
+    simulate(paper_sensor(), block_gel(4, 0.02, 0.002), object, config, press(0.1e-3, 1), "-z", ignore_progress);
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Simulate, CountingPairsOnceNeedsAClosedObjectThatLooksOutwards) {
+  const TriangleMesh closed = pyramid(0.003, 0.002);
+  TriangleMesh open = closed, inwards = closed;
+  open.triangles = Triangles(closed.triangles.topRows(5));
+  inwards.triangles.col(0).swap(inwards.triangles.col(1));
+  EXPECT_EQ(refusal(closed, true), "");
+  EXPECT_THAT(refusal(open, true), ::testing::HasSubstr("the object is not closed: the edge of its vertices "));
+  EXPECT_THAT(refusal(inwards, true), ::testing::HasSubstr("faces look inwards"));
+  EXPECT_EQ(refusal(open, false), "");
+  EXPECT_EQ(refusal(inwards, false), "");
 }
 
 }  // namespace

@@ -56,6 +56,17 @@ TEST(Verdict, Intersections) {
   expect_miss(judged(numbers), "intersections", 3, 0, "frame 7: 3 pairs of triangles intersect");
 }
 
+TEST(Verdict, Containment) {
+  auto numbers = good();
+  for (const double rounded : {-1e-9, 1e-9}) {
+    numbers.gel_in_object = rounded;
+    EXPECT_EQ(judged(numbers).message, "");
+  }
+  numbers.gel_in_object = 1.0;
+  expect_miss(judged(numbers), "containment", 1.0, 0.5,
+              "frame 7: the gel is inside the object (its surface winds 1 times around it)");
+}
+
 TEST(Verdict, InvertedTets) {
   auto numbers = good();
   numbers.inverted_tets = 1;
@@ -113,13 +124,10 @@ TEST(Verdict, PoseError) {
 TEST(Verdict, WhatIsNoNumberMissesItsLimit) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::pair<double FrameNumbers::*, const char*> members[] = {
-      {&FrameNumbers::min_gap_m, "smallest_distance"},
-      {&FrameNumbers::min_volume_ratio, "volume_ratio"},
-      {&FrameNumbers::velocity_residual_m_s, "velocity_residual"},
-      {&FrameNumbers::force_residual_n, "force_residual"},
-      {&FrameNumbers::friction_residual_n, "friction_residual"},
-      {&FrameNumbers::balance_relative, "balance"},
-      {&FrameNumbers::pose_error_m, "pose_error"}};
+      {&FrameNumbers::gel_in_object, "containment"},       {&FrameNumbers::min_gap_m, "smallest_distance"},
+      {&FrameNumbers::min_volume_ratio, "volume_ratio"},   {&FrameNumbers::velocity_residual_m_s, "velocity_residual"},
+      {&FrameNumbers::force_residual_n, "force_residual"}, {&FrameNumbers::friction_residual_n, "friction_residual"},
+      {&FrameNumbers::balance_relative, "balance"},        {&FrameNumbers::pose_error_m, "pose_error"}};
   for (const auto& [member, check] : members) {
     auto numbers = good();
     numbers.*member = nan;

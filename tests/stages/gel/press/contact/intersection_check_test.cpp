@@ -146,5 +146,17 @@ TEST(CountInvertedTets, CountsNegativeAndFlatOnes) {
   EXPECT_EQ(count_inverted_tets(x, tets), 1);
 }
 
+TEST(WindingNumber, TellsTheInsideOfAClosedSurface) {
+  const Vector3 centre(0.3, -0.2, 0.1);
+  const Mesh ball = sphere(6, centre, 1.0, kTurn);
+  EXPECT_NEAR(winding_number(centre, ball), 1.0, 1e-12);
+  EXPECT_NEAR(winding_number(centre + Vector3(0.6, 0.5, -0.3), ball), 1.0, 1e-12);
+  EXPECT_NEAR(winding_number(centre + Vector3(1.01, 0.0, 0.0), ball), 0.0, 1e-12);
+  EXPECT_NEAR(winding_number(centre + Vector3(20.0, 3.0, 7.0), ball), 0.0, 1e-12);
+  Mesh turned = ball;
+  turned.triangles.col(0).swap(turned.triangles.col(1));
+  EXPECT_NEAR(winding_number(centre, turned), -1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace tacipc
