@@ -33,7 +33,8 @@ std::string to_roff(const ManPage& page) {
   std::string upper;
   for (const char c : page.name) upper += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   // No date: the same program gives the same bytes.
-  std::string roff = fmt::format(".TH {} 1 \"\" {} \"TacIPC\"\n", in_quotes(upper), in_quotes("TacIPC " + page.version));
+  std::string roff =
+      fmt::format(".TH {} 1 \"\" {} \"TacIPC\"\n", in_quotes(upper), in_quotes("TacIPC " + page.version));
   roff += fmt::format(".SH NAME\n{} \\- {}\n", plain(page.name), plain(page.summary));
   roff += fmt::format(".SH SYNOPSIS\n.B {}\n", plain(page.command));
   for (const ManOption& option : page.options) {

@@ -27,7 +27,8 @@ complain 'stages/gel/press/(solve|simulate|outputs)' stages/gel/press/energy 'en
 complain 'stages/gel/press/(simulate|outputs|press_config)' stages/gel/press/solve 'the solver knows no motion'
 for header in tetgen.h embree3/ OpenMesh/ cholmod.h opencv2/ yaml-cpp/ hdf5.h archive.h openssl/ Imath/ zlib.h png.h turbojpeg.h Imf; do
   files=$(grep -rlE "#include <$header" common stages --include=*.cpp --include=*.h || true)
-  bad=$(grep -E '\.h$' <<<"$files" || true)
+  # What derives from a class of OpenMesh shows it.
+  bad=$(grep -E '\.h$' <<<"$files" | grep -vx stages/object/decimate/collapse_mesh.h || true)
   [ -z "$bad" ] || { echo "$bad: includes <$header>; only a .cpp may"; faults=1; }
 done
 exit $faults

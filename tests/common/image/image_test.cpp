@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
+
 #include "common/base/error.h"
 #include "tests/scratch_folder.h"
 #include "tests/shared_data.h"
@@ -69,6 +71,23 @@ TEST(Png, ComesBackAsRgbOrGreyAndItsBytesAreFixed) {
   red.at(0, 0, 0) = 255;
   write_png(scratch / "red.png", red);
   EXPECT_EQ(read_png(scratch / "red.png", 1).at(0, 0, 0), 76) << "0.299 of red";
+}
+
+TEST(Png, NoiseIsNotSearchedForStringsButDrawingsAre) {
+  const ScratchFolder scratch;
+  ByteImage noisy(320, 240, 3), flat(320, 240, 3);
+  std::mt19937 random(1);
+  for (std::size_t i = 0; i < noisy.pixels.size(); ++i)
+    noisy.pixels[i] = static_cast<std::uint8_t>(100 + i / 5000 + random() % 8);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) flat.at(x, y, 1) = (x / 40 + y / 40) % 2 ? 255 : 20;
+  for (const ByteImage& image : {noisy, flat}) {
+    write_png(scratch / "a.png", image);
+    EXPECT_EQ(read_png(scratch / "a.png", 3).pixels, image.pixels);
+  }
+  // Eight values are three bits, and a difference of two of them a little more.
+  EXPECT_LT(png_bytes(noisy, "noisy").size(), noisy.pixels.size() * 4 / 8);
+  EXPECT_LT(png_bytes(flat, "flat").size(), 2000u);
 }
 
 TEST(Png, FaultsAreNamed) {
