@@ -82,6 +82,7 @@ Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
           {"min_volume_ratio", f.min_volume_ratio},
           {"intersections", f.intersections},
           {"inverted_tets", f.inverted_tets},
+          {"gel_in_object", f.gel_in_object},
           {"pose_error_m", f.pose_error_m}};
 }
 
@@ -89,6 +90,7 @@ Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
 Value::Map limits() {
   return {{"smallest_distance_m", kVerdictLimits.smallest_distance_m},
           {"intersections", kVerdictLimits.intersections},
+          {"gel_in_object", kVerdictLimits.gel_in_object},
           {"inverted_tets", kVerdictLimits.inverted_tets},
           {"volume_ratio", kVerdictLimits.volume_ratio},
           {"balance_relative", kVerdictLimits.balance_relative},

@@ -79,14 +79,16 @@ bool check_object(const TriangleMesh& object, const PressConfig& config) {
   const auto alone = std::find_if(edges.begin(), edges.end(), [&](const std::array<int, 2>& edge) {
     return !std::binary_search(edges.begin(), edges.end(), std::array<int, 2>{edge[1], edge[0]});
   });
-  const bool outwards = signed_volume(object) > 0.0;
-  if (alone == edges.end() && outwards) return true;
-  if (!config.pair_counting.once) return false;
-  if (alone != edges.end())
+  const bool closed = alone == edges.end();
+  if (!config.pair_counting.once) return closed;
+  if (!closed)
     throw DataError(
-        "the object is not closed: the edge of its vertices {} and {} has one face (barrier.pairs: once counts on it)",
+        "the object is not closed: the edge of its vertices {} and {} is not between two faces that look the same way "
+        "(barrier.pairs: once counts on it)",
         (*alone)[0], (*alone)[1]);
-  throw DataError("the object's faces look inwards (barrier.pairs: once counts on their looking outwards)");
+  if (!(signed_volume(object) > 0.0))
+    throw DataError("the object's faces look inwards (barrier.pairs: once counts on their looking outwards)");
+  return true;
 }
 
 void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressConfig& config) {

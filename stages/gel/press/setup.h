@@ -32,8 +32,8 @@ GelModel make_gel_model(const Material& material, const TetMesh& gel, const std:
 
 StepSettings step_settings(const PressConfig& config, const Scales& scales);
 
-/// Whether the object's surface is closed and looks outwards. \throw DataError if it is not, but `pairs: once` counts
-/// on it: which pieces of surface are near a vertex is told by what their edges and corners have in common
+/// Whether the object's surface is closed. \throw DataError if it is not, or looks inwards, but `pairs: once` counts on
+/// it: which pieces of surface are near a vertex is told by what their edges and corners have in common
 bool check_object(const TriangleMesh& object, const PressConfig& config);
 
 /// \throw DataError or UsageError if the gel or the configuration does not allow the motion.

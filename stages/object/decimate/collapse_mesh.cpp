@@ -52,6 +52,16 @@ void CollapseMesh::build(const std::vector<OpenMesh::Vec3d>& points, const Trian
                       from_vertex_handle(HalfedgeHandle(static_cast<int>(h))).idx(),
                       to_vertex_handle(HalfedgeHandle(static_cast<int>(h))).idx());
   }
+  check_fans(triangles);
+}
+
+void CollapseMesh::check_fans(const Triangles& triangles) const {
+  std::vector<unsigned> corners(n_vertices(), 0);
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) ++corners[static_cast<std::size_t>(triangles.data()[i])];
+  for (const auto v : vertices()) {
+    if (valence(v) != corners[static_cast<std::size_t>(v.idx())])
+      throw DataError("several sheets meet in vertex {}: the mesh is not manifold there", v.idx());
+  }
 }
 
 bool CollapseMesh::is_collapse_ok(HalfedgeHandle h) {

@@ -29,7 +29,7 @@ class CollapseMesh : public OpenMesh::TriMesh_ArrayKernelT<CollapseTraits> {
   using Quadric = OpenMesh::Geometry::Quadricd;
 
   /// Vertices with these points and faces with these corners, in their order. \throw DataError where an edge is not
-  /// between two faces that look the same way
+  /// between two faces that look the same way, or several sheets meet in one vertex
   void build(const std::vector<OpenMesh::Vec3d>& points, const Triangles& triangles);
 
   /// Link condition: the ends have no neighbours in common but the two corners opposite to the edge. Not at boundaries.
@@ -41,6 +41,7 @@ class CollapseMesh : public OpenMesh::TriMesh_ArrayKernelT<CollapseTraits> {
   std::vector<Quadric> quadrics;
 
  private:
+  void check_fans(const Triangles& triangles) const;
   /// Closes the gap of a face that is taken out: the halfedge `kept` of it takes the place of the opposite of `gone`.
   void merge_edges(OpenMesh::HalfedgeHandle kept, OpenMesh::HalfedgeHandle gone);
 

@@ -14,6 +14,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kChunk = 256;
+constexpr double kSurelyNearer = 1.0 - 1e-12;
 constexpr std::int64_t kFewestPerFace = 4;  // corners and centroid
 
 struct OneSided {
@@ -75,8 +76,9 @@ OneSided farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const
     const auto look = [&](const Vector3& point) {
       ++looked;
       double known = farthest.load(std::memory_order_relaxed);
-      // Most samples are nearer than another one: that is seen sooner than how near they are.
-      if (tree.within(point, known, near)) return;
+      // Most samples are nearer than another one: that is seen sooner than how near they are. A little nearer, so that
+      // rounding does not make the largest depend on the order of the samples.
+      if (tree.within(point, kSurelyNearer * known, near)) return;
       const double squared = tree.squared_distance(point);
       while (squared > known && !farthest.compare_exchange_weak(known, squared, std::memory_order_relaxed)) {
       }

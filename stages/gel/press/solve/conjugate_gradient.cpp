@@ -13,7 +13,8 @@ namespace {
 // Vectors are padded: four numbers per row, the last of them zero, in the order of the sweeps. Blocks of L lie nine
 // numbers apart, so a column loaded as four has a foreign number at its end.
 constexpr std::ptrdiff_t kBlock = 9;
-// Residuals below this part of the right-hand side are found again from the matrix itself.
+// L is rounded to floats, so iterations stop at this part of the right-hand side. For more, the residual is computed
+// anew from the matrix and solved for.
 constexpr double kFloatTolerance = 1e-4;
 // Rows count as indefinite that contribute at least this part of the most negative contribution to a curvature.
 constexpr double kIndefinitePart = 0.1;
@@ -257,8 +258,10 @@ std::optional<Eigen::VectorXd> ConjugateGradient::factorize(const Eigen::VectorX
 
 std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b) {
   auto x = iterate(b, std::max(tolerance_, kFloatTolerance));
+  const int factorized_before = factorized_;
   // What rounding the matrix left out of it.
-  for (double left = kFloatTolerance; x && left > tolerance_; left *= kFloatTolerance) {
+  for (double left = kFloatTolerance; x && left > tolerance_ && factorized_ == factorized_before;
+       left *= kFloatTolerance) {
     const auto rest = iterate(b - matrix_->multiply(*x), std::max(tolerance_ / left, kFloatTolerance));
     if (!rest) return std::nullopt;
     *x += *rest;

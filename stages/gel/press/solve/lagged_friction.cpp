@@ -10,8 +10,8 @@
 namespace tacipc {
 namespace {
 
-// Renewals before iterations of Newton's method end when they change less than this part of the limit, or so many have
-// not halved the change.
+// Renewals before iterations of Newton's method end with one that changes less than this part of the limit, or where
+// this many in a row have not halved the change: the last of these is not made.
 constexpr double kSettledPart = 0.3;
 constexpr int kMostRenewals = 6;
 constexpr double kLagSlack = 0.5;        // part of each gap left where friction is lagged once
@@ -74,11 +74,8 @@ void TimeStepper::renew_friction(Step& step, Minimisation& run) {
       step.least_friction_change_n = change;
       step.renewals_left = kMostRenewals;
     }
-    // What is left changes less than the tolerance; or vertices go to and fro, which only friction that stays ends.
-    if (--step.renewals_left == 0 || change <= kSettledPart * friction_limit(step)) {
-      step.renewals_left = 0;
-      return;
-    }
+    if (--step.renewals_left == 0) return;  // vertices go to and fro: only friction that stays ends that
+    if (change <= kSettledPart * friction_limit(step)) step.renewals_left = 0;  // this is the last one
   }
   ++step.report.lag_iterations;
   step.friction = std::move(renewed);
@@ -106,8 +103,9 @@ void TimeStepper::settle_friction(Step& step) {
     const bool last = renewed_here + 1 >= friction.max_lag_iterations;
     if ((settled || last) && step.looseness == 1.0) {
       if (settled || friction.max_lag_iterations == 1) return;
-      throw SolverError("friction did not settle: residual {:.2e} N after it was renewed {} times (limit {:.2e})",
-                        report.friction_residual_n, friction.max_lag_iterations, limit);
+      throw SolverError(
+          "friction did not settle: residual {:.2e} N after it was renewed {} times at minima (limit {:.2e})",
+          report.friction_residual_n, friction.max_lag_iterations, limit);
     }
     if (settled || last) {
       step.looseness = 1.0;

@@ -60,7 +60,8 @@ void TimeStepper::minimise(Step& step) {
           report.force_residual_n, report.contact_force_n, smallest_gap(step.x, settings_.d_hat_m));
     }
     const bool moving = !step.arrived && run.relaxations_left == 0;
-    if (step.renewals_left > 0) renew_friction(step, run);
+    // Before the first iteration it is that of x already.
+    if (step.renewals_left > 0 && report.newton_iterations > 0) renew_friction(step, run);
     const NewtonDirection direction = find_direction(step, run, moving);
     const bool converged = within_tolerances(step, direction);
     step.report.approximated_share = settings_.newton.adaptive_contact_hessian ? direction.largest_share : 0.0;

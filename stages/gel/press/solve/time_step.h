@@ -25,9 +25,9 @@ struct NewtonSettings {
 
 struct FrictionSettings {
   double coefficient = 0.0;
-  double speed_threshold_m_s = 0.0;  // ε_v
-  int max_lag_iterations = 1;        // 1: normal forces and tangent planes of the start of the step
-  bool renewed_only_at_minima = false;
+  double speed_threshold_m_s = 0.0;     // ε_v
+  int max_lag_iterations = 1;           // 1: normal forces and tangent planes of the start of the step
+  bool renewed_only_at_minima = false;  // else before each iteration of Newton's method, too
   double relative_lag_tolerance = 0.0;
 };
 
@@ -79,7 +79,7 @@ struct StepReport {
   int moving_iterations = 0;    // those that moved the object
   int patches = 0;              // times that a few vertices were solved for alone,
   int patch_iterations = 0;     // and Newton iterations of those
-  int lag_iterations = 0;       // how often friction was renewed, beyond the first time
+  int lag_iterations = 0;       // how often friction was renewed, before iterations and at minima
   int exact_hessian_waits = 0;  // iterations that were within the tolerances and went on for want of the exact Hessian
   double approximated_share = 0.0;  // largest share of the contact Hessian's PSD approximation in the last direction
   double velocity_residual_m_s = 0.0;

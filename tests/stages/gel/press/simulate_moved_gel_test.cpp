@@ -99,7 +99,8 @@ TEST(MovedGel, FrictionRenewedBeforeIterationsIsThatRenewedAtMinima) {
   config.friction->relative_lag_tolerance = 1e-5;
   SampleSpec sample;
   sample.motion = {{.kind = PhaseKind::press, .steps = 3, .depth_m = 0.3e-3},
-                   {.kind = PhaseKind::shear, .steps = 3, .shift_m = {0.3e-3, 0.1e-3, 0.0}}};
+                   {.kind = PhaseKind::shear, .steps = 3, .shift_m = {0.3e-3, 0.1e-3, 0.0}},
+                   {.kind = PhaseKind::hold, .steps = 1}};
   const Simulation often = run(object, config, sample);
   config.friction->only_at_minima = true;
   const Simulation at_minima = run(object, config, sample);

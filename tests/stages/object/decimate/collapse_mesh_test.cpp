@@ -55,6 +55,13 @@ TEST(CollapseMesh, RefusesEdgesThatAreNotBetweenTwoFaces) {
   EXPECT_THROW(build(with_face_turned(sphere(1.0, 1), 3)), DataError);
 }
 
+TEST(CollapseMesh, RefusesAVertexWhereTwoSheetsMeet) {
+  const TriangleMesh two{
+      Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+      Triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}}};
+  EXPECT_THROW(build(two), DataError);
+}
+
 // Any edges in any order, down to where none may collapse: the same answers and the same faces as the library's own.
 TEST(CollapseMesh, CollapsesAsTheLibraryDoes) {
   for (const TriangleMesh& shape : {sphere(1.0, 3), bumpy_torus(1.0, 0.3, 0.1, 12, 7)}) {
