@@ -12,8 +12,12 @@ namespace {
 
 // Renewals before iterations of Newton's method end with one that changes less than this part of the limit, or where
 // this many in a row have not halved the change: the last of these is not made.
-constexpr double kSettledPart = 0.3;
+constexpr double kSettledPart = 0.1;
 constexpr int kMostRenewals = 6;
+// Friction that such renewals left is renewed at minima until its residual is below this part of the limit, too; after so
+// many of these the limit itself will do.
+constexpr double kStrictPart = 0.3;
+constexpr int kStrictRenewals = 8;
 constexpr double kLagSlack = 0.5;        // part of each gap left where friction is lagged once
 constexpr double kLooseness = 10.0;      // factor on the tolerances while friction is still to be renewed
 constexpr double kFarFromSettled = 5.0;  // × the limit of the friction residual, above which tolerances stay loose
@@ -99,7 +103,10 @@ void TimeStepper::settle_friction(Step& step) {
     // Renewed once at least: else some steps would keep older friction than others, and forces would jump between them
     // by as much as the tolerance allows.
     const bool renewed_once = report.lag_iterations > 0 || friction.max_lag_iterations == 1;
-    const bool settled = report.friction_residual_n <= (renewed_once ? limit : settings_.newton.force_tolerance_n);
+    const bool strict = !friction.renewed_only_at_minima && renewed_here < kStrictRenewals;
+    const bool settled = report.friction_residual_n <= (!renewed_once ? settings_.newton.force_tolerance_n
+                                                        : strict      ? kStrictPart * limit
+                                                                      : limit);
     const bool last = renewed_here + 1 >= friction.max_lag_iterations;
     if ((settled || last) && step.looseness == 1.0) {
       if (settled || friction.max_lag_iterations == 1) return;
