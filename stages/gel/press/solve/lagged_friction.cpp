@@ -14,8 +14,8 @@ namespace {
 // this many in a row have not halved the change: the last of these is not made.
 constexpr double kSettledPart = 0.1;
 constexpr int kMostRenewals = 6;
-// Friction that such renewals left is renewed at minima until its residual is below this part of the limit, too; after so
-// many of these the limit itself will do.
+// Friction that such renewals left is renewed at minima until its residual is below this part of the limit, too; after
+// so many of these the limit itself will do.
 constexpr double kStrictPart = 0.3;
 constexpr int kStrictRenewals = 8;
 constexpr double kLagSlack = 0.5;        // part of each gap left where friction is lagged once
