@@ -21,5 +21,6 @@ else
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep . | LC_ALL=C sort -u)
 fi
 echo "clang-tidy: ${#files[@]} of ${#known[@]} sources"
-[ "${#files[@]}" = 0 ] || printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" clang-tidy -p "$build" --quiet 2>&1 |
+# Some of the compiler's options are GCC's alone.
+[ "${#files[@]}" = 0 ] || printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option 2>&1 |
   { grep -vE '^[0-9]+ warnings? generated|^Suppressed|^Use -header-filter' || true; }
