@@ -70,30 +70,40 @@ struct Query {
   std::vector<Polynomial> conditions;
 };
 
-Collision decide(const Query& query, int depth) {
+/// `budget` bounds the work where both halves stay open again and again, as in one plane.
+Collision decide(const Query& query, int depth, int& budget) {
   if (positive(query.volume) || negative(query.volume)) return Collision::free;
   if (std::any_of(query.conditions.begin(), query.conditions.end(), negative)) return Collision::free;
   const bool crosses = sgn(query.volume.front()) * sgn(query.volume.back()) < 0;
   if (crosses && std::all_of(query.conditions.begin(), query.conditions.end(), positive)) return Collision::hit;
-  if (depth == 0) return Collision::undecided;
+  if (depth == 0 || --budget < 0) return Collision::undecided;
   Query first{first_half(query.volume), {}}, second{second_half(query.volume), {}};
   for (const Polynomial& condition : query.conditions) {
     first.conditions.push_back(first_half(condition));
     second.conditions.push_back(second_half(condition));
   }
-  const Collision one = decide(first, depth - 1);
+  const Collision one = decide(first, depth - 1, budget);
   if (one == Collision::hit) return one;
-  const Collision other = decide(second, depth - 1);
+  const Collision other = decide(second, depth - 1, budget);
   if (other == Collision::hit) return other;
   return one == Collision::free ? other : one;
 }
 
 }  // namespace
 
-Collision exact_collision(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
+Collision exact_collision(PairKind kind, const FourPoints& x_start, const FourPoints& displacement, double until) {
+  std::array<std::array<std::array<mpq_class, 2>, 3>, 4> ends;
+  mpz_class unit = 1;  // that all coordinates are multiples of one over: doubles have powers of two only
+  for (int i = 0; i < 4; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const mpq_class from(x_start[i][c]);
+      ends[i][c] = {from, from + mpq_class(until) * mpq_class(displacement[i][c])};
+      for (const mpq_class& end : ends[i][c]) unit = std::max<mpz_class>(unit, end.get_den());
+    }
+  }
   std::array<Vector, 4> x;
   for (int i = 0; i < 4; ++i)
-    for (int c = 0; c < 3; ++c) x[i][c] = {mpz_class(x_start[i][c]), mpz_class(x_end[i][c])};
+    for (int c = 0; c < 3; ++c) x[i][c] = {mpz_class(ends[i][c][0] * unit), mpz_class(ends[i][c][1] * unit)};
   Query query;
   if (kind == PairKind::point_triangle) {
     const Vector w = x[0] - x[1], e1 = x[2] - x[1], e2 = x[3] - x[1];
@@ -107,7 +117,10 @@ Collision exact_collision(PairKind kind, const FourPoints& x_start, const FourPo
     query = {dot(w, normal), {s, one - s, t, one - t}};
   }
   constexpr int kDepth = 48;
-  return decide(query, kDepth);
+  int budget = 400;
+  const auto zero = [](const mpz_class& c) { return c == 0; };
+  if (std::all_of(query.volume.begin(), query.volume.end(), zero)) return Collision::undecided;
+  return decide(query, kDepth, budget);
 }
 
 }  // namespace tacipc
