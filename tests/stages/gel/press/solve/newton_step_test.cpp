@@ -1,0 +1,135 @@
+// The Newton step, with the object driven or yielding, against dense algebra over the whole bordered system.
+#include "stages/gel/press/solve/newton_step.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "stages/gel/press/energy/elasticity.h"
+#include "stages/gel/press/energy/friction.h"
+#include "stages/gel/press/energy/inertia.h"
+#include "tests/stages/gel/press/dense_derivatives.h"
+#include "tests/stages/gel/press/small_scene.h"
+
+namespace tacipc {
+namespace {
+
+/// A block of gel, glued below, deformed, with the tip of a pyramid in contact and sliding; numbers about 1.
+class NewtonStepTest : public ::testing::Test {
+ protected:
+  NewtonStepTest() {
+    const int n = mesh_.num_gel_vertices;
+    for (int v = 0; v < mesh_.num_vertices(); ++v) {
+      const double t = v;
+      const bool of_gel = v < n;
+      if (of_gel && !fixed_[v])
+        x_.row(v) += 0.02 * Vector3(std::sin(3 * t), std::cos(5 * t), std::sin(2 + t)).transpose();
+    }
+    start_.bottomRows(5).rowwise() -= Eigen::RowVector3d(0.03, 0.02, 0.0);
+    // Turned a little, and down: no mere translation.
+    for (int v = n; v < mesh_.num_vertices(); ++v) motion_.row(v) << 0.01 * x_(v, 1), -0.01 * x_(v, 0), -0.02;
+    std::vector<ContactPair> pairs = ContactSearch(mesh_).pairs(x_, Positions::Zero(x_.rows(), 3), kDHat);
+    barrier_ = std::make_shared<ContactBarrier>(mesh_, std::move(pairs), kDHat);
+    const Eigen::VectorXd mass = Eigen::VectorXd::LinSpaced(n, 50.0, 80.0);
+    StepTerms terms;
+    terms.elasticity = elasticity_;
+    terms.inertia = std::make_shared<Inertia>(mass, Positions(x_.topRows(n).array() + 0.01));
+    terms.object_inertia =
+        std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, 30.0), Positions(x_.row(n).array() - 0.1), n);
+    terms.barrier = barrier_;
+    terms.friction = std::make_shared<Friction>(*barrier_, x_, start_, 0.05);
+    potential_ =
+        make_incremental_potential(terms, {.h_s = 0.5, .barrier_stiffness_j_m4 = 20.0, .friction_coefficient = 0.6});
+  }
+
+  static constexpr double kDHat = 0.5;
+
+  TetMesh gel_ = block_gel(3, 6.0, 3.0);
+  TriangleMesh object_ = [] {
+    TriangleMesh object = pyramid(3.0, 2.0);
+    object.positions.rowwise() += Eigen::RowVector3d(0.3, 0.2, 0.2);
+    return object;
+  }();
+  ContactMesh mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, object_.positions, object_.triangles);
+  std::vector<bool> fixed_ = [this] {
+    std::vector<bool> fixed(static_cast<std::size_t>(mesh_.num_vertices()), false);
+    for (const int v : gel_.vertices(BoundaryTag::glued)) fixed[v] = true;
+    for (int v = mesh_.num_gel_vertices; v < mesh_.num_vertices(); ++v) fixed[v] = true;
+    return fixed;
+  }();
+  FreeVertices free_{mesh_.num_vertices(), fixed_};
+  std::shared_ptr<const Elasticity> elasticity_ =
+      std::make_shared<Elasticity>(gel_.positions, gel_.tets, NeoHookean{2.0, 7.0});
+  Positions x_ = mesh_.rest_positions, start_ = x_, motion_ = Positions::Zero(x_.rows(), 3);
+  std::shared_ptr<const ContactBarrier> barrier_;
+  IncrementalPotential potential_;
+
+  NewtonDirection direction(const std::vector<int>& axes, LinearSolverKind kind, double share) {
+    NewtonStepper stepper(free_, mesh_.num_gel_vertices, elasticity_, kind);
+    stepper.set_tolerance(1e-12);
+    Blend blend(std::vector<double>(static_cast<std::size_t>(mesh_.num_gel_vertices), share));
+    return stepper.direction({.potential = potential_, .x = x_, .motion = motion_, .free_axes = axes}, blend);
+  }
+
+  /// Everything that direction() says, by one dense solve.
+  NewtonDirection dense_direction(const std::vector<int>& axes, Order contact_order) const {
+    const Eigen::Index n = 3 * x_.rows(), k = static_cast<Eigen::Index>(axes.size());
+    DenseDerivatives sum{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+    for (const WeightedTerm& part : potential_.terms)
+      sum += part.weight * dense_derivatives(*part.term, x_, Order::hessian);
+    const DenseDerivatives of_barrier =
+        potential_.barrier.weight * dense_derivatives(*potential_.barrier.term, x_, contact_order);
+    const DenseDerivatives of_friction =
+        potential_.friction.weight * dense_derivatives(*potential_.friction.term, x_, contact_order);
+    sum += of_barrier;
+    sum += of_friction;
+    // p = motion + T z: z moves the free vertices, and then the object as a whole along its free axes.
+    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, 3 * free_.size() + k);
+    for (int i = 0; i < free_.size(); ++i) T.block<3, 3>(3 * free_.vertex_of_free[i], 3 * i).setIdentity();
+    for (Eigen::Index a = 0; a < k; ++a) {
+      for (int v = mesh_.num_gel_vertices; v < mesh_.num_vertices(); ++v)
+        T(3 * v + axes[static_cast<std::size_t>(a)], 3 * free_.size() + a) = 1.0;
+    }
+    const Eigen::VectorXd motion = motion_.reshaped<Eigen::RowMajor>();
+    const Eigen::VectorXd gradient = T.transpose() * sum.gradient;
+    const Eigen::VectorXd z =
+        (T.transpose() * sum.hessian * T).partialPivLu().solve(-gradient - T.transpose() * (sum.hessian * motion));
+    NewtonDirection out;
+    out.p = (motion + T * z).reshaped<Eigen::RowMajor>(x_.rows(), 3);
+    for (Eigen::Index a = 0; a < k; ++a) out.object_shift[axes[static_cast<std::size_t>(a)]] = z[3 * free_.size() + a];
+    out.slope = gradient.dot(z);
+    Vector3 barrier_force = Vector3::Zero(), contact_force = Vector3::Zero();
+    for (const int v : free_.vertex_of_free) {
+      out.gradient_sum += sum.gradient.segment<3>(3 * v).norm();
+      barrier_force += of_barrier.gradient.segment<3>(3 * v);
+      contact_force += of_barrier.gradient.segment<3>(3 * v) + of_friction.gradient.segment<3>(3 * v);
+    }
+    out.gradient_sum += gradient.tail(k).cwiseAbs().sum();
+    out.contact_sum = std::min(barrier_force.norm(), contact_force.norm());
+    return out;
+  }
+};
+
+const std::vector<std::vector<int>> kFreeAxes{{}, {2}, {0, 2}, {1, 0}, {0, 1, 2}};
+
+TEST_F(NewtonStepTest, IsThatOfDenseAlgebraHoweverTheObjectYields) {
+  ASSERT_GT(barrier_->active(x_).size(), 5u);
+  for (const LinearSolverKind kind : {LinearSolverKind::direct, LinearSolverKind::conjugate_gradient}) {
+    for (const double share : {0.0, 1.0}) {
+      for (const std::vector<int>& axes : kFreeAxes) {
+        const NewtonDirection found = direction(axes, kind, share);
+        const NewtonDirection expected = dense_direction(axes, share == 0.0 ? Order::hessian : Order::psd);
+        ASSERT_EQ(found.largest_share, share) << "raised: this is no test of the exact Hessian";
+        EXPECT_LT((found.p - expected.p).norm(), 1e-9 * expected.p.norm()) << axes.size();
+        EXPECT_LT((found.object_shift - expected.object_shift).norm(), 1e-9 * expected.p.norm()) << axes.size();
+        EXPECT_NEAR(found.slope, expected.slope, 1e-9 * std::abs(expected.slope));
+        EXPECT_NEAR(found.gradient_sum, expected.gradient_sum, 1e-12 * expected.gradient_sum);
+        EXPECT_NEAR(found.contact_sum, expected.contact_sum, 1e-12 * expected.contact_sum);
+        for (const int axis : axes) EXPECT_GT(std::abs(found.object_shift[axis]), 1e-3);  // it does yield
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tacipc
