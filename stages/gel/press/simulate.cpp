@@ -9,7 +9,6 @@
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/measure/front_surface.h"
 #include "stages/gel/press/setup.h"
-#include "stages/gel/press/verdict.h"
 
 namespace tacipc {
 namespace {
@@ -181,7 +180,8 @@ class Motion {
       frame.gel_in_object =
           winding_number(frame.positions.row(out_.front.vertices[0]), {object_positions, object_.triangles});
     frame.inverted_tets = static_cast<int>(count_inverted_tets(frame.positions, gel_.tets));
-    judge(frame);
+    judge_frame(static_cast<int>(out_.frames.size()), numbers_of(frame),
+                limits_of(config_, settings_.newton, frame.solver.contact_force_n));
     log_info(
         "frame {}/{} {}: press {:.4f} N, tangential {:.4f} N, {} Newton iterations in {} steps, "
         "smallest gap {:.3g} um, smallest volume ratio {:.3f}",
@@ -189,31 +189,6 @@ class Motion {
         frame.solver.newton_iterations, frame.solver.time_steps, 1e6 * frame.min_gap_m, frame.min_volume_ratio);
     if (store_) store_->save(frame, progress_);
     out_.frames.push_back(std::move(frame));
-  }
-
-  void judge(const Frame& frame) const {
-    const double contact_n = frame.solver.contact_force_n;
-    SolverLimits limits{.velocity_residual_m_s = settings_.newton.velocity_tolerance_m_s,
-                        .force_residual_n = std::max(settings_.newton.force_tolerance_n,
-                                                     settings_.newton.relative_force_tolerance * contact_n),
-                        .friction_residual_n = {}};
-    if (config_.friction && config_.friction->iterated) {
-      limits.friction_residual_n =
-          std::max(settings_.newton.force_tolerance_n, config_.friction->relative_lag_tolerance * contact_n);
-    }
-    judge_frame(static_cast<int>(out_.frames.size()),
-                {.min_gap_m = frame.min_gap_m,
-                 .intersections = frame.intersections,
-                 .inverted_tets = frame.inverted_tets,
-                 .gel_in_object = frame.gel_in_object,
-                 .min_volume_ratio = frame.min_volume_ratio,
-                 .velocity_residual_m_s = frame.solver.velocity_residual_m_s,
-                 .force_residual_n = frame.solver.force_residual_n,
-                 .friction_residual_n = frame.solver.friction_residual_n,
-                 .balance_n = frame.balance.force_n,
-                 .balance_relative = frame.balance.relative,
-                 .pose_error_m = frame.pose_error_m},
-                limits);
   }
 
   const Sensor& sensor_;
@@ -237,6 +212,31 @@ class Motion {
 };
 
 }  // namespace
+
+FrameNumbers numbers_of(const Frame& frame) {
+  return {.min_gap_m = frame.min_gap_m,
+          .intersections = frame.intersections,
+          .inverted_tets = frame.inverted_tets,
+          .gel_in_object = frame.gel_in_object,
+          .min_volume_ratio = frame.min_volume_ratio,
+          .velocity_residual_m_s = frame.solver.velocity_residual_m_s,
+          .force_residual_n = frame.solver.force_residual_n,
+          .friction_residual_n = frame.solver.friction_residual_n,
+          .balance_n = frame.balance.force_n,
+          .balance_relative = frame.balance.relative,
+          .pose_error_m = frame.pose_error_m};
+}
+
+SolverLimits limits_of(const PressConfig& config, const NewtonSettings& newton, double contact_force_n) {
+  SolverLimits limits{
+      .velocity_residual_m_s = newton.velocity_tolerance_m_s,
+      .force_residual_n = std::max(newton.force_tolerance_n, newton.relative_force_tolerance * contact_force_n),
+      .friction_residual_n = {}};
+  if (config.friction && config.friction->iterated)
+    limits.friction_residual_n =
+        std::max(newton.force_tolerance_n, config.friction->relative_lag_tolerance * contact_force_n);
+  return limits;
+}
 
 Simulation simulate(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
                     const SampleSpec& sample, const std::string& default_face, const ProgressObserver& observe,

@@ -14,6 +14,7 @@
 #include "stages/gel/press/measure/contact_summary.h"
 #include "stages/gel/press/press_config.h"
 #include "stages/gel/press/solve/time_step.h"
+#include "stages/gel/press/verdict.h"
 
 namespace tacipc {
 
@@ -53,6 +54,10 @@ struct Simulation {
   SolverTimes times;  // of this run, which may have found frames of an earlier one
   int symbolic_analyses = 0;
 };
+
+/// What of a frame is judged, and by which limits where `contact_force_n` (StepReport) is exchanged.
+FrameNumbers numbers_of(const Frame& frame);
+SolverLimits limits_of(const PressConfig& config, const NewtonSettings& newton, double contact_force_n);
 
 using ProgressObserver = std::function<void(int frame, int num_frames, int iteration, double velocity_residual_m_s)>;
 
