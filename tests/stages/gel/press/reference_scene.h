@@ -18,6 +18,16 @@ inline Sensor paper_sensor() {
 inline PressConfig paper_config() {
   return read_config<PressConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/press/paper.yaml");
 }
+/// With friction that is consistent with the contact forces at the end of each step.
+inline PressConfig friction_config(double coefficient) {
+  PressConfig config = paper_config();
+  config.friction = FrictionConfig{.coefficient = coefficient,
+                                   .relative_speed_threshold = 1e-3,
+                                   .iterated = true,
+                                   .max_lag_iterations = 50,
+                                   .relative_lag_tolerance = 1e-2};
+  return config;
+}
 inline void ignore_progress(int, int, int, double) {}
 
 struct ReferenceComparison {

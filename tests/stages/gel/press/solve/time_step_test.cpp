@@ -93,6 +93,11 @@ TEST_F(BlockOnAPlate, SticksBelowMuNAndCreepsAsTheSmoothedLawSays) {
     EXPECT_EQ(count(ContactState::stick), 3);
     EXPECT_EQ(count(ContactState::slip), 0);
   }
+  // A little more, and it slips as soon as it is faster than the threshold.
+  push(1.02 * kMu * kNormal * kDirection, 2);
+  ASSERT_GT(velocity().norm(), kSpeed);
+  ASSERT_LT(velocity().norm(), 1.5 * kSpeed);
+  EXPECT_EQ(count(ContactState::slip), 3);
   // Back to rest without the load.
   push(Vector3::Zero(), 200);
   EXPECT_LT(velocity().norm(), 1e-9);
