@@ -165,15 +165,20 @@ TEST(Simulate, ConjugateGradientEndsWhereTheFactorisationDoes) {
   EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-4 * std::abs(a.force_n.z()));
 }
 
-TEST(Simulate, PositiveContactHessianEndsWhereTheAdaptiveOneDoes) {
+TEST(Simulate, PositiveContactHessianEndsWhereTheAdaptiveOneDoesByAnotherRoute) {
   PressConfig config = tight_config_with_friction();
+  std::vector<double> steps[2];  // lengths of all Newton steps
   const auto run = [&](bool adaptive) {
     config.adaptive_contact_hessian = adaptive;
-    return press_pyramid(config);
+    return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 2), "-z",
+                    [&](int, int, int, double residual) { steps[adaptive].push_back(residual); });
   };
   const Simulation adaptive = run(true), positive = run(false);
   const Frame &a = adaptive.frames.back(), &b = positive.frames.back();
-  EXPECT_GT((a.positions - b.positions).cwiseAbs().maxCoeff(), 0.0);  // by another route
+  double apart = 0.0;
+  for (std::size_t i = 0; i < std::min(steps[0].size(), steps[1].size()); ++i)
+    apart = std::max(apart, std::abs(steps[0][i] - steps[1][i]) / steps[0][i]);
+  EXPECT_GT(apart, 0.1);
   EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-4 * std::abs(a.force_n.z()));
 }
@@ -245,19 +250,21 @@ TEST(Simulate, DepthBeyondTheGelIsRefused) {
 TEST(Simulate, AgreesWithTheReferenceSolver) {
   TACIPC_SHARED_DATA(folder, "reference");
   const ReferenceComparison found = compare_with_reference(folder, "gel3k.msh", "sphere1k.obj", "sphere_small_press");
-  EXPECT_NEAR(found.press_force_n.back(), 0.4201, 0.005 * 0.4201);
-  EXPECT_LT(found.rms_m, 0.5e-6);
-  EXPECT_LT(found.largest_m, 5e-6);
+  EXPECT_NEAR(found.press_force_n.back(), 0.4201, 0.002 * 0.4201);
+  EXPECT_LT(found.rms_m, 0.2e-6);
+  EXPECT_LT(found.largest_m, 3e-6);
 }
 
 TEST(Simulate, ShearAgreesWithTheReferenceSolver) {
   TACIPC_SHARED_DATA(folder, "reference");
   const ReferenceComparison found =
       compare_with_reference(folder, "gel3k.msh", "sphere1k.obj", "sphere_small_shear", true);
-  EXPECT_NEAR(found.press_force_n[4], 0.4534, 0.03 * 0.4534);
-  EXPECT_NEAR(found.press_force_n[9], 0.4216, 0.03 * 0.4216);
-  EXPECT_NEAR(found.tangential_force_n[9], 0.2374, 0.03 * 0.2374);
-  EXPECT_LT(found.front_rms_m, 1e-6);
+  // Friction lagged at the start of each step instead of where that solver does would be 5 and 7 % off after the shear.
+  EXPECT_NEAR(found.press_force_n[4], 0.4534, 0.003 * 0.4534);
+  EXPECT_NEAR(found.press_force_n[9], 0.4216, 0.003 * 0.4216);
+  EXPECT_NEAR(found.tangential_force_n[9], 0.2374, 0.003 * 0.2374);
+  EXPECT_LT(found.front_rms_m, 0.5e-6);
+  EXPECT_LT(found.front_99_m, 2e-6);
   EXPECT_LT(found.front_largest_m, 5e-6);
 }
 

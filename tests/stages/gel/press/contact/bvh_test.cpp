@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "tests/stages/gel/press/contact/random_points.h"
 
@@ -20,6 +21,8 @@ std::vector<Box> random_boxes(std::mt19937& random, int count) {
   for (int i = 0; i < count; ++i) boxes.push_back(random_box(random, i % 10 == 0 ? 1.0 : 0.1));
   return boxes;
 }
+
+const Box kEverywhere(Vector3(-99, -99, -99), Vector3(99, 99, 99));
 
 std::vector<int> found(const Bvh& bvh, const Box& box) {
   std::vector<int> hits;
@@ -112,11 +115,46 @@ TEST(Bvh, SplitsManyEqualBoxes) {
   EXPECT_EQ(found(Bvh(boxes), boxes[0]).size(), 100u);
 }
 
-TEST(Bvh, SameBoxesGiveTheSameOrder) {
+/// Split at the median along the widest axis down to four, left before right, each leaf in the order of its boxes.
+TEST(Bvh, OrderIsThatOfTheTreeByHand) {
+  std::mt19937 random(10);
+  std::vector<int> place(16);
+  std::iota(place.begin(), place.end(), 0);
+  std::shuffle(place.begin(), place.end(), random);
+  for (int axis = 0; axis < 3; ++axis) {
+    // Also side by side along another axis, but not as far.
+    std::vector<Box> boxes;
+    for (int i = 0; i < 16; ++i) {
+      Vector3 corner = Vector3::Zero();
+      corner[axis] = 3.0 * place[i];
+      corner[(axis + 1) % 3] = 2.0 * (i % 5);
+      boxes.emplace_back(corner, corner + Vector3(1, 1, 1));
+    }
+    std::vector<int> expected;
+    for (int leaf = 0; leaf < 4; ++leaf) {
+      for (int i = 0; i < 16; ++i)
+        if (place[i] / 4 == leaf) expected.push_back(i);
+    }
+    EXPECT_EQ(found(Bvh(boxes), kEverywhere), expected) << "axis " << axis;
+  }
+  // Equal boxes are split by number.
+  std::vector<int> in_order(100);
+  std::iota(in_order.begin(), in_order.end(), 0);
+  EXPECT_EQ(found(Bvh(std::vector<Box>(100, Box(Vector3(0, 0, 0), Vector3(1, 1, 1)))), kEverywhere), in_order);
+}
+
+TEST(Bvh, OrderDependsNeitherOnTheQueryNorOnWhereBoxesHaveMoved) {
   std::mt19937 random(10);
   const std::vector<Box> boxes = random_boxes(random, 500);
-  const Box all(Vector3(-9, -9, -9), Vector3(9, 9, 9));
-  EXPECT_EQ(found(Bvh(boxes), all), found(Bvh(boxes), all));
+  Bvh bvh(boxes);
+  const std::vector<int> order = found(bvh, kEverywhere);
+  std::vector<int> some = order;
+  const Box part = random_box(random, 1.0);
+  std::erase_if(some, [&](int i) { return !boxes[i].intersects(part); });
+  EXPECT_GT(some.size(), 10u);
+  EXPECT_EQ(found(bvh, part), some);
+  bvh.refit(random_boxes(random, 500));
+  EXPECT_EQ(found(bvh, kEverywhere), order);
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ TEST(TetClusters, EachTetrahedronInOneConnectedClusterOfAboutTheSizeAskedFor) {
   }
 }
 
+/// Twelve tetrahedra about a vertex have 12 vertices or a few more, in a row they have 15; most of a cluster is about one
+/// vertex, at least half of it everywhere.
 TEST(TetClusters, LieAboutAVertex) {
   const Block block = make_block({3, 2, 1}, {6, 5, 4}, 0.2);
   double share = 0.0;
@@ -56,10 +58,11 @@ TEST(TetClusters, LieAboutAVertex) {
     }
     int most = 0;
     for (const auto& [vertex, count] : uses) most = std::max(most, count);
-    EXPECT_LE(uses.size(), 20U);
+    EXPECT_LE(uses.size(), cluster.size() + 2);
+    EXPECT_GE(2 * most, static_cast<int>(cluster.size()));
     share += static_cast<double>(most) / static_cast<double>(cluster.size());
   }
-  EXPECT_GT(share / static_cast<double>(clusters.size()), 0.75);  // of a cluster's tetrahedra have one vertex in common
+  EXPECT_GT(share / static_cast<double>(clusters.size()), 0.8);
 }
 
 TEST(TetClusters, ATinyPartOfAMeshIsAClusterAndNoMeshIsNone) {

@@ -32,15 +32,29 @@ TEST(Blend, TakesAsLittleOfThePsdApproximationAsTheMatrixAllows) {
   EXPECT_GT(blend.share(1), 0.5);
 }
 
-TEST(Blend, RisesAfterAShortenedStep) {
-  Blend blend({0.0, 0.15, 0.0});
+/// A shortened step was found with shares that have been lowered since: the next is to have more than it had, there and
+/// nowhere else, and all of the approximation if that does not help.
+TEST(Blend, RisesAfterAShortenedStepAboveWhatItWasFoundWith) {
+  Blend blend({0.0, 0.15, 0.0, 0.9});
   blend.lower();
-  EXPECT_EQ(blend.largest(), 0.15 / 4);
-  blend.raise_after_shortening(0);
-  blend.raise_after_shortening(1);
-  EXPECT_EQ(blend.share(0), 0.1);
-  EXPECT_EQ(blend.share(1), 0.6);
-  EXPECT_EQ(blend.share(2), 0.0);
+  const double lowered[] = {blend.share(0), blend.share(1), blend.share(2), blend.share(3)};
+  EXPECT_LT(lowered[1], 0.15);
+  for (const int v : {0, 1, 3}) blend.raise_after_shortening(v);
+  EXPECT_GT(blend.share(0), 0.0);
+  EXPECT_GT(blend.share(1), 2 * 0.15);
+  EXPECT_EQ(blend.share(2), lowered[2]);
+  EXPECT_EQ(blend.share(3), 1.0);
+  // Shortened again and again.
+  int steps = 0;
+  for (; blend.share(0) < 1.0 && steps < 10; ++steps) {
+    blend.lower();
+    blend.raise_after_shortening(0);
+  }
+  EXPECT_EQ(blend.share(0), 1.0);
+  EXPECT_LE(steps, 4);
+  // And down to the exact Hessian again where no step is shortened any more.
+  for (steps = 0; blend.largest() > 0.0 && steps < 10; ++steps) blend.lower();
+  EXPECT_EQ(blend.largest(), 0.0);
 }
 
 TEST(Blend, StaysWithThePsdApproximationUnlessAdaptive) {
