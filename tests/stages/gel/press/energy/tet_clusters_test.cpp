@@ -45,8 +45,8 @@ TEST(TetClusters, EachTetrahedronInOneConnectedClusterOfAboutTheSizeAskedFor) {
   }
 }
 
-/// Twelve tetrahedra about a vertex have 12 vertices or a few more, in a row they have 15; most of a cluster is about one
-/// vertex, at least half of it everywhere.
+/// Twelve tetrahedra about a vertex have 12 vertices or a few more, in a row they have 15; most of a cluster is about
+/// one vertex, at least half of it everywhere.
 TEST(TetClusters, LieAboutAVertex) {
   const Block block = make_block({3, 2, 1}, {6, 5, 4}, 0.2);
   double share = 0.0;
