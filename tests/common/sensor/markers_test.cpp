@@ -95,6 +95,17 @@ TEST(Markers, OnVerticesAndEdgesBelongToTheFirstTriangleThere) {
   }
 }
 
+TEST(Markers, OfTrianglesAboveEachOtherTheOneTheyLieDeepestInCarriesThem) {
+  const Positions rest{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-3, -2, -1}, {3, -2, -1}, {0, 4, -1}};
+  // The smallest weights at the origin are 1/4 and 1/3.
+  for (const Triangles& triangles : {Triangles{{0, 1, 2}, {3, 4, 5}}, Triangles{{3, 4, 5}, {0, 1, 2}}}) {
+    const auto markers = bind_markers({.rows = 1, .columns = 1}, rest, triangles);
+    ASSERT_EQ(markers.size(), 1u);
+    EXPECT_EQ(markers[0].vertices, (std::array<int, 3>{3, 4, 5}));
+    EXPECT_LT((markers[0].weights - Vector3::Constant(1.0 / 3.0)).norm(), 1e-15);
+  }
+}
+
 TEST(Markers, OffTheFrontAreNamedOrLeftOut) {
   Positions rest;
   const FrontSurface front = square_front(20, 0.016, 0.2, rest);
