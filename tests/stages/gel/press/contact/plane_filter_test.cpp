@@ -147,6 +147,9 @@ TEST_P(PlaneFilter, NoStepGoesAsFarAsAnImpact) {
           const Impact seen = transformed(impact, frame.scale, frame.offset, frame.velocity);
           EXPECT_NE(exact_collision(GetParam(), seen.start, seen.displacement, limit), Collision::hit)
               << "touches before " << limit;
+          // Nor do the places that doubles hold, which far from the origin are some way off the path.
+          const FourPoints reached = seen.start + limit * seen.displacement;
+          EXPECT_NE(exact_collision(GetParam(), seen.start, reached - seen.start), Collision::hit) << frame.name;
         }
         // Most do not touch before; a step that goes nearly nowhere would be safe, too, and useless.
         short_of_half += limit < 0.5 * impact.time;
