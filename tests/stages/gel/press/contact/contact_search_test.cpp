@@ -83,11 +83,22 @@ std::vector<ContactPair> all_pairs(const ContactMesh& mesh) {
 }
 
 /// How near a pair counts.
-double reach(const ContactMesh& mesh, const ContactPair& pair) {
+double reach(const ContactMesh& mesh, const ContactPair& pair, double radius = kRadius) {
   const auto& v = pair.vertices;
-  if (std::max({v[0], v[1], v[2], v[3]}) >= mesh.num_gel_vertices) return kRadius;
+  if (std::max({v[0], v[1], v[2], v[3]}) >= mesh.num_gel_vertices) return radius;
   const double at_rest = closest_feature(pair, gather(mesh.rest_positions, pair)).squared_distance;
-  return std::min(kRadius, 0.5 * std::sqrt(at_rest));
+  return std::min(radius, 0.5 * std::sqrt(at_rest));
+}
+
+double nearest_on_the_way(const ContactPair& pair, const Positions& x, const Positions& p) {
+  double nearest = 1.0;
+  for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    FourPoints at = gather(x, pair);
+    const FourPoints d = gather(p, pair);
+    for (int k = 0; k < 4; ++k) at[k] += t * d[k];
+    nearest = std::min(nearest, std::sqrt(closest_feature(pair, at).squared_distance));
+  }
+  return nearest;
 }
 
 /// Moves object and gel about, in steps small and large, and counts pairs that come near in between; all of them must
@@ -101,12 +112,7 @@ int expect_finds_all(Scene& scene, ContactSearch& search, const auto& way_of_cal
     EXPECT_TRUE(std::adjacent_find(found.begin(), found.end(), same) == found.end()) << "a pair counts twice";
     EXPECT_LT(found.size(), all.size() / 2);
     for (const ContactPair& pair : all) {
-      double nearest = 1.0;
-      for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-        const Positions at = scene.x + t * p;
-        nearest = std::min(nearest, std::sqrt(closest_feature(pair, gather(at, pair)).squared_distance));
-      }
-      if (nearest >= reach(scene.mesh, pair)) continue;
+      if (nearest_on_the_way(pair, scene.x, p) >= reach(scene.mesh, pair)) continue;
       ++near;
       EXPECT_TRUE(std::binary_search(found.begin(), found.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less))
           << "call " << call;
@@ -114,6 +120,27 @@ int expect_finds_all(Scene& scene, ContactSearch& search, const auto& way_of_cal
     scene.x += p;
   }
   return near;
+}
+
+/// Where d̂ is large, pairs of the gel count within half of their distance at rest, which differs from each to the next.
+TEST(ContactSearch, FindsEveryPairOfTheGelWithinAReachOfItsOwn) {
+  constexpr double kLarge = 3e-3;
+  Scene scene;
+  ContactSearch search(scene.mesh);
+  const std::vector<ContactPair> all = all_pairs(scene.mesh);
+  int near = 0;
+  for (int call = 0; call < 3; ++call) {
+    const Positions p = scene.displacement(call == 1 ? 0.02e-3 : 0.5e-3);
+    const std::vector<ContactPair> found = sorted(search.pairs(scene.x, p, kLarge), scene.mesh.num_gel_vertices);
+    for (const ContactPair& pair : all) {
+      if (nearest_on_the_way(pair, scene.x, p) >= reach(scene.mesh, pair, kLarge)) continue;
+      ++near;
+      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less))
+          << "call " << call;
+    }
+    scene.x += p;
+  }
+  EXPECT_GT(near, 1000);
 }
 
 TEST(ContactSearch, FindsEveryPairThatComesNearOnTheWay) {
