@@ -23,4 +23,4 @@ inline std::filesystem::path shared_root() {
   const std::filesystem::path variable = tacipc::shared_root() / (relative);                                \
   if (!std::filesystem::exists(tacipc::shared_root()))                                                      \
     GTEST_SKIP() << "needs " << (relative) << " below " << tacipc::shared_root() << " (set TACIPC_SHARED)"; \
-  ASSERT_TRUE(std::filesystem::exists(variable)) << variable << " is missing from the shared data"
+  ASSERT_TRUE(std::filesystem::exists(variable)) << (variable) << " is missing from the shared data"

@@ -102,8 +102,7 @@ inline BlockMatrix block_matrix_of(const EnergyTerm& term, Eigen::Index num_vert
       for (const int b : term.stencil(s)) pairs.push_back({a, b});
     }
   }
-  return BlockMatrix(
-      std::make_shared<BlockPattern>(make_block_pattern(static_cast<int>(num_vertices), std::move(pairs))));
+  return BlockMatrix(std::make_shared<BlockPattern>(make_block_pattern(static_cast<int>(num_vertices), pairs)));
 }
 
 /// Newton from rest, the prescribed displacements first and in as many parts as inversion asks for, until the largest
