@@ -14,6 +14,7 @@ namespace tacipc {
 
 Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh& gel) {
   Scales scales;
+  scales.front_edge_m = median_front_edge_m(gel);
   scales.diagonal_m = (gel.positions.colwise().maxCoeff() - gel.positions.colwise().minCoeff()).norm();
   scales.d_hat_m = config.relative_d_hat * scales.diagonal_m;
   scales.gap_horizon_m = 2.0 * config.start_gap_d_hat * scales.d_hat_m;
@@ -23,7 +24,7 @@ Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh&
                                  : balanced_barrier_stiffness(config.relative_barrier_stiffness,
                                                               {.h_s = config.time_step_s,
                                                                .youngs_modulus_pa = sensor.material.youngs_modulus_pa,
-                                                               .front_edge_m = median_front_edge_m(gel),
+                                                               .front_edge_m = scales.front_edge_m,
                                                                .d_hat_m = scales.d_hat_m});
   return scales;
 }
@@ -45,6 +46,7 @@ GelModel make_gel_model(const Material& material, const TetMesh& gel, const std:
 
 StepSettings step_settings(const PressConfig& config, const Scales& scales) {
   StepSettings settings{.d_hat_m = scales.d_hat_m,
+                        .front_edge_m = scales.front_edge_m,
                         .barrier_stiffness_j_m4 = scales.barrier_stiffness / (config.time_step_s * config.time_step_s),
                         .adaptive_barrier = config.adaptive_barrier_stiffness,
                         .pair_counting = config.pair_counting,

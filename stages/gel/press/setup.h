@@ -17,6 +17,7 @@ namespace tacipc {
 /// Numbers that follow from the configuration and the gel.
 struct Scales {
   double diagonal_m = 0.0;         // of the undeformed gel's bounding box
+  double front_edge_m = 0.0;       // median edge of the front
   double d_hat_m = 0.0;            // d̂
   double gap_horizon_m = 0.0;      // gaps are measured up to this
   double start_gap_m = 0.0;        // between the object's lowest point and z = 0 in frame 0

@@ -8,7 +8,7 @@ namespace tacipc {
 // time and smallest at either end. r · (xᵢ − xⱼ) is compared with |r| × (the separation wanted + an error above all
 // that rounding does to paths of doubles and to these few products), |r| ≤ |r|₁.
 TACIPC_CLONES unsigned stay_apart(const double* x, const double* p, double until, const ContactPair* const* pairs,
-                                  ContactPair::Kind kind, double slack, const Pack& floor_m) {
+                                  ContactPair::Kind kind, double slack, const Pack& floor_m, const Pack& near_m) {
   const PackedPoints now = load_points(x, pairs);
   PackedPoints displacement = load_points(p, pairs);
   for (Pack3& d : displacement) d = (Pack{} + until) * d;
@@ -30,8 +30,9 @@ TACIPC_CLONES unsigned stay_apart(const double* x, const double* p, double until
     }
   }
   constexpr double kRounding = 64 * 1.2e-16;
-  const Pack wanted =
-      slack * (1.0 + 1e-9) * gap.squared_length + (floor_m * (1.0 - slack) + kRounding * size) * sum(absolute(gap.r));
+  const Pack length_bound = sum(absolute(gap.r));
+  const Pack wanted = slack * (1.0 + 1e-9) * smaller(gap.squared_length, near_m * length_bound) +
+                      (floor_m * (1.0 - slack) + kRounding * size) * length_bound;
   unsigned apart = 0;
   for (int l = 0; l < kLanes; ++l) apart |= smallest[l] > wanted[l] ? 1U << l : 0U;
   return apart;

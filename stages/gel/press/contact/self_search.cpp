@@ -46,7 +46,7 @@ void for_each_coming_near(const std::vector<ContactPair>& pairs, const std::vect
     const PairPack pack(pairs, first, last);
     Pack wanted = {};
     for (int l = 0; l < pack.count; ++l) wanted[l] = within_m[first + static_cast<std::size_t>(l)];
-    const unsigned apart = stay_apart(x.data(), p.data(), 1.0, pack.pairs, pack.kind(), 0.0, wanted);
+    const unsigned apart = stay_apart(x.data(), p.data(), 1.0, pack.pairs, pack.kind(), 0.0, wanted, Pack{});
     for (int l = 0; l < pack.count; ++l) {
       if (!(apart >> l & 1U)) keep(first + static_cast<std::size_t>(l));
     }

@@ -22,13 +22,13 @@ constexpr int kMaxHalvings = 40;
 constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
 // Multipliers are renewed at minima known to this part of the constraint's tolerance.
 constexpr double kConstraintPart = 0.3;
-// After a move by less than the first part of what the object has left, the gel is relaxed twice as long as after the
-// move before; after more than the second, half as long.
+// After a move by less than the first part of what the object has left, the gel is relaxed this often; after more than
+// the second, half as often as before. More does not make the next move longer: contacts that are still to come end it.
 constexpr double kShortMove = 0.1, kLongMove = 0.3;
-constexpr int kFewestAfterShortMove = 2, kMostRelaxations = 16;
+constexpr int kRelaxationsAfterShortMove = 2;
 
 int relaxations_after(double alpha, int before) {
-  if (alpha < kShortMove) return std::clamp(2 * before, kFewestAfterShortMove, kMostRelaxations);
+  if (alpha < kShortMove) return kRelaxationsAfterShortMove;
   return alpha > kLongMove ? before / 2 : std::max(1, before);
 }
 
@@ -52,7 +52,7 @@ void TimeStepper::minimise(Step& step) {
   Minimisation run{.barrier = barrier(pairs_at(step.x)), .energy = {}};
   run.energy = potential(step, run.barrier);
   while (true) {
-    if (run.iterations >= settings_.newton.max_iterations) {
+    if (report.newton_iterations >= settings_.newton.max_iterations) {
       throw SolverError(
           "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N "
           "of {:.3e} N, smallest gap {:.2e} m)",
@@ -64,7 +64,7 @@ void TimeStepper::minimise(Step& step) {
     if (step.renewals_left > 0 && report.newton_iterations > 0) renew_friction(step, run);
     const NewtonDirection direction = find_direction(step, run, moving);
     const bool converged = within_tolerances(step, direction);
-    step.report.approximated_share = settings_.newton.adaptive_contact_hessian ? direction.largest_share : 0.0;
+    step.report.approximated_share = direction.largest_share;
     if (converged && is_final(step, run, direction)) return;
 
     std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
@@ -114,7 +114,6 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   Blend from_psd(mesh_.num_gel_vertices, settings.adaptive_contact_hessian);
   NewtonDirection direction = newton_.direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
                                                 step.arrived ? step.blend : from_psd);
-  ++run.iterations;
   const Eigen::Index rows = settings_.augmented_lagrangian ? step.x.rows() : mesh_.num_gel_vertices;
   run.residual_m_s = std::max(largest_row(direction.p, rows), direction.object_shift.norm()) / h;
   StepReport& report = step.report;
@@ -150,7 +149,7 @@ bool TimeStepper::is_final(Step& step, Minimisation& run, const NewtonDirection&
 double TimeStepper::step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p,
                                double slack) {
   const Stopwatch watch(times_.limits_s);
-  const GapRule rule{slack, kGapFloor * settings_.d_hat_m};
+  const GapRule rule{slack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m};
   return std::min(contact_step_limit(pairs, step.x, p, rule), inversion_step_limit(gel_.tets, step.x, p));
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 // Failed factorisations after which shares are raised only about the vertices at fault; then about all.
 constexpr int kMaxLocalRaises = 8;
+constexpr double kFullSolve = 1e-10;  // tolerance of a linear system whose coarser solution ascends
 // Relative: the object's vertices go from rounded positions to rounded positions.
 constexpr double kSameTranslation = 1e-10;
 
@@ -122,9 +123,21 @@ Vector3 NewtonStepper::gel_gradient() const {
   return sum;
 }
 
-/// Solves [H B; Bᵀ C] [p; q] = [−g − c; −g_q − c_q] for the free vertices and the object's free axes.
 bool NewtonStepper::solve(const NewtonProblem& problem, NewtonDirection& out) {
   const Stopwatch watch(times_.linear_s);
+  const bool driven = !system_.coupling.isZero(0.0) || !system_.object_coupling.isZero(0.0);
+  const auto found = [&] { return solve_once(problem, out) && (driven || out.slope <= 0.0); };
+  if (found()) return true;
+  if (problem.free_axes.empty()) return false;
+  // The Schur complement of columns solved to a hundredth need not be positive definite, nor its solution descend.
+  solver_->set_tolerance(kFullSolve);
+  const bool solved = found();
+  solver_->set_tolerance(tolerance_);
+  return solved;
+}
+
+/// Solves [H B; Bᵀ C] [p; q] = [−g − c; −g_q − c_q] for the free vertices and the object's free axes.
+bool NewtonStepper::solve_once(const NewtonProblem& problem, NewtonDirection& out) {
   ++times_.solves;
   if (!solver_->prepare(system_.hessian)) return false;
   const auto solved = solver_->solve(-system_.gradient - system_.coupling);

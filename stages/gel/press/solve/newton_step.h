@@ -57,7 +57,10 @@ class NewtonStepper {
   void reset_pattern() { pattern_ = own_pattern_; }
 
   /// Of the linear solver, where it is iterative.
-  void set_tolerance(double relative) { solver_->set_tolerance(relative); }
+  void set_tolerance(double relative) {
+    tolerance_ = relative;
+    solver_->set_tolerance(relative);
+  }
 
   /// Of derivatives and linear systems.
   SolverTimes times() const;
@@ -89,8 +92,10 @@ class NewtonStepper {
   /// Makes the contact Hessians of the system those of another blend.
   void reblend(const Call& call, const Blend& before, const Blend& after);
   Vector3 gel_gradient() const;
-  /// Solves the system; false if it is not positive definite.
+  /// Solves the system; false if it is not positive definite, or no solution descends where nothing is driven.
   bool solve(const NewtonProblem& problem, NewtonDirection& out);
+  /// Solves it to the tolerance set; false if it is not positive definite.
+  bool solve_once(const NewtonProblem& problem, NewtonDirection& out);
   /// Solves the system. \return vertices about which it is not positive definite, or which go farther than
   /// `longest_m`; none if the direction can be used
   std::vector<int> solve_or_find_indefinite(const NewtonProblem& problem, double longest_m, NewtonDirection& out);
@@ -105,6 +110,7 @@ class NewtonStepper {
   NewtonSystem system_;  // of the last call; its storage is used again
   SolverTimes times_;
   std::unique_ptr<LinearSolver> solver_;
+  double tolerance_ = 1e-3;  // of the solver
 };
 
 }  // namespace tacipc

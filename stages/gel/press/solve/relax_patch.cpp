@@ -20,7 +20,8 @@ constexpr int kMaxIterations = 20;
 // tolerance), so that the whole gel finds it at rest.
 constexpr double kPatchTolerance = 0.2;
 constexpr int kMaxHalvings = 20;
-constexpr double kReach = 1.0;          // largest displacement in a patch along each axis, × d̂
+// Largest displacement in a patch along each axis: × d̂, or × the median edge of the front, whichever is more.
+constexpr double kReach = 1.0, kReachOfEdge = 0.4;
 constexpr double kSmallestStep = 1e-3;  // part of a Newton step below which a patch is given up
 
 /// Vertices that go farther than all others.
@@ -70,7 +71,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   if (!found) return false;
 
   const LocalPatch patch = grow_patch(found->vertices, kRings, gel_.tets, newton_.free());
-  const double reach = kReach * settings_.d_hat_m;
+  const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
   const Positions start = step.x;
   const std::vector<ContactPair> pairs = search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach);
   StepTerms terms = step.terms;
@@ -93,8 +94,9 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
     if (alpha < kSmallestStep) break;
     within_reach = alpha == 1.0;
     const Positions p = alpha * local.p;
-    const double limit = std::min(contact_step_limit(pairs, step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m}),
-                                  inversion_step_limit(patch.tets, step.x, p));
+    const double limit =
+        std::min(contact_step_limit(pairs, step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
+                 inversion_step_limit(patch.tets, step.x, p));
     const double before = energy.value(step.x), rounding = kEnergyRounding * std::abs(before);
     double part = limit;
     int halvings = 0;

@@ -52,8 +52,9 @@ double pair_limit(const ContactPair& pair, const Positions& x, const Positions& 
   FourPoints d = gather(p, pair);
   for (Vector3& displacement : d) displacement *= until;
   const double distance = std::sqrt(closest_feature(pair, now).squared_distance);
-  const double floor = std::min(rule.floor_m, 0.999 * distance);
-  const CcdOptions options{.slack = (floor + rule.slack * (distance - floor)) / distance};
+  if (distance == 0.0) return 0.0;
+  const double floor = std::min({rule.floor_m, 0.999 * distance, rule.near_m});
+  const CcdOptions options{.slack = (floor + rule.slack * (std::min(distance, rule.near_m) - floor)) / distance};
   return until * (pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(now, d, options)
                                                                  : time_of_impact_edge_edge(now, d, options));
 }
@@ -62,11 +63,11 @@ double pair_limit(const ContactPair& pair, const Positions& x, const Positions& 
 
 double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
                           const GapRule& rule) {
-  const Pack floor = Pack{} + rule.floor_m;
+  const Pack floor = Pack{} + rule.floor_m, near = Pack{} + rule.near_m;
   const auto limit_of = [&](std::size_t first, std::size_t last, double limit) {
     for (std::size_t i = first; i < last;) {
       const PairPack pack(pairs, i, last);
-      const unsigned apart = stay_apart(x.data(), p.data(), limit, pack.pairs, pack.kind(), rule.slack, floor);
+      const unsigned apart = stay_apart(x.data(), p.data(), limit, pack.pairs, pack.kind(), rule.slack, floor, near);
       for (int l = 0; l < pack.count; ++l) {
         if (!(apart >> l & 1U)) limit = pair_limit(*pack.pairs[l], x, p, limit, rule);
       }

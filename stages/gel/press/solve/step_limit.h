@@ -1,6 +1,7 @@
 // Which part of a step may be taken before anything would touch or be inverted.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "stages/gel/press/contact/contact_search.h"
@@ -11,10 +12,12 @@ namespace tacipc {
 struct GapRule {
   double slack = 0.1;  // part of the present gap beyond the floor
   double floor_m = 0;  // no gap falls to this: below it contact is so stiff that linear algebra loses its digits
+  /// A gap wider than this counts as one of this: nothing pushes there yet, so the pair may come as near as others.
+  double near_m = std::numeric_limits<double>::infinity();
 };
 
-/// Largest t in (0, 1] up to which every pair at distance d keeps more than floor + slack (d − floor) while the
-/// vertices move from x to x + t p. \throw SolverError if a pair is too near for any step.
+/// Largest t in (0, 1] up to which every pair at distance d keeps more than floor + slack (min(d, near) − floor) while
+/// the vertices move from x to x + t p. \throw SolverError if a pair is too near for any step.
 double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
                           const GapRule& rule);
 

@@ -35,7 +35,6 @@ struct TimeStepper::Minimisation {
   IncrementalPotential energy;
   std::optional<double> value = std::nullopt;  // of the energy at x, where the line search has found it
   double residual_m_s = std::numeric_limits<double>::infinity();  // max |p| / h of the last direction
-  int iterations = 0;
   int exact_hessian_waits = 0;  // iterations within the tolerances that went on for want of the exact Hessian
   int relaxations_wanted = 0;   // iterations at a fixed object between two of its moves,
   int relaxations_left = 0;     // and those left until the next

@@ -18,7 +18,7 @@ struct NewtonSettings {
   double velocity_tolerance_m_s = 0.0;     // max |p| / h of the Newton step p, below which it has converged …
   double relative_force_tolerance = 5e-4;  // … if residual forces also sum to less than this part of the contact force
   double force_tolerance_n = 1e-5;         // … or to less than this
-  int max_iterations = 200;                // reaching it is a failure
+  int max_iterations = 200;                // of a time step, renewals of friction included; reaching it is a failure
   bool adaptive_contact_hessian = true;    // blend of the exact one and its PSD approximation, else the latter alone
   bool patches = true;                     // solves for the last few moving vertices alone in between
 };
@@ -34,6 +34,7 @@ struct FrictionSettings {
 /// What holds during a whole simulation.
 struct StepSettings {
   double d_hat_m = 0.0;
+  double front_edge_m = 0.0;            // median edge of the gel's front
   double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step, which a divided step keeps
   bool adaptive_barrier = false;        // State::barrier_factor grows where gaps get small
   PairCounting pair_counting = {};

@@ -95,7 +95,7 @@ bool filter_passes(const Query& query) {
                          {0, 1, 2, 3}};
   std::array<const ContactPair*, kLanes> lanes;
   lanes.fill(&pair);
-  return stay_apart(x.data(), p.data(), 1.0, lanes.data(), pair.kind, 0.0, Pack{}) != 0U;
+  return stay_apart(x.data(), p.data(), 1.0, lanes.data(), pair.kind, 0.0, Pack{}, Pack{}) != 0U;
 }
 
 void run(const Query& query, Counts& counts) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "common/base/error.h"
@@ -34,10 +35,11 @@ struct MovingPairs {
          {first, first + 1, first + 2, first + 3}});
   }
   /// Bits of those of the eight pairs `lanes` that the filter shows to stay apart.
-  unsigned apart(const std::array<int, kLanes>& lanes, double until, double slack, const Pack& floor_m) const {
+  unsigned apart(const std::array<int, kLanes>& lanes, double until, double slack, const Pack& floor_m,
+                 const Pack& near_m = Pack{} + std::numeric_limits<double>::infinity()) const {
     std::array<const ContactPair*, kLanes> chosen;
     for (int l = 0; l < kLanes; ++l) chosen[l] = &pairs[lanes[l]];
-    return stay_apart(x.data(), p.data(), until, chosen.data(), chosen[0]->kind, slack, floor_m);
+    return stay_apart(x.data(), p.data(), until, chosen.data(), chosen[0]->kind, slack, floor_m, near_m);
   }
   /// How far a step may go; 0 where a pair touches, so that its distance has no part for slack, or where the solver
   /// refuses any step.
@@ -204,7 +206,7 @@ TEST_P(PlaneFilter, JudgesEachLaneByItselfAndKeepsItsDistance) {
   int claimed = 0;
   for (int pack = 0; pack < 2000; ++pack) {
     MovingPairs moving;
-    Pack floor = {};
+    Pack floor = {}, near = {};
     const double slack = pack % 3 == 0 ? 0.0 : 0.3, until = pack % 2 == 0 ? 1.0 : 0.5;
     for (int l = 0; l < kLanes; ++l) {
       FourPoints x = random_points(random);
@@ -216,20 +218,22 @@ TEST_P(PlaneFilter, JudgesEachLaneByItselfAndKeepsItsDistance) {
       }
       moving.add(GetParam(), x, random_points(random));
       floor[l] = 0.2 * std::abs(random_unit(random));
+      near[l] = pack % 2 == 0 ? 0.5 * std::abs(random_unit(random)) : std::numeric_limits<double>::infinity();
     }
-    const unsigned apart = moving.apart(kAllLanes, until, slack, floor);
+    const unsigned apart = moving.apart(kAllLanes, until, slack, floor, near);
     for (int l = 0; l < kLanes; ++l) {
       const bool here = apart >> l & 1U;
       claimed += here;
       std::array<int, kLanes> same;
       same.fill(l);
-      EXPECT_EQ(moving.apart(same, until, slack, Pack{} + floor[l]), here ? 0xFFU : 0U) << "lane " << l;
+      EXPECT_EQ(moving.apart(same, until, slack, Pack{} + floor[l], Pack{} + near[l]), here ? 0xFFU : 0U)
+          << "lane " << l;
       if (!here) continue;
       const FourPoints x = gather(moving.x, moving.pairs[l]), d = gather(moving.p, moving.pairs[l]);
       const auto distance = [&](double t) {
         return std::sqrt(closest_feature(moving.pairs[l], x + t * d).squared_distance);
       };
-      const double wanted = slack * distance(0.0) + (1.0 - slack) * floor[l];
+      const double wanted = slack * std::min(distance(0.0), near[l]) + (1.0 - slack) * floor[l];
       for (int k = 0; k <= 10; ++k)
         ASSERT_GT(distance(until * k / 10), wanted) << to_string(x) << " by " << to_string(d) << " at " << k;
     }
@@ -256,8 +260,9 @@ TEST_P(PlaneFilter, ClaimsWhatSlackAndFloorLeaveToTheLastDigit) {
     double size = 0.0;
     for (int k = 0; k < 4; ++k) size += seen.start[k].cwiseAbs().sum() + seen.displacement[k].cwiseAbs().sum();
     const double little = std::max(1e-8 * frame.scale, 1e-14 * size);
-    const auto claims = [&](double until, double slack, double floor) {
-      return moving.apart({}, until, slack, Pack{} + floor) == 0xFFU;
+    const auto claims = [&](double until, double slack, double floor,
+                            double near = std::numeric_limits<double>::infinity()) {
+      return moving.apart({}, until, slack, Pack{} + floor, Pack{} + near) == 0xFFU;
     };
     for (const double until : {1.0, 0.5}) {
       const double end = (1.0 - 0.75 * until) * frame.scale;
@@ -265,6 +270,9 @@ TEST_P(PlaneFilter, ClaimsWhatSlackAndFloorLeaveToTheLastDigit) {
       EXPECT_TRUE(claims(until, 0.0, end - little)) << frame.name;
       EXPECT_FALSE(claims(until, end / frame.scale, 0.0)) << frame.name;
       EXPECT_TRUE(claims(until, (end - little) / frame.scale, 0.0)) << frame.name;
+      // Nine tenths of what counts as near.
+      EXPECT_FALSE(claims(until, 0.9, 0.0, end / 0.9)) << frame.name;
+      EXPECT_TRUE(claims(until, 0.9, 0.0, (end - little) / 0.9)) << frame.name;
       // Half of the distance and half of the floor.
       EXPECT_FALSE(claims(until, 0.125, (end - 0.125 * frame.scale) / 0.875)) << frame.name;
       EXPECT_TRUE(claims(until, 0.125, (end - 0.125 * frame.scale - little) / 0.875)) << frame.name;

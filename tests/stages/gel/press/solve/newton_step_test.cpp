@@ -131,5 +131,31 @@ TEST_F(NewtonStepTest, IsThatOfDenseAlgebraHoweverTheObjectYields) {
   }
 }
 
+/// Of columns solved to a hundredth, or less, the object's Schur complement may be indefinite, or its solution ascend,
+/// which Armijo's rule would take for a step.
+TEST_F(NewtonStepTest, DescendsHoweverCoarselyItIsSolved) {
+  motion_.setZero();
+  for (int place = 0; place < 60; ++place) {
+    const int n = mesh_.num_gel_vertices;
+    StepTerms terms;
+    terms.elasticity = elasticity_;
+    terms.object_inertia = std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, 1.0),
+                                                     Positions(x_.row(n).array() + 0.04 * (place - 30)), n);
+    terms.barrier = barrier_;
+    const IncrementalPotential potential =
+        make_incremental_potential(terms, {.h_s = 0.5, .barrier_stiffness_j_m4 = 2000.0, .friction_coefficient = 0.0});
+    for (const double tolerance : {0.9, 0.5, 0.1, 1e-2}) {
+      for (const std::vector<int>& axes : kFreeAxes) {
+        NewtonStepper stepper(free_, n, elasticity_, LinearSolverKind::conjugate_gradient);
+        stepper.set_tolerance(tolerance);
+        Blend blend(n);
+        const NewtonDirection found =
+            stepper.direction({.potential = potential, .x = x_, .motion = motion_, .free_axes = axes}, blend);
+        EXPECT_LT(found.slope, 0.0) << tolerance << ", " << axes.size() << " axes, place " << place;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tacipc

@@ -85,5 +85,21 @@ TEST(ContactStepLimit, LeavesTheFloor) {
   EXPECT_GT(limit, 0.9 * 0.36);
 }
 
+TEST(ContactStepLimit, AWideGapMayBecomeAsNarrowAsANearOne) {
+  const ContactPair pair{ContactPair::Kind::point_triangle, {0, 1, 2, 3}};
+  for (const double distance : {0.05, 0.1, 1.0, 50.0}) {
+    const Positions x{{0.2, 0.2, distance}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    Positions p = Positions::Zero(4, 3);
+    p(0, 2) = -2.0 * distance;
+    const GapRule rule{.slack = 0.3, .floor_m = 0.01, .near_m = 0.1};
+    const double left = 0.01 + 0.3 * (std::min(distance, 0.1) - 0.01), expected = (distance - left) / (2.0 * distance);
+    const double limit = contact_step_limit({pair}, x, p, rule);
+    EXPECT_LE(limit, expected);
+    EXPECT_GT(limit, 0.9 * expected) << distance;
+    EXPECT_EQ(contact_step_limit({pair}, x, 0.98 * expected * p, rule), 1.0);
+    EXPECT_LT(contact_step_limit({pair}, x, 1.02 * expected * p, rule), 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace tacipc
