@@ -102,7 +102,7 @@ std::string bench_page(const std::vector<Run>& runs, const CostModel& model, con
          "d̂, κ × 125; *stiff*: κ × 10, that of the paper. Gels are the paper's mesh with its lengths scaled, the "
          "scenes are `configs/studies/speed/*.yaml`; "
          "`BENCH_GELS=` and the other variables of `pipelines/verification/bench.mk` select what is measured.\n\n## "
-         "Routes\n\n" +
+         "Shipped settings\n\n<!-- defaults -->\nNot made in this run.\n<!-- end of defaults -->\n\n## Routes\n\n" +
          routes_table(runs) +
          "\n*fast* is the default solver with the paper's linear tetrahedra. *direct* factorises every linear system "
          "instead (CHOLMOD, METIS, one symbolic "

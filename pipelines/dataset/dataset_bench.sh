@@ -17,8 +17,8 @@ root() { awk -v mse="$("$tacipc" table "$1/samples.csv" --columns mse)" 'BEGIN {
 {
   echo '| the first sample | press, processor s | press force, N |'
   echo '|---|---|---|'
-  printf '| friction lagged once per step (`configs/press/friction_once.yaml`, as the IPC code does) | %.1f | %.3f |\n' "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
-  printf '| friction iterated (`configs/press/friction.yaml`, the default of datasets) | %.1f | %.3f |\n' "$(seconds_of "$choices/iterated/press")" "$(force_of "$choices/iterated/press")"
+  printf '| `configs/press/default.yaml`, friction iterated | %.1f | %.3f |\n' "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
+  printf '| the same with `friction.lag: once`, as the IPC code does | %.1f | %.3f |\n' "$(seconds_of "$choices/once/press")" "$(force_of "$choices/once/press")"
   echo
   echo '| its last frame against 4 × 4 camera rays a pixel and 8 × 8 points of each lamp | rays a pixel | processor s a frame | mean difference, codes | root mean square, codes |'
   echo '|---|---|---|---|---|'

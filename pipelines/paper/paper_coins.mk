@@ -26,9 +26,9 @@ endef
 
 # $(call coins_rules,folder,object)
 define coins_rules
-$(call sample_rules,$(1)/tacipc,$(2),$(OUT)/objects/$(2),configs/objects/embossed.yaml,mctac,$(PAPER_OURS),$(COINS_MOTION),configs/press/default.yaml)
-$(1)/fine/press/press.yaml: $(OUT)/objects/$(2)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/press/default.yaml | build
-	$$(call run,press,--name $(2) $(call coins_object,$(2)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/default.yaml --sample $(COINS_MOTION))
+$(call sample_rules,$(1)/tacipc,$(2),$(OUT)/objects/$(2),configs/objects/embossed.yaml,mctac,$(PAPER_OURS),$(COINS_MOTION),configs/press/frictionless.yaml)
+$(1)/fine/press/press.yaml: $(OUT)/objects/$(2)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/press/frictionless.yaml | build
+	$$(call run,press,--name $(2) $(call coins_object,$(2)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/frictionless.yaml --sample $(COINS_MOTION))
 $(call coins_render,$(1)/fine/render,$(1)/fine/press,$(PAPER_FINE),$(PAPER_LIGHT))
 $(call coins_render,$(1)/noise/render,$(1)/fine/press,$(PAPER_FINE),default)
 $(call coins_tacchi,$(1)/tacchi,$(2),configs/rivals/mpm/legacy_mctac.yaml)
@@ -110,7 +110,7 @@ $(PAPER)/objects-near/table/tabulate.yaml: configs/studies/paper/tables/near_dep
 
 # The ablation: some of the objects on other meshes, against the finest, all with the same barrier, light and noise.
 define coins_mesh
-$(foreach o,$(PAPER_ABLATED),$(call sample_rules,$(PAPER)/ablation/$(1)/$(o),$(o),$(OUT)/objects/$(o),configs/objects/embossed.yaml,mctac,$(1),$(COINS_MOTION),configs/press/default.yaml)
+$(foreach o,$(PAPER_ABLATED),$(call sample_rules,$(PAPER)/ablation/$(1)/$(o),$(o),$(OUT)/objects/$(o),configs/objects/embossed.yaml,mctac,$(1),$(COINS_MOTION),configs/press/frictionless.yaml)
 )
 endef
 # Where a press on a mesh was rendered, $(call coins_seen,mesh,object): of the finest it is one of those above.

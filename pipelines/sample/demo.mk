@@ -1,5 +1,5 @@
 # The demo: embossed objects of different kinds pressed 0.5 mm into the MC-Tac gel; two of them again, on a
-# coarser gel and with friction, dragged and turned afterwards; two of them in the gels of the other sensors.
+# coarser gel, dragged and turned afterwards; two of them in the gels of the other sensors.
 
 DEMO_COARSE := star gear dots rings weave
 DEMO_FINE   := letter_a
@@ -7,18 +7,18 @@ DEMO_MOVED  := dots_shear star_twist
 DEMO_SENSORS := gelsight_mini digit gelsight_lab
 DEMO_ELSEWHERE := $(foreach s,$(DEMO_SENSORS),star_$(s) rings_$(s))
 
-# $(call demo_rules,folder,sample,object,mesh,motion,press configuration)
-demo_rules = $(call sample_rules,$(1)/$(2),$(2),$(OUT)/objects/$(3),configs/objects/embossed.yaml,mctac,$(4),configs/motions/$(5).yaml,configs/press/$(6).yaml)
+# $(call demo_rules,folder,sample,object,mesh,motion)
+demo_rules = $(call sample_rules,$(1)/$(2),$(2),$(OUT)/objects/$(3),configs/objects/embossed.yaml,mctac,$(4),configs/motions/$(5).yaml,configs/press/default.yaml)
 
-$(foreach o,$(DEMO_FINE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0100um,press_0500um,default)))
-$(foreach o,$(DEMO_COARSE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0250um,press_0500um,default)))
+$(foreach o,$(DEMO_FINE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0100um,press_0500um)))
+$(foreach o,$(DEMO_COARSE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0250um,press_0500um)))
 $(foreach s,$(DEMO_SENSORS),$(foreach o,star rings,$(eval $(call sample_rules,$(OUT)/demo/$(o)_$(s),$(o)_$(s),$(OUT)/objects/$(o),configs/objects/embossed.yaml,$(s),adaptive_0250um,configs/motions/press_0500um.yaml,configs/press/default.yaml))))
-$(eval $(call demo_rules,$(OUT)/demo,dots_shear,dots,adaptive_0400um,shear_0500um,friction))
-$(eval $(call demo_rules,$(OUT)/demo,star_twist,star,adaptive_0400um,twist_10deg,friction))
+$(eval $(call demo_rules,$(OUT)/demo,dots_shear,dots,adaptive_0400um,shear_0500um))
+$(eval $(call demo_rules,$(OUT)/demo,star_twist,star,adaptive_0400um,twist_10deg))
 $(eval $(call report_rules,$(OUT)/demo,TacIPC demo,$(addprefix $(OUT)/demo/,$(DEMO_FINE) $(DEMO_COARSE) $(DEMO_MOVED) $(DEMO_ELSEWHERE))))
 
 PATTERNS := $(basename $(notdir $(wildcard configs/objects/patterns/*.yaml)))
-$(foreach o,$(PATTERNS),$(eval $(call demo_rules,$(OUT)/demo-full,$(o),$(o),adaptive_0100um,press_0500um,default)))
+$(foreach o,$(PATTERNS),$(eval $(call demo_rules,$(OUT)/demo-full,$(o),$(o),adaptive_0100um,press_0500um)))
 $(eval $(call report_rules,$(OUT)/demo-full,TacIPC: nineteen embossed objects,$(addprefix $(OUT)/demo-full/,$(PATTERNS))))
 
 DEMO_PROGRAMS := tacipc emboss decimate tetmesh press render report

@@ -20,7 +20,7 @@ name_of = $(basename $(notdir $(1)))
 define table_object
 $(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml | build
 	$$(call run,decimate,--mesh $(1) --object configs/objects/printed_indenter.yaml --config configs/objects/decimate/default.yaml)
-$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/motions/press_0500um.yaml,configs/press/default.yaml)
+$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/motions/press_0500um.yaml,configs/press/frictionless.yaml)
 endef
 $(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
 

@@ -2,7 +2,7 @@
 
 SENSOR   ?= mctac#            a file of configs/sensors
 MESH     ?= adaptive_0250um#  a file of configs/gels
-PRESS    ?=#                  a file of configs/press (default: friction if something drags or FRICTION is given, else default)
+PRESS    ?= default#          a file of configs/press
 FRICTION ?=#                  friction coefficient (default: as PRESS says)
 MOTION   ?= press#            press and what follows it: shear twist tilt hold release, joined by +; or a file.yaml with motion and placement
 DEPTH_MM ?= 0.5#              how deep the lowest point goes
@@ -66,9 +66,6 @@ ifneq ($(useless),)
   $(error $(firstword $(useless)): has no effect with MOTION=$(MOTION)$(if $(filter DENSITY,$(firstword $(useless))), without FORCE_N))
 endif
 
-ifeq ($(PRESS),)
-  override PRESS := $(if $(FRICTION)$(motion_file)$(filter shear twist tilt,$(moves)),friction,default)
-endif
 ifeq ($(wildcard configs/press/$(PRESS).yaml),)
   $(error PRESS: there is no configs/press/$(PRESS).yaml (there are: $(basename $(notdir $(wildcard configs/press/*.yaml)))))
 endif

@@ -16,7 +16,7 @@ bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_inde
 
 .PHONY: build-bench
 build-bench: build
-	@cmake --build $(BUILD) --target bench_object bench_table routes_table -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) --target bench_object bench_table routes_table defaults_table -j $(JOBS) -- --quiet
 
 $(BENCH)/gels/%/tetmesh.yaml: configs/studies/speed/gel_%.yaml configs/sensors/mctac.yaml | build
 	$(call run,tetmesh,--sensor configs/sensors/mctac.yaml --config $<)
@@ -70,6 +70,7 @@ $(BENCH)/page/bench_table.yaml: $(addsuffix /press.yaml,$(BENCH_RUNS)) | build-b
 .PHONY: bench-press bench-page
 bench-page: $(BENCH)/page/bench_table.yaml
 	$(call to_docs,$(BENCH)/page/performance.md)
+	$(if $(wildcard $(DEFAULTS)/table/table.md),$(call fill_docs,performance.md,defaults=$(DEFAULTS)/table/table.md))
 	$(call to_docs,$(BENCH)/page/bench_press.svg $(BENCH)/page/bench_elements.svg,performance)
 	@cat $(DOCS)/performance.md
 	@echo; echo "estimate reads $(COST_MODEL_MEASURED) from now on"
@@ -77,3 +78,41 @@ bench-page: $(BENCH)/page/bench_table.yaml
 # One after the other, whatever JOBS says: what runs beside a press is measured with it.
 bench-press: | build build-bench ## development: Cost of a press by route, size, object and motion (a quarter of an hour; BENCH_GELS= and others); writes OUT/docs/performance.md and the cost model that estimate reads
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1
+
+# What the shipped settings cost, and with one of them changed; docs/performance.md has a place for the table.
+DEFAULTS := $(BENCH)/defaults
+DEFAULTS_OBJECTS ?= star letter_a gear weave rings coin#  the coin of bench-press among them
+DEFAULTS_SHEARED ?= star coin#  dragged after the press
+DEFAULTS_NEAR    ?= $(DEFAULTS_OBJECTS)#  against a press that comes nearer
+DEFAULTS_GEL     ?= adaptive_0100um
+defaults_object = $(if $(filter coin,$(1)),$(BENCH),$(OUT))/objects/$(1)
+defaults_config = $(if $(filter default frictionless,$(1)),configs/press,$(DEFAULTS)/configs)/$(1).yaml
+defaults_motion = configs/$(if $(filter shear,$(1)),studies/speed/shear,motions/press_0500um).yaml
+$(DEFAULTS)/configs/once.yaml: changes := friction.lag=once
+$(DEFAULTS)/configs/wide.yaml: changes := barrier.relative_d_hat=1.0e-3
+$(DEFAULTS)/configs/near.yaml: changes := barrier.relative_d_hat=5.0e-5
+$(DEFAULTS)/configs/once.yaml $(DEFAULTS)/configs/wide.yaml $(DEFAULTS)/configs/near.yaml: configs/press/default.yaml | build
+	@mkdir -p $(@D)
+	$(BIN)/tacipc set $< $(changes) > $@.new && mv $@.new $@
+
+# $(call defaults_rule,object,motion,configuration)
+define defaults_rule
+$(DEFAULTS)/runs/$(1)-$(2)-$(3)/press.yaml: $(OUT)/gels/mctac-$(DEFAULTS_GEL)/tetmesh.yaml $(call defaults_object,$(1))/decimate.yaml $(call defaults_config,$(3)) $(call defaults_motion,$(2)) configs/sensors/mctac.yaml | build
+	OPENBLAS_NUM_THREADS=1 $(BIN)/press --out $$(@D) --threads 1 --name gel-$(1)-$(2)-$(3) --gel $(OUT)/gels/mctac-$(DEFAULTS_GEL)/gel.msh --object $(call defaults_object,$(1))/object.ply \
+	  --object-config configs/objects/embossed.yaml --sensor configs/sensors/mctac.yaml --config $(call defaults_config,$(3)) --sample $(call defaults_motion,$(2))
+DEFAULTS_RUNS += $(DEFAULTS)/runs/$(1)-$(2)-$(3)
+endef
+DEFAULTS_RUNS :=
+$(foreach o,$(DEFAULTS_OBJECTS),$(foreach c,default once frictionless wide $(if $(filter $(o),$(DEFAULTS_NEAR)),near),$(eval $(call defaults_rule,$(o),press,$(c)))))
+$(foreach o,$(filter $(DEFAULTS_OBJECTS),$(DEFAULTS_SHEARED)),$(eval $(call defaults_rule,$(o),shear,default)))
+
+$(DEFAULTS)/table/defaults_table.yaml: $(addsuffix /press.yaml,$(DEFAULTS_RUNS)) | build-bench
+	$(call run,defaults_table,$(addprefix --press ,$(DEFAULTS_RUNS)))
+
+.PHONY: bench-default bench-default-page
+bench-default-page: $(DEFAULTS)/table/defaults_table.yaml
+	@$(call fill_docs,performance.md,defaults=$(DEFAULTS)/table/table.md)
+	@cat $(DEFAULTS)/table/table.md
+
+bench-default: | build build-bench ## development: Cost of a press with the shipped settings, and with one of them changed (a quarter of an hour); writes the table in OUT/docs/performance.md
+	@$(MAKE) -f Makefile.data --no-print-directory bench-default-page JOBS=1

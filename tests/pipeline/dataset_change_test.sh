@@ -6,9 +6,9 @@ mkdir mine
 mkdir mine/meshes mine/older
 cp pyramid.stl mine/meshes
 sed 's/vertex \(.*\) 2$/vertex \1 3/' pyramid.stl > mine/older/pyramid.stl
-sed 's/coefficient: .*/coefficient: 0.1/' configs/press/friction.yaml > mine/slippery.yaml
-cp configs/press/friction.yaml mine/friction.yaml
-cp configs/press/friction.yaml mine/twin.yaml
+sed 's/coefficient: .*/coefficient: 0.1/' configs/press/default.yaml > mine/slippery.yaml
+cp configs/press/default.yaml mine/friction.yaml
+cp configs/press/default.yaml mine/twin.yaml
 cp configs/gels/tiny.yaml mine/coarse.yaml
 sed 's/^frames: .*/frames: all/' configs/render/default.yaml > mine/quick.yaml
 touch -d '2020-01-01' mine/*.yaml mine/*/pyramid.stl configs/gels/tiny.yaml

@@ -15,7 +15,7 @@ motions:
 splits: {test_objects: [star]}
 outputs: {pack: slim, keep: []}
 END
-cat configs/press/friction.yaml > mine/hopeless.yaml
+cat configs/press/default.yaml > mine/hopeless.yaml
 printf '  max_iterations: 1\n  max_halvings: 0\n' >> mine/hopeless.yaml
 goal() { # goal OUT GOAL [VARIABLE=value …]
   local out=$1 goal=$2

@@ -71,7 +71,7 @@ goal whole dataset > /dev/null
 [ "$before" = "$(comm -12 <(echo "$before") <(stamp whole))" ] || fail "more samples redid those there were"
 
 # Failures: noted, not tried again unless asked, and a run of them ends the run.
-cat configs/press/friction.yaml > mine/hopeless.yaml
+cat configs/press/default.yaml > mine/hopeless.yaml
 printf '  max_iterations: 1\n  max_halvings: 0\n' >> mine/hopeless.yaml
 sed -i 's/^  - name: along/&\n    press: hopeless.yaml/' mine/set.yaml
 goal failing dataset JOBS=1 > failing.txt 2>&1 && fail "a failed sample went unseen"

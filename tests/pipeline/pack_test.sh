@@ -20,7 +20,7 @@ motion:
   - {kind: press, depth_mm: $2, steps: 2}
   - {kind: shear, distance_mm: 0.1, direction_deg: 30, steps: 1}
 END
-  "$bin"/press --config configs/press/friction.yaml --sensor configs/sensors/mctac.yaml --sample "$1/sample.yaml" --gel gel/gel.msh \
+  "$bin"/press --config configs/press/default.yaml --sensor configs/sensors/mctac.yaml --sample "$1/sample.yaml" --gel gel/gel.msh \
     --object object/object.ply --out "$1/press" "${quiet[@]}"
   "$bin"/render --config configs/render/default.yaml --sensor configs/sensors/mctac.yaml --gel gel/gel.msh --press "$1/press" --out "$1/render" "${quiet[@]}"
 }

@@ -55,7 +55,7 @@ TEST_F(TrackProgram, AgreesWithProjectedMarkersThroughPressAndShear) {
   scratch_.file("track.yaml", "dots: {least_diameter_px: 3, most_diameter_px: 10}\n");
   ASSERT_EQ(stage("tetmesh --sensor sensor.yaml --config mesh.yaml --out gel"), 0) << said_;
   ASSERT_EQ(stage("indenter --config ball.yaml --out ball"), 0) << said_;
-  ASSERT_EQ(stage(fmt::format("press --name t --sensor sensor.yaml --config {0}/configs/press/friction.yaml --sample "
+  ASSERT_EQ(stage(fmt::format("press --name t --sensor sensor.yaml --config {0}/configs/press/default.yaml --sample "
                               "motion.yaml --gel gel/gel.msh --object ball/object.ply --object-config "
                               "{0}/configs/objects/embossed.yaml --out press",
                               kSource)),
