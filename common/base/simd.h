@@ -40,6 +40,7 @@ TACIPC_INLINE Pack3 choose(const Pack& key, const Pack3& yes, const Pack3& no) {
   return {choose(key, yes.x, no.x), choose(key, yes.y, no.y), choose(key, yes.z, no.z)};
 }
 TACIPC_INLINE Pack smaller(const Pack& a, const Pack& b) { return b < a ? b : a; }
+TACIPC_INLINE Pack larger(const Pack& a, const Pack& b) { return b > a ? b : a; }
 
 /// Rows of a table of three columns, a lane each.
 TACIPC_INLINE Pack3 load_rows(const double* table, const std::array<int, kLanes>& rows) {

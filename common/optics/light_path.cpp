@@ -27,7 +27,7 @@ TACIPC_INLINE Pack past_screen(const LightSample& sample, const Pack3& direction
   return choose(inner * inner - squared, one, choose(squared - outer * outer, one, Pack{}));
 }
 
-TACIPC_CLONES void straight(const Pack3& point, const LightSample& sample, IncidencePack& out) {
+TACIPC_INLINE void straight(const Pack3& point, const LightSample& sample, IncidencePack& out) {
   const Pack3 offset = {sample.position_m.x() - point.x, sample.position_m.y() - point.y,
                         sample.position_m.z() - point.z};
   const Pack squared_distance = dot(offset, offset);
@@ -39,39 +39,92 @@ TACIPC_CLONES void straight(const Pack3& point, const LightSample& sample, Incid
   if (sample.screen) out.irradiance *= past_screen(sample, {-out.direction.x, -out.direction.y, -out.direction.z});
 }
 
-TACIPC_CLONES void layered(const Pack3& point, const LightSample& sample, IncidencePack& out) {
+TACIPC_INLINE void layered(const Pack3& point, const LightSample& sample, PathStart& start, IncidencePack& out) {
   const LayerStack& stack = *sample.stack;
   const Pack dx = point.x - sample.position_m.x(), dy = point.y - sample.position_m.y();
   const Pack thickness = point.z + sample.gel_thickness_m;
-  const auto path = layered_path<Pack>(stack, thickness, dx * dx + dy * dy);
-  const Pack at_light = path.sine_over_lateral / stack.ior[0];
+  const auto path =
+      layered_path<Pack>(stack, thickness, dx * dx + dy * dy, larger(2.0 * start.last - start.before, Pack{} + 1.0));
+  start = {.last = path.stretch, .before = start.last};
+  const Pack at_light = path.sine_over_lateral * (1.0 / stack.ior[0]);
   const Pack3 leaving = {at_light * dx, at_light * dy, path.cosine_first};
   const Pack cosine = leaving.x * sample.normal.x() + leaving.y * sample.normal.y() + leaving.z * sample.normal.z();
-  const Pack in_gel = -path.sine_over_lateral / stack.ior[static_cast<std::size_t>(stack.count - 1)];
+  const Pack in_gel = path.sine_over_lateral * (-1.0 / stack.ior[static_cast<std::size_t>(stack.count - 1)]);
   out.direction = {in_gel * dx, in_gel * dy, -path.cosine_last};
-  out.length = thickness / path.cosine_last;
-  out.irradiance = sample.weight * emitted(sample, cosine) * path.transmittance * path.spread / path.cosine_last;
+  out.length = thickness * path.secant_last;
+  out.irradiance = sample.weight * emitted(sample, cosine) * path.transmittance * path.spread * path.secant_last;
   if (sample.screen) out.irradiance *= past_screen(sample, leaving);
 }
 
-TACIPC_CLONES void reflect(const SurfacePack& surface, const Pack3& light, const Coating& coating,
-                           CoatingResponse& out) {
+TACIPC_INLINE void incident(const Pack3& point, const LightSample& sample, PathStart& start, IncidencePack& out) {
+  sample.stack ? layered(point, sample, start, out) : straight(point, sample, out);
+}
+
+/// Smith's root for a direction with this cosine to the normal.
+TACIPC_INLINE Pack smith_root(const Coating& coating, const Pack& cosine) {
+  const double a2 = coating.ggx_alpha * coating.ggx_alpha;
+  return root(a2 + (1.0 - a2) * cosine * cosine);
+}
+
+/// `facing`: positive n·v, `shadowing`: its Smith's root.
+TACIPC_INLINE void respond(const SurfacePack& surface, const Pack3& light, const Coating& coating, const Pack& facing,
+                           const Pack& shadowing, CoatingResponse& out) {
   const Pack nl = positive(dot(surface.normal, light));
   out.diffuse = std::numbers::inv_pi * nl;
   out.gloss = Pack{};
   if (coating.specular_f0 <= 0.0) return;
-  const Pack nv = positive(dot(surface.normal, surface.view));
-  const Pack3 between = light + surface.view;
-  const Pack3 h = (1.0 / root(dot(between, between) + 1e-300)) * between;
+  // With l and v of length 1, |l + v|² = 2 + 2 l·v = b, so that n·h = (n·l + n·v) / √b and h·v = √b / 2.
+  const Pack b = larger(2.0 + 2.0 * dot(light, surface.view), Pack{} + 1e-30), sum = nl + facing;
   const double a2 = coating.ggx_alpha * coating.ggx_alpha, f0 = coating.specular_f0;
-  const Pack nh = dot(surface.normal, h), spread = nh * nh * (a2 - 1.0) + 1.0;
-  const Pack d = a2 * std::numbers::inv_pi / (spread * spread);
-  const Pack smith = nv * root(a2 + (1.0 - a2) * nl * nl) + nl * root(a2 + (1.0 - a2) * nv * nv);
-  const Pack away = 1.0 - positive(dot(surface.view, h)), squared = away * away;
+  const Pack spread = sum * sum * (a2 - 1.0) + b;  // D = α² b² / (π spread²)
+  const Pack smith = facing * smith_root(coating, nl) + nl * shadowing;
+  const Pack away = 1.0 - 0.5 * root(b), squared = away * away;
   const Pack fresnel = f0 + (1.0 - f0) * squared * squared * away;
   // G / (4 n·l n·v) = 1 / (2 (n·v √… + n·l √…)): no division by what vanishes at grazing angles.
-  const Pack lobe = nl * d * fresnel * 0.5 / (smith + 1e-12);
-  out.gloss = choose(nl, choose(nv, lobe, Pack{}), Pack{});
+  const Pack lobe = nl * (0.5 * a2 * std::numbers::inv_pi) * b * b * fresnel / (spread * spread * (smith + 1e-12));
+  out.gloss = choose(nl, choose(facing, lobe, Pack{}), Pack{});
+}
+
+TACIPC_CLONES void find_incidence(const Pack3& point, const LightSample& sample, PathStart& start, IncidencePack& out) {
+  incident(point, sample, start, out);
+}
+
+TACIPC_CLONES void find_facing(const SurfacePack& surface, const Coating& coating, Pack& facing, Pack& shadowing) {
+  facing = positive(dot(surface.normal, surface.view));
+  shadowing = smith_root(coating, facing);
+}
+
+TACIPC_CLONES void find_response(const SurfacePack& surface, const Pack3& light, const Coating& coating,
+                                 CoatingResponse& out) {
+  const Pack facing = positive(dot(surface.normal, surface.view));
+  respond(surface, light, coating, facing, smith_root(coating, facing), out);
+}
+
+/// False if all that arrives is added, else `doubtful` is filled, `left` greater than 0 where it is wanted.
+TACIPC_CLONES bool add_certain(const LitPack& places, const LightSample& sample, const Coating& coating,
+                               PathStart& start, CoatingResponse& sum, DoubtfulLight& doubtful, Pack& left) {
+  IncidencePack light;
+  incident(places.surface.point, sample, start, light);
+  CoatingResponse response;
+  respond(places.surface, light.direction, coating, places.facing, places.shadowing, response);
+  const Pack factor = light.irradiance * places.transmittance;
+  response.diffuse *= factor;
+  response.gloss *= factor;
+  // What is steeper than any surface around it is unobstructed: all of a flat face, most of a pressed one.
+  const Pack3& w = light.direction;
+  const Pack over = w.z * w.z - places.squared_steepness * (w.x * w.x + w.y * w.y);
+  const Pack certain = choose(over, -w.z, Pack{}), none{};
+  // What no light reaches has no gloss either.
+  const Pack diffuse = choose(response.diffuse, response.diffuse, none);
+  const Pack gloss = choose(response.diffuse, response.gloss, none);
+  sum.diffuse += choose(certain, diffuse, none);
+  sum.gloss += choose(certain, gloss, none);
+  left = choose(certain, none, diffuse);
+  int lanes = 0;
+  for (int l = 0; l < kLanes; ++l) lanes += left[l] > 0.0;
+  if (lanes == 0) return false;
+  doubtful = {light.direction, light.length, {diffuse, gloss}};
+  return true;
 }
 
 /// Patches of the diffuser that one LED lights, as lights of their own.
@@ -153,16 +206,30 @@ std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, b
   return samples;
 }
 
-IncidencePack light_path(const Pack3& point, const LightSample& sample) {
+IncidencePack light_path(const Pack3& point, const LightSample& sample, PathStart* start) {
   IncidencePack out;
-  sample.stack ? layered(point, sample, out) : straight(point, sample, out);
+  PathStart cold;
+  find_incidence(point, sample, start ? *start : cold, out);
   return out;
 }
 
 CoatingResponse coating_response(const SurfacePack& surface, const Pack3& light, const Coating& coating) {
   CoatingResponse out;
-  reflect(surface, light, coating, out);
+  find_response(surface, light, coating, out);
   return out;
+}
+
+void prepare(const Coating& coating, LitPack& places) {
+  find_facing(places.surface, coating, places.facing, places.shadowing);
+}
+
+std::uint32_t add_light(const LitPack& places, const LightSample& sample, const Coating& coating, PathStart& start,
+                        CoatingResponse& sum, DoubtfulLight& doubtful) {
+  Pack left;
+  if (!add_certain(places, sample, coating, start, sum, doubtful, left)) return 0;
+  std::uint32_t lanes = 0;
+  for (int l = 0; l < kLanes; ++l) lanes |= left[l] > 0.0 ? 1u << l : 0u;
+  return lanes;
 }
 
 }  // namespace tacipc

@@ -1,6 +1,7 @@
 // From points of the membrane to a light: where its light comes from and how much of it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -44,9 +45,16 @@ struct IncidencePack {
   Pack irradiance;  // on a surface that faces `direction`, per unit of intensity along the light's normal, 1/m²
 };
 
+/// Where the search for a path begins: from those of the last two packs of a row it leads so near that one step is
+/// enough.
+struct PathStart {
+  Pack last = Pack{} + 1.0, before = Pack{} + 1.0;  // stretch of layered_path
+};
+
 /// Straight path: E = weight · I(θ) / d², I(θ) = cos θ, 1 or cos^m θ (nothing behind the light). Through layers:
 /// E = weight · I(θ_0) T J / cos θ_gel of layered_path, where the gel is as thick as the point lies before its back.
-IncidencePack light_path(const Pack3& point, const LightSample& sample);
+/// `start`: kept from one pack of a row to the next, for the same sample.
+IncidencePack light_path(const Pack3& point, const LightSample& sample, PathStart* start = nullptr);
 
 /// Radiance towards `view` per unit of irradiance on a facing surface, for the two parts of the coating:
 ///   diffuse: max(0, n·l) / π (albedo 1);  glossy: max(0, n·l) D F G / (4 n·l n·v), GGX with
@@ -57,5 +65,27 @@ struct CoatingResponse {
   Pack gloss;
 };
 CoatingResponse coating_response(const SurfacePack& surface, const Pack3& light, const Coating& coating);
+
+/// Eight places with what all light samples have in common there.
+struct LitPack {
+  SurfacePack surface;
+  Pack transmittance;      // towards the camera; 0 where no light is wanted
+  Pack squared_steepness;  // light that is steeper meets nothing on its way (horizon.h)
+  Pack facing, shadowing;  // of prepare(…)
+};
+void prepare(const Coating& coating, LitPack& places);
+
+/// Light of one sample on its way to the camera, for what is not yet known to arrive.
+struct DoubtfulLight {
+  Pack3 direction;
+  Pack length;
+  CoatingResponse response;
+};
+
+/// Adds what one sample sends to eight places and these reflect to the camera, where nothing can be in its way. The
+/// other lit lanes come back as bits, with their light in `doubtful`. In one function, because together path and paint
+/// take most of the time of a picture.
+std::uint32_t add_light(const LitPack& places, const LightSample& sample, const Coating& coating, PathStart& start,
+                        CoatingResponse& sum, DoubtfulLight& doubtful);
 
 }  // namespace tacipc

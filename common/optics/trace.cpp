@@ -52,11 +52,6 @@ std::uint8_t most(const std::array<int, N>& counts) {
   return static_cast<std::uint8_t>(best);
 }
 
-/// Light of one group on eight rays.
-struct GroupLight {
-  Pack diffuse{}, gloss{};
-};
-
 class RowTracer {
  public:
   RowTracer(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
@@ -84,8 +79,9 @@ class RowTracer {
     const std::size_t channels = static_cast<std::size_t>(width) * groups_;
     std::vector<double> diffuse(channels), gloss(channels), marked(channels), marked_gloss(channels),
         indirect(channels);
-    std::vector<GroupLight> light(groups_);
+    std::vector<CoatingResponse> light(groups_);
     for (int j = 0; j < subpixels_; ++j) {
+      std::vector<PathStart> starts(samples_.size());
       for (int first = 0; first < width * subpixels_; first += kLanes) {
         Pack columns;
         for (int l = 0; l < kLanes; ++l) columns[l] = (first + l + 0.5) / subpixels_;
@@ -95,7 +91,7 @@ class RowTracer {
         const auto [hits, fallen] = find_hits(scene_, membrane_, rays, count, packet, counts.rays);
         if (log_) log_->camera.push_back(packet);
         if (fallen && !counts.fallen_pixel) counts.fallen_pixel = {(first + *fallen) / subpixels_, row};
-        gather_light(hits, rays, light);
+        gather_light(hits, rays, starts, light);
         for (int l = 0; l < kLanes && first + l < width * subpixels_; ++l) {
           const auto pixel = static_cast<std::size_t>((first + l) / subpixels_);
           const auto& hit = hits[static_cast<std::size_t>(l)];
@@ -138,64 +134,56 @@ class RowTracer {
  private:
   using Hits = std::array<std::optional<SurfaceHit>, kLanes>;
 
-  /// Adds up what reaches the hits from every light and is reflected to the camera.
-  void gather_light(const Hits& hits, const CameraRays& rays, std::vector<GroupLight>& light) const {
-    std::fill(light.begin(), light.end(), GroupLight{});
-    SurfacePack surface;
-    Pack steepness{};
-    std::uint32_t lit = 0;
+  /// Adds up what reaches the hits from every light and is reflected to the camera. `starts`: of the pack before.
+  void gather_light(const Hits& hits, const CameraRays& rays, std::vector<PathStart>& starts,
+                    std::vector<CoatingResponse>& light) const {
+    std::fill(light.begin(), light.end(), CoatingResponse{});
+    LitPack places{};
+    SurfacePack& surface = places.surface;
+    bool lit = false;
     for (int l = 0; l < kLanes; ++l) {
       // Empty lanes do as a point of the flat face.
       const SurfaceHit* hit = hits[static_cast<std::size_t>(l)] ? &*hits[static_cast<std::size_t>(l)] : nullptr;
-      if (hit && hit->from_inside) lit |= 1u << l;
+      if (hit && hit->from_inside) {
+        lit = true;
+        places.transmittance[l] = rays.transmittance[l];
+      }
       put(surface.point, l, hit ? hit->point : Vector3(0.0, 0.0, 0.0));
       put(surface.normal, l, hit ? hit->inner_normal : Vector3(0.0, 0.0, -1.0));
       put(surface.shadow_origin, l, hit ? hit->shadow_origin : Vector3(0.0, 0.0, 0.0));
       put(surface.view, l, hit ? Vector3(-lane_of(rays.direction, l)) : Vector3(0.0, 0.0, -1.0));
-      steepness[l] = hit ? horizon_.steepness(hit->point.x(), hit->point.y()) : 0.0;
+      const double steepness = hit ? horizon_.steepness(hit->point.x(), hit->point.y()) : 0.0;
+      places.squared_steepness[l] = steepness * steepness;
     }
-    if (lit == 0) return;
-    const Pack squared_steepness = steepness * steepness;
-    for (const LightSample& sample : samples_) {
-      const IncidencePack incidence = light_path(surface.point, sample);
-      CoatingResponse response = coating_response(surface, incidence.direction, sensor_.coating);
-      response.diffuse *= incidence.irradiance * rays.transmittance;
-      response.gloss *= incidence.irradiance * rays.transmittance;
-      // What is steeper than any surface around it is unobstructed: all of a flat face, most of a pressed one.
-      const Pack3& w = incidence.direction;
-      const Pack over = w.z * w.z - squared_steepness * (w.x * w.x + w.y * w.y);
-      std::uint32_t reached = 0, doubtful = 0;
-      for (int l = 0; l < kLanes; ++l) {
-        reached |= response.diffuse[l] > 0.0 ? 1u << l : 0u;
-        doubtful |= over[l] > 0.0 && w.z[l] < 0.0 ? 0u : 1u << l;
-      }
-      reached &= lit;
-      doubtful &= reached;
-      if (doubtful != 0) {
-        const RayPacket shadow = shadow_rays(surface, incidence, doubtful);
-        if (log_) log_->shadow.push_back(shadow);
-        reached &= ~scene_.blocked(shadow);
-      }
-      const auto group = static_cast<std::size_t>(sample.group);
+    if (!lit) return;
+    prepare(sensor_.coating, places);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      CoatingResponse& sum = light[static_cast<std::size_t>(samples_[i].group)];
+      DoubtfulLight doubtful;
+      const std::uint32_t lanes = add_light(places, samples_[i], sensor_.coating, starts[i], sum, doubtful);
+      if (lanes == 0) continue;
+      const RayPacket shadow = shadow_rays(surface, doubtful, lanes);
+      if (log_) log_->shadow.push_back(shadow);
+      const std::uint32_t reached = lanes & ~scene_.blocked(shadow);
       for (int l = 0; l < kLanes; ++l) {
         if ((reached >> l & 1u) == 0) continue;
-        light[group].diffuse[l] += response.diffuse[l];
-        light[group].gloss[l] += response.gloss[l];
+        sum.diffuse[l] += doubtful.response.diffuse[l];
+        sum.gloss[l] += doubtful.response.gloss[l];
       }
     }
   }
 
-  static RayPacket shadow_rays(const SurfacePack& surface, const IncidencePack& incidence, std::uint32_t valid) {
+  static RayPacket shadow_rays(const SurfacePack& surface, const DoubtfulLight& light, std::uint32_t valid) {
     RayPacket packet;
     for (int l = 0; l < kLanes; ++l) {
       const auto k = static_cast<std::size_t>(l);
       packet.origin_x[k] = static_cast<float>(surface.shadow_origin.x[l]);
       packet.origin_y[k] = static_cast<float>(surface.shadow_origin.y[l]);
       packet.origin_z[k] = static_cast<float>(surface.shadow_origin.z[l]);
-      packet.direction_x[k] = static_cast<float>(incidence.direction.x[l]);
-      packet.direction_y[k] = static_cast<float>(incidence.direction.y[l]);
-      packet.direction_z[k] = static_cast<float>(incidence.direction.z[l]);
-      packet.far[k] = static_cast<float>(incidence.length[l]);
+      packet.direction_x[k] = static_cast<float>(light.direction.x[l]);
+      packet.direction_y[k] = static_cast<float>(light.direction.y[l]);
+      packet.direction_z[k] = static_cast<float>(light.direction.z[l]);
+      packet.far[k] = static_cast<float>(light.length[l]);
     }
     packet.valid = valid;
     return packet;

@@ -20,15 +20,14 @@ struct LayerStack {
 
   void add(double thickness, double index) {
     assert(count < kMaxLayers);
+    if (count > 0)
+      reduced_m += thickness_m[static_cast<std::size_t>(count - 1)] / ior[static_cast<std::size_t>(count - 1)];
+    lowest_ior = count == 0 || index < lowest_ior ? index : lowest_ior;
     thickness_m[static_cast<std::size_t>(count)] = thickness;
     ior[static_cast<std::size_t>(count++)] = index;
   }
-  double lowest_ior() const {
-    double lowest = ior[0];
-    for (int i = 1; i < count; ++i)
-      lowest = ior[static_cast<std::size_t>(i)] < lowest ? ior[static_cast<std::size_t>(i)] : lowest;
-    return lowest;
-  }
+  double lowest_ior = 1.0;
+  double reduced_m = 0.0;  // Σ h_i / n_i but for the last layer
 };
 
 TACIPC_INLINE double root(double x) { return std::sqrt(x); }
@@ -37,6 +36,7 @@ TACIPC_INLINE Pack root(const Pack& x) {
   for (int l = 0; l < kLanes; ++l) out[l] = std::sqrt(x[l]);
   return out;
 }
+TACIPC_INLINE double larger(double a, double b) { return a > b ? a : b; }
 /// True if |small| ≤ bound · |large| in every lane.
 TACIPC_INLINE bool negligible(double small, double large, double bound) {
   return std::abs(small) <= bound * std::abs(large);
@@ -53,62 +53,148 @@ struct LayeredPath {
   T sine_over_lateral;  // p / r in 1/m, p = n_i sin θ_i the same in all layers: sin θ_i = r (p / r) / n_i
   T cosine_first;       // cos θ_0 where the path leaves the source
   T cosine_last;        // cos θ in the last layer
+  T secant_last;        // 1 / cos θ there
   T spread;             // J = (sin θ_0 dθ_0) / (r dr): solid angle at the source per area of the plane, 1/m²
   T transmittance;      // product of (1 − (Rs + Rp)/2) over the interfaces, Fresnel for unpolarised light
+  T stretch;            // q of the path over q if all angles were small, ≥ 1: where the search for the next may begin
 };
+
+/// s_i, and the sums over layers that r(q) and its derivatives are made of.
+template <int kCount, typename T>
+struct LayerSums {
+  static constexpr int kRoom = kCount > 0 ? kCount : LayerStack::kMaxLayers;
+  T s[kRoom], inverse[kRoom];
+  T sum, slope, bend;  // S / n_m = Σ h_i / s_i;  D = Σ h_i n_i² / s_i³;  Σ h_i n_i² (n_i² − n_m²) / s_i⁵
+};
+
+/// n_i² − n_m²; 0 for layers of the lowest index, whose s_i is n_i.
+TACIPC_INLINE double over_lowest(const LayerStack& stack, int i) {
+  const double n = stack.ior[static_cast<std::size_t>(i)];
+  return n * n - stack.lowest_ior * stack.lowest_ior;
+}
+
+/// s_i and 1 / s_i at q², with one division for all layers.
+template <int kCount, typename T>
+TACIPC_INLINE void solve_layers(const LayerStack& stack, int count, const T& qq, LayerSums<kCount, T>& out) {
+  T product = T{} + 1.0;
+  T before[LayerSums<kCount, T>::kRoom];
+  for (int i = 0; i < count; ++i) {
+    const double n = stack.ior[static_cast<std::size_t>(i)], over = over_lowest(stack, i);
+    out.s[i] = over == 0.0 ? T(T{} + n) : root(n * n + over * qq);
+    before[i] = product;
+    product *= out.s[i];
+  }
+  T inverse = 1.0 / product;
+  for (int i = count - 1; i >= 0; --i) {
+    out.inverse[i] = inverse * before[i];
+    inverse *= out.s[i];
+  }
+}
+
+/// The same after a step that changes q² so little that four terms of the square roots' series say all: with
+/// ε = (n_i² − n_m²) Δq² / s_i² below 2e-4 what is left out is below 1e-15.
+template <int kCount, typename T>
+TACIPC_INLINE void shift_layers(const LayerStack& stack, int count, const T& change, LayerSums<kCount, T>& out) {
+  for (int i = 0; i < count; ++i) {
+    const double over = over_lowest(stack, i);
+    if (over == 0.0) continue;
+    const T e = over * change * out.inverse[i] * out.inverse[i];
+    out.s[i] *= 1.0 + e * (0.5 - e * (0.125 - e * 0.0625));
+    out.inverse[i] *= 1.0 - e * (0.5 - e * (0.375 - e * 0.3125));
+  }
+}
+
+template <int kCount, typename T>
+TACIPC_INLINE void sum_layers(const LayerStack& stack, int count, const T& last_thickness, LayerSums<kCount, T>& out) {
+  out.sum = out.slope = out.bend = T{};
+  for (int i = 0; i < count; ++i) {
+    const double n = stack.ior[static_cast<std::size_t>(i)];
+    const T& inverse = out.inverse[i];
+    const T part =
+        i + 1 == count ? T(last_thickness * inverse) : T(stack.thickness_m[static_cast<std::size_t>(i)] * inverse);
+    const T squared = inverse * inverse, steep = n * n * part * squared;
+    out.sum += part;
+    out.slope += steep;
+    out.bend += over_lowest(stack, i) * steep * squared;
+  }
+}
+
+/// `kCount` layers, known to the compiler; 0: as many as the stack has.
+template <int kCount, typename T>
+TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last_thickness, const T& squared_lateral,
+                                          const T& stretch) {
+  constexpr int kMaxSteps = 12;
+  // The cube of a step that small is below what is promised, so the step itself ends the search.
+  constexpr double kLastStep = 5e-5, kAtRoot = 1e-11;
+  const int count = kCount > 0 ? kCount : stack.count;
+  const double nm = stack.lowest_ior, n0 = stack.ior[0], nl = stack.ior[static_cast<std::size_t>(count - 1)];
+  const T& rr = squared_lateral;
+  const T height = nm * (stack.reduced_m + last_thickness * (1.0 / nl));  // r / q of rays along z
+  T k = stretch / height;                                                 // q / r
+  LayerSums<kCount, T> at;
+  solve_layers<kCount, T>(stack, count, k * k * rr, at);
+  for (int step = 0;; ++step) {
+    sum_layers<kCount, T>(stack, count, last_thickness, at);
+    const T missing = 1.0 / nm - k * at.sum, per_step = k * at.slope;  // their ratio: Newton's step over k
+    if (step == kMaxSteps || negligible(missing, per_step, kAtRoot)) break;
+    const T squared = at.slope * at.slope;
+    const T change = missing * at.slope / larger(squared - 1.5 * missing * k * rr * at.bend, 0.5 * squared);
+    if (negligible(missing, per_step, kLastStep)) {
+      shift_layers<kCount, T>(stack, count, (2.0 * k + change) * change * rr, at);
+      k += change;
+      sum_layers<kCount, T>(stack, count, last_thickness, at);
+      break;
+    }
+    k += change;
+    solve_layers<kCount, T>(stack, count, k * k * rr, at);
+  }
+
+  T passed = T{} + 1.0, of = T{} + 1.0;
+  for (int i = 0; i + 1 < count; ++i) {
+    const double a = stack.ior[static_cast<std::size_t>(i)], b = stack.ior[static_cast<std::size_t>(i + 1)];
+    if (a == b) continue;
+    // 1 − (rs² + rp²)/2 = 2 s s' (1/x² + a² b²/y²) with x, y the denominators of rs and rp
+    const T x = at.s[i] + at.s[i + 1], y = a * a * at.s[i + 1] + b * b * at.s[i];
+    const T xx = x * x, yy = y * y;
+    passed *= 2.0 * at.s[i] * at.s[i + 1] * (yy + a * a * b * b * xx);
+    of *= xx * yy;
+  }
+  const T ww = 1.0 + k * k * rr, secant = root(ww);  // 1 / w
+  const T steep = ww * at.s[0] * at.slope, all = steep * secant * at.sum;
+  const T inverse = 1.0 / (all * of), shared = inverse * of;  // one division for all that is asked for
+  LayeredPath<T> path;
+  const T w = shared * steep * at.sum;
+  path.sine_over_lateral = nm * k * w;  // by q, not by S: at grazing angles an error of q does not show
+  path.cosine_first = at.s[0] * w * (1.0 / n0);
+  path.cosine_last = at.s[count - 1] * w * (1.0 / nl);
+  path.secant_last = nl * secant * at.inverse[count - 1];
+  path.spread = (1.0 / n0) * shared;
+  path.transmittance = passed * inverse * all;
+  path.stretch = k * height;
+  return path;
+}
 
 /// The path that goes r sideways, r² = `squared_lateral`, through `stack` with `last_thickness` in its last layer, m.
 /// With q = tan θ in the layer of lowest index n_m,
 ///   r(q) = q S,  S = Σ h_i n_m / s_i,  s_i = √(n_i² + (n_i² − n_m²) q²)
-/// is increasing and concave, so Newton's steps from q = r / r'(0), below the root, climb to it without overshooting.
-/// Then with w = 1/√(1 + q²) and D = Σ h_i n_i² / s_i³:
-///   n_i cos θ_i = s_i w,   p / r = n_m w / S,   J = n_m w³ / (n_0 s_0 S D),
+/// is increasing and concave. Halley's steps (Newton's, corrected by the second derivative) lead to the root, from
+/// q = r / r'(0) times `stretch`: 1, or a guess; the result does not depend on it. Then with w = 1/√(1 + q²) and D = Σ
+/// h_i n_i² / s_i³:
+///   n_i cos θ_i = s_i w,   p / r = n_m q w / r,   J = n_m w³ / (n_0 s_0 S D),
 /// and the w cancels from Fresnel's equations. Nothing is singular at r = 0. Relative error of q below 1e-10.
 /// [Snell's and Fresnel's laws; p is the ray parameter of layered media]
 /// \pre last_thickness > 0, all indices > 0
 template <typename T>
-TACIPC_INLINE LayeredPath<T> layered_path(const LayerStack& stack, const T& last_thickness, const T& squared_lateral) {
-  constexpr int kMaxSteps = 12;
-  const double nm = stack.lowest_ior();
-  const T lateral = root(squared_lateral);
-  double reduced = 0.0;  // Σ h_i / n_i but for the last layer
-  for (int i = 0; i + 1 < stack.count; ++i)
-    reduced += stack.thickness_m[static_cast<std::size_t>(i)] / stack.ior[static_cast<std::size_t>(i)];
-  T q = lateral / (nm * (reduced + last_thickness / stack.ior[static_cast<std::size_t>(stack.count - 1)]));
-  T s[LayerStack::kMaxLayers] = {}, sum = q, slope = q;  // sum = S / n_m, slope = D
-  for (int step = 0;; ++step) {
-    const T qq = q * q;
-    sum = qq - qq;
-    slope = sum;
-    for (int i = 0; i < stack.count; ++i) {
-      const double n = stack.ior[static_cast<std::size_t>(i)];
-      s[i] = root(n * n + (n * n - nm * nm) * qq);
-      const T inverse = 1.0 / s[i];
-      const T part =
-          i + 1 == stack.count ? last_thickness * inverse : stack.thickness_m[static_cast<std::size_t>(i)] * inverse;
-      sum += part;
-      slope += n * n * part * inverse * inverse;
-    }
-    const T change = (lateral - q * nm * sum) / (nm * slope);
-    if (step == kMaxSteps || negligible(change, q, 1e-11)) break;
-    q += change;
+TACIPC_INLINE LayeredPath<T> layered_path(const LayerStack& stack, const T& last_thickness, const T& squared_lateral,
+                                          const T& stretch = T{} + 1.0) {
+  switch (stack.count) {  // numbers of layers that sensors have; known, they stay in registers
+    case 2:
+      return path_through<2>(stack, last_thickness, squared_lateral, stretch);
+    case 3:
+      return path_through<3>(stack, last_thickness, squared_lateral, stretch);
+    default:
+      return path_through<0>(stack, last_thickness, squared_lateral, stretch);
   }
-  const T w = 1.0 / root(1.0 + q * q);
-  const double n0 = stack.ior[0], nl = stack.ior[static_cast<std::size_t>(stack.count - 1)];
-  LayeredPath<T> path;
-  path.sine_over_lateral = w / sum;
-  path.cosine_first = s[0] * w / n0;
-  path.cosine_last = s[stack.count - 1] * w / nl;
-  path.spread = w * w * w / (n0 * s[0] * sum * slope);
-  path.transmittance = w - w + 1.0;
-  for (int i = 0; i + 1 < stack.count; ++i) {
-    const double a = stack.ior[static_cast<std::size_t>(i)], b = stack.ior[static_cast<std::size_t>(i + 1)];
-    if (a == b) continue;
-    const T rs = (s[i] - s[i + 1]) / (s[i] + s[i + 1]);
-    const T rp = (a * a * s[i + 1] - b * b * s[i]) / (a * a * s[i + 1] + b * b * s[i]);
-    path.transmittance *= 1.0 - 0.5 * (rs * rs + rp * rp);
-  }
-  return path;
 }
 
 }  // namespace tacipc

@@ -53,6 +53,32 @@ TEST(LightPath, EmissionFallsWithTheAngleAndIsDarkBehind) {
   EXPECT_EQ(light_at({0.0, 0.0, -11.0}, sample).irradiance, 0.0);
 }
 
+TEST(LightPath, SearchesFromTheNeighboursAnswerFindTheSame) {
+  // Along a row of pixels with a step of 0.4 mm in it, against a search that begins anew at each.
+  Sensor sensor = plain_sensor(1, 1);
+  sensor.stack = {.gel_thickness_m = 2.0 * kMm, .gel_ior = 1.41, .layers = {{.thickness_m = 5.0 * kMm, .ior = 1.49}}};
+  sensor.leds = {{.position_m = {0.01, 0.002, -0.013}, .size_m = {0.005, 0.005}}};
+  for (const LightSample& sample : light_samples(sensor, 3)) {
+    ASSERT_TRUE(sample.stack);
+    PathStart start;
+    for (int first = 0; first < 640; first += kLanes) {
+      Pack3 point{};
+      for (int l = 0; l < kLanes; ++l) {
+        point.x[l] = (first + l - 320) * 25e-6;
+        point.y[l] = 4e-3;
+        point.z[l] = first + l < 300 ? -0.1e-3 : -0.5e-3 + 1e-7 * l;
+      }
+      const IncidencePack warm = light_path(point, sample, &start), cold = light_path(point, sample);
+      for (int l = 0; l < kLanes; ++l) {
+        ASSERT_NEAR(warm.irradiance[l] / cold.irradiance[l], 1.0, 1e-9) << first + l;
+        ASSERT_NEAR(warm.direction.x[l], cold.direction.x[l], 1e-10) << first + l;
+        ASSERT_NEAR(warm.direction.z[l], cold.direction.z[l], 1e-10) << first + l;
+        ASSERT_NEAR(warm.length[l] / cold.length[l], 1.0, 1e-10) << first + l;
+      }
+    }
+  }
+}
+
 TEST(LightSamples, CoverTheSquareAndShareTheIntensity) {
   Sensor sensor = plain_sensor(1, 1);
   sensor.leds = {{.position_m = {0.01, 0.0, -0.013}, .size_m = {0.005, 0.005}}};

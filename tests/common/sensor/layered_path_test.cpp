@@ -86,6 +86,25 @@ TEST(LayeredPath, PacksSayWhatNumbersSay) {
   }
 }
 
+TEST(LayeredPath, TheStartOfTheSearchDoesNotMatter) {
+  for (const LayerStack& stack : {kMcTac, stack_of({{4.0, 1.49}, {2.0, 1.41}}), stack_of({{3.0, 1.3}, {2.0, 1.3}}),
+                                  stack_of({{0.5, 1.0}, {4.0, 1.6}, {5.0, 1.5}, {3.0, 1.2}})}) {
+    const double last = stack.thickness_m[static_cast<std::size_t>(stack.count - 1)];
+    for (const double r : {0.0, 0.01, 1.0, 8.0, 25.0}) {
+      const auto cold = layered_path<double>(stack, last, r * r);
+      EXPECT_GE(cold.stretch, 1.0 - 1e-12);
+      for (const double guess : {1.0 - 1e-3, 1.0 - 1e-4, 1.0, 1.0 + 1e-6, 1.0 + 1.9e-4, 1.0 + 1e-3, 1.05, 1.5}) {
+        const auto warm = layered_path<double>(stack, last, r * r, guess * cold.stretch);
+        EXPECT_NEAR(warm.sine_over_lateral / cold.sine_over_lateral, 1.0, 1e-10) << r << " " << guess;
+        EXPECT_NEAR(warm.cosine_first / cold.cosine_first, 1.0, 1e-9) << r << " " << guess;
+        EXPECT_NEAR(warm.secant_last * cold.cosine_last, 1.0, 1e-10) << r << " " << guess;
+        EXPECT_NEAR(warm.spread / cold.spread, 1.0, 1e-9) << r << " " << guess;
+        EXPECT_NEAR(warm.transmittance / cold.transmittance, 1.0, 1e-9) << r << " " << guess;
+      }
+    }
+  }
+}
+
 TEST(LayeredPath, FresnelAtNormalIncidenceAndTheWayBack) {
   // ((1.49 − 1) / (1.49 + 1))² = 0.03873
   EXPECT_NEAR(1.0 - path_to(stack_of({{3.0, 1.0}, {5.0, 1.49}}), 0.0).transmittance, 0.03873, 5e-6);
