@@ -213,15 +213,38 @@ std::string ConfigReader::choice(const std::string& key, const std::vector<std::
 std::string ConfigReader::choice_or(const std::string& key, const std::string& fallback,
                                     const std::vector<std::string>& options) {
   const Node* node = find(key, false);
-  if (!node) return keep(key, fallback);
-  const auto scalar = to_scalar(*node, key);
-  if (!scalar) return keep(key, fallback);
-  if (std::find(options.begin(), options.end(), *scalar) != options.end()) return keep(key, *scalar);
+  return keep(key, node ? to_choice(*node, key, options).value_or(fallback) : fallback);
+}
+
+std::optional<std::string> ConfigReader::to_choice(const Node& node, const std::string& key,
+                                                   const std::vector<std::string>& options) {
+  const auto scalar = to_scalar(node, key);
+  if (!scalar || std::find(options.begin(), options.end(), *scalar) != options.end()) return scalar;
   const auto near = nearest_word(*scalar, options);
-  add_fault(*node, path_of(key),
+  add_fault(node, path_of(key),
             fmt::format("'{}' is not one of {}{}", *scalar, fmt::join(options, ", "),
                         near ? fmt::format(" (did you mean {}?)", *near) : std::string()));
-  return keep(key, fallback);
+  return std::nullopt;
+}
+
+std::vector<std::string> ConfigReader::choices_or(const std::string& key, std::vector<std::string> fallback,
+                                                  const std::vector<std::string>& options) {
+  std::vector<std::string> words = std::move(fallback);
+  if (const Node* node = find(key, false)) {
+    words.clear();
+    if (node->kind != Node::Kind::list)
+      add_fault(*node, path_of(key), fmt::format("expected a list of words, found {}", node->kind_name()));
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      const std::string item = fmt::format("{}[{}]", key, i);
+      const auto word = to_choice(*node->items[i], item, options);
+      if (!word) continue;
+      if (std::find(words.begin(), words.end(), *word) != words.end())
+        add_fault(*node->items[i], path_of(item), *word + " is given twice");
+      words.push_back(*word);
+    }
+  }
+  keep(key, Value::List(words.begin(), words.end()));
+  return words;
 }
 
 std::vector<double> ConfigReader::numbers(const std::string& key, std::size_t count, const Range& range) {

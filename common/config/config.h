@@ -63,6 +63,9 @@ class ConfigReader {
   std::vector<double> numbers_or(const std::string& key, std::vector<double> fallback,
                                  const Range& range = Range::any());
   Vector3 vector3(const std::string& key);
+  /// A list of different words, each one of `options`.
+  std::vector<std::string> choices_or(const std::string& key, std::vector<std::string> fallback,
+                                      const std::vector<std::string>& options);
   /// A list of words (empty where the key is absent).
   std::vector<std::string> texts(const std::string& key);
 
@@ -110,6 +113,8 @@ class ConfigReader {
   std::string path_of(const std::string& key) const;
   double to_number(const Node& node, const std::string& key, const Range& range, double otherwise);
   std::optional<std::string> to_scalar(const Node& node, const std::string& key);
+  std::optional<std::string> to_choice(const Node& node, const std::string& key,
+                                       const std::vector<std::string>& options);
   template <typename T>
   T keep(const std::string& key, T value);
 

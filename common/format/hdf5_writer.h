@@ -41,7 +41,7 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, const Value& value);
 
   /// A dataset of this type and shape. With `chunk_by_frame` each entry of its first axis is a chunk of its own, with
-  /// bytes shuffled and packed by gzip, level 4; else it lies in one piece.
+  /// bytes shuffled and packed by gzip; else it lies in one piece.
   void dataset(const std::string& path, NumberType type, const std::vector<std::size_t>& shape, bool chunk_by_frame);
   /// Fills one entry of the first axis. \pre the bytes are those of one entry
   void write_frame(const std::string& path, std::size_t frame, std::string_view bytes);

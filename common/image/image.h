@@ -32,9 +32,13 @@ struct Image {
 using FloatImage = Image<float>;
 using ByteImage = Image<std::uint8_t>;
 
-/// Float EXR, lossless (ZIP). Channel names by count: 1 `names[0]`, 3 the given three (for instance R G B, or X Y Z).
+/// How an EXR stores a number: in 32 bits, or in 16 (11 digits of two; nothing above 65,504, steps of 6e-8 near 0).
+enum class ExrNumbers { floats, halves };
+
+/// EXR, compressed without loss (ZIP). Channel names by count: 1 `names[0]`, 3 the given three (for instance R G B, or
+/// X Y Z). \throw DataError if it cannot be written, or a number is too large for a half
 void write_exr(const std::filesystem::path& path, const FloatImage& image,
-               const std::vector<std::string>& channel_names);
+               const std::vector<std::string>& channel_names, ExrNumbers numbers = ExrNumbers::floats);
 /// Reads the named channels. \throw DataError if the file is not an EXR or lacks one, naming what it has.
 FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::string>& channel_names);
 

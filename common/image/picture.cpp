@@ -52,6 +52,14 @@ ByteImage picture_of_scalar(const FloatImage& image, double low, double high) {
   return picture;
 }
 
+ByteImage picture_of_height(const FloatImage& image) {
+  double most = 1e-6;
+  for (const float value : image.pixels) {
+    if (value > most) most = value;
+  }
+  return picture_of_scalar(image, 0.0, most);
+}
+
 ByteImage picture_of_normals(const FloatImage& normals) {
   assert(normals.channels == 3);
   ByteImage picture(normals.width, normals.height, 3);

@@ -15,6 +15,9 @@ std::array<std::uint8_t, 3> perceptual_color(double t);
 /// Colours of the first channel: `low` and below dark, `high` and above light, NaN black. \pre low < high
 ByteImage picture_of_scalar(const FloatImage& image, double low, double high);
 
+/// Colours of a height from 0 to the greatest of the image, to 1e-6 at least.
+ByteImage picture_of_height(const FloatImage& image);
+
 /// Unit vectors as colours (n + 1) / 2 per component, so a flat face is light blue (128, 128, 255); NaN black.
 ByteImage picture_of_normals(const FloatImage& normals);
 

@@ -36,11 +36,21 @@ enum class FrameFile {
   indentation_picture
 };
 
+/// What a dataset stores of an EXR's numbers. Rounded ones take a third of the room and time.
+struct DatasetNumbers {
+  int step_exponent = kExact;  // multiples of 2^this, in the unit of the field
+  ExrNumbers type = ExrNumbers::floats;
+
+  static constexpr int kExact = -1000;
+  bool rounded() const { return step_exponent != kExact; }
+};
+
 struct ImageField {
   std::string file;                   // in the folder of a frame; `{:02}` stands for a number
   std::vector<std::string> channels;  // EXR: float; PNG: 8 bit, one or three
   std::string unit;
   std::string meaning;
+  DatasetNumbers in_dataset = {};
 
   bool is_float() const { return file.ends_with(".exr"); }
 };
@@ -63,8 +73,10 @@ std::vector<std::size_t> frames_in(const std::filesystem::path& folder);
 /// Where an image of a frame is.
 std::filesystem::path frame_path(const std::filesystem::path& folder, std::size_t frame, FrameFile file);
 
+enum class Digits { all, of_datasets };
 /// Writes an image as an output of a stage. `in`: frame_folder(…); `number`: of a file that has one.
-void write_frame(Stage& stage, const std::string& in, FrameFile file, const FloatImage& image, std::size_t number = 0);
+void write_frame(Stage& stage, const std::string& in, FrameFile file, const FloatImage& image, std::size_t number = 0,
+                 Digits digits = Digits::all);
 void write_frame(Stage& stage, const std::string& in, FrameFile file, const ByteImage& image);
 
 /// Column and row in the image.

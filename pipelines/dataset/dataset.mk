@@ -72,11 +72,11 @@ dataset_stage = @TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(o
   bash pipelines/dataset/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) '$(2)' '$(3)' \
   OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(patsubst %/,%,$(dir $(2))) --threads $(THREADS) $(4) --log-level warning
 dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5) $(call dataset_choice,motion-$(7))
-dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_RENDERED_$(3)) $(call dataset_choice,render-$(3))
+dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_MAPS) $(DATASET_RENDERED_$(3)) $(call dataset_choice,render-$(3))
 define dataset_sample
 $(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
 	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
-	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) --seed $(6))
+	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) $(if $(DATASET_MAPS),--maps $(DATASET_MAPS)) --seed $(6))
 endef
 
 ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)

@@ -2,10 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "common/base/packed_units.h"
+#include "common/base/rounding.h"
 
 namespace tacipc {
 namespace {
@@ -15,6 +18,7 @@ using enum NumberType;
 constexpr double kNewton = 1.0;  // per newton
 constexpr double kSame = 1.0;    // codes, counts, ratios, pixels, seconds
 constexpr const char* kS = "S";
+constexpr int kStepOfMm = -13, kStepOfNormals = -12;  // 0.12 µm; 0.014°
 constexpr const char* kImage = "image";
 constexpr const char* kNone = "none";
 
@@ -23,18 +27,30 @@ std::string because(const SampleFrames& sample, const std::string& otherwise) {
   return sample.in_variant() ? "this variant is seen along the sensor's own rays: see obs of the sample" : otherwise;
 }
 
+/// Other codes for those of an image. \throw DataError if one of them has none
 template <typename Change>
 FieldData changed(FieldData data, Change&& change) {
-  if (auto* numbers = std::get_if<Numbers>(&data)) {
-    for (double& value : numbers->values) value = change(value);
+  if (auto* image = std::get_if<ByteImage>(&data)) {
+    std::array<std::optional<std::uint8_t>, 256> known;
+    for (std::uint8_t& value : image->pixels) {
+      std::optional<std::uint8_t>& code = known[value];
+      if (!code) code = static_cast<std::uint8_t>(change(value));
+      value = *code;
+    }
   }
   return data;
 }
 
+constexpr const char* kNotWanted = "the dataset's maps leave it out";
 constexpr const char* kNoForces = "the press had left no contact forces when the images were made";
 
+/// Without a choice of maps render leaves out only what there is not.
+std::string not_wanted_or(const SampleFrames& s, const char* reason) {
+  return s.render().section("inputs").has("maps") ? fmt::format("{}, or {}", kNotWanted, reason) : reason;
+}
+
 FieldData contact_picture(SampleFrames& s, std::size_t f, FrameFile file) {
-  return s.image(f, file, because(s, kNoForces));
+  return s.image(f, file, because(s, not_wanted_or(s, kNoForces)));
 }
 
 Numbers numbers_of(const Positions& rows) {
@@ -166,22 +182,59 @@ std::vector<Field> observations() {
        [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::tactile, "no image"); }, true},
       {kObs, "rgb_marker", u8, "(T,H,W,3)", "code", kImage, kNone, "the same with the printed markers",
        source_of(FrameFile::marker), kSame,
-       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::marker, "the sensor prints no markers"); },
+       [](SampleFrames& s, std::size_t f) {
+         return s.image(f, FrameFile::marker,
+                        s.sensor().markers.radius_m ? kNotWanted : "the sensor prints no markers");
+       },
        true},
       {kObs, "radiance", f16, "(T,H,W,3)", "relative", kImage, kNone,
        "radiance before exposure, response curve and noise, linear sRGB primaries", source_of(FrameFile::linear), kSame,
-       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::linear, "no image"); }, true},
-      {kObs, "indentation_mm", f32, "(T,H,W)", "mm", kS, "positive into the gel (along -z of S)",
+       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::linear, kNotWanted); }, true},
+      {kObs,
+       "indentation_mm",
+       f32,
+       "(T,H,W)",
+       "mm",
+       kS,
+       "positive into the gel (along -z of S)",
        "undeformed minus deformed height of the gel point a pixel sees; NaN beside the gel",
-       source_of(FrameFile::indentation), kMmPerM,
-       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::indentation, because(s, "no map")); }, true},
-      {kObs, "camera_depth_mm", f32, "(T,H,W)", "mm", "camera", "positive away from the camera",
+       source_of(FrameFile::indentation),
+       kMmPerM,
+       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::indentation, because(s, kNotWanted)); },
+       true,
+       true,
+       {},
+       kStepOfMm},
+      {kObs,
+       "camera_depth_mm",
+       f32,
+       "(T,H,W)",
+       "mm",
+       "camera",
+       "positive away from the camera",
        "distance from the camera to the gel's front along the optical axis; NaN beside the gel",
-       source_of(FrameFile::depth), kMmPerM,
-       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::depth, because(s, "no map")); }, true},
-      {kObs, "normal", f16, "(T,H,W,3)", "1", kS, "outward: (0, 0, 1) where the gel is flat",
-       "unit normal of the deformed front; NaN beside the gel", source_of(FrameFile::normal), kSame,
-       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::normal, because(s, "no map")); }, true},
+       source_of(FrameFile::depth),
+       kMmPerM,
+       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::depth, because(s, kNotWanted)); },
+       true,
+       true,
+       {},
+       kStepOfMm},
+      {kObs,
+       "normal",
+       f16,
+       "(T,H,W,3)",
+       "1",
+       kS,
+       "outward: (0, 0, 1) where the gel is flat",
+       "unit normal of the deformed front; NaN beside the gel",
+       source_of(FrameFile::normal),
+       kSame,
+       [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::normal, because(s, kNotWanted)); },
+       true,
+       true,
+       {},
+       kStepOfNormals},
       {kObs,
        "contact_mask",
        u8,
@@ -227,7 +280,7 @@ std::vector<Field> observations() {
        source_of(FrameFile::segment),
        kSame,
        [](SampleFrames& s, std::size_t f) {
-         return changed(s.image(f, FrameFile::segment, because(s, "no map")), segment);
+         return changed(s.image(f, FrameFile::segment, because(s, kNotWanted)), segment);
        },
        true,
        true,
@@ -413,11 +466,46 @@ const std::vector<Field>& fields() {
   return kFields;
 }
 
+std::vector<std::size_t> shape_of(const FieldData& data) {
+  const auto of_image = [](const auto& image) {
+    std::vector<std::size_t> shape{static_cast<std::size_t>(image.height), static_cast<std::size_t>(image.width)};
+    if (image.channels > 1) shape.push_back(static_cast<std::size_t>(image.channels));
+    return shape;
+  };
+  if (const auto* image = std::get_if<FloatImage>(&data)) return of_image(*image);
+  if (const auto* image = std::get_if<ByteImage>(&data)) return of_image(*image);
+  return std::get<Numbers>(data).shape;
+}
+
+std::string bytes_of(const Field& field, const FieldData& data) {
+  if (const auto* image = std::get_if<ByteImage>(&data); image && field.type == u8 && field.scale == 1.0)
+    return {image->pixels.begin(), image->pixels.end()};
+  // A few at a time: what all numbers of an image would take as doubles is no longer in the processor's cache.
+  constexpr std::size_t kAtOnce = 4096;
+  std::string bytes;
+  std::vector<double> values;
+  const auto add = [&](const auto& numbers) {
+    bytes.reserve(numbers.size() * size_of(field.type));
+    for (std::size_t first = 0; first < numbers.size(); first += kAtOnce) {
+      const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(first);
+      values.assign(begin, begin + static_cast<std::ptrdiff_t>(std::min(kAtOnce, numbers.size() - first)));
+      for (double& value : values) value *= field.scale;
+      if (field.step_exponent) round_to(values, *field.step_exponent);
+      bytes += to_bytes(field.type, values);
+    }
+  };
+  if (const auto* image = std::get_if<FloatImage>(&data)) add(image->pixels);
+  if (const auto* image = std::get_if<ByteImage>(&data)) add(image->pixels);
+  if (const auto* numbers = std::get_if<Numbers>(&data)) add(numbers->values);
+  return bytes;
+}
+
 Value::Map attributes_of(const Field& field) {
   Value::Map lines{{"dtype", name_of(field.type)}, {"shape", field.shape}, {"unit", field.unit},
                    {"frame", field.frame},         {"sign", field.sign},   {"meaning", field.meaning},
                    {"source", field.source}};
   for (const auto& [name, text] : field.more) lines.emplace_back(name, text);
+  if (field.step_exponent) lines.emplace_back("step", std::ldexp(1.0, *field.step_exponent));
   return lines;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,11 +35,17 @@ struct Field {
   bool in_variants = false;                                    // a variant's folder may have it too
   bool per_frame = true;                                       // else one value for the sample, read at frame 0
   std::vector<std::pair<std::string, std::string>> more = {};  // further attributes: codes, quat_order
+  std::optional<int> step_exponent = std::nullopt;             // the file holds multiples of 2^this, in its unit
 
   std::string path() const { return std::string(name_of(section)) + "/" + name; }
 };
 
 const std::vector<Field>& fields();
+
+/// Extents of one frame of a field. \pre not Absent
+std::vector<std::size_t> shape_of(const FieldData& data);
+/// It as the file holds it: scaled, rounded, little-endian. \pre not Absent
+std::string bytes_of(const Field& field, const FieldData& data);
 
 /// Attributes of the field's dataset; schema.json has the same lines.
 Value::Map attributes_of(const Field& field);

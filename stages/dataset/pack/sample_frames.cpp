@@ -27,14 +27,6 @@ fs::path refuse_dropped(fs::path folder) {
   return folder;
 }
 
-template <typename T>
-Numbers numbers_of(const Image<T>& image) {
-  Numbers numbers{.shape = {static_cast<std::size_t>(image.height), static_cast<std::size_t>(image.width)},
-                  .values = {image.pixels.begin(), image.pixels.end()}};
-  if (image.channels > 1) numbers.shape.push_back(static_cast<std::size_t>(image.channels));
-  return numbers;
-}
-
 }  // namespace
 
 SampleFrames::SampleFrames(fs::path folder)
@@ -94,8 +86,8 @@ FieldData SampleFrames::image(std::size_t frame, FrameFile file, const std::stri
   const ImageField& field = field_of(file);
   const auto path = picture(frame, field.file);
   if (!path) return Absent{reason};
-  if (field.is_float()) return numbers_of(read_exr(*path, field.channels));
-  return numbers_of(read_png(*path, static_cast<int>(field.channels.size())));
+  if (field.is_float()) return read_exr(*path, field.channels);
+  return read_png(*path, static_cast<int>(field.channels.size()));
 }
 
 FieldData SampleFrames::marker_px(std::size_t frame, const std::string& reason) {

@@ -27,7 +27,7 @@ struct Absent {
   std::string reason;
 };
 
-using FieldData = std::variant<Numbers, Absent>;
+using FieldData = std::variant<Numbers, FloatImage, ByteImage, Absent>;
 
 /// Pictures are read from `picture_folder`, a variant's or empty for the sensor itself.
 class SampleFrames {

@@ -32,12 +32,6 @@ std::int64_t whole_number(const std::string& text) {
   return number;
 }
 
-std::string bytes_of(const Field& field, const Numbers& numbers) {
-  std::vector<double> values = numbers.values;
-  for (double& value : values) value *= field.scale;
-  return to_bytes(field.type, values);
-}
-
 }  // namespace
 
 Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample) {
@@ -103,16 +97,16 @@ void ShardWriter::write_field(const Field& field, const std::string& group, Samp
   std::vector<std::size_t> frame_shape;
   for (std::size_t i = 0; i < (field.per_frame ? frames.size() : 1); ++i) {
     const FieldData data = field.read(sample, frames[i]);
-    const auto* numbers = std::get_if<Numbers>(&data);
-    if (!numbers && i == 0) {
-      file_.attribute(group, "absent_" + field.name, std::get<Absent>(data).reason);
+    const auto* absent = std::get_if<Absent>(&data);
+    if (absent && i == 0) {
+      file_.attribute(group, "absent_" + field.name, absent->reason);
       return;
     }
-    if (!numbers)
+    if (absent)
       throw DataError("{}: {}: frame {} has none, frame 0 has", sample.folder().string(), field.path(), frames[i]);
-    const std::string bytes = bytes_of(field, *numbers);
+    const std::string bytes = bytes_of(field, data);
     if (i == 0) {
-      frame_shape = numbers->shape;
+      frame_shape = shape_of(data);
       if (!field.per_frame) {
         file_.write(path, field.type, frame_shape, bytes);
         break;
@@ -121,9 +115,9 @@ void ShardWriter::write_field(const Field& field, const std::string& group, Samp
       shape.insert(shape.begin(), frames.size());
       file_.dataset(path, field.type, shape, count_of(frame_shape) * size_of(field.type) >= kSmallestChunk);
     }
-    if (numbers->shape != frame_shape)
+    if (shape_of(data) != frame_shape)
       throw DataError("{}: {}: frame {} is {}, frame 0 is {}", sample.folder().string(), field.path(), frames[i],
-                      shape_text(numbers->shape), shape_text(frame_shape));
+                      shape_text(shape_of(data)), shape_text(frame_shape));
     file_.write_frame(path, i, bytes);
   }
   for (const auto& [name, value] : attributes_of(field)) file_.attribute(path, name, value);

@@ -23,6 +23,7 @@ class Reader {
         in_.choice_or("sampling", "low_discrepancy", {"low_discrepancy", "random"}) == "low_discrepancy";
     config_.decimate = file_or(in_, "decimate", "configs/objects/decimate/default.yaml");
     config_.render = file_or(in_, "render", "configs/render/default.yaml");
+    config_.maps = DatasetMaps::read(in_);
     const fs::path press = file_or(in_, "press", "configs/press/default.yaml");
     for (ConfigReader& item : in_.one_or_more_sections("sensors")) read_sensor(item);
     for (ConfigReader& item : in_.one_or_more_sections("objects")) read_objects(item);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/sample/dataset_maps.h"
 #include "stages/dataset/plan/motion_template.h"
 
 namespace tacipc {
@@ -57,6 +58,7 @@ struct DatasetConfig {
   std::vector<MotionChoice> motions = {};
   std::filesystem::path decimate;
   std::filesystem::path render;
+  DatasetMaps maps = {};
   Splits splits;
   double shard_bytes = 1e9;
   std::string pack = "full";           // profile that a finished run packs with, or none

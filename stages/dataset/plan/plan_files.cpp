@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kMapsFile = "maps.yaml";
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text.append(" ").append(word);
@@ -48,6 +50,7 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Choice>& c
   set("SAMPLES", std::to_string(samples));
   set("BLOCKS", joined(blocks));
   set("RENDER", config.render.generic_string());
+  set("MAPS", fmt::format("$(DATASET_DIR)/{}", kMapsFile));
   set("DECIMATE", config.decimate.generic_string());
   set("PROFILE", config.pack);
   set("KEEP", joined(config.keep));
@@ -134,6 +137,7 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
 int write_dataset_files(const DatasetConfig& config, const std::vector<Choice>& choices,
                         const std::vector<PlannedSample>& samples, const fs::path& dataset) {
   write_choices(choices, dataset / "choices");
+  replace_if_changed(dataset / kMapsFile, config.maps.yaml());
   for (const ObjectChoice& object : config.objects)
     replace_if_changed(dataset / "objects" / object.name / "object.yaml", object_yaml(object));
   int written = 0;

@@ -86,11 +86,16 @@ std::string image_figures(const SampleReport& sample, const fs::path& folder, Lo
     html += pictures.figure(*images.markers, "tactile image of " + sample.name + " with markers",
                             "<b>With printed markers</b>, last frame");
   }
-  html += pictures.figure(images.indentation, "indentation map of " + sample.name,
-                          fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
-                                      number_text(sample.max_indentation_m, 1e3)));
-  return html + pictures.figure(images.normal, "normals of " + sample.name,
-                                "<b>Normals</b>: the face looks" + normal_swatches());
+  if (images.indentation && is_picture(*images.indentation)) {
+    html += pictures.figure(*images.indentation, "indentation map of " + sample.name,
+                            fmt::format("<b>Indentation</b> into the gel<div class=\"bar\">0<i></i>{} mm</div>",
+                                        number_text(sample.max_indentation_m, 1e3)));
+  }
+  if (images.normal && is_picture(*images.normal)) {
+    html += pictures.figure(*images.normal, "normals of " + sample.name,
+                            "<b>Normals</b>: the face looks" + normal_swatches());
+  }
+  return html;
 }
 
 /// Force over depth says something only while depth is what changes.

@@ -146,8 +146,9 @@ void draw_cell(cv::Mat& sheet, const SheetLayout& layout, int index, const Sampl
     return;
   }
   int x = left;
-  for (const auto& path : {sample.images->tactile, sample.images->indentation, sample.images->normal}) {
-    draw_picture(sheet, read_png(path, 3), {x, y, layout.picture_width, layout.picture_height});
+  for (const std::optional<std::filesystem::path>& path :
+       {std::optional(sample.images->tactile), sample.images->indentation, sample.images->normal}) {
+    if (path) draw_picture(sheet, read_picture(*path), {x, y, layout.picture_width, layout.picture_height});
     x += layout.picture_width + kGap;
   }
 }

@@ -4,6 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/image/picture.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/render_folder.h"
 #include "common/sample/sample_status.h"
@@ -30,13 +31,23 @@ void read_render(const fs::path& folder, SampleReport& sample) {
     return;
   }
   const std::size_t last = sample.frames.size() - 1;
-  const fs::path markers = frame_path(folder, last, FrameFile::marker);
-  const SampleImages images{.tactile = frame_path(folder, last, FrameFile::tactile),
-                            .indentation = frame_path(folder, last, FrameFile::indentation_picture),
-                            .normal = frame_path(folder, last, FrameFile::normal_picture),
-                            .no_contact = frame_path(folder, 0, FrameFile::tactile),
-                            .markers = fs::is_regular_file(markers) ? std::optional(markers) : std::nullopt};
-  for (const fs::path& path : {images.tactile, images.indentation, images.normal, images.no_contact}) {
+  const Record outputs = render.section("outputs");
+  const auto first_of = [&](std::initializer_list<FrameFile> files) -> std::optional<fs::path> {
+    for (const FrameFile file : files) {
+      if (!outputs.has(frame_folder(last) + field_of(file).file)) continue;
+      const fs::path path = frame_path(folder, last, file);
+      if (!fs::is_regular_file(path)) throw DataError("{}: is missing", path.string());
+      return path;
+    }
+    return std::nullopt;
+  };
+  using enum FrameFile;
+  const SampleImages images{.tactile = frame_path(folder, last, tactile),
+                            .no_contact = frame_path(folder, 0, tactile),
+                            .indentation = first_of({indentation_picture, indentation}),
+                            .normal = first_of({normal_picture, normal}),
+                            .markers = first_of({marker})};
+  for (const fs::path& path : {images.tactile, images.no_contact}) {
     if (!fs::is_regular_file(path)) throw DataError("{}: is missing", path.string());
   }
   sample.images = images;
@@ -107,6 +118,13 @@ std::string without_folder(std::string text, const fs::path& folder) {
 }
 
 }  // namespace
+
+ByteImage read_picture(const fs::path& file) {
+  if (is_picture(file)) return read_png(file, 3);
+  const bool height = file.filename() == field_of(FrameFile::indentation).file;
+  const FloatImage map = read_exr(file, field_of(height ? FrameFile::indentation : FrameFile::normal).channels);
+  return height ? picture_of_height(map) : picture_of_normals(map);
+}
 
 SampleReport read_sample(const fs::path& given) {
   SampleReport sample;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/image/image.h"
 #include "stages/dataset/report/markers.h"
 #include "stages/dataset/report/motion.h"
 #include "stages/dataset/report/verdict.h"
@@ -53,11 +54,18 @@ struct DecimateReport {
   std::vector<std::pair<std::string, int>> findings;  // repairs made and faults left, those that occurred
 };
 
-/// Pictures of the last frame, and of the gel without contact.
+/// Pictures of the last frame, and of the gel without contact. Of a map that is its preview; the map itself (EXR) where
+/// a dataset wants no preview, and nothing where it does not want the map either.
 struct SampleImages {
-  std::filesystem::path tactile, indentation, normal, no_contact;
+  std::filesystem::path tactile, no_contact;
+  std::optional<std::filesystem::path> indentation = std::nullopt, normal = std::nullopt;
   std::optional<std::filesystem::path> markers = std::nullopt;  // the tactile image with printed markers
 };
+
+/// Whether a page can show the file as it is.
+inline bool is_picture(const std::filesystem::path& file) { return file.extension() != ".exr"; }
+/// One of them as a picture, whatever it is.
+ByteImage read_picture(const std::filesystem::path& file);
 
 /// A tactile image from the middle of a motion.
 struct PhaseImage {

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/image/picture.h"
+#include "common/sample/dataset_maps.h"
 #include "common/sample/render_folder.h"
 #include "common/stage/stage.h"
 #include "stages/image/render/height_maps.h"
@@ -30,7 +31,10 @@ const StageSpec kRender{
                {.flag = "--shapes",
                 .help = "indentation maps (EXR), one per frame, in place of a press",
                 .required = false,
-                .many = true}},
+                .many = true},
+               {.flag = "--maps",
+                .help = "maps that a dataset wants (YAML, made by plan), in its precision; else all, as computed",
+                .required = false}},
     .options = {{.flag = "--seed", .help = "seed of the sample (a count), for noise of its own", .fallback = ""}}};
 
 /// An image of labels as the codes that stand in its file.
@@ -41,28 +45,50 @@ ByteImage coded(const ByteImage& labels, std::uint8_t (*code)(Label)) {
   return image;
 }
 
-void write_maps(Stage& stage, const std::string& folder, const TraceResult& trace) {
-  write_frame(stage, folder, FrameFile::depth, trace.depth);
-  write_frame(stage, folder, FrameFile::normal, trace.normal);
-  write_frame(stage, folder, FrameFile::indentation, trace.indentation);
-  write_frame(stage, folder, FrameFile::normal_picture, picture_of_normals(trace.normal));
-  write_frame(stage, folder, FrameFile::indentation_picture, indentation_picture(trace.indentation));
-  write_frame(stage, folder, FrameFile::segment, coded(trace.segment, segment_code));
-  if (trace.traction.channels == 0) return;
-  write_frame(stage, folder, FrameFile::traction, trace.traction);
-  write_frame(stage, folder, FrameFile::contact, coded(trace.contact, contact_code));
-  write_frame(stage, folder, FrameFile::stick_slip, coded(trace.contact, stick_slip_code));
-}
+/// Writes those files of a frame that are wanted: what a dataset names, or all.
+class FrameWriter {
+ public:
+  FrameWriter(Stage& stage, std::optional<DatasetMaps> maps) : stage_(stage), maps_(std::move(maps)) {}
 
-void write_files(Stage& stage, const RenderedFrame& frame) {
-  const std::string folder = frame_folder(static_cast<std::size_t>(frame.index), frame.unit);
-  if (!frame.linear.pixels.empty()) write_frame(stage, folder, FrameFile::linear, frame.linear);
-  for (std::size_t g = 0; g < frame.basis.size(); ++g) write_frame(stage, folder, FrameFile::basis, frame.basis[g], g);
-  write_frame(stage, folder, FrameFile::tactile, frame.tactile.image);
-  if (frame.marker) write_frame(stage, folder, FrameFile::marker, frame.marker->image);
-  if (frame.trace) write_maps(stage, folder, *frame.trace);
-  if (frame.marker_px.rows() > 0) write_marker_px(stage, folder, frame.marker_px.leftCols<2>());
-}
+  bool wants(FrameFile file) const { return !maps_ || maps_->has(file); }
+
+  void write(const RenderedFrame& frame) {
+    folder_ = frame_folder(static_cast<std::size_t>(frame.index), frame.unit);
+    if (!frame.linear.pixels.empty()) put(FrameFile::linear, frame.linear);
+    for (std::size_t g = 0; g < frame.basis.size(); ++g)
+      write_frame(stage_, folder_, FrameFile::basis, frame.basis[g], g);
+    put(FrameFile::tactile, frame.tactile.image);
+    if (frame.marker) put(FrameFile::marker, frame.marker->image);
+    if (frame.trace) write_maps(*frame.trace);
+    if (frame.marker_px.rows() > 0) write_marker_px(stage_, folder_, frame.marker_px.leftCols<2>());
+  }
+
+ private:
+  void write_maps(const TraceResult& trace) {
+    put(FrameFile::depth, trace.depth);
+    put(FrameFile::normal, trace.normal);
+    put(FrameFile::indentation, trace.indentation);
+    if (wants(FrameFile::normal_picture)) put(FrameFile::normal_picture, picture_of_normals(trace.normal));
+    if (wants(FrameFile::indentation_picture))
+      put(FrameFile::indentation_picture, picture_of_height(trace.indentation));
+    put(FrameFile::segment, coded(trace.segment, segment_code));
+    if (trace.traction.channels == 0) return;
+    put(FrameFile::traction, trace.traction);
+    put(FrameFile::contact, coded(trace.contact, contact_code));
+    put(FrameFile::stick_slip, coded(trace.contact, stick_slip_code));
+  }
+
+  void put(FrameFile file, const FloatImage& image) {
+    if (wants(file)) write_frame(stage_, folder_, file, image, 0, maps_ ? Digits::of_datasets : Digits::all);
+  }
+  void put(FrameFile file, const ByteImage& image) {
+    if (wants(file)) write_frame(stage_, folder_, file, image);
+  }
+
+  Stage& stage_;
+  std::optional<DatasetMaps> maps_;
+  std::string folder_;
+};
 
 /// How many values of the sensor file are known, derived, guessed.
 Value::Map count_sources(const Sensor& sensor) {
@@ -101,6 +127,11 @@ std::optional<ByteImage> load_reference(Stage& stage, const Sensor& sensor, cons
   if (!sensor.reference_image) return std::nullopt;
   stage.add_input(name, *sensor.reference_image);
   return read_reference(*sensor.reference_image, sensor.camera);
+}
+
+std::optional<DatasetMaps> read_maps(Stage& stage) {
+  if (!stage.optional_input("--maps")) return std::nullopt;
+  return stage.read_config<DatasetMaps>("--maps");
 }
 
 std::vector<RenderUnit> all_units(Stage& stage, const Sensor& sensor, const RenderConfig& config) {
@@ -156,7 +187,10 @@ int main(int argc, char** argv) {
     } else {
       stage.note("reference", "synthetic");
     }
-    const auto deliver = [&](const RenderedFrame& frame) { write_files(stage, frame); };
+    FrameWriter writer(stage, read_maps(stage));
+    config.linear = writer.wants(FrameFile::linear);
+    config.marker = writer.wants(FrameFile::marker);
+    const auto deliver = [&](const RenderedFrame& frame) { writer.write(frame); };
     const RenderSummary summary = stage.inputs("--shapes").empty() ? render_press(stage, units, config, deliver)
                                                                    : render_shapes(stage, units, config, deliver);
     Value::Map lines = {{"frames", Value::List(summary.frames.begin(), summary.frames.end())}};

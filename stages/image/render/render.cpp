@@ -47,10 +47,6 @@ ByteImage read_reference(const std::filesystem::path& path, const Camera& camera
   return image;
 }
 
-ByteImage indentation_picture(const FloatImage& indentation) {
-  return picture_of_scalar(indentation, 0.0, std::max(1e-6, largest(indentation)));
-}
-
 Positions project_markers(const Positions& markers, const Sensor& sensor, bool refract) {
   const CameraModel camera(sensor.camera, sensor.stack, refract);
   Positions out(markers.rows(), 3);
@@ -102,16 +98,14 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
       const TraceResult& traced = units[u].needs_rays && u > 0 ? own : first;
       Developer& developer = *developers[u];
       if (index == 0) developer.set_reference(traced);
-      RenderedFrame frame{.index = index,
-                          .unit = units[u].name,
-                          .trace = units[u].needs_rays ? &traced : nullptr,
-                          .linear = developer.radiance(traced)};
+      RenderedFrame frame{.index = index, .unit = units[u].name, .trace = units[u].needs_rays ? &traced : nullptr};
+      if (config.linear) frame.linear = developer.radiance(traced);
       if (config.basis_images && units[u].needs_rays) {
         for (std::size_t g = 0; g < light_groups(sensor.leds).size(); ++g)
           frame.basis.push_back(group_image(traced, sensor, g));
       }
       frame.tactile = developer.develop(traced, false, index);
-      if (sensor.markers.radius_m) frame.marker = developer.develop(traced, true, index);
+      if (config.marker && sensor.markers.radius_m) frame.marker = developer.develop(traced, true, index);
       if (units[u].needs_rays) frame.marker_px = project_markers(front.markers(index), sensor, config.trace.refract);
       if (u == 0) {
         summary.max_indentation_m = largest(traced.indentation);

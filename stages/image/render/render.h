@@ -24,10 +24,10 @@ struct RenderedFrame {
   std::size_t index = 0;
   std::string unit = {};
   const TraceResult* trace = nullptr;  // null where another unit's serves
-  FloatImage linear = {};              // empty where the sensor's light is known in codes only
+  FloatImage linear = {};              // empty where it is not wanted or the sensor's light is known in codes only
   std::vector<FloatImage> basis = {};  // of each light group, if wanted; where the unit traced rays
   TactileImage tactile = {};
-  std::optional<TactileImage> marker = std::nullopt;  // the same with the printed markers, if the sensor has any
+  std::optional<TactileImage> marker = std::nullopt;  // the same with the printed markers, if wanted and there are any
   Positions marker_px = {};                           // column, row and 1 where seen, else NaN and 0
 };
 
@@ -40,9 +40,6 @@ struct RenderSummary {
   double max_indentation_m = 0.0;  // in the last frame
   double indirect_share = 0.0;     // of the last frame's light
 };
-
-/// Colours from 0 to the frame's deepest indentation (to 1 µm at least).
-ByteImage indentation_picture(const FloatImage& indentation);
 
 /// Image points of markers in columns 0 and 1, NaN where the picture does not show them; column 2 is 1 or 0.
 Positions project_markers(const Positions& markers, const Sensor& sensor, bool refract);

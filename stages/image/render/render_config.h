@@ -54,6 +54,7 @@ struct RenderConfig {
   std::uint64_t noise_seed = 0;
   bool noise_in_every_frame = false;  // fresh noise in each simulated frame, beside what the reference carries
   std::vector<Variant> variants = {};
+  bool linear = true, marker = true;  // images that need not be made where a dataset does not want them
 
   static RenderConfig read(ConfigReader& in);
 };

@@ -89,8 +89,7 @@ int main(int argc, char** argv) {
       write_frame(stage, folder, FrameFile::indentation, frame.indentation);
       write_frame(stage, folder, FrameFile::depth, frame.depth);
       const double top = *std::max_element(frame.indentation.pixels.begin(), frame.indentation.pixels.end());
-      write_frame(stage, folder, FrameFile::indentation_picture,
-                  picture_of_scalar(frame.indentation, 0.0, std::max(top, 1e-6)));
+      write_frame(stage, folder, FrameFile::indentation_picture, picture_of_height(frame.indentation));
       if (frame.tactile) write_frame(stage, folder, FrameFile::tactile, *frame.tactile);
       deepest_m = std::max(deepest_m, top);
     }

@@ -41,9 +41,7 @@ void write_maps(Stage& stage, const Sensor& sensor, const MpmScene& scene, const
     write_frame(stage, folder, FrameFile::indentation, indentation);
     write_frame(stage, folder, FrameFile::seen_indentation, seen_along_rays(indentation, sensor, places));
     write_frame(stage, folder, FrameFile::depth, depth);
-    const double top = *std::max_element(indentation.pixels.begin(), indentation.pixels.end());
-    write_frame(stage, folder, FrameFile::indentation_picture,
-                picture_of_scalar(indentation, 0.0, std::max(top, 1e-6)));
+    write_frame(stage, folder, FrameFile::indentation_picture, picture_of_height(indentation));
   }
 }
 

@@ -70,6 +70,22 @@ TEST(ConfigReader, SuggestsTheNearestChoice) {
       ElementsAre("gel.yaml:1:6: law: 'neo_hokean' is not one of neo_hookean, stvk (did you mean neo_hookean?)"));
 }
 
+TEST(ConfigReader, ListsOfChoicesNameTheWordThatIsNone) {
+  const std::vector<std::string> maps{"depth", "normal"};
+  const auto read = [&](ConfigReader& in) { return in.choices_or("maps", {"depth"}, maps); };
+  EXPECT_THAT(faults_when("maps: [normal, dept]", read),
+              ElementsAre("gel.yaml:1:16: maps[1]: 'dept' is not one of depth, normal (did you mean depth?)"));
+  EXPECT_THAT(faults_when("maps:\n  - depth\n  - depth\n", read),
+              ElementsAre("gel.yaml:3:5: maps[1]: depth is given twice"));
+  EXPECT_THAT(faults_when("maps: depth", read),
+              ElementsAre("gel.yaml:1:7: maps: expected a list of words, found a single value"));
+  auto in = ConfigReader::from_text("maps: [normal, depth]\n", "gel.yaml"),
+       empty = ConfigReader::from_text("{}", "gel.yaml");
+  EXPECT_THAT(read(in), ElementsAre("normal", "depth"));
+  EXPECT_THAT(read(empty), ElementsAre("depth"));
+  EXPECT_EQ(to_yaml(empty.resolved()), "maps: [depth]\n");
+}
+
 TEST(ConfigReader, RefusesNumbersThatAreNone) {
   for (const std::string bad : {"nan", ".inf", "1.0.0", "1e999", "0x10", "''"}) {
     EXPECT_EQ(faults_when("a: " + bad, [](ConfigReader& in) { in.number("a"); }).size(), 1u) << bad;

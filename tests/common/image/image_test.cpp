@@ -40,6 +40,24 @@ TEST(Exr, ComesBackBitByBitWithItsChannelsInTheirOrder) {
   EXPECT_EQ(read_file(scratch / "c.exr"), first);
 }
 
+TEST(Exr, HalvesKeepElevenDigitsAndAreSmaller) {
+  const ScratchFolder scratch;
+  FloatImage image = gradient(3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 1.0f / (1.0f + static_cast<float>(i));
+  image.at(0, 0, 0) = std::numeric_limits<float>::quiet_NaN();
+  image.at(1, 0, 0) = -65504.0f;
+  write_exr(scratch / "h.exr", image, {"X", "Y", "Z"}, ExrNumbers::halves);
+  const FloatImage back = read_exr(scratch / "h.exr", {"X", "Y", "Z"});
+  EXPECT_TRUE(std::isnan(back.pixels[0]));
+  for (std::size_t i = 1; i < image.pixels.size(); ++i)
+    EXPECT_NEAR(back.pixels[i] / image.pixels[i], 1.0, 0.00049) << i;
+  image.at(2, 0, 0) = 70000.0f;
+  EXPECT_EQ(message_of<DataError>([&] {
+              write_exr(scratch / "h.exr", image, {"X", "Y", "Z"}, ExrNumbers::halves);
+            }),
+            (scratch / "h.exr").string() + ": 70000 is too large for a half float");
+}
+
 TEST(Exr, FaultsAreNamed) {
   const ScratchFolder scratch;
   write_exr(scratch / "d.exr", gradient(1), {"Z"});

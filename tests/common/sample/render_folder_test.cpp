@@ -45,7 +45,12 @@ TEST(RenderFolder, FilesGoIntoTheirFrame) {
   for (std::string& word : words) argv.push_back(word.data());
   const StageSpec spec{.name = "render", .summary = "Writes a frame.", .inputs = {}};
   const MarkerPixels px{{1.5, 2.5}, {std::nan(""), std::nan("")}};
+  const FloatImage normal(2, 1, 3, 0.1234567f), traction(2, 1, 3, -297001.0f);
   const auto write = [&](Stage& stage) {
+    write_frame(stage, frame_folder(4), FrameFile::depth, FloatImage(2, 1, 1, 12.3456789e-3f), 0, Digits::of_datasets);
+    write_frame(stage, frame_folder(4), FrameFile::normal, normal, 0, Digits::of_datasets);
+    write_frame(stage, frame_folder(4), FrameFile::traction, traction, 0, Digits::of_datasets);
+    write_frame(stage, frame_folder(4), FrameFile::linear, normal, 0, Digits::of_datasets);
     write_frame(stage, frame_folder(3), FrameFile::depth, FloatImage(2, 1, 1, 0.5f));
     write_frame(stage, frame_folder(3), FrameFile::basis, FloatImage(2, 1, 3, 0.25f), 1);
     write_frame(stage, frame_folder(3, "red"), FrameFile::tactile, ByteImage(2, 1, 3, 9));
@@ -53,6 +58,14 @@ TEST(RenderFolder, FilesGoIntoTheirFrame) {
   };
   ASSERT_EQ(run_stage(spec, static_cast<int>(argv.size()), argv.data(), write), 0);
   EXPECT_EQ(read_exr(frame_path(scratch / "out", 3, FrameFile::depth), {"Z"}).pixels, (std::vector<float>(2, 0.5f)));
+  // In a dataset numbers are multiples of the field's step: 2^-25 m, 2^-12, 16 Pa; radiance stays.
+  const auto packed = [&](FrameFile file) {
+    return double{read_exr(frame_path(scratch / "out", 4, file), field_of(file).channels).pixels[0]};
+  };
+  EXPECT_EQ(packed(FrameFile::depth), std::ldexp(std::round(std::ldexp(12.3456789e-3, 25)), -25));
+  EXPECT_EQ(packed(FrameFile::normal), std::ldexp(std::round(std::ldexp(0.1234567, 12)), -12));
+  EXPECT_EQ(packed(FrameFile::traction), -297008.0);
+  EXPECT_EQ(packed(FrameFile::linear), double{0.1234567f});
   EXPECT_EQ(read_exr(scratch / "out/frame_0003/basis_01.exr", {"R", "G", "B"}).pixels.size(), 6u);
   EXPECT_EQ(read_png(scratch / "out/frame_0003/red/tactile.png", 3).pixels, std::vector<std::uint8_t>(6, 9));
   const MarkerPixels back = read_marker_px(scratch / "out/frame_0003/marker_px.npy");

@@ -60,6 +60,17 @@ TEST(FilesPage, ListsTheFolderOfAFrame) {
   EXPECT_EQ(table_below("The render folder"), expected);
 }
 
+TEST(FilesPage, SaysWhatADatasetRounds) {
+  std::string expected;
+  for (const ImageField& field : frame_fields()) {
+    const DatasetNumbers& numbers = field.in_dataset;
+    if (!numbers.rounded()) continue;
+    expected += fmt::format("| `{}` | {} | 2^{} {} |\n", field.file,
+                            numbers.type == ExrNumbers::halves ? "half" : "float", numbers.step_exponent, field.unit);
+  }
+  EXPECT_EQ(table_below("Maps of a dataset"), expected);
+}
+
 TEST(FilesPage, ListsTheColumnsOfAPlan) {
   std::string expected;
   for (const PlanColumn& column : plan_columns())

@@ -18,16 +18,16 @@ namespace fs = std::filesystem;
 
 constexpr int kQuality = 88;
 
-/// Puts a smaller copy in the place of a picture, and links the original among the data.
+/// Puts a smaller copy in the place of a picture, and links the original among the data (not without a label).
 class PictureCopies {
  public:
   PictureCopies(SamplePage& page, SampleReport& sample, const fs::path& folder, int picture_px)
       : page_(page), sample_(sample), folder_(folder), picture_px_(picture_px) {}
 
   void take(fs::path& picture, const std::string& name, const std::string& label) {
-    const ByteImage image = read_png(picture, 3);
+    const ByteImage image = read_picture(picture);
     add(image, name, picture_px_);
-    sample_.data.emplace_back(label, picture);
+    if (!label.empty()) sample_.data.emplace_back(label, picture);
     picture = folder_ / picture_name(page_.shot.plan.id, name);
   }
   /// Width and height of the copy.
@@ -46,6 +46,8 @@ class PictureCopies {
   int picture_px_;
 };
 
+std::string label_of_preview(const fs::path& file) { return is_picture(file) ? file.filename().string() : ""; }
+
 void copy_pictures(SamplePage& page, SampleReport& sample, const fs::path& folder, const DatasetReportConfig& config) {
   if (!sample.images) return;
   PictureCopies copies(page, sample, folder, config.picture_px);
@@ -54,8 +56,9 @@ void copy_pictures(SamplePage& page, SampleReport& sample, const fs::path& folde
   copies.take(images.tactile, "tactile", field_of(FrameFile::tactile).file);
   copies.take(images.no_contact, "no_contact", field_of(FrameFile::tactile).file + " without contact");
   if (images.markers) copies.take(*images.markers, "markers", field_of(FrameFile::marker).file);
-  copies.take(images.indentation, "indentation", field_of(FrameFile::indentation_picture).file);
-  copies.take(images.normal, "normal", field_of(FrameFile::normal_picture).file);
+  // A map that has no preview is among the data already.
+  if (images.indentation) copies.take(*images.indentation, "indentation", label_of_preview(*images.indentation));
+  if (images.normal) copies.take(*images.normal, "normal", label_of_preview(*images.normal));
   for (PhaseImage& image : sample.phase_images) {
     const std::string name = frame_name(static_cast<std::size_t>(image.frame));
     copies.take(image.tactile, name, name + "/" + field_of(FrameFile::tactile).file);

@@ -32,6 +32,32 @@ TEST_F(PlanProgram, TheShippedDatasetsArePlanned) {
   EXPECT_GE(found, 2);
 }
 
+TEST_F(PlanProgram, MapsGoToRenderInAFileThatChangesWithThemAlone) {
+  const auto write = [&](const std::string& seed, const std::string& maps) {
+    return scratch_.file("d.yaml", fmt::format(R"(seed: {1}
+sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/gels/tiny.yaml}}
+objects: {{emboss: {0}/configs/objects/patterns/star.yaml}}
+motions:
+  - {{name: a, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
+{2})",
+                                               TACIPC_SOURCE_DIR, seed, maps));
+  };
+  const fs::path maps = scratch_ / "set/maps.yaml";
+  ASSERT_EQ(plan(write("1", "maps: [tactile, depth]\n")), 0) << said_;
+  EXPECT_EQ(read_file(maps), "# Made by the stage plan.\nmaps: [depth, tactile]\n");
+  EXPECT_THAT(read_file(scratch_ / "set/plan/dataset.yaml"), ::testing::HasSubstr("maps: [tactile, depth]\n"));
+  EXPECT_THAT(read_file(scratch_ / "set/plan/dataset.mk"),
+              ::testing::HasSubstr("DATASET_MAPS := $(DATASET_DIR)/maps.yaml\n"));
+  const auto old = fs::last_write_time(maps) - std::chrono::hours(1);
+  fs::last_write_time(maps, old);
+  ASSERT_EQ(plan(write("2", "maps: [depth, tactile]\n")), 0) << said_;
+  EXPECT_EQ(fs::last_write_time(maps), old);
+  ASSERT_EQ(plan(write("2", "")), 0) << said_;
+  EXPECT_NE(fs::last_write_time(maps), old);
+  EXPECT_EQ(plan(write("2", "maps: [tactile, deep]\n")), 2);
+  EXPECT_THAT(said_, ::testing::HasSubstr("d.yaml:6:17: maps[1]: 'deep' is not one of "));
+}
+
 TEST_F(PlanProgram, OnlyChangedSamplesAreWrittenAgain) {
   const auto write = [&](const std::string& depth) {
     return scratch_.file("d.yaml", fmt::format(R"(seed: 1

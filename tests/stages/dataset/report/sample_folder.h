@@ -42,6 +42,7 @@ summary:
 inline constexpr const char* kRenderRecord = R"(stage: render
 reference: synthetic
 summary: {frames: [0, 2], max_indentation_mm: 0.534}
+outputs: {frame_0002/indentation.png: 1, frame_0002/normal.png: 2, frame_0004/indentation.png: 3, frame_0004/normal.png: 4}
 )";
 
 inline constexpr const char* kDecimateRecord = R"(stage: decimate

@@ -49,6 +49,34 @@ TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
   EXPECT_NEAR(sum / static_cast<double>(reference.pixels.size()), 127.5, 0.5);
 }
 
+TEST_F(RenderStage, WritesTheMapsThatADatasetWantsInItsPrecision) {
+  ASSERT_EQ(run("all"), 0) << said_;
+  const std::string flag = " --threads 1 --maps " + (scratch_ / "maps.yaml").string();
+  write_file(scratch_ / "maps.yaml", "maps: [tactile, indentation, normal]\n");
+  ASSERT_EQ(run("out", flag), 0) << said_;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(scratch_ / "out/frame_0002"))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("tactile.png", "indentation.exr", "normal.exr"));
+  EXPECT_EQ(read_file(scratch_ / "out/frame_0002/tactile.png"), read_file(scratch_ / "all/frame_0002/tactile.png"));
+  const auto largest_change = [&](const std::string& name, const std::vector<std::string>& channels) {
+    const FloatImage here = read_exr(scratch_ / "out/frame_0002" / name, channels),
+                     exact = read_exr(scratch_ / "all/frame_0002" / name, channels);
+    double most = 0.0;
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i)
+      most = std::max(most, std::abs(double{here.pixels[i]} - exact.pixels[i]));
+    return most;
+  };
+  const double length = largest_change("indentation.exr", {"Y"}), part = largest_change("normal.exr", {"X", "Y", "Z"});
+  EXPECT_LE(length, std::ldexp(0.5, -25));
+  EXPECT_GT(length, std::ldexp(0.2, -25));
+  EXPECT_LE(part, std::ldexp(1.0, -11));  // a half just below 1
+  EXPECT_GT(part, std::ldexp(0.2, -12));
+  write_file(scratch_ / "maps.yaml", "maps: [tactile, norml]\n");
+  EXPECT_EQ(run("refused", flag), 2);
+  EXPECT_THAT(said_, HasSubstr("maps.yaml:1:17: maps[1]: 'norml' is not one of "));
+}
+
 TEST_F(RenderStage, BytesDoNotDependOnThreads) {
   ASSERT_EQ(run("one"), 0) << said_;
   ASSERT_EQ(run("two", "--threads 2"), 0) << said_;

@@ -44,12 +44,14 @@ class DatasetFolder {
     write_file(folder / "press/press.timings.yaml",
                "stage: press\nthreads: 1\nwall_s: 4\nprocessor_s: 3\npeak_memory_mb: 50\n");
     write_file(folder / "render/render.yaml",
-               "stage: render\nreference: synthetic\nsummary: {frames: [0, 4], max_indentation_mm: 0.5}\n");
+               "stage: render\nreference: synthetic\nsummary: {frames: [0, 4], max_indentation_mm: 0.5}\n"
+               "outputs: {frame_0004/indentation.exr: 1, frame_0004/normal.png: 2}\n");
     write_file(folder / "render/render.timings.yaml",
                "stage: render\nthreads: 1\nwall_s: 2\nprocessor_s: 1.5\npeak_memory_mb: 80\n");
     for (const char* frame : {"frame_0000", "frame_0004"})
-      for (const char* name : {"tactile.png", "indentation.png", "normal.png"})
+      for (const char* name : {"tactile.png", "normal.png"})
         write_flat_png(folder / "render" / frame / name, 64, 48, 90);
+    write_exr(folder / "render/frame_0004/indentation.exr", FloatImage(64, 48, 1, 2e-4f), {"Y"});  // has no preview
   }
   /// A press that did not converge.
   void fail(int i) const {

@@ -3,6 +3,7 @@
 
 #include <regex>
 
+#include "common/image/picture.h"
 #include "common/stage/record.h"
 #include "tests/program_test.h"
 #include "tests/stages/dataset/report/dataset/dataset_folder.h"
@@ -84,7 +85,13 @@ TEST_F(DatasetReportTest, PicturesAreSmallCopiesSoThatThePagesCanGoAlone) {
   EXPECT_EQ(read_png(pictures / "thumb.jpg", 3).height, 12);
   const std::string html = page(data, "samples/" + data.id(0) + ".html");
   EXPECT_THAT(html, HasSubstr("<img src=\"../pictures/" + data.id(0) + "/indentation.jpg\" alt=\"indentation map of "));
-  EXPECT_THAT(html, HasSubstr(">indentation.png</a>"));  // the whole one, among the data
+  EXPECT_THAT(html, HasSubstr(">normal.png</a>"));  // the whole one, among the data
+  // A map without preview is drawn from its numbers: flat, so everywhere at the light end of the colours.
+  EXPECT_THAT(html, HasSubstr(">indentation.exr</a>"));
+  EXPECT_THAT(html, Not(HasSubstr(">indentation.png</a>")));
+  const ByteImage drawn = read_png(pictures / "indentation.jpg", 3);
+  const auto lightest = perceptual_color(1.0);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(drawn.at(5, 5, c), lightest[static_cast<std::size_t>(c)], 3);
 }
 
 TEST_F(DatasetReportTest, SaysWhatWasDroppedAfterPacking) {

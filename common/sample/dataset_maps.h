@@ -1,0 +1,26 @@
+// Which images of a frame a dataset wants: `maps` of its configuration, passed on by `plan` in maps.yaml, obeyed by
+// `render`. The only place that knows their names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/sample/render_folder.h"
+
+namespace tacipc {
+
+struct DatasetMaps {
+  std::vector<FrameFile> files = {};  // in the order of the enum
+
+  bool has(FrameFile file) const;
+  /// The key `maps`; without it what `pack` stores, and traction. The tactile image must be among them.
+  static DatasetMaps read(ConfigReader& in);
+  /// The same as a file.
+  std::string yaml() const;
+};
+
+/// Name of a map in configurations; empty of files that no dataset can choose.
+std::string map_name(FrameFile file);
+
+}  // namespace tacipc
