@@ -42,6 +42,16 @@ TACIPC_INLINE Pack3 choose(const Pack& key, const Pack3& yes, const Pack3& no) {
 TACIPC_INLINE Pack smaller(const Pack& a, const Pack& b) { return b < a ? b : a; }
 TACIPC_INLINE Pack larger(const Pack& a, const Pack& b) { return b > a ? b : a; }
 
+/// What comparing packs gives: −1 where true.
+using PackMask = long long __attribute__((vector_size(64)));
+
+TACIPC_INLINE bool all_of(const PackMask& lanes) {
+  const auto four =
+      __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3) & __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
+  const auto two = __builtin_shufflevector(four, four, 0, 1) & __builtin_shufflevector(four, four, 2, 3);
+  return (two[0] & two[1]) == -1;
+}
+
 /// Rows of a table of three columns, a lane each.
 TACIPC_INLINE Pack3 load_rows(const double* table, const std::array<int, kLanes>& rows) {
   Pack3 out;

@@ -1,3 +1,4 @@
+#include <Imath/half.h>
 #include <ImfArray.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -6,7 +7,6 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfVersion.h>
-#include <half.h>
 
 #include <algorithm>
 #include <cmath>

@@ -10,14 +10,17 @@ namespace {
 void add_colored(const FloatImage& basis, const std::vector<LightGroup>& groups, const std::array<double, 3>& factor,
                  FloatImage& out) {
   if (basis.channels == 0) return;
+  std::vector<std::array<double, 3>> rgb;
+  for (const LightGroup& group : groups) rgb.push_back(group.rgb);
+  const auto width = static_cast<std::size_t>(out.width), count = rgb.size();
   tbb::parallel_for(0, out.height, [&](int y) {
-    for (int x = 0; x < out.width; ++x) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        double sum = 0.0;
-        for (std::size_t g = 0; g < groups.size(); ++g) sum += groups[g].rgb[c] * basis.at(x, y, static_cast<int>(g));
-        float& value = out.at(x, y, static_cast<int>(c));
-        value = static_cast<float>(value + factor[c] * sum);
-      }
+    const float* from = basis.pixels.data() + static_cast<std::size_t>(y) * width * count;
+    float* to = out.pixels.data() + static_cast<std::size_t>(y) * width * 3;
+    for (std::size_t x = 0; x < width; ++x, from += count, to += 3) {
+      std::array<double, 3> sum{};
+      for (std::size_t g = 0; g < count; ++g)
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += rgb[g][c] * from[g];
+      for (std::size_t c = 0; c < 3; ++c) to[c] = static_cast<float>(to[c] + factor[c] * sum[c]);
     }
   });
 }

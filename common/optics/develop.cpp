@@ -126,6 +126,21 @@ FloatImage encode(const FloatImage& linear, double exposure, const Response& res
   return codes;
 }
 
+FloatImage encode(const FloatImage& signal, double exposure, const Response& response, const Encoded& known) {
+  if (known.signal.pixels.size() != signal.pixels.size()) return encode(signal, exposure, response);
+  FloatImage codes(signal.width, signal.height, signal.channels);
+  const std::size_t length = row_length(signal);
+  tbb::parallel_for(0, signal.height, [&](int y) {
+    const auto row = static_cast<std::size_t>(y);
+    for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
+      const float value = signal.pixels[i];
+      codes.pixels[i] = value == known.signal.pixels[i] ? known.codes.pixels[i]
+                                                        : static_cast<float>(code_of(exposure * value, response));
+    }
+  });
+  return codes;
+}
+
 FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel& noise, std::uint64_t stream) {
   FloatImage out(signal.width, signal.height, signal.channels);
   const std::size_t length = row_length(signal);

@@ -120,9 +120,7 @@ TACIPC_CLONES bool add_certain(const LitPack& places, const LightSample& sample,
   sum.diffuse += choose(certain, diffuse, none);
   sum.gloss += choose(certain, gloss, none);
   left = choose(certain, none, diffuse);
-  int lanes = 0;
-  for (int l = 0; l < kLanes; ++l) lanes += left[l] > 0.0;
-  if (lanes == 0) return false;
+  if (all_of(left <= none)) return false;
   doubtful = {light.direction, light.length, {diffuse, gloss}};
   return true;
 }

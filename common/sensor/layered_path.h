@@ -42,9 +42,7 @@ TACIPC_INLINE bool negligible(double small, double large, double bound) {
   return std::abs(small) <= bound * std::abs(large);
 }
 TACIPC_INLINE bool negligible(const Pack& small, const Pack& large, double bound) {
-  int above = 0;
-  for (int l = 0; l < kLanes; ++l) above += !(std::abs(small[l]) <= bound * std::abs(large[l]));
-  return above == 0;
+  return all_of(larger(small, -small) <= bound * larger(large, -large));
 }
 
 /// What the closed form says of one path (T: double) or eight (T: Pack). Angles count from z.

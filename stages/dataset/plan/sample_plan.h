@@ -26,8 +26,8 @@ struct PlannedSample {
   std::string folder() const;
 };
 
-/// Packed bytes of one rendered frame per pixel: 2.75 MB for 640 × 480 with the profile `full` (docs/pack.md).
-constexpr double kPackedBytesPerPixel = 9.0;
+/// Packed bytes of one rendered frame per pixel: 2.2 MB for 640 × 480 with the profile `full` (docs/pack.md).
+constexpr double kPackedBytesPerPixel = 7.2;
 
 /// Every sample, in the order of their indices: repetitions outermost, so that the first part of a dataset has all
 /// objects and motions in it, and more repetitions come last. `packed_bytes[sensor][motion]` is what a sample is

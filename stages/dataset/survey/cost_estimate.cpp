@@ -104,8 +104,8 @@ double modelled_seconds(const CostModel& model, const GelSize& gel, const Motion
 
 double modelled_bytes(const GelSize& gel, const MotionLength& motion, bool all_frames) {
   // Of a frame of press: a position of each vertex; two forces and a state of each one of the front; the rest, most of
-  // it tractions and markers. Of a pixel that render makes: its pictures.
-  constexpr double kVertex = 24.0, kFrontVertex = 49.0, kFrame = 63000.0, kPixel = 53.0;
+  // it tractions and markers. Of a pixel that render makes: its pictures, with the usual maps.
+  constexpr double kVertex = 24.0, kFrontVertex = 49.0, kFrame = 63000.0, kPixel = 8.0;
   const int frames = motion.press_frames + motion.other_frames + 1;
   return frames * (kVertex * gel.vertices + kFrontVertex * gel.front_vertices + kFrame) +
          kPixel * gel.pixels * (all_frames ? frames : 2);

@@ -51,7 +51,8 @@ class RadianceDeveloper : public Developer {
     TactileImage out = [&] {
       if (config_.transfer == Transfer::linear)
         return transfer_ratio(reference_, signal, signal_, exposure_, sensor.response);
-      const FloatImage codes = encode(signal, exposure_, sensor.response);
+      const FloatImage codes = encode(signal, exposure_, sensor.response, last_);
+      if (!with_markers) last_ = {std::move(signal), codes};
       return config_.transfer == Transfer::none ? quantise(codes) : transfer_noise(reference_, codes, codes_);
     }();
     summary_.clipped_fraction = std::max(summary_.clipped_fraction, out.clipped_fraction);
@@ -73,6 +74,7 @@ class RadianceDeveloper : public Developer {
   const RenderConfig& config_;
   std::optional<NoiseModel> noise_;
   FloatImage signal_, codes_;
+  Encoded last_;  // of the image without markers, before the one with them
   ByteImage reference_;
   double exposure_ = 0.0;
 };

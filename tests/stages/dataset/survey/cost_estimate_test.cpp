@@ -35,7 +35,7 @@ TEST(CostEstimate, ModelAsWritten) {
   EXPECT_NEAR(modelled_seconds(kModel, stiff, {.press_frames = 5, .other_frames = 0}, false), 6 * 5 * 0.02 + 0.1 + 1.0,
               1e-12);
   EXPECT_EQ(modelled_bytes(kGel, {.press_frames = 5, .other_frames = 0}, false),
-            6 * (24 * 2000 + 49 * 1800 + 63000) + 53 * 1e5 * 2);
+            6 * (24 * 2000 + 49 * 1800 + 63000) + 8 * 1e5 * 2);
 }
 
 TEST(CostEstimate, WithoutMadeSamplesItIsTheModel) {
