@@ -18,4 +18,22 @@ inline TriangleMesh make_mesh(const std::vector<Vector3>& vertices, const std::v
   return mesh;
 }
 
+/// A closed box between two corners, looking outwards.
+inline TriangleMesh make_box(const Vector3& low, const Vector3& high) {
+  const double a = low.x(), b = low.y(), c = low.z(), x = high.x(), y = high.y(), z = high.z();
+  return make_mesh({{a, b, c}, {x, b, c}, {x, y, c}, {a, y, c}, {a, b, z}, {x, b, z}, {x, y, z}, {a, y, z}},
+                   {{0, 2, 1},
+                    {0, 3, 2},
+                    {4, 5, 6},
+                    {4, 6, 7},
+                    {0, 1, 5},
+                    {0, 5, 4},
+                    {1, 2, 6},
+                    {1, 6, 5},
+                    {2, 3, 7},
+                    {2, 7, 6},
+                    {3, 0, 4},
+                    {3, 4, 7}});
+}
+
 }  // namespace tacipc

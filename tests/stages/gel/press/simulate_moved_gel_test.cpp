@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/sample/placement.h"
 #include "stages/gel/press/checkpoint.h"
+#include "tests/make_mesh.h"
 #include "tests/stages/gel/press/reference_scene.h"
 #include "tests/stages/gel/press/small_scene.h"
 
@@ -14,20 +15,7 @@ namespace {
 
 /// A flat-ended square punch.
 TriangleMesh punch(double half_width_m, double height_m) {
-  const double w = half_width_m, h = height_m;
-  return {Positions{{-w, -w, 0}, {w, -w, 0}, {w, w, 0}, {-w, w, 0}, {-w, -w, h}, {w, -w, h}, {w, w, h}, {-w, w, h}},
-          Triangles{{0, 2, 1},
-                    {0, 3, 2},
-                    {4, 5, 6},
-                    {4, 6, 7},
-                    {0, 1, 5},
-                    {0, 5, 4},
-                    {1, 2, 6},
-                    {1, 6, 5},
-                    {2, 3, 7},
-                    {2, 7, 6},
-                    {3, 0, 4},
-                    {3, 4, 7}}};
+  return make_box({-half_width_m, -half_width_m, 0.0}, {half_width_m, half_width_m, height_m});
 }
 
 Simulation run(const TriangleMesh& object, const PressConfig& config, const SampleSpec& sample,

@@ -189,7 +189,7 @@ TEST(Simulate, PatchesEndWhereTheWholeDoes) {
   config.relative_velocity_tolerance = 2e-4;
   const auto run = [&](bool patches) {
     config.patches = patches;
-    return simulate(paper_sensor(), block_gel(24, 0.012, 0.002), pyramid(0.003, 0.002), config, press(0.5e-3, 5), "-z",
+    return simulate(paper_sensor(), block_gel(24, 0.012, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 4), "-z",
                     ignore_progress);
   };
   const Simulation with = run(true), without = run(false);
@@ -200,7 +200,7 @@ TEST(Simulate, PatchesEndWhereTheWholeDoes) {
   EXPECT_GT(sum(with, &StepReport::patches), 0);
   EXPECT_GT(sum(with, &StepReport::patch_iterations), 0);
   EXPECT_EQ(sum(without, &StepReport::patches), 0);
-  EXPECT_LE(sum(with, &StepReport::newton_iterations), 1.1 * sum(without, &StepReport::newton_iterations));
+  EXPECT_LE(sum(with, &StepReport::newton_iterations), sum(without, &StepReport::newton_iterations));
   const Frame &a = with.frames.back(), &b = without.frames.back();
   EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 2e-8);
   EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-3 * std::abs(a.force_n.z()));

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "common/base/error.h"
+#include "tests/make_mesh.h"
 #include "tests/stages/gel/press/reference_scene.h"
 #include "tests/stages/gel/press/small_scene.h"
 
@@ -115,21 +116,7 @@ TEST(SimulateVerdict, ASurfaceThatCrossesItselfIsFound) {
 TEST(SimulateVerdict, AGelInsideAnObjectThatDoesNotTouchItIsFound) {
   TetMesh inside = block_gel(2, 0.004, 0.002);
   inside.positions.col(2).array() += 6e-3;
-  const double w = 0.01, h = 0.01;
-  const TriangleMesh box{
-      Positions{{-w, -w, 0}, {w, -w, 0}, {w, w, 0}, {-w, w, 0}, {-w, -w, h}, {w, -w, h}, {w, w, h}, {-w, w, h}},
-      Triangles{{0, 2, 1},
-                {0, 3, 2},
-                {4, 5, 6},
-                {4, 6, 7},
-                {0, 1, 5},
-                {0, 5, 4},
-                {1, 2, 6},
-                {1, 6, 5},
-                {2, 3, 7},
-                {2, 7, 6},
-                {3, 0, 4},
-                {3, 4, 7}}};
+  const TriangleMesh box = make_box({-0.01, -0.01, 0.0}, {0.01, 0.01, 0.01});
   const Miss miss = refused(inside, box);
   EXPECT_EQ(miss.check, "containment");
   EXPECT_EQ(miss.frame, 0);

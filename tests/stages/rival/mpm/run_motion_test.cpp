@@ -34,22 +34,7 @@ MpmConfig coarse() {
 }
 
 /// A block of 2 × 2 × 1 mm with its lower face at z = 0.
-TriangleMesh brick() {
-  const double a = 1e-3;
-  return make_mesh({{-a, -a, 0}, {a, -a, 0}, {a, a, 0}, {-a, a, 0}, {-a, -a, a}, {a, -a, a}, {a, a, a}, {-a, a, a}},
-                   {{0, 2, 1},
-                    {0, 3, 2},
-                    {4, 5, 6},
-                    {4, 6, 7},
-                    {0, 1, 5},
-                    {0, 5, 4},
-                    {1, 2, 6},
-                    {1, 6, 5},
-                    {2, 3, 7},
-                    {2, 7, 6},
-                    {3, 0, 4},
-                    {3, 4, 7}});
-}
+TriangleMesh brick() { return make_box({-1e-3, -1e-3, 0.0}, {1e-3, 1e-3, 1e-3}); }
 
 Phase press(double depth_m, int steps) { return {.kind = PhaseKind::press, .steps = steps, .depth_m = depth_m}; }
 
