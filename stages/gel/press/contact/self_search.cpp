@@ -23,14 +23,16 @@ void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
   if (apart) out.push_back(pair);
 }
 
-/// Boxes around some of the primitives, given those around the vertices, grown by `margin`.
+/// Boxes around some of the primitives, given those around the vertices, grown by `margin`; empty ones around those
+/// that touch none of the places `within`.
 template <typename Primitives>
 std::vector<Box> boxes_around(const std::vector<int>& some, const Primitives& primitives, const std::vector<Box>& all,
-                              double margin) {
+                              double margin, const OpenFace::Places* within) {
   std::vector<Box> boxes(some.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 2048), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       Box box;
+      if (within && !within->near(primitives[static_cast<std::size_t>(some[i])])) continue;
       for (const int v : primitives[static_cast<std::size_t>(some[i])]) box.extend(all[v]);
       boxes[i] = grown(box, margin);
     }
@@ -57,7 +59,7 @@ void for_each_coming_near(const std::vector<ContactPair>& pairs, const std::vect
 }  // namespace
 
 SelfSearch::SelfSearch(const ContactMesh& mesh)
-    : mesh_(mesh), open_face_(mesh), face_(part_of(true)), others_(part_of(false)) {}
+    : mesh_(mesh), open_face_(mesh), face_(part_of(true)), others_(part_of(false)), face_at_risk_(face_) {}
 
 SelfSearch::Part SelfSearch::part_of(bool face) const {
   const Surface& gel = mesh_.gel;
@@ -83,16 +85,15 @@ SelfSearch::Part SelfSearch::part_of(bool face) const {
           std::move(vertex_tree), std::move(edge_tree), std::move(triangle_tree)};
 }
 
-void SelfSearch::fit(Part& part, const std::vector<Box>& boxes, double margin) const {
-  part.vertex_tree.refit(boxes_around(part.vertices, OneVertex{mesh_.gel.vertices}, boxes, margin));
-  part.edge_tree.refit(boxes_around(part.edges, mesh_.gel.edges, boxes, margin));
-  part.triangle_tree.refit(boxes_around(part.triangles, mesh_.gel.triangles, boxes, margin));
+void SelfSearch::fit(Part& part, const std::vector<Box>& boxes, double margin, const OpenFace::Places* within) const {
+  part.vertex_tree.refit(boxes_around(part.vertices, OneVertex{mesh_.gel.vertices}, boxes, margin, within));
+  part.edge_tree.refit(boxes_around(part.edges, mesh_.gel.edges, boxes, margin, within));
+  part.triangle_tree.refit(boxes_around(part.triangles, mesh_.gel.triangles, boxes, margin, within));
 }
 
-void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m, bool face_is_open) {
+void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m) {
   ++num_searches_;
   d_hat_m_ = d_hat_m;
-  left_out_face_ = face_is_open;
   end_ = x + p;
   std::vector<Box> boxes(static_cast<std::size_t>(mesh_.num_gel_vertices));
   for (const int v : mesh_.gel.vertices) {
@@ -102,6 +103,7 @@ void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m, 
   // Half of d̂ on each side.
   fit(face_, boxes, 0.5 * d_hat_m);
   fit(others_, boxes, 0.5 * d_hat_m);
+  if (!searched_.none()) fit(face_at_risk_, boxes, 0.5 * d_hat_m, &searched_);
 
   const Surface& gel = mesh_.gel;
   // The queries, each in parts that can run at the same time.
@@ -122,9 +124,9 @@ void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m, 
       });
     });
   };
-  if (!face_is_open) {
-    vertices_and_triangles(face_, face_);
-    edges(face_, face_);
+  if (!searched_.none()) {
+    vertices_and_triangles(face_at_risk_, face_at_risk_);
+    edges(face_at_risk_, face_at_risk_);
   }
   vertices_and_triangles(face_, others_);
   vertices_and_triangles(others_, face_);
@@ -160,13 +162,16 @@ void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m, 
 }
 
 void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out) {
-  const bool face_is_open = open_face_.stays_open(x, p);
-  bool known = d_hat_m == d_hat_m_ && (!left_out_face_ || face_is_open);
+  OpenFace::Places at_risk = open_face_.at_risk(x, p, d_hat_m);
+  bool known = d_hat_m == d_hat_m_ && at_risk.within(searched_);
   for (auto v = mesh_.gel.vertices.begin(); known && v != mesh_.gel.vertices.end(); ++v) {
     const Vector3 from_end = x.row(*v) - end_.row(*v);
     known = std::max(from_end.norm(), (from_end + p.row(*v).transpose()).norm()) <= kMargin * d_hat_m;
   }
-  if (!known) search(x, p, d_hat_m, face_is_open);
+  if (!known) {
+    searched_ = std::move(at_risk);
+    search(x, p, d_hat_m);
+  }
   collect(near_.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
     for_each_coming_near(near_, reach_m_, first, last, x, p, [&](std::size_t i) { found.push_back(near_[i]); });
   });

@@ -37,8 +37,8 @@ class SelfSearch {
     Bvh vertex_tree, edge_tree, triangle_tree;
   };
   Part part_of(bool face) const;
-  void fit(Part& part, const std::vector<Box>& boxes, double margin) const;
-  void search(const Positions& x, const Positions& p, double d_hat_m, bool face_is_open);
+  void fit(Part& part, const std::vector<Box>& boxes, double margin, const OpenFace::Places* within = nullptr) const;
+  void search(const Positions& x, const Positions& p, double d_hat_m);
 
   const ContactMesh& mesh_;
   OpenFace open_face_;
@@ -46,7 +46,8 @@ class SelfSearch {
   Positions end_;                  // of the step that was searched
   std::vector<ContactPair> near_;  // pairs found, and how near each counts
   std::vector<double> reach_m_;
-  bool left_out_face_ = false;
+  Part face_at_risk_;          // the face again, its boxes empty where it is not at risk
+  OpenFace::Places searched_;  // of the face with itself
   double d_hat_m_ = -1.0;
   int num_searches_ = 0;
 };

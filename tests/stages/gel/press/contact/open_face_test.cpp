@@ -86,6 +86,88 @@ TEST(OpenFace, WhatItCallsOpenKeepsHalfOfEveryDistanceAtRest) {
   EXPECT_GT(closed, 10);
 }
 
+/// Pairs of primitives of the face that share no vertex, each with whether it is nearer at x than d̂ and than half of
+/// its distance at rest, handed to use(pair, near).
+template <typename Use>
+void for_each_pair(const ContactMesh& mesh, const OpenFace& face, const Positions& x, double d_hat_m, Use&& use) {
+  const auto offer = [&](const ContactPair& pair) {
+    const auto& v = pair.vertices;
+    if (!face.has(v[0]) || !face.has(v[1]) || !face.has(v[2]) || !face.has(v[3])) return;
+    const double now = std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance),
+                 rest = std::sqrt(closest_feature(pair, gather(mesh.rest_positions, pair)).squared_distance);
+    use(pair, now < std::min(d_hat_m, 0.5 * rest));
+  };
+  for (const int v : mesh.gel.vertices) {
+    for (const auto& t : mesh.gel.triangles)
+      if (v != t[0] && v != t[1] && v != t[2]) offer(point_triangle_pair(v, t));
+  }
+  for (const auto& e : mesh.gel.edges) {
+    for (const auto& f : mesh.gel.edges)
+      if (e < f && e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1]) offer(edge_edge_pair(e, f));
+  }
+}
+
+TEST(OpenFace, BothSidesOfEveryPairThatComesNearAreAtRisk) {
+  std::mt19937 random(11);
+  const TetMesh gel = block_gel(8, 0.008, 0.002);
+  const ContactMesh mesh = gel_alone(gel);
+  const OpenFace face(mesh);
+  constexpr double kDHat = 0.3e-3;
+  int near_pairs = 0, spared = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    // A pinch: what is within 1.5 mm of a place is drawn together, some of it beyond.
+    const Eigen::RowVector2d centre = 2e-3 * random_vector(random).head<2>().transpose();
+    const double strength = 0.3 + 0.02 * trial;
+    Positions x = mesh.rest_positions, p = Positions::Zero(x.rows(), 3);
+    for (Eigen::Index v = 0; v < x.rows(); ++v) {
+      const Eigen::RowVector2d from = x.row(v).head<2>() - centre;
+      const double weight = std::max(0.0, 1.0 - from.squaredNorm() / (1.5e-3 * 1.5e-3));
+      (trial % 2 == 0 ? p : x).row(v).head<2>() -=
+          strength * weight * Eigen::RowVector2d(2.0 * from.x(), 0.5 * from.y());
+    }
+    const OpenFace::Places at_risk = face.at_risk(x, p, kDHat);
+    for (const double t : {0.0, 0.5, 1.0}) {
+      for_each_pair(mesh, face, x + t * p, kDHat, [&](const ContactPair& pair, bool near) {
+        const auto& v = pair.vertices;
+        const bool first = at_risk.near(std::array{v[0]}) ||
+                           (pair.kind == ContactPair::Kind::edge_edge && at_risk.near(std::array{v[0], v[1]})),
+                   second = pair.kind == ContactPair::Kind::edge_edge ? at_risk.near(std::array{v[2], v[3]})
+                                                                      : at_risk.near(std::array{v[1], v[2], v[3]});
+        spared += !first || !second;
+        near_pairs += near;
+        if (near) {
+          EXPECT_TRUE(first && second) << "trial " << trial << " at " << t;
+        }
+      });
+    }
+  }
+  EXPECT_GT(near_pairs, 100);
+  EXPECT_GT(spared, 100000);
+}
+
+TEST(OpenFace, APlaceSetIsWithinAnotherOnlyIfThatHasAllOfIt) {
+  const TetMesh gel = block_gel(8, 0.008, 0.002);
+  const ContactMesh mesh = gel_alone(gel);
+  const OpenFace face(mesh);
+  const Positions& x = mesh.rest_positions;
+  const auto turned_over = [&](double from) {  // what lies beyond x = `from` is folded back
+    Positions p = Positions::Zero(x.rows(), 3);
+    for (Eigen::Index v = 0; v < x.rows(); ++v) p(v, 0) = -1.5 * std::max(0.0, x(v, 0) - from);
+    return face.at_risk(x, p, 1e-6);
+  };
+  const OpenFace::Places none = face.at_risk(x, Positions::Zero(x.rows(), 3), 1e-6), few = turned_over(2.9e-3),
+                         many = turned_over(0.9e-3);
+  EXPECT_TRUE(none.none());
+  EXPECT_FALSE(few.none());
+  for (const auto* set : {&none, &few, &many}) {
+    EXPECT_TRUE(none.within(*set));
+    EXPECT_TRUE(set->within(*set));
+  }
+  EXPECT_TRUE(few.within(many));
+  EXPECT_FALSE(many.within(few));
+  EXPECT_FALSE(few.within(none));
+}
+
 TEST(OpenFace, AFoldOnTheWayIsSeen) {
   const TetMesh gel = block_gel(6, 0.006, 0.002);
   const ContactMesh mesh = gel_alone(gel);
