@@ -38,6 +38,11 @@ class AveragedElasticity final : public EnergyTerm {
   /// ψ_μ of the same tetrahedra in packs, cluster by cluster, for a law that has them; else null. Under the pressures
   /// of VolumeDerivatives, their derivatives are all of ∂Φ and all but the last part of ∂²Φ.
   const ElasticPacks* packs() const { return packs_ ? &*packs_ : nullptr; }
+  /// First and last pack with tetrahedra of cluster i. \pre there are packs
+  std::pair<int, int> packs_of(int i) const {
+    return {first_place_[static_cast<std::size_t>(i)] / kLanes,
+            (first_place_[static_cast<std::size_t>(i) + 1] - 1) / kLanes};
+  }
   struct VolumeDerivatives {
     std::vector<double> pressure;  // u′ of its cluster for each tetrahedron of each pack, kLanes a pack, Pa
     std::vector<double> second;    // u″ of each cluster, J/m⁶

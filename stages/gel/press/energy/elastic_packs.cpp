@@ -14,6 +14,13 @@ struct Deformation {
   Pack J;
 };
 
+TACIPC_INLINE void add_cofactors(Deformation& d) {
+  d.cofactor[0] = cross(d.row[1], d.row[2]);
+  d.cofactor[1] = cross(d.row[2], d.row[0]);
+  d.cofactor[2] = cross(d.row[0], d.row[1]);
+  d.J = dot(d.row[0], d.cofactor[0]);
+}
+
 TACIPC_INLINE Deformation deformation(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
                                       const Pack3* b) {
   const Pack3 x0 = load_rows(x, vertices[0]);
@@ -23,10 +30,7 @@ TACIPC_INLINE Deformation deformation(const double* x, const std::array<std::arr
   d.row[0] = e1.x * b[0] + e2.x * b[1] + e3.x * b[2];
   d.row[1] = e1.y * b[0] + e2.y * b[1] + e3.y * b[2];
   d.row[2] = e1.z * b[0] + e2.z * b[1] + e3.z * b[2];
-  d.cofactor[0] = cross(d.row[1], d.row[2]);
-  d.cofactor[1] = cross(d.row[2], d.row[0]);
-  d.cofactor[2] = cross(d.row[0], d.row[1]);
-  d.J = dot(d.row[0], d.cofactor[0]);
+  add_cofactors(d);
   return d;
 }
 
@@ -57,39 +61,53 @@ TACIPC_CLONES void energies(const double* x, const std::array<std::array<int, kL
   for (int l = 0; l < kLanes; ++l) out[l] = d.J[l] > 0.0 ? value[l] : std::nan("");
 }
 
-/// With gᵢ = F⁻ᵀ bᵢ, l = λ + p J and a = μ − λ ln J − p J: gradients V (μ F bᵢ − a gᵢ), blocks V [μ (bᵢ·bⱼ) I + a gⱼ
-/// gᵢᵀ + l gᵢ gⱼᵀ].
-TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
-                                 const Pack3* rest, const Pack& volume, double mu, double lambda,
-                                 const double* pressure, ElasticPacks::Derivatives& out) {
-  Pack p = {};
-  if (pressure) {
-    for (int l = 0; l < kLanes; ++l) p[l] = pressure[l];
-  }
-  const Deformation d = deformation(x, vertices, rest);
-  const Pack inverse_J = 1.0 / d.J, p_J = p * d.J;
-  Pack a = mu - p_J;
-  if (lambda != 0.0) a -= lambda * logarithm(d.J);
+/// The law of one pack: V, μ and λ.
+struct Stiffness {
+  Pack volume;
+  double mu, lambda;
+};
+
+/// What gradient and Hessian are made of: bᵢ, gᵢ = F⁻ᵀ bᵢ, l = λ + p J and a = μ − λ ln J − p J.
+struct Shapes {
   Pack3 b[4], g[4];
-  for (int k = 1; k < 4; ++k) {
-    b[k] = rest[k - 1];
-    g[k] = inverse_J * Pack3{dot(d.cofactor[0], b[k]), dot(d.cofactor[1], b[k]), dot(d.cofactor[2], b[k])};
+  Pack volume_mu, volume_a, volume_l;
+};
+
+TACIPC_INLINE Shapes shapes(const Deformation& d, const Pack3* rest, const Stiffness& k, const Pack& p_J) {
+  Shapes s;
+  Pack a = k.mu - p_J;
+  if (k.lambda != 0.0) a -= k.lambda * logarithm(d.J);
+  const Pack inverse_J = 1.0 / d.J;
+  for (int i = 1; i < 4; ++i) {
+    s.b[i] = rest[i - 1];
+    s.g[i] = inverse_J * Pack3{dot(d.cofactor[0], s.b[i]), dot(d.cofactor[1], s.b[i]), dot(d.cofactor[2], s.b[i])};
   }
-  b[0] = Pack3{} - (b[1] + b[2] + b[3]);
-  g[0] = Pack3{} - (g[1] + g[2] + g[3]);
-  const Pack volume_mu = volume * mu, volume_a = volume * a, volume_l = volume * (lambda + p_J);
+  s.b[0] = Pack3{} - (s.b[1] + s.b[2] + s.b[3]);
+  s.g[0] = Pack3{} - (s.g[1] + s.g[2] + s.g[3]);
+  s.volume_mu = k.volume * k.mu;
+  s.volume_a = k.volume * a;
+  s.volume_l = k.volume * (k.lambda + p_J);
+  return s;
+}
+
+/// Gradients V (μ F bᵢ − a gᵢ).
+TACIPC_INLINE void gradients(const Deformation& d, const Shapes& s, Pack (*out)[3]) {
   for (int k = 0; k < 4; ++k) {
-    out.gradient[k][0] = volume_mu * dot(d.row[0], b[k]) - volume_a * g[k].x;
-    out.gradient[k][1] = volume_mu * dot(d.row[1], b[k]) - volume_a * g[k].y;
-    out.gradient[k][2] = volume_mu * dot(d.row[2], b[k]) - volume_a * g[k].z;
+    out[k][0] = s.volume_mu * dot(d.row[0], s.b[k]) - s.volume_a * s.g[k].x;
+    out[k][1] = s.volume_mu * dot(d.row[1], s.b[k]) - s.volume_a * s.g[k].y;
+    out[k][2] = s.volume_mu * dot(d.row[2], s.b[k]) - s.volume_a * s.g[k].z;
   }
+}
+
+/// Blocks V [μ (bᵢ·bⱼ) I + a gⱼ gᵢᵀ + l gᵢ gⱼᵀ].
+TACIPC_INLINE void blocks(const Shapes& s, Pack (*out)[9]) {
   int at = 0;
   for (int j = 0; j < 4; ++j) {
-    const Pack3 a_gj = volume_a * g[j], l_gj = volume_l * g[j];
+    const Pack3 a_gj = s.volume_a * s.g[j], l_gj = s.volume_l * s.g[j];
     for (int i = j; i < 4; ++i, ++at) {
-      Pack* h = out.hessian[at];
-      const Pack3& gi = g[i];
-      const Pack diagonal = volume_mu * dot(b[i], b[j]);
+      Pack* h = out[at];
+      const Pack3& gi = s.g[i];
+      const Pack diagonal = s.volume_mu * dot(s.b[i], s.b[j]);
       h[0] = a_gj.x * gi.x + l_gj.x * gi.x + diagonal;
       h[1] = a_gj.y * gi.x + l_gj.x * gi.y;
       h[2] = a_gj.z * gi.x + l_gj.x * gi.z;
@@ -101,6 +119,64 @@ TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<in
       h[8] = a_gj.z * gi.z + l_gj.z * gi.z + diagonal;
     }
   }
+}
+
+TACIPC_INLINE Pack of_lanes(const double* pressure) {
+  Pack p = {};
+  if (pressure) {
+    for (int l = 0; l < kLanes; ++l) p[l] = pressure[l];
+  }
+  return p;
+}
+
+TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
+                                 const Pack3* rest, const Stiffness& stiffness, const double* pressure,
+                                 ElasticPacks::Derivatives& out) {
+  const Deformation d = deformation(x, vertices, rest);
+  const Shapes s = shapes(d, rest, stiffness, of_lanes(pressure) * d.J);
+  gradients(d, s, out.gradient);
+  blocks(s, out.hessian);
+}
+
+TACIPC_CLONES void find_state(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
+                              const Pack3* rest, const double* pressure, ElasticPacks::State& out) {
+  const Deformation d = deformation(x, vertices, rest);
+  for (int r = 0; r < 3; ++r) out.row[r] = d.row[r];
+  out.pressure_J = of_lanes(pressure) * d.J;
+}
+
+TACIPC_CLONES bool differentiate_change(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
+                                        const Pack3* rest, const Stiffness& stiffness, const double* pressure,
+                                        double tolerance, ElasticPacks::State& known, ElasticPacks::Derivatives& out) {
+  const Deformation d = deformation(x, vertices, rest);
+  const Pack p_J = of_lanes(pressure) * d.J;
+  const Shapes s = shapes(d, rest, stiffness, p_J);
+  gradients(d, s, out.gradient);
+  // ‖ΔF F⁻¹‖² J²: F⁻ᵀ is the cofactors over J.
+  Pack squared = {};
+  for (int r = 0; r < 3; ++r) {
+    const Pack3 change = d.row[r] - known.row[r];
+    for (int c = 0; c < 3; ++c) {
+      const Pack part = dot(change, d.cofactor[c]);
+      squared += part * part;
+    }
+  }
+  const Pack of_pressure = (p_J - known.pressure_J) / stiffness.mu, one = Pack{} + 1.0;
+  const double limit = tolerance * tolerance;
+  if (all_of((squared <= limit * d.J * d.J) & (of_pressure * of_pressure <= limit * one))) return false;
+
+  Deformation before;
+  for (int r = 0; r < 3; ++r) before.row[r] = known.row[r];
+  add_cofactors(before);
+  Pack old[ElasticPacks::kBlocks][9];
+  blocks(shapes(before, rest, stiffness, known.pressure_J), old);
+  blocks(s, out.hessian);
+  for (int b = 0; b < ElasticPacks::kBlocks; ++b) {
+    for (int k = 0; k < 9; ++k) out.hessian[b][k] -= old[b][k];
+  }
+  for (int r = 0; r < 3; ++r) known.row[r] = d.row[r];
+  known.pressure_J = p_J;
+  return true;
 }
 
 }  // namespace
@@ -149,8 +225,22 @@ void ElasticPacks::volumes(int i, const Positions& x, double* out) const {
 
 void ElasticPacks::derivatives(int i, const Positions& x, const double* pressure, Derivatives& out) const {
   const Rest& pack = packs_[static_cast<std::size_t>(i)];
-  differentiate(x.data(), pack.corners.vertices, pack.shape_gradients, pack.volume_m3, law_.mu_pa, law_.lambda_pa,
+  differentiate(x.data(), pack.corners.vertices, pack.shape_gradients, {pack.volume_m3, law_.mu_pa, law_.lambda_pa},
                 pressure, out);
+}
+
+ElasticPacks::State ElasticPacks::state(int i, const Positions& x, const double* pressure) const {
+  const Rest& pack = packs_[static_cast<std::size_t>(i)];
+  State out;
+  find_state(x.data(), pack.corners.vertices, pack.shape_gradients, pressure, out);
+  return out;
+}
+
+bool ElasticPacks::change(int i, const Positions& x, const double* pressure, double tolerance, State& known,
+                          Derivatives& out) const {
+  const Rest& pack = packs_[static_cast<std::size_t>(i)];
+  return differentiate_change(x.data(), pack.corners.vertices, pack.shape_gradients,
+                              {pack.volume_m3, law_.mu_pa, law_.lambda_pa}, pressure, tolerance, known, out);
 }
 
 }  // namespace tacipc

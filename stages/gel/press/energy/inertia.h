@@ -17,6 +17,12 @@ class Inertia final : public EnergyTerm {
     for (std::size_t i = 0; i < vertex_.size(); ++i) vertex_[i] = first_vertex + static_cast<int>(i);
   }
 
+  /// Some stencils of another.
+  Inertia(const Inertia& whole, const std::vector<int>& which)
+      : mass_kg_(whole.mass_kg_(which)), x_hat_m_(whole.x_hat_m_(which, Eigen::all)) {
+    for (const int i : which) vertex_.push_back(whole.vertex_[static_cast<std::size_t>(i)]);
+  }
+
   std::string_view name() const override { return "inertia"; }
   int num_stencils() const override { return static_cast<int>(vertex_.size()); }
   std::span<const int> stencil(int i) const override { return {&vertex_[i], 1}; }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <functional>
+#include <queue>
 #include <set>
 #include <tuple>
 
@@ -45,24 +46,23 @@ class Growth {
       : tets_(tets), neighbours_(neighbours), cluster_of_(neighbours.size(), -1), closed_(neighbours.size()) {
     for (int t = 0; t < tets.rows(); ++t) {
       closed_[t] = static_cast<int>(std::count(neighbours[t].begin(), neighbours[t].end(), -1));
-      seeds_.insert({-closed_[t], t});
+      seeds_[closed_[t]].push(t);
     }
   }
 
   TetClusters run(int size) {
     TetClusters clusters;
-    while (!seeds_.empty()) {
-      std::vector<int> cluster;
-      std::map<int, int> uses;  // of a vertex by the cluster
-      std::set<int> reach;      // free neighbours of the cluster
-      int next = seeds_.begin()->second;
+    for (int next = next_seed(); next >= 0; next = next_seed()) {
+      std::vector<int> cluster, reach;  // free neighbours of the cluster
+      Uses uses;
       while (true) {
         take(next, static_cast<int>(clusters.size()));
         cluster.push_back(next);
-        for (int k = 0; k < 4; ++k) ++uses[tets_(next, k)];
-        reach.erase(next);
+        for (int k = 0; k < 4; ++k) add_use(tets_(next, k), uses);
+        std::erase(reach, next);
         for (const int t : neighbours_[next]) {
-          if (t >= 0 && cluster_of_[t] < 0) reach.insert(t);
+          if (t >= 0 && cluster_of_[t] < 0 && std::find(reach.begin(), reach.end(), t) == reach.end())
+            reach.push_back(t);
         }
         if (static_cast<int>(cluster.size()) == size || reach.empty()) break;
         next = best(reach, uses);
@@ -74,24 +74,44 @@ class Growth {
   }
 
  private:
+  using Uses = std::vector<std::pair<int, int>>;  // vertices of a cluster, and how many of its tetrahedra have each
+
+  static void add_use(int vertex, Uses& uses) {
+    for (auto& [v, count] : uses) {
+      if (v == vertex) {
+        ++count;
+        return;
+      }
+    }
+    uses.push_back({vertex, 1});
+  }
+
+  /// The free tetrahedron with the most closed faces, the first of these; −1 if none is free.
+  int next_seed() {
+    for (auto level = seeds_.rbegin(); level != seeds_.rend(); ++level) {
+      for (; !level->empty(); level->pop()) {
+        const int t = level->top();
+        if (cluster_of_[t] < 0 && closed_[t] == static_cast<int>(seeds_.rend() - level) - 1) return t;
+      }
+    }
+    return -1;
+  }
+
   void take(int t, int cluster) {
-    seeds_.erase({-closed_[t], t});
     cluster_of_[t] = cluster;
     for (const int n : neighbours_[t]) {
-      if (n < 0 || cluster_of_[n] >= 0) continue;
-      seeds_.erase({-closed_[n], n});
-      ++closed_[n];
-      seeds_.insert({-closed_[n], n});
+      if (n >= 0 && cluster_of_[n] < 0) seeds_[++closed_[n]].push(n);
     }
   }
 
-  int best(const std::set<int>& reach, const std::map<int, int>& uses) const {
+  int best(const std::vector<int>& reach, const Uses& uses) const {
     std::tuple<int, int, int, int> least;
     bool first = true;
     for (const int t : reach) {
       int new_vertices = 0, shared = 0;
       for (int k = 0; k < 4; ++k) {
-        const auto found = uses.find(tets_(t, k));
+        const auto found =
+            std::find_if(uses.begin(), uses.end(), [&](const auto& use) { return use.first == tets_(t, k); });
         if (found == uses.end()) {
           ++new_vertices;
         } else {
@@ -108,8 +128,10 @@ class Growth {
   const Tetrahedra& tets_;
   const Neighbours& neighbours_;
   std::vector<int> cluster_of_;
-  std::vector<int> closed_;              // faces of a tetrahedron with no free neighbour
-  std::set<std::pair<int, int>> seeds_;  // (−closed, tetrahedron) of the free ones
+  std::vector<int> closed_;  // faces of a tetrahedron with no free neighbour
+  /// Tetrahedra that have had so many closed faces, first ones first; those that are taken, or have more by now, stay
+  /// until they are met.
+  std::array<std::priority_queue<int, std::vector<int>, std::greater<>>, 5> seeds_;
 };
 
 /// Joins clusters below half of `size` to the neighbour that has the fewest tetrahedra.

@@ -95,8 +95,12 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
 }
 
 void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern) {
-  const Eigen::Index n = 3 * static_cast<Eigen::Index>(free.size());
   system.hessian.clear(std::move(pattern));
+  clear_gradient(system, free);
+}
+
+void clear_gradient(NewtonSystem& system, const FreeVertices& free) {
+  const Eigen::Index n = 3 * static_cast<Eigen::Index>(free.size());
   system.gradient.setZero(n);
   system.coupling.setZero(n);
   system.object_border.setZero(n, 3);
@@ -152,22 +156,32 @@ namespace {
 
 /// Masses of free vertices: multiples of the identity on the diagonal, without local matrices.
 void assemble_masses(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
-                     NewtonSystem& system) {
+                     bool with_hessian, NewtonSystem& system) {
   for (int s = 0; s < inertia.num_stencils(); ++s) {
     const int v = inertia.stencil(s).front(), i = free.free_of_vertex[v];
     if (i < 0) continue;
     system.gradient.segment<3>(3 * i) += weight * inertia.gradient(s, x.row(v));
-    system.hessian.block(system.hessian.pattern->column_start[i]).diagonal().array() += weight * inertia.mass_kg(s);
+    if (with_hessian)
+      system.hessian.block(system.hessian.pattern->column_start[i]).diagonal().array() += weight * inertia.mass_kg(s);
   }
 }
 
 }  // namespace
 
+const Inertia* inertia_of_gel(const WeightedTerm& weighted, int first_object_vertex) {
+  const auto* inertia = dynamic_cast<const Inertia*>(weighted.term.get());
+  return inertia && inertia->stencil(0).front() < first_object_vertex ? inertia : nullptr;
+}
+
+void add_inertia_gradient(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
+                          NewtonSystem& system) {
+  assemble_masses(inertia, weight, x, free, false, system);
+}
+
 void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system) {
-  const auto* inertia = dynamic_cast<const Inertia*>(weighted.term.get());
-  if (inertia && inertia->stencil(0).front() < first_object_vertex)
-    return assemble_masses(*inertia, weighted.weight, x, free, system);
+  if (const Inertia* inertia = inertia_of_gel(weighted, first_object_vertex))
+    return assemble_masses(*inertia, weighted.weight, x, free, true, system);
   for_each_local(
       *weighted.term, all_stencils(*weighted.term), x, order, [&](std::span<const int> stencil, const Local& local) {
         scatter(stencil, kAllPairVertices, local, weighted.weight, free, first_object_vertex, motion, system);

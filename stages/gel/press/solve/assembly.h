@@ -9,6 +9,8 @@
 
 namespace tacipc {
 
+class Inertia;
+
 /// H p = −g − H_c d, the Newton step while prescribed vertices move by d, and the same for the object as a whole should
 /// it be free to shift: shifting it by q moves all its vertices by q.
 struct NewtonSystem {
@@ -34,11 +36,19 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
 
 /// Makes it a system of zeros.
 void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern);
+/// All of it but the Hessian.
+void clear_gradient(NewtonSystem& system, const FreeVertices& free);
 
 /// Adds weight × term at x in a fixed order. `order` is hessian or psd; `motion` (rows like x) is how prescribed
 /// vertices move; those from `first_object_vertex` on are the object's.
 void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system);
+
+/// The term if it is an inertia of the gel, which has the same Hessian everywhere; else null.
+const Inertia* inertia_of_gel(const WeightedTerm& term, int first_object_vertex);
+/// Adds weight × its gradient at x.
+void add_inertia_gradient(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
+                          NewtonSystem& system);
 
 /// Adds the derivatives of one contact pair; only those of `wanted` vertices are there.
 void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairLocal& local, double weight,

@@ -72,26 +72,53 @@ void ElasticAssembly::look_up(const BlockPattern& pattern) {
   }
 }
 
+void ElasticAssembly::add_gradient(int pack, const ElasticPacks::Derivatives& found, NewtonSystem& system) const {
+  const auto& corners = packs_.corners(pack);
+  for (int l = 0; l < corners.count; ++l) {
+    for (int a = 0; a < 4; ++a) {
+      const int i = free_.free_of_vertex[corners.vertices[a][l]];
+      if (i < 0) continue;
+      double* g = system.gradient.data() + 3 * static_cast<std::ptrdiff_t>(i);
+      for (int c = 0; c < 3; ++c) g[c] += weight_ * found.gradient[a][c][l];
+    }
+  }
+}
+
+void ElasticAssembly::add_hessian(int pack, const ElasticPacks::Derivatives& found, NewtonSystem& system) const {
+  const auto place = static_cast<std::size_t>(pack);
+  (none_transposed_[place] ? scatter : scatter_any)(found, places_[place], weight_, system.hessian.values.data());
+}
+
 void ElasticAssembly::add(const Positions& x, std::span<const double> pressure, double weight, NewtonSystem& system) {
   if (pattern_ != system.hessian.pattern) {
     pattern_ = system.hessian.pattern;
     look_up(*pattern_);
   }
+  weight_ = weight;
+  states_.resize(places_.size());
+  changed_.assign(places_.size(), 1);
   groups_.for_each([&](const std::vector<int>& group) {
     ElasticPacks::Derivatives found;
     for (const int p : group) {
-      packs_.derivatives(p, x, pressure.empty() ? nullptr : &pressure[static_cast<std::size_t>(kLanes * p)], found);
-      const auto& corners = packs_.corners(p);
-      for (int l = 0; l < corners.count; ++l) {
-        for (int a = 0; a < 4; ++a) {
-          const int i = free_.free_of_vertex[corners.vertices[a][l]];
-          if (i < 0) continue;
-          double* g = system.gradient.data() + 3 * static_cast<std::ptrdiff_t>(i);
-          for (int c = 0; c < 3; ++c) g[c] += weight * found.gradient[a][c][l];
-        }
-      }
-      (none_transposed_[static_cast<std::size_t>(p)] ? scatter : scatter_any)(
-          found, places_[static_cast<std::size_t>(p)], weight, system.hessian.values.data());
+      const double* of_pack = pressure.empty() ? nullptr : &pressure[static_cast<std::size_t>(kLanes * p)];
+      packs_.derivatives(p, x, of_pack, found);
+      states_[static_cast<std::size_t>(p)] = packs_.state(p, x, of_pack);
+      add_gradient(p, found, system);
+      add_hessian(p, found, system);
+    }
+  });
+}
+
+void ElasticAssembly::update(const Positions& x, std::span<const double> pressure, double tolerance,
+                             NewtonSystem& system) {
+  groups_.for_each([&](const std::vector<int>& group) {
+    ElasticPacks::Derivatives found;
+    for (const int p : group) {
+      const double* of_pack = pressure.empty() ? nullptr : &pressure[static_cast<std::size_t>(kLanes * p)];
+      const auto place = static_cast<std::size_t>(p);
+      changed_[place] = packs_.change(p, x, of_pack, tolerance, states_[place], found);
+      add_gradient(p, found, system);
+      if (changed_[place]) add_hessian(p, found, system);
     }
   });
 }

@@ -21,8 +21,15 @@ class ElasticAssembly {
   /// `pressure`: of ElasticPacks::derivatives, pack by pack, or nothing. \pre prescribed vertices of the gel stand
   /// still
   void add(const Positions& x, std::span<const double> pressure, double weight, NewtonSystem& system);
+  /// The same to a system whose Hessian still holds what the last add() and update() put there: the Hessians of packs
+  /// are renewed in which one has changed by more than `tolerance` (ElasticPacks::change), the gradient is exact.
+  void update(const Positions& x, std::span<const double> pressure, double tolerance, NewtonSystem& system);
+  /// Whether the last add() or update() changed a pack's Hessian.
+  bool changed(int pack) const { return changed_[static_cast<std::size_t>(pack)] != 0; }
 
  private:
+  void add_gradient(int pack, const ElasticPacks::Derivatives& found, NewtonSystem& system) const;
+  void add_hessian(int pack, const ElasticPacks::Derivatives& found, NewtonSystem& system) const;
   void look_up(const BlockPattern& pattern);
 
   const ElasticPacks& packs_;
@@ -32,6 +39,9 @@ class ElasticAssembly {
   /// Block of the matrix: its index, or −1 − its index where it lies transposed, or kNowhere.
   std::vector<std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>> places_;
   std::vector<bool> none_transposed_;  // of a pack's blocks
+  double weight_ = 0.0;
+  std::vector<ElasticPacks::State> states_;  // where the Hessians are those of
+  std::vector<char> changed_;
 };
 
 }  // namespace tacipc

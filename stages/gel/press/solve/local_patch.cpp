@@ -4,6 +4,7 @@
 
 #include "stages/gel/press/energy/averaged_elasticity.h"
 #include "stages/gel/press/energy/elasticity.h"
+#include "stages/gel/press/energy/inertia.h"
 #include "stages/gel/press/energy/restricted_term.h"
 
 namespace tacipc {
@@ -51,6 +52,8 @@ std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyT
     return std::make_shared<Elasticity>(*elasticity, stencils);
   if (const auto* elasticity = dynamic_cast<const AveragedElasticity*>(term.get()))
     return std::make_shared<AveragedElasticity>(*elasticity, stencils);
+  if (const auto* inertia = dynamic_cast<const Inertia*>(term.get()))
+    return std::make_shared<Inertia>(*inertia, stencils);
   return std::make_shared<RestrictedTerm>(term, std::move(stencils));
 }
 

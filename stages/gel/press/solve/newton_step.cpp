@@ -13,6 +13,8 @@ namespace {
 // Failed factorisations after which shares are raised only about the vertices at fault; then about all.
 constexpr int kMaxLocalRaises = 8;
 constexpr double kFullSolve = 1e-10;  // tolerance of a linear system whose coarser solution ascends
+// Elements keep the Hessian they were last assembled with until they have changed by this (ElasticPacks::change).
+constexpr double kKeptHessian = 0.1;
 // Relative: the object's vertices go from rounded positions to rounded positions.
 constexpr double kSameTranslation = 1e-10;
 
@@ -84,15 +86,73 @@ bool NewtonStepper::assemble_packs(double weight, const Positions& x) {
   return true;
 }
 
-double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
+bool NewtonStepper::update_packs(const Call& call) {
+  const std::vector<WeightedTerm>& terms = call.problem.potential.terms;
+  const auto same = [](const WeightedTerm& a, const WeightedTerm& b) {
+    return a.term == b.term && a.weight == b.weight;
+  };
+  if (system_.hessian.pattern != pattern_ || !std::equal(terms.begin(), terms.end(), held_.begin(), held_.end(), same))
+    return false;
   const Positions& x = call.problem.x;
-  timed(times_.elastic_s, [&] {
-    clear(system_, free_, pattern_);
-    for (const WeightedTerm& part : call.problem.potential.terms) {
-      if (part.term == elasticity_ && elastic == Order::hessian && assemble_packs(part.weight, x)) continue;
-      assemble(part, x, free_, first_object_vertex_, elastic, call.object.of_vertices, system_);
+  clear_gradient(system_, free_);
+  const double* from = held_values_.data();
+  for (const int c : held_columns_) {
+    const std::size_t first = BlockMatrix::kStride * static_cast<std::size_t>(pattern_->column_start[c]),
+                      last = BlockMatrix::kStride * static_cast<std::size_t>(pattern_->column_start[c + 1]);
+    std::copy(from, from + (last - first), &system_.hessian.values[first]);
+    from += last - first;
+  }
+  for (const WeightedTerm& part : terms) {
+    if (part.term != elasticity_) {
+      add_inertia_gradient(*inertia_of_gel(part, first_object_vertex_), part.weight, x, free_, system_);
+    } else if (!averaged_) {
+      packs_->update(x, {}, kKeptHessian, system_);
+    } else {
+      const auto volume = averaged_->volume_derivatives(x);
+      packs_->update(x, volume.pressure, kKeptHessian, system_);
+      volumes_->update(volume.second, x, *packs_, system_);
+    }
+  }
+  return true;
+}
+
+void NewtonStepper::hold_columns(const Call& call) {
+  std::vector<bool> touched(static_cast<std::size_t>(free_.size()), false);
+  call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
+    for (const int i : active) {
+      for (const int v : contact.term->stencil(i)) {
+        if (const int c = free_.free_of_vertex[v]; c >= 0) touched[c] = true;
+      }
     }
   });
+  held_columns_.clear();
+  held_values_.clear();
+  for (int c = 0; c < free_.size(); ++c) {
+    if (!touched[c]) continue;
+    held_columns_.push_back(c);
+    const auto first = static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * pattern_->column_start[c],
+               last = static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * pattern_->column_start[c + 1];
+    held_values_.insert(held_values_.end(), system_.hessian.values.begin() + first,
+                        system_.hessian.values.begin() + last);
+  }
+}
+
+double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
+  const Positions& x = call.problem.x;
+  const std::vector<WeightedTerm>& terms = call.problem.potential.terms;
+  timed(times_.elastic_s, [&] {
+    if (elastic == Order::hessian && update_packs(call)) return;
+    held_.clear();
+    clear(system_, free_, pattern_);
+    bool all_kept = elastic == Order::hessian;
+    for (const WeightedTerm& part : terms) {
+      if (part.term == elasticity_ && elastic == Order::hessian && assemble_packs(part.weight, x)) continue;
+      assemble(part, x, free_, first_object_vertex_, elastic, call.object.of_vertices, system_);
+      all_kept = all_kept && inertia_of_gel(part, first_object_vertex_);
+    }
+    if (all_kept) held_ = terms;
+  });
+  if (!held_.empty()) timed(times_.contact_s, [&] { hold_columns(call); });
   const Stopwatch watch(times_.contact_s);
   const Vector3 without_contact = gel_gradient();
   Vector3 so_far = without_contact, of_barrier = Vector3::Zero();

@@ -53,8 +53,12 @@ class NewtonStepper {
   /// short steps.
   NewtonDirection direction(const NewtonProblem& problem, Blend& blend);
 
-  /// Forgets couplings that contacts have added, so that the next step does not depend on steps before.
-  void reset_pattern() { pattern_ = own_pattern_; }
+  /// Forgets the last system and couplings that contacts have added, so that the next step does not depend on steps
+  /// before.
+  void reset() {
+    pattern_ = own_pattern_;
+    held_.clear();
+  }
 
   /// Of the linear solver, where it is iterative.
   void set_tolerance(double relative) {
@@ -89,6 +93,11 @@ class NewtonStepper {
   double assemble_all(const Call& call, Order elastic, const Blend& blend);
   /// Adds the elasticity in packs; false where it has none.
   bool assemble_packs(double weight, const Positions& x);
+  /// Where the matrix of the last call can be kept but for its contacts and elements that have changed since: makes it
+  /// that at x without contacts, with all of its gradient.
+  bool update_packs(const Call& call);
+  /// Keeps what the columns of the contacts' vertices hold before contacts are added.
+  void hold_columns(const Call& call);
   /// Makes the contact Hessians of the system those of another blend.
   void reblend(const Call& call, const Blend& before, const Blend& after);
   Vector3 gel_gradient() const;
@@ -107,7 +116,10 @@ class NewtonStepper {
   const AveragedElasticity* averaged_ = nullptr;  // and what it is besides, where volumes are averaged
   std::optional<VolumeAssembly> volumes_;
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
-  NewtonSystem system_;  // of the last call; its storage is used again
+  NewtonSystem system_;             // of the last call
+  std::vector<WeightedTerm> held_;  // terms in the matrix of the last call; none where it cannot be used again
+  std::vector<int> held_columns_;   // that contacts have been added to, and what these were without
+  std::vector<double> held_values_;
   SolverTimes times_;
   std::unique_ptr<LinearSolver> solver_;
   double tolerance_ = 1e-3;  // of the solver

@@ -111,7 +111,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
 }
 
 TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& goal, const IterationObserver& observe) {
-  newton_.reset_pattern();
+  newton_.reset();
   search_.forget();
   last_search_ = {};
   Step step{.goal = goal,

@@ -17,6 +17,20 @@ TACIPC_CLONES void scatter_products(const double* gradients, int count, double c
   }
 }
 
+/// Adds c gᵢ gⱼᵀ − c′ gᵢ′ gⱼ′ᵀ.
+TACIPC_CLONES void scatter_change(const double* gradients, double c, const double* before, double c_before, int count,
+                                  const int* places, double* values) {
+  for (int j = 0; j < count; ++j) {
+    const Quad g = c * load_quad(gradients + 4 * j), g_before = c_before * load_quad(before + 4 * j);
+    for (int i = j; i < count; ++i, ++places) {
+      const Quad row = load_quad(gradients + 4 * i), row_before = load_quad(before + 4 * i);
+      double* block = values + BlockMatrix::kStride * static_cast<std::size_t>(*places);
+      for (int k = 0; k < 3; ++k)
+        store_quad(block + 4 * k, load_quad(block + 4 * k) + (g[k] * row - g_before[k] * row_before));
+    }
+  }
+}
+
 }  // namespace
 
 VolumeAssembly::VolumeAssembly(const AveragedElasticity& elasticity, const FreeVertices& free)
@@ -40,23 +54,50 @@ void VolumeAssembly::look_up(const BlockPattern& pattern) {
   }
 }
 
+void VolumeAssembly::find_gradients(int c, const Positions& x, Eigen::Matrix3Xd& of_stencil,
+                                    Eigen::Matrix4Xd& out) const {
+  const std::vector<int>& members = clusters_[static_cast<std::size_t>(c)].members;
+  elasticity_.volume_gradient(c, x, of_stencil);
+  out.setZero(4, static_cast<Eigen::Index>(members.size()));
+  for (std::size_t k = 0; k < members.size(); ++k)
+    out.col(static_cast<Eigen::Index>(k)).head<3>() = of_stencil.col(members[k]);
+}
+
 void VolumeAssembly::add(const std::vector<double>& second, const Positions& x, double weight, NewtonSystem& system) {
   if (pattern_ != system.hessian.pattern) {
     pattern_ = system.hessian.pattern;
     look_up(*pattern_);
   }
+  weight_ = weight;
   groups_.for_each([&](const std::vector<int>& group) {
     Eigen::Matrix3Xd of_stencil;
-    Eigen::Matrix4Xd of_members;
     for (const int c : group) {
-      const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
-      elasticity_.volume_gradient(c, x, of_stencil);
-      of_members.setZero(4, static_cast<Eigen::Index>(cluster.members.size()));
-      for (std::size_t k = 0; k < cluster.members.size(); ++k)
-        of_members.col(static_cast<Eigen::Index>(k)).head<3>() = of_stencil.col(cluster.members[k]);
-      scatter_products(of_members.data(), static_cast<int>(cluster.members.size()),
-                       weight * second[static_cast<std::size_t>(c)], cluster.places.data(),
-                       system.hessian.values.data());
+      Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
+      find_gradients(c, x, of_stencil, cluster.gradients);
+      cluster.second = weight * second[static_cast<std::size_t>(c)];
+      scatter_products(cluster.gradients.data(), static_cast<int>(cluster.members.size()), cluster.second,
+                       cluster.places.data(), system.hessian.values.data());
+    }
+  });
+}
+
+void VolumeAssembly::update(const std::vector<double>& second, const Positions& x, const ElasticAssembly& changed,
+                            NewtonSystem& system) {
+  groups_.for_each([&](const std::vector<int>& group) {
+    Eigen::Matrix3Xd of_stencil;
+    Eigen::Matrix4Xd gradients;
+    for (const int c : group) {
+      const auto [first, last] = elasticity_.packs_of(c);
+      bool any = false;
+      for (int p = first; p <= last; ++p) any = any || changed.changed(p);
+      if (!any) continue;
+      Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
+      find_gradients(c, x, of_stencil, gradients);
+      const double now = weight_ * second[static_cast<std::size_t>(c)];
+      scatter_change(gradients.data(), now, cluster.gradients.data(), cluster.second,
+                     static_cast<int>(cluster.members.size()), cluster.places.data(), system.hessian.values.data());
+      cluster.gradients.swap(gradients);
+      cluster.second = now;
     }
   });
 }

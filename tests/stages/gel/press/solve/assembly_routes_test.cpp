@@ -110,6 +110,86 @@ TEST(VolumeAssembly, EnergyAndSystemAreThoseOfTheClusters) {
   EXPECT_LT(packed.gradient.norm(), 1e-12 * plain.gradient.norm());
 }
 
+/// A system with the elasticity of the crumpled block, brought from one place to another.
+struct Updated {
+  Crumpled crumpled;
+  FreeVertices free = crumpled.free();
+  std::shared_ptr<AveragedElasticity> term = std::make_shared<AveragedElasticity>(
+      crumpled.block.rest, crumpled.block.tets, NeoHookean{2.0, 7.0}, make_tet_clusters(crumpled.block.tets, 5));
+  ElasticAssembly tetrahedra{*term->packs(), free};
+  VolumeAssembly clusters{*term, free};
+  NewtonSystem system;
+
+  Updated() { clear(system, free, mesh_pattern(free, *term)); }
+  void add(const Positions& x) {
+    const auto volume = term->volume_derivatives(x);
+    tetrahedra.add(x, volume.pressure, 3.0, system);
+    clusters.add(volume.second, x, 3.0, system);
+  }
+  void update(const Positions& x, double tolerance) {
+    clear_gradient(system, free);
+    const auto volume = term->volume_derivatives(x);
+    tetrahedra.update(x, volume.pressure, tolerance, system);
+    clusters.update(volume.second, x, tetrahedra, system);
+  }
+  /// Its free vertices moved by up to `far`, those of the first `last` alone.
+  Positions moved(double far, int last) const {
+    Positions x = crumpled.x;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> uniform(-far, far);
+    for (int i = 0; i < std::min(last, free.size()); ++i) {
+      for (int c = 0; c < 3; ++c) x(free.vertex_of_free[static_cast<std::size_t>(i)], c) += uniform(random);
+    }
+    return x;
+  }
+};
+
+TEST(UpdatedAssembly, WithoutToleranceIsThatOfTheNewPlace) {
+  Updated kept, anew;
+  kept.add(kept.crumpled.x);
+  for (const double far : {0.03, 0.01, 0.0}) {
+    kept.update(kept.moved(far, 1000), 0.0);
+    clear(anew.system, anew.free, anew.system.hessian.pattern);
+    anew.add(kept.moved(far, 1000));
+    EXPECT_LT(difference(kept.system, anew.system), 1e-12) << far;
+  }
+}
+
+TEST(UpdatedAssembly, KeepsTheHessianWhereLittleChangesAndNeverTheGradient) {
+  Updated kept, anew;
+  kept.add(kept.crumpled.x);
+  const std::vector<double> before = kept.system.hessian.values;
+  const Positions near = kept.moved(1e-4, 1000);
+  kept.update(near, 0.05);
+  anew.add(near);
+  EXPECT_EQ(kept.system.hessian.values, before);
+  EXPECT_LT((kept.system.gradient - anew.system.gradient).norm(), 1e-13 * anew.system.gradient.norm());
+}
+
+TEST(UpdatedAssembly, RenewsTheHessianWhereMuchChangesAndSoItsErrorStaysSmall) {
+  Updated kept, anew;
+  kept.add(kept.crumpled.x);
+  const std::vector<double> before = kept.system.hessian.values;
+  // Far enough for some of the elements: those at one end of the numbering.
+  const Positions x = kept.moved(0.05, 4);
+  kept.update(x, 0.05);
+  int renewed = 0;
+  for (int p = 0; p < kept.term->packs()->size(); ++p) renewed += kept.tetrahedra.changed(p);
+  EXPECT_GT(renewed, 0);
+  EXPECT_NE(kept.system.hessian.values, before);
+  anew.add(x);
+  const Eigen::Map<const Eigen::VectorXd> is(kept.system.hessian.values.data(),
+                                             static_cast<Eigen::Index>(before.size()));
+  const Eigen::Map<const Eigen::VectorXd> should(anew.system.hessian.values.data(), is.size());
+  EXPECT_LT((is - should).norm(), 0.05 * should.norm());
+  // Step by step the changes add up, and are noticed.
+  for (int k = 1; k <= 50; ++k) kept.update(kept.crumpled.x + (1.0 - 0.02 * k) * (x - kept.crumpled.x), 0.05);
+  Updated start;
+  start.add(start.crumpled.x);
+  const Eigen::Map<const Eigen::VectorXd> back(start.system.hessian.values.data(), is.size());
+  EXPECT_LT((is - back).norm(), 0.05 * back.norm());
+}
+
 TEST(ElasticPacks, ATurnedElementIsNotAllowed) {
   Crumpled c;
   const Elasticity term(c.block.rest, c.block.tets, NeoHookean{2.0, 7.0});

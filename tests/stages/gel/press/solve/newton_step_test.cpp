@@ -131,6 +131,49 @@ TEST_F(NewtonStepTest, IsThatOfDenseAlgebraHoweverTheObjectYields) {
   }
 }
 
+/// A stepper keeps its matrix from call to call, but for elements that have changed and for contacts.
+TEST_F(NewtonStepTest, WhatItKeepsOfTheLastCallIsNotTheContacts) {
+  StepTerms terms;
+  terms.elasticity = elasticity_;
+  terms.inertia = std::make_shared<Inertia>(Eigen::VectorXd::Constant(mesh_.num_gel_vertices, 60.0),
+                                            Positions(x_.topRows(mesh_.num_gel_vertices)));
+  const auto at = [&](const Positions& x) {
+    terms.barrier = std::make_shared<ContactBarrier>(
+        mesh_, ContactSearch(mesh_).pairs(x, Positions::Zero(x.rows(), 3), kDHat), kDHat);
+    terms.friction = std::make_shared<Friction>(*terms.barrier, x, start_, 0.05);
+    return make_incremental_potential(terms, {.h_s = 0.5, .barrier_stiffness_j_m4 = 20.0, .friction_coefficient = 0.6});
+  };
+  const auto direction_of = [&](NewtonStepper& stepper, const Positions& x) {
+    stepper.set_tolerance(1e-12);
+    Blend blend(mesh_.num_gel_vertices);
+    return stepper.direction({.potential = at(x), .x = x, .motion = motion_}, blend).p;
+  };
+  const auto anew = [&](const Positions& x) {
+    NewtonStepper stepper(free_, mesh_.num_gel_vertices, elasticity_, LinearSolverKind::conjugate_gradient);
+    return direction_of(stepper, x);
+  };
+  // The object elsewhere, the gel as it was; and the gel moved, too, by little and by much.
+  Positions aside = x_;
+  aside.bottomRows(5).rowwise() += Eigen::RowVector3d(-0.6, 0.4, 0.1);
+  Positions near = aside, far = aside;
+  for (const int v : free_.vertex_of_free) {
+    near.row(v) += 1e-3 * Vector3(std::cos(v), std::sin(2 * v), std::cos(3 * v)).transpose();
+    far.row(v) += 0.04 * Vector3(std::cos(v), std::sin(2 * v), std::cos(3 * v)).transpose();
+  }
+  ASSERT_GT((anew(aside) - anew(x_)).norm(), 0.1 * anew(x_).norm());
+
+  NewtonStepper stepper(free_, mesh_.num_gel_vertices, elasticity_, LinearSolverKind::conjugate_gradient);
+  const Positions first = direction_of(stepper, x_);
+  EXPECT_EQ(first, anew(x_));
+  EXPECT_EQ(direction_of(stepper, aside), anew(aside));
+  EXPECT_LT((direction_of(stepper, near) - anew(near)).norm(), 0.01 * anew(near).norm());
+  EXPECT_EQ(direction_of(stepper, x_), first);
+  EXPECT_LT((direction_of(stepper, far) - anew(far)).norm(), 0.1 * anew(far).norm());
+  EXPECT_LT((direction_of(stepper, x_) - first).norm(), 0.1 * first.norm());
+  stepper.reset();
+  EXPECT_EQ(direction_of(stepper, x_), first);
+}
+
 /// Of columns solved to a hundredth, or less, the object's Schur complement may be indefinite, or its solution ascend,
 /// which Armijo's rule would take for a step.
 TEST_F(NewtonStepTest, DescendsHoweverCoarselyItIsSolved) {
