@@ -66,7 +66,7 @@ class Blend {
   // After a shortened step: at least this, and so many times the share that it was found with.
   static constexpr double kShareAfterShortening = 0.1, kShorteningFactor = 4.0;
   // What a share is divided by after a step: it grows from step to step, and shrinks where the share had to be raised.
-  static constexpr double kSmallestDivisor = 1.5, kLargestDivisor = 4.0;
+  static constexpr double kSmallestDivisor = 1.1, kLargestDivisor = 4.0;
   static constexpr double kDivisorFactor = 1.4, kDivisorFactorAfterRaise = 0.5;
   bool adaptive_;
   std::vector<double> share_, last_used_, divisor_;

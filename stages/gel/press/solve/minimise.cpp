@@ -10,11 +10,9 @@
 namespace tacipc {
 namespace {
 
-// Part of each gap that a step leaves while the object moves, when no line search guards it.
-constexpr double kMovingSlack = 0.3;
-// Tolerances of the linear solver. The fine one is for the last part of the object's displacement.
+// Tolerances of the linear solver. The fine one is for moves, which no line search guards: an error there takes more
+// iterations afterwards than it saves.
 constexpr double kCoarseSolve = 1e-2, kFineSolve = 1e-3;
-constexpr double kFineSolveFrom = 10.0;  // × the velocity tolerance
 // A step this many times as long as the last one is a sign of an almost indefinite Hessian.
 constexpr double kLengthGrowth = 4.0;
 constexpr int kMaxExactHessianWaits = 10;
@@ -22,15 +20,6 @@ constexpr int kMaxHalvings = 40;
 constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
 // Multipliers are renewed at minima known to this part of the constraint's tolerance.
 constexpr double kConstraintPart = 0.3;
-// After a move by less than the first part of what the object has left, the gel is relaxed this often; after more than
-// the second, half as often as before. More does not make the next move longer: contacts that are still to come end it.
-constexpr double kShortMove = 0.1, kLongMove = 0.3;
-constexpr int kRelaxationsAfterShortMove = 2;
-
-int relaxations_after(double alpha, int before) {
-  if (alpha < kShortMove) return kRelaxationsAfterShortMove;
-  return alpha > kLongMove ? before / 2 : std::max(1, before);
-}
 
 }  // namespace
 
@@ -59,16 +48,17 @@ void TimeStepper::minimise(Step& step) {
           settings_.newton.max_iterations, report.velocity_residual_m_s, settings_.newton.velocity_tolerance_m_s,
           report.force_residual_n, report.contact_force_n, smallest_gap(step.x, settings_.d_hat_m));
     }
-    const bool moving = !step.arrived && run.relaxations_left == 0;
+    const bool moving = !step.arrived && !run.relax_next;
     // Before the first iteration it is that of x already.
     if (step.renewals_left > 0 && report.newton_iterations > 0) renew_friction(step, run);
-    const NewtonDirection direction = find_direction(step, run, moving);
+    NewtonDirection direction = find_direction(step, run, moving);
     const bool converged = within_tolerances(step, direction);
     step.report.approximated_share = direction.largest_share;
     if (converged && is_final(step, run, direction)) return;
 
     std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
-    const double limit = step_limit(pairs, step, direction.p, moving ? kMovingSlack : kNewtonSlack);
+    const double limit =
+        moving ? bend_at_contacts(step, run, direction, pairs) : step_limit(pairs, step, direction.p, kNewtonSlack);
     run.barrier = barrier(std::move(pairs));
     run.energy = potential(step, run.barrier);
     double alpha = limit;
@@ -83,7 +73,7 @@ void TimeStepper::minimise(Step& step) {
                           run.residual_m_s, direction.slope, smallest_gap(step.x, settings_.d_hat_m));
       }
       alpha = *found;
-      if (!step.arrived) --run.relaxations_left;
+      run.relax_next = false;
       if (step.arrived && !converged && relax_patch(step, direction)) {
         run.barrier = barrier(pairs_at(step.x));
         run.energy = potential(step, run.barrier);
@@ -103,13 +93,11 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   Positions motion = Positions::Zero(step.x.rows(), 3);
   if (moving) {
     motion.bottomRows(mesh_.num_object_vertices) =
-        (step.goal.object_target - step.x.bottomRows(mesh_.num_object_vertices)).rowwise() +
-        step.object_shift.transpose();
+        run.part_of_motion * ((step.goal.object_target - step.x.bottomRows(mesh_.num_object_vertices)).rowwise() +
+                              step.object_shift.transpose());
   }
-  // One direction differs from the next by more than a coarse solution leaves out of it. But while the object moves,
-  // where no line search guards the step, an error of the last part would stay.
-  const bool coarse = step.arrived || run.residual_m_s > kFineSolveFrom * settings.velocity_tolerance_m_s;
-  newton_.set_tolerance(coarse ? kCoarseSolve : kFineSolve);
+  // One direction differs from the next by more than a coarse solution leaves out of it.
+  newton_.set_tolerance(moving ? kFineSolve : kCoarseSolve);
   const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
   Blend from_psd(mesh_.num_gel_vertices, settings.adaptive_contact_hessian);
   NewtonDirection direction = newton_.direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
@@ -151,18 +139,6 @@ double TimeStepper::step_limit(const std::vector<ContactPair>& pairs, const Step
   const Stopwatch watch(times_.limits_s);
   const GapRule rule{slack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m};
   return std::min(contact_step_limit(pairs, step.x, p, rule), inversion_step_limit(gel_.tets, step.x, p));
-}
-
-void TimeStepper::move_object(Step& step, Minimisation& run, const NewtonDirection& direction, double alpha) {
-  ++step.report.moving_iterations;
-  step.x += alpha * direction.p;
-  step.object_shift += alpha * direction.object_shift;
-  run.value.reset();
-  if (alpha == 1.0) {
-    step.arrived = true;
-    step.x.bottomRows(mesh_.num_object_vertices) = step.goal.object_target.rowwise() + step.object_shift.transpose();
-  }
-  run.relaxations_left = run.relaxations_wanted = relaxations_after(alpha, run.relaxations_wanted);
 }
 
 std::optional<double> TimeStepper::line_search(Step& step, Minimisation& run, const NewtonDirection& direction,

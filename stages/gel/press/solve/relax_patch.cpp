@@ -1,9 +1,11 @@
 // Within a time step: Newton's method for the few vertices that still move.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
 #include "common/base/log.h"
+#include "stages/gel/press/contact/near_pairs.h"
 #include "stages/gel/press/solve/local_patch.h"
 #include "stages/gel/press/solve/step_limit.h"
 #include "stages/gel/press/solve/step_under_way.h"
@@ -14,7 +16,7 @@ namespace {
 constexpr double kMostSeeds = 0.005;  // largest part of the free vertices that a patch starts from
 // Where more vertices than that move: the farthest of the seeds goes so many times as far as any other vertex.
 constexpr double kStandOut = 3.0;
-constexpr int kRings = 2;
+constexpr int kRings = 1;
 constexpr int kMaxIterations = 20;
 // A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
 // tolerance), so that the whole gel finds it at rest.
@@ -22,6 +24,7 @@ constexpr double kPatchTolerance = 0.2;
 constexpr int kMaxHalvings = 20;
 // Largest displacement in a patch along each axis: × d̂, or × the median edge of the front, whichever is more.
 constexpr double kReach = 1.0, kReachOfEdge = 0.4;
+constexpr double kSpareTravel = 1.5;    // pairs are collected for a travel that much longer than needed at once
 constexpr double kSmallestStep = 1e-3;  // part of a Newton step below which a patch is given up
 
 /// Vertices that go farther than all others.
@@ -61,6 +64,33 @@ double reach_limit(const FreeVertices& free, const Positions& start, const Posit
   return alpha;
 }
 
+/// The pairs that may come within d̂ while no vertex is farther from its start than some distance. Most of those that
+/// a patch could come near are far off: it seldom goes as far as it may.
+class PairsInReach {
+ public:
+  PairsInReach(std::vector<ContactPair> pairs, const Positions& start, int num_gel_vertices, double d_hat_m)
+      : pairs_(std::move(pairs)), needed_m_(coarse_squared_distances(pairs_, start)) {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const auto& v = pairs_[i].vertices;
+      const double both = *std::max_element(v.begin(), v.end()) < num_gel_vertices ? 2.0 : 1.0;
+      needed_m_[i] = ((1.0 - kRounding) * std::sqrt(needed_m_[i]) - d_hat_m) / both;
+    }
+  }
+
+  std::vector<ContactPair> within(double travel_m) const {
+    std::vector<ContactPair> found;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (needed_m_[i] <= travel_m) found.push_back(pairs_[i]);
+    }
+    return found;
+  }
+
+ private:
+  static constexpr double kRounding = 1e-5;
+  std::vector<ContactPair> pairs_;
+  std::vector<double> needed_m_;  // travel from which on each counts
+};
+
 }  // namespace
 
 bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
@@ -73,13 +103,23 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   const LocalPatch patch = grow_patch(found->vertices, kRings, gel_.tets, newton_.free());
   const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
   const Positions start = step.x;
-  const std::vector<ContactPair> pairs = search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach);
+  const PairsInReach in_reach(search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach), start,
+                              mesh_.num_gel_vertices, settings_.d_hat_m);
   StepTerms terms = step.terms;
   for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity, &terms.elasticity})
     *term = restricted(*term, patch.moves);
   terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
-  terms.barrier = barrier(pairs);
-  const IncrementalPotential energy = make_incremental_potential(terms, step.weights);
+  std::vector<ContactPair> pairs;
+  IncrementalPotential energy;
+  double travel = -1.0;  // of no vertex more than this: up to there `pairs` and the energy hold
+  const auto hold_up_to = [&](double farther) {
+    if (farther <= travel) return;
+    travel = kSpareTravel * farther;
+    pairs = in_reach.within(travel);
+    terms.barrier = barrier(pairs);
+    energy = make_incremental_potential(terms, step.weights);
+  };
+  hold_up_to(0.0);
 
   NewtonStepper newton(patch.free, mesh_.num_gel_vertices, terms.elasticity, settings_.linear_solver);
   const Positions still = Positions::Zero(step.x.rows(), 3);
@@ -94,6 +134,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
     if (alpha < kSmallestStep) break;
     within_reach = alpha == 1.0;
     const Positions p = alpha * local.p;
+    hold_up_to(std::sqrt((step.x + p - start).rowwise().squaredNorm().maxCoeff()));
     const double limit =
         std::min(contact_step_limit(pairs, step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
                  inversion_step_limit(patch.tets, step.x, p));

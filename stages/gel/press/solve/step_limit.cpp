@@ -94,6 +94,27 @@ double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions
   return limit;
 }
 
+std::vector<ContactPair> limiting_pairs(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
+                                        const GapRule& rule) {
+  const Pack floor = Pack{} + rule.floor_m, near = Pack{} + rule.near_m;
+  std::vector<std::vector<ContactPair>> found((pairs.size() + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+    const std::size_t last = std::min(pairs.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < last;) {
+      const PairPack pack(pairs, i, last);
+      const unsigned apart = stay_apart(x.data(), p.data(), 1.0, pack.pairs, pack.kind(), rule.slack, floor, near);
+      for (int l = 0; l < pack.count; ++l) {
+        if (!(apart >> l & 1U) && pair_limit(*pack.pairs[l], x, p, 1.0, rule) < 1.0)
+          found[chunk].push_back(*pack.pairs[l]);
+      }
+      i += pack.count;
+    }
+  });
+  std::vector<ContactPair> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 bool cubic_stays_above(const double c[4], double t, double floor) {
   const double b1 = c[0] + t * c[1] / 3.0;
   const double b2 = c[0] + t * (2.0 * c[1] + t * c[2]) / 3.0;

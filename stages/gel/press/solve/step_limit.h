@@ -21,6 +21,10 @@ struct GapRule {
 double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
                           const GapRule& rule);
 
+/// The pairs that allow less than all of p, in order.
+std::vector<ContactPair> limiting_pairs(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
+                                        const GapRule& rule);
+
 /// A t in (0, 1] such that every tetrahedron keeps at least a tenth of its present volume on all of [0, t].
 /// \throw SolverError if there is none above 1e-12.
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p);

@@ -36,8 +36,11 @@ struct TimeStepper::Minimisation {
   std::optional<double> value = std::nullopt;  // of the energy at x, where the line search has found it
   double residual_m_s = std::numeric_limits<double>::infinity();  // max |p| / h of the last direction
   int exact_hessian_waits = 0;  // iterations within the tolerances that went on for want of the exact Hessian
-  int relaxations_wanted = 0;   // iterations at a fixed object between two of its moves,
-  int relaxations_left = 0;     // and those left until the next
+  /// The part of the rest of its motion that the next move takes the object by, and whether the gel is relaxed at a
+  /// fixed object first.
+  double part_of_motion = 1.0;
+  double bent = 1.0;  // the part of the direction found that this move takes
+  bool relax_next = false;
 };
 
 /// The line search had to shorten the step p: raises the PSD shares of the vertices that go farthest in it, the likely
@@ -48,6 +51,7 @@ void raise_shares_of_farthest(const Positions& p, Blend& blend);
 double largest_row(const Positions& p, Eigen::Index rows);
 
 inline constexpr double kGapFloor = 1e-4;              // × d̂: no step leaves a smaller gap
+inline constexpr double kMovingSlack = 0.3;            // part of each gap that a move leaves: no line search guards it
 inline constexpr double kNewtonSlack = 0.1;            // part of each gap that a step leaves
 inline constexpr double kSufficientDecrease = 1e-4;    // Armijo: part of the decrease that the slope promises
 inline constexpr double kEnergyRounding = 1e-14;       // relative: changes of the energy below it are not measurable

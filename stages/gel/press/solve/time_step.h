@@ -151,6 +151,11 @@ class TimeStepper {
   bool is_final(Step& step, Minimisation& run, const NewtonDirection& direction) const;
   /// Part of the step p that leaves enough of every gap and every volume.
   double step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p, double slack);
+  /// Where single contacts would end a move early: shortens the direction to what a few small corrections allow, and
+  /// makes these, by which the contacts keep a part of their gaps. `pairs` become those along the new direction.
+  /// \return the part of that direction that may be taken
+  double bend_at_contacts(const Step& step, Minimisation& run, NewtonDirection& direction,
+                          std::vector<ContactPair>& pairs);
   /// Moves object and gel together by the part `alpha` of the direction.
   void move_object(Step& step, Minimisation& run, const NewtonDirection& direction, double alpha);
   /// Takes the longest of the steps limit, limit/2, … that decreases the energy. \return that step; none, and nothing

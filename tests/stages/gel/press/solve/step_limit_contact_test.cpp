@@ -60,6 +60,21 @@ TEST(ContactStepLimit, IsThatOfTheNearestOfManyPairsWhereverItStands) {
   }
 }
 
+TEST(LimitingPairs, AreThoseThatAllowLessThanAllInOrder) {
+  const MovingPairs many(3000, 0.03);
+  for (const double slack : {0.1, 0.3}) {
+    std::vector<std::array<int, 4>> expected;
+    for (const ContactPair& pair : many.pairs) {
+      if (many.limit_of(pair, slack) < 1.0) expected.push_back(pair.vertices);
+    }
+    ASSERT_GT(expected.size(), 10u);
+    std::vector<std::array<int, 4>> found;
+    for (const ContactPair& pair : limiting_pairs(many.pairs, many.x, many.p, {.slack = slack}))
+      found.push_back(pair.vertices);
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(ContactStepLimit, DoesNotDependOnThreads) {
   const MovingPairs many(30000, 0.03);
   const auto with = [&](std::size_t threads) {
