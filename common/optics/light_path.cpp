@@ -126,7 +126,7 @@ TACIPC_CLONES bool add_certain(const LitPack& places, const LightSample& sample,
 }
 
 /// Patches of the diffuser that one LED lights, as lights of their own.
-void add_diffused(const Led& led, const LightSample& like, std::vector<LightSample>& samples) {
+void add_diffused(const Led& led, const LightSample& like, std::vector<LightSource>& sources) {
   constexpr int kRings = 4, kSectors = 48;
   const Diffuser& ring = *like.screen;
   std::vector<LightSample> patches;
@@ -158,50 +158,127 @@ void add_diffused(const Led& led, const LightSample& like, std::vector<LightSamp
   for (LightSample& patch : patches) {
     if (patch.weight < 0.02 * brightest || patch.weight <= 0.0) continue;
     patch.weight *= total / kept;
-    samples.push_back(patch);
+    sources.push_back({.grid = {patch}, .in_sight = {}});
   }
+}
+
+/// Places in (−1/2, 1/2) and their shares of an edge.
+struct EdgePoint {
+  double at, share;
+};
+std::vector<EdgePoint> midpoints(int count) {
+  std::vector<EdgePoint> points;
+  for (int i = 0; i < count; ++i) points.push_back({(i + 0.5) / count - 0.5, 1.0 / count});
+  return points;
+}
+
+/// Gauss–Legendre: roots of P_n by Newton's method, n P_n = (2n − 1) x P_{n−1} − (n − 1) P_{n−2}, from the cosines that
+/// lie next to them; shares 1 / ((1 − x²) P_n'²).
+std::vector<EdgePoint> gauss_points(int count) {
+  std::vector<EdgePoint> points;
+  for (int i = 0; i < count; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 1.0;
+    for (int step = 0; step < 10; ++step) {
+      double before = 1.0, value = x;
+      for (int n = 2; n <= count; ++n) {
+        const double next = ((2 * n - 1) * x * value - (n - 1) * before) / n;
+        before = value;
+        value = next;
+      }
+      slope = count * (before - x * value) / (1.0 - x * x);
+      x -= value / slope;
+    }
+    points.push_back({0.5 * x, 1.0 / ((1.0 - x * x) * slope * slope)});
+  }
+  return points;
+}
+
+/// The edges of an LED's rectangle.
+std::array<Vector3, 2> edges_of(const Led& led) {
+  Vector3 outwards = led.position_m - Vector3::UnitZ() * led.position_m.z();
+  outwards -= led.normal * led.normal.dot(outwards);
+  if (outwards.norm() < 1e-6 * led.position_m.norm()) outwards = led.normal.unitOrthogonal();
+  const Vector3 first = outwards.normalized();
+  return {led.size_m[0] * first, led.size_m[1] * led.normal.cross(first)};
+}
+
+/// What an LED is made of: points of its rectangle as `like` says.
+std::vector<LightSample> points_of(const Led& led, LightSample like, const std::vector<EdgePoint>& edge,
+                                   const OpticalStack& layers) {
+  const auto [first, second] = edges_of(led);
+  std::vector<LightSample> points;
+  for (const EdgePoint& a : edge) {
+    for (const EdgePoint& b : edge) {
+      like.position_m = led.position_m + a.at * first + b.at * second;
+      like.weight = led.intensity * a.share * b.share;
+      // A tilted emitter's points lie at different heights, so each has its own path through the first medium.
+      if (like.stack) like.stack = layers.from(std::min(like.position_m.z(), -layers.gel_thickness_m - 1e-9));
+      points.push_back(like);
+    }
+  }
+  return points;
 }
 
 }  // namespace
 
-std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, bool refract) {
-  std::vector<LightSample> samples;
+std::vector<LightSource> light_sources(const Sensor& sensor, int edge_samples, bool refract) {
+  constexpr double kSharpLobe = 0.2;  // a highlight of less would show the points
+  const bool even_paint = sensor.coating.specular_f0 <= 0.0 || sensor.coating.ggx_alpha >= kSharpLobe;
+  std::vector<LightSource> sources;
   const std::vector<LightGroup> groups = light_groups(sensor.leds);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const int index : groups[g].leds) {
       const Led& led = sensor.leds[static_cast<std::size_t>(index)];
       const bool point = led.size_m[0] == 0.0 && led.size_m[1] == 0.0;
-      const int n = point ? 1 : edge_samples;
-      Vector3 outwards = led.position_m - Vector3::UnitZ() * led.position_m.z();
-      outwards -= led.normal * led.normal.dot(outwards);
-      if (outwards.norm() < 1e-6 * led.position_m.norm()) outwards = led.normal.unitOrthogonal();
-      const Vector3 first = outwards.normalized(), second = led.normal.cross(first);
-      LightSample sample{.position_m = led.position_m,
-                         .normal = led.normal,
+      LightSample sample{.normal = led.normal,
                          .emission = led.emission,
                          .exponent = led.emission_exponent,
-                         .weight = led.intensity / (n * n),
                          .group = static_cast<int>(g),
                          .gel_thickness_m = sensor.stack.gel_thickness_m,
                          .screen = sensor.diffuser};
       if (refract && sensor.stack.refracts()) sample.stack = sensor.stack.from(led.position_m.z());
-      for (int a = 0; a < n; ++a) {
-        for (int b = 0; b < n; ++b) {
-          const double u = (a + 0.5) / n - 0.5, v = (b + 0.5) / n - 0.5;
-          sample.position_m = led.position_m + u * led.size_m[0] * first + v * led.size_m[1] * second;
-          // A tilted emitter's points lie at different heights, so each has its own path through the first medium.
-          if (sample.stack)
-            sample.stack = sensor.stack.from(std::min(sample.position_m.z(), -sensor.stack.gel_thickness_m - 1e-9));
-          samples.push_back(sample);
-        }
-      }
+      const auto [first, second] = edges_of(led);
+      const Vector3 extent = 0.5 * (first.cwiseAbs() + second.cwiseAbs());
+      LightSource source{.grid = points_of(led, sample, midpoints(point ? 1 : edge_samples), sensor.stack),
+                         .in_sight = {},
+                         .low_m = led.position_m - extent,
+                         .high_m = led.position_m + extent};
+      const int fewer = edge_samples / 2 + 1;
+      if (!point && fewer < edge_samples && even_paint && led.emission != Emission::cosine_power && !sensor.diffuser)
+        source.in_sight = points_of(led, sample, gauss_points(fewer), sensor.stack);
+      sources.push_back(std::move(source));
       if (!sensor.diffuser) continue;
       sample.position_m = led.position_m;
       if (sample.stack) sample.stack = sensor.stack.from(sensor.diffuser->z_m - 1e-9);
-      add_diffused(led, sample, samples);
+      add_diffused(led, sample, sources);
     }
   }
+  return sources;
+}
+
+std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, bool refract) {
+  std::vector<LightSample> samples;
+  for (const LightSource& source : light_sources(sensor, edge_samples, refract))
+    samples.insert(samples.end(), source.grid.begin(), source.grid.end());
   return samples;
+}
+
+double least_squared_elevation(const LightSource& source, const Sensor& sensor, const Vector3& low,
+                               const Vector3& high) {
+  // The lower in the gel and the farther off sideways a point lies, and the nearer the light is to the gel, the lower
+  // does its light arrive: the worst of each at once.
+  LightSample nearest = source.grid.front();
+  nearest.position_m.z() = source.high_m.z();
+  if (nearest.stack) nearest.stack = sensor.stack.from(std::min(source.high_m.z(), -nearest.gel_thickness_m - 1e-9));
+  if (low.z() <= source.high_m.z() || (nearest.stack && low.z() <= -nearest.gel_thickness_m)) return 0.0;
+  const Vector3 away = (high - source.low_m).cwiseMax(source.high_m - low);
+  Pack3 point{};
+  point.x += nearest.position_m.x() + away.head<2>().norm();
+  point.y += nearest.position_m.y();
+  point.z += low.z();
+  const IncidencePack light = light_path(point, nearest);
+  const Vector3 w(light.direction.x[0], light.direction.y[0], light.direction.z[0]);
+  return w.z() * w.z() / w.head<2>().squaredNorm();
 }
 
 IncidencePack light_path(const Pack3& point, const LightSample& sample, PathStart* start) {

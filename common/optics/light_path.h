@@ -24,11 +24,28 @@ struct LightSample {
   std::optional<Diffuser> screen = std::nullopt;   // a scattering ring that its direct light does not pass
 };
 
-/// Midpoints of an edge_samples × edge_samples grid on each emitter, a single point for lights without size. The
+/// One emitter as points.
+struct LightSource {
+  std::vector<LightSample> grid;      // for places that may see a part of it only
+  std::vector<LightSample> in_sight;  // fewer: enough where all of it is seen; none: the grid is
+  Vector3 low_m = Vector3::Zero(), high_m = Vector3::Zero();  // corners of a box that holds the emitter
+};
+
+/// Each LED as the midpoints of an edge_samples × edge_samples grid, or as a single point if it has no size. The
 /// rectangles are turned so that an edge faces the sensor's axis, as packages are mounted on a ring board.
-/// Where the sensor has a diffuser, each LED also lights patches of it: a patch of area A that receives E from it emits
-/// as a Lambert source of intensity τ E A / π along its normal, and the direct light through the ring is cut off.
+/// Where light and paint vary slowly over the LED (Lambertian or isotropic emission, no lobe below α 0.2), its light in
+/// full sight comes from Gauss's points, ⌊edge_samples / 2⌋ + 1 along an edge: exact to a higher degree than the
+/// grid's. Where the sensor has a diffuser, each LED also lights patches of it, each a source of its own: a patch of
+/// area A that receives E emits as a Lambert source of intensity τ E A / π along its normal, and the direct light
+/// through the ring is cut off.
+std::vector<LightSource> light_sources(const Sensor& sensor, int edge_samples, bool refract = true);
+/// The grids of all.
 std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, bool refract = true);
+
+/// Square of the least tangent of elevation over the plane z = 0 at which light of any of the emitter's points arrives
+/// in the gel, at points between `low` and `high`; 0 if it may come from below.
+double least_squared_elevation(const LightSource& source, const Sensor& sensor, const Vector3& low,
+                               const Vector3& high);
 
 /// Eight places of the membrane that wait for light.
 struct SurfacePack {

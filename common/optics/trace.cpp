@@ -62,10 +62,17 @@ class RowTracer {
         fields_(fields),
         horizon_(membrane),
         camera_(sensor.camera, sensor.stack, settings.refract),
-        samples_(light_samples(sensor, settings.led_samples, settings.refract)),
+        sources_(light_sources(sensor, settings.led_samples, settings.refract)),
         subpixels_(settings.subpixels),
         groups_(light_groups(sensor.leds).size()),
         log_(settings.log) {
+    const Vector3 low = membrane.positions.colwise().minCoeff(), high = membrane.positions.colwise().maxCoeff();
+    for (const LightSource& source : sources_) {
+      sample_count_ += source.grid.size() + source.in_sight.size();
+      if (source.in_sight.empty()) continue;
+      const double least = least_squared_elevation(source, sensor, low, high);
+      least_elevation_ = least_elevation_ ? std::min(*least_elevation_, least) : least;
+    }
     if (settings.indirect_rays == 0) return;
     const VertexLight direct = direct_vertex_light(scene, membrane, sensor, settings.led_samples, settings.refract);
     indirect_ = gather_indirect(scene, membrane, direct, sensor, settings.indirect_rays, settings.refract);
@@ -81,7 +88,7 @@ class RowTracer {
         indirect(channels);
     std::vector<CoatingResponse> light(groups_);
     for (int j = 0; j < subpixels_; ++j) {
-      std::vector<PathStart> starts(samples_.size());
+      std::vector<PathStart> starts(sample_count_);
       for (int first = 0; first < width * subpixels_; first += kLanes) {
         Pack columns;
         for (int l = 0; l < kLanes; ++l) columns[l] = (first + l + 0.5) / subpixels_;
@@ -157,12 +164,33 @@ class RowTracer {
     }
     if (!lit) return;
     prepare(sensor_.coating, places);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      CoatingResponse& sum = light[static_cast<std::size_t>(samples_[i].group)];
+    // Places that nothing around rises steeply over see the whole of every light, and need fewer points of it.
+    LitPack open = places;
+    bool any_open = false, any_other = false;
+    for (int l = 0; l < kLanes; ++l) {
+      if (places.transmittance[l] == 0.0) continue;
+      const bool is_open = least_elevation_ && places.squared_steepness[l] < *least_elevation_;
+      (is_open ? any_open : any_other) = true;
+      (is_open ? places : open).transmittance[l] = 0.0;
+    }
+    PathStart* start = starts.data();
+    for (const LightSource& source : sources_) {
+      const bool fewer = !source.in_sight.empty();
+      if (any_open)
+        add_samples(open, fewer ? source.in_sight : source.grid, start + (fewer ? source.grid.size() : 0), light);
+      if (any_other) add_samples(places, source.grid, start, light);
+      start += source.grid.size() + source.in_sight.size();
+    }
+  }
+
+  void add_samples(const LitPack& places, const std::vector<LightSample>& samples, PathStart* start,
+                   std::vector<CoatingResponse>& light) const {
+    for (const LightSample& sample : samples) {
+      CoatingResponse& sum = light[static_cast<std::size_t>(sample.group)];
       DoubtfulLight doubtful;
-      const std::uint32_t lanes = add_light(places, samples_[i], sensor_.coating, starts[i], sum, doubtful);
+      const std::uint32_t lanes = add_light(places, sample, sensor_.coating, *start++, sum, doubtful);
       if (lanes == 0) continue;
-      const RayPacket shadow = shadow_rays(surface, doubtful, lanes);
+      const RayPacket shadow = shadow_rays(places.surface, doubtful, lanes);
       if (log_) log_->shadow.push_back(shadow);
       const std::uint32_t reached = lanes & ~scene_.blocked(shadow);
       for (int l = 0; l < kLanes; ++l) {
@@ -245,7 +273,9 @@ class RowTracer {
   const SurfaceFields& fields_;
   Horizon horizon_;
   CameraModel camera_;
-  std::vector<LightSample> samples_;
+  std::vector<LightSource> sources_;
+  std::optional<double> least_elevation_;  // squared tangent, of light of the sources with points for full sight
+  std::size_t sample_count_ = 0;
   int subpixels_;
   std::size_t groups_;
   RayLog* log_;

@@ -99,6 +99,100 @@ TEST(LightSamples, CoverTheSquareAndShareTheIntensity) {
   EXPECT_EQ(light_samples(sensor, 3).size(), 1u);
 }
 
+TEST(LightSources, GaussPointsIntegrateWhatTheGridOnlyNears) {
+  Sensor sensor = plain_sensor(1, 1);
+  const double side = 5e-3;
+  sensor.leds = {{.position_m = {0.01, 0.0, -0.013}, .size_m = {side, side}}};
+  sensor.leds[0].intensity = 2.0;
+  const LightSource source = light_sources(sensor, 3).front();
+  ASSERT_EQ(source.grid.size(), 9u);
+  ASSERT_EQ(source.in_sight.size(), 4u);
+  const auto moment = [](const std::vector<LightSample>& samples, int power) {
+    double sum = 0.0;
+    for (const LightSample& sample : samples) sum += sample.weight * std::pow(sample.position_m.x() - 0.01, power);
+    return sum;
+  };
+  // ∫ x² over the square is a²/12; midpoints of thirds give 8/9 of that.
+  EXPECT_NEAR(moment(source.in_sight, 0), 2.0, 1e-15);
+  EXPECT_NEAR(moment(source.in_sight, 2), 2.0 * side * side / 12.0, 1e-18);
+  EXPECT_NEAR(moment(source.grid, 2), 2.0 * side * side / 12.0 * 8.0 / 9.0, 1e-18);
+  // Three points along an edge are exact to the fifth degree: ∫ x⁴ is a⁴/80.
+  const LightSource finer = light_sources(sensor, 5).front();
+  ASSERT_EQ(finer.in_sight.size(), 9u);
+  EXPECT_NEAR(moment(finer.in_sight, 4) / (2.0 * std::pow(side, 4) / 80.0), 1.0, 1e-12);
+}
+
+TEST(LightSources, NarrowBeamsSharpLobesAndDiffusersKeepTheGrid) {
+  Sensor sensor = plain_sensor(1, 1);
+  sensor.leds = {{.position_m = {0.01, 0.0, -0.013}, .size_m = {5e-3, 5e-3}}};
+  ASSERT_FALSE(light_sources(sensor, 3).front().in_sight.empty());
+  EXPECT_TRUE(light_sources(sensor, 2).front().in_sight.empty());  // as many points
+  Sensor other = sensor;
+  other.leds[0].emission = Emission::cosine_power;
+  EXPECT_TRUE(light_sources(other, 3).front().in_sight.empty());
+  other = sensor;
+  other.coating.specular_f0 = 0.04;
+  other.coating.ggx_alpha = 0.1;
+  EXPECT_TRUE(light_sources(other, 3).front().in_sight.empty());
+  other.coating.ggx_alpha = 0.4;
+  EXPECT_FALSE(light_sources(other, 3).front().in_sight.empty());
+  other.leds[0].size_m = {0.0, 0.0};
+  EXPECT_TRUE(light_sources(other, 3).front().in_sight.empty());
+}
+
+TEST(LightSources, NoLightArrivesBelowTheLeastElevation) {
+  Sensor sensor = plain_sensor(1, 1);
+  sensor.leds = {{.position_m = {0.01, 0.002, -0.013}, .size_m = {5e-3, 3e-3}}};
+  const Vector3 low(-7.5e-3, -5.6e-3, -1.2e-3), high(7.5e-3, 5.6e-3, 1e-5);
+  for (const bool refracts : {false, true}) {
+    for (const bool tilted : {false, true}) {
+      if (refracts)
+        sensor.stack = {
+            .gel_thickness_m = 2.0 * kMm, .gel_ior = 1.41, .layers = {{.thickness_m = 5.0 * kMm, .ior = 1.49}}};
+      sensor.leds[0].normal = tilted ? Vector3(-0.6, 0.0, 0.8) : Vector3::UnitZ();
+      const LightSource source = light_sources(sensor, 3).front();
+      const double bound = least_squared_elevation(source, sensor, low, high);
+      double least = 1e9;
+      for (const LightSample& sample : light_samples(sensor, 16)) {
+        for (int i = 0; i < 27; ++i) {
+          const Vector3 share(i % 3 / 2.0, i / 3 % 3 / 2.0, i / 9 / 2.0);
+          const Vector3 w = light_at(low + share.cwiseProduct(high - low), sample).direction;
+          least = std::min(least, w.z() * w.z() / w.head<2>().squaredNorm());
+        }
+      }
+      EXPECT_GE(least, bound);
+      EXPECT_GT(bound, 0.6 * least) << "refracts " << refracts << ", tilted " << tilted;
+    }
+  }
+  // A light beside the gel shines along it.
+  sensor.stack = {};
+  sensor.leds[0].position_m.z() = -1e-3;
+  EXPECT_EQ(least_squared_elevation(light_sources(sensor, 3).front(), sensor, low, high), 0.0);
+}
+
+TEST(Trace, WhatIsInFullSightIsNearerToTheIntegralThanTheGridIs) {
+  Sensor sensor = plain_sensor(4, 3);
+  sensor.stack = {.gel_thickness_m = 2.0 * kMm, .gel_ior = 1.41, .layers = {{.thickness_m = 5.0 * kMm, .ior = 1.49}}};
+  sensor.coating.specular_f0 = 0.04;
+  sensor.coating.ggx_alpha = 0.4;
+  sensor.leds = {{.position_m = {0.01, 0.002, -0.013}, .size_m = {5e-3, 5e-3}}};
+  Sensor gridded = sensor;
+  gridded.leds[0].emission = Emission::cosine_power;  // of exponent 1: the same light, as a grid
+  const Membrane plane = height_field(4e-3, 4e-3, 1e-3, flat);
+  const TraceResult exact = trace(plane, gridded, {.subpixels = 1, .led_samples = 16});
+  const TraceResult grid = trace(plane, gridded, {.subpixels = 1, .led_samples = 3});
+  const TraceResult gauss = trace(plane, sensor, {.subpixels = 1, .led_samples = 3});
+  for (const auto image : {&TraceResult::basis, &TraceResult::gloss}) {
+    double of_grid = 0.0, of_gauss = 0.0;
+    for (std::size_t i = 0; i < (exact.*image).pixels.size(); ++i) {
+      const double truth = (exact.*image).pixels[i];
+      of_grid += std::pow((grid.*image).pixels[i] - truth, 2.0);
+      of_gauss += std::pow((gauss.*image).pixels[i] - truth, 2.0);
+    }
+    EXPECT_LT(std::sqrt(of_gauss), 0.5 * std::sqrt(of_grid));
+  }
+}
+
 TEST(Trace, PlaneUnderAPointLightMatchesTheFormula) {
   Sensor sensor = plain_sensor(20, 15);
   const Vector3 light(3.0 * kMm, -1.0 * kMm, -10.0 * kMm);
@@ -133,6 +227,8 @@ TEST(Trace, AreaLightOfManySamplesConvergesToTheIntegral) {
                integral -
            1.0;
   };
+  EXPECT_LT(std::abs(error(3)), 2e-3);               // Gauss's points
+  sensor.leds[0].emission = Emission::cosine_power;  // of exponent 1: the same light, as a grid
   EXPECT_LT(std::abs(error(3)), 0.01);
   EXPECT_NEAR(error(2) / error(4), 4.0, 0.3);  // midpoint rule: second order
 }

@@ -88,6 +88,8 @@ TEST(Trace, QuarterTurnOfTheLightTurnsTheLayeredImage) {
     sensor.leds.push_back({.position_m = {8e-3 * std::cos(azimuth), 8e-3 * std::sin(azimuth), -12e-3},
                            .rgb = {1, 1, 1},
                            .size_m = {5e-3, 5e-3}});
+    // Lambertian, but the same points for every place: what counts as full sight goes by a grid that does not turn.
+    sensor.leds.back().emission = Emission::cosine_power;
   }
   const TraceResult result = trace(height_field(4e-3, 4e-3, 1e-4, ball_press), sensor, {});
   for (const FloatImage* image : {&result.basis, &result.gloss}) {

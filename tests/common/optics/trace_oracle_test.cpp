@@ -83,6 +83,8 @@ TEST(Trace, AgreesWithBruteForceOnASmallPress) {
   Sensor sensor = plain_sensor(32, 24);
   sensor.leds = {{.position_m = {8e-3, 3e-3, -7e-3}, .rgb = {1, 1, 1}, .size_m = {5e-3, 5e-3}},
                  {.position_m = {-6e-3, 6e-3, -9e-3}, .rgb = {1, 1, 1}, .size_m = {3e-3, 3e-3}}};
+  // Lambertian too, but of 3 × 3 points from every place.
+  for (Led& led : sensor.leds) led.emission = Emission::cosine_power;
   const TraceResult result = trace(press, sensor, {});
   for (int led = 0; led < 2; ++led) {
     double squared_error = 0.0, squared = 0.0;
