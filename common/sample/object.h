@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/sample/placement.h"
 
 namespace tacipc {
 
@@ -17,7 +18,7 @@ struct ObjectSpec {
   static ObjectSpec read(ConfigReader& in) {
     ObjectSpec spec;
     spec.unit = in.choice("unit", {"m", "cm", "mm", "um", "in"});
-    if (in.has("up")) spec.up = in.choice("up", {"+x", "-x", "+y", "-y", "+z", "-z"});
+    if (in.has("up")) spec.up = in.choice("up", face_names());
     return spec;
   }
 };

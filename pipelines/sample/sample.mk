@@ -112,8 +112,12 @@ $(SAMPLE)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
 $(SAMPLE)/choice.txt: FORCE
 	$(call replace_if_changed,$(choice_yaml))
 	$(if $(motion_file),@rm -f $(SAMPLE)/sample.yaml)
-$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml | build
-	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config configs/objects/decimate/default.yaml)
+# A mesh that no repair closes is pressed as what its pressing side shows; a motion's file says that side, or the variables.
+side_given := $(or $(FACE),$(if $(UP),$(or $(patsubst +%,-%,$(filter +%,$(UP))),$(patsubst -%,+%,$(UP))),-z))
+$(SAMPLE)/decimate_config.yaml: configs/objects/decimate/default.yaml $(motion_file) FORCE | build
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+height_field.side=$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(side_given)"),$(side_given))")
+$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt $(SAMPLE)/decimate_config.yaml | build
+	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config $(SAMPLE)/decimate_config.yaml)
 $(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_paths)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/base/text_reader.h"
+#include "common/sample/placement.h"
 
 namespace tacipc {
 namespace {
@@ -95,7 +96,7 @@ class Reader {
     if (!emboss) {
       choice.unit = item.choice("unit", {"m", "cm", "mm", "um", "in"});
       choice.up = std::nullopt;
-      if (item.has("up")) choice.up = item.choice("up", {"+x", "-x", "+y", "-y", "+z", "-z"});
+      if (item.has("up")) choice.up = item.choice("up", face_names());
     }
     std::vector<fs::path> files;
     const std::set<std::string> endings =

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/base/files.h"
+#include "common/sample/placement.h"
 
 namespace tacipc {
 namespace {
@@ -107,7 +108,7 @@ const Draw* PhaseTemplate::number(const std::string& key) const {
 MotionTemplate MotionTemplate::read(ConfigReader& in) {
   MotionTemplate motion;
   if (auto placement = in.optional_section("placement")) {
-    if (placement->has("face")) motion.face = placement->choice("face", {"+x", "-x", "+y", "-y", "+z", "-z"});
+    if (placement->has("face")) motion.face = placement->choice("face", face_names());
     motion.rotate_deg = Draw::read_or(*placement, "rotate_deg", 0.0, Range::any());
     if (placement->is_list("center_mm")) {
       const auto center = placement->numbers("center_mm", 2);

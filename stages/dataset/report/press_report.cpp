@@ -108,16 +108,19 @@ void add_depths(const PressFolder& arrays, const Record& press, SampleReport& sa
 }
 
 DecimateReport read_decimate(const Record& record) {
-  constexpr std::pair<const char*, const char*> kRepairs[] = {{"unreferenced_vertices", "unused vertices removed"},
-                                                              {"merged_vertices", "vertices merged"},
-                                                              {"degenerate_faces", "faces without area treated"},
-                                                              {"duplicate_faces", "duplicate faces removed"},
-                                                              {"reoriented_faces", "faces turned over"},
-                                                              {"split_vertices", "vertices split"},
-                                                              {"filled_holes", "holes filled"},
-                                                              {"hole_faces", "faces added in holes"},
-                                                              {"debris_components", "loose bits removed"},
-                                                              {"hidden_components", "hidden parts removed"}};
+  constexpr std::pair<const char*, const char*> kRepairs[] = {
+      {"unreferenced_vertices", "unused vertices removed"},
+      {"merged_vertices", "vertices merged"},
+      {"degenerate_faces", "faces without area treated"},
+      {"duplicate_faces", "duplicate faces removed"},
+      {"reoriented_faces", "faces turned over"},
+      {"separated_edges", "edges of more than two faces taken apart"},
+      {"split_vertices", "vertices split"},
+      {"filled_holes", "holes filled"},
+      {"hole_faces", "faces added in holes"},
+      {"debris_components", "loose bits removed"},
+      {"flat_components", "parts without volume removed"},
+      {"hidden_components", "hidden parts removed"}};
   constexpr std::pair<const char*, const char*> kLeft[] = {{"overlapping_components", "parts that overlap"},
                                                            {"self_intersections", "crossing faces in the scan"}};
   const Record summary = record.section("summary");
@@ -148,6 +151,14 @@ void read_object(const fs::path& press_folder, const Record& press, SampleReport
   const Record record = Record::from_file(record_path);
   if (const auto scan = record.section("inputs").section("mesh").text("path")) sample.object = object_name(*scan);
   sample.decimate = read_decimate(record);
+  const Record repairs = record.section("summary").section("repairs");
+  if (!repairs.has("height_field")) return;
+  const Record taken = repairs.section("height_field");
+  sample.warnings.push_back(fmt::format(
+      "The object's surface cannot be closed ({}). Pressed is what its side {} shows: {:.2g} µm beside it in the mean, "
+      "{:.2g} µm at most. What lies behind, seen from there, is not pressed.",
+      taken.required_text("reason"), taken.required_text("side"), 1e3 * taken.required_number("mean_error_mm"),
+      1e3 * taken.required_number("max_error_mm")));
 }
 
 void read_summary(const Record& summary, SampleReport& sample) {

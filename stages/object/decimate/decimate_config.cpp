@@ -1,5 +1,7 @@
 #include "stages/object/decimate/decimate_config.h"
 
+#include "common/sample/placement.h"
+
 namespace tacipc {
 
 DecimateConfig DecimateConfig::read(ConfigReader& in) {
@@ -24,6 +26,12 @@ DecimateConfig DecimateConfig::read(ConfigReader& in) {
       doctor.flag_or("refuse_self_intersections", config.doctor.refuse_self_intersections);
   if (config.doctor.min_extent_m >= config.doctor.max_extent_m)
     doctor.fault("max_extent_mm", "must be larger than min_extent_mm");
+
+  if (in.has("height_field")) {
+    ConfigReader side = in.section("height_field");
+    config.doctor.height_field = SideConfig{.side = side.choice("side", face_names())};
+    config.doctor.height_field->spacing_m = 1e-3 * side.number_or("spacing_mm", 0.05, Range::between(1e-3, 10.0));
+  }
 
   ConfigReader hausdorff = in.section("hausdorff");
   config.hausdorff.spacing_m = 1e-3 * hausdorff.number("spacing_mm", Range::between(1e-4, 100.0));

@@ -7,16 +7,26 @@ namespace tacipc {
 namespace {
 
 Value::Map repairs(const DoctorReport& report) {
-  return {{"unreferenced_vertices", report.unreferenced_vertices},
-          {"merged_vertices", report.merged_vertices},
-          {"degenerate_faces", report.degenerate_faces},
-          {"duplicate_faces", report.duplicate_faces},
-          {"reoriented_faces", report.reoriented_faces},
-          {"split_vertices", report.split_vertices},
-          {"filled_holes", report.filled_holes},
-          {"hole_faces", report.hole_faces},
-          {"debris_components", report.debris_components},
-          {"hidden_components", report.hidden_components}};
+  Value::Map lines{{"unreferenced_vertices", report.unreferenced_vertices},
+                   {"merged_vertices", report.merged_vertices},
+                   {"degenerate_faces", report.degenerate_faces},
+                   {"duplicate_faces", report.duplicate_faces},
+                   {"reoriented_faces", report.reoriented_faces},
+                   {"separated_edges", report.separated_edges},
+                   {"split_vertices", report.split_vertices},
+                   {"filled_holes", report.filled_holes},
+                   {"hole_faces", report.hole_faces},
+                   {"debris_components", report.debris_components},
+                   {"flat_components", report.flat_components},
+                   {"hidden_components", report.hidden_components}};
+  if (const auto& taken = report.height_field) {
+    lines.emplace_back("height_field", Value::Map{{"side", taken->side},
+                                                  {"reason", taken->reason},
+                                                  {"spacing_mm", 1e3 * taken->error.spacing_m},
+                                                  {"mean_error_mm", 1e3 * taken->error.mean_m},
+                                                  {"max_error_mm", 1e3 * taken->error.max_m}});
+  }
+  return lines;
 }
 
 std::vector<double> extents_mm(const TriangleMesh& mesh) {

@@ -16,6 +16,11 @@ void remove_degenerate_faces(TriangleMesh& mesh, DoctorReport& report);
 /// Of faces with the same three vertices one stays if an edge needs it, else none.
 void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report);
 
+/// Gives the faces of an edge that three or more share vertices of their own, two faces each: each face stays with its
+/// neighbour across matter, the narrowest wedge first. What has no partner stays open. Nothing moves; where sheets
+/// share both ends of an edge, each gets a vertex in its middle.
+void separate_sheets(TriangleMesh& mesh, DoctorReport& report);
+
 /// Removes parts with fewer than four faces or less than the given fraction of the area; the largest always stays.
 void remove_debris(TriangleMesh& mesh, double area_fraction, DoctorReport& report);
 
@@ -25,6 +30,8 @@ void orient_consistently(TriangleMesh& mesh, DoctorReport& report);
 
 /// Gives each fan of faces around a vertex a vertex of its own; the first fan keeps the old one.
 void split_vertices(TriangleMesh& mesh, DoctorReport& report);
+/// The same for fans of faces that are neighbours by `opposite`.
+void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorReport& report);
 
 struct HoleLimits {
   int max_edges;
@@ -34,8 +41,8 @@ struct HoleLimits {
 /// \throw DataError `open mesh: …` for loops beyond the limits.
 void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& report);
 
-/// \throw DataError for closed parts that enclose no volume.
-void check_volumes(const TriangleMesh& mesh);
+/// Removes closed parts that enclose no volume. \throw DataError if there is no other part.
+void remove_flat_parts(TriangleMesh& mesh, DoctorReport& report);
 
 /// Counts crossings and removes parts that lie wholly inside another.
 void examine_components(TriangleMesh& mesh, DoctorReport& report);

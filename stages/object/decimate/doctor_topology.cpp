@@ -102,8 +102,9 @@ void orient_consistently(TriangleMesh& mesh, DoctorReport& report) {
     }
 }
 
-void split_vertices(TriangleMesh& mesh, DoctorReport& report) {
-  const std::vector<int> opposite = opposite_half_edges(mesh);
+void split_vertices(TriangleMesh& mesh, DoctorReport& report) { split_fans(mesh, opposite_half_edges(mesh), report); }
+
+void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorReport& report) {
   // Corners of one fan are joined through the edges they share; half edge h stands for the corner it starts from.
   std::vector<int> parent(opposite.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -145,14 +146,24 @@ void split_vertices(TriangleMesh& mesh, DoctorReport& report) {
   report.split_vertices += std::ssize(copied);
 }
 
-void check_volumes(const TriangleMesh& mesh) {
+void remove_flat_parts(TriangleMesh& mesh, DoctorReport& report) {
   const Components components = connected_components(mesh.triangles, opposite_half_edges(mesh));
   const Sizes sizes = sizes_of(mesh, components);
   const double extent = largest_extent(mesh);
-  for (int part = 0; part < components.count; ++part)
-    if (!(sizes.volume[part] > kFlatVolume * sizes.area[part] * extent))
-      throw DataError("a closed part of {} faces near {} encloses no volume ({:.3g} mm^3)", sizes.faces[part],
-                      place_mm(corner(mesh, sizes.first_face[part], 0).transpose()), 1e9 * sizes.volume[part]);
+  const auto is_flat = [&](int part) { return !(sizes.volume[part] > kFlatVolume * sizes.area[part] * extent); };
+  const auto count = [&] {
+    std::int64_t flat = 0;
+    for (int part = 0; part < components.count; ++part) flat += is_flat(part) ? 1 : 0;
+    return flat;
+  }();
+  if (count == 0) return;
+  if (count == components.count)
+    throw DataError("a closed part of {} faces near {} encloses no volume ({:.3g} mm^3)", sizes.faces[0],
+                    place_mm(corner(mesh, sizes.first_face[0], 0).transpose()), 1e9 * sizes.volume[0]);
+  std::vector<char> keep(static_cast<std::size_t>(mesh.num_triangles()));
+  for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = is_flat(components.of_face[f]) ? 0 : 1;
+  mesh.triangles = select_faces(mesh.triangles, keep);
+  report.flat_components = count;
 }
 
 }  // namespace tacipc

@@ -27,34 +27,62 @@ void log_repairs(const DoctorReport& report) {
   say(report.duplicate_faces, "duplicate faces removed");
   say(report.debris_components, "small loose parts removed");
   say(report.reoriented_faces, "faces turned to look outwards");
+  say(report.separated_edges, "edges of more than two faces taken apart");
   say(report.split_vertices, "vertices added where sheets met in one point");
   say(report.hole_faces, "faces added to fill holes");
+  say(report.flat_components, "closed parts without volume removed");
   say(report.hidden_components, "parts inside another removed (nothing can touch them)");
   if (report.overlapping_components > 0)
     log_warning("{} pairs of closed parts overlap: the object is taken as their union", report.overlapping_components);
 }
 
-}  // namespace
-
-bool DoctorReport::changed_mesh() const {
-  return unreferenced_vertices + merged_vertices + degenerate_faces + duplicate_faces + reoriented_faces +
-             split_vertices + hole_faces + debris_components + hidden_components >
-         0;
-}
-
-TriangleMesh treat_mesh(TriangleMesh mesh, const DoctorConfig& config, DoctorReport& report) {
-  check_extent(mesh, config);
+TriangleMesh close_surface(TriangleMesh mesh, const DoctorConfig& config, DoctorReport& report) {
   const double extent = largest_extent(mesh);
   weld_open_vertices(mesh, config.relative_weld_distance * extent, report);
   remove_degenerate_faces(mesh, report);
   remove_duplicate_faces(mesh, report);
   if (mesh.num_triangles() == 0) throw DataError("the mesh has no face with an area");
+  separate_sheets(mesh, report);
   remove_debris(mesh, config.debris_area_fraction, report);
   orient_consistently(mesh, report);
   split_vertices(mesh, report);
   fill_holes(mesh, {config.max_hole_edges, config.relative_max_hole_length * extent}, report);
   remove_degenerate_faces(mesh, report);  // a crack of no width is closed by faces of no area
-  check_volumes(mesh);
+  remove_flat_parts(mesh, report);
+  return mesh;
+}
+
+/// The closed surface, or that of one side.
+TriangleMesh close_or_take_side(TriangleMesh mesh, const DoctorConfig& config, DoctorReport& report) {
+  if (!config.height_field) return close_surface(std::move(mesh), config, report);
+  try {
+    return close_surface(mesh, config, report);
+  } catch (const DataError& fault) {
+    report = {};
+    SideTaken taken{.side = config.height_field->side, .reason = fault.what(), .error = {}};
+    TriangleMesh solid = solid_of_side(mesh, *config.height_field, taken.error);
+    log_warning(
+        "the surface cannot be closed ({}): pressed is what its side {} shows, on a grid of {:.3g} mm, "
+        "{:.2g} mm beside it in the mean and {:.2g} mm at most",
+        taken.reason, taken.side, 1e3 * taken.error.spacing_m, 1e3 * taken.error.mean_m, 1e3 * taken.error.max_m);
+    solid = close_surface(std::move(solid), config, report);
+    report.height_field = std::move(taken);
+    return solid;
+  }
+}
+
+}  // namespace
+
+bool DoctorReport::changed_mesh() const {
+  return height_field || unreferenced_vertices + merged_vertices + degenerate_faces + duplicate_faces +
+                                 reoriented_faces + separated_edges + split_vertices + hole_faces + debris_components +
+                                 flat_components + hidden_components >
+                             0;
+}
+
+TriangleMesh treat_mesh(TriangleMesh mesh, const DoctorConfig& config, DoctorReport& report) {
+  check_extent(mesh, config);
+  mesh = close_or_take_side(std::move(mesh), config, report);
   examine_components(mesh, report);
   remove_unreferenced_vertices(mesh, report);
   // What is left decides the scale: a speck far away may have hidden a wrong unit.

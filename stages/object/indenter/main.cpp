@@ -4,8 +4,8 @@
 #include "common/base/error.h"
 #include "common/stage/stage.h"
 #include "stages/object/indenter/ball.h"
-#include "stages/object/indenter/height_field.h"
 #include "stages/object/indenter/indenter_config.h"
+#include "stages/object/indenter/rounded_field.h"
 
 namespace {
 

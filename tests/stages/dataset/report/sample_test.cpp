@@ -178,6 +178,20 @@ TEST_F(SampleTest, TellsWhatBecameOfTheScan) {
                                                     std::pair{"crossing faces in the scan", 3}));
 }
 
+TEST_F(SampleTest, WarnsOfAnObjectThatIsTheHeightFieldOfOneSide) {
+  const auto warning = ::testing::StartsWith(
+      "The object's surface cannot be closed (open mesh). Pressed is what its side -z shows: 0.5 µm beside it in the "
+      "mean, 6 µm");
+  press("../../../objects/star/object.ply", "../object/object.ply");
+  write_file(folder_ / "object/decimate.yaml", kDecimateRecord);
+  EXPECT_THAT(read_sample(folder_).warnings, ::testing::Not(::testing::Contains(warning)));
+  write_file(folder_ / "object/decimate.yaml",
+             replaced(kDecimateRecord, "filled_holes: 2}",
+                      "filled_holes: 2, height_field: {side: -z, reason: open mesh, mean_error_mm: 0.0005, "
+                      "max_error_mm: 0.006, spacing_mm: 0.05}}"));
+  EXPECT_THAT(read_sample(folder_).warnings, ::testing::Contains(warning));
+}
+
 TEST_F(SampleTest, AnObjectIsCalledAfterItsScan) {
   press("../../../objects/star/object.ply", "../object/object.ply");
   write_file(folder_ / "object/decimate.yaml",

@@ -167,8 +167,8 @@ TEST(MeshDoctor, FillsSmallHolesAndRefusesLargeOnes) {
 
   EXPECT_EQ(
       refusal(without_faces(cube(kSize), {0})),
-      "open mesh: boundary loop of 3 edges, length 34.14 mm near (0, 6.667, 3.333) mm (holes of at most 64 edges and "
-      "2 mm are filled)");
+      "open mesh: boundary loop of 3 edges, length 34.14 mm near (0, 6.667, 3.333) mm (holes of at most 128 edges "
+      "and 3 mm are filled)");
   DoctorConfig generous;
   generous.relative_max_hole_length = 10;
   DoctorReport filled;
@@ -210,12 +210,138 @@ TEST(MeshDoctor, SplitsAVertexWhereTwoSheetsMeet) {
   EXPECT_EQ(report.overlapping_components, 0) << "touching in a point is not a crossing";
 }
 
-TEST(MeshDoctor, RefusesAnEdgeOfMoreThanTwoFaces) {
+/// The edge between two vertices as the cube() of one square a side has them, from its corner at the origin along z.
+std::array<int, 2> edge_along_z(const TriangleMesh& cube) {
+  std::array<int, 2> edge{-1, -1};
+  for (int v = 0; v < 8; ++v) {
+    if (cube.positions.row(v).isZero()) edge[0] = v;
+    if (cube.positions.row(v) == Eigen::RowVector3d(0, 0, kSize)) edge[1] = v;
+  }
+  return edge;
+}
+
+TEST(MeshDoctor, DropsAFinThatStandsOnAnEdge) {
   const TriangleMesh box = cube(kSize);
   TriangleMesh fin = with_face(box, {0, 1, 8});
   fin.positions.conservativeResize(9, 3);
   fin.positions.row(8) << -kSize, 2 * kSize, 0;
-  EXPECT_EQ(refusal(fin), "non-manifold mesh: 3 faces share the edge near (0, 5, 0) mm");
+  DoctorReport report;
+  const TriangleMesh mesh = treat(fin, report);
+  EXPECT_EQ(mesh.positions, box.positions);
+  EXPECT_TRUE(is_closed_manifold(mesh));
+  EXPECT_NEAR(signed_volume(mesh), std::pow(kSize, 3), 1e-18);
+  EXPECT_EQ(report.separated_edges, 1);
+  EXPECT_EQ(report.debris_components, 1);
+}
+
+TEST(MeshDoctor, TakesSolidsApartThatShareAnEdge) {
+  // The second cube is the first one turned half a turn about the edge: faces meet across matter, not across the gap.
+  const TriangleMesh box = cube(kSize);
+  const auto [low, high] = edge_along_z(box);
+  TriangleMesh other = box;
+  other.positions.leftCols<2>() *= -1.0;
+  TriangleMesh two = joined(box, other);
+  for (Eigen::Index i = 0; i < two.triangles.size(); ++i) {
+    int& v = two.triangles.data()[i];
+    if (v == 8 + low) v = low;
+    if (v == 8 + high) v = high;
+  }
+  DoctorReport report;
+  const TriangleMesh mesh = treat(two, report);
+  EXPECT_TRUE(is_closed_manifold(mesh));
+  EXPECT_EQ(mesh.num_vertices(), 16);
+  EXPECT_EQ(mesh.num_triangles(), 24);
+  EXPECT_EQ(report.separated_edges, 1);
+  EXPECT_EQ(report.components, 2);
+  EXPECT_NEAR(signed_volume(mesh), 2.0 * std::pow(kSize, 3), 1e-18);
+}
+
+TEST(MeshDoctor, HalvesAnEdgeWhoseSheetsShareBothEnds) {
+  // A hollow tetrahedron that touches an edge of the cube from inside along its whole length.
+  TriangleMesh box = cube(kSize);
+  const auto [low, high] = edge_along_z(box);
+  box.positions.conservativeResize(10, 3);
+  box.positions.row(8) << 0.6 * kSize, 0.2 * kSize, 0.5 * kSize;
+  box.positions.row(9) << 0.2 * kSize, 0.6 * kSize, 0.5 * kSize;
+  const auto corner_of = [&](int v) { return Vector3(box.positions.row(v).transpose()); };
+  const Vector3 a = corner_of(low), b = corner_of(high), c = corner_of(8), d = corner_of(9);
+  const double hollow = std::abs((b - a).dot((c - a).cross(d - a))) / 6.0;
+  TriangleMesh both = box;
+  const bool right_handed = (b - a).dot((c - a).cross(d - a)) > 0.0;
+  for (std::array<int, 3> face : {std::array{low, 8, high}, {low, high, 9}, {low, 9, 8}, {high, 8, 9}}) {
+    // Those are outward for b − a, c − a, d − a right-handed; the hollow's look inwards.
+    if (right_handed) std::swap(face[1], face[2]);
+    both = with_face(both, face);
+  }
+  DoctorReport report;
+  const TriangleMesh mesh = treat(both, report);
+  EXPECT_TRUE(is_closed_manifold(mesh));
+  EXPECT_EQ(report.separated_edges, 1);
+  EXPECT_EQ(report.components, 1);
+  EXPECT_EQ(mesh.num_vertices(), 12) << "two in the middle of the edge";
+  EXPECT_NEAR(signed_volume(mesh), std::pow(kSize, 3) - hollow, 1e-18);
+}
+
+TEST(MeshDoctor, DropsClosedPartsWithoutVolume) {
+  const TriangleMesh ball = sphere(kSize, 3);
+  TriangleMesh sheet = cube(kSize, 4);
+  sheet.positions.col(2).setConstant(3.0 * kSize);
+  DoctorReport report;
+  const TriangleMesh mesh = treat(joined(ball, sheet), report);
+  EXPECT_EQ(mesh.positions, ball.positions);
+  EXPECT_GE(report.flat_components, 1);
+}
+
+TEST(MeshDoctor, TakesTheSideThatIsAskedForWhereNothingClosesTheSurface) {
+  // An open bowl, its rim up: three quarters of a sphere, no hole that may be filled.
+  const TriangleMesh ball = sphere(kSize, 5);
+  std::vector<int> lid;
+  for (int f = 0; f < static_cast<int>(ball.num_triangles()); ++f) {
+    const double z = (corner(ball, f, 0) + corner(ball, f, 1) + corner(ball, f, 2)).z() / 3.0;
+    if (z > 0.5 * kSize) lid.push_back(f);
+  }
+  const TriangleMesh bowl = without_faces(ball, lid);
+  EXPECT_TRUE(refusal(bowl).starts_with("open mesh: "));
+  DoctorConfig config;
+  config.height_field = SideConfig{.side = "-z", .spacing_m = 0.2e-3};
+  DoctorReport report;
+  const TriangleMesh below = treat(bowl, report, config);
+  EXPECT_TRUE(is_closed_manifold(below));
+  ASSERT_TRUE(report.height_field);
+  EXPECT_TRUE(report.changed_mesh());
+  EXPECT_EQ(report.height_field->side, "-z");
+  EXPECT_EQ(report.height_field->error.spacing_m, 0.2e-3);
+  EXPECT_TRUE(report.height_field->reason.starts_with("open mesh: "));
+  // The sagitta of a step, h²/8r, where it is level; about a step at the silhouette.
+  EXPECT_LT(report.height_field->error.mean_m, 0.02e-3);
+  EXPECT_GT(report.height_field->error.mean_m, 0.0);
+  EXPECT_LT(report.height_field->error.max_m, 0.3e-3);
+  EXPECT_NEAR(below.positions.col(2).minCoeff(), -kSize, 1e-6);
+  EXPECT_GE(below.positions.col(2).maxCoeff(), bowl.positions.col(2).maxCoeff());
+  // From its other side the same bowl is hollow; from beside, an arc.
+  config.height_field->side = "+z";
+  const TriangleMesh above = treat(bowl, report, config);
+  EXPECT_TRUE(is_closed_manifold(above));
+  EXPECT_LT(signed_volume(above), signed_volume(below));
+  config.height_field->side = "-x";
+  const TriangleMesh beside = treat(bowl, report, config);
+  EXPECT_TRUE(is_closed_manifold(beside));
+  EXPECT_NEAR(beside.positions.col(0).minCoeff(), -kSize, 1e-6);
+  // What is closed is not touched.
+  DoctorReport sound;
+  EXPECT_EQ(treat(ball, sound, config).positions, ball.positions);
+  EXPECT_FALSE(sound.height_field);
+}
+
+TEST(MeshDoctor, TakesNoSideThatShowsNothing) {
+  const TriangleMesh upright =
+      make_mesh({{0, 0, 0}, {kSize, 0, 0}, {kSize, 0, kSize}, {0, 0, kSize}}, {{0, 1, 2}, {0, 2, 3}});
+  DoctorConfig config;
+  config.height_field = SideConfig{.side = "-z"};
+  EXPECT_EQ(refusal(upright, config), "nothing wider than 0.05 mm is seen of the mesh from its side -z");
+  config.height_field->side = "+y";
+  DoctorReport report;
+  EXPECT_TRUE(is_closed_manifold(treat(upright, report, config)));
 }
 
 TEST(MeshDoctor, RemovesDebris) {

@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "stages/object/indenter/ball.h"
-#include "stages/object/indenter/height_field.h"
+#include "stages/object/indenter/rounded_field.h"
 #include "tests/program_test.h"
 
 namespace tacipc {

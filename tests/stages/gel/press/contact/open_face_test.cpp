@@ -17,15 +17,14 @@ ContactMesh gel_alone(const TetMesh& gel) {
                            Triangles(0, 3));
 }
 
-/// Smallest ratio of a distance to that at rest, over pairs of the face's primitives that share no vertex.
-double smallest_ratio(const ContactMesh& mesh, const OpenFace& face, const Positions& x) {
-  double smallest = std::numeric_limits<double>::infinity();
+/// Hands pairs of primitives of the face that share no vertex to use(pair, distance at x, distance at rest).
+template <typename Use>
+void for_each_pair(const ContactMesh& mesh, const OpenFace& face, const Positions& x, Use&& use) {
   const auto offer = [&](const ContactPair& pair) {
     const auto& v = pair.vertices;
     if (!face.has(v[0]) || !face.has(v[1]) || !face.has(v[2]) || !face.has(v[3])) return;
-    const double now = closest_feature(pair, gather(x, pair)).squared_distance;
-    smallest =
-        std::min(smallest, std::sqrt(now / closest_feature(pair, gather(mesh.rest_positions, pair)).squared_distance));
+    use(pair, std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance),
+        std::sqrt(closest_feature(pair, gather(mesh.rest_positions, pair)).squared_distance));
   };
   for (const int v : mesh.gel.vertices) {
     for (const auto& t : mesh.gel.triangles)
@@ -35,6 +34,12 @@ double smallest_ratio(const ContactMesh& mesh, const OpenFace& face, const Posit
     for (const auto& f : mesh.gel.edges)
       if (e < f && e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1]) offer(edge_edge_pair(e, f));
   }
+}
+
+double smallest_ratio(const ContactMesh& mesh, const OpenFace& face, const Positions& x) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for_each_pair(mesh, face, x,
+                [&](const ContactPair&, double now, double rest) { smallest = std::min(smallest, now / rest); });
   return smallest;
 }
 
@@ -86,27 +91,6 @@ TEST(OpenFace, WhatItCallsOpenKeepsHalfOfEveryDistanceAtRest) {
   EXPECT_GT(closed, 10);
 }
 
-/// Pairs of primitives of the face that share no vertex, each with whether it is nearer at x than d̂ and than half of
-/// its distance at rest, handed to use(pair, near).
-template <typename Use>
-void for_each_pair(const ContactMesh& mesh, const OpenFace& face, const Positions& x, double d_hat_m, Use&& use) {
-  const auto offer = [&](const ContactPair& pair) {
-    const auto& v = pair.vertices;
-    if (!face.has(v[0]) || !face.has(v[1]) || !face.has(v[2]) || !face.has(v[3])) return;
-    const double now = std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance),
-                 rest = std::sqrt(closest_feature(pair, gather(mesh.rest_positions, pair)).squared_distance);
-    use(pair, now < std::min(d_hat_m, 0.5 * rest));
-  };
-  for (const int v : mesh.gel.vertices) {
-    for (const auto& t : mesh.gel.triangles)
-      if (v != t[0] && v != t[1] && v != t[2]) offer(point_triangle_pair(v, t));
-  }
-  for (const auto& e : mesh.gel.edges) {
-    for (const auto& f : mesh.gel.edges)
-      if (e < f && e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1]) offer(edge_edge_pair(e, f));
-  }
-}
-
 TEST(OpenFace, BothSidesOfEveryPairThatComesNearAreAtRisk) {
   std::mt19937 random(11);
   const TetMesh gel = block_gel(8, 0.008, 0.002);
@@ -127,8 +111,9 @@ TEST(OpenFace, BothSidesOfEveryPairThatComesNearAreAtRisk) {
     }
     const OpenFace::Places at_risk = face.at_risk(x, p, kDHat);
     for (const double t : {0.0, 0.5, 1.0}) {
-      for_each_pair(mesh, face, x + t * p, kDHat, [&](const ContactPair& pair, bool near) {
+      for_each_pair(mesh, face, x + t * p, [&](const ContactPair& pair, double now, double rest) {
         const auto& v = pair.vertices;
+        const bool near = now < std::min(kDHat, 0.5 * rest);
         const bool first = at_risk.near(std::array{v[0]}) ||
                            (pair.kind == ContactPair::Kind::edge_edge && at_risk.near(std::array{v[0], v[1]})),
                    second = pair.kind == ContactPair::Kind::edge_edge ? at_risk.near(std::array{v[2], v[3]})

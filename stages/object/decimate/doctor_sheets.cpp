@@ -1,0 +1,142 @@
+// Edges where more than two faces meet, taken apart into surfaces of two faces each.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "common/base/error.h"
+#include "stages/object/decimate/doctor_steps.h"
+
+namespace tacipc {
+namespace {
+
+using Uses = std::vector<EdgeUse>;
+
+/// Calls use(first, last) for the half edges of each edge of three or more faces.
+template <typename Use>
+void for_each_crowded_edge(const Uses& uses, Use&& use) {
+  for (auto first = uses.begin(), last = first; first != uses.end(); first = last) {
+    while (last != uses.end() && last->low == first->low && last->high == first->high) ++last;
+    if (last - first > 2) use(first, last);
+  }
+}
+
+/// A face at an edge, seen along the edge from its lower to its higher vertex.
+struct Leaf {
+  int half_edge;
+  double angle;
+  bool forwards;  // runs from the lower to the higher vertex: its matter lies at smaller angles, else at larger ones
+};
+
+std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Uses::const_iterator first, Uses::const_iterator last) {
+  const Vector3 from = mesh.positions.row(first->low), to = mesh.positions.row(first->high);
+  const Vector3 along = (to - from).normalized(), u = along.unitOrthogonal(), v = along.cross(u);
+  std::vector<Leaf> leaves;
+  for (auto use = first; use != last; ++use) {
+    const int third = target_of(mesh.triangles, next_in_face(use->half_edge));
+    const Vector3 away = Vector3(mesh.positions.row(third)) - from;
+    leaves.push_back(
+        {use->half_edge, std::atan2(v.dot(away), u.dot(away)), origin_of(mesh.triangles, use->half_edge) == use->low});
+  }
+  // Of two faces in one place the one with matter below comes first: they are two solids that touch, not a sheet.
+  std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+    if (a.angle != b.angle) return a.angle < b.angle;
+    return a.forwards != b.forwards ? a.forwards : a.half_edge < b.half_edge;
+  });
+  return leaves;
+}
+
+/// Pairs each face with its neighbour across matter, the narrowest wedge first; what has no partner stays open.
+void pair_leaves(std::vector<Leaf> leaves, std::vector<int>& opposite) {
+  for (const Leaf& leaf : leaves) opposite[leaf.half_edge] = kOpen;
+  while (leaves.size() > 1) {
+    std::size_t narrowest = leaves.size();
+    double least = 1e300;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const Leaf &here = leaves[i], &next = leaves[(i + 1) % leaves.size()];
+      if (here.forwards || !next.forwards) continue;
+      double wedge = next.angle - here.angle;
+      if (wedge < 0.0) wedge += 2.0 * std::numbers::pi;
+      if (wedge < least) {
+        least = wedge;
+        narrowest = i;
+      }
+    }
+    if (narrowest == leaves.size()) return;
+    const std::size_t other = (narrowest + 1) % leaves.size();
+    opposite[leaves[narrowest].half_edge] = leaves[other].half_edge;
+    opposite[leaves[other].half_edge] = leaves[narrowest].half_edge;
+    leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(std::max(narrowest, other)));
+    leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(std::min(narrowest, other)));
+  }
+}
+
+/// As opposite_half_edges, with the faces of crowded edges in pairs.
+std::vector<int> paired_half_edges(const TriangleMesh& mesh, const Uses& uses) {
+  std::vector<int> opposite(uses.size(), kOpen);
+  for (auto first = uses.begin(), last = first; first != uses.end(); first = last) {
+    while (last != uses.end() && last->low == first->low && last->high == first->high) ++last;
+    if (last - first == 2) {
+      opposite[first->half_edge] = (first + 1)->half_edge;
+      opposite[(first + 1)->half_edge] = first->half_edge;
+    } else if (last - first > 2) {
+      pair_leaves(leaves_around(mesh, first, last), opposite);
+    }
+  }
+  return opposite;
+}
+
+/// Where sheets share both ends of an edge, gives each pair of faces a vertex of its own in the middle. A face is cut
+/// once; edges whose faces are cut already wait for the next round.
+void halve_edges(TriangleMesh& mesh, const Uses& uses, const std::vector<int>& opposite) {
+  std::vector<char> cut(static_cast<std::size_t>(mesh.num_triangles()), 0);
+  std::vector<Eigen::RowVector3d> middles;
+  std::vector<std::array<int, 3>> added;
+  const int before = static_cast<int>(mesh.num_vertices());
+  for_each_crowded_edge(uses, [&](auto first, auto last) {
+    if (std::any_of(first, last, [&](const EdgeUse& use) { return cut[use.half_edge / 3] != 0; })) return;
+    const Eigen::RowVector3d middle = 0.5 * (mesh.positions.row(first->low) + mesh.positions.row(first->high));
+    for (auto use = first; use != last; ++use) {
+      const int h = use->half_edge, partner = opposite[h];
+      if (partner != kOpen && partner < h) continue;
+      const int m = before + static_cast<int>(middles.size());
+      middles.push_back(middle);
+      for (const int half_edge : {h, partner}) {
+        if (half_edge == kOpen) continue;
+        const int face = half_edge / 3, k = half_edge % 3;
+        cut[face] = 1;
+        std::array<int, 3> rest{mesh.triangles(face, 0), mesh.triangles(face, 1), mesh.triangles(face, 2)};
+        rest[static_cast<std::size_t>(k)] = m;
+        mesh.triangles(face, (k + 1) % 3) = m;
+        added.push_back(rest);
+      }
+    }
+  });
+  mesh.positions.conservativeResize(before + std::ssize(middles), 3);
+  for (std::size_t i = 0; i < middles.size(); ++i)
+    mesh.positions.row(before + static_cast<Eigen::Index>(i)) = middles[i];
+  const Eigen::Index faces = mesh.num_triangles();
+  mesh.triangles.conservativeResize(faces + std::ssize(added), 3);
+  for (std::size_t i = 0; i < added.size(); ++i)
+    mesh.triangles.row(faces + static_cast<Eigen::Index>(i)) << added[i][0], added[i][1], added[i][2];
+}
+
+}  // namespace
+
+void separate_sheets(TriangleMesh& mesh, DoctorReport& report) {
+  constexpr int kMaxRounds = 20;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    Uses uses = edge_uses(mesh.triangles);
+    std::int64_t crowded = 0;
+    for_each_crowded_edge(uses, [&](auto, auto) { ++crowded; });
+    if (crowded == 0) return;
+    if (round == 0) report.separated_edges = crowded;
+    split_fans(mesh, paired_half_edges(mesh, uses), report);
+    uses = edge_uses(mesh.triangles);
+    halve_edges(mesh, uses, paired_half_edges(mesh, uses));
+  }
+  opposite_half_edges(mesh);  // says where
+}
+
+}  // namespace tacipc
