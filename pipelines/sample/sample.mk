@@ -16,9 +16,9 @@ TILT_DEG  ?= 5#               how far it is tilted
 MOVE_STEPS ?= 20#             frames of each motion after the press
 UNIT     ?= mm#               of the object's file: m, cm, mm, um, in
 UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
-FACE     ?=#                  side that presses (default: opposite of UP, else -z)
+FACE     ?=#                  side that presses (default: opposite of UP, else that of most relief in the window)
 ROTATE   ?= 0#                degrees about the sensor's z axis
-CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands
+CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands (default: most relief in the middle, if no side is named)
 NAME     ?= $(basename $(notdir $(OBJECT)))# of the sample
 SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UNIT UP FACE ROTATE CENTER NAME
 given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# on the command line
@@ -75,6 +75,8 @@ endif
 sample_spec  := $(or $(motion_file),$(SAMPLE)/sample.yaml)
 press_config := $(if $(FRICTION),$(SAMPLE)/press_config.yaml,configs/press/$(PRESS).yaml)
 
+side_given  := $(or $(FACE),$(if $(filter +%,$(UP)),$(patsubst +%,-%,$(UP)),$(patsubst -%,+%,$(UP))))
+choose_side := $(if $(motion_file)$(side_given),,yes)
 # The variables as configuration files, rewritten only when they change.
 press_phase   = {kind: press, $(if $(FORCE_N),force_n: $(FORCE_N),depth_mm: $(DEPTH_MM)), steps: $(STEPS)}
 shear_phase   = {kind: shear, direction_deg: $(DIRECTION), distance_mm: $(SHEAR_MM), steps: $(MOVE_STEPS)}
@@ -103,7 +105,7 @@ include $(SAMPLE)/paths.mk
 endif
 # Which files are meant: another object, sensor, mesh, press or motion under the same name must redo the sample however old its files are.
 choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), motion: $(or $(abspath $(motion_file)),as said)}
-$(SAMPLE)/sample.yaml: FORCE
+$(SAMPLE)/$(if $(choose_side),asked,sample).yaml: FORCE
 	$(call replace_if_changed,$(sample_yaml))
 $(SAMPLE)/object.yaml: FORCE
 	$(call replace_if_changed,$(object_yaml))
@@ -112,12 +114,18 @@ $(SAMPLE)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
 $(SAMPLE)/choice.txt: FORCE
 	$(call replace_if_changed,$(choice_yaml))
 	$(if $(motion_file),@rm -f $(SAMPLE)/sample.yaml)
-# A mesh that no repair closes is pressed as what its pressing side shows; a motion's file says that side, or the variables.
-side_given := $(or $(FACE),$(if $(UP),$(or $(patsubst +%,-%,$(filter +%,$(UP))),$(patsubst -%,+%,$(UP))),-z))
+# Which side presses: that of most relief in the sensor's window, unless a variable or the motion's file says one. A mesh
+# that no repair closes is pressed as what that side shows.
 $(SAMPLE)/decimate_config.yaml: configs/objects/decimate/default.yaml $(motion_file) FORCE | build
-	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+height_field.side=$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(side_given)"),$(side_given))")
-$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt $(SAMPLE)/decimate_config.yaml | build
-	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config $(SAMPLE)/decimate_config.yaml)
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+height_field.side=$(if $(choose_side),most_relief,$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)"),$(side_given)))")
+$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt $(SAMPLE)/decimate_config.yaml configs/sensors/$(SENSOR).yaml | build
+	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config $(SAMPLE)/decimate_config.yaml --sensor configs/sensors/$(SENSOR).yaml)
+ifdef choose_side
+# The place of most relief too, where the object is neither turned nor placed.
+side := $(BIN)/tacipc get $(SAMPLE)/object/decimate.yaml summary.sides
+$(SAMPLE)/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+placement.face=$$($(side).pressed)" $(if $(filter CENTER ROTATE,$(given)),,"placement.center_mm=[$$($(side).center_mm[0]), $$($(side).center_mm[1])]"))
+endif
 $(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_paths)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 

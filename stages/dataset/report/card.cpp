@@ -95,6 +95,13 @@ std::string image_figures(const SampleReport& sample, const fs::path& folder, Lo
     html += pictures.figure(*images.normal, "normals of " + sample.name,
                             "<b>Normals</b>: the face looks" + normal_swatches());
   }
+  if (sample.sides) {
+    html +=
+        pictures.figure(*sample.sides, "what the sides of " + sample.object + " show",
+                        "<b>Six sides</b> of the object as they would press: x, y, z, above + and below −; light is "
+                        "what touches first, dark 0.5 mm behind it. Framed: the side that pressed, and the "
+                        "sensor's window");
+  }
   return html;
 }
 

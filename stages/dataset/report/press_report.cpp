@@ -139,6 +139,20 @@ DecimateReport read_decimate(const Record& record) {
   return report;
 }
 
+void read_sides(const fs::path& folder, const Record& sides, SampleReport& sample) {
+  if (const fs::path picture = folder / "sides.png"; fs::is_regular_file(picture)) sample.sides = picture;
+  const auto window = sides.numbers("window_mm", 2);
+  if (!window) return;
+  const std::string size = fmt::format("{:.3g} × {:.3g} mm", (*window)[0], (*window)[1]);
+  if (sides.flag("uniform").value_or(false)) {
+    sample.warnings.push_back(
+        fmt::format("The image is uniform: the side that presses is flat and fills the sensor's window of {}.", size));
+  } else if (sides.flag("wider_than_window").value_or(false)) {
+    sample.warnings.push_back(
+        fmt::format("The object is wider than the sensor's window of {}: the image shows a part of it.", size));
+  }
+}
+
 void read_object(const fs::path& press_folder, const Record& press, SampleReport& sample) {
   const auto gel = press.section("inputs").section("gel").text("path");
   if (gel) link_if_there(sample.records, "tetmesh.yaml", (press_folder / *gel).parent_path() / "tetmesh.yaml");
@@ -151,6 +165,7 @@ void read_object(const fs::path& press_folder, const Record& press, SampleReport
   const Record record = Record::from_file(record_path);
   if (const auto scan = record.section("inputs").section("mesh").text("path")) sample.object = object_name(*scan);
   sample.decimate = read_decimate(record);
+  read_sides(record_path.parent_path(), record.section("summary").section("sides"), sample);
   const Record repairs = record.section("summary").section("repairs");
   if (!repairs.has("height_field")) return;
   const Record taken = repairs.section("height_field");

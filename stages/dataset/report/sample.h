@@ -102,6 +102,7 @@ struct SampleReport {
   std::vector<MarkerPicture> marker_pictures;
 
   std::optional<DecimateReport> decimate;
+  std::optional<std::filesystem::path> sides;  // picture of what each side of the object shows
 
   std::optional<bool> synthetic_reference;
   std::optional<double> max_indentation_m;

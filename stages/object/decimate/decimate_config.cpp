@@ -29,7 +29,9 @@ DecimateConfig DecimateConfig::read(ConfigReader& in) {
 
   if (in.has("height_field")) {
     ConfigReader side = in.section("height_field");
-    config.doctor.height_field = SideConfig{.side = side.choice("side", face_names())};
+    std::vector<std::string> sides = face_names();
+    sides.push_back(SideConfig::kMostRelief);
+    config.doctor.height_field = SideConfig{.side = side.choice("side", sides)};
     config.doctor.height_field->spacing_m = 1e-3 * side.number_or("spacing_mm", 0.05, Range::between(1e-3, 10.0));
   }
 

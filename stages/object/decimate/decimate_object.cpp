@@ -34,6 +34,40 @@ std::vector<double> extents_mm(const TriangleMesh& mesh) {
   return {1e3 * extents[0], 1e3 * extents[1], 1e3 * extents[2]};
 }
 
+/// What of it matters to a press: which side, where on the gel (the sample file's `center_mm`), and what is odd about
+/// it.
+Value::Map sides_of(const SideSurvey& survey) {
+  Value::List views;
+  for (const SideView& view : survey.views) {
+    views.emplace_back(Value::Map{{"side", view.side},
+                                  {"relief_mm", 1e3 * view.relief_m},
+                                  {"extent_mm", std::vector<double>{1e3 * view.extent_m[0], 1e3 * view.extent_m[1]}}});
+  }
+  const auto& place = survey.side().place_m;
+  return {{"pressed", survey.side().side},
+          {"given", survey.given},
+          {"center_mm", std::vector<double>{0.0 - 1e3 * place[0], 0.0 - 1e3 * place[1]}},
+          {"window_mm", std::vector<double>{1e3 * survey.window_m[0], 1e3 * survey.window_m[1]}},
+          {"wider_than_window", survey.wider_than_window()},
+          {"uniform", survey.uniform()},
+          {"views", std::move(views)}};
+}
+
+void say(const SideSurvey& survey) {
+  const SideView& side = survey.side();
+  log_info("its side {} shows {:.3g} mm of relief in the sensor's window{}", side.side, 1e3 * side.relief_m,
+           survey.given ? "" : ", and is pressed");
+  if (survey.uniform()) {
+    log_warning("the image will be uniform: the side {} is flat and fills the sensor's window of {:.3g} x {:.3g} mm",
+                side.side, 1e3 * survey.window_m[0], 1e3 * survey.window_m[1]);
+  } else if (survey.wider_than_window()) {
+    log_warning(
+        "the object is wider ({:.3g} x {:.3g} mm) than the sensor's window ({:.3g} x {:.3g} mm): the image "
+        "shows a part of it",
+        1e3 * side.extent_m[0], 1e3 * side.extent_m[1], 1e3 * survey.window_m[0], 1e3 * survey.window_m[1]);
+  }
+}
+
 }  // namespace
 
 DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& config) {
@@ -77,6 +111,16 @@ DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& 
                     {"overlapping_components", found.overlapping_components},
                     {"self_intersections", found.self_intersections},
                     {"repairs", repairs(found)}};
+  if (config.doctor.window) {
+    const std::string wanted = found.height_field           ? found.height_field->side
+                               : config.doctor.height_field ? config.doctor.height_field->side
+                                                            : "";
+    SideSurvey survey = survey_sides(mesh, *config.doctor.window, wanted);
+    survey.given = survey.given && config.doctor.height_field->side != SideConfig::kMostRelief;
+    say(survey);
+    object.summary.emplace_back("sides", sides_of(survey));
+    object.sides = picture_of_sides(survey);
+  }
   object.mesh = std::move(mesh);
   return object;
 }

@@ -1,4 +1,7 @@
+#include "common/base/error.h"
+#include "common/image/image.h"
 #include "common/sample/object.h"
+#include "common/sensor/sensor.h"
 #include "common/stage/stage.h"
 #include "stages/object/decimate/decimate_object.h"
 
@@ -9,18 +12,30 @@ const tacipc::StageSpec kDecimate{
     .summary = "Repair a scanned object and simplify it to a mesh the simulation can afford.",
     .inputs = {{.flag = "--config", .help = "decimation settings (YAML)"},
                {.flag = "--mesh", .help = "surface of the object (STL, OBJ, OFF, PLY)"},
-               {.flag = "--object", .help = "unit and orientation of that mesh (YAML)"}}};
+               {.flag = "--object", .help = "unit and orientation of that mesh (YAML)"},
+               {.flag = "--sensor",
+                .help = "who will see it (YAML): its window decides which side shows most",
+                .required = false}}};
 
 }  // namespace
 
 int main(int argc, char** argv) {
   return tacipc::run_stage(kDecimate, argc, argv, [](tacipc::Stage& stage) {
-    const auto config = stage.read_config<tacipc::DecimateConfig>("--config");
+    auto config = stage.read_config<tacipc::DecimateConfig>("--config");
     const auto spec = stage.read_config<tacipc::ObjectSpec>("--object");
+    if (stage.optional_input("--sensor")) {
+      const auto sensor = stage.read_config<tacipc::Sensor>("--sensor");
+      config.doctor.window =
+          tacipc::SensorWindow{.size_m = {sensor.camera.window_width_m, sensor.camera.window_height_m},
+                               .usual = spec.up ? tacipc::opposite_face(*spec.up) : "-z"};
+    } else if (config.doctor.height_field && config.doctor.height_field->side == tacipc::SideConfig::kMostRelief) {
+      throw tacipc::UsageError("height_field.side: most_relief needs --sensor, whose window decides");
+    }
     const tacipc::TriangleMesh scan =
         tacipc::read_triangle_mesh(stage.input("--mesh"), tacipc::metres_per_unit(spec.unit));
     const tacipc::DecimatedObject object = tacipc::decimate_object(scan, config);
     tacipc::write_ply(stage.output("object.ply"), object.mesh);
+    if (object.sides) tacipc::write_png(stage.output("sides.png"), *object.sides);
     stage.summarize(object.summary);
   });
 }

@@ -59,8 +59,10 @@ TriangleMesh close_or_take_side(TriangleMesh mesh, const DoctorConfig& config, D
     return close_surface(mesh, config, report);
   } catch (const DataError& fault) {
     report = {};
+    if (mesh.num_triangles() == 0) throw;
     SideTaken taken{.side = config.height_field->side, .reason = fault.what(), .error = {}};
-    TriangleMesh solid = solid_of_side(mesh, *config.height_field, taken.error);
+    if (taken.side == SideConfig::kMostRelief) taken.side = survey_sides(mesh, config.window.value(), "").side().side;
+    TriangleMesh solid = solid_of_side(mesh, taken.side, config.height_field->spacing_m, taken.error);
     log_warning(
         "the surface cannot be closed ({}): pressed is what its side {} shows, on a grid of {:.3g} mm, "
         "{:.2g} mm beside it in the mean and {:.2g} mm at most",

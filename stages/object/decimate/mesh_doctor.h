@@ -7,6 +7,7 @@
 
 #include "common/mesh/triangle_mesh.h"
 #include "stages/object/decimate/side_solid.h"
+#include "stages/object/decimate/side_survey.h"
 
 namespace tacipc {
 
@@ -20,6 +21,7 @@ struct DoctorConfig {
   double debris_area_fraction = 1e-4;  // parts with less of the area are removed
   bool refuse_self_intersections = false;
   std::optional<SideConfig> height_field = std::nullopt;  // of one side, where no repair closes the surface
+  std::optional<SensorWindow> window = std::nullopt;      // what kMostRelief is judged by
 };
 
 /// A surface that no repair closed, as one side of it shows it.

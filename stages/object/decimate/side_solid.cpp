@@ -107,13 +107,14 @@ SideError error_of(const TriangleMesh& seen, const TriangleMesh& solid, double s
 
 }  // namespace
 
-TriangleMesh solid_of_side(const TriangleMesh& mesh, const SideConfig& config, SideError& error) {
-  const Matrix3 view = view_of(config.side);
+TriangleMesh solid_of_side(const TriangleMesh& mesh, const std::string& side, double wanted_spacing_m,
+                           SideError& error) {
+  const Matrix3 view = view_of(side);
   TriangleMesh seen = mesh;
   seen.positions = mesh.positions * view.transpose();
   const Eigen::RowVector3d low = seen.positions.colwise().minCoeff(), high = seen.positions.colwise().maxCoeff();
   const double longer = (high - low).head<2>().maxCoeff();
-  const double spacing_m = std::max(config.spacing_m, longer / kLargestGrid);
+  const double spacing_m = std::max(wanted_spacing_m, longer / kLargestGrid);
   const HeightField field = highest_points(seen, spacing_m, 0.0);
   std::vector<int> point(field.z.size(), -1);
   int count = 0;
@@ -130,7 +131,7 @@ TriangleMesh solid_of_side(const TriangleMesh& mesh, const SideConfig& config, S
   }
   front.triangles = faces_between(field, point);
   if (front.num_triangles() == 0)
-    throw DataError("nothing wider than {:.3g} mm is seen of the mesh from its side {}", 1e3 * spacing_m, config.side);
+    throw DataError("nothing wider than {:.3g} mm is seen of the mesh from its side {}", 1e3 * spacing_m, side);
   TriangleMesh solid = with_back(front, std::min(low.z(), lowest - kLeastThickness * longer));
   // Not the grid's own points, where it is exact.
   constexpr double kBetween = 0.73;

@@ -8,7 +8,8 @@
 namespace tacipc {
 
 struct SideConfig {
-  std::string side = "-z";  // that presses: +x -x +y -y +z -z of the mesh
+  static constexpr const char* kMostRelief = "most_relief";
+  std::string side = "-z";  // that presses: +x -x +y -y +z -z of the mesh, or kMostRelief (side_survey.h)
   double spacing_m = 5e-5;  // of the grid
 };
 
@@ -19,11 +20,11 @@ struct SideError {
   double max_m = 0.0;
 };
 
-/// The mesh as seen from one side: highest points on a grid, joined where neighbours have one, with walls down to a
+/// The mesh as seen from `side`: highest points on a grid, joined where neighbours have one, with walls down to a
 /// flat back behind the mesh. Always closed (several sheets may meet in one edge); undercuts are filled. Grids beyond
 /// 600 points along the longer side are widened. The error is the distance of visible points, between those of the
 /// grid, to the solid: at most about one spacing beside walls.
 /// \throw DataError if the side shows no area
-TriangleMesh solid_of_side(const TriangleMesh& mesh, const SideConfig& config, SideError& error);
+TriangleMesh solid_of_side(const TriangleMesh& mesh, const std::string& side, double spacing_m, SideError& error);
 
 }  // namespace tacipc
