@@ -131,8 +131,8 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
       return sum;
     };
     constexpr double kEnough = 1e-3;  // codes
-    const auto count = static_cast<double>(linear.pixels.size() / kStride);
-    if (const auto found = solve_increasing(excess, guess, step, kEnough * count)) {
+    const std::size_t count = linear.pixels.size() / kStride;
+    if (const auto found = solve_increasing(excess, guess, step, kEnough * static_cast<double>(count))) {
       guess = *found;
       step = 1e-3;
     }

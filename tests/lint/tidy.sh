@@ -15,7 +15,7 @@ else
       *.cpp) files+=("$file") ;;
       *.h) # one source that shows the header to the compiler: its own, else any that includes it
         own=${file%.h}.cpp
-        if [ -e "$own" ]; then files+=("$own"); else files+=("$(git grep -lF "#include \"$file\"" -- '*.cpp' | head -1)"); fi ;;
+        if [ -e "$own" ]; then files+=("$own"); else files+=("$(git grep -lF "#include \"$file\"" -- '*.cpp' | sed -n 1p)"); fi ;;
     esac
   done
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep . | LC_ALL=C sort -u)

@@ -39,7 +39,7 @@ class Reader {
  private:
   /// What a path in the configuration means, if make and the shell take its name for one word.
   fs::path resolved(ConfigReader& in, const std::string& key, const fs::path& given) {
-    const fs::path path = given.lexically_normal();
+    fs::path path = given.lexically_normal();
     check_name(in, key, path.generic_string(), "/");
     if (!fs::exists(path)) {
       in.fault(key, path.generic_string() + " does not exist");

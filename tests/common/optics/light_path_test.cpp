@@ -155,7 +155,8 @@ TEST(LightSources, NoLightArrivesBelowTheLeastElevation) {
       double least = 1e9;
       for (const LightSample& sample : light_samples(sensor, 16)) {
         for (int i = 0; i < 27; ++i) {
-          const Vector3 share(i % 3 / 2.0, i / 3 % 3 / 2.0, i / 9 / 2.0);
+          const int row = i / 3 % 3, layer = i / 9;
+          const Vector3 share(i % 3 / 2.0, row / 2.0, layer / 2.0);
           const Vector3 w = light_at(low + share.cwiseProduct(high - low), sample).direction;
           least = std::min(least, w.z() * w.z() / w.head<2>().squaredNorm());
         }

@@ -84,7 +84,7 @@ inline void write_flat_png(const std::filesystem::path& path, int width, int hei
 
 /// Writes `root`/out/demo/`name` and the object and gel folders its records speak of. Returns the sample's folder.
 inline std::filesystem::path write_sample(const std::filesystem::path& root, const std::string& name = "star") {
-  const std::filesystem::path sample = root / "out" / "demo" / name;
+  std::filesystem::path sample = root / "out" / "demo" / name;
   write_file(sample / "press/press.yaml", kPressRecord);
   write_file(sample / "press/press.log", "2024-06-07 12:34:56.789 info: frame 1/2: force 0.5 N\n");
   write_poses(sample / "press/object_pose.npy");

@@ -77,7 +77,7 @@ inline void write_sheared_arrays(const std::filesystem::path& press) {
 
 /// As `write_sample`, sheared, with pictures of its last frame and of the end of the press.
 inline std::filesystem::path write_sheared_sample(const std::filesystem::path& root, const std::string& name = "drag") {
-  const std::filesystem::path sample = write_sample(root, name);
+  std::filesystem::path sample = write_sample(root, name);
   write_file(sample / "press/press.yaml", sheared_record());
   write_sheared_arrays(sample / "press");
   for (const char* picture : {"tactile.png", "indentation.png", "normal.png"})

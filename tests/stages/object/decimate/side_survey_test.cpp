@@ -1,6 +1,9 @@
 #include "stages/object/decimate/side_survey.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
+#include <stdexcept>
 
 #include "common/sample/placement.h"
 #include "tests/stages/object/decimate/shapes.h"
