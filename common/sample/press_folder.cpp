@@ -7,12 +7,16 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/stage/record.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
 using enum NpyType;
+
+constexpr const char* kRecord = "press.yaml";
 
 /// "0 reference, 1 approach, …"
 template <typename Names>
@@ -103,10 +107,17 @@ std::span<const NpyField> press_fields() { return all_fields(); }
 
 const NpyField& field_of(PressArray array) { return all_fields()[static_cast<std::size_t>(array)]; }
 
-PressFolder::PressFolder(fs::path folder, Extents known) : folder_(std::move(folder)), known_(std::move(known)) {}
+PressFolder::PressFolder(fs::path folder, Extents known) : folder_(std::move(folder)), known_(std::move(known)) {
+  const fs::path record = folder_ / kRecord;
+  if (!fs::is_regular_file(record)) return;
+  const Record outputs = Record::from_file(record).section("outputs");
+  for (const std::string& name : outputs.keys()) {
+    if (auto hash = outputs.text(name)) vouched_.emplace(name, std::move(*hash));
+  }
+}
 
 PressFolder PressFolder::finished(fs::path folder, Extents known) {
-  if (!fs::exists(folder / "press.yaml"))
+  if (!fs::exists(folder / kRecord))
     throw DataError("{}: has no press.yaml, so the press did not finish", folder.string());
   return PressFolder(std::move(folder), std::move(known));
 }
@@ -115,10 +126,18 @@ bool PressFolder::has(PressArray array) const { return fs::is_regular_file(path(
 
 NpyFrames& PressFolder::open(PressArray array) const {
   if (const auto found = open_.find(array); found != open_.end()) return found->second;
+  refuse_changed(array);
   NpyFrames file(path(array));
   match_shape(field_of(array), file.shape(), path(array).string(), known_);
   refuse_no_frames(array);
   return open_.emplace(array, std::move(file)).first->second;
+}
+
+void PressFolder::refuse_changed(PressArray array) const {
+  const auto vouched = vouched_.find(field_of(array).file);
+  if (vouched == vouched_.end() || !has(array) || !unchanged_.insert(array).second) return;
+  if (content_hash(path(array)) != vouched->second)
+    throw DataError("{}: has changed since press.yaml was written beside it", path(array).string());
 }
 
 void PressFolder::refuse_no_frames(PressArray array) const {
@@ -141,6 +160,7 @@ void PressFolder::require_front(const std::vector<int>& vertices) const {
 }
 
 std::vector<double> PressFolder::whole(PressArray array) const {
+  refuse_changed(array);
   std::vector<double> values = read_field(field_of(array), path(array), known_).data;
   refuse_no_frames(array);
   return values;

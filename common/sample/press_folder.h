@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <map>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -62,7 +63,8 @@ struct MarkerDisplacement {
 
 /// Reads a press folder, of each array only what is asked for. Every reader throws DataError if the file is not there,
 /// its shape is not the declared one or does not fit what is known of the folder, a number that has to be finite is
-/// not, or a code has no meaning. Not for several threads at once.
+/// not, a code has no meaning, or the file is not the one that press.yaml vouches for by its hash. Not for several
+/// threads at once.
 class PressFolder {
  public:
   /// `known`: what symbols of shapes must stand for, where the caller knows it from elsewhere (the gel, the record).
@@ -96,12 +98,15 @@ class PressFolder {
  private:
   NpyFrames& open(PressArray array) const;
   void refuse_no_frames(PressArray array) const;
+  void refuse_changed(PressArray array) const;
   std::vector<double> whole(PressArray array) const;
   std::vector<double> frame_of(PressArray array, std::size_t frame) const;
 
   std::filesystem::path folder_;
   mutable Extents known_;                         // grows with every array that is looked at
   mutable std::map<PressArray, NpyFrames> open_;  // files that are read frame by frame
+  std::map<std::string, std::string> vouched_;    // hashes of the record, as far as there is one
+  mutable std::set<PressArray> unchanged_;        // that were compared with them
 };
 
 /// Writes arrays of a press folder, as outputs of a stage.

@@ -30,13 +30,14 @@ std::string codes_text(const Names& names, int step) {
 }
 
 const std::array<ImageField, 14>& all_fields() {
-  static const std::vector<std::string> kRgb{"R", "G", "B"}, kXyz{"X", "Y", "Z"}, kGrey{"grey"};
+  // Names of EXR channels that OpenCV reads: one Y, or R G B. Of others it makes zeros, or one channel, without a word.
+  static const std::vector<std::string> kRgb{"R", "G", "B"}, kGrey{"grey"};
   static const std::array<ImageField, 14> kFields{{
       {"linear.exr", kRgb, "relative", "radiance before noise transfer, linear sRGB primaries"},
       {"basis_{:02}.exr", kRgb, "relative",
        "radiance of one light group alone in white, where the configuration asks for it"},
-      {"depth.exr", {"Z"}, "m", "from the camera along its axis", kLength},
-      {"normal.exr", kXyz, "1", "outward unit normal of the front, frame S", kDirection},
+      {"depth.exr", {"Y"}, "m", "from the camera along its axis", kLength},
+      {"normal.exr", kRgb, "1", "outward unit normal of the front, frame S: x, y, z in R, G, B", kDirection},
       {"indentation.exr",
        {"Y"},
        "m",
@@ -46,7 +47,8 @@ const std::array<ImageField, 14>& all_fields() {
        {"Y"},
        "m",
        "indentation at each pixel's first hit: for `--shapes` of render, shade and calibrate (mpm alone)"},
-      {"traction.exr", kXyz, "Pa", "normal plus friction force on the gel per deformed area, frame S", kTraction},
+      {"traction.exr", kRgb, "Pa",
+       "normal plus friction force on the gel per deformed area, frame S: x, y, z in R, G, B", kTraction},
       {"tactile.png", kRgb, "code", "after noise transfer: what a user loads"},
       {"marker.png", kRgb, "code", "the same with printed markers, where the sensor has any"},
       {"contact.png", kGrey, "code", fmt::format("{} where the object touches, else 0", kTouches)},

@@ -44,7 +44,7 @@ void deliver(Stage& stage, const std::string& name, const MembraneView& view, co
   FloatImage depth(view.width, view.height, 1);
   for (std::size_t i = 0; i < view.point.size(); ++i)
     depth.pixels[i] = static_cast<float>(view.point[i].z() - sensor.camera.position_m.z());
-  write_exr(stage.output("depth/" + name + ".exr"), depth, {"Z"});
+  write_exr(stage.output("depth/" + name + ".exr"), depth, {"Y"});
 }
 
 void shade_shapes(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,

@@ -27,7 +27,7 @@ BaselineFrame simulate_depth(const Raster& depth_m, const Raster& front_depth_m,
 }
 
 Raster read_depth(const std::filesystem::path& path) {
-  const FloatImage image = read_exr(path, {"Z"});
+  const FloatImage image = read_exr(path, {"Y"});
   Raster depth(image.width, image.height);
   for (std::size_t i = 0; i < depth.values.size(); ++i) depth.values[i] = image.pixels[i];
   return depth;

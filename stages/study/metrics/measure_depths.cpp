@@ -7,7 +7,7 @@
 namespace tacipc {
 namespace {
 
-FloatImage read_depth(const std::filesystem::path& file) { return read_exr(file, {"Z"}); }
+FloatImage read_depth(const std::filesystem::path& file) { return read_exr(file, {"Y"}); }
 
 FloatImage read_depth_like(const std::filesystem::path& file, const FloatImage& rest) {
   FloatImage map = read_depth(file);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/files.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -132,7 +133,31 @@ TEST_F(PressFolderTest, WhatIsWrittenReadsBack) {
   EXPECT_EQ(press.marker_displacements(1).since_press, (Positions{{4, 5, 6}}));
 }
 
+TEST_F(PressFolderTest, AFileOfWhichOneBitIsNotAsRecordedIsRefused) {
+  const auto read_all = [](const PressFolder& press) {
+    for (std::size_t frame = 0; frame < 2; ++frame) {
+      press.positions(frame);
+      press.contact_forces(frame);
+      press.contact_states(frame);
+      press.tractions(frame);
+      press.markers(frame);
+      press.marker_displacements(frame);
+    }
+    press.times(), press.phases(), press.poses(), press.wrenches(), press.front_vertices(), press.first_slips();
+  };
+  EXPECT_NO_THROW(read_all(PressFolder::finished(folder_)));
+  for (const NpyField& field : press_fields()) {
+    const std::string sound = read_file(folder_ / field.file);
+    std::string spoiled = sound;
+    spoiled.back() = static_cast<char>(spoiled.back() ^ 1);
+    write_file(folder_ / field.file, spoiled);
+    EXPECT_EQ(refused(read_all), std::string(field.file) + ": has changed since press.yaml was written beside it");
+    write_file(folder_ / field.file, sound);
+  }
+}
+
 TEST_F(PressFolderTest, FilesThatDoNotFitEachOtherAreRefused) {
+  std::filesystem::remove(folder_ / "press.yaml");  // of another simulator, which vouches for nothing
   const std::vector<double> zeros(100, 0.0);
   write_npy(folder_ / "contact_state.npy", {3, 2}, zeros.data());
   EXPECT_EQ(refused([](const PressFolder& press) {
@@ -151,6 +176,7 @@ TEST_F(PressFolderTest, FilesThatDoNotFitEachOtherAreRefused) {
 }
 
 TEST_F(PressFolderTest, ValuesWithoutMeaningAreRefused) {
+  std::filesystem::remove(folder_ / "press.yaml");
   const std::vector<double> nan(100, std::numeric_limits<double>::quiet_NaN());
   write_npy(folder_ / "markers.npy", {2, 1, 3}, nan.data());
   EXPECT_EQ(refused([](const PressFolder& press) { press.markers(1); }),

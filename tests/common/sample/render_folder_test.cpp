@@ -57,7 +57,7 @@ TEST(RenderFolder, FilesGoIntoTheirFrame) {
     write_marker_px(stage, frame_folder(3), px);
   };
   ASSERT_EQ(run_stage(spec, static_cast<int>(argv.size()), argv.data(), write), 0);
-  EXPECT_EQ(read_exr(frame_path(scratch / "out", 3, FrameFile::depth), {"Z"}).pixels, (std::vector<float>(2, 0.5f)));
+  EXPECT_EQ(read_exr(frame_path(scratch / "out", 3, FrameFile::depth), {"Y"}).pixels, (std::vector<float>(2, 0.5f)));
   // In a dataset numbers are multiples of the field's step: 2^-25 m, 2^-12, 16 Pa; radiance stays.
   const auto packed = [&](FrameFile file) {
     return double{read_exr(frame_path(scratch / "out", 4, file), field_of(file).channels).pixels[0]};

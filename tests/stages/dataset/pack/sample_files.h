@@ -118,8 +118,8 @@ class MadeSample {
       add(at + "tactile.png", [&](const auto& path) { write_png(path, test_picture(f, 3)); });
       add(at + "red/tactile.png", [&](const auto& path) { write_png(path, test_picture(f + 5, 3)); });
       add(at + "indentation.exr", [&](const auto& path) { write_exr(path, test_map(f, 1, 1e-5f), {"Y"}); });
-      add(at + "depth.exr", [&](const auto& path) { write_exr(path, test_map(f, 1, 1e-4f), {"Z"}); });
-      add(at + "normal.exr", [&](const auto& path) { write_exr(path, test_map(f, 3, 0.25f), {"X", "Y", "Z"}); });
+      add(at + "depth.exr", [&](const auto& path) { write_exr(path, test_map(f, 1, 1e-4f), {"Y"}); });
+      add(at + "normal.exr", [&](const auto& path) { write_exr(path, test_map(f, 3, 0.25f), {"R", "G", "B"}); });
       add(at + "contact.png", [&](const auto& path) { write_png(path, levels({0, 255})); });
       add(at + "stick_slip.png", [&](const auto& path) { write_png(path, levels({0, 127, 254})); });
       add(at + "segment.png", [&](const auto& path) { write_png(path, levels({0, 60, 120, 180, 240})); });

@@ -39,9 +39,9 @@ TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
   // The deepest vertex lies on the axis, between rays: 0.4 mm less what the nearest rays and the facets miss.
   const FloatImage indentation = read_exr(scratch_ / "out/frame_0002/indentation.exr", {"Y"});
   EXPECT_NEAR(*std::max_element(indentation.pixels.begin(), indentation.pixels.end()), 0.4e-3, 0.02e-3);
-  const FloatImage rest_normal = read_exr(scratch_ / "out/frame_0000/normal.exr", {"X", "Y", "Z"});
+  const FloatImage rest_normal = read_exr(scratch_ / "out/frame_0000/normal.exr", {"R", "G", "B"});
   EXPECT_FLOAT_EQ(rest_normal.at(5, 5, 2), 1.0f);
-  EXPECT_FLOAT_EQ(read_exr(scratch_ / "out/frame_0000/depth.exr", {"Z"}).at(3, 3, 0), 5e-3f);
+  EXPECT_FLOAT_EQ(read_exr(scratch_ / "out/frame_0000/depth.exr", {"Y"}).at(3, 3, 0), 5e-3f);
   // The mean of the reference is the level asked for, up to rounding and the noise of 2304 values.
   const ByteImage reference = read_png(scratch_ / "out/frame_0000/tactile.png", 3);
   double sum = 0.0;
@@ -67,7 +67,7 @@ TEST_F(RenderStage, WritesTheMapsThatADatasetWantsInItsPrecision) {
       most = std::max(most, std::abs(double{here.pixels[i]} - exact.pixels[i]));
     return most;
   };
-  const double length = largest_change("indentation.exr", {"Y"}), part = largest_change("normal.exr", {"X", "Y", "Z"});
+  const double length = largest_change("indentation.exr", {"Y"}), part = largest_change("normal.exr", {"R", "G", "B"});
   EXPECT_LE(length, std::ldexp(0.5, -25));
   EXPECT_GT(length, std::ldexp(0.2, -25));
   EXPECT_LE(part, std::ldexp(1.0, -11));  // a half just below 1
@@ -212,7 +212,7 @@ TEST_F(RenderOutputs, ContactTractionAndMarkersHaveTheirImages) {
   EXPECT_EQ(segment.at(2, 2, 0), 60);
   EXPECT_EQ(segment.at(16, 12, 0), 240);  // a marker in contact
   EXPECT_EQ(segment.at(13, 9, 0), 120);
-  const FloatImage traction = read_exr(frame / "traction.exr", {"X", "Y", "Z"});
+  const FloatImage traction = read_exr(frame / "traction.exr", {"R", "G", "B"});
   // −1 mN on each vertex of 0.25 × 0.25 mm: 16 kPa where the gel is level enough.
   EXPECT_NEAR(traction.at(16, 12, 2), -16e3, 1.5e3);
   EXPECT_NEAR(traction.at(16, 12, 0) / traction.at(16, 12, 2), -0.2, 1e-5);

@@ -73,7 +73,7 @@ TEST_F(MpmProgram, WritesWhatPressAndBaselineDo) {
   EXPECT_GT(at(4, 1, 0), 0.04e-3);
   const FloatImage rest = read_exr(scratch_ / "out/frame_0000/indentation.exr", {"Y"}),
                    pressed = read_exr(scratch_ / "out/frame_0002/indentation.exr", {"Y"}),
-                   depth = read_exr(scratch_ / "out/frame_0002/depth.exr", {"Z"});
+                   depth = read_exr(scratch_ / "out/frame_0002/depth.exr", {"Y"});
   EXPECT_EQ(rest.width, 32);
   EXPECT_EQ(rest.at(16, 12, 0), 0.0f);
   EXPECT_GT(pressed.at(16, 12, 0), 0.1e-3f);

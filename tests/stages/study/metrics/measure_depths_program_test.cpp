@@ -23,7 +23,7 @@ class DepthMetrics : public ProgramTest {
     for (int y = 0; y < 24; ++y)
       for (int x = 0; x < width; ++x) map.at(x, y, 0) = 12e-3f - (x < 8 ? press : 0.0f);
     std::filesystem::create_directories((scratch_ / name).parent_path());
-    write_exr(scratch_ / name, map, {"Z"});
+    write_exr(scratch_ / name, map, {"Y"});
   }
   int run(const std::string& images, const std::string& references) {
     return run_command(
