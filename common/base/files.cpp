@@ -48,7 +48,11 @@ std::string file_hash(const std::filesystem::path& path) {
 }  // namespace
 
 void for_each_part(const std::filesystem::path& path, const std::function<void(std::string_view)>& use) {
-  if (std::filesystem::is_directory(path)) throw DataError("{}: is a folder, expected a file", path.string());
+  const std::filesystem::file_status status = std::filesystem::status(path);
+  if (std::filesystem::is_directory(status)) throw DataError("{}: is a folder, expected a file", path.string());
+  // Every input is read twice, once for its hash. The second time a pipe is empty; a device may never end.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw DataError("{}: is a pipe or a device, expected a file", path.string());
   const File file(std::fopen(path.c_str(), "rb"));
   if (!file) throw DataError("{}: cannot be read: {}", path.string(), std::strerror(errno));
   char buffer[1 << 16];

@@ -51,12 +51,20 @@ NamedPath split_named_path(const std::string& text) {
   return {.name = text.substr(0, at), .path = text.substr(at + 1)};
 }
 
+/// What is wrong with the path of an input, empty if nothing is.
+std::string fault_of_path(std::string& path) {
+  std::string fault = CLI::ExistingPath(path);
+  if (fault.empty() && !fs::is_regular_file(path) && !fs::is_directory(path))
+    fault = fmt::format("{} is a pipe or a device, expected a file or folder", path);
+  return fault;
+}
+
 /// What is wrong with a NAME=PATH, empty if nothing is.
 std::string fault_of_named_path(const std::string& text) {
   const auto [name, path] = split_named_path(text);
   if (name.empty()) return fmt::format("'{}' is not NAME=PATH", text);
   std::string given = path.string();
-  return CLI::ExistingPath(given);
+  return fault_of_path(given);
 }
 
 /// Behind the flags on a stage's manual page.
@@ -82,7 +90,8 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
   for (const InputSpec& input : spec.inputs) {
     CLI::Option* option = input.named
                               ? app.add_option(input.flag, named[input.flag], input.help)->check(fault_of_named_path)
-                              : app.add_option(input.flag, inputs[input.flag], input.help)->check(CLI::ExistingPath);
+                              : app.add_option(input.flag, inputs[input.flag], input.help)
+                                    ->check(CLI::Validator(fault_of_path, "PATH(existing)"));
     option->required(input.required)
         ->expected(1, input.many ? 1 << 20 : 1)
         ->type_name(input.named ? "NAME=PATH" : "PATH");

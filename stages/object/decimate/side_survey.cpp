@@ -72,6 +72,8 @@ SideView look_at(const TriangleMesh& mesh, const std::string& side, const std::a
   const double spacing_m = std::max(extent.head<2>().maxCoeff() / kGrid, 1e-9);
   const HeightField field = highest_points(seen, spacing_m, 0.0);
   if (*std::max_element(field.z.begin(), field.z.end()) == HeightField::kNothing) return view;
+  const auto shown = std::count_if(field.z.begin(), field.z.end(), [](double z) { return z != HeightField::kNothing; });
+  view.shown_m2 = static_cast<double>(shown) * spacing_m * spacing_m;
   const ReliefSums sums(field);
   const int wide = std::min(field.columns, static_cast<int>(std::lround(window_m[0] / spacing_m)));
   const int high = std::min(field.rows, static_cast<int>(std::lround(window_m[1] / spacing_m)));
@@ -124,6 +126,11 @@ SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, co
   survey.given = index_of(wanted) < survey.views.size();
   survey.pressed = index_of(survey.given ? wanted : window.usual);
   if (survey.given) return survey;
+  const auto widest = std::max_element(survey.views.begin(), survey.views.end(),
+                                       [](const SideView& a, const SideView& b) { return a.shown_m2 < b.shown_m2; });
+  constexpr double kThin = 0.05;  // a side that shows less is an edge
+  if (survey.side().shown_m2 < kThin * widest->shown_m2)
+    survey.pressed = static_cast<std::size_t>(widest - survey.views.begin());
   constexpr double kBetter = 1.25;
   double least_wanted = kBetter * survey.side().relief_m;
   for (std::size_t i = 0; i < survey.views.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "common/stage/stage.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -69,6 +70,18 @@ TEST_F(StageTest, WrongFlagsAndConfigurationsEndWithTwo) {
   EXPECT_EQ(run([](Stage&) {}, {"--depth", "3"}), 2);
   EXPECT_EQ(run([](Stage&) { throw ConfigError({"a.yaml:1:1: x: missing"}); }), 2);
   EXPECT_EQ(said_, "a.yaml:1:1: x: missing\n");
+}
+
+TEST_F(StageTest, APipeAsInputIsRefusedInsteadOfWaitedFor) {
+  const fs::path pipe = root_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  spec_.inputs.push_back({.flag = "--other", .help = "too", .required = false});
+  EXPECT_EQ(run([](Stage&) {}, {"--other", pipe.string()}), 2);
+  EXPECT_THAT(said_, ::testing::HasSubstr(pipe.string() + " is a pipe or a device, expected a file or folder"));
+  EXPECT_EQ(message_of<DataError>([&] { read_file(pipe); }),
+            pipe.string() + ": is a pipe or a device, expected a file");
+  EXPECT_EQ(message_of<DataError>([&] { content_hash("/dev/zero"); }),
+            "/dev/zero: is a pipe or a device, expected a file");
 }
 
 TEST_F(StageTest, NamedPathsKeepTheirNamesAndOrder) {

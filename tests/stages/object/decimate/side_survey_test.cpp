@@ -88,6 +88,7 @@ TEST(SideSurvey, ASheetSeenFromItsEdgeHasNoRelief) {
   const SideSurvey survey = survey_sides(upright, kWindow, "-z");
   EXPECT_EQ(survey.side().relief_m, 0.0);
   EXPECT_EQ(survey.side().height.width, 0);
+  EXPECT_EQ(survey_sides(upright, kWindow, "").side().side, "+y") << "the first that shows the sheet";
   EXPECT_EQ(picture_of_sides(survey).width, 600);
 }
 
