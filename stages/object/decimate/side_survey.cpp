@@ -50,6 +50,23 @@ class ReliefSums {
   std::vector<double> sums_;
 };
 
+/// Share of the outline's points that lie in the upper fifth of what a press reaches.
+double rim_touching(const HeightField& field) {
+  const double highest = *std::max_element(field.z.begin(), field.z.end());
+  const auto there = [&](int i, int j) {
+    return i >= 0 && j >= 0 && i < field.columns && j < field.rows && field.at(i, j) != HeightField::kNothing;
+  };
+  int rim = 0, touching = 0;
+  for (int j = 0; j < field.rows; ++j) {
+    for (int i = 0; i < field.columns; ++i) {
+      if (!there(i, j) || (there(i - 1, j) && there(i + 1, j) && there(i, j - 1) && there(i, j + 1))) continue;
+      ++rim;
+      touching += field.at(i, j) > highest - 0.2 * SideSurvey::kPressDepth ? 1 : 0;
+    }
+  }
+  return rim > 0 ? static_cast<double>(touching) / rim : 0.0;
+}
+
 FloatImage height_image(const HeightField& field) {
   FloatImage image(field.columns, field.rows, 1, std::numeric_limits<float>::quiet_NaN());
   const double highest = *std::max_element(field.z.begin(), field.z.end());
@@ -74,6 +91,7 @@ SideView look_at(const TriangleMesh& mesh, const std::string& side, const std::a
   if (*std::max_element(field.z.begin(), field.z.end()) == HeightField::kNothing) return view;
   const auto shown = std::count_if(field.z.begin(), field.z.end(), [](double z) { return z != HeightField::kNothing; });
   view.shown_m2 = static_cast<double>(shown) * spacing_m * spacing_m;
+  view.rim_touching = rim_touching(field);
   const ReliefSums sums(field);
   const int wide = std::min(field.columns, static_cast<int>(std::lround(window_m[0] / spacing_m)));
   const int high = std::min(field.rows, static_cast<int>(std::lround(window_m[1] / spacing_m)));
@@ -128,14 +146,21 @@ SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, co
   if (survey.given) return survey;
   const auto widest = std::max_element(survey.views.begin(), survey.views.end(),
                                        [](const SideView& a, const SideView& b) { return a.shown_m2 < b.shown_m2; });
-  constexpr double kThin = 0.05;  // a side that shows less is an edge
-  if (survey.side().shown_m2 < kThin * widest->shown_m2)
+  constexpr double kEdge = 0.05;  // a side that shows less is an edge
+  if (survey.side().shown_m2 < kEdge * widest->shown_m2)
     survey.pressed = static_cast<std::size_t>(widest - survey.views.begin());
+  // Something that stands out of a side is meant to be pressed, rather than the base below or a socket in it.
+  constexpr double kStandsOut = 1e-3, kBroad = 0.2;
+  const auto has_tip = [&](const SideView& view) {
+    return view.rim_touching < 0.5 && view.relief_m > kStandsOut && view.shown_m2 > kBroad * widest->shown_m2;
+  };
+  const bool some_tip = std::any_of(survey.views.begin(), survey.views.end(), has_tip);
   constexpr double kBetter = 1.25;
-  double least_wanted = kBetter * survey.side().relief_m;
+  double least_wanted = some_tip && !has_tip(survey.side()) ? 0.0 : kBetter * survey.side().relief_m;
   for (std::size_t i = 0; i < survey.views.size(); ++i) {
-    if (survey.views[i].relief_m <= least_wanted) continue;
-    least_wanted = survey.views[i].relief_m;
+    const SideView& view = survey.views[i];
+    if (view.relief_m <= least_wanted || (some_tip && !has_tip(view))) continue;
+    least_wanted = view.relief_m;
     survey.pressed = i;
   }
   return survey;

@@ -23,6 +23,7 @@ struct SideView {
   double centered_relief_m = 0.0;    // of the window in the middle of the bounding box
   std::array<double, 2> place_m{};   // the best window's middle, from that of the bounding box
   double shown_m2 = 0.0;             // area of the object as seen
+  double rim_touching = 0.0;         // share of its outline that touches first: 1 for a base, 0 for a tip on one
   std::array<double, 2> extent_m{};  // of the bounding box
   FloatImage height = {};            // m above what lies kPressDepth below the highest point; NaN: nothing there
 };
@@ -45,7 +46,8 @@ struct SideSurvey {
 ///   R = (1/d) ∫ |∇ max(0, z − z_max + d)| dA,  d = kPressDepth,
 /// outlines against nothing left out: 0 on a flat face, a circle's length on a stamped disc. The place is where R is
 /// greatest, but the middle unless that is a tenth better. `pressed` is `wanted` if it names a side, else that of most
-/// relief, but the usual one unless that is a quarter better or shows twenty times its area.
+/// relief, but the usual one unless that is a quarter better or shows twenty times its area. Sides that something
+/// stands out of (over 1 mm of relief, an outline that does not touch, a fifth of the greatest area) come before others.
 SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, const std::string& wanted);
 
 /// Six pictures side by side in two rows, the pressed side's framed, its window drawn: ±x above, y, z beside them.

@@ -65,6 +65,22 @@ TEST(SideSurvey, FindsThePlaceWithReliefAsThePressWillPlaceIt) {
   EXPECT_GT(survey.side().relief_m, 1.1 * survey.side().centered_relief_m);
 }
 
+TEST(SideSurvey, ATipIsPressedRatherThanTheSocketBelow) {
+  // As printed indenters are: a pin on top, a square hole in the bottom with five times the pin's contour.
+  TriangleMesh mesh = stamped(9, 11);
+  for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v) {
+    const Eigen::RowVector3d p = 1e3 * mesh.positions.row(v);
+    const auto within = [](double at) { return at > 3.9 && at < 16.1; };
+    if (p.y() < 0.1 && within(p.x()) && within(p.z())) mesh.positions(v, 1) += 5e-3;
+    if (p.y() > 20.1) mesh.positions(v, 1) += 2e-3;
+  }
+  const SideSurvey survey = survey_sides(mesh, {.size_m = kWindow.size_m, .usual = "-y"}, "");
+  EXPECT_GT(view_of(survey, "-y").relief_m, 2.0 * view_of(survey, "+y").relief_m);
+  EXPECT_GT(view_of(survey, "-y").rim_touching, 0.9);
+  EXPECT_LT(view_of(survey, "+y").rim_touching, 0.1);
+  EXPECT_EQ(survey.side().side, "+y");
+}
+
 TEST(SideSurvey, KeepsTheUsualSideUnlessAnotherIsBetter) {
   EXPECT_EQ(survey_sides(sphere(5e-3, 4), kWindow, "").side().side, "-z");
   EXPECT_EQ(survey_sides(sphere(5e-3, 4), {.size_m = kWindow.size_m, .usual = "+x"}, "").side().side, "+x");
