@@ -47,7 +47,8 @@ struct SideSurvey {
 /// outlines against nothing left out: 0 on a flat face, a circle's length on a stamped disc. The place is where R is
 /// greatest, but the middle unless that is a tenth better. `pressed` is `wanted` if it names a side, else that of most
 /// relief, but the usual one unless that is a quarter better or shows twenty times its area. Sides that something
-/// stands out of (over 1 mm of relief, an outline that does not touch, a fifth of the greatest area) come before others.
+/// stands out of (over 1 mm of relief, an outline that does not touch, a fifth of the greatest area) come before
+/// others.
 SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, const std::string& wanted);
 
 /// Six pictures side by side in two rows, the pressed side's framed, its window drawn: ±x above, y, z beside them.
