@@ -14,17 +14,20 @@ DIRECTION ?= 0#               where to: degrees from x (image right) towards y (
 TWIST_DEG ?= 10#              how far it is turned about z
 TILT_DEG  ?= 5#               how far it is tilted
 MOVE_STEPS ?= 20#             frames of each motion after the press
-UNIT     ?= mm#               of the object's file: m, cm, mm, um, in
+UNIT     ?= auto#             of the object's file: m, cm, mm, um, in (default: as its format or name says, part_cm.stl, else mm)
+SCALE    ?= 1#                of the object; fit: the side that presses fills nine tenths of the sensor's window
+SHEET_MM ?=#                  thickness of a plate made of each open surface (default: one side of it is pressed)
 UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
 FACE     ?=#                  side that presses (default: opposite of UP, else that of most relief in the window)
 ROTATE   ?= 0#                degrees about the sensor's z axis
 CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands (default: most relief in the middle, if no side is named)
+TURNS    ?= 0 90#             gallery: degrees about the sensor's z axis that each side is pressed at: 0 90 180 270
 NAME     ?= $(basename $(notdir $(OBJECT)))# of the sample
-SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UNIT UP FACE ROTATE CENTER NAME
+SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UNIT SCALE SHEET_MM UP FACE ROTATE CENTER TURNS NAME
 given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# on the command line
 $(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 
-.PHONY: sample track
+.PHONY: sample track gallery
 ifdef OBJECT
 $(call check_name,OBJECT)
 $(call check_name,NAME)
@@ -95,6 +98,7 @@ $(if $(moves),  - $(press_phase)$(foreach m,$(moves),$(newline)  - $($(m)_phase)
 endef
 define object_yaml
 unit: $(UNIT)
+scale: $(SCALE)
 $(if $(UP),up: "$(UP)")
 endef
 # Which files a motion follows; what is wrong with them or with FRICTION is said before anything is made.
@@ -117,7 +121,7 @@ $(SAMPLE)/choice.txt: FORCE
 # Which side presses: that of most relief in the sensor's window, unless a variable or the motion's file says one. A mesh
 # that no repair closes is pressed as what that side shows.
 $(SAMPLE)/decimate_config.yaml: configs/objects/decimate/default.yaml $(motion_file) FORCE | build
-	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+height_field.side=$(if $(choose_side),most_relief,$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)"),$(side_given)))")
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+height_field.side=$(if $(choose_side),most_relief,$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)"),$(side_given)))" $(if $(SHEET_MM),"+doctor.sheet_thickness_mm=$(SHEET_MM)"))
 $(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt $(SAMPLE)/decimate_config.yaml configs/sensors/$(SENSOR).yaml | build
 	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config $(SAMPLE)/decimate_config.yaml --sensor configs/sensors/$(SENSOR).yaml)
 ifdef choose_side
@@ -140,7 +144,28 @@ track: $(SAMPLE)/track/track.yaml ## own: Printed markers of a sample measured i
 
 sample: $(SAMPLE)/report/report.yaml ## own: One object of your own: OBJECT=path.stl [MOTION=shear|twist|release|…; see pipelines/sample/sample.mk]
 	$(call look,$(SAMPLE))
+
+# The gallery: each of the six sides at its place of most relief, in quarter turns.
+ifneq ($(filter gallery,$(MAKECMDGOALS)),)
+ifndef choose_side
+  $(error gallery: presses all sides; leave out FACE, UP and a motion's file)
+endif
+ifneq ($(filter-out 0 90 180 270,$(TURNS)),)
+  $(error TURNS: '$(TURNS)' must be some of 0 90 180 270)
+endif
+endif
+GALLERY_SIDES := +x -x +y -y +z -z# in the order of the record
+GALLERY_POSES := $(foreach s,$(GALLERY_SIDES),$(foreach t,$(TURNS),$(s)_$(t)))
+$(SAMPLE)/gallery/%/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
+	$(call replace_if_changed_by,bash pipelines/sample/pose.sh $(BIN)/tacipc $^ $(subst _, ,$*))
+$(foreach p,$(if $(choose_side),$(GALLERY_POSES)),$(eval $(call sample_rules,$(SAMPLE)/gallery/$(p),$(NAME)_$(p),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(SAMPLE)/gallery/$(p)/sample.yaml,$(press_config),$(SAMPLE)/choice.txt)))
+$(eval $(call report_rules,$(SAMPLE)/gallery,$(NAME) from all sides,$(addprefix $(SAMPLE)/gallery/,$(GALLERY_POSES))))
+
+gallery: $(SAMPLE)/gallery/report/report.yaml ## own: One sheet of all sides of an object: OBJECT=path.stl [TURNS="0 90 180 270"; as of sample]
+	$(call look,$(SAMPLE)/gallery)
 else
+gallery:
+	@echo "gallery: say which object: make -f Makefile.data gallery OBJECT=path.stl" >&2; exit 2
 track:
 	@echo "track: say which object: make -f Makefile.data track OBJECT=path.stl" >&2; exit 2
 sample:

@@ -119,6 +119,7 @@ DecimateReport read_decimate(const Record& record) {
       {"filled_holes", "holes filled"},
       {"hole_faces", "faces added in holes"},
       {"debris_components", "loose bits removed"},
+      {"thickened_sheets", "open parts made plates"},
       {"flat_components", "parts without volume removed"},
       {"hidden_components", "hidden parts removed"}};
   constexpr std::pair<const char*, const char*> kLeft[] = {{"overlapping_components", "parts that overlap"},
@@ -144,6 +145,8 @@ void read_sides(const fs::path& folder, const Record& sides, SampleReport& sampl
   const auto window = sides.numbers("window_mm", 2);
   if (!window) return;
   const std::string size = fmt::format("{:.3g} × {:.3g} mm", (*window)[0], (*window)[1]);
+  if (const std::string hint = sides.text("size_hint").value_or(""); !hint.empty())
+    sample.warnings.push_back("The object is " + hint + ".");
   if (sides.flag("uniform").value_or(false)) {
     sample.warnings.push_back(
         fmt::format("The image is uniform: the side that presses is flat and fills the sensor's window of {}.", size));
@@ -165,8 +168,11 @@ void read_object(const fs::path& press_folder, const Record& press, SampleReport
   const Record record = Record::from_file(record_path);
   if (const auto scan = record.section("inputs").section("mesh").text("path")) sample.object = object_name(*scan);
   sample.decimate = read_decimate(record);
-  read_sides(record_path.parent_path(), record.section("summary").section("sides"), sample);
-  const Record repairs = record.section("summary").section("repairs");
+  const Record summary = record.section("summary");
+  if (const double scale = summary.number("scale").value_or(1.0); scale != 1.0)
+    sample.warnings.push_back(fmt::format("The object is scaled by {:.4g}.", scale));
+  read_sides(record_path.parent_path(), summary.section("sides"), sample);
+  const Record repairs = summary.section("repairs");
   if (!repairs.has("height_field")) return;
   const Record taken = repairs.section("height_field");
   sample.warnings.push_back(fmt::format(

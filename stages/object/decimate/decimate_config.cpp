@@ -24,6 +24,8 @@ DecimateConfig DecimateConfig::read(ConfigReader& in) {
       doctor.number_or("debris_area_fraction", config.doctor.debris_area_fraction, Range::between(0.0, 0.5));
   config.doctor.refuse_self_intersections =
       doctor.flag_or("refuse_self_intersections", config.doctor.refuse_self_intersections);
+  if (const auto thickness = doctor.optional_number("sheet_thickness_mm", Range::between(1e-3, 100.0)))
+    config.doctor.sheet_thickness_m = 1e-3 * *thickness;
   if (config.doctor.min_extent_m >= config.doctor.max_extent_m)
     doctor.fault("max_extent_mm", "must be larger than min_extent_mm");
 

@@ -1,6 +1,7 @@
 #include "stages/object/decimate/decimate_object.h"
 
 #include "common/base/log.h"
+#include "stages/object/decimate/object_file.h"
 #include "stages/object/decimate/surface_topology.h"
 
 namespace tacipc {
@@ -17,6 +18,7 @@ Value::Map repairs(const DoctorReport& report) {
                    {"filled_holes", report.filled_holes},
                    {"hole_faces", report.hole_faces},
                    {"debris_components", report.debris_components},
+                   {"thickened_sheets", report.thickened_sheets},
                    {"flat_components", report.flat_components},
                    {"hidden_components", report.hidden_components}};
   if (const auto& taken = report.height_field) {
@@ -34,27 +36,44 @@ std::vector<double> extents_mm(const TriangleMesh& mesh) {
   return {1e3 * extents[0], 1e3 * extents[1], 1e3 * extents[2]};
 }
 
+/// Where on the gel the middle of the bounding box must be for the best window to lie in the sensor's.
+std::vector<double> center_mm(const SideView& view) {
+  return {0.0 - 1e3 * view.place_m[0], 0.0 - 1e3 * view.place_m[1]};
+}
+
 /// What of it matters to a press: which side, where on the gel (the sample file's `center_mm`), and what is odd about
 /// it.
-Value::Map sides_of(const SideSurvey& survey) {
+Value::Map sides_of(const SideSurvey& survey, const std::string& hint) {
   Value::List views;
   for (const SideView& view : survey.views) {
     views.emplace_back(Value::Map{{"side", view.side},
                                   {"relief_mm", 1e3 * view.relief_m},
+                                  {"center_mm", center_mm(view)},
                                   {"extent_mm", std::vector<double>{1e3 * view.extent_m[0], 1e3 * view.extent_m[1]}}});
   }
-  const auto& place = survey.side().place_m;
   return {{"pressed", survey.side().side},
           {"given", survey.given},
-          {"center_mm", std::vector<double>{0.0 - 1e3 * place[0], 0.0 - 1e3 * place[1]}},
+          {"center_mm", center_mm(survey.side())},
           {"window_mm", std::vector<double>{1e3 * survey.window_m[0], 1e3 * survey.window_m[1]}},
           {"wider_than_window", survey.wider_than_window()},
           {"uniform", survey.uniform()},
+          {"size_hint", hint},
           {"views", std::move(views)}};
 }
 
-void say(const SideSurvey& survey) {
+/// Why the unit may be wrong: the object is far from the window's size, and another unit would make it about as large.
+std::string size_hint(const SideSurvey& survey, double extent_m, const std::string& unit) {
+  constexpr double kFar = 5.0;
+  const double window_m = std::max(survey.window_m[0], survey.window_m[1]);
+  const std::string fitting = units_that_fit(extent_m, unit, window_m);
+  if (fitting.empty() || (extent_m < kFar * window_m && kFar * extent_m > window_m)) return "";
+  return fmt::format("{:.3g} mm wide, the sensor's window {:.3g} mm: is the unit right?{}", 1e3 * extent_m,
+                     1e3 * window_m, fitting);
+}
+
+void say(const SideSurvey& survey, const std::string& hint) {
   const SideView& side = survey.side();
+  if (!hint.empty()) log_warning("the object is {}", hint);
   log_info("its side {} shows {:.3g} mm of relief in the sensor's window{}", side.side, 1e3 * side.relief_m,
            survey.given ? "" : ", and is pressed");
   if (survey.uniform()) {
@@ -117,8 +136,9 @@ DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& 
                                                             : "";
     SideSurvey survey = survey_sides(mesh, *config.doctor.window, wanted);
     survey.given = survey.given && config.doctor.height_field->side != SideConfig::kMostRelief;
-    say(survey);
-    object.summary.emplace_back("sides", sides_of(survey));
+    const std::string hint = size_hint(survey, largest_extent(mesh), config.doctor.unit);
+    say(survey, hint);
+    object.summary.emplace_back("sides", sides_of(survey, hint));
     object.sides = picture_of_sides(survey);
   }
   object.mesh = std::move(mesh);

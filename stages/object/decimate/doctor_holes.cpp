@@ -89,7 +89,9 @@ void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& repo
     }
     const std::string hole =
         fmt::format("boundary loop of {} edges, length {:.4g} mm near {}", loop.size(), 1e3 * length, place_mm(middle));
-    if (std::ssize(loop) > limits.max_edges || length > limits.max_length_m)
+    const bool too_large = std::ssize(loop) > limits.max_edges || length > limits.max_length_m;
+    if (too_large && limits.leave_larger) continue;
+    if (too_large)
       throw DataError("open mesh: {} (holes of at most {} edges and {:.4g} mm are filled)", hole, limits.max_edges,
                       1e3 * limits.max_length_m);
     const auto faces = least_area_triangulation(mesh, loop, edges);
@@ -102,6 +104,50 @@ void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& repo
   for (std::size_t i = 0; i < patch.size(); ++i)
     mesh.triangles.row(before + static_cast<Eigen::Index>(i)) << patch[i][0], patch[i][1], patch[i][2];
   report.hole_faces += std::ssize(patch);
+}
+
+void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& report) {
+  const std::vector<int> opposite = opposite_half_edges(mesh);
+  const Components components = connected_components(mesh.triangles, opposite);
+  std::vector<char> open(static_cast<std::size_t>(components.count), 0);
+  for (std::size_t h = 0; h < opposite.size(); ++h)
+    if (opposite[h] == kOpen) open[components.of_face[h / 3]] = 1;
+  report.thickened_sheets = std::count(open.begin(), open.end(), 1);
+  if (report.thickened_sheets == 0) return;
+
+  Positions normals = Positions::Zero(mesh.num_vertices(), 3);
+  std::vector<Eigen::Index> behind(static_cast<std::size_t>(mesh.num_vertices()), 0);
+  const auto is_open = [&](int f) { return open[components.of_face[f]] != 0; };
+  const int num_faces = static_cast<int>(mesh.num_triangles());
+  for (int f = 0; f < num_faces; ++f)
+    for (int k = 0; is_open(f) && k < 3; ++k)
+      normals.row(mesh.triangles(f, k)) += area_vector(mesh, f).transpose(), behind[mesh.triangles(f, k)] = 1;
+  Eigen::Index count = mesh.num_vertices();
+  for (Eigen::Index& vertex : behind) vertex = vertex != 0 ? count++ : -1;
+  const Eigen::Index in_front = mesh.num_vertices();
+  mesh.positions.conservativeResize(count, 3);
+  for (Eigen::Index v = 0; v < in_front; ++v) {
+    if (behind[v] < 0) continue;
+    const Eigen::RowVector3d half = 0.5 * thickness_m * normals.row(v).normalized();
+    mesh.positions.row(behind[v]) = mesh.positions.row(v) - half;
+    mesh.positions.row(v) += half;
+  }
+  std::vector<std::array<Eigen::Index, 3>> added;
+  for (int f = 0; f < num_faces; ++f) {
+    if (!is_open(f)) continue;
+    const auto corner_behind = [&](int k) { return behind[mesh.triangles(f, k)]; };
+    added.push_back({corner_behind(0), corner_behind(2), corner_behind(1)});
+    for (int k = 0; k < 3; ++k) {
+      if (opposite[3 * f + k] != kOpen) continue;
+      const int from = mesh.triangles(f, k), to = mesh.triangles(f, (k + 1) % 3);
+      added.push_back({to, from, behind[from]});
+      added.push_back({to, behind[from], behind[to]});
+    }
+  }
+  mesh.triangles.conservativeResize(num_faces + std::ssize(added), 3);
+  for (std::size_t i = 0; i < added.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      mesh.triangles(num_faces + static_cast<Eigen::Index>(i), k) = static_cast<int>(added[i][k]);
 }
 
 }  // namespace tacipc

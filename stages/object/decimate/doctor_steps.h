@@ -36,10 +36,15 @@ void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorRepo
 struct HoleLimits {
   int max_edges;
   double max_length_m;
+  bool leave_larger = false;  // instead of refusing them
 };
 /// Closes each boundary loop by the triangulation of least area without new vertices.
 /// \throw DataError `open mesh: …` for loops beyond the limits.
 void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& report);
+
+/// Makes a plate of each part that is open: its faces half the thickness outwards, a copy of them, turned over, half of
+/// it inwards, and walls along its edge.
+void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& report);
 
 /// Removes closed parts that enclose no volume. \throw DataError if there is no other part.
 void remove_flat_parts(TriangleMesh& mesh, DoctorReport& report);

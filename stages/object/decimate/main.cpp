@@ -1,9 +1,11 @@
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/image/image.h"
 #include "common/sample/object.h"
 #include "common/sensor/sensor.h"
 #include "common/stage/stage.h"
 #include "stages/object/decimate/decimate_object.h"
+#include "stages/object/decimate/object_file.h"
 
 namespace {
 
@@ -11,8 +13,8 @@ const tacipc::StageSpec kDecimate{
     .name = "decimate",
     .summary = "Repair a scanned object and simplify it to a mesh the simulation can afford.",
     .inputs = {{.flag = "--config", .help = "decimation settings (YAML)"},
-               {.flag = "--mesh", .help = "surface of the object (STL, OBJ, OFF, PLY)"},
-               {.flag = "--object", .help = "unit and orientation of that mesh (YAML)"},
+               {.flag = "--mesh", .help = "surface of the object (STL, OBJ, OFF, PLY, glTF, 3MF)"},
+               {.flag = "--object", .help = "unit, scale and orientation of that mesh (YAML)"},
                {.flag = "--sensor",
                 .help = "who will see it (YAML): its window decides which side shows most",
                 .required = false}}};
@@ -31,9 +33,21 @@ int main(int argc, char** argv) {
     } else if (config.doctor.height_field && config.doctor.height_field->side == tacipc::SideConfig::kMostRelief) {
       throw tacipc::UsageError("height_field.side: most_relief needs --sensor, whose window decides");
     }
-    const tacipc::TriangleMesh scan =
-        tacipc::read_triangle_mesh(stage.input("--mesh"), tacipc::metres_per_unit(spec.unit));
-    const tacipc::DecimatedObject object = tacipc::decimate_object(scan, config);
+    if (spec.fit_window && !config.doctor.window)
+      throw tacipc::UsageError("scale: fit needs --sensor, whose window is to be filled");
+    tacipc::ObjectFile file = tacipc::read_object_file(stage.input("--mesh"), spec);
+    config.doctor.unit = file.unit;
+    tacipc::log_info("lengths are in {} ({})", file.unit, file.unit_from);
+    double scale = spec.scale;
+    if (spec.fit_window) {
+      const auto& side = config.doctor.height_field;
+      scale = tacipc::scale_to_window(file.mesh, *config.doctor.window, side ? side->side : "");
+      file.mesh.positions *= scale;
+      tacipc::log_info("scaled by {:.4g} to fit the sensor's window", scale);
+    }
+    tacipc::DecimatedObject object = tacipc::decimate_object(file.mesh, config);
+    object.summary.insert(object.summary.begin(),
+                          {{"unit", file.unit}, {"unit_from", file.unit_from}, {"scale", scale}});
     tacipc::write_ply(stage.output("object.ply"), object.mesh);
     if (object.sides) tacipc::write_png(stage.output("sides.png"), *object.sides);
     stage.summarize(object.summary);

@@ -5,15 +5,20 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "stages/object/decimate/doctor_steps.h"
+#include "stages/object/decimate/object_file.h"
 
 namespace tacipc {
 namespace {
 
+/// Of what people press into a gel, m.
+constexpr double kUsualExtent = 0.02;
+
 void check_extent(const TriangleMesh& mesh, const DoctorConfig& config) {
   const double extent = largest_extent(mesh);
   if (extent < config.min_extent_m || extent > config.max_extent_m)
-    throw DataError("the mesh is {:.4g} mm wide, expected {:.4g} mm to {:.4g} mm; is the unit right?", 1e3 * extent,
-                    1e3 * config.min_extent_m, 1e3 * config.max_extent_m);
+    throw DataError("the mesh is {:.4g} mm wide, expected {:.4g} mm to {:.4g} mm; is the unit right?{}", 1e3 * extent,
+                    1e3 * config.min_extent_m, 1e3 * config.max_extent_m,
+                    units_that_fit(extent, config.unit, kUsualExtent));
 }
 
 void say(std::int64_t count, const char* what) {
@@ -30,6 +35,7 @@ void log_repairs(const DoctorReport& report) {
   say(report.separated_edges, "edges of more than two faces taken apart");
   say(report.split_vertices, "vertices added where sheets met in one point");
   say(report.hole_faces, "faces added to fill holes");
+  say(report.thickened_sheets, "open parts made plates of the configured thickness");
   say(report.flat_components, "closed parts without volume removed");
   say(report.hidden_components, "parts inside another removed (nothing can touch them)");
   if (report.overlapping_components > 0)
@@ -46,7 +52,12 @@ TriangleMesh close_surface(TriangleMesh mesh, const DoctorConfig& config, Doctor
   remove_debris(mesh, config.debris_area_fraction, report);
   orient_consistently(mesh, report);
   split_vertices(mesh, report);
-  fill_holes(mesh, {config.max_hole_edges, config.relative_max_hole_length * extent}, report);
+  fill_holes(mesh,
+             {.max_edges = config.max_hole_edges,
+              .max_length_m = config.relative_max_hole_length * extent,
+              .leave_larger = config.sheet_thickness_m.has_value()},
+             report);
+  if (config.sheet_thickness_m) thicken_open_parts(mesh, *config.sheet_thickness_m, report);
   remove_degenerate_faces(mesh, report);  // a crack of no width is closed by faces of no area
   remove_flat_parts(mesh, report);
   return mesh;
@@ -78,7 +89,7 @@ TriangleMesh close_or_take_side(TriangleMesh mesh, const DoctorConfig& config, D
 bool DoctorReport::changed_mesh() const {
   return height_field || unreferenced_vertices + merged_vertices + degenerate_faces + duplicate_faces +
                                  reoriented_faces + separated_edges + split_vertices + hole_faces + debris_components +
-                                 flat_components + hidden_components >
+                                 flat_components + hidden_components + thickened_sheets >
                              0;
 }
 

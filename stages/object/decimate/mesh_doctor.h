@@ -20,8 +20,10 @@ struct DoctorConfig {
   double relative_max_hole_length = 0.3;
   double debris_area_fraction = 1e-4;  // parts with less of the area are removed
   bool refuse_self_intersections = false;
-  std::optional<SideConfig> height_field = std::nullopt;  // of one side, where no repair closes the surface
-  std::optional<SensorWindow> window = std::nullopt;      // what kMostRelief is judged by
+  std::optional<double> sheet_thickness_m = std::nullopt;  // plates of this instead of refusing what is open
+  std::optional<SideConfig> height_field = std::nullopt;   // of one side, where no repair closes the surface
+  std::optional<SensorWindow> window = std::nullopt;       // what kMostRelief is judged by
+  std::string unit = "mm";                                 // that the file's numbers were taken for
 };
 
 /// A surface that no repair closed, as one side of it shows it.
@@ -45,6 +47,7 @@ struct DoctorReport {
   std::int64_t debris_components = 0;       // removed
   std::int64_t flat_components = 0;         // closed, without volume: removed
   std::int64_t hidden_components = 0;       // inside another: removed, nothing can touch them
+  std::int64_t thickened_sheets = 0;        // open parts made plates
   std::int64_t components = 0;              // kept
   std::int64_t overlapping_components = 0;  // pairs that cross: taken as their union
   std::int64_t self_intersections = 0;      // pairs of faces of one component that cross

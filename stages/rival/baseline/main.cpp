@@ -39,7 +39,8 @@ std::vector<Raster> depth_maps(Stage& stage, const Camera& camera) {
   const auto mesh = stage.optional_input("--object"), pose = stage.optional_input("--pose");
   if (!mesh) return maps;
   const auto spec = stage.read_config<ObjectSpec>("--object-config");
-  const TriangleMesh object = read_triangle_mesh(*mesh, metres_per_unit(spec.unit));
+  if (spec.fit_window) throw UsageError("scale: fit is for decimate; give a number");
+  const TriangleMesh object = read_triangle_mesh(*mesh, spec.scale * metres_per_unit(spec.unit));
   for (const Matrix4& gel_from_object : read_poses(*pose))
     maps.push_back(object_depth(object, gel_from_object, camera, mesh->string()));
   return maps;

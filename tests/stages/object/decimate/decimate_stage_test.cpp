@@ -46,12 +46,56 @@ TEST_F(DecimateStage, RefusesWithOneLine) {
   EXPECT_EQ(run("out"), 1);
   EXPECT_THAT(said_,
               ::testing::EndsWith("decimate: error: the mesh is 1e+04 mm wide, expected 0.5 mm to 500 mm; is the "
-                                  "unit right?\n"));
+                                  "unit right? (in mm it is 10 mm wide)\n"));
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/decimate.yaml"));
   object_ = scratch_.file("object.yaml", "unit: feet\nup: z\n");
   EXPECT_EQ(run("out"), 2);
   EXPECT_THAT(said_, ::testing::HasSubstr("object.yaml:1:7: unit: "));
   EXPECT_THAT(said_, ::testing::HasSubstr("object.yaml:2:5: up: "));
+}
+
+TEST_F(DecimateStage, TakesTheUnitOfFormatOrNameAndScales) {
+  const auto extent_mm = [&](const std::string& out) {
+    const Positions p = read_triangle_mesh(scratch_ / out / "object.ply", 1.0).positions;
+    return 1e3 * (p.col(0).maxCoeff() - p.col(0).minCoeff());
+  };
+  object_ = scratch_.file("auto.yaml", "unit: auto\nscale: 0.5\n");
+  mesh_ = scratch_ / "ball_cm.ply";
+  write_ply(mesh_, sphere(0.5, 2));
+  ASSERT_EQ(run("named"), 0) << said_;
+  EXPECT_NEAR(extent_mm("named"), 5.0, 1e-9);
+  EXPECT_THAT(read_file(scratch_ / "named/decimate.yaml"),
+              ::testing::HasSubstr("  unit: cm\n  unit_from: file name\n  scale: 0.5\n"));
+  // A tetrahedron of 10 mm as glTF, whose lengths are metres, twice as wide by its node.
+  const std::string positions = "AAAAAAAAAAAAAAAACtcjPAAAAAAAAAAAAAAAAArXIzwAAAAAAAAAAAAAAAAK1yM8";  // 0 and 0.01
+  object_ = scratch_.file("as_is.yaml", "unit: auto\n");
+  mesh_ = scratch_.file(
+      "tetrahedron.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[2,1,1]}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"buffers":[{"byteLength":72,"uri":)"
+      R"("data:application/octet-stream;base64,)" +
+          positions +
+          R"(AAACAAEAAAABAAMAAAADAAIAAQACAAMA"}],"bufferViews":[{"buffer":0,"byteLength":48},)"
+          R"({"buffer":0,"byteOffset":48,"byteLength":24}],"accessors":[{"bufferView":0,"componentType":5126,"count":4,)"
+          R"("type":"VEC3","min":[0,0,0],"max":[0.01,0.01,0.01]},{"bufferView":1,"componentType":5123,"count":12,"type":)"
+          R"("SCALAR"}]})");
+  ASSERT_EQ(run("gltf"), 0) << said_;
+  EXPECT_NEAR(extent_mm("gltf"), 20.0, 1e-5);
+  EXPECT_NEAR(1e9 * signed_volume(read_triangle_mesh(scratch_ / "gltf/object.ply", 1.0)), 2000.0 / 6.0, 1e-3);
+  EXPECT_THAT(read_file(scratch_ / "gltf/decimate.yaml"), ::testing::HasSubstr("unit_from: mesh format\n"));
+  mesh_ = scratch_.file("broken.glb", "glTF, but no more");
+  EXPECT_EQ(run("broken"), 1);
+  EXPECT_THAT(said_, ::testing::HasSubstr("broken.glb: cannot be read ("));
+}
+
+TEST_F(DecimateStage, FitsTheSensorsWindow) {
+  object_ = scratch_.file("fit.yaml", "unit: m\nscale: fit\n");
+  write_ply(mesh_, sphere(5.0, 2));
+  EXPECT_EQ(run("alone"), 2);
+  EXPECT_THAT(said_, ::testing::HasSubstr("scale: fit needs --sensor"));
+  ASSERT_EQ(run(fmt::format("fit --sensor {}/configs/sensors/mctac.yaml", TACIPC_SOURCE_DIR)), 0) << said_;
+  const Positions p = read_triangle_mesh(scratch_ / "fit/object.ply", 1.0).positions;
+  EXPECT_NEAR(1e3 * (p.col(1).maxCoeff() - p.col(1).minCoeff()), 0.9 * 11.25, 1e-6);
 }
 
 }  // namespace

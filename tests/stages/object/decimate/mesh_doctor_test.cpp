@@ -333,6 +333,34 @@ TEST(MeshDoctor, TakesTheSideThatIsAskedForWhereNothingClosesTheSurface) {
   EXPECT_FALSE(sound.height_field);
 }
 
+TEST(MeshDoctor, MakesPlatesOfOpenPartsOnRequest) {
+  // Half of a sphere: a plate along it has the area of its middle surface times the thickness, to second order.
+  const TriangleMesh ball = sphere(kSize, 5);
+  std::vector<int> lid;
+  for (int f = 0; f < static_cast<int>(ball.num_triangles()); ++f)
+    if ((corner(ball, f, 0) + corner(ball, f, 1) + corner(ball, f, 2)).z() > 0.0) lid.push_back(f);
+  const TriangleMesh bowl = without_faces(ball, lid);
+  EXPECT_TRUE(refusal(bowl).starts_with("open mesh: "));
+  DoctorConfig config;
+  config.sheet_thickness_m = 0.05 * kSize;
+  DoctorReport report;
+  const TriangleMesh plate = treat(bowl, report, config);
+  EXPECT_TRUE(is_closed_manifold(plate));
+  EXPECT_EQ(report.thickened_sheets, 1);
+  EXPECT_TRUE(report.changed_mesh());
+  EXPECT_NEAR(signed_volume(plate) / (surface_area(bowl) * 0.05 * kSize), 1.0, 0.01);
+  EXPECT_NEAR(plate.positions.col(2).minCoeff(), -1.025 * kSize, 1e-3 * kSize);
+  // A small hole is filled as before, a closed part stays as it is, and vertices that nothing uses do not appear.
+  DoctorReport sound;
+  EXPECT_EQ(treat(ball, sound, config).positions, ball.positions);
+  DoctorReport both;
+  const TriangleMesh pair = treat(joined(without_faces(ball, {5}), moved(bowl, {3.0 * kSize, 0.0, 0.0})), both, config);
+  EXPECT_TRUE(is_closed_manifold(pair));
+  EXPECT_EQ(both.filled_holes, 1);
+  EXPECT_EQ(both.thickened_sheets, 1);
+  EXPECT_EQ(pair.positions.topRows(ball.num_vertices()), ball.positions);
+}
+
 TEST(MeshDoctor, TakesNoSideThatShowsNothing) {
   const TriangleMesh upright =
       make_mesh({{0, 0, 0}, {kSize, 0, 0}, {kSize, 0, kSize}, {0, 0, kSize}}, {{0, 1, 2}, {0, 2, 3}});
@@ -388,8 +416,11 @@ TEST(MeshDoctor, CountsOrRefusesSelfIntersections) {
 }
 
 TEST(MeshDoctor, RefusesAWrongScale) {
-  EXPECT_EQ(refusal(cube(2e-5)), "the mesh is 0.02 mm wide, expected 0.5 mm to 500 mm; is the unit right?");
-  EXPECT_EQ(refusal(cube(10.0)), "the mesh is 1e+04 mm wide, expected 0.5 mm to 500 mm; is the unit right?");
+  EXPECT_EQ(refusal(cube(2e-5)),
+            "the mesh is 0.02 mm wide, expected 0.5 mm to 500 mm; is the unit right? (in m it is 20 mm wide)");
+  EXPECT_EQ(refusal(cube(10.0)),
+            "the mesh is 1e+04 mm wide, expected 0.5 mm to 500 mm; is the unit right? (in mm it is 10 mm wide)");
+  EXPECT_EQ(refusal(cube(1e7)), "the mesh is 1e+10 mm wide, expected 0.5 mm to 500 mm; is the unit right?");
   EXPECT_EQ(refusal(make_mesh({{0, 0, 0}, {0, 0, kSize}}, {{0, 0, 1}})), "the mesh has no face with an area");
 }
 
