@@ -34,7 +34,12 @@ StressSummary summarize(const std::vector<StressLine>& lines);
 /// The counts in one line.
 std::string found(const StressSummary& summary, const std::string& seed);
 
-/// The page of a seed: verdict, counts by kind of object, totals, the list of cases that did not converge.
-std::string to_markdown(const std::vector<StressLine>& lines, const std::string& seed);
+/// The ranges that docs/stress.md is made of; others are of the campaign of many small presses.
+inline constexpr const char* kStressRanges = "stress";
+
+/// The page of a seed: verdict, counts by kind of object, totals, the list of cases that did not converge. `ranges` is
+/// the name of their file in configs/studies/stress.
+std::string to_markdown(const std::vector<StressLine>& lines, const std::string& seed,
+                        const std::string& ranges = kStressRanges);
 
 }  // namespace tacipc::verify

@@ -12,7 +12,8 @@ namespace {
 const StageSpec kStressTable{.name = "stress_table",
                              .summary = "Put the cases of a stress campaign together as one page.",
                              .inputs = {{"--case", "folder of a case", true, true}},
-                             .options = {{"--seed", "seed of the campaign", "1"}}};
+                             .options = {{"--seed", "seed of the campaign", "1"},
+                                         {"--ranges", "file of configs/studies/stress", verify::kStressRanges}}};
 
 }  // namespace
 
@@ -20,7 +21,8 @@ int main(int argc, char** argv) {
   return run_stage(kStressTable, argc, argv, [](Stage& stage) {
     std::vector<verify::StressLine> lines;
     for (const auto& folder : stage.inputs("--case")) lines.push_back(verify::read_stress_line(folder));
-    write_file(stage.output("summary.md"), verify::to_markdown(lines, stage.option("--seed")));
+    write_file(stage.output("summary.md"),
+               verify::to_markdown(lines, stage.option("--seed"), stage.option("--ranges")));
     const verify::StressSummary sum = verify::summarize(lines);
     const std::string found = verify::found(sum, stage.option("--seed"));
     log_info("{}: {}", found, sum.holds() ? "holds" : "DOES NOT HOLD");

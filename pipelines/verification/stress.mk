@@ -1,36 +1,52 @@
-# The stress campaign: N random cases of a seed, each with a folder and record of its own, then one page;
-# that of 300 cases of seed 1 is docs/stress.md.
+# The stress campaign: N random cases of a seed, each with a folder and record of its own, then one page; that of 300 cases
+# of seed 1 is docs/stress.md. `campaign` does the same with ten thousand small cases, docs/campaign.md.
 $(call uses,verification/verification)
 
+campaign_asked := $(filter campaign campaign-part,$(MAKECMDGOALS))
 SEED ?= 1#    of the random cases
-N    ?= 300#  how many
+N    ?= $(if $(campaign_asked),10000,300)#  how many
+PART  ?= 0#   campaign-part: which, from 0
+PARTS ?= 1#   of how many
 override SEED := $(strip $(SEED))
 override N := $(strip $(N))
-STRESS := $(OUT)/stress/$(SEED)
+STRESS_RANGES := $(if $(campaign_asked),small,stress)
+STRESS := $(OUT)/stress/$(if $(campaign_asked),small-)$(SEED)
 STRESS_RECORD := $(STRESS)/first_$(N)/stress_table.yaml
+STRESS_CONFIG := configs/studies/stress/$(STRESS_RANGES).yaml
 
 # A crash leaves no record and no reason to stop: the page counts it. Only wrong ranges end the campaign.
-$(STRESS)/case_%/stress_case.yaml: configs/studies/stress/stress.yaml | build-verification
+$(STRESS)/case_%/stress_case.yaml: $(STRESS_CONFIG) | build-verification
 	@mkdir -p $(@D)
 	$(call try,stress_case,--config $< --seed $(SEED) --index $*)
 
+# Cases count from 0, with four digits.
 STRESS_CASES :=
-ifneq ($(filter stress,$(LONG_ROWS)),)
-ifneq ($(shell [[ "$(SEED)" =~ ^[0-9]+$$ && "$(N)" =~ ^[1-9][0-9]*$$ ]] && echo yes),yes)
-  $(error stress: SEED and N must be whole numbers: make -f Makefile.data stress SEED=1 N=300)
+ifneq ($(filter stress,$(LONG_ROWS))$(campaign_asked),)
+ifneq ($(shell [[ "$(SEED)" =~ ^[0-9]+$$ && "$(N)" =~ ^[1-9][0-9]*$$ && $(N) -le 10000 ]] && echo yes),yes)
+  $(error $(or $(campaign_asked),stress): SEED and N (at most 10000) must be whole numbers: make -f Makefile.data stress SEED=1 N=300)
 endif
-STRESS_CASES := $(addprefix $(STRESS)/case_,$(shell seq -f %04.0f 0 $$(($(N) - 1))))
+ifneq ($(shell [[ "$(PART)" =~ ^[0-9]+$$ && "$(PARTS)" =~ ^[1-9][0-9]*$$ && $(PART) -lt $(PARTS) ]] && echo yes),yes)
+  $(error campaign-part: PART must be one of 0 … PARTS - 1)
+endif
+STRESS_CASES := $(addprefix $(STRESS)/case_,$(shell seq -f %04.0f $(PART) $(PARTS) $$(($(N) - 1))))
 endif
 
 STRESS_CASE_RECORDS := $(addsuffix /stress_case.yaml,$(STRESS_CASES))
 
+# The shell writes the names of the cases: ten thousand are too long for one command of make's.
 $(STRESS_RECORD): $(STRESS_CASE_RECORDS) | build-verification
-	$(call run,stress_table,--seed $(SEED) $(addprefix --case ,$(STRESS_CASES)))
+	$(call run,stress_table,--seed $(SEED) --ranges $(STRESS_RANGES) $$(seq -f '--case $(STRESS)/case_%04.0f' 0 $$(($(N) - 1))))
 
-.PHONY: stress stress-page
+.PHONY: stress stress-page campaign campaign-part
 stress-page: $(STRESS_CASE_RECORDS) $(STRESS_RECORD) # the cases too: make would not miss those that crashed behind their table
 	@grep -E 'cases of seed|^[|]' $(dir $(STRESS_RECORD))summary.md
-	$(if $(filter 1-300,$(SEED)-$(N)),@mkdir -p $(DOCS) && cp $(dir $(STRESS_RECORD))summary.md $(DOCS)/stress.md)
+	$(if $(filter stress-1-300,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && cp $(dir $(STRESS_RECORD))summary.md $(DOCS)/stress.md)
+	$(if $(filter small-1-10000,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && bash pipelines/verification/campaign_page.sh $(STRESS) $(dir $(STRESS_RECORD))summary.md > $(DOCS)/campaign.md)
 
 stress: stress-page ## studies: Random objects, gels and extreme motions: SEED=1 N=300 (minutes; resumes)
 	$(call holds,$(STRESS_RECORD))
+
+campaign: stress-page ## studies: Ten thousand random small presses: SEED=1 N=10000 (an hour on two cores; resumes)
+	$(call holds,$(STRESS_RECORD))
+
+campaign-part: $(STRESS_CASE_RECORDS) ## studies: A part of them, as an element of a job array: PART=3 PARTS=20; then campaign

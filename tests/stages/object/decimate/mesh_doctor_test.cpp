@@ -419,7 +419,7 @@ TEST(MeshDoctor, RefusesAWrongScale) {
   EXPECT_EQ(refusal(cube(2e-5)),
             "the mesh is 0.02 mm wide, expected 0.5 mm to 500 mm; is the unit right? (in m it is 20 mm wide)");
   EXPECT_EQ(refusal(cube(10.0)),
-            "the mesh is 1e+04 mm wide, expected 0.5 mm to 500 mm; is the unit right? (in mm it is 10 mm wide)");
+            "the mesh is 1e+04 mm wide, expected 0.5 mm to 500 mm; is the unit right? (in um it is 10 mm wide)");
   EXPECT_EQ(refusal(cube(1e7)), "the mesh is 1e+10 mm wide, expected 0.5 mm to 500 mm; is the unit right?");
   EXPECT_EQ(refusal(make_mesh({{0, 0, 0}, {0, 0, kSize}}, {{0, 0, 1}})), "the mesh has no face with an area");
 }
