@@ -5,10 +5,11 @@ $(call uses,verification/verification)
 campaign_asked := $(filter campaign campaign-part,$(MAKECMDGOALS))
 SEED ?= 1#    of the random cases
 N    ?= $(if $(campaign_asked),10000,300)#  how many
-PART  ?= 0#   campaign-part: which, from 0
-PARTS ?= 1#   of how many
 override SEED := $(strip $(SEED))
 override N := $(strip $(N))
+part_asked := $(filter campaign-part,$(MAKECMDGOALS))
+campaign_part  := $(if $(part_asked),$(strip $(PART)),0)
+campaign_parts := $(if $(part_asked),$(strip $(PARTS)),1)
 STRESS_RANGES := $(if $(campaign_asked),small,stress)
 STRESS := $(OUT)/stress/$(if $(campaign_asked),small-)$(SEED)
 STRESS_RECORD := $(STRESS)/first_$(N)/stress_table.yaml
@@ -25,10 +26,10 @@ ifneq ($(filter stress,$(LONG_ROWS))$(campaign_asked),)
 ifneq ($(shell [[ "$(SEED)" =~ ^[0-9]+$$ && "$(N)" =~ ^[1-9][0-9]*$$ && $(N) -le 10000 ]] && echo yes),yes)
   $(error $(or $(campaign_asked),stress): SEED and N (at most 10000) must be whole numbers: make -f Makefile.data stress SEED=1 N=300)
 endif
-ifneq ($(shell [[ "$(PART)" =~ ^[0-9]+$$ && "$(PARTS)" =~ ^[1-9][0-9]*$$ && $(PART) -lt $(PARTS) ]] && echo yes),yes)
+ifneq ($(shell [[ "$(campaign_part)" =~ ^[0-9]+$$ && "$(campaign_parts)" =~ ^[1-9][0-9]*$$ && "$(campaign_part)" -lt "$(campaign_parts)" ]] && echo yes),yes)
   $(error campaign-part: PART must be one of 0 … PARTS - 1)
 endif
-STRESS_CASES := $(addprefix $(STRESS)/case_,$(shell seq -f %04.0f $(PART) $(PARTS) $$(($(N) - 1))))
+STRESS_CASES := $(addprefix $(STRESS)/case_,$(shell seq -f %04.0f $(campaign_part) $(campaign_parts) $$(($(N) - 1))))
 endif
 
 STRESS_CASE_RECORDS := $(addsuffix /stress_case.yaml,$(STRESS_CASES))
