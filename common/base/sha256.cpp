@@ -50,4 +50,22 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   return hash.hex();
 }
 
+std::string checked_sha256(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  std::filesystem::path beside = path;
+  beside += ".sha256";
+  if (!std::filesystem::exists(path)) throw DataError("{}: does not exist", path.string());
+  if (!std::filesystem::exists(beside))
+    throw DataError(
+        "{}: there is no {} beside it to tell whether it is whole; if you trust it: (cd '{}' && sha256sum '{}' > "
+        "'{}')",
+        path.string(), beside.filename().string(), path.has_parent_path() ? path.parent_path().string() : ".", name,
+        beside.filename().string());
+  const std::string told = read_file(beside), digest = sha256_of_file(path);
+  if (told != digest + "  " + name + "\n" && told != digest + " *" + name + "\n")
+    throw DataError("{}: is damaged, or not the file that {} is of: its SHA-256 is {}", path.string(),
+                    beside.filename().string(), digest);
+  return digest;
+}
+
 }  // namespace tacipc

@@ -21,7 +21,7 @@ using Object = Handle<&H5Oclose>;
 namespace {
 
 hdf5::Id open_file(const std::filesystem::path& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // messages are ours
+  hdf5::begin();
   return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
 }
 

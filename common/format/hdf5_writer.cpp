@@ -80,6 +80,11 @@ void add_numbers(const Value& value, std::size_t depth, AttributeNumbers& number
 
 }  // namespace
 
+void hdf5::begin() {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 std::size_t size_of(NumberType type) {
   switch (type) {
     case NumberType::u8:
@@ -148,7 +153,7 @@ struct Hdf5Writer::File {
       libdeflate_alloc_compressor(kDeflateLevel), &libdeflate_free_compressor};
 
   static Id create(const std::filesystem::path& path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // messages are ours
+    hdf5::begin();
     const std::string name = path.string();
     const Properties access(H5Pcreate(H5P_FILE_ACCESS), name, "/", "no file properties");
     const Properties creation(H5Pcreate(H5P_FILE_CREATE), name, "/", "no file properties");

@@ -13,11 +13,13 @@
 #include <csignal>
 #include <cstring>
 #include <iterator>
+#include <memory>
 #include <system_error>
 #include <thread>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/printable.h"
 #include "common/stage/self_description.h"
 #include "common/stage/stage.h"
 
@@ -42,6 +44,14 @@ class FolderLock {
 
  private:
   int file_;
+};
+
+/// A stage is called through tacipc, as a shell takes the name of one for its own command: export.
+class UsageThroughTacipc : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return CLI::Formatter::make_usage(app, "tacipc " + name);
+  }
 };
 
 /// Splits NAME=PATH at its first '='.
@@ -82,6 +92,7 @@ std::vector<ManSection> manual_sections(const std::string& stage) {
 
 int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body) {
   CLI::App app(spec.summary, spec.name);
+  app.formatter(std::make_shared<UsageThroughTacipc>());
   std::map<std::string, std::vector<fs::path>> inputs;
   std::map<std::string, std::vector<std::string>> named;
   std::map<std::string, std::string> options;
@@ -114,7 +125,7 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
     return print_answer(answer);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "{}: error: {} (see {} --help)\n", spec.name, error.what(), spec.name);
+    fmt::print(stderr, "{}: error: {} (see tacipc {} --help)\n", spec.name, printable(error.what()), spec.name);
     return 2;
   }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What make cannot see of the files that a plan is made of: dataset_inputs.sh DATASET CONFIG. Says `changed` if one of them has been replaced since
-# by an older one (cp -p, unzip), `future` and on stderr which if one has a time still to come: nothing made of it would ever be newer.
+# by an older one (cp -p, unzip), `future` and on stderr which if one, or a record or another file that make goes by, has a time still to come:
+# nothing made of it would ever be newer.
 # shellcheck disable=SC2016  # what the inner bash expands
 set -euo pipefail
 export LC_ALL=C
@@ -11,8 +12,12 @@ trap 'rm -f "$now"' EXIT
 # What is not there (yet, or any more) is the plan's to say.
 named() { echo "$config"; cat "$dataset/plan/inputs.txt" 2> /dev/null || true; }
 of_named() { named | xargs -r bash -c 'tests=$1; shift; find -L "$@" -prune $tests' bash "$1" 2> /dev/null || true; }
+of_dataset() { # files that products of the dataset are compared with, times as in of_named
+  find "$dataset" -mindepth 1 -maxdepth 5 -name '.*' -prune -o \( -name '*.yaml' ! -name '*.timings.yaml' -o -path "$dataset/choices/*" -o -path "$dataset/shards/*.inputs" \) \
+    -newer "$now" -printf '%p, of %t\n' 2> /dev/null || true
+}
 for try in 1 2 3; do  # clocks of two machines differ a little
-  future=$(of_named "-newer $now -printf %p,\\040of\\040%t\\n")
+  future=$(of_named "-newer $now -printf %p,\\040of\\040%t\\n"; of_dataset)
   [ -n "$future" ] || break
   [ "$try" = 3 ] || sleep 1
   touch "$now"

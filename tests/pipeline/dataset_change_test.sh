@@ -111,6 +111,22 @@ timeout 60 make -s -f Makefile.data plan CONFIG=mine/small.yaml OUT=small BUILD=
 grep -q '^plan: mine/slippery.yaml, of .* plan: is newer than anything made now, at ' <(tr '\n' ' ' < said.txt) || fail "a file of the future is not told: $(cat said.txt)"
 grep -q 'new or changed' said.txt && fail "a plan is made over and over"
 touch mine/slippery.yaml
+small dataset > /dev/null 2>&1 || fail "a file of now is refused"
+# A record of the future would let every run make again what is made of it.
+sample=$(cd $set && ls -d samples/000/*000000)
+for record in plan/plan.yaml gels/mctac-tiny/tetmesh.yaml objects/pyramid/decimate.yaml choices/object-pyramid "$sample/sample.yaml" "$sample/press/press.yaml"; do
+  [ -e "$set/$record" ] || fail "there is no $record"
+  touch -d '+1 hour' "$set/$record"
+  before=$(times)
+  timeout 60 make -s -f Makefile.data dataset CONFIG=mine/small.yaml OUT=small BUILD="$build_dir" PACKAGES=no REBUILD=no > said.txt 2>&1 && fail "$record of the future is not refused"
+  grep -q "^plan: $set/$record, of .* plan: is newer than anything made now, at " <(tr '\n' ' ' < said.txt) || fail "$record of the future is not told: $(cat said.txt)"
+  [ "$before" = "$(times)" ] || fail "$record of the future redoes something"
+  touch "$set/$record"
+  small dataset > said.txt 2>&1 || fail "$record of now is refused: $(cat said.txt)"
+done
+before=$(times)
+small dataset > /dev/null
+[ "$before" = "$(times)" ] || fail "records that were touched redo something twice"
 
 # What submit hands on: what is packed and how, and threads; where locks stay on a node it says so.
 mkdir commands

@@ -22,6 +22,18 @@ for stage in $stages; do
   fi
 done
 
+# With the programs in PATH a shell takes `export` for its own command: help and documents call stages in a way that works.
+for stage in $stages; do
+  name=${stage#*/}
+  [ "$name" = survey ] || [ "$("$bin/$name" --help | grep '^Usage: ')" = "Usage: tacipc $name [OPTIONS]" ] || fail "$name says another way to call it: $("$bin/$name" --help | grep '^Usage: ')"
+done
+[ "$(PATH=$bin:$PATH bash -c 'tacipc export --version')" = "$("$bin/export" --version)" ] || fail "tacipc export is not the stage"
+"$bin/export" --nonsense 2> said.txt || true
+grep -q '(see tacipc export --help)$' said.txt || fail "export leads to the shell's own: $(cat said.txt)"
+for builtin in $(compgen -b | grep "^[a-z]"); do
+  if grep -nE "^$builtin --?[a-z]" "$source_dir"/README.md "$source_dir"/docs/*.md; then fail "$builtin is called, which is a command of the shell"; fi
+done
+
 code=0
 "$bin/tacipc" press --nonsense 2> said.txt || code=$?
 [ $code = 2 ] || fail "tacipc press ends with $code"

@@ -79,6 +79,16 @@ void copy_origins(Stage& stage, Checksums& sums, const std::string& folder,
   stage.add_inputs(inputs);
 }
 
+/// \throw DataError if one is not, byte for byte, what was packed
+void check_shards(const std::vector<PackedShard>& shards) {
+  for (const PackedShard& shard : shards) {
+    show_progress(static_cast<double>(&shard - shards.data()) / static_cast<double>(shards.size()), shard.name);
+    const fs::path file = shard.folder / (shard.name + ".h5");
+    if (checked_sha256(file) != shard.sha256)
+      throw DataError("{}: is not the file that pack.yaml beside it describes (pack the shard again)", file.string());
+  }
+}
+
 void write_cameras(Checksums& sums, const ShardRecords& records) {
   for (const auto& [id, files] : records.sensors) {
     const auto sensor = read_config<Sensor>(files.at("sensor").path);
@@ -94,6 +104,7 @@ int main(int argc, char** argv) {
     const std::vector<fs::path> listed = listed_records(stage.input("--shards"));
     stage.add_inputs(named_by_folder(listed));
     const ShardRecords records = read_shard_records(listed);
+    check_shards(records.shards);
     Checksums sums(stage);
     const DatasetCounts counts = join_tables(stage.input("--plan"), records, [&](const std::string& name) {
       return name == "timings.csv" ? stage.varying_output(name) : sums.output(name);

@@ -3,6 +3,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/sha256.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/repack/frame_files.h"
 #include "stages/dataset/repack/tar_writer.h"
@@ -30,6 +31,7 @@ struct RepackConfig {
 int main(int argc, char** argv) {
   return run_stage(kRepack, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<RepackConfig>("--config");
+    checked_sha256(stage.input("--shard"));  // HDF5 crashes on some damaged files, and reads others as if whole
     const Hdf5Reader shard(stage.input("--shard"));
     if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", stage.input("--shard").string());
     const std::string name = shard.text_attribute("/", "shard");

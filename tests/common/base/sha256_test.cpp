@@ -25,5 +25,31 @@ TEST(Sha256, OfAFile) {
   EXPECT_THROW(sha256_of_file(scratch / "nowhere"), DataError);
 }
 
+TEST(Sha256, BesideAFileTellsWhetherItIsWhole) {
+  const ScratchFolder scratch;
+  const auto file = scratch.file("a shard.h5", "abc");
+  const std::string name = file.string(), make = " > 'a shard.h5.sha256')";
+  EXPECT_EQ(message_of<DataError>([&] { checked_sha256(file); }),
+            name + ": there is no a shard.h5.sha256 beside it to tell whether it is whole; if you trust it: (cd '" +
+                file.parent_path().string() + "' && sha256sum 'a shard.h5'" + make);
+  ASSERT_EQ(
+      std::system(("cd '" + file.parent_path().string() + "' && sha256sum 'a shard.h5' > 'a shard.h5.sha256'").c_str()),
+      0);
+  EXPECT_EQ(checked_sha256(file), sha256("abc"));
+  const std::string good = read_file(name + ".sha256");
+  for (const std::string& told :
+       {std::string(), good.substr(0, 40), "0" + good.substr(1), sha256("abc") + "  other\n"}) {
+    scratch.file("a shard.h5.sha256", told);
+    EXPECT_EQ(message_of<DataError>([&] { checked_sha256(file); }),
+              name + ": is damaged, or not the file that a shard.h5.sha256 is of: its SHA-256 is " + sha256("abc"))
+        << told;
+  }
+  scratch.file("a shard.h5.sha256", good);
+  scratch.file("a shard.h5", "abd");
+  EXPECT_THROW(checked_sha256(file), DataError);
+  std::filesystem::remove(file);
+  EXPECT_EQ(message_of<DataError>([&] { checked_sha256(file); }), name + ": does not exist");
+}
+
 }  // namespace
 }  // namespace tacipc

@@ -164,6 +164,37 @@ TEST_F(CardTest, ARefusedCardLeavesWhatUsersDownload) {
   EXPECT_EQ(content_hash(scratch_ / "out"), before);
 }
 
+TEST_F(CardTest, ADamagedShardIsNotGivenAway) {
+  ASSERT_EQ(card(), 0) << said_;
+  const std::string before = content_hash(scratch_ / "out");
+  const auto refused = [&](const std::string& reason) {
+    EXPECT_EQ(card(), 1);
+    EXPECT_THAT(said_, HasSubstr(fmt::format("shards/{0}/{0}.h5: {1}", kVal, reason)));
+    std::filesystem::remove(scratch_ / "out/card.failed.yaml");
+    EXPECT_EQ(content_hash(scratch_ / "out"), before);
+  };
+  const std::string shard = fmt::format("shards/{0}/{0}.h5", kVal), bytes = read_file(scratch_ / shard);
+  const auto replace = [&](const std::string& by) {
+    std::filesystem::remove(scratch_ / shard);  // the card's is a link to it
+    scratch_.file(shard, by);
+  };
+  replace(bytes.substr(0, bytes.size() / 2));
+  refused("is damaged, or not the file that ");
+  std::string flipped = bytes;
+  flipped[bytes.size() / 2] ^= 1;
+  replace(flipped);
+  refused("is damaged, or not the file that ");
+  // Whole, but not what was packed.
+  const std::string digest = read_file(scratch_ / (shard + ".sha256"));
+  scratch_.file(shard + ".sha256", fmt::format("{}  {}.h5\n", sha256(flipped), kVal));
+  refused("is not the file that pack.yaml beside it describes");
+  std::filesystem::remove(scratch_ / (shard + ".sha256"));
+  replace(bytes);
+  refused("there is no ");
+  scratch_.file(shard + ".sha256", digest);
+  EXPECT_EQ(card(), 0) << said_;
+}
+
 TEST_F(CardTest, ShardsMustHaveTheSameFieldsAndFiles) {
   scratch_.file("pack.yaml", "obs: {rgb: true}\n");
   pack(kVal);

@@ -317,6 +317,24 @@ TEST_F(PackTest, MemoryDoesNotGrowWithThePlan) {
   EXPECT_LT(peak_mb("large"), peak_mb("small") + 1.0);
 }
 
+TEST_F(PackTest, AFullDiskEndsInAMessage) {
+  ASSERT_EQ(pack(), 0) << said_;
+  const std::uintmax_t size = std::filesystem::file_size(shard_file());
+  // A limit on the size of files ends writing where a full disk would: in the frames, in what the library holds back
+  // until the file is closed, and in the last block.
+  for (const std::uintmax_t limit : {size / 4, size / 2, size - size / 4, size - 1}) {
+    const std::string blocks = fmt::format("ulimit -f {}; ", limit / 512);
+    ASSERT_EQ(run_command(fmt::format("{}cd {} && {}/pack --config pack.yaml --plan data/plan/samples.csv --dataset "
+                                      "data/plan/dataset.yaml --shard {} --out full --log-level error",
+                                      blocks, (scratch_ / "").string(), TACIPC_BIN_DIR, kShard)),
+              1)
+        << limit << " of " << size << " bytes: " << said_;
+    EXPECT_THAT(said_, HasSubstr("cannot be written")) << limit;
+    EXPECT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << said_;
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / fmt::format("full/{}.h5", kShard)));
+  }
+}
+
 TEST_F(PackTest, WrongWordsAreUsage) {
   scratch_.file("pack.yaml", "obs: {rbg: true}\n");
   EXPECT_EQ(pack(), 2);

@@ -1,7 +1,10 @@
 // Archives and refusals; what the layouts hold is checked in Python (tests/pipeline/check_repack.py).
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "common/base/error.h"
+#include "common/base/sha256.h"
 #include "common/format/hdf5_writer.h"
 #include "stages/dataset/repack/frame_files.h"
 #include "stages/dataset/repack/tar_writer.h"
@@ -84,6 +87,7 @@ TEST_F(RepackTest, WhatIsNoShardIsRefused) {
   scratch_.file("c.yaml", "format: zarr\n");
   scratch_.file("no.h5", "no");
   const auto run = [&] {
+    scratch_.file("no.h5.sha256", sha256_of_file(scratch_ / "no.h5") + "  no.h5\n");
     return run_command(fmt::format("{}/repack --config {} --shard {} --out {} --log-level error", TACIPC_BIN_DIR,
                                    (scratch_ / "c.yaml").string(), (scratch_ / "no.h5").string(),
                                    (scratch_ / "out").string()));
@@ -98,6 +102,41 @@ TEST_F(RepackTest, WhatIsNoShardIsRefused) {
   other.close();
   EXPECT_EQ(run(), 1);
   EXPECT_THAT(said_, HasSubstr("no.h5: is not a shard of pack"));
+}
+
+TEST_F(RepackTest, ADamagedShardIsRefusedBeforeItIsRead) {
+  scratch_.file("c.yaml", "format: folder\n");
+  {
+    Hdf5Writer file(scratch_ / "s.h5");
+    file.attribute("/", "shard", "s");
+    file.group("/sensors/toy");
+    file.write("/data/a/obs/force_N", NumberType::f32, {1, 3}, to_bytes(NumberType::f32, {1.0, 2.0, 3.0}));
+    file.attribute("/data/a/obs/force_N", "shape", "(T,3)");
+    file.attribute("/data/a", "n_frames", 1);
+    file.attribute("/data/a", "sample_yaml", "motion: here\n");
+    file.close();
+  }
+  const std::string bytes = read_file(scratch_ / "s.h5");
+  const auto run = [&](const std::string& with) {
+    scratch_.file("s.h5", with);
+    return run_command(fmt::format("{}/repack --config {} --shard {} --out {} --log-level error", TACIPC_BIN_DIR,
+                                   (scratch_ / "c.yaml").string(), (scratch_ / "s.h5").string(),
+                                   (scratch_ / "out").string()));
+  };
+  EXPECT_EQ(run(bytes), 1);
+  EXPECT_THAT(said_, HasSubstr("s.h5: there is no s.h5.sha256 beside it"));
+  scratch_.file("s.h5.sha256", sha256(bytes) + "  s.h5\n");
+  ASSERT_EQ(run(bytes), 0) << said_;
+  // The heap that texts stand in: of some bits here HDF5 crashes, of others it reads another text.
+  const std::size_t heap = bytes.find("GCOL");
+  ASSERT_NE(heap, std::string::npos);
+  for (std::size_t at = heap; at < std::min(heap + 64, bytes.size()); ++at) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(~damaged[at]);
+    ASSERT_EQ(run(damaged), 1) << at << ": " << said_;
+    ASSERT_THAT(said_, HasSubstr("s.h5: is damaged, or not the file that s.h5.sha256 is of")) << at;
+    EXPECT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << said_;
+  }
 }
 
 }  // namespace

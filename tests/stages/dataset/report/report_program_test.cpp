@@ -73,7 +73,7 @@ TEST_F(ReportStageTest, TheRecordChangesWhenASampleDoes) {
 
 TEST_F(ReportStageTest, AFolderThatIsMissingOrNoSampleIsRefused) {
   EXPECT_EQ(run({"out/demo/none"}, "out/demo/report"), 2);
-  EXPECT_EQ(said_, "report: error: --sample: Path does not exist: out/demo/none (see report --help)\n");
+  EXPECT_EQ(said_, "report: error: --sample: Path does not exist: out/demo/none (see tacipc report --help)\n");
   EXPECT_EQ(run({"out/gels"}, "out/demo/report"), 1);
   EXPECT_EQ(said_,
             "report: error: out/gels: has neither a press folder nor a sample.yaml, so it is not a sample's folder\n");
