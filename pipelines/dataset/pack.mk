@@ -24,7 +24,7 @@ else
 $(call check_name,DATASET_DIR)
 pack: | build ## datasets: A made dataset as HDF5 shards with tables, card and checksums: CONFIG= (or DATASET_DIR=) [PACK=slim]
 	@$(call dataset_alone,$@) && $(call make_again,dataset-pack)
-repack: | build ## datasets: Packed shards in another layout: CONFIG= FORMAT=webdataset|univtac|folder
+repack: | build ## datasets: Packed shards in another layout: CONFIG= FORMAT=webdataset|univtac|folder|lerobot
 	@$(call dataset_alone,$@) && $(call make_again,dataset-repack)
 endif
 
@@ -54,6 +54,10 @@ $(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/datasets/repack/$(FORMAT)
 
 dataset-pack: $(DATASET_DIR)/pack/card.yaml
 	@echo; echo "Look at $(DATASET_DIR)/pack/README.md; that folder is what users download"
-dataset-repack: $(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml)
+# LeRobot counts episodes and frames over the whole dataset.
+$(DATASET_DIR)/repack/lerobot/repack.yaml: configs/datasets/repack/lerobot.yaml $(SHARD_RECORDS) | build
+	$(call run,repack,--config $< $(foreach s,$(PACK_SHARDS),--shard $(SHARDS_DIR)/$(s)/$(s).h5))
+
+dataset-repack: $(if $(filter lerobot,$(FORMAT)),$(DATASET_DIR)/repack/lerobot/repack.yaml,$(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml))
 	@echo; echo "Look into $(DATASET_DIR)/repack/$(FORMAT)"
 endif

@@ -6,6 +6,7 @@
 #include "common/base/sha256.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/repack/frame_files.h"
+#include "stages/dataset/repack/lerobot.h"
 #include "stages/dataset/repack/tar_writer.h"
 #include "stages/dataset/repack/univtac.h"
 
@@ -15,14 +16,15 @@ using namespace tacipc;
 
 const StageSpec kRepack{
     .name = "repack",
-    .summary = "Turn a packed shard into another layout: WebDataset tar, UniVTAC HDF5, plain folder.",
-    .inputs = {{.flag = "--config", .help = "which layout (YAML)"}, {.flag = "--shard", .help = "HDF5 file of pack"}}};
+    .summary = "Turn packed shards into another layout: WebDataset tar, UniVTAC HDF5, plain folder, LeRobot dataset.",
+    .inputs = {{.flag = "--config", .help = "which layout (YAML)"},
+               {.flag = "--shard", .help = "HDF5 file of pack; several for lerobot", .many = true}}};
 
 struct RepackConfig {
   std::string format;
 
   static RepackConfig read(ConfigReader& in) {
-    return {.format = in.choice("format", {"webdataset", "univtac", "folder"})};
+    return {.format = in.choice("format", {"webdataset", "univtac", "folder", "lerobot"})};
   }
 };
 
@@ -31,9 +33,16 @@ struct RepackConfig {
 int main(int argc, char** argv) {
   return run_stage(kRepack, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<RepackConfig>("--config");
-    checked_sha256(stage.input("--shard"));  // HDF5 crashes on some damaged files, and reads others as if whole
-    const Hdf5Reader shard(stage.input("--shard"));
-    if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", stage.input("--shard").string());
+    const auto& shards = stage.inputs("--shard");
+    // HDF5 crashes on some damaged files, and reads others as if whole.
+    for (const auto& shard : shards) checked_sha256(shard);
+    if (config.format == "lerobot") {
+      stage.summarize(write_lerobot(shards, [&](const std::string& name) { return stage.output(name); }));
+      return;
+    }
+    if (shards.size() != 1) throw UsageError("--shard: one for this layout; only lerobot takes several");
+    const Hdf5Reader shard(shards.front());
+    if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", shards.front().string());
     const std::string name = shard.text_attribute("/", "shard");
     const std::vector<std::string> ids = shard.names("/data");
     std::optional<TarWriter> tar;
