@@ -55,8 +55,8 @@ $(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/datasets/repack/$(FORMAT)
 dataset-pack: $(DATASET_DIR)/pack/card.yaml
 	@echo; echo "Look at $(DATASET_DIR)/pack/README.md; that folder is what users download"
 # LeRobot counts episodes and frames over the whole dataset.
-$(DATASET_DIR)/repack/lerobot/repack.yaml: configs/datasets/repack/lerobot.yaml $(SHARD_RECORDS) | build
-	$(call run,repack,--config $< $(foreach s,$(PACK_SHARDS),--shard $(SHARDS_DIR)/$(s)/$(s).h5))
+$(DATASET_DIR)/repack/lerobot/repack.yaml: configs/datasets/repack/lerobot.yaml $(SHARDS_DIR)/shards.txt $(SHARD_RECORDS) | build
+	$(call run,repack,--config $< --shards $(SHARDS_DIR)/shards.txt)
 
 dataset-repack: $(if $(filter lerobot,$(FORMAT)),$(DATASET_DIR)/repack/lerobot/repack.yaml,$(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml))
 	@echo; echo "Look into $(DATASET_DIR)/repack/$(FORMAT)"

@@ -20,8 +20,10 @@ for path in shards:
             if sample.attrs["sensor_id"] == os.path.basename(os.path.normpath(root)):
                 samples[name] = dict({k: v[...] for k, v in sample["obs"].items()}, attributes=dict(sample.attrs))
 
-tasks = parquet.read_table(os.path.join(root, "meta/tasks.parquet")).to_pandas()
-assert tasks.index.name == "task" and list(tasks["task_index"]) == list(range(len(tasks))) == list(range(info["total_tasks"]))
+table = parquet.read_table(os.path.join(root, "meta/tasks.parquet"))
+assert json.loads(table.schema.metadata[b"pandas"])["index_columns"] == ["task"]
+tasks = table.column("task").to_pylist()
+assert table.column("task_index").to_pylist() == list(range(len(tasks))) == list(range(info["total_tasks"]))
 episodes = parquet.read_table(os.path.join(root, "meta/episodes/chunk-000/file-000.parquet")).to_pylist()
 assert {e["sample"] for e in episodes} == set(samples) and len(episodes) == info["total_episodes"]
 files = {}
@@ -65,7 +67,7 @@ for number, episode in enumerate(episodes):
     assert len(rows) == episode["length"]
     for t, row in enumerate(rows):
         assert (row["frame_index"], row["episode_index"], row["index"]) == (t, number, frames + t)
-        assert np.isclose(row["timestamp"], t / info["fps"]) and [tasks.index[row["task_index"]]] == episode["tasks"]
+        assert np.isclose(row["timestamp"], t / info["fps"]) and [tasks[row["task_index"]]] == episode["tasks"]
         for name, feature in info["features"].items():
             if name in ("timestamp", "frame_index", "episode_index", "index", "task_index"):
                 continue

@@ -8,6 +8,7 @@
 #include "common/base/json.h"
 #include "common/base/log.h"
 #include "common/base/sha256.h"
+#include "common/sample/shard_list.h"
 #include "common/sensor/camera_description.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/card/readme.h"

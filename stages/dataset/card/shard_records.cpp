@@ -33,19 +33,6 @@ std::string text_of(const Record& numbers) {
 
 }  // namespace
 
-std::vector<fs::path> listed_records(const fs::path& list) {
-  std::vector<fs::path> records;
-  std::istringstream lines(read_file(list));
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty()) continue;
-    records.push_back((list.parent_path() / line).lexically_normal());
-    if (!fs::is_regular_file(records.back()))
-      throw DataError("{}: {} has not been packed: there is no {}", list.string(), line, records.back().string());
-  }
-  if (records.empty()) throw DataError("{}: names no shard", list.string());
-  return records;
-}
-
 ShardRecords read_shard_records(const std::vector<fs::path>& records) {
   ShardRecords all;
   std::string schema_hash;

@@ -36,10 +36,6 @@ struct ShardRecords {
   std::vector<Record> limits;  // each different one once
 };
 
-/// The lines of a text file as paths, relative ones from its folder on. Thousands of shards are more than a command
-/// line takes. \throw DataError if it names none, or a file that is not there
-std::vector<std::filesystem::path> listed_records(const std::filesystem::path& list);
-
 /// \throw DataError if two shards have one name, were packed with different fields, or mean different files by one name
 ShardRecords read_shard_records(const std::vector<std::filesystem::path>& records);
 

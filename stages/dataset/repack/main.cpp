@@ -4,6 +4,7 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/base/sha256.h"
+#include "common/sample/shard_list.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/repack/frame_files.h"
 #include "stages/dataset/repack/lerobot.h"
@@ -18,7 +19,25 @@ const StageSpec kRepack{
     .name = "repack",
     .summary = "Turn packed shards into another layout: WebDataset tar, UniVTAC HDF5, plain folder, LeRobot dataset.",
     .inputs = {{.flag = "--config", .help = "which layout (YAML)"},
-               {.flag = "--shard", .help = "HDF5 file of pack; several for lerobot", .many = true}}};
+               {.flag = "--shard", .help = "HDF5 file of pack; for all layouts but lerobot", .required = false},
+               {.flag = "--shards",
+                .help = "for lerobot: text file with the record of each shard (pack.yaml), a line each",
+                .required = false}}};
+
+/// All shards of a dataset as one.
+void repack_for_lerobot(Stage& stage) {
+  if (stage.optional_input("--shard") || !stage.optional_input("--shards"))
+    throw UsageError("lerobot takes --shards, the list of all shards, in place of --shard");
+  std::vector<std::pair<std::string, std::filesystem::path>> inputs;
+  std::vector<std::filesystem::path> shards;
+  for (const auto& record : listed_records(stage.input("--shards"))) {
+    shards.push_back(shard_of_record(record));
+    inputs.emplace_back("shards/" + record.parent_path().filename().string(), shards.back());
+    checked_sha256(shards.back());
+  }
+  stage.add_inputs(inputs);
+  stage.summarize(write_lerobot(shards, [&](const std::string& name) { return stage.output(name); }));
+}
 
 struct RepackConfig {
   std::string format;
@@ -33,16 +52,12 @@ struct RepackConfig {
 int main(int argc, char** argv) {
   return run_stage(kRepack, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<RepackConfig>("--config");
-    const auto& shards = stage.inputs("--shard");
-    // HDF5 crashes on some damaged files, and reads others as if whole.
-    for (const auto& shard : shards) checked_sha256(shard);
-    if (config.format == "lerobot") {
-      stage.summarize(write_lerobot(shards, [&](const std::string& name) { return stage.output(name); }));
-      return;
-    }
-    if (shards.size() != 1) throw UsageError("--shard: one for this layout; only lerobot takes several");
-    const Hdf5Reader shard(shards.front());
-    if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", shards.front().string());
+    if (config.format == "lerobot") return repack_for_lerobot(stage);
+    if (!stage.optional_input("--shard") || stage.optional_input("--shards"))
+      throw UsageError("this layout takes --shard, one shard; only lerobot takes --shards");
+    checked_sha256(stage.input("--shard"));  // HDF5 crashes on some damaged files, and reads others as if whole
+    const Hdf5Reader shard(stage.input("--shard"));
+    if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", stage.input("--shard").string());
     const std::string name = shard.text_attribute("/", "shard");
     const std::vector<std::string> ids = shard.names("/data");
     std::optional<TarWriter> tar;

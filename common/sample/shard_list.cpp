@@ -1,0 +1,29 @@
+#include "common/sample/shard_list.h"
+
+#include <sstream>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+
+namespace tacipc {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> listed_records(const fs::path& list) {
+  std::vector<fs::path> records;
+  std::istringstream lines(read_file(list));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty()) continue;
+    records.push_back((list.parent_path() / line).lexically_normal());
+    if (!fs::is_regular_file(records.back()))
+      throw DataError("{}: {} has not been packed: there is no {}", list.string(), line, records.back().string());
+  }
+  if (records.empty()) throw DataError("{}: names no shard", list.string());
+  return records;
+}
+fs::path shard_of_record(const fs::path& record) {
+  const fs::path folder = record.parent_path();
+  return folder / (folder.filename().string() + ".h5");
+}
+
+}  // namespace tacipc

@@ -1,0 +1,16 @@
+// The packed shards of a dataset: a text file that names their records (docs/files.md, shards.txt).
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace tacipc {
+
+/// The lines of a text file as paths, relative ones from its folder on. Thousands of shards are more than a command
+/// line takes. \throw DataError if it names none, or a file that is not there
+std::vector<std::filesystem::path> listed_records(const std::filesystem::path& list);
+
+/// The HDF5 file beside a shard's record: D/<shard>/<shard>.h5 for D/<shard>/pack.yaml.
+std::filesystem::path shard_of_record(const std::filesystem::path& record);
+
+}  // namespace tacipc
