@@ -17,6 +17,17 @@ const tacipc::StageSpec kDecimate{
                 .help = "who will see it (YAML): its window decides which side shows most",
                 .required = false}}};
 
+/// Messages of what is wrong with a mesh name its file.
+tacipc::DecimatedObject decimated(const std::filesystem::path& path, double unit_m,
+                                  const tacipc::DecimateConfig& config) {
+  const tacipc::TriangleMesh scan = tacipc::read_triangle_mesh(path, unit_m);
+  try {
+    return tacipc::decimate_object(scan, config);
+  } catch (const tacipc::DataError& error) {
+    throw tacipc::DataError("{}: {}", path.string(), error.what());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -31,9 +42,7 @@ int main(int argc, char** argv) {
     } else if (config.doctor.height_field && config.doctor.height_field->side == tacipc::SideConfig::kMostRelief) {
       throw tacipc::UsageError("height_field.side: most_relief needs --sensor, whose window decides");
     }
-    const tacipc::TriangleMesh scan =
-        tacipc::read_triangle_mesh(stage.input("--mesh"), tacipc::metres_per_unit(spec.unit));
-    const tacipc::DecimatedObject object = tacipc::decimate_object(scan, config);
+    const tacipc::DecimatedObject object = decimated(stage.input("--mesh"), tacipc::metres_per_unit(spec.unit), config);
     tacipc::write_ply(stage.output("object.ply"), object.mesh);
     if (object.sides) tacipc::write_png(stage.output("sides.png"), *object.sides);
     stage.summarize(object.summary);
