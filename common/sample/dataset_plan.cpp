@@ -1,9 +1,11 @@
 #include "common/sample/dataset_plan.h"
 
+#include <algorithm>
+#include <charconv>
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/format/csv.h"
+#include "common/base/printable.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -23,6 +25,31 @@ constexpr PlanColumn kColumns[] = {
     {"folder", &PlannedRow::folder, "folder, relative to the dataset's"},
 };
 
+constexpr std::size_t kLongestName = 200;     // bytes: of a file whose name has an id in it, too
+constexpr std::size_t kLongestFolder = 1000;  // bytes
+
+bool has_control(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+}
+
+bool is_id(const std::string& text) {
+  return !text.empty() && text.size() <= kLongestName && text.front() != '.' && text.find('/') == std::string::npos &&
+         !has_control(text);
+}
+
+bool is_folder_below(const std::string& text) {
+  const fs::path path(text);
+  return !text.empty() && text.size() <= kLongestFolder && path.is_relative() && !has_control(text) &&
+         std::all_of(path.begin(), path.end(),
+                     [](const fs::path& part) { return part != ".." && part.string().size() <= kLongestName; });
+}
+
+bool is_whole(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
 }  // namespace
 
 std::span<const PlanColumn> plan_columns() { return kColumns; }
@@ -39,6 +66,19 @@ std::string plan_line(const PlannedRow& row) {
   return csv_line(fields);
 }
 
+PlannedRow planned_row(const CsvReader& rows, const fs::path& samples_csv) {
+  PlannedRow row;
+  for (const PlanColumn& column : kColumns) row.*column.value = rows[column.name];
+  const auto require = [&](bool good, const std::string& value, const char* what) {
+    if (!good) throw DataError("{}:{}: '{}' is not {}", samples_csv.string(), rows.line(), excerpt(value), what);
+  };
+  require(is_id(row.id), row.id, "a sample's id");
+  require(is_folder_below(row.folder), row.folder, "a folder below the dataset's");
+  require(is_whole(row.index), row.index, "an index, a whole number from 0");
+  require(is_whole(row.seed), row.seed, "a seed, a whole number from 0 to 2^64 - 1");
+  return row;
+}
+
 void for_each_planned(const fs::path& samples_csv, const std::optional<std::string>& shard,
                       const std::function<void(const PlannedRow&)>& use) {
   CsvReader rows(samples_csv);
@@ -46,11 +86,7 @@ void for_each_planned(const fs::path& samples_csv, const std::optional<std::stri
   while (rows.next()) {
     if (shard && rows["shard"] != *shard) continue;
     found = true;
-    PlannedRow sample;
-    for (const PlanColumn& column : kColumns) sample.*column.value = rows[column.name];
-    if (sample.id.empty() || sample.id.find('/') != std::string::npos || sample.id.front() == '.')
-      throw DataError("{}:{}: '{}' is not a sample's id", samples_csv.string(), rows.line(), sample.id);
-    use(sample);
+    use(planned_row(rows, samples_csv));
   }
   if (shard && !found) throw DataError("{}: has no shard '{}'", samples_csv.string(), *shard);
 }

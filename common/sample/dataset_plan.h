@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "common/format/csv.h"
 #include "common/stage/record.h"
 
 namespace tacipc {
@@ -39,8 +40,12 @@ std::span<const PlanColumn> plan_columns();
 std::string plan_header();
 std::string plan_line(const PlannedRow& row);
 
+/// The row that a reader of samples.csv is at. \throw DataError with file and line if a column is missing, the id names
+/// no part of a path, the folder does not lie below the dataset's, or index or seed is no whole number from 0
+PlannedRow planned_row(const CsvReader& rows, const std::filesystem::path& samples_csv);
+
 /// Calls `use` for every sample of a shard, or of all, in the order of the table, of which one row at a time is in
-/// memory. \throw DataError if a column is missing, an id names no part of a path, or the plan has no such shard
+/// memory. \throw DataError as planned_row, or if the plan has no such shard
 void for_each_planned(const std::filesystem::path& samples_csv, const std::optional<std::string>& shard,
                       const std::function<void(const PlannedRow&)>& use);
 

@@ -18,19 +18,24 @@ std::array<double, 3> rgb(ConfigReader& in, const std::string& key, const Range&
 }  // namespace
 
 GelShape GelShape::read(ConfigReader& in) {
+  // From a micrometre to ten metres, and no ribbon: far beyond any sensor, and within what meshing bears.
+  const Range length_mm = Range::between(1e-3, 1e4);
+  constexpr double kLongest = 100.0;  // times the shorter side
   GelShape shape;
   const std::string outline = in.choice("outline", {"disc", "rectangle"});
   if (outline == "disc") {
     shape.outline = Outline::disc;
-    shape.radius_m = kMillimetre * in.number("radius_mm", Range::positive());
+    shape.radius_m = kMillimetre * in.number("radius_mm", length_mm);
   } else {
     shape.outline = Outline::rectangle;
-    const auto size = in.numbers("size_mm", 2, Range::positive());
+    const auto size = in.numbers("size_mm", 2, length_mm);
+    if (std::max(size[0], size[1]) > kLongest * std::min(size[0], size[1]))
+      in.fault("size_mm", fmt::format("one side is more than {} times the other", kLongest));
     shape.width_m = kMillimetre * size[0];
     shape.height_m = kMillimetre * size[1];
   }
-  shape.thickness_m = kMillimetre * in.number("thickness_mm", Range::positive());
-  if (const auto dome = in.optional_number("dome_radius_mm", Range::positive())) {
+  shape.thickness_m = kMillimetre * in.number("thickness_mm", length_mm);
+  if (const auto dome = in.optional_number("dome_radius_mm", Range::between(1e-3, 1e9))) {
     shape.dome_radius_m = kMillimetre * *dome;
     const double reach =
         shape.outline == Outline::disc ? shape.radius_m : std::hypot(shape.width_m, shape.height_m) / 2.0;

@@ -13,6 +13,7 @@
 #include "common/base/files.h"
 #include "common/base/instruction_set.h"
 #include "common/base/log.h"
+#include "common/base/printable.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -39,10 +40,19 @@ void remove_unfinished_outputs(const fs::path& partial) {
 }
 
 /// As seen from the output folder, so that a moved or second copy of everything gives the same record.
+/// \throw UsageError for a name that a record, which is UTF-8, cannot hold
 std::string relative_to(const fs::path& path, const fs::path& folder) {
   std::error_code error;
   const fs::path relative = fs::proximate(path, folder, error);
-  return (error ? path : relative).generic_string();
+  std::string name = (error ? path : relative).generic_string();
+  if (!is_utf8(name)) throw UsageError(printable(name) + ": its name is not UTF-8; rename or link it");
+  return name;
+}
+
+/// What an error says, with the path first where the file system is to blame.
+std::string reason_of(const std::exception& error) {
+  const auto* of_files = dynamic_cast<const fs::filesystem_error*>(&error);
+  return of_files ? fmt::format("{}: {}", of_files->path1().string(), of_files->code().message()) : error.what();
 }
 
 }  // namespace
@@ -163,7 +173,7 @@ void Stage::add_notes(Value::Map& record) const {
   record.insert(record.end(), notes_.begin(), notes_.end());
   for (const OptionSpec& option : spec_.options) {
     const std::string& value = options_.at(option.flag);
-    if (!value.empty()) record.emplace_back(option.flag.substr(2), value);
+    if (!value.empty()) record.emplace_back(option.flag.substr(2), printable(value));
   }
 }
 
@@ -330,7 +340,7 @@ void Stage::write_failure(const std::exception& error) const noexcept {
   try {
     Value::Map failure{{"stage", spec_.name}, {"version", program_version()}};
     add_notes(failure);
-    failure.emplace_back("message", error.what());
+    failure.emplace_back("message", printable(reason_of(error)));
     if (const auto* verdict = dynamic_cast<const VerdictError*>(&error)) {
       const Miss& miss = verdict->miss();
       failure.emplace_back("frame", miss.frame);
@@ -363,7 +373,7 @@ int Stage::run(const std::function<void(Stage&)>& body) {
     log_error(fmt::format("{}: error: out of memory", spec_.name));
     write_failure(std::runtime_error("out of memory"));
   } catch (const std::exception& error) {
-    log_error(fmt::format("{}: error: {}", spec_.name, error.what()));
+    log_error(fmt::format("{}: error: {}", spec_.name, reason_of(error)));
     write_failure(error);
   }
   clean_up(code);

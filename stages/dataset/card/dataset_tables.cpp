@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/format/csv.h"
+#include "common/sample/dataset_plan.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -120,7 +121,8 @@ DatasetCounts join_tables(const fs::path& plan, const ShardRecords& records,
   }
   CsvReader planned(plan);
   while (planned.next()) {
-    const std::string &id = planned["id"], &shard = planned["shard"];
+    const PlannedRow sample = planned_row(planned, plan);
+    const std::string &id = sample.id, &shard = sample.shard;
     const auto found = tables.find(shard);
     if (found == tables.end()) throw DataError("{}: shard {} has not been packed", plan.string(), shard);
     ShardTables::Tables& own = found->second.next(id);

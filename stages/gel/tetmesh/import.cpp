@@ -106,7 +106,8 @@ ImportConfig ImportConfig::read(ConfigReader& in) {
   } else {
     config.rotation = rotation_about(axis, angle_deg);
   }
-  config.translation_m = kMillimetre * transform.vector3("translation_mm");
+  const auto translation_mm = transform.numbers("translation_mm", 3, Range::between(-1e6, 1e6));
+  config.translation_m = kMillimetre * Vector3(translation_mm[0], translation_mm[1], translation_mm[2]);
   ConfigReader glued = in.section("glued");
   if (const auto z = glued.optional_number("plane_z_mm")) {
     config.glued_plane_z_m = kMillimetre * *z;

@@ -14,6 +14,16 @@ const StageSpec kTetmesh{.name = "tetmesh",
                                     {"--sensor", "the sensor, whose gel is meshed (YAML)"},
                                     {"--import", "finished tetrahedral mesh (Gmsh MSH), with kind: import", false}}};
 
+/// A generated gel; messages name the two files that it is made of.
+TetMesh generated(const Stage& stage, const GelShape& gel, const GenerateConfig& config) {
+  try {
+    return generate_gel(gel, config);
+  } catch (const DataError& error) {
+    throw DataError("{} with the gel of {}: {}", stage.input("--config").string(), stage.input("--sensor").string(),
+                    error.what());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -32,7 +42,7 @@ int main(int argc, char** argv) {
       stage.summarize({{"tets_turned", imported.flipped}});
     } else {
       const auto& generate = std::get<GenerateConfig>(config.way);
-      mesh = generate_gel(sensor.gel, generate);
+      mesh = generated(stage, sensor.gel, generate);
       wanted = [sizing = sizing_for(generate.sizing, sensor.gel)](const Vector3& x) {
         return target_edge_length(sizing, x);
       };

@@ -12,16 +12,13 @@ namespace {
 
 double lerp(double from, double to, double t) { return from + (to - from) * t; }
 
-/// Mean over the directions from the centre, 0 … 2π, of the part of the circle of radius r inside the gel.
+/// The part of the circle of radius r about the centre that lies inside the gel. Of a rectangle with half sides a and b
+/// the directions from acos(a / r) to asin(b / r) of a quarter.
 double fraction_inside(const GelShape& gel, double r) {
   if (gel.outline == GelShape::Outline::disc) return 1.0;
-  constexpr int kDirections = 256;
-  int inside = 0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
-    inside += std::abs(r * std::cos(angle)) <= gel.width_m / 2 && std::abs(r * std::sin(angle)) <= gel.height_m / 2;
-  }
-  return static_cast<double>(inside) / kDirections;
+  const double from = std::acos(std::min(1.0, gel.width_m / 2.0 / r)),
+               to = std::asin(std::min(1.0, gel.height_m / 2.0 / r));
+  return std::max(0.0, to - from) / (std::numbers::pi / 2.0);
 }
 
 /// Vertices on both faces and between them over a unit of area at distance r from the centre.
@@ -106,8 +103,14 @@ double estimated_vertices(const Sizing& sizing) {
   double count = 0.0, from = 0.0;
   for (const double to : {c.centre_radius_m, c.inner_radius_m, sizing.reach_m()}) {
     constexpr int kRings = 200;
+    // Beyond the inner radius lengths may grow a thousandfold, which equal rings would step over.
+    const bool graded = from > 0.0 && from == c.inner_radius_m;
+    const auto edge = [&](int ring) {
+      const double t = static_cast<double>(ring) / kRings;
+      return graded ? from * std::pow(to / from, t) : lerp(from, to, t);
+    };
     for (int ring = 0; ring < kRings; ++ring) {
-      const double step = (to - from) / kRings, r = from + step * (ring + 0.5);
+      const double step = edge(ring + 1) - edge(ring), r = edge(ring) + 0.5 * step;
       const double area = 2.0 * std::numbers::pi * r * step * fraction_inside(sizing.gel, r);
       count += area * vertices_per_area(sizing, r);
     }

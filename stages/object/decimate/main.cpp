@@ -19,6 +19,16 @@ const tacipc::StageSpec kDecimate{
                 .help = "who will see it (YAML): its window decides which side shows most",
                 .required = false}}};
 
+/// Messages of what is wrong with a mesh name its file.
+tacipc::DecimatedObject decimated(const std::filesystem::path& path, const tacipc::TriangleMesh& mesh,
+                                  const tacipc::DecimateConfig& config) {
+  try {
+    return tacipc::decimate_object(mesh, config);
+  } catch (const tacipc::DataError& error) {
+    throw tacipc::DataError("{}: {}", path.string(), error.what());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -45,7 +55,7 @@ int main(int argc, char** argv) {
       file.mesh.positions *= scale;
       tacipc::log_info("scaled by {:.4g} to fit the sensor's window", scale);
     }
-    tacipc::DecimatedObject object = tacipc::decimate_object(file.mesh, config);
+    tacipc::DecimatedObject object = decimated(stage.input("--mesh"), file.mesh, config);
     object.summary.insert(object.summary.begin(),
                           {{"unit", file.unit}, {"unit_from", file.unit_from}, {"scale", scale}});
     tacipc::write_ply(stage.output("object.ply"), object.mesh);

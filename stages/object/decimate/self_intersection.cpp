@@ -1,12 +1,16 @@
 #include "stages/object/decimate/self_intersection.h"
 
+#include <fmt/core.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <numeric>
+#include <thread>
 
+#include "common/base/log.h"
 #include "common/mesh/exact_predicates.h"
 #include "stages/object/decimate/surface_topology.h"
 #include "stages/object/decimate/triangle_tree.h"
@@ -14,7 +18,26 @@
 namespace tacipc {
 namespace {
 
-constexpr int kChunk = 1024;  // faces per chunk; results are joined in chunk order
+constexpr int kChunk = 64;  // faces per chunk; results are joined in chunk order
+
+/// Tells how many chunks are done, in steps of a hundredth. Only the thread that made it speaks.
+class ChunkProgress {
+ public:
+  explicit ChunkProgress(int chunks) : chunks_(chunks) {}
+  void one_more() {
+    const int done = ++done_;
+    if (std::this_thread::get_id() != speaker_ || done < next_) return;
+    next_ = done + std::max(1, chunks_ / 100);
+    const double fraction = static_cast<double>(done) / chunks_;
+    show_progress(fraction, fmt::format("{:.0f} % of the faces searched for crossings", 100.0 * fraction));
+  }
+
+ private:
+  int chunks_;
+  std::atomic<int> done_ = 0;
+  int next_ = 0;
+  std::thread::id speaker_ = std::this_thread::get_id();
+};
 
 /// The lowest vertex at the place of each vertex.
 std::vector<int> lowest_at_place(const Positions& positions) {
@@ -52,11 +75,13 @@ std::vector<FacePair> self_intersections(const TriangleMesh& mesh) {
   const std::vector<int> place = lowest_at_place(mesh.positions);
   const int num_chunks = (num_faces + kChunk - 1) / kChunk;
   std::vector<std::vector<FacePair>> found(static_cast<std::size_t>(num_chunks));
+  ChunkProgress progress(num_chunks);
   tbb::parallel_for(0, num_chunks, [&](int chunk) {
     for (int f = chunk * kChunk; f < std::min(num_faces, (chunk + 1) * kChunk); ++f)
       tree.overlaps(tree.box_of(f), [&](int other) {
         if (other > f && cross(mesh, place, f, other)) found[chunk].push_back({f, other});
       });
+    progress.one_more();
   });
   std::vector<FacePair> pairs;
   for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());

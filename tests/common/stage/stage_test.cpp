@@ -84,6 +84,25 @@ TEST_F(StageTest, APipeAsInputIsRefusedInsteadOfWaitedFor) {
             "/dev/zero: is a pipe or a device, expected a file");
 }
 
+TEST_F(StageTest, ANameThatIsNotUtf8IsRefusedAsNoRecordCanHoldIt) {
+  spec_.inputs.push_back({.flag = "--other", .help = "too", .required = false});
+  const std::string name = (root_ / "caf\xe9.txt").string();
+  write_file(name, "latin");
+  EXPECT_EQ(run([](Stage&) {}, {"--other", name}), 2);
+  EXPECT_EQ(said_, "copy: error: ../caf\\xe9.txt: its name is not UTF-8; rename or link it\n");
+  EXPECT_FALSE(fs::exists(root_ / "out/copy.yaml"));
+  // What failed because of such a name leaves a file that can be read.
+  EXPECT_EQ(run([&](Stage&) { throw DataError(name + ": \x1b[31m"); }), 1);
+  EXPECT_THAT(ConfigReader::from_file(root_ / "out/copy.failed.yaml").text("message"),
+              ::testing::EndsWith("caf\\xe9.txt: \\x1b[31m"));
+}
+
+TEST_F(StageTest, FaultsOfTheFileSystemBeginWithThePath) {
+  const fs::path name = root_ / std::string(300, 'n');
+  EXPECT_EQ(run([&](Stage&) { static_cast<void>(fs::exists(name / "below")); }), 1);
+  EXPECT_EQ(said_, "copy: error: " + (name / "below").string() + ": File name too long\n");
+}
+
 TEST_F(StageTest, NamedPathsKeepTheirNamesAndOrder) {
   spec_.inputs.push_back({.flag = "--pictures", .help = "of methods", .required = false, .many = true, .named = true});
   std::vector<NamedPath> given;

@@ -144,6 +144,23 @@ TEST_F(CardTest, ShardsMustBeThoseOfThePlan) {
   EXPECT_THAT(said_, HasSubstr("is of another plan: expected toy__cube__press__000003 next"));
 }
 
+TEST_F(CardTest, RowsOfThePlanMustHoldWhatTheirColumnsSay) {
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& message) {
+    std::string plan = plan_;
+    const std::size_t at = plan.find(from, plan.find('\n'));
+    ASSERT_NE(at, std::string::npos) << from;
+    scratch_.file("data/plan/samples.csv", plan.replace(at, from.size(), to));
+    EXPECT_EQ(card(), 1) << to;
+    EXPECT_THAT(said_, HasSubstr("data/plan/samples.csv:2: " + message)) << to;
+  };
+  for (const char* seed : {"#", "-1", "inf", "", "1.5", "18446744073709551616"})
+    refused(",test,7,", fmt::format(",test,{},", seed),
+            fmt::format("'{}' is not a seed, a whole number from 0 to 2^64 - 1", seed));
+  refused("000000,0,train", "000000,first,train", "'first' is not an index, a whole number from 0");
+  refused("samples/000/", "../samples/000/", "'../samples/000/toy__cube__press__000000' is not a folder below");
+  refused("samples/000/", "/", "'/toy__cube__press__000000' is not a folder below");
+}
+
 TEST_F(CardTest, TheListNamesShardsThatAreThere) {
   EXPECT_EQ(card(fmt::format("shards/{}/pack.yaml shards/gone/pack.yaml", kTrain)), 1);
   EXPECT_THAT(said_, HasSubstr("shards/gone/pack.yaml has not been packed: there is no shards/gone/pack.yaml"));

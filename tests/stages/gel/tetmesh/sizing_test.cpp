@@ -51,6 +51,30 @@ TEST(Sizing, EstimateOfAUniformGelIsTheDensityTimesItsVolume) {
   EXPECT_NEAR(estimated_vertices({config, rectangle_gel(0.02, 0.016, 0.004)}), by_hand, 0.01 * by_hand);
 }
 
+TEST(Sizing, EstimateOfARibbonIsThatOfItsArea) {
+  // Edges as long as the ribbon is thick: vertices on both faces alone. 10⁶ × 24 mm, and the same upright.
+  SizingConfig uniform;
+  uniform.centre_m = uniform.inner_m = uniform.rim_m = uniform.back_m = 0.005;
+  const double by_hand = 1000.0 * 0.024 * 4 / (std::sqrt(3.0) * 0.005 * 0.005);
+  EXPECT_NEAR(estimated_vertices({uniform, rectangle_gel(1000.0, 0.024, 0.005)}), by_hand, 0.02 * by_hand);
+  EXPECT_NEAR(estimated_vertices({uniform, rectangle_gel(0.024, 1000.0, 0.005)}), by_hand, 0.02 * by_hand);
+  // Edges that grow from 2 mm at 6 mm to 1 m at the end 5 m away: fine near the centre only. The sum of 10 µm wide
+  // strips.
+  SizingConfig graded;
+  graded.centre_m = graded.inner_m = 0.002;
+  graded.centre_radius_m = 0.001;
+  graded.inner_radius_m = 0.006;
+  graded.rim_m = graded.back_m = 1.0;
+  graded.depth_exponent = 0.25;
+  const Sizing sizing{graded, rectangle_gel(10.0, 0.012, 1e-4)};
+  double front = 0.0;
+  for (double x = 5e-6; x < 5.0; x += 1e-5) {
+    const double h = sizing.front(x);
+    front += 2 * 1e-5 * 0.012 * 2 / (std::sqrt(3.0) * h * h);
+  }
+  EXPECT_NEAR(estimated_vertices(sizing), front, 0.05 * front);
+}
+
 TEST(Sizing, InnerRadiusMustLieInsideTheGel) {
   EXPECT_EQ(message_of<DataError>([] { sizing_for(preset("adaptive_0250um").sizing, disc_gel(0.005, 0.002)); }),
             "inner_radius_mm 6.6 does not lie inside the gel, which reaches 5 mm from its centre");

@@ -14,10 +14,11 @@ using ::testing::HasSubstr;
 
 class TetmeshStageTest : public ProgramTest {
  protected:
-  int run(const std::string& config, const std::string& more = "") {
+  int run(const std::string& config, const std::string& more = "",
+          const std::string& sensor = config_path("sensors/mctac.yaml")) {
     const int code = run_command(fmt::format("{}/tetmesh --log-level warning --config {} --sensor {} --out {} {} > {}",
-                                             TACIPC_BIN_DIR, config, config_path("sensors/mctac.yaml").string(),
-                                             (scratch_ / "out").string(), more, (scratch_ / "stdout.txt").string()));
+                                             TACIPC_BIN_DIR, config, sensor, (scratch_ / "out").string(), more,
+                                             (scratch_ / "stdout.txt").string()));
     EXPECT_EQ(read_file(scratch_ / "stdout.txt"), "");
     return code;
   }
@@ -65,7 +66,39 @@ TEST_F(TetmeshStageTest, UnknownShapeAndTooFineSizingAreRefused) {
   config.replace(config.find("uniform_mm: 0.25"), 16, "uniform_mm: 0.05");
   EXPECT_EQ(run(scratch_.file("fine.yaml", config)), 1);
   EXPECT_THAT(said_, HasSubstr("the sizing asks for about 1.62e+07 vertices, more than max_vertices 2e+06"));
+  EXPECT_THAT(said_, HasSubstr((scratch_ / "fine.yaml").string() + " with the gel of "));
+  EXPECT_THAT(said_, HasSubstr("sensors/mctac.yaml: the sizing asks for"));
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/tetmesh.yaml"));
+}
+
+TEST_F(TetmeshStageTest, SizesBeyondAnySensorAreRefusedAtTheirPlace) {
+  const std::string shipped = read_file(config_path("sensors/mctac.yaml"));
+  const auto refused = [&](const std::string& key, const std::string& by, const std::string& message) {
+    std::string text = shipped;
+    const std::size_t at = text.find("  " + key);
+    text.replace(at, text.find('\n', at) - at, by);
+    EXPECT_EQ(run(config_path("gels/tiny.yaml"), "", scratch_.file("odd.yaml", text)), 2) << by;
+    EXPECT_THAT(said_, HasSubstr("odd.yaml:")) << by;
+    EXPECT_THAT(said_, HasSubstr(message)) << by;
+  };
+  refused("radius_mm:", "  radius_mm: 1.0e+300", ":14: gel.radius_mm: 1.0e+300 is outside [0.001, 10000]");
+  refused("thickness_mm:", "  thickness_mm: 1.0e-200", ": gel.thickness_mm: 1.0e-200 is outside [0.001, 10000]");
+  const std::size_t outline = shipped.find("outline: disc");
+  ASSERT_NE(outline, std::string::npos);
+  std::string rectangle = shipped;
+  rectangle.replace(outline, 13, "outline: rectangle");
+  const std::size_t radius = rectangle.find("radius_mm: 15.0");
+  rectangle.replace(radius, 15, "size_mm: [1000000, 24]");
+  EXPECT_EQ(run(config_path("gels/tiny.yaml"), "", scratch_.file("wide.yaml", rectangle)), 2);
+  EXPECT_THAT(said_, HasSubstr(": gel.size_mm[0]: 1000000 is outside [0.001, 10000]"));
+  rectangle.replace(radius, 22, "size_mm: [2500, 24]");
+  EXPECT_EQ(run(config_path("gels/tiny.yaml"), "", scratch_.file("wide.yaml", rectangle)), 2);
+  EXPECT_THAT(said_, HasSubstr(": gel.size_mm: one side is more than 100 times the other"));
+  std::string import = read_file(config_path("gels/import_paper.yaml"));
+  import.replace(import.find("translation_mm: [0,"), 19, "translation_mm: [1.0e+300,");
+  EXPECT_EQ(run(scratch_.file("far.yaml", import), "--import " + scratch_.file("any.msh", "").string()), 2);
+  EXPECT_THAT(said_, HasSubstr("far.yaml:"));
+  EXPECT_THAT(said_, HasSubstr(": transform.translation_mm[0]: 1.0e+300 is outside [-1000000, 1000000]"));
 }
 
 }  // namespace

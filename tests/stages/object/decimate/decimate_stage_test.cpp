@@ -41,12 +41,26 @@ TEST_F(DecimateStage, SaysWhatItPassedThrough) {
   EXPECT_EQ(read_file(scratch_ / "out/object.ply"), read_file(mesh_));
 }
 
+TEST_F(DecimateStage, TellsOnATerminalHowFarTheSearchForCrossingsIs) {
+  write_ply(mesh_, sphere(0.005, 3));
+  const std::string decimate = fmt::format(
+      "{}/decimate --config {}/configs/objects/decimate/default.yaml --mesh {} --object {} --out {} --threads 1",
+      TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, mesh_.string(), object_.string(), (scratch_ / "out").string());
+  ASSERT_EQ(run_command(fmt::format("script -qec '{}' {} > {}", decimate, (scratch_ / "terminal.txt").string(),
+                                    (scratch_ / "stdout.txt").string())),
+            0);
+  const std::string terminal = read_file(scratch_ / "terminal.txt");
+  EXPECT_THAT(terminal, ::testing::HasSubstr("decimate: 12 % of the faces searched for crossings"));
+  EXPECT_THAT(terminal, ::testing::HasSubstr("decimate: 100 % of the faces searched for crossings"));
+}
+
 TEST_F(DecimateStage, RefusesWithOneLine) {
   write_ply(mesh_, sphere(5.0, 2));
   EXPECT_EQ(run("out"), 1);
   EXPECT_THAT(said_,
-              ::testing::EndsWith("decimate: error: the mesh is 1e+04 mm wide, expected 0.5 mm to 500 mm; is the "
-                                  "unit right? (in mm it is 10 mm wide)\n"));
+              ::testing::EndsWith("decimate: error: " + mesh_.string() +
+                                  ": the mesh is 1e+04 mm wide, expected 0.5 mm to 500 mm; is the unit right? (in mm "
+                                  "it is 10 mm wide)\n"));
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/decimate.yaml"));
   object_ = scratch_.file("object.yaml", "unit: feet\nup: z\n");
   EXPECT_EQ(run("out"), 2);

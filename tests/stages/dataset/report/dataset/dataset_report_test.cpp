@@ -46,6 +46,22 @@ std::vector<std::string> dead_links(const fs::path& site) {
   return dead;
 }
 
+TEST_F(DatasetReportTest, AnOddPlanIsRefusedWithItsLine) {
+  const DatasetFolder data(scratch_ / "", 3);
+  const std::string plan = read_file(data.plan()), second = DatasetFolder::folder_name(1);
+  const auto refused = [&](const std::string& folder, const std::string& shown) {
+    std::string odd = plan;
+    write_file(data.plan(), odd.replace(odd.find(second), second.size(), folder));
+    EXPECT_EQ(report(data), 1) << folder;
+    EXPECT_EQ(said_, fmt::format("report: error: {}:3: '{}' is not a folder below the dataset's\n",
+                                 data.plan().string(), shown));
+  };
+  refused("samples/" + std::string(300, 'x'), "samples/" + std::string(72, 'x') + "… (308 bytes)");
+  refused("../../etc", "../../etc");
+  refused("samples/\x1b[31m", "samples/\\x1b[31m");
+  refused("", "");
+}
+
 TEST_F(DatasetReportTest, ShowsWhatIsThereInMidRun) {
   const DatasetFolder data(scratch_ / "", 25);
   for (const int i : {0, 1, 4, 7}) data.make(i);
