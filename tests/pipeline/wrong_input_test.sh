@@ -46,7 +46,7 @@ camera: {position_mm: [0, 0, -12], width_px: 64, height_px: 48, window_mm: [8, 6
 response: {mean_level: 0.5, curve: srgb}
 YAML
 refuses 2 "faults.yaml:2:16: gel.outline: 'disk' is not one of disc, rectangle (did you mean disc?)" p/press.yaml press faults.yaml gel/gel.msh
-for part in 'faults.yaml:2:51: gel.thickness_mm: -2 is outside (0, inf)' 'material.young_modulus_pa: unknown key (did you mean youngs_modulus_pa?)' \
+for part in 'faults.yaml:2:51: gel.thickness_mm: -2 is outside [0.001, 10000]' 'material.young_modulus_pa: unknown key (did you mean youngs_modulus_pa?)' \
             'material.youngs_modulus_pa: missing' 'material.poissons_ratio: key given twice' 'material.poissons_ratio: 0.5 is outside'; do
   grep -qF "$part" stderr.txt || { cat stderr.txt; fail "the faults do not name '$part'"; }
 done

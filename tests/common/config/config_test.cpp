@@ -108,9 +108,8 @@ TEST(ConfigReader, MessagesShowControlBytesEscapedAndLongTextsCut) {
   const auto number = [](ConfigReader& in) { in.number("a"); };
   EXPECT_THAT(faults_when("a: \"\\e[31mred\"\n", number),
               ElementsAre("gel.yaml:1:4: a: expected a number, found '\\x1b[31mred'"));
-  EXPECT_THAT(
-      faults_when("a: " + std::string(2'000'000, '7') + "x\n", number),
-      ElementsAre("gel.yaml:1:4: a: expected a number, found '" + std::string(80, '7') + "… (2000001 bytes)'"));
+  EXPECT_THAT(faults_when("a: " + std::string(2'000'000, '7') + "x\n", number),
+              ElementsAre("gel.yaml:1:4: a: expected a number, found '" + std::string(80, '7') + "… (2000001 bytes)'"));
   EXPECT_THAT(faults_when("? " + std::string(2000, 'k') + "\n: 1\na: 1\n", number),
               ElementsAre("gel.yaml:1:3: a key of more than 1024 bytes: '" + std::string(80, 'k') + "… (2000 bytes)'"));
   std::string many = "a: 1\n";
