@@ -1,5 +1,7 @@
 #include "stages/object/decimate/object_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>

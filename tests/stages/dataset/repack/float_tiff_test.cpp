@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -48,7 +50,7 @@ TEST(FloatTiff, ComesBackBitByBit) {
     for (std::size_t i = 1; i < row.size(); ++i) row[i] = static_cast<char>(row[i] + row[i - 1]);
     for (std::size_t x = 0; x < 3; ++x) {
       const std::string bytes{row[9 + x], row[6 + x], row[3 + x], row[x]};
-      EXPECT_EQ(std::memcmp(bytes.data(), &pixels[3 * y + x], sizeof(float)), 0) << x << ", " << y;
+      EXPECT_EQ(at<std::uint32_t>(bytes, 0), std::bit_cast<std::uint32_t>(pixels[3 * y + x])) << x << ", " << y;
     }
   }
 }
