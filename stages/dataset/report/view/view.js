@@ -278,7 +278,7 @@
     gl.uniform3f(scene.uniforms.slips, .92, .5, .16);
     const {view, lens} = cameraMatrices(), clip = product(lens, view), mode = element("color").value === "state" ? 1 : 0;
     paint(scene.front, clip, view, {mode, lines: element("lines").checked, plain: [.78, .8, .84, 1]});
-    paint(scene.walls, clip, view, {mode: 2, faceted: true, plain: [.62, .66, .72, 1]});
+    paint(scene.walls, clip, view, {mode: 2, faceted: true, plain: [.9, .92, .95, 1]});
     const alpha = {solid: 1, glass: .34, hidden: 0}[element("object").value];
     if (alpha > 0) {
       const pose = data.poses[frame], columns = pose.map((_, i) => pose[4 * (i % 4) + (i >> 2)]);  // rows to columns
@@ -408,7 +408,7 @@
     }
     const {low_m: low, step_m: step, size} = data.gel.grid, wide = Math.hypot(size[0], size[1]) * step;
     home.target = [low[0] + size[0] * step / 2, low[1] + size[1] * step / 2, low[2] + size[2] * step - wide / 30];
-    home.distance = 2.5 * wide;
+    home.distance = 1.6 * wide;
     frame = data.frames.length - 1;
     listen();
     reset();

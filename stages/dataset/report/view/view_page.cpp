@@ -13,8 +13,8 @@ namespace {
 constexpr const char* kStyle = R"css(
 html, body { height: 100%; }
 body { display: flex; flex-direction: column; gap: .6rem; padding: 1rem 1.2rem; max-width: none; }
-header.bar { display: flex; flex-wrap: wrap; align-items: baseline; gap: .2rem 1.2rem; }
-header.bar h1 { margin: 0; font-size: 1.3rem; }
+header.top { display: flex; flex-wrap: wrap; align-items: baseline; gap: .2rem 1.2rem; }
+header.top h1 { margin: 0; font-size: 1.3rem; }
 #stage { flex: 1; display: flex; flex-direction: column; gap: .6rem; min-height: 0; }
 #stage[hidden], #bar[hidden], #states[hidden] { display: none; }
 .scene {
@@ -23,7 +23,7 @@ header.bar h1 { margin: 0; font-size: 1.3rem; }
 }
 #scene { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: none; cursor: grab; }
 #scene:active { cursor: grabbing; }
-.key {
+.scale {
   position: absolute; right: .9rem; top: .9rem; padding: .5rem .8rem; border-radius: 10px; pointer-events: none;
   background: #ffffff; color: #1b2330; font-size: .85rem; font-variant-numeric: tabular-nums;
 }
@@ -37,7 +37,8 @@ header.bar h1 { margin: 0; font-size: 1.3rem; }
 .controls .frames { flex: 1 1 20rem; }
 .controls .frames input { flex: 1; min-width: 6rem; accent-color: var(--accent); }
 #play { min-width: 5rem; }
-#facts { margin: 0; font-variant-numeric: tabular-nums; }
+#facts { margin: 0; max-width: none; font-variant-numeric: tabular-nums; }
+.hint { max-width: none; margin: 0; }
 :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
 )css";
 
@@ -46,7 +47,7 @@ constexpr const char* kStage =
 <div id="failure" hidden><p class="note warn"><span id="why"></span> The pictures are in <a id="pictures" href="index.html">the report</a>.</p></div>
 <main id="stage">
 <div class="scene"><canvas id="scene" tabindex="0" role="img" aria-label="Gel and object in 3-D; arrow keys turn, plus and minus zoom"></canvas>
-<div class="key"><div id="bar"><span id="unit"></span><div id="ramp"></div><div class="ticks"><span id="low"></span><span id="middle"></span><span id="high"></span></div></div>
+<div class="scale"><div id="bar"><span id="unit"></span><div id="ramp"></div><div class="ticks"><span id="low"></span><span id="middle"></span><span id="high"></span></div></div>
 <div id="states" hidden><span style="--of: #409e6b">sticks</span><span style="--of: #eb8029">slips</span><span style="--of: #c7ccd6">no contact</span></div></div></div>
 <p id="facts" aria-live="polite"></p>
 <div class="controls">
@@ -56,7 +57,7 @@ constexpr const char* kStage =
 <label><input id="lines" type="checkbox" checked> lines 1 mm apart at rest</label>
 <button id="reset" type="button">Reset view</button>
 </div>
-<p class="quiet">Drag to turn, wheel or two fingers to zoom, Shift and drag to move. Shown as saved: true to scale, no frame made up between two.</p>
+<p class="quiet hint">Drag to turn, wheel or two fingers to zoom, Shift and drag to move. Shown as saved: true to scale, no frame made up between two.</p>
 </main>
 )html";
 
@@ -84,7 +85,7 @@ std::vector<std::string> frame_texts(const SampleReport& sample, const PressView
 std::string view_page(const std::string& title, const std::vector<ViewedSample>& samples) {
   std::string html =
       page_head(title + " in 3-D", "<link rel=\"icon\" href=\"data:,\">\n<style>" + page_style() + kStyle + "</style>");
-  html += "<body>\n<header class=\"bar\"><h1>" + html_text(title) + "</h1>\n<span class=\"controls\"><label>Sample ";
+  html += "<body>\n<header class=\"top\"><h1>" + html_text(title) + "</h1>\n<span class=\"controls\"><label>Sample ";
   html += "<select id=\"sample\">";
   for (const ViewedSample& sample : samples)
     html += fmt::format("<option value=\"{}\">{}</option>", sample.card, html_text(sample.name));
