@@ -1,4 +1,4 @@
-# VTK files of one sample, for ParaView: make -f Makefile.data export SAMPLE=out/demo/star
+# VTK files of one sample for ParaView, and a glTF file: make -f Makefile.data export SAMPLE=out/demo/star
 $(call uses,sample/sample)
 
 .PHONY: export
@@ -12,8 +12,8 @@ press_input = $(SAMPLE)/press/$$($(BIN)/tacipc get $(SAMPLE)/press/press.yaml in
 $(SAMPLE)/export/export.yaml: $(SAMPLE)/press/press.yaml | build
 	$(call run,export,--press $(SAMPLE)/press --gel $(call press_input,gel) --object $(call press_input,object))
 
-export: $(SAMPLE)/export/export.yaml ## own: VTK files of one sample for ParaView: SAMPLE=out/demo/star
-	@echo; echo "Open $(SAMPLE)/export/surface.pvd, volume.pvd and object.pvd in ParaView"
+export: $(SAMPLE)/export/export.yaml ## own: One sample for ParaView (VTK) and Blender (glTF): SAMPLE=out/demo/star
+	@echo; echo "Open $(SAMPLE)/export/surface.pvd, volume.pvd and object.pvd in ParaView, sample.glb in Blender"
 else
 export:
 	@echo "export: say which sample: make -f Makefile.data export SAMPLE=out/demo/star" >&2; exit 2

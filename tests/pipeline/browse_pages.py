@@ -59,7 +59,7 @@ OVERFLOW = """(() => {
 
 
 class Browser:
-    def __init__(self, program):
+    def __init__(self, program, *flags):
         to_browser, self.write = os.pipe()
         self.read, from_browser = os.pipe()
         self.profile = tempfile.mkdtemp()
@@ -70,7 +70,7 @@ class Browser:
             os.dup2(b, 4)
 
         command = [program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-                   "--remote-debugging-pipe", f"--user-data-dir={self.profile}", "about:blank"]
+                   "--remote-debugging-pipe", f"--user-data-dir={self.profile}", *flags, "about:blank"]
         self.process = subprocess.Popen(command, preexec_fn=wire, close_fds=False, stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)

@@ -13,6 +13,7 @@ for kind in surface volume object; do
   done
   [ "$(grep -c '<DataSet' "one/sample/pyramid/export/$kind.pvd")" = 3 ] || fail "$kind.pvd does not list three frames"
 done
+[ "$(head -c 4 one/sample/pyramid/export/sample.glb)" = glTF ] || fail "sample.glb is no glTF file"
 stamp() { find one -name '*.yaml' -printf '%p %T@\n' | sort; }
 before=$(stamp)
 export_goal SAMPLE=one/sample/pyramid

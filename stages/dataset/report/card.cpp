@@ -10,6 +10,7 @@
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/press_curve.h"
 #include "stages/dataset/report/quiver.h"
+#include "stages/dataset/report/view/view_page.h"
 
 namespace tacipc {
 namespace {
@@ -241,6 +242,7 @@ std::string sample_card(const SampleReport& sample, std::size_t index, const fs:
   std::string card = fmt::format("<article class=\"card\" id=\"{}\">\n<header><h3>{}</h3>{}", card_id(index),
                                  html_text(sample.name), verdict_badge(sample));
   if (!sample.object.empty()) card += "<span class=\"quiet\">object " + html_text(sample.object) + "</span>";
+  if (sample.has_view) card += fmt::format("<a href=\"{}#{}\">Turn it in 3-D</a>", kViewPage, card_id(index));
   return card + "</header>\n" + sample_body(sample, folder, Loading::in_sight) + "</article>\n";
 }
 

@@ -5,10 +5,13 @@
 #include "common/base/log.h"
 #include "common/image/image.h"
 #include "common/stage/stage.h"
+#include "stages/dataset/report/card.h"
 #include "stages/dataset/report/contact_sheet.h"
 #include "stages/dataset/report/dataset/dataset_report.h"
 #include "stages/dataset/report/page.h"
 #include "stages/dataset/report/sample.h"
+#include "stages/dataset/report/view/view_data.h"
+#include "stages/dataset/report/view/view_page.h"
 
 namespace {
 
@@ -26,11 +29,34 @@ const StageSpec kReport{
                {.flag = "--config", .help = "with --plan: how much is shown (YAML)", .required = false}},
     .options = {{.flag = "--title", .help = "heading of the page", .fallback = "Tactile samples"}}};
 
+/// Writes the data of a sample's view. A view shows a sample but proves nothing: one that cannot be read is left out.
+void write_view(Stage& stage, SampleReport& sample, const std::string& card) {
+  try {
+    const auto view = read_press_view(sample.folder / "press");
+    if (!view) return;
+    write_file(stage.output(view_data_name(card)), view_script(*view, frame_texts(sample, *view)));
+    sample.has_view = true;
+  } catch (const DataError& error) {
+    log_warning("{}: no 3-D view: {}", sample.name, error.what());
+  }
+}
+
+void write_views(Stage& stage, std::vector<SampleReport>& samples) {
+  std::vector<ViewedSample> viewed;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    write_view(stage, samples[i], card_id(i));
+    if (samples[i].has_view) viewed.push_back({card_id(i), samples[i].name});
+  }
+  if (viewed.empty()) return;
+  write_file(stage.output(kViewScript), view_program());
+  write_file(stage.output(kViewPage), view_page(stage.option("--title"), viewed));
+}
+
 void report_samples(Stage& stage) {
   // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
-  for (const char* name : {"index.html", "contact_sheet.png"}) {
+  for (const char* name : {"index.html", "contact_sheet.png", kViewPage, "view"}) {
     std::error_code error;
-    std::filesystem::remove(stage.out() / name, error);
+    std::filesystem::remove_all(stage.out() / name, error);
     if (error) throw DataError("{}: cannot be removed: {}", (stage.out() / name).string(), error.message());
   }
   std::vector<SampleReport> samples;
@@ -39,6 +65,7 @@ void report_samples(Stage& stage) {
     const SampleReport& sample = samples.back();
     if (!sample.passed()) log_warning("{}: failed: {}", sample.name, *sample.failure);
   }
+  write_views(stage, samples);
   write_file(stage.output("index.html"), report_page(stage.option("--title"), samples, stage.out()));
   write_png(stage.output("contact_sheet.png"), contact_sheet(stage.option("--title"), samples));
   const auto passed = std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.passed(); });

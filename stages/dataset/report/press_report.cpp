@@ -38,19 +38,6 @@ PlacementReport read_placement(const Record& press) {
   return placement;
 }
 
-/// The object that was pressed, or, where it is not there any more, why not.
-std::optional<Positions> read_pressed_object(const fs::path& folder, const Record& press, std::string& why) {
-  const Record object = press.section("inputs").section("object");
-  const fs::path path = (folder / object.text("path").value_or("")).lexically_normal();
-  if (!object.has("path") || !fs::is_regular_file(path))
-    why = "the object's mesh is not there";
-  else if (object.text("hash") != content_hash(path))
-    why = "the object's mesh has changed since the press";
-  else
-    return read_triangle_mesh(path, 1.0).positions;
-  return std::nullopt;
-}
-
 /// Depth of the object's lowest point below z = 0, whatever way it moved and turned.
 double depth_at(const Matrix4& gel_from_object, const Positions& object) {
   const Vector3 up = gel_from_object.row(2).head<3>();  // how height grows in the object's own frame
@@ -93,12 +80,13 @@ void add_torques(const PressFolder& press, std::vector<FrameReport>& frames) {
 void add_depths(const PressFolder& arrays, const Record& press, SampleReport& sample) {
   const std::vector<Matrix4> poses = arrays.poses();
   std::string why;
-  const auto object = read_pressed_object(arrays.folder(), press, why);
-  if (!object) {
+  const auto object_path = pressed_input(arrays.folder(), press, "object", why);
+  if (!object_path) {
     sample.warnings.push_back("press: " + why + ", so the depths per frame are not known");
     return;
   }
-  for (std::size_t i = 0; i < sample.frames.size(); ++i) sample.frames[i].depth_m = depth_at(poses[i], *object);
+  const Positions object = read_triangle_mesh(*object_path, 1.0).positions;
+  for (std::size_t i = 0; i < sample.frames.size(); ++i) sample.frames[i].depth_m = depth_at(poses[i], object);
   if (sample.press_end_frame) {
     sample.depth_m = sample.frames[static_cast<std::size_t>(*sample.press_end_frame)].depth_m;
   } else {
@@ -217,6 +205,19 @@ void add_arrays(const fs::path& folder, const Record& press, SampleReport& sampl
 void link_if_there(std::vector<std::pair<std::string, fs::path>>& links, const std::string& label,
                    const fs::path& path) {
   if (fs::is_regular_file(path)) links.emplace_back(label, path);
+}
+
+std::optional<fs::path> pressed_input(const fs::path& folder, const Record& press, const std::string& input,
+                                      std::string& why) {
+  const Record recorded = press.section("inputs").section(input);
+  const fs::path path = (folder / recorded.text("path").value_or("")).lexically_normal();
+  if (!recorded.has("path") || !fs::is_regular_file(path))
+    why = "the " + input + "'s mesh is not there";
+  else if (recorded.text("hash") != content_hash(path))
+    why = "the " + input + "'s mesh has changed since the press";
+  else
+    return path;
+  return std::nullopt;
 }
 
 std::vector<int> pictured_frames(const SampleReport& sample) {

@@ -109,6 +109,8 @@ struct SampleReport {
   std::optional<SampleImages> images;
   std::vector<PhaseImage> phase_images;
 
+  bool has_view = false;  // in 3-D, beside the page
+
   std::vector<std::pair<std::string, std::filesystem::path>> records;  // label and file, those that exist
   std::vector<std::pair<std::string, std::filesystem::path>> data;
 

@@ -3,13 +3,14 @@
 #include "common/base/files.h"
 #include "common/stage/stage.h"
 #include "stages/gel/export/frame_grids.h"
+#include "stages/gel/export/gltf.h"
 #include "stages/gel/export/open_press.h"
 
 namespace {
 
 const tacipc::StageSpec kExport{
     .name = "export",
-    .summary = "Write the frames of a press as VTK files, for ParaView: surface, volume and object.",
+    .summary = "Write the frames of a press as VTK files for ParaView, and as one binary glTF file for Blender.",
     .inputs = {{.flag = "--press", .help = "folder that press wrote"},
                {.flag = "--gel", .help = "gel.msh of tetmesh, the one that was pressed"},
                {.flag = "--object", .help = "object.ply of decimate, the one that was pressed"}}};
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
     write_file(stage.output("surface.pvd"), pvd_text(surface));
     write_file(stage.output("volume.pvd"), pvd_text(volume));
     write_file(stage.output("object.pvd"), pvd_text(bodies));
+    write_file(stage.output("sample.glb"), glb_bytes(gel, object, press));
     stage.summarize({{"frames", times_s.size()},
                      {"gel_vertices", gel.num_vertices()},
                      {"tets", gel.num_tets()},

@@ -1,0 +1,227 @@
+#include "stages/gel/export/gltf.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "common/base/error.h"
+#include "common/base/json.h"
+#include "common/image/picture.h"
+
+namespace tacipc {
+namespace {
+
+// Numbers of the glTF 2.0 specification.
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
+constexpr int kVertices = 34962, kIndices = 34963;
+
+/// Binary part and its description, array by array.
+class Buffer {
+ public:
+  /// Adds an array of rows and returns the number of its accessor. `target`: what the card uses it for, 0 for none.
+  template <typename T>
+  int add(const std::vector<T>& values, int components, int component_type, int target, bool bounds = false) {
+    static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
+    constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+    Value view = Value::Map{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", values.size() * sizeof(T)}};
+    if (target != 0) view.set("target", target);
+    Value accessor = Value::Map{{"bufferView", views_.size()},
+                                {"componentType", component_type},
+                                {"count", values.size() / static_cast<std::size_t>(components)},
+                                {"type", kTypes[components]}};
+    if (component_type == kUnsignedShort) accessor.set("normalized", true);
+    if (bounds) add_bounds(accessor, values, static_cast<std::size_t>(components));
+    views_.push_back(view);
+    accessors_.push_back(accessor);
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
+    return static_cast<int>(accessors_.size()) - 1;
+  }
+  const Value::List& views() const { return views_; }
+  const Value::List& accessors() const { return accessors_; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  template <typename T>
+  static void add_bounds(Value& accessor, const std::vector<T>& values, std::size_t components) {
+    Value::List low, high;
+    for (std::size_t c = 0; c < components; ++c) {
+      T least = values[c], most = values[c];
+      for (std::size_t i = c; i < values.size(); i += components) {
+        least = std::min(least, values[i]);
+        most = std::max(most, values[i]);
+      }
+      low.emplace_back(static_cast<double>(least));
+      high.emplace_back(static_cast<double>(most));
+    }
+    accessor.set("min", low);
+    accessor.set("max", high);
+  }
+
+  Value::List views_, accessors_;
+  std::string bytes_;
+};
+
+std::vector<float> floats(const Positions& rows) { return {rows.data(), rows.data() + rows.size()}; }
+
+/// A colour channel of a screen as light, 16 bits: what glTF means by colours of vertices.   [IEC 61966-2-1]
+std::uint16_t linear_channel(std::uint8_t code) {
+  const double c = code / 255.0;
+  return static_cast<std::uint16_t>(
+      std::lround(65535.0 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4))));
+}
+
+/// RGBA of the indentation, light at the deepest vertex.
+std::vector<std::uint16_t> indentation_colors(const Positions& rest, const Positions& last) {
+  const Eigen::VectorXd depth = rest.col(2) - last.col(2);
+  const double deepest = std::max(1e-6, depth.maxCoeff());
+  std::vector<std::uint16_t> colors;
+  for (const double d : depth) {
+    for (const std::uint8_t code : perceptual_color(d / deepest)) colors.push_back(linear_channel(code));
+    colors.push_back(std::numeric_limits<std::uint16_t>::max());
+  }
+  return colors;
+}
+
+std::vector<std::uint32_t> corners(const Triangles& triangles, const std::vector<int>* of_vertices = nullptr) {
+  std::vector<std::uint32_t> indices;
+  for (const int v : std::span<const int>(triangles.data(), static_cast<std::size_t>(triangles.size()))) {
+    const auto place = [&] {
+      return std::lower_bound(of_vertices->begin(), of_vertices->end(), v) - of_vertices->begin();
+    };
+    indices.push_back(static_cast<std::uint32_t>(of_vertices ? place() : v));
+  }
+  return indices;
+}
+
+Value material(const char* name, Value::List color, double roughness) {
+  return Value::Map{
+      {"name", name},
+      {"doubleSided", true},
+      {"pbrMetallicRoughness",
+       Value::Map{{"baseColorFactor", std::move(color)}, {"metallicFactor", 0.0}, {"roughnessFactor", roughness}}}};
+}
+
+/// The front as a mesh with a morph target per later frame.
+Value gel_mesh(const TetMesh& gel, const PressFolder& press, std::size_t frames, Buffer& buffer) {
+  const std::vector<int> front = press.front_vertices();
+  const Positions rest = press.positions(0)(front, Eigen::all);
+  const Positions last = press.positions(frames - 1)(front, Eigen::all);
+  const int positions = buffer.add(floats(rest), 3, kFloat, kVertices, true);
+  const int colors = buffer.add(indentation_colors(rest, last), 4, kUnsignedShort, kVertices);
+  const int indices = buffer.add(corners(gel.faces(BoundaryTag::front), &front), 1, kUnsignedInt, kIndices);
+  Value primitive = Value::Map{
+      {"attributes", Value::Map{{"POSITION", positions}, {"COLOR_0", colors}}}, {"indices", indices}, {"material", 0}};
+  Value mesh = Value::Map{{"name", "gel"}};
+  Value::List targets;
+  for (std::size_t f = 1; f < frames; ++f) {
+    const Positions moved = press.positions(f)(front, Eigen::all) - rest;
+    targets.emplace_back(Value::Map{{"POSITION", buffer.add(floats(moved), 3, kFloat, kVertices, true)}});
+  }
+  if (frames > 1) {
+    mesh.set("weights", Value::List(frames - 1, Value(0.0)));
+    primitive.set("targets", targets);
+  }
+  mesh.set("primitives", Value::List{primitive});
+  return mesh;
+}
+
+Value object_mesh(const TriangleMesh& object, Buffer& buffer) {
+  const int positions = buffer.add(floats(object.positions), 3, kFloat, kVertices, true);
+  const int indices = buffer.add(corners(object.triangles), 1, kUnsignedInt, kIndices);
+  return Value::Map{
+      {"name", "object"},
+      {"primitives", Value::List{Value::Map{
+                         {"attributes", Value::Map{{"POSITION", positions}}}, {"indices", indices}, {"material", 1}}}}};
+}
+
+/// Quaternions x, y, z, w of the poses, each on the side of the one before, so that none turns the long way round.
+std::vector<float> rotations(const std::vector<Matrix4>& poses) {
+  std::vector<float> values;
+  Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
+  for (const Matrix4& pose : poses) {
+    Eigen::Quaterniond q(Matrix3(pose.topLeftCorner<3, 3>()));
+    q.normalize();
+    if (q.dot(before) < 0.0) q.coeffs() *= -1.0;
+    before = q;
+    for (const double c : q.coeffs()) values.push_back(static_cast<float>(c));
+  }
+  return values;
+}
+
+Value animation(const std::vector<double>& times_s, const std::vector<Matrix4>& poses, Buffer& buffer) {
+  const std::size_t frames = times_s.size();
+  std::vector<float> weights(frames * (frames - 1), 0.0F), places;
+  for (std::size_t f = 1; f < frames; ++f) weights[f * (frames - 1) + f - 1] = 1.0F;
+  for (const Matrix4& pose : poses)
+    for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(pose(c, 3)));
+  const int time = buffer.add(std::vector<float>(times_s.begin(), times_s.end()), 1, kFloat, 0, true);
+  Value::List samplers, channels;
+  const auto play = [&](int output, int node, const char* path) {
+    channels.emplace_back(
+        Value::Map{{"sampler", samplers.size()}, {"target", Value::Map{{"node", node}, {"path", path}}}});
+    samplers.emplace_back(Value::Map{{"input", time}, {"output", output}, {"interpolation", "LINEAR"}});
+  };
+  play(buffer.add(weights, 1, kFloat, 0), 1, "weights");
+  play(buffer.add(places, 3, kFloat, 0), 2, "translation");
+  play(buffer.add(rotations(poses), 4, kFloat, 0), 2, "rotation");
+  return Value::Map{{"name", "press"}, {"samplers", samplers}, {"channels", channels}};
+}
+
+Value::List list_of(const std::vector<float>& values, std::size_t from, std::size_t count) {
+  return {values.begin() + static_cast<std::ptrdiff_t>(from),
+          values.begin() + static_cast<std::ptrdiff_t>(from + count)};
+}
+
+Value::List nodes(const std::vector<Matrix4>& poses) {
+  const double half = std::sqrt(0.5);  // a quarter turn about x: z up becomes y up
+  const Vector3 place = poses.front().topRightCorner<3, 1>();
+  return {Value::Map{
+              {"name", "frame S"}, {"rotation", Value::List{-half, 0.0, 0.0, half}}, {"children", Value::List{1, 2}}},
+          Value::Map{{"name", "gel"}, {"mesh", 0}},
+          Value::Map{{"name", "object"},
+                     {"mesh", 1},
+                     {"translation", Value::List{place.x(), place.y(), place.z()}},
+                     {"rotation", list_of(rotations(poses), 0, 4)}}};
+}
+
+void append_number(std::string& bytes, std::uint32_t number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+std::string glb(std::string json, const std::string& binary) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::size_t size = 12 + 8 + json.size() + 8 + binary.size();
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw DataError("the press is too large for a glTF file: {} bytes, at most 4 GiB", size);
+  std::string bytes = "glTF";
+  for (const std::size_t number : {std::size_t{2}, size, json.size()})
+    append_number(bytes, static_cast<std::uint32_t>(number));
+  bytes += "JSON" + json;
+  append_number(bytes, static_cast<std::uint32_t>(binary.size()));
+  return bytes + std::string("BIN\0", 4) + binary;
+}
+
+}  // namespace
+
+std::string glb_bytes(const TetMesh& gel, const TriangleMesh& object, const PressFolder& press) {
+  const std::vector<double> times_s = press.times();
+  const std::vector<Matrix4> poses = press.poses();
+  Buffer buffer;
+  const Value::List meshes{gel_mesh(gel, press, times_s.size(), buffer), object_mesh(object, buffer)};
+  Value file = Value::Map{{"asset", Value::Map{{"version", "2.0"}, {"generator", "TacIPC export"}}},
+                          {"scene", 0},
+                          {"scenes", Value::List{Value::Map{{"nodes", Value::List{0}}}}},
+                          {"nodes", nodes(poses)},
+                          {"meshes", meshes},
+                          {"materials", Value::List{material("gel", {1.0, 1.0, 1.0, 1.0}, 0.6),
+                                                    material("object", {0.6, 0.54, 0.44, 1.0}, 0.4)}}};
+  if (times_s.size() > 1) file.set("animations", Value::List{animation(times_s, poses, buffer)});
+  file.set("accessors", buffer.accessors());
+  file.set("bufferViews", buffer.views());
+  file.set("buffers", Value::List{Value::Map{{"byteLength", buffer.bytes().size()}}});
+  return glb(to_json(file), buffer.bytes());
+}
+
+}  // namespace tacipc

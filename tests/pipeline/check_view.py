@@ -1,0 +1,73 @@
+"""Unpacks the data of a 3-D view and compares them with the press they were made of.
+
+    check_view.py VIEW.js PRESS_FOLDER"""
+import base64
+import json
+import sys
+import zlib
+
+import numpy as np
+
+
+class Planes:
+    """Integers as three planes of bytes: 0, -1, 1, -2 ... are stored as 0, 1, 2, 3 ..."""
+
+    def __init__(self, data):
+        self.data, self.at = np.frombuffer(data, np.uint8).astype(int), 0
+
+    def next(self, count):
+        low, middle, high = self.data[self.at:self.at + 3 * count].reshape(3, count)
+        self.at += 3 * count
+        code = low + 256 * middle + 65536 * high
+        return np.where(code % 2 == 0, code // 2, -(code + 1) // 2)
+
+    def triangles(self, count):
+        first = np.cumsum(self.next(count))
+        return np.stack([first, first + self.next(count), first + self.next(count)], axis=1)
+
+
+def main():
+    script, press = sys.argv[1:3]
+    with open(script, encoding="utf-8") as file:
+        data = json.loads(file.read().removeprefix("tacipc_view(").rstrip().removesuffix(");"))
+    planes = Planes(zlib.decompress(base64.b64decode(data["packed"])))
+    front = np.load(f"{press}/front_vertices.npy")
+    positions = np.load(f"{press}/positions.npy")[:, front]
+    states, forces = np.load(f"{press}/contact_state.npy"), np.load(f"{press}/contact_force.npy")[:, :, 0]
+    grid, count = data["gel"]["grid"], data["gel"]["vertices"]
+    half = 0.501 * grid["step_m"]
+    assert half < 0.3e-6, f"a step is {grid['step_m']} m"
+    assert count == len(front) and len(data["frames"]) == len(positions)
+    triangles = planes.triangles(data["gel"]["triangles"])
+    assert triangles.min() == 0 and triangles.max() == count - 1
+    steps, rows = np.zeros((count, 3), int), None
+    for f, facts in enumerate(data["frames"]):
+        for axis in range(3):
+            difference = planes.next(count)
+            steps[:, axis] += difference if f else np.cumsum(difference)
+        shown = np.array(grid["low_m"]) + grid["step_m"] * steps
+        if rows is None:  # which vertex is which: by the places at rest
+            rows = np.argmin(np.linalg.norm(shown[:, None] - positions[0][None], axis=2), axis=1)
+            assert sorted(rows) == list(range(count))
+        assert np.abs(shown - positions[facts["frame"]][rows]).max() <= half
+        pressure = planes.next(count) / 255 * data["pressure_pa"]
+        assert np.array_equal(planes.next(count), states[facts["frame"]][rows])
+        # Pressure: the force into the face over a third of the area around, as far as the colours reach.
+        corners = positions[facts["frame"]][rows][triangles]
+        third = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 6
+        normal, area = np.zeros((count, 3)), np.zeros(count)
+        np.add.at(normal, triangles.ravel(), np.repeat(third, 3, axis=0))
+        np.add.at(area, triangles.ravel(), np.repeat(np.linalg.norm(third, axis=1), 3))
+        normal /= np.linalg.norm(normal, axis=1)[:, None]
+        expected = np.maximum(0, -np.sum(forces[facts["frame"]][rows] * normal, axis=1)) / area
+        expected = np.minimum(expected, data["pressure_pa"])
+        assert np.abs(pressure - expected).max() <= 0.501 / 255 * data["pressure_pa"]
+    planes.triangles(data["object"]["triangles"])
+    object_steps = [np.cumsum(planes.next(data["object"]["vertices"])) for _ in range(3)]
+    assert max(steps.max() for steps in object_steps) == 65535
+    assert planes.at == len(planes.data)
+    poses = np.load(f"{press}/object_pose.npy").reshape(-1, 16)
+    assert np.array_equal(np.array(data["poses"]), poses[[facts["frame"] for facts in data["frames"]]])
+
+
+main()
