@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "common/base/printable.h"
+
 namespace tacipc {
 namespace {
 
@@ -44,15 +46,17 @@ void open_log_file(const std::string& path) {
   file->flush_on(spdlog::level::info);
 }
 
-void log_message(int level, const std::string& text) {
+void log_message(int level, const std::string& message) {
   end_progress_line();
+  const std::string text = printable(message);
   const auto at = static_cast<spdlog::level::level_enum>(level);
   if (terminal) terminal->log(at, level == spdlog::level::warn ? "warning: " + text : text);
   if (file) file->log(at, text);
 }
 
-void log_error(const std::string& text) {
+void log_error(const std::string& message) {
   end_progress_line();
+  const std::string text = printable(message);
   // Straight to the terminal: an error is logged at any level.
   say(text + "\n");
   if (file) file->error(text);
@@ -70,7 +74,7 @@ void show_progress(double fraction, const std::string& text) {
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   std::string left;
   if (fraction > 0.01 && fraction < 1.0) left = fmt::format(", {:.0f} s left", spent * (1.0 - fraction) / fraction);
-  say(fmt::format("\r\033[K{}: {}{}", stage_name, text, left));
+  say(fmt::format("\r\033[K{}: {}{}", stage_name, printable(text), left));
   std::fflush(stderr);
   progress_shown = true;
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/base/printable.h"
 
 namespace tacipc {
 namespace {
@@ -24,16 +25,16 @@ int run_command(const std::string& name, CLI::App& app, const std::vector<std::s
     return 0;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "tacipc {0}: error: {1} (see tacipc {0} --help)\n", name, error.what());
+    fmt::print(stderr, "tacipc {0}: error: {1} (see tacipc {0} --help)\n", name, printable(error.what()));
     return 2;
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
     return 2;
   } catch (const UsageError& error) {
-    fmt::print(stderr, "tacipc {}: error: {}\n", name, error.what());
+    fmt::print(stderr, "tacipc {}: error: {}\n", name, printable(error.what()));
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tacipc {}: error: {}\n", name, error.what());
+    fmt::print(stderr, "tacipc {}: error: {}\n", name, printable(error.what()));
     return 1;
   }
 }

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "common/base/files.h"
+#include "common/base/printable.h"
 #include "common/config/config_document.h"
 
 namespace tacipc {
@@ -47,6 +48,8 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
+    // Words whose lengths differ so much cannot be nearer, and a word may be as long as a file.
+    if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) >= best_distance) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;
@@ -70,19 +73,17 @@ ConfigReader ConfigReader::parse(const std::string& text, const std::string& nam
 
 std::string ConfigReader::source() const { return document_->name; }
 
-std::string ConfigReader::path_of(const std::string& key) const { return joined_path(node_->path, key); }
+std::string ConfigReader::path_of(const std::string& key) const { return joined_path(node_->path(), key); }
 
 void ConfigReader::add_fault(const Node& node, const std::string& path, const std::string& reason) {
   document_->add(node.line, node.column, path, reason);
 }
 
 ConfigReader::Node* ConfigReader::find(const std::string& key, bool required) {
-  if (std::find(node_->asked.begin(), node_->asked.end(), key) == node_->asked.end()) node_->asked.push_back(key);
-  for (Node::Entry& entry : node_->entries) {
-    if (entry.key == key) {
-      entry.known = true;
-      return entry.value.get();
-    }
+  if (node_->asked_places.add(key, node_->asked.size())) node_->asked.push_back(key);
+  if (Node::Entry* entry = node_->find(key)) {
+    entry->known = true;
+    return entry->value.get();
   }
   if (required) add_fault(*node_, path_of(key), "missing");
   return nullptr;
@@ -90,13 +91,10 @@ ConfigReader::Node* ConfigReader::find(const std::string& key, bool required) {
 
 template <typename T>
 T ConfigReader::keep(const std::string& key, T value) {
-  for (auto& [name, kept] : node_->resolved) {
-    if (name == key) {
-      kept = Value(value);
-      return value;
-    }
-  }
-  node_->resolved.emplace_back(key, Value(value));
+  if (const auto place = node_->resolved_places.find(key))
+    node_->resolved[*place].second = Value(value);
+  else
+    node_->resolve(key, Value(value));
   return value;
 }
 
@@ -114,11 +112,11 @@ double ConfigReader::to_number(const Node& node, const std::string& key, const R
   double value = 0.0;
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (status != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    add_fault(node, path_of(key), fmt::format("expected a number, found '{}'", *scalar));
+    add_fault(node, path_of(key), fmt::format("expected a number, found '{}'", excerpt(*scalar)));
     return otherwise;
   }
   if (!range.contains(value)) {
-    add_fault(node, path_of(key), fmt::format("{} is outside {}", *scalar, range.text()));
+    add_fault(node, path_of(key), fmt::format("{} is outside {}", excerpt(*scalar), range.text()));
     return otherwise;
   }
   return value;
@@ -161,7 +159,7 @@ int ConfigReader::integer_or(const std::string& key, int fallback, int low, int 
   long long value = 0;
   const auto [end, status] = std::from_chars(scalar->data(), scalar->data() + scalar->size(), value);
   if (status != std::errc() || end != scalar->data() + scalar->size()) {
-    add_fault(*node, path_of(key), fmt::format("expected a whole number, found '{}'", *scalar));
+    add_fault(*node, path_of(key), fmt::format("expected a whole number, found '{}'", excerpt(*scalar)));
     return keep(key, fallback);
   }
   if (value < low || value > high) {
@@ -185,7 +183,7 @@ bool ConfigReader::flag_or(const std::string& key, bool fallback) {
   const auto scalar = to_scalar(*node, key);
   if (!scalar) return keep(key, fallback);
   if (*scalar == "true" || *scalar == "false") return keep(key, *scalar == "true");
-  add_fault(*node, path_of(key), fmt::format("expected true or false, found '{}'", *scalar));
+  add_fault(*node, path_of(key), fmt::format("expected true or false, found '{}'", excerpt(*scalar)));
   return keep(key, fallback);
 }
 
@@ -222,7 +220,7 @@ std::optional<std::string> ConfigReader::to_choice(const Node& node, const std::
   if (!scalar || std::find(options.begin(), options.end(), *scalar) != options.end()) return scalar;
   const auto near = nearest_word(*scalar, options);
   add_fault(node, path_of(key),
-            fmt::format("'{}' is not one of {}{}", *scalar, fmt::join(options, ", "),
+            fmt::format("'{}' is not one of {}{}", excerpt(*scalar), fmt::join(options, ", "),
                         near ? fmt::format(" (did you mean {}?)", *near) : std::string()));
   return std::nullopt;
 }
@@ -286,13 +284,11 @@ std::vector<std::string> ConfigReader::texts(const std::string& key) {
   return words;
 }
 
-bool ConfigReader::has(const std::string& key) const {
-  return std::any_of(node_->entries.begin(), node_->entries.end(), [&](const auto& entry) { return entry.key == key; });
-}
+bool ConfigReader::has(const std::string& key) const { return node_->find(key) != nullptr; }
 
 bool ConfigReader::is_list(const std::string& key) const {
-  return std::any_of(node_->entries.begin(), node_->entries.end(),
-                     [&](const auto& entry) { return entry.key == key && entry.value->kind == Node::Kind::list; });
+  const Node::Entry* entry = node_->find(key);
+  return entry && entry->value->kind == Node::Kind::list;
 }
 
 std::vector<std::string> ConfigReader::keys() const {
@@ -309,7 +305,7 @@ ConfigReader ConfigReader::section(const std::string& key) {
     if (!node->read) {
       node->read = true;
       node_->resolved_children.emplace_back(node_->resolved.size(), node);
-      node_->resolved.emplace_back(key, Value());
+      node_->resolve(key, Value());
     }
     return ConfigReader(document_, node);
   }
@@ -333,10 +329,10 @@ std::vector<ConfigReader> ConfigReader::sections(const std::string& key) {
     return readers;
   }
   node_->resolved_children.emplace_back(node_->resolved.size(), node);
-  node_->resolved.emplace_back(key, Value());
+  node_->resolve(key, Value());
   for (const auto& item : node->items) {
     if (item->kind != Node::Kind::map) {
-      add_fault(*item, item->path, fmt::format("expected a map, found {}", item->kind_name()));
+      add_fault(*item, item->path(), fmt::format("expected a map, found {}", item->kind_name()));
       continue;
     }
     item->read = true;

@@ -2,12 +2,16 @@
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <span>
+#include <sstream>
 #include <string_view>
 
 #include "common/base/error.h"
+#include "common/base/printable.h"
 
 namespace tacipc {
 
@@ -15,76 +19,214 @@ std::string joined_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-/// Builds the tree from what yaml-cpp parsed.
-struct ConfigReader::Convert {
-  static constexpr int kMaxDepth = 32;
+std::string ConfigReader::Node::path() const {
+  if (!parent) return "";
+  if (parent->kind == Kind::list) return fmt::format("{}[{}]", parent->path(), place);
+  return joined_path(parent->path(), parent->entries[place].key);
+}
 
-  static std::unique_ptr<Node> convert(Document& document, const YAML::Node& yaml, const std::string& path,
-                                       int depth = 0) {
+/// Builds the tree from what yaml-cpp parses, part by part: what is beyond a limit is refused before it is built.
+struct ConfigReader::Convert final : YAML::EventHandler {
+  static constexpr std::size_t kMaxDepth = 32;
+  static constexpr std::size_t kMaxValues = 1'000'000;
+  static constexpr std::size_t kMaxText = std::size_t{64} << 20;  // bytes, of the file and of all values
+  static constexpr std::size_t kMaxKey = 1024;                    // bytes
+
+  explicit Convert(Document& document) : document_(document) {}
+
+  void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(Node::Kind::empty, mark, anchor); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string& text) override {
+    add(Node::Kind::scalar, mark, anchor, text);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(add(Node::Kind::list, mark, anchor), mark);
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(add(Node::Kind::map, mark, anchor), mark);
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapEnd() override { open_.pop_back(); }
+
+  /// yaml-cpp knows no alias before its anchor, but one inside the map or list that the anchor stands at.
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const Node* original = anchors_.at(anchor);
+    if (std::any_of(open_.begin(), open_.end(), [&](const Open& o) { return o.node == original; }))
+      refuse(mark, "an alias inside its own anchor");
+    attach(copy(*original, mark, open_.size()), mark);
+  }
+
+ private:
+  /// A map or list that has not ended.
+  struct Open {
+    Node* node;
+    bool has_key = false;            // of a map: the next value is that of `key`
+    std::optional<Node::Entry> key;  // without a value; none where it was refused
+  };
+
+  [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& reason) {
+    document_.add(mark.line + 1, mark.column + 1, open_.empty() ? "" : open_.back().node->path(), reason);
+    document_.raise();
+  }
+
+  void count(const YAML::Mark& mark, std::size_t bytes) {
+    text_ += bytes;
+    if (++values_ > kMaxValues) refuse(mark, fmt::format("more than {} values, aliases written out", kMaxValues));
+    if (text_ > kMaxText) refuse(mark, fmt::format("more than {} MiB of text, aliases written out", kMaxText >> 20));
+  }
+
+  Node* add(Node::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor, const std::string& text = "") {
     auto node = std::make_unique<Node>();
-    node->line = yaml.Mark().line + 1;  // yaml-cpp counts from zero
-    node->column = yaml.Mark().column + 1;
-    node->path = path;
-    if (depth > kMaxDepth) {
-      document.add(node->line, node->column, path, "nested too deeply (an alias inside its own anchor?)");
-      return node;
-    }
-    if (yaml.IsScalar()) {
-      node->kind = Node::Kind::scalar;
-      node->scalar = yaml.Scalar();
-    } else if (yaml.IsSequence()) {
-      node->kind = Node::Kind::list;
-      for (std::size_t i = 0; i < yaml.size(); ++i)
-        node->items.push_back(convert(document, yaml[i], fmt::format("{}[{}]", path, i), depth + 1));
-    } else if (yaml.IsMap()) {
-      node->kind = Node::Kind::map;
-      for (const auto& pair : yaml) {
-        if (!pair.first.IsScalar()) {
-          document.add(pair.first.Mark().line + 1, pair.first.Mark().column + 1, path, "a key must be a single word");
-          continue;
-        }
-        const std::string key = pair.first.Scalar();
-        const int line = pair.first.Mark().line + 1, column = pair.first.Mark().column + 1;
-        // yaml-cpp keeps both of two equal keys and answers with the first, silently.
-        const auto same =
-            std::find_if(node->entries.begin(), node->entries.end(), [&](const auto& e) { return e.key == key; });
-        if (same != node->entries.end()) {
-          document.add(line, column, joined_path(path, key),
-                       fmt::format("key given twice (first in line {})", same->line));
-          continue;
-        }
-        node->entries.push_back({key, line, column, convert(document, pair.second, joined_path(path, key), depth + 1)});
+    node->kind = kind;
+    node->line = mark.line + 1;  // yaml-cpp counts from zero
+    node->column = mark.column + 1;
+    node->scalar = text;
+    count(mark, text.size());
+    Node* added = attach(std::move(node), mark);
+    if (anchor != YAML::NullAnchor) anchors_[anchor] = added;
+    return added;
+  }
+
+  void open(Node* node, const YAML::Mark& mark) {
+    if (open_.size() == kMaxDepth) refuse(mark, fmt::format("nested more than {} deep", kMaxDepth));
+    open_.push_back({.node = node, .key = std::nullopt});
+  }
+
+  /// Puts a value, or a key, where it belongs.
+  Node* attach(std::unique_ptr<Node> node, const YAML::Mark& mark) {
+    if (documents_ > 1)
+      throw ConfigError({fmt::format("{}:{}:1: a second document begins; only one is read", printable(document_.name),
+                                     mark.line + 1)});
+    Node* added = node.get();
+    if (open_.empty()) {
+      document_.root = std::move(node);
+    } else if (Open& top = open_.back(); top.node->kind == Node::Kind::list) {
+      adopt(*top.node, *added, top.node->items.size());
+      top.node->items.push_back(std::move(node));
+    } else if (!top.has_key) {
+      top.has_key = true;
+      top.key = key_of(*top.node, *node, mark);
+      unused_.push_back(std::move(node));
+    } else {
+      top.has_key = false;
+      if (!top.key) {
+        unused_.push_back(std::move(node));
+      } else {
+        adopt(*top.node, *added, top.node->entries.size());
+        top.key->value = std::move(node);
+        top.node->entries.push_back(*std::exchange(top.key, std::nullopt));
       }
+    }
+    return added;
+  }
+
+  static void adopt(const Node& parent, Node& child, std::size_t place) {
+    child.parent = &parent;
+    child.place = place;
+  }
+
+  std::optional<Node::Entry> key_of(Node& map, const Node& word, const YAML::Mark& mark) {
+    const int line = mark.line + 1, column = mark.column + 1;
+    if (word.kind != Node::Kind::scalar) {
+      document_.add(line, column, map.path(), "a key must be a single word");
+      return std::nullopt;
+    }
+    if (word.scalar.size() > kMaxKey) {
+      document_.add(line, column, map.path(),
+                    fmt::format("a key of more than {} bytes: '{}'", kMaxKey, excerpt(word.scalar)));
+      return std::nullopt;
+    }
+    // yaml-cpp takes both of two equal keys, silently.
+    if (!map.entry_places.add(word.scalar, map.entries.size())) {
+      document_.add(line, column, joined_path(map.path(), word.scalar),
+                    fmt::format("key given twice (first in line {})", map.find(word.scalar)->line));
+      return std::nullopt;
+    }
+    return Node::Entry{.key = word.scalar, .line = line, .column = column, .value = nullptr};
+  }
+
+  std::unique_ptr<Node> copy(const Node& original, const YAML::Mark& mark, std::size_t depth) {
+    count(mark, original.scalar.size());
+    auto node = std::make_unique<Node>();
+    node->kind = original.kind;
+    node->line = original.line;
+    node->column = original.column;
+    node->scalar = original.scalar;
+    const bool holds = original.kind == Node::Kind::list || original.kind == Node::Kind::map;
+    if (holds && depth == kMaxDepth) refuse(mark, fmt::format("nested more than {} deep", kMaxDepth));
+    for (const auto& item : original.items) {
+      node->items.push_back(copy(*item, mark, depth + 1));
+      adopt(*node, *node->items.back(), node->items.size() - 1);
+    }
+    for (const Node::Entry& entry : original.entries) {
+      count(mark, entry.key.size());
+      node->entry_places.add(entry.key, node->entries.size());
+      node->entries.push_back({entry.key, entry.line, entry.column, copy(*entry.value, mark, depth + 1)});
+      adopt(*node, *node->entries.back().value, node->entries.size() - 1);
     }
     return node;
   }
+
+  Document& document_;
+  std::size_t documents_ = 0, values_ = 0, text_ = 0;
+  std::vector<Open> open_;
+  std::unordered_map<YAML::anchor_t, const Node*> anchors_;
+  std::vector<std::unique_ptr<Node>> unused_;  // keys, and what belongs to refused ones: anchors may stand there
 };
+
+/// \throw ConfigError at the first byte that YAML does not have; yaml-cpp takes some of them for something else.
+static void check_bytes(std::string_view text, const std::string& name) {
+  int line = 1;
+  std::size_t line_start = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const std::size_t length = utf8_length(text.substr(at));
+    const bool control = byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r';
+    if (length == 0 || control)
+      throw ConfigError({fmt::format("{}:{}:{}: not valid YAML: a byte 0x{:02x}, which is {}", printable(name), line,
+                                     at - line_start + 1, byte, control ? "a control character" : "not UTF-8")});
+    at += length;
+    if (byte == '\n') {
+      ++line;
+      line_start = at;
+    }
+  }
+}
 
 std::unique_ptr<ConfigReader::Document> ConfigReader::Document::parse(const std::string& text,
                                                                       const std::string& name) {
+  if (text.size() > Convert::kMaxText)
+    throw ConfigError({fmt::format("{}:1:1: larger than {} MiB", printable(name), Convert::kMaxText >> 20)});
+  check_bytes(text, name);
   auto document = std::make_unique<Document>();
   document->name = name;
   try {
-    const std::vector<YAML::Node> parts = YAML::LoadAll(text);
-    if (parts.size() > 1) {
-      throw ConfigError(
-          {fmt::format("{}:{}:1: a second document begins; only one is read", name, parts[1].Mark().line + 1)});
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    Convert convert(*document);
+    while (parser.HandleNextDocument(convert)) {
     }
-    document->root = Convert::convert(*document, parts.empty() ? YAML::Node() : parts[0], "");
   } catch (const YAML::Exception& error) {
-    throw ConfigError(
-        {fmt::format("{}:{}:{}: not valid YAML: {}", name, error.mark.line + 1, error.mark.column + 1, error.msg)});
+    throw ConfigError({fmt::format("{}:{}:{}: not valid YAML: {}", printable(name), error.mark.line + 1,
+                                   error.mark.column + 1, printable(error.msg))});
   }
+  if (!document->root) document->root = std::make_unique<Node>();
   if (document->root->kind != Node::Kind::map) {
-    throw ConfigError({fmt::format("{}:1:1: expected a map of keys, found {}", name, document->root->kind_name())});
+    throw ConfigError(
+        {fmt::format("{}:1:1: expected a map of keys, found {}", printable(name), document->root->kind_name())});
   }
   document->root->read = true;
   return document;
 }
 
 void ConfigReader::Document::add(int line, int column, const std::string& path, const std::string& reason) {
-  faults.push_back(
-      {line, column, fmt::format("{}:{}:{}: {}{}{}", name, line, column, path, path.empty() ? "" : ": ", reason)});
+  constexpr std::size_t kLongest = 1000;  // bytes; reasons repeat what stands in the file
+  faults.push_back({line, column,
+                    fmt::format("{}:{}:{}: {}{}{}", printable(name), line, column, excerpt(path, kLongest),
+                                path.empty() ? "" : ": ", excerpt(reason, kLongest))});
 }
 
 void ConfigReader::Document::raise() {
@@ -92,7 +234,9 @@ void ConfigReader::Document::raise() {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
   });
   std::vector<std::string> texts;
-  for (const Fault& fault : faults) texts.push_back(fault.text);
+  for (const Fault& fault : std::span(faults).first(std::min(faults.size(), kMaxFaults))) texts.push_back(fault.text);
+  if (faults.size() > kMaxFaults)
+    texts.push_back(fmt::format("{}: and {} more", printable(name), faults.size() - kMaxFaults));
   throw ConfigError(texts);
 }
 
@@ -106,8 +250,8 @@ void ConfigReader::Document::collect_unknown(const Node& node) {
       continue;
     }
     if (accepts_sources && is_source(node, entry)) continue;
-    const auto near = nearest_word(entry.key, node.asked);
-    add(entry.line, entry.column, joined_path(node.path, entry.key),
+    const auto near = faults.size() < kMaxFaults ? nearest_word(entry.key, node.asked) : std::nullopt;
+    add(entry.line, entry.column, joined_path(node.path(), entry.key),
         near ? fmt::format("unknown key (did you mean {}?)", *near) : std::string("unknown key"));
   }
 }
@@ -120,14 +264,14 @@ const std::vector<std::string> kSourceWords = {"known", "derived", "guess"};
 bool ConfigReader::Document::is_source(const Node& node, const Node::Entry& entry) {
   if (!entry.key.ends_with(kSourceSuffix)) return false;
   const std::string of = entry.key.substr(0, entry.key.size() - kSourceSuffix.size());
-  const bool there =
-      std::any_of(node.entries.begin(), node.entries.end(), [&](const auto& e) { return e.key == of && e.known; });
+  const Node::Entry* sibling = node.find(of);
+  const bool there = sibling && sibling->known;
   if (!there) {
-    add(entry.line, entry.column, joined_path(node.path, entry.key),
+    add(entry.line, entry.column, joined_path(node.path(), entry.key),
         fmt::format("there is no {} whose source this could be", of));
   } else if (std::find(kSourceWords.begin(), kSourceWords.end(), entry.value->scalar) == kSourceWords.end()) {
-    add(entry.value->line, entry.value->column, joined_path(node.path, entry.key),
-        fmt::format("'{}' is not one of {}", entry.value->scalar, fmt::join(kSourceWords, ", ")));
+    add(entry.value->line, entry.value->column, joined_path(node.path(), entry.key),
+        fmt::format("'{}' is not one of {}", excerpt(entry.value->scalar), fmt::join(kSourceWords, ", ")));
   }
   return true;
 }
@@ -136,10 +280,8 @@ void ConfigReader::Document::collect_sources(const Node& node, const std::string
                                              std::vector<std::pair<std::string, std::string>>& out) {
   for (const Node::Entry& entry : node.entries) {
     if (!entry.known) continue;
-    std::string source = inherited;
-    for (const Node::Entry& sibling : node.entries) {
-      if (sibling.key == entry.key + std::string(kSourceSuffix)) source = sibling.value->scalar;
-    }
+    const Node::Entry* said = node.find(entry.key + std::string(kSourceSuffix));
+    const std::string source = said ? said->value->scalar : inherited;
     const Node& value = *entry.value;
     const bool maps_inside = std::any_of(value.items.begin(), value.items.end(),
                                          [](const auto& item) { return item->kind == Node::Kind::map; });
@@ -148,7 +290,7 @@ void ConfigReader::Document::collect_sources(const Node& node, const std::string
     } else if (maps_inside) {
       for (const auto& item : value.items) collect_sources(*item, source, out);
     } else {
-      out.emplace_back(value.path, source);
+      out.emplace_back(value.path(), source);
     }
   }
 }

@@ -18,6 +18,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/printable.h"
 #include "common/stage/self_description.h"
 #include "common/stage/stage.h"
 
@@ -114,7 +115,7 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
     return print_answer(answer);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "{}: error: {} (see {} --help)\n", spec.name, error.what(), spec.name);
+    fmt::print(stderr, "{}: error: {} (see {} --help)\n", spec.name, printable(error.what()), spec.name);
     return 2;
   }
 

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "common/base/error.h"
+#include "common/base/printable.h"
 #include "common/stage/self_description.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/survey/cost_estimate.h"
@@ -34,13 +35,13 @@ int run(const char* what, const std::function<int()>& body) {
   try {
     return body();
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
     return 2;
   } catch (const UsageError& error) {
-    fmt::print(stderr, "{}: {}\n", what, error.what());
+    fmt::print(stderr, "{}: {}\n", what, printable(error.what()));
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", what, error.what());
+    fmt::print(stderr, "{}: {}\n", what, printable(error.what()));
     return 1;
   }
 }
@@ -140,7 +141,7 @@ int main(int argc, char** argv) {
     return print_answer(answer);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "survey: error: {} (see survey --help)\n", error.what());
+    fmt::print(stderr, "survey: error: {} (see survey --help)\n", printable(error.what()));
     return 2;
   }
   return code;

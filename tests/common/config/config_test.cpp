@@ -1,6 +1,9 @@
 #include "common/config/config.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
+
+#include <ctime>
 
 #include "tests/config_text.h"
 
@@ -54,6 +57,85 @@ TEST(ConfigReader, RefusesASecondDocumentAndAnAliasInsideItself) {
               ElementsAre("gel.yaml:3:1: a second document begins; only one is read"));
   EXPECT_THAT(faults_when("a: &x [*x]\n", [](ConfigReader& in) { in.numbers("a", 1); }),
               ::testing::Not(::testing::IsEmpty()));
+}
+
+TEST(ConfigReader, RefusesAliasesThatWriteOutMoreThanAFileMayHold) {
+  // Nine lists, each of nine times the one before: 9^9 values of 400 bytes of text.
+  std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 9; ++i) {
+    const std::string before = fmt::format("*a{}", i - 1);
+    laughs += fmt::format("a{0}: &a{0} [{1}, {1}, {1}, {1}, {1}, {1}, {1}, {1}, {1}]\n", i, before);
+  }
+  EXPECT_THAT(
+      faults_when(laughs, [](ConfigReader&) {}),
+      ElementsAre(::testing::MatchesRegex("gel.yaml:7:[0-9]+: a6: more than 1000000 values, aliases written out")));
+  std::string copies = "long: &long " + std::string(1 << 20, 'x') + "\nlist:\n";
+  for (int i = 0; i < 100; ++i) copies += "  - *long\n";
+  EXPECT_THAT(faults_when(copies, [](ConfigReader&) {}),
+              ElementsAre("gel.yaml:65:5: list: more than 64 MiB of text, aliases written out"));
+  EXPECT_THAT(faults_when("a: &x [*x]\n", [](ConfigReader&) {}),
+              ElementsAre("gel.yaml:1:8: a: an alias inside its own anchor"));
+}
+
+TEST(ConfigReader, RefusesWhatIsNestedTooDeeplyAtItsPlace) {
+  const auto nested = [](int lists) { return "a: " + std::string(lists, '[') + std::string(lists, ']') + "\n"; };
+  const auto ignore = [](ConfigReader& in) { in.ignore("a"); };
+  EXPECT_THAT(faults_when(nested(31), ignore), ElementsAre());
+  for (const int deep : {32, 600, 100000}) {
+    const auto faults = faults_when(nested(deep), ignore);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_THAT(faults.front(), ::testing::StartsWith("gel.yaml:1:35: a[0]"));
+    EXPECT_THAT(faults.front(), ::testing::EndsWith("[0]: nested more than 32 deep"));
+  }
+  std::string aliases = "a0: &a0 [x]\n";
+  for (int i = 1; i < 40; ++i) aliases += fmt::format("a{}: &a{} [*a{}]\n", i, i, i - 1);
+  const auto faults = faults_when(aliases, [](ConfigReader&) {});
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front(), "gel.yaml:32:12: a31: nested more than 32 deep");
+}
+
+TEST(ConfigReader, RefusesBytesThatAreNoText) {
+  const auto none = [](ConfigReader&) {};
+  EXPECT_THAT(faults_when(std::string("a: 1\nb: x\0y\n", 12), none),
+              ElementsAre("gel.yaml:2:5: not valid YAML: a byte 0x00, which is a control character"));
+  EXPECT_THAT(faults_when("a: \x1b[31m\n", none),
+              ElementsAre("gel.yaml:1:4: not valid YAML: a byte 0x1b, which is a control character"));
+  EXPECT_THAT(faults_when("# \xe9t\xe9\n", none),
+              ElementsAre("gel.yaml:1:3: not valid YAML: a byte 0xe9, which is not UTF-8"));
+}
+
+TEST(ConfigReader, MessagesShowControlBytesEscapedAndLongTextsCut) {
+  const auto number = [](ConfigReader& in) { in.number("a"); };
+  EXPECT_THAT(faults_when("a: \"\\e[31mred\"\n", number),
+              ElementsAre("gel.yaml:1:4: a: expected a number, found '\\x1b[31mred'"));
+  EXPECT_THAT(
+      faults_when("a: " + std::string(2'000'000, '7') + "x\n", number),
+      ElementsAre("gel.yaml:1:4: a: expected a number, found '" + std::string(80, '7') + "… (2000001 bytes)'"));
+  EXPECT_THAT(faults_when("? " + std::string(2000, 'k') + "\n: 1\na: 1\n", number),
+              ElementsAre("gel.yaml:1:3: a key of more than 1024 bytes: '" + std::string(80, 'k') + "… (2000 bytes)'"));
+  std::string many = "a: 1\n";
+  for (int i = 0; i < 1000; ++i) many += fmt::format("key{}: 1\n", i);
+  const auto faults = faults_when(many, number);
+  ASSERT_EQ(faults.size(), 101u);
+  EXPECT_EQ(faults.front(), "gel.yaml:2:1: key0: unknown key");
+  EXPECT_EQ(faults.back(), "gel.yaml: and 900 more");
+}
+
+TEST(ConfigReader, TakesTimeInProportionToTheNumberOfKeys) {
+  // Not the clock is asked, which other programs slow down, but this program's own seconds for ten times the keys.
+  const auto seconds = [](int keys) {
+    std::string text = "s:\n";
+    for (int i = 0; i < keys; ++i) text += fmt::format("  key{}: {}\n", i, i);
+    const std::clock_t start = std::clock();
+    ConfigReader in = ConfigReader::from_text(text, "f");
+    ConfigReader section = in.section("s");
+    for (const std::string& key : section.keys()) EXPECT_TRUE(section.has(key) && section.integer(key, 0) >= 0);
+    in.finish();
+    EXPECT_EQ(in.resolved().map().size(), 1u);
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  const double few = seconds(10'000), many = seconds(100'000);
+  EXPECT_LT(many, 40.0 * few);  // 100 if each key were compared with every other
 }
 
 TEST(ConfigReader, ContentIsAllThatIsWritten) {
