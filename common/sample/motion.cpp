@@ -120,16 +120,16 @@ Phase Phase::read(ConfigReader& in) {
       break;
     case PhaseKind::shear: {
       const double distance_m = 1e-3 * in.number("distance_mm", Range::positive());
-      const double direction = radians(in.number_or("direction_deg", 0.0));
+      const double direction = radians(in.number_or("direction_deg", 0.0, kAnyTurn));
       phase.shift_m = {distance_m * std::cos(direction), distance_m * std::sin(direction), 0.0};
       break;
     }
     case PhaseKind::twist:
-      phase.angle_rad = radians(in.number("angle_deg"));
+      phase.angle_rad = radians(in.number("angle_deg", kAnyTurn));
       break;
     case PhaseKind::tilt:
       phase.angle_rad = radians(in.number("angle_deg", Range::between(-89.0, 89.0)));
-      phase.direction_rad = radians(in.number_or("direction_deg", 0.0));
+      phase.direction_rad = radians(in.number_or("direction_deg", 0.0, kAnyTurn));
       break;
     case PhaseKind::release:
       if (const auto height = in.optional_number("height_mm")) phase.height_m = 1e-3 * *height;

@@ -31,6 +31,9 @@ struct PathPoint {
 /// from 0. \throw DataError naming the line.
 std::vector<PathPoint> read_path(const std::filesystem::path& file);
 
+/// Degrees that a motion or placement may turn by: a hundred turns, beyond which is a slip of the pen.
+inline const Range kAnyTurn = Range::between(-36000.0, 36000.0);
+
 struct Phase {
   PhaseKind kind = PhaseKind::press;
   int steps = 0;                        // frames

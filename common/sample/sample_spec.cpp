@@ -10,7 +10,7 @@ SampleSpec SampleSpec::read(ConfigReader& in) {
   SampleSpec spec;
   if (auto placement = in.optional_section("placement")) {
     if (placement->has("face")) spec.face = placement->choice("face", face_names());
-    spec.rotate_rad = placement->number_or("rotate_deg", 0.0) * std::numbers::pi / 180.0;
+    spec.rotate_rad = placement->number_or("rotate_deg", 0.0, kAnyTurn) * std::numbers::pi / 180.0;
     const auto center_mm = placement->numbers_or("center_mm", {0.0, 0.0});
     spec.center_x_m = 1e-3 * center_mm[0];
     spec.center_y_m = 1e-3 * center_mm[1];

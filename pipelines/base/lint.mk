@@ -15,7 +15,7 @@ lint: build-all ## development: clang-format, shellcheck and clang-tidy (SINCE=c
 	bash tests/lint/tidy.sh . $(LINTED) $(JOBS) $(or $(SINCE),HEAD~1)
 
 # Their own programs alone, in a build folder of their own.
-SANITIZED_TESTS := common_files_test press_contact_test press_test
+SANITIZED_TESTS := common_files_test fuzz_test press_contact_test press_test
 SANITIZED := build/sanitize
 $(SANITIZED)/build.ninja: | build-all
 	@cmake --preset sanitize -B $(SANITIZED) -G Ninja

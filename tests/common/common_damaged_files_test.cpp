@@ -1,7 +1,4 @@
 // Whatever happens to a file on its way, a reader gives a mesh or one DataError.
-#include <sys/resource.h>
-
-#include <fstream>
 #include <functional>
 
 #include "common/base/error.h"
@@ -9,34 +6,14 @@
 #include "common/image/image.h"
 #include "common/mesh/tet_mesh.h"
 #include "common/mesh/triangle_mesh.h"
+#include "tests/common/memory_limit.h"
 #include "tests/common/sample_files.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kLimitMemory = false;  // the sanitizer reserves terabytes of address space
-#else
-constexpr bool kLimitMemory = true;
-#endif
-
-/// While it lives, large allocations fail: a reader that trusts a count ends in bad_alloc instead of a DataError.
-class MemoryLimit {
- public:
-  MemoryLimit() {
-    getrlimit(RLIMIT_AS, &before_);
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    rlimit limit = before_;
-    limit.rlim_cur = pages * 4096 + (std::size_t{256} << 20);
-    if (kLimitMemory) setrlimit(RLIMIT_AS, &limit);
-  }
-  ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
-
- private:
-  rlimit before_{};
-};
+constexpr std::size_t kMemory = std::size_t{256} << 20;  // bytes
 
 struct Case {
   std::string name;
@@ -96,7 +73,7 @@ bool reads(const ScratchFolder& scratch, const Case& c, const std::string& bytes
   std::filesystem::remove(scratch / c.name);  // a new file is written faster than an old one is replaced
   const std::filesystem::path path = scratch.file(c.name, bytes);
   try {
-    const MemoryLimit limit;
+    const MemoryLimit limit(kMemory);
     c.read(path);
     return true;
   } catch (const DataError& error) {

@@ -1,0 +1,24 @@
+# Readers of users' files on random bytes (libFuzzer), one after the other: a program, a folder and a record for each.
+
+RUNS   ?= 1000000#  fuzz: inputs per reader
+READER ?=#          fuzz: one reader alone
+$(foreach v,RUNS READER,$(eval override $(v) := $(strip $($(v)))))
+
+packages_for_fuzz := fuzz
+FUZZED       := $(or $(READER),$(sort $(notdir $(wildcard tests/fuzz/corpus/*))))
+FUZZ_BUILD   := build/fuzz
+FUZZ         := $(OUT)/fuzz/$(RUNS)
+FUZZ_RECORDS := $(FUZZED:%=$(FUZZ)/%/fuzz.yaml)
+.PHONY: fuzz build-fuzz
+
+# A build folder of its own: clang alone has libFuzzer.
+$(FUZZ_BUILD)/build.ninja: | packages $(OPENMESH_HEADERS)
+	@cmake --preset fuzz -B $(FUZZ_BUILD) -G Ninja
+build-fuzz: $(if $(filter no,$(REBUILD)),,$(FUZZ_BUILD)/build.ninja)
+	@[ '$(REBUILD)' = no ] || cmake --build $(FUZZ_BUILD) --target $(FUZZED:%=fuzz_%) tacipc -j $(JOBS) -- --quiet
+
+$(FUZZ)/%/fuzz.yaml: | build-fuzz
+	bash pipelines/verification/fuzz.sh $(FUZZ_BUILD)/bin/fuzz_$* $* $(RUNS) $(@D)
+
+fuzz: $(FUZZ_RECORDS) ## development: Readers of users' files on random bytes, under sanitizers (RUNS=1000000 each, READER=obj for one)
+	@bash pipelines/verification/fuzz_table.sh $(FUZZ_BUILD)/bin/tacipc $(FUZZ_RECORDS)
