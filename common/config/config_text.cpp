@@ -330,6 +330,7 @@ void ConfigText::remove(std::string_view path) {
   const Place place = place_of(text_, root, found.steps);
   if (!found.rest.empty())
     refuse(place.key, path, "there is no such key" + suggestion(*found.at, first_key(found.rest)));
+  if (found.steps.empty()) refuse(place.key, path, "names no key");
   const auto* key = std::get_if<std::string>(&found.steps.back());
   if (!key) refuse(place.key, path, "is an item of a list; only keys can be taken out");
 

@@ -15,17 +15,14 @@
 #include <mutex>
 #include <type_traits>
 
-#include "common/base/byte_reader.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/image/exr_header.h"
 #include "common/image/image.h"
 
 namespace tacipc {
 namespace {
 
-constexpr int kLargestSide = 32768;
-/// No EXR compression shrinks real pixels further; a file that claims so is corrupt.
-constexpr std::uint64_t kLargestRatio = 10'000;
 /// Coding in the calling thread keeps the order of chunks, and so the bytes, fixed.
 constexpr int kThreads = 0;
 /// Of zlib. Level 4, the library's own, makes floats 1 % smaller in a fifth more time.
@@ -118,25 +115,6 @@ std::string channel_list(const Imf::ChannelList& channels) {
   return text.empty() ? "none" : text;
 }
 
-/// Header attributes are `name\0 type\0 size value`, ended by an empty name. The library allocates `size` before it
-/// looks whether the file is that long.
-void check_header(const std::string& bytes, const std::string& name) {
-  constexpr std::size_t kMagicAndVersion = 8;
-  ByteReader in(bytes, name);
-  in.skip(kMagicAndVersion, "the EXR header");
-  const auto skip_text = [&] {
-    bool empty = true;
-    while (in.read<char>("the EXR header") != '\0') empty = false;
-    return !empty;
-  };
-  while (skip_text()) {
-    skip_text();
-    const auto size = in.read<std::int32_t>("the EXR header");
-    if (size < 0) in.fail(fmt::format("attribute size {} is negative", size));
-    in.skip(static_cast<std::size_t>(size), "an EXR attribute");
-  }
-}
-
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const FloatImage& image,
@@ -153,11 +131,12 @@ void write_exr(const std::filesystem::path& path, const FloatImage& image,
 FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::string>& channel_names) {
   const std::string name = path.string();
   const std::string bytes = read_file(path);
-  if (bytes.size() >= 4 && Imf::isImfMagic(bytes.data())) check_header(bytes, name);
+  if (bytes.size() >= 4 && Imf::isImfMagic(bytes.data())) check_exr_header(bytes, name);
   static std::once_flag limits;
   std::call_once(limits, [] {
-    Imf::Header::setMaxImageSize(kLargestSide, kLargestSide);
-    Imf::Header::setMaxTileSize(kLargestSide, kLargestSide);
+    constexpr int kSide = kLargestExrSide;
+    Imf::Header::setMaxImageSize(kSide, kSide);
+    Imf::Header::setMaxTileSize(kSide, kSide);
   });
   try {
     MemoryIn memory(bytes);
@@ -170,7 +149,7 @@ FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::st
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     const std::uint64_t needed = static_cast<std::uint64_t>(width * height) * channel_names.size() * sizeof(float);
-    if (width < 1 || height < 1 || needed / kLargestRatio > bytes.size())
+    if (width < 1 || height < 1 || needed / kLargestExrRatio > bytes.size())
       throw DataError("{}: {} x {} pixels cannot be in a file of {} bytes", name, width, height, bytes.size());
     FloatImage image(static_cast<int>(width), static_cast<int>(height), static_cast<int>(channel_names.size()));
     Imf::FrameBuffer frame;

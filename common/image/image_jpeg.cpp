@@ -2,6 +2,7 @@
 
 #include <turbojpeg.h>
 
+#include <cstdint>
 #include <memory>
 
 #include "common/base/error.h"
@@ -11,6 +12,9 @@ namespace {
 
 /// Pixels are what the reference transform gives on any machine.
 constexpr int kExact = TJFLAG_ACCURATEDCT;
+
+/// Pixels per byte: a block of 16 x 16 takes at least six codes of one bit.
+constexpr std::uint64_t kLargestRatio = 16 * 16 * 8 / 6 + 1;
 
 using Handle = std::unique_ptr<void, int (*)(tjhandle)>;
 
@@ -24,6 +28,9 @@ ByteImage decode_jpeg(std::string_view bytes, int channels, const std::string& n
   int width = 0, height = 0, sampling = 0, colors = 0;
   if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &sampling, &colors) != 0)
     throw DataError("{}: is not a readable image: {}", name, tjGetErrorStr2(handle.get()));
+  const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  if (pixels / kLargestRatio > bytes.size())
+    throw DataError("{}: {} x {} pixels cannot be in a file of {} bytes", name, width, height, bytes.size());
   ByteImage image(width, height, channels);
   if (tjDecompress2(handle.get(), data, bytes.size(), image.pixels.data(), width, 0, height,
                     channels == 1 ? TJPF_GRAY : TJPF_RGB, kExact | TJFLAG_STOPONWARNING) != 0)
