@@ -104,9 +104,6 @@ void check_sizes(const Sizes& sizes, std::size_t file_size, const std::string& n
   const std::uint64_t tiles = ((sizes.width - 1) / sizes.tile_width + 1) * ((sizes.height - 1) / sizes.tile_height + 1);
   if (sizes.width > 0 && sizes.height > 0 && tiles * 8 > file_size)
     throw DataError("{}: {} tiles cannot be in a file of {} bytes", name, tiles, file_size);
-  if (sizes.tile_width * sizes.tile_height / kLargestExrRatio > file_size)
-    throw DataError("{}: tiles of {} x {} pixels cannot be in a file of {} bytes", name, sizes.tile_width,
-                    sizes.tile_height, file_size);
 }
 
 /// Attributes are `name\0 type\0 size value`, ended by an empty name. False if there is none.

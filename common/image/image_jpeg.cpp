@@ -13,8 +13,8 @@ namespace {
 /// Pixels are what the reference transform gives on any machine.
 constexpr int kExact = TJFLAG_ACCURATEDCT;
 
-/// Pixels per byte: a block of 16 x 16 takes at least six codes of one bit.
-constexpr std::uint64_t kLargestRatio = 16 * 16 * 8 / 6 + 1;
+/// Pixels per byte: a block of 8 x 8 of a grey, progressive file takes at least one bit.
+constexpr std::uint64_t kLargestRatio = 8 * 8 * 8;
 
 using Handle = std::unique_ptr<void, int (*)(tjhandle)>;
 

@@ -124,11 +124,23 @@ TEST(FuzzHarness, OnlyClearRefusalsOfOurOwnPass) {
   EXPECT_THROW(read_input(reader_that([](const fs::path&) { throw std::bad_alloc(); }), ""), std::bad_alloc);
 }
 
+TEST(FuzzHarness, TheFuzzersEntryReads) {  // of OBJ files, as this program is compiled
+  const std::string valid = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", wrong = "f 1 2 3\n";
+  for (const std::string& text : {valid, wrong})
+    EXPECT_EQ(LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), 0);
+}
+
 TEST(FuzzHarness, ReadersSeeWhatTheFuzzerGives) {
   std::string seen;
   const std::string bytes("a\0b\r\n\xff", 6);
   read_input(reader_that([&](const fs::path& file) { seen = read_file(file); }), bytes);
   EXPECT_EQ(seen, bytes);
+}
+
+TEST(FuzzHarness, ExrTilesAreCountedBeforeTheLibraryMakesRoomForThem) {
+  const FuzzedReader& exr = fuzzed_reader("exr");
+  const fs::path tiles = kFolder / "finds/exr/tiles_4e6.exr";
+  EXPECT_THAT([&] { exr.read(tiles); }, ::testing::ThrowsMessage<DataError>(::testing::HasSubstr("4000000 tiles")));
 }
 
 TEST(FuzzHarness, ChecksumsAreMadeRight) {

@@ -44,7 +44,7 @@ bool reads(const FuzzedReader& reader, const std::filesystem::path& file, std::s
 }  // namespace
 
 std::span<const FuzzedReader> fuzzed_readers() {
-  static const std::vector<FuzzedReader> readers{
+  static const std::vector<FuzzedReader> kReaders{
       {"stl", ".stl", check_triangle_mesh}, {"obj", ".obj", check_triangle_mesh},
       {"off", ".off", check_triangle_mesh}, {"ply", ".ply", check_triangle_mesh},
       {"msh", ".msh", check_tet_mesh},      {"yaml", ".yaml", check_yaml},
@@ -55,7 +55,7 @@ std::span<const FuzzedReader> fuzzed_readers() {
       {"path", ".csv", check_path},         {"png", ".png", check_image, png_with_checksums},
       {"jpeg", ".jpg", check_image},        {"exr", ".exr", check_exr},
   };
-  return readers;
+  return kReaders;
 }
 
 void check_refusal(const std::exception& error, const std::filesystem::path& file) {

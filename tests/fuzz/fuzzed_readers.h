@@ -43,4 +43,5 @@ std::filesystem::path input_file(const FuzzedReader& reader);
 }  // namespace tacipc
 
 /// libFuzzer's entry, for the reader that TACIPC_FUZZED_READER names where this is compiled.
+// NOLINTNEXTLINE(readability-identifier-naming): its name is given
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
