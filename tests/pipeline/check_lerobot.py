@@ -50,6 +50,7 @@ def wanted(feature, obs, t):
         "observation.wrench.tactile": lambda: np.concatenate([obs["force_N"][t], 1e-3 * obs["torque_Nmm"][t].astype(float)]),
         "observation.force": lambda: obs["press_force_N"][t],
         "observation.state": lambda: pose[t],
+        "time": lambda: obs["time_s"][t],
         "action": lambda: pose[min(t + 1, last)],
     }[feature]()
 

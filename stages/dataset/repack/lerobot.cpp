@@ -45,7 +45,8 @@ const std::vector<Feature> kFeatures{
     {"observation.wrench.tactile", "force_N", Rule::wrench, {"fx", "fy", "fz", "tx", "ty", "tz"}, "N, N m"},
     {"observation.force", "press_force_N", Rule::numbers, {"press"}, "N"},
     {"observation.state", "object_pose", Rule::pose, {"x", "y", "z", "qx", "qy", "qz", "qw"}, "m, unit quaternion"},
-    {"action", "object_pose", Rule::next_pose, {"x", "y", "z", "qx", "qy", "qz", "qw"}, "m, unit quaternion"}};
+    {"action", "object_pose", Rule::next_pose, {"x", "y", "z", "qx", "qy", "qz", "qw"}, "m, unit quaternion"},
+    {"time", "time_s", Rule::numbers, {"time"}, "s"}};
 
 /// What every LeRobot dataset has, in this order behind ours.
 constexpr const char* kIndices[] = {"frame_index", "episode_index", "index", "task_index"};
@@ -112,14 +113,16 @@ class Dataset {
  public:
   Dataset(std::string sensor, const OutputPath& output) : sensor_(std::move(sensor)), output_(output) {}
 
-  void add(const Hdf5Reader& shard, const std::string& name, const std::string& id) {
+  void add(const Hdf5Reader& shard, const std::string& id) {
     const std::string sample = "/data/" + id;
     const std::string obs = sample + "/obs/";
+    if (!shard.has(obs + "time_s")) throw DataError("{}: has no field time_s: pack with a profile that has it", id);
     const std::size_t frames = shard.shape(obs + "time_s").at(0);
     const Episode episode{shard, obs, frames};
     if (features_.empty()) begin(episode, id);
     check(episode, id);
-    if (name != shard_) next_file(name);
+    look_at_times(episode, id);
+    if (!data_) next_file();
 
     const auto task = tasks_.try_emplace(task_of(episode, sample), static_cast<std::int64_t>(tasks_.size())).first;
     const std::int64_t first = total_frames_, length = static_cast<std::int64_t>(frames);
@@ -148,8 +151,18 @@ class Dataset {
     total_frames_ += length;
   }
 
+  /// A shard is a file; a dataset of many sensors would have one open for each.
+  void end_shard() {
+    if (data_) data_->close();
+    data_.reset();
+  }
+
   Value::Map close() {
-    data_->close();
+    if (uneven_)
+      log_warning(
+          "{}: the steps between frames differ (first in {}): `timestamp` counts frames at {:g} per second, "
+          "`time` has their times",
+          sensor_, *uneven_, fps_);
     write_episodes();
     write_tasks();
     write_file(output_(sensor_ + "/meta/info.json"), to_json(info()));
@@ -157,17 +170,20 @@ class Dataset {
     for (std::size_t f = 0; f < features_.size(); ++f)
       statistics.emplace_back(features_[f].name, statistics_[f].value(is_image(features_[f].rule)));
     write_file(output_(sensor_ + "/meta/stats.json"), to_json(statistics));
-    return {{"episodes", episodes()}, {"frames", total_frames_}, {"tasks", tasks_.size()}};
+    return {{"episodes", episodes()}, {"frames", total_frames_}, {"tasks", tasks_.size()}, {"equally_timed", !uneven_}};
   }
 
  private:
   std::int64_t episodes() const { return static_cast<std::int64_t>(ids_.size()); }
 
+  static bool has(const Feature& feature, const Episode& episode) {
+    return episode.shard.has(episode.obs + feature.field) &&
+           (feature.rule != Rule::wrench || episode.shard.has(episode.obs + "torque_Nmm"));
+  }
+
   void begin(const Episode& first, const std::string& id) {
     for (const Feature& feature : kFeatures) {
-      const bool wrench = feature.rule == Rule::wrench;
-      if (!first.shard.has(first.obs + feature.field) || (wrench && !first.shard.has(first.obs + "torque_Nmm")))
-        continue;
+      if (!has(feature, first)) continue;
       features_.push_back(feature);
       shapes_.push_back(shape_of(feature, first.shard, first.obs));
       statistics_.emplace_back(shapes_.back().back());
@@ -180,19 +196,29 @@ class Dataset {
   }
 
   void check(const Episode& episode, const std::string& id) const {
-    for (std::size_t f = 0; f < features_.size(); ++f) {
-      if (!episode.shard.has(episode.obs + features_[f].field))
-        throw DataError("{}: has no field {}, which earlier samples have: pack all shards with one profile", id,
-                        features_[f].field);
-      if (const auto shape = shape_of(features_[f], episode.shard, episode.obs); shape != shapes_[f])
-        throw DataError("{}: {} has shape ({}), in earlier samples ({})", id, features_[f].field,
-                        fmt::join(shape, ", "), fmt::join(shapes_[f], ", "));
+    std::size_t f = 0;
+    for (const Feature& feature : kFeatures) {
+      const bool wanted = f < features_.size() && std::string_view(features_[f].name) == feature.name;
+      if (has(feature, episode) != wanted)
+        throw DataError("{}: has {} field {}, which earlier samples have{}: pack all shards with one profile", id,
+                        wanted ? "no" : "a", feature.field, wanted ? "" : " not");
+      if (!wanted) continue;
+      if (const auto shape = shape_of(feature, episode.shard, episode.obs); shape != shapes_[f])
+        throw DataError("{}: {} has shape ({}), in earlier samples ({})", id, feature.field, fmt::join(shape, ", "),
+                        fmt::join(shapes_[f], ", "));
+      ++f;
     }
   }
 
-  void next_file(const std::string& shard) {
-    if (data_) data_->close();
-    shard_ = shard;
+  void look_at_times(const Episode& episode, const std::string& id) {
+    constexpr double kSame = 1e-3;  // of a step
+    for (std::size_t t = 1; t < episode.frames && !uneven_; ++t) {
+      const double step_s = episode.numbers("time_s", t).at(0) - episode.numbers("time_s", t - 1).at(0);
+      if (std::abs(step_s * fps_ - 1.0) > kSame) uneven_ = id;
+    }
+  }
+
+  void next_file() {
     ++file_;
     data_ = std::make_unique<ParquetWriter>(
         output_(fmt::format("{}/data/chunk-{:03}/file-{:03}.parquet", sensor_, file_ / kChunk, file_ % kChunk)),
@@ -370,8 +396,8 @@ class Dataset {
   std::vector<std::vector<std::size_t>> shapes_;
   std::vector<FeatureStatistics> statistics_;
   double fps_ = 0.0;
+  std::optional<std::string> uneven_;  // the first sample whose frames are not 1/fps_ apart
   std::unique_ptr<ParquetWriter> data_;
-  std::string shard_;  // that data_ is of
   std::int64_t file_ = -1, total_frames_ = 0;
   std::map<std::string, std::int64_t> tasks_;
   std::vector<std::string> ids_, task_names_, splits_;
@@ -397,12 +423,12 @@ Value::Map write_lerobot(std::vector<fs::path> shards, const OutputPath& output)
   for (std::size_t s = 0; s < shards.size(); ++s) {
     const Hdf5Reader shard(shards[s]);
     if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", shards[s].string());
-    const std::string name = shard.text_attribute("/", "shard");
     for (const std::string& id : shard.names("/data")) {
       show_progress(static_cast<double>(s) / static_cast<double>(shards.size()), id);
       const std::string sensor = shard.text_attribute("/data/" + id, "sensor_id");
-      datasets.try_emplace(sensor, sensor, output).first->second.add(shard, name, id);
+      datasets.try_emplace(sensor, sensor, output).first->second.add(shard, id);
     }
+    for (auto& [sensor, dataset] : datasets) dataset.end_shard();
   }
   Value::Map summary;
   for (auto& [sensor, dataset] : datasets) summary.emplace_back(sensor, dataset.close());

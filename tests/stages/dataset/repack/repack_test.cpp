@@ -7,6 +7,7 @@
 #include "common/base/sha256.h"
 #include "common/format/hdf5_writer.h"
 #include "stages/dataset/repack/frame_files.h"
+#include "stages/dataset/repack/lerobot.h"
 #include "stages/dataset/repack/tar_writer.h"
 #include "tests/program_test.h"
 #include "tests/stages/dataset/pack/sample_files.h"
@@ -79,6 +80,68 @@ TEST(FrameFiles, SmallFieldsGoToJsonAndLargeOnesApart) {
       json,
       "{\n  \"id\": \"a\",\n  \"frame\": 1,\n  \"obs\": {\n    \"force_N\": [1, 1, 1]\n  },\n  \"sample\": {\n    "
       "\"mu\": 0.5,\n    \"n_frames\": 2\n  }\n}\n");
+}
+
+/// A shard of one sample in three frames these seconds apart, with and without some fields.
+std::filesystem::path small_shard(const ScratchFolder& scratch, const std::string& name, double step_s, bool torque,
+                                  bool times, bool pressed) {
+  Hdf5Writer file(scratch / (name + ".h5"));
+  const std::string sample = "/data/" + name, obs = sample + "/obs/";
+  file.group(sample + "/obs");
+  file.attribute("/", "shard", name);
+  const auto add = [&](const std::string& field, NumberType type, std::size_t width, double scale) {
+    file.dataset(obs + field, type, width > 1 ? std::vector<std::size_t>{3, width} : std::vector<std::size_t>{3},
+                 false);
+    for (std::size_t t = 0; t < 3; ++t)
+      file.write_frame(obs + field, t, to_bytes(type, std::vector<double>(width, scale * static_cast<double>(t))));
+  };
+  add("force_N", NumberType::f32, 3, 1.0);
+  if (torque) add("torque_Nmm", NumberType::f32, 3, 1.0);
+  if (times) add("time_s", NumberType::f64, 1, step_s);
+  if (pressed) add("press_force_N", NumberType::f32, 1, 1.0);
+  for (const auto& [key, value] :
+       {std::pair{"sensor_id", "mctac"}, {"object_id", "star"}, {"motion", "down"}, {"split", "train"}})
+    file.attribute(sample, key, value);
+  file.close();
+  return scratch / (name + ".h5");
+}
+
+std::string refusal_or_record(const ScratchFolder& scratch, const std::vector<std::filesystem::path>& shards) {
+  const OutputPath output = [&](const std::string& name) {
+    std::filesystem::create_directories((scratch / name).parent_path());
+    return scratch / name;
+  };
+  try {
+    return to_yaml(write_lerobot(shards, output));
+  } catch (const DataError& error) {
+    return error.what();
+  }
+}
+
+TEST(LeRobot, RefusesSamplesOfOtherFields) {
+  const ScratchFolder scratch;
+  const auto whole = small_shard(scratch, "train-0", 0.01, true, true, true);
+  EXPECT_THAT(refusal_or_record(scratch, {whole, small_shard(scratch, "train-1", 0.01, true, true, true)}),
+              HasSubstr("episodes: 2\n"));
+  EXPECT_EQ(refusal_or_record(scratch, {whole, small_shard(scratch, "train-2", 0.01, false, true, true)}),
+            "train-2: has no field force_N, which earlier samples have: pack all shards with one profile");
+  const auto less = small_shard(scratch, "train-3", 0.01, true, true, false);
+  EXPECT_EQ(refusal_or_record(scratch, {whole, less}),
+            "train-3: has no field press_force_N, which earlier samples have: pack all shards with one profile");
+  EXPECT_EQ(refusal_or_record(scratch, {less, small_shard(scratch, "train-4", 0.01, true, true, true)}),
+            "train-4: has a field press_force_N, which earlier samples have not: pack all shards with one profile");
+  EXPECT_EQ(refusal_or_record(scratch, {small_shard(scratch, "train-5", 0.01, true, false, true)}),
+            "train-5: has no field time_s: pack with a profile that has it");
+}
+
+TEST(LeRobot, SaysThatFramesAreNotEquallyFarApart) {
+  const ScratchFolder scratch;
+  const auto even = small_shard(scratch, "train-0", 0.01, true, true, true);
+  EXPECT_EQ(refusal_or_record(scratch, {even, small_shard(scratch, "train-1", 0.01, true, true, true)}),
+            "mctac:\n  episodes: 2\n  frames: 6\n  tasks: 1\n  equally_timed: true\n");
+  EXPECT_THAT(refusal_or_record(scratch, {even, small_shard(scratch, "train-2", 0.03, true, true, true)}),
+              HasSubstr("equally_timed: false\n"));
+  EXPECT_THAT(read_file(scratch / "mctac/meta/info.json"), HasSubstr("\"fps\": 100,"));
 }
 
 class RepackTest : public ProgramTest {};
