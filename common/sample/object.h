@@ -1,4 +1,4 @@
-// An object as one file: the unit of its mesh, its scale and which side is up.
+// An object as one file: the unit of its mesh, its scale, which side is up, and how it is mended.
 #pragma once
 
 #include <optional>
@@ -6,9 +6,14 @@
 #include <vector>
 
 #include "common/config/config.h"
-#include "common/sample/placement.h"
-
 namespace tacipc {
+
+/// What one side of a mesh shows, as a solid.
+struct SideConfig {
+  static constexpr const char* kMostRelief = "most_relief";
+  std::string side = "-z";  // that presses: +x -x +y -y +z -z of the mesh, or kMostRelief
+  double spacing_m = 5e-5;  // of the grid
+};
 
 /// configs/objects/*.yaml
 struct ObjectSpec {
@@ -18,17 +23,12 @@ struct ObjectSpec {
   std::optional<std::string> up;  // side of the mesh that looks away from the gel: +x -x +y -y +z -z
   double scale = 1.0;             // of the mesh, after its unit
   bool fit_window = false;        // `scale: fit`: to the sensor's window
+  std::optional<double> sheet_thickness_m = std::nullopt;  // of plates made of what is open
+  std::optional<SideConfig> height_field = std::nullopt;   // of what no repair closes
 
-  static ObjectSpec read(ConfigReader& in) {
-    ObjectSpec spec;
-    spec.unit = in.choice("unit", {"m", "cm", "mm", "um", "in", kAutoUnit});
-    if (in.has("up")) spec.up = in.choice("up", face_names());
-    if (in.text_or("scale", "1") == "fit")
-      spec.fit_window = true;
-    else
-      spec.scale = in.number_or("scale", spec.scale, Range::positive());
-    return spec;
-  }
+  static ObjectSpec read(ConfigReader& in);
+  /// As a file that `read` takes; without keys that have their defaults.
+  std::string yaml() const;
 };
 
 }  // namespace tacipc

@@ -100,7 +100,12 @@ define object_yaml
 unit: $(UNIT)
 scale: $(SCALE)
 $(if $(UP),up: "$(UP)")
+$(if $(SHEET_MM),sheet_thickness_mm: $(SHEET_MM))
+height_field:
 endef
+# Which side presses: that of most relief in the sensor's window, unless a variable or the motion's file says one. A mesh
+# that no repair closes is pressed as what that side shows.
+pressed_side = $(if $(choose_side),most_relief,$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)"),$(side_given)))
 # Which files a motion follows; what is wrong with them or with FRICTION is said before anything is made.
 ifneq ($(motion_file)$(FRICTION),)
 $(SAMPLE)/paths.mk: $(motion_file) $(if $(FRICTION),$(SAMPLE)/press_config.yaml) FORCE | build
@@ -111,19 +116,15 @@ endif
 choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), motion: $(or $(abspath $(motion_file)),as said)}
 $(SAMPLE)/$(if $(choose_side),asked,sample).yaml: FORCE
 	$(call replace_if_changed,$(sample_yaml))
-$(SAMPLE)/object.yaml: FORCE
-	$(call replace_if_changed,$(object_yaml))
+$(SAMPLE)/object.yaml: $(motion_file) FORCE | build
+	$(call replace_if_changed_by,printf '%s\n' '$(subst $(newline),' ',$(object_yaml))' "  side: \"$(pressed_side)\"")
 $(SAMPLE)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
 	$(call replace_if_changed_by,$(BIN)/tacipc set $< 'friction.coefficient=$(FRICTION)')
 $(SAMPLE)/choice.txt: FORCE
 	$(call replace_if_changed,$(choice_yaml))
 	$(if $(motion_file),@rm -f $(SAMPLE)/sample.yaml)
-# Which side presses: that of most relief in the sensor's window, unless a variable or the motion's file says one. A mesh
-# that no repair closes is pressed as what that side shows.
-$(SAMPLE)/decimate_config.yaml: configs/objects/decimate/default.yaml $(motion_file) FORCE | build
-	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+height_field.side=$(if $(choose_side),most_relief,$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)"),$(side_given)))" $(if $(SHEET_MM),"+doctor.sheet_thickness_mm=$(SHEET_MM)"))
-$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt $(SAMPLE)/decimate_config.yaml configs/sensors/$(SENSOR).yaml | build
-	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config $(SAMPLE)/decimate_config.yaml --sensor configs/sensors/$(SENSOR).yaml)
+$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml | build
+	$(call run,decimate,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
 ifdef choose_side
 # The place of most relief too, where the object is neither turned nor placed.
 side := $(BIN)/tacipc get $(SAMPLE)/object/decimate.yaml summary.sides

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "common/base/text_reader.h"
-#include "common/sample/placement.h"
 
 namespace tacipc {
 namespace {
@@ -92,15 +91,18 @@ class Reader {
     }
     const std::string key = emboss ? "emboss" : "meshes";
     const fs::path path = file(item, key);
-    ObjectChoice choice{.name = "", .file = "", .embossed = emboss, .up = "-z"};
+    ObjectChoice choice{.name = "", .file = "", .embossed = emboss, .spec = {.unit = "m", .up = "-z"}};
     if (!emboss) {
-      choice.unit = item.choice("unit", {"m", "cm", "mm", "um", "in"});
-      choice.up = std::nullopt;
-      if (item.has("up")) choice.up = item.choice("up", face_names());
+      choice.spec = ObjectSpec::read(item);
+      // Objects of a dataset are the same in all of its sensors, so no window decides.
+      if (choice.spec.fit_window) item.fault("scale", "fit is for one sensor; give a number");
+      if (choice.spec.height_field && choice.spec.height_field->side == SideConfig::kMostRelief)
+        item.fault("height_field", "most_relief is for one sensor; name a side");
     }
     std::vector<fs::path> files;
     const std::set<std::string> endings =
-        emboss ? std::set<std::string>{".yaml"} : std::set<std::string>{".stl", ".obj", ".off", ".ply"};
+        emboss ? std::set<std::string>{".yaml"}
+               : std::set<std::string>{".stl", ".obj", ".off", ".ply", ".glb", ".gltf", ".3mf"};
     if (fs::is_directory(path)) {
       for (const auto& entry : fs::directory_iterator(path))
         if (endings.contains(lower_case(entry.path().extension().string()))) files.push_back(entry.path());

@@ -9,6 +9,7 @@
 
 #include "common/config/config.h"
 #include "common/sample/dataset_maps.h"
+#include "common/sample/object.h"
 #include "stages/dataset/plan/motion_template.h"
 
 namespace tacipc {
@@ -29,8 +30,7 @@ struct ObjectChoice {
   std::string name;
   std::filesystem::path file;
   bool embossed = false;
-  std::string unit = "m";
-  std::optional<std::string> up = std::nullopt;
+  ObjectSpec spec = {};
 };
 
 /// A motion of which each object makes `samples` in each sensor.

@@ -25,10 +25,6 @@ std::string joined(const std::vector<std::string>& words) {
 std::string block_of(const PlannedSample& sample) { return sample.folder().substr(8, 3); }
 std::string place_of(const PlannedSample& sample) { return sample.folder().substr(8); }
 
-std::string object_yaml(const ObjectChoice& object) {
-  return fmt::format("unit: {}\n", object.unit) + (object.up ? fmt::format("up: \"{}\"\n", *object.up) : "");
-}
-
 /// Files that render reads for a gel, but its settings.
 std::string files_of_render(const std::vector<Choice>& choices, const SensorChoice& sensor) {
   std::vector<std::string> files;
@@ -139,7 +135,7 @@ int write_dataset_files(const DatasetConfig& config, const std::vector<Choice>& 
   write_choices(choices, dataset / "choices");
   replace_if_changed(dataset / kMapsFile, config.maps.yaml());
   for (const ObjectChoice& object : config.objects)
-    replace_if_changed(dataset / "objects" / object.name / "object.yaml", object_yaml(object));
+    replace_if_changed(dataset / "objects" / object.name / "object.yaml", object.spec.yaml());
   int written = 0;
   for (const PlannedSample& sample : samples)
     written += replace_if_changed(dataset / sample.folder() / "sample.yaml", sample_yaml(config, sample));

@@ -1,7 +1,5 @@
 #include "stages/object/decimate/decimate_config.h"
 
-#include "common/sample/placement.h"
-
 namespace tacipc {
 
 DecimateConfig DecimateConfig::read(ConfigReader& in) {
@@ -24,18 +22,8 @@ DecimateConfig DecimateConfig::read(ConfigReader& in) {
       doctor.number_or("debris_area_fraction", config.doctor.debris_area_fraction, Range::between(0.0, 0.5));
   config.doctor.refuse_self_intersections =
       doctor.flag_or("refuse_self_intersections", config.doctor.refuse_self_intersections);
-  if (const auto thickness = doctor.optional_number("sheet_thickness_mm", Range::between(1e-3, 100.0)))
-    config.doctor.sheet_thickness_m = 1e-3 * *thickness;
   if (config.doctor.min_extent_m >= config.doctor.max_extent_m)
     doctor.fault("max_extent_mm", "must be larger than min_extent_mm");
-
-  if (in.has("height_field")) {
-    ConfigReader side = in.section("height_field");
-    std::vector<std::string> sides = face_names();
-    sides.push_back(SideConfig::kMostRelief);
-    config.doctor.height_field = SideConfig{.side = side.choice("side", sides)};
-    config.doctor.height_field->spacing_m = 1e-3 * side.number_or("spacing_mm", 0.05, Range::between(1e-3, 10.0));
-  }
 
   ConfigReader hausdorff = in.section("hausdorff");
   config.hausdorff.spacing_m = 1e-3 * hausdorff.number("spacing_mm", Range::between(1e-4, 100.0));

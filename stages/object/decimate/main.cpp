@@ -2,6 +2,7 @@
 #include "common/base/log.h"
 #include "common/image/image.h"
 #include "common/sample/object.h"
+#include "common/sample/placement.h"
 #include "common/sensor/sensor.h"
 #include "common/stage/stage.h"
 #include "stages/object/decimate/decimate_object.h"
@@ -14,7 +15,7 @@ const tacipc::StageSpec kDecimate{
     .summary = "Repair a scanned object and simplify it to a mesh the simulation can afford.",
     .inputs = {{.flag = "--config", .help = "decimation settings (YAML)"},
                {.flag = "--mesh", .help = "surface of the object (STL, OBJ, OFF, PLY, glTF, 3MF)"},
-               {.flag = "--object", .help = "unit, scale and orientation of that mesh (YAML)"},
+               {.flag = "--object", .help = "unit, scale, orientation and repair of that mesh (YAML)"},
                {.flag = "--sensor",
                 .help = "who will see it (YAML): its window decides which side shows most",
                 .required = false}}};
@@ -35,12 +36,14 @@ int main(int argc, char** argv) {
   return tacipc::run_stage(kDecimate, argc, argv, [](tacipc::Stage& stage) {
     auto config = stage.read_config<tacipc::DecimateConfig>("--config");
     const auto spec = stage.read_config<tacipc::ObjectSpec>("--object");
+    config.doctor.sheet_thickness_m = spec.sheet_thickness_m;
+    config.doctor.height_field = spec.height_field;
     if (stage.optional_input("--sensor")) {
       const auto sensor = stage.read_config<tacipc::Sensor>("--sensor");
       config.doctor.window =
           tacipc::SensorWindow{.size_m = {sensor.camera.window_width_m, sensor.camera.window_height_m},
                                .usual = spec.up ? tacipc::opposite_face(*spec.up) : "-z"};
-    } else if (config.doctor.height_field && config.doctor.height_field->side == tacipc::SideConfig::kMostRelief) {
+    } else if (spec.height_field && spec.height_field->side == tacipc::SideConfig::kMostRelief) {
       throw tacipc::UsageError("height_field.side: most_relief needs --sensor, whose window decides");
     }
     if (spec.fit_window && !config.doctor.window)
@@ -50,7 +53,7 @@ int main(int argc, char** argv) {
     tacipc::log_info("lengths are in {} ({})", file.unit, file.unit_from);
     double scale = spec.scale;
     if (spec.fit_window) {
-      const auto& side = config.doctor.height_field;
+      const auto& side = spec.height_field;
       scale = tacipc::scale_to_window(file.mesh, *config.doctor.window, side ? side->side : "");
       file.mesh.positions *= scale;
       tacipc::log_info("scaled by {:.4g} to fit the sensor's window", scale);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/mesh/triangle_mesh.h"
+#include "common/sample/object.h"
 #include "stages/object/decimate/side_solid.h"
 #include "stages/object/decimate/side_survey.h"
 

@@ -7,12 +7,6 @@
 
 namespace tacipc {
 
-struct SideConfig {
-  static constexpr const char* kMostRelief = "most_relief";
-  std::string side = "-z";  // that presses: +x -x +y -y +z -z of the mesh, or kMostRelief (side_survey.h)
-  double spacing_m = 5e-5;  // of the grid
-};
-
 /// How far the solid is from what is seen of the mesh.
 struct SideError {
   double spacing_m = 0.0;  // of the grid taken

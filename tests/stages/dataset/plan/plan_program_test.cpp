@@ -101,6 +101,20 @@ motions: {{name: a, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}
   EXPECT_TRUE(fs::exists(scratch_ / "set/plan/plan.yaml"));
 }
 
+TEST_F(PlanProgram, AnObjectsFileSaysHowItsMeshIsTaken) {
+  scratch_.file("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto file = scratch_.file("d.yaml", fmt::format(R"(seed: 1
+sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/gels/tiny.yaml}}
+objects: {{meshes: sheet.obj, unit: auto, scale: 2, sheet_thickness_mm: 0.5, height_field: {{side: -y}}}}
+motions:
+  - {{name: press, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
+)",
+                                                        TACIPC_SOURCE_DIR));
+  ASSERT_EQ(plan(file), 0) << said_;
+  EXPECT_EQ(read_file(scratch_ / "set/objects/sheet/object.yaml"),
+            "unit: auto\nscale: 2\nsheet_thickness_mm: 0.5\nheight_field: {side: \"-y\", spacing_mm: 0.05}\n");
+}
+
 TEST_F(PlanProgram, FaultsAreAllSaidAndNothingIsPlanned) {
   const auto file = scratch_.file("d.yaml", fmt::format(R"(seed: 1
 sensors: {{sensor: {0}/configs/sensors/none.yaml, mesh: {0}/configs/gels/tiny.yaml}}
@@ -108,6 +122,7 @@ objects:
   - {{emboss: {0}/configs/objects/patterns, only: [star, sun]}}
   - {{meshes: ., unit: mm}}
   - {{emboss: {0}/configs/objects/patterns/star.yaml}}
+  - {{meshes: {0}/configs, unit: mm, scale: fit, height_field: {{side: most_relief}}}}
 motions:
   - {{name: a__b, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
 splits: {{val: 0.5, test: 0.5, test_objects: [moon]}}
@@ -115,10 +130,10 @@ outputs: {{keep: [report]}}
 )",
                                                         TACIPC_SOURCE_DIR));
   EXPECT_EQ(plan(file), 2);
-  for (const char* fault :
-       {"configs/sensors/none.yaml does not exist", "has no sun", "has no meshes in it", "star exists already",
-        "'a__b' begins or ends with an underscore", "val and test leave nothing to train on",
-        "moon is not one of the objects", "'report' is not one of press, render"})
+  for (const char* fault : {"configs/sensors/none.yaml does not exist", "has no sun", "has no meshes in it",
+                            "star exists already", "fit is for one sensor", "most_relief is for one sensor",
+                            "'a__b' begins or ends with an underscore", "val and test leave nothing to train on",
+                            "moon is not one of the objects", "'report' is not one of press, render"})
     EXPECT_THAT(said_, testing::HasSubstr(fault));
   EXPECT_FALSE(fs::exists(scratch_ / "set/samples"));
 }
