@@ -56,14 +56,15 @@ bool is_utf8(std::string_view text) {
 std::string printable(std::string_view text) { return escaped(text, true); }
 
 std::string excerpt(std::string_view text, std::size_t at_most) {
-  if (text.size() <= at_most) return escaped(text, false);
-  std::size_t end = 0;
-  while (end < at_most) {
-    const std::size_t length = std::max<std::size_t>(1, utf8_length(text.substr(end)));
-    if (end + length > at_most) break;
-    end += length;
+  std::string shown;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = std::max<std::size_t>(1, utf8_length(text.substr(at)));
+    const std::string character = escaped(text.substr(at, length), false);
+    if (shown.size() + character.size() > at_most) return fmt::format("{}… ({} bytes)", shown, text.size());
+    shown += character;
+    at += length;
   }
-  return fmt::format("{}… ({} bytes)", escaped(text.substr(0, end), false), text.size());
+  return shown;
 }
 
 }  // namespace tacipc

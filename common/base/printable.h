@@ -16,7 +16,8 @@ bool is_utf8(std::string_view text);
 /// that are no UTF-8, become \x1b and the like.
 std::string printable(std::string_view text);
 
-/// A value as a message quotes it: on one line, and of more than `at_most` bytes only the beginning with the size.
+/// A value as a message quotes it: on one line, and where that takes more than `at_most` bytes only the beginning with
+/// the size of all.
 std::string excerpt(std::string_view text, std::size_t at_most = 80);
 
 }  // namespace tacipc

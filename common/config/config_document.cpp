@@ -223,9 +223,9 @@ std::unique_ptr<ConfigReader::Document> ConfigReader::Document::parse(const std:
 }
 
 void ConfigReader::Document::add(int line, int column, const std::string& path, const std::string& reason) {
-  constexpr std::size_t kLongest = 1000;  // bytes; reasons repeat what stands in the file
+  constexpr std::size_t kLongestPath = 200, kLongest = 600;  // bytes; both repeat what stands in the file
   faults.push_back({line, column,
-                    fmt::format("{}:{}:{}: {}{}{}", printable(name), line, column, excerpt(path, kLongest),
+                    fmt::format("{}:{}:{}: {}{}{}", printable(name), line, column, excerpt(path, kLongestPath),
                                 path.empty() ? "" : ": ", excerpt(reason, kLongest))});
 }
 

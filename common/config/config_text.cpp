@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/printable.h"
 #include "common/config/config.h"
 #include "common/config/key_path.h"
 
@@ -240,7 +241,8 @@ ConfigText::ConfigText(std::string text, std::string name)
 void ConfigText::refuse(std::size_t at, std::string_view path, std::string_view reason) const {
   at = std::min(at, text_.size());
   const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-  throw ConfigError({fmt::format("{}:{}:{}: {}: {}", name_, line, Scanner(text_).column(at) + 1, path, reason)});
+  throw ConfigError(
+      {fmt::format("{}:{}:{}: {}: {}", name_, line, Scanner(text_).column(at) + 1, excerpt(path, 200), reason)});
 }
 
 void ConfigText::accept(std::string text, const Value& wanted, std::size_t at, std::string_view path) {

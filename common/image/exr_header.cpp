@@ -95,12 +95,15 @@ void note_sizes(const std::string& attribute, const std::string& type, ByteReade
   }
 }
 
-/// Each tile has a place in a table of 8 bytes each; the library makes room for the table before it reads it.
+/// Each tile has a place in a table of 8 bytes each; the library makes room for the table, and for one tile, before it
+/// reads anything.
 void check_sizes(const Sizes& sizes, std::size_t file_size, const std::string& name) {
   if (sizes.width > kLargestExrSide || sizes.height > kLargestExrSide ||
       sizes.width * sizes.height / kLargestExrRatio > file_size)
     throw DataError("{}: {} x {} pixels cannot be in a file of {} bytes", name, sizes.width, sizes.height, file_size);
   if (sizes.tile_width == 0 || sizes.tile_height == 0) return;
+  if (sizes.tile_width > kLargestExrTile / sizes.tile_height)
+    throw DataError("{}: tiles of {} x {} pixels are too large", name, sizes.tile_width, sizes.tile_height);
   const std::uint64_t tiles = ((sizes.width - 1) / sizes.tile_width + 1) * ((sizes.height - 1) / sizes.tile_height + 1);
   if (sizes.width > 0 && sizes.height > 0 && tiles * 8 > file_size)
     throw DataError("{}: {} tiles cannot be in a file of {} bytes", name, tiles, file_size);

@@ -7,7 +7,8 @@
 
 namespace tacipc {
 
-inline constexpr std::uint64_t kLargestExrSide = 32768;  // pixels
+inline constexpr std::uint64_t kLargestExrSide = 32768;    // pixels
+inline constexpr std::uint64_t kLargestExrTile = 1 << 24;  // pixels; usual are 64 x 64
 /// No EXR compression shrinks real pixels further; a file that claims so is corrupt.
 inline constexpr std::uint64_t kLargestExrRatio = 10'000;
 

@@ -8,7 +8,7 @@ track() { # track OUT [VARIABLE=value …]
   local out=$1
   shift
   make -s -f Makefile.data track OBJECT=pyramid.stl MESH=tiny MOTION=shear STEPS=2 DEPTH_MM=0.3 SHEAR_MM=0.2 MOVE_STEPS=2 OUT="$out" BUILD="$build_dir" PACKAGES=no "$@" 2> said.txt ||
-    { tail -5 said.txt; fail "the goal failed"; }
+    { tail -5 said.txt >&2; fail "the goal failed"; }
 }
 track one THREADS=1 > summary.txt
 track two THREADS=2 > /dev/null

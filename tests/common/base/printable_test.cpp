@@ -25,6 +25,7 @@ TEST(Printable, QuotesOnOneLineAndCutsBetweenCharacters) {
   EXPECT_EQ(excerpt("a\nb"), "a\\x0ab");
   EXPECT_EQ(excerpt("12345", 5), "12345");
   EXPECT_EQ(excerpt("123µ567", 4), "123… (8 bytes)");
+  EXPECT_EQ(excerpt("12\r\r", 6), "12\\x0d… (4 bytes)");
 }
 
 }  // namespace
