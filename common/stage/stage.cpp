@@ -14,6 +14,7 @@
 #include "common/base/instruction_set.h"
 #include "common/base/log.h"
 #include "common/base/printable.h"
+#include "common/stage/vouched.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -150,8 +151,13 @@ void Stage::add_input(const std::string& name, const fs::path& path) { add_input
 
 void Stage::add_inputs(const std::vector<std::pair<std::string, fs::path>>& named) {
   added_inputs_.insert(added_inputs_.end(), named.begin(), named.end());
+  for (const auto& [name, path] : named) refuse_changed(path);
   inputs_at_start_ = input_hashes();
   open_scratch();
+}
+
+void Stage::refuse_changed(const fs::path& input) const {
+  refuse_changed_outputs(input, out_ / (spec_.name + ".yaml"));
 }
 
 bool Stage::inputs_changed() const { return to_yaml(input_hashes()) != to_yaml(inputs_at_start_.value()); }
@@ -269,6 +275,10 @@ void Stage::begin() {
   write_file(out_ / (spec_.name + ".log"), "");
   open_log_file((out_ / (spec_.name + ".log")).string());
   if (!spec_.resumable) remove_quietly(partial_);
+  for (const auto& [flag, paths] : inputs_)
+    for (const fs::path& path : paths) refuse_changed(path);
+  for (const auto& [flag, paths] : named_inputs_)
+    for (const NamedPath& named : paths) refuse_changed(named.path);
   inputs_at_start_ = input_hashes();
   open_scratch();
 }

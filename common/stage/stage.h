@@ -124,6 +124,8 @@ class Stage {
   std::set<std::string> old_outputs() const;
   Value input_hashes() const;
   bool inputs_changed() const;
+  /// \throw DataError if a record vouches for another content of an input (vouched.h)
+  void refuse_changed(const std::filesystem::path& input) const;
   /// What scratch files depend on, as text.
   std::string resume_key() const;
   /// Notes and options, as record and failure file repeat them.
