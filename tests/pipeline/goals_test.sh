@@ -9,6 +9,11 @@ for goal in $goals; do
 done
 [ "$(grep -c '^  ' help.txt)" = "$(wc -w <<< "$goals")" ] || fail "help lists what is no goal"
 [ "$(sed -n 1p help.txt)" = "Start here" ] || fail "help begins with $(sed -n 1p help.txt)"
+called=$(grep -hoE '(Makefile\.data|tacipc|tacipc\.sif) [a-z][a-z-]+( |$)|^CMD \["[a-z-]+' "$source_dir"/containers/* | sed 's/.*[ "]\([a-z]\)/\1/' | sort -u)
+[ "$(wc -w <<< "$called")" -ge 3 ] || fail "the container files call no more than $called"
+for goal in $called; do
+  grep -qE "^  $goal( |$)" help.txt || fail "the container files call $goal, which is no goal"
+done
 
 # On a system without any package, where nothing is built either.
 mkdir fake
