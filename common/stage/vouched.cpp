@@ -40,7 +40,7 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 void refuse_changed_outputs(const fs::path& input, const fs::path& but) {
   std::error_code error;
   const fs::path whole = fs::canonical(input, error);
-  if (error) return;  // reading it says more
+  if (error || is_record(whole)) return;  // reading it says more; nothing vouches for a record
   const fs::path own = fs::weakly_canonical(but, error);
   const fs::path folder = fs::is_directory(whole) ? whole : whole.parent_path();
   std::vector<fs::path> records = records_in(folder);
@@ -53,7 +53,9 @@ void refuse_changed_outputs(const fs::path& input, const fs::path& but) {
       if (!lies_in(file, whole) || !fs::is_regular_file(file, error)) continue;
       const std::string hash = outputs.required_text(name);
       if (hash != "varies" && content_hash(file) != hash)
-        throw DataError("{}: has changed since {} was written; make it again", file.string(), path.string());
+        throw DataError(
+            "{}: has changed since {} was written; make it again, or copy it to another folder if you changed it",
+            file.string(), path.string());
     }
   }
 }

@@ -59,7 +59,7 @@ TEST_F(Vouched, ARecordOneFolderUpCounts) {
 TEST_F(Vouched, WhatVariesOrNoRecordListsPasses) {
   write_file(root_ / "gel/times.csv", "2 s");
   write_file(root_ / "gel/notes.txt", "mine");
-  for (const char* input : {"gel", "gel/times.csv", "gel/notes.txt"}) accept(input);
+  for (const char* input : {"gel", "gel/times.csv", "gel/notes.txt", "gel/cut.yaml"}) accept(input);
 }
 
 TEST_F(Vouched, OnlyRecordsCount) {
