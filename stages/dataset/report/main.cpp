@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -36,7 +38,7 @@ void write_view(Stage& stage, SampleReport& sample, const std::string& card) {
     if (!view) return;
     write_file(stage.output(view_data_name(card)), view_script(*view, frame_texts(sample, *view)));
     sample.has_view = true;
-  } catch (const DataError& error) {
+  } catch (const std::runtime_error& error) {
     log_warning("{}: no 3-D view: {}", sample.name, error.what());
   }
 }
@@ -52,6 +54,19 @@ void write_views(Stage& stage, std::vector<SampleReport>& samples) {
   write_file(stage.output(kViewPage), view_page(stage.option("--title"), viewed));
 }
 
+/// The sheet of all samples needs the pictures of each.
+void try_pictures(SampleReport& sample) {
+  if (!sample.images) return;
+  const SampleImages& images = *sample.images;
+  try {
+    for (const auto& file : {std::optional(images.tactile), std::optional(images.no_contact), images.indentation,
+                             images.normal, images.markers})
+      if (file) read_picture(*file);
+  } catch (const std::runtime_error& error) {
+    leave_out_pictures(sample, error.what());
+  }
+}
+
 void report_samples(Stage& stage) {
   // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
   for (const char* name : {"index.html", "contact_sheet.png", kViewPage, "view"}) {
@@ -62,7 +77,8 @@ void report_samples(Stage& stage) {
   std::vector<SampleReport> samples;
   for (const auto& folder : stage.inputs("--sample")) {
     samples.push_back(read_sample(folder));
-    const SampleReport& sample = samples.back();
+    SampleReport& sample = samples.back();
+    try_pictures(sample);
     if (!sample.passed()) log_warning("{}: failed: {}", sample.name, *sample.failure);
   }
   write_views(stage, samples);

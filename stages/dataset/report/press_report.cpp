@@ -128,6 +128,11 @@ DecimateReport read_decimate(const Record& record) {
   return report;
 }
 
+void warn_of_scale(const Record& summary, SampleReport& sample) {
+  if (const double scale = summary.number("scale").value_or(1.0); scale != 1.0)
+    sample.warnings.push_back(fmt::format("The object is scaled by {:.4g}.", scale));
+}
+
 void read_sides(const fs::path& folder, const Record& sides, SampleReport& sample) {
   if (const fs::path picture = folder / "sides.png"; fs::is_regular_file(picture)) sample.sides = picture;
   const auto window = sides.numbers("window_mm", 2);
@@ -144,6 +149,24 @@ void read_sides(const fs::path& folder, const Record& sides, SampleReport& sampl
   }
 }
 
+/// What the stage wrap made of the scan, if that is what decimate took.
+void read_wrap(const fs::path& folder, SampleReport& sample) {
+  const fs::path path = (folder / "wrap.yaml").lexically_normal();
+  if (!fs::is_regular_file(path)) return;
+  link_if_there(sample.records, "wrap.yaml", path);
+  const Record record = Record::from_file(path);
+  if (const auto scan = record.section("inputs").section("mesh").text("path")) sample.object = object_name(*scan);
+  const Record summary = record.section("summary"), error = summary.section("seen_mesh_to_wrap_mm");
+  warn_of_scale(summary, sample);
+  sample.warnings.push_back(fmt::format(
+      "The object's mesh was replaced by a closed surface wrapped around it, which fills gaps and grooves that a ball "
+      "of "
+      "{:.2g} mm does not get into. What is seen of the mesh lies {:.3g} µm below that surface in the mean, {:.3g} µm "
+      "at "
+      "most.",
+      summary.required_number("alpha_mm"), 1e3 * error.required_number("mean"), 1e3 * error.required_number("max")));
+}
+
 void read_object(const fs::path& press_folder, const Record& press, SampleReport& sample) {
   const auto gel = press.section("inputs").section("gel").text("path");
   if (gel) link_if_there(sample.records, "tetmesh.yaml", (press_folder / *gel).parent_path() / "tetmesh.yaml");
@@ -154,11 +177,13 @@ void read_object(const fs::path& press_folder, const Record& press, SampleReport
   if (!fs::is_regular_file(record_path)) return;
   link_if_there(sample.records, "decimate.yaml", record_path);
   const Record record = Record::from_file(record_path);
-  if (const auto scan = record.section("inputs").section("mesh").text("path")) sample.object = object_name(*scan);
+  if (const auto scan = record.section("inputs").section("mesh").text("path")) {
+    sample.object = object_name(*scan);
+    read_wrap((record_path.parent_path() / *scan).parent_path(), sample);
+  }
   sample.decimate = read_decimate(record);
   const Record summary = record.section("summary");
-  if (const double scale = summary.number("scale").value_or(1.0); scale != 1.0)
-    sample.warnings.push_back(fmt::format("The object is scaled by {:.4g}.", scale));
+  warn_of_scale(summary, sample);
   read_sides(record_path.parent_path(), summary.section("sides"), sample);
   const Record repairs = summary.section("repairs");
   if (!repairs.has("height_field")) return;

@@ -158,4 +158,10 @@ SampleReport read_sample(const fs::path& given) {
   return sample;
 }
 
+void leave_out_pictures(SampleReport& sample, const std::string& why) {
+  sample.images.reset();
+  sample.phase_images.clear();
+  if (!sample.failure) sample.failure = without_folder(why, sample.folder);
+}
+
 }  // namespace tacipc

@@ -121,4 +121,7 @@ struct SampleReport {
 /// comes back as a failed one, with what could be read of it. \throw DataError if the folder is not a sample's.
 SampleReport read_sample(const std::filesystem::path& folder);
 
+/// Of a picture that cannot be read: the sample is a failed one, without pictures.
+void leave_out_pictures(SampleReport& sample, const std::string& why);
+
 }  // namespace tacipc

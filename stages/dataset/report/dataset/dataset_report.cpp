@@ -104,7 +104,8 @@ OtherCost other_cost(const fs::path& dataset, const std::string& stage, const st
 
 std::vector<OtherCost> other_costs(const fs::path& dataset) {
   return {other_cost(dataset, "tetmesh", "gels", ""), other_cost(dataset, "emboss", "objects", "emboss"),
-          other_cost(dataset, "decimate", "objects", ""), other_cost(dataset, "pack", "shards", "")};
+          other_cost(dataset, "wrap", "objects", "wrap"), other_cost(dataset, "decimate", "objects", ""),
+          other_cost(dataset, "pack", "shards", "")};
 }
 
 /// Writes the pages of the chosen samples, some side by side, and tells what others show of them.

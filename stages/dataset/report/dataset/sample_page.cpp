@@ -85,11 +85,9 @@ SamplePage make_sample_page(const PlannedRow& plan, const fs::path& dataset, con
   try {
     copy_pictures(page, sample, folder, config);
   } catch (const std::runtime_error& error) {
-    sample.images.reset();
-    sample.phase_images.clear();
+    leave_out_pictures(sample, error.what());
     page.pictures.clear();
     page.shot.thumb_px.reset();
-    if (!sample.failure) sample.failure = error.what();
   }
   page.shot.passed = sample.passed();
   page.body = "<p>" + verdict_badge(sample) + "</p>\n" + planned_facts(plan) + "<article class=\"card\">\n" +

@@ -56,6 +56,16 @@ TEST_F(ReportStageTest, TheCurrentFolderMayBeTheSample) {
   EXPECT_THAT(read_file(star_ / "report/index.html"), HasSubstr("href=\"../press/press.yaml\""));
 }
 
+TEST_F(ReportStageTest, DamagedPicturesAndRecordsAreFailedSamples) {
+  const std::string picture = read_file(star_ / "render/frame_0002/tactile.png");
+  write_file(star_ / "render/frame_0002/tactile.png", picture.substr(0, picture.size() / 2));
+  write_file(gear_ / "press/press.yaml", "stage: press\n\x1f");
+  ASSERT_EQ(run({"out/demo/star", "out/demo/gear"}, "out/demo/report"), 0) << said_;
+  EXPECT_THAT(said_, HasSubstr("star-007: failed: render/frame_0002/tactile.png: the file ends"));
+  EXPECT_THAT(said_, HasSubstr("gear: failed: press/press.yaml:2:1: not valid YAML"));
+  EXPECT_THAT(read_file(scratch_ / "out/demo/report/report.yaml"), HasSubstr("passed: 0\n  failed: 2\n"));
+}
+
 TEST_F(ReportStageTest, AReportInsideItsSampleIsNotPartOfWhatItReports) {
   ASSERT_EQ(run({"out/demo/star"}, "out/demo/star/report"), 0);
   const std::string first = read_file(star_ / "report/report.yaml");
