@@ -1,7 +1,7 @@
 #include "stages/object/decimate/decimate_object.h"
 
 #include "common/base/log.h"
-#include "stages/object/decimate/object_file.h"
+#include "stages/object/decimate/object_size.h"
 #include "stages/object/decimate/surface_topology.h"
 
 namespace tacipc {

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "common/mesh/triangle_tree.h"
 #include "stages/object/decimate/surface_topology.h"
-#include "stages/object/decimate/triangle_tree.h"
 
 namespace tacipc {
 namespace {

@@ -2,11 +2,12 @@
 #include "common/base/log.h"
 #include "common/image/image.h"
 #include "common/sample/object.h"
+#include "common/sample/object_file.h"
 #include "common/sample/placement.h"
 #include "common/sensor/sensor.h"
 #include "common/stage/stage.h"
 #include "stages/object/decimate/decimate_object.h"
-#include "stages/object/decimate/object_file.h"
+#include "stages/object/decimate/object_size.h"
 
 namespace {
 

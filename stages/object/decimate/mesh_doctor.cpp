@@ -5,7 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "stages/object/decimate/doctor_steps.h"
-#include "stages/object/decimate/object_file.h"
+#include "stages/object/decimate/object_size.h"
 
 namespace tacipc {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "common/base/log.h"
 #include "common/mesh/exact_predicates.h"
+#include "common/mesh/triangle_tree.h"
 #include "stages/object/decimate/surface_topology.h"
-#include "stages/object/decimate/triangle_tree.h"
 
 namespace tacipc {
 namespace {

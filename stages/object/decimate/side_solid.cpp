@@ -1,17 +1,13 @@
 #include "stages/object/decimate/side_solid.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/mesh/height_field.h"
+#include "common/mesh/surface_distance.h"
 #include "stages/object/decimate/surface_topology.h"
-#include "stages/object/decimate/triangle_tree.h"
 
 namespace tacipc {
 namespace {
@@ -19,17 +15,6 @@ namespace {
 constexpr double kLargestGrid = 600.0;    // points along the longer side
 constexpr double kProbes = 400.0;         // of the error, along the longer side
 constexpr double kLeastThickness = 0.05;  // of the back below the lowest point seen, of the longer side
-
-/// Rows: where x, y and z of the view lie in the mesh; z looks out of the side.
-Matrix3 view_of(const std::string& side) {
-  const int axis = side[1] - 'x';
-  const double sign = side[0] == '-' ? -1.0 : 1.0;
-  Matrix3 view = Matrix3::Zero();
-  view(0, (axis + 1) % 3) = 1.0;
-  view(1, (axis + 2) % 3) = sign;
-  view(2, axis) = sign;
-  return view;
-}
 
 /// Triangles of the grid's points that have a height, counted as `point` numbers them.
 Triangles faces_between(const HeightField& field, const std::vector<int>& point) {
@@ -82,34 +67,11 @@ TriangleMesh with_back(const TriangleMesh& front, double back_z) {
   return solid;
 }
 
-SideError error_of(const TriangleMesh& seen, const TriangleMesh& solid, double spacing_m) {
-  const HeightField probes = highest_points(seen, spacing_m, 0.0);
-  const TriangleTree tree(solid);
-  std::vector<double> squared(probes.z.size(), -1.0);
-  tbb::parallel_for(0, probes.rows, [&](int j) {
-    for (int i = 0; i < probes.columns; ++i) {
-      if (probes.at(i, j) == HeightField::kNothing) continue;
-      const Vector3 point(probes.x0 + i * spacing_m, probes.y0 + j * spacing_m, probes.at(i, j));
-      squared[static_cast<std::size_t>(j * probes.columns + i)] = tree.squared_distance(point);
-    }
-  });
-  SideError error;
-  std::int64_t count = 0;
-  for (const double distance : squared) {
-    if (distance < 0.0) continue;
-    error.max_m = std::max(error.max_m, std::sqrt(distance));
-    error.mean_m += std::sqrt(distance);
-    ++count;
-  }
-  error.mean_m /= static_cast<double>(std::max<std::int64_t>(count, 1));
-  return error;
-}
-
 }  // namespace
 
 TriangleMesh solid_of_side(const TriangleMesh& mesh, const std::string& side, double wanted_spacing_m,
                            SideError& error) {
-  const Matrix3 view = view_of(side);
+  const Matrix3 view = view_of_side(side);
   TriangleMesh seen = mesh;
   seen.positions = mesh.positions * view.transpose();
   const Eigen::RowVector3d low = seen.positions.colwise().minCoeff(), high = seen.positions.colwise().maxCoeff();
@@ -135,8 +97,9 @@ TriangleMesh solid_of_side(const TriangleMesh& mesh, const std::string& side, do
   TriangleMesh solid = with_back(front, std::min(low.z(), lowest - kLeastThickness * longer));
   // Not the grid's own points, where it is exact.
   constexpr double kBetween = 0.73;
-  error = error_of(seen, solid, std::max(kBetween * spacing_m, longer / kProbes));
-  error.spacing_m = spacing_m;
+  const SurfaceDistance distance =
+      distance_from(solid, seen_points(seen, std::max(kBetween * spacing_m, longer / kProbes)));
+  error = {.spacing_m = spacing_m, .mean_m = distance.mean_m, .max_m = distance.max_m};
   solid.positions = Positions(solid.positions * view);
   return solid;
 }

@@ -1,4 +1,4 @@
-// An object's mesh file, in metres: which unit its numbers have, and how large it is wanted.
+// An object's mesh file, in metres: which unit its numbers have.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,6 @@
 
 #include "common/mesh/triangle_mesh.h"
 #include "common/sample/object.h"
-#include "stages/object/decimate/side_survey.h"
 
 namespace tacipc {
 
@@ -24,12 +23,5 @@ std::optional<std::string> unit_in_name(const std::filesystem::path& path);
 /// Reads a mesh in metres, scaled by `spec.scale`: what read_triangle_mesh reads, and glTF and 3MF, whose formats state
 /// their unit. \throw DataError as read_triangle_mesh.
 ObjectFile read_object_file(const std::filesystem::path& path, const ObjectSpec& spec);
-
-/// The factor that makes a side of this mesh (that of most relief without `wanted`) fill nine tenths of the window.
-double scale_to_window(const TriangleMesh& mesh, const SensorWindow& window, const std::string& wanted);
-
-/// " (in cm it is 20 mm wide)", if these units would make it about as large as `wanted_m`, a third to three times; else
-/// nothing. `extent_m` is its largest extent, `unit` what its numbers were taken for.
-std::string units_that_fit(double extent_m, const std::string& unit, double wanted_m);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-#include "stages/object/decimate/scene_file.h"
+#include "common/mesh/scene_file.h"
 
 #include <archive.h>
 #include <archive_entry.h>

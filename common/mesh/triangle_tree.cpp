@@ -1,4 +1,4 @@
-#include "stages/object/decimate/triangle_tree.h"
+#include "common/mesh/triangle_tree.h"
 
 #include <algorithm>
 #include <limits>
