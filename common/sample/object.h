@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+
 namespace tacipc {
 
 /// What one side of a mesh shows, as a solid.
@@ -13,6 +14,13 @@ struct SideConfig {
   static constexpr const char* kMostRelief = "most_relief";
   std::string side = "-z";  // that presses: +x -x +y -y +z -z of the mesh, or kMostRelief
   double spacing_m = 5e-5;  // of the grid
+};
+
+/// How the stage `wrap` makes a closed surface around any other.
+struct WrapConfig {
+  double relative_alpha = 0.0025;                 // of the box's diagonal: alpha, unless there is
+  std::optional<double> alpha_m = std::nullopt;   // radius of the largest ball that gaps may keep out
+  std::optional<double> offset_m = std::nullopt;  // distance kept from the surface; else a fraction of alpha
 };
 
 /// configs/objects/*.yaml
@@ -24,6 +32,7 @@ struct ObjectSpec {
   double scale = 1.0;             // of the mesh, after its unit
   bool fit_window = false;        // `scale: fit`: to the sensor's window
   std::optional<double> sheet_thickness_m = std::nullopt;  // of plates made of what is open
+  std::optional<WrapConfig> wrap = std::nullopt;           // before decimate, by the stage wrap
   std::optional<SideConfig> height_field = std::nullopt;   // of what no repair closes
 
   static ObjectSpec read(ConfigReader& in);

@@ -37,6 +37,9 @@ int main(int argc, char** argv) {
   return tacipc::run_stage(kDecimate, argc, argv, [](tacipc::Stage& stage) {
     auto config = stage.read_config<tacipc::DecimateConfig>("--config");
     const auto spec = stage.read_config<tacipc::ObjectSpec>("--object");
+    if (spec.wrap)
+      throw tacipc::UsageError(stage.input("--object").string() +
+                               ": wrap: is for the stage wrap; give --mesh and --object of what it made");
     config.doctor.sheet_thickness_m = spec.sheet_thickness_m;
     config.doctor.height_field = spec.height_field;
     if (stage.optional_input("--sensor")) {

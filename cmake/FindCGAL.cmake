@@ -1,0 +1,18 @@
+# CGAL's headers and what they link, as target CGAL::CGAL (Debian: libcgal-dev). CGAL's own configuration file would put its find modules,
+# of OpenMesh and others, among ours.
+find_path(CGAL_INCLUDE_DIR CGAL/alpha_wrap_3.h)
+find_path(MPFR_INCLUDE_DIR mpfr.h)
+find_library(MPFR_LIBRARY mpfr)
+find_library(GMP_LIBRARY gmp)
+if(CGAL_INCLUDE_DIR)
+  file(STRINGS ${CGAL_INCLUDE_DIR}/CGAL/version.h CGAL_VERSION REGEX "define CGAL_VERSION ")
+  string(REGEX MATCH "[0-9.]+$" CGAL_VERSION "${CGAL_VERSION}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CGAL REQUIRED_VARS CGAL_INCLUDE_DIR MPFR_INCLUDE_DIR MPFR_LIBRARY GMP_LIBRARY VERSION_VAR CGAL_VERSION)
+if(CGAL_FOUND AND NOT TARGET CGAL::CGAL)
+  add_library(CGAL::CGAL INTERFACE IMPORTED)
+  target_include_directories(CGAL::CGAL INTERFACE ${CGAL_INCLUDE_DIR} ${MPFR_INCLUDE_DIR})
+  target_link_libraries(CGAL::CGAL INTERFACE ${MPFR_LIBRARY} ${GMP_LIBRARY})
+endif()
+mark_as_advanced(CGAL_INCLUDE_DIR MPFR_INCLUDE_DIR MPFR_LIBRARY GMP_LIBRARY)
