@@ -5,8 +5,8 @@ PACKAGE_GROUPS := $(basename $(notdir $(wildcard packages/*.txt)))
 groups_wanted   = $(sort chain $(foreach g,$(MAKECMDGOALS),$(packages_for_$(g))))
 packages_wanted = $(sort $(foreach g,$(groups_wanted),$(file < packages/$(g).txt)))
 packages_for_packages    := $(GROUPS)
-packages_for_check       := tests loaders
-packages_for_check-slow  := tests loaders cluster pages
+packages_for_check       := tests loaders wrap
+packages_for_check-slow  := tests loaders cluster pages wrap
 
 # A goal that needs but some stages says programs_for_<goal> := <their names>; any other builds them all.
 programs_wanted = $(sort $(or $(foreach g,$(MAKECMDGOALS),$(or $(programs_for_$(g)),stages)),stages))
@@ -43,6 +43,7 @@ ifeq ($(REBUILD),no)
 build:
 else
 build: $(BUILD)/build.ninja ## development: Build all stages
+	$(if $(filter wrap,$(groups_wanted)),@! grep -qs '^CGAL_INCLUDE_DIR:.*NOTFOUND' $(BUILD)/CMakeCache.txt || cmake $(BUILD) > /dev/null)
 	@cmake --build $(BUILD) --target $(programs_wanted) -j $(JOBS) -- --quiet
 endif
 

@@ -38,6 +38,8 @@ ifeq ($(wildcard $(CONFIG)),)
   $(error CONFIG: $(CONFIG) does not exist)
 endif
 DATASET_DIR := $(OUT)/datasets/$(basename $(notdir $(CONFIG)))
+dataset_packages := $(if $(shell grep '^[^\#]*\<wrap:' '$(CONFIG)'),wrap)# where an object asks for it
+$(foreach g,$(DATASET_GOALS),$(eval packages_for_$(g) := $(dataset_packages)))
 
 dataset_variables := CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) PACKAGES=$(PACKAGES) REBUILD=$(REBUILD)
 submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter command environment,$(firstword $(origin $(v)))),$(v)=$(strip $($(v)))))# where they are given
@@ -56,13 +58,20 @@ DATASET_SHARED += $(DATASET_DIR)/gels/$(1)/tetmesh.yaml
 endef
 define dataset_mesh
 $(DATASET_DIR)/objects/$(1)/decimate.yaml: $(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)) | build
-	$$(call dataset_shared,decimate,$(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)),--mesh $(2) --object $$(@D)/object.yaml --config $(DATASET_DECIMATE))
+	$$(call dataset_shared,decimate,$(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)),--mesh $(2) --object $$(@D)/$(4)object.yaml --config $(DATASET_DECIMATE))
 DATASET_SHARED += $(DATASET_DIR)/objects/$(1)/decimate.yaml
 endef
 define dataset_embossed
 $(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml: $(2) $(wildcard $(dir $(2))*.png) $(call dataset_choice,object-$(1)) | build
 	$$(call dataset_shared,emboss,$(2) $(dir $(2))*.png $(call dataset_choice,object-$(1)),--config $(2))
 $(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/emboss/object.ply,$(DATASET_DIR)/objects/$(1)/emboss/emboss.yaml)
+endef
+
+define dataset_wrapped
+$(DATASET_DIR)/objects/$(1)/wrap/wrap.yaml: $(2) $(DATASET_DIR)/objects/$(1)/object.yaml $(call dataset_choice,object-$(1)) | build
+	$$(wrap_is_built)
+	$$(call dataset_shared,wrap,$(2) $(DATASET_DIR)/objects/$(1)/object.yaml $(call dataset_choice,object-$(1)),--mesh $(2) --object $(DATASET_DIR)/objects/$(1)/object.yaml)
+$(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/wrap/object.ply,$(DATASET_DIR)/objects/$(1)/wrap/wrap.yaml,wrap/)
 endef
 
 # The stages of a sample, one after the other: one rule, so that with several jobs samples are finished one by one. Failures are noted in

@@ -33,9 +33,11 @@ asks() { # asks "GROUPS" GOAL …
 }
 asks "chain" demo
 asks "chain tests" packages GROUPS=tests
-asks "chain tests loaders" check
-asks "chain tests loaders cluster pages" check-slow
-for name in chromium-headless-shell python3-torch slurmd libgtest-dev; do
+asks "chain tests loaders wrap" check
+asks "chain tests loaders cluster pages wrap" check-slow
+asks "chain" sample OBJECT=pyramid.stl
+asks "chain wrap" sample OBJECT=pyramid.stl WRAP=yes
+for name in chromium-headless-shell python3-torch slurmd libgtest-dev libcgal-dev; do
   ! grep -qx "$name" packages/chain.txt || fail "$name for everybody"
 done
 make -s -f Makefile.data packages GROUPS=gone 2> said.txt && fail "a group that is not there"

@@ -57,8 +57,11 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Choice>& c
                         choice.mesh_config.generic_string(), choice.import ? choice.import->generic_string() : "",
                         files_of_render(choices, choice));
   for (const ObjectChoice& object : config.objects)
-    text += fmt::format("$(eval $(call dataset_{},{},{}))\n", object.embossed ? "embossed" : "mesh", object.name,
-                        object.file.generic_string());
+    text += fmt::format("$(eval $(call dataset_{},{},{}))\n",
+                        object.embossed    ? "embossed"
+                        : object.spec.wrap ? "wrapped"
+                                           : "mesh",
+                        object.name, object.file.generic_string());
   return text;
 }
 

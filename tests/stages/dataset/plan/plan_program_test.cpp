@@ -102,10 +102,12 @@ motions: {{name: a, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}
 }
 
 TEST_F(PlanProgram, AnObjectsFileSaysHowItsMeshIsTaken) {
-  scratch_.file("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const char* name : {"sheet.obj", "cup.obj"}) scratch_.file(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const auto file = scratch_.file("d.yaml", fmt::format(R"(seed: 1
 sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/gels/tiny.yaml}}
-objects: {{meshes: sheet.obj, unit: auto, scale: 2, sheet_thickness_mm: 0.5, height_field: {{side: -y}}}}
+objects:
+  - {{meshes: sheet.obj, unit: auto, scale: 2, sheet_thickness_mm: 0.5, height_field: {{side: -y}}}}
+  - {{meshes: cup.obj, unit: mm, wrap: {{alpha_mm: 0.5}}}}
 motions:
   - {{name: press, samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}
 )",
@@ -113,6 +115,10 @@ motions:
   ASSERT_EQ(plan(file), 0) << said_;
   EXPECT_EQ(read_file(scratch_ / "set/objects/sheet/object.yaml"),
             "unit: auto\nscale: 2\nsheet_thickness_mm: 0.5\nheight_field: {side: \"-y\", spacing_mm: 0.05}\n");
+  EXPECT_EQ(read_file(scratch_ / "set/objects/cup/object.yaml"), "unit: mm\nwrap: {alpha_mm: 0.5}\n");
+  const std::string rules = read_file(scratch_ / "set/plan/dataset.mk");
+  EXPECT_THAT(rules, testing::HasSubstr("dataset_mesh,sheet,"));
+  EXPECT_THAT(rules, testing::HasSubstr("dataset_wrapped,cup,"));
 }
 
 TEST_F(PlanProgram, FaultsAreAllSaidAndNothingIsPlanned) {

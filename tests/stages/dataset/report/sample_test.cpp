@@ -192,6 +192,23 @@ TEST_F(SampleTest, WarnsOfAnObjectThatIsTheHeightFieldOfOneSide) {
   EXPECT_THAT(read_sample(folder_).warnings, ::testing::Contains(warning));
 }
 
+TEST_F(SampleTest, WarnsOfAWrappedMeshAndCallsItAfterItsScan) {
+  press("../../../objects/star/object.ply", "../object/object.ply");
+  write_file(folder_ / "object/decimate.yaml",
+             replaced(kDecimateRecord, "../../emboss/star/object.ply", "../wrap/object.ply"));
+  write_file(folder_ / "wrap/wrap.yaml",
+             "inputs:\n  mesh: {path: ../../cup.stl}\nsummary: {scale: 2, alpha_mm: 0.1, seen_mesh_to_wrap_mm: {mean: "
+             "0.0071, max: 0.12}}\n");
+  const SampleReport sample = read_sample(folder_);
+  EXPECT_EQ(sample.object, "cup");
+  EXPECT_THAT(sample.warnings, ::testing::Contains("The object is scaled by 2."));
+  EXPECT_THAT(sample.warnings,
+              ::testing::Contains("The object's mesh was replaced by a closed surface wrapped around it, which fills "
+                                  "gaps and grooves that a ball of 0.1 mm does not get into. What is seen of the mesh "
+                                  "lies 7.1 µm below that surface in the mean, 120 µm at most."));
+  EXPECT_THAT(sample.records, ::testing::Contains(::testing::Pair("wrap.yaml", folder_ / "wrap/wrap.yaml")));
+}
+
 TEST_F(SampleTest, AnObjectIsCalledAfterItsScan) {
   press("../../../objects/star/object.ply", "../object/object.ply");
   write_file(folder_ / "object/decimate.yaml",
