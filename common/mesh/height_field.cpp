@@ -44,7 +44,9 @@ HeightField highest_points(const TriangleMesh& mesh, double spacing_m, double ma
           inside = inside && part >= -kEdgeSlack * (b - a).head<2>().norm() / std::abs(area);
           z += part * p[k].z();
         }
-        if (inside) field.at(i, j) = std::max(field.at(i, j), std::min(z, std::max({p[0].z(), p[1].z(), p[2].z()})));
+        // Beside a steep triangle its plane is far above or below all of it.
+        const auto [lowest, highest] = std::minmax({p[0].z(), p[1].z(), p[2].z()});
+        if (inside) field.at(i, j) = std::max(field.at(i, j), std::clamp(z, lowest, highest));
       }
     }
   }

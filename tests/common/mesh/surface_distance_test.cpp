@@ -34,5 +34,16 @@ TEST(SurfaceDistance, OfWhatIsSeenFromAbove) {
   EXPECT_NEAR(distance.mean_m, 2.0, 0.06);
 }
 
+TEST(SurfaceDistance, NothingIsSeenBelowASteepFace) {
+  // Its plane falls 170 m in the half micrometre beside it that counts as inside.
+  const TriangleMesh steep = make_mesh({{0, 0, 0}, {0, 1e-5, 0}, {3e-14, 0, 1e-5}}, {{0, 1, 2}});
+  const std::vector<Vector3> seen = seen_points(steep, 5e-7);
+  EXPECT_GT(seen.size(), 40u);
+  for (const Vector3& point : seen) {
+    EXPECT_GE(point.z(), 0.0);
+    EXPECT_LE(point.z(), 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace tacipc
