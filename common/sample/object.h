@@ -18,7 +18,7 @@ struct SideConfig {
 
 /// How the stage `wrap` makes a closed surface around any other.
 struct WrapConfig {
-  double relative_alpha = 0.0025;                 // of the box's diagonal: alpha, unless there is
+  double relative_alpha = 0.004;                  // of the box's diagonal: alpha, unless there is
   std::optional<double> alpha_m = std::nullopt;   // radius of the largest ball that gaps may keep out
   std::optional<double> offset_m = std::nullopt;  // distance kept from the surface; else a fraction of alpha
 };

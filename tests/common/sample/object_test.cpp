@@ -32,7 +32,7 @@ TEST(ObjectSpec, ReadsHowAMeshIsWrapped) {
   EXPECT_DOUBLE_EQ(wrap.offset_m.value(), 2e-5);
   EXPECT_EQ(read("{unit: mm, wrap: {relative_alpha: 0.01}}").wrap->relative_alpha, 0.01);
   const WrapConfig usual = read("{unit: mm, scale: fit, wrap: {}}").wrap.value();
-  EXPECT_EQ(usual.relative_alpha, 0.0025);
+  EXPECT_EQ(usual.relative_alpha, 0.004);
   EXPECT_FALSE(usual.alpha_m || usual.offset_m);
 }
 
