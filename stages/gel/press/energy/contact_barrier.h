@@ -53,6 +53,11 @@ class ContactBarrier final : public ContactTerm {
 
   const ContactMesh* mesh_;
   std::vector<ContactPair> pairs_;
+  /// What active() found last: energy, friction and derivatives ask at the same place. One thread at a time.
+  mutable struct {
+    Positions x;
+    std::vector<int> near;
+  } last_;
   double s_hat_;  // d̂²: ŝ of all pairs but some of gel and gel
 };
 

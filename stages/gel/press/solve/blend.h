@@ -62,7 +62,7 @@ class Blend {
 
  private:
   static constexpr double kSmallestShare = 0.1;  // but for zero
-  static constexpr double kRaiseFactor = 6.0;    // of a share where the Hessian was not positive definite
+  static constexpr double kRaiseFactor = 10.0;   // of a share where the Hessian was not positive definite
   // After a shortened step: at least this, and so many times the share that it was found with.
   static constexpr double kShareAfterShortening = 0.1, kShorteningFactor = 4.0;
   // What a share is divided by after a step: it grows from step to step, and shrinks where the share had to be raised.

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <limits>
 
 #include "common/base/error.h"
 #include "stages/gel/press/solve/contact_assembly.h"
@@ -12,6 +11,9 @@ namespace {
 
 // Failed factorisations after which shares are raised only about the vertices at fault; then about all.
 constexpr int kMaxLocalRaises = 8;
+// A vertex's block is its stiffness with all others held, much more than it has with neighbours that yield. Where it is
+// not positive definite without this part of the gel's own, the matrix is likely not to be there.
+constexpr double kHeldByOthers = 0.8;
 constexpr double kFullSolve = 1e-10;  // tolerance of a linear system whose coarser solution ascends
 // Elements keep the Hessian they were last assembled with until they have changed by this (ElasticPacks::change).
 constexpr double kKeptHessian = 0.1;
@@ -152,7 +154,7 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     }
     if (all_kept) held_ = terms;
   });
-  if (!held_.empty()) timed(times_.contact_s, [&] { hold_columns(call); });
+  timed(times_.contact_s, [&] { hold_columns(call); });
   const Stopwatch watch(times_.contact_s);
   const Vector3 without_contact = gel_gradient();
   Vector3 so_far = without_contact, of_barrier = Vector3::Zero();
@@ -233,17 +235,28 @@ bool NewtonStepper::solve_once(const NewtonProblem& problem, NewtonDirection& ou
   return true;
 }
 
-std::vector<int> NewtonStepper::solve_or_find_indefinite(const NewtonProblem& problem, double longest_m,
-                                                         NewtonDirection& out) {
-  std::vector<int> at_fault;
-  if (solve(problem, out)) {
-    for (const int v : free_.vertex_of_free) {
-      if (out.p.row(v).squaredNorm() > longest_m * longest_m) at_fault.push_back(v);
-    }
-    return at_fault;
+std::vector<int> NewtonStepper::indefinite_vertices() const {
+  std::vector<int> found;
+  for (const int i : solver_->indefinite_rows()) found.push_back(free_.vertex_of_free[i]);
+  if (found.empty()) return free_.vertex_of_free;
+  const double* held = held_values_.data();
+  for (const int c : held_columns_) {
+    const int first = pattern_->column_start[c];
+    const Matrix3 left = system_.hessian.block(first) - kHeldByOthers * BlockMatrix::ConstBlock(held);
+    if (Eigen::LLT<Matrix3>(left).info() != Eigen::Success) found.push_back(free_.vertex_of_free[c]);
+    held += BlockMatrix::kStride * static_cast<std::size_t>(pattern_->column_start[c + 1] - first);
   }
-  for (const int i : solver_->indefinite_rows()) at_fault.push_back(free_.vertex_of_free[i]);
-  return at_fault.empty() ? free_.vertex_of_free : at_fault;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::vector<int> NewtonStepper::too_long(const NewtonDirection& direction, double longest_m) const {
+  std::vector<int> found;
+  for (const int v : free_.vertex_of_free) {
+    if (direction.p.row(v).squaredNorm() > longest_m * longest_m) found.push_back(v);
+  }
+  return found;
 }
 
 NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& blend) {
@@ -259,12 +272,16 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
   out.contact_sum = assemble_all(call, Order::hessian, blend);
   bool projected = false;
   for (int tries = 1;; ++tries) {
-    constexpr double kAnyLength = std::numeric_limits<double>::infinity();
-    const std::vector<int> at_fault =
-        solve_or_find_indefinite(problem, projected ? kAnyLength : problem.longest_m, out);
-    if (at_fault.empty()) break;
     const Blend before = blend;
-    if ((tries <= kMaxLocalRaises && raise_shares(at_fault)) || raise_shares(free_.vertex_of_free)) {
+    bool raised = false;
+    if (solve(problem, out)) {
+      // Where a vertex goes far with the approximation alone, it may.
+      raised = !projected && tries <= kMaxLocalRaises && raise_shares(too_long(out, problem.longest_m));
+      if (!raised) break;
+    } else {
+      raised = (tries <= kMaxLocalRaises && raise_shares(indefinite_vertices())) || raise_shares(free_.vertex_of_free);
+    }
+    if (raised) {
       reblend(call, before, blend);
     } else if (!projected) {
       projected = true;

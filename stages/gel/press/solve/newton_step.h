@@ -105,9 +105,11 @@ class NewtonStepper {
   bool solve(const NewtonProblem& problem, NewtonDirection& out);
   /// Solves it to the tolerance set; false if it is not positive definite.
   bool solve_once(const NewtonProblem& problem, NewtonDirection& out);
-  /// Solves the system. \return vertices about which it is not positive definite, or which go farther than
-  /// `longest_m`; none if the direction can be used
-  std::vector<int> solve_or_find_indefinite(const NewtonProblem& problem, double longest_m, NewtonDirection& out);
+  /// Vertices about which the system was just found not to be positive definite, and those that contact makes likely to
+  /// be the next: a solver finds one place at a time. All if nothing is known.
+  std::vector<int> indefinite_vertices() const;
+  /// Free vertices that go farther than `longest_m`.
+  std::vector<int> too_long(const NewtonDirection& direction, double longest_m) const;
 
   FreeVertices free_;
   int first_object_vertex_;

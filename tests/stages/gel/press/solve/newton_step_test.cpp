@@ -200,5 +200,40 @@ TEST_F(NewtonStepTest, DescendsHoweverCoarselyItIsSolved) {
   }
 }
 
+/// Tips that all but touch the gel make it yield sideways below each of them: contact pushes it off their tops. A
+/// solver meets one of these places at a time; they are found together all the same.
+TEST(NewtonStep, PlacesThatYieldAreFoundTogether) {
+  const TetMesh gel = block_gel(8, 6.0, 3.0);
+  TriangleMesh tips;
+  constexpr int kTips = 4;
+  for (int k = 0; k < kTips; ++k) {
+    const TriangleMesh one = pyramid(0.3, 0.6);
+    const Eigen::Index vertices = tips.positions.rows(), triangles = tips.triangles.rows();
+    tips.positions.conservativeResize(vertices + one.positions.rows(), 3);
+    tips.positions.bottomRows(one.positions.rows()) =
+        one.positions.rowwise() + Eigen::RowVector3d(k % 2 ? 1.6 : -1.4, k / 2 ? 1.5 : -1.3, 0.02 + 0.002 * k);
+    tips.triangles.conservativeResize(triangles + one.triangles.rows(), 3);
+    tips.triangles.bottomRows(one.triangles.rows()) = one.triangles.array() + static_cast<int>(vertices);
+  }
+  const ContactMesh mesh = make_contact_mesh(gel.positions, gel.boundary, tips.positions, tips.triangles);
+  std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
+  for (const int v : gel.vertices(BoundaryTag::glued)) fixed[v] = true;
+  for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) fixed[v] = true;
+  const FreeVertices free(mesh.num_vertices(), fixed);
+  StepTerms terms;
+  terms.elasticity = std::make_shared<Elasticity>(gel.positions, gel.tets, NeoHookean{2.0, 7.0});
+  const Positions x = mesh.rest_positions, still = Positions::Zero(x.rows(), 3);
+  constexpr double kDHat = 0.1;
+  terms.barrier = std::make_shared<ContactBarrier>(mesh, ContactSearch(mesh).pairs(x, still, kDHat), kDHat);
+  const IncrementalPotential potential =
+      make_incremental_potential(terms, {.h_s = 1.0, .barrier_stiffness_j_m4 = 3e4, .friction_coefficient = 0.0});
+  NewtonStepper stepper(free, mesh.num_gel_vertices, terms.elasticity, LinearSolverKind::conjugate_gradient);
+  Blend blend(std::vector<double>(static_cast<std::size_t>(mesh.num_gel_vertices), 0.0));
+  const NewtonDirection found = stepper.direction({.potential = potential, .x = x, .motion = still}, blend);
+  EXPECT_GT(found.largest_share, 0.0) << "nothing yields";
+  EXPECT_LT(found.slope, 0.0);
+  EXPECT_LE(stepper.times().solves, 4);
+}
+
 }  // namespace
 }  // namespace tacipc
