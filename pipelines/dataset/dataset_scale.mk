@@ -1,14 +1,15 @@
-# The chain with very many samples: real stages on a gel of some 300 vertices and pictures of 16 x 12 pixels, one frame each, packed and reported.
+# The chain with very many samples: real stages on a gel of some 80 vertices and pictures of 16 x 12 pixels, one frame each, packed and reported.
 
 SCALE_SAMPLES ?= 100000#  bench-scale: a multiple of ten
 override SCALE_SAMPLES := $(strip $(SCALE_SAMPLES))
 BENCH_SCALE := $(OUT)/scale-bench
 .PHONY: bench-scale
 $(eval $(call changed_config,$(BENCH_SCALE)/sensor.yaml,configs/sensors/mctac.yaml,camera.width_px=16 camera.height_px=12))
+$(eval $(call changed_config,$(BENCH_SCALE)/gel.yaml,configs/gels/tiny.yaml,sizing.centre_mm=4 sizing.inner_mm=5 sizing.rim_mm=7 sizing.back_mm=5 tetrahedra.min_dihedral_deg=8))
 $(eval $(call changed_config,$(BENCH_SCALE)/decimate.yaml,configs/objects/decimate/default.yaml,target_vertices=300))
 define bench_scale_yaml
 seed: 1
-sensors: {sensor: sensor.yaml, mesh: $(abspath configs/gels/tiny.yaml)}
+sensors: {sensor: sensor.yaml, mesh: gel.yaml}
 objects: {emboss: $(abspath configs/objects/patterns), only: [bricks, checker, dots, gear, hexagon, letter_a, rings, square, star, triangle]}
 decimate: decimate.yaml
 render: $(abspath configs/render/many_frames.yaml)
@@ -23,7 +24,7 @@ outputs: {shard_mb: 100, pack: slim}
 endef
 $(BENCH_SCALE)/scale.yaml: FORCE
 	$(call replace_if_changed,$(bench_scale_yaml))
-bench-scale: $(BENCH_SCALE)/scale.yaml $(BENCH_SCALE)/sensor.yaml $(BENCH_SCALE)/decimate.yaml | build ## development: 100,000 tiny samples from nothing to packed pages: files, memory and time of each step (hours; resumes) [SCALE_SAMPLES=]
+bench-scale: $(BENCH_SCALE)/scale.yaml $(BENCH_SCALE)/sensor.yaml $(BENCH_SCALE)/gel.yaml $(BENCH_SCALE)/decimate.yaml | build ## development: 100,000 tiny samples from nothing to packed pages: files, memory and time of each step (hours; resumes) [SCALE_SAMPLES=]
 	$(MAKE) -f Makefile.data --no-print-directory dataset CONFIG=$< OUT=$(BENCH_SCALE) REBUILD=no
 	$(MAKE) -f Makefile.data --no-print-directory dataset-report CONFIG=$< OUT=$(BENCH_SCALE) REBUILD=no
 	bash pipelines/dataset/dataset_scale.sh $(BENCH_SCALE)/datasets/scale $(BIN)
