@@ -25,7 +25,7 @@ packages: ## development: Install the Debian packages that are missing: of the c
 	sudo=""; [ "$$(id -u)" = 0 ] || sudo=sudo; \
 	echo "packages: installing$$missing"; \
 	$$sudo apt-get update -q; \
-	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -o DPkg::Lock::Timeout=300 -y -q --no-install-recommends $$missing
 
 # Of libopenmesh-dev the headers alone: it depends on OpenSceneGraph, a hundred packages that nothing here needs.
 OPENMESH_HEADERS := $(firstword $(wildcard /usr/include/OpenMesh) $(BUILD)/unpacked/usr/include/OpenMesh)
