@@ -17,7 +17,7 @@ MOVE_STEPS ?= 20#             frames of each motion after the press
 UNIT     ?= auto#             of the object's file: m, cm, mm, um, in (default: as its format or name says, part_cm.stl, else mm)
 SCALE    ?= 1#                of the object; fit: the side that presses fills nine tenths of the sensor's window
 SHEET_MM ?=#                  thickness of a plate made of each open surface (default: one side of it is pressed)
-WRAP     ?=#                  yes, or a radius in mm: press a closed surface wrapped around the mesh, whose undercuts matter; a ball of that radius gets into its gaps
+WRAP     ?=#                  yes, or a radius in mm: press a closed surface wrapped around the mesh: it keeps undercuts, and bridges gaps that a ball of that radius does not get into
 UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
 FACE     ?=#                  side that presses (default: opposite of UP, else that of most relief in the window)
 ROTATE   ?= 0#                degrees about the sensor's z axis
@@ -29,7 +29,7 @@ given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(ori
 $(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: sample track gallery
-$(foreach g,sample track gallery mpm-sample,$(eval packages_for_$(g) := $(if $(WRAP),wrap)))
+$(foreach g,sample track gallery mpm-sample,$(eval packages_for_$(g) := $(if $(filter-out no,$(WRAP)),wrap)))
 ifdef OBJECT
 $(call check_name,OBJECT)
 $(call check_name,NAME)
@@ -103,7 +103,7 @@ unit: $(UNIT)
 scale: $(SCALE)
 $(if $(UP),up: "$(UP)")
 $(if $(SHEET_MM),sheet_thickness_mm: $(SHEET_MM))
-$(if $(WRAP),wrap: {$(if $(filter-out yes,$(WRAP)),alpha_mm: $(WRAP))})
+$(if $(filter-out no,$(WRAP)),wrap: {$(if $(filter-out yes,$(WRAP)),alpha_mm: $(WRAP))})
 height_field:
 endef
 # Which side presses: that of most relief in the sensor's window, unless a variable or the motion's file says one. A mesh
@@ -130,7 +130,7 @@ $(SAMPLE)/wrap/wrap.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt |
 	$(wrap_is_built)
 	$(call run,wrap,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml)
 # What decimate takes: the mesh, or the wrap with an object file of its own.
-wrap_made = $(if $(WRAP),$(SAMPLE)/wrap/$(1),$(2))
+wrap_made = $(if $(filter-out no,$(WRAP)),$(SAMPLE)/wrap/$(1),$(2))
 $(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(call wrap_made,wrap.yaml) $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml | build
 	$(call run,decimate,--mesh $(call wrap_made,object.ply,$(OBJECT)) --object $(call wrap_made,object.yaml,$(SAMPLE)/object.yaml) --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
 ifdef choose_side

@@ -33,14 +33,17 @@ const StageSpec kReport{
 
 /// Writes the data of a sample's view. A view shows a sample but proves nothing: one that cannot be read is left out.
 void write_view(Stage& stage, SampleReport& sample, const std::string& card) {
+  std::string script;
   try {
     const auto view = read_press_view(sample.folder / "press");
     if (!view) return;
-    write_file(stage.output(view_data_name(card)), view_script(*view, frame_texts(sample, *view)));
-    sample.has_view = true;
+    script = view_script(*view, frame_texts(sample, *view));
   } catch (const std::runtime_error& error) {
     log_warning("{}: no 3-D view: {}", sample.name, error.what());
+    return;
   }
+  write_file(stage.output(view_data_name(card)), script);
+  sample.has_view = true;
 }
 
 void write_views(Stage& stage, std::vector<SampleReport>& samples) {

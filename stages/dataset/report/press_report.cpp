@@ -149,8 +149,8 @@ void read_sides(const fs::path& folder, const Record& sides, SampleReport& sampl
   }
 }
 
-/// What the stage wrap made of the scan, if that is what decimate took.
-void read_wrap(const fs::path& folder, SampleReport& sample) {
+/// What the stage wrap made of the scan, if that is what decimate took; `scale` is what decimate made of its size.
+void read_wrap(const fs::path& folder, double scale, SampleReport& sample) {
   const fs::path path = (folder / "wrap.yaml").lexically_normal();
   if (!fs::is_regular_file(path)) return;
   link_if_there(sample.records, "wrap.yaml", path);
@@ -160,11 +160,10 @@ void read_wrap(const fs::path& folder, SampleReport& sample) {
   warn_of_scale(summary, sample);
   sample.warnings.push_back(fmt::format(
       "The object's mesh was replaced by a closed surface wrapped around it, which fills gaps and grooves that a ball "
-      "of "
-      "{:.2g} mm does not get into. What is seen of the mesh lies {:.3g} µm below that surface in the mean, {:.3g} µm "
-      "at "
-      "most.",
-      summary.required_number("alpha_mm"), 1e3 * error.required_number("mean"), 1e3 * error.required_number("max")));
+      "of {:.3g} mm does not get into. What is seen of the mesh lies {:.4g} µm below that surface in the mean, {:.4g} "
+      "µm at most.",
+      scale * summary.required_number("alpha_mm"), 1e3 * scale * error.required_number("mean"),
+      1e3 * scale * error.required_number("max")));
 }
 
 void read_object(const fs::path& press_folder, const Record& press, SampleReport& sample) {
@@ -176,13 +175,12 @@ void read_object(const fs::path& press_folder, const Record& press, SampleReport
   const fs::path record_path = ((press_folder / *object).parent_path() / "decimate.yaml").lexically_normal();
   if (!fs::is_regular_file(record_path)) return;
   link_if_there(sample.records, "decimate.yaml", record_path);
-  const Record record = Record::from_file(record_path);
+  const Record record = Record::from_file(record_path), summary = record.section("summary");
   if (const auto scan = record.section("inputs").section("mesh").text("path")) {
     sample.object = object_name(*scan);
-    read_wrap((record_path.parent_path() / *scan).parent_path(), sample);
+    read_wrap((record_path.parent_path() / *scan).parent_path(), summary.number("scale").value_or(1.0), sample);
   }
   sample.decimate = read_decimate(record);
-  const Record summary = record.section("summary");
   warn_of_scale(summary, sample);
   read_sides(record_path.parent_path(), summary.section("sides"), sample);
   const Record repairs = summary.section("repairs");

@@ -15,14 +15,29 @@ namespace {
 constexpr double kFinest = 5e-4;
 constexpr double kCoarsest = 0.5;
 constexpr double kOffsetPerAlpha = 1.0 / 15.0;
-constexpr double kProbes = 200.0;  // of what is seen, along the diagonal
+constexpr double kLeastOffsetPerAlpha = 1e-3;  // the nearer to the mesh, the finer the faces
+constexpr double kProbes = 200.0;              // of what is seen, along the diagonal
 
-/// Of the box around the faces: a stray vertex is not part of the surface.
+/// With the vertices of its faces alone: stray ones, however far away, are not part of the surface.
+TriangleMesh without_stray_vertices(const TriangleMesh& mesh) {
+  TriangleMesh kept{.positions = Positions(mesh.num_vertices(), 3), .triangles = mesh.triangles};
+  std::vector<int> now(static_cast<std::size_t>(mesh.num_vertices()), -1);
+  int count = 0;
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    int& v = kept.triangles.data()[i];
+    int& number = now[static_cast<std::size_t>(v)];
+    if (number < 0) {
+      number = count++;
+      kept.positions.row(number) = mesh.positions.row(v);
+    }
+    v = number;
+  }
+  kept.positions.conservativeResize(count, 3);
+  return kept;
+}
+
 double diagonal_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i)
-    box.extend(mesh.positions.row(mesh.triangles.data()[i]).transpose());
-  return box.diagonal().norm();
+  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
 }
 
 double alpha_for(double diagonal_m, const WrapConfig& config) {
@@ -33,6 +48,17 @@ double alpha_for(double diagonal_m, const WrapConfig& config) {
         "wrap.alpha_mm: {:.4g} mm for a mesh of {:.4g} mm from corner to corner, expected {:.4g} mm to {:.4g} mm",
         1e3 * alpha_m, 1e3 * diagonal_m, 1e3 * kFinest * diagonal_m, 1e3 * kCoarsest * diagonal_m);
   return alpha_m;
+}
+
+double offset_for(double alpha_m, double diagonal_m, const WrapConfig& config) {
+  const double offset_m = config.offset_m.value_or(kOffsetPerAlpha * alpha_m);
+  const double least = kLeastOffsetPerAlpha * alpha_m, most = kCoarsest * diagonal_m;
+  if (offset_m < least || offset_m > most)
+    throw DataError(
+        "wrap.offset_mm: {:.4g} mm for a ball of {:.4g} mm and a mesh of {:.4g} mm from corner to corner, "
+        "expected {:.4g} mm to {:.4g} mm",
+        1e3 * offset_m, 1e3 * alpha_m, 1e3 * diagonal_m, 1e3 * least, 1e3 * most);
+  return offset_m;
 }
 
 std::vector<Vector3> vertices_and_centres(const TriangleMesh& mesh) {
@@ -85,11 +111,13 @@ Value::Map lines_of(const SurfaceDistance& distance) {
 
 }  // namespace
 
-WrappedObject wrap_object(const TriangleMesh& mesh, const WrapConfig& config) {
+WrappedObject wrap_object(const TriangleMesh& read, const WrapConfig& config) {
+  if (read.num_triangles() == 0) throw DataError("the mesh has no faces");
+  const TriangleMesh mesh = without_stray_vertices(read);
   const double diagonal_m = diagonal_of(mesh);
   const double alpha_m = alpha_for(diagonal_m, config);
-  const double offset_m = config.offset_m.value_or(kOffsetPerAlpha * alpha_m);
-  log_info("{} vertices, {} faces read; wrapping with alpha {:.3g} mm, offset {:.3g} mm", mesh.num_vertices(),
+  const double offset_m = offset_for(alpha_m, diagonal_m, config);
+  log_info("{} vertices, {} faces read; wrapping with alpha {:.3g} mm, offset {:.3g} mm", read.num_vertices(),
            mesh.num_triangles(), 1e3 * alpha_m, 1e3 * offset_m);
   WrappedObject object{.mesh = alpha_wrap(mesh, alpha_m, offset_m), .summary = {}};
   const TriangleMesh& wrap = object.mesh;
@@ -97,10 +125,9 @@ WrappedObject wrap_object(const TriangleMesh& mesh, const WrapConfig& config) {
   const SurfaceDistance to_wrap = from_seen_mesh(mesh, wrap, diagonal_m / kProbes);
   log_warning(
       "the mesh is replaced by a surface wrapped around it, {} vertices, {:.2g} mm from it in the mean and {:.2g} mm "
-      "at "
-      "most; what is seen of the mesh lies {:.2g} mm below it in the mean, {:.2g} mm at most",
+      "at most; what is seen of the mesh lies {:.2g} mm below it in the mean, {:.2g} mm at most",
       wrap.num_vertices(), 1e3 * to_mesh.mean_m, 1e3 * to_mesh.max_m, 1e3 * to_wrap.mean_m, 1e3 * to_wrap.max_m);
-  object.summary = {{"input_vertices", std::int64_t{mesh.num_vertices()}},
+  object.summary = {{"input_vertices", std::int64_t{read.num_vertices()}},
                     {"input_faces", std::int64_t{mesh.num_triangles()}},
                     {"vertices", std::int64_t{wrap.num_vertices()}},
                     {"faces", std::int64_t{wrap.num_triangles()}},

@@ -9,7 +9,8 @@
 namespace tacipc {
 namespace {
 
-// Failed factorisations after which shares are raised only about the vertices at fault; then about all.
+// Solves after each of which shares are raised about the vertices at fault; from then on about all where the system is
+// not positive definite, and about none where a step is merely long.
 constexpr int kMaxLocalRaises = 8;
 // A vertex's block is its stiffness with all others held, much more than it has with neighbours that yield. Where it is
 // not positive definite without this part of the gel's own, the matrix is likely not to be there.
@@ -253,7 +254,8 @@ std::vector<int> NewtonStepper::indefinite_vertices() const {
 
 std::vector<int> NewtonStepper::too_long(const NewtonDirection& direction, double longest_m) const {
   std::vector<int> found;
-  for (const int v : free_.vertex_of_free) {
+  for (const int c : held_columns_) {
+    const int v = free_.vertex_of_free[c];
     if (direction.p.row(v).squaredNorm() > longest_m * longest_m) found.push_back(v);
   }
   return found;

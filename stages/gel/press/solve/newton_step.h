@@ -20,7 +20,8 @@ struct NewtonProblem {
   const Positions& x;
   const Positions& motion;          // rows like x: displacements of the prescribed vertices
   std::vector<int> free_axes = {};  // along which the object as a whole is free besides
-  /// A step by which a vertex goes farther than this counts as a sign of a Hessian that is almost indefinite.
+  /// A step by which a vertex in contact goes farther than this counts as a sign of a Hessian that is almost
+  /// indefinite; it is taken nevertheless once the PSD approximation does not shorten it.
   double longest_m = std::numeric_limits<double>::infinity();
 };
 
@@ -108,7 +109,7 @@ class NewtonStepper {
   /// Vertices about which the system was just found not to be positive definite, and those that contact makes likely to
   /// be the next: a solver finds one place at a time. All if nothing is known.
   std::vector<int> indefinite_vertices() const;
-  /// Free vertices that go farther than `longest_m`.
+  /// Free vertices in contact that go farther than `longest_m`.
   std::vector<int> too_long(const NewtonDirection& direction, double longest_m) const;
 
   FreeVertices free_;

@@ -207,6 +207,13 @@ TEST_F(SampleTest, WarnsOfAWrappedMeshAndCallsItAfterItsScan) {
                                   "gaps and grooves that a ball of 0.1 mm does not get into. What is seen of the mesh "
                                   "lies 7.1 µm below that surface in the mean, 120 µm at most."));
   EXPECT_THAT(sample.records, ::testing::Contains(::testing::Pair("wrap.yaml", folder_ / "wrap/wrap.yaml")));
+  // Scaled to the window afterwards, and its errors with it.
+  write_file(folder_ / "object/decimate.yaml",
+             replaced(replaced(kDecimateRecord, "../../emboss/star/object.ply", "../wrap/object.ply"), "summary:\n",
+                      "summary:\n  scale: 10\n"));
+  EXPECT_THAT(read_sample(folder_).warnings, ::testing::Contains(::testing::HasSubstr(
+                                                 "a ball of 1 mm does not get into. What is seen of the mesh lies "
+                                                 "71 µm below that surface in the mean, 1200 µm at most.")));
 }
 
 TEST_F(SampleTest, AnObjectIsCalledAfterItsScan) {

@@ -63,6 +63,29 @@ TEST(WrapObject, RefusesAnAlphaThatDoesNotFitTheMesh) {
   EXPECT_EQ(refusal(4.0), "wrap.alpha_mm: 4 mm for a mesh of 7 mm from corner to corner, expected 0.0035 mm to 3.5 mm");
 }
 
+TEST(WrapObject, RefusesAnOffsetThatDoesNotFitTheMesh) {
+  const TriangleMesh mesh = box({0, 0, 0}, {2, 3, 6});
+  const auto refusal = [&](double offset_mm) {
+    return message_of<DataError>(
+        [&] { wrap_object(mesh, {.alpha_m = 0.5 * kMillimetre, .offset_m = offset_mm * kMillimetre}); });
+  };
+  const std::string range =
+      " mm for a ball of 0.5 mm and a mesh of 7 mm from corner to corner, expected 0.0005 mm to 3.5 mm";
+  EXPECT_EQ(refusal(1e6), "wrap.offset_mm: 1e+06" + range);
+  EXPECT_EQ(refusal(1e-4), "wrap.offset_mm: 0.0001" + range);
+}
+
+TEST(WrapObject, VerticesWithoutFacesDoNotCount) {
+  const TriangleMesh mesh = box({0, 0, 0}, {2, 3, 6});
+  TriangleMesh stray = mesh;
+  stray.positions.conservativeResize(mesh.num_vertices() + 1, 3);
+  stray.positions.bottomRows(1).setConstant(1e9);
+  const WrappedObject plain = wrap_object(mesh, {.relative_alpha = 0.1}),
+                      found = wrap_object(stray, {.relative_alpha = 0.1});
+  EXPECT_EQ(found.mesh.positions, plain.mesh.positions);
+  EXPECT_EQ(number(found.summary, "seen_mesh_to_wrap_mm", "max"), number(plain.summary, "seen_mesh_to_wrap_mm", "max"));
+}
+
 TEST(WrapObject, TheObjectFileOfAWrapIsInMetresAndAsksForNoOther) {
   EXPECT_EQ(spec_of_wrapped({.unit = "in", .up = "+z", .scale = 2.0, .wrap = WrapConfig{}}).yaml(),
             "unit: m\nup: \"+z\"\n");
