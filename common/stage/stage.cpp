@@ -95,7 +95,7 @@ void Stage::link_output(const std::string& name, const fs::path& file, const std
 }
 
 fs::path Stage::partial_path(const std::string& name) const {
-  const fs::path path = partial_ / name;
+  fs::path path = partial_ / name;
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   if (error) throw DataError("{}: cannot be created: {}", path.parent_path().string(), error.message());

@@ -28,7 +28,7 @@ inline constexpr std::array<Quantity, 5> kQuantities{{
     {"twist", "°", "turn of the object about z since the first frame", &SampleNumbers::twist_deg},
     {"contact area", "mm²", "of the front face that feels the object", &SampleNumbers::area_mm2},
 }};
-enum QuantityIndex : std::size_t { kDepth, kPressForce, kShearRatio, kTwist, kArea };
+inline constexpr std::size_t kDepth = 0, kPressForce = 1, kShearRatio = 2, kTwist = 3, kArea = 4;  // in them
 
 struct StatusCounts {
   std::array<std::size_t, 4> of{};

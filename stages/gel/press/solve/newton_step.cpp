@@ -273,8 +273,9 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
   NewtonDirection out;
   out.contact_sum = assemble_all(call, Order::hessian, blend);
   bool projected = false;
+  Blend before = blend;
   for (int tries = 1;; ++tries) {
-    const Blend before = blend;
+    before = blend;
     bool raised = false;
     if (solve(problem, out)) {
       // Where a vertex goes far with the approximation alone, it may.
