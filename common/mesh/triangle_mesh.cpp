@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -92,6 +93,20 @@ double signed_volume(const TriangleMesh& mesh) {
     volume += a.dot(b.cross(c)) / 6.0;
   }
   return volume;
+}
+
+void remove_unreferenced_vertices(TriangleMesh& mesh) {
+  std::vector<int> new_index(static_cast<std::size_t>(mesh.num_vertices()), -1);
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) new_index[mesh.triangles.data()[i]] = 0;
+  int kept = 0;
+  for (int v = 0; v < static_cast<int>(new_index.size()); ++v)
+    if (new_index[v] == 0) {
+      mesh.positions.row(kept) = mesh.positions.row(v);
+      new_index[v] = kept++;
+    }
+  mesh.positions.conservativeResize(kept, 3);
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i)
+    mesh.triangles.data()[i] = new_index[mesh.triangles.data()[i]];
 }
 
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {

@@ -31,6 +31,9 @@ TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres
 /// if the triangles look outwards, negative if inwards; of an open mesh it depends on the origin and means nothing.
 double signed_volume(const TriangleMesh& mesh);
 
+/// Removes vertices that no triangle names; the others keep their order.
+void remove_unreferenced_vertices(TriangleMesh& mesh);
+
 /// Binary little-endian PLY with double coordinates in metres. \throw DataError if it cannot be written.
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
 

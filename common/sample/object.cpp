@@ -10,7 +10,8 @@ namespace {
 WrapConfig read_wrap(ConfigReader in, bool fit_window) {
   WrapConfig wrap;
   const auto alpha_mm = in.optional_number("alpha_mm", Range::positive());
-  const auto relative = in.optional_number("relative_alpha", Range::between(5e-4, 0.5));
+  const auto relative =
+      in.optional_number("relative_alpha", Range::between(WrapConfig::kFinest, WrapConfig::kCoarsest));
   const auto offset_mm = in.optional_number("offset_mm", Range::positive());
   if (alpha_mm && relative) in.fault("alpha_mm", "say it or relative_alpha");
   // What a millimetre of the mesh will be is known only after it is wrapped.

@@ -18,8 +18,11 @@ struct SideConfig {
 
 /// How the stage `wrap` makes a closed surface around any other.
 struct WrapConfig {
+  // Alpha over the box's diagonal. Time and memory grow as (diagonal / alpha)²: the finest takes minutes and gigabytes.
+  // The coarsest leaves no shape.
+  static constexpr double kFinest = 5e-4, kCoarsest = 0.5;
   double relative_alpha = 0.004;                  // of the box's diagonal: alpha, unless there is
-  std::optional<double> alpha_m = std::nullopt;   // radius of the largest ball that gaps may keep out
+  std::optional<double> alpha_m = std::nullopt;   // radius of the ball that fits into what stays open
   std::optional<double> offset_m = std::nullopt;  // distance kept from the surface; else a fraction of alpha
 };
 

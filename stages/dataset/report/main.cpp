@@ -57,7 +57,8 @@ void write_views(Stage& stage, std::vector<SampleReport>& samples) {
   write_file(stage.output(kViewPage), view_page(stage.option("--title"), viewed));
 }
 
-/// The sheet of all samples needs the pictures of each.
+/// Before any is shown: a picture that cannot be read makes its own sample a failed one, and does not end the page of
+/// all.
 void try_pictures(SampleReport& sample) {
   if (!sample.images) return;
   const SampleImages& images = *sample.images;
@@ -65,6 +66,7 @@ void try_pictures(SampleReport& sample) {
     for (const auto& file : {std::optional(images.tactile), std::optional(images.no_contact), images.indentation,
                              images.normal, images.markers})
       if (file) read_picture(*file);
+    for (const PhaseImage& phase : sample.phase_images) read_picture(phase.tactile);
   } catch (const std::runtime_error& error) {
     leave_out_pictures(sample, error.what());
   }

@@ -208,19 +208,4 @@ void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report) {
   report.duplicate_faces += removed;
 }
 
-void remove_unreferenced_vertices(TriangleMesh& mesh, DoctorReport& report) {
-  std::vector<int> new_index(static_cast<std::size_t>(mesh.num_vertices()), -1);
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) new_index[mesh.triangles.data()[i]] = 0;
-  int kept = 0;
-  for (int v = 0; v < static_cast<int>(new_index.size()); ++v)
-    if (new_index[v] == 0) {
-      mesh.positions.row(kept) = mesh.positions.row(v);
-      new_index[v] = kept++;
-    }
-  report.unreferenced_vertices += mesh.num_vertices() - kept - report.merged_vertices;
-  mesh.positions.conservativeResize(kept, 3);
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i)
-    mesh.triangles.data()[i] = new_index[mesh.triangles.data()[i]];
-}
-
 }  // namespace tacipc

@@ -52,6 +52,4 @@ void remove_flat_parts(TriangleMesh& mesh, DoctorReport& report);
 /// Counts crossings and removes parts that lie wholly inside another.
 void examine_components(TriangleMesh& mesh, DoctorReport& report);
 
-void remove_unreferenced_vertices(TriangleMesh& mesh, DoctorReport& report);
-
 }  // namespace tacipc

@@ -97,7 +97,9 @@ TriangleMesh treat_mesh(TriangleMesh mesh, const DoctorConfig& config, DoctorRep
   check_extent(mesh, config);
   mesh = close_or_take_side(std::move(mesh), config, report);
   examine_components(mesh, report);
-  remove_unreferenced_vertices(mesh, report);
+  const Eigen::Index vertices = mesh.num_vertices();
+  remove_unreferenced_vertices(mesh);
+  report.unreferenced_vertices += vertices - mesh.num_vertices() - report.merged_vertices;
   // What is left decides the scale: a speck far away may have hidden a wrong unit.
   check_extent(mesh, config);
   log_repairs(report);

@@ -11,30 +11,9 @@
 namespace tacipc {
 namespace {
 
-// Time and memory grow as (diagonal / alpha)²: the finest takes minutes and gigabytes. The coarsest leaves no shape.
-constexpr double kFinest = 5e-4;
-constexpr double kCoarsest = 0.5;
 constexpr double kOffsetPerAlpha = 1.0 / 15.0;
 constexpr double kLeastOffsetPerAlpha = 1e-3;  // the nearer to the mesh, the finer the faces
 constexpr double kProbes = 200.0;              // of what is seen, along the diagonal
-
-/// With the vertices of its faces alone: stray ones, however far away, are not part of the surface.
-TriangleMesh without_stray_vertices(const TriangleMesh& mesh) {
-  TriangleMesh kept{.positions = Positions(mesh.num_vertices(), 3), .triangles = mesh.triangles};
-  std::vector<int> now(static_cast<std::size_t>(mesh.num_vertices()), -1);
-  int count = 0;
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
-    int& v = kept.triangles.data()[i];
-    int& number = now[static_cast<std::size_t>(v)];
-    if (number < 0) {
-      number = count++;
-      kept.positions.row(number) = mesh.positions.row(v);
-    }
-    v = number;
-  }
-  kept.positions.conservativeResize(count, 3);
-  return kept;
-}
 
 double diagonal_of(const TriangleMesh& mesh) {
   return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
@@ -43,16 +22,17 @@ double diagonal_of(const TriangleMesh& mesh) {
 double alpha_for(double diagonal_m, const WrapConfig& config) {
   if (!config.alpha_m) return config.relative_alpha * diagonal_m;
   const double alpha_m = *config.alpha_m;
-  if (alpha_m < kFinest * diagonal_m || alpha_m > kCoarsest * diagonal_m)
+  if (alpha_m < WrapConfig::kFinest * diagonal_m || alpha_m > WrapConfig::kCoarsest * diagonal_m)
     throw DataError(
         "wrap.alpha_mm: {:.4g} mm for a mesh of {:.4g} mm from corner to corner, expected {:.4g} mm to {:.4g} mm",
-        1e3 * alpha_m, 1e3 * diagonal_m, 1e3 * kFinest * diagonal_m, 1e3 * kCoarsest * diagonal_m);
+        1e3 * alpha_m, 1e3 * diagonal_m, 1e3 * WrapConfig::kFinest * diagonal_m,
+        1e3 * WrapConfig::kCoarsest * diagonal_m);
   return alpha_m;
 }
 
 double offset_for(double alpha_m, double diagonal_m, const WrapConfig& config) {
   const double offset_m = config.offset_m.value_or(kOffsetPerAlpha * alpha_m);
-  const double least = kLeastOffsetPerAlpha * alpha_m, most = kCoarsest * diagonal_m;
+  const double least = kLeastOffsetPerAlpha * alpha_m, most = WrapConfig::kCoarsest * diagonal_m;
   if (offset_m < least || offset_m > most)
     throw DataError(
         "wrap.offset_mm: {:.4g} mm for a ball of {:.4g} mm and a mesh of {:.4g} mm from corner to corner, "
@@ -113,7 +93,8 @@ Value::Map lines_of(const SurfaceDistance& distance) {
 
 WrappedObject wrap_object(const TriangleMesh& read, const WrapConfig& config) {
   if (read.num_triangles() == 0) throw DataError("the mesh has no faces");
-  const TriangleMesh mesh = without_stray_vertices(read);
+  TriangleMesh mesh = read;
+  remove_unreferenced_vertices(mesh);  // however far away: they are not part of the surface
   const double diagonal_m = diagonal_of(mesh);
   const double alpha_m = alpha_for(diagonal_m, config);
   const double offset_m = offset_for(alpha_m, diagonal_m, config);

@@ -25,9 +25,9 @@ class Vouched : public ::testing::Test {
                                            "\n  times.csv: varies\n  gone.csv: 00\n");
   }
   auto refused(const fs::path& input, const std::string& file) const {
-    return std::pair(
-        [this, input] { refuse_changed_outputs(root_ / input, root_ / "out/copy.yaml"); },
-        ThrowsMessage<DataError>(AllOf(HasSubstr(file), HasSubstr("has changed since"), HasSubstr("cut.yaml"))));
+    return std::pair([this, input] { refuse_changed_outputs(root_ / input, root_ / "out/copy.yaml"); },
+                     ThrowsMessage<DataError>(AllOf(HasSubstr(file), HasSubstr("has changed since"),
+                                                    HasSubstr("cut.yaml"), HasSubstr("copy it to another folder"))));
   }
   void accept(const fs::path& input) const { refuse_changed_outputs(root_ / input, root_ / "out/copy.yaml"); }
 

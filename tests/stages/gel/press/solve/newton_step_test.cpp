@@ -131,6 +131,19 @@ TEST_F(NewtonStepTest, IsThatOfDenseAlgebraHoweverTheObjectYields) {
   }
 }
 
+/// Whichever place it was last asked about.
+TEST_F(NewtonStepTest, ABarrierKnowsItsActivePairsAtEveryPlace) {
+  Positions away = x_;
+  away.bottomRows(5).rowwise() += Eigen::RowVector3d(0.0, 0.0, kDHat);
+  const ContactBarrier anew(mesh_, barrier_->pairs(), kDHat);
+  const std::vector<int> near = barrier_->active(x_);
+  const double energy = barrier_->value(x_);
+  EXPECT_LT(barrier_->active(away).size(), near.size());
+  EXPECT_LT(barrier_->value(away), 0.5 * energy);
+  EXPECT_EQ(barrier_->active(x_), near);
+  EXPECT_EQ(barrier_->value(x_), anew.value(x_));
+}
+
 /// A stepper keeps its matrix from call to call, but for elements that have changed and for contacts.
 TEST_F(NewtonStepTest, WhatItKeepsOfTheLastCallIsNotTheContacts) {
   StepTerms terms;
