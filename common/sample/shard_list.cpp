@@ -21,6 +21,14 @@ std::vector<fs::path> listed_records(const fs::path& list) {
   if (records.empty()) throw DataError("{}: names no shard", list.string());
   return records;
 }
+
+std::vector<std::pair<std::string, fs::path>> listed_shards(const fs::path& list) {
+  std::vector<std::pair<std::string, fs::path>> shards;
+  for (const fs::path& record : listed_records(list))
+    shards.emplace_back("shards/" + record.parent_path().filename().string(), shard_of_record(record));
+  return shards;
+}
+
 fs::path shard_of_record(const fs::path& record) {
   const fs::path folder = record.parent_path();
   return folder / (folder.filename().string() + ".h5");

@@ -31,4 +31,7 @@ for header in tetgen.h embree3/ OpenMesh/ assimp/ cholmod.h CGAL/ opencv2/ yaml-
   bad=$(grep -E '\.h$' <<<"$files" | grep -vx stages/object/decimate/collapse_mesh.h || true)
   [ -z "$bad" ] || { echo "$bad: includes <$header>; only a .cpp may"; faults=1; }
 done
+# libtorch is one stage's business, headers too.
+bad=$(grep -rlE '#include <(torch|ATen|c10)/' common stages --include=*.cpp --include=*.h | grep -v '^stages/image/depthnet/' || true)
+[ -z "$bad" ] || { echo "$bad: includes libtorch; only depthnet may"; faults=1; }
 exit $faults

@@ -28,12 +28,11 @@ const StageSpec kRepack{
 void repack_for_lerobot(Stage& stage) {
   if (stage.optional_input("--shard") || !stage.optional_input("--shards"))
     throw UsageError("lerobot takes --shards, the list of all shards, in place of --shard");
-  std::vector<std::pair<std::string, std::filesystem::path>> inputs;
+  const auto inputs = listed_shards(stage.input("--shards"));
   std::vector<std::filesystem::path> shards;
-  for (const auto& record : listed_records(stage.input("--shards"))) {
-    shards.push_back(shard_of_record(record));
-    inputs.emplace_back("shards/" + record.parent_path().filename().string(), shards.back());
-    checked_sha256(shards.back());
+  for (const auto& [name, path] : inputs) {
+    checked_sha256(path);
+    shards.push_back(path);
   }
   stage.add_inputs(inputs);
   stage.summarize(write_lerobot(shards, [&](const std::string& name) { return stage.output(name); }));

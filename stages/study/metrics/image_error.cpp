@@ -42,8 +42,6 @@ ByteImage offset_to(const ByteImage& image, const ByteImage& reference, int left
   return out;
 }
 
-double psnr_db(double mse) { return -10.0 * std::log10(mse); }
-
 double psnr_ln(double mse) { return -10.0 * std::log(mse); }
 
 }  // namespace tacipc

@@ -19,8 +19,6 @@ ImageError image_error(const ByteImage& a, const ByteImage& b);
 /// picture. \pre equal sizes and channels, a pixel outside the box
 ByteImage offset_to(const ByteImage& image, const ByteImage& reference, int left, int top, int right, int bottom);
 
-/// 10 log₁₀(1 / mse) in decibels; +∞ for equal images.
-double psnr_db(double mse);
 /// 10 ln(1 / mse): the natural logarithm, which is what the paper's table must hold (its values exceed what any decibel
 /// value can be at its MAE); 2.3026 times the decibels. +∞ for equal images.
 double psnr_ln(double mse);

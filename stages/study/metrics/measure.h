@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/benchmark/metrics_rows.h"
+#include "stages/study/metrics/image_pairs.h"
 #include "stages/study/metrics/metrics_config.h"
-#include "stages/study/metrics/metrics_table.h"
 
 namespace tacipc {
 

@@ -1,8 +1,9 @@
 #include "stages/study/metrics/measure.h"
 
 #include "common/base/error.h"
+#include "common/benchmark/depth_error.h"
 #include "common/image/image.h"
-#include "stages/study/metrics/depth_error.h"
+#include "stages/study/metrics/measure_pairs.h"
 
 namespace tacipc {
 namespace {
@@ -17,18 +18,6 @@ FloatImage read_depth_like(const std::filesystem::path& file, const FloatImage& 
   return map;
 }
 
-MetricsRow row_of(const ImagePair& pair, const char* region, const DepthError& error) {
-  return {.name = pair.name,
-          .region = region,
-          .values = {{"pixels", static_cast<double>(error.pixels)},
-                     {"mae_mm", 1e3 * error.mae_m},
-                     {"mse_mm2", 1e6 * error.mse_m2},
-                     {"max_mm", 1e3 * error.max_m},
-                     {"mae_norm", error.mae_norm},
-                     {"slope_ratio", error.slope_ratio},
-                     {"iou", error.iou}}};
-}
-
 }  // namespace
 
 std::vector<MetricsRow> measure_depths(const std::vector<ImagePair>& pairs, const std::filesystem::path& rest,
@@ -37,8 +26,11 @@ std::vector<MetricsRow> measure_depths(const std::vector<ImagePair>& pairs, cons
   return measure_pairs(pairs, [&](const ImagePair& pair) -> std::vector<MetricsRow> {
     const FloatImage map = read_depth_like(pair.image, at_rest), reference = read_depth_like(pair.reference, at_rest);
     try {
-      const DepthErrors errors = depth_errors(map, reference, at_rest, config.pressed_m);
-      return {row_of(pair, "full", errors.full), row_of(pair, "pressed", errors.pressed)};
+      const DepthErrors errors = depth_errors(map, reference, at_rest, config.pressed_m, config.beside_px);
+      std::vector<MetricsRow> rows{row_of(pair.name, "full", errors.full),
+                                   row_of(pair.name, "pressed", errors.pressed)};
+      if (errors.beside) rows.push_back(row_of(pair.name, "beside", *errors.beside));
+      return rows;
     } catch (const DataError& error) {
       throw DataError("{} against {}: {}", pair.image.string(), pair.reference.string(), error.what());
     }

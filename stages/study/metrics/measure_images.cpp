@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/image/image.h"
 #include "stages/study/metrics/image_error.h"
+#include "stages/study/metrics/measure_pairs.h"
 #include "stages/study/metrics/sharpness.h"
 #include "stages/study/metrics/ssim.h"
 

@@ -25,22 +25,31 @@ class DepthMetrics : public ProgramTest {
     std::filesystem::create_directories((scratch_ / name).parent_path());
     write_exr(scratch_ / name, map, {"Y"});
   }
+  std::string config_ = TACIPC_SOURCE_DIR "/configs/metrics/depth.yaml";
   int run(const std::string& images, const std::string& references) {
     return run_command(
-        fmt::format("cd '{}' && {}/metrics --config {}/configs/metrics/depth.yaml --rest rest.exr "
+        fmt::format("cd '{}' && {}/metrics --config {} --rest rest.exr "
                     "--images {} --reference {} --log-level error --out out",
-                    (scratch_ / "").string(), TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, images, references));
+                    (scratch_ / "").string(), TACIPC_BIN_DIR, config_, images, references));
   }
 };
 
 TEST_F(DepthMetrics, OneRowPerMapAndRegion) {
   ASSERT_EQ(run("ours/star.exr ours/gear.exr", "reference/star.exr reference/gear.exr"), 0) << said_;
   const std::string csv = read_file(scratch_ / "out/samples.csv");
-  EXPECT_THAT(csv, HasSubstr("name,region,pixels,mae_mm,mse_mm2,max_mm,mae_norm,slope_ratio,iou\n"));
+  EXPECT_THAT(csv, HasSubstr("name,region,pixels,mae_mm,mse_mm2,max_mm,mae_norm,mse_norm,slope_ratio,iou\n"));
   EXPECT_THAT(csv, HasSubstr("\nstar.exr,pressed,192,0.0999"));
-  EXPECT_THAT(csv, HasSubstr("\ngear.exr,full,768,0,0,0,0,1,1\n"));
+  EXPECT_THAT(csv, HasSubstr("\ngear.exr,full,768,0,0,0,0,0,1,1\n"));
   EXPECT_THAT(read_file(scratch_ / "out/metrics.yaml"),
               HasSubstr("pressed:\n    images: 2\n    pixels:\n      mean: 192\n      std: 0\n"));
+}
+
+TEST_F(DepthMetrics, ARegionBesideThePress) {
+  write_file(scratch_ / "beside.yaml", "kind: depth\npressed_mm: 0.02\nbeside_px: 3\n");
+  config_ = "beside.yaml";
+  ASSERT_EQ(run("ours/star.exr ours/gear.exr", "reference/star.exr reference/gear.exr"), 0) << said_;
+  EXPECT_THAT(read_file(scratch_ / "out/samples.csv"), HasSubstr("\nstar.exr,beside,72,0,0,0,0,0,"));
+  EXPECT_THAT(read_file(scratch_ / "out/metrics.yaml"), HasSubstr("beside:\n    images: 2\n"));
 }
 
 TEST_F(DepthMetrics, RefusesWhatDoesNotFit) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/benchmark/metrics_rows.h"
 #include "stages/study/metrics/image_error.h"
 #include "stages/study/metrics/ssim.h"
 #include "tests/stages/study/metrics/test_images.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/benchmark/metrics_rows.h"
 #include "stages/study/metrics/image_error.h"
 #include "tests/stages/study/metrics/test_images.h"
 

@@ -1,16 +1,17 @@
-// What was measured of all pairs, as a table and as means.
+// What was measured of images or depth maps against references, as a table and as means.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "common/base/value.h"
-#include "stages/study/metrics/image_pairs.h"
 
 namespace tacipc {
+
+/// 10 log₁₀(1 / mse) in decibels, of numbers between 0 and 1; +∞ for equal images.
+double psnr_db(double mse);
 
 /// One region of one image or depth map against its reference.
 struct MetricsRow {
@@ -21,10 +22,6 @@ struct MetricsRow {
   /// \pre there is such a column
   double operator[](std::string_view column) const;
 };
-
-/// The rows of all pairs in their order; pairs run in parallel. Where several fail, the first one's error is thrown.
-std::vector<MetricsRow> measure_pairs(const std::vector<ImagePair>& pairs,
-                                      const std::function<std::vector<MetricsRow>(const ImagePair&)>& measure);
 
 /// CSV with a header line; numbers in the shortest form that reads back to the same bits, infinity as inf.
 /// \pre not empty

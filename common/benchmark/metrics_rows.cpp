@@ -1,43 +1,24 @@
-#include "stages/study/metrics/metrics_table.h"
+#include "common/benchmark/metrics_rows.h"
 
 #include <fmt/core.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cassert>
-#include <exception>
+#include <cmath>
 #include <optional>
 
 #include "common/base/statistics.h"
 #include "common/format/csv.h"
-#include "stages/study/metrics/image_error.h"
 
 namespace tacipc {
+
+double psnr_db(double mse) { return -10.0 * std::log10(mse); }
 
 double MetricsRow::operator[](std::string_view column) const {
   const auto found =
       std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.first == column; });
   assert(found != values.end());
   return found->second;
-}
-
-std::vector<MetricsRow> measure_pairs(const std::vector<ImagePair>& pairs,
-                                      const std::function<std::vector<MetricsRow>(const ImagePair&)>& measure) {
-  std::vector<std::vector<MetricsRow>> of_pair(pairs.size());
-  std::vector<std::exception_ptr> failed(pairs.size());
-  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-    try {
-      of_pair[i] = measure(pairs[i]);
-    } catch (...) {
-      failed[i] = std::current_exception();
-    }
-  });
-  // The first failure in the order of the pairs, whichever thread was first.
-  for (const std::exception_ptr& failure : failed)
-    if (failure) std::rethrow_exception(failure);
-  std::vector<MetricsRow> rows;
-  for (const auto& some : of_pair) rows.insert(rows.end(), some.begin(), some.end());
-  return rows;
 }
 
 std::string to_csv(const std::vector<MetricsRow>& rows) {
@@ -54,7 +35,7 @@ std::string to_csv(const std::vector<MetricsRow>& rows) {
 
 Value::Map summary_of(const std::vector<MetricsRow>& rows) {
   Value::Map summary;
-  for (const char* region : {"full", "crop", "box", "pressed"}) {
+  for (const char* region : {"full", "crop", "box", "pressed", "beside"}) {
     std::vector<const MetricsRow*> some;
     for (const MetricsRow& row : rows)
       if (row.region == region) some.push_back(&row);

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 
+#include "common/benchmark/metrics_rows.h"
 #include "common/image/image.h"
 
 namespace tacipc {
@@ -15,6 +18,7 @@ struct DepthError {
   double mse_m2 = 0.0;    // mean (a − b)²
   double max_m = 0.0;     // max |a − b|
   double mae_norm = 0.0;  // mae over the reference's deepest press, max (r − b) of the whole image
+  double mse_norm = 0.0;  // mse over its square
   double slope_ratio =
       0.0;  // √(Σ |∇a|² / Σ |∇b|²): below 1 the map is smoother than the reference; NaN where b is flat
   double iou = 0.0;  // pixels pressed in both over pixels pressed in either, of the whole image; NaN if there are none
@@ -22,12 +26,18 @@ struct DepthError {
 
 struct DepthErrors {
   DepthError full;
-  DepthError pressed;  // where the reference is pressed
+  DepthError pressed;                     // where the reference is pressed
+  std::optional<DepthError> beside = {};  // where it is not, but is at a pixel at most so far away in either direction
 };
 
+/// Its row in a table, in mm.
+MetricsRow row_of(const std::string& name, const char* region, const DepthError& error);
+
 /// A pixel is pressed where the membrane came nearer than at rest by more than `pressed_m`. Pixels that are NaN in any
-/// map do not count; slopes are differences of neighbours to the right and below, in m per
-/// pixel. \pre maps of equal size. \throw DataError if no pixel counts, or the reference is pressed nowhere
-DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, const FloatImage& rest, double pressed_m);
+/// map do not count; slopes are differences of neighbours to the right and below, in m per pixel. `beside_px` is how
+/// far the third region reaches; 0: there is none. \pre maps of equal size. \throw DataError if no pixel counts, or the
+/// reference is pressed nowhere
+DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, const FloatImage& rest, double pressed_m,
+                         int beside_px = 0);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-#include "stages/study/metrics/depth_error.h"
+#include "common/benchmark/depth_error.h"
 
 #include <gtest/gtest.h>
 
@@ -53,6 +53,22 @@ TEST(DepthError, MasksThatOverlapByHalf) {
   const DepthErrors errors =
       depth_errors(map_of(20, 4, press(4)), map_of(20, 4, press(8)), map_of(20, 4, kNothing), kPressed);
   EXPECT_DOUBLE_EQ(errors.full.iou, 4.0 / 12.0);
+}
+
+TEST(DepthError, BesideThePress) {
+  // Pressed in a block of 4 x 2; the map sees a step of 0.1 mm two pixels to its left, as a shadow may look.
+  const auto block = [](int x, int y) { return x >= 8 && x < 12 && y >= 4 && y < 6; };
+  const FloatImage reference = map_of(20, 10, [&](int x, int y) { return block(x, y) ? 0.4e-3 : 0.0; });
+  const FloatImage map = map_of(20, 10, [&](int x, int y) { return block(x, y) ? 0.4e-3 : x == 6 ? 0.1e-3 : 0.0; });
+  const FloatImage rest = map_of(20, 10, kNothing);
+  EXPECT_FALSE(depth_errors(map, reference, rest, kPressed).beside);
+  const DepthError one = depth_errors(map, reference, rest, kPressed, 1).beside.value();
+  EXPECT_EQ(one.pixels, 6u * 4u - 8u);
+  EXPECT_EQ(one.mae_m, 0.0);
+  const DepthError three = depth_errors(map, reference, rest, kPressed, 3).beside.value();
+  EXPECT_EQ(three.pixels, 10u * 8u - 8u);
+  EXPECT_NEAR(three.mae_m, 8 * 0.1e-3 / 72, 1e-9);
+  EXPECT_NEAR(three.mse_norm, 8 * 0.01 / 0.16 / 72, 1e-5);
 }
 
 TEST(DepthError, UnknownPixelsDoNotCount) {

@@ -1,0 +1,28 @@
+// Independent work in threads, with errors as of one thread.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+#include <exception>
+#include <vector>
+
+namespace tacipc {
+
+/// Calls `work` for each number below `count`, in as many threads as there may be. Where several fail, the error of the
+/// first number is thrown, whichever thread was first.
+template <typename Work>
+void each_in_threads(std::size_t count, Work&& work) {
+  std::vector<std::exception_ptr> failed(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    try {
+      work(i);
+    } catch (...) {
+      failed[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failed)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace tacipc

@@ -1,0 +1,42 @@
+# A network that reads depth from touch, trained on a packed dataset and judged on its test objects:
+#   make -f Makefile.data depthnet CONFIG=configs/datasets/mini.yaml [NET=default]
+$(call uses,dataset/pack)
+
+NET ?= default#        depthnet: a file of configs/depthnet, or a path
+override NET := $(strip $(NET))
+packages_for_depthnet := depthnet
+
+.PHONY: depthnet
+ifeq ($(and $(DATASET_DIR),$(filter depthnet,$(MAKECMDGOALS))),)
+depthnet:
+	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
+else
+$(foreach v,DATASET_DIR NET,$(call check_name,$(v)))
+DEPTHNET_CONFIG := $(firstword $(wildcard configs/depthnet/$(NET).yaml $(NET)))
+ifeq ($(DEPTHNET_CONFIG),)
+  $(error NET: there is no $(if $(filter %.yaml,$(NET)),,configs/depthnet/$(NET).yaml and no )$(NET))
+endif
+DEPTHNET_LIST := $(DATASET_DIR)/shards/shards.txt
+ifeq ($(wildcard $(DATASET_DIR)/pack/card.yaml),)
+  $(error depthnet: $(DATASET_DIR) has not been packed; the goal dataset makes and packs it)
+endif
+ifeq ($(findstring test-,$(file < $(DEPTHNET_LIST))),)
+  $(error depthnet: $(DATASET_DIR) has no objects to judge by: give it splits, such as {val: 0.1, test: 0.2})
+endif
+DEPTHNET := $(DATASET_DIR)/depthnet/$(basename $(notdir $(NET)))
+DEPTHNET_SHARDS := $(DEPTHNET_LIST) $(wildcard $(DATASET_DIR)/shards/*/pack.yaml)
+# Another network of that name is another network however old its file is.
+$(DEPTHNET)/net.choice: FORCE
+	@mkdir -p $(@D); cksum $(DEPTHNET_CONFIG) > $@.new-$$$$; cmp -s $@.new-$$$$ $@ && rm $@.new-$$$$ || mv $@.new-$$$$ $@
+$(DEPTHNET)/depthnet.yaml: $(DEPTHNET_CONFIG) $(DEPTHNET)/net.choice $(DEPTHNET_SHARDS) | build
+	@[ -x $(BIN)/depthnet ] || { echo "depthnet: not built for want of libtorch-dev: make -f Makefile.data packages build GROUPS=depthnet" >&2; exit 2; }
+	$(call depthnet_run,--config $<)
+$(DEPTHNET)/test/depthnet.yaml: $(DEPTHNET)/depthnet.yaml $(DEPTHNET_SHARDS)
+	$(call depthnet_run,--model $(DEPTHNET)/model.pt)
+# On all cores: nothing else is to be done meanwhile.
+depthnet_run = OPENBLAS_NUM_THREADS=1 $(BIN)/depthnet --out $(@D) --threads $(JOBS) $(1) --shards $(DEPTHNET_LIST)
+
+depthnet: $(DEPTHNET)/test/depthnet.yaml ## datasets: A network that reads depth, trained on a packed dataset and judged on its test objects: CONFIG= [NET=default]
+	@echo; $(BIN)/tacipc get $< summary.pressed.mae_mm.mean | sed 's/$$/ mm: mean error in contact on the test objects/'
+	@echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model.pt"
+endif

@@ -1,0 +1,54 @@
+// configs/depthnet/*.yaml: a network that reads depth from touch, and how it is trained.
+#pragma once
+
+#include <cstdint>
+
+#include "common/config/config.h"
+
+namespace tacipc {
+
+/// A U-Net (Ronneberger et al. 2015): on each level two 3 × 3 convolutions, then half the size and twice the channels;
+/// on the way back the maps of the same size are joined.
+struct NetworkConfig {
+  int levels = 4;  // times the size is halved
+  int base_channels = 16;
+  int reduction = 2;  // the network sees means over squares of this many pixels
+};
+
+struct LossConfig {
+  bool squared = false;         // mean squared error, else mean absolute error
+  double contact_weight = 0.0;  // a pixel in contact (kContactMm) counts 1 + this
+  double slope_weight = 0.0;    // of the mean error of differences between neighbours
+};
+
+struct ScheduleConfig {
+  int epochs = 0;
+  int batch = 0;
+  double learning_rate = 0.0;  // its largest; rises linearly, then falls like a cosine to 0
+  double warmup_epochs = 0.0;
+  double weight_decay = 0.0;
+  double gradient_norm = 0.0;  // a longer gradient is shortened to this
+};
+
+/// What may differ between a sensor and its simulation. Each image draws its own; U(a) is uniform in ±a.
+struct AugmentationConfig {
+  double gain = 0.0;             // change against the reference × (1 + U), per channel
+  double drift_codes = 0.0;      // image + U, per channel
+  double noise_codes = 0.0;      // standard deviation of a pixel's noise: uniform up to this
+  double reference_codes = 0.0;  // image and reference + U, per channel
+  int shift_px = 0;              // of image, reference and depth together, pixels of the network
+};
+
+struct DepthnetConfig {
+  NetworkConfig network;
+  LossConfig loss;
+  ScheduleConfig schedule;
+  AugmentationConfig augmentation;
+  bool last_frame = false;     // of each sample only its last frame
+  bool shuffle_pairs = false;  // control: every image gets the depth of another one
+  std::uint64_t seed = 1;
+
+  static DepthnetConfig read(ConfigReader& in);
+};
+
+}  // namespace tacipc

@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <set>
+
+#include "common/base/each_in_threads.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/format/csv.h"
+#include "common/image/picture.h"
+#include "common/sample/shard_list.h"
+#include "common/stage/stage.h"
+#include "stages/image/depthnet/judge.h"
+#include "stages/image/depthnet/train.h"
+
+namespace {
+
+using namespace tacipc;
+namespace fs = std::filesystem;
+
+const StageSpec kDepthnet{
+    .name = "depthnet",
+    .summary =
+        "Train a network that reads depth from tactile images (--config), judge it on a dataset (--model "
+        "--shards), let it read photographs (--model --images).",
+    .inputs = {{.flag = "--config", .help = "network and training (YAML)", .required = false},
+               {.flag = "--model", .help = "model.pt of a training", .required = false},
+               {.flag = "--shards",
+                .help = "a packed dataset: text file with the record of each shard (shards.txt). Training takes the "
+                        "splits train and val, judging the split test",
+                .required = false},
+               {.flag = "--renders", .help = "folders of render to train on", .required = false, .many = true},
+               {.flag = "--validation",
+                .help = "folders of render to judge by while training",
+                .required = false,
+                .many = true},
+               {.flag = "--images", .help = "photographs to read (PNG)", .required = false, .many = true},
+               {.flag = "--background", .help = "photograph without contact, their reference (PNG)", .required = false},
+               {.flag = "--rest", .help = "depth map of the gel at rest (EXR, m), for theirs", .required = false}},
+    .resumable = true};
+
+std::string number_text(double value) { return fmt::format("{}", value); }
+
+void write_history(Stage& stage, const std::vector<EpochRow>& rows) {
+  std::string text = csv_line(
+      {"epoch", "learning_rate", "loss", "mae_mm", "mae_contact_mm", "validation_mae_mm", "validation_mae_contact_mm"});
+  for (const EpochRow& row : rows)
+    text += csv_line({number_text(row.epoch), number_text(row.learning_rate), number_text(row.loss),
+                      number_text(row.mae_mm), number_text(row.mae_contact_mm), number_text(row.validation_mae_mm),
+                      number_text(row.validation_mae_contact_mm)});
+  write_file(stage.output("history.csv"), text);
+}
+
+/// Images of one kind, and their sizes.
+class Items {
+ public:
+  Items(const torch::jit::Module& network, int reduction) : network_(network), reduction_(reduction) {}
+  void add(const DepthImage& image) {
+    DepthItem item = item_of(image, network_, reduction_);
+    if (!items_.empty() && items_.back().reference.equal(item.reference)) item.reference = items_.back().reference;
+    items_.push_back(std::move(item));
+    const ImageSize size(image.image.height, image.image.width);
+    if (std::find(sizes_.begin(), sizes_.end(), size) == sizes_.end()) sizes_.push_back(size);
+    show_progress(0.0, fmt::format("reading: {} images", items_.size()));
+  }
+  std::vector<DepthItem>& items() { return items_; }
+  const std::vector<ImageSize>& sizes() const { return sizes_; }
+
+ private:
+  const torch::jit::Module& network_;
+  int reduction_;
+  std::vector<DepthItem> items_;
+  std::vector<ImageSize> sizes_;
+};
+
+/// The shards of a list, noted in the record, since only they say what was learnt.
+std::vector<std::pair<std::string, fs::path>> shards_of(Stage& stage) {
+  const auto shards = listed_shards(stage.input("--shards"));
+  stage.add_inputs(shards);
+  return shards;
+}
+
+void train_network(Stage& stage) {
+  const auto config = stage.read_config<DepthnetConfig>("--config");
+  TrainedNetwork network{.module = make_network(config.network, config.seed), .sizes = {}};
+  Items training(network.module, config.network.reduction), validation(network.module, config.network.reduction);
+  if (stage.optional_input("--shards"))
+    for (const auto& [name, shard] : shards_of(stage))
+      read_packed(shard, {"train", "val"}, config.last_frame,
+                  [&](const DepthImage& image) { (image.split == "val" ? validation : training).add(image); });
+  for (const fs::path& folder : stage.inputs("--renders"))
+    read_rendered(folder, config.last_frame, [&](const DepthImage& image) { training.add(image); });
+  for (const fs::path& folder : stage.inputs("--validation"))
+    read_rendered(folder, config.last_frame, [&](const DepthImage& image) { validation.add(image); });
+  if (training.items().empty()) throw DataError("there are no images to train on");
+  if (config.shuffle_pairs) shuffle_depths(training.items(), config.seed);
+  std::int64_t weights = 0;
+  for (const torch::Tensor& weight : weights_of(network.module)) weights += weight.numel();
+  log_info("{} images to train on, {} to judge by, {} weights", training.items().size(), validation.items().size(),
+           weights);
+  const std::vector<EpochRow> rows =
+      train(network.module, training.items(), validation.items(), config,
+            {.load = [&] { return stage.load_scratch("checkpoint"); },
+             .save = [&](const std::string& bytes) { stage.save_scratch("checkpoint", bytes); }});
+  network.sizes = training.sizes();
+  save_network(network, stage.output("model.pt"));
+  write_history(stage, rows);
+  const EpochRow& last = rows.back();
+  Value::Map summary{{"images", training.items().size()},
+                     {"weights", weights},
+                     {"mae_mm", last.mae_mm},
+                     {"mae_contact_mm", last.mae_contact_mm},
+                     {"validation_images", validation.items().size()}};
+  if (!validation.items().empty()) {
+    summary.emplace_back("validation_mae_mm", last.validation_mae_mm);
+    summary.emplace_back("validation_mae_contact_mm", last.validation_mae_contact_mm);
+  }
+  stage.summarize(summary);
+}
+
+void judge_network(Stage& stage) {
+  Judge judge(load_network(*stage.optional_input("--model")));
+  for (const auto& [name, shard] : shards_of(stage))
+    read_packed(shard, {"test"}, false, [&](const DepthImage& image) { judge.add(image); });
+  judge.answer();
+  if (judge.rows().empty())
+    throw DataError("{}: names no images with contact of the split test", stage.input("--shards").string());
+  write_file(stage.output("samples.csv"), to_csv(judge.rows()));
+  write_png(stage.output("sheet.png"), judge.sheet());
+  Value::Map summary = summary_of(judge.rows());
+  if (judge.untouched() > 0)
+    summary.emplace_back("without_contact",
+                         Value::Map{{"images", judge.untouched()}, {"mean_answer_mm", judge.seen_untouched_mm()}});
+  stage.summarize(summary);
+}
+
+void read_photographs(Stage& stage) {
+  const TrainedNetwork network = load_network(*stage.optional_input("--model"));
+  const ByteImage reference = read_png(*stage.optional_input("--background"), 3);
+  const auto rest_file = stage.optional_input("--rest");
+  const FloatImage rest = rest_file ? read_exr(*rest_file, {"Y"}) : FloatImage(reference.width, reference.height, 1);
+  if (rest.width != reference.width || rest.height != reference.height)
+    throw DataError("{}: has {} x {} pixels, the reference {} x {}", rest_file->string(), rest.width, rest.height,
+                    reference.width, reference.height);
+  const auto& files = stage.inputs("--images");
+  std::vector<FloatImage> maps(files.size());
+  each_in_threads(files.size(), [&](std::size_t i) {
+    stay_in_this_thread();
+    maps[i] = network.depth_mm(files[i].string(), read_png(files[i], 3), reference);
+  });
+  Value::Map deepest;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    FloatImage& map = maps[i];
+    const std::string name = files[i].stem().string();
+    deepest.emplace_back(name, double{*std::max_element(map.pixels.begin(), map.pixels.end())});
+    for (float& depth : map.pixels) depth *= 1e-3F;
+    write_png(stage.output("indentation/" + name + ".png"), picture_of_height(map));
+    write_exr(stage.output("indentation/" + name + ".exr"), map, {"Y"});
+    if (!rest_file) continue;
+    for (std::size_t k = 0; k < map.pixels.size(); ++k) map.pixels[k] = rest.pixels[k] - map.pixels[k];
+    write_exr(stage.output("depth/" + name + ".exr"), map, {"Y"});
+  }
+  stage.summarize({{"images", deepest.size()}, {"deepest_mm", deepest}});
+}
+
+/// What the flags ask for; each of the three has its own.
+void (*task_of(Stage& stage))(Stage&) {
+  const bool config = stage.optional_input("--config").has_value(),
+             shards = stage.optional_input("--shards").has_value(), renders = !stage.inputs("--renders").empty(),
+             images = !stage.inputs("--images").empty();
+  if (config == stage.optional_input("--model").has_value())
+    throw UsageError("give either --config, to train, or --model, to judge or use what was trained");
+  if (config) {
+    if (images || stage.optional_input("--background") || stage.optional_input("--rest"))
+      throw UsageError("--images, --background, --rest: go with --model");
+    if (shards == renders) throw UsageError("training takes either --shards or --renders");
+    if (shards && !stage.inputs("--validation").empty()) throw UsageError("--validation: goes with --renders");
+    return train_network;
+  }
+  if (renders || !stage.inputs("--validation").empty()) throw UsageError("--renders, --validation: go with --config");
+  if (shards == images) throw UsageError("--model takes either --shards, to judge it, or --images");
+  const bool background = stage.optional_input("--background").has_value();
+  if (shards && (background || stage.optional_input("--rest")))
+    throw UsageError("--background, --rest: go with --images");
+  if (shards) return judge_network;
+  if (!background) throw UsageError("--background: photographs need their reference");
+  std::set<std::string> names;
+  for (const fs::path& file : stage.inputs("--images"))
+    if (!names.insert(file.stem().string()).second)
+      throw UsageError(fmt::format("--images: two are called {}", file.stem().string()));
+  return read_photographs;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kDepthnet, argc, argv, [](Stage& stage) {
+    const auto task = task_of(stage);
+    stay_in_this_thread();
+    try {
+      task(stage);
+    } catch (const c10::Error& error) {
+      throw SolverError("libtorch: {}", error.what_without_backtrace());
+    }
+  });
+}

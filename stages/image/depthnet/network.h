@@ -1,0 +1,52 @@
+// The network as a TorchScript module: what is trained is what is delivered.
+#pragma once
+
+#include <torch/script.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/image/image.h"
+#include "stages/image/depthnet/depthnet_config.h"
+
+namespace tacipc {
+
+/// A U-Net without normalisation, weights drawn by He et al. 2015 from the seed. Methods, N images each:
+/// - `forward(image, reference)`: u8 (N, H, W, 3) both, or one reference for all → indentation in mm, f32 (N, H, W)
+/// - `reduced(image, reference)`: the same arguments → what the network sees, f32 (N, 6, h, w): means over squares of
+///   the change against the reference, then of the reference, in codes
+/// - `indentation(x)`: that → mm, f32 (N, 1, h, w)
+torch::jit::Module make_network(const NetworkConfig& config, std::uint64_t seed);
+
+/// Its weights, in the order they were made. They share memory with the module.
+std::vector<torch::Tensor> weights_of(const torch::jit::Module& network);
+
+/// Rows and columns of an image.
+using ImageSize = std::pair<int, int>;
+
+/// A trained network, and the sizes of the images it was trained on: it knows what a pixel is in mm only for these.
+struct TrainedNetwork {
+  torch::jit::Module module;
+  std::vector<ImageSize> sizes;
+
+  /// The indentation of an image, mm. \throw DataError, which begins with the name, if the image is of another size
+  /// than those, or not of its reference's
+  FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference) const;
+};
+
+/// The same network makes the same bytes.
+void save_network(const TrainedNetwork& network, const std::filesystem::path& file);
+/// \throw DataError if it is no such file, naming it
+TrainedNetwork load_network(const std::filesystem::path& file);
+
+/// u8 (1, H, W, 3), a copy. \pre three channels
+torch::Tensor tensor_of(const ByteImage& image);
+
+/// Results do not depend on the number of threads: each computation stays in the thread that asks for it. For every
+/// thread that calls libtorch, before it does.
+void stay_in_this_thread();
+
+}  // namespace tacipc

@@ -1,0 +1,57 @@
+// Training: gradients of single images, in any number of threads, added in the order of the batch.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stages/image/depthnet/augment.h"
+#include "stages/image/depthnet/network.h"
+
+namespace tacipc {
+
+/// An epoch of the training. Errors are means over all pixels of the images; `contact`: over those in contact.
+struct EpochRow {
+  double epoch = 0.0;          // from 1
+  double learning_rate = 0.0;  // of its last step
+  double loss = 0.0;           // mean over the images, as they were augmented
+  double mae_mm = 0.0;         // of the same images
+  double mae_contact_mm = 0.0;
+  double validation_mae_mm = 0.0;  // NaN without any
+  double validation_mae_contact_mm = 0.0;
+};
+
+/// Where a training that was interrupted goes on.
+struct Checkpoints {
+  std::function<std::optional<std::string>()> load;
+  std::function<void(const std::string&)> save;
+  std::chrono::seconds between{20};  // at least, from one to the next
+};
+
+/// The network's loss of one example. \throw DataError if no pixel has a depth
+torch::Tensor loss_of(const torch::Tensor& predicted_mm, const torch::Tensor& depth_mm, const LossConfig& config);
+
+/// Sums of errors over pixels, at the network's resolution.
+struct ErrorSums {
+  double pixels = 0.0, error_mm = 0.0;                  // where there is a depth
+  double contact_pixels = 0.0, contact_error_mm = 0.0;  // where it is more than kContactMm
+
+  void add(const ErrorSums& other);
+  double mae_mm() const { return error_mm / pixels; }  // NaN without pixels
+  double mae_contact_mm() const { return contact_error_mm / contact_pixels; }
+};
+ErrorSums errors_of(const torch::jit::Module& network, const std::vector<DepthItem>& items);
+
+/// Trains the weights in place (AdamW, Loshchilov and Hutter 2019) and returns a row per epoch, those before an
+/// interruption included. Results depend on nothing but network, items and configuration. \pre items are not empty
+std::vector<EpochRow> train(torch::jit::Module& network, const std::vector<DepthItem>& items,
+                            const std::vector<DepthItem>& validation, const DepthnetConfig& config,
+                            const Checkpoints& checkpoints);
+
+/// Gives each item the depth of another, by a random cycle. \throw DataError unless there are two at least, all of one
+/// size
+void shuffle_depths(std::vector<DepthItem>& items, std::uint64_t seed);
+
+}  // namespace tacipc
