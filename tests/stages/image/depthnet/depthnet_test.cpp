@@ -284,6 +284,7 @@ TEST_F(Depthnet, TrainsOnRenderFoldersAndReadsPhotographs) {
           (scratch_ / "").string(), background.string())),
       0)
       << said_;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/sheet.png"));
   const FloatImage indentation = read_exr(scratch_ / "out/indentation/dent_0.exr", {"Y"}),
                    depth = read_exr(scratch_ / "out/depth/dent_0.exr", {"Y"});
   const FloatImage expected = load_network(scratch_ / "model.pt").depth_mm("dent_0", dent(0).image, dent(0).reference);
@@ -292,6 +293,32 @@ TEST_F(Depthnet, TrainsOnRenderFoldersAndReadsPhotographs) {
     EXPECT_NEAR(depth.pixels[i], 0.049F - indentation.pixels[i], 1e-8);
   }
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "out/indentation/dent_1.png"));
+  for (const std::size_t k : {0, 1}) {
+    FloatImage truth = dent(k).depth_mm;
+    for (float& value : truth.pixels) value = 0.049F - 1e-3F * value;
+    write_exr(scratch_ / fmt::format("true_{}.exr", k), truth, {"Y"});
+  }
+  const std::string read = fmt::format(
+      "--model '{0}model.pt' --background '{1}' --images '{0}dent_0.png' '{0}dent_1.png' --rest '{0}rest.exr' --truth "
+      "'{0}true_0.exr' ",
+      (scratch_ / "").string(), background.string());
+  EXPECT_EQ(depthnet(read), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("a map for each of --images"));
+  ASSERT_EQ(depthnet(read + fmt::format("'{}'", (scratch_ / "true_1.exr").string())), 0) << said_;
+  const ByteImage sheet = read_png(scratch_ / "out/sheet.png", 3);
+  ASSERT_EQ(sheet.height, 2 * kSize + 4);
+  EXPECT_EQ(sheet.at(5, 7, 1), dent(0).image.at(5, 7, 1));
+  // The deepest point of both truths is the lightest of the second column.
+  const auto light = [&](int k, int x, int y) { return int{sheet.at(kSize + 4 + x, k * (kSize + 4) + y, 1)}; };
+  int lightest = 0;
+  for (int k = 0; k < 2; ++k)
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) lightest = std::max(lightest, light(k, x, y));
+  const auto deepest = [](const FloatImage& map) { return std::max_element(map.pixels.begin(), map.pixels.end()); };
+  const FloatImage maps[] = {dent(0).depth_mm, dent(1).depth_mm};
+  const int k = *deepest(maps[1]) > *deepest(maps[0]);
+  const auto at = static_cast<int>(deepest(maps[k]) - maps[k].pixels.begin());
+  EXPECT_EQ(light(k, at % kSize, at / kSize), lightest);
 }
 
 TEST_F(Depthnet, RefusesWhatDoesNotBelongTogether) {
