@@ -79,9 +79,15 @@ std::filesystem::path input_file(const FuzzedReader& reader) {
 
 bool read_input(const FuzzedReader& reader, std::string_view bytes) {
   const std::filesystem::path file = input_file(reader);
+  const struct Removed {
+    const std::filesystem::path& path;
+    ~Removed() {
+      std::error_code ignored;
+      std::filesystem::remove(path, ignored);
+    }
+  } removed{file};  // also where a find is thrown
   bool read = reads(reader, file, bytes);
   if (!read && reader.with_checksums) read = reads(reader, file, reader.with_checksums(bytes));
-  std::filesystem::remove(file);
   return read;
 }
 

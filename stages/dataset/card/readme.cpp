@@ -120,7 +120,7 @@ std::string limits_text(const CardContent& c) {
          "of the "
          "attributes `E_Pa`, `nu`, `mu`. Finer meshes still change forces by a few percent: `mesh` names what was "
          "used.\n"
-         "- Contact: a barrier keeps the surfaces apart by `check/stand_off_mm` (tens of micrometres); friction is "
+         "- Contact: a barrier keeps the surfaces apart by `check/stand_off_mm` (5 to 9 um at smooth parts with the default settings); friction is "
          "smoothed "
          "Coulomb friction, so sticking contacts creep slowly, and slip is judged vertex by vertex.\n"
          "- Objects are rigid.\n"
