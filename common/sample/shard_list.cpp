@@ -22,16 +22,21 @@ std::vector<fs::path> listed_records(const fs::path& list) {
   return records;
 }
 
-std::vector<std::pair<std::string, fs::path>> listed_shards(const fs::path& list) {
-  std::vector<std::pair<std::string, fs::path>> shards;
-  for (const fs::path& record : listed_records(list))
-    shards.emplace_back("shards/" + record.parent_path().filename().string(), shard_of_record(record));
-  return shards;
-}
-
 fs::path shard_of_record(const fs::path& record) {
   const fs::path folder = record.parent_path();
   return folder / (folder.filename().string() + ".h5");
+}
+
+std::vector<std::pair<std::string, fs::path>> named_by_shard(const std::vector<fs::path>& files) {
+  std::vector<std::pair<std::string, fs::path>> named;
+  for (const fs::path& file : files) named.emplace_back("shards/" + file.parent_path().filename().string(), file);
+  return named;
+}
+
+std::vector<std::pair<std::string, fs::path>> listed_shards(const fs::path& list) {
+  std::vector<fs::path> files;
+  for (const fs::path& record : listed_records(list)) files.push_back(shard_of_record(record));
+  return named_by_shard(files);
 }
 
 }  // namespace tacipc

@@ -15,7 +15,10 @@ std::vector<std::filesystem::path> listed_records(const std::filesystem::path& l
 /// The HDF5 file beside a shard's record: D/<shard>/<shard>.h5 for D/<shard>/pack.yaml.
 std::filesystem::path shard_of_record(const std::filesystem::path& record);
 
-/// The HDF5 files of a list, each under the name that records have for it: `shards/<shard>`.
+/// Files in the folders of shards, each under the name that records have for it: `shards/<shard>`.
+std::vector<std::pair<std::string, std::filesystem::path>> named_by_shard(
+    const std::vector<std::filesystem::path>& files);
+/// The HDF5 files of a list, so named.
 std::vector<std::pair<std::string, std::filesystem::path>> listed_shards(const std::filesystem::path& list);
 
 }  // namespace tacipc

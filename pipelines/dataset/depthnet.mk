@@ -27,7 +27,7 @@ DEPTHNET := $(DATASET_DIR)/depthnet/$(basename $(notdir $(NET)))
 DEPTHNET_SHARDS := $(DEPTHNET_LIST) $(wildcard $(DATASET_DIR)/shards/*/pack.yaml)
 # Another network of that name is another network however old its file is.
 $(DEPTHNET)/net.choice: FORCE
-	@mkdir -p $(@D); cksum $(DEPTHNET_CONFIG) > $@.new-$$$$; cmp -s $@.new-$$$$ $@ && rm $@.new-$$$$ || mv $@.new-$$$$ $@
+	$(call replace_if_changed_by,cksum $(DEPTHNET_CONFIG))
 $(DEPTHNET)/depthnet.yaml: $(DEPTHNET_CONFIG) $(DEPTHNET)/net.choice $(DEPTHNET_SHARDS) | build
 	@[ -x $(BIN)/depthnet ] || { echo "depthnet: not built for want of libtorch-dev: make -f Makefile.data packages build GROUPS=depthnet" >&2; exit 2; }
 	$(call depthnet_run,--config $<)

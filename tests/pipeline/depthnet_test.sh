@@ -36,15 +36,9 @@ splits: {test_objects: [test_a, test_b]}
 maps: [tactile, indentation]
 END
 goal dataset CONFIG=touch.yaml || fail "no dataset: $(cat said.txt)"
-cat > net.yaml <<'END'
-network: {levels: 3, base_channels: 8, reduction: 1}
-loss: {kind: mae, contact_weight: 2, slope_weight: 0.5}
-schedule: {epochs: 40, batch: 4, learning_rate: 0.003, warmup_epochs: 1, weight_decay: 0.0001, gradient_norm: 1}
-augmentation: {gain: 0.1, drift_codes: 2, noise_codes: 1, reference_codes: 4, shift_px: 2}
-frames: all
-seed: 1
-END
-sed 's/^seed/shuffle_pairs: true\nseed/' net.yaml > shuffled.yaml
+"$build_dir/bin/tacipc" set configs/depthnet/default.yaml network.levels=3 network.base_channels=8 network.reduction=1 \
+  schedule.epochs=40 schedule.learning_rate=0.003 augmentation.drift_codes=2 augmentation.noise_codes=1 augmentation.reference_codes=4 augmentation.shift_px=2 > net.yaml
+"$build_dir/bin/tacipc" set net.yaml +shuffle_pairs=true > shuffled.yaml
 data=made/datasets/touch
 for net in net shuffled; do goal depthnet CONFIG=touch.yaml NET=$net.yaml || fail "$net: $(cat said.txt)"; done
 [ "$(value $data/depthnet/net/depthnet.yaml summary.images)" = 48 ] || fail "trained on $(value $data/depthnet/net/depthnet.yaml summary.images) images"

@@ -57,13 +57,6 @@ class Checksums {
   std::vector<std::pair<std::string, std::string>> lines_;
 };
 
-/// Inputs as the record has them.
-std::vector<std::pair<std::string, fs::path>> named_by_folder(const std::vector<fs::path>& records) {
-  std::vector<std::pair<std::string, fs::path>> named;
-  for (const fs::path& path : records) named.emplace_back("shards/" + path.parent_path().filename().string(), path);
-  return named;
-}
-
 /// Copies, never links: a user of the project may edit a sensor file in place.
 void copy_origins(Stage& stage, Checksums& sums, const std::string& folder,
                   const std::map<std::string, std::map<std::string, OriginFile>>& origins) {
@@ -103,7 +96,7 @@ int main(int argc, char** argv) {
   return run_stage(kCard, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<CardConfig>("--config");
     const std::vector<fs::path> listed = listed_records(stage.input("--shards"));
-    stage.add_inputs(named_by_folder(listed));
+    stage.add_inputs(named_by_shard(listed));
     const ShardRecords records = read_shard_records(listed);
     check_shards(records.shards);
     Checksums sums(stage);

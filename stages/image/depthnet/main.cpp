@@ -42,15 +42,16 @@ const StageSpec kDepthnet{
                 .many = true}},
     .resumable = true};
 
-std::string number_text(double value) { return fmt::format("{}", value); }
-
 void write_history(Stage& stage, const std::vector<EpochRow>& rows) {
   std::string text = csv_line(
       {"epoch", "learning_rate", "loss", "mae_mm", "mae_contact_mm", "validation_mae_mm", "validation_mae_contact_mm"});
-  for (const EpochRow& row : rows)
-    text += csv_line({number_text(row.epoch), number_text(row.learning_rate), number_text(row.loss),
-                      number_text(row.mae_mm), number_text(row.mae_contact_mm), number_text(row.validation_mae_mm),
-                      number_text(row.validation_mae_contact_mm)});
+  for (const EpochRow& row : rows) {
+    std::vector<std::string> fields{std::to_string(&row - rows.data() + 1)};
+    for (const double number : {row.learning_rate, row.loss, row.mae_mm, row.mae_contact_mm, row.validation_mae_mm,
+                                row.validation_mae_contact_mm})
+      fields.push_back(fmt::format("{}", number));
+    text += csv_line(fields);
+  }
   write_file(stage.output("history.csv"), text);
 }
 

@@ -25,8 +25,8 @@ class Builder {
  public:
   Builder(torch::jit::Module& module, std::uint64_t seed) : module_(module), seed_(seed) {}
 
-  /// A line `to = convolution of from`, after which `relu` follows or not.
-  void convolution(const std::string& to, const std::string& from, int in, int out, int width, bool relu) {
+  /// A line `x = convolution of x`, with a rectifier or not.
+  void convolution(int in, int out, int width, bool relu) {
     const std::string name = fmt::format("w{}", count_);
     // After a rectifier a variance of 2 / fan-in keeps the signal's size. The last layer begins near no indentation.
     const double sigma = relu ? std::sqrt(2.0 / (in * width * width)) : 0.1 * std::sqrt(1.0 / (in * width * width));
@@ -37,9 +37,8 @@ class Builder {
           sigma * random_normal(seed_, static_cast<std::uint64_t>(count_), static_cast<std::uint64_t>(i)));
     module_.register_parameter(name, weight.requires_grad_(true), false);
     module_.register_parameter(name + "b", torch::zeros({out}).requires_grad_(true), false);
-    const std::string call =
-        fmt::format("torch.conv2d({}, self.{}, self.{}b, [1, 1], [{}, {}])", from, name, name, width / 2, width / 2);
-    line(relu ? fmt::format("{} = torch.relu({})", to, call) : fmt::format("{} = {}", to, call));
+    const std::string call = fmt::format("torch.conv2d(x, self.{0}, self.{0}b, [1, 1], [{1}, {1}])", name, width / 2);
+    line(relu ? fmt::format("x = torch.relu({})", call) : "x = " + call);
     ++count_;
   }
   void line(const std::string& text) { source_ += "    " + text + "\n"; }
@@ -64,17 +63,17 @@ void define_unet(torch::jit::Module& module, const NetworkConfig& config, std::u
   const auto channels = [&](int level) { return config.base_channels << level; };
   for (int level = 0; level <= config.levels; ++level) {
     if (level > 0) net.line("x = torch.max_pool2d(x, [2, 2])");
-    net.convolution("x", "x", level > 0 ? channels(level - 1) : 6, channels(level), 3, true);
-    net.convolution("x", "x", channels(level), channels(level), 3, true);
+    net.convolution(level > 0 ? channels(level - 1) : 6, channels(level), 3, true);
+    net.convolution(channels(level), channels(level), 3, true);
     if (level < config.levels) net.line(fmt::format("x{} = x", level));
   }
   for (int level = config.levels - 1; level >= 0; --level) {
     net.line(fmt::format("x = torch.upsample_bilinear2d(x, [x{0}.size(2), x{0}.size(3)], False)", level));
     net.line(fmt::format("x = torch.cat([x{}, x], 1)", level));
-    net.convolution("x", "x", channels(level) + channels(level + 1), channels(level), 3, true);
-    net.convolution("x", "x", channels(level), channels(level), 3, true);
+    net.convolution(channels(level) + channels(level + 1), channels(level), 3, true);
+    net.convolution(channels(level), channels(level), 3, true);
   }
-  net.convolution("x", "x", channels(0), 1, 1, false);
+  net.convolution(channels(0), 1, 1, false);
   net.line("return x[:, :, 0:height, 0:width]");
   module.define(net.source());
 }

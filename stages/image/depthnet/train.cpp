@@ -60,7 +60,8 @@ double rate_at(double epochs_done, const ScheduleConfig& schedule) {
   return 0.5 * schedule.learning_rate * (1.0 + std::cos(std::numbers::pi * std::min(1.0, fall)));
 }
 
-static_assert(sizeof(EpochRow) == 7 * sizeof(double));  // a row of numbers
+constexpr std::int64_t kRowNumbers = 6;
+static_assert(sizeof(EpochRow) == kRowNumbers * sizeof(double));  // a row of numbers
 
 std::string bytes_of(const std::vector<torch::Tensor>& weights, const torch::optim::Optimizer& optimizer,
                      const std::vector<EpochRow>& rows) {
@@ -68,7 +69,7 @@ std::string bytes_of(const std::vector<torch::Tensor>& weights, const torch::opt
   for (std::size_t i = 0; i < weights.size(); ++i) archive.write(fmt::format("weight_{}", i), weights[i].detach());
   optimizer.save(state);
   archive.write("optimizer", state);
-  torch::Tensor numbers = torch::empty({static_cast<std::int64_t>(rows.size()), 7}, torch::kDouble);
+  torch::Tensor numbers = torch::empty({static_cast<std::int64_t>(rows.size()), kRowNumbers}, torch::kDouble);
   std::memcpy(numbers.data_ptr(), rows.data(), rows.size() * sizeof(EpochRow));
   archive.write("rows", numbers);
   std::ostringstream out;
@@ -146,7 +147,7 @@ std::vector<EpochRow> train(torch::jit::Module& network, const std::vector<Depth
   auto saved_at = std::chrono::steady_clock::now();
   for (int epoch = static_cast<int>(rows.size()) + 1; epoch <= schedule.epochs; ++epoch) {
     const std::vector<std::size_t> order = order_of(items.size(), config.seed, kOrderStream, epoch);
-    EpochRow row{.epoch = static_cast<double>(epoch)};
+    EpochRow row;
     ErrorSums errors;
     for (std::size_t begin = 0; begin < order.size(); begin += batch) {
       const std::size_t count = std::min(batch, order.size() - begin);

@@ -12,9 +12,9 @@
 
 namespace tacipc {
 
-/// An epoch of the training. Errors are means over all pixels of the images; `contact`: over those in contact.
+/// An epoch of the training, the first one first. Errors are means over all pixels of the images; `contact`: over those
+/// in contact.
 struct EpochRow {
-  double epoch = 0.0;          // from 1
   double learning_rate = 0.0;  // of its last step
   double loss = 0.0;           // mean over the images, as they were augmented
   double mae_mm = 0.0;         // of the same images

@@ -1,0 +1,173 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/files.h"
+#include "common/stage/record.h"
+#include "stages/image/depthnet/network.h"
+#include "tests/program_test.h"
+#include "tests/stages/image/depthnet/dents.h"
+
+namespace tacipc {
+namespace {
+
+class Depthnet : public ProgramTest {
+ protected:
+  void SetUp() override { stay_in_this_thread(); }
+  int depthnet(const std::string& flags) {
+    return run_command(fmt::format("'{}/depthnet' --out '{}' {}", TACIPC_BIN_DIR, (scratch_ / "out").string(), flags));
+  }
+  std::filesystem::path write_images(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const DepthImage image = dent(i);
+      write_png(scratch_ / fmt::format("dent_{}.png", i), image.image);
+      write_png(scratch_ / "background.png", image.reference);
+    }
+    return scratch_ / "background.png";
+  }
+  /// A folder as render writes it, with this dent as its second frame.
+  std::filesystem::path write_render(std::size_t index) {
+    const std::filesystem::path folder = scratch_ / fmt::format("render_{}", index);
+    DepthImage image = dent(index);
+    for (const char* frame : {"frame_0000", "frame_0001"}) std::filesystem::create_directories(folder / frame);
+    write_png(folder / "frame_0000/tactile.png", image.reference);
+    write_png(folder / "frame_0001/tactile.png", image.image);
+    for (float& depth : image.depth_mm.pixels) depth *= 1e-3F;
+    write_exr(folder / "frame_0001/indentation.exr", image.depth_mm, {"Y"});
+    return folder;
+  }
+};
+
+TEST_F(Depthnet, TrainsOnRenderFoldersAndReadsPhotographs) {
+  std::string folders;
+  for (std::size_t i = 0; i < 6; ++i) folders += fmt::format(" '{}'", write_render(i).string());
+  write_file(scratch_ / "net.yaml", kSmall);
+  const std::string flags = fmt::format("--config '{}' --renders {} --validation '{}'",
+                                        (scratch_ / "net.yaml").string(), folders, write_render(50).string());
+  ASSERT_EQ(depthnet(flags), 0) << said_;
+  const Record summary = Record::from_file(scratch_ / "out/depthnet.yaml").section("summary");
+  EXPECT_EQ(summary.required_count("images"), 6);
+  EXPECT_EQ(summary.required_count("validation_images"), 1);
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "out/history.csv"));
+  std::filesystem::rename(scratch_ / "out/model.pt", scratch_ / "model.pt");
+  ASSERT_EQ(depthnet(flags + " --threads 1"), 0) << said_;
+  EXPECT_EQ(read_file(scratch_ / "out/model.pt"), read_file(scratch_ / "model.pt"));
+
+  const std::filesystem::path background = write_images(2);
+  FloatImage rest(kSize, kSize, 1, 0.049F);
+  write_exr(scratch_ / "rest.exr", rest, {"Y"});
+  ASSERT_EQ(
+      depthnet(fmt::format(
+          "--model '{0}model.pt' --background '{1}' --images '{0}dent_0.png' '{0}dent_1.png' --rest '{0}rest.exr'",
+          (scratch_ / "").string(), background.string())),
+      0)
+      << said_;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/sheet.png"));
+  const FloatImage indentation = read_exr(scratch_ / "out/indentation/dent_0.exr", {"Y"}),
+                   depth = read_exr(scratch_ / "out/depth/dent_0.exr", {"Y"});
+  const FloatImage expected = load_network(scratch_ / "model.pt").depth_mm("dent_0", dent(0).image, dent(0).reference);
+  for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
+    EXPECT_FLOAT_EQ(indentation.pixels[i], 1e-3F * expected.pixels[i]);
+    EXPECT_NEAR(depth.pixels[i], 0.049F - indentation.pixels[i], 1e-8);
+  }
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "out/indentation/dent_1.png"));
+  for (const std::size_t k : {0, 1}) {
+    FloatImage truth = dent(k).depth_mm;
+    for (float& value : truth.pixels) value = 0.049F - 1e-3F * value;
+    write_exr(scratch_ / fmt::format("true_{}.exr", k), truth, {"Y"});
+  }
+  const std::string read = fmt::format(
+      "--model '{0}model.pt' --background '{1}' --images '{0}dent_0.png' '{0}dent_1.png' --rest '{0}rest.exr' --truth "
+      "'{0}true_0.exr' ",
+      (scratch_ / "").string(), background.string());
+  EXPECT_EQ(depthnet(read), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("a map for each of --images"));
+  ASSERT_EQ(depthnet(read + fmt::format("'{}'", (scratch_ / "true_1.exr").string())), 0) << said_;
+  const ByteImage sheet = read_png(scratch_ / "out/sheet.png", 3);
+  ASSERT_EQ(sheet.height, 2 * kSize + 4);
+  EXPECT_EQ(sheet.at(5, 7, 1), dent(0).image.at(5, 7, 1));
+  // The deepest point of both truths is the lightest of the second column.
+  const auto light = [&](int k, int x, int y) { return int{sheet.at(kSize + 4 + x, k * (kSize + 4) + y, 1)}; };
+  int lightest = 0;
+  for (int k = 0; k < 2; ++k)
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) lightest = std::max(lightest, light(k, x, y));
+  const auto deepest = [](const FloatImage& map) { return std::max_element(map.pixels.begin(), map.pixels.end()); };
+  const FloatImage maps[] = {dent(0).depth_mm, dent(1).depth_mm};
+  const int k = *deepest(maps[1]) > *deepest(maps[0]);
+  const auto at = static_cast<int>(deepest(maps[k]) - maps[k].pixels.begin());
+  EXPECT_EQ(light(k, at % kSize, at / kSize), lightest);
+}
+
+TEST_F(Depthnet, RefusesWhatDoesNotBelongTogether) {
+  const std::filesystem::path background = write_images(1);
+  write_file(scratch_ / "net.yaml", kSmall);
+  const std::string config = fmt::format("--config '{}' ", (scratch_ / "net.yaml").string()),
+                    photograph = fmt::format("'{}'", (scratch_ / "dent_0.png").string());
+  EXPECT_EQ(depthnet(""), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("give either --config"));
+  EXPECT_EQ(depthnet(config), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("either --shards or --renders"));
+  EXPECT_EQ(depthnet(config + "--images " + photograph), 2);
+  EXPECT_EQ(depthnet(config + fmt::format("--renders '{}'", (scratch_ / "").string())), 1);
+  EXPECT_THAT(said_, testing::HasSubstr("holds no frames of render"));
+  write_file(scratch_ / "model.pt", "not a network");
+  const std::string model = fmt::format("--model '{}' --images {} ", (scratch_ / "model.pt").string(), photograph);
+  EXPECT_EQ(depthnet(model), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("--background"));
+  EXPECT_EQ(depthnet(model + fmt::format("--background '{}'", background.string())), 1);
+  EXPECT_THAT(said_, testing::HasSubstr("model.pt: is not a network that depthnet wrote"));
+  const DepthnetConfig small = small_config();
+  save_network({.module = make_network(small.network, 1), .sizes = {{kSize, kSize}}}, scratch_ / "model.pt");
+  write_png(scratch_ / "large.png", ByteImage(40, 40, 3));
+  EXPECT_EQ(depthnet(model + fmt::format("--background '{}'", (scratch_ / "large.png").string())), 1);
+  EXPECT_THAT(said_, testing::HasSubstr("has 36 x 36 pixels, its reference 40 x 40"));
+  EXPECT_EQ(depthnet(model + fmt::format("--background '{}'", background.string())), 0) << said_;
+  save_network({.module = make_network(small.network, 1), .sizes = {{48, 64}}}, scratch_ / "model.pt");
+  EXPECT_EQ(depthnet(model + fmt::format("--background '{}'", background.string())), 1);
+  EXPECT_THAT(said_, testing::HasSubstr("has 36 x 36 pixels; the network was trained on images of 64 x 48"));
+  write_file(scratch_ / "list.txt", "a/pack.yaml\n");
+  EXPECT_EQ(depthnet(fmt::format("--model '{0}' --shards '{1}' --background '{2}'", (scratch_ / "model.pt").string(),
+                                 (scratch_ / "list.txt").string(), background.string())),
+            2);
+  EXPECT_THAT(said_, testing::HasSubstr("go with --images"));
+}
+
+TEST_F(Depthnet, LearnsFromADatasetAndIsJudgedByItsTestObjects) {
+  write_shard(scratch_, {"train", "train", "val", "test"});
+  write_file(scratch_ / "net.yaml", kSmall);
+  const std::string shards = fmt::format("--shards '{}' ", (scratch_ / "shards/shards.txt").string());
+  ASSERT_EQ(depthnet(shards + fmt::format("--config '{}'", (scratch_ / "net.yaml").string())), 0) << said_;
+  const Record trained = Record::from_file(scratch_ / "out/depthnet.yaml");
+  EXPECT_EQ(trained.section("summary").required_count("images"), 4);
+  EXPECT_EQ(trained.section("summary").required_count("validation_images"), 2);
+  EXPECT_THAT(read_file(scratch_ / "out/depthnet.yaml"), testing::HasSubstr("shards/one"));
+  std::filesystem::rename(scratch_ / "out/model.pt", scratch_ / "model.pt");
+  const std::string judge = shards + fmt::format("--model '{}'", (scratch_ / "model.pt").string());
+  ASSERT_EQ(depthnet(judge), 0) << said_;
+  const Record judged = Record::from_file(scratch_ / "out/depthnet.yaml").section("summary").section("pressed");
+  EXPECT_EQ(judged.required_count("images"), 2);
+  // The same by hand.
+  const TrainedNetwork network = load_network(scratch_ / "model.pt");
+  double mean = 0.0;
+  for (const std::size_t i : {6, 7}) {
+    const DepthImage image = dent(i);
+    const FloatImage depth = network.depth_mm(image.name, image.image, image.reference);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < depth.pixels.size(); ++k)
+      if (image.depth_mm.pixels[k] > 0.02F) sum += std::abs(depth.pixels[k] - image.depth_mm.pixels[k]), count += 1.0;
+    mean += 0.5 * sum / count;
+  }
+  EXPECT_NEAR(judged.section("mae_mm").required_number("mean"), mean, 1e-6);
+  const ByteImage sheet = read_png(scratch_ / "out/sheet.png", 3);
+  EXPECT_EQ(sheet.width, 4 * kSize + 12);
+  EXPECT_EQ(sheet.height, 2 * kSize + 4);
+  write_shard(scratch_, {"train"});
+  EXPECT_EQ(depthnet(judge), 1);
+  EXPECT_THAT(said_, testing::HasSubstr("shards.txt: names no images with contact of the split test"));
+}
+
+}  // namespace
+}  // namespace tacipc

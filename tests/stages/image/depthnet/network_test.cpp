@@ -1,0 +1,54 @@
+#include "stages/image/depthnet/network.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/base/error.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc {
+namespace {
+
+TEST(TrainedNetwork, EnlargesItsAnswerToTheImageAndIsTheSameWhenRead) {
+  stay_in_this_thread();
+  const ScratchFolder scratch;
+  for (const int reduction : {1, 2, 3}) {
+    const torch::jit::Module module = make_network({.levels = 2, .base_channels = 6, .reduction = reduction}, 1);
+    ByteImage image(31, 22, 3, 90), reference(31, 22, 3, 100);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(60 + i % 97);
+    save_network({.module = module, .sizes = {{22, 31}, {48, 64}}}, scratch / "model.pt");
+    const TrainedNetwork network = load_network(scratch / "model.pt");
+    EXPECT_EQ(network.sizes, (std::vector<ImageSize>{{22, 31}, {48, 64}}));
+    const FloatImage depth = network.depth_mm("a", image, reference);
+    // Each pixel lies between the network's own, by the place of its centre.
+    const torch::NoGradGuard no_gradients;
+    const torch::Tensor small =
+        module
+            .get_method("indentation")(
+                {module.get_method("reduced")({tensor_of(image), tensor_of(reference)}).toTensor()})
+            .toTensor()[0][0];
+    ASSERT_EQ(small.size(0), (22 + reduction - 1) / reduction);
+    ASSERT_EQ(small.size(1), (31 + reduction - 1) / reduction);
+    for (int y = 0; y < 22; ++y)
+      for (int x = 0; x < 31; ++x) {
+        const double u = std::max(0.0, (x + 0.5) / reduction - 0.5), v = std::max(0.0, (y + 0.5) / reduction - 0.5);
+        const auto at = [&](int j, int i) {
+          return double{
+              small[std::min<std::int64_t>(j, small.size(0) - 1)][std::min<std::int64_t>(i, small.size(1) - 1)]
+                  .item<float>()};
+        };
+        const int i = static_cast<int>(u), j = static_cast<int>(v);
+        const double p = u - i, q = v - j;
+        EXPECT_NEAR(
+            depth.at(x, y, 0),
+            (1 - q) * ((1 - p) * at(j, i) + p * at(j, i + 1)) + q * ((1 - p) * at(j + 1, i) + p * at(j + 1, i + 1)),
+            1e-5)
+            << reduction << ' ' << x << ' ' << y;
+      }
+  }
+  EXPECT_THROW(load_network(scratch / "model.pt").depth_mm("a", ByteImage(30, 22, 3), ByteImage(30, 22, 3)), DataError);
+}
+
+}  // namespace
+}  // namespace tacipc
