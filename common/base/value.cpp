@@ -24,7 +24,11 @@ struct Emit {
   void operator()(bool value) const { out << value; }
   void operator()(std::int64_t value) const { out << value; }
   void operator()(double value) const { out << number_text(value); }
-  void operator()(const std::string& value) const { out << value; }
+  void operator()(const std::string& value) const {
+    // yaml-cpp would write it plain, and read it back as a line's end.
+    if (value.find('\r') != std::string::npos) out << YAML::DoubleQuoted;
+    out << value;
+  }
   void operator()(const Value::List& list) const {
     bool scalars = true;
     for (const Value& item : list) scalars = scalars && item.data().index() < 4;
@@ -36,7 +40,9 @@ struct Emit {
   void operator()(const Value::Map& map) const {
     out << YAML::BeginMap;
     for (const auto& [key, item] : map) {
-      out << YAML::Key << key << YAML::Value;
+      out << YAML::Key;
+      (*this)(key);
+      out << YAML::Value;
       std::visit(*this, item.data());
     }
     out << YAML::EndMap;

@@ -25,6 +25,22 @@ std::string ConfigReader::Node::path() const {
   return joined_path(parent->path(), parent->entries[place].key);
 }
 
+namespace {
+
+/// yaml-cpp reads the escapes \N and \_ (U+0085, U+00A0) as one byte each, of text that is otherwise UTF-8.
+std::string with_whole_characters(std::string_view text) {
+  std::string whole;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) whole += '\xC2';
+    whole += text.substr(at, std::max<std::size_t>(length, 1));
+    at += std::max<std::size_t>(length, 1);
+  }
+  return whole;
+}
+
+}  // namespace
+
 /// Builds the tree from what yaml-cpp parses, part by part: what is beyond a limit is refused before it is built.
 struct ConfigReader::Convert final : YAML::EventHandler {
   static constexpr std::size_t kMaxDepth = 32;
@@ -83,8 +99,8 @@ struct ConfigReader::Convert final : YAML::EventHandler {
     node->kind = kind;
     node->line = mark.line + 1;  // yaml-cpp counts from zero
     node->column = mark.column + 1;
-    node->scalar = text;
-    count(mark, text.size());
+    node->scalar = with_whole_characters(text);
+    count(mark, node->scalar.size());
     Node* added = attach(std::move(node), mark);
     if (anchor != YAML::NullAnchor) anchors_[anchor] = added;
     return added;

@@ -142,6 +142,22 @@ TEST(ConfigReader, ContentIsAllThatIsWritten) {
   EXPECT_EQ(to_yaml(in.content()), "a: 1.50\nb:\n  c:\n    - 1.50\n    - d: \"\"\n  a: yes\n");
 }
 
+TEST(ConfigReader, WhatIsWrittenIsReadBack) {
+  // Two escapes that yaml-cpp reads as bytes that are no UTF-8, and a carriage return, which it would write plain.
+  const auto in = ConfigReader::from_text("next line: \"a\\Nb\"\nblank: \"a\\_b\"\n\"k\\r\": \"a\\rb\"\n", "gel.yaml");
+  const Value::Map content = in.content().map();
+  EXPECT_EQ(std::get<std::string>(content[0].second.data()),
+            "a\xC2\x85"
+            "b");
+  EXPECT_EQ(std::get<std::string>(content[1].second.data()),
+            "a\xC2\xA0"
+            "b");
+  EXPECT_EQ(std::get<std::string>(content[2].second.data()), "a\rb");
+  const auto again = ConfigReader::from_text(to_yaml(in.content()), "again.yaml");
+  EXPECT_EQ(to_yaml(again.content()), to_yaml(in.content()));
+  EXPECT_EQ(again.content().map()[2].first, "k\r");
+}
+
 TEST(ConfigReader, SuggestsTheNearestChoice) {
   EXPECT_THAT(
       faults_when("law: neo_hokean",
