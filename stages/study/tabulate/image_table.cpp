@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/format/csv.h"
 #include "stages/study/tabulate/markdown.h"
@@ -55,17 +56,41 @@ std::string named(const MeasuredRow& row) {
   return markdown_cell(row.name) + (row.group.empty() ? "" : " (" + markdown_cell(row.group) + ")");
 }
 
+/// The difference of two rows with several runs each over its deviation from run to run, √(s₁² + s₂²); of geometric
+/// columns that of the logarithms.
+std::string difference_in_deviations(const MethodScores& row, const MethodScores& against, const Finding& finding,
+                                     const ImageTableConfig& config) {
+  if (row.runs == 1 || against.runs == 1) return "";
+  const bool geometric = std::find_if(config.columns.begin(), config.columns.end(), [&](const ShownColumn& shown) {
+                           return shown.column == finding.column;
+                         })->geometric;
+  const auto value = [&](double number) { return geometric ? std::log(number) : number; };
+  const MeanDeviation &a = row.cell(finding.region, finding.column), &b = against.cell(finding.region, finding.column);
+  return fmt::format(
+      " (the difference is {} times its deviation from run to run)",
+      markdown_number(std::abs(value(a.mean) - value(b.mean)) / std::hypot(value(a.deviation), value(b.deviation)), 1));
+}
+
 /// `- <region>, <column>: <row> 0.62 times <row>: <what that means>`
 std::string sentence(const Finding& finding, const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
   const MethodScores &row = row_in(rows, finding.row), &against = row_in(rows, finding.against);
   const double ratio =
       row.cell(finding.region, finding.column).mean / against.cell(finding.region, finding.column).mean;
   const bool same_group = row.row.group == against.row.group;
-  return fmt::format("- {}, {}: {} has {} times that of {}: {}\n",
+  return fmt::format("- {}, {}: {} has {} times that of {}{}: {}\n",
                      markdown_cell(heading_of(config.regions, &ShownRegion::region, finding.region)),
                      markdown_cell(heading_of(config.columns, &ShownColumn::column, finding.column)), named(row.row),
                      markdown_number(ratio, 2), same_group ? markdown_cell(against.row.name) : named(against.row),
+                     difference_in_deviations(row, against, finding, config),
                      ratio < 1.0 ? finding.below : finding.above);
+}
+
+/// How many runs the rows have where they have several; a deviation over runs is another thing than one over images.
+std::string of_runs(const std::vector<MethodScores>& rows) {
+  std::string text;
+  for (const MethodScores& row : rows)
+    if (row.runs > 1) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", row.runs, markdown_cell(row.row.name));
+  return text.empty() ? "" : "; of rows with several runs over the means of these (" + text + ")";
 }
 
 }  // namespace
@@ -73,8 +98,8 @@ std::string sentence(const Finding& finding, const std::vector<MethodScores>& ro
 std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
   std::string text;
   for (const ShownRegion& region : config.regions) text += region_table(region, rows, config) + "\n";
-  text += fmt::format("{}: mean ± standard deviation over {} images.", markdown_cell(config.title),
-                      rows.front().images.size());
+  text += fmt::format("{}: mean ± standard deviation over {} images{}.", markdown_cell(config.title),
+                      rows.front().images.size(), of_runs(rows));
   if (config.printed) text += fmt::format(" Printed numbers: {}.", config.printed->source);
   text += "\n";
   text += markdown_paragraph(config.caption);

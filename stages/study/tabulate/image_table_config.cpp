@@ -96,8 +96,8 @@ ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
     refuse_repeats(item, "column", config.columns, &ShownColumn::column);
   }
   for (ConfigReader& item : in.one_or_more_sections("regions")) {
-    config.regions.push_back(
-        {.region = item.choice("region", {"full", "crop", "box", "pressed"}), .heading = item.text("heading")});
+    config.regions.push_back({.region = item.choice("region", {"full", "crop", "box", "pressed", "beside"}),
+                              .heading = item.text("heading")});
     refuse_repeats(item, "region", config.regions, &ShownRegion::region);
   }
   for (ConfigReader& item : in.one_or_more_sections("rows")) {

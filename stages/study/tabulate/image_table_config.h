@@ -21,11 +21,11 @@ struct ShownColumn {
 
 /// A part of the images that gets a table of its own.
 struct ShownRegion {
-  std::string region;  // full, crop, box; of depth maps full, pressed
+  std::string region;  // full, crop, box; of depth maps full, pressed, beside
   std::string heading;
 };
 
-/// A method measured here: the samples.csv that was given for it.
+/// A method measured here: the samples.csv that was given for it, or those of its runs.
 struct MeasuredRow {
   std::string name;
   std::string method;

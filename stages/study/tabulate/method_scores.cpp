@@ -27,8 +27,8 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
   return names;
 }
 
-MethodScores read_method(const fs::path& table, const MeasuredRow& row, const std::vector<ShownRegion>& regions,
-                         const std::vector<ShownColumn>& columns) {
+MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::vector<ShownRegion>& regions,
+                      const std::vector<ShownColumn>& columns) {
   MethodScores scores{.row = row, .images = {}, .cells = {}};
   std::map<std::string, std::vector<std::string>> images;  // by region
   CsvReader csv(table);
@@ -60,6 +60,37 @@ MethodScores read_method(const fs::path& table, const MeasuredRow& row, const st
   return scores;
 }
 
+/// Means over the images of each run, and of each image over the runs.
+MethodScores read_method(const std::vector<fs::path>& tables, const MeasuredRow& row,
+                         const std::vector<ShownRegion>& regions, const std::vector<ShownColumn>& columns) {
+  MethodScores scores = read_run(tables.front(), row, regions, columns);
+  if (tables.size() == 1) return scores;
+  scores.runs = tables.size();
+  std::vector<MethodScores> runs{scores};
+  for (std::size_t run = 1; run < tables.size(); ++run) {
+    runs.push_back(read_run(tables[run], row, regions, columns));
+    if (runs.back().images != scores.images)
+      throw DataError("{}: has other images, or another order of them, than {}", tables[run].string(),
+                      tables.front().string());
+  }
+  const auto over_runs = [&](const auto& value, bool geometric) {
+    std::vector<double> values;
+    for (const MethodScores& run : runs) values.push_back(value(run));
+    return mean_of(values, geometric);
+  };
+  for (const auto& [region, heading] : regions)
+    for (const ShownColumn& shown : columns) {
+      const auto key = std::pair{region, shown.column};
+      auto& cell = scores.cells[key];
+      static_cast<MeanDeviation&>(cell) =
+          over_runs([&](const MethodScores& run) { return run.cells.at(key).mean; }, shown.geometric);
+      for (std::size_t i = 0; i < cell.values.size(); ++i)
+        cell.values[i] =
+            over_runs([&](const MethodScores& run) { return run.cells.at(key).values[i]; }, shown.geometric).mean;
+    }
+  return scores;
+}
+
 /// Which images one of two lists has and the other has not, for a message.
 std::string difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   std::vector<std::string> only;
@@ -72,10 +103,12 @@ std::string difference(const std::vector<std::string>& a, const std::vector<std:
 std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, const std::vector<MeasuredRow>& rows,
                                        const std::vector<ShownRegion>& regions,
                                        const std::vector<ShownColumn>& columns) {
-  std::map<std::string, fs::path> by_method;
+  std::map<std::string, std::vector<fs::path>> by_method;
   for (const auto& [method, table] : tables) {
-    const auto [place, fresh] = by_method.emplace(method, table);
-    if (!fresh) throw DataError("{} and {}: are both given for {}", place->second.string(), table.string(), method);
+    auto& runs = by_method[method];
+    if (std::find(runs.begin(), runs.end(), table) != runs.end())
+      throw DataError("{}: is given twice for {}", table.string(), method);
+    runs.push_back(table);
   }
   std::vector<MethodScores> methods;
   for (const MeasuredRow& row : rows) {
@@ -85,11 +118,11 @@ std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, con
     const auto first = sorted(methods.front().images), these = sorted(methods.back().images);
     if (these != first)
       throw DataError("{}: was measured on other images than the first row; {} is only in one of them",
-                      place->second.string(), difference(these, first));
+                      place->second.front().string(), difference(these, first));
     by_method.erase(place);
   }
   if (!by_method.empty())
-    throw DataError("{}: no row of the configuration has the method {}", by_method.begin()->second.string(),
+    throw DataError("{}: no row of the configuration has the method {}", by_method.begin()->second.front().string(),
                     by_method.begin()->first);
   return methods;
 }

@@ -1,4 +1,4 @@
-// What `metrics` measured, method by method, with means and standard deviations.
+// What `metrics` measured, method by method, with means and standard deviations: over the images, or over runs.
 #pragma once
 
 #include <map>
@@ -16,18 +16,20 @@ namespace tacipc {
 struct MethodScores {
   /// Of geometric columns exp(mean ln) and exp(deviation of ln), a factor.
   struct Cell : MeanDeviation {
-    std::vector<double> values;  // of each image
+    std::vector<double> values;  // of each image, mean over the runs
   };
   MeasuredRow row;
+  std::size_t runs = 1;
   std::vector<std::string> images;                            // in the order of samples.csv, the same in all regions
   std::map<std::pair<std::string, std::string>, Cell> cells;  // by region and column of samples.csv
 
   const Cell& cell(const std::string& region, const std::string& column) const { return cells.at({region, column}); }
 };
 
-/// The samples.csv of metrics, given by their methods, in the order of the rows. \throw DataError if a row has no
-/// table, a table no row, a table lacks a column or region or has an image twice, or regions or methods were not
-/// measured on images of the same names
+/// The samples.csv of metrics, given by their methods, in the order of the rows. Several of one method are its runs:
+/// mean and deviation are then those of their means over the images. \throw DataError if a row has no table, a table no
+/// row, a table lacks a column or region or has an image twice, or regions, methods or runs were not measured on images
+/// of the same names
 std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, const std::vector<MeasuredRow>& rows,
                                        const std::vector<ShownRegion>& regions,
                                        const std::vector<ShownColumn>& columns);

@@ -48,6 +48,29 @@ TEST(ImageTable, GeometricMeansHaveAFactor) {
   EXPECT_NE(text.find("| first | 0.250 ± 0.000 | 40.0 ×÷ 2.0 |\n"), std::string::npos) << text;
 }
 
+TEST(ImageTable, RowsOfSeveralRunsSaySoAndFindingsCountTheirDeviation) {
+  const ScratchFolder scratch;
+  auto config =
+      small_table("findings: [{region: box, column: psnr_ln, row: a, against: b, below: less., above: more.}]\n");
+  std::vector<NamedPath> tables;
+  for (const auto& [method, last] : std::vector<std::pair<std::string, std::string>>{
+           {"a", "20"}, {"a", "32"}, {"b", "40"}, {"b", "56"}})  // means 20, 26; 30, 38
+    tables.push_back({.name = method, .path = samples_of(scratch, method + last, last).path});
+  std::string text = to_markdown(read_methods(tables, config), config);
+  EXPECT_NE(text.find("| first | 0.250 ± 0.000 | 23.0 ± 3.0 |\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("over 2 images; of rows with several runs over the means of these (2 first, 2 second).\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("PSNR ln: first has 0.68 times that of second (others) (the difference is 2.2 times its "
+                      "deviation from run to run): less.\n"),  // 11 / 5
+            std::string::npos)
+      << text;
+  config.columns[1].geometric = true;
+  tables.pop_back();
+  text = to_markdown(read_methods(tables, config), config);
+  EXPECT_EQ(text.find("from run to run"), std::string::npos) << text;  // one run has none
+}
+
 TEST(ImageTable, FindingsCompareTwoRows) {
   const ScratchFolder scratch;
   const auto config = small_table(

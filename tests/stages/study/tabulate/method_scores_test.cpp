@@ -32,6 +32,20 @@ TEST(MethodScores, RatiosHaveGeometricMeans) {
   EXPECT_DOUBLE_EQ(rows[0].cell("box", "ssim_s").mean, 0.25);
 }
 
+TEST(MethodScores, OfSeveralRunsAreMeansOverTheirMeans) {
+  const ScratchFolder scratch;
+  auto second = samples_of(scratch, "a_second", "50");
+  second.name = "a";
+  const auto rows = read_methods({samples_of(scratch, "a", "30"), samples_of(scratch, "b"), second}, small_table());
+  EXPECT_EQ(rows[0].runs, 2u);
+  EXPECT_EQ(rows[1].runs, 1u);
+  const auto& box = rows[0].cell("box", "psnr_ln");  // images 20 and 30, then 20 and 50
+  EXPECT_DOUBLE_EQ(box.mean, 30.0);
+  EXPECT_DOUBLE_EQ(box.deviation, 5.0);
+  EXPECT_EQ(box.values, (std::vector<double>{20.0, 40.0}));
+  EXPECT_DOUBLE_EQ(rows[0].cell("full", "ssim_s").deviation, 0.0);  // though its images differ
+}
+
 TEST(MethodScores, RefuseWhatDoesNotBelongTogether) {
   const ScratchFolder scratch;
   const auto a = samples_of(scratch, "a"), b = samples_of(scratch, "b"), c = samples_of(scratch, "c");
@@ -40,7 +54,7 @@ TEST(MethodScores, RefuseWhatDoesNotBelongTogether) {
   };
   EXPECT_EQ(said({a}, small_table()), "row 'second': no table was given for b");
   EXPECT_EQ(said({a, b, c}, small_table()), c.path.string() + ": no row of the configuration has the method c");
-  EXPECT_EQ(said({a, a}, small_table()), a.path.string() + " and " + a.path.string() + ": are both given for a");
+  EXPECT_EQ(said({a, a}, small_table()), a.path.string() + ": is given twice for a");
 
   auto lacking = small_table();
   lacking.columns[0].column = "depth";
@@ -57,6 +71,11 @@ TEST(MethodScores, RefuseWhatDoesNotBelongTogether) {
   EXPECT_EQ(said({a, b}, small_table()), b.path.string() + ": region box has other images than region full");
   scratch.file("b/samples.csv", head + "x.png,full,1,1\nx.png,full,1,1\n");
   EXPECT_EQ(said({a, b}, small_table()), b.path.string() + ": x.png is there twice in region full");
+  auto other = samples_of(scratch, "other");
+  scratch.file("other/samples.csv", head + "y.png,full,1,1\ny.png,box,1,1\nx.png,full,1,1\nx.png,box,1,1\n");
+  other.name = "a";
+  EXPECT_EQ(said({a, other, c}, small_table()),
+            other.path.string() + ": has other images, or another order of them, than " + a.path.string());
   scratch.file("b/samples.csv", head + "x.png,full,many,1\n");
   EXPECT_EQ(said({a, b}, small_table()), b.path.string() + ":2: psnr_ln: 'many' is not a number");
 }
