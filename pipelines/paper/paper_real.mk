@@ -4,7 +4,7 @@
 $(call uses,paper/sim2real paper/paper)
 
 .PHONY: paper-real
-ifneq ($(filter paper-real paper-fragment-real,$(MAKECMDGOALS)),)
+ifneq ($(filter paper-real paper-fragment-real depth-rivals,$(MAKECMDGOALS)),)
 PAPER_REAL := $(OUT)/paper/real/$(cases_name)
 PAPER_CONFIGS := $(basename $(CASES))
 PAPER_TABLE := $(PAPER_CONFIGS)/table.yaml
@@ -31,8 +31,6 @@ $(PAPER_REAL)/tacchi/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.y
 $(PAPER_REAL)/tacchi/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/mpm.yaml) $(CASES_CALIBRATE) | build
 	$(call run,calibrate,$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/frame_0001/seen_indentation.exr))
 
-# $(call paper_frames,object,folder,first frame,file): one per photograph
-paper_frames = $(foreach k,$(shell seq -f %04.0f $(3) $$(($(3) + $(words $(CASES_IMAGES_$(1))) - 1))),$(2)/frame_$(k)/$(4))
 # $(call paper_shade,method,object,light's record,record of the shapes,shapes)
 define paper_shade
 $(PAPER_REAL)/simulated/$(1)/$(2)/shade.yaml: $(4) $(3) | build
@@ -44,11 +42,10 @@ $(PAPER_REAL)/legacy/$(1)/$(2)/baseline.yaml: $(4) $(PAPER_CONFIGS)/legacy_$(3).
 	$$(call run,baseline,--config $(PAPER_CONFIGS)/legacy_$(3).yaml --sensor $(CASES_SENSOR) --background $(cases_background) $(5))
 $(PAPER_REAL)/simulated/$(1)/$(2)/shade.yaml: $(PAPER_REAL)/legacy/$(1)/$(2)/baseline.yaml
 	mkdir -p $$(@D)
-	frames=($(call paper_frames,$(2),$(PAPER_REAL)/legacy/$(1)/$(2),0,tactile.png)); i=0; \
+	frames=($(call cases_frames,$(2),$(PAPER_REAL)/legacy/$(1)/$(2),0,tactile.png)); i=0; \
 	for image in $(CASES_IMAGES_$(2)); do cp "$$$${frames[i]}" $$(@D)/$$$$image.png; i=$$$$((i + 1)); done
 	touch $$@
 endef
-paper_object = --object $(SIM2REAL)/objects/$(1)/indenter/object.ply --object-config configs/objects/embossed.yaml --pose $(SIM2REAL)/ours/$(1)/object_pose.npy
 define paper_objects
 $(PAPER_REAL)/tacchi/objects/$(1)/motion.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(SIM2REAL)/cases/cases.yaml
 	mkdir -p $$(@D)
@@ -56,13 +53,13 @@ $(PAPER_REAL)/tacchi/objects/$(1)/motion.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml 
 	echo "placement: {center_mm: [$$$$x, $$$$y], rotate_deg: $$$$yaw}" > $$@
 	cat $(SIM2REAL)/cases/objects/$(1)/motion.yaml >> $$@
 $(call paper_mpm,$(PAPER_REAL)/tacchi/objects/$(1),$(SIM2REAL)/objects/$(1)/indenter)
-$(call paper_shade,tacchi,$(1),$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call paper_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
-$(call paper_shade,tacchi-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call paper_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
-$(call paper_shade,depth-based-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(SIM2REAL)/rival/objects/$(1)/baseline.yaml,$(call paper_frames,$(1),$(SIM2REAL)/rival/objects/$(1),0,indentation.exr))
+$(call paper_shade,tacchi,$(1),$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call cases_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
+$(call paper_shade,tacchi-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call cases_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
+$(call paper_shade,depth-based-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(SIM2REAL)/rival/objects/$(1)/baseline.yaml,$(call cases_frames,$(1),$(SIM2REAL)/rival/objects/$(1),0,indentation.exr))
 $(call paper_legacy,legacy-ours,$(1),tacchi,$(SIM2REAL)/ours/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(SIM2REAL)/ours/$(1)/depth/$(i).exr))
 $(call paper_legacy,legacy-tacchi,$(1),tacchi,$(PAPER_REAL)/simulated/tacchi/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(PAPER_REAL)/simulated/tacchi/$(1)/depth/$(i).exr))
-$(call paper_legacy,legacy-depth-based,$(1),gomes_2021,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call paper_object,$(1)))
-$(call paper_legacy,legacy-exponential,$(1),exponential_13,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call paper_object,$(1)))
+$(call paper_legacy,legacy-depth-based,$(1),gomes_2021,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call cases_posed,$(1)))
+$(call paper_legacy,legacy-exponential,$(1),exponential_13,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call cases_posed,$(1)))
 endef
 $(foreach o,$(CASES_OBJECTS),$(eval $(call paper_objects,$(o))))
 

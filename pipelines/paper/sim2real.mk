@@ -8,7 +8,7 @@ cases_name := $(basename $(notdir $(CASES)))
 SIM2REAL := $(OUT)/sim2real/$(cases_name)
 
 .PHONY: sim2real sim2real-page
-ifneq ($(filter sim2real sim2real-page paper-real paper-fragment-real,$(MAKECMDGOALS)),)
+ifneq ($(filter sim2real sim2real-page paper-real paper-fragment-real depth-rivals depth-networks,$(MAKECMDGOALS)),)
 $(call check_name,CASES)
 $(call check_name,SHARED)
 ifeq ($(wildcard $(CASES)),)
@@ -34,6 +34,9 @@ cases_background := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.png,$(call c
 cases_labels := $(if $(CASES_TABLE),$(SIM2REAL)/cases/labels.txt,$(call cases_data,$(CASES_LABELS)))
 # Contacts of the ball that calibrates need no press of their own.
 cases_press = $(SIM2REAL)/$(if $(CASES_TABLE),ball,objects/$(1))
+# An object where our fit has put it, frame after frame; and a file of each of these frames: $(call cases_frames,object,folder,first frame,file), one per photograph.
+cases_posed  = --object $(call cases_press,$(1))/indenter/object.ply --object-config configs/objects/embossed.yaml --pose $(SIM2REAL)/ours/$(1)/object_pose.npy
+cases_frames = $(foreach k,$(shell seq -f %04.0f $(3) $$(($(3) + $(words $(CASES_IMAGES_$(1))) - 1))),$(2)/frame_$(k)/$(4))
 CASES_ALL = $(foreach o,$(CASES_OBJECTS),$(CASES_IMAGES_$(o)))
 
 $(SIM2REAL)/gel/tetmesh.yaml: $(CASES_SENSOR) $(CASES_MESH) | build
@@ -76,8 +79,7 @@ $(SIM2REAL)/ours/$(1)/shade.yaml: $(call cases_press,$(1))/press/press.yaml $(SI
 	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/calibrate/light.yaml --press $(call cases_press,$(1))/press \
 	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)))
 $(SIM2REAL)/rival/objects/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(CASES_BASELINE) | build
-	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(call cases_press,$(1))/indenter/object.ply \
-	  --object-config configs/objects/embossed.yaml --pose $(SIM2REAL)/ours/$(1)/object_pose.npy)
+	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) $(call cases_posed,$(1)))
 $(SIM2REAL)/depth-based/$(1)/shade.yaml: $(SIM2REAL)/rival/objects/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml | build
 	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/rival/calibrate/light.yaml \
 	  --shapes $(SIM2REAL)/rival/objects/$(1)/frame_*/indentation.exr)

@@ -48,6 +48,8 @@ ComparisonConfig ComparisonConfig::read(ConfigReader& in) {
 std::vector<MethodScores> read_comparison(const std::vector<NamedPath>& tables, const ComparisonConfig& config,
                                           const BenchmarkCases& cases) {
   auto methods = read_methods(tables, config.rows, kRegions, kColumns);
+  for (const MethodScores& method : methods)
+    if (method.runs > 1) throw DataError("{}: a comparison takes one table for each method", method.row.method);
   std::size_t images = 0;
   for (const ObjectCase& object : cases.objects) {
     images += object.images.size();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/format/csv.h"
 #include "stages/study/tabulate/markdown.h"
@@ -56,41 +57,51 @@ std::string named(const MeasuredRow& row) {
   return markdown_cell(row.name) + (row.group.empty() ? "" : " (" + markdown_cell(row.group) + ")");
 }
 
-/// The difference of two rows with several runs each over its deviation from run to run, √(s₁² + s₂²); of geometric
-/// columns that of the logarithms.
-std::string difference_in_deviations(const MethodScores& row, const MethodScores& against, const Finding& finding,
-                                     const ImageTableConfig& config) {
-  if (row.runs == 1 || against.runs == 1) return "";
+/// Of two rows with several runs, how often their difference is the deviation that it has between single runs,
+/// √(s₁² + s₂²) with s² = Σ (mean of a run − mean of all)² / (runs − 1); of geometric columns by logarithms. None of
+/// single runs, or where all runs agree.
+std::optional<double> difference_in_deviations(const MethodScores& row, const MethodScores& against,
+                                               const Finding& finding, const ImageTableConfig& config) {
+  if (row.runs == 1 || against.runs == 1) return std::nullopt;
   const bool geometric = std::find_if(config.columns.begin(), config.columns.end(), [&](const ShownColumn& shown) {
                            return shown.column == finding.column;
                          })->geometric;
   const auto value = [&](double number) { return geometric ? std::log(number) : number; };
-  const MeanDeviation &a = row.cell(finding.region, finding.column), &b = against.cell(finding.region, finding.column);
-  return fmt::format(
-      " (the difference is {} times its deviation from run to run)",
-      markdown_number(std::abs(value(a.mean) - value(b.mean)) / std::hypot(value(a.deviation), value(b.deviation)), 1));
+  const auto mean_of = [&](const MethodScores& of) { return value(of.cell(finding.region, finding.column).mean); };
+  const auto deviation_of = [&](const MethodScores& of) {
+    const auto runs = static_cast<double>(of.runs);
+    return value(of.cell(finding.region, finding.column).deviation) * std::sqrt(runs / (runs - 1.0));
+  };
+  const double deviation = std::hypot(deviation_of(row), deviation_of(against));
+  if (!(deviation > 0.0)) return std::nullopt;
+  return std::abs(mean_of(row) - mean_of(against)) / deviation;
 }
 
 /// `- <region>, <column>: <row> 0.62 times <row>: <what that means>`
 std::string sentence(const Finding& finding, const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
+  constexpr double kClear = 2.0;  // deviations
   const MethodScores &row = row_in(rows, finding.row), &against = row_in(rows, finding.against);
   const double ratio =
       row.cell(finding.region, finding.column).mean / against.cell(finding.region, finding.column).mean;
   const bool same_group = row.row.group == against.row.group;
-  return fmt::format("- {}, {}: {} has {} times that of {}{}: {}\n",
-                     markdown_cell(heading_of(config.regions, &ShownRegion::region, finding.region)),
-                     markdown_cell(heading_of(config.columns, &ShownColumn::column, finding.column)), named(row.row),
-                     markdown_number(ratio, 2), same_group ? markdown_cell(against.row.name) : named(against.row),
-                     difference_in_deviations(row, against, finding, config),
-                     ratio < 1.0 ? finding.below : finding.above);
+  std::string text =
+      fmt::format("- {}, {}: {} has {} times that of {}",
+                  markdown_cell(heading_of(config.regions, &ShownRegion::region, finding.region)),
+                  markdown_cell(heading_of(config.columns, &ShownColumn::column, finding.column)), named(row.row),
+                  markdown_number(ratio, 2), same_group ? markdown_cell(against.row.name) : named(against.row));
+  const std::string meaning = ratio < 1.0 ? finding.below : finding.above;
+  const auto deviations = difference_in_deviations(row, against, finding, config);
+  if (!deviations) return text + ": " + meaning + "\n";
+  text += fmt::format(", a difference of {} deviations between single runs: ", markdown_number(*deviations, 1));
+  return text + (*deviations < kClear ? "not clear." : meaning) + "\n";
 }
 
-/// How many runs the rows have where they have several; a deviation over runs is another thing than one over images.
+/// How many runs the rows have where they have several.
 std::string of_runs(const std::vector<MethodScores>& rows) {
   std::string text;
   for (const MethodScores& row : rows)
-    if (row.runs > 1) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", row.runs, markdown_cell(row.row.name));
-  return text.empty() ? "" : "; of rows with several runs over the means of these (" + text + ")";
+    if (row.runs > 1) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", markdown_cell(row.row.name), row.runs);
+  return text.empty() ? "" : "; in rows of several runs, over the runs' means (" + text + ")";
 }
 
 }  // namespace
@@ -111,20 +122,20 @@ std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableC
 }
 
 std::string to_csv(const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
-  std::string text = csv_line({"row", "group", "region", "column", "images", "mean", "std", "source"});
+  std::string text = csv_line({"row", "group", "region", "column", "images", "runs", "mean", "std", "source"});
   for (const ShownRegion& region : config.regions)
     for (const MethodScores& row : rows)
       for (const ShownColumn& column : config.columns) {
         const MeanDeviation& cell = row.cell(region.region, column.column);
-        text +=
-            csv_line({row.row.name, row.row.group, region.region, column.column, fmt::format("{}", row.images.size()),
-                      fmt::format("{}", cell.mean), fmt::format("{}", cell.deviation), ""});
+        text += csv_line({row.row.name, row.row.group, region.region, column.column,
+                          fmt::format("{}", row.images.size()), fmt::format("{}", row.runs),
+                          fmt::format("{}", cell.mean), fmt::format("{}", cell.deviation), ""});
       }
   if (!config.printed) return text;
   for (const PrintedRow& row : config.printed->rows)
     for (const auto& [column, value] : row.values)
       text += csv_line(
-          {row.name, config.printed->label, config.printed->region, column, "", value, "", config.printed->source});
+          {row.name, config.printed->label, config.printed->region, column, "", "", value, "", config.printed->source});
   return text;
 }
 

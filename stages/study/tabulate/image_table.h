@@ -13,8 +13,9 @@ namespace tacipc {
 /// sheets. Characters that Markdown takes for a cell's end are escaped.
 std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config);
 
-/// One line per number: `row,group,region,column,images,mean,std,source`. Measured numbers are in the shortest form
-/// that reads back to the same bits and have no source; printed ones have no number of images and no deviation.
+/// One line per number: `row,group,region,column,images,runs,mean,std,source`; std is over the runs if there are
+/// several, else over the images. Measured numbers are in the shortest form that reads back to the same bits and have
+/// no source; printed ones have no number of images or runs and no deviation.
 std::string to_csv(const std::vector<MethodScores>& rows, const ImageTableConfig& config);
 
 }  // namespace tacipc

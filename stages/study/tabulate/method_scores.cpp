@@ -106,7 +106,8 @@ std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, con
   std::map<std::string, std::vector<fs::path>> by_method;
   for (const auto& [method, table] : tables) {
     auto& runs = by_method[method];
-    if (std::find(runs.begin(), runs.end(), table) != runs.end())
+    const auto same = [&](const fs::path& run) { return run.lexically_normal() == table.lexically_normal(); };
+    if (std::any_of(runs.begin(), runs.end(), same))
       throw DataError("{}: is given twice for {}", table.string(), method);
     runs.push_back(table);
   }

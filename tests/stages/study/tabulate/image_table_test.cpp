@@ -50,25 +50,36 @@ TEST(ImageTable, GeometricMeansHaveAFactor) {
 
 TEST(ImageTable, RowsOfSeveralRunsSaySoAndFindingsCountTheirDeviation) {
   const ScratchFolder scratch;
-  auto config =
-      small_table("findings: [{region: box, column: psnr_ln, row: a, against: b, below: less., above: more.}]\n");
-  std::vector<NamedPath> tables;
-  for (const auto& [method, last] : std::vector<std::pair<std::string, std::string>>{
-           {"a", "20"}, {"a", "32"}, {"b", "40"}, {"b", "56"}})  // means 20, 26; 30, 38
-    tables.push_back({.name = method, .path = samples_of(scratch, method + last, last).path});
-  std::string text = to_markdown(read_methods(tables, config), config);
-  EXPECT_NE(text.find("| first | 0.250 ± 0.000 | 23.0 ± 3.0 |\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("over 2 images; of rows with several runs over the means of these (2 first, 2 second).\n"),
+  auto config = small_table(
+      "findings:\n"
+      "  - {region: box, column: psnr_ln, row: a, against: b, below: less., above: more.}\n"
+      "  - {region: full, column: psnr_ln, row: a, against: b, below: less., above: more.}\n");
+  const auto table = [&](const std::string& method, const std::string& last) {
+    return NamedPath{.name = method, .path = samples_of(scratch, method + last, last).path};
+  };
+  // Means of the runs 20 and 26; 40 and 48.
+  std::vector<NamedPath> tables{table("a", "20"), table("a", "32"), table("b", "60"), table("b", "76")};
+  const auto text_of = [&] { return to_markdown(read_methods(tables, config), config); };
+  EXPECT_NE(text_of().find("| first | 0.250 ± 0.000 | 23.0 ± 3.0 |\n"), std::string::npos) << text_of();
+  EXPECT_NE(text_of().find("over 2 images; in rows of several runs, over the runs' means (first 2, second 2).\n"),
             std::string::npos)
-      << text;
-  EXPECT_NE(text.find("PSNR ln: first has 0.68 times that of second (others) (the difference is 2.2 times its "
-                      "deviation from run to run): less.\n"),  // 11 / 5
+      << text_of();
+  EXPECT_NE(text_of().find("PSNR ln: first has 0.52 times that of second (others), a difference of 3.0 deviations "
+                           "between single runs: less.\n"),  // 21 / √(18 + 32)
             std::string::npos)
-      << text;
-  config.columns[1].geometric = true;
+      << text_of();
+  // In the whole image all runs agree.
+  EXPECT_NE(text_of().find("PSNR ln: first has 1.00 times that of second (others): more.\n"), std::string::npos);
+  EXPECT_NE(to_csv(read_methods(tables, config), config).find("first,,box,psnr_ln,2,2,23,3,\n"), std::string::npos);
+
+  config.columns[1].geometric = true;  // 20 and √640; √1200 and √1520
+  EXPECT_NE(text_of().find("a difference of 2.6 deviations between single runs: less.\n"), std::string::npos)
+      << text_of();
+  tables[3] = table("b", "20");  // √1200 and 20
+  EXPECT_NE(text_of().find("a difference of 0.4 deviations between single runs: not clear.\n"), std::string::npos)
+      << text_of();
   tables.pop_back();
-  text = to_markdown(read_methods(tables, config), config);
-  EXPECT_EQ(text.find("from run to run"), std::string::npos) << text;  // one run has none
+  EXPECT_EQ(text_of().find("between single runs"), std::string::npos) << text_of();
 }
 
 TEST(ImageTable, FindingsCompareTwoRows) {
@@ -92,12 +103,12 @@ TEST(ImageTable, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
   config.printed->rows[0].values = {{"ssim_s", "0.90"}};
   const auto rows = read_methods({samples_of(scratch, "a"), samples_of(scratch, "b")}, config);
   EXPECT_EQ(to_csv(rows, config),
-            "row,group,region,column,images,mean,std,source\n"
-            "first,,full,ssim_s,2,0.625,0.125,\n"
-            "second,others,full,ssim_s,2,0.625,0.125,\n"
-            "first,,box,ssim_s,2,0.25,0,\n"
-            "second,others,box,ssim_s,2,0.25,0,\n"
-            "p|q,elsewhere,full,ssim_s,,0.90,,a paper\n");
+            "row,group,region,column,images,runs,mean,std,source\n"
+            "first,,full,ssim_s,2,1,0.625,0.125,\n"
+            "second,others,full,ssim_s,2,1,0.625,0.125,\n"
+            "first,,box,ssim_s,2,1,0.25,0,\n"
+            "second,others,box,ssim_s,2,1,0.25,0,\n"
+            "p|q,elsewhere,full,ssim_s,,,0.90,,a paper\n");
 }
 
 }  // namespace

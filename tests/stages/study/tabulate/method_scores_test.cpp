@@ -54,7 +54,9 @@ TEST(MethodScores, RefuseWhatDoesNotBelongTogether) {
   };
   EXPECT_EQ(said({a}, small_table()), "row 'second': no table was given for b");
   EXPECT_EQ(said({a, b, c}, small_table()), c.path.string() + ": no row of the configuration has the method c");
-  EXPECT_EQ(said({a, a}, small_table()), a.path.string() + ": is given twice for a");
+  NamedPath again = a;
+  again.path = a.path.parent_path() / "." / "samples.csv";
+  EXPECT_EQ(said({a, again}, small_table()), again.path.string() + ": is given twice for a");
 
   auto lacking = small_table();
   lacking.columns[0].column = "depth";

@@ -25,7 +25,7 @@ TEST_F(TabulateProgram, WritesTablesAndSheetsAndNeedsTheirPictures) {
   EXPECT_EQ(said_, "tabulate: error: sheet s: 0 pictures of a, 0 of a\n");
   ASSERT_EQ(run_command(run + " --pictures a=a/x.png"), 0) << said_;
   EXPECT_THAT(read_file(scratch_ / "out/table.md"), testing::HasSubstr("![x](pictures/s.png)"));
-  EXPECT_THAT(read_file(scratch_ / "out/table.csv"), testing::HasSubstr("first,,box,psnr_ln,2,25,5,"));
+  EXPECT_THAT(read_file(scratch_ / "out/table.csv"), testing::HasSubstr("first,,box,psnr_ln,2,1,25,5,"));
   EXPECT_EQ(read_png(scratch_ / "out/pictures/s.png", 3).width, 28);
   EXPECT_THAT(read_file(scratch_ / "out/tabulate.yaml"), testing::HasSubstr("summary:\n  rows: 2\n  images: 2\n"));
 }

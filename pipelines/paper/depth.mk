@@ -1,0 +1,162 @@
+# Depth from touch, the paper's third task: networks trained on images of three simulators, of the same objects in the same poses, each under the light that was
+# fitted on its own membranes of the same balls, read the photographs of sim2real: make -f Makefile.data depth-benchmark (docs/depth-results.md).
+$(call uses,paper/sim2real paper/paper_real dataset/depthnet)
+
+DEPTH       := $(OUT)/depth
+DEPTH_POSES ?= 20#         depth-benchmark: of each object
+DEPTH_SEEDS ?= 1 2 3 4 5#  networks of each simulator
+$(foreach v,DEPTH_POSES DEPTH_SEEDS,$(eval override $(v) := $(strip $($(v)))))
+
+DEPTH_PRINTED := cone cross_lines curved_surface cylinder cylinder_shell cylinder_side dot_in dots flat_slab hexagon line moon parallel_lines sphere2 triangle
+DEPTH_BALLS   := 1.5 2 2.5 4 5 7# radius, mm
+DEPTH_METHODS := tacipc tacchi depth-based
+DEPTH_MADE    := $(DEPTH_PRINTED) $(DEPTH_BALLS:%=ball_%)
+
+# Networks are trained for the sensor of these photographs; CASES= are the photographs that they read, of the same sensor.
+DEPTH_CASES  := configs/studies/sim2real/gelsight_sim2real.yaml
+DEPTH_SENSOR := $(OUT)/sim2real/$(basename $(notdir $(DEPTH_CASES)))/calibrate/sensor.yaml
+DEPTH_DATA   := $(DEPTH)/datasets/depth
+packages_for_depth-benchmark := depthnet
+packages_for_depth-quick     := depthnet loaders
+
+# What cannot work is refused before hours of simulation; samples that fail are left out, if they are few (depth_lists.sh).
+.PHONY: depth-benchmark depth-objects depth-rivals depth-networks depth-quick
+depth-benchmark: | build ## studies: Networks trained on three simulators read depth from photographs [CASES=] (needs SHARED; a night, resumes); writes OUT/docs/depth-results.md
+	@[ -x $(BIN)/depthnet ] || { echo "depthnet: not built for want of libtorch-dev: make -f Makefile.data packages build GROUPS=depthnet" >&2; exit 2; }
+	@[ -z "$$($(BIN)/tacipc get '$(CASES)' circles --default '')" ] || { echo "depth-benchmark: $(CASES) tells no depths" >&2; exit 2; }
+	$(call make_again,REBUILD=no sim2real-page)
+	$(if $(filter $(DEPTH_CASES),$(CASES)),,$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) sim2real-page))
+	$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) paper-real)
+	$(call make_again,REBUILD=no depth-objects)
+	$(call make_again,REBUILD=no dataset CONFIG=$(DEPTH)/depth.yaml OUT=$(DEPTH)) || bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc pressed tacipc
+	$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) -k depth-rivals) || bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc lists $(DEPTH_METHODS)
+	$(call make_again,REBUILD=no depth-networks JOBS=1 THREADS=$(JOBS))
+
+depth-quick: | build ## development: A small network on 48 images and on shuffled ones, judged on 16 of other objects (two minutes; the test pipeline.depthnet_test)
+	bash tests/pipeline/depthnet_test.sh '$(CURDIR)' '$(abspath $(BUILD))'
+
+# The objects in one folder, prints with the rounded edges that those of the photographs have, and the dataset's file.
+define depth_ball
+$(DEPTH)/indenters/ball_$(1).yaml: FORCE
+	$$(call replace_if_changed,ball: {radius_mm: $(1)$$(comma) edge_mm: 0.25})
+$(DEPTH)/indenters/ball_$(1)/indenter.yaml: $(DEPTH)/indenters/ball_$(1).yaml | build
+	$$(call run,indenter,--config $$<)
+endef
+$(foreach r,$(DEPTH_BALLS),$(eval $(call depth_ball,$(r))))
+$(DEPTH_PRINTED:%=$(DEPTH)/indenters/%/indenter.yaml): $(DEPTH)/indenters/%/indenter.yaml: $(SHARED)/data/printed_indenters/%.stl configs/studies/depth/printed.yaml | build
+	$(call run,indenter,--config configs/studies/depth/printed.yaml --mesh $<)
+$(DEPTH_MADE:%=$(DEPTH)/meshes/%.ply): $(DEPTH)/meshes/%.ply: $(DEPTH)/indenters/%/indenter.yaml
+	@mkdir -p $(@D)
+	cp $(<D)/object.ply $@.new && mv $@.new $@
+$(eval $(call changed_config,$(DEPTH)/render.yaml,configs/render/many_frames.yaml,frames=last))
+$(eval $(call changed_config,$(DEPTH)/depth.yaml,configs/studies/depth/dataset.yaml,sensors.sensor=$(abspath $(DEPTH_SENSOR)) \
+  sensors.mesh=$(abspath configs/studies/depth/gel.yaml) objects[0].meshes=$(abspath $(DEPTH))/meshes objects[1].meshes=$(abspath $(SHARED))/data/tacipc_release/objects \
+  render=$(abspath $(DEPTH))/render.yaml motions[0].samples=$(DEPTH_POSES)))
+depth-objects: $(DEPTH_MADE:%=$(DEPTH)/meshes/%.ply) $(DEPTH)/depth.yaml $(DEPTH)/render.yaml
+
+ifneq ($(filter depth-rivals,$(MAKECMDGOALS)),)
+# id|object|folder
+DEPTH_ROWS := $(shell $(BIN)/tacipc table $(DEPTH_DATA)/plan/samples.csv --columns id,object,folder | tr '\t' '|')
+ifeq ($(DEPTH_ROWS),)
+  $(error $(DEPTH_DATA)/plan/samples.csv names no samples)
+endif
+depth_last := $(shell printf frame_%04d $$($(BIN)/tacipc get configs/studies/depth/dataset.yaml motions[0].motion.steps))
+depth_render = $$(call run,render,--shapes $(1) --sensor $(2)/sensor.yaml --config $(DEPTH)/render.yaml --maps $(DEPTH_DATA)/maps.yaml)
+# $(call depth_sample,id,object,folder): the same pose by material points, and by the rigid object's depth.
+define depth_sample
+$(DEPTH)/tacchi/$(1)/mpm.yaml: $(DEPTH_DATA)/$(3)/press/press.yaml $(PAPER_CONFIGS)/mpm.yaml $(CASES_SENSOR)
+	$$(call run,mpm,--name $(1) --config $(PAPER_CONFIGS)/mpm.yaml --sensor $(CASES_SENSOR) --sample $(DEPTH_DATA)/$(3)/sample.yaml \
+	  --object $(DEPTH_DATA)/objects/$(2)/object.ply --object-config $(DEPTH_DATA)/objects/$(2)/object.yaml --log-level warning)
+$(DEPTH)/tacchi/$(1)/render/render.yaml: $(DEPTH)/tacchi/$(1)/mpm.yaml $(PAPER_REAL)/tacchi/calibrate/calibrate.yaml $(DEPTH)/render.yaml
+	$(call depth_render,$(DEPTH)/tacchi/$(1)/$(depth_last)/seen_indentation.exr,$(PAPER_REAL)/tacchi/calibrate)
+$(DEPTH)/depth-based/$(1)/baseline.yaml: $(DEPTH_DATA)/$(3)/press/press.yaml $(CASES_BASELINE) $(SIM2REAL)/rival/calibrate/calibrate.yaml
+	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(DEPTH_DATA)/objects/$(2)/object.ply \
+	  --object-config $(DEPTH_DATA)/objects/$(2)/object.yaml --pose $(DEPTH_DATA)/$(3)/press/object_pose.npy)
+$(DEPTH)/depth-based/$(1)/render/render.yaml: $(DEPTH)/depth-based/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml $(DEPTH)/render.yaml
+	$(call depth_render,$(DEPTH)/depth-based/$(1)/$(depth_last)/indentation.exr,$(SIM2REAL)/rival/calibrate)
+# A press that failed has no rivals.
+$(DEPTH_DATA)/$(3)/press/press.yaml:
+	@echo "$$@: was not made" >&2; exit 1
+endef
+depth_field = $(word $(1),$(subst |, ,$(2)))
+$(foreach r,$(DEPTH_ROWS),$(eval $(call depth_sample,$(call depth_field,1,$(r)),$(call depth_field,2,$(r)),$(call depth_field,3,$(r)))))
+depth-rivals: $(foreach r,$(DEPTH_ROWS),$(foreach m,tacchi depth-based,$(DEPTH)/$(m)/$(call depth_field,1,$(r))/render/render.yaml))
+endif
+
+ifneq ($(filter depth-networks,$(MAKECMDGOALS)),)
+# Folders of render by simulator and split, of the samples that every simulator has made.
+$(DEPTH)/lists/made.txt: FORCE
+	@bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc lists $(DEPTH_METHODS)
+# $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml)
+define depth_network
+$(call changed_config,$(1)/network.yaml,configs/depthnet/default.yaml,$(3))
+$(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt | build
+	mapfile -t train < $(DEPTH)/lists/$(2)-train.txt; mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
+	$$(call run,depthnet,--config $$< --renders "$$$${train[@]}" --validation "$$$${val[@]}")
+endef
+# The networks of a method: its seeds; of the control, whose pairs are shuffled, one.
+depth_seeds = $(if $(filter shuffled,$(1)),1,$(DEPTH_SEEDS))
+$(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),$(eval $(call depth_network,$(DEPTH)/networks/$(m)/$(s),$(m),seed=$(s)))))
+$(eval $(call depth_network,$(DEPTH)/networks/shuffled/1,tacipc,seed=1 +shuffle_pairs=true))
+
+# What they read: photographs, and our images of the same contacts. Two truths: our membrane, and the object's surface where it is in the gel.
+DEPTH_READ := $(DEPTH)/read/$(cases_name)
+$(DEPTH)/rest.exr: $(DEPTH)/lists/made.txt
+	cp "$$(head -n 1 $(DEPTH)/lists/tacipc-train.txt)/frame_0000/depth.exr" $@.new && mv $@.new $@
+define depth_surface
+$(DEPTH_READ)/surface/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml configs/studies/depth/surface.yaml | build
+	$$(call run,baseline,--config configs/studies/depth/surface.yaml --sensor $(CASES_SENSOR) $(call cases_posed,$(1)))
+endef
+$(foreach o,$(CASES_OBJECTS),$(eval $(call depth_surface,$(o))))
+depth_truth_surface  := $(foreach o,$(CASES_OBJECTS),$(call cases_frames,$(o),$(DEPTH_READ)/surface/$(o),0,depth.exr))
+depth_truth_membrane := $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(SIM2REAL)/ours/$(o)/depth/$(i).exr))
+depth_truths := $(CASES_OBJECTS:%=$(SIM2REAL)/ours/%/shade.yaml) $(CASES_OBJECTS:%=$(DEPTH_READ)/surface/%/baseline.yaml)
+# Photographs under the names of our images: an answer is named by its image, whatever the file was called.
+$(DEPTH_READ)/images/copied.txt: $(CASES_REAL)
+	mkdir -p $(@D)
+	$(foreach i,$(CASES_ALL),cp $(call cases_photograph,$(i)) $(@D)/$(i).png;)
+	echo $(CASES_ALL) > $@
+depth_images_photographs := $(CASES_ALL:%=$(DEPTH_READ)/images/%.png)
+depth_images_simulated   := $(call sim2real_images,ours)
+
+# $(call depth_read,images,network)
+define depth_read
+$(DEPTH_READ)/$(1)/$(2)/depthnet.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt
+	$$(call run,depthnet,--model $(DEPTH)/networks/$(2)/model.pt --background $(cases_background) --images $(depth_images_$(1)) --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
+endef
+$(foreach i,photographs simulated,$(foreach m,$(DEPTH_METHODS) shuffled,$(foreach s,$(call depth_seeds,$(m)),$(eval $(call depth_read,$(i),$(m)/$(s))))))
+# Who says that nothing is touched, anywhere.
+$(DEPTH_READ)/%/nothing/1/depthnet.yaml: $(DEPTH)/rest.exr $(depth_truths)
+	mkdir -p $(@D)/depth
+	for image in $(CASES_ALL); do cp $(DEPTH)/rest.exr $(@D)/depth/$$image.exr; done
+	touch $@
+# $(call depth_judge,truth)
+define depth_judge
+$(DEPTH_READ)/%/$(1)/metrics.yaml: $(DEPTH_READ)/%/depthnet.yaml configs/studies/depth/metrics.yaml | build
+	$$(call run,metrics,--config configs/studies/depth/metrics.yaml --images $(CASES_ALL:%=$$(<D)/depth/%.exr) --reference $(depth_truth_$(1)) --rest $(DEPTH)/rest.exr)
+endef
+$(foreach t,membrane surface,$(eval $(call depth_judge,$(t))))
+
+# $(call depth_table,images,truth,title)
+depth_scores = $(foreach m,$(DEPTH_METHODS) shuffled nothing,$(foreach s,$(if $(filter nothing,$(m)),1,$(call depth_seeds,$(m))),$(m)=$(DEPTH_READ)/$(1)/$(m)/$(s)/$(2)))
+define depth_table
+$(DEPTH_READ)/tables/$(1)_$(2).yaml: configs/studies/depth/table.yaml FORCE | build
+	$$(call replace_if_changed_by,$(BIN)/tacipc set $$< 'title="$(3)"')
+$(DEPTH_READ)/tables/$(1)_$(2)/tabulate.yaml: $(DEPTH_READ)/tables/$(1)_$(2).yaml $(foreach s,$(call depth_scores,$(1),$(2)/metrics.yaml),$(lastword $(subst =, ,$(s)))) | build
+	$$(call run,tabulate,--config $$< --samples $(call depth_scores,$(1),$(2)/samples.csv))
+DEPTH_TABLES += $(1)_$(2)
+endef
+$(eval $(call depth_table,photographs,membrane,Photographs against our membrane))
+$(eval $(call depth_table,photographs,surface,Photographs against the surface of the object))
+$(eval $(call depth_table,simulated,membrane,Our images of the same contacts against our membrane))
+
+# The page of the shipped photographs, with the sheet of one network of each simulator.
+depth-networks: $(DEPTH_TABLES:%=$(DEPTH_READ)/tables/%/tabulate.yaml)
+ifneq ($(and $(filter $(DEPTH_CASES),$(CASES)),$(wildcard docs/depth-results.md)),)
+	@$(call fill_docs,depth-results.md,$(foreach t,$(DEPTH_TABLES),$(t)=$(DEPTH_READ)/tables/$(t)/table.md))
+	@mkdir -p $(DOCS)/depth_results
+	@for m in $(DEPTH_METHODS); do cp $(DEPTH_READ)/photographs/$$m/$(firstword $(DEPTH_SEEDS))/sheet.png $(DOCS)/depth_results/$$m.png; done
+	$(call docs_look,depth-results.md)
+endif
+	@echo "Look at $(DEPTH_READ)/tables/*/table.md and $(DEPTH_READ)/photographs/*/*/sheet.png"
+endif
