@@ -80,14 +80,22 @@ MetricsRow row_of(const std::string& name, const char* region, const DepthError&
                      {"iou", error.iou}}};
 }
 
-DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, const FloatImage& rest, double pressed_m,
-                         int beside_px) {
+DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, const FloatImage& rest,
+                         const DepthRegions& regions, const FloatImage* surface) {
   assert(map.pixels.size() == reference.pixels.size() && rest.pixels.size() == map.pixels.size());
-  std::vector<bool> is_pressed(map.pixels.size());
-  for (std::size_t i = 0; i < is_pressed.size(); ++i)
-    is_pressed[i] = double{rest.pixels[i]} - double{reference.pixels[i]} > pressed_m;
-  const std::vector<bool> near = beside_px > 0 ? grown(is_pressed, map.width, map.height, beside_px) : is_pressed;
-  Sums full, pressed, beside;
+  assert(!surface || surface->pixels.size() == map.pixels.size());
+  const std::size_t pixels = map.pixels.size();
+  std::vector<bool> is_pressed(pixels), in_contact(pixels, false);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double at_rest = rest.pixels[i], known = reference.pixels[i];
+    is_pressed[i] = at_rest - known > regions.pressed_m;
+    if (surface)
+      in_contact[i] = at_rest - double{surface->pixels[i]} > regions.pressed_m &&
+                      std::abs(double{surface->pixels[i]} - known) <= regions.contact_m;
+  }
+  const std::vector<bool>& inner = surface ? in_contact : is_pressed;
+  const std::vector<bool> near = grown(inner, map.width, map.height, regions.beside_px);
+  Sums full, pressed, contact, beside;
   std::size_t both = 0, either = 0;
   double deepest = 0.0;
   for (int y = 0; y < map.height; ++y) {
@@ -96,15 +104,16 @@ DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, con
       if (!std::isfinite(a) || !std::isfinite(b) || !std::isfinite(r)) continue;
       const auto pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x);
-      const bool seems_pressed = r - a > pressed_m;
+      const bool seems_pressed = r - a > regions.pressed_m;
       both += is_pressed[pixel] && seems_pressed;
       either += is_pressed[pixel] || seems_pressed;
       deepest = std::max(deepest, r - b);
       const double error = std::abs(a - b);
       const double slope = squared_slope(map, x, y), reference_slope = squared_slope(reference, x, y);
-      for (Sums* sums : {&full, &pressed, &beside}) {
-        if ((sums == &pressed && !is_pressed[pixel]) || (sums == &beside && (is_pressed[pixel] || !near[pixel])))
-          continue;
+      for (const auto& [sums, counts] :
+           {std::pair{&full, true}, std::pair{&pressed, bool{is_pressed[pixel]}},
+            std::pair{&contact, bool{in_contact[pixel]}}, std::pair{&beside, near[pixel] && !inner[pixel]}}) {
+        if (!counts) continue;
         ++sums->pixels;
         sums->absolute += error;
         sums->square += error * error;
@@ -115,9 +124,13 @@ DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, con
     }
   }
   if (full.pixels == 0) throw DataError("no pixel is known in all three maps");
-  if (pressed.pixels == 0) throw DataError("the reference is nowhere pressed deeper than {:.4g} mm", 1e3 * pressed_m);
+  if (pressed.pixels == 0)
+    throw DataError("the reference is nowhere pressed deeper than {:.4g} mm", 1e3 * regions.pressed_m);
+  if (surface && contact.pixels == 0)
+    throw DataError("the reference is nowhere within {:.4g} mm of the object's surface", 1e3 * regions.contact_m);
   const double iou = static_cast<double>(both) / static_cast<double>(either);
   DepthErrors errors{.full = full.over(deepest, iou), .pressed = pressed.over(deepest, iou)};
+  if (surface) errors.contact = contact.over(deepest, iou);
   if (beside.pixels > 0) errors.beside = beside.over(deepest, iou);
   return errors;
 }

@@ -26,18 +26,25 @@ struct DepthError {
 
 struct DepthErrors {
   DepthError full;
-  DepthError pressed;                     // where the reference is pressed
-  std::optional<DepthError> beside = {};  // where it is not, but is at a pixel at most so far away in either direction
+  DepthError pressed;                      // where the reference is pressed
+  std::optional<DepthError> contact = {};  // where the reference lies on the object's surface
+  std::optional<DepthError> beside = {};   // not there, but near; without that surface: not pressed, but near
+};
+
+struct DepthRegions {
+  double pressed_m = 0.0;  // a pixel is pressed where the membrane came nearer than at rest by more than this
+  double contact_m = 0.0;  // and in contact where the object's surface would press it, and is this near to it
+  int beside_px = 0;       // near: at most so many columns and rows away; 0: there is no such region
 };
 
 /// Its row in a table, in mm.
 MetricsRow row_of(const std::string& name, const char* region, const DepthError& error);
 
-/// A pixel is pressed where the membrane came nearer than at rest by more than `pressed_m`. Pixels that are NaN in any
-/// map do not count; slopes are differences of neighbours to the right and below, in m per pixel. `beside_px` is how
-/// far the third region reaches; 0: there is none. \pre maps of equal size. \throw DataError if no pixel counts, or the
-/// reference is pressed nowhere
-DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, const FloatImage& rest, double pressed_m,
-                         int beside_px = 0);
+/// Pixels that are NaN in map, reference or rest do not count; slopes are differences of neighbours to the right and
+/// below, in m per pixel. `surface` is the depth of the rigid object where it is in the gel, else of the gel at rest
+/// (`baseline` without deformation); null: no region `contact`. \pre maps of equal size. \throw DataError if no pixel
+/// counts, the reference is pressed nowhere, or lies nowhere on the surface
+DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, const FloatImage& rest,
+                         const DepthRegions& regions, const FloatImage* surface = nullptr);
 
 }  // namespace tacipc

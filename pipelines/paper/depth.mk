@@ -3,9 +3,10 @@
 $(call uses,paper/sim2real paper/paper_real dataset/depthnet)
 
 DEPTH       := $(OUT)/depth
-DEPTH_POSES ?= 20#         depth-benchmark: of each object
-DEPTH_SEEDS ?= 1 2 3 4 5#  networks of each simulator
-$(foreach v,DEPTH_POSES DEPTH_SEEDS,$(eval override $(v) := $(strip $($(v)))))
+DEPTH_POSES  ?= 20#         depth-benchmark: of each object
+DEPTH_SEEDS  ?= 1 2 3 4 5#  networks of each simulator
+DEPTH_EPOCHS ?= 20#         of their training
+$(foreach v,DEPTH_POSES DEPTH_SEEDS DEPTH_EPOCHS,$(eval override $(v) := $(strip $($(v)))))
 
 DEPTH_PRINTED := cone cross_lines curved_surface cylinder cylinder_shell cylinder_side dot_in dots flat_slab hexagon line moon parallel_lines sphere2 triangle
 DEPTH_BALLS   := 1.5 2 2.5 4 5 7# radius, mm
@@ -96,8 +97,8 @@ $(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt | build
 endef
 # The networks of a method: its seeds; of the control, whose pairs are shuffled, one.
 depth_seeds = $(if $(filter shuffled,$(1)),1,$(DEPTH_SEEDS))
-$(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),$(eval $(call depth_network,$(DEPTH)/networks/$(m)/$(s),$(m),seed=$(s)))))
-$(eval $(call depth_network,$(DEPTH)/networks/shuffled/1,tacipc,seed=1 +shuffle_pairs=true))
+$(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),$(eval $(call depth_network,$(DEPTH)/networks/$(m)/$(s),$(m),seed=$(s) schedule.epochs=$(DEPTH_EPOCHS)))))
+$(eval $(call depth_network,$(DEPTH)/networks/shuffled/1,tacipc,seed=1 schedule.epochs=$(DEPTH_EPOCHS) +shuffle_pairs=true))
 
 # What they read: photographs, and our images of the same contacts. Two truths: our membrane, and the object's surface where it is in the gel.
 DEPTH_READ := $(DEPTH)/read/$(cases_name)
@@ -133,7 +134,7 @@ $(DEPTH_READ)/%/nothing/1/depthnet.yaml: $(DEPTH)/rest.exr $(depth_truths)
 # $(call depth_judge,truth)
 define depth_judge
 $(DEPTH_READ)/%/$(1)/metrics.yaml: $(DEPTH_READ)/%/depthnet.yaml configs/studies/depth/metrics.yaml | build
-	$$(call run,metrics,--config configs/studies/depth/metrics.yaml --images $(CASES_ALL:%=$$(<D)/depth/%.exr) --reference $(depth_truth_$(1)) --rest $(DEPTH)/rest.exr)
+	$$(call run,metrics,--config configs/studies/depth/metrics.yaml --images $(CASES_ALL:%=$$(<D)/depth/%.exr) --reference $(depth_truth_$(1)) --rest $(DEPTH)/rest.exr --surface $(depth_truth_surface))
 endef
 $(foreach t,membrane surface,$(eval $(call depth_judge,$(t))))
 

@@ -63,7 +63,8 @@ void Judge::take(const DepthImage& image, const FloatImage& depth_mm) {
   }
   const FloatImage rest(depth_mm.width, depth_mm.height, 1);
   try {
-    const DepthErrors errors = depth_errors(height_of(depth_mm), height_of(image.depth_mm), rest, 1e-3 * kContactMm);
+    const DepthErrors errors =
+        depth_errors(height_of(depth_mm), height_of(image.depth_mm), rest, {.pressed_m = 1e-3 * kContactMm});
     rows_.push_back(row_of(image.name, "full", errors.full));
     rows_.push_back(row_of(image.name, "pressed", errors.pressed));
   } catch (const DataError& error) {

@@ -11,6 +11,7 @@ struct ImagePair {
   std::string name;  // of the row in samples.csv
   std::filesystem::path image;
   std::filesystem::path reference;
+  std::filesystem::path surface = {};  // depth map of the object's, where it is given
 };
 
 /// Two folders: files with the same relative name, in name order; only names that end with `ends_with` and have no

@@ -16,14 +16,24 @@ const StageSpec kMetrics{
     .inputs = {{.flag = "--config", .help = "images or depth maps, which of them, which part (YAML)"},
                {.flag = "--images", .help = "folder of images (PNG) or depth maps (EXR, m), or files", .many = true},
                {.flag = "--reference", .help = "folder with the same names, or as many files", .many = true},
-               {.flag = "--rest", .help = "depth map of the gel at rest, for depth maps", .required = false}}};
+               {.flag = "--rest", .help = "depth map of the gel at rest, for depth maps", .required = false},
+               {.flag = "--surface",
+                .help = "depth maps of the object's surface, for the region contact: as many files as --images",
+                .required = false,
+                .many = true}}};
 
 std::vector<MetricsRow> measure(Stage& stage, const MetricsConfig& config) {
   const auto rest = stage.optional_input("--rest");
   const auto* depth = std::get_if<DepthMetrics>(&config.what);
   if (depth && !rest) throw UsageError("--rest: is needed where depth maps are compared");
   if (!depth && rest) throw UsageError("--rest: is for depth maps, and the configuration is for images");
-  const auto pairs = pair_images(stage.inputs("--images"), stage.inputs("--reference"), config.ends_with);
+  const auto& surfaces = stage.inputs("--surface");
+  if (surfaces.empty() == (depth && depth->regions.contact_m > 0.0))
+    throw UsageError("--surface: belongs to a configuration with contact_mm");
+  auto pairs = pair_images(stage.inputs("--images"), stage.inputs("--reference"), config.ends_with);
+  if (!surfaces.empty() && (surfaces.size() != pairs.size() || surfaces.size() != stage.inputs("--images").size()))
+    throw UsageError(fmt::format("--surface: {} files for {} images", surfaces.size(), pairs.size()));
+  for (std::size_t i = 0; i < surfaces.size(); ++i) pairs[i].surface = surfaces[i];
   log_info("{} pairs", pairs.size());
   return depth ? measure_depths(pairs, *rest, *depth) : measure_images(pairs, std::get<ImageMetrics>(config.what));
 }

@@ -14,8 +14,8 @@ namespace tacipc {
 /// different sizes, images below 11 pixels, a crop or box that leaves the image, an image without a box.
 std::vector<MetricsRow> measure_images(const std::vector<ImagePair>& pairs, const ImageMetrics& config);
 
-/// A row for the whole map (`full`) and one for where the reference is `pressed`; `rest` is the map of the gel at rest.
-/// \throw DataError for unreadable maps or such of another size, and as depth_errors
+/// A row for the whole map (`full`), one for where the reference is `pressed`, and those that are asked for; `rest` is
+/// the map of the gel at rest. \throw DataError for unreadable maps or such of another size, and as depth_errors
 std::vector<MetricsRow> measure_depths(const std::vector<ImagePair>& pairs, const std::filesystem::path& rest,
                                        const DepthMetrics& config);
 

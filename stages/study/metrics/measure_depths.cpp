@@ -1,5 +1,7 @@
 #include "stages/study/metrics/measure.h"
 
+#include <optional>
+
 #include "common/base/error.h"
 #include "common/benchmark/depth_error.h"
 #include "common/image/image.h"
@@ -25,10 +27,13 @@ std::vector<MetricsRow> measure_depths(const std::vector<ImagePair>& pairs, cons
   const FloatImage at_rest = read_depth(rest);
   return measure_pairs(pairs, [&](const ImagePair& pair) -> std::vector<MetricsRow> {
     const FloatImage map = read_depth_like(pair.image, at_rest), reference = read_depth_like(pair.reference, at_rest);
+    std::optional<FloatImage> surface;
+    if (!pair.surface.empty()) surface = read_depth_like(pair.surface, at_rest);
     try {
-      const DepthErrors errors = depth_errors(map, reference, at_rest, config.pressed_m, config.beside_px);
+      const DepthErrors errors = depth_errors(map, reference, at_rest, config.regions, surface ? &*surface : nullptr);
       std::vector<MetricsRow> rows{row_of(pair.name, "full", errors.full),
                                    row_of(pair.name, "pressed", errors.pressed)};
+      if (errors.contact) rows.push_back(row_of(pair.name, "contact", *errors.contact));
       if (errors.beside) rows.push_back(row_of(pair.name, "beside", *errors.beside));
       return rows;
     } catch (const DataError& error) {

@@ -41,8 +41,9 @@ const Box* ImageMetrics::box_of(const std::string& name) const {
 }
 
 DepthMetrics DepthMetrics::read(ConfigReader& in) {
-  return {.pressed_m = 1e-3 * in.number("pressed_mm", Range::positive()),
-          .beside_px = in.integer_or("beside_px", 0, 0, 10000)};
+  return {{.pressed_m = 1e-3 * in.number("pressed_mm", Range::positive()),
+           .contact_m = 1e-3 * in.number_or("contact_mm", 0.0, Range::non_negative()),
+           .beside_px = in.integer_or("beside_px", 0, 0, 10000)}};
 }
 
 MetricsConfig MetricsConfig::read(ConfigReader& in) {

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/benchmark/depth_error.h"
 #include "common/config/config.h"
 #include "stages/study/metrics/ssim.h"
 
@@ -29,8 +30,7 @@ struct ImageMetrics {
 
 /// What to measure of depth maps.
 struct DepthMetrics {
-  double pressed_m = 0.0;  // a pixel counts as pressed where the membrane came nearer by more than this
-  int beside_px = 0;       // a third region reaches so far around the pressed one; 0: there is none
+  DepthRegions regions;
 
   static DepthMetrics read(ConfigReader& in);
 };

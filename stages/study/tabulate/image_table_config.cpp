@@ -96,7 +96,7 @@ ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
     refuse_repeats(item, "column", config.columns, &ShownColumn::column);
   }
   for (ConfigReader& item : in.one_or_more_sections("regions")) {
-    config.regions.push_back({.region = item.choice("region", {"full", "crop", "box", "pressed", "beside"}),
+    config.regions.push_back({.region = item.choice("region", {"full", "crop", "box", "pressed", "contact", "beside"}),
                               .heading = item.text("heading")});
     refuse_repeats(item, "region", config.regions, &ShownRegion::region);
   }

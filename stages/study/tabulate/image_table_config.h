@@ -21,7 +21,7 @@ struct ShownColumn {
 
 /// A part of the images that gets a table of its own.
 struct ShownRegion {
-  std::string region;  // full, crop, box; of depth maps full, pressed, beside
+  std::string region;  // full, crop, box; of depth maps full, pressed, contact, beside
   std::string heading;
 };
 

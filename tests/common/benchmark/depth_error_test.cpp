@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-constexpr double kPressed = 0.02e-3;  // m
+constexpr DepthRegions kPressed{.pressed_m = 0.02e-3};
 constexpr float kRest = 12e-3f;
 
 FloatImage map_of(int width, int height, const auto& press) {
@@ -62,13 +62,36 @@ TEST(DepthError, BesideThePress) {
   const FloatImage map = map_of(20, 10, [&](int x, int y) { return block(x, y) ? 0.4e-3 : x == 6 ? 0.1e-3 : 0.0; });
   const FloatImage rest = map_of(20, 10, kNothing);
   EXPECT_FALSE(depth_errors(map, reference, rest, kPressed).beside);
-  const DepthError one = depth_errors(map, reference, rest, kPressed, 1).beside.value();
+  const auto within = [](int px) { return DepthRegions{.pressed_m = 0.02e-3, .beside_px = px}; };
+  const DepthError one = depth_errors(map, reference, rest, within(1)).beside.value();
   EXPECT_EQ(one.pixels, 6u * 4u - 8u);
   EXPECT_EQ(one.mae_m, 0.0);
-  const DepthError three = depth_errors(map, reference, rest, kPressed, 3).beside.value();
+  const DepthError three = depth_errors(map, reference, rest, within(3)).beside.value();
   EXPECT_EQ(three.pixels, 10u * 8u - 8u);
   EXPECT_NEAR(three.mae_m, 8 * 0.1e-3 / 72, 1e-9);
   EXPECT_NEAR(three.mse_norm, 8 * 0.01 / 0.16 / 72, 1e-5);
+}
+
+TEST(DepthError, ContactIsWhereTheReferenceLiesOnTheObject) {
+  // A wedge in columns 6 to 13, 0.1 mm deeper with each; the membrane lies on it from column 9 on, 5 µm above it, and
+  // is pressed beside it, too. The map is 0.02 mm too shallow in contact and 0.05 mm elsewhere.
+  const auto on = [](int x) { return x >= 9 && x < 14; };
+  const auto wedge = [](int x) { return x >= 6 && x < 14 ? 0.1e-3 * (x - 5) : 0.0; };
+  const FloatImage surface = map_of(20, 4, [&](int x, int) { return wedge(x); });
+  const auto membrane = [&](int x) { return on(x) ? wedge(x) - 5e-6 : 0.03e-3; };
+  const FloatImage reference = map_of(20, 4, [&](int x, int) { return membrane(x); });
+  const FloatImage map = map_of(20, 4, [&](int x, int) { return membrane(x) - (on(x) ? 0.02e-3 : 0.05e-3); });
+  const FloatImage rest = map_of(20, 4, kNothing);
+  DepthRegions regions{.pressed_m = 0.02e-3, .contact_m = 0.015e-3, .beside_px = 2};
+  EXPECT_FALSE(depth_errors(map, reference, rest, regions).contact);
+  const DepthErrors errors = depth_errors(map, reference, rest, regions, &surface);
+  EXPECT_EQ(errors.pressed.pixels, 80u);
+  EXPECT_EQ(errors.contact.value().pixels, 20u);
+  EXPECT_NEAR(errors.contact->mae_m, 0.02e-3, 1e-8);
+  EXPECT_EQ(errors.beside.value().pixels, 16u);  // two columns on either side of the contact
+  EXPECT_NEAR(errors.beside->mae_m, 0.05e-3, 1e-8);
+  regions.contact_m = 0.001e-3;
+  EXPECT_THROW(depth_errors(map, reference, rest, regions, &surface), DataError);
 }
 
 TEST(DepthError, UnknownPixelsDoNotCount) {

@@ -52,6 +52,23 @@ TEST_F(DepthMetrics, ARegionBesideThePress) {
   EXPECT_THAT(read_file(scratch_ / "out/metrics.yaml"), HasSubstr("beside:\n    images: 2\n"));
 }
 
+TEST_F(DepthMetrics, ARegionInContactWithTheObject) {
+  write("surface/star.exr", 0.505e-3f);
+  write_file(scratch_ / "contact.yaml", "kind: depth\npressed_mm: 0.02\ncontact_mm: 0.01\nbeside_px: 3\n");
+  EXPECT_EQ(run("ours/star.exr", "reference/star.exr --surface surface/star.exr"), 2);
+  EXPECT_EQ(said_, "metrics: error: --surface: belongs to a configuration with contact_mm\n");
+  config_ = "contact.yaml";
+  EXPECT_EQ(run("ours/star.exr", "reference/star.exr"), 2);
+  EXPECT_EQ(run("ours/star.exr ours/gear.exr", "reference/star.exr reference/gear.exr --surface surface/star.exr"), 2);
+  EXPECT_EQ(said_, "metrics: error: --surface: 1 files for 2 images\n");
+  ASSERT_EQ(run("ours/star.exr", "reference/star.exr --surface surface/star.exr"), 0) << said_;
+  EXPECT_THAT(read_file(scratch_ / "out/samples.csv"), HasSubstr("\nstar.exr,contact,192,0.0999"));
+  EXPECT_THAT(read_file(scratch_ / "out/samples.csv"), HasSubstr("\nstar.exr,beside,72,0,0,0,0,0,"));
+  write("surface/star.exr", 0.6e-3f);
+  EXPECT_EQ(run("ours/star.exr", "reference/star.exr --surface surface/star.exr"), 1);
+  EXPECT_THAT(said_, HasSubstr("the reference is nowhere within 0.01 mm of the object's surface"));
+}
+
 TEST_F(DepthMetrics, RefusesWhatDoesNotFit) {
   EXPECT_EQ(run("ours/star.exr ours/gear.exr", "reference/star.exr"), 2);
   EXPECT_EQ(said_, "metrics: error: 2 images but 1 references: lists are compared pair by pair\n");

@@ -13,7 +13,7 @@ TEST(MetricsConfig, TheKindTellsTheFilesAndTheKeys) {
   EXPECT_EQ(images.ends_with, ".png");
   EXPECT_TRUE(std::holds_alternative<ImageMetrics>(images.what));
   EXPECT_EQ(depth.ends_with, ".exr");
-  EXPECT_DOUBLE_EQ(std::get<DepthMetrics>(depth.what).pressed_m, 0.02e-3);
+  EXPECT_DOUBLE_EQ(std::get<DepthMetrics>(depth.what).regions.pressed_m, 0.02e-3);
   EXPECT_THAT(faults_in<MetricsConfig>("{kind: depth, crop_px: [0, 0, 20, 20]}", "m.yaml"),
               testing::ElementsAre("m.yaml:1:1: pressed_mm: missing", "m.yaml:1:15: crop_px: unknown key"));
 }
