@@ -47,7 +47,7 @@ class Checksums {
     for (const auto& [name, path] : files_) lines_.push_back({name, sha256_of_file(path)});
     std::sort(lines_.begin(), lines_.end());
     std::string text;
-    for (const auto& [name, digest] : lines_) text += digest + "  " + name + "\n";
+    for (const auto& [name, digest] : lines_) text += fmt::format("{}  {}\n", digest, name);
     return text;
   }
 
@@ -65,7 +65,7 @@ void copy_origins(Stage& stage, Checksums& sums, const std::string& folder,
     for (const auto& [role, file] : files) {
       if (!fs::exists(file.path) || content_hash(file.path) != file.hash)
         throw DataError("{}: has changed or been removed since the samples were made from it", file.path.string());
-      inputs.emplace_back(folder + "/" + id + "/" + role, file.path);
+      inputs.emplace_back(fmt::format("{}/{}/{}", folder, id, role), file.path);
       write_file(sums.output(fmt::format("{}/{}/{}{}", folder, id, role, file.path.extension().string())),
                  read_file(file.path));
     }

@@ -79,7 +79,7 @@ class Items {
 
 /// The shards of a list, noted in the record, since only they say what was learnt.
 std::vector<std::pair<std::string, fs::path>> shards_of(Stage& stage) {
-  const auto shards = listed_shards(stage.input("--shards"));
+  auto shards = listed_shards(stage.input("--shards"));
   stage.add_inputs(shards);
   return shards;
 }

@@ -33,7 +33,7 @@ MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::
   std::map<std::string, std::vector<std::string>> images;  // by region
   CsvReader csv(table);
   while (csv.next()) {
-    const std::string region = csv["region"];
+    const std::string& region = csv["region"];
     images[region].push_back(csv["name"]);
     for (const ShownColumn& shown : columns) {
       const std::string& text = csv[shown.column];
@@ -104,12 +104,12 @@ std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, con
                                        const std::vector<ShownRegion>& regions,
                                        const std::vector<ShownColumn>& columns) {
   std::map<std::string, std::vector<fs::path>> by_method;
-  for (const auto& [method, table] : tables) {
-    auto& runs = by_method[method];
-    const auto same = [&](const fs::path& run) { return run.lexically_normal() == table.lexically_normal(); };
+  for (const NamedPath& table : tables) {
+    auto& runs = by_method[table.name];
+    const auto same = [&](const fs::path& run) { return run.lexically_normal() == table.path.lexically_normal(); };
     if (std::any_of(runs.begin(), runs.end(), same))
-      throw DataError("{}: is given twice for {}", table.string(), method);
-    runs.push_back(table);
+      throw DataError("{}: is given twice for {}", table.path.string(), table.name);
+    runs.push_back(table.path);
   }
   std::vector<MethodScores> methods;
   for (const MeasuredRow& row : rows) {

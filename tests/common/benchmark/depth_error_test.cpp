@@ -11,7 +11,6 @@ namespace tacipc {
 namespace {
 
 constexpr DepthRegions kPressed{.pressed_m = 0.02e-3};
-constexpr float kRest = 12e-3f;
 
 FloatImage map_of(int width, int height, const auto& press) {
   FloatImage map(width, height, 1);

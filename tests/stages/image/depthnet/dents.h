@@ -71,7 +71,7 @@ inline std::vector<DepthItem> dents(const torch::jit::Module& network, std::size
 /// A shard as pack writes it: samples 0 … of three frames, the first without contact.
 inline std::filesystem::path write_shard(const ScratchFolder& scratch, const std::vector<std::string>& splits,
                                          NumberType depth_type = NumberType::f32) {
-  const std::filesystem::path file = scratch / "shards/one/one.h5";
+  std::filesystem::path file = scratch / "shards/one/one.h5";
   std::filesystem::create_directories(file.parent_path());
   {
     Hdf5Writer writer(file);

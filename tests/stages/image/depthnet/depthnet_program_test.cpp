@@ -29,7 +29,7 @@ class Depthnet : public ProgramTest {
   }
   /// A folder as render writes it, with this dent as its second frame.
   std::filesystem::path write_render(std::size_t index) {
-    const std::filesystem::path folder = scratch_ / fmt::format("render_{}", index);
+    std::filesystem::path folder = scratch_ / fmt::format("render_{}", index);
     DepthImage image = dent(index);
     for (const char* frame : {"frame_0000", "frame_0001"}) std::filesystem::create_directories(folder / frame);
     write_png(folder / "frame_0000/tactile.png", image.reference);
