@@ -36,7 +36,7 @@ $(BUILD)/unpacked/usr/include/OpenMesh: | packages
 
 # What CMake did not find before a group was installed it looks for again.
 header_of_wrap     := CGAL
-header_of_depthnet := LIBTORCH
+header_of_depthnet := LIBTORCH ONNX
 # Without tests, until with-tests switches them on.
 $(BUILD)/build.ninja: | packages $(OPENMESH_HEADERS)
 	@cmake --preset $(PRESET) -B $(BUILD) -G Ninja -DTACIPC_TESTS=OFF
@@ -46,7 +46,7 @@ ifeq ($(REBUILD),no)
 build:
 else
 build: $(BUILD)/build.ninja ## development: Build all stages
-	@for header in $(foreach g,$(groups_wanted),$(header_of_$(g))); do ! grep -qs "^$${header}_INCLUDE_DIR:.*NOTFOUND" $(BUILD)/CMakeCache.txt || cmake $(BUILD) > /dev/null; done
+	@for header in $(foreach g,$(groups_wanted),$(header_of_$(g))); do ! grep -qsE "^$${header}_(INCLUDE_)?DIR:.*NOTFOUND" $(BUILD)/CMakeCache.txt || cmake $(BUILD) > /dev/null; done
 	@cmake --build $(BUILD) --target $(programs_wanted) -j $(JOBS) -- --quiet
 endif
 

@@ -38,5 +38,5 @@ depthnet_run = OPENBLAS_NUM_THREADS=1 $(BIN)/depthnet --out $(@D) --threads $(JO
 
 depthnet: $(DEPTHNET)/test/depthnet.yaml ## datasets: A network that reads depth, trained on a packed dataset and judged on its test objects: CONFIG= [NET=default]
 	@echo; $(BIN)/tacipc get $< summary.pressed.mae_mm.mean | sed 's/$$/ mm: mean error in contact on the test objects/'
-	@echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model.pt"
+	@echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model.pt, and model_*.onnx for predict"
 endif

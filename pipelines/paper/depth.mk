@@ -122,18 +122,18 @@ depth_images_simulated   := $(call sim2real_images,ours)
 
 # $(call depth_read,images,network)
 define depth_read
-$(DEPTH_READ)/$(1)/$(2)/depthnet.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt
-	$$(call run,depthnet,--model $(DEPTH)/networks/$(2)/model.pt --background $(cases_background) --images $(depth_images_$(1)) --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
+$(DEPTH_READ)/$(1)/$(2)/predict.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt | build
+	$$(call run,predict,--model $(DEPTH)/networks/$(2)/model_*.onnx --background $(cases_background) --images $(depth_images_$(1)) --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
 endef
 $(foreach i,photographs simulated,$(foreach m,$(DEPTH_METHODS) shuffled,$(foreach s,$(call depth_seeds,$(m)),$(eval $(call depth_read,$(i),$(m)/$(s))))))
 # Who says that nothing is touched, anywhere.
-$(DEPTH_READ)/%/nothing/1/depthnet.yaml: $(DEPTH)/rest.exr $(depth_truths)
+$(DEPTH_READ)/%/nothing/1/predict.yaml: $(DEPTH)/rest.exr $(depth_truths)
 	mkdir -p $(@D)/depth
 	for image in $(CASES_ALL); do cp $(DEPTH)/rest.exr $(@D)/depth/$$image.exr; done
 	touch $@
 # $(call depth_judge,truth)
 define depth_judge
-$(DEPTH_READ)/%/$(1)/metrics.yaml: $(DEPTH_READ)/%/depthnet.yaml configs/studies/depth/metrics.yaml | build
+$(DEPTH_READ)/%/$(1)/metrics.yaml: $(DEPTH_READ)/%/predict.yaml configs/studies/depth/metrics.yaml | build
 	$$(call run,metrics,--config configs/studies/depth/metrics.yaml --images $(CASES_ALL:%=$$(<D)/depth/%.exr) --reference $(depth_truth_$(1)) --rest $(DEPTH)/rest.exr --surface $(depth_truth_surface))
 endef
 $(foreach t,membrane surface,$(eval $(call depth_judge,$(t))))

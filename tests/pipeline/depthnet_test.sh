@@ -75,8 +75,7 @@ END
 
 # An image alone is read, too.
 render=$(dirname "$(find $data/samples -path '*test_a*' -name render.yaml | sort | head -n 1)")
-depthnet() { "$build_dir/bin/depthnet" --log-level warning --out read --model $data/depthnet/net/model.pt "$@"; }
-depthnet --images "$render/frame_0001/tactile.png" --background "$render/frame_0000/tactile.png"
+"$build_dir/bin/predict" --log-level warning --out read --model $data/depthnet/net/model_*.onnx --images "$render/frame_0001/tactile.png" --background "$render/frame_0000/tactile.png"
 [ -s read/indentation/tactile.png ] && [ -s read/indentation/tactile.exr ] || fail "no depth of a photograph"
 
 "$build_dir/bin/depthnet" --log-level warning --out again --threads 1 --config net.yaml --shards $data/shards/shards.txt

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/benchmark/metrics_rows.h"
-#include "stages/image/depthnet/depth_sheet.h"
+#include "common/image/depth_sheet.h"
 #include "stages/image/depthnet/network.h"
 #include "stages/image/depthnet/training_set.h"
 

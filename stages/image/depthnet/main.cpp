@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include "common/base/each_in_threads.h"
 #include "common/base/error.h"
@@ -10,6 +9,7 @@
 #include "common/sample/shard_list.h"
 #include "common/stage/stage.h"
 #include "stages/image/depthnet/judge.h"
+#include "stages/image/depthnet/onnx.h"
 #include "stages/image/depthnet/train.h"
 
 namespace {
@@ -19,9 +19,7 @@ namespace fs = std::filesystem;
 
 const StageSpec kDepthnet{
     .name = "depthnet",
-    .summary =
-        "Train a network that reads depth from tactile images (--config), judge it on a dataset (--model "
-        "--shards), let it read photographs (--model --images).",
+    .summary = "Train a network that reads depth from tactile images (--config), judge it on a dataset (--model).",
     .inputs = {{.flag = "--config", .help = "network and training (YAML)", .required = false},
                {.flag = "--model", .help = "model.pt of a training", .required = false},
                {.flag = "--shards",
@@ -31,13 +29,6 @@ const StageSpec kDepthnet{
                {.flag = "--renders", .help = "folders of render to train on", .required = false, .many = true},
                {.flag = "--validation",
                 .help = "folders of render to judge by while training",
-                .required = false,
-                .many = true},
-               {.flag = "--images", .help = "photographs to read (PNG)", .required = false, .many = true},
-               {.flag = "--background", .help = "photograph without contact, their reference (PNG)", .required = false},
-               {.flag = "--rest", .help = "depth map of the gel at rest (EXR, m), for theirs", .required = false},
-               {.flag = "--truth",
-                .help = "their true depth maps (EXR, m), as many, for a sheet of pictures",
                 .required = false,
                 .many = true}},
     .resumable = true};
@@ -108,6 +99,9 @@ void train_network(Stage& stage) {
              .save = [&](const std::string& bytes) { stage.save_scratch("checkpoint", bytes); }});
   network.sizes = training.sizes();
   save_network(network, stage.output("model.pt"));
+  for (const ImageSize& size : network.sizes)
+    write_file(stage.output(fmt::format("model_{}x{}.onnx", size.second, size.first)),
+               onnx_of(network.module, config.network, size));
   write_history(stage, rows);
   const EpochRow& last = rows.back();
   Value::Map summary{{"images", training.items().size()},
@@ -138,79 +132,20 @@ void judge_network(Stage& stage) {
   stage.summarize(summary);
 }
 
-/// Indentation of a depth map against that of the gel at rest, mm.
-FloatImage indentation_mm(const FloatImage& rest_m, FloatImage depth_m) {
-  for (std::size_t i = 0; i < rest_m.pixels.size(); ++i)
-    depth_m.pixels[i] = 1e3F * (rest_m.pixels[i] - depth_m.pixels[i]);
-  return depth_m;
-}
-
-void read_photographs(Stage& stage) {
-  const TrainedNetwork network = load_network(*stage.optional_input("--model"));
-  const ByteImage reference = read_png(*stage.optional_input("--background"), 3);
-  const auto read_map = [&](const fs::path& file) {
-    FloatImage map = read_exr(file, {"Y"});
-    if (map.width != reference.width || map.height != reference.height)
-      throw DataError("{}: has {} x {} pixels, the reference {} x {}", file.string(), map.width, map.height,
-                      reference.width, reference.height);
-    return map;
-  };
-  const auto rest_file = stage.optional_input("--rest");
-  const FloatImage rest = rest_file ? read_map(*rest_file) : FloatImage();
-  const auto &files = stage.inputs("--images"), &truths = stage.inputs("--truth");
-  std::vector<ByteImage> images(files.size());
-  std::vector<FloatImage> answers(files.size());
-  each_in_threads(files.size(), [&](std::size_t i) {
-    stay_in_this_thread();
-    images[i] = read_png(files[i], 3);
-    answers[i] = network.depth_mm(files[i].string(), images[i], reference);
-  });
-  Value::Map deepest;
-  std::vector<DepthRow> rows;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    FloatImage map = answers[i];
-    const std::string name = files[i].stem().string();
-    deepest.emplace_back(name, double{*std::max_element(map.pixels.begin(), map.pixels.end())});
-    for (float& depth : map.pixels) depth *= 1e-3F;
-    write_png(stage.output("indentation/" + name + ".png"), picture_of_height(map));
-    write_exr(stage.output("indentation/" + name + ".exr"), map, {"Y"});
-    if (!rest_file) continue;
-    for (std::size_t k = 0; k < map.pixels.size(); ++k) map.pixels[k] = rest.pixels[k] - map.pixels[k];
-    write_exr(stage.output("depth/" + name + ".exr"), map, {"Y"});
-    if (!truths.empty()) rows.push_back({images[i], indentation_mm(rest, read_map(truths[i])), answers[i]});
-  }
-  if (!rows.empty()) write_png(stage.output("sheet.png"), depth_sheet(rows));
-  stage.summarize({{"images", deepest.size()}, {"deepest_mm", deepest}});
-}
-
-/// What the flags ask for; each of the three has its own.
+/// What the flags ask for; each of the two has its own.
 void (*task_of(Stage& stage))(Stage&) {
   const bool config = stage.optional_input("--config").has_value(),
-             shards = stage.optional_input("--shards").has_value(), renders = !stage.inputs("--renders").empty(),
-             images = !stage.inputs("--images").empty(), truth = !stage.inputs("--truth").empty(),
-             background = stage.optional_input("--background").has_value(),
-             rest = stage.optional_input("--rest").has_value();
+             shards = stage.optional_input("--shards").has_value(), renders = !stage.inputs("--renders").empty();
   if (config == stage.optional_input("--model").has_value())
-    throw UsageError("give either --config, to train, or --model, to judge or use what was trained");
+    throw UsageError("give either --config, to train, or --model, to judge what was trained");
   if (config) {
-    if (images || truth || background || rest)
-      throw UsageError("--images, --background, --rest, --truth: go with --model");
     if (shards == renders) throw UsageError("training takes either --shards or --renders");
     if (shards && !stage.inputs("--validation").empty()) throw UsageError("--validation: goes with --renders");
     return train_network;
   }
   if (renders || !stage.inputs("--validation").empty()) throw UsageError("--renders, --validation: go with --config");
-  if (shards == images) throw UsageError("--model takes either --shards, to judge it, or --images");
-  if (shards && (background || rest || truth)) throw UsageError("--background, --rest, --truth: go with --images");
-  if (shards) return judge_network;
-  if (!background) throw UsageError("--background: photographs need their reference");
-  if (truth && (!rest || stage.inputs("--truth").size() != stage.inputs("--images").size()))
-    throw UsageError("--truth: needs --rest, and a map for each of --images");
-  std::set<std::string> names;
-  for (const fs::path& file : stage.inputs("--images"))
-    if (!names.insert(file.stem().string()).second)
-      throw UsageError(fmt::format("--images: two are called {}", file.stem().string()));
-  return read_photographs;
+  if (!shards) throw UsageError("--model takes --shards, to judge it by; predict reads photographs");
+  return judge_network;
 }
 
 }  // namespace

@@ -5,6 +5,10 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/rng.h"
+#include "stages/image/depthnet/onnx.h"
+#include "stages/image/predict/depth_reader.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -48,6 +52,32 @@ TEST(TrainedNetwork, EnlargesItsAnswerToTheImageAndIsTheSameWhenRead) {
       }
   }
   EXPECT_THROW(load_network(scratch / "model.pt").depth_mm("a", ByteImage(30, 22, 3), ByteImage(30, 22, 3)), DataError);
+}
+
+TEST(Onnx, OpenCvAnswersAsLibtorchDoes) {
+  stay_in_this_thread();
+  const ScratchFolder scratch;
+  for (const int reduction : {1, 2, 3})
+    for (const auto& [width, height] : {std::pair(31, 22), std::pair(48, 64), std::pair(320, 240)}) {
+      const NetworkConfig config{.levels = 3, .base_channels = 6, .reduction = reduction};
+      const torch::jit::Module module = make_network(config, 7);
+      ByteImage image(width, height, 3), reference(width, height, 3);
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        image.pixels[i] = static_cast<std::uint8_t>(random_bits(1, 2, i) % 256);
+        reference.pixels[i] = static_cast<std::uint8_t>(random_bits(1, 3, i) % 256);
+      }
+      write_file(scratch / "model.onnx", onnx_of(module, config, {height, width}));
+      const FloatImage expected =
+          TrainedNetwork{.module = module, .sizes = {{height, width}}}.depth_mm("a", image, reference);
+      const FloatImage read = DepthReader(scratch / "model.onnx").depth_mm("a", image, reference);
+      ASSERT_EQ(read.width, width);
+      float largest = 0.0F;
+      for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
+        ASSERT_NEAR(read.pixels[i], expected.pixels[i], 1e-5) << reduction << ' ' << width << ' ' << i;
+        largest = std::max(largest, std::abs(expected.pixels[i]));
+      }
+      EXPECT_GT(largest, 0.05F);
+    }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "stages/image/depthnet/depth_sheet.h"
+#include "common/image/depth_sheet.h"
 
 #include <algorithm>
 

@@ -1,0 +1,16 @@
+// The network as an ONNX file, for readers without libtorch: predict, ONNX Runtime, TensorRT.
+#pragma once
+
+#include <string>
+
+#include "stages/image/depthnet/depthnet_config.h"
+#include "stages/image/depthnet/network.h"
+
+namespace tacipc {
+
+/// An ONNX model (operator set 11) that says what `forward` of the module says, for images of one size alone: inputs
+/// `image` and `reference`, codes, f32 (1, H, W, 3); output `indentation_mm`, f32 (1, 1, H, W).
+/// \pre the module is make_network(config, …)
+std::string onnx_of(const torch::jit::Module& module, const NetworkConfig& config, const ImageSize& size);
+
+}  // namespace tacipc

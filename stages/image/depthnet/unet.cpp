@@ -1,0 +1,32 @@
+#include "stages/image/depthnet/unet.h"
+
+namespace tacipc {
+namespace {
+
+/// Codes are divided by these, so that what the network sees is of the order of one.
+constexpr double kChangeCodes = 32.0, kReferenceCodes = 128.0;
+
+}  // namespace
+
+void write_unet(const NetworkConfig& config, NetworkWriter& writer) {
+  const auto channels = [&](int level) { return config.base_channels << level; };
+  writer.begin(kChangeCodes, kReferenceCodes, 1 << config.levels);
+  for (int level = 0; level <= config.levels; ++level) {
+    if (level > 0) writer.halve();
+    writer.convolution(level > 0 ? channels(level - 1) : 6, channels(level), 3, true);
+    writer.convolution(channels(level), channels(level), 3, true);
+    if (level < config.levels) writer.keep(level);
+  }
+  for (int level = config.levels - 1; level >= 0; --level) {
+    writer.enlarge_and_join(level);
+    writer.convolution(channels(level) + channels(level + 1), channels(level), 3, true);
+    writer.convolution(channels(level), channels(level), 3, true);
+  }
+  writer.convolution(channels(0), 1, 1, false);
+  writer.end();
+}
+
+std::string weight_name(int convolution) { return "w" + std::to_string(convolution); }
+std::string bias_name(int convolution) { return weight_name(convolution) + "b"; }
+
+}  // namespace tacipc

@@ -1,0 +1,34 @@
+// The network, step by step, for whoever writes it down: as TorchScript (network.h) or ONNX (onnx.h).
+#pragma once
+
+#include <string>
+
+#include "stages/image/depthnet/depthnet_config.h"
+
+namespace tacipc {
+
+/// Writes down steps that follow each other. The first one gets what the network sees: six channels, the change against
+/// the reference and the reference, in codes.
+class NetworkWriter {
+ public:
+  virtual ~NetworkWriter() = default;
+  /// change / `change_codes` and reference / `reference_codes` − 1; last rows and columns repeated up to a multiple.
+  virtual void begin(double change_codes, double reference_codes, int multiple) = 0;
+  /// `width` × `width`, zeros around; then max(0, x) or not. Its weights are `weight_name` and `bias_name` of its
+  /// number.
+  virtual void convolution(int in, int out, int width, bool rectified) = 0;
+  /// The largest of 2 × 2.
+  virtual void halve() = 0;
+  virtual void keep(int level) = 0;
+  /// Twice the size, bilinear by the pixels' centres, behind the channels that were kept.
+  virtual void enlarge_and_join(int level) = 0;
+  /// Without the repeated rows and columns.
+  virtual void end() = 0;
+};
+
+void write_unet(const NetworkConfig& config, NetworkWriter& writer);
+
+std::string weight_name(int convolution);
+std::string bias_name(int convolution);
+
+}  // namespace tacipc

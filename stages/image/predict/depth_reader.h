@@ -1,0 +1,30 @@
+// A network of depthnet, without the library that trained it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "common/image/image.h"
+
+namespace tacipc {
+
+/// Reads depth by an ONNX file of depthnet. Each thread needs its own.
+class DepthReader {
+ public:
+  /// \throw DataError if it is no such file, naming it
+  explicit DepthReader(const std::filesystem::path& file);
+  ~DepthReader();
+  DepthReader(DepthReader&&) noexcept;
+  DepthReader& operator=(DepthReader&&) = delete;
+
+  /// The indentation, mm. \throw DataError, which begins with the name, if the image is not of the size that the
+  /// network is for, or not of its reference's \pre three channels
+  FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference);
+
+ private:
+  struct Network;
+  std::unique_ptr<Network> network_;
+};
+
+}  // namespace tacipc
