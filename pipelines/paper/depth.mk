@@ -88,17 +88,19 @@ ifneq ($(filter depth-networks,$(MAKECMDGOALS)),)
 # Folders of render by simulator and split, of the samples that every simulator has made.
 $(DEPTH)/lists/made.txt: FORCE
 	@bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc lists $(DEPTH_METHODS)
-# $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml)
+# $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml[,4: every fourth image of the training alone])
 define depth_network
 $(call changed_config,$(1)/network.yaml,configs/depthnet/default.yaml,$(3))
 $(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt | build
-	mapfile -t train < $(DEPTH)/lists/$(2)-train.txt; mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
+	mapfile -t train < <(awk 'NR % $(or $(4),1) == 0' $(DEPTH)/lists/$(2)-train.txt); mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
 	$$(call run,depthnet,--config $$< --renders "$$$${train[@]}" --validation "$$$${val[@]}")
 endef
-# The networks of a method: its seeds; of the control, whose pairs are shuffled, one.
-depth_seeds = $(if $(filter shuffled,$(1)),1,$(DEPTH_SEEDS))
+# The networks of a method: its seeds; of those beside, one: every image with the depth of another; a quarter of the images, seen four times as often.
+DEPTH_BESIDE := quarter shuffled
+depth_seeds = $(if $(filter $(DEPTH_BESIDE),$(1)),1,$(DEPTH_SEEDS))
 $(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),$(eval $(call depth_network,$(DEPTH)/networks/$(m)/$(s),$(m),seed=$(s) schedule.epochs=$(DEPTH_EPOCHS)))))
 $(eval $(call depth_network,$(DEPTH)/networks/shuffled/1,tacipc,seed=1 schedule.epochs=$(DEPTH_EPOCHS) +shuffle_pairs=true))
+$(eval $(call depth_network,$(DEPTH)/networks/quarter/1,tacipc,seed=1 schedule.epochs=$(shell echo $$((4 * $(DEPTH_EPOCHS)))),4))
 
 # What they read: photographs, and our images of the same contacts. Two truths: our membrane, and the object's surface where it is in the gel.
 DEPTH_READ := $(DEPTH)/read/$(cases_name)
@@ -125,7 +127,7 @@ define depth_read
 $(DEPTH_READ)/$(1)/$(2)/predict.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt | build
 	$$(call run,predict,--model $(DEPTH)/networks/$(2)/model_*.onnx --background $(cases_background) --images $(depth_images_$(1)) --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
 endef
-$(foreach i,photographs simulated,$(foreach m,$(DEPTH_METHODS) shuffled,$(foreach s,$(call depth_seeds,$(m)),$(eval $(call depth_read,$(i),$(m)/$(s))))))
+$(foreach i,photographs simulated,$(foreach m,$(DEPTH_METHODS) $(DEPTH_BESIDE),$(foreach s,$(call depth_seeds,$(m)),$(eval $(call depth_read,$(i),$(m)/$(s))))))
 # Who says that nothing is touched, anywhere.
 $(DEPTH_READ)/%/nothing/1/predict.yaml: $(DEPTH)/rest.exr $(depth_truths)
 	mkdir -p $(@D)/depth
@@ -139,7 +141,7 @@ endef
 $(foreach t,membrane surface,$(eval $(call depth_judge,$(t))))
 
 # $(call depth_table,images,truth,title)
-depth_scores = $(foreach m,$(DEPTH_METHODS) shuffled nothing,$(foreach s,$(if $(filter nothing,$(m)),1,$(call depth_seeds,$(m))),$(m)=$(DEPTH_READ)/$(1)/$(m)/$(s)/$(2)))
+depth_scores = $(foreach m,$(DEPTH_METHODS) $(DEPTH_BESIDE) nothing,$(foreach s,$(if $(filter nothing,$(m)),1,$(call depth_seeds,$(m))),$(m)=$(DEPTH_READ)/$(1)/$(m)/$(s)/$(2)))
 define depth_table
 $(DEPTH_READ)/tables/$(1)_$(2).yaml: configs/studies/depth/table.yaml FORCE | build
 	$$(call replace_if_changed_by,$(BIN)/tacipc set $$< 'title="$(3)"')
