@@ -5,9 +5,11 @@ namespace tacipc {
 
 struct DepthModel {
   static constexpr const char* producer = "tacipc depthnet";
-  static constexpr const char* image = "image";                 // inputs, codes, f32 (1, H, W, 3)
-  static constexpr const char* reference = "reference";         //
-  static constexpr const char* indentation = "indentation_mm";  // output, f32 (1, 1, H, W)
+  // Inputs, codes, f32 (1, H, W, 3).
+  static constexpr const char* image = "image";
+  static constexpr const char* reference = "reference";
+  // Output, f32 (1, 1, H, W).
+  static constexpr const char* indentation = "indentation_mm";
 };
 
 }  // namespace tacipc

@@ -5,8 +5,8 @@ PACKAGE_GROUPS := $(basename $(notdir $(wildcard packages/*.txt)))
 groups_wanted   = $(sort chain $(foreach g,$(MAKECMDGOALS),$(packages_for_$(g))))
 packages_wanted = $(sort $(foreach g,$(groups_wanted),$(file < packages/$(g).txt)))
 packages_for_packages    := $(GROUPS)
-packages_for_check       := tests loaders wrap depthnet
-packages_for_check-slow  := tests loaders cluster pages wrap depthnet
+packages_for_check       := tests loaders wrap predict depthnet
+packages_for_check-slow  := tests loaders cluster pages wrap predict depthnet
 
 # A goal that needs but some stages says programs_for_<goal> := <their names>; any other builds them all.
 programs_wanted = $(sort $(or $(foreach g,$(MAKECMDGOALS),$(or $(programs_for_$(g)),stages)),stages))
@@ -35,8 +35,9 @@ $(BUILD)/unpacked/usr/include/OpenMesh: | packages
 	mkdir -p ../unpacked && cp -r usr ../unpacked && rm -rf ../unpacked.new
 
 # What CMake did not find before a group was installed it looks for again.
-header_of_wrap     := CGAL
-header_of_depthnet := LIBTORCH ONNX
+cached_of_wrap     := CGAL_INCLUDE_DIR
+cached_of_predict  := ONNX_DIR OpenCV_dnn_LIBRARY Protobuf_INCLUDE_DIR
+cached_of_depthnet := LIBTORCH_INCLUDE_DIR
 # Without tests, until with-tests switches them on.
 $(BUILD)/build.ninja: | packages $(OPENMESH_HEADERS)
 	@cmake --preset $(PRESET) -B $(BUILD) -G Ninja -DTACIPC_TESTS=OFF
@@ -46,7 +47,7 @@ ifeq ($(REBUILD),no)
 build:
 else
 build: $(BUILD)/build.ninja ## development: Build all stages
-	@for header in $(foreach g,$(groups_wanted),$(header_of_$(g))); do ! grep -qsE "^$${header}_(INCLUDE_)?DIR:.*NOTFOUND" $(BUILD)/CMakeCache.txt || cmake $(BUILD) > /dev/null; done
+	@for name in $(foreach g,$(groups_wanted),$(cached_of_$(g))); do ! grep -qs "^$$name:.*NOTFOUND" $(BUILD)/CMakeCache.txt || cmake $(BUILD) > /dev/null; done
 	@cmake --build $(BUILD) --target $(programs_wanted) -j $(JOBS) -- --quiet
 endif
 

@@ -4,7 +4,7 @@ $(call uses,dataset/pack)
 
 NET ?= default#        depthnet: a file of configs/depthnet, or a path
 override NET := $(strip $(NET))
-packages_for_depthnet := depthnet
+packages_for_depthnet := depthnet predict
 
 .PHONY: depthnet
 ifeq ($(and $(DATASET_DIR),$(filter depthnet,$(MAKECMDGOALS))),)
@@ -29,7 +29,7 @@ DEPTHNET_SHARDS := $(DEPTHNET_LIST) $(wildcard $(DATASET_DIR)/shards/*/pack.yaml
 $(DEPTHNET)/net.choice: FORCE
 	$(call replace_if_changed_by,cksum $(DEPTHNET_CONFIG))
 $(DEPTHNET)/depthnet.yaml: $(DEPTHNET_CONFIG) $(DEPTHNET)/net.choice $(DEPTHNET_SHARDS) | build
-	@[ -x $(BIN)/depthnet ] || { echo "depthnet: not built for want of libtorch-dev: make -f Makefile.data packages build GROUPS=depthnet" >&2; exit 2; }
+	$(depthnet_is_built)
 	$(call depthnet_run,--config $<)
 $(DEPTHNET)/test/depthnet.yaml: $(DEPTHNET)/depthnet.yaml $(DEPTHNET_SHARDS)
 	$(call depthnet_run,--model $(DEPTHNET)/model.pt)

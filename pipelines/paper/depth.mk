@@ -17,13 +17,13 @@ DEPTH_MADE    := $(DEPTH_PRINTED) $(DEPTH_BALLS:%=ball_%)
 DEPTH_CASES  := configs/studies/sim2real/gelsight_sim2real.yaml
 DEPTH_SENSOR := $(OUT)/sim2real/$(basename $(notdir $(DEPTH_CASES)))/calibrate/sensor.yaml
 DEPTH_DATA   := $(DEPTH)/datasets/depth
-packages_for_depth-benchmark := depthnet
-packages_for_depth-quick     := depthnet loaders
+packages_for_depth-benchmark := depthnet predict
+packages_for_depth-quick     := depthnet predict loaders
 
 # What cannot work is refused before hours of simulation; samples that fail are left out, if they are few (depth_lists.sh).
 .PHONY: depth-benchmark depth-objects depth-rivals depth-networks depth-quick
 depth-benchmark: | build ## studies: Networks trained on three simulators read depth from photographs [CASES=] (needs SHARED; a night, resumes); writes OUT/docs/depth-results.md
-	@[ -x $(BIN)/depthnet ] || { echo "depthnet: not built for want of libtorch-dev: make -f Makefile.data packages build GROUPS=depthnet" >&2; exit 2; }
+	$(depthnet_is_built)
 	@[ -z "$$($(BIN)/tacipc get '$(CASES)' circles --default '')" ] || { echo "depth-benchmark: $(CASES) tells no depths" >&2; exit 2; }
 	$(call make_again,REBUILD=no sim2real-page)
 	$(if $(filter $(DEPTH_CASES),$(CASES)),,$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) sim2real-page))
@@ -88,19 +88,19 @@ ifneq ($(filter depth-networks,$(MAKECMDGOALS)),)
 # Folders of render by simulator and split, of the samples that every simulator has made.
 $(DEPTH)/lists/made.txt: FORCE
 	@bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc lists $(DEPTH_METHODS)
-# $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml[,4: every fourth image of the training alone])
+# $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml[,4: only the first quarter of the training's list])
 define depth_network
 $(call changed_config,$(1)/network.yaml,configs/depthnet/default.yaml,$(3))
 $(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt | build
-	mapfile -t train < <(awk 'NR % $(or $(4),1) == 0' $(DEPTH)/lists/$(2)-train.txt); mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
+	mapfile -t train < $(DEPTH)/lists/$(2)-train.txt; train=("$$$${train[@]:0:($$$${#train[@]} + $(or $(4),1) - 1) / $(or $(4),1)}"); mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
 	$$(call run,depthnet,--config $$< --renders "$$$${train[@]}" --validation "$$$${val[@]}")
 endef
-# The networks of a method: its seeds; of those beside, one: every image with the depth of another; a quarter of the images, seen four times as often.
+# The networks of a method: its seeds; one of a quarter of the poses, seen four times as often, and of the control, whose pairs are shuffled.
 DEPTH_BESIDE := quarter shuffled
 depth_seeds = $(if $(filter $(DEPTH_BESIDE),$(1)),1,$(DEPTH_SEEDS))
 $(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),$(eval $(call depth_network,$(DEPTH)/networks/$(m)/$(s),$(m),seed=$(s) schedule.epochs=$(DEPTH_EPOCHS)))))
 $(eval $(call depth_network,$(DEPTH)/networks/shuffled/1,tacipc,seed=1 schedule.epochs=$(DEPTH_EPOCHS) +shuffle_pairs=true))
-$(eval $(call depth_network,$(DEPTH)/networks/quarter/1,tacipc,seed=1 schedule.epochs=$(shell echo $$((4 * $(DEPTH_EPOCHS)))),4))
+$(eval $(call depth_network,$(DEPTH)/networks/quarter/1,tacipc,seed=1 schedule.epochs=$(shell echo $$((4 * $(DEPTH_EPOCHS)))) schedule.warmup_epochs=4,4))
 
 # What they read: photographs, and our images of the same contacts. Two truths: our membrane, and the object's surface where it is in the gel.
 DEPTH_READ := $(DEPTH)/read/$(cases_name)
@@ -125,6 +125,7 @@ depth_images_simulated   := $(call sim2real_images,ours)
 # $(call depth_read,images,network)
 define depth_read
 $(DEPTH_READ)/$(1)/$(2)/predict.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt | build
+	@compgen -G '$(DEPTH)/networks/$(2)/model_*.onnx' > /dev/null || { echo "$(DEPTH)/networks/$(2): has no model_*.onnx: remove the folder, it was trained by an earlier version" >&2; exit 1; }
 	$$(call run,predict,--model $(DEPTH)/networks/$(2)/model_*.onnx --background $(cases_background) --images $(depth_images_$(1)) --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
 endef
 $(foreach i,photographs simulated,$(foreach m,$(DEPTH_METHODS) $(DEPTH_BESIDE),$(foreach s,$(call depth_seeds,$(m)),$(eval $(call depth_read,$(i),$(m)/$(s))))))

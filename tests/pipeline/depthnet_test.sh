@@ -52,7 +52,7 @@ data = sys.argv[1]
 def errors(name):
     with open(f"{data}/depthnet/{name}/test/samples.csv") as file: return {row["name"]: row for row in csv.DictReader(file) if row["region"] == "pressed"}
 truths, network, worst = {}, torch.jit.load(f"{data}/depthnet/net/model.pt"), 0
-trained = []
+trained, deepest = [], []
 for path in sorted(glob.glob(f"{data}/shards/*/*.h5")):
     with h5py.File(path) as shard:
         for id, sample in shard["data"].items():
@@ -61,9 +61,11 @@ for path in sorted(glob.glob(f"{data}/shards/*/*.h5")):
             if sample.attrs["split"] != "test": continue
             truths[f"{id}/frame_0001"] = depth[1]
             said = network(torch.from_numpy(rgb[1:2]), torch.from_numpy(rgb[0:1]))[0].numpy()
+            deepest.append(f"{id} {said.max()}\n")
             touched = depth[1] > 0.02
             error = abs(said - depth[1])[touched].mean()
             worst = max(worst, abs(error - float(errors("net")[f"{id}/frame_0001"]["mae_mm"])))
+open("deepest.txt", "w").writelines(deepest)
 assert len(truths) == 16 and set(truths) == set(errors("net")), (len(truths), sorted(errors("net")))
 assert worst < 1e-4, f"Python's answers differ by {worst} mm"
 touched = lambda maps: np.concatenate([m[m > 0.02] for m in maps])
@@ -77,6 +79,9 @@ END
 render=$(dirname "$(find $data/samples -path '*test_a*' -name render.yaml | sort | head -n 1)")
 "$build_dir/bin/predict" --log-level warning --out read --model $data/depthnet/net/model_*.onnx --images "$render/frame_0001/tactile.png" --background "$render/frame_0000/tactile.png"
 [ -s read/indentation/tactile.png ] && [ -s read/indentation/tactile.exr ] || fail "no depth of a photograph"
+id=$(basename "$(dirname "$render")")
+awk -v id="$id" -v said="$(value read/predict.yaml summary.deepest_mm.tactile)" '$1 == id { found = 1; d = said - $2; exit !(d < 1e-5 && d > -1e-5 && said > 0.1) } END { if (!found) exit 1 }' deepest.txt ||
+  fail "predict and Python differ: $(value read/predict.yaml summary.deepest_mm.tactile), $(grep "^$id " deepest.txt)"
 
 "$build_dir/bin/depthnet" --log-level warning --out again --threads 1 --config net.yaml --shards $data/shards/shards.txt
 cmp again/model.pt $data/depthnet/net/model.pt || fail "other bytes with one thread"

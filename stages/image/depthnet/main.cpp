@@ -1,11 +1,9 @@
 #include <algorithm>
 
-#include "common/base/each_in_threads.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/format/csv.h"
-#include "common/image/picture.h"
 #include "common/sample/shard_list.h"
 #include "common/stage/stage.h"
 #include "stages/image/depthnet/judge.h"

@@ -8,9 +8,8 @@
 
 namespace tacipc {
 
-/// An ONNX model (operator set 11) that says what `forward` of the module says, for images of one size alone: inputs
-/// `image` and `reference`, codes, f32 (1, H, W, 3); output `indentation_mm`, f32 (1, 1, H, W).
-/// \pre the module is make_network(config, …)
+/// An ONNX model (operator set 11) that says what `forward` of the module says, for images of one size alone; inputs
+/// and output are those of common/sample/depth_model.h. \pre the module is make_network(config, …)
 std::string onnx_of(const torch::jit::Module& module, const NetworkConfig& config, const ImageSize& size);
 
 }  // namespace tacipc

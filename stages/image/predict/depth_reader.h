@@ -9,10 +9,10 @@
 
 namespace tacipc {
 
-/// Reads depth by an ONNX file of depthnet. Each thread needs its own.
+/// Reads depth by an ONNX file of depthnet (common/sample/depth_model.h). Each thread needs its own.
 class DepthReader {
  public:
-  /// \throw DataError if it is no such file, naming it
+  /// \throw DataError if it is no such file or damaged, naming it
   explicit DepthReader(const std::filesystem::path& file);
   ~DepthReader();
   DepthReader(DepthReader&&) noexcept;
@@ -26,5 +26,8 @@ class DepthReader {
   struct Network;
   std::unique_ptr<Network> network_;
 };
+
+/// OpenCV says nothing by itself and stays in the thread that asks. To be called once, before any thread reads.
+void set_up_opencv();
 
 }  // namespace tacipc

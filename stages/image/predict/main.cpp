@@ -21,7 +21,9 @@ const StageSpec kPredict{
     .inputs = {{.flag = "--model", .help = "model_<width>x<height>.onnx of a training"},
                {.flag = "--images", .help = "photographs to read (PNG)", .many = true},
                {.flag = "--background", .help = "photograph without contact, their reference (PNG)"},
-               {.flag = "--rest", .help = "depth map of the gel at rest (EXR, m), for theirs", .required = false},
+               {.flag = "--rest",
+                .help = "depth map of the gel at rest (EXR, m): depth maps of the photographs are written, too",
+                .required = false},
                {.flag = "--truth",
                 .help = "their true depth maps (EXR, m), as many, for a sheet of pictures",
                 .required = false,
@@ -59,6 +61,7 @@ void predict(Stage& stage) {
   const auto &files = stage.inputs("--images"), &truths = stage.inputs("--truth");
   std::vector<ByteImage> images(files.size());
   std::vector<FloatImage> answers(files.size());
+  set_up_opencv();
   tbb::enumerable_thread_specific<DepthReader> readers([&] { return DepthReader(stage.input("--model")); });
   each_in_threads(files.size(), [&](std::size_t i) {
     images[i] = read_png(files[i], 3);

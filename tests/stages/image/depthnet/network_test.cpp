@@ -60,7 +60,13 @@ TEST(Onnx, OpenCvAnswersAsLibtorchDoes) {
   for (const int reduction : {1, 2, 3})
     for (const auto& [width, height] : {std::pair(31, 22), std::pair(48, 64), std::pair(320, 240)}) {
       const NetworkConfig config{.levels = 3, .base_channels = 6, .reduction = reduction};
-      const torch::jit::Module module = make_network(config, 7);
+      torch::jit::Module module = make_network(config, 7);
+      std::uint64_t drawn = 0;
+      for (torch::Tensor& weights : weights_of(module)) {
+        const torch::NoGradGuard no_gradients;
+        if (weights.dim() == 1)  // all zero before a training
+          for (std::int64_t k = 0; k < weights.numel(); ++k) weights[k] = random_uniform(1, 4, drawn++) - 0.5;
+      }
       ByteImage image(width, height, 3), reference(width, height, 3);
       for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         image.pixels[i] = static_cast<std::uint8_t>(random_bits(1, 2, i) % 256);
@@ -76,7 +82,7 @@ TEST(Onnx, OpenCvAnswersAsLibtorchDoes) {
         ASSERT_NEAR(read.pixels[i], expected.pixels[i], 1e-5) << reduction << ' ' << width << ' ' << i;
         largest = std::max(largest, std::abs(expected.pixels[i]));
       }
-      EXPECT_GT(largest, 0.05F);
+      EXPECT_GT(largest, 0.1F);
     }
 }
 
