@@ -72,7 +72,7 @@ $(DEPTH)/tacchi/$(1)/render/render.yaml: $(DEPTH)/tacchi/$(1)/mpm.yaml $(PAPER_R
 	$(call depth_render,$(DEPTH)/tacchi/$(1)/$(depth_last)/seen_indentation.exr,$(PAPER_REAL)/tacchi/calibrate)
 $(DEPTH)/depth-based/$(1)/baseline.yaml: $(DEPTH_DATA)/$(3)/press/press.yaml $(CASES_BASELINE) $(SIM2REAL)/rival/calibrate/calibrate.yaml
 	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(DEPTH_DATA)/objects/$(2)/object.ply \
-	  --object-config $(DEPTH_DATA)/objects/$(2)/object.yaml --pose $(DEPTH_DATA)/$(3)/press/object_pose.npy)
+	  --pose $(DEPTH_DATA)/$(3)/press/object_pose.npy)
 $(DEPTH)/depth-based/$(1)/render/render.yaml: $(DEPTH)/depth-based/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml $(DEPTH)/render.yaml
 	$(call depth_render,$(DEPTH)/depth-based/$(1)/$(depth_last)/indentation.exr,$(SIM2REAL)/rival/calibrate)
 # A press that failed has no rivals.

@@ -5,7 +5,8 @@ $(call uses,paper/paper)
 COINS_SENSOR := configs/sensors/mctac.yaml
 COINS_MOTION := configs/motions/press_0500um.yaml
 COINS_LAST   := frame_0005# the end of that motion
-coins_object = --object $(OUT)/objects/$(1)/object.ply --object-config configs/objects/embossed.yaml
+coins_mesh   = --object $(OUT)/objects/$(1)/object.ply
+coins_object = $(coins_mesh) --object-config configs/objects/embossed.yaml
 
 # $(call coins_render,folder,press,mesh,configuration): another rendering of a press
 define coins_render
@@ -38,13 +39,13 @@ $(1)/tacchi/legacy/baseline.yaml: $(1)/tacchi/render/render.yaml $(1)/tacipc/ren
 $(1)/tacipc/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/tacchi.yaml | build
 	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacipc/render/$(COINS_LAST)/depth.exr)
 $(1)/depth-based/heights/baseline.yaml: $(1)/tacipc/press/press.yaml configs/rivals/baseline/height_map.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/height_map.yaml --sensor $(COINS_SENSOR) $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+	$$(call run,baseline,--config configs/rivals/baseline/height_map.yaml --sensor $(COINS_SENSOR) $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 $(1)/depth-based/render/render.yaml: $(1)/depth-based/heights/baseline.yaml configs/render/default.yaml | build
 	$$(call run,render,--shapes $(1)/depth-based/heights/$(COINS_LAST)/indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
 $(1)/depth-based/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/gomes_2021_own_front.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/gomes_2021_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+	$$(call run,baseline,--config configs/rivals/baseline/gomes_2021_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 $(1)/older_kernel/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/exponential_13_own_front.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/exponential_13_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_object,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+	$$(call run,baseline,--config configs/rivals/baseline/exponential_13_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 endef
 $(foreach o,$(PAPER_OBJECTS),$(eval $(call coins_rules,$(PAPER)/objects/$(o),$(o))))
 

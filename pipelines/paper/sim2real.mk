@@ -35,7 +35,7 @@ cases_labels := $(if $(CASES_TABLE),$(SIM2REAL)/cases/labels.txt,$(call cases_da
 # Contacts of the ball that calibrates need no press of their own.
 cases_press = $(SIM2REAL)/$(if $(CASES_TABLE),ball,objects/$(1))
 # An object where our fit has put it, frame after frame; and a file of each of these frames: $(call cases_frames,object,folder,first frame,file), one per photograph.
-cases_posed  = --object $(call cases_press,$(1))/indenter/object.ply --object-config configs/objects/embossed.yaml --pose $(SIM2REAL)/ours/$(1)/object_pose.npy
+cases_posed  = --object $(call cases_press,$(1))/indenter/object.ply --pose $(SIM2REAL)/ours/$(1)/object_pose.npy
 cases_frames = $(foreach k,$(shell seq -f %04.0f $(3) $$(($(3) + $(words $(CASES_IMAGES_$(1))) - 1))),$(2)/frame_$(k)/$(4))
 CASES_ALL = $(foreach o,$(CASES_OBJECTS),$(CASES_IMAGES_$(o)))
 
@@ -66,7 +66,7 @@ $(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(backgr
 	$(call run,calibrate,$(calibration) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh)
 $(SIM2REAL)/rival/balls/baseline.yaml: $(SIM2REAL)/calibrate/calibrate.yaml $(CASES_BASELINE) | build
 	$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(SIM2REAL)/ball/indenter/object.ply \
-	  --object-config configs/objects/embossed.yaml --pose $(SIM2REAL)/calibrate/ball_poses.npy)
+	  --pose $(SIM2REAL)/calibrate/ball_poses.npy)
 $(SIM2REAL)/rival/calibrate/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(CASES_CALIBRATE) | build
 	$(call run,calibrate,$(calibration) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr)
 

@@ -6,7 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/image/picture.h"
-#include "common/sample/object.h"
+#include "common/mesh/triangle_mesh.h"
 #include "common/sample/pose_file.h"
 #include "common/sample/render_folder.h"
 #include "common/sensor/camera_image.h"
@@ -26,8 +26,9 @@ const StageSpec kBaseline{
                {.flag = "--sensor", .help = "the sensor: camera and gel (YAML)"},
                {.flag = "--background", .help = "photograph without contact (PNG)", .required = false},
                {.flag = "--depth", .help = "depth maps (EXR)", .required = false, .many = true},
-               {.flag = "--object", .help = "mesh of the object, in place of depth maps", .required = false},
-               {.flag = "--object-config", .help = "its unit (YAML)", .required = false},
+               {.flag = "--object",
+                .help = "triangle mesh in metres (object.ply of decimate), in place of depth maps",
+                .required = false},
                {.flag = "--pose", .help = "gel_from_object per frame (NPY)", .required = false}}};
 
 std::vector<Raster> depth_maps(Stage& stage, const Camera& camera) {
@@ -38,18 +39,15 @@ std::vector<Raster> depth_maps(Stage& stage, const Camera& camera) {
   }
   const auto mesh = stage.optional_input("--object"), pose = stage.optional_input("--pose");
   if (!mesh) return maps;
-  const auto spec = stage.read_config<ObjectSpec>("--object-config");
-  if (spec.fit_window) throw UsageError("scale: fit is for decimate; give a number");
-  const TriangleMesh object = read_triangle_mesh(*mesh, spec.scale * metres_per_unit(spec.unit));
+  const TriangleMesh object = read_triangle_mesh(*mesh, 1.0);
   for (const Matrix4& gel_from_object : read_poses(*pose))
     maps.push_back(object_depth(object, gel_from_object, camera, mesh->string()));
   return maps;
 }
 
 void check_flags(const Stage& stage) {
-  const bool mesh = stage.optional_input("--object").has_value(), pose = stage.optional_input("--pose").has_value(),
-             unit = stage.optional_input("--object-config").has_value();
-  if (mesh != pose || mesh != unit) throw UsageError("--object, --object-config and --pose belong together");
+  const bool mesh = stage.optional_input("--object").has_value();
+  if (mesh != stage.optional_input("--pose").has_value()) throw UsageError("--object and --pose belong together");
   if (mesh != stage.inputs("--depth").empty()) throw UsageError("give either --depth or --object");
 }
 

@@ -18,8 +18,8 @@ class BaselineProgram : public ProgramTest {
     scratch_.file("sensor.yaml", small);
     // A pyramid of 6 mm edge and 3 mm height, in millimetres, its tip down at the origin.
     scratch_.file("tip.obj",
-                  "v 0 0 0\nv -3 -3 3\nv 3 -3 3\nv 3 3 3\nv -3 3 3\nf 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4 5\n");
-    scratch_.file("unit.yaml", "unit: mm\n");
+                  "v 0 0 0\nv -.003 -.003 .003\nv .003 -.003 .003\nv .003 .003 .003\nv -.003 .003 .003\nf 1 3 2\nf 1 4 "
+                  "3\nf 1 5 4\nf 1 2 5\nf 2 3 4 5\n");
     std::vector<double> poses;
     for (const double z : {1e-3, -1e-3})
       for (const double v : {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, z, 0.0, 0.0, 0.0, 1.0})
@@ -34,7 +34,7 @@ class BaselineProgram : public ProgramTest {
                     "--log-level error {}",
                     (scratch_ / "").string(), TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, config, more));
   }
-  const std::string object_ = " --object tip.obj --object-config unit.yaml --pose pose.npy";
+  const std::string object_ = " --object tip.obj --pose pose.npy";
 };
 
 TEST_F(BaselineProgram, AnObjectOverTheGelTouchesNothingAndOneInItDoes) {
@@ -64,7 +64,7 @@ TEST_F(BaselineProgram, WrongFlagsAndFilesAreSaidOnce) {
   EXPECT_EQ(run("height_map", "--out a"), 2);
   EXPECT_EQ(said_, "baseline: error: give either --depth or --object\n");
   EXPECT_EQ(run("height_map", "--object tip.obj --out a"), 2);
-  EXPECT_EQ(said_, "baseline: error: --object, --object-config and --pose belong together\n");
+  EXPECT_EQ(said_, "baseline: error: --object and --pose belong together\n");
   EXPECT_EQ(run("gomes_2021", object_ + " --out a"), 2);
   EXPECT_EQ(said_, "baseline: error: --background: needed where the configuration has shading\n");
   EXPECT_EQ(run("height_map", object_ + " --background background.png --out a"), 2);
