@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/image/picture.h"
 #include "common/mesh/triangle_mesh.h"
 #include "common/sample/pose_file.h"
@@ -92,6 +93,8 @@ int main(int argc, char** argv) {
       if (frame.tactile) write_frame(stage, folder, FrameFile::tactile, *frame.tactile);
       deepest_m = std::max(deepest_m, top);
     }
+    if (stage.optional_input("--object") && !(deepest_m > 0.0))
+      log_warning("{} is in the gel in no frame (it is read in metres)", stage.optional_input("--object")->string());
     stage.summarize({{"frames", maps.size()}, {"max_indentation_mm", 1e3 * deepest_m}});
   });
 }

@@ -16,7 +16,7 @@ class BaselineProgram : public ProgramTest {
     for (const auto& [from, to] : {std::pair{"width_px: 640", "width_px: 64"}, {"height_px: 480", "height_px: 48"}})
       small.replace(small.find(from), std::string(from).size(), to);
     scratch_.file("sensor.yaml", small);
-    // A pyramid of 6 mm edge and 3 mm height, in millimetres, its tip down at the origin.
+    // A pyramid of 6 mm edge and 3 mm height, its tip down at the origin.
     scratch_.file("tip.obj",
                   "v 0 0 0\nv -.003 -.003 .003\nv .003 -.003 .003\nv .003 .003 .003\nv -.003 .003 .003\nf 1 3 2\nf 1 4 "
                   "3\nf 1 5 4\nf 1 2 5\nf 2 3 4 5\n");
@@ -28,11 +28,11 @@ class BaselineProgram : public ProgramTest {
     write_png(scratch_ / "background.png", ByteImage(64, 48, 3, 128));
   }
 
-  int run(const std::string& config, const std::string& more) {
+  int run(const std::string& config, const std::string& more, const char* log_level = "error") {
     return run_command(
         fmt::format("cd '{}' && {}/baseline --config {}/configs/rivals/baseline/{}.yaml --sensor sensor.yaml "
-                    "--log-level error {}",
-                    (scratch_ / "").string(), TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, config, more));
+                    "--log-level {} {}",
+                    (scratch_ / "").string(), TACIPC_BIN_DIR, TACIPC_SOURCE_DIR, config, log_level, more));
   }
   const std::string object_ = " --object tip.obj --pose pose.npy";
 };
@@ -49,6 +49,14 @@ TEST_F(BaselineProgram, AnObjectOverTheGelTouchesNothingAndOneInItDoes) {
   EXPECT_LT(top, 1.2e-3f);
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "a/frame_0001/tactile.png"));
   EXPECT_THAT(read_file(scratch_ / "a/baseline.yaml"), testing::HasSubstr("frames: 2"));
+}
+
+TEST_F(BaselineProgram, WarnsOfAnObjectThatIsNeverInTheGel) {
+  scratch_.file("high.obj", "v 0 0 .0012\nv -.003 -.003 .003\nv .003 -.003 .003\nv .003 .003 .003\nf 1 3 2\nf 1 4 3\n");
+  ASSERT_EQ(run("height_map", object_ + " --out a", "warning"), 0);
+  EXPECT_EQ(said_, "");
+  ASSERT_EQ(run("height_map", " --object high.obj --pose pose.npy --out a", "warning"), 0);
+  EXPECT_THAT(said_, testing::HasSubstr("high.obj is in the gel in no frame (it is read in metres)"));
 }
 
 TEST_F(BaselineProgram, ItsOwnDepthMapGoesInAgain) {
