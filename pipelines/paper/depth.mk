@@ -22,7 +22,7 @@ packages_for_depth-quick     := depthnet predict loaders
 
 # What cannot work is refused before hours of simulation; samples that fail are left out, if they are few (depth_lists.sh).
 .PHONY: depth-benchmark depth-objects depth-rivals depth-networks depth-quick
-depth-benchmark: | build ## studies: Networks trained on three simulators read depth from photographs [CASES=] (needs SHARED; a night, resumes); writes OUT/docs/depth-results.md
+depth-benchmark: | build ## studies: Networks trained on three simulators read depth from photographs [CASES=] (needs SHARED; hours, resumes); writes OUT/docs/depth-results.md
 	$(depthnet_is_built)
 	@[ -z "$$($(BIN)/tacipc get '$(CASES)' circles --default '')" ] || { echo "depth-benchmark: $(CASES) tells no depths" >&2; exit 2; }
 	$(call make_again,REBUILD=no sim2real-page)
