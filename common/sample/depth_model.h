@@ -4,12 +4,12 @@
 namespace tacipc {
 
 struct DepthModel {
-  static constexpr const char* producer = "tacipc depthnet";
+  static constexpr const char* kProducer = "tacipc depthnet";
   // Inputs, codes, f32 (1, H, W, 3).
-  static constexpr const char* image = "image";
-  static constexpr const char* reference = "reference";
+  static constexpr const char* kImage = "image";
+  static constexpr const char* kReference = "reference";
   // Output, f32 (1, 1, H, W).
-  static constexpr const char* indentation = "indentation_mm";
+  static constexpr const char* kIndentation = "indentation_mm";
 };
 
 }  // namespace tacipc

@@ -28,15 +28,15 @@ class OnnxWriter : public NetworkWriter {
         seen_rows_(up_to_multiple(rows_, reduction_) / reduction_),
         seen_columns_(up_to_multiple(columns_, reduction_) / reduction_) {
     model_.set_ir_version(kFormat);
-    model_.set_producer_name(DepthModel::producer);
+    model_.set_producer_name(DepthModel::kProducer);
     model_.add_opset_import()->set_version(kOperatorSet);
     graph().set_name("depth_from_touch");
-    for (const char* name : {DepthModel::image, DepthModel::reference})
+    for (const char* name : {DepthModel::kImage, DepthModel::kReference})
       declare(*graph().add_input(), name, {1, rows_, columns_, 3});
   }
 
   void begin(double change_codes, double reference_codes, int multiple) override {
-    const std::string image = channels_first(DepthModel::image), reference = channels_first(DepthModel::reference);
+    const std::string image = channels_first(DepthModel::kImage), reference = channels_first(DepthModel::kReference);
     step("Concat", {step("Sub", {image, reference}), reference});
     attribute("axis", 1);
     if (reduction_ > 1) {
@@ -81,8 +81,8 @@ class OnnxWriter : public NetworkWriter {
     if (reduction_ > 1) enlarge(reduction_);
     keep_first(kRows, reduction_ * seen_rows_, rows_);
     keep_first(kColumns, reduction_ * seen_columns_, columns_);
-    graph().mutable_node(graph().node_size() - 1)->set_output(0, DepthModel::indentation);
-    declare(*graph().add_output(), DepthModel::indentation, {1, 1, rows_, columns_});
+    graph().mutable_node(graph().node_size() - 1)->set_output(0, DepthModel::kIndentation);
+    declare(*graph().add_output(), DepthModel::kIndentation, {1, 1, rows_, columns_});
   }
 
   std::string bytes() const { return model_.SerializeAsString(); }

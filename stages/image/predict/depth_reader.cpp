@@ -58,7 +58,7 @@ DepthReader::DepthReader(const std::filesystem::path& file) : network_(std::make
   const std::string bytes = read_file(file);
   // OpenCV does not say which size a network is for, and would answer for many others.
   onnx::ModelProto model;
-  if (!model.ParseFromString(bytes) || model.producer_name() != DepthModel::producer) throw refused;
+  if (!model.ParseFromString(bytes) || model.producer_name() != DepthModel::kProducer) throw refused;
   const onnx::GraphProto& graph = model.graph();
   if (graph.input_size() != 2 || graph.output_size() != 1) throw refused;
   const auto& shape = graph.input(0).type().tensor_type().shape();
@@ -66,9 +66,9 @@ DepthReader::DepthReader(const std::filesystem::path& file) : network_(std::make
   const std::int64_t rows = shape.dim(1).dim_value(), columns = shape.dim(2).dim_value();
   constexpr std::int64_t kLargest = 1 << 15;
   if (rows < 1 || columns < 1 || rows > kLargest || columns > kLargest ||
-      !is(graph.input(0), DepthModel::image, {1, rows, columns, 3}) ||
-      !is(graph.input(1), DepthModel::reference, {1, rows, columns, 3}) ||
-      !is(graph.output(0), DepthModel::indentation, {1, 1, rows, columns}) ||
+      !is(graph.input(0), DepthModel::kImage, {1, rows, columns, 3}) ||
+      !is(graph.input(1), DepthModel::kReference, {1, rows, columns, 3}) ||
+      !is(graph.output(0), DepthModel::kIndentation, {1, 1, rows, columns}) ||
       !std::all_of(graph.initializer().begin(), graph.initializer().end(), whole))
     throw refused;
   network_->rows = static_cast<int>(rows);
@@ -92,8 +92,8 @@ FloatImage DepthReader::depth_mm(const std::string& name, const ByteImage& image
   FloatImage out(image.width, image.height, 1);
   cv::Mat answer;
   try {
-    network_->net.setInput(tensor_of(image), DepthModel::image);
-    network_->net.setInput(tensor_of(reference), DepthModel::reference);
+    network_->net.setInput(tensor_of(image), DepthModel::kImage);
+    network_->net.setInput(tensor_of(reference), DepthModel::kReference);
     answer = network_->net.forward();
   } catch (const std::exception&) {
     throw DataError("{}: the network is damaged", name);

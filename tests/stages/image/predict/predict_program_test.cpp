@@ -23,7 +23,7 @@ constexpr int kWidth = 8, kHeight = 6;
 onnx::ModelProto small_network() {
   onnx::ModelProto model;
   model.set_ir_version(6);
-  model.set_producer_name(DepthModel::producer);
+  model.set_producer_name(DepthModel::kProducer);
   model.add_opset_import()->set_version(11);
   onnx::GraphProto& graph = *model.mutable_graph();
   const auto declare = [](onnx::ValueInfoProto& value, const char* name, std::initializer_list<int> shape) {
@@ -32,9 +32,9 @@ onnx::ModelProto small_network() {
     for (const int size : shape)
       value.mutable_type()->mutable_tensor_type()->mutable_shape()->add_dim()->set_dim_value(size);
   };
-  declare(*graph.add_input(), DepthModel::image, {1, kHeight, kWidth, 3});
-  declare(*graph.add_input(), DepthModel::reference, {1, kHeight, kWidth, 3});
-  declare(*graph.add_output(), DepthModel::indentation, {1, 1, kHeight, kWidth});
+  declare(*graph.add_input(), DepthModel::kImage, {1, kHeight, kWidth, 3});
+  declare(*graph.add_input(), DepthModel::kReference, {1, kHeight, kWidth, 3});
+  declare(*graph.add_output(), DepthModel::kIndentation, {1, 1, kHeight, kWidth});
   const auto constant = [&](const char* name, std::initializer_list<int> shape, std::initializer_list<float> values) {
     onnx::TensorProto& added = *graph.add_initializer();
     added.set_name(name);
@@ -59,10 +59,10 @@ onnx::ModelProto small_network() {
     added.set_type(onnx::AttributeProto::INTS);
     for (const int value : values) added.add_ints(value);
   };
-  numbers(node("Transpose", {DepthModel::image}, "first"), "perm", {0, 3, 1, 2});
-  numbers(node("Transpose", {DepthModel::reference}, "second"), "perm", {0, 3, 1, 2});
+  numbers(node("Transpose", {DepthModel::kImage}, "first"), "perm", {0, 3, 1, 2});
+  numbers(node("Transpose", {DepthModel::kReference}, "second"), "perm", {0, 3, 1, 2});
   node("Sub", {"first", "second"}, "change");
-  numbers(node("Conv", {"change", "w", "b"}, DepthModel::indentation), "kernel_shape", {1, 1});
+  numbers(node("Conv", {"change", "w", "b"}, DepthModel::kIndentation), "kernel_shape", {1, 1});
   return model;
 }
 
