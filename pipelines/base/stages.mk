@@ -8,7 +8,7 @@ try = $(call run,$(1),$(2)) || { [ $$? != 2 ] && echo "$@: not made" >&2; }
 # $(call holds,record): fails unless the record's summary says so.
 holds = @[ "$$($(BIN)/tacipc get $(1) summary.holds --default false)" = true ] || { echo "$(1): does not hold or is missing" >&2; exit 1; }
 
-# Said before the stage wrap is run, which is built only where CGAL is.
+# Said before stages are run that are built only where their packages are.
 depthnet_is_built = @[ -x $(BIN)/depthnet ] && [ -x $(BIN)/predict ] || { echo "depthnet, predict: not built for want of packages: make -f Makefile.data packages build GROUPS='depthnet predict'" >&2; exit 2; }
 wrap_is_built = @[ -x $(BIN)/wrap ] || { echo "wrap: not built for want of libcgal-dev: make -f Makefile.data packages build GROUPS=wrap" >&2; exit 2; }
 
