@@ -36,4 +36,23 @@ inline TriangleMesh make_box(const Vector3& low, const Vector3& high) {
                     {3, 4, 7}});
 }
 
+/// A closed L lying on z = 0, one high: [0, 3] × [0, 1] and [0, 1] × [1, 2].
+inline TriangleMesh make_l_shape() {
+  const std::array<Eigen::Vector2d, 6> outline{{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}};
+  std::vector<Vector3> vertices;
+  for (const double z : {0.0, 1.0})
+    for (const Eigen::Vector2d& p : outline) vertices.emplace_back(p.x(), p.y(), z);
+  std::vector<std::array<int, 3>> faces;
+  for (const auto& [a, b, c] : std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}}) {
+    faces.push_back({a, c, b});
+    faces.push_back({a + 6, b + 6, c + 6});
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int next = (i + 1) % 6;
+    faces.push_back({i, next, next + 6});
+    faces.push_back({i, next + 6, i + 6});
+  }
+  return make_mesh(vertices, faces);
+}
+
 }  // namespace tacipc

@@ -14,7 +14,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kMaxSteps = 100000;
-const std::vector<std::string> kKinds{"press", "shear", "twist", "hold", "release", "tilt", "path", "load"};
+const std::vector<std::string> kKinds{"press", "shear", "twist", "hold", "release", "tilt", "path", "load", "free"};
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -46,6 +46,10 @@ void yielding(const Phase& phase, const PhaseStart& start, double part, Goal& go
     case PhaseKind::load:
       goal.free = phase.free;
       break;
+    case PhaseKind::free:  // the force is not that of an axis, and not gradual: what is let go is let go at once
+      goal.free = {};
+      goal.load_n = *phase.load_n;
+      return;
     case PhaseKind::shear:
     case PhaseKind::path:
       goal.free[0] = goal.free[1] = false;
@@ -146,6 +150,9 @@ Phase Phase::read(ConfigReader& in) {
       }
       break;
     }
+    case PhaseKind::free:
+      phase.load_n = in.has("force_n") ? in.vector3("force_n") : Vector3::Zero();
+      break;
     case PhaseKind::path: {
       phase.file = std::filesystem::path(in.source()).parent_path() / in.text("file");
       phase.absolute = in.choice_or("relative_to", "placement", {"placement", "sensor"}) == "sensor";

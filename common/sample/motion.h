@@ -13,10 +13,10 @@
 namespace tacipc {
 
 /// What a phase does. The numbers stand in phase.npy; `reference` and `approach` name frames, not phases.
-enum class PhaseKind { reference, approach, press, shear, twist, hold, release, tilt, path, load };
+enum class PhaseKind { reference, approach, press, shear, twist, hold, release, tilt, path, load, free };
 
-inline constexpr std::array kPhaseNames{"reference", "approach", "press", "shear", "twist",
-                                        "hold",      "release",  "tilt",  "path",  "load"};
+inline constexpr std::array kPhaseNames{"reference", "approach", "press", "shear", "twist", "hold",
+                                        "release",   "tilt",     "path",  "load",  "free"};
 
 const char* name_of(PhaseKind kind);
 
@@ -43,7 +43,7 @@ struct Phase {
   double angle_rad = 0.0;               // twist, tilt
   double direction_rad = 0.0;           // tilt: the object's top leans towards this direction, from x towards y
   std::optional<double> height_m = {};  // release: of the lowest point at the end; absent: as in frame 0
-  std::optional<Vector3> load_n = {};   // press … or with this force on the object instead of a depth; load
+  std::optional<Vector3> load_n = {};   // press … or with this force on the object instead of a depth; load; free
   std::array<bool, 3> free = {};        // axes of S along which the object yields to the load
   std::filesystem::path file = {};      // path
   bool absolute = false;  // path: rows are gel_from_object, else motions about the placed object's reference point

@@ -27,8 +27,8 @@ std::string code_list(const Names& names) {
   return text;
 }
 
-const std::array<NpyField, 12>& all_fields() {
-  static const std::array<NpyField, 12> kFields{{
+const std::array<NpyField, 13>& all_fields() {
+  static const std::array<NpyField, 13> kFields{{
       {"positions.npy", f8, {kFrames, kVertices, 3}, "m", "gel vertices in the order of `gel.msh`; frame 0 is rest"},
       {"object_pose.npy", f8, {kFrames, 4, 4}, "m", "`gel_from_object`"},
       {"time.npy", f8, {kFrames}, "s", "time of the frame, 0 at the first"},
@@ -72,6 +72,13 @@ const std::array<NpyField, 12>& all_fields() {
        {kFrames, kMarkers, 2, 3},
        "m",
        "[0] since rest, [1] since the end of the first press (zero before)"},
+      {"object_twist.npy",
+       f8,
+       {kFrames, 6},
+       "m/s, rad/s",
+       "velocity of the object's centre of mass and its angular velocity; only where the motion has a phase in which "
+       "it "
+       "is free"},
   }};
   return kFields;
 }
@@ -262,6 +269,10 @@ void PressWriter::append(std::vector<double>& all, const ContactParts& parts) {
     for (int k = 0; k < 3; ++k) all.push_back(parts.normal(i, k));
     for (int k = 0; k < 3; ++k) all.push_back(parts.friction(i, k));
   }
+}
+
+void PressWriter::append(std::vector<double>& all, const Twist& twist) {
+  for (const Vector3& part : {twist.velocity_m_s, twist.spin_rad_s}) all.insert(all.end(), part.begin(), part.end());
 }
 
 void PressWriter::append(std::vector<double>& all, const Wrench& wrench) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/base/types.h"
+#include "common/base/wrench.h"
 #include "common/format/npy_field.h"
 #include "common/sample/contact_state.h"
 #include "common/sample/motion.h"
@@ -31,7 +32,8 @@ enum class PressArray {
   contact_state,
   first_slip,
   markers,
-  marker_displacement
+  marker_displacement,
+  object_twist
 };
 
 /// Symbols of shapes.
@@ -51,9 +53,9 @@ struct ContactParts {
   Positions normal, friction;
 };
 
-/// Force and torque about the origin of S, on the gel.
-struct Wrench {
-  Vector3 force_n, torque_n_m;
+/// Velocity of the object's centre of mass and angular velocity, along the axes of S.
+struct Twist {
+  Vector3 velocity_m_s, spin_rad_s;
 };
 
 /// Of every marker, m.
@@ -85,7 +87,7 @@ class PressFolder {
   std::vector<double> times() const;                     // s
   std::vector<PhaseKind> phases() const;                 // per frame
   std::vector<Matrix4> poses() const;                    // gel_from_object, m, per frame
-  std::vector<Wrench> wrenches() const;                  // per frame
+  std::vector<Wrench> wrenches() const;                  // on the gel, about the origin of S, per frame
   std::vector<int> front_vertices() const;               // rows of positions; \throw DataError if one is none of these
   std::vector<double> first_slips() const;               // s, +∞ where a front vertex never slips
   Positions positions(std::size_t frame) const;          // #V × 3, m
@@ -132,6 +134,7 @@ class PressWriter {
   static void append(std::vector<double>& all, const Positions& rows);
   static void append(std::vector<double>& all, const ContactParts& parts);
   static void append(std::vector<double>& all, const Wrench& wrench);
+  static void append(std::vector<double>& all, const Twist& twist);
 
   Stage& stage_;
   Extents extents_;

@@ -20,7 +20,8 @@ SampleSpec SampleSpec::read(ConfigReader& in) {
   for (ConfigReader& phase : in.one_or_more_sections("motion")) {
     spec.motion.push_back(Phase::read(phase));
     if (spec.motion.back().load_n && !spec.density_kg_m3)
-      phase.fault("force_n", "a force moves the object only if its object.density_kg_m3 is given");
+      phase.fault(spec.motion.back().kind == PhaseKind::free ? "kind" : "force_n",
+                  "a force moves the object only if its object.density_kg_m3 is given");
   }
   return spec;
 }

@@ -11,7 +11,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kMaxSteps = 100000;
-const std::vector<std::string> kKinds{"press", "shear", "twist", "tilt", "hold", "release", "load", "path"};
+const std::vector<std::string> kKinds{"press", "shear", "twist", "tilt", "hold", "release", "load", "free", "path"};
 
 /// Six digits: finer than any of these lengths and angles can be set, and short to read.
 std::string number_text(double value) { return fmt::format("{:.6g}", value); }
@@ -75,11 +75,11 @@ PhaseTemplate PhaseTemplate::read(ConfigReader& in) {
     take_if_given("direction_deg", Range::any());
   } else if (phase.kind == "release") {
     take_if_given("height_mm", Range::any());
-  } else if (phase.kind == "load") {
+  } else if (phase.kind == "load" || (phase.kind == "free" && in.has("force_n"))) {
     const Vector3 force = in.vector3("force_n");
     phase.words.push_back({"force_n", fmt::format("[{}, {}, {}]", number_text(force.x()), number_text(force.y()),
                                                   number_text(force.z()))});
-    phase.words.push_back({"free", in.text_or("free", "xyz")});
+    if (phase.kind == "load") phase.words.push_back({"free", in.text_or("free", "xyz")});
   }
   if (phase.kind == "path") {
     phase.path_file = (std::filesystem::path(in.source()).parent_path() / in.text("file")).lexically_normal();

@@ -21,8 +21,9 @@ std::string phase_text(const Record& phase) {
     words += before + (low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high)) + after;
   };
   add(" ", "depth_mm", " mm");
-  // A load is a list of three forces, a press one number.
-  if (const auto load = kind == name_of(PhaseKind::load) ? phase.numbers("force_n", 3) : std::nullopt)
+  // A load is a list of three forces, as is that on a free object; a press one number.
+  const bool vector = kind == name_of(PhaseKind::load) || kind == name_of(PhaseKind::free);
+  if (const auto load = vector ? phase.numbers("force_n", 3) : std::nullopt)
     words += fmt::format(" ({:g}, {:g}, {:g}) N", (*load)[0], (*load)[1], (*load)[2]);
   else
     add(" until ", "force_n", " N");

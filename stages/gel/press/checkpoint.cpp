@@ -88,6 +88,9 @@ void solver(auto& io, auto& report) {
   io.plain(report.barrier_factor);
   io.plain(report.contact_force_n);
   each(io, report.object_shift_m);
+  io.plain(report.body_residual_n);
+  io.plain(report.body_residual_n_m);
+  io.plain(report.body_load_n);
 }
 
 void contents(auto& io, auto& frame, auto& progress) {
@@ -111,6 +114,9 @@ void contents(auto& io, auto& frame, auto& progress) {
   io.plain(frame.stand_off_m);
   io.plain(frame.min_volume_ratio);
   io.plain(frame.pose_error_m);
+  io.plain(frame.body_strain);
+  each(io, frame.object_velocity_m_s);
+  each(io, frame.object_spin_rad_s);
   io.plain(frame.intersections);
   io.plain(frame.inverted_tets);
   io.plain(frame.gel_in_object);
@@ -118,6 +124,8 @@ void contents(auto& io, auto& frame, auto& progress) {
   io.rows(progress.state.x);
   io.rows(progress.state.velocity_m_s);
   each(io, progress.state.object_velocity_m_s);
+  each(io, progress.state.object_motion.velocity_m_s);
+  each(io, progress.state.object_motion.angular_momentum_kg_m2_s);
   io.plain(progress.state.barrier_factor);
   each(io, progress.object_shift_m);
 }

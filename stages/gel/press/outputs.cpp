@@ -54,36 +54,43 @@ void write_contact(const PressWriter& writer, const Sensor& sensor, const Simula
 Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
   const ContactSummary contact =
       measure_contact(simulation.front, on_front(simulation.front, f.positions), f.normal_force_n, f.contact_state);
-  return {{"time_s", f.time_s},
-          {"phase", name_of(f.phase)},
-          {"press_force_n", 0.0 - f.force_n.z()},
-          {"tangential_force_n", f.force_n.head<2>().norm()},
-          {"balance_n", f.balance.force_n},
-          {"balance_relative", f.balance.relative},
-          {"inertia_n", f.balance.inertia_n.norm()},
-          {"mount_force_n", f.balance.mount_n.norm()},
-          {"contact_area_mm2", 1e6 * contact.area_m2},
-          {"mean_pressure_pa", contact.mean_pressure_pa},
-          {"peak_pressure_pa", contact.peak_pressure_pa},
-          {"sticking", contact.sticking},
-          {"slipping", contact.slipping},
-          {"substeps", f.solver.time_steps},
-          {"newton_iterations", f.solver.newton_iterations},
-          {"patch_iterations", f.solver.patch_iterations},
-          {"lag_iterations", f.solver.lag_iterations},
-          {"exact_hessian_waits", f.solver.exact_hessian_waits},
-          {"approximated_share", f.solver.approximated_share},
-          {"friction_residual_n", f.solver.friction_residual_n},
-          {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
-          {"force_residual_n", f.solver.force_residual_n},
-          {"barrier_stiffness", f.solver.barrier_factor * simulation.barrier_stiffness},
-          {"min_gap_m", f.min_gap_m},
-          {"stand_off_m", f.stand_off_m},
-          {"min_volume_ratio", f.min_volume_ratio},
-          {"intersections", f.intersections},
-          {"inverted_tets", f.inverted_tets},
-          {"gel_in_object", f.gel_in_object},
-          {"pose_error_m", f.pose_error_m}};
+  Value::Map lines{{"time_s", f.time_s},
+                   {"phase", name_of(f.phase)},
+                   {"press_force_n", 0.0 - f.force_n.z()},
+                   {"tangential_force_n", f.force_n.head<2>().norm()},
+                   {"balance_n", f.balance.force_n},
+                   {"balance_relative", f.balance.relative},
+                   {"inertia_n", f.balance.inertia_n.norm()},
+                   {"mount_force_n", f.balance.mount_n.norm()},
+                   {"contact_area_mm2", 1e6 * contact.area_m2},
+                   {"mean_pressure_pa", contact.mean_pressure_pa},
+                   {"peak_pressure_pa", contact.peak_pressure_pa},
+                   {"sticking", contact.sticking},
+                   {"slipping", contact.slipping},
+                   {"substeps", f.solver.time_steps},
+                   {"newton_iterations", f.solver.newton_iterations},
+                   {"patch_iterations", f.solver.patch_iterations},
+                   {"lag_iterations", f.solver.lag_iterations},
+                   {"exact_hessian_waits", f.solver.exact_hessian_waits},
+                   {"approximated_share", f.solver.approximated_share},
+                   {"friction_residual_n", f.solver.friction_residual_n},
+                   {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
+                   {"force_residual_n", f.solver.force_residual_n},
+                   {"barrier_stiffness", f.solver.barrier_factor * simulation.barrier_stiffness},
+                   {"min_gap_m", f.min_gap_m},
+                   {"stand_off_m", f.stand_off_m},
+                   {"min_volume_ratio", f.min_volume_ratio},
+                   {"intersections", f.intersections},
+                   {"inverted_tets", f.inverted_tets},
+                   {"gel_in_object", f.gel_in_object},
+                   {"pose_error_m", f.pose_error_m}};
+  if (f.phase == PhaseKind::free) {
+    lines.emplace_back("body_strain", f.body_strain);
+    lines.emplace_back("body_load_n", f.solver.body_load_n);
+    lines.emplace_back("body_residual_n", f.solver.body_residual_n);
+    lines.emplace_back("body_residual_n_m", f.solver.body_residual_n_m);
+  }
+  return lines;
 }
 
 /// What every frame was held to, for whoever judges the numbers of the record again.
@@ -95,7 +102,10 @@ Value::Map limits() {
           {"volume_ratio", kVerdictLimits.volume_ratio},
           {"balance_relative", kVerdictLimits.balance_relative},
           {"smallest_contact_n", kSmallestContactN},
-          {"pose_error_m", kVerdictLimits.pose_error_m}};
+          {"pose_error_m", kVerdictLimits.pose_error_m},
+          {"body_strain", kVerdictLimits.body_strain},
+          {"body_balance_relative", kVerdictLimits.body_balance_relative},
+          {"smallest_body_load_n", kSmallestBodyLoadN}};
 }
 
 }  // namespace
@@ -114,6 +124,11 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   writer.write(PressArray::time, frames, [](const Frame& f) { return f.time_s; });
   writer.write(PressArray::phase, frames, [](const Frame& f) { return f.phase; });
   writer.write(PressArray::wrench, frames, [](const Frame& f) { return Wrench{f.force_n, f.torque_n_m}; });
+  if (simulation.object_may_be_free) {
+    writer.write(PressArray::object_twist, frames, [](const Frame& f) {
+      return Twist{f.object_velocity_m_s, f.object_spin_rad_s};
+    });
+  }
   std::vector<int> phases;
   for (const Frame& f : frames) phases.push_back(f.phase_index);
   const auto end = press_end_frame(sample, phases);

@@ -41,15 +41,24 @@ class Motion {
       if (!(out_.object_mass_kg > 0.0)) throw DataError("the object encloses no volume, so it has no mass");
     }
     out_.front = make_front_surface(gel);
+    if (std::any_of(sample.motion.begin(), sample.motion.end(),
+                    [](const Phase& phase) { return phase.kind == PhaseKind::free; })) {
+      if (!closed_) throw DataError("the object is not closed: where it moves freely its surface says how heavy it is");
+      body_ = make_affine_body(object.positions, object.triangles, *sample.density_kg_m3);
+    }
+    out_.object_may_be_free = body_.has_value();
     placed_ = place(object.positions, {out_.face, sample.rotate_rad, sample.center_x_m, sample.center_y_m},
                     scales_.start_gap_m);
     mesh_ = make_contact_mesh(gel.positions, gel.boundary, transformed(placed_, object.positions), object.triangles);
+    if (body_) mesh_.num_control_points = 4;
   }
 
   Simulation run() {
-    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, gel_, rest_tets_, out_.element), settings_);
+    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, gel_, rest_tets_, out_.element), settings_, body_);
     stepper_ = &stepper;
-    progress_.state = {.x = mesh_.rest_positions, .velocity_m_s = Positions::Zero(gel_.num_vertices(), 3)};
+    progress_.state = {.x = Positions(mesh_.num_rows(), 3), .velocity_m_s = Positions::Zero(gel_.num_vertices(), 3)};
+    progress_.state.x.topRows(mesh_.num_vertices()) = mesh_.rest_positions;
+    if (body_) mesh_.control_rows(progress_.state.x) = control_at(placed_);
     pose_ = placed_;
     if (const double gap = stepper.smallest_gap(progress_.state.x, scales_.gap_horizon_m); gap <= scales_.d_hat_m) {
       throw DataError("the object is {:.3g} m from the gel in frame 0, nearer than d_hat = {:.3g} m", gap,
@@ -87,7 +96,9 @@ class Motion {
     StepGoal step{.h_s = (to - from) * goal.duration_s,
                   .object_target = transformed(goal.gel_from_object, object_.positions),
                   .load_n = goal.load_n,
-                  .object_mass_kg = out_.object_mass_kg};
+                  .object_mass_kg = out_.object_mass_kg,
+                  .free_object = phase.kind == PhaseKind::free};
+    if (body_) step.control_target = control_at(goal.gel_from_object);
     for (int axis = 0; axis < 3; ++axis) {
       if (goal.free[axis]) step.free_axes.push_back(axis);
     }
@@ -96,8 +107,12 @@ class Motion {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
       progress_.object_shift_m += done.object_shift_m;
-      pose_ = goal.gel_from_object;
-      pose_.topRightCorner<3, 1>() += done.object_shift_m;
+      if (step.free_object) {
+        pose_ = pose_of(*body_, mesh_.control_rows(progress_.state.x));
+      } else {
+        pose_ = goal.gel_from_object;
+        pose_.topRightCorner<3, 1>() += done.object_shift_m;
+      }
       const StepReport before = report;
       report = done;
       report.time_steps += before.time_steps;
@@ -116,6 +131,9 @@ class Motion {
       advance(phase, start, middle, to, halvings + 1, report);
     }
   }
+
+  /// Where the points that carry the object are when it is at a pose.
+  ControlPoints control_at(const Matrix4& pose) const { return transformed(pose, body_->rest_m); }
 
   void run_frame(const Phase& phase, int phase_index, int index, const PhaseStart& start, double phase_start_s) {
     Frame frame;
@@ -168,8 +186,16 @@ class Motion {
     frame.balance = balance_of(frame.positions, {.contact = contact, .inertia = forces.body, .mount = forces.mount});
     touched_ = touched_ || frame.balance.contact_n != Vector3::Zero();
     if (frame.phase == PhaseKind::press && !touched_) frame.phase = PhaseKind::approach;
-    const Positions object_positions = transformed(pose_, object_.positions);
-    frame.pose_error_m = (x.bottomRows(mesh_.num_object_vertices) - object_positions).rowwise().norm().maxCoeff();
+    // A free object is what its points make of it, a rigid one but for its strain.
+    const bool free = frame.phase == PhaseKind::free;
+    const Positions object_positions = free ? Positions(mesh_.object_rows(x)) : transformed(pose_, object_.positions);
+    frame.pose_error_m = (mesh_.object_rows(x) - object_positions).rowwise().norm().maxCoeff();
+    if (body_) {
+      const ControlPoints points = mesh_.control_rows(x);
+      if (free) frame.body_strain = strain_of(*body_, points);
+      frame.object_velocity_m_s = progress_.state.object_motion.velocity_m_s;
+      frame.object_spin_rad_s = angular_velocity(*body_, points, progress_.state.object_motion);
+    }
     frame.min_gap_m = stepper_->smallest_gap(x, scales_.gap_horizon_m);
     frame.stand_off_m = forces.stand_off_m;
     frame.min_volume_ratio = min_volume_ratio(frame.positions, gel_.tets, rest_tets_);
@@ -203,6 +229,7 @@ class Motion {
   const std::vector<RestTet> rest_tets_;
   Simulation out_;
   ContactMesh mesh_;
+  std::optional<AffineBody> body_;  // the object, where it is free in any phase
   TimeStepper* stepper_ = nullptr;
   double time_s_ = 0.0;
   Matrix4 placed_, pose_;
@@ -214,17 +241,20 @@ class Motion {
 }  // namespace
 
 FrameNumbers numbers_of(const Frame& frame) {
-  return {.min_gap_m = frame.min_gap_m,
-          .intersections = frame.intersections,
-          .inverted_tets = frame.inverted_tets,
-          .gel_in_object = frame.gel_in_object,
-          .min_volume_ratio = frame.min_volume_ratio,
-          .velocity_residual_m_s = frame.solver.velocity_residual_m_s,
-          .force_residual_n = frame.solver.force_residual_n,
-          .friction_residual_n = frame.solver.friction_residual_n,
-          .balance_n = frame.balance.force_n,
-          .balance_relative = frame.balance.relative,
-          .pose_error_m = frame.pose_error_m};
+  return {
+      .min_gap_m = frame.min_gap_m,
+      .intersections = frame.intersections,
+      .inverted_tets = frame.inverted_tets,
+      .gel_in_object = frame.gel_in_object,
+      .min_volume_ratio = frame.min_volume_ratio,
+      .velocity_residual_m_s = frame.solver.velocity_residual_m_s,
+      .force_residual_n = frame.solver.force_residual_n,
+      .friction_residual_n = frame.solver.friction_residual_n,
+      .balance_n = frame.balance.force_n,
+      .balance_relative = frame.balance.relative,
+      .pose_error_m = frame.pose_error_m,
+      .body_strain = frame.body_strain,
+      .body_balance_relative = frame.solver.body_residual_n / std::max(frame.solver.body_load_n, kSmallestBodyLoadN)};
 }
 
 SolverLimits limits_of(const PressConfig& config, const NewtonSettings& newton, double contact_force_n) {

@@ -34,7 +34,10 @@ struct Frame {
   double min_gap_m = 0.0;    // gel–object, at most `gap_horizon_m`
   double stand_off_m = 0.0;  // mean gap where they press on each other, by force
   double min_volume_ratio = 1.0;
-  double pose_error_m = 0.0;   // largest distance of an object vertex from where its pose puts it
+  double pose_error_m = 0.0;  // largest distance of an object vertex from where its pose puts it, unless it is free
+  double body_strain = 0.0;   // of a free object: max |AᵀA − I|
+  // Of an object that is free in any phase: of its centre of mass, and about it.
+  Vector3 object_velocity_m_s = Vector3::Zero(), object_spin_rad_s = Vector3::Zero();
   int intersections = 0;       // pairs of triangles, by an exact test
   int inverted_tets = 0;       // the same
   double gel_in_object = 0.0;  // how many times a closed object's surface winds around the gel
@@ -46,6 +49,7 @@ struct Simulation {
   double barrier_stiffness = 0.0;  // κ, kg m⁻², before it grows (StepReport::barrier_factor)
   double gap_horizon_m = 0.0;      // gaps are looked for up to this distance
   double object_mass_kg = 0.0;     // 0 where no load moves the object
+  bool object_may_be_free = false;
   std::string face;
   FrontSurface front;
   std::string element;  // "linear", "averaged_volume"

@@ -43,6 +43,9 @@ void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& lim
                      numbers.balance_n, numbers.balance_relative, kVerdictLimits.balance_relative));
   }
   within("pose_error", "pose error", numbers.pose_error_m, kVerdictLimits.pose_error_m, " m");
+  within("body_strain", "strain of the free object", numbers.body_strain, kVerdictLimits.body_strain, "");
+  within("body_balance", "part of the free object's load that is not balanced,", numbers.body_balance_relative,
+         kVerdictLimits.body_balance_relative, "");
 }
 
 }  // namespace tacipc

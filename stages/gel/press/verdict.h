@@ -16,8 +16,13 @@ struct VerdictLimits {
   double volume_ratio = 0.0;         // smallest deformed over undeformed volume, must be exceeded
   double balance_relative = 1e-3;    // of the contact force, which counts as at least kSmallestContactN
   double pose_error_m = 1e-9;        // of the object's vertices from where the motion prescribes them
+  // Of an object that moves freely: max |AᵀA − I|, and what is missing to the balance of its momentum, as part of its
+  // weight or load, whichever is larger, at least of kSmallestBodyLoadN.
+  double body_strain = 1e-3;
+  double body_balance_relative = 1e-3;
 };
 inline constexpr VerdictLimits kVerdictLimits;
+inline constexpr double kSmallestBodyLoadN = 0.01;
 
 /// The limits that follow from the configuration and the frame's contact force: what the solver promised to reach.
 struct SolverLimits {
@@ -39,11 +44,13 @@ struct FrameNumbers {
   double balance_n = 0.0;
   double balance_relative = 0.0;
   double pose_error_m = 0.0;
+  double body_strain = 0.0;
+  double body_balance_relative = 0.0;
 };
 
 /// Checks in this order: exact test, containment, inverted tetrahedra, smallest distance, volume ratio, velocity, force
-/// and friction residual, balance, pose. A number that is not a number misses its limit. \throw VerdictError for the
-/// first miss.
+/// and friction residual, balance, pose, strain and balance of a free object. A number that is not a number misses its
+/// limit. \throw VerdictError for the first miss.
 void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits);
 
 }  // namespace tacipc

@@ -18,16 +18,23 @@ struct Surface {
 /// Collects the primitives of a surface whose vertex indices are shifted by `offset`.
 Surface make_surface(const Triangles& triangles, int offset);
 
-/// What contact needs to know of gel and object. Positions are passed beside it, #gel + #object rows.
+/// What contact needs to know of gel and object. Positions are passed beside it: rows of the gel, of the object, and of
+/// points that carry the object where it moves freely (energy/affine_body.h).
 struct ContactMesh {
   int num_gel_vertices = 0;
   int num_object_vertices = 0;
+  int num_control_points = 0;
   Surface gel;
   Surface object;
   Positions rest_positions;  // all vertices, gel undeformed; scale of the edge mollifier and of close pairs at rest
   std::vector<double> object_edge_sharpness;  // of object.edges, as the object was given (contact/sharpness.h)
 
   int num_vertices() const { return num_gel_vertices + num_object_vertices; }
+  int num_rows() const { return num_vertices() + num_control_points; }
+  /// The object's rows of positions.
+  auto object_rows(auto& x) const { return x.middleRows(num_gel_vertices, num_object_vertices); }
+  /// Those of the points that carry it.
+  auto control_rows(auto& x) const { return x.middleRows(num_vertices(), num_control_points); }
 };
 
 ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_boundary, const Positions& object,

@@ -49,7 +49,7 @@ ObjectSearch::ObjectSearch(const ContactMesh& mesh)
 
 /// Fits the trees to the object's rows of `start`, and forgets all earlier searches.
 void ObjectSearch::place_object(const Positions& start) {
-  object_at_ = start.bottomRows(mesh_.num_object_vertices);
+  object_at_ = mesh_.object_rows(start);
   vertices_.refit(boxes_at(OneVertex{mesh_.object.vertices}, start));
   edges_.refit(boxes_at(mesh_.object.edges, start));
   triangles_.refit(boxes_at(mesh_.object.triangles, start));
@@ -101,13 +101,13 @@ void ObjectSearch::track(const Primitives& gel, const Bvh& object, const Moment&
 
 void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) {
   if (mesh_.num_object_vertices == 0) return;
-  const int n = mesh_.num_gel_vertices, m = mesh_.num_object_vertices;
+  const int n = mesh_.num_gel_vertices;
   const Eigen::RowVector3d origin = x.row(n), shifted = origin + p.row(n);
   Moment moment{
       .start = x.rowwise() - origin, .end = (x + p).rowwise() - shifted, .within_m = within_m, .object_moved_m = 0};
   const auto object_moved = [&] {
-    return std::max(largest_row_norm(moment.start.bottomRows(m) - object_at_),
-                    largest_row_norm(moment.end.bottomRows(m) - object_at_));
+    return std::max(largest_row_norm(mesh_.object_rows(moment.start) - object_at_),
+                    largest_row_norm(mesh_.object_rows(moment.end) - object_at_));
   };
   if (within_m == within_m_) moment.object_moved_m = object_moved();
   if (within_m != within_m_ || moment.object_moved_m > kExtraMargin * within_m) {
@@ -116,7 +116,7 @@ void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m
   }
   within_m_ = within_m;
   object_moved_m_ = moment.object_moved_m;
-  moment.start.bottomRows(m) = object_at_;
+  mesh_.object_rows(moment.start) = object_at_;
 
   const Surface &gel = mesh_.gel, &object = mesh_.object;
   track(

@@ -5,6 +5,7 @@ namespace tacipc {
 double IncrementalPotential::value(const Positions& x) const {
   double value = 0.0;
   for (const WeightedTerm& part : terms) value += part.weight * part.term->value(x);
+  for (const WeightedTerm& part : of_bodies) value += part.weight * part.term->value(x);
   for (const WeightedContact* contact : {&friction, &barrier}) {
     if (contact->term) value += contact->weight * contact->term->value(x);
   }
@@ -24,6 +25,7 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
   add(h * h, terms.gravity);
   add(h * h, terms.constraint);
   add(h * h, terms.elasticity);
+  if (terms.body_inertia) out.of_bodies = {{1.0, terms.body_inertia}, {h * h, terms.body_orthogonality}};
   out.friction = {kappa * w.friction_coefficient, terms.friction};
   out.barrier = {kappa, terms.barrier};
   return out;

@@ -31,6 +31,8 @@ struct StepTerms {
   std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where x̂ does not include it
   std::shared_ptr<const EnergyTerm> constraint;         // what an augmented Lagrangian holds
   std::shared_ptr<const EnergyTerm> elasticity;
+  std::shared_ptr<const EnergyTerm> body_inertia;        // of bodies that move freely, about their points' x̂
+  std::shared_ptr<const EnergyTerm> body_orthogonality;  // what keeps their shape
   std::shared_ptr<const ContactTerm> friction;
   std::shared_ptr<const ContactBarrier> barrier;
 };
@@ -45,16 +47,17 @@ struct StepWeights {
 
 /// Ê(x) in kg m².   [Eq. 3, 5, 9]
 struct IncrementalPotential {
-  std::vector<WeightedTerm> terms;  // all but contact
+  std::vector<WeightedTerm> terms;           // all but contact, of the gel, and of an object with free axes
+  std::vector<WeightedTerm> of_bodies = {};  // of bodies that move freely
   WeightedContact friction = {};
   WeightedContact barrier = {};
 
-  /// Ê(x), +∞ where x is not allowed. The sum runs in a fixed order: terms, friction, barrier.
+  /// Ê(x), +∞ where x is not allowed. The sum runs in a fixed order: terms, bodies, friction, barrier.
   double value(const Positions& x) const;
 };
 
-/// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity + constraint) + κ′(μ D + B), κ′ = h² × barrier stiffness: κ for the
-/// nominal h.
+/// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity + constraint + orthogonality) + κ′(μ D + B), κ′ = h² × barrier
+/// stiffness: κ for the nominal h.
 IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& weights);
 
 }  // namespace tacipc

@@ -42,8 +42,50 @@ void for_each_local(const EnergyTerm& term, const std::vector<int>& stencils, co
 
 }  // namespace
 
+namespace {
+
+/// Unknowns that a pair's four vertices depend on: x_a = Σ_d part(a, d) u_d, and what is prescribed.
+struct PairUnknowns {
+  static constexpr int kMost = 8;  // two bodies, or up to three vertices of the gel and a body
+  int count = 0;
+  std::array<int, kMost> free;  // their numbers among the free vertices
+  Eigen::Matrix<double, 4, kMost> part = Eigen::Matrix<double, 4, kMost>::Zero();
+
+  PairUnknowns(std::span<const int> stencil, const FreeVertices& all) {
+    for (int a = 0; a < 4; ++a) {
+      if (const int i = all.free_of_vertex[stencil[a]]; i >= 0) {
+        part(a, index(i)) += 1.0;
+      } else if (const CarriedBody* body = all.carrier(stencil[a])) {
+        const int first = all.free_of_vertex[body->first_control_point];
+        for (int k = 0; k < 4; ++k) part(a, index(first + k)) += body->weights(stencil[a] - body->first_vertex, k);
+      }
+    }
+  }
+
+ private:
+  int index(int unknown) {
+    for (int d = 0; d < count; ++d) {
+      if (free[d] == unknown) return d;
+    }
+    free[count] = unknown;
+    return count++;
+  }
+};
+
+bool is_carried(std::span<const int> stencil, const FreeVertices& free) {
+  return std::any_of(stencil.begin(), stencil.end(), [&](int v) { return free.carrier(v) != nullptr; });
+}
+
+}  // namespace
+
 std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const EnergyTerm& term) {
   std::vector<std::array<int, 2>> pairs;
+  for (const CarriedBody& body : free.carried) {
+    const int first = free.free_of_vertex[body.first_control_point];
+    for (int k = 0; k < 4; ++k) {
+      for (int l = 0; l < k; ++l) pairs.push_back({first + k, first + l});
+    }
+  }
   for (int s = 0; s < term.num_stencils(); ++s) {
     const std::span<const int> stencil = term.stencil(s);
     for (std::size_t i = 0; i < stencil.size(); ++i) {
@@ -60,14 +102,26 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
                                                    const FreeVertices& free, int first_object_vertex,
                                                    const ContactTerm& term, const std::vector<int>& active,
                                                    const Positions& x) {
-  const auto held_object = [&](int v) { return v >= first_object_vertex && free.free_of_vertex[v] < 0; };
+  const auto held_object = [&](int v) {
+    return v >= first_object_vertex && free.free_of_vertex[v] < 0 && !free.carrier(v);
+  };
   std::vector<std::array<int, 2>> missing;
+  bool body_missing = false;
   Local local;
   Eigen::VectorXd local_x;
   for (const int i : active) {
     const auto stencil = term.stencil(i);
     // The other side's vertices share an element.
     if (held_object(stencil.front()) || held_object(stencil.back())) continue;
+    if (is_carried(stencil, free)) {
+      const PairUnknowns of(stencil, free);
+      for (int d = 0; d < of.count && !body_missing; ++d) {
+        for (int e = 0; e < d; ++e)
+          body_missing =
+              body_missing || pattern->find(std::max(of.free[d], of.free[e]), std::min(of.free[d], of.free[e])) < 0;
+      }
+      continue;
+    }
     bool covered = true;
     for (std::size_t a = 0; a < stencil.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
@@ -84,6 +138,14 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
         const int p = free.free_of_vertex[stencil[a]], q = free.free_of_vertex[stencil[b]];
         if (p >= 0 && q >= 0) missing.push_back({p, q});
       }
+    }
+  }
+  for (int i = 0; body_missing && i < term.num_stencils(); ++i) {
+    const auto stencil = term.stencil(i);
+    if (!is_carried(stencil, free)) continue;
+    const PairUnknowns of(stencil, free);
+    for (int d = 0; d < of.count; ++d) {
+      for (int e = 0; e < d; ++e) missing.push_back({of.free[d], of.free[e]});
     }
   }
   if (missing.empty()) return pattern;
@@ -145,10 +207,47 @@ void scatter(std::span<const int> stencil, PairVertices wanted, const Local& loc
   }
 }
 
+/// The same of a pair with a body that moves freely: g_d = Σ_a c_ad g_a, H_de = Σ_ab c_ad c_be H_ab.
+void scatter_carried(std::span<const int> stencil, const PairLocal& local, double weight, const FreeVertices& free,
+                     const Positions& motion, NewtonSystem& system) {
+  const PairUnknowns of(stencil, free);
+  std::array<Vector3, 4> prescribed;
+  bool driven = false;
+  for (int b = 0; b < 4; ++b) {
+    const bool held = free.free_of_vertex[stencil[b]] < 0 && !free.carrier(stencil[b]);
+    prescribed[b] = held ? Vector3(motion.row(stencil[b])) : Vector3::Zero();
+    driven = driven || prescribed[b] != Vector3::Zero();
+  }
+  for (int d = 0; d < of.count; ++d) {
+    Vector3 gradient = Vector3::Zero();
+    Eigen::Matrix<double, 3, 12> rows = Eigen::Matrix<double, 3, 12>::Zero();
+    for (int a = 0; a < 4; ++a) {
+      const double part = weight * of.part(a, d);
+      if (part == 0.0) continue;
+      gradient += part * local.gradient.segment<3>(3 * a);
+      rows += part * local.hessian.middleRows<3>(3 * a);
+    }
+    const int i = of.free[d];
+    system.gradient.segment<3>(3 * i) += gradient;
+    for (int b = 0; driven && b < 4; ++b)
+      system.coupling.segment<3>(3 * i) += rows.middleCols<3>(3 * b) * prescribed[b];
+    for (int e = 0; e < of.count; ++e) {
+      if (of.free[e] > i) continue;
+      Matrix3 block = Matrix3::Zero();
+      for (int b = 0; b < 4; ++b) {
+        if (of.part(b, e) != 0.0) block += of.part(b, e) * rows.middleCols<3>(3 * b);
+      }
+      system.hessian.block(i, of.free[e]) += block;
+    }
+  }
+}
+
 }  // namespace
 
 void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairLocal& local, double weight,
                   const FreeVertices& free, int first_object_vertex, const Positions& motion, NewtonSystem& system) {
+  if (!free.carried.empty() && is_carried(stencil, free))
+    return scatter_carried(stencil, local, weight, free, motion, system);
   scatter(stencil, wanted, local, weight, free, first_object_vertex, motion, system);
 }
 

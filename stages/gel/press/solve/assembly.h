@@ -28,7 +28,8 @@ struct NewtonSystem {
 std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const EnergyTerm& term);
 
 /// The pattern, or a larger one if stencils of the term that are active at x couple vertices it does not (gel against
-/// gel).
+/// gel, or against a body that moves freely: then all of the term's stencils are covered, for more of them will be
+/// active soon).
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
                                                    const FreeVertices& free, int first_object_vertex,
                                                    const ContactTerm& term, const std::vector<int>& active,
@@ -50,7 +51,8 @@ const Inertia* inertia_of_gel(const WeightedTerm& term, int first_object_vertex)
 void add_inertia_gradient(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
                           NewtonSystem& system);
 
-/// Adds the derivatives of one contact pair; only those of `wanted` vertices are there.
+/// Adds the derivatives of one contact pair; only those of `wanted` vertices are there. A vertex that a body carries
+/// passes its derivatives on to the body's points, each by its weight.
 void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairLocal& local, double weight,
                   const FreeVertices& free, int first_object_vertex, const Positions& motion, NewtonSystem& system);
 

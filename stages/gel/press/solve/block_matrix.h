@@ -11,16 +11,38 @@
 
 namespace tacipc {
 
+/// A body whose vertices are where four free points carry them: x = Σₖ βₖ pₖ.
+struct CarriedBody {
+  int first_vertex = 0;                              // its vertices are neighbouring rows of the positions,
+  Eigen::Matrix<double, Eigen::Dynamic, 4> weights;  // β of each
+  int first_control_point = 0;                       // rows of the four points
+
+  bool has(int vertex) const { return vertex >= first_vertex && vertex < first_vertex + weights.rows(); }
+  /// Sets the body's rows to where the points' rows carry them: of positions, or of displacements.
+  void carry(Positions& x) const {
+    x.middleRows(first_vertex, weights.rows()) = weights * x.middleRows<4>(first_control_point);
+  }
+};
+
 /// Which vertices move freely, and their numbers among those.
 struct FreeVertices {
-  std::vector<int> free_of_vertex;  // −1 for a vertex whose position is prescribed
+  std::vector<int> free_of_vertex;  // −1 for a vertex whose position is prescribed or follows from others
   std::vector<int> vertex_of_free;
+  std::vector<CarriedBody> carried;  // bodies whose points are free, the last ones of vertex_of_free
+  int num_control_points = 0;        // the last rows of positions: points that carry bodies, free or not
 
   /// All of `num_vertices` but those marked as fixed, numbered by vertex.
   FreeVertices(int num_vertices, const std::vector<bool>& fixed);
   /// Those of `order` that are not marked as fixed, in that order; `fixed` has a mark for every vertex.
   FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed);
   int size() const { return static_cast<int>(vertex_of_free.size()); }
+  /// The body that carries a vertex, or null.
+  const CarriedBody* carrier(int vertex) const {
+    for (const CarriedBody& body : carried) {
+      if (body.has(vertex)) return &body;
+    }
+    return nullptr;
+  }
 };
 
 /// Positions of the blocks: column by column, rows ascending from the diagonal on.

@@ -33,7 +33,9 @@ struct Chunk {
 /// The gel's primitive of a pair of gel and object, if all of its vertices are free.
 std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVertices& free, int first_object_vertex) {
   const auto is_free = [&](int k) { return free.free_of_vertex[v[k]] >= 0; };
-  const auto is_object = [&](int k) { return v[k] >= first_object_vertex && !is_free(k); };
+  const auto is_object = [&](int k) {
+    return v[k] >= first_object_vertex && !is_free(k) && (free.carried.empty() || !free.carrier(v[k]));
+  };
   if (is_free(0) && is_object(1) && is_object(2) && is_object(3)) return kPoint;
   if (is_object(0) && is_free(1) && is_free(2) && is_free(3)) return kTriangle;
   if (is_free(0) && is_free(1) && is_object(2) && is_object(3)) return kFirstEdge;
@@ -42,6 +44,9 @@ std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVe
 
 PairVertices wanted_vertices(std::span<const int> v, const FreeVertices& free, int first_object_vertex,
                              const ObjectMotion& motion) {
+  // A body's points take part of all of its vertices.
+  if (!free.carried.empty() && std::any_of(v.begin(), v.end(), [&](int k) { return free.carrier(k) != nullptr; }))
+    return kAllPairVertices;
   const bool with_object = motion.in_full || motion.translation != Vector3::Zero();
   PairVertices wanted = 0;
   for (int a = 0; a < 4; ++a) {

@@ -46,8 +46,12 @@ void TimeStepper::start_friction(Step& step) {
   // Normal forces and tangent planes are those after the object alone has moved as far as half of every gap allows, so
   // that contacts of this step have friction, too. [where the IPC authors' code lags friction]
   Positions motion = Positions::Zero(step.start.rows(), 3);
-  motion.bottomRows(mesh_.num_object_vertices) =
-      step.goal.object_target - step.start.bottomRows(mesh_.num_object_vertices);
+  if (step.goal.free_object) {
+    mesh_.control_rows(motion) = step.predicted - mesh_.control_rows(step.start);
+    for (const CarriedBody& body : newton_->free().carried) body.carry(motion);
+  } else {
+    mesh_.object_rows(motion) = step.goal.object_target - mesh_.object_rows(step.start);
+  }
   // Pairs that are near already mostly stop the object soon; only up to there the others need be searched.
   const GapRule rule{kLagSlack, kGapFloor * settings_.d_hat_m};
   const double part = contact_step_limit(pairs_at(step.start), step.start, motion, rule);
@@ -59,7 +63,7 @@ void TimeStepper::start_friction(Step& step) {
 double TimeStepper::friction_change(const Friction& renewed, const Step& step) const {
   const Positions change = gradient_of(renewed, step.x) - gradient_of(*step.friction, step.x);
   double sum = 0.0;
-  for (const int v : newton_.free().vertex_of_free) sum += change.row(v).norm();
+  for (const int v : newton_->free().vertex_of_free) sum += change.row(v).norm();
   return settings_.friction->coefficient * step.weights.barrier_stiffness_j_m4 * sum;
 }
 

@@ -38,6 +38,7 @@ LocalPatch grow_patch(const std::vector<int>& seeds, int rings, const Tetrahedra
   std::vector<bool> held = moves;
   held.flip();
   FreeVertices free(all_free.vertex_of_free, held);  // in the order of the whole
+  free.num_control_points = all_free.num_control_points;
   return {std::move(moves), std::move(free), std::move(own)};
 }
 

@@ -17,6 +17,9 @@ constexpr double kCoarseSolve = 1e-2, kFineSolve = 1e-3;
 constexpr double kLengthGrowth = 4.0;
 constexpr int kMaxExactHessianWaits = 10;
 constexpr int kMaxHalvings = 40;
+// What is left of the balance of a free object: this part of its weight and load, at least of so many newtons; of
+// torques on an arm of so many metres.
+constexpr double kBodyTolerance = 5e-4, kLeastWeight = 0.01, kBodyArm = 0.01;
 constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
 // Multipliers are renewed at minima known to this part of the constraint's tolerance.
 constexpr double kConstraintPart = 0.3;
@@ -92,18 +95,19 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   const double h = step.goal.h_s;
   Positions motion = Positions::Zero(step.x.rows(), 3);
   if (moving) {
-    motion.bottomRows(mesh_.num_object_vertices) =
-        run.part_of_motion * ((step.goal.object_target - step.x.bottomRows(mesh_.num_object_vertices)).rowwise() +
-                              step.object_shift.transpose());
+    mesh_.object_rows(motion) = run.part_of_motion * ((step.goal.object_target - mesh_.object_rows(step.x)).rowwise() +
+                                                      step.object_shift.transpose());
   }
   // One direction differs from the next by more than a coarse solution leaves out of it.
-  newton_.set_tolerance(moving ? kFineSolve : kCoarseSolve);
+  newton_->set_tolerance(moving ? kFineSolve : kCoarseSolve);
   const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
   Blend from_psd(mesh_.num_gel_vertices, settings.adaptive_contact_hessian);
-  NewtonDirection direction = newton_.direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
-                                                step.arrived ? step.blend : from_psd);
+  NewtonDirection direction = newton_->direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
+                                                 step.arrived ? step.blend : from_psd);
   const Eigen::Index rows = settings_.augmented_lagrangian ? step.x.rows() : mesh_.num_gel_vertices;
-  run.residual_m_s = std::max(largest_row(direction.p, rows), direction.object_shift.norm()) / h;
+  run.residual_m_s = std::max({largest_row(direction.p, rows), direction.object_shift.norm(),
+                               std::sqrt(mesh_.control_rows(direction.p).rowwise().squaredNorm().sum())}) /
+                     h;
   StepReport& report = step.report;
   ++report.newton_iterations;
   report.velocity_residual_m_s = run.residual_m_s;
@@ -119,6 +123,11 @@ bool TimeStepper::within_tolerances(const Step& step, const NewtonDirection& dir
   if (step.constraint && !(step.constraint->largest(direction.p) < kConstraintPart * kConstraintTolerance))
     return false;
   if (!(report.velocity_residual_m_s < step.looseness * settings.velocity_tolerance_m_s)) return false;
+  if (step.goal.free_object) {
+    // The gel's tolerance would leave a light object's weight unnoticed.
+    const double h = step.goal.h_s, limit = kBodyTolerance * std::max(step.weight_n, kLeastWeight) * step.looseness;
+    if (!(direction.body_force / (h * h) < limit && direction.body_torque / (h * h) < limit * kBodyArm)) return false;
+  }
   return report.force_residual_n <
          step.looseness *
              std::max(settings.force_tolerance_n, settings.relative_force_tolerance * report.contact_force_n);

@@ -51,7 +51,7 @@ double TimeStepper::bend_at_contacts(const Step& step, Minimisation& run, Newton
     for (int k = 0; k < 4; ++k) {
       const int v = pair.vertices[k];
       a.change_m += a.feature.weights[k] * a.normal.dot(direction.p.row(v));
-      if (newton_.free().free_of_vertex[v] >= 0) a.give += a.feature.weights[k] * a.feature.weights[k];
+      if (newton_->free().free_of_vertex[v] >= 0) a.give += a.feature.weights[k] * a.feature.weights[k];
     }
     return a;
   };
@@ -92,7 +92,7 @@ double TimeStepper::bend_at_contacts(const Step& step, Minimisation& run, Newton
       if (!(a.give > 0.0) || wanted <= after || wanted - after > most) continue;
       for (int k = 0; k < 4; ++k) {
         const double weight = std::abs(a.feature.weights[k]);
-        if (newton_.free().free_of_vertex[pair.vertices[k]] < 0 || weight == 0.0) continue;
+        if (newton_->free().free_of_vertex[pair.vertices[k]] < 0 || weight == 0.0) continue;
         Given& of_vertex = given[pair.vertices[k]];
         of_vertex.sum += weight * (wanted - after) * a.feature.weights[k] / a.give * a.normal;
         of_vertex.weight += weight;
@@ -134,7 +134,7 @@ void TimeStepper::move_object(Step& step, Minimisation& run, const NewtonDirecti
   const double moved = alpha * run.part_of_motion;
   if (moved == 1.0) {
     step.arrived = true;
-    step.x.bottomRows(mesh_.num_object_vertices) = step.goal.object_target.rowwise() + step.object_shift.transpose();
+    mesh_.object_rows(step.x) = step.goal.object_target.rowwise() + step.object_shift.transpose();
     return;
   }
   const double made = alpha * run.bent;

@@ -22,7 +22,7 @@ constexpr double kKeptHessian = 0.1;
 constexpr double kSameTranslation = 1e-10;
 
 /// Σᵢ |row i| of a vector of stacked triples.
-double sum_of_norms(const Eigen::VectorXd& stacked) {
+double sum_of_norms(const Eigen::Ref<const Eigen::VectorXd>& stacked) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < stacked.size(); i += 3) sum += stacked.segment<3>(i).norm();
   return sum;
@@ -65,7 +65,7 @@ NewtonStepper::Call NewtonStepper::start(const NewtonProblem& problem) {
   };
   std::vector<int> friction = active(problem.potential.friction), barrier = active(problem.potential.barrier);
 
-  const auto of_object = problem.motion.bottomRows(problem.motion.rows() - first_object_vertex_);
+  const auto of_object = problem.motion.middleRows(first_object_vertex_, num_object_rows(problem.motion));
   const Vector3 translation = of_object.rows() > 0 ? Vector3(of_object.row(0)) : Vector3::Zero();
   const bool translates =
       of_object.rows() == 0 || (of_object.rowwise() - translation.transpose()).cwiseAbs().maxCoeff() <=
@@ -121,6 +121,9 @@ bool NewtonStepper::update_packs(const Call& call) {
 
 void NewtonStepper::hold_columns(const Call& call) {
   std::vector<bool> touched(static_cast<std::size_t>(free_.size()), false);
+  for (const CarriedBody& body : free_.carried) {
+    for (int k = 0; k < 4; ++k) touched[free_.free_of_vertex[body.first_control_point + k]] = true;
+  }
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
     for (const int i : active) {
       for (const int v : contact.term->stencil(i)) {
@@ -157,6 +160,8 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
   });
   timed(times_.contact_s, [&] { hold_columns(call); });
   const Stopwatch watch(times_.contact_s);
+  for (const WeightedTerm& part : call.problem.potential.of_bodies)
+    assemble(part, x, free_, first_object_vertex_, Order::psd, call.object.of_vertices, system_);
   const Vector3 without_contact = gel_gradient();
   Vector3 so_far = without_contact, of_barrier = Vector3::Zero();
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
@@ -232,7 +237,9 @@ bool NewtonStepper::solve_once(const NewtonProblem& problem, NewtonDirection& ou
   out.slope += system_.gradient.dot(step);
   out.p = problem.motion;
   for (int i = 0; i < free_.size(); ++i) out.p.row(free_.vertex_of_free[i]) = step.segment<3>(3 * i).transpose();
-  if (!axes.empty()) out.p.bottomRows(out.p.rows() - first_object_vertex_).rowwise() += out.object_shift.transpose();
+  if (!axes.empty())
+    out.p.middleRows(first_object_vertex_, num_object_rows(out.p)).rowwise() += out.object_shift.transpose();
+  for (const CarriedBody& body : free_.carried) body.carry(out.p);
   return true;
 }
 
@@ -240,8 +247,14 @@ std::vector<int> NewtonStepper::indefinite_vertices() const {
   std::vector<int> found;
   for (const int i : solver_->indefinite_rows()) found.push_back(free_.vertex_of_free[i]);
   if (found.empty()) return free_.vertex_of_free;
+  // A body has no contact Hessian of its own to soften: that of all contacts is.
+  const bool body = std::any_of(found.begin(), found.end(), [&](int v) { return v >= first_object_vertex_; });
   const double* held = held_values_.data();
   for (const int c : held_columns_) {
+    if (body) {
+      found.push_back(free_.vertex_of_free[c]);
+      continue;
+    }
     const int first = pattern_->column_start[c];
     const Matrix3 left = system_.hessian.block(first) - kHeldByOthers * BlockMatrix::ConstBlock(held);
     if (Eigen::LLT<Matrix3>(left).info() != Eigen::Success) found.push_back(free_.vertex_of_free[c]);
@@ -259,6 +272,22 @@ std::vector<int> NewtonStepper::too_long(const NewtonDirection& direction, doubl
     if (direction.p.row(v).squaredNorm() > longest_m * longest_m) found.push_back(v);
   }
   return found;
+}
+
+void NewtonStepper::measure_bodies(const Positions& x, NewtonDirection& out) const {
+  out.body_force = out.body_torque = 0.0;
+  for (const CarriedBody& body : free_.carried) {
+    const auto points = x.middleRows<4>(body.first_control_point);
+    const Eigen::RowVector3d center = points.colwise().mean();
+    Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+    for (int k = 0; k < 4; ++k) {
+      const Vector3 on_point = system_.gradient.segment<3>(3 * (free_.free_of_vertex[body.first_control_point] + k));
+      force += on_point;
+      torque += Vector3(points.row(k) - center).cross(on_point);
+    }
+    out.body_force = std::max(out.body_force, force.norm());
+    out.body_torque = std::max(out.body_torque, torque.norm());
+  }
 }
 
 NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& blend) {
@@ -293,8 +322,11 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
       throw SolverError("the projected Hessian is not positive definite");
     }
   }
+  measure_bodies(problem.x, out);
   out.largest_share = blend.largest();
-  out.gradient_sum = sum_of_norms(system_.gradient);
+  // Of a body that moves freely, its force counts: single points are held to each other by its stiffness.
+  const auto of_points = 12 * static_cast<Eigen::Index>(free_.carried.size());
+  out.gradient_sum = sum_of_norms(system_.gradient.head(system_.gradient.size() - of_points)) + out.body_force;
   for (const int axis : problem.free_axes) out.gradient_sum += std::abs(system_.object_gradient[axis]);
   blend.lower();
   return out;

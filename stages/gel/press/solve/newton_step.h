@@ -30,11 +30,13 @@ struct NewtonDirection {
   Positions p;                             // all vertices
   Vector3 object_shift = Vector3::Zero();  // the object's part of it beyond its prescribed motion
   double slope = 0.0;                      // gᵀp over everything free
-  double gradient_sum = 0.0;               // Σ of |gradient| over free vertices, and over the object's free axes
+  double gradient_sum = 0.0;  // Σ of |gradient| over free vertices, over the object's free axes, and body_force
   /// What residual forces are measured by: |Σ gradient of contact| over the gel's free vertices, of the barrier alone
   /// or with friction, whichever is smaller (friction may carry most of the normal force, and the rest must balance,
   /// too).
   double contact_sum = 0.0;
+  /// |Σ residual force| and |Σ residual torque| about its centre, the largest of the bodies that move freely.
+  double body_force = 0.0, body_torque = 0.0;
   double largest_share = 0.0;  // of the contact Hessian's PSD approximation: 0 exact, 1 nothing else somewhere
 };
 
@@ -109,6 +111,11 @@ class NewtonStepper {
   /// Vertices about which the system was just found not to be positive definite, and those that contact makes likely to
   /// be the next: a solver finds one place at a time. All if nothing is known.
   std::vector<int> indefinite_vertices() const;
+  Eigen::Index num_object_rows(const Positions& x) const {
+    return x.rows() - first_object_vertex_ - free_.num_control_points;
+  }
+  /// NewtonDirection::body_force and body_torque, of the system's gradient.
+  void measure_bodies(const Positions& x, NewtonDirection& out) const;
   /// Free vertices in contact that go farther than `longest_m`.
   std::vector<int> too_long(const NewtonDirection& direction, double longest_m) const;
 

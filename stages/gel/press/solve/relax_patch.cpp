@@ -33,10 +33,16 @@ struct Seeds {
   double others_m;  // the longest displacement of all others, at least the tolerance
 };
 
-/// None where no displacement is above the tolerance, or too many are and none of them stands out.
-std::optional<Seeds> seeds(const Positions& p, const FreeVertices& free, double tolerance_m) {
+/// Of the gel's vertices; none where no displacement is above the tolerance, or too many are and none of them stands
+/// out.
+std::optional<Seeds> seeds(const Positions& p, const FreeVertices& free, int num_gel_vertices, double tolerance_m) {
   std::vector<double> lengths;
-  for (const int v : free.vertex_of_free) lengths.push_back(p.row(v).norm());
+  std::vector<int> vertices;
+  for (const int v : free.vertex_of_free) {
+    if (v >= num_gel_vertices) continue;
+    lengths.push_back(p.row(v).norm());
+    vertices.push_back(v);
+  }
   std::vector<double> sorted = lengths;
   const auto most = static_cast<std::ptrdiff_t>(kMostSeeds * static_cast<double>(lengths.size()));
   const auto others = sorted.end() - 1 - most;
@@ -45,7 +51,7 @@ std::optional<Seeds> seeds(const Positions& p, const FreeVertices& free, double 
   if (farthest <= tolerance_m || (*others > tolerance_m && farthest < kStandOut * *others)) return std::nullopt;
   Seeds found{{}, std::max(*others, tolerance_m)};
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    if (lengths[i] > found.others_m) found.vertices.push_back(free.vertex_of_free[i]);
+    if (lengths[i] > found.others_m) found.vertices.push_back(vertices[i]);
   }
   return found;
 }
@@ -97,10 +103,10 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   if (!settings_.newton.patches || settings_.augmented_lagrangian || !step.goal.free_axes.empty()) return false;
   const double h = step.goal.h_s, tolerance = settings_.newton.velocity_tolerance_m_s * h;
   const Stopwatch watch(times_.patches_s);
-  const std::optional<Seeds> found = seeds(direction.p, newton_.free(), tolerance);
+  const std::optional<Seeds> found = seeds(direction.p, newton_->free(), mesh_.num_gel_vertices, tolerance);
   if (!found) return false;
 
-  const LocalPatch patch = grow_patch(found->vertices, kRings, gel_.tets, newton_.free());
+  const LocalPatch patch = grow_patch(found->vertices, kRings, gel_.tets, newton_->free());
   const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
   const Positions start = step.x;
   const PairsInReach in_reach(search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach), start,
@@ -108,6 +114,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   StepTerms terms = step.terms;
   for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity, &terms.elasticity})
     *term = restricted(*term, patch.moves);
+  terms.body_inertia = nullptr;  // the object is held meanwhile
   terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
   std::vector<ContactPair> pairs;
   IncrementalPotential energy;

@@ -17,8 +17,11 @@ struct TimeStepper::Step {
   Positions x;
   StepTerms terms = {};  // all but contact
   StepWeights weights = {};
-  bool arrived = false;                    // the object is at its target
-  Vector3 object_shift = Vector3::Zero();  // along its free axes, so far
+  bool arrived = false;                         // the object is at its target
+  Vector3 object_shift = Vector3::Zero();       // along its free axes, so far
+  ControlPoints predicted = {};                 // of a free object, without contact
+  Vector3 acceleration_m_s2 = Vector3::Zero();  // of its weight and load
+  double weight_n = 0.0;                        // the larger of the two
   StepReport report = {};
   std::shared_ptr<const Friction> friction = nullptr;
   std::shared_ptr<const Dirichlet> constraint = nullptr;

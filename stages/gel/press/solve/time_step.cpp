@@ -9,6 +9,7 @@
 #include "common/mesh/spatial_order.h"
 #include "stages/gel/press/contact/near_pairs.h"
 #include "stages/gel/press/energy/linear_load.h"
+#include "stages/gel/press/energy/orthogonality.h"
 #include "stages/gel/press/energy/stiffness_damping.h"
 #include "stages/gel/press/solve/local_patch.h"
 #include "stages/gel/press/solve/step_limit.h"
@@ -21,26 +22,35 @@ namespace {
 // under the same force (κ b′ ~ κ/d there), at most by the third factor at once and by the last in all.
 constexpr double kSmallGap = 0.01, kWantedGap = 0.05, kMostStiffeningAtOnce = 10.0, kMostStiffening = 1e4;
 
-FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian) {
-  std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
+FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian,
+                           const AffineBody* free_body) {
+  std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_rows()), false);
   // Neighbours in space get neighbouring numbers: the solver sweeps over matrix and vectors from end to end.
   std::vector<int> order = spatial_order(mesh.rest_positions.topRows(mesh.num_gel_vertices));
-  for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) order.push_back(v);
+  // A body's points come last: they are coupled to all that touch it.
+  for (int v = mesh.num_gel_vertices; v < mesh.num_rows(); ++v) order.push_back(v);
   if (augmented_lagrangian) return {order, fixed};
-  for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) fixed[v] = true;
+  const int last = free_body ? mesh.num_vertices() : mesh.num_rows();
+  for (int v = mesh.num_gel_vertices; v < last; ++v) fixed[v] = true;
   for (const int v : glued) fixed[v] = true;
-  return {order, fixed};
+  FreeVertices free(order, fixed);
+  free.num_control_points = mesh.num_control_points;
+  if (free_body) free.carried = {{mesh.num_gel_vertices, free_body->weights, mesh.num_vertices()}};
+  return free;
 }
 
 }  // namespace
 
-TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings)
-    : mesh_(mesh),
-      gel_(std::move(gel)),
-      settings_(settings),
-      search_(mesh),
-      newton_(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian), mesh.num_gel_vertices, gel_.elasticity,
-              settings.linear_solver) {
+TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings,
+                         std::optional<AffineBody> body)
+    : mesh_(mesh), gel_(std::move(gel)), settings_(settings), search_(mesh), body_(std::move(body)) {
+  const auto stepper = [&](const AffineBody* free_body) {
+    return std::make_unique<NewtonStepper>(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian, free_body),
+                                           mesh.num_gel_vertices, gel_.elasticity, settings.linear_solver);
+  };
+  held_object_ = stepper(nullptr);
+  if (body_) free_object_ = stepper(&*body_);
+  newton_ = held_object_.get();
   std::vector<bool> held(static_cast<std::size_t>(mesh.num_vertices()), false);
   for (const int v : gel_.glued) held[v] = true;
   elasticity_at_mount_ = restricted(gel_.elasticity, held);
@@ -70,15 +80,22 @@ std::vector<ContactPair> TimeStepper::pairs_along(const Positions& x, const Posi
 }
 
 SolverTimes TimeStepper::times() const {
-  const SolverTimes newton = newton_.times();
   SolverTimes all = times_;
-  all.elastic_s = newton.elastic_s;
-  all.contact_s = newton.contact_s;
-  all.linear_s = newton.linear_s;
-  all.solves = newton.solves;
-  all.products = newton.products;
-  all.factorised = newton.factorised;
+  for (const NewtonStepper* stepper : {held_object_.get(), free_object_.get()}) {
+    if (!stepper) continue;
+    const SolverTimes newton = stepper->times();
+    all.elastic_s += newton.elastic_s;
+    all.contact_s += newton.contact_s;
+    all.linear_s += newton.linear_s;
+    all.solves += newton.solves;
+    all.products += newton.products;
+    all.factorised += newton.factorised;
+  }
   return all;
+}
+
+int TimeStepper::num_analyses() const {
+  return held_object_->solver().num_analyses() + (free_object_ ? free_object_->solver().num_analyses() : 0);
 }
 
 bool TimeStepper::stiffen_barrier(State& state, const Positions& x) {
@@ -111,7 +128,8 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
 }
 
 TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& goal, const IterationObserver& observe) {
-  newton_.reset();
+  newton_ = goal.free_object ? free_object_.get() : held_object_.get();
+  newton_->reset();
   search_.forget();
   last_search_ = {};
   Step step{.goal = goal,
@@ -120,7 +138,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
             .x = state.x,
             .blend = Blend(mesh_.num_gel_vertices, settings_.newton.adaptive_contact_hessian)};
   step.report.time_steps = 1;
-  step.arrived = (state.x.bottomRows(mesh_.num_object_vertices) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
+  step.arrived = goal.free_object || (mesh_.object_rows(state.x) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
   step.weights = {.h_s = goal.h_s,
                   .barrier_stiffness_j_m4 = state.barrier_factor * settings_.barrier_stiffness_j_m4,
                   .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
@@ -129,6 +147,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
   add_gel_terms(step, state);
   if (!goal.free_axes.empty()) add_object_inertia(step, state);
   if (settings_.augmented_lagrangian) add_constraint(step);
+  if (goal.free_object) add_body(step, state);
   start_friction(step);
   return step;
 }
@@ -163,10 +182,55 @@ void TimeStepper::add_object_inertia(Step& step, const State& state) const {
       std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, goal.object_mass_kg), Positions(x_hat), n);
 }
 
+void TimeStepper::add_body(Step& step, const State& state) {
+  const StepGoal& goal = step.goal;
+  const ControlPoints before = mesh_.control_rows(state.x);
+  step.acceleration_m_s2 = settings_.gravity_m_s2 + goal.load_n / body_->mass_kg;
+  step.weight_n = body_->mass_kg * std::max(settings_.gravity_m_s2.norm(), goal.load_n.norm() / body_->mass_kg);
+  step.predicted = predicted(*body_, before, state.object_motion, step.acceleration_m_s2, goal.h_s);
+  const int first = mesh_.num_vertices();
+  step.terms.body_inertia =
+      std::make_shared<Inertia>(Eigen::VectorXd::Constant(4, 0.25 * body_->mass_kg), Positions(step.predicted), first);
+  step.terms.body_orthogonality = std::make_shared<Orthogonality>(first, *body_);
+  // Its weight is left out of where the step starts: contact mostly carries it.
+  Positions p = Positions::Zero(state.x.rows(), 3);
+  mesh_.control_rows(p) = predicted(*body_, before, state.object_motion, Vector3::Zero(), goal.h_s) - before;
+  for (const CarriedBody& body : newton_->free().carried) body.carry(p);
+  const GapRule rule{kMovingSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m};
+  step.x += contact_step_limit(pairs_along(state.x, p), state.x, p, rule) * p;
+}
+
+void TimeStepper::finish_body(Step& step, State& state) const {
+  const double h = step.goal.h_s;
+  if (!step.goal.free_object) {
+    // Whoever moves it gives it the momentum of its rigid motion.
+    const ControlPoints before = mesh_.control_rows(state.x), now = step.goal.control_target;
+    state.object_motion = after_step(*body_, before, now, {}, Vector3::Zero(), h);
+    mesh_.control_rows(step.x) = now;
+    return;
+  }
+  for (const CarriedBody& body : newton_->free().carried) body.carry(step.x);
+  const ControlPoints now = mesh_.control_rows(step.x);
+  state.object_motion = after_step(*body_, step.predicted, now, state.object_motion, step.acceleration_m_s2, h);
+  // Contact acts on the body as on the gel, the other way.
+  const Eigen::RowVector3d center = now.colwise().mean();
+  const Wrench inertia = wrench_of(now, 0.25 * body_->mass_kg / (h * h) * (now - step.predicted));
+  Vector3 force = inertia.force_n, torque = inertia.torque_n_m;
+  for (Eigen::Index v = 0; v < mesh_.num_gel_vertices; ++v) {
+    const Vector3 of_contact = forces_.normal.row(v) + forces_.friction.row(v);
+    force += of_contact;
+    torque += Vector3(step.x.row(v) - center).cross(of_contact);
+  }
+  step.report.body_residual_n = force.norm();
+  step.report.body_residual_n_m = torque.norm();
+  step.report.body_load_n = step.weight_n;
+}
+
 void TimeStepper::finish_step(Step& step, State& state) {
   const Eigen::Index n = mesh_.num_gel_vertices;
   const double h = step.goal.h_s;
   record_forces(step);
+  if (body_) finish_body(step, state);
   step.report.object_shift_m = step.object_shift;
   if (settings_.quasi_static) {
     state.velocity_m_s.setZero();
@@ -176,8 +240,8 @@ void TimeStepper::finish_step(Step& step, State& state) {
   state.object_velocity_m_s.setZero();
   for (const int axis : step.goal.free_axes) state.object_velocity_m_s[axis] = step.object_shift[axis] / h;
   state.x = std::move(step.x);
-  if (!settings_.augmented_lagrangian)
-    state.x.bottomRows(mesh_.num_object_vertices) = step.goal.object_target.rowwise() + step.object_shift.transpose();
+  if (!settings_.augmented_lagrangian && !step.goal.free_object)
+    mesh_.object_rows(state.x) = step.goal.object_target.rowwise() + step.object_shift.transpose();
 }
 
 double TimeStepper::smallest_gap(const Positions& x, double none) {

@@ -8,8 +8,10 @@
 
 #include "common/sample/contact_state.h"
 #include "stages/gel/press/contact/pair_counting.h"
+#include "stages/gel/press/energy/affine_body.h"
 #include "stages/gel/press/energy/friction.h"
 #include "stages/gel/press/solve/newton_step.h"
+#include "stages/gel/press/solve/rigid_motion.h"
 
 namespace tacipc {
 
@@ -63,13 +65,18 @@ struct StepGoal {
   std::vector<int> free_axes = {};   // of S, along which the object moves as loads and contact have it
   Vector3 load_n = Vector3::Zero();  // on the object, along these
   double object_mass_kg = 0.0;       // its inertia along these; > 0 if there are any
+  /// The object moves and turns as its weight, the load at its centre of mass, and contact have it: nothing of it is
+  /// prescribed. \pre the stepper knows it as a body
+  bool free_object = false;
+  ControlPoints control_target = {};  // where the body's points belong to the target; unless it is free
 };
 
-/// What moves; rows of gel, then object.
+/// What moves; rows of gel, object, and the points that carry an object that may be free.
 struct State {
   Positions x;
   Positions velocity_m_s;                         // gel rows
   Vector3 object_velocity_m_s = Vector3::Zero();  // along free axes
+  RigidMotion object_motion = {};                 // of an object that may be free
   double barrier_factor = 1.0;                    // on the barrier's stiffness in the next step
 };
 
@@ -89,6 +96,9 @@ struct StepReport {
   double friction_residual_n = 0.0;          // residual force if normal forces and tangent planes were renewed now
   double contact_force_n = 0.0;              // |Σ forces of the object on the gel|, with or without friction: the less
   Vector3 object_shift_m = Vector3::Zero();  // displacement of the object along its free axes
+  /// Of a free object, |change of momentum / h − the forces on it| and the same of angular momentum about its centre.
+  double body_residual_n = 0.0, body_residual_n_m = 0.0;
+  double body_load_n = 0.0;  // its weight or the load on it, whichever is larger
 };
 
 /// Forces on the gel's vertices at the end of a step, N, one row per gel vertex.
@@ -109,7 +119,9 @@ using IterationObserver = std::function<void(int iteration, double velocity_resi
 
 class TimeStepper {
  public:
-  TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings);
+  /// \param body the object, where it may be free: the mesh then has rows for its points
+  TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings,
+              std::optional<AffineBody> body = std::nullopt);
 
   /// Advances the state by one step. But for its free axes the object ends bit-equal to the target.
   /// \throw SolverError with the numbers if the step does not converge; the state is then as before but for the
@@ -124,7 +136,7 @@ class TimeStepper {
   double smallest_gap(const Positions& x, double none);
   /// Of all steps so far.
   SolverTimes times() const;
-  int num_analyses() const { return newton_.solver().num_analyses(); }
+  int num_analyses() const;
 
  private:
   struct Step;
@@ -134,11 +146,16 @@ class TimeStepper {
   Step start_step(const State& state, const StepGoal& goal, const IterationObserver& observe);
   void add_gel_terms(Step& step, const State& state) const;
   void add_object_inertia(Step& step, const State& state) const;
+  /// The free object's terms; the step then starts with it where it would be without contact, or as near as that
+  /// allows.
+  void add_body(Step& step, const State& state);
   /// The augmented Lagrangian that holds glued and object vertices.
   void add_constraint(Step& step) const;
   /// Takes a solved step over into the state.
   void finish_step(Step& step, State& state);
   void record_forces(const Step& step);
+  /// Momentum of the object after the step, and what is missing to its balance.
+  void finish_body(Step& step, State& state) const;
   /// Makes the barrier of the next steps stiffer if a gap at x is too small; true if it did.
   bool stiffen_barrier(State& state, const Positions& x);
 
@@ -198,7 +215,9 @@ class TimeStepper {
     Positions x;
     std::vector<ContactPair> pairs;
   } last_search_;
-  NewtonStepper newton_;
+  std::optional<AffineBody> body_;
+  std::unique_ptr<NewtonStepper> held_object_, free_object_;  // the latter where there is a body
+  NewtonStepper* newton_;                                     // that of the step under way
   StepForces forces_;
   SolverTimes times_;
 };

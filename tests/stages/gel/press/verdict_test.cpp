@@ -20,7 +20,9 @@ FrameNumbers barely_good() {
           .force_residual_n = 2e-4,
           .friction_residual_n = 4e-4,
           .balance_relative = 1e-3,
-          .pose_error_m = 1e-9};
+          .pose_error_m = 1e-9,
+          .body_strain = 1e-3,
+          .body_balance_relative = 1e-3};
 }
 
 struct Told {
@@ -121,13 +123,24 @@ TEST(Verdict, PoseError) {
   expect_miss(judged(numbers), "pose_error", 1.5e-9, 1e-9, "frame 7: pose error 1.5e-09 m exceeds 1e-09 m");
 }
 
+TEST(Verdict, FreeObject) {
+  auto numbers = good();
+  numbers.body_strain = 2e-3;
+  expect_miss(judged(numbers), "body_strain", 2e-3, 1e-3, "frame 7: strain of the free object 0.002 exceeds 0.001");
+  numbers = good();
+  numbers.body_balance_relative = 4e-3;
+  expect_miss(judged(numbers), "body_balance", 4e-3, 1e-3,
+              "frame 7: part of the free object's load that is not balanced, 0.004 exceeds 0.001");
+}
+
 TEST(Verdict, WhatIsNoNumberMissesItsLimit) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::pair<double FrameNumbers::*, const char*> members[] = {
       {&FrameNumbers::gel_in_object, "containment"},       {&FrameNumbers::min_gap_m, "smallest_distance"},
       {&FrameNumbers::min_volume_ratio, "volume_ratio"},   {&FrameNumbers::velocity_residual_m_s, "velocity_residual"},
       {&FrameNumbers::force_residual_n, "force_residual"}, {&FrameNumbers::friction_residual_n, "friction_residual"},
-      {&FrameNumbers::balance_relative, "balance"},        {&FrameNumbers::pose_error_m, "pose_error"}};
+      {&FrameNumbers::balance_relative, "balance"},        {&FrameNumbers::pose_error_m, "pose_error"},
+      {&FrameNumbers::body_strain, "body_strain"},         {&FrameNumbers::body_balance_relative, "body_balance"}};
   for (const auto& [member, check] : members) {
     auto numbers = good();
     numbers.*member = nan;

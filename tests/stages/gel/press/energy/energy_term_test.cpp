@@ -15,8 +15,10 @@
 #include "stages/gel/press/energy/friction.h"
 #include "stages/gel/press/energy/inertia.h"
 #include "stages/gel/press/energy/linear_load.h"
+#include "stages/gel/press/energy/orthogonality.h"
 #include "stages/gel/press/energy/stiffness_damping.h"
 #include "stages/gel/press/solve/assembly.h"
+#include "tests/make_mesh.h"
 #include "tests/stages/gel/press/convergence_order.h"
 #include "tests/stages/gel/press/elastic_block.h"
 
@@ -65,6 +67,17 @@ Case cluster_case(const std::string& name, const ElasticLaw& law, double squeeze
           true};
 }
 
+/// A box turned, sheared and squeezed along its height.
+Case orthogonality_case(const std::string& name, double squeeze) {
+  const TriangleMesh box = make_box(Vector3::Zero(), {1.5, 1.0, 0.8});
+  const AffineBody body = make_affine_body(box.positions, box.triangles, 1.0);
+  Matrix3 A = Vector3(1.1, 0.9, squeeze).asDiagonal();
+  A(0, 1) = 0.2;
+  A = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()) * A;
+  const ControlPoints x = body.rest_m * A.transpose();
+  return {name, std::make_shared<Orthogonality>(0, body, 2.0), x.reshaped<Eigen::RowMajor>(), 1e-3, true, true};
+}
+
 Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x, double weight = 1.0) {
   // The barrier looks its mesh up: both live as long as the case.
   struct Held {
@@ -104,6 +117,8 @@ std::vector<Case> cases() {
     all.push_back({"damped_" + body.name, std::make_shared<StiffnessDamping>(body.term, start), 1.1 * body.x, 1e-3,
                    true, false, true});
   }
+  all.push_back(orthogonality_case("orthogonality_pressed", 0.5));
+  all.push_back(orthogonality_case("orthogonality_stretched", 1.4));
   using Kind = ContactPair::Kind;
   x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
   all.push_back(pair_case("point_triangle_inside", Kind::point_triangle, x));
