@@ -277,6 +277,14 @@ void add_inertia_gradient(const Inertia& inertia, double weight, const Positions
   assemble_masses(inertia, weight, x, free, false, system);
 }
 
+void add_inertia_coupling(const Inertia& inertia, double weight, const Positions& motion, const FreeVertices& free,
+                          NewtonSystem& system) {
+  for (int s = 0; s < inertia.num_stencils(); ++s) {
+    const int v = inertia.stencil(s).front(), i = free.free_of_vertex[v];
+    if (i >= 0) system.coupling.segment<3>(3 * i) += weight * inertia.mass_kg(s) * motion.row(v).transpose();
+  }
+}
+
 void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system) {
   if (const Inertia* inertia = inertia_of_gel(weighted, first_object_vertex))

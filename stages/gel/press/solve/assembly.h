@@ -51,6 +51,10 @@ const Inertia* inertia_of_gel(const WeightedTerm& term, int first_object_vertex)
 void add_inertia_gradient(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
                           NewtonSystem& system);
 
+/// Adds weight × its Hessian times how free vertices move along to the coupling.
+void add_inertia_coupling(const Inertia& inertia, double weight, const Positions& motion, const FreeVertices& free,
+                          NewtonSystem& system);
+
 /// Adds the derivatives of one contact pair; only those of `wanted` vertices are there. A vertex that a body carries
 /// passes its derivatives on to the body's points, each by its weight.
 void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairLocal& local, double weight,

@@ -94,7 +94,9 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   const NewtonSettings& settings = settings_.newton;
   const double h = step.goal.h_s;
   Positions motion = Positions::Zero(step.x.rows(), 3);
-  if (moving) {
+  if (moving && step.goal.gel_motion.size() > 0)
+    motion.topRows(mesh_.num_gel_vertices) = run.part_of_motion * step.gel_way_left * step.goal.gel_motion;
+  if (moving && !step.goal.free_object) {
     mesh_.object_rows(motion) = run.part_of_motion * ((step.goal.object_target - mesh_.object_rows(step.x)).rowwise() +
                                                       step.object_shift.transpose());
   }

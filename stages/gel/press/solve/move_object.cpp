@@ -132,8 +132,11 @@ void TimeStepper::move_object(Step& step, Minimisation& run, const NewtonDirecti
   step.object_shift += alpha * direction.object_shift;
   run.value.reset();
   const double moved = alpha * run.part_of_motion;
+  step.gel_way_left *= 1.0 - moved;
   if (moved == 1.0) {
     step.arrived = true;
+    if (step.goal.gel_motion.size() > 0) arrive_at_mounts(step);
+    if (step.goal.free_object) return;
     mesh_.object_rows(step.x) = step.goal.object_target.rowwise() + step.object_shift.transpose();
     return;
   }

@@ -146,6 +146,11 @@ void NewtonStepper::hold_columns(const Call& call) {
 double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
   const Positions& x = call.problem.x;
   const std::vector<WeightedTerm>& terms = call.problem.potential.terms;
+  // Carried along with their mounts, gels do not strain: of the Hessian times that motion only inertia and contact are
+  // left.
+  const Eigen::VectorXd along = free_motion(call.problem);
+  const bool mounts_move = along.size() > 0;
+  const Positions still = mounts_move ? Positions(Positions::Zero(x.rows(), 3)) : Positions();
   timed(times_.elastic_s, [&] {
     if (elastic == Order::hessian && update_packs(call)) return;
     held_.clear();
@@ -153,7 +158,7 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     bool all_kept = elastic == Order::hessian;
     for (const WeightedTerm& part : terms) {
       if (part.term == elasticity_ && elastic == Order::hessian && assemble_packs(part.weight, x)) continue;
-      assemble(part, x, free_, first_object_vertex_, elastic, call.object.of_vertices, system_);
+      assemble(part, x, free_, first_object_vertex_, elastic, mounts_move ? still : call.object.of_vertices, system_);
       all_kept = all_kept && inertia_of_gel(part, first_object_vertex_);
     }
     if (all_kept) held_ = terms;
@@ -162,6 +167,7 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
   const Stopwatch watch(times_.contact_s);
   for (const WeightedTerm& part : call.problem.potential.of_bodies)
     assemble(part, x, free_, first_object_vertex_, Order::psd, call.object.of_vertices, system_);
+  if (mounts_move) system_.coupling -= system_.hessian.multiply(along);
   const Vector3 without_contact = gel_gradient();
   Vector3 so_far = without_contact, of_barrier = Vector3::Zero();
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
@@ -171,15 +177,31 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     so_far += of_term;
     if (&contact == &call.problem.potential.barrier) of_barrier = of_term;
   });
+  if (mounts_move) {
+    system_.coupling += system_.hessian.multiply(along);
+    for (const WeightedTerm& part : terms) {
+      if (const Inertia* inertia = inertia_of_gel(part, first_object_vertex_))
+        add_inertia_coupling(*inertia, part.weight, call.problem.motion, free_, system_);
+    }
+  }
   return std::min(of_barrier.norm(), (so_far - without_contact).norm());
+}
+
+Eigen::VectorXd NewtonStepper::free_motion(const NewtonProblem& problem) const {
+  Eigen::VectorXd motion(3 * static_cast<Eigen::Index>(free_.size()));
+  for (int i = 0; i < free_.size(); ++i) motion.segment<3>(3 * i) = problem.motion.row(free_.vertex_of_free[i]);
+  return motion.isZero(0.0) ? Eigen::VectorXd() : motion;
 }
 
 void NewtonStepper::reblend(const Call& call, const Blend& before, const Blend& after) {
   const Stopwatch watch(times_.contact_s);
+  const Eigen::VectorXd along = free_motion(call.problem);
+  if (along.size() > 0) system_.coupling -= system_.hessian.multiply(along);
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
     reblend_contact(contact.weight, *contact.term, active, call.problem.x, free_, first_object_vertex_, before, after,
                     call.object, system_);
   });
+  if (along.size() > 0) system_.coupling += system_.hessian.multiply(along);
 }
 
 /// Σ of the system's gradient over the gel's free vertices.
@@ -236,7 +258,7 @@ bool NewtonStepper::solve_once(const NewtonProblem& problem, NewtonDirection& ou
   }
   out.slope += system_.gradient.dot(step);
   out.p = problem.motion;
-  for (int i = 0; i < free_.size(); ++i) out.p.row(free_.vertex_of_free[i]) = step.segment<3>(3 * i).transpose();
+  for (int i = 0; i < free_.size(); ++i) out.p.row(free_.vertex_of_free[i]) += step.segment<3>(3 * i).transpose();
   if (!axes.empty())
     out.p.middleRows(first_object_vertex_, num_object_rows(out.p)).rowwise() += out.object_shift.transpose();
   for (const CarriedBody& body : free_.carried) body.carry(out.p);

@@ -18,7 +18,9 @@ namespace tacipc {
 struct NewtonProblem {
   const IncrementalPotential& potential;
   const Positions& x;
-  const Positions& motion;          // rows like x: displacements of the prescribed vertices
+  /// Rows like x: displacements of the prescribed vertices. Where free vertices of the gel have some, these are carried
+  /// along with their mounts, without strain, and the solution is what they do besides.
+  const Positions& motion;
   std::vector<int> free_axes = {};  // along which the object as a whole is free besides
   /// A step by which a vertex in contact goes farther than this counts as a sign of a Hessian that is almost
   /// indefinite; it is taken nevertheless once the PSD approximation does not shorten it.
@@ -104,6 +106,8 @@ class NewtonStepper {
   /// Makes the contact Hessians of the system those of another blend.
   void reblend(const Call& call, const Blend& before, const Blend& after);
   Vector3 gel_gradient() const;
+  /// The motion of the problem's free vertices; empty if they have none.
+  Eigen::VectorXd free_motion(const NewtonProblem& problem) const;
   /// Solves the system; false if it is not positive definite, or no solution descends where nothing is driven.
   bool solve(const NewtonProblem& problem, NewtonDirection& out);
   /// Solves it to the tolerance set; false if it is not positive definite.

@@ -138,7 +138,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
             .x = state.x,
             .blend = Blend(mesh_.num_gel_vertices, settings_.newton.adaptive_contact_hessian)};
   step.report.time_steps = 1;
-  step.arrived = goal.free_object || (mesh_.object_rows(state.x) - goal.object_target).cwiseAbs().maxCoeff() == 0.0;
+  step.arrived = goal.gel_motion.size() == 0 && object_arrived(step);
   step.weights = {.h_s = goal.h_s,
                   .barrier_stiffness_j_m4 = state.barrier_factor * settings_.barrier_stiffness_j_m4,
                   .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
@@ -148,6 +148,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
   if (!goal.free_axes.empty()) add_object_inertia(step, state);
   if (settings_.augmented_lagrangian) add_constraint(step);
   if (goal.free_object) add_body(step, state);
+  if (goal.free_object || goal.gel_motion.size() > 0) start_ahead(step, state);
   start_friction(step);
   return step;
 }
@@ -192,12 +193,36 @@ void TimeStepper::add_body(Step& step, const State& state) {
   step.terms.body_inertia =
       std::make_shared<Inertia>(Eigen::VectorXd::Constant(4, 0.25 * body_->mass_kg), Positions(step.predicted), first);
   step.terms.body_orthogonality = std::make_shared<Orthogonality>(first, *body_);
-  // Its weight is left out of where the step starts: contact mostly carries it.
+}
+
+bool TimeStepper::object_arrived(const Step& step) const {
+  return step.goal.free_object ||
+         (mesh_.object_rows(step.x) - step.goal.object_target).cwiseAbs().maxCoeff() == 0.0;
+}
+
+void TimeStepper::start_ahead(Step& step, const State& state) {
+  const StepGoal& goal = step.goal;
   Positions p = Positions::Zero(state.x.rows(), 3);
-  mesh_.control_rows(p) = predicted(*body_, before, state.object_motion, Vector3::Zero(), goal.h_s) - before;
-  for (const CarriedBody& body : newton_->free().carried) body.carry(p);
-  const GapRule rule{kMovingSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m};
-  step.x += contact_step_limit(pairs_along(state.x, p), state.x, p, rule) * p;
+  if (goal.free_object) {
+    // Without its weight, which contact mostly carries.
+    const ControlPoints before = mesh_.control_rows(state.x);
+    mesh_.control_rows(p) = predicted(*body_, before, state.object_motion, Vector3::Zero(), goal.h_s) - before;
+    for (const CarriedBody& body : newton_->free().carried) body.carry(p);
+  }
+  const bool mounts = goal.gel_motion.size() > 0;
+  if (mounts) p.topRows(mesh_.num_gel_vertices) = goal.gel_motion;
+  const double part = step_limit(pairs_along(state.x, p), step, p, kMovingSlack);
+  step.x += part * p;
+  if (!mounts) return;
+  step.gel_way_left = 1.0 - part;
+  if (part < 1.0) return;
+  arrive_at_mounts(step);
+  step.arrived = object_arrived(step);
+}
+
+void TimeStepper::arrive_at_mounts(Step& step) const {
+  for (std::size_t i = 0; i < gel_.glued.size(); ++i)
+    step.x.row(gel_.glued[i]) = step.goal.glued_target.row(static_cast<Eigen::Index>(i));
 }
 
 void TimeStepper::finish_body(Step& step, State& state) const {

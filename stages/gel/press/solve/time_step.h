@@ -68,6 +68,9 @@ struct StepGoal {
   /// The object moves and turns as its weight, the load at its centre of mass, and contact have it: nothing of it is
   /// prescribed. \pre the stepper knows it as a body
   bool free_object = false;
+  /// How gels go that are carried by their mounts: for each of their vertices the way it would go if the gel moved
+  /// rigidly with its mount, and where glued vertices end, in the order of GelModel::glued. Empty: no mount moves.
+  Positions gel_motion = {}, glued_target = {};
   ControlPoints control_target = {};  // where the body's points belong to the target; unless it is free
 };
 
@@ -146,9 +149,14 @@ class TimeStepper {
   Step start_step(const State& state, const StepGoal& goal, const IterationObserver& observe);
   void add_gel_terms(Step& step, const State& state) const;
   void add_object_inertia(Step& step, const State& state) const;
-  /// The free object's terms; the step then starts with it where it would be without contact, or as near as that
-  /// allows.
+  /// The terms of a free object.
   void add_body(Step& step, const State& state);
+  /// Lets the step start with gels moved with their mounts and a free object where it would fly to, or as near to that
+  /// as contact allows.
+  void start_ahead(Step& step, const State& state);
+  bool object_arrived(const Step& step) const;
+  /// Puts glued vertices where their mounts end.
+  void arrive_at_mounts(Step& step) const;
   /// The augmented Lagrangian that holds glued and object vertices.
   void add_constraint(Step& step) const;
   /// Takes a solved step over into the state.
