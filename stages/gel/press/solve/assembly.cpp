@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "stages/gel/press/energy/inertia.h"
+#include "stages/gel/press/energy/viscous_memory.h"
 
 namespace tacipc {
 namespace {
@@ -166,16 +167,27 @@ void assemble_masses(const Inertia& inertia, double weight, const Positions& x, 
   }
 }
 
-}  // namespace
-
 const Inertia* inertia_of_gel(const WeightedTerm& weighted, int first_object_vertex) {
   const auto* inertia = dynamic_cast<const Inertia*>(weighted.term.get());
   return inertia && inertia->stencil(0).front() < first_object_vertex ? inertia : nullptr;
 }
 
-void add_inertia_gradient(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
-                          NewtonSystem& system) {
-  assemble_masses(inertia, weight, x, free, false, system);
+}  // namespace
+
+bool has_constant_hessian(const WeightedTerm& weighted, int first_object_vertex) {
+  return inertia_of_gel(weighted, first_object_vertex) || dynamic_cast<const ViscousMemory*>(weighted.term.get());
+}
+
+void add_gradient(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, NewtonSystem& system) {
+  const EnergyTerm& term = *weighted.term;
+  if (const auto* inertia = dynamic_cast<const Inertia*>(&term))
+    return assemble_masses(*inertia, weighted.weight, x, free, false, system);
+  for_each_local(term, all_stencils(term), x, Order::gradient, [&](std::span<const int> stencil, const Local& local) {
+    for (std::size_t a = 0; a < stencil.size(); ++a) {
+      if (const int i = free.free_of_vertex[stencil[a]]; i >= 0)
+        system.gradient.segment<3>(3 * i) += weighted.weight * local.gradient.segment<3>(3 * static_cast<int>(a));
+    }
+  });
 }
 
 void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,

@@ -17,6 +17,7 @@ struct TimeStepper::Step {
   Positions x;
   StepTerms terms = {};  // all but contact
   StepWeights weights = {};
+  SymmetricRows start_stress_pa = {};      // elastic, where stress relaxes
   bool arrived = false;                    // the object is at its target
   Vector3 object_shift = Vector3::Zero();  // along its free axes, so far
   StepReport report = {};
