@@ -26,7 +26,17 @@ class ViscousMemory final : public EnergyTerm {
   std::span<const int> stencil(int i) const override { return {&body_->tets(which_[i], 0), 4}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
 
+  double value(const Positions& x) const override;
+  /// That of one stencil, a column per vertex, J/m.
+  TetCorners gradient(int i, const Positions& x) const;
+
  private:
+  const RestTet& rest(int i) const {
+    return body_->rest[static_cast<std::size_t>(which_[static_cast<std::size_t>(i)])];
+  }
+  Matrix3 stress(int i) const { return symmetric(*stress_pa_, which_[static_cast<std::size_t>(i)]); }
+  TetCorners corners(int i, const Positions& x) const;
+
   std::shared_ptr<const RestBody> body_;
   std::shared_ptr<const SymmetricRows> stress_pa_;  // of all tetrahedra
   std::vector<int> which_;                          // tetrahedra

@@ -12,7 +12,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kChunk = 256;
-constexpr std::size_t kAtATime = 8192;  // pairs whose gradients stay in the cache
+constexpr std::size_t kAtATime = 8192;  // gradients that stay in the cache
 
 std::vector<int> all_stencils(const EnergyTerm& term) {
   std::vector<int> all(static_cast<std::size_t>(term.num_stencils()));
@@ -179,15 +179,24 @@ bool has_constant_hessian(const WeightedTerm& weighted, int first_object_vertex)
 }
 
 void add_gradient(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, NewtonSystem& system) {
-  const EnergyTerm& term = *weighted.term;
-  if (const auto* inertia = dynamic_cast<const Inertia*>(&term))
+  if (const auto* inertia = dynamic_cast<const Inertia*>(weighted.term.get()))
     return assemble_masses(*inertia, weighted.weight, x, free, false, system);
-  for_each_local(term, all_stencils(term), x, Order::gradient, [&](std::span<const int> stencil, const Local& local) {
-    for (std::size_t a = 0; a < stencil.size(); ++a) {
-      if (const int i = free.free_of_vertex[stencil[a]]; i >= 0)
-        system.gradient.segment<3>(3 * i) += weighted.weight * local.gradient.segment<3>(3 * static_cast<int>(a));
+  const auto& memory = dynamic_cast<const ViscousMemory&>(*weighted.term);
+  std::vector<TetCorners> found(std::min(kAtATime, static_cast<std::size_t>(memory.num_stencils())));
+  for (int first = 0; first < memory.num_stencils(); first += static_cast<int>(found.size())) {
+    const int count = std::min(static_cast<int>(found.size()), memory.num_stencils() - first);
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, kChunk), [&](const auto& range) {
+      for (int k = range.begin(); k < range.end(); ++k)
+        found[static_cast<std::size_t>(k)] = memory.gradient(first + k, x);
+    });
+    for (int k = 0; k < count; ++k) {
+      const std::span<const int> stencil = memory.stencil(first + k);
+      for (int a = 0; a < 4; ++a) {
+        const int i = free.free_of_vertex[stencil[static_cast<std::size_t>(a)]];
+        if (i >= 0) system.gradient.segment<3>(3 * i) += weighted.weight * found[static_cast<std::size_t>(k)].col(a);
+      }
     }
-  });
+  }
 }
 
 void assemble(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, int first_object_vertex,

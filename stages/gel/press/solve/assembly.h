@@ -44,7 +44,7 @@ void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& 
 
 /// Whether the term is one of the gel with the same Hessian everywhere: an inertia, or its viscous memory.
 bool has_constant_hessian(const WeightedTerm& term, int first_object_vertex);
-/// Adds weight × gradient at x of a term of the gel.
+/// Adds weight × gradient at x of such a term.
 void add_gradient(const WeightedTerm& term, const Positions& x, const FreeVertices& free, NewtonSystem& system);
 
 /// Adds the derivatives of one contact pair; only those of `wanted` vertices are there.

@@ -109,6 +109,19 @@ TEST(Relaxation, AHeldPressLosesForceAndIsInBalanceThroughout) {
   EXPECT_GT(dent(found), 10.0 * dent(elastic));
 }
 
+/// What it remembers is a force inside the gel: between object and mount there is nothing else.
+TEST(Relaxation, AQuasiStaticPressIsCarriedByTheMountAlone) {
+  PressConfig config = precise_config("averaged_volume");
+  config.quasi_static = true;
+  const Simulation found = run(relaxing_sensor({{0.5, 0.02}}), config, press_and_hold(2));
+  for (std::size_t f = 1; f < found.frames.size(); ++f) {
+    const Frame& frame = found.frames[f];
+    EXPECT_EQ(frame.balance.inertia_n, Vector3::Zero()) << f;
+    EXPECT_LT((frame.balance.mount_n + frame.force_n).norm(), 1e-5 * frame.force_n.norm()) << f;
+    EXPECT_GT(frame.force_n.norm(), 0.0) << f;
+  }
+}
+
 TEST(Relaxation, GoesOnFromAnyFrameToTheSameBytes) {
   const Sensor sensor = relaxing_sensor({{0.3, 0.02}, {0.2, 0.1}});
   SampleSpec sample = press_and_hold(2);
