@@ -77,4 +77,14 @@ Compression uniform_compression(const std::string& law, const Elastic& gel, doub
   return out;
 }
 
+double relaxing_force_factor(const std::vector<Relaxation>& series, double ramp_s, double held_s) {
+  double lasting = 1.0, factor = 1.0;
+  for (const Relaxation& member : series) lasting -= member.part;
+  for (const Relaxation& member : series) {
+    const double tau = member.time_s;
+    factor += member.part / lasting * tau / ramp_s * -std::expm1(-ramp_s / tau) * std::exp(-held_s / tau);
+  }
+  return factor;
+}
+
 }  // namespace tacipc::verify

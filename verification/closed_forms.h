@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "common/sensor/sensor.h"
 
 namespace tacipc::verify {
 
@@ -61,5 +64,9 @@ struct Compression {
 /// StVK in Hencky strain Ψ = μ tr ε² + λ/2 (tr ε)², ε = ln of the stretches: ε_t = −ν ε_s, P_zz = E ε_s / s.
 /// `law` is "neo_hookean" or "stvk_hencky". \throw UsageError for another one
 Compression uniform_compression(const std::string& law, const Elastic& gel, double axial_stretch);
+
+/// Force over the long-term elastic one, a time `held_s` after a small strain came at a constant rate over `ramp_s`:
+/// 1 + Σ (gᵢ/g∞) (τᵢ/T) (1 − e^{−T/τᵢ}) e^{−t/τᵢ}, g∞ = 1 − Σ gᵢ.   [Prony series; Christensen 1982]
+double relaxing_force_factor(const std::vector<Relaxation>& series, double ramp_s, double held_s);
 
 }  // namespace tacipc::verify

@@ -122,7 +122,8 @@ const std::vector<Formula>& formulas() {
       {"layer_shear", "tangential force of a wide layer in shear, whole front"},
       {"disc_twist", "torque of a twisted disc between bonded faces"},
       {"friction_coefficient", "of the press configuration"},
-      {"uniform_compression", "pressure of uniform compression with free sides"}};
+      {"uniform_compression", "pressure of uniform compression with free sides"},
+      {"relaxing_compression", "the same of a gel that relaxes, pressed at a constant rate and held"}};
   return list;
 }
 
@@ -149,8 +150,17 @@ double evaluate(const std::string& formula, const Outcome& outcome, int frame, b
     const double radius = std::sqrt(front_area_m2(outcome.gel) / std::numbers::pi);
     return disc_twist_torque_n_m(gel, radius, thickness - depth, turned_rad(outcome, frame));
   }
-  if (formula == "uniform_compression")
+  const auto compression = [&] {
     return -uniform_compression(outcome.spec.material.law, gel, 1.0 - depth / thickness).true_stress_pa;
+  };
+  if (formula == "uniform_compression") return compression();
+  if (formula == "relaxing_compression") {
+    const auto& frames = outcome.simulation.frames;
+    const double time_s = frames[static_cast<std::size_t>(frame)].time_s;
+    double ramp_s = 0.0;  // the first phase is the press
+    for (const Frame& f : frames) ramp_s = f.phase_index == 0 ? std::min(f.time_s, time_s) : ramp_s;
+    return compression() * relaxing_force_factor(outcome.spec.material.relaxation, ramp_s, time_s - ramp_s);
+  }
   if (formula == "friction_coefficient")
     return outcome.spec.press.friction ? outcome.spec.press.friction->coefficient : 0.0;
   throw UsageError("there is no formula '" + formula + "'");

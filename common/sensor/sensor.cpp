@@ -63,10 +63,19 @@ double GelShape::front_z(double x, double y) const {
 }
 
 Material Material::read(ConfigReader& in) {
-  return {.law = in.choice("law", {"neo_hookean", "stvk_hencky"}),
-          .density_kg_m3 = in.number("density_kg_m3", Range::positive()),
-          .youngs_modulus_pa = in.number("youngs_modulus_pa", Range::positive()),
-          .poissons_ratio = in.number("poissons_ratio", Range::between(0.0, 0.4999))};
+  Material material{.law = in.choice("law", {"neo_hookean", "stvk_hencky"}),
+                    .density_kg_m3 = in.number("density_kg_m3", Range::positive()),
+                    .youngs_modulus_pa = in.number("youngs_modulus_pa", Range::positive()),
+                    .poissons_ratio = in.number("poissons_ratio", Range::between(0.0, 0.4999))};
+  double sum = 0.0;
+  for (ConfigReader& member : in.sections("relaxation")) {
+    const double part = member.number("part", {.low = 0.0, .high = 1.0, .open_low = true, .open_high = true});
+    material.relaxation.push_back({part, member.number("time_s", {.low = 0.0, .high = 1e9, .open_low = true})});
+    sum += part;
+  }
+  // What is left carries the relaxed gel: with nothing left the long-term modulus could not be that of the file.
+  if (!(sum < 1.0)) in.fault("relaxation", fmt::format("its parts sum to {:g}, which must be less than 1", sum));
+  return material;
 }
 
 double Material::lame_lambda_pa() const {

@@ -34,15 +34,22 @@ struct GelShape {
   double front_z(double x, double y) const;
 };
 
-/// Isotropic elastic material.
+/// One member of a Prony series: a part of the instantaneous modulus that relaxes.
+struct Relaxation {
+  double part = 0.0;    // g, of the instantaneous modulus
+  double time_s = 0.0;  // τ, in which all but 1/e of it has relaxed
+};
+
+/// Isotropic material, elastic or viscoelastic.
 struct Material {
   std::string law = {};  // "neo_hookean" or "stvk_hencky"
   double density_kg_m3 = 0.0;
-  double youngs_modulus_pa = 0.0;
+  double youngs_modulus_pa = 0.0;  // long-term: of a gel that has relaxed
   double poissons_ratio = 0.0;
+  std::vector<Relaxation> relaxation = {};  // none: elastic; the parts sum to less than 1
 
   static Material read(ConfigReader& in);
-  /// Lamé parameters: λ = E ν / ((1 + ν)(1 − 2ν)), μ = E / (2(1 + ν)), in Pa.
+  /// Lamé parameters: λ = E ν / ((1 + ν)(1 − 2ν)), μ = E / (2(1 + ν)), in Pa, long-term like E.
   double lame_lambda_pa() const;
   double lame_mu_pa() const;
 };

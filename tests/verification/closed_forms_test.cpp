@@ -60,5 +60,15 @@ TEST(ClosedForms, CompressionIsHookesLawAtSmallStrain) {
   }
 }
 
+TEST(ClosedForms, ARelaxingForceBeginsAtTheInstantaneousModulusAndEndsAtTheLongTermOne) {
+  const std::vector<Relaxation> series{{0.3, 1.0}, {0.2, 0.1}};
+  EXPECT_NEAR(relaxing_force_factor(series, 1e-9, 0.0), 1.0 / 0.5, 1e-7);
+  EXPECT_NEAR(relaxing_force_factor(series, 1e-9, 0.1), (0.5 + 0.3 * std::exp(-0.1) + 0.2 / std::exp(1.0)) / 0.5, 1e-7);
+  EXPECT_NEAR(relaxing_force_factor(series, 0.1, 50.0), 1.0, 1e-12);
+  // A ramp of two halves is the mean of them, each half the strain at its own time.
+  const double halves = relaxing_force_factor(series, 0.5, 0.7) + relaxing_force_factor(series, 0.5, 1.2);
+  EXPECT_NEAR(relaxing_force_factor(series, 1.0, 0.7), 0.5 * halves, 1e-12);
+}
+
 }  // namespace
 }  // namespace tacipc::verify

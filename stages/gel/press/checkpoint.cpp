@@ -18,13 +18,18 @@ class Writer {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
   }
-  void rows(const Positions& array) {
+  template <int Columns>
+  void rows(const Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>& array) {
     plain(static_cast<std::int64_t>(array.rows()));
     bytes_.append(reinterpret_cast<const char*>(array.data()), sizeof(double) * static_cast<std::size_t>(array.size()));
   }
   void states(const std::vector<ContactState>& states) {
     plain(static_cast<std::int64_t>(states.size()));
     for (const ContactState state : states) plain(state);
+  }
+  void history(const Viscoelasticity::History& history) {
+    plain(static_cast<std::int64_t>(history.size()));
+    for (const SymmetricRows& member : history) rows(member);
   }
   std::string take() { return std::move(bytes_); }
 
@@ -40,15 +45,20 @@ class Reader {
     static_assert(std::is_trivially_copyable_v<T>);
     std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
   }
-  void rows(Positions& array) {
-    const auto count = size(3 * sizeof(double));
-    array.resize(count, 3);
-    std::memcpy(array.data(), take(3 * sizeof(double) * static_cast<std::size_t>(count)),
-                3 * sizeof(double) * static_cast<std::size_t>(count));
+  template <int Columns>
+  void rows(Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>& array) {
+    const auto count = size(Columns * sizeof(double));
+    array.resize(count, Columns);
+    const std::size_t bytes = Columns * sizeof(double) * static_cast<std::size_t>(count);
+    std::memcpy(array.data(), take(bytes), bytes);
   }
   void states(std::vector<ContactState>& states) {
     states.resize(static_cast<std::size_t>(size(1)));
     for (ContactState& state : states) plain(state);
+  }
+  void history(Viscoelasticity::History& history) {
+    history.resize(static_cast<std::size_t>(size(sizeof(std::int64_t))));  // each has at least its own size
+    for (SymmetricRows& member : history) rows(member);
   }
   bool at_end() const { return bytes_.empty(); }
 
@@ -127,6 +137,7 @@ void contents(auto& io, auto& frame, auto& progress) {
   each(io, progress.state.object_motion.velocity_m_s);
   each(io, progress.state.object_motion.angular_momentum_kg_m2_s);
   io.plain(progress.state.barrier_factor);
+  io.history(progress.state.viscous_pa);
   each(io, progress.object_shift_m);
 }
 

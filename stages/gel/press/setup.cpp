@@ -37,11 +37,16 @@ std::string element_of(const PressConfig& config, const Material& material) {
 GelModel make_gel_model(const Material& material, const TetMesh& gel, const std::vector<RestTet>& rest,
                         const std::string& element) {
   const ElasticLaw law = make_elastic_law(material.law, material.lame_mu_pa(), material.lame_lambda_pa());
-  return {.elasticity = make_elasticity(gel.positions, gel.tets, law,
-                                        element == "averaged_volume" ? Element::averaged_volume : Element::linear),
-          .tets = gel.tets,
-          .mass_kg = lumped_masses(gel.tets, rest, gel.num_vertices(), material.density_kg_m3),
-          .glued = gel.vertices(BoundaryTag::glued)};
+  const Element kind = element == "averaged_volume" ? Element::averaged_volume : Element::linear;
+  GelModel model{.elasticity = make_elasticity(gel.positions, gel.tets, law, kind),
+                 .tets = gel.tets,
+                 .mass_kg = lumped_masses(gel.tets, rest, gel.num_vertices(), material.density_kg_m3),
+                 .glued = gel.vertices(BoundaryTag::glued)};
+  if (!material.relaxation.empty()) {
+    model.viscoelasticity =
+        std::make_shared<Viscoelasticity>(material.relaxation, make_tet_stress(gel.positions, gel.tets, law, kind));
+  }
+  return model;
 }
 
 StepSettings step_settings(const PressConfig& config, const Scales& scales) {

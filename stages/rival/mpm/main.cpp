@@ -58,6 +58,8 @@ int main(int argc, char** argv) {
     const MpmScene scene = make_scene(config, sensor, inputs.sample, inputs.object, inputs.face);
     log_info("{} particles, steps of {:.3g} s, {} points of the object", scene.lattice.rest_m.rows(),
              scene.setup.step_s, scene.object_points_m.rows());
+    if (!sensor.material.relaxation.empty())
+      log_warning("{}: material points do not relax, they have the long-term modulus", sensor.name);
     const double start_s = wall_s();
     const MpmRun run = run_with_progress(scene, 1.0, 0.0, config.largest_change ? 1.0 / 3.0 : 1.0);
     const double took_s = wall_s() - start_s;

@@ -70,6 +70,27 @@ TEST(Material, LawIsOneOfTwoAndIncompressibilityIsOutOfReach) {
                              "m.yaml:4:17: poissons_ratio: 0.5 is outside [0, 0.4999]"));
 }
 
+TEST(Material, RelaxationIsAPronySeriesThatLeavesSomeOfTheModulus) {
+  const std::string elastic = "law: neo_hookean\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.4\n";
+  EXPECT_TRUE(config_from_text<Material>(elastic, "m.yaml").relaxation.empty());
+  const auto gel = config_from_text<Material>(
+      elastic + "relaxation: [{part: 0.1, time_s: 0.5}, {part: 0.25, time_s: 20}]\n", "m.yaml");
+  ASSERT_EQ(gel.relaxation.size(), 2u);
+  EXPECT_EQ(gel.relaxation[0].part, 0.1);
+  EXPECT_EQ(gel.relaxation[1].time_s, 20.0);
+  EXPECT_THAT(faults_in<Material>(elastic + "relaxation:\n  - {part: 0, time_s: 1}\n  - {part: 0.1, time_s: -1}\n"
+                                            "  - {part: 0.1, tau_s: 1, time_s: 1}\n  - {part: 0.1}\n",
+                                  "m.yaml"),
+              ::testing::ElementsAre("m.yaml:6:12: relaxation[0].part: 0 is outside (0, 1)",
+                                     "m.yaml:7:25: relaxation[1].time_s: -1 is outside (0, 1000000000]",
+                                     "m.yaml:8:17: relaxation[2].tau_s: unknown key",
+                                     "m.yaml:9:5: relaxation[3].time_s: missing"));
+  EXPECT_THAT(faults_in<Material>(elastic + "relaxation: [{part: 0.4, time_s: 1}, {part: 0.6, time_s: 2}]\n", "m.yaml"),
+              ::testing::ElementsAre("m.yaml:5:13: relaxation: its parts sum to 1, which must be less than 1"));
+  EXPECT_THAT(faults_in<Material>(elastic + "relaxation: {part: 0.4, time_s: 1}\n", "m.yaml"),
+              ::testing::ElementsAre("m.yaml:5:13: relaxation: expected a list of maps, found a map"));
+}
+
 TEST(Sensor, FaultsOfMeaningNameTheirPlace) {
   const std::string text =
       "name: odd\n"

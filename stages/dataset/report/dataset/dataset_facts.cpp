@@ -57,6 +57,11 @@ GelFacts read_gel_facts(const fs::path& sample_folder) {
         fmt::format("E {:g} kPa, ν {:g}", 1e-3 * *modulus, material.number("poissons_ratio").value_or(0.0)));
   }
   if (const auto law = material.text("law")) add("gel law", *law);
+  std::string relaxation;
+  for (const Record& member : material.sections("relaxation"))
+    relaxation += fmt::format("{}{:g} % in {:g} s", relaxation.empty() ? "" : ", ",
+                              100.0 * member.required_number("part"), member.required_number("time_s"));
+  if (!relaxation.empty()) add("gel relaxation, of the instantaneous stiffness", relaxation);
   if (const auto vertices = press.section("summary").count("gel_vertices"))
     add("mesh", count_text(*vertices) + " vertices");
   if (const auto friction = press.section("summary").number("friction_coefficient"))

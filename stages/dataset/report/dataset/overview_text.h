@@ -46,7 +46,7 @@ inline constexpr const char* kTrust = R"html(<div class="prose">
 <p>A sample counts as made only if <b>every</b> frame of it passed the checks in the table; a frame that missed one makes the whole sample a failed one, which is in no shard. These pages judge the numbers in the records again.</p>
 <ul>
 <li><b>What a passed sample proves:</b> the equations were solved. Newton's method converged in every step; exact arithmetic, which shares nothing with the solver, found no intersecting triangles and no inverted element; contact forces balance the force on the gel's glued back.</li>
-<li><b>What it does not prove:</b> that gel, paint and lamps are those of the sensor on your desk. The gel is one homogeneous elastic material without viscosity or hysteresis; objects are rigid; friction is smoothed Coulomb friction, so that sticking contacts creep a little.</li>
+<li><b>What it does not prove:</b> that gel, paint and lamps are those of the sensor on your desk. The gel is one homogeneous material without hysteresis, and without viscosity unless its sensor file has a relaxation; objects are rigid; friction is smoothed Coulomb friction, so that sticking contacts creep a little.</li>
 <li><b>Distance at contact:</b> a barrier keeps the surfaces apart, by 5 to 9 µm at smooth parts with the default settings, so contact begins that much early.</li>
 <li><b>Mesh:</b> finer gel meshes still change forces by a few percent. The name of a gel ends with that of its mesh.</li>
 <li><b>Light:</b> values of a sensor file are marked known, derived or guess. Guessed lamps give plausible images, not calibrated ones; <em>image noise</em> above says whether a photograph of the real sensor was used.</li>

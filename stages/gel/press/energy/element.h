@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "stages/gel/press/energy/energy_term.h"
-#include "stages/gel/press/energy/tet_energy.h"
+#include "stages/gel/press/energy/tet_stress.h"
 
 namespace tacipc {
 
@@ -19,5 +19,8 @@ constexpr int kClusterSize = 12;
 /// positively oriented.
 std::shared_ptr<const EnergyTerm> make_elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law,
                                                   Element element);
+
+/// The stress in its tetrahedra. \throw the same
+TetStress make_tet_stress(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law, Element element);
 
 }  // namespace tacipc

@@ -24,7 +24,8 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
   add(w.stiffness_damping_s * h, terms.stiffness_damping);
   add(h * h, terms.gravity);
   add(h * h, terms.constraint);
-  add(h * h, terms.elasticity);
+  add(h * h, terms.viscous_memory);
+  add(h * h * w.elastic_factor, terms.elasticity);
   if (terms.body_inertia) out.of_bodies = {{1.0, terms.body_inertia}, {h * h, terms.body_orthogonality}};
   out.friction = {kappa * w.friction_coefficient, terms.friction};
   out.barrier = {kappa, terms.barrier};

@@ -31,6 +31,7 @@ struct StepTerms {
   std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where x̂ does not include it
   std::shared_ptr<const EnergyTerm> constraint;         // what an augmented Lagrangian holds
   std::shared_ptr<const EnergyTerm> elasticity;
+  std::shared_ptr<const EnergyTerm> viscous_memory;      // of a gel whose stress relaxes
   std::shared_ptr<const EnergyTerm> body_inertia;        // of bodies that move freely, about their points' x̂
   std::shared_ptr<const EnergyTerm> body_orthogonality;  // what keeps their shape
   std::shared_ptr<const ContactTerm> friction;
@@ -43,6 +44,7 @@ struct StepWeights {
   double friction_coefficient = 0.0;
   double mass_damping_per_s = 0.0;
   double stiffness_damping_s = 0.0;
+  double elastic_factor = 1.0;  // on the elasticity, more than 1 where stress relaxes
 };
 
 /// Ê(x) in kg m².   [Eq. 3, 5, 9]
@@ -56,8 +58,8 @@ struct IncrementalPotential {
   double value(const Positions& x) const;
 };
 
-/// Ê = inertia + αh C_M + βh C_K + h² (Φ + gravity + constraint + orthogonality) + κ′(μ D + B), κ′ = h² × barrier
-/// stiffness: κ for the nominal h.
+/// Ê = inertia + αh C_M + βh C_K + h² (f Φ + viscous memory + gravity + constraint + orthogonality) + κ′(μ D + B), κ′ =
+/// h² × barrier stiffness: κ for the nominal h; f the elastic factor.
 IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& weights);
 
 }  // namespace tacipc

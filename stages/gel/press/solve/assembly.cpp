@@ -6,12 +6,13 @@
 #include <numeric>
 
 #include "stages/gel/press/energy/inertia.h"
+#include "stages/gel/press/energy/viscous_memory.h"
 
 namespace tacipc {
 namespace {
 
 constexpr int kChunk = 256;
-constexpr std::size_t kAtATime = 8192;  // pairs whose gradients stay in the cache
+constexpr std::size_t kAtATime = 8192;  // gradients that stay in the cache
 
 std::vector<int> all_stencils(const EnergyTerm& term) {
   std::vector<int> all(static_cast<std::size_t>(term.num_stencils()));
@@ -265,23 +266,44 @@ void assemble_masses(const Inertia& inertia, double weight, const Positions& x, 
   }
 }
 
-}  // namespace
-
 const Inertia* inertia_of_gel(const WeightedTerm& weighted, int first_object_vertex) {
   const auto* inertia = dynamic_cast<const Inertia*>(weighted.term.get());
   return inertia && inertia->stencil(0).front() < first_object_vertex ? inertia : nullptr;
 }
 
-void add_inertia_gradient(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
-                          NewtonSystem& system) {
-  assemble_masses(inertia, weight, x, free, false, system);
+}  // namespace
+
+bool has_constant_hessian(const WeightedTerm& weighted, int first_object_vertex) {
+  return inertia_of_gel(weighted, first_object_vertex) || dynamic_cast<const ViscousMemory*>(weighted.term.get());
 }
 
-void add_inertia_coupling(const Inertia& inertia, double weight, const Positions& motion, const FreeVertices& free,
-                          NewtonSystem& system) {
-  for (int s = 0; s < inertia.num_stencils(); ++s) {
-    const int v = inertia.stencil(s).front(), i = free.free_of_vertex[v];
-    if (i >= 0) system.coupling.segment<3>(3 * i) += weight * inertia.mass_kg(s) * motion.row(v).transpose();
+void add_gradient(const WeightedTerm& weighted, const Positions& x, const FreeVertices& free, NewtonSystem& system) {
+  if (const auto* inertia = dynamic_cast<const Inertia*>(weighted.term.get()))
+    return assemble_masses(*inertia, weighted.weight, x, free, false, system);
+  const auto& memory = dynamic_cast<const ViscousMemory&>(*weighted.term);
+  std::vector<TetCorners> found(std::min(kAtATime, static_cast<std::size_t>(memory.num_stencils())));
+  for (int first = 0; first < memory.num_stencils(); first += static_cast<int>(found.size())) {
+    const int count = std::min(static_cast<int>(found.size()), memory.num_stencils() - first);
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, kChunk), [&](const auto& range) {
+      for (int k = range.begin(); k < range.end(); ++k)
+        found[static_cast<std::size_t>(k)] = memory.gradient(first + k, x);
+    });
+    for (int k = 0; k < count; ++k) {
+      const std::span<const int> stencil = memory.stencil(first + k);
+      for (int a = 0; a < 4; ++a) {
+        const int i = free.free_of_vertex[stencil[static_cast<std::size_t>(a)]];
+        if (i >= 0) system.gradient.segment<3>(3 * i) += weighted.weight * found[static_cast<std::size_t>(k)].col(a);
+      }
+    }
+  }
+}
+
+void add_inertia_coupling(const WeightedTerm& weighted, int first_object_vertex, const Positions& motion,
+                          const FreeVertices& free, NewtonSystem& system) {
+  const Inertia* inertia = inertia_of_gel(weighted, first_object_vertex);
+  for (int s = 0; inertia && s < inertia->num_stencils(); ++s) {
+    const int v = inertia->stencil(s).front(), i = free.free_of_vertex[v];
+    if (i >= 0) system.coupling.segment<3>(3 * i) += weighted.weight * inertia->mass_kg(s) * motion.row(v).transpose();
   }
 }
 

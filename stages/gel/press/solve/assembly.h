@@ -9,8 +9,6 @@
 
 namespace tacipc {
 
-class Inertia;
-
 /// H p = −g − H_c d, the Newton step while prescribed vertices move by d, and the same for the object as a whole should
 /// it be free to shift: shifting it by q moves all its vertices by q.
 struct NewtonSystem {
@@ -45,15 +43,14 @@ void clear_gradient(NewtonSystem& system, const FreeVertices& free);
 void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system);
 
-/// The term if it is an inertia of the gel, which has the same Hessian everywhere; else null.
-const Inertia* inertia_of_gel(const WeightedTerm& term, int first_object_vertex);
-/// Adds weight × its gradient at x.
-void add_inertia_gradient(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
-                          NewtonSystem& system);
+/// Whether the term is one of the gel with the same Hessian everywhere: an inertia, or its viscous memory.
+bool has_constant_hessian(const WeightedTerm& term, int first_object_vertex);
+/// Adds weight × gradient at x of such a term.
+void add_gradient(const WeightedTerm& term, const Positions& x, const FreeVertices& free, NewtonSystem& system);
 
-/// Adds weight × its Hessian times how free vertices move along to the coupling.
-void add_inertia_coupling(const Inertia& inertia, double weight, const Positions& motion, const FreeVertices& free,
-                          NewtonSystem& system);
+/// Adds an inertia of the gel, times how its free vertices move along, to the coupling; nothing for other terms.
+void add_inertia_coupling(const WeightedTerm& term, int first_object_vertex, const Positions& motion,
+                          const FreeVertices& free, NewtonSystem& system);
 
 /// Adds the derivatives of one contact pair; only those of `wanted` vertices are there. A vertex that a body carries
 /// passes its derivatives on to the body's points, each by its weight.

@@ -6,6 +6,7 @@
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/energy/inertia.h"
 #include "stages/gel/press/energy/restricted_term.h"
+#include "stages/gel/press/energy/viscous_memory.h"
 
 namespace tacipc {
 namespace {
@@ -53,6 +54,8 @@ std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyT
     return std::make_shared<Elasticity>(*elasticity, stencils);
   if (const auto* elasticity = dynamic_cast<const AveragedElasticity*>(term.get()))
     return std::make_shared<AveragedElasticity>(*elasticity, stencils);
+  if (const auto* memory = dynamic_cast<const ViscousMemory*>(term.get()))
+    return std::make_shared<ViscousMemory>(*memory, stencils);
   if (const auto* inertia = dynamic_cast<const Inertia*>(term.get()))
     return std::make_shared<Inertia>(*inertia, stencils);
   return std::make_shared<RestrictedTerm>(term, std::move(stencils));

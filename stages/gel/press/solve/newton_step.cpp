@@ -107,7 +107,7 @@ bool NewtonStepper::update_packs(const Call& call) {
   }
   for (const WeightedTerm& part : terms) {
     if (part.term != elasticity_) {
-      add_inertia_gradient(*inertia_of_gel(part, first_object_vertex_), part.weight, x, free_, system_);
+      add_gradient(part, x, free_, system_);
     } else if (!averaged_) {
       packs_->update(x, {}, kKeptHessian, system_);
     } else {
@@ -159,7 +159,7 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     for (const WeightedTerm& part : terms) {
       if (part.term == elasticity_ && elastic == Order::hessian && assemble_packs(part.weight, x)) continue;
       assemble(part, x, free_, first_object_vertex_, elastic, mounts_move ? still : call.object.of_vertices, system_);
-      all_kept = all_kept && inertia_of_gel(part, first_object_vertex_);
+      all_kept = all_kept && has_constant_hessian(part, first_object_vertex_);
     }
     if (all_kept) held_ = terms;
   });
@@ -179,10 +179,8 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
   });
   if (mounts_move) {
     system_.coupling += system_.hessian.multiply(along);
-    for (const WeightedTerm& part : terms) {
-      if (const Inertia* inertia = inertia_of_gel(part, first_object_vertex_))
-        add_inertia_coupling(*inertia, part.weight, call.problem.motion, free_, system_);
-    }
+    for (const WeightedTerm& part : terms)
+      add_inertia_coupling(part, first_object_vertex_, call.problem.motion, free_, system_);
   }
   return std::min(of_barrier.norm(), (so_far - without_contact).norm());
 }

@@ -112,7 +112,8 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   const PairsInReach in_reach(search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach), start,
                               mesh_.num_gel_vertices, settings_.d_hat_m);
   StepTerms terms = step.terms;
-  for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity, &terms.elasticity})
+  for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity,
+                     &terms.viscous_memory, &terms.elasticity})
     *term = restricted(*term, patch.moves);
   terms.body_inertia = nullptr;  // the object is held meanwhile
   terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;

@@ -53,7 +53,8 @@ void TimeStepper::record_forces(const Step& step) {
       continue;
     }
     const Positions force = force_of(part.weight, *part.term);
-    forces_.body += force;
+    // Inside the gel it cancels with the elasticity's.
+    if (part.term != step.terms.viscous_memory) forces_.body += force;
     take_from_mount(force);
   }
   if (energy.friction.term) {

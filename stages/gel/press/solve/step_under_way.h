@@ -17,8 +17,9 @@ struct TimeStepper::Step {
   Positions x;
   StepTerms terms = {};  // all but contact
   StepWeights weights = {};
-  bool arrived = false;       // the object is at its target, and gels are where their mounts end
-  double gel_way_left = 0.0;  // part of StepGoal::gel_motion that is still to be made
+  SymmetricRows start_stress_pa = {};           // elastic, where stress relaxes
+  bool arrived = false;                         // the object is at its target, and gels are where their mounts end
+  double gel_way_left = 0.0;                    // part of StepGoal::gel_motion that is still to be made
   Vector3 object_shift = Vector3::Zero();       // along its free axes, so far
   ControlPoints predicted = {};                 // of a free object, without contact
   Vector3 acceleration_m_s2 = Vector3::Zero();  // of its weight and load

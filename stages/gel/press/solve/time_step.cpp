@@ -145,6 +145,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
                   .mass_damping_per_s = settings_.mass_damping_per_s,
                   .stiffness_damping_s = settings_.stiffness_damping_s};
   add_gel_terms(step, state);
+  if (gel_.viscoelasticity) add_relaxation(step, state);
   if (!goal.free_axes.empty()) add_object_inertia(step, state);
   if (settings_.augmented_lagrangian) add_constraint(step);
   if (goal.free_object) add_body(step, state);
@@ -172,6 +173,13 @@ void TimeStepper::add_gel_terms(Step& step, const State& state) const {
   if (settings_.mass_damping_per_s > 0.0) terms.mass_damping = std::make_shared<Inertia>(gel_.mass_kg, start);
 }
 
+void TimeStepper::add_relaxation(Step& step, const State& state) const {
+  const Viscoelasticity& gel = *gel_.viscoelasticity;
+  step.start_stress_pa = gel.stress(state.x);
+  step.terms.viscous_memory = gel.memory(state.viscous_pa, step.start_stress_pa, step.goal.h_s);
+  step.weights.elastic_factor = gel.elastic_factor(step.goal.h_s);
+}
+
 void TimeStepper::add_object_inertia(Step& step, const State& state) const {
   const StepGoal& goal = step.goal;
   const int n = mesh_.num_gel_vertices;
@@ -196,8 +204,7 @@ void TimeStepper::add_body(Step& step, const State& state) {
 }
 
 bool TimeStepper::object_arrived(const Step& step) const {
-  return step.goal.free_object ||
-         (mesh_.object_rows(step.x) - step.goal.object_target).cwiseAbs().maxCoeff() == 0.0;
+  return step.goal.free_object || (mesh_.object_rows(step.x) - step.goal.object_target).cwiseAbs().maxCoeff() == 0.0;
 }
 
 void TimeStepper::start_ahead(Step& step, const State& state) {
@@ -256,6 +263,8 @@ void TimeStepper::finish_step(Step& step, State& state) {
   const double h = step.goal.h_s;
   record_forces(step);
   if (body_) finish_body(step, state);
+  if (const auto& gel = gel_.viscoelasticity)
+    gel->advance(state.viscous_pa, gel->stress(step.x) - step.start_stress_pa, h);
   step.report.object_shift_m = step.object_shift;
   if (settings_.quasi_static) {
     state.velocity_m_s.setZero();

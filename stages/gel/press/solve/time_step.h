@@ -10,6 +10,7 @@
 #include "stages/gel/press/contact/pair_counting.h"
 #include "stages/gel/press/energy/affine_body.h"
 #include "stages/gel/press/energy/friction.h"
+#include "stages/gel/press/energy/viscoelasticity.h"
 #include "stages/gel/press/solve/newton_step.h"
 #include "stages/gel/press/solve/rigid_motion.h"
 
@@ -56,6 +57,7 @@ struct GelModel {
   Tetrahedra tets;
   Eigen::VectorXd mass_kg;
   std::vector<int> glued;
+  std::shared_ptr<const Viscoelasticity> viscoelasticity = nullptr;  // over the same; null: elastic
 };
 
 /// Where the object goes in one step.
@@ -81,6 +83,7 @@ struct State {
   Vector3 object_velocity_m_s = Vector3::Zero();  // along free axes
   RigidMotion object_motion = {};                 // of an object that may be free
   double barrier_factor = 1.0;                    // on the barrier's stiffness in the next step
+  Viscoelasticity::History viscous_pa = {};       // of a gel whose stress relaxes
 };
 
 /// What a step took and where it ended.
@@ -148,6 +151,8 @@ class TimeStepper {
   /// The step before its first iteration: terms, weights, friction.
   Step start_step(const State& state, const StepGoal& goal, const IterationObserver& observe);
   void add_gel_terms(Step& step, const State& state) const;
+  /// What a gel whose stress relaxes has besides.
+  void add_relaxation(Step& step, const State& state) const;
   void add_object_inertia(Step& step, const State& state) const;
   /// The terms of a free object.
   void add_body(Step& step, const State& state);

@@ -5,8 +5,8 @@
 
 #include "common/base/error.h"
 #include "common/sample/placement.h"
-#include "stages/gel/press/checkpoint.h"
 #include "tests/make_mesh.h"
+#include "tests/stages/gel/press/memory_store.h"
 #include "tests/stages/gel/press/reference_scene.h"
 #include "tests/stages/gel/press/small_scene.h"
 
@@ -23,23 +23,6 @@ Simulation run(const TriangleMesh& object, const PressConfig& config, const Samp
   return simulate(paper_sensor(), block_gel(8, 0.02, 0.002), object, config, sample, "-z", ignore_progress, store);
 }
 
-/// Keeps packed frames; hands out the first `known` of them.
-class Memory final : public FrameStore {
- public:
-  explicit Memory(std::vector<std::string> known = {}) : known_(std::move(known)) {}
-  void save(const Frame& frame, const Progress& progress) override { saved.push_back(pack_frame(frame, progress)); }
-  bool load(Frame& frame, Progress& progress) override {
-    if (saved.size() >= known_.size()) return false;
-    unpack_frame(known_[saved.size()], frame, progress);
-    saved.push_back(known_[saved.size()]);
-    return true;
-  }
-  std::vector<std::string> saved;
-
- private:
-  std::vector<std::string> known_;
-};
-
 SampleSpec long_motion() {
   SampleSpec sample;
   sample.density_kg_m3 = 1000.0;
@@ -54,14 +37,14 @@ SampleSpec long_motion() {
 
 TEST(MovedGel, GoesOnFromAnyFrameToTheSameBytes) {
   const TriangleMesh object = pyramid(0.003, 0.002);
-  Memory whole;
+  MemoryStore whole;
   const Simulation simulation = run(object, friction_config(0.5), long_motion(), &whole);
   ASSERT_EQ(simulation.frames.size(), 13u);
   EXPECT_EQ(simulation.frames[4].phase, PhaseKind::shear);
   EXPECT_GT(simulation.frames[5].force_n.head<2>().norm(), 0.01);
   EXPECT_EQ(simulation.frames.back().force_n, Vector3::Zero());
   for (const std::size_t known : {1, 4, 6, 9, 12}) {
-    Memory rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
+    MemoryStore rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
     run(object, friction_config(0.5), long_motion(), &rest);
     EXPECT_TRUE(rest.saved == whole.saved) << "from " << known << " frames";
   }
@@ -109,7 +92,7 @@ TEST(MovedGel, IterationsAreCountedOverAllRenewalsOfFriction) {
 }
 
 TEST(MovedGel, DamagedFramesAreRefused) {
-  Memory whole;
+  MemoryStore whole;
   run(pyramid(0.003, 0.002), paper_config(), press(0.1e-3, 1), &whole);
   Frame frame;
   Progress progress;

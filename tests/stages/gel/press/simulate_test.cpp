@@ -184,12 +184,12 @@ TEST(Simulate, PositiveContactHessianEndsWhereTheAdaptiveOneDoesByAnotherRoute) 
 }
 
 /// At the end of a step only the vertices at the pyramid's edges still move.
-TEST(Simulate, PatchesEndWhereTheWholeDoes) {
+void expect_patches_end_where_the_whole_does(const Sensor& sensor) {
   PressConfig config = paper_config();
   config.relative_velocity_tolerance = 2e-4;
   const auto run = [&](bool patches) {
     config.patches = patches;
-    return simulate(paper_sensor(), block_gel(24, 0.012, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 4), "-z",
+    return simulate(sensor, block_gel(24, 0.012, 0.002), pyramid(0.003, 0.002), config, press(0.4e-3, 4), "-z",
                     ignore_progress);
   };
   const Simulation with = run(true), without = run(false);
@@ -204,6 +204,14 @@ TEST(Simulate, PatchesEndWhereTheWholeDoes) {
   const Frame &a = with.frames.back(), &b = without.frames.back();
   EXPECT_LT((a.positions - b.positions).cwiseAbs().maxCoeff(), 2e-8);
   EXPECT_NEAR(a.force_n.z(), b.force_n.z(), 1e-3 * std::abs(a.force_n.z()));
+}
+
+TEST(Simulate, PatchesEndWhereTheWholeDoes) { expect_patches_end_where_the_whole_does(paper_sensor()); }
+
+TEST(Simulate, PatchesOfAGelThatRelaxesEndWhereTheWholeDoes) {
+  Sensor sensor = paper_sensor();
+  sensor.material.relaxation = {{0.4, 0.02}};
+  expect_patches_end_where_the_whole_does(sensor);
 }
 
 TEST(Simulate, ASoftBarrierGetsStifferWhereATipComesTooNear) {

@@ -17,6 +17,7 @@
 #include "stages/gel/press/energy/linear_load.h"
 #include "stages/gel/press/energy/orthogonality.h"
 #include "stages/gel/press/energy/stiffness_damping.h"
+#include "stages/gel/press/energy/viscous_memory.h"
 #include "stages/gel/press/solve/assembly.h"
 #include "tests/make_mesh.h"
 #include "tests/stages/gel/press/convergence_order.h"
@@ -37,6 +38,12 @@ struct Case {
 };
 
 Positions rows(const Vector12& x) { return Eigen::Map<const Positions>(x.data(), 4, 3); }
+
+/// The tetrahedron with three edges of length 1 along the axes.
+RestBody unit_body() {
+  const Tetrahedra tets{{0, 1, 2, 3}};
+  return {tets, make_rest_tets(Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, tets)};
+}
 
 Case tet_case(const std::string& name, const ElasticLaw& law, double squeeze) {
   Vector12 rest;
@@ -119,6 +126,13 @@ std::vector<Case> cases() {
   }
   all.push_back(orthogonality_case("orthogonality_pressed", 0.5));
   all.push_back(orthogonality_case("orthogonality_stretched", 1.4));
+  for (const double push : {0.0, 8.0}) {
+    Case memory = tet_case(push > 0.0 ? "viscous_memory_pushes" : "viscous_memory", NeoHookean{2.0, 7.0}, 0.4);
+    memory.term = std::make_shared<ViscousMemory>(std::make_shared<RestBody>(unit_body()),
+                                                  SymmetricRows{{3.0 - push, 2.0, 1.0 - push, 0.3, -0.5, 0.7}});
+    memory.quadratic = true;
+    all.push_back(memory);
+  }
   using Kind = ContactPair::Kind;
   x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
   all.push_back(pair_case("point_triangle_inside", Kind::point_triangle, x));
@@ -252,6 +266,19 @@ TEST(StiffnessDamping, IsTheElasticEnergyOfTheStepTakenFromRest) {
   for (Eigen::Index k = 0; k < 12; ++k) x[k] = rest(k / 3, k % 3) + 0.2 * static_cast<double>(k % 3);
   damping.evaluate(0, x, Order::value, local);
   EXPECT_NEAR(local.value, 0.0, 1e-15);  // moved as a whole
+}
+
+TEST(ViscousMemory, IsStressTimesGreensStrain) {
+  const ViscousMemory memory(std::make_shared<RestBody>(unit_body()), SymmetricRows{{2.0, 3.0, 5.0, 0.0, 7.0, 0.0}});
+  Eigen::VectorXd x(12);
+  x << 0, 0, 0, 1.2, 0, 0, 0, 1, 0, 0.5, 0, 1;  // F = [1.2 0 0.5; 0 1 0; 0 0 1]
+  Local local;
+  memory.evaluate(0, x, Order::value, local);
+  // E_xx = 0.22, E_xz = 0.3, E_zz = 0.125.
+  EXPECT_NEAR(local.value, (2.0 * 0.22 + 2.0 * 7.0 * 0.3 + 5.0 * 0.125) / 6.0, 1e-15);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  memory.evaluate(0, x, Order::value, local);
+  EXPECT_EQ(local.value, 0.0);
 }
 
 TEST(Barrier, VanishesSmoothlyAtDHatAndDivergesAtContact) {

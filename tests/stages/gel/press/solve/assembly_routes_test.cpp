@@ -7,6 +7,7 @@
 #include "stages/gel/press/energy/element.h"
 #include "stages/gel/press/energy/friction.h"
 #include "stages/gel/press/energy/restricted_term.h"
+#include "stages/gel/press/energy/viscous_memory.h"
 #include "stages/gel/press/solve/contact_assembly.h"
 #include "stages/gel/press/solve/elastic_assembly.h"
 #include "stages/gel/press/solve/local_patch.h"
@@ -217,6 +218,18 @@ TEST(LocalPatch, ItsTermsChangeAsTheWholeDoes) {
     EXPECT_NEAR(part->value(moved) - part->value(c.x), change, 1e-12 * whole->value(c.x));
     EXPECT_LT((gradient_of(*part, c.x).row(seed) - gradient_of(*whole, c.x).row(seed)).norm(), 1e-12);
   }
+}
+
+TEST(LocalPatch, RemembersAsTheWholeDoes) {
+  const Crumpled c;
+  const TetStress stress = make_tet_stress(c.block.rest, c.block.tets, NeoHookean{2.0, 7.0}, Element::linear);
+  const auto whole = std::make_shared<const ViscousMemory>(stress.body(), stress(c.x));
+  const int seed = c.free().vertex_of_free[3];
+  const LocalPatch patch = grow_patch({seed}, 0, c.block.tets, c.free());
+  const auto part = restricted(whole, patch.moves), part_of_part = restricted(part, patch.moves);
+  EXPECT_EQ(part->num_stencils(), patch.tets.rows());
+  for (const auto& term : {part, part_of_part})
+    EXPECT_LT((gradient_of(*term, c.x).row(seed) - gradient_of(*whole, c.x).row(seed)).norm(), 1e-12);
 }
 
 TEST(LocalPatch, GrowsByTetrahedraAndLeavesWhatIsPrescribed) {

@@ -6,8 +6,10 @@
 #include <Eigen/LU>
 
 #include "stages/gel/press/energy/elasticity.h"
+#include "stages/gel/press/energy/element.h"
 #include "stages/gel/press/energy/friction.h"
 #include "stages/gel/press/energy/inertia.h"
+#include "stages/gel/press/energy/viscous_memory.h"
 #include "tests/stages/gel/press/dense_derivatives.h"
 #include "tests/stages/gel/press/small_scene.h"
 
@@ -70,6 +72,8 @@ class NewtonStepTest : public ::testing::Test {
     Blend blend(std::vector<double>(static_cast<std::size_t>(mesh_.num_gel_vertices), share));
     return stepper.direction({.potential = potential_, .x = x_, .motion = motion_, .free_axes = axes}, blend);
   }
+
+  void keeps_all_but_contacts(StepTerms terms);
 
   /// Everything that direction() says, by one dense solve.
   NewtonDirection dense_direction(const std::vector<int>& axes, Order contact_order) const {
@@ -145,8 +149,7 @@ TEST_F(NewtonStepTest, ABarrierKnowsItsActivePairsAtEveryPlace) {
 }
 
 /// A stepper keeps its matrix from call to call, but for elements that have changed and for contacts.
-TEST_F(NewtonStepTest, WhatItKeepsOfTheLastCallIsNotTheContacts) {
-  StepTerms terms;
+void NewtonStepTest::keeps_all_but_contacts(StepTerms terms) {
   terms.elasticity = elasticity_;
   terms.inertia = std::make_shared<Inertia>(Eigen::VectorXd::Constant(mesh_.num_gel_vertices, 60.0),
                                             Positions(x_.topRows(mesh_.num_gel_vertices)));
@@ -179,12 +182,24 @@ TEST_F(NewtonStepTest, WhatItKeepsOfTheLastCallIsNotTheContacts) {
   const Positions first = direction_of(stepper, x_);
   EXPECT_EQ(first, anew(x_));
   EXPECT_EQ(direction_of(stepper, aside), anew(aside));
-  EXPECT_LT((direction_of(stepper, near) - anew(near)).norm(), 0.01 * anew(near).norm());
+  const Positions kept = direction_of(stepper, near);
+  EXPECT_LT((kept - anew(near)).norm(), 0.01 * anew(near).norm());
+  EXPECT_NE(kept, anew(near));  // it did keep elements
   EXPECT_EQ(direction_of(stepper, x_), first);
   EXPECT_LT((direction_of(stepper, far) - anew(far)).norm(), 0.1 * anew(far).norm());
   EXPECT_LT((direction_of(stepper, x_) - first).norm(), 0.1 * first.norm());
   stepper.reset();
   EXPECT_EQ(direction_of(stepper, x_), first);
+}
+
+TEST_F(NewtonStepTest, WhatItKeepsOfTheLastCallIsNotTheContacts) { keeps_all_but_contacts({}); }
+
+/// A memory has the same Hessian everywhere, and another gradient.
+TEST_F(NewtonStepTest, WhatItKeepsOfTheLastCallIsNotTheContactsOfAGelThatRemembers) {
+  const TetStress stress = make_tet_stress(gel_.positions, gel_.tets, NeoHookean{2.0, 7.0}, Element::linear);
+  StepTerms terms;
+  terms.viscous_memory = std::make_shared<ViscousMemory>(stress.body(), 0.3 * stress(x_));
+  keeps_all_but_contacts(terms);
 }
 
 /// Of columns solved to a hundredth, or less, the object's Schur complement may be indefinite, or its solution ascend,

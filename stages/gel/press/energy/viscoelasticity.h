@@ -1,0 +1,50 @@
+// A gel whose stress relaxes: a Prony series over the elastic stress of its tetrahedra.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/sensor/sensor.h"
+#include "stages/gel/press/energy/viscous_memory.h"
+
+namespace tacipc {
+
+/// Generalised Maxwell model [Simo & Hughes 1998, ch. 10]. A strain that comes at once and stays has the modulus
+///   E(t) = E₀ [g∞ + Σ gᵢ e^{−t/τᵢ}],   g∞ = 1 − Σ gᵢ,
+/// in time; Poisson's ratio is the same at all times. The elastic law has the long-term modulus E∞ = g∞ E₀ and the
+/// stress S (second Piola–Kirchhoff, so that a rotation of the gel is none of its history), and the whole stress is
+///   S + Σ Qᵢ,   Q̇ᵢ + Qᵢ/τᵢ = rᵢ Ṡ,   rᵢ = gᵢ/g∞.
+/// Over a step h in which S changes at a constant rate this is exactly
+///   Qᵢ ← e^{−h/τᵢ} Qᵢ + rᵢ ξᵢ (S_{n+1} − S_n),   ξᵢ = (1 − e^{−h/τᵢ}) τᵢ/h,
+/// the derivative by Green's strain of an energy of which only the first part depends on the law:
+///   (1 + Σ rᵢ ξᵢ) ψ + M : E,   M = Σ (e^{−h/τᵢ} Qᵢ − rᵢ ξᵢ S_n) held during the step (ViscousMemory).
+class Viscoelasticity {
+ public:
+  /// \pre the series has members; their parts sum to less than 1
+  Viscoelasticity(const std::vector<Relaxation>& series, TetStress stress);
+
+  /// Qᵢ of each member of the series, Pa; none before the first step, which starts at rest.
+  using History = std::vector<SymmetricRows>;
+
+  /// S at x.
+  SymmetricRows stress(const Positions& x) const { return stress_(x); }
+  /// 1 + Σ rᵢ ξᵢ: what a step multiplies the elastic energy by. E₀/E∞ for short steps, 1 for long ones.
+  double elastic_factor(double h_s) const;
+  /// The other part of the energy of a step from stress S_n.
+  std::shared_ptr<const ViscousMemory> memory(const History& history, const SymmetricRows& start_pa, double h_s) const;
+  /// Takes the history over a step that changed S by `change_pa`.
+  void advance(History& history, const SymmetricRows& change_pa, double h_s) const;
+
+ private:
+  struct Member {
+    double ratio;  // r
+    double time_s;
+
+    double decay(double h_s) const;       // e^{−h/τ}
+    double mean_decay(double h_s) const;  // ξ, its mean over the step
+  };
+  std::vector<Member> series_;
+  TetStress stress_;
+};
+
+}  // namespace tacipc
