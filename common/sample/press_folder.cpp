@@ -245,7 +245,7 @@ MarkerDisplacement PressFolder::marker_displacements(std::size_t frame) const {
 }
 
 void PressWriter::write(PressArray array, const std::vector<double>& values) const {
-  write_field(field_of(array), stage_.output(field_of(array).file), extents_, values);
+  write_field(field_of(array), stage_.output((folder_ / field_of(array).file).generic_string()), extents_, values);
 }
 
 void PressWriter::append(std::vector<double>& all, const std::vector<double>& values) {

@@ -114,7 +114,9 @@ class PressFolder {
 /// Writes arrays of a press folder, as outputs of a stage.
 class PressWriter {
  public:
-  PressWriter(Stage& stage, Extents extents) : stage_(stage), extents_(std::move(extents)) {}
+  /// \param folder below --out
+  PressWriter(Stage& stage, Extents extents, std::filesystem::path folder = {})
+      : stage_(stage), extents_(std::move(extents)), folder_(std::move(folder)) {}
 
   void write(PressArray array, const std::vector<double>& values) const;
   /// `part` gives what the reader of this array returns, for each of the frames (or their one entry of it).
@@ -138,6 +140,7 @@ class PressWriter {
 
   Stage& stage_;
   Extents extents_;
+  std::filesystem::path folder_;
 };
 
 }  // namespace tacipc

@@ -124,13 +124,13 @@ void Stage::summarize(const Value::Map& lines) { summary_.insert(summary_.end(),
 
 void Stage::cost(const Value::Map& lines) { cost_.insert(cost_.end(), lines.begin(), lines.end()); }
 
-Value Stage::input_hashes() const {
+Value Stage::input_hashes(const fs::path& from) const {
   Value::Map inputs;
   for (const InputSpec& spec : spec_.inputs) {
     if (spec.named) {
       Value::List list;
       for (const auto& [name, path] : named_inputs_.at(spec.flag))
-        list.emplace_back(Value::Map{{"name", name}, {"path", relative_to(path, out_)}, {"hash", content_hash(path)}});
+        list.emplace_back(Value::Map{{"name", name}, {"path", relative_to(path, from)}, {"hash", content_hash(path)}});
       if (!list.empty()) inputs.emplace_back(spec.flag.substr(2), std::move(list));
       continue;
     }
@@ -138,12 +138,12 @@ Value Stage::input_hashes() const {
     if (found == inputs_.end() || found->second.empty()) continue;
     Value::List list;
     for (const fs::path& path : found->second) {
-      list.emplace_back(Value::Map{{"path", relative_to(path, out_)}, {"hash", content_hash(path)}});
+      list.emplace_back(Value::Map{{"path", relative_to(path, from)}, {"hash", content_hash(path)}});
     }
     inputs.emplace_back(spec.flag.substr(2), spec.many ? Value(std::move(list)) : list.front());
   }
   for (const auto& [name, path] : added_inputs_)
-    inputs.emplace_back(name, Value::Map{{"path", relative_to(path, out_)}, {"hash", content_hash(path)}});
+    inputs.emplace_back(name, Value::Map{{"path", relative_to(path, from)}, {"hash", content_hash(path)}});
   return inputs;
 }
 
@@ -152,7 +152,7 @@ void Stage::add_input(const std::string& name, const fs::path& path) { add_input
 void Stage::add_inputs(const std::vector<std::pair<std::string, fs::path>>& named) {
   added_inputs_.insert(added_inputs_.end(), named.begin(), named.end());
   for (const auto& [name, path] : named) refuse_changed(path);
-  inputs_at_start_ = input_hashes();
+  inputs_at_start_ = input_hashes(out_);
   open_scratch();
 }
 
@@ -160,7 +160,7 @@ void Stage::refuse_changed(const fs::path& input) const {
   refuse_changed_outputs(input, out_ / (spec_.name + ".yaml"));
 }
 
-bool Stage::inputs_changed() const { return to_yaml(input_hashes()) != to_yaml(inputs_at_start_.value()); }
+bool Stage::inputs_changed() const { return to_yaml(input_hashes(out_)) != to_yaml(inputs_at_start_.value()); }
 
 std::string Stage::resume_key() const {
   std::error_code ignored;
@@ -253,6 +253,25 @@ std::string Stage::record() const {
   return to_yaml(record);
 }
 
+void Stage::finish_part(const std::string& folder, const Value::Map& summary) {
+  const std::string prefix = folder + "/";
+  Value::Map outputs;
+  for (const Output& output : outputs_) {
+    if (!output.name.starts_with(prefix)) continue;
+    outputs.emplace_back(output.name.substr(prefix.size()),
+                         output.hash ? *output.hash : content_hash(partial_ / output.name));
+  }
+  Value::Map record{{"stage", spec_.name},
+                    {"version", program_version()},
+                    {"instruction_set", instruction_set()},
+                    {"inputs", input_hashes(out_ / folder)},
+                    {"outputs", std::move(outputs)}};
+  add_notes(record);
+  record.emplace_back("config", configs_);
+  record.emplace_back("summary", summary);
+  write_file(output(prefix + spec_.name + ".yaml"), to_yaml(record));
+}
+
 std::string Stage::timings() const {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
@@ -279,7 +298,7 @@ void Stage::begin() {
     for (const fs::path& path : paths) refuse_changed(path);
   for (const auto& [flag, paths] : named_inputs_)
     for (const NamedPath& named : paths) refuse_changed(named.path);
-  inputs_at_start_ = input_hashes();
+  inputs_at_start_ = input_hashes(out_);
   open_scratch();
 }
 

@@ -95,6 +95,10 @@ class Stage {
   /// What save_scratch saved, in this run or an equal earlier one; nothing if there is none or it is damaged.
   std::optional<std::string> load_scratch(const std::string& name) const;
 
+  /// Ends a part of the result that others read as a result of its own, in a folder below --out: writes a record there,
+  /// of the outputs so far whose names begin with `folder`/, with the same inputs and configuration and this summary.
+  void finish_part(const std::string& folder, const Value::Map& summary);
+
   /// Adds to the record: a top-level entry (`sample: star`) or lines of its summary.
   void note(const std::string& key, Value value);
   void summarize(const Value::Map& lines);
@@ -122,7 +126,8 @@ class Stage {
   /// Outputs of earlier runs, as their record lists them or, where one was killed while publishing, the list it left
   /// for that.
   std::set<std::string> old_outputs() const;
-  Value input_hashes() const;
+  /// With paths as seen from a folder.
+  Value input_hashes(const std::filesystem::path& from) const;
   bool inputs_changed() const;
   /// \throw DataError if a record vouches for another content of an input (vouched.h)
   void refuse_changed(const std::filesystem::path& input) const;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/base/files.h"
+#include "common/format/npy.h"
 #include "common/sample/press_folder.h"
 #include "common/sensor/markers.h"
 #include "stages/gel/press/measure/contact_summary.h"
@@ -15,13 +16,14 @@
 namespace tacipc {
 namespace {
 
-void write_markers(Stage& stage, const PressWriter& writer, const std::vector<Marker>& markers,
-                   const std::vector<Frame>& frames, const std::optional<std::size_t>& end) {
+void write_markers(Stage& stage, const std::string& folder, const PressWriter& writer,
+                   const std::vector<Marker>& markers, const std::vector<Frame>& frames,
+                   const std::optional<std::size_t>& end) {
   std::vector<Positions> positions;
   for (const Frame& frame : frames) positions.push_back(marker_positions(markers, frame.positions));
   writer.write(PressArray::markers, positions, std::identity());
   writer.write(PressArray::marker_displacement, marker_displacements(positions, end));
-  write_file(stage.output(kMarkersCsv), markers_csv(markers));
+  write_file(stage.output(folder + kMarkersCsv), markers_csv(markers));
 }
 
 /// Time at which each front vertex first slips, +∞ where it never does.
@@ -108,17 +110,19 @@ Value::Map limits() {
           {"smallest_body_load_n", kSmallestBodyLoadN}};
 }
 
-}  // namespace
-
-void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
-                   const SampleSpec& sample, const Simulation& simulation) {
+/// Every array of one gel, in a folder below --out ("" or with a slash at its end). \return the summary of its record
+/// \param end last frame of the first press
+Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel,
+                     const PressConfig& config, const std::optional<std::size_t>& end, const Simulation& simulation) {
   const auto& frames = simulation.frames;
   const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
   const std::vector<Marker> markers = bind_markers(sensor.markers, gel.positions, gel.faces(BoundaryTag::front));
-  const PressWriter writer(stage, {{kFrames, frames.size()},
-                                   {kVertices, vertices},
-                                   {kFrontVertices, simulation.front.vertices.size()},
-                                   {kMarkers, markers.size()}});
+  const PressWriter writer(stage,
+                           {{kFrames, frames.size()},
+                            {kVertices, vertices},
+                            {kFrontVertices, simulation.front.vertices.size()},
+                            {kMarkers, markers.size()}},
+                           folder);
   writer.write(PressArray::positions, frames, [](const Frame& f) { return f.positions; });
   writer.write(PressArray::object_pose, frames, [](const Frame& f) { return f.gel_from_object; });
   writer.write(PressArray::time, frames, [](const Frame& f) { return f.time_s; });
@@ -129,11 +133,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
       return Twist{f.object_velocity_m_s, f.object_spin_rad_s};
     });
   }
-  std::vector<int> phases;
-  for (const Frame& f : frames) phases.push_back(f.phase_index);
-  const auto end = press_end_frame(sample, phases);
   write_contact(writer, sensor, simulation);
-  write_markers(stage, writer, markers, frames, end);
+  write_markers(stage, folder, writer, markers, frames, end);
 
   int iterations = 0, intersections = 0, inverted = 0;
   double min_gap_m = simulation.gap_horizon_m, min_ratio = 1.0, balance = 0.0, pose_error_m = 0.0;
@@ -156,7 +157,6 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   }
   Value::Map summary{{"frames", frames.size()},
                      {"gel_vertices", vertices},
-                     {"face", simulation.face},
                      {"d_hat_m", simulation.d_hat_m},
                      {"barrier_stiffness", frames.back().solver.barrier_factor * simulation.barrier_stiffness},
                      {"element", simulation.element},
@@ -171,6 +171,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
                      {"inverted_tets", inverted},
                      {"max_balance_relative", balance},
                      {"max_pose_error_m", pose_error_m}};
+  if (!simulation.face.empty()) summary.emplace(summary.begin() + 2, "face", simulation.face);
   if (simulation.object_mass_kg > 0.0) summary.emplace_back("object_mass_kg", simulation.object_mass_kg);
   if (first_slip) summary.emplace_back("first_slip_time_s", *first_slip);
   if (gross_slip) summary.emplace_back("gross_slip_time_s", *gross_slip);
@@ -181,9 +182,10 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   if (!approximated.empty()) summary.emplace_back("approximated_frames", std::move(approximated));
   summary.emplace_back("limits", limits());
   summary.emplace_back("per_frame", std::move(per_frame));
-  stage.summarize(summary);
+  return summary;
+}
 
-  const SolverTimes& t = simulation.times;
+void add_cost(Stage& stage, const SolverTimes& t) {
   stage.cost({{"search_s", t.search_s},
               {"step_limits_s", t.limits_s},
               {"line_search_s", t.line_search_s},
@@ -194,6 +196,89 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
               {"linear_systems", t.solves},
               {"factorised_systems", t.factorised},
               {"products", t.products}});
+}
+
+void write_array(Stage& stage, const std::string& name, const std::vector<std::size_t>& shape,
+                 const std::vector<double>& values) {
+  write_npy(stage.output(name), shape, values.data());
+}
+
+/// One frame's lines of a grasp's record.
+Value::Map grasp_lines(const GraspFrame& f) {
+  const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
+  return {{"time_s", f.time_s},
+          {"phase", name_of(f.phase)},
+          {"grip_left_n", std::abs(f.force_on_finger_n[0].x())},
+          {"grip_right_n", std::abs(f.force_on_finger_n[1].x())},
+          {"carried_n", 0.0 - carried.z()},
+          {"height_m", f.world_from_object(2, 3)},
+          {"hand_height_m", f.world_from_finger[0](2, 3)},
+          {"slip_m", f.slip_m},
+          {"turn_rad", f.turn_rad},
+          {"body_load_n", f.body_load_n},
+          {"body_residual_n", f.body_residual_n}};
+}
+
+}  // namespace
+
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const SampleSpec& sample, const Simulation& simulation) {
+  std::vector<int> phases;
+  for (const Frame& f : simulation.frames) phases.push_back(f.phase_index);
+  stage.summarize(write_gel(stage, "", sensor, gel, config, press_end_frame(sample, phases), simulation));
+  add_cost(stage, simulation.times);
+}
+
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const Grasp& grasp) {
+  const auto& frames = grasp.frames;
+  std::optional<std::size_t> closed;  // last frame of the first phase
+  for (std::size_t f = 1; f < frames.size() && grasp.fingers[0].frames[f].phase_index == 0; ++f) closed = f;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::string folder = std::string(side == 0 ? "left" : "right") + "/press";
+    stage.finish_part(folder, write_gel(stage, folder + "/", sensor, gel, config, closed, grasp.fingers[side]));
+  }
+  std::vector<double> time, object, twist, fingers, forces;
+  Value::List per_frame;
+  const auto add_matrix = [](std::vector<double>& all, const Matrix4& pose) {
+    for (int r = 0; r < 4; ++r) {
+      for (int c = 0; c < 4; ++c) all.push_back(pose(r, c));
+    }
+  };
+  for (const GraspFrame& f : frames) {
+    time.push_back(f.time_s);
+    add_matrix(object, f.world_from_object);
+    twist.insert(twist.end(), f.velocity_m_s.begin(), f.velocity_m_s.end());
+    twist.insert(twist.end(), f.spin_rad_s.begin(), f.spin_rad_s.end());
+    for (std::size_t side = 0; side < 2; ++side) {
+      add_matrix(fingers, f.world_from_finger[side]);
+      forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
+    }
+    per_frame.emplace_back(grasp_lines(f));
+  }
+  const std::size_t n = frames.size();
+  write_array(stage, "time.npy", {n}, time);
+  write_array(stage, "object_pose.npy", {n, 4, 4}, object);
+  write_array(stage, "object_twist.npy", {n, 6}, twist);
+  write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
+  write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
+  const GraspFrame& last = frames.back();
+  stage.summarize({{"frames", n},
+                   {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
+                   {"object_mass_kg", grasp.mass_kg},
+                   {"center_of_mass_m",
+                    Value::List{grasp.center_of_mass_m.x(), grasp.center_of_mass_m.y(), grasp.center_of_mass_m.z()}},
+                   {"grip_n", grasp.grip_n},
+                   // Friction that both fingers can give over the weight.
+                   {"friction_margin", config.friction && last.body_load_n > 0.0
+                                           ? 2.0 * config.friction->coefficient * grasp.grip_n / last.body_load_n
+                                           : 0.0},
+                   {"slip_m", last.slip_m},
+                   {"turn_rad", last.turn_rad},
+                   {"converged", true},
+                   {"verdict", "pass"},
+                   {"per_frame", std::move(per_frame)}});
+  add_cost(stage, grasp.fingers[0].times);
 }
 
 }  // namespace tacipc

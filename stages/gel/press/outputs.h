@@ -1,7 +1,8 @@
-// What a press leaves behind: arrays per frame and the numbers of its record.
+// What a press or a grasp leaves behind: arrays per frame and the numbers of its record.
 #pragma once
 
 #include "common/stage/stage.h"
+#include "stages/gel/press/grasp.h"
 #include "stages/gel/press/simulate.h"
 
 namespace tacipc {
@@ -9,5 +10,10 @@ namespace tacipc {
 /// Every array of the press folder, and the summary of the record.
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
                    const SampleSpec& sample, const Simulation& simulation);
+
+/// A press folder of each finger in left/press and right/press, the motion of object and fingers in the world beside
+/// them, and the summary of the record.
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const Grasp& grasp);
 
 }  // namespace tacipc

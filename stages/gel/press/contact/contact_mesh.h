@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "common/base/types.h"
@@ -18,6 +19,15 @@ struct Surface {
 /// Collects the primitives of a surface whose vertex indices are shifted by `offset`.
 Surface make_surface(const Triangles& triangles, int offset);
 
+struct ContactMesh;
+
+/// One of several gels: neighbouring rows of the whole, and the gel alone in a frame of its own.
+struct GelPart {
+  int first_vertex = 0;
+  int anchor = 0;                           // a vertex of its mount, by its own number
+  std::shared_ptr<const ContactMesh> mesh;  // of this gel, undeformed, front up
+};
+
 /// What contact needs to know of gel and object. Positions are passed beside it: rows of the gel, of the object, and of
 /// points that carry the object where it moves freely (energy/affine_body.h).
 struct ContactMesh {
@@ -28,6 +38,7 @@ struct ContactMesh {
   Surface object;
   Positions rest_positions;  // all vertices, gel undeformed; scale of the edge mollifier and of close pairs at rest
   std::vector<double> object_edge_sharpness;  // of object.edges, as the object was given (contact/sharpness.h)
+  std::vector<GelPart> gels;                  // where there are several; else all of the gel is one
 
   int num_vertices() const { return num_gel_vertices + num_object_vertices; }
   int num_rows() const { return num_vertices() + num_control_points; }

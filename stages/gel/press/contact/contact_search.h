@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "stages/gel/press/contact/gels_search.h"
 #include "stages/gel/press/contact/object_search.h"
-#include "stages/gel/press/contact/self_search.h"
 
 namespace tacipc {
 
@@ -47,11 +47,13 @@ class ContactSearch {
   }
 
   const ObjectSearch& with_object() const { return with_object_; }
-  const SelfSearch& with_itself() const { return with_itself_; }
+  const GelsSearch& with_itself() const { return with_itself_; }
+  /// Says how several gels are turned from now on, in the order of ContactMesh::gels.
+  void turn_gels(const std::vector<Matrix3>& world_from_gel) { with_itself_.turn(world_from_gel); }
 
  private:
   ObjectSearch with_object_;
-  SelfSearch with_itself_;
+  GelsSearch with_itself_;
 };
 
 }  // namespace tacipc

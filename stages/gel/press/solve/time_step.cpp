@@ -131,6 +131,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
   newton_ = goal.free_object ? free_object_.get() : held_object_.get();
   newton_->reset();
   search_.forget();
+  if (!goal.world_from_gel.empty()) search_.turn_gels(goal.world_from_gel);
   last_search_ = {};
   Step step{.goal = goal,
             .observe = observe,

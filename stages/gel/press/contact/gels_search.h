@@ -1,0 +1,41 @@
+// Broad phase of one gel or several with themselves and each other.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "stages/gel/press/contact/self_search.h"
+
+namespace tacipc {
+
+/// Finds pairs of two primitives of the gel, or of gels, that share no vertex. Each of several gels is searched in a
+/// frame that goes along with its mount, where it hardly moves and its front looks up (SelfSearch counts on both);
+/// two of them against each other only where the boxes around them come near.
+class GelsSearch {
+ public:
+  explicit GelsSearch(const ContactMesh& mesh);
+
+  /// As SelfSearch has them; of two gels every pair that comes within d̂.
+  void pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out);
+  void around(const std::vector<bool>& moves, const Positions& x, double d_hat_m, double reach_m,
+              std::vector<ContactPair>& out) const;
+
+  void forget();
+  /// Rotations of the frames from now on.
+  void turn(const std::vector<Matrix3>& world_from_gel) { turns_ = world_from_gel; }
+  int num_searches() const;
+
+ private:
+  /// The gel's rows of x, and of p, in its frame: both relative to its mount.
+  Positions in_frame(std::size_t gel, const Positions& rows) const;
+  /// Pairs of different gels within a distance of each other from x to x + p.
+  void across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const;
+
+  const ContactMesh& mesh_;
+  std::vector<std::unique_ptr<SelfSearch>> each_;
+  std::vector<Surface> surfaces_;  // of several gels, by vertices of the whole
+  std::vector<Matrix3> turns_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,40 @@
+// The sample file of a grasp: two sensors that close on a free object, and what they do with it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/sample/motion.h"
+
+namespace tacipc {
+
+/// What the fingers do in one phase. They carry on with the grip force of the last `close`.
+struct GraspPhase {
+  PhaseKind kind = PhaseKind::close;  // close, lift, hold, shake or release
+  int steps = 0;                      // frames
+  int substeps = 1;                   // time steps per frame
+  double force_n = 0.0;               // close: of each finger at the end
+  double distance_m = 0.0;            // lift: upwards; release: of each finger, outwards
+  double amplitude_m = 0.0;           // shake: how far it goes from where it began …
+  double frequency_hz = 0.0;          // … and so often there and back in a second
+  int axis = 2;                       // shake: along y or z of the world
+
+  static GraspPhase read(ConfigReader& in);
+};
+
+/// Two sensors of one kind face each other along x of the world, z is up. The object hangs between them, held until the
+/// first `close` is over, and free from then on.
+struct GraspSpec {
+  std::optional<double> mass_kg;  // of the object, or
+  double density_kg_m3 = 0.0;
+  double turn_rad = 0.0;                     // of the object about z before it is gripped
+  Vector3 grip_m = Vector3::Zero();          // where it is gripped, from its centre of mass, in its own axes
+  Vector3 gravity_m_s2 = {0.0, 0.0, -9.81};  // of the world
+  double closing_speed_m_s = 0.02;           // of each finger, at most
+  std::vector<GraspPhase> motion;
+
+  static GraspSpec read(ConfigReader& in);
+};
+
+}  // namespace tacipc
