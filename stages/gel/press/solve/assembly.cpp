@@ -81,12 +81,6 @@ bool is_carried(std::span<const int> stencil, const FreeVertices& free) {
 
 std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const EnergyTerm& term) {
   std::vector<std::array<int, 2>> pairs;
-  for (const CarriedBody& body : free.carried) {
-    const int first = free.free_of_vertex[body.first_control_point];
-    for (int k = 0; k < 4; ++k) {
-      for (int l = 0; l < k; ++l) pairs.push_back({first + k, first + l});
-    }
-  }
   for (int s = 0; s < term.num_stencils(); ++s) {
     const std::span<const int> stencil = term.stencil(s);
     for (std::size_t i = 0; i < stencil.size(); ++i) {
@@ -96,7 +90,7 @@ std::shared_ptr<const BlockPattern> mesh_pattern(const FreeVertices& free, const
       }
     }
   }
-  return std::make_shared<BlockPattern>(make_block_pattern(free.size(), pairs));
+  return std::make_shared<BlockPattern>(make_block_pattern(free.size(), pairs, static_cast<int>(free.carried.size())));
 }
 
 std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPattern> pattern,
@@ -154,7 +148,7 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
     for (int k = pattern->column_start[c]; k < pattern->column_start[c + 1]; ++k)
       missing.push_back({c, pattern->row[k]});
   }
-  return std::make_shared<BlockPattern>(make_block_pattern(pattern->size(), missing));
+  return std::make_shared<BlockPattern>(make_block_pattern(pattern->size(), missing, pattern->num_bodies));
 }
 
 void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const BlockPattern> pattern) {

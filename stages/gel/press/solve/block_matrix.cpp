@@ -30,23 +30,32 @@ int BlockPattern::find(int r, int column) const {
   return found != last && *found == r ? static_cast<int>(found - row.begin()) : -1;
 }
 
-BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs) {
+BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs, int num_bodies) {
+  constexpr int kBodyRows = BlockPattern::kBodyRows;
+  const int first_body_row = size - kBodyRows * num_bodies;
+  // A body's first row stands for all of them until the end.
+  const auto head = [&](int r) { return r < first_body_row ? r : r - (r - first_body_row) % kBodyRows; };
+  const auto end_of = [&](int h) { return h < first_body_row ? h + 1 : h + kBodyRows; };
   // Sorted by column first, which takes no comparisons, then within each column.
   std::vector<int> start(static_cast<std::size_t>(size) + 1, 0);
-  for (const auto& [a, b] : pairs) ++start[std::min(a, b) + 1];
+  for (const auto& [a, b] : pairs) ++start[head(std::min(a, b)) + 1];
   for (int c = 0; c < size; ++c) start[c + 1] += start[c];
   std::vector<int> rows(pairs.size()), next(start.begin(), start.end() - 1);
-  for (const auto& [a, b] : pairs) rows[next[std::min(a, b)]++] = std::max(a, b);
+  for (const auto& [a, b] : pairs) rows[next[head(std::min(a, b))]++] = head(std::max(a, b));
   BlockPattern pattern;
+  pattern.num_bodies = num_bodies;
   pattern.column_start.push_back(0);
-  for (int c = 0; c < size; ++c) {
-    const auto first = rows.begin() + start[c], last = rows.begin() + start[c + 1];
+  for (int h = 0; h < size; h = end_of(h)) {
+    const auto first = rows.begin() + start[h], last = rows.begin() + start[h + 1];
     std::sort(first, last);
-    pattern.row.push_back(c);
-    for (auto it = first, end = std::unique(first, last); it != end; ++it) {
-      if (*it != c) pattern.row.push_back(*it);
+    const auto end = std::unique(first, last);
+    for (int c = h; c < end_of(h); ++c) {
+      for (int r = c; r < end_of(h); ++r) pattern.row.push_back(r);
+      for (auto it = first; it != end; ++it) {
+        for (int r = *it; *it != h && r < end_of(*it); ++r) pattern.row.push_back(r);
+      }
+      pattern.column_start.push_back(pattern.num_blocks());
     }
-    pattern.column_start.push_back(pattern.num_blocks());
   }
   return pattern;
 }

@@ -47,17 +47,23 @@ struct FreeVertices {
 
 /// Positions of the blocks: column by column, rows ascending from the diagonal on.
 struct BlockPattern {
+  static constexpr int kBodyRows = 4;  // a body has that many points
+
   std::vector<int> column_start;  // size + 1
   std::vector<int> row;
+  /// The last rows are those of so many bodies. A column with a block in one row of a body has one in each of them.
+  int num_bodies = 0;
 
   int size() const { return static_cast<int>(column_start.size()) - 1; }
   int num_blocks() const { return static_cast<int>(row.size()); }
+  int first_body_row() const { return size() - kBodyRows * num_bodies; }
   /// Index of block (row, column), row ≥ column, or −1 where there is none.
   int find(int r, int column) const;
 };
 
-/// Pattern with every diagonal block and every listed pair of free vertices (in any order, repeated or not).
-BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs);
+/// Pattern with every diagonal block and every listed pair of free vertices (in any order, repeated or not). The last
+/// vertices are the points of `num_bodies` bodies: a pair with one of them is a pair with each.
+BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs, int num_bodies = 0);
 
 struct BlockMatrix {
   /// Numbers per block: three columns of three and a zero, so that a column is one load.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/simd.h"
 
@@ -199,25 +200,31 @@ double ConjugateGradient::forward(const double* t, const double* p, double* y) {
 bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
   matrix_ = &matrix;
   const BlockPattern& pattern = *matrix.pattern;
-  const int n = pattern.size();
+  const int n = pattern.size(), first_body_row = pattern.first_body_row();
   if (pattern_ != matrix.pattern) {
     pattern_ = matrix.pattern;
     order_ = make_sweep_order(pattern, n > kMinRowsForParts ? kParts : 1);
   }
   inverse_cholesky_.resize(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);  // stays zero above diagonals
+  // At the bodies' rows scale() then leaves zeros.
+  std::fill(inverse_cholesky_.end() - static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * (n - first_body_row),
+            inverse_cholesky_.end(), 0.0);
   indefinite_rows_.clear();
-  for (int c = 0; c < n; ++c) {
+  for (int c = 0; c < first_body_row; ++c) {
     if (!invert_cholesky(matrix.block(pattern.column_start[c]),
                          BlockMatrix::Block(inverse_cholesky_.data() +
                                             BlockMatrix::kStride * static_cast<std::size_t>(order_.row_of[c]))))
       indefinite_rows_.push_back(c);
   }
+  const std::vector<int> of_bodies = bodies_.factorise(matrix);
+  indefinite_rows_.insert(indefinite_rows_.end(), of_bodies.begin(), of_bodies.end());
   if (!indefinite_rows_.empty()) return false;
   // One number more: the last column is loaded as four, too.
   lower_.resize(static_cast<std::size_t>(kBlock) * order_.row.size() + 1);
   lower_.back() = 0.0F;
   const auto scale_columns = [&](int /*part*/, int first, int last) {
     scale(Blocks(order_), first, last, matrix.values.data(), inverse_cholesky_.data(), lower_.data());
+    if (bodies_.size() > 0) bodies_.scale(matrix, order_, first, last, inverse_cholesky_, lower_);
     return 0.0;
   };
   over_parts(scale_columns);
@@ -237,14 +244,19 @@ void ConjugateGradient::find_indefinite_rows() {
           block * Eigen::Map<const Vector3>(q_.data() + 4 * static_cast<std::ptrdiff_t>(c));
     }
   }
-  const auto part = [&](int i) {
+  std::vector<double> part(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
     const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(i);
-    return Eigen::Map<const Vector3>(t_.data() + at).dot(Eigen::Map<const Vector3>(product.data() + at));
-  };
-  double least = 0.0;
-  for (int i = 0; i < n; ++i) least = std::min(least, part(i));
+    part[i] = Eigen::Map<const Vector3>(t_.data() + at).dot(Eigen::Map<const Vector3>(product.data() + at));
+  }
+  // Scaling mixes the rows of a body.
+  for (int first = matrix_->pattern->first_body_row(); first < n; first += BodyBlocks::kRows) {
+    const auto own = part.begin() + first;
+    std::fill_n(own, BodyBlocks::kRows, std::accumulate(own, own + BodyBlocks::kRows, 0.0));
+  }
+  const double least = std::min(0.0, *std::min_element(part.begin(), part.end()));
   for (int r = 0; r < n; ++r) {
-    if (const double of_row = part(order_.row_of[r]); of_row < 0.0 && of_row <= kIndefinitePart * least)
+    if (const double of_row = part[order_.row_of[r]]; of_row < 0.0 && of_row <= kIndefinitePart * least)
       indefinite_rows_.push_back(r);
   }
 }
@@ -276,7 +288,9 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
   for (std::vector<double>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0);
   for (std::vector<double>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
   for (int i = 0; i < n; ++i) Eigen::Map<Vector3>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i);
-  unscale(inverse_cholesky_.data(), false, r_.data(), n);
+  const int first_body_row = matrix_->pattern->first_body_row();
+  unscale(inverse_cholesky_.data(), false, r_.data(), first_body_row);
+  bodies_.unscale(false, r_);
   forward(nullptr, nullptr, r_.data());
   const auto separator_too = [&](auto&& rows) {
     const double of_parts = over_parts([&](int /*part*/, int first, int last) { return rows(first, last); });
@@ -304,7 +318,8 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
         [&](int first, int last) { return advance(alpha, t_.data(), q_.data(), x_.data(), r_.data(), first, last); });
     beta = rr / last_rr;
   }
-  unscale(inverse_cholesky_.data(), true, x_.data(), n);
+  unscale(inverse_cholesky_.data(), true, x_.data(), first_body_row);
+  bodies_.unscale(true, x_);
   Eigen::VectorXd out(3 * static_cast<Eigen::Index>(n));
   for (int i = 0; i < n; ++i) out.segment<3>(3 * i) = Eigen::Map<const Vector3>(x_.data() + 4 * order_.row_of[i]);
   return out;

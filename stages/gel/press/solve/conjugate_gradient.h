@@ -6,14 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "stages/gel/press/solve/body_blocks.h"
 #include "stages/gel/press/solve/cholmod_solver.h"
 #include "stages/gel/press/solve/sweep_order.h"
 
 namespace tacipc {
 
 /// Conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start. With A = L + D + Lᵀ, D the 3 ×
-/// 3 blocks on the diagonal, M = (D + L) D⁻¹ (D + Lᵀ). After scaling by the Cholesky factors of D (D = I) the
-/// preconditioned matrix is
+/// 3 blocks on the diagonal, those of a body one of 12 × 12, M = (D + L) D⁻¹ (D + Lᵀ). After scaling by the Cholesky
+/// factors of D (D = I) the preconditioned matrix is
 ///   Â = (I + L)⁻¹ A (I + Lᵀ)⁻¹,   Â p = t + (I + L)⁻¹ (p − t),   t = (I + Lᵀ)⁻¹ p   [Eisenstat 1981],
 /// two sweeps over L with as many operations as a product with A, for less than half of the iterations that D alone as
 /// M takes. In every iteration xᵀAx = xᵀb, so an unfinished solution is a descent direction, too. A gel is thin and
@@ -29,7 +30,7 @@ class ConjugateGradient final : public LinearSolver {
   bool prepare(const BlockMatrix& matrix) override;
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
   /// Rows whose diagonal block is not positive definite; or, where pᵀÂp ≤ 0, those that contribute most to
-  /// that.
+  /// that. Of a body all or none.
   std::vector<int> indefinite_rows() const override { return indefinite_rows_; }
   void set_tolerance(double relative) override { tolerance_ = relative; }
   int num_analyses() const override { return direct_ ? direct_->num_analyses() : 0; }
@@ -53,9 +54,10 @@ class ConjugateGradient final : public LinearSolver {
   const BlockMatrix* matrix_ = nullptr;
   std::shared_ptr<const BlockPattern> pattern_;  // that order_ belongs to
   SweepOrder order_;
-  std::vector<float> lower_;               // L, scaled, nine numbers a block, as order_ has them
-  std::vector<double> inverse_cholesky_;   // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks
-  std::vector<double> x_, r_, p_, t_, q_;  // of the last solve; their storage is used again
+  std::vector<float> lower_;              // L, scaled, nine numbers a block, as order_ has them
+  std::vector<double> inverse_cholesky_;  // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks; not of bodies
+  BodyBlocks bodies_;
+  std::vector<double> x_, r_, p_, t_, q_;                 // of the last solve; their storage is used again
   std::array<std::vector<double>, kParts> to_separator_;  // from each part in a sweep
   std::optional<CholmodSolver> direct_;                   // once it is needed
   std::int64_t products_ = 0;

@@ -6,10 +6,12 @@
 namespace tacipc {
 
 SweepOrder make_sweep_order(const BlockPattern& pattern, int num_parts) {
-  const int n = pattern.size();
-  const auto part_of = [&](int r) { return static_cast<int>(static_cast<long long>(r) * num_parts / n); };
+  const int n = pattern.size(), first_body_row = pattern.first_body_row();
+  const auto part_of = [&](int r) { return static_cast<int>(static_cast<long long>(r) * num_parts / first_body_row); };
   std::vector<bool> separates(static_cast<std::size_t>(n), false);
-  for (int c = 0; c < n; ++c) {
+  // First, or else all that touches a body would be there instead.
+  std::fill(separates.begin() + first_body_row, separates.end(), true);
+  for (int c = 0; c < first_body_row; ++c) {
     for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1] && !separates[c]; ++k)
       separates[c] = part_of(pattern.row[k]) != part_of(c) && !separates[pattern.row[k]];
   }
@@ -19,7 +21,7 @@ SweepOrder make_sweep_order(const BlockPattern& pattern, int num_parts) {
   int next = 0;
   for (int part = 0, r = 0; part < num_parts; ++part) {
     order.part_start.push_back(next);
-    for (; r < n && part_of(r) == part; ++r) {
+    for (; r < first_body_row && part_of(r) == part; ++r) {
       if (!separates[r]) order.row_of[r] = next++;
     }
   }

@@ -10,7 +10,8 @@ namespace tacipc {
 /// Rows in parts of which no two share a block, one after the other, and last a separator: rows that share blocks with
 /// several parts. A sweep over the lower triangle goes through all parts at once and through the separator after them
 /// (before them, if upwards). Parts are runs of the given order: where neighbours have neighbouring numbers few rows
-/// are in the separator.
+/// are in the separator. Bodies are coupled to all that touches them: where the pattern has any, their rows end the
+/// separator, in the order given.
 struct SweepOrder {
   std::vector<int> part_start;  // first row of each part, of the separator, and the number of rows
   std::vector<int> row_of;      // row in this order of each row of the matrix

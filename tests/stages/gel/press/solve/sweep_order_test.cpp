@@ -45,5 +45,18 @@ TEST(SweepOrder, PartsShareNoBlockAndEveryBlockHasItsPlace) {
   }
 }
 
+TEST(SweepOrder, BodiesEndTheSeparatorAndDoNotBringWhatTouchesThemThere) {
+  const int gel = 4000;
+  for (const int bodies : {1, 2}) {
+    const BlockPattern pattern = *matrix_with_bodies(gel, bodies, 1.0).pattern;
+    for (const int parts : {1, 4}) {
+      const SweepOrder order = make_sweep_order(pattern, parts), without = make_sweep_order(chain(gel), parts);
+      EXPECT_EQ(order.separator(), without.separator()) << bodies << " bodies in " << parts << " parts";
+      for (int r = 0; r < gel; ++r) ASSERT_EQ(order.row_of[r], without.row_of[r]);
+      for (int r = gel; r < pattern.size(); ++r) EXPECT_EQ(order.row_of[r], r);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tacipc
