@@ -181,7 +181,11 @@ class Hand {
   /// How far both fingers close in a time step of h that should end with a grip of `wanted_n`.
   double closing_step(double wanted_n, double h, Drive& drive) const {
     const double most = spec_.closing_speed_m_s * h, grip = drive.last_grip_n;
-    if (grip < kTouches_n) return most;
+    if (grip < kTouches_n) {
+      // Up to the object, and then little by little: how stiff it is is not known yet.
+      const double gap = stepper_->smallest_gap(progress_.state.x, most + scales_.d_hat_m);
+      return std::clamp(gap - scales_.d_hat_m, std::min(kFirstTouch_m, most), most);
+    }
     return std::clamp((wanted_n - grip) / drive.stiffness_n_m, -most, most);
   }
 

@@ -59,6 +59,13 @@ void TimeStepper::minimise(Step& step) {
     step.report.approximated_share = direction.largest_share;
     if (converged && is_final(step, run, direction)) return;
 
+    if (step.goal.free_object && !moving) {
+      // A light object may be asked to go far before it touches anything.
+      if (const double way = relative_way(direction.p), most = longest_way(); way > most) {
+        direction.p *= most / way;
+        direction.slope *= most / way;
+      }
+    }
     std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
     const double limit =
         moving ? bend_at_contacts(step, run, direction, pairs) : step_limit(pairs, step, direction.p, kNewtonSlack);

@@ -22,6 +22,9 @@ namespace {
 // under the same force (κ b′ ~ κ/d there), at most by the third factor at once and by the last in all.
 constexpr double kSmallGap = 0.01, kWantedGap = 0.05, kMostStiffeningAtOnce = 10.0, kMostStiffening = 1e4;
 
+// Along a longer way of gels and object past each other pairs are not searched: × d̂, or × the median edge of the front.
+constexpr double kLongestWay = 20.0, kLongestWayOfEdge = 4.0;
+
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian,
                            const AffineBody* free_body) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_rows()), false);
@@ -204,6 +207,15 @@ void TimeStepper::add_body(Step& step, const State& state) {
   step.terms.body_orthogonality = std::make_shared<Orthogonality>(first, *body_);
 }
 
+double TimeStepper::relative_way(const Positions& p) const {
+  const Eigen::RowVector3d of_object = mesh_.object_rows(p).colwise().mean();
+  return std::sqrt((p.topRows(mesh_.num_vertices()).rowwise() - of_object).rowwise().squaredNorm().maxCoeff());
+}
+
+double TimeStepper::longest_way() const {
+  return std::max(kLongestWay * settings_.d_hat_m, kLongestWayOfEdge * settings_.front_edge_m);
+}
+
 bool TimeStepper::object_arrived(const Step& step) const {
   return step.goal.free_object || (mesh_.object_rows(step.x) - step.goal.object_target).cwiseAbs().maxCoeff() == 0.0;
 }
@@ -219,8 +231,16 @@ void TimeStepper::start_ahead(Step& step, const State& state) {
   }
   const bool mounts = goal.gel_motion.size() > 0;
   if (mounts) p.topRows(mesh_.num_gel_vertices) = goal.gel_motion;
-  const double part = step_limit(pairs_along(state.x, p), step, p, kMovingSlack);
-  step.x += part * p;
+  // Piece by piece: a search for pairs along a long way would find too many.
+  const double pieces = std::ceil(relative_way(p) / longest_way());
+  const Positions piece = p / std::max(1.0, pieces);
+  double part = 0.0;
+  for (double made = 1.0; part < 1.0 && made == 1.0;) {
+    made = step_limit(pairs_along(step.x, piece), step, piece, kMovingSlack);
+    step.x += made * piece;
+    part = std::min(1.0, part + made / std::max(1.0, pieces));
+    if (made == 1.0 && part > 1.0 - 0.5 / std::max(1.0, pieces)) part = 1.0;
+  }
   if (!mounts) return;
   step.gel_way_left = 1.0 - part;
   if (part < 1.0) return;

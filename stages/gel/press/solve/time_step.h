@@ -160,6 +160,9 @@ class TimeStepper {
   /// Lets the step start with gels moved with their mounts and a free object where it would fly to, or as near to that
   /// as contact allows.
   void start_ahead(Step& step, const State& state);
+  /// How far gels and object go past each other in a step p, and how far they may at once.
+  double relative_way(const Positions& p) const;
+  double longest_way() const;
   bool object_arrived(const Step& step) const;
   /// Puts glued vertices where their mounts end.
   void arrive_at_mounts(Step& step) const;
