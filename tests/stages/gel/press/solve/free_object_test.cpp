@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numbers>
 
 #include "stages/gel/press/energy/element.h"
+#include "stages/gel/press/energy/orthogonality.h"
 #include "stages/gel/press/solve/assembly.h"
 #include "stages/gel/press/solve/contact_assembly.h"
 #include "stages/gel/press/solve/time_step.h"
@@ -118,17 +122,22 @@ TEST_F(CarriedPairs, ContactActsOnTheBodyAsOnTheGelTheOtherWay) {
   EXPECT_LT(torque.norm(), 1e-12 * system.gradient.norm());
 }
 
-/// A free box above or on a plate: a gel whose whole surface is held.
-class FreeBox : public ::testing::Test {
- protected:
-  static constexpr double kH = 1e-3, kMu = 0.5, kSpeed = 1e-4, kDHat = 1e-5, kDensity = 6e4, kG = 9.81;
+constexpr double kH = 1e-3, kMu = 0.5, kSpeed = 1e-4, kDHat = 1e-5, kDensity = 6e4, kG = 9.81;
 
-  FreeBox() : FreeBox({0.004, 0.005, 0.003}, 0.5 * kDHat) {}
-  FreeBox(const Vector3& half, double height)
-      : box_(moved(make_box({-half.x(), -half.y(), 0.0}, {half.x(), half.y(), 2.0 * half.z()}),
-                   Vector3(0.35e-3, 0.2e-3, height))),
-        body_(make_affine_body(box_.positions, box_.triangles, kDensity)) {
-    mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, box_.positions, box_.triangles);
+/// Gravity beside a plane whose slope is `tangent`, downhill along x.
+Vector3 gravity_on(double tangent) {
+  const double angle = std::atan(tangent);
+  return {kG * std::sin(angle), 0.0, -kG * std::cos(angle)};
+}
+
+/// A free object above or on a plate: a gel whose whole surface is held.
+class FreeBody : public ::testing::Test {
+ protected:
+  explicit FreeBody(TriangleMesh object, int cells = 4)
+      : gel_(block_gel(cells, 0.04, 0.002)),
+        object_(std::move(object)),
+        body_(make_affine_body(object_.positions, object_.triangles, kDensity)) {
+    mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, object_.positions, object_.triangles);
     mesh_.num_control_points = 4;
     state_.x.resize(mesh_.num_rows(), 3);
     state_.x << mesh_.rest_positions, body_.rest_m;
@@ -136,15 +145,27 @@ class FreeBox : public ::testing::Test {
     settings_.pair_counting.once = true;
   }
   /// Steps under a gravity of its own.
-  void go(int steps, const Vector3& gravity, double h = kH, const Vector3& load = Vector3::Zero()) {
+  void go(
+      int steps, const Vector3& gravity, double h = kH, const Vector3& load = Vector3::Zero(),
+      const std::function<void()>& after_step = [] {}) {
     settings_.gravity_m_s2 = gravity;
-    TimeStepper stepper(mesh_, plate(), settings_, body_);
+    TimeStepper stepper(mesh_, soft_ ? soft_gel() : plate(), settings_, body_);
     for (int i = 0; i < steps; ++i) {
       report_ = stepper.advance(state_, {.h_s = h, .object_target = {}, .load_n = load, .free_object = true},
                                 [](int, double) {});
       largest_residual_n_ = std::max(largest_residual_n_, report_.body_residual_n);
+      forces_ = stepper.forces();
+      after_step();
     }
-    forces_ = stepper.forces();
+  }
+  GelModel soft_gel() const {
+    std::vector<int> held;
+    for (int v = 0; v < gel_.num_vertices(); ++v) {
+      if (gel_.positions(v, 2) < -0.002 + 1e-9) held.push_back(v);
+    }
+    GelModel gel = plate();
+    gel.glued = held;
+    return gel;
   }
   GelModel plate() const {
     std::vector<int> held;
@@ -161,8 +182,8 @@ class FreeBox : public ::testing::Test {
   Vector3 spin() const { return angular_velocity(body_, points(), state_.object_motion); }
   double weight_n() const { return body_.mass_kg * kG; }
 
-  TetMesh gel_ = block_gel(4, 0.04, 0.002);
-  TriangleMesh box_;
+  TetMesh gel_;
+  TriangleMesh object_;
   AffineBody body_;
   ContactMesh mesh_;
   State state_;
@@ -176,6 +197,14 @@ class FreeBox : public ::testing::Test {
   StepReport report_;
   StepForces forces_;
   double largest_residual_n_ = 0.0;
+  bool soft_ = false;  // the gel yields, held at its back alone
+};
+
+class FreeBox : public FreeBody {
+ protected:
+  explicit FreeBox(const Vector3& half = {0.004, 0.005, 0.003}, double height = 0.5 * kDHat)
+      : FreeBody(moved(make_box({-half.x(), -half.y(), 0.0}, {half.x(), half.y(), 2.0 * half.z()}),
+                       Vector3(0.35e-3, 0.2e-3, height))) {}
 };
 
 class FlyingBox : public FreeBox {
@@ -222,15 +251,11 @@ TEST_F(FreeBox, RestsOnAPlateUnderItsWeight) {
 
 TEST_F(FreeBox, SticksBelowTheAngleOfFrictionAndSlidesAbove) {
   go(60, {0, 0, -kG});
-  const auto gravity = [](double part) {
-    const double angle = std::atan(part * kMu);
-    return Vector3(kG * std::sin(angle), 0, -kG * std::cos(angle));
-  };
   // tan θ = 0.9 μ: creep by ε_v (1 − √(1 − 0.9)), where the smoothed friction carries it.
-  go(300, gravity(0.9));
+  go(300, gravity_on(0.9 * kMu));
   EXPECT_NEAR(velocity().x(), kSpeed * (1.0 - std::sqrt(0.1)), 0.01 * kSpeed);
   // tan θ = 1.2 μ: dv/dt = g (sin θ − μ cos θ) once it slides.
-  const Vector3 g = gravity(1.2);
+  const Vector3 g = gravity_on(1.2 * kMu);
   go(10, g);
   ASSERT_GT(velocity().x(), kSpeed);
   const double before = velocity().x();
@@ -238,6 +263,17 @@ TEST_F(FreeBox, SticksBelowTheAngleOfFrictionAndSlidesAbove) {
   const double gained = 20 * kH * (g.x() + kMu * g.z());
   EXPECT_NEAR(velocity().x() - before, gained, 2e-3 * gained);
   EXPECT_LT(std::abs(velocity().y()), 1e-3 * gained);
+}
+
+TEST_F(FreeBox, StopsAfterTheDistanceThatFrictionAllows) {
+  go(60, {0, 0, -kG});
+  // Whole steps, so that the last of them ends at rest: Σ v_n h = v0²/(2 μ g) − v0 h/2.
+  const double v0 = 40 * kMu * kG * kH, start = center_of(points()).x();
+  state_.object_motion = make_rigid_motion(body_, points(), {v0, 0, 0}, Vector3::Zero());
+  go(45, {0, 0, -kG});
+  ASSERT_LT(velocity().norm(), kSpeed);
+  const double expected = v0 * v0 / (2.0 * kMu * kG) - 0.5 * v0 * kH;
+  EXPECT_NEAR(center_of(points()).x() - start, expected, 2e-3 * expected);
 }
 
 class TallBox : public FreeBox {
@@ -248,13 +284,9 @@ class TallBox : public FreeBox {
 /// A box three times as high as it is wide along x tips over its edge at tan θ = 1/3, long before it slides.
 TEST_F(TallBox, TipsOverItsEdgeWhereItsWeightPointsPastIt) {
   go(60, {0, 0, -kG});
-  const auto gravity = [](double tangent) {
-    const double angle = std::atan(tangent);
-    return Vector3(kG * std::sin(angle), 0, -kG * std::cos(angle));
-  };
-  go(100, gravity(0.97 / 3.0));
+  go(100, gravity_on(0.97 / 3.0));
   EXPECT_LT(spin().norm(), 0.02);  // it stands, and still rocks by micrometres on the barrier
-  const Vector3 steep = gravity(1.1 / 3.0);
+  const Vector3 steep = gravity_on(1.1 / 3.0);
   go(5, steep);
   const auto angle = [&] { return Eigen::AngleAxisd(rotation_of(body_, points())).angle(); };
   double turned = angle(), rate = spin().y();
@@ -272,6 +304,237 @@ TEST_F(TallBox, TipsOverItsEdgeWhereItsWeightPointsPastIt) {
   EXPECT_NEAR(spin().y(), rate, 0.02 * rate);
   // Each step turns at the rate of its end.
   EXPECT_NEAR(angle(), turned + 0.5 * kH * (rate - rate_before), 0.01 * turned);
+}
+
+/// Within a percent of where it tips it stands, and falls.
+TEST_F(TallBox, StandsJustBelowTheSlopeWhereItTips) {
+  go(60, {0, 0, -kG});
+  const auto angle = [&] { return Eigen::AngleAxisd(rotation_of(body_, points())).angle(); };
+  for (const double part : {0.5, 0.7, 0.8, 0.9, 0.94, 0.96, 0.97, 0.98, 0.985, 0.99})  // more at once would rock it
+    go(20, gravity_on(part / 3.0));
+  go(50, gravity_on(0.99 / 3.0));
+  EXPECT_LT(angle(), kDHat / 0.004);  // on both edges' barriers
+  go(150, gravity_on(1.01 / 3.0));
+  EXPECT_GT(angle(), 0.02);
+}
+
+/// The same with less friction than its slope needs to tip it: it slides, upright.
+TEST_F(TallBox, SlidesBeforeItTipsWhereFrictionIsLow) {
+  constexpr double kLow = 0.25;
+  settings_.friction->coefficient = kLow;
+  go(60, {0, 0, -kG});
+  const Vector3 g = gravity_on(0.3);
+  go(20, g);
+  ASSERT_GT(velocity().x(), kSpeed);
+  const double before = velocity().x();
+  go(20, g);
+  const double gained = 20 * kH * (g.x() + kLow * g.z());
+  EXPECT_NEAR(velocity().x() - before, gained, 0.01 * gained);
+  EXPECT_LT(Eigen::AngleAxisd(rotation_of(body_, points())).angle(), 1e-3);
+}
+
+/// Let go on one edge it falls onto the other. An impact that neither bounces nor slips leaves it the angular momentum
+/// about the edge that it meets: ω₊ = (1 − 1.5 sin² α) ω₋, tan α = width / height. [Housner 1963]
+TEST_F(TallBox, LosesInRockingWhatAPlasticImpactTakes) {
+  constexpr double kTilt = 0.03, kStep = 2e-4, w = 0.002, height = 0.006;
+  settings_.newton.force_tolerance_n = 1e-5;
+  const Matrix3 turn = Eigen::AngleAxisd(kTilt, Vector3::UnitY()).toRotationMatrix();
+  const Vector3 edge = center_of(body_.rest_m) + Vector3(w, 0, -height);
+  state_.x.bottomRows<4>() = rigid_points(body_, edge + turn * Vector3(-w, 0, height), turn);
+  mesh_.object_rows(state_.x) = affine_positions(body_, points());
+  struct Moment {
+    double time_s, angle, rate;
+  };
+  std::vector<Moment> moments;
+  go(130, {0, 0, -kG}, kStep, Vector3::Zero(), [&] {
+    const Matrix3 R = rotation_of(body_, points());
+    moments.push_back({kStep * static_cast<double>(moments.size() + 1), std::atan2(R(0, 2), R(2, 2)), -spin().y()});
+  });
+  // Near enough to upright, both edges are in the barrier's reach.
+  const double both = 1.5 * kDHat / (2.0 * w);
+  const auto last = std::find_if(moments.begin(), moments.end(), [&](const Moment& m) { return m.angle < both; }) - 1;
+  const auto first = std::find_if(moments.begin(), moments.end(), [&](const Moment& m) { return m.angle < -both; });
+  const auto after = std::find_if(moments.begin(), moments.end(), [&](const Moment& m) { return m.angle < 0.0; });
+  ASSERT_TRUE(first != moments.end());
+  // Weight turns it on, and back afterwards, at the same rate.
+  const double rate_of_rate = kG * w / (4.0 / 3.0 * (w * w + height * height));
+  const double upright_s = after->time_s + after->angle / after->rate;
+  const double rate_before = last->rate + rate_of_rate * (upright_s - last->time_s);
+  const double rate_after = first->rate + rate_of_rate * (first->time_s - upright_s);
+  const double sine2 = w * w / (w * w + height * height), expected = 1.0 - 1.5 * sine2;
+  EXPECT_NEAR(rate_after / rate_before, expected, 0.03 * expected);
+}
+
+/// A ball about the y axis with `around` vertices on each of its circles about that.
+TriangleMesh make_ball(double radius_m, int around, int bands) {
+  std::vector<Vector3> vertices;
+  for (int b = 1; b < bands; ++b) {
+    const double latitude = std::numbers::pi * (1.0 * b / bands - 0.5);
+    for (int k = 0; k < around; ++k) {
+      const double longitude = 2.0 * std::numbers::pi * k / around;
+      vertices.emplace_back(radius_m * Vector3(std::cos(latitude) * std::cos(longitude), std::sin(latitude),
+                                               std::cos(latitude) * std::sin(longitude)));
+    }
+  }
+  const int south = static_cast<int>(vertices.size()), north = south + 1;
+  vertices.emplace_back(0, -radius_m, 0);
+  vertices.emplace_back(0, radius_m, 0);
+  std::vector<std::array<int, 3>> faces;
+  for (int k = 0; k < around; ++k) {
+    const int next = (k + 1) % around, top = (bands - 2) * around;
+    faces.push_back({south, k, next});
+    faces.push_back({north, top + next, top + k});
+    for (int b = 0; b + 2 < bands; ++b) {
+      const int low = b * around, high = low + around;
+      faces.push_back({low + k, high + k, high + next});
+      faces.push_back({low + k, high + next, low + next});
+    }
+  }
+  return make_mesh(vertices, faces);
+}
+
+constexpr double kRadius = 0.005;
+
+class RollingBall : public FreeBody {
+ protected:
+  RollingBall() : FreeBody(moved(make_ball(kRadius, 256, 12), {-0.012, 0.2e-3, kRadius + 0.5 * kDHat})) {}
+};
+
+/// Facets of R/40 make a slope lumpy, but not by much.
+TEST_F(RollingBall, RollsDownASlopeByFiveSevenths) {
+  go(20, {0, 0, -kG});
+  const Vector3 g = gravity_on(0.3);
+  go(15, g);
+  const double before = velocity().x();
+  ASSERT_GT(before, 10 * kSpeed);
+  go(30, g);
+  const double gained = 30 * kH * 5.0 / 7.0 * g.x();
+  EXPECT_NEAR(velocity().x() - before, gained, 0.03 * gained);
+  EXPECT_NEAR(spin().y() * kRadius, velocity().x(), 0.01 * velocity().x());
+}
+
+class DroppedBall : public FreeBody {
+ protected:
+  DroppedBall() : FreeBody(moved(make_ball(kRadius, 32, 12), {0.4e-3, 0.2e-3, kRadius + 2.0 * kDHat}), 8) {
+    soft_ = true;
+  }
+  /// Of gel, ball and contact, J.
+  double energy() const {
+    const Eigen::Index n = gel_.num_vertices();
+    const GelModel gel = soft_gel();
+    ContactSearch search(mesh_);
+    const Positions still = Positions::Zero(state_.x.rows(), 3);
+    const ContactBarrier barrier(mesh_, weighted(search.pairs(state_.x, still, kDHat), mesh_, settings_.pair_counting),
+                                 kDHat);
+    const Eigen::VectorXd squares = state_.velocity_m_s.rowwise().squaredNorm();
+    return 0.5 * gel.mass_kg.dot(squares) - gel.mass_kg.dot(state_.x.topRows(n) * settings_.gravity_m_s2) +
+           gel.elasticity->value(state_.x) + kinetic_energy(body_, points(), state_.object_motion) -
+           body_.mass_kg * settings_.gravity_m_s2.dot(center_of(points())) +
+           Orthogonality(mesh_.num_vertices(), body_).value(state_.x) +
+           settings_.barrier_stiffness_j_m4 * barrier.value(state_.x);
+  }
+};
+
+/// It meets the gel aslant and spinning. What contact gives to the gel it takes from the ball, and energy is only lost.
+TEST_F(DroppedBall, KeepsTheBalanceOfMomentumAndNeverGainsEnergy) {
+  const double h = 5e-4, v0 = 0.1;
+  settings_.newton = {.velocity_tolerance_m_s = 1e-6, .force_tolerance_n = 1e-6};
+  state_.object_motion = make_rigid_motion(body_, points(), {0.05, 0, -v0}, {0, 0, 20.0});
+  const Vector3 g(0, 0, -kG);
+  settings_.gravity_m_s2 = g;
+  double last = energy(), largest_n = 0.0;
+  const double first = last;
+  RigidMotion before = state_.object_motion;
+  go(60, g, h, Vector3::Zero(), [&] {
+    const Positions contact = forces_.normal + forces_.friction;
+    const Vector3 center = center_of(points()), force = -contact.colwise().sum().transpose();
+    Vector3 torque = Vector3::Zero();
+    double friction_n = 0.0;
+    for (Eigen::Index v = 0; v < contact.rows(); ++v) {
+      torque -= (state_.x.row(v).transpose() - center).cross(Vector3(contact.row(v)));
+      friction_n += forces_.friction.row(v).norm();
+    }
+    largest_n = std::max(largest_n, force.norm());
+    const RigidMotion& now = state_.object_motion;
+    const Vector3 gained = (now.velocity_m_s - before.velocity_m_s) / h - g;
+    EXPECT_LT((body_.mass_kg * gained - force).norm(), 1e-3 * weight_n());
+    // Friction acts on both sides of a gap: a couple.
+    const Vector3 turned = (now.angular_momentum_kg_m2_s - before.angular_momentum_kg_m2_s) / h;
+    EXPECT_LT((turned - torque).norm(), 1e-5 * weight_n() + kDHat * friction_n);
+    before = now;
+    const double energy_now = energy();
+    EXPECT_LT(energy_now - last, 1e-6 * first);
+    last = energy_now;
+  });
+  EXPECT_GT(largest_n, 3.0 * weight_n());
+  EXPECT_GT(velocity().z(), -0.5 * v0);
+  EXPECT_LT(last, 0.9 * first);
+}
+
+/// A pyramid that stands on its base, which is `cells` × `cells` squares of two triangles; the outermost rise to
+/// `rim_height` at the rim.
+TriangleMesh make_tessellated_pyramid(double half_x, double half_y, double height, double rim_height, int cells) {
+  std::vector<Vector3> vertices;
+  for (int j = 0; j <= cells; ++j) {
+    for (int i = 0; i <= cells; ++i) {
+      const bool rim = i == 0 || j == 0 || i == cells || j == cells;
+      vertices.emplace_back(half_x * (2.0 * i / cells - 1.0), half_y * (2.0 * j / cells - 1.0), rim ? rim_height : 0.0);
+    }
+  }
+  const int tip = static_cast<int>(vertices.size()), n = cells;
+  vertices.emplace_back(0, 0, height);
+  const auto at = [&](int i, int j) { return j * (cells + 1) + i; };
+  std::vector<std::array<int, 3>> faces;
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      faces.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  }
+  for (int k = 0; k < n; ++k) {
+    faces.push_back({at(k, 0), at(k + 1, 0), tip});
+    faces.push_back({at(n, k), at(n, k + 1), tip});
+    faces.push_back({at(k + 1, n), at(k, n), tip});
+    faces.push_back({at(0, k + 1), at(0, k), tip});
+  }
+  return make_mesh(vertices, faces);
+}
+
+/// A flat face of triangles of 0.4 mm, turned against those of 2.5 mm of the plate, without friction. Its rim is out of
+/// reach: a vertex of the plate at a sharp edge is pushed aside, and rightly so.
+class FlatFace : public FreeBody {
+ protected:
+  FlatFace() : FreeBody(turned_pyramid(), 16) {
+    settings_.friction.reset();
+    settings_.barrier_stiffness_j_m4 = 7e11;  // many vertices carry it
+  }
+  static TriangleMesh turned_pyramid() {
+    TriangleMesh pyramid = make_tessellated_pyramid(0.004, 0.005, 0.012, 5.0 * kDHat, 20);
+    pyramid.positions *= Eigen::AngleAxisd(0.3, Vector3::UnitZ()).toRotationMatrix().transpose();
+    return moved(pyramid, {-0.005, 0.2e-3, 0.5 * kDHat});
+  }
+  /// The largest of |tangential| over normal force at a hundred places of the plate.
+  double largest_ratio() {
+    go(40, {0, 0, -kG});
+    state_.object_motion = make_rigid_motion(body_, points(), {0.1, 0.03, 0}, Vector3::Zero());
+    double largest = 0.0;
+    go(100, {0, 0, -kG}, kH, Vector3::Zero(), [&] {
+      const Vector3 force = forces_.normal.colwise().sum();
+      largest = std::max(largest, force.head<2>().norm() / std::abs(force.z()));
+    });
+    return largest;
+  }
+};
+
+/// Without friction a flat face feels nothing of the triangles under it, if every piece of surface pushes once.
+TEST_F(FlatFace, SlidesOverTrianglesWithoutAnySidewaysForce) {
+  EXPECT_LT(largest_ratio(), 1e-3);
+  EXPECT_LT((velocity() - Vector3(0.1, 0.03, 0)).norm(), 1e-4);
+}
+
+TEST_F(FlatFace, CatchesOnTrianglesWhereEachPairPushesByItself) {
+  settings_.pair_counting.once = false;
+  EXPECT_GT(largest_ratio(), 2e-3);
 }
 
 }  // namespace
