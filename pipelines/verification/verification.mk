@@ -42,7 +42,7 @@ FREE_OBJECT_RECORD := $(OUT)/free_object/free_object.yaml
 .PHONY: closed-forms closed-forms-page free-object free-object-page
 closed-forms-page: | build-closed-forms
 	$(call record_tests,$(CLOSED_FORMS_RECORD),verification/verification_test,*PatchTest*:*WideLayerTest*)
-# free_object_test.cpp, rigid_motion_test.cpp and simulate_free_test.cpp
+# time_step_free_object_test.cpp, rigid_motion_test.cpp and simulate_free_test.cpp
 free-object-page: | build-free-object
 	$(call record_tests,$(FREE_OBJECT_RECORD),stages/gel/press/press_test,CarriedPairs.*:FlyingBox.*:FreeBox.*:TallBox.*:RollingBall.*:DroppedBall.*:FlatFace.*:RigidMotion.*:FreeObject.*)
 
