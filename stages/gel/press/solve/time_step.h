@@ -68,7 +68,7 @@ struct StepGoal {
   /// The object moves and turns as its weight, the load at its centre of mass, and contact have it: nothing of it is
   /// prescribed. \pre the stepper knows it as a body
   bool free_object = false;
-  ControlPoints control_target = {};  // where the body's points belong to the target; unless it is free
+  ControlPoints control_target = {};  // of the body's points, as object_target is of its vertices; unless it is free
 };
 
 /// What moves; rows of gel, object, and the points that carry an object that may be free.
@@ -187,7 +187,8 @@ class TimeStepper {
 
   /// Friction of this step with normal forces and tangent planes of `lagged`. \pre there is friction
   std::shared_ptr<const Friction> friction_at(const Positions& lagged, const Step& step);
-  /// Σ over free vertices of |force| by which other friction would differ from that of the step, at its x.
+  /// Σ over free vertices, and bodies that move freely, of |force| by which other friction would differ from that of
+  /// the step, at its x.
   double friction_change(const Friction& renewed, const Step& step) const;
   /// What that may be at the end.
   double friction_limit(const Step& step) const;
