@@ -19,9 +19,11 @@ SampleSpec SampleSpec::read(ConfigReader& in) {
     spec.density_kg_m3 = object->number("density_kg_m3", Range::positive());
   for (ConfigReader& phase : in.one_or_more_sections("motion")) {
     spec.motion.push_back(Phase::read(phase));
-    if (spec.motion.back().load_n && !spec.density_kg_m3)
-      phase.fault(spec.motion.back().kind == PhaseKind::free ? "kind" : "force_n",
-                  "a force moves the object only if its object.density_kg_m3 is given");
+    if (!spec.motion.back().load_n || spec.density_kg_m3) continue;
+    if (spec.motion.back().kind == PhaseKind::free)
+      phase.fault("kind", "the object is free only if its object.density_kg_m3 is given");
+    else
+      phase.fault("force_n", "a force moves the object only if its object.density_kg_m3 is given");
   }
   return spec;
 }

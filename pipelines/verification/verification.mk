@@ -6,36 +6,51 @@ VERIFICATION_CASES := $(sort $(basename $(notdir $(wildcard configs/studies/veri
 VERIFICATION_RESULTS := $(VERIFICATION_CASES:%=$(VERIFICATION)/%)
 
 # The long rows that this call makes; the page waits for them. Without SHARED board3 is skipped, as cases are.
-LONG_ROWS := $(filter closed-forms refinement stress board3,$(MAKECMDGOALS) $(if $(filter verification,$(MAKECMDGOALS)),closed-forms refinement stress $(if $(wildcard $(SHARED)),board3)))
-LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
+LONG_ROWS := $(filter closed-forms free-object refinement stress board3,$(MAKECMDGOALS) $(if $(filter verification,$(MAKECMDGOALS)),closed-forms free-object refinement stress $(if $(wildcard $(SHARED)),board3)))
+LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(FREE_OBJECT_RECORD) $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
 
 # Never built beside another build in the same folder.
-.PHONY: build-verification build-closed-forms
+.PHONY: build-verification build-closed-forms build-free-object
 build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
 	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verify verify_table stress_case stress_table refinement refinement_table marker_curve compare_simulators -j $(JOBS) -- --quiet
 build-closed-forms: build-verification with-tests # the closed forms are tests
 	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verification_test -j $(JOBS) -- --quiet
+build-free-object: build-closed-forms
+	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target press_test -j $(JOBS) -- --quiet
 packages_for_closed-forms := tests
+packages_for_free-object := tests
 packages_for_verification := tests
 
 $(VERIFICATION)/%/verify.yaml: configs/studies/verification/%.yaml | build-verification
 	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
 
-# What needs no scene: a second of tests, run every time.
-CLOSED_FORMS_RECORD := $(OUT)/closed_forms/closed_forms.yaml
-.PHONY: closed-forms closed-forms-page
-closed-forms-page: | build-closed-forms
-	mkdir -p $(dir $(CLOSED_FORMS_RECORD))
-	rm -f $(CLOSED_FORMS_RECORD)
-	rm -f $(dir $(CLOSED_FORMS_RECORD))tests.json
-	holds=true; $(BUILD)/tests/verification/verification_test --gtest_filter='*PatchTest*:*WideLayerTest*' --gtest_brief=1 \
-	  --gtest_output=json:$(dir $(CLOSED_FORMS_RECORD))tests.json > $(dir $(CLOSED_FORMS_RECORD))log.txt 2>&1 || holds=false; \
-	{ read -r tests; read -r failed; } < <($(BIN)/tacipc get $(dir $(CLOSED_FORMS_RECORD))tests.json tests failures --default 0); \
+# $(call record_tests,record,program,filter): runs tests, and says in a long row's record how many passed.
+define record_tests
+	mkdir -p $(dir $(1))
+	rm -f $(1)
+	rm -f $(dir $(1))tests.json
+	holds=true; $(BUILD)/tests/$(2) --gtest_filter='$(3)' --gtest_brief=1 \
+	  --gtest_output=json:$(dir $(1))tests.json > $(dir $(1))log.txt 2>&1 || holds=false; \
+	{ read -r tests; read -r failed; } < <($(BIN)/tacipc get $(dir $(1))tests.json tests failures --default 0); \
 	found="$$((tests - failed)) tests passed"; [ "$$failed" = 0 ] || found="$$found, $$failed failed"; \
-	printf 'stage: closed_forms\nsummary:\n  holds: %s\n  found: "%s"\n' $$holds "$$found" > $(CLOSED_FORMS_RECORD)
+	printf 'stage: %s\nsummary:\n  holds: %s\n  found: "%s"\n' $(basename $(notdir $(1))) $$holds "$$found" > $(1)
+endef
+
+# What needs no scene: seconds of tests, run every time.
+CLOSED_FORMS_RECORD := $(OUT)/closed_forms/closed_forms.yaml
+FREE_OBJECT_RECORD := $(OUT)/free_object/free_object.yaml
+.PHONY: closed-forms closed-forms-page free-object free-object-page
+closed-forms-page: | build-closed-forms
+	$(call record_tests,$(CLOSED_FORMS_RECORD),verification/verification_test,*PatchTest*:*WideLayerTest*)
+# time_step_free_object_test.cpp, rigid_motion_test.cpp and simulate_free_test.cpp
+free-object-page: | build-free-object
+	$(call record_tests,$(FREE_OBJECT_RECORD),stages/gel/press/press_test,CarriedPairs.*:FlyingBox.*:FreeBox.*:TallBox.*:RollingBall.*:DroppedBall.*:FlatFace.*:RigidMotion.*:FreeObject.*)
 
 closed-forms: closed-forms-page ## studies: Patch test, compression, simple shear, momentum and energy against closed forms (a second)
 	$(call holds,$(CLOSED_FORMS_RECORD))
+
+free-object: free-object-page ## studies: An object that moves freely against closed forms: flight, spin, sliding, tipping, rocking, rolling, a drop (seconds)
+	$(call holds,$(FREE_OBJECT_RECORD))
 
 # $(call verification_table,folder,results,flags). A case that missed, failed or was skipped is run again next time: its record goes.
 define verification_table
@@ -63,7 +78,7 @@ verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuff
 	$(call to_docs,$(VERIFICATION)/page/verification/*.svg,verification)
 	@echo; echo "Look at $(VERIFICATION)/page/verification.md"
 
-verification: verification-page ## studies: Every case of configs/studies/verification, then closed-forms, refinement, stress and board3; writes OUT/docs/verification.md with its plots (a quarter of an hour)
+verification: verification-page ## studies: Every case of configs/studies/verification, then closed-forms, free-object, refinement, stress and board3; writes OUT/docs/verification.md with its plots (a quarter of an hour)
 	$(call none_missed,$(VERIFICATION)/page/verify_table.yaml,summary.missed summary.long_missed)
 
 verification-cases: verification-page ## studies: The cases of verification only; the long rows of the page stay unchanged

@@ -121,7 +121,14 @@ MotionTemplate MotionTemplate::read(ConfigReader& in) {
   }
   if (auto object = in.optional_section("object"))
     motion.object_density_kg_m3 = object->number("density_kg_m3", Range::positive());
-  for (ConfigReader& phase : in.one_or_more_sections("motion")) motion.phases.push_back(PhaseTemplate::read(phase));
+  for (ConfigReader& phase : in.one_or_more_sections("motion")) {
+    motion.phases.push_back(PhaseTemplate::read(phase));
+    if (motion.object_density_kg_m3) continue;
+    if (motion.phases.back().kind == "free")
+      phase.fault("kind", "the object is free only if its object.density_kg_m3 is given");
+    else if (phase.has("force_n"))
+      phase.fault("force_n", "a force moves the object only if its object.density_kg_m3 is given");
+  }
   return motion;
 }
 

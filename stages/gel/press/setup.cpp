@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/sensor/averaged_volume.h"
 #include "stages/gel/press/energy/barrier_stiffness.h"
 #include "stages/gel/press/energy/elasticity.h"
@@ -107,7 +108,16 @@ void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressCon
   }
   if (config.augmented_lagrangian && std::any_of(sample.motion.begin(), sample.motion.end(),
                                                  [](const Phase& phase) { return phase.load_n.has_value(); }))
-    throw UsageError("constraints: augmented_lagrangian holds the object to its pose; a load needs elimination");
+    throw UsageError(
+        "constraints: augmented_lagrangian holds the object to its pose; a load or a free object needs elimination");
+  const bool weightless = config.gravity_m_s2 == Vector3::Zero();
+  for (const Phase& phase : sample.motion) {
+    if (phase.kind == PhaseKind::free && weightless && phase.load_n == Vector3::Zero()) {
+      log_warning(
+          "the object is free, but has neither weight nor load: gravity_m_s2 is 0 and the phase has no force_n");
+      break;
+    }
+  }
 }
 
 }  // namespace tacipc

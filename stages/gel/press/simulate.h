@@ -48,7 +48,7 @@ struct Simulation {
   double d_hat_m = 0.0;
   double barrier_stiffness = 0.0;  // κ, kg m⁻², before it grows (StepReport::barrier_factor)
   double gap_horizon_m = 0.0;      // gaps are looked for up to this distance
-  double object_mass_kg = 0.0;     // 0 where no load moves the object
+  double object_mass_kg = 0.0;     // 0 where the sample gives no density
   bool object_may_be_free = false;
   std::string face;
   FrontSurface front;

@@ -160,6 +160,8 @@ MpmScene make_scene(const MpmConfig& config, const Sensor& sensor, const SampleS
                  .object = object,
                  .object_points_m = {}};
   for (const Phase& phase : sample.motion) {
+    if (phase.kind == PhaseKind::free)
+      throw UsageError("the sample lets the object go; mpm moves it by prescribed motions only");
     if (phase.load_n)
       throw UsageError("the sample loads the object with a force; mpm moves it by prescribed motions only");
     if (phase.kind == PhaseKind::press && phase.depth_m >= scene.lattice.thickness_m)

@@ -154,7 +154,8 @@ TEST_F(Path, NamesTheLineThatIsWrong) {
 TEST(SampleSpec, FaultsOfPhasesAreNamedTogether) {
   const auto faults = faults_in<SampleSpec>(
       "motion:\n  - {kind: press, force_n: 4, depth_mm: 1, steps: 5}\n  - {kind: twist, angle: 5, steps: 5}\n"
-      "  - {kind: load, force_n: [0, 0, -1], free: zw, steps: 1}\n",
+      "  - {kind: load, force_n: [0, 0, -1], free: zw, steps: 1}\n"
+      "  - {kind: free, steps: 1}\n",
       "x.yaml");
   EXPECT_THAT(
       faults,
@@ -162,7 +163,8 @@ TEST(SampleSpec, FaultsOfPhasesAreNamedTogether) {
                   "x.yaml:2:28: motion[0].force_n: a force moves the object only if its object.density_kg_m3 is given",
                   "x.yaml:3:5: motion[1].angle_deg: missing", "x.yaml:3:19: motion[1].angle: unknown key",
                   "x.yaml:4:27: motion[2].force_n: a force moves the object only if its object.density_kg_m3 is given",
-                  "x.yaml:4:45: motion[2].free: 'zw' is not made of the letters x, y, z"));
+                  "x.yaml:4:45: motion[2].free: 'zw' is not made of the letters x, y, z",
+                  "x.yaml:5:12: motion[3].kind: the object is free only if its object.density_kg_m3 is given"));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST(SampleSpec, NamesWhatIsWrong) {
       faults_in<SampleSpec>("placement: {face: z}\nmotion: {kind: push, depth_mm: 0, steps: 0}\n", "x.yaml"),
       ElementsAre("x.yaml:1:19: placement.face: 'z' is not one of +x, -x, +y, -y, +z, -z (did you mean +z?)",
                   "x.yaml:2:16: motion.kind: 'push' is not one of press, shear, twist, hold, release, tilt, path, "
-                  "load (did you mean path?)",
+                  "load, free (did you mean path?)",
                   "x.yaml:2:32: motion.depth_mm: 0 is outside (0, inf)",
                   "x.yaml:2:42: motion.steps: 0 is outside [1, 100000]"));
 }

@@ -64,6 +64,8 @@ double TimeStepper::friction_change(const Friction& renewed, const Step& step) c
   const Positions change = gradient_of(renewed, step.x) - gradient_of(*step.friction, step.x);
   double sum = 0.0;
   for (const int v : newton_->free().vertex_of_free) sum += change.row(v).norm();
+  for (const CarriedBody& body : newton_->free().carried)
+    sum += change.middleRows(body.first_vertex, body.weights.rows()).colwise().sum().norm();
   return settings_.friction->coefficient * step.weights.barrier_stiffness_j_m4 * sum;
 }
 

@@ -257,7 +257,8 @@ void TimeStepper::finish_body(Step& step, State& state) const {
   const double h = step.goal.h_s;
   if (!step.goal.free_object) {
     // Whoever moves it gives it the momentum of its rigid motion.
-    const ControlPoints before = mesh_.control_rows(state.x), now = step.goal.control_target;
+    const ControlPoints before = mesh_.control_rows(state.x);
+    const ControlPoints now = step.goal.control_target.rowwise() + step.object_shift.transpose();
     state.object_motion = after_step(*body_, before, now, {}, Vector3::Zero(), h);
     mesh_.control_rows(step.x) = now;
     return;

@@ -74,7 +74,7 @@ struct StepGoal {
   /// rigidly with its mount, and where glued vertices end, in the order of GelModel::glued. Empty: no mount moves.
   Positions gel_motion = {}, glued_target = {};
   std::vector<Matrix3> world_from_gel = {};  // how several gels are turned meanwhile; empty for one
-  ControlPoints control_target = {};  // where the body's points belong to the target; unless it is free
+  ControlPoints control_target = {};  // of the body's points, as object_target is of its vertices; unless it is free
 };
 
 /// What moves; rows of gel, object, and the points that carry an object that may be free.
@@ -204,7 +204,8 @@ class TimeStepper {
 
   /// Friction of this step with normal forces and tangent planes of `lagged`. \pre there is friction
   std::shared_ptr<const Friction> friction_at(const Positions& lagged, const Step& step);
-  /// Σ over free vertices of |force| by which other friction would differ from that of the step, at its x.
+  /// Σ over free vertices, and bodies that move freely, of |force| by which other friction would differ from that of
+  /// the step, at its x.
   double friction_change(const Friction& renewed, const Step& step) const;
   /// What that may be at the end.
   double friction_limit(const Step& step) const;

@@ -41,9 +41,23 @@ motion:
 }
 
 TEST(MotionTemplate, AFileForPressIsAMotionWithoutRanges) {
-  EXPECT_EQ(drawn("motion: {kind: press, force_n: 2, steps: 3}\n", {}),
-            "placement:\n  center_mm: [0, 0]\n  rotate_deg: 0\n"
+  EXPECT_EQ(drawn("object: {density_kg_m3: 1000}\nmotion: {kind: press, force_n: 2, steps: 3}\n", {}),
+            "placement:\n  center_mm: [0, 0]\n  rotate_deg: 0\nobject: {density_kg_m3: 1000}\n"
             "motion:\n  - {kind: press, force_n: 2, steps: 3, substeps: 1}\n");
+}
+
+TEST(MotionTemplate, AFreeObjectHasADensityAndPerhapsAForce) {
+  EXPECT_THAT(
+      drawn("object: {density_kg_m3: 1000}\nmotion: [{kind: free, steps: 3}, {kind: free, force_n: [0, 0.5, 0], "
+            "steps: 1}]\n",
+            {}),
+      testing::EndsWith("motion:\n  - {kind: free, steps: 3, substeps: 1}\n"
+                        "  - {kind: free, force_n: [0, 0.5, 0], steps: 1, substeps: 1}\n"));
+  // Not only when the first sample is pressed.
+  EXPECT_THAT(faults_in<MotionTemplate>(
+                  "motion: [{kind: free, steps: 3}, {kind: load, force_n: [0, 0, -1], steps: 1}]\n", "m.yaml"),
+              ElementsAre(testing::HasSubstr("motion[0].kind: the object is free only if"),
+                          testing::HasSubstr("motion[1].force_n: a force moves the object only if")));
 }
 
 TEST(MotionTemplate, APathHasAsManyFramesAsRowsAfterItsFirst) {
@@ -68,6 +82,7 @@ TEST(MotionTemplate, MaxDepthIsThatOfTheDeepestPress) {
 
 TEST(MotionTemplate, FaultsAreSaidAtTheirPlace) {
   EXPECT_THAT(faults_in<MotionTemplate>(R"(placement: {center_mm: {x: [2, -2], y: 0}}
+object: {density_kg_m3: 1000}
 motion:
   - {kind: press, depth_mm: [0, 1], steps: 1}
   - {kind: press, depth_mm: 1, force_n: 1, steps: 1}

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "stages/gel/press/checkpoint.h"
 #include "tests/make_mesh.h"
 #include "tests/stages/gel/press/reference_scene.h"
@@ -125,6 +126,56 @@ TEST(FreeObject, GoesOnFromAnyFrameToTheSameBytes) {
     Memory rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
     run(object, heavy_config(0.5), sample, &rest);
     EXPECT_TRUE(rest.saved == whole.saved) << "from " << known << " frames";
+  }
+}
+
+/// While it yields to a load along an axis, the points that a free object moves by go with it.
+TEST(FreeObject, IsLetGoWhereALoadHasMovedIt) {
+  PressConfig config = heavy_config(0.5);
+  SampleSpec sample;
+  sample.density_kg_m3 = 8000.0;
+  sample.motion = {{.kind = PhaseKind::press, .steps = 1, .load_n = Vector3(0, 0, -0.5), .free = {false, false, true}},
+                   free_phase(1)};
+  const Simulation simulation = run(block(0.003, 0.004), config, sample);
+  const std::vector<Frame>& frames = simulation.frames;
+  const auto place = [&](std::size_t frame) -> Vector3 { return frames[frame].gel_from_object.topRightCorner<3, 1>(); };
+  const double h = config.time_step_s;
+  ASSERT_LT(place(1).z() - place(0).z(), -10e-6);
+  EXPECT_LT((frames[1].object_velocity_m_s - (place(1) - place(0)) / h).norm(), 1e-9);
+  EXPECT_LT((frames[2].object_velocity_m_s - (place(2) - place(1)) / h).norm(),
+            0.01 * frames[2].object_velocity_m_s.norm());
+}
+
+TEST(FreeObject, WithNeitherWeightNorLoadIsWarnedOf) {
+  SampleSpec sample;
+  sample.density_kg_m3 = 1000.0;
+  const auto said = [&](const Vector3& gravity, const Vector3& force) {
+    PressConfig config = heavy_config(0.5);
+    config.gravity_m_s2 = gravity;
+    sample.motion = {free_phase(1, force)};
+    open_log("press", "warning");
+    testing::internal::CaptureStderr();
+    run(block(0.003, 0.003), config, sample);
+    close_log();
+    return testing::internal::GetCapturedStderr();
+  };
+  const Vector3 none = Vector3::Zero(), some(0, 0, -0.1);
+  EXPECT_NE(said(none, none).find("neither weight nor load"), std::string::npos);
+  EXPECT_EQ(said(some, none), "");
+  EXPECT_EQ(said(none, some), "");
+}
+
+TEST(FreeObject, NeedsElimination) {
+  PressConfig config = heavy_config(0.5);
+  config.augmented_lagrangian = true;
+  SampleSpec sample;
+  sample.density_kg_m3 = 1000.0;
+  sample.motion = {free_phase(1)};
+  try {
+    run(block(0.003, 0.003), config, sample);
+    FAIL() << "not refused";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("a free object needs elimination"), std::string::npos) << error.what();
   }
 }
 

@@ -44,6 +44,12 @@ TEST(SimulateVerdict, EveryNumberOfAFrameReachesItsCheck) {
       {"friction_residual", 4e-4, [](Frame& f) { f.solver.friction_residual_n = 4e-4; }},
       {"balance", 2e-3, [](Frame& f) { f.balance.relative = 2e-3; }},
       {"pose_error", 2e-9, [](Frame& f) { f.pose_error_m = 2e-9; }},
+      {"body_strain", 2e-3, [](Frame& f) { f.body_strain = 2e-3; }},
+      {"body_balance", 0.25,
+       [](Frame& f) {
+         f.solver.body_residual_n = 0.125;
+         f.solver.body_load_n = 0.5;
+       }},
   };
   for (const Fault& fault : faults) {
     Frame frame = good;

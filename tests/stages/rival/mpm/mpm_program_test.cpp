@@ -115,6 +115,9 @@ TEST_F(MpmProgram, RefusesLoads) {
   scratch_.file("load.yaml", "object: {density_kg_m3: 1000}\nmotion: {kind: press, force_n: 1, steps: 2}\n");
   EXPECT_EQ(run_mpm("out", "", "load.yaml"), 2);
   EXPECT_THAT(said_, HasSubstr("mpm moves it by prescribed motions only"));
+  scratch_.file("free.yaml", "object: {density_kg_m3: 1000}\nmotion: {kind: free, steps: 2}\n");
+  EXPECT_EQ(run_mpm("out", "", "free.yaml"), 2);
+  EXPECT_THAT(said_, HasSubstr("the sample lets the object go"));
 }
 
 }  // namespace
