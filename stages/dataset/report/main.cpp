@@ -10,6 +10,7 @@
 #include "stages/dataset/report/card.h"
 #include "stages/dataset/report/contact_sheet.h"
 #include "stages/dataset/report/dataset/dataset_report.h"
+#include "stages/dataset/report/grasp_part.h"
 #include "stages/dataset/report/page.h"
 #include "stages/dataset/report/sample.h"
 #include "stages/dataset/report/view/view_data.h"
@@ -26,6 +27,7 @@ const StageSpec kReport{
                 .help = "folder of a sample, with press and render in it",
                 .required = false,
                 .many = true},
+               {.flag = "--grasp", .help = "or folder of a grasp, with left and right in it", .required = false},
                {.flag = "--plan", .help = "or of a dataset: samples.csv of plan", .required = false},
                {.flag = "--dataset", .help = "with --plan: dataset.yaml of plan", .required = false},
                {.flag = "--config", .help = "with --plan: how much is shown (YAML)", .required = false}},
@@ -79,15 +81,26 @@ void report_samples(Stage& stage) {
     std::filesystem::remove_all(stage.out() / name, error);
     if (error) throw DataError("{}: cannot be removed: {}", (stage.out() / name).string(), error.message());
   }
+  const auto grasp = stage.optional_input("--grasp");
+  std::vector<std::filesystem::path> folders = stage.inputs("--sample");
+  std::string first;
+  if (grasp) {
+    const GraspReport report = read_grasp(*grasp);
+    write_file(stage.output(kGraspPlot), grasp_plot(report));
+    write_png(stage.output(kGraspStrip), grasp_strip(*grasp, report.moments.size()));
+    first = grasp_section(report);
+    folders = {*grasp / "left", *grasp / "right"};
+  }
   std::vector<SampleReport> samples;
-  for (const auto& folder : stage.inputs("--sample")) {
+  for (const auto& folder : folders) {
     samples.push_back(read_sample(folder));
+    if (grasp) samples.back().name = folder.filename().string() + " finger";
     SampleReport& sample = samples.back();
     try_pictures(sample);
     if (!sample.passed()) log_warning("{}: failed: {}", sample.name, *sample.failure);
   }
   write_views(stage, samples);
-  write_file(stage.output("index.html"), report_page(stage.option("--title"), samples, stage.out()));
+  write_file(stage.output("index.html"), report_page(stage.option("--title"), samples, stage.out(), first));
   write_png(stage.output("contact_sheet.png"), contact_sheet(stage.option("--title"), samples));
   const auto passed = std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.passed(); });
   stage.summarize({{"samples", samples.size()},
@@ -99,11 +112,14 @@ void report_samples(Stage& stage) {
 
 int main(int argc, char** argv) {
   return run_stage(kReport, argc, argv, [](Stage& stage) {
-    const bool samples = !stage.inputs("--sample").empty();
+    const bool samples = !stage.inputs("--sample").empty() || stage.optional_input("--grasp");
+    if (!stage.inputs("--sample").empty() && stage.optional_input("--grasp"))
+      throw UsageError("give either --sample or --grasp, not both");
     int of_dataset = 0;
     for (const char* flag : {"--plan", "--dataset", "--config"}) of_dataset += stage.optional_input(flag) ? 1 : 0;
     if (samples == (of_dataset > 0) || (!samples && of_dataset != 3))
-      throw UsageError("give either --sample, once per sample, or --plan, --dataset and --config of a dataset");
+      throw UsageError(
+          "give either --sample, once per sample, or --grasp, or --plan, --dataset and --config of a dataset");
     samples ? report_samples(stage) : report_dataset(stage);
   });
 }

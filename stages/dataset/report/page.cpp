@@ -67,14 +67,14 @@ std::string summary_table(const std::vector<SampleReport>& samples) {
 }  // namespace
 
 std::string report_page(const std::string& title, const std::vector<SampleReport>& samples,
-                        const std::filesystem::path& folder) {
+                        const std::filesystem::path& folder, const std::string& first) {
   std::string page = page_head(title, "<style>" + page_style() + "</style>");
   page += "<body>\n<header>\n<h1>" + html_text(title) + "</h1>\n";
   page +=
       "<p class=\"quiet\">Simulated touch: each sample presses one object into the soft gel of a camera-based tactile "
       "sensor. The gel deforms by finite elements without ever intersecting the object; its images are ray traced. "
       "See all at a glance on the <a href=\"contact_sheet.png\">contact sheet</a>.</p>\n";
-  page += tiles(samples) + "</header>\n";
+  page += tiles(samples) + "</header>\n" + first;
   page += "<section id=\"summary\">\n<h2>Summary</h2>\n" + summary_table(samples) + "</section>\n";
   page += "<section id=\"samples\">\n<h2>Samples</h2>\n";
   for (std::size_t i = 0; i < samples.size(); ++i) page += sample_card(samples[i], i, folder);

@@ -9,8 +9,8 @@
 
 namespace tacipc {
 
-/// The whole page. `folder` is where it will lie; links are relative to it.
+/// The whole page. `folder` is where it will lie; links are relative to it. `first`: a section before all others.
 std::string report_page(const std::string& title, const std::vector<SampleReport>& samples,
-                        const std::filesystem::path& folder);
+                        const std::filesystem::path& folder, const std::string& first = "");
 
 }  // namespace tacipc

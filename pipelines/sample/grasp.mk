@@ -1,0 +1,74 @@
+# Two sensors grip, hold and lift an object of your own: make -f Makefile.data grasp OBJECT=path.stl [MASS_G=80 FORCE_N=5 and below]
+# SENSOR, MESH, PRESS, FRICTION, UNIT, SCALE, WRAP, FORCE_N and NAME mean what they mean for `sample`.
+$(call uses,sample/sample)
+
+MASS_G  ?= 80#      of the object
+TURN    ?= 0#       degrees by which it is turned about the vertical before it is gripped
+GRIP    ?= 0,0,0#   mm from its centre of mass to where it is gripped, along its own axes
+LIFT_MM ?= 10#      how far it is lifted
+GRASP   ?=#         or a file of your own (docs/grasp.md) in place of these four and FORCE_N
+grasp_given := $(foreach v,MASS_G TURN GRIP LIFT_MM,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))# on the command line
+$(foreach v,MASS_G TURN GRIP LIFT_MM GRASP,$(eval override $(v) := $(strip $($(v)))))
+
+.PHONY: grasp
+programs_for_grasp := decimate tetmesh press render report tacipc $(if $(filter-out no,$(WRAP)),wrap)
+packages_for_grasp := $(if $(filter-out no,$(WRAP)),wrap)
+ifneq ($(and $(filter grasp,$(MAKECMDGOALS)),$(OBJECT)),)
+GRASPED := $(OUT)/grasp/$(NAME)
+ifneq ($(GRASP),)
+  ifeq ($(wildcard $(GRASP)),)
+    $(error GRASP: $(GRASP) does not exist)
+  endif
+  ifneq ($(strip $(grasp_given)),)
+    $(error $(firstword $(grasp_given)): has no effect with GRASP=$(GRASP))
+  endif
+endif
+useless := $(filter MOTION DEPTH_MM DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UP FACE ROTATE CENTER TURNS SHEET_MM,$(given))
+ifneq ($(useless),)
+  $(error $(firstword $(useless)): has no effect on a grasp)
+endif
+define grasp_yaml
+fingers: {turn_deg: $(TURN), grip_mm: [$(GRIP)]}
+object: {mass_g: $(MASS_G)}
+motion:
+  - {kind: close, force_n: $(or $(FORCE_N),5), steps: 10}
+  - {kind: hold, steps: 4}
+  - {kind: lift, distance_mm: $(LIFT_MM), steps: 20}
+  - {kind: hold, steps: 6}
+endef
+define grasped_yaml
+unit: $(UNIT)
+scale: $(SCALE)
+$(if $(filter-out no,$(WRAP)),wrap: {$(if $(filter-out yes,$(WRAP)),alpha_mm: $(WRAP))})
+endef
+grasp_spec   := $(or $(GRASP),$(GRASPED)/grasp.yaml)
+grasp_config := $(if $(FRICTION),$(GRASPED)/press_config.yaml,configs/press/$(PRESS).yaml)
+grasp_gel    := $(OUT)/gels/$(SENSOR)-$(MESH)
+grasp_made    = $(if $(filter-out no,$(WRAP)),$(GRASPED)/wrap/$(1),$(2))
+$(GRASPED)/grasp.yaml: FORCE
+	$(call replace_if_changed,$(grasp_yaml))
+$(GRASPED)/object.yaml: FORCE
+	$(call replace_if_changed,$(grasped_yaml))
+$(GRASPED)/choice.txt: FORCE
+	$(call replace_if_changed,{object: $(abspath $(OBJECT))$(comma) sensor: $(SENSOR)$(comma) mesh: $(MESH)$(comma) press: $(PRESS)$(comma) grasp: $(abspath $(GRASP))})
+$(GRASPED)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< 'friction.coefficient=$(FRICTION)')
+$(GRASPED)/wrap/wrap.yaml: $(OBJECT) $(GRASPED)/object.yaml $(GRASPED)/choice.txt | build
+	$(wrap_is_built)
+	$(call run,wrap,--mesh $(OBJECT) --object $(GRASPED)/object.yaml)
+$(GRASPED)/object/decimate.yaml: $(OBJECT) $(GRASPED)/object.yaml $(call grasp_made,wrap.yaml) $(GRASPED)/choice.txt configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml | build
+	$(call run,decimate,--mesh $(call grasp_made,object.ply,$(OBJECT)) --object $(call grasp_made,object.yaml,$(GRASPED)/object.yaml) --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
+$(GRASPED)/press.yaml: $(GRASPED)/object/decimate.yaml $(grasp_gel)/tetmesh.yaml configs/sensors/$(SENSOR).yaml $(grasp_config) $(grasp_spec) $(GRASPED)/choice.txt | build
+	$(call run,press,--name $(NAME) --object $(GRASPED)/object/object.ply --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config $(grasp_config) --sample $(grasp_spec))
+$(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml: $(GRASPED)/%/render/render.yaml: $(GRASPED)/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
+	$(call run,render,--press $(GRASPED)/$*/press --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
+$(GRASPED)/report/report.yaml: $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml | build
+	$(call run,report,--title "$(NAME)" --grasp $(GRASPED))
+
+grasp: $(GRASPED)/report/report.yaml ## own: Two sensors grip, hold and lift an object of your own: OBJECT=path.stl [MASS_G=80 FORCE_N=5 FRICTION=0.7 LIFT_MM=10 TURN= GRIP=; GRASP=your.yaml]
+	@$(BIN)/tacipc get $(GRASPED)/press.yaml summary.outcome
+	@echo; echo "Look at $(GRASPED)/report/index.html, $(GRASPED)/report/grasp_strip.png and $(GRASPED)/left/render/frame_*/tactile.png"
+else
+grasp:
+	@echo "grasp: say which object: make -f Makefile.data grasp OBJECT=path.stl" >&2; exit 2
+endif

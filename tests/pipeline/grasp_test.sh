@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# The goal grasp on a small block: it is lifted, both fingers carry its weight, with the same bytes on one thread and two, and nothing to do a
+# second time; without friction it is dropped, which is a result, too.
+. "$(dirname "$0")/common.sh"
+
+# A block of 8 mm, in millimetres.
+awk 'BEGIN {
+  n = split("-4 -4 -4,4 -4 -4,4 4 -4,-4 4 -4,-4 -4 4,4 -4 4,4 4 4,-4 4 4", v, ",")
+  m = split("1 3 2,1 4 3,5 6 7,5 7 8,1 2 6,1 6 5,2 3 7,2 7 6,3 4 8,3 8 7,4 1 5,4 5 8", f, ",")
+  print "solid block"
+  for (i = 1; i <= m; ++i) {
+    split(f[i], c, " ")
+    print "facet normal 0 0 0\nouter loop"
+    for (k = 1; k <= 3; ++k) print "vertex " v[c[k]]
+    print "endloop\nendfacet"
+  }
+  print "endsolid"
+}' > block.stl
+cat > short.yaml <<'END'
+fingers: {}
+object: {mass_g: 20}
+motion:
+  - {kind: close, force_n: 1, steps: 2}
+  - {kind: hold, steps: 2}
+  - {kind: lift, distance_mm: 1, steps: 3}
+  - {kind: hold, steps: 6}
+END
+grasp() { # grasp OUT [VARIABLE=value …]
+  local out=$1
+  shift
+  make -s -f Makefile.data grasp OBJECT=block.stl MESH=tiny OUT="$out" BUILD="$build_dir" PACKAGES=no "$@" > said.txt 2>&1
+}
+value() { "$build_dir/bin/tacipc" get "$1/grasp/block/press.yaml" "summary.$2"; }
+
+grasp one GRASP=short.yaml THREADS=1 || { tail -5 said.txt >&2; fail "the goal failed"; }
+grep -qx lifted said.txt || { tail -5 said.txt >&2; fail "the outcome is not said"; }
+grasp two GRASP=short.yaml THREADS=2 || fail "the goal failed on two threads"
+same_files one two
+# 20 g weigh 0.1962 N.
+awk -v n="$(value one 'per_frame[13].carried_n')" 'BEGIN { exit !(n > 0.195 && n < 0.1975) }' || fail "the fingers do not carry the block"
+for side in left right; do
+  [ "$(ls -d one/grasp/block/$side/render/frame_* | wc -l)" = 14 ] || fail "$side: not every frame was rendered"
+  [ -s one/grasp/block/$side/press/contact_force.npy ] || fail "$side: no forces"
+done
+for file in index.html grasp_strip.png grasp_forces.svg; do [ -s one/grasp/block/report/$file ] || fail "$file is missing"; done
+grep -q '<h2>Grasp: lifted</h2>' one/grasp/block/report/index.html || fail "the page does not say what became of it"
+before=$(find one -name '*.yaml' -printf '%p %T@\n' | sort)
+grasp one GRASP=short.yaml THREADS=1 || fail "a second run failed"
+[ "$before" = "$(find one -name '*.yaml' -printf '%p %T@\n' | sort)" ] || fail "a second run did something"
+
+grasp three GRASP=short.yaml FRICTION=0.01 || fail "a grasp that slips failed"
+[ "$(value three outcome)" = dropped ] || fail "a block held by a friction of 0.01 was $(value three outcome)"
+
+wrong() { # wrong MESSAGE VARIABLE=value …
+  local message=$1
+  shift
+  grasp four "$@" && fail "$*: was taken"
+  grep -q -- "$message" said.txt || { tail -3 said.txt >&2; fail "$*: not said what is wrong"; }
+}
+wrong 'MASS_G: has no effect with GRASP' GRASP=short.yaml MASS_G=5
+wrong 'DEPTH_MM: has no effect on a grasp' DEPTH_MM=1
+wrong 'GRASP: nothing.yaml does not exist' GRASP=nothing.yaml
+sed '0,/close/s/kind: close, force_n: 1/kind: hold/' short.yaml > hold_first.yaml
+wrong 'hold_first.yaml:4:.*fingers close first' GRASP=hold_first.yaml
+echo "1 passed, 0 failed"
