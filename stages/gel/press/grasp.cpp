@@ -217,6 +217,7 @@ class Hand {
                   .free_object = drive_.let_go,
                   .gel_motion = target - start,
                   .glued_target = target(glued_, Eigen::all),
+                  .hand_shift_m = hand_m,
                   .world_from_gel = turns_,
                   .control_target = control_at(world_from_object_)};
     if (goal.gel_motion.isZero(0.0)) goal.gel_motion.resize(0, 3);

@@ -223,13 +223,18 @@ bool TimeStepper::object_arrived(const Step& step) const {
 void TimeStepper::start_ahead(Step& step, const State& state) {
   const StepGoal& goal = step.goal;
   Positions p = Positions::Zero(state.x.rows(), 3);
+  const bool mounts = goal.gel_motion.size() > 0;
   if (goal.free_object) {
-    // Without its weight, which contact mostly carries.
     const ControlPoints before = mesh_.control_rows(state.x);
-    mesh_.control_rows(p) = predicted(*body_, before, state.object_motion, Vector3::Zero(), goal.h_s) - before;
+    if (mounts && smallest_gap(state.x, settings_.d_hat_m) < settings_.d_hat_m) {
+      // Gaps are far smaller than what a held object and its fingers would slide past each other otherwise.
+      mesh_.control_rows(p).rowwise() = goal.hand_shift_m.transpose();
+    } else {
+      // Without its weight, which contact mostly carries.
+      mesh_.control_rows(p) = predicted(*body_, before, state.object_motion, Vector3::Zero(), goal.h_s) - before;
+    }
     for (const CarriedBody& body : newton_->free().carried) body.carry(p);
   }
-  const bool mounts = goal.gel_motion.size() > 0;
   if (mounts) p.topRows(mesh_.num_gel_vertices) = goal.gel_motion;
   // Piece by piece: a search for pairs along a long way would find too many.
   const double pieces = std::ceil(relative_way(p) / longest_way());
