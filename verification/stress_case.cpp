@@ -100,6 +100,37 @@ class MotionDrawer {
   Matrix4 placed_, pose_;
 };
 
+/// Close, lift, shake, and perhaps let go.
+GraspSpec draw_grasp(const StressConfig::Grasp& ranges, double size_m, Draws& draws) {
+  GraspSpec grasp;
+  grasp.mass_kg = draws.log(ranges.mass_kg);
+  grasp.turn_rad = draws.in({0.0, 2.0 * pi});
+  for (int c = 1; c < 3; ++c) grasp.grip_m[c] = ranges.off_center * size_m * draws.in({-1.0, 1.0});
+  grasp.motion = {{.kind = PhaseKind::close, .steps = 3 + draws.below(6), .force_n = draws.log(ranges.force_n)},
+                  {.kind = PhaseKind::lift, .steps = 4 + draws.below(5), .distance_m = draws.in(ranges.lift_m)},
+                  {.kind = PhaseKind::shake,
+                   .steps = 8,
+                   .substeps = 2,
+                   .amplitude_m = draws.in(ranges.shake_m),
+                   .frequency_hz = draws.in(ranges.shake_hz),
+                   .axis = 1 + draws.below(2)}};
+  if (draws.chance(ranges.release_share))
+    grasp.motion.push_back({.kind = PhaseKind::release, .steps = 4, .distance_m = draws.in(ranges.lift_m)});
+  return grasp;
+}
+
+/// Counts the frames of a grasp.
+class Count final : public ByteStore {
+ public:
+  explicit Count(StressResult& result) : result_(result) {}
+  void save(const std::string&) override { result_.frames = saved_++; }
+  std::optional<std::string> load() override { return std::nullopt; }
+
+ private:
+  StressResult& result_;
+  int saved_ = 0;
+};
+
 /// Sums up frames as they are judged; keeps none.
 class Tally final : public FrameStore {
  public:
@@ -173,7 +204,11 @@ StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64
     stress.press.friction = FrictionConfig::read(numerics);
     stress.press.friction->coefficient = coefficient;
   }
-  MotionDrawer(config.motion, draws, stress).draw();
+  if (config.grasp) {
+    stress.grasp = draw_grasp(*config.grasp, stress.object.size_m, draws);
+  } else {
+    MotionDrawer(config.motion, draws, stress).draw();
+  }
   stress.press.pair_counting.once = draws.chance(config.pairs_once_share);
   return stress;
 }
@@ -200,6 +235,14 @@ Value StressCase::description() const {
                                                     : "once"},
                  {"pairs", press.pair_counting.once ? "once" : "every"}};
   Value::List phases;
+  if (grasp) {
+    out.emplace_back("mass_g", 1e3 * *grasp->mass_kg);
+    for (const GraspPhase& phase : grasp->motion) {
+      Value::Map line{{"kind", name_of(phase.kind)}, {"steps", phase.steps}};
+      if (phase.kind == PhaseKind::close) line.emplace_back("force_n", phase.force_n);
+      phases.emplace_back(std::move(line));
+    }
+  }
   for (const Phase& phase : sample.motion) {
     Value::Map line{{"kind", name_of(phase.kind)}, {"steps", phase.steps}};
     if (phase.kind == PhaseKind::shear) line.emplace_back("distance_mm", 1e3 * phase.shift_m.norm());
@@ -229,8 +272,25 @@ Value StressResult::to_value() const {
 StressResult run_stress_case(const StressCase& stress, const ProgressObserver& observe) {
   StressResult result;
   for (const Phase& phase : stress.sample.motion) result.frames_asked += phase.steps;
+  if (stress.grasp) {
+    for (const GraspPhase& phase : stress.grasp->motion) result.frames_asked += phase.steps;
+  }
   Tally tally(result);
+  Count count(result);
   try {
+    if (stress.grasp) {
+      const Grasp done =
+          grasp(stress.sensor, stress.gel.mesh, stress.object.mesh, stress.press, *stress.grasp, observe, &count);
+      for (const Simulation& finger : done.fingers) {
+        for (const Frame& frame : finger.frames) tally.save(frame, {});
+      }
+      // Both fingers have the same frames, and the solver's numbers stand in each.
+      result.frames = result.frames_asked;
+      for (int* of_both :
+           {&result.time_steps, &result.newton_iterations, &result.moving_iterations, &result.lag_iterations})
+        *of_both /= 2;
+      return result;
+    }
     simulate(stress.sensor, stress.gel.mesh, stress.object.mesh, stress.press, stress.sample, "-z", observe, &tally);
   } catch (const VerdictError& error) {
     result.outcome = outcome_of(error.miss());

@@ -1,9 +1,11 @@
 // One case of the stress campaign: drawn from seed and index, run and judged.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/base/value.h"
+#include "stages/gel/press/grasp.h"
 #include "stages/gel/press/simulate.h"
 #include "verification/stress_gel.h"
 #include "verification/stress_object.h"
@@ -16,6 +18,7 @@ struct StressCase {
   StressObject object;
   PressConfig press;
   SampleSpec sample;
+  std::optional<GraspSpec> grasp;  // instead of that
   double depth_m = 0.0;
   double contact_radius_m = 0.0;  // of the object at that depth
 

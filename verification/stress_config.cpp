@@ -54,16 +54,27 @@ StressConfig StressConfig::read(ConfigReader& in) {
   config.object.place = object.number("place", kShare);
   config.object.exact_share = object.number("exact_share", kShare);
   config.object.max_vertices = object.integer("max_vertices", 100);
-  ConfigReader motion = in.section("motion");
-  config.motion = {.step_m = Span::read(motion, "step_mm", Range::positive(), kMillimetre),
-                   .depth = Span::read(motion, "depth", {.low = 0.0, .high = 1.0, .open_low = true}),
-                   .shear_m = Span::read(motion, "shear_mm", Range::positive(), kMillimetre),
-                   .twist_rad = Span::read(motion, "twist_deg", {.low = 0.0, .high = 180.0, .open_low = true}, kDegree),
-                   .tilt_rad = Span::read(motion, "tilt_deg", {.low = 0.0, .high = 80.0, .open_low = true}, kDegree),
-                   .deep = motion.number("deep", Range::between(0.01, 0.95)),
-                   .shallow = motion.number("shallow", Range::between(0.01, 0.95)),
-                   .twist_step_rad = Span::read(motion, "twist_step_deg", Range::positive(), kDegree),
-                   .tilt_step_rad = Span::read(motion, "tilt_step_deg", Range::positive(), kDegree)};
+  if (auto grasp = in.optional_section("grasp")) {
+    config.grasp = Grasp{.mass_kg = Span::read(*grasp, "mass_g", Range::positive(), 1e-3),
+                         .force_n = Span::read(*grasp, "force_n", Range::positive()),
+                         .lift_m = Span::read(*grasp, "lift_mm", Range::positive(), kMillimetre),
+                         .shake_m = Span::read(*grasp, "shake_mm", Range::positive(), kMillimetre),
+                         .shake_hz = Span::read(*grasp, "shake_hz", Range::positive()),
+                         .off_center = grasp->number("off_center", kShare),
+                         .release_share = grasp->number("release_share", kShare)};
+  } else {
+    ConfigReader motion = in.section("motion");
+    config.motion = {
+        .step_m = Span::read(motion, "step_mm", Range::positive(), kMillimetre),
+        .depth = Span::read(motion, "depth", {.low = 0.0, .high = 1.0, .open_low = true}),
+        .shear_m = Span::read(motion, "shear_mm", Range::positive(), kMillimetre),
+        .twist_rad = Span::read(motion, "twist_deg", {.low = 0.0, .high = 180.0, .open_low = true}, kDegree),
+        .tilt_rad = Span::read(motion, "tilt_deg", {.low = 0.0, .high = 80.0, .open_low = true}, kDegree),
+        .deep = motion.number("deep", Range::between(0.01, 0.95)),
+        .shallow = motion.number("shallow", Range::between(0.01, 0.95)),
+        .twist_step_rad = Span::read(motion, "twist_step_deg", Range::positive(), kDegree),
+        .tilt_step_rad = Span::read(motion, "tilt_step_deg", Range::positive(), kDegree)};
+  }
   ConfigReader friction = in.section("friction");
   config.friction = {.none_share = friction.number("none_share", kShare),
                      .iterated_share = friction.number("iterated_share", kShare),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,13 @@ struct StressConfig {
     double deep = 0.0, shallow = 0.0;  // deepest point in thicknesses, for contacts narrower than the gel is thick …
     Span twist_step_rad, tilt_step_rad;
   } motion;
+  /// Instead of a motion: two such gels grip the object.
+  struct Grasp {
+    Span mass_kg, force_n, lift_m, shake_m, shake_hz;
+    double off_center = 0.0;  // of the grip from the centre of mass, at most, in sizes of the object
+    double release_share = 0.0;
+  };
+  std::optional<Grasp> grasp;
   struct Friction {
     double none_share = 0.0, iterated_share = 0.0;
     Span coefficient;

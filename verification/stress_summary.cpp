@@ -120,18 +120,28 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
     volume = std::min(volume, line.result.min_volume_ratio);
   }
   const std::string config = fmt::format("configs/studies/stress/{}.yaml", ranges);
+  const bool grasps = ranges == "grasp", presses = ranges == kStressRanges;
+  const std::string what =
+      grasps
+          ? "Two random coarse gels close on a random object, lift it, shake it, and in some cases let it go"
+          : "Each case presses a random object into a random coarse gel, up to three quarters of the gel's thickness "
+            "deep, then shears, twists, tilts or releases it";
   std::string out = fmt::format(
-      "# Stress campaign{0}\n\nMade by `make -f Makefile.data {1} SEED={2} N={3}`. Each case presses a random object "
-      "into a random coarse gel, up to three quarters of the gel's thickness deep, then shears, twists, tilts or "
-      "releases it; `{4}` has the ranges. Seed and index reproduce a case: "
+      "# Stress campaign{0}\n\nMade by `make -f Makefile.data {1} SEED={2} N={3}`. {7}; `{4}` has the ranges. "
+      "Seed and index reproduce a case: "
       "`stress_case --config {4} --seed {2} --index 7 --out DIR --log-level debug`. The "
       "campaign holds with no intersection, inversion (exact tests of every frame) or crash, and with less than 1 % of "
       "cases that did not converge. A case counts as converged if every frame passes the [verdict](verdict.md).\n\n"
       "{5}: {6}.\n\n"
       "| object | cases | converged | not converged | intersected | inverted | crashed "
       "|\n|---|---|---|---|---|---|---|\n",
-      ranges == kStressRanges ? "" : " of small presses", ranges == kStressRanges ? "stress" : "campaign", seed,
-      lines.size(), config, all.holds() ? "Holds" : "**Does not hold**", found(all, seed));
+      presses  ? ""
+      : grasps ? " of grasps"
+               : " of small presses",
+      presses  ? "stress"
+      : grasps ? "grasp-campaign"
+               : "campaign",
+      seed, lines.size(), config, all.holds() ? "Holds" : "**Does not hold**", found(all, seed), what);
   for (const auto& [kind, sum] : by_kind) out += row(kind, sum);
   out += row("all", all);
   if (finished > 0) {

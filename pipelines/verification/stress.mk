@@ -3,6 +3,7 @@
 $(call uses,verification/verification)
 
 campaign_asked := $(filter campaign campaign-part,$(MAKECMDGOALS))
+grasps_asked := $(filter grasp-campaign,$(MAKECMDGOALS))
 SEED ?= 1#    of the random cases
 N    ?= $(if $(campaign_asked),10000,300)#  how many
 override SEED := $(strip $(SEED))
@@ -10,8 +11,8 @@ override N := $(strip $(N))
 part_asked := $(filter campaign-part,$(MAKECMDGOALS))
 campaign_part  := $(if $(part_asked),$(strip $(PART)),0)
 campaign_parts := $(if $(part_asked),$(strip $(PARTS)),1)
-STRESS_RANGES := $(if $(campaign_asked),small,stress)
-STRESS := $(OUT)/stress/$(if $(campaign_asked),small-)$(SEED)
+STRESS_RANGES := $(if $(grasps_asked),grasp,$(if $(campaign_asked),small,stress))
+STRESS := $(OUT)/stress/$(filter-out stress-,$(STRESS_RANGES)-)$(SEED)
 STRESS_RECORD := $(STRESS)/first_$(N)/stress_table.yaml
 STRESS_CONFIG := configs/studies/stress/$(STRESS_RANGES).yaml
 
@@ -22,7 +23,7 @@ $(STRESS)/case_%/stress_case.yaml: $(STRESS_CONFIG) | build-verification
 
 # Cases count from 0, with four digits.
 STRESS_CASES :=
-ifneq ($(filter stress,$(LONG_ROWS))$(campaign_asked),)
+ifneq ($(filter stress,$(LONG_ROWS))$(campaign_asked)$(grasps_asked),)
 ifneq ($(shell [[ "$(SEED)" =~ ^[0-9]+$$ && "$(N)" =~ ^[1-9][0-9]*$$ && $(N) -le 10000 ]] && echo yes),yes)
   $(error $(or $(campaign_asked),stress): SEED and N (at most 10000) must be whole numbers: make -f Makefile.data stress SEED=1 N=300)
 endif
@@ -38,13 +39,17 @@ STRESS_CASE_RECORDS := $(addsuffix /stress_case.yaml,$(STRESS_CASES))
 $(STRESS_RECORD): $(STRESS_CASE_RECORDS) | build-verification
 	$(call run,stress_table,--seed $(SEED) --ranges $(STRESS_RANGES) $$(seq -f '--case $(STRESS)/case_%04.0f' 0 $$(($(N) - 1))))
 
-.PHONY: stress stress-page campaign campaign-part
+.PHONY: stress stress-page campaign campaign-part grasp-campaign
 stress-page: $(STRESS_CASE_RECORDS) $(STRESS_RECORD) # the cases too: make would not miss those that crashed behind their table
 	@grep -E 'cases of seed|^[|]' $(dir $(STRESS_RECORD))summary.md
 	$(if $(filter stress-1-300,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && cp $(dir $(STRESS_RECORD))summary.md $(DOCS)/stress.md)
+	$(if $(filter grasp-1-300,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && cp $(dir $(STRESS_RECORD))summary.md $(DOCS)/grasp_campaign.md)
 	$(if $(filter small-1-10000,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && bash pipelines/verification/campaign_page.sh $(STRESS) $(dir $(STRESS_RECORD))summary.md > $(DOCS)/campaign.md)
 
 stress: stress-page ## studies: Random objects, gels and extreme motions: SEED=1 N=300 (minutes; resumes)
+	$(call holds,$(STRESS_RECORD))
+
+grasp-campaign: stress-page ## studies: Random objects that two fingers grip, lift, shake and let go: SEED=1 N=300 (minutes; resumes)
 	$(call holds,$(STRESS_RECORD))
 
 campaign: stress-page ## studies: Ten thousand random small presses: SEED=1 N=10000 (an hour on two cores; resumes)

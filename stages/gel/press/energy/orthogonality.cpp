@@ -1,6 +1,15 @@
 #include "stages/gel/press/energy/orthogonality.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tacipc {
+
+double orthogonality_pa(const AffineBody& body) {
+  constexpr double kForce_n = 10.0, kStrain = 2e-4;
+  const double area_m2 = std::cbrt(body.volume_m3) * std::cbrt(body.volume_m3);
+  return std::max(kOrthogonalityPa, kForce_n / (8.0 * kStrain * area_m2));
+}
 
 Orthogonality::Orthogonality(int first_vertex, const AffineBody& body, double stiffness_pa)
     : vertices_{first_vertex, first_vertex + 1, first_vertex + 2, first_vertex + 3},

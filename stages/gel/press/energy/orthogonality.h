@@ -13,6 +13,10 @@ namespace tacipc {
 /// path leaves the rotations by half the angle squared, and Newton's iterations along a turn grow like κ^0.3.
 inline constexpr double kOrthogonalityPa = 1e8;
 
+/// κ of a body that should count as rigid whatever its size: F strains a body of size L by F/(8 κ L²), so that a small
+/// one has to be stiffer to bear ten newtons with a strain of 2·10⁻⁴.
+double orthogonality_pa(const AffineBody& body);
+
 /// Ψ = κ V ‖AᵀA − I‖² in J, A = Σₖ pₖ gₖᵀ of one affine body; κ in Pa. [Lan et al. 2022]
 class Orthogonality final : public EnergyTerm {
  public:

@@ -204,7 +204,7 @@ void TimeStepper::add_body(Step& step, const State& state) {
   const int first = mesh_.num_vertices();
   step.terms.body_inertia =
       std::make_shared<Inertia>(Eigen::VectorXd::Constant(4, 0.25 * body_->mass_kg), Positions(step.predicted), first);
-  step.terms.body_orthogonality = std::make_shared<Orthogonality>(first, *body_);
+  step.terms.body_orthogonality = std::make_shared<Orthogonality>(first, *body_, orthogonality_pa(*body_));
 }
 
 double TimeStepper::relative_way(const Positions& p) const {
