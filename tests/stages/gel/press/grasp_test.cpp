@@ -261,25 +261,19 @@ TEST(Grasp, AnyNumberOfThreadsGivesTheSameBytes) {
   EXPECT_TRUE(with(1) == with(3));
 }
 
-/// With few iterations time steps do not converge and are divided: the fingers go as far in the halves.
-TEST(Grasp, DividedTimeStepsReachTheSameGrip) {
-  const std::vector<GraspPhase> motion{close_phase(3, kGrip_n), hold_phase(10), lift_phase(3, 1e-3), hold_phase(5)};
+/// With few iterations the time step in which the hand starts off does not converge and is divided.
+TEST(Grasp, ADividedTimeStepGivesAResult) {
+  const std::vector<GraspPhase> motion{close_phase(3, kGrip_n), hold_phase(10), lift_phase(2, 3e-3), hold_phase(15)};
   PressConfig config = grasp_config(0.8);
-  const Grasp whole = run_grasp(kBox, config, grasp_of(kMass_kg, motion));
-  int most = 0;
-  for (const Frame& frame : whole.fingers[0].frames) {
-    if (frame.solver.time_steps == 1) most = std::max(most, frame.solver.newton_iterations);
-  }
-  config.max_newton_iterations = most - 1;
+  config.max_newton_iterations = 42;
   config.max_halvings = 6;
-  const Grasp divided = run_grasp(kBox, config, grasp_of(kMass_kg, motion));
-  int divisions = 0;
-  for (const Frame& frame : divided.fingers[0].frames) divisions += frame.solver.time_steps > 1 ? 1 : 0;
-  EXPECT_GT(divisions, 0);
-  EXPECT_EQ(divided.outcome, GraspOutcome::lifted);
-  EXPECT_NEAR(divided.grip_n, kGrip_n, 0.02 * kGrip_n);
-  EXPECT_NEAR(carried_n(divided.frames.back()), kMass_kg * kG, 2e-3 * kMass_kg * kG);
-  EXPECT_NEAR(hand_of(divided.frames.back()).z(), 1e-3, 1e-12);
+  const Grasp grasp = run_grasp(kBox, config, grasp_of(kMass_kg, motion));
+  EXPECT_GT(grasp.fingers[0].frames[14].solver.time_steps, 1);
+  EXPECT_EQ(grasp.outcome, GraspOutcome::lifted);
+  const GraspFrame& last = grasp.frames.back();
+  EXPECT_NEAR(carried_n(last), kMass_kg * kG, 2e-3 * kMass_kg * kG);
+  EXPECT_NEAR(grip_n(last), kGrip_n, 0.02 * kGrip_n);
+  EXPECT_NEAR(hand_of(last).z(), 3e-3, 1e-12);
 }
 
 std::string refusal(const TriangleMesh& object, const PressConfig& config, const GraspSpec& spec) {
@@ -310,7 +304,6 @@ TEST(Grasp, RefusesWhatItCannotDo) {
   EXPECT_THAT(refusal(kBox, usual, beside), HasSubstr("nothing of the object between the fingers"));
 }
 
-/// More than the gels can bear ends with a message that says what they reached.
 TEST(Grasp, WarnsOfUnevenFingersAndOfNoFriction) {
   const auto said = [](const TriangleMesh& object, double mu) {
     PressConfig config = grasp_config(0.8);
