@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <new>
 #include <sstream>
 #include <system_error>
@@ -205,7 +206,9 @@ void Stage::remove_output(const std::string& name) const {
   if (path.is_absolute() || *path.begin() == "..") return;
   remove_quietly(out_ / path);
   std::error_code ignored;
-  if (path.has_parent_path()) fs::remove(out_ / path.parent_path(), ignored);  // only if empty now
+  // Its folders, as far as they are empty now.
+  for (fs::path folder = path.parent_path(); !folder.empty() && fs::remove(out_ / folder, ignored);)
+    folder = folder.parent_path();
 }
 
 void Stage::remove_old_results() const {
@@ -217,6 +220,11 @@ void Stage::remove_old_results() const {
   const std::set<std::string> names = old_outputs();
   fs::remove(record, error);
   if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
+  // Those of parts go next, for the same reason.
+  const std::string of_part = "/" + spec_.name + ".yaml";
+  for (const std::string& name : names) {
+    if (name.ends_with(of_part)) remove_output(name);
+  }
   for (const std::string& name : names) remove_output(name);
 }
 
@@ -269,7 +277,8 @@ void Stage::finish_part(const std::string& folder, const Value::Map& summary) {
   add_notes(record);
   record.emplace_back("config", configs_);
   record.emplace_back("summary", summary);
-  write_file(output(prefix + spec_.name + ".yaml"), to_yaml(record));
+  parts_.push_back(prefix + spec_.name + ".yaml");
+  write_file(output(parts_.back()), to_yaml(record));
 }
 
 std::string Stage::timings() const {
@@ -337,14 +346,19 @@ void Stage::publish() {
     retire_old_record();
     leftovers = old_outputs();
   }
+  const auto is_part = [&](const std::string& name) {
+    return std::find(parts_.begin(), parts_.end(), name) != parts_.end();
+  };
   for (const Output& output : outputs_) {
-    fs::rename(partial_ / output.name, out_ / output.name);
+    if (!is_part(output.name)) fs::rename(partial_ / output.name, out_ / output.name);
     leftovers.erase(output.name);
   }
   for (const std::string& name : leftovers) remove_output(name);
   fs::rename(partial_ / timings_name, out_ / timings_name);
   // On the disk, too, the record comes last, and before what a later stage does because of it (drop removes samples).
   flush_to_disk({folders.begin(), folders.end()});
+  for (const std::string& part : parts_) fs::rename(partial_ / part, out_ / part);
+  if (!parts_.empty()) flush_to_disk({folders.begin(), folders.end()});
   fs::rename(partial_ / record_name, out_ / record_name);
   flush_to_disk({out_});
   if (spec_.keeps_old_until_done) remove_quietly(out_ / (kReplacing + spec_.name));

@@ -153,6 +153,7 @@ class Stage {
     std::optional<std::string> hash = std::nullopt;  // absent: of the file when all is done
   };
   std::vector<Output> outputs_;
+  std::vector<std::string> parts_;  // the outputs that are records of parts
   std::optional<Value> inputs_at_start_;
   bool scratch_belongs_to_inputs_ = false;
   Value::Map configs_;

@@ -17,11 +17,18 @@
 namespace tacipc {
 namespace {
 
-constexpr double kFirstTouch_m = 2e-5;   // a finger that touches for the first time closes by this in the next step
-constexpr double kSofterMost = 0.5;      // a measured stiffness counts as at least this part of the last one
+constexpr double kFirstTouch_m = 2e-5;  // a finger that touches for the first time closes by this in the next step
+// A measured stiffness counts as at least the first times the last one, and at most the second where the step was
+// shorter than the first touch: it measures what else has changed the grip, too.
+constexpr double kSofterMost = 0.5, kStifferMost = 4.0;
+// Fingers that touch go at most so many times as far as in their last step: a gel that is touched by little more at
+// first tells nothing of how stiff it will be.
+constexpr double kGrowth = 2.0;
+constexpr double kMeasurable_m = 1e-6;   // a shorter step measures no stiffness
 constexpr double kGripTolerance = 0.02;  // of the force asked for, when fingers count as closed
 constexpr int kMostClosingSteps = 200;   // after the frames of a phase `close`
 constexpr double kTouches_n = 1e-6;
+constexpr double kUneven = 0.1;  // of both grips together, by which one may exceed the other without a warning
 // Outcome: a held object has slipped or turned from here on; one that rose by less than a part of the hand's way is
 // dropped.
 constexpr double kSlipped_m = 1e-3, kTurned_rad = 5.0 * std::numbers::pi / 180.0, kDroppedPart = 0.2;
@@ -52,12 +59,39 @@ TetMesh joined(const TetMesh& gel, const std::array<Matrix4, 2>& poses) {
 
 /// How the fingers are driven from one time step to the next.
 struct Drive {
+  double wanted_n = 0.0;  // grip that the last time step should have ended with
   double closed_m = 0.0;  // of each finger, from where it began
   double last_step_m = 0.0, last_grip_n = 0.0;
   double stiffness_n_m = 0.0;  // of the grip, as the last steps had it
   Vector3 hand_m = Vector3::Zero();
   bool let_go = false;  // the object is free
 };
+
+/// Hands every number of a frame and of the drive to `io`, one by one: as a whole they have bytes between them that
+/// mean nothing and differ from run to run.
+void contents(auto& io, auto& frame, auto& drive) {
+  const auto each = [&](auto& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) io(matrix.data()[i]);
+  };
+  io(frame.time_s);
+  io(frame.phase);
+  for (auto& pose : frame.world_from_finger) each(pose);
+  for (auto& force : frame.force_on_finger_n) each(force);
+  each(frame.world_from_object);
+  each(frame.velocity_m_s);
+  each(frame.spin_rad_s);
+  io(frame.body_residual_n);
+  io(frame.body_load_n);
+  io(frame.slip_m);
+  io(frame.turn_rad);
+  io(drive.wanted_n);
+  io(drive.closed_m);
+  io(drive.last_step_m);
+  io(drive.last_grip_n);
+  io(drive.stiffness_n_m);
+  each(drive.hand_m);
+  io(drive.let_go);
+}
 
 class Hand {
  public:
@@ -76,6 +110,9 @@ class Hand {
     if (config.augmented_lagrangian)
       throw UsageError(
           "constraints: augmented_lagrangian holds gels and object to their poses; a grasp needs elimination");
+    if (config.gravity_m_s2 != Vector3::Zero())
+      throw UsageError(
+          "gravity_m_s2 is along the axes of one gel; a grasp has it in the sample, in fingers.gravity_m_s2");
     if (config.mass_damping_per_s > 0.0) throw UsageError("damping.mass_per_s would hold back fingers that move");
     if (!config.friction) log_warning("there is no friction: nothing is lifted");
     if (!check_object(object, config)) throw DataError("the object is not closed: its surface says how heavy it is");
@@ -117,6 +154,7 @@ class Hand {
     const double density = spec_.mass_kg ? *spec_.mass_kg / mass.volume_m3 : spec_.density_kg_m3;
     body_ = make_affine_body(object_.positions, object_.triangles, density);
     out_.mass_kg = body_->mass_kg;
+    out_.weight_n = body_->mass_kg * spec_.gravity_m_s2.norm();
     out_.center_of_mass_m = mass.center_m;
     const Matrix3 turn = Eigen::AngleAxisd(spec_.turn_rad, Vector3::UnitZ()).toRotationMatrix();
     world_from_object_.setIdentity();
@@ -178,28 +216,31 @@ class Hand {
     return (forces.normal.middleRows(side * n, n) + forces.friction.middleRows(side * n, n)).colwise().sum();
   }
 
-  /// How far both fingers close in a time step of h that should end with a grip of `wanted_n`.
-  double closing_step(double wanted_n, double h, Drive& drive) const {
-    const double most = spec_.closing_speed_m_s * h, grip = drive.last_grip_n;
+  /// How far both fingers close in a time step of h that should end with the grip that is wanted.
+  double closing_step(double h) const {
+    const double most = spec_.closing_speed_m_s * h, grip = drive_.last_grip_n;
     if (grip < kTouches_n) {
       // Up to the object, and then little by little: how stiff it is is not known yet.
       const double gap = stepper_->smallest_gap(progress_.state.x, most + scales_.d_hat_m);
       return std::clamp(gap - scales_.d_hat_m, std::min(kFirstTouch_m, most), most);
     }
-    return std::clamp((wanted_n - grip) / drive.stiffness_n_m, -most, most);
+    const double bound = std::min(most, kGrowth * std::max(std::abs(drive_.last_step_m), kFirstTouch_m));
+    return std::clamp((drive_.wanted_n - grip) / drive_.stiffness_n_m, -bound, bound);
   }
 
-  void measure_grip(double step_m, Drive& drive) const {
-    const double grip = grip_n();
-    const double touched = grip - drive.last_grip_n;
-    if (drive.stiffness_n_m == 0.0) {
+  void measure_grip(double step_m) {
+    const double grip = grip_n(), touched = grip - drive_.last_grip_n;
+    double& stiffness = drive_.stiffness_n_m;
+    if (stiffness == 0.0) {
       // The first touch: what it took, from somewhere within the step.
-      if (grip > kTouches_n) drive.stiffness_n_m = grip / std::max(std::abs(step_m), kFirstTouch_m);
-    } else if (std::abs(step_m) > 1e-7 && touched / step_m > 0.0) {
-      drive.stiffness_n_m = std::max(touched / step_m, kSofterMost * drive.stiffness_n_m);
+      if (grip > kTouches_n) stiffness = grip / std::max(std::abs(step_m), kFirstTouch_m);
+    } else if (std::abs(step_m) > kMeasurable_m && touched / step_m > 0.0) {
+      double now = std::max(touched / step_m, kSofterMost * stiffness);
+      if (std::abs(step_m) < kFirstTouch_m) now = std::min(now, kStifferMost * stiffness);
+      stiffness = now;
     }
-    drive.last_step_m = step_m;
-    drive.last_grip_n = grip;
+    drive_.last_step_m = step_m;
+    drive_.last_grip_n = grip;
   }
 
   /// One time step, in which the hand moves and the fingers close; divided where it does not converge.
@@ -259,23 +300,20 @@ class Hand {
     const double h = config_.time_step_s;
     const int steps = phase.steps * phase.substeps;
     const bool closes = phase.kind == PhaseKind::close;
-    const double from_n = wanted_n_;
+    const double from_n = drive_.wanted_n;
     for (int f = 1; f <= phase.steps; ++f) {
       const bool last = f == phase.steps;
-      if (restored()) {
-        if (closes) wanted_n_ = from_n + f * (phase.force_n - from_n) / phase.steps;
-        continue;
-      }
+      if (restored()) continue;
       StepReport report;
       try {
         for (int k = 0; k < phase.substeps; ++k) {
           const int i = (f - 1) * phase.substeps + k;
-          if (closes) wanted_n_ = from_n + (i + 1.0) * (phase.force_n - from_n) / steps;
+          if (closes) drive_.wanted_n = from_n + (i + 1.0) * (phase.force_n - from_n) / steps;
           const Vector3 hand = hand_in(phase, (i + 1.0) / steps, (i + 1) * h) - hand_in(phase, 1.0 * i / steps, i * h);
           drive(phase, h, hand, report);
         }
         // The object does not wait: it is held until the fingers have their grip.
-        for (int more = 0; closes && last && !gripped(phase.force_n); ++more) {
+        for (int more = 0; closes && last && !lost() && !gripped(phase.force_n); ++more) {
           if (more == kMostClosingSteps)
             throw SolverError("the fingers did not reach {:.3g} N in {} more steps ({:.3g} N, closed by {:.3g} mm)",
                               phase.force_n, kMostClosingSteps, drive_.last_grip_n, 1e3 * drive_.closed_m);
@@ -284,26 +322,39 @@ class Hand {
       } catch (const SolverError& error) {
         throw SolverError("frame {}: {}", out_.frames.size(), error.what());
       }
-      if (closes && last && !drive_.let_go) {
-        drive_.let_go = true;
-        out_.grip_n = drive_.last_grip_n;
-      }
+      if (closes && last && !drive_.let_go) let_go();
       finish(phase.kind, index, report, stepper_->forces());
     }
   }
 
+  void let_go() {
+    drive_.let_go = true;
+    out_.grip_n = drive_.last_grip_n;
+    const double left = std::abs(force_on(0).x()), right = std::abs(force_on(1).x());
+    if (std::abs(left - right) > kUneven * (left + right))
+      log_warning(
+          "frame {}: the left finger grips with {:.3g} N, the right one with {:.3g} N: let go, the object moves "
+          "towards "
+          "the weaker",
+          out_.frames.size(), left, right);
+  }
+
+  /// Whether the object is free and neither finger touches it: fingers stay where they are then.
+  bool lost() const { return drive_.let_go && drive_.last_grip_n < kTouches_n; }
   bool gripped(double force_n) const { return std::abs(drive_.last_grip_n - force_n) <= kGripTolerance * force_n; }
 
   void drive(const GraspPhase& phase, double h, const Vector3& hand, StepReport& report) {
     double closing = 0.0;
     if (phase.kind == PhaseKind::release) {
       closing = -phase.distance_m / (phase.steps * phase.substeps);
-    } else if (drive_.last_grip_n >= kTouches_n || !drive_.let_go) {  // fingers that have lost it stay where they are
-      closing = closing_step(wanted_n_, h, drive_);
+    } else if (!lost()) {
+      closing = closing_step(h);
     }
     time_s_ += h;
     step(h, closing, hand, 0, report);
-    measure_grip(closing, drive_);
+    measure_grip(closing);
+    // What is left of it is kept from there on.
+    if (phase.kind == PhaseKind::release) drive_.wanted_n = drive_.last_grip_n;
   }
 
   bool restored() {
@@ -314,16 +365,16 @@ class Hand {
     std::string_view rest = *bytes;
     const auto take = [&](auto& value) {
       if (rest.size() < sizeof(value)) throw DataError("a saved frame ends too early");
-      std::memcpy(static_cast<void*>(&value), rest.data(), sizeof(value));
+      std::memcpy(&value, rest.data(), sizeof(value));
       rest.remove_prefix(sizeof(value));
     };
     GraspFrame frame;
-    take(frame);
-    take(drive_);
+    contents(take, frame, drive_);
     take(out_.grip_n);
     std::array<std::size_t, 2> sizes{};
     take(sizes);
-    if (rest.size() != sizes[0] + sizes[1]) throw DataError("a saved frame has another length than it says");
+    if (sizes[0] > rest.size() || sizes[1] != rest.size() - sizes[0])
+      throw DataError("a saved frame has another length than it says");
     Progress unused;
     for (int side = 0; side < 2; ++side) {
       Frame of_finger;
@@ -345,11 +396,12 @@ class Hand {
                       right = pack_frame(out_.fingers[1].frames.back(), {});
     std::string bytes;
     const auto put = [&](const auto& value) {
-      static_assert(std::is_trivially_destructible_v<std::decay_t<decltype(value)>>);
+      static_assert(std::is_arithmetic_v<std::decay_t<decltype(value)>> ||
+                    std::is_enum_v<std::decay_t<decltype(value)>> ||
+                    std::is_same_v<std::decay_t<decltype(value)>, std::array<std::size_t, 2>>);
       bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
     };
-    put(out_.frames.back());
-    put(drive_);
+    contents(put, out_.frames.back(), drive_);
     put(out_.grip_n);
     put(std::array<std::size_t, 2>{left.size(), right.size()});
     store_->save(bytes + left + right);
@@ -452,10 +504,21 @@ class Hand {
     return pose;
   }
 
+  /// The object's point at the grip, in the world.
+  Vector3 grip_point(const GraspFrame& frame) const {
+    const Vector3 grip = out_.center_of_mass_m + spec_.grip_m;
+    return frame.world_from_object.topLeftCorner<3, 3>() * grip + frame.world_from_object.topRightCorner<3, 1>();
+  }
+
   void judge_outcome() {
-    const GraspFrame &end = out_.frames.back(), &begin = out_.frames[*grip_frame_];
+    // Fingers that open lose the object in any case.
+    const auto released = std::find_if(out_.frames.begin(), out_.frames.end(),
+                                       [](const GraspFrame& frame) { return frame.phase == PhaseKind::release; });
+    out_.judged_frame = static_cast<std::size_t>(released - out_.frames.begin()) - 1;
+    const GraspFrame &end = out_.frames[out_.judged_frame], &begin = out_.frames[*grip_frame_];
     const bool touches = end.force_on_finger_n[0].norm() > kTouches_n && end.force_on_finger_n[1].norm() > kTouches_n;
-    const double hand = drive_.hand_m.z(), rose = (end.world_from_object - begin.world_from_object)(2, 3);
+    const double hand = (end.world_from_finger[0] - begin.world_from_finger[0])(2, 3);
+    const double rose = (grip_point(end) - grip_point(begin)).z();
     out_.outcome = !touches || (hand > 0.0 && rose < kDroppedPart * hand) ? GraspOutcome::dropped
                    : end.slip_m >= kSlipped_m                             ? GraspOutcome::slipped
                    : end.turn_rad >= kTurned_rad                          ? GraspOutcome::rotated
@@ -484,7 +547,7 @@ class Hand {
   Progress progress_;
   Drive drive_;
   Matrix4 world_from_object_;
-  double time_s_ = 0.0, wanted_n_ = 0.0;
+  double time_s_ = 0.0;
   int num_frames_ = 0;
   std::optional<std::size_t> grip_frame_;
   bool restoring_ = true;

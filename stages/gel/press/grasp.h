@@ -32,10 +32,11 @@ inline constexpr std::array kGraspOutcomes{"lifted", "slipped", "rotated", "drop
 struct Grasp {
   std::array<Simulation, 2> fingers;  // left, right: each as a press of its own, in its own frame S
   std::vector<GraspFrame> frames;
-  double mass_kg = 0.0;
+  double mass_kg = 0.0, weight_n = 0.0;
   Vector3 center_of_mass_m = Vector3::Zero();  // in the object's axes
   double grip_n = 0.0;                         // mean of both fingers when they have closed
   GraspOutcome outcome = GraspOutcome::lifted;
+  std::size_t judged_frame = 0;  // the last one before the fingers release it: what the outcome is of
 };
 
 /// Keeps bytes of frames in order, so that an interrupted run resumes.

@@ -262,19 +262,20 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   write_array(stage, "object_twist.npy", {n, 6}, twist);
   write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
   write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
-  const GraspFrame& last = frames.back();
+  const GraspFrame& judged = frames[grasp.judged_frame];
   stage.summarize({{"frames", n},
                    {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
+                   {"judged_frame", grasp.judged_frame},
                    {"object_mass_kg", grasp.mass_kg},
                    {"center_of_mass_m",
                     Value::List{grasp.center_of_mass_m.x(), grasp.center_of_mass_m.y(), grasp.center_of_mass_m.z()}},
                    {"grip_n", grasp.grip_n},
                    // Friction that both fingers can give over the weight.
-                   {"friction_margin", config.friction && last.body_load_n > 0.0
-                                           ? 2.0 * config.friction->coefficient * grasp.grip_n / last.body_load_n
+                   {"friction_margin", config.friction && grasp.weight_n > 0.0
+                                           ? 2.0 * config.friction->coefficient * grasp.grip_n / grasp.weight_n
                                            : 0.0},
-                   {"slip_m", last.slip_m},
-                   {"turn_rad", last.turn_rad},
+                   {"slip_m", judged.slip_m},
+                   {"turn_rad", judged.turn_rad},
                    {"converged", true},
                    {"verdict", "pass"},
                    {"per_frame", std::move(per_frame)}});

@@ -1,0 +1,254 @@
+// Pairs of several gels, each carried by its mount, against all pairs there are.
+#include "stages/gel/press/contact/gels_search.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "stages/gel/press/contact/distance.h"
+#include "tests/stages/gel/press/small_scene.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kRadius = 0.2e-3;
+
+bool same(const ContactPair& a, const ContactPair& b) { return a.kind == b.kind && a.vertices == b.vertices; }
+bool less(const ContactPair& a, const ContactPair& b) {
+  return a.kind != b.kind ? a.kind < b.kind : a.vertices < b.vertices;
+}
+
+/// In one order, the two edges of a pair either first.
+std::vector<ContactPair> sorted(std::vector<ContactPair> pairs) {
+  for (ContactPair& pair : pairs) {
+    auto& v = pair.vertices;
+    if (pair.kind == ContactPair::Kind::edge_edge && std::pair(v[2], v[3]) < std::pair(v[0], v[1])) {
+      std::swap(v[0], v[2]);
+      std::swap(v[1], v[3]);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), less);
+  return pairs;
+}
+
+std::vector<ContactPair> all_pairs(const Surface& gels) {
+  std::vector<ContactPair> all;
+  const auto apart = [](const auto& a, const auto& b) {
+    return std::none_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+  };
+  for (const int v : gels.vertices) {
+    for (const auto& t : gels.triangles) {
+      if (apart(std::array{v}, t)) all.push_back(point_triangle_pair(v, t));
+    }
+  }
+  for (std::size_t i = 0; i < gels.edges.size(); ++i) {
+    for (std::size_t j = i + 1; j < gels.edges.size(); ++j) {
+      if (apart(gels.edges[i], gels.edges[j])) all.push_back(edge_edge_pair(gels.edges[i], gels.edges[j]));
+    }
+  }
+  return sorted(std::move(all));
+}
+
+/// Two blocks of gel that face each other along x, as fingers do: z of the left one's frame is x of the world, z of the
+/// right one's is −x.
+class TwoGels : public ::testing::Test {
+ protected:
+  TwoGels() {
+    Matrix3 left, right;
+    left << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    right << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+    turns_ = {left, right};
+    const auto n = static_cast<int>(gel_.num_vertices());
+    Positions both(2 * n, 3);
+    both << gel_.positions * left.transpose(), gel_.positions * right.transpose();
+    both.topRows(n).col(0).array() -= 0.5 * kApart;
+    both.bottomRows(n).col(0).array() += 0.5 * kApart;
+    Triangles boundary(2 * gel_.boundary.rows(), 3);
+    boundary << gel_.boundary, gel_.boundary.array() + n;
+    mesh_ = make_contact_mesh(both, boundary, Positions(0, 3), Triangles(0, 3));
+    const auto alone = std::make_shared<const ContactMesh>(
+        make_contact_mesh(gel_.positions, gel_.boundary, Positions(0, 3), Triangles(0, 3)));
+    const int anchor = gel_.vertices(BoundaryTag::glued).front();
+    mesh_.gels = {{0, anchor, alone}, {n, anchor, alone}};
+    all_ = all_pairs(mesh_.gel);
+    x_ = mesh_.rest_positions;
+  }
+
+  bool of_one_gel(const ContactPair& pair) const {
+    const auto n = static_cast<int>(gel_.num_vertices());
+    const auto [low, high] = std::minmax_element(pair.vertices.begin(), pair.vertices.end());
+    return (*low < n) == (*high < n);
+  }
+  /// How near a pair counts.
+  double reach(const ContactPair& pair) const {
+    if (!of_one_gel(pair)) return kRadius;
+    const double at_rest = closest_feature(pair, gather(mesh_.rest_positions, pair)).squared_distance;
+    return std::min(kRadius, 0.5 * std::sqrt(at_rest));
+  }
+  static double nearest_on_the_way(const ContactPair& pair, const Positions& x, const Positions& p) {
+    double nearest = 1.0;
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Positions at = x + t * p;
+      nearest = std::min(nearest, std::sqrt(closest_feature(pair, gather(at, pair)).squared_distance));
+    }
+    return nearest;
+  }
+  /// The way of everything in which the left gel goes along x by `way_m` and the right one against it.
+  Positions closing(double way_m) const {
+    const Eigen::Index n = gel_.num_vertices();
+    Positions p = Positions::Zero(2 * n, 3);
+    p.topRows(n).col(0).array() += way_m;
+    p.bottomRows(n).col(0).array() -= way_m;
+    return p;
+  }
+  Positions shaken(double largest_m) {
+    std::uniform_real_distribution<double> uniform(-largest_m, largest_m);
+    Positions p(x_.rows(), 3);
+    for (double& c : p.reshaped()) c = uniform(random_);
+    return p;
+  }
+  /// Numbers of pairs that count, {within one gel, across}; every one must be among those found.
+  std::array<int, 2> expect_finds_all(GelsSearch& search, const Positions& p) {
+    std::vector<ContactPair> pairs;
+    search.pairs(x_, p, kRadius, pairs);
+    const std::vector<ContactPair> found = sorted(std::move(pairs));
+    EXPECT_TRUE(std::adjacent_find(found.begin(), found.end(), same) == found.end()) << "a pair counts twice";
+    std::array<int, 2> near{};
+    for (const ContactPair& pair : all_) {
+      if (nearest_on_the_way(pair, x_, p) >= reach(pair)) continue;
+      ++near[of_one_gel(pair) ? 0 : 1];
+      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), pair, less));
+    }
+    return near;
+  }
+
+  static constexpr double kApart = 3e-3;
+  const TetMesh gel_ = block_gel(4, 0.004, 0.002);
+  std::vector<Matrix3> turns_;
+  ContactMesh mesh_;
+  std::vector<ContactPair> all_;
+  Positions x_;
+  std::mt19937 random_{11};
+};
+
+TEST_F(TwoGels, FarApartEachHasItsOwnPairsAlone) {
+  GelsSearch search(mesh_);
+  search.turn(turns_);
+  int near = 0;
+  for (int call = 0; call < 6; ++call) {
+    // Both are carried far, and deformed as they go.
+    const Positions p = (shaken(call % 3 == 2 ? 0.45e-3 : 4e-6).rowwise() + Eigen::RowVector3d(1e-3, 2e-3, -1e-3));
+    const auto [within, across] = expect_finds_all(search, p);
+    near += within;
+    EXPECT_EQ(across, 0);
+    x_ += p;
+  }
+  EXPECT_GT(near, 50);
+}
+
+TEST_F(TwoGels, NearEachOtherPairsOfBothAreFoundToo) {
+  GelsSearch search(mesh_);
+  search.turn(turns_);
+  std::array<int, 2> near{};
+  for (const double way_m : {0.4 * kApart, 0.09 * kApart, 0.0, -0.05 * kApart}) {
+    const Positions p = closing(way_m) + shaken(0.03e-3);
+    const auto found = expect_finds_all(search, p);
+    for (int k = 0; k < 2; ++k) near[k] += found[k];
+    x_ += p;
+  }
+  EXPECT_GT(near[1], 300);
+  // And pass each other, seen on the way only.
+  x_ = mesh_.rest_positions;
+  EXPECT_GT(expect_finds_all(search, closing(2.0 * kApart))[1], 300);
+}
+
+TEST_F(TwoGels, CarriedByTheirMountsTheyAreNotSearchedAgain) {
+  GelsSearch search(mesh_);
+  search.turn(turns_);
+  const Positions away = closing(-1e-3);
+  x_ += shaken(0.45e-3);
+  std::vector<ContactPair> first, later;
+  search.pairs(x_, Positions::Zero(x_.rows(), 3), kRadius, first);
+  ASSERT_FALSE(first.empty());
+  const int searches = search.num_searches();
+  x_ += away;
+  search.pairs(x_, away, kRadius, later);
+  EXPECT_EQ(search.num_searches(), searches);
+  for (const ContactPair& pair : first)
+    EXPECT_TRUE(std::any_of(later.begin(), later.end(), [&](const ContactPair& other) { return same(pair, other); }));
+  search.forget();
+  search.pairs(x_, away, kRadius, later);
+  EXPECT_GT(search.num_searches(), searches);
+}
+
+TEST_F(TwoGels, AroundMovingVerticesNoNearPairIsMissed) {
+  GelsSearch search(mesh_);
+  search.turn(turns_);
+  x_ += closing(0.45 * kApart);
+  const Positions p = shaken(20e-6);
+  std::vector<ContactPair> pairs;
+  search.pairs(x_, p, kRadius, pairs);
+  x_ += p;
+  // Vertices near the middle of both fronts move.
+  std::vector<bool> moves(static_cast<std::size_t>(x_.rows()), false);
+  for (Eigen::Index v = 0; v < x_.rows(); ++v)
+    moves[static_cast<std::size_t>(v)] = std::abs(x_(v, 0)) < 0.4e-3 && x_.row(v).tail<2>().norm() < 1.2e-3;
+  ASSERT_GT(std::count(moves.begin(), moves.end(), true), 6);
+  constexpr double kFar_m = 0.5e-3;
+  std::vector<ContactPair> around;
+  search.around(moves, x_, kRadius, kFar_m, around);
+  around = sorted(std::move(around));
+  EXPECT_TRUE(std::adjacent_find(around.begin(), around.end(), same) == around.end()) << "a pair counts twice";
+  std::array<int, 2> near{};
+  for (int trial = 0; trial < 10; ++trial) {
+    const Positions far = kFar_m * shaken(1.0).cwiseSign();
+    Positions moved = x_;
+    for (Eigen::Index v = 0; v < moved.rows(); ++v) {
+      if (moves[static_cast<std::size_t>(v)]) moved.row(v) += far.row(v);
+    }
+    for (const ContactPair& pair : all_) {
+      const auto& v = pair.vertices;
+      if (!(moves[v[0]] || moves[v[1]] || moves[v[2]] || moves[v[3]])) continue;
+      const double within = reach(pair);
+      if (closest_feature(pair, gather(moved, pair)).squared_distance >= within * within) continue;
+      ++near[of_one_gel(pair) ? 0 : 1];
+      EXPECT_TRUE(std::binary_search(around.begin(), around.end(), pair, less));
+    }
+  }
+  EXPECT_GT(near[0], 20);
+  EXPECT_GT(near[1], 200);
+}
+
+/// A mesh that names no parts is one gel, in the frame of the world.
+TEST_F(TwoGels, OneGelAloneIsWhatSelfSearchFinds) {
+  const ContactMesh& alone = *mesh_.gels[0].mesh;
+  GelsSearch gels(alone);
+  SelfSearch itself(alone);
+  x_ = alone.rest_positions;
+  std::size_t near = 0;
+  for (int call = 0; call < 4; ++call) {
+    const Positions p = shaken(call % 2 == 0 ? 0.45e-3 : 5e-6);
+    std::vector<ContactPair> found, expected;
+    gels.pairs(x_, p, kRadius, found);
+    itself.pairs(x_, p, kRadius, expected);
+    near += expected.size();
+    EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same));
+    x_ += p;
+    std::vector<bool> moves(static_cast<std::size_t>(x_.rows()), false);
+    moves[alone.gel.vertices[3]] = true;
+    found.clear();
+    expected.clear();
+    gels.around(moves, x_, kRadius, 1e-4, found);
+    itself.around(moves, x_, kRadius, 1e-4, expected);
+    EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same));
+    EXPECT_EQ(gels.num_searches(), itself.num_searches());
+  }
+  EXPECT_GT(near, 10u);
+}
+
+}  // namespace
+}  // namespace tacipc

@@ -1,0 +1,104 @@
+#include "stages/gel/press/grasp_spec.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/config_text.h"
+
+namespace tacipc {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string text_of(const std::string& fingers, const std::string& object, const std::string& motion) {
+  return "fingers: {" + fingers + "}\nobject: {" + object + "}\nmotion:\n" + motion;
+}
+
+const std::string kClose = "  - {kind: close, steps: 4, force_n: 2}\n";
+
+GraspSpec read(const std::string& fingers, const std::string& object, const std::string& motion = kClose) {
+  return config_from_text<GraspSpec>(text_of(fingers, object, motion), "grasp.yaml");
+}
+
+std::vector<std::string> faults(const std::string& fingers, const std::string& object,
+                                const std::string& motion = kClose) {
+  return faults_in<GraspSpec>(text_of(fingers, object, motion), "grasp.yaml");
+}
+
+TEST(GraspSpec, EveryValueIsInSi) {
+  const GraspSpec spec =
+      read("turn_deg: 90, grip_mm: [1, 2, 3], gravity_m_s2: [0, 0, -1.6], closing_speed_mm_s: 5", "mass_g: 50",
+           kClose +
+               "  - {kind: lift, steps: 5, substeps: 2, distance_mm: 10}\n"
+               "  - {kind: hold, steps: 6}\n"
+               "  - {kind: shake, steps: 7, amplitude_mm: 4, frequency_hz: 3, axis: y}\n"
+               "  - {kind: shake, steps: 7, amplitude_mm: 4, frequency_hz: 3}\n"
+               "  - {kind: release, steps: 8, distance_mm: 2}\n");
+  EXPECT_EQ(spec.turn_rad, 0.5 * std::numbers::pi);
+  EXPECT_LT((spec.grip_m - Vector3(1e-3, 2e-3, 3e-3)).norm(), 1e-18);
+  EXPECT_EQ(spec.gravity_m_s2, Vector3(0, 0, -1.6));
+  EXPECT_DOUBLE_EQ(spec.closing_speed_m_s, 5e-3);
+  EXPECT_DOUBLE_EQ(spec.mass_kg.value(), 0.05);
+  ASSERT_EQ(spec.motion.size(), 6u);
+  EXPECT_EQ(spec.motion[0].kind, PhaseKind::close);
+  EXPECT_EQ(spec.motion[0].force_n, 2.0);
+  EXPECT_EQ(spec.motion[0].steps, 4);
+  EXPECT_EQ(spec.motion[0].substeps, 1);
+  EXPECT_EQ(spec.motion[1].kind, PhaseKind::lift);
+  EXPECT_DOUBLE_EQ(spec.motion[1].distance_m, 0.01);
+  EXPECT_EQ(spec.motion[1].substeps, 2);
+  EXPECT_EQ(spec.motion[2].kind, PhaseKind::hold);
+  EXPECT_EQ(spec.motion[3].kind, PhaseKind::shake);
+  EXPECT_DOUBLE_EQ(spec.motion[3].amplitude_m, 4e-3);
+  EXPECT_EQ(spec.motion[3].frequency_hz, 3.0);
+  EXPECT_EQ(spec.motion[3].axis, 1);
+  EXPECT_EQ(spec.motion[4].axis, 2);
+  EXPECT_EQ(spec.motion[5].kind, PhaseKind::release);
+  EXPECT_DOUBLE_EQ(spec.motion[5].distance_m, 2e-3);
+}
+
+TEST(GraspSpec, WhatIsNotSaidIsAnUprightObjectGrippedAtItsCenterOnEarth) {
+  const GraspSpec spec = read("", "density_kg_m3: 1200");
+  EXPECT_FALSE(spec.mass_kg);
+  EXPECT_EQ(spec.density_kg_m3, 1200.0);
+  EXPECT_EQ(spec.turn_rad, 0.0);
+  EXPECT_EQ(spec.grip_m, Vector3::Zero());
+  EXPECT_EQ(spec.gravity_m_s2, Vector3(0, 0, -9.81));
+  EXPECT_DOUBLE_EQ(spec.closing_speed_m_s, 0.02);
+}
+
+TEST(GraspSpec, FingersCloseFirst) {
+  EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: lift, steps: 5, distance_mm: 10}\n" + kClose),
+              ElementsAre(HasSubstr("motion[0].kind: fingers close first: nothing is held before")));
+}
+
+TEST(GraspSpec, RefusesWhatAPhaseDoesNotHave) {
+  EXPECT_THAT(faults("", "mass_g: 50", kClose + "  - {kind: hold, steps: 5, distance_mm: 10}\n"),
+              ElementsAre(HasSubstr("motion[1].distance_mm: unknown")));
+  EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: close, steps: 5}\n"), ElementsAre(HasSubstr("force_n: missing")));
+  EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: close, steps: 5, force_n: 0}\n"),
+              ElementsAre(HasSubstr("motion[0].force_n: 0 is outside")));
+  EXPECT_THAT(faults("", "mass_g: 50", kClose + "  - {kind: press, steps: 5}\n"),
+              Contains(HasSubstr("'press' is not one of close, lift, hold, shake, release")));
+  EXPECT_THAT(
+      faults("", "mass_g: 50", kClose + "  - {kind: shake, steps: 5, amplitude_mm: 1, frequency_hz: 2, axis: x}\n"),
+      ElementsAre(HasSubstr("'x' is not one of y, z")));
+}
+
+TEST(GraspSpec, TheObjectHasAMassOrADensity) {
+  EXPECT_THAT(faults("", "mass_g: 50, density_kg_m3: 1200"),
+              ElementsAre(HasSubstr("give mass_g or density_kg_m3, not both")));
+  EXPECT_THAT(faults("", ""), ElementsAre(HasSubstr("object.density_kg_m3: missing")));
+  EXPECT_THAT(faults("", "mass_g: -1"), ElementsAre(HasSubstr("object.mass_g: -1 is outside")));
+}
+
+TEST(GraspSpec, VectorsHaveThreeNumbers) {
+  EXPECT_THAT(faults("grip_mm: [1, 2]", "mass_g: 50"), ElementsAre(HasSubstr("fingers.grip_mm")));
+  EXPECT_THAT(faults("gravity_m_s2: [1]", "mass_g: 50"), ElementsAre(HasSubstr("fingers.gravity_m_s2")));
+}
+
+}  // namespace
+}  // namespace tacipc
