@@ -168,12 +168,12 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
   for (const WeightedTerm& part : call.problem.potential.of_bodies)
     assemble(part, x, free_, first_object_vertex_, Order::psd, call.object.of_vertices, system_);
   if (mounts_move) system_.coupling -= system_.hessian.multiply(along);
-  const Vector3 without_contact = gel_gradient();
-  Vector3 so_far = without_contact, of_barrier = Vector3::Zero();
+  const Eigen::Matrix3Xd without_contact = gel_gradient();
+  Eigen::Matrix3Xd so_far = without_contact, of_barrier = 0.0 * without_contact;
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
     assemble_contact(contact.weight, *contact.term, active, x, free_, first_object_vertex_, blend, call.object,
                      system_);
-    const Vector3 of_term = gel_gradient() - so_far;
+    const Eigen::Matrix3Xd of_term = gel_gradient() - so_far;
     so_far += of_term;
     if (&contact == &call.problem.potential.barrier) of_barrier = of_term;
   });
@@ -182,7 +182,8 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     for (const WeightedTerm& part : terms)
       add_inertia_coupling(part, first_object_vertex_, call.problem.motion, free_, system_);
   }
-  return std::min(of_barrier.norm(), (so_far - without_contact).norm());
+  // Each gel by itself: the grips of two fingers cancel.
+  return std::min(of_barrier.colwise().norm().sum(), (so_far - without_contact).colwise().norm().sum());
 }
 
 Eigen::VectorXd NewtonStepper::free_motion(const NewtonProblem& problem) const {
@@ -202,13 +203,15 @@ void NewtonStepper::reblend(const Call& call, const Blend& before, const Blend& 
   if (along.size() > 0) system_.coupling += system_.hessian.multiply(along);
 }
 
-/// Σ of the system's gradient over the gel's free vertices.
-Vector3 NewtonStepper::gel_gradient() const {
-  Vector3 sum = Vector3::Zero();
+/// Σ of the system's gradient over each gel's free vertices.
+Eigen::Matrix3Xd NewtonStepper::gel_gradient() const {
+  const std::vector<int>& gels = free_.gel_of_vertex;
+  Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, gels.empty() ? 1 : gels.back() + 1);
   for (int i = 0; i < free_.size(); ++i) {
-    if (free_.vertex_of_free[i] < first_object_vertex_) sum += system_.gradient.segment<3>(3 * i);
+    const int v = free_.vertex_of_free[i];
+    if (v < first_object_vertex_) sums.col(gels.empty() ? 0 : gels[v]) += system_.gradient.segment<3>(3 * i);
   }
-  return sum;
+  return sums;
 }
 
 bool NewtonStepper::solve(const NewtonProblem& problem, NewtonDirection& out) {

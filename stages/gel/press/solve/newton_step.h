@@ -33,7 +33,7 @@ struct NewtonDirection {
   Vector3 object_shift = Vector3::Zero();  // the object's part of it beyond its prescribed motion
   double slope = 0.0;                      // gᵀp over everything free
   double gradient_sum = 0.0;  // Σ of |gradient| over free vertices, over the object's free axes, and body_force
-  /// What residual forces are measured by: |Σ gradient of contact| over the gel's free vertices, of the barrier alone
+  /// What residual forces are measured by: |Σ gradient of contact| over each gel's free vertices, of the barrier alone
   /// or with friction, whichever is smaller (friction may carry most of the normal force, and the rest must balance,
   /// too).
   double contact_sum = 0.0;
@@ -105,7 +105,7 @@ class NewtonStepper {
   void hold_columns(const Call& call);
   /// Makes the contact Hessians of the system those of another blend.
   void reblend(const Call& call, const Blend& before, const Blend& after);
-  Vector3 gel_gradient() const;
+  Eigen::Matrix3Xd gel_gradient() const;
   /// The motion of the problem's free vertices; empty if they have none.
   Eigen::VectorXd free_motion(const NewtonProblem& problem) const;
   /// Solves the system; false if it is not positive definite, or no solution descends where nothing is driven.

@@ -38,6 +38,8 @@ FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glue
   for (const int v : glued) fixed[v] = true;
   FreeVertices free(order, fixed);
   free.num_control_points = mesh.num_control_points;
+  for (std::size_t g = 0; g < mesh.gels.size(); ++g)
+    free.gel_of_vertex.insert(free.gel_of_vertex.end(), mesh.gels[g].mesh->num_gel_vertices, static_cast<int>(g));
   if (free_body) free.carried = {{mesh.num_gel_vertices, free_body->weights, mesh.num_vertices()}};
   return free;
 }
