@@ -123,7 +123,7 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
   const bool grasps = ranges == "grasp", presses = ranges == kStressRanges;
   const std::string what =
       grasps
-          ? "Two random coarse gels close on a random object, lift it, shake it, and in some cases let it go"
+          ? "Two random coarse gels close on a random object, lift it, shake it, and in some cases open"
           : "Each case presses a random object into a random coarse gel, up to three quarters of the gel's thickness "
             "deep, then shears, twists, tilts or releases it";
   std::string out = fmt::format(

@@ -205,6 +205,15 @@ std::vector<Wrench> PressFolder::wrenches() const {
   return wrenches;
 }
 
+std::vector<Twist> PressFolder::twists() const {
+  const std::vector<double> values = whole(PressArray::object_twist);
+  std::vector<Twist> twists;
+  for (std::size_t at = 0; at < values.size(); at += 6)
+    twists.push_back(
+        {Vector3(values[at], values[at + 1], values[at + 2]), Vector3(values[at + 3], values[at + 4], values[at + 5])});
+  return twists;
+}
+
 std::vector<int> PressFolder::front_vertices() const {
   const std::vector<double> values = whole(PressArray::front_vertices);
   const std::size_t gel = extent(PressArray::positions, kVertices);

@@ -88,6 +88,7 @@ class PressFolder {
   std::vector<PhaseKind> phases() const;                 // per frame
   std::vector<Matrix4> poses() const;                    // gel_from_object, m, per frame
   std::vector<Wrench> wrenches() const;                  // on the gel, about the origin of S, per frame
+  std::vector<Twist> twists() const;                     // of the object, per frame
   std::vector<int> front_vertices() const;               // rows of positions; \throw DataError if one is none of these
   std::vector<double> first_slips() const;               // s, +∞ where a front vertex never slips
   Positions positions(std::size_t frame) const;          // #V × 3, m

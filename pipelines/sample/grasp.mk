@@ -6,9 +6,10 @@ MASS_G  ?= 80#      of the object
 TURN    ?= 0#       degrees by which it is turned about the vertical before it is gripped
 GRIP    ?= 0,0,0#   mm from its centre of mass to where it is gripped, along its own axes
 LIFT_MM ?= 10#      how far it is lifted
-GRASP   ?=#         or a file of your own (docs/grasp.md) in place of these four and FORCE_N
-grasp_given := $(foreach v,MASS_G TURN GRIP LIFT_MM,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))# on the command line
-$(foreach v,MASS_G TURN GRIP LIFT_MM GRASP,$(eval override $(v) := $(strip $($(v)))))
+LIFT_STEPS ?= 20#   frames of that: 0.2 s with time steps of 10 ms
+GRASP   ?=#         or a file of your own (docs/grasp.md) in place of these five and FORCE_N
+grasp_given := $(foreach v,MASS_G TURN GRIP LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))# on the command line
+$(foreach v,MASS_G TURN GRIP LIFT_MM LIFT_STEPS GRASP,$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: grasp
 programs_for_grasp := decimate tetmesh press render report tacipc $(if $(filter-out no,$(WRAP)),wrap)
@@ -25,7 +26,7 @@ ifneq ($(GRASP),)
 endif
 useless := $(filter MOTION DEPTH_MM DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UP FACE ROTATE CENTER TURNS SHEET_MM,$(given))
 ifneq ($(useless),)
-  $(error $(firstword $(useless)): has no effect on a grasp)
+  $(error $(firstword $(useless)): has no effect on a grasp$(if $(filter ROTATE,$(firstword $(useless))), (TURN turns the object about the vertical)))
 endif
 define grasp_yaml
 fingers: {turn_deg: $(TURN), grip_mm: [$(GRIP)]}
@@ -33,7 +34,7 @@ object: {mass_g: $(MASS_G)}
 motion:
   - {kind: close, force_n: $(or $(FORCE_N),5), steps: 10}
   - {kind: hold, steps: 4}
-  - {kind: lift, distance_mm: $(LIFT_MM), steps: 20}
+  - {kind: lift, distance_mm: $(LIFT_MM), steps: $(LIFT_STEPS)}
   - {kind: hold, steps: 6}
 endef
 define grasped_yaml

@@ -72,7 +72,7 @@ TEST(LongRows, StandBetweenCasesAndSources) {
 TEST(LongRows, TheListReads) {
   const auto list = read_config<LongRows>(std::filesystem::path(TACIPC_SOURCE_DIR) /
                                           "configs/studies/verification/table/long_rows.yaml");
-  ASSERT_EQ(list.rows.size(), 4u);
+  ASSERT_EQ(list.rows.size(), 5u);
   EXPECT_EQ(list.rows.back().goal, "board3");
   EXPECT_EQ(*list.rows.back().needs, "shared:data/tacipc_release/objects/board3.obj");
   EXPECT_EQ(faults_in<LongRows>("rows:\n  - {title: t, shows: s, stage: x, page: p, gaol: x}\n", "rows.yaml").size(),

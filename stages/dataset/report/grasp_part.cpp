@@ -27,16 +27,17 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
   GraspReport grasp{.outcome = summary.required_text("outcome"),
                     .mass_kg = summary.required_number("object_mass_kg"),
                     .grip_n = summary.required_number("grip_n"),
-                    .friction_margin = summary.required_number("friction_margin"),
+                    .friction_margin = summary.number("friction_margin"),
+                    .judged_frame = summary.required_count("judged_frame"),
+                    .slip_m = summary.required_number("slip_m"),
+                    .turn_rad = summary.required_number("turn_rad"),
                     .moments = {}};
   for (const Record& frame : summary.sections("per_frame")) {
     grasp.moments.push_back({.time_s = frame.required_number("time_s"),
                              .phase = frame.required_text("phase"),
                              .grip_left_n = frame.required_number("grip_left_n"),
                              .grip_right_n = frame.required_number("grip_right_n"),
-                             .carried_n = frame.required_number("carried_n"),
-                             .slip_m = frame.required_number("slip_m"),
-                             .turn_rad = frame.required_number("turn_rad")});
+                             .carried_n = frame.required_number("carried_n")});
   }
   if (grasp.moments.empty()) throw DataError("{}: has no frames", file.string());
   return grasp;
@@ -76,15 +77,19 @@ ByteImage grasp_strip(const std::filesystem::path& folder, std::size_t frames) {
 }
 
 std::string grasp_section(const GraspReport& grasp) {
-  const GraspMoment& last = grasp.moments.back();
+  const std::string margin = grasp.friction_margin
+                                 ? fmt::format(" Friction of both fingers could carry {} times its weight.",
+                                               number_text(grasp.friction_margin))
+                                 : "";
   return fmt::format(
       "<section id=\"grasp\">\n<h2>Grasp: {}</h2>\n"
-      "<p>{} g gripped with {} N; friction of both fingers could carry {} times the weight. At the end the object had "
-      "slipped {} mm and turned {}° in the hand.</p>\n"
+      "<p>{} g gripped with {} N.{} When judged (frame {}), the object had slipped {} mm and turned {}° relative to "
+      "the "
+      "hand.</p>\n"
       "<p><img src=\"{}\" alt=\"tactile images of the left finger above those of the right one, over time\"></p>\n"
       "<p><img src=\"{}\" alt=\"forces over time\"></p>\n</section>\n",
-      grasp.outcome, number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), number_text(grasp.friction_margin),
-      number_text(1e3 * last.slip_m), number_text(last.turn_rad * 180.0 / std::numbers::pi), kGraspStrip, kGraspPlot);
+      grasp.outcome, number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), margin, grasp.judged_frame,
+      number_text(1e3 * grasp.slip_m), number_text(grasp.turn_rad * 180.0 / std::numbers::pi), kGraspStrip, kGraspPlot);
 }
 
 }  // namespace tacipc

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,14 @@ struct GraspMoment {
   double time_s = 0.0;
   std::string phase;
   double grip_left_n = 0.0, grip_right_n = 0.0, carried_n = 0.0;
-  double slip_m = 0.0, turn_rad = 0.0;
 };
 
 struct GraspReport {
   std::string outcome;
-  double mass_kg = 0.0, grip_n = 0.0, friction_margin = 0.0;
+  double mass_kg = 0.0, grip_n = 0.0;
+  std::optional<double> friction_margin;  // nothing where the object has no weight
+  int judged_frame = 0;                   // that the outcome is of, and these:
+  double slip_m = 0.0, turn_rad = 0.0;
   std::vector<GraspMoment> moments;
 };
 

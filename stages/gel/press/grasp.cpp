@@ -114,8 +114,11 @@ class Hand {
       throw UsageError(
           "gravity_m_s2 is along the axes of one gel; a grasp has it in the sample, in fingers.gravity_m_s2");
     if (config.mass_damping_per_s > 0.0) throw UsageError("damping.mass_per_s would hold back fingers that move");
-    if (!config.friction) log_warning("there is no friction: nothing is lifted");
-    if (!check_object(object, config)) throw DataError("the object is not closed: its surface says how heavy it is");
+    if (!config.friction) log_warning("the press file has no friction: nothing can be lifted by it");
+    if (!check_object(object, config))
+      throw DataError(
+          "the object is not closed: its mass and inertia are those of the volume it encloses; close the mesh, or "
+          "WRAP=yes");
     settings_.gravity_m_s2 = spec.gravity_m_s2;
     for (const GraspPhase& phase : spec.motion) num_frames_ += phase.steps;
     place_all();
@@ -175,7 +178,9 @@ class Hand {
         if (within) reach = std::max(reach, -box.min().z());
       }
       if (!std::isfinite(reach))
-        throw DataError("there is nothing of the object between the fingers at the grip point");
+        throw DataError(
+            "there is nothing of the object between the fingers at the grip point: fingers.grip_mm (GRIP) is measured "
+            "from the centre of mass, in the object's axes");
       start_[side].setIdentity();
       start_[side].topLeftCorner<3, 3>() = R;
       start_[side].topRightCorner<3, 1>() = -R.col(2) * (reach + scales_.start_gap_m);
@@ -315,8 +320,12 @@ class Hand {
         // The object does not wait: it is held until the fingers have their grip.
         for (int more = 0; closes && last && !lost() && !gripped(phase.force_n); ++more) {
           if (more == kMostClosingSteps)
-            throw SolverError("the fingers did not reach {:.3g} N in {} more steps ({:.3g} N, closed by {:.3g} mm)",
-                              phase.force_n, kMostClosingSteps, drive_.last_grip_n, 1e3 * drive_.closed_m);
+            throw SolverError(
+                "the fingers reached {:.3g} N instead of {:.3g} N in {} more time steps, each closed by {:.3g} mm: is "
+                "anything between them at fingers.grip_mm? A small closing_speed_mm_s, or a force_n that is too much "
+                "for "
+                "the gel, can be why, too",
+                drive_.last_grip_n, phase.force_n, kMostClosingSteps, 1e3 * drive_.closed_m);
           drive(phase, h, Vector3::Zero(), report);
         }
       } catch (const SolverError& error) {
@@ -333,9 +342,9 @@ class Hand {
     const double left = std::abs(force_on(0).x()), right = std::abs(force_on(1).x());
     if (std::abs(left - right) > kUneven * (left + right))
       log_warning(
-          "frame {}: the left finger grips with {:.3g} N, the right one with {:.3g} N: let go, the object moves "
-          "towards "
-          "the weaker",
+          "frame {}: when the object was freed the left finger pressed with {:.3g} N and the right one with {:.3g} N: "
+          "it "
+          "will shift towards the weaker; choose fingers.grip_mm or turn_deg so that both press alike",
           out_.frames.size(), left, right);
   }
 
@@ -519,10 +528,10 @@ class Hand {
     const bool touches = end.force_on_finger_n[0].norm() > kTouches_n && end.force_on_finger_n[1].norm() > kTouches_n;
     const double hand = (end.world_from_finger[0] - begin.world_from_finger[0])(2, 3);
     const double rose = (grip_point(end) - grip_point(begin)).z();
-    out_.outcome = !touches || (hand > 0.0 && rose < kDroppedPart * hand) ? GraspOutcome::dropped
-                   : end.slip_m >= kSlipped_m                             ? GraspOutcome::slipped
-                   : end.turn_rad >= kTurned_rad                          ? GraspOutcome::rotated
-                                                                          : GraspOutcome::lifted;
+    out_.outcome = !touches || (hand >= kSlipped_m && rose < kDroppedPart * hand) ? GraspOutcome::dropped
+                   : end.slip_m >= kSlipped_m                                     ? GraspOutcome::slipped
+                   : end.turn_rad >= kTurned_rad                                  ? GraspOutcome::rotated
+                                                                                  : GraspOutcome::lifted;
   }
 
   const Sensor& sensor_;

@@ -17,7 +17,7 @@ struct GraspFrame {
   double time_s = 0.0;
   PhaseKind phase = PhaseKind::reference;
   std::array<Matrix4, 2> world_from_finger;
-  std::array<Vector3, 2> force_on_finger_n = {Vector3::Zero(), Vector3::Zero()};  // by the object
+  std::array<Vector3, 2> force_on_finger_n = {Vector3::Zero(), Vector3::Zero()};  // by the object and by the other gel
   Matrix4 world_from_object;
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();
   double body_residual_n = 0.0, body_load_n = 0.0;

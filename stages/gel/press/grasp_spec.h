@@ -14,7 +14,7 @@ struct GraspPhase {
   PhaseKind kind = PhaseKind::close;  // close, lift, hold, shake or release
   int steps = 0;                      // frames
   int substeps = 1;                   // time steps per frame
-  double force_n = 0.0;               // close: of each finger at the end
+  double force_n = 0.0;               // close: mean of both fingers at the end
   double distance_m = 0.0;            // lift: upwards; release: of each finger, outwards
   double amplitude_m = 0.0;           // shake: how far it goes from where it began …
   double frequency_hz = 0.0;          // … and so often there and back in a second

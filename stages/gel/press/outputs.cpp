@@ -204,7 +204,7 @@ void write_array(Stage& stage, const std::string& name, const std::vector<std::s
 }
 
 /// One frame's lines of a grasp's record.
-Value::Map grasp_lines(const GraspFrame& f) {
+Value::Map grasp_lines(const GraspFrame& f, double body_strain) {
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
   return {{"time_s", f.time_s},
           {"phase", name_of(f.phase)},
@@ -215,6 +215,7 @@ Value::Map grasp_lines(const GraspFrame& f) {
           {"hand_height_m", f.world_from_finger[0](2, 3)},
           {"slip_m", f.slip_m},
           {"turn_rad", f.turn_rad},
+          {"body_strain", body_strain},
           {"body_load_n", f.body_load_n},
           {"body_residual_n", f.body_residual_n}};
 }
@@ -245,7 +246,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
       for (int c = 0; c < 4; ++c) all.push_back(pose(r, c));
     }
   };
-  for (const GraspFrame& f : frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const GraspFrame& f = frames[i];
     time.push_back(f.time_s);
     add_matrix(object, f.world_from_object);
     twist.insert(twist.end(), f.velocity_m_s.begin(), f.velocity_m_s.end());
@@ -254,7 +256,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
       add_matrix(fingers, f.world_from_finger[side]);
       forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
     }
-    per_frame.emplace_back(grasp_lines(f));
+    per_frame.emplace_back(grasp_lines(f, grasp.fingers[0].frames[i].body_strain));
   }
   const std::size_t n = frames.size();
   write_array(stage, "time.npy", {n}, time);
@@ -263,22 +265,22 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
   write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
   const GraspFrame& judged = frames[grasp.judged_frame];
-  stage.summarize({{"frames", n},
-                   {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
-                   {"judged_frame", grasp.judged_frame},
-                   {"object_mass_kg", grasp.mass_kg},
-                   {"center_of_mass_m",
-                    Value::List{grasp.center_of_mass_m.x(), grasp.center_of_mass_m.y(), grasp.center_of_mass_m.z()}},
-                   {"grip_n", grasp.grip_n},
-                   // Friction that both fingers can give over the weight.
-                   {"friction_margin", config.friction && grasp.weight_n > 0.0
-                                           ? 2.0 * config.friction->coefficient * grasp.grip_n / grasp.weight_n
-                                           : 0.0},
-                   {"slip_m", judged.slip_m},
-                   {"turn_rad", judged.turn_rad},
-                   {"converged", true},
-                   {"verdict", "pass"},
-                   {"per_frame", std::move(per_frame)}});
+  Value::Map summary{{"frames", n},
+                     {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
+                     {"judged_frame", grasp.judged_frame},
+                     {"object_mass_kg", grasp.mass_kg},
+                     {"center_of_mass_m",
+                      Value::List{grasp.center_of_mass_m.x(), grasp.center_of_mass_m.y(), grasp.center_of_mass_m.z()}},
+                     {"grip_n", grasp.grip_n},
+                     {"slip_m", judged.slip_m},
+                     {"turn_rad", judged.turn_rad}};
+  // Friction that both fingers can give over the weight.
+  if (const double mu = config.friction ? config.friction->coefficient : 0.0; grasp.weight_n > 0.0)
+    summary.emplace_back("friction_margin", 2.0 * mu * grasp.grip_n / grasp.weight_n);
+  summary.emplace_back("converged", true);
+  summary.emplace_back("verdict", "pass");
+  summary.emplace_back("per_frame", std::move(per_frame));
+  stage.summarize(summary);
   add_cost(stage, grasp.fingers[0].times);
 }
 

@@ -68,6 +68,7 @@ class PressFolderTest : public ::testing::Test {
     writer.write(first_slip, {kNever, 0.25});
     writer.write(markers, {1, 2, 3, 4, 5, 6});
     writer.write(marker_displacement, {0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6});
+    writer.write(object_twist, {0, 0, 0, 0, 0, 0, 7, 8, 9, 10, 11, 12});
   }
 
   std::string refused(const std::function<void(const PressFolder&)>& read) const {
@@ -81,19 +82,19 @@ class PressFolderTest : public ::testing::Test {
 };
 
 TEST_F(PressFolderTest, EveryDeclaredArrayIsInTheFile) {
-  const std::vector<std::pair<std::string, std::vector<std::size_t>>> written{
-      {"positions.npy", {2, 3, 3}},
-      {"object_pose.npy", {2, 4, 4}},
-      {"time.npy", {2}},
-      {"phase.npy", {2}},
-      {"wrench.npy", {2, 6}},
-      {"contact_force.npy", {2, 2, 2, 3}},
-      {"front_vertices.npy", {2}},
-      {"traction.npy", {2, 24, 32, 2, 3}},
-      {"contact_state.npy", {2, 2}},
-      {"first_slip.npy", {2}},
-      {"markers.npy", {2, 1, 3}},
-      {"marker_displacement.npy", {2, 1, 2, 3}}};
+  const std::vector<std::pair<std::string, std::vector<std::size_t>>> written{{"positions.npy", {2, 3, 3}},
+                                                                              {"object_pose.npy", {2, 4, 4}},
+                                                                              {"time.npy", {2}},
+                                                                              {"phase.npy", {2}},
+                                                                              {"wrench.npy", {2, 6}},
+                                                                              {"contact_force.npy", {2, 2, 2, 3}},
+                                                                              {"front_vertices.npy", {2}},
+                                                                              {"traction.npy", {2, 24, 32, 2, 3}},
+                                                                              {"contact_state.npy", {2, 2}},
+                                                                              {"first_slip.npy", {2}},
+                                                                              {"markers.npy", {2, 1, 3}},
+                                                                              {"marker_displacement.npy", {2, 1, 2, 3}},
+                                                                              {"object_twist.npy", {2, 6}}};
   ASSERT_EQ(press_fields().size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
     EXPECT_EQ(press_fields()[i].file, written[i].first);
@@ -131,6 +132,8 @@ TEST_F(PressFolderTest, WhatIsWrittenReadsBack) {
   EXPECT_EQ(press.markers(1), (Positions{{4, 5, 6}}));
   EXPECT_EQ(press.marker_displacements(1).since_rest, (Positions{{1, 2, 3}}));
   EXPECT_EQ(press.marker_displacements(1).since_press, (Positions{{4, 5, 6}}));
+  EXPECT_EQ(press.twists()[1].velocity_m_s, Vector3(7, 8, 9));
+  EXPECT_EQ(press.twists()[1].spin_rad_s, Vector3(10, 11, 12));
 }
 
 TEST_F(PressFolderTest, AFileOfWhichOneBitIsNotAsRecordedIsRefused) {
@@ -143,7 +146,8 @@ TEST_F(PressFolderTest, AFileOfWhichOneBitIsNotAsRecordedIsRefused) {
       press.markers(frame);
       press.marker_displacements(frame);
     }
-    press.times(), press.phases(), press.poses(), press.wrenches(), press.front_vertices(), press.first_slips();
+    press.times(), press.phases(), press.poses(), press.wrenches(), press.twists(), press.front_vertices(),
+        press.first_slips();
   };
   EXPECT_NO_THROW(read_all(PressFolder::finished(folder_)));
   for (const NpyField& field : press_fields()) {

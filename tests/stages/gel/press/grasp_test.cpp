@@ -326,11 +326,11 @@ TEST(Grasp, WarnsOfUnevenFingersAndOfNoFriction) {
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(said(kBox, 0.8), "");
-  EXPECT_THAT(said(kBox, 0.0), HasSubstr("there is no friction: nothing is lifted"));
+  EXPECT_THAT(said(kBox, 0.0), HasSubstr("the press file has no friction"));
   // A pyramid's tip on the left, its base on the right.
   TriangleMesh tip = pyramid(3e-3, 3e-3);
   tip.positions = Positions(tip.positions(Eigen::all, std::vector<int>{2, 0, 1}));
-  EXPECT_THAT(said(tip, 0.8), HasSubstr("the left finger grips with"));
+  EXPECT_THAT(said(tip, 0.8), HasSubstr("the left finger pressed with"));
 }
 
 }  // namespace
