@@ -12,13 +12,27 @@
 
 namespace tacipc {
 
-/// What a phase does, the last three of a grasp. The numbers stand in phase.npy; `reference` and `approach` name frames,
-/// not phases.
-enum class PhaseKind { reference, approach, press, shear, twist, hold, release, tilt, path, load, free, close, lift, shake };
+/// What a phase does, the last three of a grasp. The numbers stand in phase.npy; `reference` and `approach` name
+/// frames, not phases.
+enum class PhaseKind {
+  reference,
+  approach,
+  press,
+  shear,
+  twist,
+  hold,
+  release,
+  tilt,
+  path,
+  load,
+  free,
+  close,
+  lift,
+  shake
+};
 
-inline constexpr std::array kPhaseNames{"reference", "approach", "press", "shear", "twist", "hold",
-                                        "release",   "tilt",     "path",  "load",  "free",
-                                        "close",     "lift",     "shake"};
+inline constexpr std::array kPhaseNames{"reference", "approach", "press", "shear", "twist", "hold", "release",
+                                        "tilt",      "path",     "load",  "free",  "close", "lift", "shake"};
 
 const char* name_of(PhaseKind kind);
 

@@ -39,7 +39,7 @@ same_files one two
 # 20 g weigh 0.1962 N.
 awk -v n="$(value one 'per_frame[13].carried_n')" 'BEGIN { exit !(n > 0.195 && n < 0.1975) }' || fail "the fingers do not carry the block"
 for side in left right; do
-  [ "$(ls -d one/grasp/block/$side/render/frame_* | wc -l)" = 14 ] || fail "$side: not every frame was rendered"
+  [ "$(find "one/grasp/block/$side/render" -maxdepth 1 -name 'frame_*' | wc -l)" = 14 ] || fail "$side: not every frame was rendered"
   [ -s one/grasp/block/$side/press/contact_force.npy ] || fail "$side: no forces"
 done
 for file in index.html grasp_strip.png grasp_forces.svg; do [ -s one/grasp/block/report/$file ] || fail "$file is missing"; done
