@@ -50,7 +50,7 @@ class Reader {
     const auto count = size(Columns * sizeof(double));
     array.resize(count, Columns);
     const std::size_t bytes = Columns * sizeof(double) * static_cast<std::size_t>(count);
-    std::memcpy(array.data(), take(bytes), bytes);
+    if (bytes > 0) std::memcpy(array.data(), take(bytes), bytes);  // an empty array has no address
   }
   void states(std::vector<ContactState>& states) {
     states.resize(static_cast<std::size_t>(size(1)));

@@ -28,6 +28,17 @@ double sum_of_norms(const Eigen::Ref<const Eigen::VectorXd>& stacked) {
   return sum;
 }
 
+/// The smallest of the columns' norms that is not zero: of the gels that are touched, the one with the least force. The
+/// grips of two fingers cancel in their sum.
+double smallest_touch(const Eigen::Matrix3Xd& of_gels) {
+  double smallest = 0.0;
+  for (Eigen::Index g = 0; g < of_gels.cols(); ++g) {
+    const double norm = of_gels.col(g).norm();
+    if (norm > 0.0 && (smallest == 0.0 || norm < smallest)) smallest = norm;
+  }
+  return smallest;
+}
+
 }  // namespace
 
 NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const EnergyTerm> elasticity,
@@ -182,8 +193,7 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     for (const WeightedTerm& part : terms)
       add_inertia_coupling(part, first_object_vertex_, call.problem.motion, free_, system_);
   }
-  // Each gel by itself: the grips of two fingers cancel.
-  return std::min(of_barrier.colwise().norm().sum(), (so_far - without_contact).colwise().norm().sum());
+  return std::min(smallest_touch(of_barrier), smallest_touch(so_far - without_contact));
 }
 
 Eigen::VectorXd NewtonStepper::free_motion(const NewtonProblem& problem) const {

@@ -33,9 +33,9 @@ struct NewtonDirection {
   Vector3 object_shift = Vector3::Zero();  // the object's part of it beyond its prescribed motion
   double slope = 0.0;                      // gᵀp over everything free
   double gradient_sum = 0.0;  // Σ of |gradient| over free vertices, over the object's free axes, and body_force
-  /// What residual forces are measured by: |Σ gradient of contact| over each gel's free vertices, of the barrier alone
-  /// or with friction, whichever is smaller (friction may carry most of the normal force, and the rest must balance,
-  /// too).
+  /// What residual forces are measured by: |Σ gradient of contact| over the free vertices of the gel that is touched
+  /// least, of the barrier alone or with friction, whichever is smaller (friction may carry most of the normal force,
+  /// and the rest must balance, too).
   double contact_sum = 0.0;
   /// |Σ residual force| and |Σ residual torque| about its centre, the largest of the bodies that move freely.
   double body_force = 0.0, body_torque = 0.0;
