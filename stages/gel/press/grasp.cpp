@@ -273,16 +273,9 @@ class Hand {
       });
       drive_ = after;
       if (drive_.let_go) world_from_object_ = pose_of(*body_, mesh_.control_rows(progress_.state.x));
-      const StepReport sum = report;
+      const StepReport earlier = report;
       report = done;
-      report.time_steps += sum.time_steps;
-      report.newton_iterations += sum.newton_iterations;
-      report.moving_iterations += sum.moving_iterations;
-      report.patches += sum.patches;
-      report.patch_iterations += sum.patch_iterations;
-      report.lag_iterations += sum.lag_iterations;
-      report.exact_hessian_waits += sum.exact_hessian_waits;
-      report.approximated_share = std::max(report.approximated_share, sum.approximated_share);
+      report.add_earlier(earlier);
     } catch (const SolverError& error) {
       if (halvings >= config_.max_halvings) throw;
       log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
@@ -322,9 +315,8 @@ class Hand {
           if (more == kMostClosingSteps)
             throw SolverError(
                 "the fingers reached {:.3g} N instead of {:.3g} N in {} more time steps, each closed by {:.3g} mm: is "
-                "anything between them at fingers.grip_mm? A small closing_speed_mm_s, or a force_n that is too much "
-                "for "
-                "the gel, can be why, too",
+                "anything between them at fingers.grip_mm? A small closing_speed_mm_s, or a force_n that is too "
+                "much for the gel, can be why, too",
                 drive_.last_grip_n, phase.force_n, kMostClosingSteps, 1e3 * drive_.closed_m);
           drive(phase, h, Vector3::Zero(), report);
         }
@@ -343,12 +335,12 @@ class Hand {
     if (std::abs(left - right) > kUneven * (left + right))
       log_warning(
           "frame {}: when the object was freed the left finger pressed with {:.3g} N and the right one with {:.3g} N: "
-          "it "
-          "will shift towards the weaker; choose fingers.grip_mm or turn_deg so that both press alike",
+          "it will shift towards the weaker; choose fingers.grip_mm or turn_deg so that both press alike",
           out_.frames.size(), left, right);
   }
 
-  /// Whether the object is free and neither finger touches it: fingers stay where they are then.
+  /// Whether the object is free and neither finger touches it: fingers neither close nor open any further then, except
+  /// in a release.
   bool lost() const { return drive_.let_go && drive_.last_grip_n < kTouches_n; }
   bool gripped(double force_n) const { return std::abs(drive_.last_grip_n - force_n) <= kGripTolerance * force_n; }
 
@@ -484,11 +476,11 @@ class Hand {
       out_.fingers[static_cast<std::size_t>(side)].frames.push_back(std::move(own));
     }
     if (grip_frame_) {
-      const Matrix4 then = in_hand(out_.frames[*grip_frame_]), now = in_hand(frame);
-      const Vector3 grip = out_.center_of_mass_m + spec_.grip_m;
-      frame.slip_m = ((now - then).topLeftCorner<3, 3>() * grip + (now - then).topRightCorner<3, 1>()).norm();
-      frame.turn_rad =
-          Eigen::AngleAxisd(Matrix3(now.topLeftCorner<3, 3>() * then.topLeftCorner<3, 3>().transpose())).angle();
+      const GraspFrame& then = out_.frames[*grip_frame_];
+      frame.slip_m = (grip_point(frame) - hand(frame) - grip_point(then) + hand(then)).norm();
+      frame.turn_rad = Eigen::AngleAxisd(Matrix3(frame.world_from_object.topLeftCorner<3, 3>() *
+                                                 then.world_from_object.topLeftCorner<3, 3>().transpose()))
+                           .angle();
     }
     log_info(
         "frame {}/{} {}: grip {:.3f} N, carried {:.4f} N, slipped {:.3f} mm, turned {:.2f} deg, {} Newton iterations "
@@ -505,12 +497,9 @@ class Hand {
     if (!grip_frame_ && drive_.let_go) grip_frame_ = out_.frames.size() - 1;
   }
 
-  /// The object's pose relative to the hand: the middle between the fingers, along the axes of the world.
-  static Matrix4 in_hand(const GraspFrame& frame) {
-    Matrix4 pose = frame.world_from_object;
-    pose.topRightCorner<3, 1>() -=
-        0.5 * (frame.world_from_finger[0] + frame.world_from_finger[1]).topRightCorner<3, 1>();
-    return pose;
+  /// The middle between the fingers.
+  static Vector3 hand(const GraspFrame& frame) {
+    return 0.5 * (frame.world_from_finger[0] + frame.world_from_finger[1]).topRightCorner<3, 1>();
   }
 
   /// The object's point at the grip, in the world.

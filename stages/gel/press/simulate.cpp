@@ -113,16 +113,9 @@ class Motion {
         pose_ = goal.gel_from_object;
         pose_.topRightCorner<3, 1>() += done.object_shift_m;
       }
-      const StepReport before = report;
+      const StepReport earlier = report;
       report = done;
-      report.time_steps += before.time_steps;
-      report.newton_iterations += before.newton_iterations;
-      report.moving_iterations += before.moving_iterations;
-      report.patches += before.patches;
-      report.patch_iterations += before.patch_iterations;
-      report.lag_iterations += before.lag_iterations;
-      report.exact_hessian_waits += before.exact_hessian_waits;
-      report.approximated_share = std::max(report.approximated_share, before.approximated_share);
+      report.add_earlier(earlier);
     } catch (const SolverError& error) {
       if (halvings >= config_.max_halvings) throw;
       log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());

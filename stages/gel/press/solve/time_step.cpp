@@ -46,6 +46,17 @@ FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glue
 
 }  // namespace
 
+void StepReport::add_earlier(const StepReport& before) {
+  time_steps += before.time_steps;
+  newton_iterations += before.newton_iterations;
+  moving_iterations += before.moving_iterations;
+  patches += before.patches;
+  patch_iterations += before.patch_iterations;
+  lag_iterations += before.lag_iterations;
+  exact_hessian_waits += before.exact_hessian_waits;
+  approximated_share = std::max(approximated_share, before.approximated_share);
+}
+
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings,
                          std::optional<AffineBody> body)
     : mesh_(mesh), gel_(std::move(gel)), settings_(settings), search_(mesh), body_(std::move(body)) {

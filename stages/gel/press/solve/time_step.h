@@ -107,6 +107,9 @@ struct StepReport {
   /// Of a free object, |change of momentum / h − the forces on it| and the same of angular momentum about its centre.
   double body_residual_n = 0.0, body_residual_n_m = 0.0;
   double body_load_n = 0.0;  // its weight or the load on it, whichever is larger
+
+  /// Makes it that of this step and of those `before` it: what they took together, and where the last one ended.
+  void add_earlier(const StepReport& before);
 };
 
 /// Forces on the gel's vertices at the end of a step, N, one row per gel vertex.

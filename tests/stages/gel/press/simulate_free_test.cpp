@@ -5,8 +5,8 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "stages/gel/press/checkpoint.h"
 #include "tests/make_mesh.h"
+#include "tests/stages/gel/press/memory_store.h"
 #include "tests/stages/gel/press/reference_scene.h"
 #include "tests/stages/gel/press/small_scene.h"
 
@@ -91,21 +91,6 @@ TEST(FreeObject, DoesNotGoThroughTheGelHoweverFastItIs) {
 }
 
 TEST(FreeObject, GoesOnFromAnyFrameToTheSameBytes) {
-  class Memory final : public FrameStore {
-   public:
-    explicit Memory(std::vector<std::string> known = {}) : known_(std::move(known)) {}
-    void save(const Frame& frame, const Progress& progress) override { saved.push_back(pack_frame(frame, progress)); }
-    bool load(Frame& frame, Progress& progress) override {
-      if (saved.size() >= known_.size()) return false;
-      unpack_frame(known_[saved.size()], frame, progress);
-      saved.push_back(known_[saved.size()]);
-      return true;
-    }
-    std::vector<std::string> saved;
-
-   private:
-    std::vector<std::string> known_;
-  };
   SampleSpec sample;
   sample.density_kg_m3 = 8000.0;
   sample.motion = {{.kind = PhaseKind::tilt, .steps = 2, .angle_rad = 0.02},
@@ -114,7 +99,7 @@ TEST(FreeObject, GoesOnFromAnyFrameToTheSameBytes) {
                    {.kind = PhaseKind::press, .steps = 2, .depth_m = 0.2e-3},
                    free_phase(2, {0.05, 0, 0})};
   const TriangleMesh object = block(0.003, 0.004);
-  Memory whole;
+  MemoryStore whole;
   const Simulation simulation = run(object, heavy_config(0.5), sample, &whole);
   ASSERT_EQ(simulation.frames.size(), 12u);
   // Taken where it is, held there, and pressed on.
@@ -123,7 +108,7 @@ TEST(FreeObject, GoesOnFromAnyFrameToTheSameBytes) {
   EXPECT_GT(-simulation.frames[9].force_n.z(), 0.05);
   EXPECT_GT(simulation.frames[10].object_velocity_m_s.z(), 0.0);  // let go, the gel pushes it up
   for (const std::size_t known : {2, 4, 6, 8, 11}) {
-    Memory rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
+    MemoryStore rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
     run(object, heavy_config(0.5), sample, &rest);
     EXPECT_TRUE(rest.saved == whole.saved) << "from " << known << " frames";
   }
