@@ -31,6 +31,10 @@ class Writer {
     plain(static_cast<std::int64_t>(history.size()));
     for (const SymmetricRows& member : history) rows(member);
   }
+  template <typename T>
+  void sized(const std::vector<T>& items) {
+    plain(static_cast<std::int64_t>(items.size()));
+  }
   std::string take() { return std::move(bytes_); }
 
  private:
@@ -59,6 +63,10 @@ class Reader {
   void history(Viscoelasticity::History& history) {
     history.resize(static_cast<std::size_t>(size(sizeof(std::int64_t))));  // each has at least its own size
     for (SymmetricRows& member : history) rows(member);
+  }
+  template <typename T>
+  void sized(std::vector<T>& items) {
+    items.resize(static_cast<std::size_t>(size(sizeof(T))));
   }
   bool at_end() const { return bytes_.empty(); }
 
@@ -134,8 +142,11 @@ void contents(auto& io, auto& frame, auto& progress) {
   io.rows(progress.state.x);
   io.rows(progress.state.velocity_m_s);
   each(io, progress.state.object_velocity_m_s);
-  each(io, progress.state.object_motion.velocity_m_s);
-  each(io, progress.state.object_motion.angular_momentum_kg_m2_s);
+  io.sized(progress.state.object_motion);
+  for (auto& motion : progress.state.object_motion) {
+    each(io, motion.velocity_m_s);
+    each(io, motion.angular_momentum_kg_m2_s);
+  }
   io.plain(progress.state.barrier_factor);
   io.history(progress.state.viscous_pa);
   each(io, progress.object_shift_m);

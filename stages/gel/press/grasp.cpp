@@ -126,7 +126,7 @@ class Hand {
 
   Grasp run() {
     const std::string element = element_of(config_, sensor_.material);
-    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, both_, rest_both_, element), settings_, body_);
+    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, both_, rest_both_, element), settings_, {*body_});
     stepper_ = &stepper;
     for (Simulation& finger : out_.fingers) {
       finger.d_hat_m = scales_.d_hat_m;
@@ -440,13 +440,13 @@ class Hand {
     frame.min_volume_ratio = min_volume_ratio(frame.positions, gel_.tets, rest_tets_);
     frame.inverted_tets = static_cast<int>(count_inverted_tets(frame.positions, gel_.tets));
     frame.solver = report;
-    frame.object_velocity_m_s = to_finger * progress_.state.object_motion.velocity_m_s;
+    frame.object_velocity_m_s = to_finger * progress_.state.object_motion[0].velocity_m_s;
     frame.object_spin_rad_s = to_finger * spin();
     return frame;
   }
 
   Vector3 spin() const {
-    return angular_velocity(*body_, mesh_.control_rows(progress_.state.x), progress_.state.object_motion);
+    return angular_velocity(*body_, mesh_.control_rows(progress_.state.x), progress_.state.object_motion[0]);
   }
 
   void finish(PhaseKind phase, int phase_index, const StepReport& report, const StepForces& forces) {
@@ -455,7 +455,7 @@ class Hand {
                      .phase = phase,
                      .world_from_finger = finger_poses(drive_),
                      .world_from_object = world_from_object_,
-                     .velocity_m_s = progress_.state.object_motion.velocity_m_s,
+                     .velocity_m_s = progress_.state.object_motion[0].velocity_m_s,
                      .spin_rad_s = spin(),
                      .body_residual_n = report.body_residual_n,
                      .body_load_n = report.body_load_n};

@@ -54,7 +54,8 @@ class Motion {
   }
 
   Simulation run() {
-    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, gel_, rest_tets_, out_.element), settings_, body_);
+    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, gel_, rest_tets_, out_.element), settings_,
+                        body_ ? std::vector{*body_} : std::vector<AffineBody>{});
     stepper_ = &stepper;
     progress_.state = {.x = Positions(mesh_.num_rows(), 3), .velocity_m_s = Positions::Zero(gel_.num_vertices(), 3)};
     progress_.state.x.topRows(mesh_.num_vertices()) = mesh_.rest_positions;
@@ -186,8 +187,8 @@ class Motion {
     if (body_) {
       const ControlPoints points = mesh_.control_rows(x);
       if (free) frame.body_strain = strain_of(*body_, points);
-      frame.object_velocity_m_s = progress_.state.object_motion.velocity_m_s;
-      frame.object_spin_rad_s = angular_velocity(*body_, points, progress_.state.object_motion);
+      frame.object_velocity_m_s = progress_.state.object_motion[0].velocity_m_s;
+      frame.object_spin_rad_s = angular_velocity(*body_, points, progress_.state.object_motion[0]);
     }
     frame.min_gap_m = stepper_->smallest_gap(x, scales_.gap_horizon_m);
     frame.stand_off_m = forces.stand_off_m;

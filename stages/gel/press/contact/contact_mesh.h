@@ -1,4 +1,4 @@
-// The surfaces that may touch, in one vertex numbering: gel vertices first, the object's after them.
+// The surfaces that may touch, in one vertex numbering: vertices of gels first, those of rigid objects after them.
 #pragma once
 
 #include <array>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/types.h"
+#include "common/mesh/triangle_mesh.h"
 
 namespace tacipc {
 
@@ -28,8 +29,24 @@ struct GelPart {
   std::shared_ptr<const ContactMesh> mesh;  // of this gel, undeformed, front up
 };
 
-/// What contact needs to know of gel and object. Positions are passed beside it: rows of the gel, of the object, and of
-/// points that carry the object where it moves freely (energy/affine_body.h).
+/// One of the rigid objects: neighbouring rows of the whole.
+struct ObjectPart {
+  int first_vertex = 0;
+  Surface surface;
+  int num_vertices = 0;
+  auto rows(auto& x) const { return x.middleRows(first_vertex, num_vertices); }
+  bool has(int vertex) const { return vertex >= first_vertex && vertex < first_vertex + num_vertices; }
+};
+
+/// How two bodies touch, as multiples of what holds for all others.
+struct PairLaw {
+  double friction = 1.0;   // of the friction coefficient
+  double d_hat = 1.0;      // of d̂, at most 1
+  double stiffness = 1.0;  // of κ
+};
+
+/// What contact needs to know of gels and objects. Positions are passed beside it: rows of the gels, of the objects,
+/// and of points that carry those that may move freely (energy/affine_body.h).
 struct ContactMesh {
   int num_gel_vertices = 0;
   int num_object_vertices = 0;
@@ -38,7 +55,12 @@ struct ContactMesh {
   Surface object;
   Positions rest_positions;  // all vertices, gel undeformed; scale of the edge mollifier and of close pairs at rest
   std::vector<double> object_edge_sharpness;  // of object.edges, as the object was given (contact/sharpness.h)
+  std::vector<double> gel_edge_sharpness;     // of gel.edges, where a body that is no sensor's gel may have sharp ones
   std::vector<GelPart> gels;                  // where there are several; else all of the gel is one
+  /// Those that may move freely come first, in the order of their control points.
+  std::vector<ObjectPart> objects;
+  /// Of any two bodies a and b (body_of()) at a × num_bodies() + b; empty where all touch alike.
+  std::vector<PairLaw> laws;
 
   int num_vertices() const { return num_gel_vertices + num_object_vertices; }
   int num_rows() const { return num_vertices() + num_control_points; }
@@ -46,8 +68,24 @@ struct ContactMesh {
   auto object_rows(auto& x) const { return x.middleRows(num_gel_vertices, num_object_vertices); }
   /// Those of the points that carry it.
   auto control_rows(auto& x) const { return x.middleRows(num_vertices(), num_control_points); }
+
+  /// The first of the four points of the object that may move freely as number `body`.
+  int control_row(int body) const { return num_vertices() + 4 * body; }
+
+  int num_gels() const { return gels.empty() ? 1 : static_cast<int>(gels.size()); }
+  int num_bodies() const { return num_gels() + static_cast<int>(objects.size()); }
+  /// The body of a vertex: gels in their order, then objects.
+  int body_of(int vertex) const;
+  /// \pre laws has some
+  const PairLaw& law(int vertex, int other) const {
+    return laws[static_cast<std::size_t>(body_of(vertex) * num_bodies() + body_of(other))];
+  }
 };
 
+/// Of a gel, or several whose rows follow one another, and any number of objects.
+ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_boundary,
+                              const std::vector<TriangleMesh>& objects);
+/// Of one object, which may be empty: then there is none.
 ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_boundary, const Positions& object,
                               const Triangles& object_triangles);
 

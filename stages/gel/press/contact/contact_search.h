@@ -1,17 +1,22 @@
 // Broad phase: which pairs of primitives may come near each other, now or during a step.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "stages/gel/press/contact/gels_search.h"
 #include "stages/gel/press/contact/object_search.h"
+#include "stages/gel/press/contact/surface_pairs.h"
 
 namespace tacipc {
 
-/// Finds pairs gel–object and gel–gel (never two primitives that share a vertex).
+/// Finds pairs gel–object, gel–gel (never two primitives that share a vertex), and object–object.
 class ContactSearch {
  public:
-  explicit ContactSearch(const ContactMesh& mesh) : with_object_(mesh), with_itself_(mesh) {}
+  /// \pre the mesh stays where it is
+  explicit ContactSearch(const ContactMesh& mesh) : mesh_(mesh), with_itself_(mesh), held_(mesh.objects.size(), false) {
+    for (const ObjectPart& object : mesh.objects) with_object_.push_back(std::make_unique<ObjectSearch>(mesh, object));
+  }
 
   /// Every pair that comes within d̂ while the vertices move straight from `x` to `x + p`, of the gel with itself within
   /// min(d̂, half the distance at rest), and some more; which and in which order depends only on the arguments since
@@ -22,38 +27,56 @@ class ContactSearch {
     return found;
   }
 
-  /// Those of gel and object alone, within any distance.
+  /// Those with an object alone, within any distance.
   std::vector<ContactPair> object_pairs(const Positions& x, const Positions& p, double within_m) {
     std::vector<ContactPair> found;
-    with_object_.pairs(x, p, within_m, found);
+    for (const auto& search : with_object_) search->pairs(x, p, within_m, found);
+    for (std::size_t a = 0; a < mesh_.objects.size(); ++a) {
+      for (std::size_t b = a + 1; b < mesh_.objects.size(); ++b) {
+        if (!held_[a] || !held_[b])
+          pairs_between(mesh_.objects[a].surface, mesh_.objects[b].surface, x, p, within_m, found);
+      }
+    }
+    return found;
+  }
+
+  /// Those of two bodies, within any distance.
+  std::vector<ContactPair> pairs_of_bodies(const Positions& x, const Positions& p, double within_m) {
+    std::vector<ContactPair> found = object_pairs(x, p, within_m);
+    with_itself_.across(x, p, within_m, found);
     return found;
   }
 
   /// Every pair with a vertex that `moves` (one flag per vertex) that comes as near while each of those vertices stays
   /// within `reach_m` of its place in each coordinate, and some more. \pre all are on the paths of the last call of
-  /// pairs(); the object stands still
+  /// pairs(); objects stand still
   std::vector<ContactPair> pairs_around(const std::vector<bool>& moves, const Positions& x, double d_hat_m,
                                         double reach_m) const {
     std::vector<ContactPair> found;
-    with_object_.around(moves, x, d_hat_m + reach_m, found);
+    for (const auto& search : with_object_) search->around(moves, x, d_hat_m + reach_m, found);
     with_itself_.around(moves, x, d_hat_m, reach_m, found);
     return found;
   }
 
   /// The next call searches anew: what is found in a time step must not depend on earlier steps.
   void forget() {
-    with_object_.forget();
+    for (const auto& search : with_object_) search->forget();
     with_itself_.forget();
   }
 
-  const ObjectSearch& with_object() const { return with_object_; }
+  /// Says which objects go where they are told from now on: two of these do not touch each other.
+  void hold(std::vector<bool> held) { held_ = std::move(held); }
+
+  const ObjectSearch& with_object(std::size_t object = 0) const { return *with_object_[object]; }
   const GelsSearch& with_itself() const { return with_itself_; }
   /// Says how several gels are turned from now on, in the order of ContactMesh::gels.
   void turn_gels(const std::vector<Matrix3>& world_from_gel) { with_itself_.turn(world_from_gel); }
 
  private:
-  ObjectSearch with_object_;
+  const ContactMesh& mesh_;
+  std::vector<std::unique_ptr<ObjectSearch>> with_object_;
   GelsSearch with_itself_;
+  std::vector<bool> held_;
 };
 
 }  // namespace tacipc

@@ -2,36 +2,10 @@
 
 #include <algorithm>
 
-#include "stages/gel/press/contact/search_tools.h"
+#include "stages/gel/press/contact/surface_pairs.h"
 
 namespace tacipc {
 namespace {
-
-/// The primitives whose way from x to x + p, grown by `margin`, touches a box, and a tree around those.
-template <typename Primitives>
-struct Near {
-  std::vector<std::size_t> which;
-  std::vector<Box> boxes;
-
-  Near(const Primitives& primitives, const Positions& x, const Positions& end, double margin, const Box& within) {
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
-      Box box = box_around(x, primitives[i]);
-      box.extend(box_around(end, primitives[i]));
-      box = grown(box, margin);
-      if (!box.intersects(within)) continue;
-      which.push_back(i);
-      boxes.push_back(box);
-    }
-  }
-};
-
-template <typename A, typename B, typename Visit>
-void for_each_touching(const Near<A>& a, const Near<B>& b, Visit&& visit) {
-  if (a.boxes.empty() || b.boxes.empty()) return;
-  const Bvh tree(b.boxes);
-  for (std::size_t i = 0; i < a.boxes.size(); ++i)
-    tree.query(a.boxes[i], [&](int j) { visit(a.which[i], b.which[static_cast<std::size_t>(j)]); });
-}
 
 Surface shifted(Surface surface, int by) {
   for (int& v : surface.vertices) v += by;
@@ -108,33 +82,9 @@ void GelsSearch::around(const std::vector<bool>& moves, const Positions& x, doub
 }
 
 void GelsSearch::across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const {
-  const Positions end = x + p;
-  const double margin = 0.5 * within_m;
-  std::vector<Box> boxes;
-  for (const Surface& surface : surfaces_) {
-    Box box = box_around(x, surface.vertices);
-    box.extend(box_around(end, surface.vertices));
-    boxes.push_back(grown(box, margin));
-  }
   for (std::size_t a = 0; a < surfaces_.size(); ++a) {
-    for (std::size_t b = a + 1; b < surfaces_.size(); ++b) {
-      if (!boxes[a].intersects(boxes[b])) continue;
-      const Box both = boxes[a].intersection(boxes[b]);
-      const Surface &of_a = surfaces_[a], &of_b = surfaces_[b];
-      const OneVertex points_a{of_a.vertices}, points_b{of_b.vertices};
-      const Near near_points_a(points_a, x, end, margin, both), near_points_b(points_b, x, end, margin, both);
-      const Near near_a(of_a.triangles, x, end, margin, both), near_b(of_b.triangles, x, end, margin, both);
-      const Near edges_a(of_a.edges, x, end, margin, both), edges_b(of_b.edges, x, end, margin, both);
-      for_each_touching(near_points_a, near_b, [&](std::size_t i, std::size_t j) {
-        out.push_back(point_triangle_pair(of_a.vertices[i], of_b.triangles[j]));
-      });
-      for_each_touching(near_points_b, near_a, [&](std::size_t i, std::size_t j) {
-        out.push_back(point_triangle_pair(of_b.vertices[i], of_a.triangles[j]));
-      });
-      for_each_touching(edges_a, edges_b, [&](std::size_t i, std::size_t j) {
-        out.push_back(edge_edge_pair(of_a.edges[i], of_b.edges[j]));
-      });
-    }
+    for (std::size_t b = a + 1; b < surfaces_.size(); ++b)
+      pairs_between(surfaces_[a], surfaces_[b], x, p, within_m, out);
   }
 }
 

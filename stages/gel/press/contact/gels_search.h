@@ -21,6 +21,9 @@ class GelsSearch {
   void around(const std::vector<bool>& moves, const Positions& x, double d_hat_m, double reach_m,
               std::vector<ContactPair>& out) const;
 
+  /// Pairs of different gels within a distance of each other from x to x + p, and some more.
+  void across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const;
+
   void forget();
   /// Rotations of the frames from now on.
   void turn(const std::vector<Matrix3>& world_from_gel) { turns_ = world_from_gel; }
@@ -29,8 +32,6 @@ class GelsSearch {
  private:
   /// The gel's rows of x, and of p, in its frame: both relative to its mount.
   Positions in_frame(std::size_t gel, const Positions& rows) const;
-  /// Pairs of different gels within a distance of each other from x to x + p.
-  void across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const;
 
   const ContactMesh& mesh_;
   std::vector<std::unique_ptr<SelfSearch>> each_;

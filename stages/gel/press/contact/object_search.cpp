@@ -37,11 +37,12 @@ void ObjectSearch::Tracked<Vertices>::forget() {
   std::fill(margin_m.begin(), margin_m.end(), -1.0);
 }
 
-ObjectSearch::ObjectSearch(const ContactMesh& mesh)
+ObjectSearch::ObjectSearch(const ContactMesh& mesh, const ObjectPart& object)
     : mesh_(mesh),
-      vertices_(boxes_at(OneVertex{mesh.object.vertices}, mesh.rest_positions)),
-      edges_(boxes_at(mesh.object.edges, mesh.rest_positions)),
-      triangles_(boxes_at(mesh.object.triangles, mesh.rest_positions)) {
+      object_(object),
+      vertices_(boxes_at(OneVertex{object.surface.vertices}, mesh.rest_positions)),
+      edges_(boxes_at(object.surface.edges, mesh.rest_positions)),
+      triangles_(boxes_at(object.surface.triangles, mesh.rest_positions)) {
   gel_vertices_.resize(mesh.gel.vertices.size());
   gel_edges_.resize(mesh.gel.edges.size());
   gel_triangles_.resize(mesh.gel.triangles.size());
@@ -49,10 +50,10 @@ ObjectSearch::ObjectSearch(const ContactMesh& mesh)
 
 /// Fits the trees to the object's rows of `start`, and forgets all earlier searches.
 void ObjectSearch::place_object(const Positions& start) {
-  object_at_ = mesh_.object_rows(start);
-  vertices_.refit(boxes_at(OneVertex{mesh_.object.vertices}, start));
-  edges_.refit(boxes_at(mesh_.object.edges, start));
-  triangles_.refit(boxes_at(mesh_.object.triangles, start));
+  object_at_ = object_.rows(start);
+  vertices_.refit(boxes_at(OneVertex{object_.surface.vertices}, start));
+  edges_.refit(boxes_at(object_.surface.edges, start));
+  triangles_.refit(boxes_at(object_.surface.triangles, start));
   gel_vertices_.forget();
   gel_edges_.forget();
   gel_triangles_.forget();
@@ -100,14 +101,13 @@ void ObjectSearch::track(const Primitives& gel, const Bvh& object, const Moment&
 }
 
 void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) {
-  if (mesh_.num_object_vertices == 0) return;
-  const int n = mesh_.num_gel_vertices;
+  const int n = object_.first_vertex;
   const Eigen::RowVector3d origin = x.row(n), shifted = origin + p.row(n);
   Moment moment{
       .start = x.rowwise() - origin, .end = (x + p).rowwise() - shifted, .within_m = within_m, .object_moved_m = 0};
   const auto object_moved = [&] {
-    return std::max(largest_row_norm(mesh_.object_rows(moment.start) - object_at_),
-                    largest_row_norm(mesh_.object_rows(moment.end) - object_at_));
+    return std::max(largest_row_norm(object_.rows(moment.start) - object_at_),
+                    largest_row_norm(object_.rows(moment.end) - object_at_));
   };
   if (within_m == within_m_) moment.object_moved_m = object_moved();
   if (within_m != within_m_ || moment.object_moved_m > kExtraMargin * within_m) {
@@ -116,9 +116,9 @@ void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m
   }
   within_m_ = within_m;
   object_moved_m_ = moment.object_moved_m;
-  mesh_.object_rows(moment.start) = object_at_;
+  object_.rows(moment.start) = object_at_;
 
-  const Surface &gel = mesh_.gel, &object = mesh_.object;
+  const Surface &gel = mesh_.gel, &object = object_.surface;
   track(
       OneVertex{gel.vertices}, triangles_, moment,
       [&](int i, int j) { return point_triangle_pair(gel.vertices[i], object.triangles[j]); }, gel_vertices_, out);
@@ -132,8 +132,7 @@ void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m
 
 void ObjectSearch::around(const std::vector<bool>& moves, const Positions& x, double within_m,
                           std::vector<ContactPair>& out) const {
-  if (mesh_.num_object_vertices == 0) return;
-  const Vector3 origin = x.row(mesh_.num_gel_vertices);
+  const Vector3 origin = x.row(object_.first_vertex);
   const double reach = within_m + object_moved_m_;
   const auto all_of = [&](const auto& primitives, const Bvh& tree, auto&& pair_of) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -143,7 +142,7 @@ void ObjectSearch::around(const std::vector<bool>& moves, const Positions& x, do
       tree.query(box, [&](int j) { out.push_back(pair_of(i, j)); });
     }
   };
-  const Surface &gel = mesh_.gel, &object = mesh_.object;
+  const Surface &gel = mesh_.gel, &object = object_.surface;
   all_of(OneVertex{gel.vertices}, triangles_,
          [&](std::size_t i, int j) { return point_triangle_pair(gel.vertices[i], object.triangles[j]); });
   all_of(gel.triangles, vertices_,

@@ -1,4 +1,4 @@
-// Broad phase between gel and object.
+// Broad phase between gels and one object.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ namespace tacipc {
 /// went; only primitives that have moved too far are searched again.
 class ObjectSearch {
  public:
-  explicit ObjectSearch(const ContactMesh& mesh);
+  /// \param object one of the mesh's
+  ObjectSearch(const ContactMesh& mesh, const ObjectPart& object);
 
   /// Appends every pair that comes within `within_m` while the vertices move straight from `x` to `x + p`, and some
   /// more; which and in which order depends only on the arguments since forget().
@@ -62,6 +63,7 @@ class ObjectSearch {
              std::vector<ContactPair>& out);
 
   const ContactMesh& mesh_;
+  const ObjectPart& object_;
   Positions object_at_;  // relative to its first vertex, as the trees have it
   Bvh vertices_, edges_, triangles_;
   Tracked<1> gel_vertices_;

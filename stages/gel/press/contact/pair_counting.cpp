@@ -44,17 +44,26 @@ class Cells {
 
 std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh,
                                   const PairCounting& counting) {
-  if (!counting.once) return pairs;
+  const auto with_laws = [&](std::vector<ContactPair> all) {
+    if (!mesh.laws.empty()) {
+      for (ContactPair& pair : all) pair.weight *= mesh.law(pair.vertices[0], pair.vertices[3]).stiffness;
+    }
+    return all;
+  };
+  if (!counting.once) return with_laws(std::move(pairs));
   using Kind = ContactPair::Kind;
   const auto of_gel = [&](int v) { return v < mesh.num_gel_vertices; };
+  const auto sharpness = [&](int a, int b) {
+    const Surface& surface = of_gel(a) ? mesh.gel : mesh.object;
+    const std::vector<double>& sharp = of_gel(a) ? mesh.gel_edge_sharpness : mesh.object_edge_sharpness;
+    return sharp.empty() ? 0.0 : sharp[index_of_edge(surface, a, b)];
+  };
   Cells edges, corners;
   for (ContactPair& pair : pairs) {
     const auto& v = pair.vertices;
-    if (of_gel(v[0]) == of_gel(v[3])) continue;
+    if (of_gel(v[0]) && of_gel(v[3]) && (mesh.gels.empty() || mesh.body_of(v[0]) == mesh.body_of(v[3]))) continue;
     if (pair.kind == Kind::edge_edge) {
-      const std::size_t edge =
-          of_gel(v[0]) ? index_of_edge(mesh.object, v[2], v[3]) : index_of_edge(mesh.object, v[0], v[1]);
-      pair.weight = std::max(counting.edge_weight, mesh.object_edge_sharpness[edge]);
+      pair.weight = std::max({counting.edge_weight, sharpness(v[0], v[1]), sharpness(v[2], v[3])});
       continue;
     }
     for (int k = 1; k <= 3; ++k) {
@@ -65,7 +74,7 @@ std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactM
   }
   edges.append_to(pairs, mesh.num_vertices(), -1.0);
   corners.append_to(pairs, mesh.num_vertices(), 1.0);
-  return pairs;
+  return with_laws(std::move(pairs));
 }
 
 }  // namespace tacipc

@@ -5,15 +5,15 @@
 
 namespace tacipc {
 
-/// Weights of the pairs between gel and object.
+/// Weights of the pairs between two bodies.
 struct PairCounting {
   /// Every piece of surface near a vertex pushes on it once. Otherwise each pair counts by itself [Li et al. 2020]: a
   /// vertex is pushed once above the middle of a triangle, twice above an edge, six times above a corner, which gives a
   /// smooth surface bumps of the size of its triangles that friction catches on (docs/board3.md).
   bool once = false;
-  /// Where once: least weight of edge–edge pairs, which count as much as the object's edge is sharp
-  /// (contact/sharpness.h). On smooth surfaces they only keep edges from crossing, as vertices carry the load; at sharp
-  /// edges they carry it.
+  /// Where once: least weight of edge–edge pairs, which count as much as the object's edge is sharp, the sharper one of
+  /// two (contact/sharpness.h). On smooth surfaces they only keep edges from crossing, as vertices carry the load; at
+  /// sharp edges they carry it.
   double edge_weight = 0.02;
 };
 
@@ -26,9 +26,9 @@ struct PairCounting {
 /// feature always counts +1, so the sum still grows without bound at contact.
 ///
 /// Edges and corners come as pairs point–triangle that repeat their last vertex: (p, e₀, e₁, e₁) and (p, v, v, v).
-/// Pairs gel–gel are left as they are: the reach of theirs differs from pair to pair.
-/// \pre triangles around every edge within reach of a vertex are in `pairs`, as ContactSearch finds them; none has been
-/// weighted yet.
+/// Pairs within one gel are left as they are: the reach of theirs differs from pair to pair. Where bodies touch by laws
+/// of their own (ContactMesh::laws), all are multiplied by the law's stiffness. \pre triangles around every edge within
+/// reach of a vertex are in `pairs`, as ContactSearch finds them; none has been weighted yet.
 std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh,
                                   const PairCounting& counting);
 

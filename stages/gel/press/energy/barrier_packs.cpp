@@ -155,7 +155,7 @@ double ContactBarrier::value(const Positions& x) const {
           pairs[0]->kind == ContactPair::Kind::point_triangle ? point_triangle_distances : edge_edge_distances;
       const unsigned doubtful = distances(x.data(), mesh_->rest_positions.data(), pairs.data(), s);
       for (int l = 0; l < count; ++l) {
-        if (const int i = near[first + l]; (doubtful >> l & 1U) || of_gel_alone(i)) {
+        if (const int i = near[first + l]; (doubtful >> l & 1U) || !is_plain(i)) {
           sum += value_of(i, gather(x, *pairs[l]));
         } else {
           sum += pairs[l]->weight * barrier(s[l], s_hat_);
@@ -174,7 +174,7 @@ void ContactBarrier::evaluate_pack(const StencilPack& which, int count, const Po
   Lanes* const lanes = wanted.count == 1 ? point_lanes : wanted.count == 3 ? triangle_lanes : edge_lanes;
   const unsigned doubtful = lanes(x.data(), mesh_->rest_positions.data(), pairs.data(), s_hat_, blend, out);
   for (int l = 0; l < count; ++l) {
-    if (!(doubtful >> l & 1U)) continue;
+    if (!(doubtful >> l & 1U) && law(which[l]).d_hat == 1.0) continue;
     PairLocal local;
     const bool any = evaluate_blended(which[l], gather(x, *pairs[l]), blend[l], kAllPairVertices, local);
     for (int b = 0; b < wanted.count; ++b) {

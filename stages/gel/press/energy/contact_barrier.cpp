@@ -66,6 +66,19 @@ void mollified_derivatives(const ClosestFeature& feature, double b, double b1, d
 
 }  // namespace
 
+ContactBarrier::ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m)
+    : mesh_(&mesh), pairs_(std::move(pairs)), s_hat_(d_hat_m * d_hat_m) {
+  if (mesh.laws.empty()) return;
+  laws_.reserve(pairs_.size());
+  for (const ContactPair& pair : pairs_)
+    laws_.push_back(static_cast<std::uint16_t>(&mesh.law(pair.vertices[0], pair.vertices[3]) - mesh.laws.data()));
+}
+
+bool ContactBarrier::of_objects_alone(int i) const {
+  const auto& v = pairs_[i].vertices;
+  return *std::min_element(v.begin(), v.end()) >= mesh_->num_gel_vertices;
+}
+
 bool ContactBarrier::of_gel_alone(int i) const {
   const auto& v = pairs_[i].vertices;
   return *std::max_element(v.begin(), v.end()) < mesh_->num_gel_vertices;
@@ -73,9 +86,10 @@ bool ContactBarrier::of_gel_alone(int i) const {
 
 double ContactBarrier::s_hat_of(int i) const {
   const ContactPair& pair = pairs_[i];
-  if (!of_gel_alone(i)) return s_hat_;
+  const double s_hat = s_hat_ * law(i).d_hat * law(i).d_hat;
+  if (!of_gel_alone(i) || mesh_->body_of(pair.vertices[0]) != mesh_->body_of(pair.vertices[3])) return s_hat;
   const FourPoints rest = gather(mesh_->rest_positions, pair);
-  return std::min(s_hat_, 0.25 * closest_feature(pair, rest).squared_distance);
+  return std::min(s_hat, 0.25 * closest_feature(pair, rest).squared_distance);
 }
 
 double ContactBarrier::mollifier_threshold(int i) const {

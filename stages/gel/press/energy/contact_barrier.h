@@ -1,6 +1,7 @@
 // Energy that keeps gel and object, and the gel and itself, apart.
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -11,13 +12,12 @@ namespace tacipc {
 
 /// B(x) = Σ_k c_k m_k(x) b(s_k(x), ŝ_k), in m⁴: c_k the weight of pair k (pair_counting.h), s_k its squared distance, b
 /// of barrier.h, m_k the mollifier of nearly parallel edges (1 for point–triangle pairs).   [Eq. 5; Li et al. 2020] ŝ_k
-/// = d̂², but for gel–gel pairs at most a quarter of the squared distance at rest: neighbours on the undeformed gel must
-/// not push each other however fine the mesh is.
+/// = d̂², of bodies with a law of their own its part of that, and for pairs within one gel at most a quarter of the
+/// squared distance at rest: neighbours on the undeformed gel must not push each other however fine the mesh is.
 class ContactBarrier final : public ContactTerm {
  public:
   /// \pre the mesh stays where it is
-  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m)
-      : mesh_(&mesh), pairs_(std::move(pairs)), s_hat_(d_hat_m * d_hat_m) {}
+  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m);
 
   std::string_view name() const override { return "barrier"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
@@ -32,8 +32,14 @@ class ContactBarrier final : public ContactTerm {
                      PackedBlocks& out) const override;
 
   const std::vector<ContactPair>& pairs() const { return pairs_; }
-  /// Whether pair i is one of the gel with itself.
+  /// Whether pair i is one of the gel with itself or another gel.
   bool of_gel_alone(int i) const;
+  /// Whether pair i is one of an object with another one.
+  bool of_objects_alone(int i) const;
+  /// How the two sides of pair i touch.
+  const PairLaw& law(int i) const {
+    return laws_.empty() ? kOrdinary : mesh_->laws[laws_[static_cast<std::size_t>(i)]];
+  }
 
   /// How one pair pushes: its closest feature and 2 d c m |b′(d²)| in m³, zero from d̂ on. Times κ it is the force
   /// between the two sides along the line that joins their closest points; negative where the weight c is.
@@ -51,14 +57,19 @@ class ContactBarrier final : public ContactTerm {
   double value_of(int i, const FourPoints& points) const;
   bool mollified(int i, const FourPoints& x) const;
 
+  /// Whether ŝ of pair i is d̂² and nothing needs to be looked at besides.
+  bool is_plain(int i) const { return !of_gel_alone(i) && law(i).d_hat == 1.0; }
+
+  static constexpr PairLaw kOrdinary = {};
   const ContactMesh* mesh_;
   std::vector<ContactPair> pairs_;
+  std::vector<std::uint16_t> laws_;  // of each pair, where bodies have some
   /// What active() found last: energy, friction and derivatives ask at the same place. One thread at a time.
   mutable struct {
     Positions x;
     std::vector<int> near;
   } last_;
-  double s_hat_;  // d̂²: ŝ of all pairs but some of gel and gel
+  double s_hat_;  // d̂²: ŝ of all pairs but some of gel and gel, and of bodies with another law
 };
 
 }  // namespace tacipc

@@ -23,11 +23,12 @@ Friction::Friction(const ContactBarrier& barrier, const Positions& lagged, const
   for (const int i : near) {
     const ContactPair& contact = barrier.pairs()[i];
     const ContactBarrier::Push push = barrier.push(i, gather(lagged, contact));
-    if (push.force == 0.0) continue;
+    const double normal_force = push.force * barrier.law(i).friction;
+    if (normal_force == 0.0) continue;
     Pair pair;
     pair.vertices = contact.vertices;
     pair.weights = push.feature.weights;
-    pair.normal_force = push.force;
+    pair.normal_force = normal_force;
     const Vector3 n = push.feature.r.normalized();
     pair.tangents.col(0) = n.unitOrthogonal();
     pair.tangents.col(1) = n.cross(pair.tangents.col(0));

@@ -26,7 +26,10 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
   add(h * h, terms.constraint);
   add(h * h, terms.viscous_memory);
   add(h * h * w.elastic_factor, terms.elasticity);
-  if (terms.body_inertia) out.of_bodies = {{1.0, terms.body_inertia}, {h * h, terms.body_orthogonality}};
+  for (const StepTerms::Body& body : terms.bodies) {
+    out.of_bodies.push_back({1.0, body.inertia});
+    out.of_bodies.push_back({h * h, body.orthogonality});
+  }
   out.friction = {kappa * w.friction_coefficient, terms.friction};
   out.barrier = {kappa, terms.barrier};
   return out;

@@ -31,9 +31,12 @@ struct StepTerms {
   std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where x̂ does not include it
   std::shared_ptr<const EnergyTerm> constraint;         // what an augmented Lagrangian holds
   std::shared_ptr<const EnergyTerm> elasticity;
-  std::shared_ptr<const EnergyTerm> viscous_memory;      // of a gel whose stress relaxes
-  std::shared_ptr<const EnergyTerm> body_inertia;        // of bodies that move freely, about their points' x̂
-  std::shared_ptr<const EnergyTerm> body_orthogonality;  // what keeps their shape
+  std::shared_ptr<const EnergyTerm> viscous_memory;  // of a gel whose stress relaxes
+  struct Body {
+    std::shared_ptr<const EnergyTerm> inertia;        // about its points' x̂
+    std::shared_ptr<const EnergyTerm> orthogonality;  // what keeps its shape
+  };
+  std::vector<Body> bodies;  // that move freely
   std::shared_ptr<const ContactTerm> friction;
   std::shared_ptr<const ContactBarrier> barrier;
 };

@@ -8,15 +8,16 @@
 
 namespace tacipc {
 
-/// A share in [0, 1] for every vertex of the gel: 0 the exact Hessian, 1 its PSD approximation; as small as positive
-/// definiteness allows. Shares fall after each Newton step that was found, faster and faster while that works. They
-/// rise about those vertices where the Hessian turned out not to be positive definite, or where the line search had to
-/// shorten a step. Vertices that snap over an edge of the object are few: all others keep the exact Hessian.
+/// A share in [0, 1] for every vertex of the gel, and of objects where these touch each other: 0 the exact Hessian, 1
+/// its PSD approximation; as small as positive definiteness allows. Shares fall after each Newton step that was found,
+/// faster and faster while that works. They rise about those vertices where the Hessian turned out not to be positive
+/// definite, or where the line search had to shorten a step. Vertices that snap over an edge of the object are few: all
+/// others keep the exact Hessian.
 class Blend {
  public:
   /// All shares are 1, and stay so unless adaptive.
-  explicit Blend(int num_gel_vertices, bool adaptive = true)
-      : Blend(std::vector<double>(static_cast<std::size_t>(num_gel_vertices), 1.0), adaptive) {}
+  explicit Blend(int num_vertices, bool adaptive = true)
+      : Blend(std::vector<double>(static_cast<std::size_t>(num_vertices), 1.0), adaptive) {}
   explicit Blend(std::vector<double> shares, bool adaptive = true)
       : adaptive_(adaptive),
         share_(std::move(shares)),
@@ -24,12 +25,14 @@ class Blend {
         divisor_(share_.size(), kLargestDivisor),
         raised_(share_.size(), false) {}
 
+  int size() const { return static_cast<int>(share_.size()); }
+  bool has(int vertex) const { return vertex < size(); }
   double share(int vertex) const { return share_[static_cast<std::size_t>(vertex)]; }
-  /// Of a contact between these vertices: the largest of the gel's among them.
+  /// Of a contact between these vertices: the largest among them.
   double share(std::span<const int> stencil) const {
     double largest = 0.0;
     for (const int v : stencil) {
-      if (v < static_cast<int>(share_.size())) largest = std::max(largest, share(v));
+      if (has(v)) largest = std::max(largest, share(v));
     }
     return largest;
   }

@@ -45,13 +45,12 @@ void TimeStepper::start_friction(Step& step) {
   }
   // Normal forces and tangent planes are those after the object alone has moved as far as half of every gap allows, so
   // that contacts of this step have friction, too. [where the IPC authors' code lags friction]
-  Positions motion = Positions::Zero(step.start.rows(), 3);
-  if (step.goal.free_object) {
-    mesh_.control_rows(motion) = step.predicted - mesh_.control_rows(step.start);
-    for (const CarriedBody& body : newton_->free().carried) body.carry(motion);
-  } else {
-    mesh_.object_rows(motion) = step.goal.object_target - mesh_.object_rows(step.start);
+  Positions motion = way_of_held_objects(step, step.start);
+  for (const Step::Body& body : step.bodies) {
+    const int first = mesh_.control_row(body.body);
+    motion.middleRows<4>(first) = body.predicted - step.start.middleRows<4>(first);
   }
+  for (const CarriedBody& body : newton_->free().carried) body.carry(motion);
   // Pairs that are near already mostly stop the object soon; only up to there the others need be searched.
   const GapRule rule{kLagSlack, kGapFloor * settings_.d_hat_m};
   const double part = contact_step_limit(pairs_at(step.start), step.start, motion, rule);

@@ -98,25 +98,25 @@ void TimeStepper::minimise(Step& step) {
 }
 
 NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool moving) {
-  const NewtonSettings& settings = settings_.newton;
   const double h = step.goal.h_s;
+  const Positions way = moving ? way_of_held_objects(step, step.x) : Positions();
   Positions motion = Positions::Zero(step.x.rows(), 3);
   if (moving && step.goal.gel_motion.size() > 0)
     motion.topRows(mesh_.num_gel_vertices) = run.part_of_motion * step.gel_way_left * step.goal.gel_motion;
-  if (moving && !step.goal.free_object) {
-    mesh_.object_rows(motion) = run.part_of_motion * ((step.goal.object_target - mesh_.object_rows(step.x)).rowwise() +
-                                                      step.object_shift.transpose());
-  }
+  if (moving) mesh_.object_rows(motion) = run.part_of_motion * mesh_.object_rows(way);
   // One direction differs from the next by more than a coarse solution leaves out of it.
   newton_->set_tolerance(moving ? kFineSolve : kCoarseSolve);
   const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
-  Blend from_psd(mesh_.num_gel_vertices, settings.adaptive_contact_hessian);
+  Blend from_psd = full_blend();
   NewtonDirection direction = newton_->direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
                                                  step.arrived ? step.blend : from_psd);
   const Eigen::Index rows = settings_.augmented_lagrangian ? step.x.rows() : mesh_.num_gel_vertices;
-  run.residual_m_s = std::max({largest_row(direction.p, rows), direction.object_shift.norm(),
-                               std::sqrt(mesh_.control_rows(direction.p).rowwise().squaredNorm().sum())}) /
-                     h;
+  run.residual_m_s = std::max(largest_row(direction.p, rows), direction.object_shift.norm());
+  for (const Step::Body& body : step.bodies) {
+    const auto points = direction.p.middleRows<4>(mesh_.control_row(body.body));
+    run.residual_m_s = std::max(run.residual_m_s, std::sqrt(points.rowwise().squaredNorm().sum()));
+  }
+  run.residual_m_s /= h;
   StepReport& report = step.report;
   ++report.newton_iterations;
   report.velocity_residual_m_s = run.residual_m_s;
@@ -132,10 +132,11 @@ bool TimeStepper::within_tolerances(const Step& step, const NewtonDirection& dir
   if (step.constraint && !(step.constraint->largest(direction.p) < kConstraintPart * kConstraintTolerance))
     return false;
   if (!(report.velocity_residual_m_s < step.looseness * settings.velocity_tolerance_m_s)) return false;
-  if (step.goal.free_object) {
+  for (std::size_t b = 0; b < step.bodies.size(); ++b) {
     // The gel's tolerance would leave a light object's weight unnoticed.
-    const double h = step.goal.h_s, limit = kBodyTolerance * std::max(step.weight_n, kLeastWeight) * step.looseness;
-    if (!(direction.body_force / (h * h) < limit && direction.body_torque / (h * h) < limit * kBodyArm)) return false;
+    const double h2 = step.goal.h_s * step.goal.h_s,
+                 limit = kBodyTolerance * std::max(step.bodies[b].weight_n, kLeastWeight) * step.looseness;
+    if (!(direction.bodies[b].force / h2 < limit && direction.bodies[b].torque / h2 < limit * kBodyArm)) return false;
   }
   return report.force_residual_n <
          step.looseness *
@@ -172,7 +173,7 @@ std::optional<double> TimeStepper::line_search(Step& step, Minimisation& run, co
     const Positions trial = step.x + alpha * direction.p;
     const double after = value(trial);
     if (!(after <= before + kSufficientDecrease * alpha * direction.slope + rounding)) continue;
-    if (step.arrived && halvings > 0) raise_shares_of_farthest(direction.p.topRows(mesh_.num_gel_vertices), step.blend);
+    if (step.arrived && halvings > 0) raise_shares_of_farthest(direction.p.topRows(step.blend.size()), step.blend);
     step.x = trial;
     step.object_shift += alpha * direction.object_shift;
     run.value = after;

@@ -136,8 +136,7 @@ void TimeStepper::move_object(Step& step, Minimisation& run, const NewtonDirecti
   if (moved == 1.0) {
     step.arrived = true;
     if (step.goal.gel_motion.size() > 0) arrive_at_mounts(step);
-    if (step.goal.free_object) return;
-    mesh_.object_rows(step.x) = step.goal.object_target.rowwise() + step.object_shift.transpose();
+    place_held_objects(step, step.x);
     return;
   }
   const double made = alpha * run.bent;

@@ -135,13 +135,20 @@ void NewtonStepper::hold_columns(const Call& call) {
   for (const CarriedBody& body : free_.carried) {
     for (int k = 0; k < 4; ++k) touched[free_.free_of_vertex[body.first_control_point + k]] = true;
   }
+  carried_alone_.clear();
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
     for (const int i : active) {
-      for (const int v : contact.term->stencil(i)) {
+      bool alone = true;
+      const std::span<const int> stencil = contact.term->stencil(i);
+      for (const int v : stencil) {
+        alone = alone && v >= first_object_vertex_;
         if (const int c = free_.free_of_vertex[v]; c >= 0) touched[c] = true;
       }
+      if (alone) carried_alone_.insert(carried_alone_.end(), stencil.begin(), stencil.end());
     }
   });
+  std::sort(carried_alone_.begin(), carried_alone_.end());
+  carried_alone_.erase(std::unique(carried_alone_.begin(), carried_alone_.end()), carried_alone_.end());
   held_columns_.clear();
   held_values_.clear();
   for (int c = 0; c < free_.size(); ++c) {
@@ -279,9 +286,14 @@ bool NewtonStepper::solve_once(const NewtonProblem& problem, NewtonDirection& ou
 std::vector<int> NewtonStepper::indefinite_vertices() const {
   std::vector<int> found;
   for (const int i : solver_->indefinite_rows()) found.push_back(free_.vertex_of_free[i]);
-  if (found.empty()) return free_.vertex_of_free;
+  if (found.empty()) {
+    found = free_.vertex_of_free;
+    found.insert(found.end(), carried_alone_.begin(), carried_alone_.end());
+    return found;
+  }
   // A body has no contact Hessian of its own to soften: that of all contacts is.
   const bool body = std::any_of(found.begin(), found.end(), [&](int v) { return v >= first_object_vertex_; });
+  if (body) found.insert(found.end(), carried_alone_.begin(), carried_alone_.end());
   const double* held = held_values_.data();
   for (const int c : held_columns_) {
     if (body) {
@@ -308,7 +320,7 @@ std::vector<int> NewtonStepper::too_long(const NewtonDirection& direction, doubl
 }
 
 void NewtonStepper::measure_bodies(const Positions& x, NewtonDirection& out) const {
-  out.body_force = out.body_torque = 0.0;
+  out.bodies.clear();
   for (const CarriedBody& body : free_.carried) {
     const auto points = x.middleRows<4>(body.first_control_point);
     const Eigen::RowVector3d center = points.colwise().mean();
@@ -318,8 +330,7 @@ void NewtonStepper::measure_bodies(const Positions& x, NewtonDirection& out) con
       force += on_point;
       torque += Vector3(points.row(k) - center).cross(on_point);
     }
-    out.body_force = std::max(out.body_force, force.norm());
-    out.body_torque = std::max(out.body_torque, torque.norm());
+    out.bodies.push_back({force.norm(), torque.norm()});
   }
 }
 
@@ -328,7 +339,7 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
   const auto raise_shares = [&](const std::vector<int>& vertices) {
     bool raised = false;
     for (const int v : vertices) {
-      if (v < first_object_vertex_) raised = blend.raise(v) || raised;
+      if (blend.has(v)) raised = blend.raise(v) || raised;
     }
     return raised;
   };
@@ -344,7 +355,8 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
       raised = !projected && tries <= kMaxLocalRaises && raise_shares(too_long(out, problem.longest_m));
       if (!raised) break;
     } else {
-      raised = (tries <= kMaxLocalRaises && raise_shares(indefinite_vertices())) || raise_shares(free_.vertex_of_free);
+      raised = (tries <= kMaxLocalRaises && raise_shares(indefinite_vertices())) ||
+               raise_shares(free_.vertex_of_free) || raise_shares(carried_alone_);
     }
     if (raised) {
       reblend(call, before, blend);
@@ -357,9 +369,9 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
   }
   measure_bodies(problem.x, out);
   out.largest_share = blend.largest();
-  // Of a body that moves freely, its force counts: single points are held to each other by its stiffness.
+  // Points of bodies are held to each other by their stiffness: what is missing to a body's balance says more.
   const auto of_points = 12 * static_cast<Eigen::Index>(free_.carried.size());
-  out.gradient_sum = sum_of_norms(system_.gradient.head(system_.gradient.size() - of_points)) + out.body_force;
+  out.gradient_sum = sum_of_norms(system_.gradient.head(system_.gradient.size() - of_points));
   for (const int axis : problem.free_axes) out.gradient_sum += std::abs(system_.object_gradient[axis]);
   blend.lower();
   return out;

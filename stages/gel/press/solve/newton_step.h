@@ -32,13 +32,16 @@ struct NewtonDirection {
   Positions p;                             // all vertices
   Vector3 object_shift = Vector3::Zero();  // the object's part of it beyond its prescribed motion
   double slope = 0.0;                      // gᵀp over everything free
-  double gradient_sum = 0.0;  // Σ of |gradient| over free vertices, over the object's free axes, and body_force
+  double gradient_sum = 0.0;  // Σ of |gradient| over free vertices of gels, and over the object's free axes
   /// What residual forces are measured by: |Σ gradient of contact| over the free vertices of the gel that is touched
   /// least, of the barrier alone or with friction, whichever is smaller (friction may carry most of the normal force,
   /// and the rest must balance, too).
   double contact_sum = 0.0;
-  /// |Σ residual force| and |Σ residual torque| about its centre, the largest of the bodies that move freely.
-  double body_force = 0.0, body_torque = 0.0;
+  /// |Σ residual force| and |Σ residual torque| about its centre, of each body that moves freely.
+  struct Body {
+    double force, torque;
+  };
+  std::vector<Body> bodies;
   double largest_share = 0.0;  // of the contact Hessian's PSD approximation: 0 exact, 1 nothing else somewhere
 };
 
@@ -118,7 +121,7 @@ class NewtonStepper {
   Eigen::Index num_object_rows(const Positions& x) const {
     return x.rows() - first_object_vertex_ - free_.num_control_points;
   }
-  /// NewtonDirection::body_force and body_torque, of the system's gradient.
+  /// NewtonDirection::bodies, of the system's gradient.
   void measure_bodies(const Positions& x, NewtonDirection& out) const;
   /// Free vertices in contact that go farther than `longest_m`.
   std::vector<int> too_long(const NewtonDirection& direction, double longest_m) const;
@@ -134,6 +137,7 @@ class NewtonStepper {
   std::vector<WeightedTerm> held_;  // terms in the matrix of the last call; none where it cannot be used again
   std::vector<int> held_columns_;   // that contacts have been added to, and what these were without
   std::vector<double> held_values_;
+  std::vector<int> carried_alone_;  // vertices of bodies in contacts without a gel, ascending
   SolverTimes times_;
   std::unique_ptr<LinearSolver> solver_;
   double tolerance_ = 1e-3;  // of the solver

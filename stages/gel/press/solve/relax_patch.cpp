@@ -115,7 +115,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity,
                      &terms.viscous_memory, &terms.elasticity})
     *term = restricted(*term, patch.moves);
-  terms.body_inertia = nullptr;  // the object is held meanwhile
+  terms.bodies.clear();  // they are held meanwhile
   terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
   std::vector<ContactPair> pairs;
   IncrementalPotential energy;
@@ -158,7 +158,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
     }
     if (halvings == kMaxHalvings) break;
     step.x = trial;
-    if (halvings > 0) raise_shares_of_farthest(local.p.topRows(mesh_.num_gel_vertices), blend);
+    if (halvings > 0) raise_shares_of_farthest(local.p.topRows(blend.size()), blend);
     log_debug("    patch {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s blend {:.3g}", iterations + 1, part * alpha,
               limit, longest / h, local.largest_share);
   }

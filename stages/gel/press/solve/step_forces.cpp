@@ -1,6 +1,7 @@
 // Within a time step: the forces it ends with.
 #include <cmath>
 
+#include "stages/gel/press/solve/body_wrenches.h"
 #include "stages/gel/press/solve/step_under_way.h"
 
 namespace tacipc {
@@ -12,7 +13,7 @@ constexpr double kTouching = 1e-9;  // of the largest force on a vertex
 double stand_off(const ContactBarrier& barrier, const Positions& x) {
   double force = 0.0, moment = 0.0;
   for (const int i : barrier.active(x)) {
-    if (barrier.of_gel_alone(i)) continue;
+    if (barrier.of_gel_alone(i) || barrier.of_objects_alone(i)) continue;
     const ContactBarrier::Push push = barrier.push(i, gather(x, barrier.pairs()[i]));
     force += push.force;
     moment += push.force * std::sqrt(push.feature.squared_distance);
@@ -63,6 +64,13 @@ void TimeStepper::record_forces(const Step& step) {
   }
   forces_.normal = force_of(energy.barrier.weight, *energy.barrier.term);
   take_from_mount(forces_.normal);
+  if (!bodies_.empty()) {
+    const auto bodies = static_cast<std::size_t>(mesh_.num_bodies());
+    forces_.between.assign(bodies * bodies, {Vector3::Zero(), Vector3::Zero()});
+    for (const WeightedContact* contact : {&energy.barrier, &energy.friction}) {
+      if (contact->term) add_body_wrenches(mesh_, *contact->term, contact->weight / h2, step.x, forces_.between);
+    }
+  }
 
   // Where weights of both signs cancel, rounding is left.
   const double touching_n = kTouching * std::sqrt(forces_.normal.rowwise().squaredNorm().maxCoeff());

@@ -17,13 +17,17 @@ struct TimeStepper::Step {
   Positions x;
   StepTerms terms = {};  // all but contact
   StepWeights weights = {};
-  SymmetricRows start_stress_pa = {};           // elastic, where stress relaxes
-  bool arrived = false;                         // the object is at its target, and gels are where their mounts end
-  double gel_way_left = 0.0;                    // part of StepGoal::gel_motion that is still to be made
-  Vector3 object_shift = Vector3::Zero();       // along its free axes, so far
-  ControlPoints predicted = {};                 // of a free object, without contact
-  Vector3 acceleration_m_s2 = Vector3::Zero();  // of its weight and load
-  double weight_n = 0.0;                        // the larger of the two
+  SymmetricRows start_stress_pa = {};      // elastic, where stress relaxes
+  bool arrived = false;                    // objects are at their targets, and gels are where their mounts end
+  double gel_way_left = 0.0;               // part of StepGoal::gel_motion that is still to be made
+  Vector3 object_shift = Vector3::Zero();  // along its free axes, so far
+  struct Body {
+    int body = 0;                                     // its number
+    ControlPoints predicted = ControlPoints::Zero();  // without contact
+    Vector3 acceleration_m_s2 = Vector3::Zero();      // of its weight and load
+    double weight_n = 0.0;                            // the larger of the two
+  };
+  std::vector<Body> bodies = {};  // those that are free, ascending
   StepReport report = {};
   std::shared_ptr<const Friction> friction = nullptr;
   std::shared_ptr<const Dirichlet> constraint = nullptr;

@@ -26,21 +26,26 @@ constexpr double kSmallGap = 0.01, kWantedGap = 0.05, kMostStiffeningAtOnce = 10
 constexpr double kLongestWay = 20.0, kLongestWayOfEdge = 4.0;
 
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian,
-                           const AffineBody* free_body) {
+                           const std::vector<AffineBody>& bodies, const std::vector<int>& free_bodies) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_rows()), false);
   // Neighbours in space get neighbouring numbers: the solver sweeps over matrix and vectors from end to end.
   std::vector<int> order = spatial_order(mesh.rest_positions.topRows(mesh.num_gel_vertices));
-  // A body's points come last: they are coupled to all that touch it.
+  // Points of bodies come last: they are coupled to all that touch these.
   for (int v = mesh.num_gel_vertices; v < mesh.num_rows(); ++v) order.push_back(v);
   if (augmented_lagrangian) return {order, fixed};
-  const int last = free_body ? mesh.num_vertices() : mesh.num_rows();
-  for (int v = mesh.num_gel_vertices; v < last; ++v) fixed[v] = true;
+  for (int v = mesh.num_gel_vertices; v < mesh.num_rows(); ++v) fixed[v] = true;
+  for (const int body : free_bodies) {
+    for (int k = 0; k < 4; ++k) fixed[mesh.control_row(body) + k] = false;
+  }
   for (const int v : glued) fixed[v] = true;
   FreeVertices free(order, fixed);
   free.num_control_points = mesh.num_control_points;
   for (std::size_t g = 0; g < mesh.gels.size(); ++g)
     free.gel_of_vertex.insert(free.gel_of_vertex.end(), mesh.gels[g].mesh->num_gel_vertices, static_cast<int>(g));
-  if (free_body) free.carried = {{mesh.num_gel_vertices, free_body->weights, mesh.num_vertices()}};
+  for (const int body : free_bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    free.carried.push_back({mesh.objects[i].first_vertex, bodies[i].weights, mesh.control_row(body)});
+  }
   return free;
 }
 
@@ -58,18 +63,21 @@ void StepReport::add_earlier(const StepReport& before) {
 }
 
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings,
-                         std::optional<AffineBody> body)
-    : mesh_(mesh), gel_(std::move(gel)), settings_(settings), search_(mesh), body_(std::move(body)) {
-  const auto stepper = [&](const AffineBody* free_body) {
-    return std::make_unique<NewtonStepper>(free_vertices(mesh, gel_.glued, settings.augmented_lagrangian, free_body),
-                                           mesh.num_gel_vertices, gel_.elasticity, settings.linear_solver);
-  };
-  held_object_ = stepper(nullptr);
-  if (body_) free_object_ = stepper(&*body_);
-  newton_ = held_object_.get();
+                         std::vector<AffineBody> bodies)
+    : mesh_(mesh), gel_(std::move(gel)), settings_(settings), search_(mesh), bodies_(std::move(bodies)) {
+  newton_ = &stepper({});
   std::vector<bool> held(static_cast<std::size_t>(mesh.num_vertices()), false);
   for (const int v : gel_.glued) held[v] = true;
   elasticity_at_mount_ = restricted(gel_.elasticity, held);
+}
+
+NewtonStepper& TimeStepper::stepper(const std::vector<int>& free_bodies) {
+  auto& found = steppers_[free_bodies];
+  if (!found)
+    found = std::make_unique<NewtonStepper>(
+        free_vertices(mesh_, gel_.glued, settings_.augmented_lagrangian, bodies_, free_bodies), mesh_.num_gel_vertices,
+        gel_.elasticity, settings_.linear_solver);
+  return *found;
 }
 
 IncrementalPotential TimeStepper::potential(const Step& step, std::shared_ptr<const ContactBarrier> barrier) const {
@@ -97,8 +105,7 @@ std::vector<ContactPair> TimeStepper::pairs_along(const Positions& x, const Posi
 
 SolverTimes TimeStepper::times() const {
   SolverTimes all = times_;
-  for (const NewtonStepper* stepper : {held_object_.get(), free_object_.get()}) {
-    if (!stepper) continue;
+  for (const auto& [free_bodies, stepper] : steppers_) {
     const SolverTimes newton = stepper->times();
     all.elastic_s += newton.elastic_s;
     all.contact_s += newton.contact_s;
@@ -111,12 +118,14 @@ SolverTimes TimeStepper::times() const {
 }
 
 int TimeStepper::num_analyses() const {
-  return held_object_->solver().num_analyses() + (free_object_ ? free_object_->solver().num_analyses() : 0);
+  int sum = 0;
+  for (const auto& [free_bodies, stepper] : steppers_) sum += stepper->solver().num_analyses();
+  return sum;
 }
 
 bool TimeStepper::stiffen_barrier(State& state, const Positions& x) {
   if (!settings_.adaptive_barrier || state.barrier_factor >= kMostStiffening) return false;
-  const double gap = smallest_gap(x, settings_.d_hat_m) / settings_.d_hat_m;
+  const double gap = smallest_relative_gap(x);
   if (gap >= kSmallGap) return false;
   state.barrier_factor =
       std::min(kMostStiffening, std::min(kMostStiffeningAtOnce, kWantedGap / gap) * state.barrier_factor);
@@ -144,18 +153,22 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
 }
 
 TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& goal, const IterationObserver& observe) {
-  newton_ = goal.free_object ? free_object_.get() : held_object_.get();
+  std::vector<int> free_bodies;
+  for (int body = 0; goal.free_object && body < static_cast<int>(bodies_.size()); ++body) {
+    if (!std::binary_search(goal.held_bodies.begin(), goal.held_bodies.end(), body)) free_bodies.push_back(body);
+  }
+  newton_ = &stepper(free_bodies);
   newton_->reset();
+  std::vector<bool> held(mesh_.objects.size(), true);
+  for (const int body : free_bodies) held[static_cast<std::size_t>(body)] = false;
+  search_.hold(std::move(held));
   search_.forget();
   if (!goal.world_from_gel.empty()) search_.turn_gels(goal.world_from_gel);
   last_search_ = {};
-  Step step{.goal = goal,
-            .observe = observe,
-            .start = state.x,
-            .x = state.x,
-            .blend = Blend(mesh_.num_gel_vertices, settings_.newton.adaptive_contact_hessian)};
+  Step step{.goal = goal, .observe = observe, .start = state.x, .x = state.x, .blend = full_blend()};
   step.report.time_steps = 1;
-  step.arrived = goal.gel_motion.size() == 0 && object_arrived(step);
+  for (const int body : free_bodies) step.bodies.push_back({.body = body});
+  step.arrived = goal.gel_motion.size() == 0 && objects_arrived(step);
   step.weights = {.h_s = goal.h_s,
                   .barrier_stiffness_j_m4 = state.barrier_factor * settings_.barrier_stiffness_j_m4,
                   .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
@@ -165,10 +178,16 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
   if (gel_.viscoelasticity) add_relaxation(step, state);
   if (!goal.free_axes.empty()) add_object_inertia(step, state);
   if (settings_.augmented_lagrangian) add_constraint(step);
-  if (goal.free_object) add_body(step, state);
+  if (goal.free_object) add_bodies(step, state);
   if (goal.free_object || goal.gel_motion.size() > 0) start_ahead(step, state);
   start_friction(step);
   return step;
+}
+
+Blend TimeStepper::full_blend() const {
+  // Where objects touch nothing but gels, vertices of these are enough.
+  const int vertices = mesh_.objects.size() > 1 ? mesh_.num_vertices() : mesh_.num_gel_vertices;
+  return Blend(vertices, settings_.newton.adaptive_contact_hessian);
 }
 
 void TimeStepper::add_gel_terms(Step& step, const State& state) const {
@@ -208,16 +227,33 @@ void TimeStepper::add_object_inertia(Step& step, const State& state) const {
       std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, goal.object_mass_kg), Positions(x_hat), n);
 }
 
-void TimeStepper::add_body(Step& step, const State& state) {
+void TimeStepper::add_bodies(Step& step, const State& state) {
   const StepGoal& goal = step.goal;
-  const ControlPoints before = mesh_.control_rows(state.x);
-  step.acceleration_m_s2 = settings_.gravity_m_s2 + goal.load_n / body_->mass_kg;
-  step.weight_n = body_->mass_kg * std::max(settings_.gravity_m_s2.norm(), goal.load_n.norm() / body_->mass_kg);
-  step.predicted = predicted(*body_, before, state.object_motion, step.acceleration_m_s2, goal.h_s);
-  const int first = mesh_.num_vertices();
-  step.terms.body_inertia =
-      std::make_shared<Inertia>(Eigen::VectorXd::Constant(4, 0.25 * body_->mass_kg), Positions(step.predicted), first);
-  step.terms.body_orthogonality = std::make_shared<Orthogonality>(first, *body_, orthogonality_pa(*body_));
+  for (Step::Body& free : step.bodies) {
+    const auto i = static_cast<std::size_t>(free.body);
+    const AffineBody& body = bodies_[i];
+    const Vector3 load_n = goal.body_load_n.empty() ? goal.load_n : goal.body_load_n[i];
+    const int first = mesh_.control_row(free.body);
+    free.acceleration_m_s2 = settings_.gravity_m_s2 + load_n / body.mass_kg;
+    free.weight_n = body.mass_kg * std::max(settings_.gravity_m_s2.norm(), load_n.norm() / body.mass_kg);
+    free.predicted =
+        predicted(body, state.x.middleRows<4>(first), state.object_motion[i], free.acceleration_m_s2, goal.h_s);
+    step.terms.bodies.push_back(
+        {std::make_shared<Inertia>(Eigen::VectorXd::Constant(4, 0.25 * body.mass_kg), Positions(free.predicted), first),
+         std::make_shared<Orthogonality>(first, body, orthogonality_pa(body))});
+  }
+}
+
+template <typename Use>
+void TimeStepper::for_each_held(const Step& step, Use&& use) const {
+  std::size_t next = 0;
+  for (std::size_t object = 0; object < mesh_.objects.size(); ++object) {
+    if (next < step.bodies.size() && step.bodies[next].body == static_cast<int>(object)) {
+      ++next;
+    } else {
+      use(mesh_.objects[object]);
+    }
+  }
 }
 
 double TimeStepper::relative_way(const Positions& p) const {
@@ -229,25 +265,66 @@ double TimeStepper::longest_way() const {
   return std::max(kLongestWay * settings_.d_hat_m, kLongestWayOfEdge * settings_.front_edge_m);
 }
 
-bool TimeStepper::object_arrived(const Step& step) const {
-  return step.goal.free_object || (mesh_.object_rows(step.x) - step.goal.object_target).cwiseAbs().maxCoeff() == 0.0;
+bool TimeStepper::objects_arrived(const Step& step) const {
+  bool arrived = true;
+  for_each_held(step, [&](const ObjectPart& object) {
+    const Positions target =
+        step.goal.object_target.middleRows(object.first_vertex - mesh_.num_gel_vertices, object.num_vertices);
+    arrived = arrived && (object.rows(step.x) - target).cwiseAbs().maxCoeff() == 0.0;
+  });
+  return arrived;
+}
+
+void TimeStepper::place_held_objects(const Step& step, Positions& x) const {
+  for_each_held(step, [&](const ObjectPart& object) {
+    object.rows(x) =
+        step.goal.object_target.middleRows(object.first_vertex - mesh_.num_gel_vertices, object.num_vertices)
+            .rowwise() +
+        step.object_shift.transpose();
+  });
+}
+
+Positions TimeStepper::way_of_held_objects(const Step& step, const Positions& x) const {
+  Positions way = Positions::Zero(x.rows(), 3);
+  for_each_held(step, [&](const ObjectPart& object) {
+    object.rows(way) =
+        (step.goal.object_target.middleRows(object.first_vertex - mesh_.num_gel_vertices, object.num_vertices) -
+         object.rows(x))
+            .rowwise() +
+        step.object_shift.transpose();
+  });
+  return way;
+}
+
+bool TimeStepper::touches_moving_gel(const Step& step, const ObjectPart& object) {
+  std::vector<ContactPair> pairs = pairs_at(step.start);
+  std::erase_if(pairs, [&](const ContactPair& pair) {
+    const auto moves = [&](int v) {
+      return v < mesh_.num_gel_vertices && (step.goal.gel_motion.row(v).array() != 0.0).any();
+    };
+    return !(moves(pair.vertices[0]) && object.has(pair.vertices[3])) &&
+           !(moves(pair.vertices[3]) && object.has(pair.vertices[0]));
+  });
+  return smallest_distance(pairs, step.start, settings_.d_hat_m) < settings_.d_hat_m;
 }
 
 void TimeStepper::start_ahead(Step& step, const State& state) {
   const StepGoal& goal = step.goal;
   Positions p = Positions::Zero(state.x.rows(), 3);
   const bool mounts = goal.gel_motion.size() > 0;
-  if (goal.free_object) {
-    const ControlPoints before = mesh_.control_rows(state.x);
-    if (mounts && smallest_gap(state.x, settings_.d_hat_m) < settings_.d_hat_m) {
+  for (const Step::Body& free : step.bodies) {
+    const auto i = static_cast<std::size_t>(free.body);
+    const ControlPoints before = state.x.middleRows<4>(mesh_.control_row(free.body));
+    auto points = p.middleRows<4>(mesh_.control_row(free.body));
+    if (mounts && touches_moving_gel(step, mesh_.objects[i])) {
       // Gaps are far smaller than what a held object and its fingers would slide past each other otherwise.
-      mesh_.control_rows(p).rowwise() = goal.hand_shift_m.transpose();
+      points.rowwise() = goal.hand_shift_m.transpose();
     } else {
       // Without its weight, which contact mostly carries.
-      mesh_.control_rows(p) = predicted(*body_, before, state.object_motion, Vector3::Zero(), goal.h_s) - before;
+      points = predicted(bodies_[i], before, state.object_motion[i], Vector3::Zero(), goal.h_s) - before;
     }
-    for (const CarriedBody& body : newton_->free().carried) body.carry(p);
   }
+  for (const CarriedBody& body : newton_->free().carried) body.carry(p);
   if (mounts) p.topRows(mesh_.num_gel_vertices) = goal.gel_motion;
   // Piece by piece: a search for pairs along a long way would find too many.
   const double pieces = std::ceil(relative_way(p) / longest_way());
@@ -263,7 +340,7 @@ void TimeStepper::start_ahead(Step& step, const State& state) {
   step.gel_way_left = 1.0 - part;
   if (part < 1.0) return;
   arrive_at_mounts(step);
-  step.arrived = object_arrived(step);
+  step.arrived = objects_arrived(step);
 }
 
 void TimeStepper::arrive_at_mounts(Step& step) const {
@@ -271,38 +348,50 @@ void TimeStepper::arrive_at_mounts(Step& step) const {
     step.x.row(gel_.glued[i]) = step.goal.glued_target.row(static_cast<Eigen::Index>(i));
 }
 
-void TimeStepper::finish_body(Step& step, State& state) const {
+void TimeStepper::finish_bodies(Step& step, State& state) const {
   const double h = step.goal.h_s;
-  if (!step.goal.free_object) {
-    // Whoever moves it gives it the momentum of its rigid motion.
-    const ControlPoints before = mesh_.control_rows(state.x);
-    const ControlPoints now = step.goal.control_target.rowwise() + step.object_shift.transpose();
-    state.object_motion = after_step(*body_, before, now, {}, Vector3::Zero(), h);
-    mesh_.control_rows(step.x) = now;
-    return;
-  }
+  const int count = mesh_.num_bodies();
+  double worst = -1.0;
+  std::size_t next = 0;
   for (const CarriedBody& body : newton_->free().carried) body.carry(step.x);
-  const ControlPoints now = mesh_.control_rows(step.x);
-  state.object_motion = after_step(*body_, step.predicted, now, state.object_motion, step.acceleration_m_s2, h);
-  // Contact acts on the body as on the gel, the other way.
-  const Eigen::RowVector3d center = now.colwise().mean();
-  const Wrench inertia = wrench_of(now, 0.25 * body_->mass_kg / (h * h) * (now - step.predicted));
-  Vector3 force = inertia.force_n, torque = inertia.torque_n_m;
-  for (Eigen::Index v = 0; v < mesh_.num_gel_vertices; ++v) {
-    const Vector3 of_contact = forces_.normal.row(v) + forces_.friction.row(v);
-    force += of_contact;
-    torque += Vector3(step.x.row(v) - center).cross(of_contact);
+  for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    const AffineBody& body = bodies_[i];
+    const int first = mesh_.control_row(b);
+    if (next == step.bodies.size() || step.bodies[next].body != b) {
+      // Whoever moves it gives it the momentum of its rigid motion.
+      const ControlPoints before = state.x.middleRows<4>(first);
+      const ControlPoints now =
+          ControlPoints(step.goal.control_target.middleRows<4>(4 * b)).rowwise() + step.object_shift.transpose();
+      state.object_motion[i] = after_step(body, before, now, {}, Vector3::Zero(), h);
+      step.x.middleRows<4>(first) = now;
+      continue;
+    }
+    const Step::Body& free = step.bodies[next++];
+    const ControlPoints now = step.x.middleRows<4>(first);
+    state.object_motion[i] = after_step(body, free.predicted, now, state.object_motion[i], free.acceleration_m_s2, h);
+    const Wrench inertia = wrench_of(now, 0.25 * body.mass_kg / (h * h) * (now - free.predicted));
+    const Vector3 center = center_of(now);
+    Vector3 force = -inertia.force_n, torque = -inertia.torque_n_m;
+    for (int other = 0; other < count; ++other) {
+      const Wrench& of_contact = forces_.between[static_cast<std::size_t>((mesh_.num_gels() + b) * count + other)];
+      force += of_contact.force_n;
+      torque += of_contact.torque_n_m - center.cross(of_contact.force_n);
+    }
+    const double part = force.norm() / std::max(free.weight_n, std::numeric_limits<double>::min());
+    if (part <= worst) continue;
+    worst = part;
+    step.report.body_residual_n = force.norm();
+    step.report.body_residual_n_m = torque.norm();
+    step.report.body_load_n = free.weight_n;
   }
-  step.report.body_residual_n = force.norm();
-  step.report.body_residual_n_m = torque.norm();
-  step.report.body_load_n = step.weight_n;
 }
 
 void TimeStepper::finish_step(Step& step, State& state) {
   const Eigen::Index n = mesh_.num_gel_vertices;
   const double h = step.goal.h_s;
   record_forces(step);
-  if (body_) finish_body(step, state);
+  if (!bodies_.empty()) finish_bodies(step, state);
   if (const auto& gel = gel_.viscoelasticity)
     gel->advance(state.viscous_pa, gel->stress(step.x) - step.start_stress_pa, h);
   step.report.object_shift_m = step.object_shift;
@@ -314,19 +403,31 @@ void TimeStepper::finish_step(Step& step, State& state) {
   state.object_velocity_m_s.setZero();
   for (const int axis : step.goal.free_axes) state.object_velocity_m_s[axis] = step.object_shift[axis] / h;
   state.x = std::move(step.x);
-  if (!settings_.augmented_lagrangian && !step.goal.free_object)
-    mesh_.object_rows(state.x) = step.goal.object_target.rowwise() + step.object_shift.transpose();
+  if (!settings_.augmented_lagrangian) place_held_objects(step, state.x);
 }
 
 double TimeStepper::smallest_gap(const Positions& x, double none) {
   // Where anything touches, the pairs within d̂ suffice: a wider search finds many times as many.
+  const auto within_one = [&](const ContactPair& pair) {
+    return mesh_.body_of(pair.vertices[0]) == mesh_.body_of(pair.vertices[3]);
+  };
   std::vector<ContactPair> pairs = pairs_at(x);
-  std::erase_if(pairs, [&](const ContactPair& pair) {
-    return std::all_of(pair.vertices.begin(), pair.vertices.end(), [&](int v) { return v < mesh_.num_gel_vertices; });
-  });
+  std::erase_if(pairs, within_one);
   const double near = smallest_distance(pairs, x, none);
   if (near < std::min(settings_.d_hat_m, none)) return near;
-  return smallest_distance(search_.object_pairs(x, Positions::Zero(x.rows(), 3), none), x, none);
+  return smallest_distance(search_.pairs_of_bodies(x, Positions::Zero(x.rows(), 3), none), x, none);
+}
+
+double TimeStepper::smallest_relative_gap(const Positions& x) {
+  const double d_hat = settings_.d_hat_m;
+  if (mesh_.laws.empty()) return smallest_gap(x, d_hat) / d_hat;
+  double smallest = 1.0;
+  for (const ContactPair& pair : pairs_at(x)) {
+    if (mesh_.body_of(pair.vertices[0]) == mesh_.body_of(pair.vertices[3])) continue;
+    const double own = d_hat * mesh_.law(pair.vertices[0], pair.vertices[3]).d_hat;
+    smallest = std::min(smallest, std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance) / own);
+  }
+  return smallest;
 }
 
 }  // namespace tacipc

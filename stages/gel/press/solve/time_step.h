@@ -1,8 +1,9 @@
-// One time step: brings the object to its prescribed pose and the gel to the minimum of the incremental potential.
+// One time step: brings objects to their prescribed poses and all else to the minimum of the incremental potential.
 #pragma once
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -60,32 +61,35 @@ struct GelModel {
   std::shared_ptr<const Viscoelasticity> viscoelasticity = nullptr;  // over the same; null: elastic
 };
 
-/// Where the object goes in one step.
+/// Where objects go in one step.
 struct StepGoal {
   double h_s = 0.0;
-  Positions object_target;           // of its vertices; along free axes, where they would be without any shift
+  Positions object_target;           // of their vertices; along free axes, where they would be without any shift
   std::vector<int> free_axes = {};   // of S, along which the object moves as loads and contact have it
   Vector3 load_n = Vector3::Zero();  // on the object, along these
   double object_mass_kg = 0.0;       // its inertia along these; > 0 if there are any
-  /// The object moves and turns as its weight, the load at its centre of mass, and contact have it: nothing of it is
-  /// prescribed. \pre the stepper knows it as a body
+  /// Bodies move and turn as their weight, the load at their centre of mass, and contact have it: nothing of them is
+  /// prescribed. \pre there are bodies
   bool free_object = false;
+  std::vector<int> held_bodies = {};      // but for these, ascending
+  std::vector<Vector3> body_load_n = {};  // on each body, held or not; empty: load_n on the only one
   /// How gels go that are carried by their mounts: for each of their vertices the way it would go if the gel moved
   /// rigidly with its mount, and where glued vertices end, in the order of GelModel::glued. Empty: no mount moves.
   Positions gel_motion = {}, glued_target = {};
   Vector3 hand_shift_m = Vector3::Zero();    // what all mounts have in common: a free object that they hold goes along
   std::vector<Matrix3> world_from_gel = {};  // how several gels are turned meanwhile; empty for one
-  ControlPoints control_target = {};  // of the body's points, as object_target is of its vertices; unless it is free
+  /// Of the bodies' points, as object_target is of their vertices; rows of those that are free do not matter.
+  Positions control_target = {};
 };
 
 /// What moves; rows of gel, object, and the points that carry an object that may be free.
 struct State {
   Positions x;
-  Positions velocity_m_s;                         // gel rows
-  Vector3 object_velocity_m_s = Vector3::Zero();  // along free axes
-  RigidMotion object_motion = {};                 // of an object that may be free
-  double barrier_factor = 1.0;                    // on the barrier's stiffness in the next step
-  Viscoelasticity::History viscous_pa = {};       // of a gel whose stress relaxes
+  Positions velocity_m_s;                                                // gel rows
+  Vector3 object_velocity_m_s = Vector3::Zero();                         // along free axes
+  std::vector<RigidMotion> object_motion = std::vector<RigidMotion>(1);  // of each object that may be free
+  double barrier_factor = 1.0;                                           // on the barrier's stiffness in the next step
+  Viscoelasticity::History viscous_pa = {};                              // of a gel whose stress relaxes
 };
 
 /// What a step took and where it ended.
@@ -104,7 +108,8 @@ struct StepReport {
   double friction_residual_n = 0.0;          // residual force if normal forces and tangent planes were renewed now
   double contact_force_n = 0.0;              // |Σ forces of the object on the gel|, with or without friction: the less
   Vector3 object_shift_m = Vector3::Zero();  // displacement of the object along its free axes
-  /// Of a free object, |change of momentum / h − the forces on it| and the same of angular momentum about its centre.
+  /// Of a free object, |change of momentum / h − the forces on it| and the same of angular momentum about its centre;
+  /// of several, of the one where the former is the largest part of the load.
   double body_residual_n = 0.0, body_residual_n_m = 0.0;
   double body_load_n = 0.0;  // its weight or the load on it, whichever is larger
 
@@ -123,6 +128,9 @@ struct StepForces {
   /// Σ λ d / Σ λ over the pairs of gel and object, λ the force and d the distance between the two sides of each: the
   /// mean gap between the surfaces where they press on each other. Zero where nothing touches.
   double stand_off_m = 0.0;
+  /// By the contact of one body with another (ContactMesh::body_of()), about the world's origin: on body a by body b at
+  /// a × number of bodies + b. Where any object may be free; else empty.
+  std::vector<Wrench> between = {};
 };
 
 /// Called after each Newton iteration, for progress lines.
@@ -130,11 +138,10 @@ using IterationObserver = std::function<void(int iteration, double velocity_resi
 
 class TimeStepper {
  public:
-  /// \param body the object, where it may be free: the mesh then has rows for its points
-  TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings,
-              std::optional<AffineBody> body = std::nullopt);
+  /// \param bodies the first objects, those that may be free: the mesh then has rows for their points
+  TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings, std::vector<AffineBody> bodies = {});
 
-  /// Advances the state by one step. But for its free axes the object ends bit-equal to the target.
+  /// Advances the state by one step. But for free axes, objects that are not free end bit-equal to the target.
   /// \throw SolverError with the numbers if the step does not converge; the state is then as before but for the
   /// barrier's factor.
   StepReport advance(State& state, const StepGoal& goal, const IterationObserver& observe);
@@ -143,7 +150,7 @@ class TimeStepper {
   const StepForces& forces() const { return forces_; }
   /// Those of a gel that nothing touches.
   StepForces no_forces() const;
-  /// Smallest gap between gel and object (not counting gel–gel), at most `none`.
+  /// Smallest gap between two bodies (not counting a gel with itself), at most `none`.
   double smallest_gap(const Positions& x, double none);
   /// Of all steps so far.
   SolverTimes times() const;
@@ -156,18 +163,29 @@ class TimeStepper {
   /// The step before its first iteration: terms, weights, friction.
   Step start_step(const State& state, const StepGoal& goal, const IterationObserver& observe);
   void add_gel_terms(Step& step, const State& state) const;
+  /// Shares of 1 for all vertices that need some.
+  Blend full_blend() const;
   /// What a gel whose stress relaxes has besides.
   void add_relaxation(Step& step, const State& state) const;
   void add_object_inertia(Step& step, const State& state) const;
-  /// The terms of a free object.
-  void add_body(Step& step, const State& state);
+  /// The terms of free objects.
+  void add_bodies(Step& step, const State& state);
   /// Lets the step start with gels moved with their mounts and a free object where it would fly to, or as near to that
   /// as contact allows.
   void start_ahead(Step& step, const State& state);
   /// How far gels and object go past each other in a step p, and how far they may at once.
   double relative_way(const Positions& p) const;
   double longest_way() const;
-  bool object_arrived(const Step& step) const;
+  bool objects_arrived(const Step& step) const;
+  /// How objects that are not free go from their rows of x to where the step takes them.
+  Positions way_of_held_objects(const Step& step, const Positions& x) const;
+  /// Puts objects that are not free where the step takes them.
+  void place_held_objects(const Step& step, Positions& x) const;
+  /// Calls use(object) for those of ContactMesh::objects that are not free in this step.
+  template <typename Use>
+  void for_each_held(const Step& step, Use&& use) const;
+  /// Whether a gel that moves with its mount is near the object.
+  bool touches_moving_gel(const Step& step, const ObjectPart& object);
   /// Puts glued vertices where their mounts end.
   void arrive_at_mounts(Step& step) const;
   /// The augmented Lagrangian that holds glued and object vertices.
@@ -175,8 +193,12 @@ class TimeStepper {
   /// Takes a solved step over into the state.
   void finish_step(Step& step, State& state);
   void record_forces(const Step& step);
-  /// Momentum of the object after the step, and what is missing to its balance.
-  void finish_body(Step& step, State& state) const;
+  /// Momentum of the bodies after the step, and what is missing to their balance.
+  void finish_bodies(Step& step, State& state) const;
+  /// Smallest gap as part of the d̂ of its two bodies, at most 1.
+  double smallest_relative_gap(const Positions& x);
+  /// The stepper for a step in which these bodies are free.
+  NewtonStepper& stepper(const std::vector<int>& free_bodies);
   /// Makes the barrier of the next steps stiffer if a gap at x is too small; true if it did.
   bool stiffen_barrier(State& state, const Positions& x);
 
@@ -237,9 +259,9 @@ class TimeStepper {
     Positions x;
     std::vector<ContactPair> pairs;
   } last_search_;
-  std::optional<AffineBody> body_;
-  std::unique_ptr<NewtonStepper> held_object_, free_object_;  // the latter where there is a body
-  NewtonStepper* newton_;                                     // that of the step under way
+  std::vector<AffineBody> bodies_;
+  std::map<std::vector<int>, std::unique_ptr<NewtonStepper>> steppers_;  // by the bodies that are free
+  NewtonStepper* newton_;                                                // that of the step under way
   StepForces forces_;
   SolverTimes times_;
 };

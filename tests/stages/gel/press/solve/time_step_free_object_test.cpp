@@ -149,7 +149,7 @@ class FreeBody : public ::testing::Test {
       int steps, const Vector3& gravity, double h = kH, const Vector3& load = Vector3::Zero(),
       const std::function<void()>& after_step = [] {}) {
     settings_.gravity_m_s2 = gravity;
-    TimeStepper stepper(mesh_, soft_ ? soft_gel() : plate(), settings_, body_);
+    TimeStepper stepper(mesh_, soft_ ? soft_gel() : plate(), settings_, std::vector{body_});
     for (int i = 0; i < steps; ++i) {
       report_ = stepper.advance(state_, {.h_s = h, .object_target = {}, .load_n = load, .free_object = true},
                                 [](int, double) {});
@@ -178,8 +178,8 @@ class FreeBody : public ::testing::Test {
             .glued = held};
   }
   ControlPoints points() const { return state_.x.bottomRows<4>(); }
-  Vector3 velocity() const { return state_.object_motion.velocity_m_s; }
-  Vector3 spin() const { return angular_velocity(body_, points(), state_.object_motion); }
+  Vector3 velocity() const { return state_.object_motion[0].velocity_m_s; }
+  Vector3 spin() const { return angular_velocity(body_, points(), state_.object_motion[0]); }
   double weight_n() const { return body_.mass_kg * kG; }
 
   TetMesh gel_;
@@ -214,7 +214,7 @@ class FlyingBox : public FreeBox {
 
 TEST_F(FlyingBox, FallsAsEulersMethodSays) {
   const double start = center_of(points()).z(), v0 = 0.2, h = 5e-3;
-  state_.object_motion = make_rigid_motion(body_, points(), {0.1, 0, v0}, Vector3::Zero());
+  state_.object_motion[0] = make_rigid_motion(body_, points(), {0.1, 0, v0}, Vector3::Zero());
   go(10, {0, 0, -kG}, h);
   const double t = 10 * h;
   EXPECT_NEAR(center_of(points()).z() - start, v0 * t - 0.5 * kG * t * (t + h), 1e-10);
@@ -225,11 +225,11 @@ TEST_F(FlyingBox, FallsAsEulersMethodSays) {
 
 TEST_F(FlyingBox, KeepsItsSpinAndItsMomentumThatImplicitEulerWouldLose) {
   const Vector3 omega(0, 0, 20.0);
-  state_.object_motion = make_rigid_motion(body_, points(), Vector3::Zero(), omega);
-  const Vector3 momentum = state_.object_motion.angular_momentum_kg_m2_s;
+  state_.object_motion[0] = make_rigid_motion(body_, points(), Vector3::Zero(), omega);
+  const Vector3 momentum = state_.object_motion[0].angular_momentum_kg_m2_s;
   const Positions before = mesh_.object_rows(state_.x);
   go(20, Vector3::Zero(), 5e-3);  // two radians: 1/sqrt(1 + 2 h omega^2 t) = 0.45 without the predictor
-  EXPECT_LT((state_.object_motion.angular_momentum_kg_m2_s - momentum).norm(), 1e-6 * momentum.norm());
+  EXPECT_LT((state_.object_motion[0].angular_momentum_kg_m2_s - momentum).norm(), 1e-6 * momentum.norm());
   EXPECT_LT((spin() - omega).norm(), 1e-6 * omega.norm());
   const Vector3 c = center_of(points());
   const Matrix3 turn = Eigen::AngleAxisd(2.0, Vector3::UnitZ()).toRotationMatrix();
@@ -269,7 +269,7 @@ TEST_F(FreeBox, StopsAfterTheDistanceThatFrictionAllows) {
   go(60, {0, 0, -kG});
   // Whole steps, so that the last of them ends at rest: Σ v_n h = v0²/(2 μ g) − v0 h/2.
   const double v0 = 40 * kMu * kG * kH, start = center_of(points()).x();
-  state_.object_motion = make_rigid_motion(body_, points(), {v0, 0, 0}, Vector3::Zero());
+  state_.object_motion[0] = make_rigid_motion(body_, points(), {v0, 0, 0}, Vector3::Zero());
   go(45, {0, 0, -kG});
   ASSERT_LT(velocity().norm(), kSpeed);
   const double expected = v0 * v0 / (2.0 * kMu * kG) - 0.5 * v0 * kH;
@@ -428,7 +428,7 @@ class DroppedBall : public FreeBody {
                                  kDHat);
     const Eigen::VectorXd squares = state_.velocity_m_s.rowwise().squaredNorm();
     return 0.5 * gel.mass_kg.dot(squares) - gel.mass_kg.dot(state_.x.topRows(n) * settings_.gravity_m_s2) +
-           gel.elasticity->value(state_.x) + kinetic_energy(body_, points(), state_.object_motion) -
+           gel.elasticity->value(state_.x) + kinetic_energy(body_, points(), state_.object_motion[0]) -
            body_.mass_kg * settings_.gravity_m_s2.dot(center_of(points())) +
            Orthogonality(mesh_.num_vertices(), body_).value(state_.x) +
            settings_.barrier_stiffness_j_m4 * barrier.value(state_.x);
@@ -439,12 +439,12 @@ class DroppedBall : public FreeBody {
 TEST_F(DroppedBall, KeepsTheBalanceOfMomentumAndNeverGainsEnergy) {
   const double h = 5e-4, v0 = 0.1;
   settings_.newton = {.velocity_tolerance_m_s = 1e-6, .force_tolerance_n = 1e-6};
-  state_.object_motion = make_rigid_motion(body_, points(), {0.05, 0, -v0}, {0, 0, 20.0});
+  state_.object_motion[0] = make_rigid_motion(body_, points(), {0.05, 0, -v0}, {0, 0, 20.0});
   const Vector3 g(0, 0, -kG);
   settings_.gravity_m_s2 = g;
   double last = energy(), largest_n = 0.0;
   const double first = last;
-  RigidMotion before = state_.object_motion;
+  RigidMotion before = state_.object_motion[0];
   go(60, g, h, Vector3::Zero(), [&] {
     const Positions contact = forces_.normal + forces_.friction;
     const Vector3 center = center_of(points()), force = -contact.colwise().sum().transpose();
@@ -455,7 +455,7 @@ TEST_F(DroppedBall, KeepsTheBalanceOfMomentumAndNeverGainsEnergy) {
       friction_n += forces_.friction.row(v).norm();
     }
     largest_n = std::max(largest_n, force.norm());
-    const RigidMotion& now = state_.object_motion;
+    const RigidMotion& now = state_.object_motion[0];
     const Vector3 gained = (now.velocity_m_s - before.velocity_m_s) / h - g;
     EXPECT_LT((body_.mass_kg * gained - force).norm(), 1e-3 * weight_n());
     // Friction acts on both sides of a gap: a couple.
@@ -516,7 +516,7 @@ class FlatFace : public FreeBody {
   /// The largest of |tangential| over normal force at a hundred places of the plate.
   double largest_ratio() {
     go(40, {0, 0, -kG});
-    state_.object_motion = make_rigid_motion(body_, points(), {0.1, 0.03, 0}, Vector3::Zero());
+    state_.object_motion[0] = make_rigid_motion(body_, points(), {0.1, 0.03, 0}, Vector3::Zero());
     double largest = 0.0;
     go(100, {0, 0, -kG}, kH, Vector3::Zero(), [&] {
       const Vector3 force = forces_.normal.colwise().sum();

@@ -112,7 +112,7 @@ class TwoFingers : public ::testing::Test {
   }
   /// One step in which both fingers go towards each other, and up.
   StepReport go(double closing_m, double lift_m, bool free) {
-    if (!stepper_) stepper_.emplace(mesh_, model_, settings_, body_);
+    if (!stepper_) stepper_.emplace(mesh_, model_, settings_, std::vector{body_});
     const Eigen::Index n = gel_.num_vertices();
     Positions motion(2 * n, 3);
     motion.topRows(n).rowwise() = Eigen::RowVector3d(closing_m, 0, lift_m);
