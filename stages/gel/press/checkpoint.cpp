@@ -111,7 +111,7 @@ void solver(auto& io, auto& report) {
   io.plain(report.body_load_n);
 }
 
-void contents(auto& io, auto& frame, auto& progress) {
+void contents(auto& io, auto& frame) {
   io.plain(frame.time_s);
   io.plain(frame.phase);
   io.plain(frame.phase_index);
@@ -139,31 +139,77 @@ void contents(auto& io, auto& frame, auto& progress) {
   io.plain(frame.inverted_tets);
   io.plain(frame.gel_in_object);
   solver(io, frame.solver);
-  io.rows(progress.state.x);
-  io.rows(progress.state.velocity_m_s);
-  each(io, progress.state.object_velocity_m_s);
-  io.sized(progress.state.object_motion);
-  for (auto& motion : progress.state.object_motion) {
+}
+
+void state_of(auto& io, auto& state) {
+  io.rows(state.x);
+  io.rows(state.velocity_m_s);
+  each(io, state.object_velocity_m_s);
+  io.sized(state.object_motion);
+  for (auto& motion : state.object_motion) {
     each(io, motion.velocity_m_s);
     each(io, motion.angular_momentum_kg_m2_s);
   }
-  io.plain(progress.state.barrier_factor);
-  io.history(progress.state.viscous_pa);
+  io.plain(state.barrier_factor);
+  io.history(state.viscous_pa);
+}
+
+void contents(auto& io, auto& frame, auto& progress) {
+  contents(io, frame);
+  state_of(io, progress.state);
   each(io, progress.object_shift_m);
+}
+
+void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
+  io.plain(frame.time_s);
+  io.plain(frame.phase);
+  for (auto& pose : frame.world_from_finger) each(io, pose);
+  for (auto& force : frame.force_on_finger_n) each(io, force);
+  each(io, frame.world_from_object);
+  each(io, frame.velocity_m_s);
+  each(io, frame.spin_rad_s);
+  io.plain(frame.body_residual_n);
+  io.plain(frame.body_load_n);
+  io.plain(frame.slip_m);
+  io.plain(frame.turn_rad);
+  for (auto& of_finger : fingers) contents(io, of_finger);
+  state_of(io, progress.state);
+  io.plain(progress.drive.wanted_n);
+  io.plain(progress.drive.closed_m);
+  io.plain(progress.drive.last_step_m);
+  io.plain(progress.drive.last_grip_n);
+  io.plain(progress.drive.stiffness_n_m);
+  io.plain(progress.drive.let_go);
+  each(io, progress.hand_m);
+  io.plain(progress.grip_n);
+}
+
+template <typename... Parts>
+std::string packed(const Parts&... parts) {
+  Writer writer;
+  contents(writer, parts...);
+  return writer.take();
+}
+
+template <typename... Parts>
+void unpack(std::string_view bytes, Parts&... parts) {
+  Reader reader(bytes);
+  contents(reader, parts...);
+  if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");
 }
 
 }  // namespace
 
-std::string pack_frame(const Frame& frame, const Progress& progress) {
-  Writer writer;
-  contents(writer, frame, progress);
-  return writer.take();
+std::string pack_frame(const Frame& frame, const Progress& progress) { return packed(frame, progress); }
+
+void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress) { unpack(bytes, frame, progress); }
+
+std::string pack_frame(const GraspFrame& frame, const std::array<Frame, 2>& fingers, const GraspProgress& progress) {
+  return packed(frame, fingers, progress);
 }
 
-void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress) {
-  Reader reader(bytes);
-  contents(reader, frame, progress);
-  if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");
+void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2>& fingers, GraspProgress& progress) {
+  unpack(bytes, frame, fingers, progress);
 }
 
 void ScratchFrames::save(const Frame& frame, const Progress& progress) {

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "common/stage/stage.h"
+#include "stages/gel/press/grasp.h"
+#include "stages/gel/press/grip_control.h"
 #include "stages/gel/press/simulate.h"
 
 namespace tacipc {
@@ -14,6 +16,18 @@ std::string pack_frame(const Frame& frame, const Progress& progress);
 
 /// The inverse. \throw DataError if the bytes are not such a frame.
 void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress);
+
+/// What a grasp goes on from.
+struct GraspProgress {
+  State state;
+  GripControl drive;
+  Vector3 hand_m = Vector3::Zero();  // displacement of the hand, the middle between the fingers
+  double grip_n = 0.0;               // Grasp::grip_n
+};
+
+/// The same of a grasp: its frame, those of both fingers, and what the next ones start from.
+std::string pack_frame(const GraspFrame& frame, const std::array<Frame, 2>& fingers, const GraspProgress& progress);
+void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2>& fingers, GraspProgress& progress);
 
 /// Frames in the scratch files of a stage.
 class ScratchFrames final : public FrameStore {
