@@ -28,12 +28,14 @@ double sum_of_norms(const Eigen::Ref<const Eigen::VectorXd>& stacked) {
   return sum;
 }
 
-/// The smallest of the columns' norms that is not zero: of the gels that are touched, the one with the least force. The
-/// grips of two fingers cancel in their sum.
-double smallest_touch(const Eigen::Matrix3Xd& of_gels) {
+/// The smallest norm of the first columns, those of `gels`, that is not zero: of the gels that are touched, the one
+/// with the least force. The grips of two fingers cancel in their sum. Where none is touched, the same of the bodies
+/// behind them.
+double smallest_touch(const Eigen::Matrix3Xd& forces, int gels) {
   double smallest = 0.0;
-  for (Eigen::Index g = 0; g < of_gels.cols(); ++g) {
-    const double norm = of_gels.col(g).norm();
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
+    if (i == gels && smallest > 0.0) break;
+    const double norm = forces.col(i).norm();
     if (norm > 0.0 && (smallest == 0.0 || norm < smallest)) smallest = norm;
   }
   return smallest;
@@ -186,12 +188,12 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
   for (const WeightedTerm& part : call.problem.potential.of_bodies)
     assemble(part, x, free_, first_object_vertex_, Order::psd, call.object.of_vertices, system_);
   if (mounts_move) system_.coupling -= system_.hessian.multiply(along);
-  const Eigen::Matrix3Xd without_contact = gel_gradient();
+  const Eigen::Matrix3Xd without_contact = gradient_sums();
   Eigen::Matrix3Xd so_far = without_contact, of_barrier = 0.0 * without_contact;
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
     assemble_contact(contact.weight, *contact.term, active, x, free_, first_object_vertex_, blend, call.object,
                      system_);
-    const Eigen::Matrix3Xd of_term = gel_gradient() - so_far;
+    const Eigen::Matrix3Xd of_term = gradient_sums() - so_far;
     so_far += of_term;
     if (&contact == &call.problem.potential.barrier) of_barrier = of_term;
   });
@@ -200,7 +202,7 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     for (const WeightedTerm& part : terms)
       add_inertia_coupling(part, first_object_vertex_, call.problem.motion, free_, system_);
   }
-  return std::min(smallest_touch(of_barrier), smallest_touch(so_far - without_contact));
+  return std::min(smallest_touch(of_barrier, num_gels()), smallest_touch(so_far - without_contact, num_gels()));
 }
 
 Eigen::VectorXd NewtonStepper::free_motion(const NewtonProblem& problem) const {
@@ -220,13 +222,18 @@ void NewtonStepper::reblend(const Call& call, const Blend& before, const Blend& 
   if (along.size() > 0) system_.coupling += system_.hessian.multiply(along);
 }
 
-/// Σ of the system's gradient over each gel's free vertices.
-Eigen::Matrix3Xd NewtonStepper::gel_gradient() const {
+Eigen::Matrix3Xd NewtonStepper::gradient_sums() const {
   const std::vector<int>& gels = free_.gel_of_vertex;
-  Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, gels.empty() ? 1 : gels.back() + 1);
+  Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, num_gels() + static_cast<Eigen::Index>(free_.carried.size()));
+  const int first_point = free_.size() - BlockPattern::kBodyRows * static_cast<int>(free_.carried.size());
   for (int i = 0; i < free_.size(); ++i) {
     const int v = free_.vertex_of_free[i];
-    if (v < first_object_vertex_) sums.col(gels.empty() ? 0 : gels[v]) += system_.gradient.segment<3>(3 * i);
+    const auto gradient = system_.gradient.segment<3>(3 * i);
+    if (i >= first_point) {
+      sums.col(num_gels() + (i - first_point) / BlockPattern::kBodyRows) += gradient;
+    } else if (v < first_object_vertex_) {
+      sums.col(gels.empty() ? 0 : gels[static_cast<std::size_t>(v)]) += gradient;
+    }
   }
   return sums;
 }

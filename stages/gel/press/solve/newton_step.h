@@ -34,7 +34,7 @@ struct NewtonDirection {
   double slope = 0.0;                      // gᵀp over everything free
   double gradient_sum = 0.0;  // Σ of |gradient| over free vertices of gels, and over the object's free axes
   /// What residual forces are measured by: |Σ gradient of contact| over the free vertices of the gel that is touched
-  /// least, of the barrier alone or with friction, whichever is smaller (friction may carry most of the normal force,
+  /// least, or on a free body where no gel is touched, of the barrier alone or with friction, whichever is smaller (friction may carry most of the normal force,
   /// and the rest must balance, too).
   double contact_sum = 0.0;
   /// |Σ residual force| and |Σ residual torque| about its centre, of each body that moves freely.
@@ -108,7 +108,9 @@ class NewtonStepper {
   void hold_columns(const Call& call);
   /// Makes the contact Hessians of the system those of another blend.
   void reblend(const Call& call, const Blend& before, const Blend& after);
-  Eigen::Matrix3Xd gel_gradient() const;
+  int num_gels() const { return free_.gel_of_vertex.empty() ? 1 : free_.gel_of_vertex.back() + 1; }
+  /// Σ of the system's gradient over each gel's free vertices, and over each free body's points.
+  Eigen::Matrix3Xd gradient_sums() const;
   /// The motion of the problem's free vertices; empty if they have none.
   Eigen::VectorXd free_motion(const NewtonProblem& problem) const;
   /// Solves the system; false if it is not positive definite, or no solution descends where nothing is driven.

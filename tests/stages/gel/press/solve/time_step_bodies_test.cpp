@@ -1,0 +1,197 @@
+// Several rigid objects, free, held and fixed: what they do to each other against mechanics by hand.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "stages/gel/press/energy/element.h"
+#include "stages/gel/press/solve/time_step.h"
+#include "tests/make_mesh.h"
+#include "tests/stages/gel/press/small_scene.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kH = 2e-3, kG = 9.81, kDensity = 2700.0, kSpeed = 1e-4, kDHat = 2e-5, kMu = 0.5;
+
+/// Bodies far above a gel that takes no part.
+class Bodies : public ::testing::Test {
+ protected:
+  /// Adds an object; those that may be free come first.
+  void add(const TriangleMesh& object, bool free) {
+    objects_.push_back(object);
+    if (free) bodies_.push_back(make_affine_body(object.positions, object.triangles, kDensity));
+  }
+  void build() {
+    mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, objects_);
+    mesh_.num_control_points = 4 * static_cast<int>(bodies_.size());
+    state_.x.resize(mesh_.num_rows(), 3);
+    state_.x.topRows(mesh_.num_vertices()) = mesh_.rest_positions;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      state_.x.middleRows<4>(mesh_.control_row(static_cast<int>(b))) = bodies_[b].rest_m;
+    state_.velocity_m_s = Positions::Zero(gel_.num_vertices(), 3);
+    state_.object_motion.assign(bodies_.size(), {});
+  }
+  /// What two bodies have in common that differs from the others, both numbered as objects.
+  void set_law(int a, int b, const PairLaw& law) {
+    const int count = mesh_.num_bodies();
+    if (mesh_.laws.empty()) mesh_.laws.resize(static_cast<std::size_t>(count * count));
+    mesh_.laws[static_cast<std::size_t>((1 + a) * count + 1 + b)] = law;
+    mesh_.laws[static_cast<std::size_t>((1 + b) * count + 1 + a)] = law;
+  }
+  GelModel gel() const {
+    return {.elasticity = make_elasticity(gel_.positions, gel_.tets, NeoHookean{4.3e4, 2.6e5}, Element::linear),
+            .tets = gel_.tets,
+            .mass_kg = Eigen::VectorXd::Constant(gel_.num_vertices(), 1e-4),
+            .glued = gel_.vertices(BoundaryTag::glued)};
+  }
+  void go(int steps, const Vector3& gravity, const std::vector<int>& held = {}) {
+    settings_.gravity_m_s2 = gravity;
+    TimeStepper stepper(mesh_, gel(), settings_, bodies_);
+    StepGoal goal{.h_s = kH,
+                  .object_target = mesh_.object_rows(state_.x),
+                  .free_object = true,
+                  .held_bodies = held,
+                  .body_load_n = std::vector<Vector3>(bodies_.size(), Vector3::Zero()),
+                  .control_target = mesh_.control_rows(state_.x)};
+    for (int i = 0; i < steps; ++i) {
+      const StepReport report = stepper.advance(state_, goal, [](int, double) {});
+      worst_balance_ = std::max(worst_balance_, report.body_residual_n / report.body_load_n);
+      iterations_ += report.newton_iterations;
+      forces_ = stepper.forces();
+    }
+  }
+  ControlPoints points(int body) const { return state_.x.middleRows<4>(mesh_.control_row(body)); }
+  double weight_n(int body) const { return bodies_[static_cast<std::size_t>(body)].mass_kg * kG; }
+  const Vector3& velocity(int body) const { return state_.object_motion[static_cast<std::size_t>(body)].velocity_m_s; }
+  /// On object a by object b.
+  const Wrench& on(int a, int b) const {
+    return forces_.between[static_cast<std::size_t>((1 + a) * mesh_.num_bodies() + 1 + b)];
+  }
+
+  const TetMesh gel_ = block_gel(2, 0.01, 0.002);
+  std::vector<TriangleMesh> objects_;
+  std::vector<AffineBody> bodies_;
+  ContactMesh mesh_;
+  State state_;
+  StepSettings settings_{.d_hat_m = kDHat,
+                         .front_edge_m = 1e-3,
+                         .barrier_stiffness_j_m4 = 2e12,
+                         .adaptive_barrier = true,
+                         .pair_counting = {.once = true},
+                         .friction = FrictionSettings{.coefficient = kMu,
+                                                      .speed_threshold_m_s = kSpeed,
+                                                      .max_lag_iterations = 50,
+                                                      .relative_lag_tolerance = 1e-3},
+                         .linear_solver = LinearSolverKind::conjugate_gradient,
+                         .newton = {.velocity_tolerance_m_s = 1e-7, .force_tolerance_n = 1e-6}};
+  StepForces forces_;
+  double worst_balance_ = 0.0;
+  int iterations_ = 0;
+};
+
+constexpr double kSide = 8e-3, kTable = 0.05;  // of a box; height of the table
+
+TriangleMesh box_at(double x, double z) {
+  return make_box({x - 0.5 * kSide, -0.5 * kSide, z}, {x + 0.5 * kSide, 0.5 * kSide, z + kSide});
+}
+TriangleMesh table() { return make_box({-0.03, -0.03, kTable - 0.005}, {0.03, 0.03, kTable}); }
+
+TEST_F(Bodies, AStackCarriesItselfLevelByLevel) {
+  constexpr double kGap = 0.5 * kDHat;
+  for (int i = 0; i < 3; ++i) add(box_at(1e-3 * i, kTable + kGap + i * (kSide + kGap)), true);
+  add(table(), false);
+  build();
+  go(100, {0, 0, -kG});
+  EXPECT_LT(worst_balance_, 1e-3);
+  // Each pushes down with all that lies on it, and is pushed up as much.
+  for (int level = 0; level < 3; ++level) {
+    const int below = level == 0 ? 3 : level - 1;
+    double carried = 0.0;
+    for (int i = level; i < 3; ++i) carried += weight_n(i);
+    EXPECT_NEAR(on(level, below).force_n.z(), carried, 1e-3 * carried) << level;
+    EXPECT_LT((on(level, below).force_n + on(below, level).force_n).norm(), 1e-12 * carried);
+    EXPECT_LT(velocity(level).norm(), 1e-5);
+    EXPECT_NEAR(center_of(points(level)).z(), kTable + (level + 0.5) * kSide, 2.0 * kDHat * (level + 1));
+    EXPECT_NEAR(center_of(points(level)).x(), 1e-3 * level, 1e-5);
+  }
+  EXPECT_EQ(on(0, 2).force_n.norm(), 0.0);  // they do not touch
+}
+
+TEST_F(Bodies, TwoThatCollideKeepTheirMomentum) {
+  add(box_at(-0.006, kTable), true);
+  add(box_at(0.006, kTable), true);
+  build();
+  settings_.friction.reset();
+  const double m = bodies_[0].mass_kg;
+  state_.object_motion[0] = make_rigid_motion(bodies_[0], points(0), {0.2, 0.01, 0}, Vector3::Zero());
+  const auto momentum = [&]() -> Vector3 { return m * (velocity(0) + velocity(1)); };
+  const Vector3 before = momentum();
+  go(15, Vector3::Zero());
+  EXPECT_GT(velocity(1).x(), 0.05);
+  EXPECT_LT((momentum() - before).norm(), 1e-4 * before.norm());
+  // Nothing went through anything: the first is still on its side.
+  EXPECT_LT(center_of(points(0)).x() + kSide, center_of(points(1)).x() + 1e-5);
+}
+
+TEST_F(Bodies, FrictionIsThatOfEachPair) {
+  // On a slope of tan θ = 0.5, one box with μ 0.7 and one with 0.25; all others have 0.5.
+  constexpr double kAbove = kTable + 0.5 * kDHat;
+  add(box_at(-0.015, kAbove), true);
+  add(box_at(0.010, kAbove), true);
+  add(table(), false);
+  build();
+  set_law(0, 2, {.friction = 0.7 / kMu});
+  set_law(1, 2, {.friction = 0.25 / kMu});
+  go(20, {0, 0, -kG});
+  const double angle = std::atan(0.5);
+  const Vector3 slope(kG * std::sin(angle), 0, -kG * std::cos(angle));
+  go(10, slope);
+  const double v0 = velocity(1).x();
+  go(10, slope);
+  EXPECT_NEAR((velocity(1).x() - v0) / (10 * kH), kG * (std::sin(angle) - 0.25 * std::cos(angle)), 0.02);
+  EXPECT_LT(velocity(0).x(), kSpeed);
+  EXPECT_GT(velocity(0).x(), 0.0);
+}
+
+TEST_F(Bodies, APairMayTouchFromNearer) {
+  constexpr double kPart = 0.1;
+  add(box_at(0.0, kTable + 0.6 * kPart * kDHat), true);
+  add(table(), false);
+  build();
+  set_law(0, 1, {.d_hat = kPart, .stiffness = 1.0 / (kPart * kPart * kPart)});
+  go(60, {0, 0, -kG});
+  EXPECT_NEAR(on(0, 1).force_n.z(), weight_n(0), 1e-3 * weight_n(0));
+  const double gap = state_.x.middleRows(mesh_.objects[0].first_vertex, 8).col(2).minCoeff() - kTable;
+  EXPECT_GT(gap, 0.0);
+  EXPECT_LT(gap, kPart * kDHat);
+}
+
+TEST_F(Bodies, OneThatIsHeldCarriesAnotherAndStaysExactlyWhereItIs) {
+  add(box_at(0.0, kTable), true);
+  add(box_at(0.001, kTable + kSide + 0.5 * kDHat), true);
+  build();
+  const Positions before = mesh_.objects[0].rows(state_.x);
+  go(40, {0, 0, -kG}, {0});
+  EXPECT_EQ((mesh_.objects[0].rows(state_.x) - before).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_NEAR(on(1, 0).force_n.z(), weight_n(1), 1e-3 * weight_n(1));
+  EXPECT_LT(velocity(1).norm(), 1e-5);
+}
+
+TEST_F(Bodies, ADirectSolverFindsTheSame) {
+  add(box_at(0.0, kTable + 0.5 * kDHat), true);
+  add(box_at(0.001, kTable + kSide + kDHat), true);
+  add(table(), false);
+  build();
+  const State start = state_;
+  go(30, {0, 0, -kG});
+  const Positions iterative = state_.x;
+  state_ = start;
+  settings_.linear_solver = LinearSolverKind::direct;
+  go(30, {0, 0, -kG});
+  EXPECT_LT((state_.x - iterative).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+}  // namespace
+}  // namespace tacipc
