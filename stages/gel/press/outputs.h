@@ -3,6 +3,7 @@
 
 #include "common/stage/stage.h"
 #include "stages/gel/press/grasp.h"
+#include "stages/gel/press/scene.h"
 #include "stages/gel/press/simulate.h"
 
 namespace tacipc {
@@ -15,5 +16,10 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
 /// them, and the summary of the record.
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
                    const Grasp& grasp);
+
+/// A press folder of each gel in gels/<name>/press, the motion of all bodies in the world and the wrenches between them
+/// beside these, and the summary of the record.
+void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
+                   const SceneSpec& spec, const Scene& scene);
 
 }  // namespace tacipc

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -53,7 +54,7 @@ class Bodies : public ::testing::Test {
                   .object_target = mesh_.object_rows(state_.x),
                   .free_object = true,
                   .held_bodies = held,
-                  .body_load_n = std::vector<Vector3>(bodies_.size(), Vector3::Zero()),
+                  .body_load_n = load_n_.empty() ? std::vector<Vector3>(bodies_.size(), Vector3::Zero()) : load_n_,
                   .control_target = mesh_.control_rows(state_.x)};
     for (int i = 0; i < steps; ++i) {
       const StepReport report = stepper.advance(state_, goal, [](int, double) {});
@@ -86,6 +87,7 @@ class Bodies : public ::testing::Test {
                                                       .relative_lag_tolerance = 1e-3},
                          .linear_solver = LinearSolverKind::conjugate_gradient,
                          .newton = {.velocity_tolerance_m_s = 1e-7, .force_tolerance_n = 1e-6}};
+  std::vector<Vector3> load_n_;  // on each; none where there are none
   StepForces forces_;
   double worst_balance_ = 0.0;
   int iterations_ = 0;
@@ -191,6 +193,83 @@ TEST_F(Bodies, ADirectSolverFindsTheSame) {
   settings_.linear_solver = LinearSolverKind::direct;
   go(30, {0, 0, -kG});
   EXPECT_LT((state_.x - iterative).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+/// Around a circle, so many corners; the first on x.
+constexpr int kCorners = 128;
+Vector3 on_circle(double radius, int corner, double z) {
+  const double angle = 2.0 * std::numbers::pi * corner / kCorners;
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// A surface between closed curves of kCorners points each, the last joined to the first one again or each end closed
+/// by a fan around a point.
+TriangleMesh turned(const std::vector<std::pair<double, double>>& radius_and_z, bool ring) {
+  TriangleMesh mesh;
+  const int curves = static_cast<int>(radius_and_z.size());
+  mesh.positions.resize(curves * kCorners + (ring ? 0 : 2), 3);
+  std::vector<std::array<int, 3>> triangles;
+  for (int c = 0; c < curves; ++c) {
+    for (int k = 0; k < kCorners; ++k)
+      mesh.positions.row(c * kCorners + k) = on_circle(radius_and_z[static_cast<std::size_t>(c)].first, k,
+                                                       radius_and_z[static_cast<std::size_t>(c)].second);
+  }
+  for (int c = 0; c < (ring ? curves : curves - 1); ++c) {
+    for (int k = 0; k < kCorners; ++k) {
+      const int a = c * kCorners + k, b = c * kCorners + (k + 1) % kCorners;
+      const int next = (c + 1) % curves, d = next * kCorners + k, e = next * kCorners + (k + 1) % kCorners;
+      triangles.push_back({a, b, e});
+      triangles.push_back({a, e, d});
+    }
+  }
+  if (!ring) {
+    const int low = curves * kCorners, high = low + 1;
+    mesh.positions.row(low) << 0, 0, radius_and_z.front().second;
+    mesh.positions.row(high) << 0, 0, radius_and_z.back().second;
+    for (int k = 0; k < kCorners; ++k) {
+      const int next = (k + 1) % kCorners, top = (curves - 1) * kCorners;
+      triangles.push_back({low, next, k});
+      triangles.push_back({high, top + k, top + next});
+    }
+  }
+  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    mesh.triangles.row(static_cast<Eigen::Index>(t)) << triangles[t][0], triangles[t][1], triangles[t][2];
+  return mesh;
+}
+
+/// A round peg in a hole, both far above the gel. The hole's mouth is at z = kMouth, the peg's tip a depth below it.
+class PegInHole : public Bodies {
+ protected:
+  static constexpr double kMouth = 0.05, kHole = 5e-3, kPeg = 4.975e-3, kLength = 20e-3;
+  void put(double depth_m) {
+    const double tip = kMouth - depth_m;
+    add(turned({{kPeg, tip}, {kPeg, tip + kLength}}, false), true);
+    // Around the wall of the hole, its mouth, the outside and the back.
+    add(turned({{kHole, kMouth}, {kHole, kMouth - 12e-3}, {8e-3, kMouth - 12e-3}, {8e-3, kMouth}}, true), false);
+    settings_.d_hat_m = 2e-6;
+    settings_.barrier_stiffness_j_m4 = 0.5 / std::pow(settings_.d_hat_m, 3);
+    settings_.friction->speed_threshold_m_s = 1e-5;
+    build();
+  }
+};
+
+// Two points carry the peg: the mouth on one side, its tip on the other. With a load (F_x, −F_z) at the centre of mass, L
+// above the tip, it slides in if F_z > μ F_x (2 L − 2 μ r − ℓ)/ℓ, from the balance of forces and moments with both
+// contacts at the edge of sliding: the line M/(r F_z) = λ + μ (1 + λ) F_x/F_z of Whitney 1982, λ = ℓ/(2 r μ).
+TEST_F(PegInHole, JamsWhereWhitneySays) {
+  constexpr double kDepth = 5e-3, kArm = 0.5 * kLength;
+  const double limit = kDepth / (kMu * (2.0 * kArm - 2.0 * kMu * kPeg - kDepth));  // F_x/F_z
+  put(kDepth);
+  const State start = state_;
+  const auto sunk_under = [&](double ratio) {
+    state_ = start;
+    load_n_ = {Vector3(ratio, 0, -1.0)};
+    go(60, Vector3::Zero());
+    return center_of(bodies_[0].rest_m).z() - center_of(points(0)).z();
+  };
+  EXPECT_LT(sunk_under(1.05 * limit), 0.2e-3);
+  EXPECT_GT(sunk_under(0.95 * limit), 1e-3);
 }
 
 }  // namespace

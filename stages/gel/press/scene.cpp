@@ -1,0 +1,447 @@
+#include "stages/gel/press/scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/mesh/mass_properties.h"
+#include "common/sample/placement.h"
+#include "stages/gel/press/checkpoint.h"
+#include "stages/gel/press/contact/sharpness.h"
+#include "stages/gel/press/energy/elasticity.h"
+#include "stages/gel/press/gel_frame.h"
+#include "stages/gel/press/setup.h"
+
+namespace tacipc {
+namespace {
+
+// A pair of hard bodies pushes with this times κ d̂³/h² at half of d̂ (bound by the shape of the barrier, barrier.h); it
+// should bear the weight of a body on a few corners there.
+constexpr double kForceAtHalf = 4.3, kCorners = 4.0;
+
+/// `from`, gone the part s of a way and turned about its own origin.
+Matrix4 moved(const Matrix4& from, const WaySpec& way, double s) {
+  if (way.smooth) s = s * s * (3.0 - 2.0 * s);
+  Matrix4 pose = from;
+  pose.topRightCorner<3, 1>() += s * way.by_m;
+  if (const double angle = way.turn_rad.norm(); angle > 0.0)
+    pose.topLeftCorner<3, 3>() =
+        Eigen::AngleAxisd(s * angle, way.turn_rad / angle).toRotationMatrix() * from.topLeftCorner<3, 3>();
+  return pose;
+}
+
+/// A deformable body as one part of the whole.
+struct Part {
+  std::size_t body;
+  FrontSurface front;  // of a gel
+  std::vector<RestTet> rest_tets;
+  Eigen::Index first_row;
+};
+
+class Stepping {
+ public:
+  Stepping(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
+           const SceneSpec& spec, const ProgressObserver& observe, ByteStore* store)
+      : sensor_(sensor),
+        bodies_(bodies),
+        config_(config),
+        spec_(spec),
+        observe_(observe),
+        store_(store),
+        scales_(scales_of(config, sensor, bodies[0].tets)),
+        settings_(step_settings(config, scales_)),
+        num_gels_(static_cast<std::size_t>(spec.count(BodyKind::gel))),
+        num_deformable_(num_gels_ + static_cast<std::size_t>(spec.count(BodyKind::soft))),
+        num_rigid_(static_cast<std::size_t>(spec.count(BodyKind::rigid))) {
+    if (config.augmented_lagrangian)
+      throw UsageError("constraints: augmented_lagrangian holds one gel and one object; a scene needs elimination");
+    if (config.gravity_m_s2 != Vector3::Zero())
+      throw UsageError("gravity_m_s2 is along the axes of one gel; a scene has it in the sample");
+    if (config.mass_damping_per_s > 0.0) throw UsageError("damping.mass_per_s would hold back bodies that move");
+    settings_.gravity_m_s2 = spec.gravity_m_s2;
+    for (const ScenePhase& phase : spec.motion) num_frames_ += phase.steps;
+    place_all();
+    set_laws();
+  }
+
+  Scene run() {
+    std::vector<DeformableBody> materials;
+    for (const Part& part : parts_) {
+      const SceneBody& body = bodies_[part.body];
+      materials.push_back({body.material, element_of(config_, body.material), body.tets});
+    }
+    TimeStepper stepper(mesh_, make_gel_model(materials), settings_, affine_);
+    stepper_ = &stepper;
+    for (std::size_t g = 0; g < num_gels_; ++g) {
+      Simulation& gel = out_.gels.emplace_back();
+      gel.d_hat_m = scales_.d_hat_m;
+      gel.gap_horizon_m = scales_.gap_horizon_m;
+      gel.barrier_stiffness = scales_.barrier_stiffness;
+      gel.newton = settings_.newton;
+      gel.element = materials[g].element;
+      gel.object_may_be_free = num_rigid_ > 0;
+      gel.object_mass_kg = num_rigid_ > 0 ? affine_[0].mass_kg : 0.0;
+      gel.front = parts_[g].front;
+    }
+    for (const AffineBody& body : affine_) out_.mass_kg.push_back(body.mass_kg);
+    State& state = progress_.state;
+    state.x.resize(mesh_.num_rows(), 3);
+    state.x.topRows(mesh_.num_vertices()) = mesh_.rest_positions;
+    state.velocity_m_s = Positions::Zero(mesh_.num_gel_vertices, 3);
+    state.object_motion.clear();
+    for (std::size_t i = 0; i < num_rigid_; ++i) {
+      const BodySpec& body = spec_.bodies[num_deformable_ + i];
+      mesh_.control_rows(state.x).middleRows<4>(static_cast<Eigen::Index>(4 * i)) = affine_[i].rest_m;
+      state.object_motion.push_back(
+          make_rigid_motion(affine_[i], affine_[i].rest_m, body.velocity_m_s, body.spin_rad_s));
+    }
+    if (const double gap = stepper.smallest_gap(state.x, scales_.d_hat_m); gap == 0.0)
+      throw DataError("two bodies touch in frame 0");
+    if (!restored()) finish(-1, {}, stepper.no_forces());
+    for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
+    out_.times = stepper.times();
+    for (Simulation& gel : out_.gels) gel.times = out_.times;
+    return std::move(out_);
+  }
+
+ private:
+  void place_all() {
+    std::vector<PlacedGel> placed;
+    Eigen::Index row = 0;
+    for (std::size_t b = 0; b < num_deformable_; ++b) {
+      const SceneBody& body = bodies_[b];
+      placed.push_back({body.tets, spec_.bodies[b].world_from_body});
+      parts_.push_back({b, b < num_gels_ ? make_front_surface(body.tets) : FrontSurface{},
+                        make_rest_tets(body.tets.positions, body.tets.tets), row});
+      row += body.tets.num_vertices();
+    }
+    whole_ = joined(placed);
+    glued_ = whole_.vertices(BoundaryTag::glued);
+    std::vector<TriangleMesh> objects;
+    for (std::size_t b = num_deformable_; b < bodies_.size(); ++b) {
+      const BodySpec& body = spec_.bodies[b];
+      TriangleMesh object = bodies_[b].surface;
+      if (!check_object(object, config_)) throw DataError("body {}: its surface is not closed", body.name);
+      object.positions = transformed(body.world_from_body, object.positions);
+      if (body.kind == BodyKind::rigid) {
+        const MassProperties mass = mass_properties(object.positions, object.triangles);
+        affine_.push_back(make_affine_body(object.positions, object.triangles,
+                                           body.mass_kg ? *body.mass_kg / mass.volume_m3 : body.density_kg_m3));
+      }
+      objects.push_back(std::move(object));
+    }
+    mesh_ = make_contact_mesh(whole_.positions, whole_.boundary, objects);
+    mesh_.num_control_points = static_cast<int>(4 * num_rigid_);
+    for (const Part& part : parts_) {
+      const TetMesh& tets = bodies_[part.body].tets;
+      const std::vector<int> glued = tets.vertices(BoundaryTag::glued);
+      mesh_.gels.push_back({static_cast<int>(part.first_row), glued.empty() ? -1 : glued.front(),
+                            std::make_shared<const ContactMesh>(make_contact_mesh(
+                                tets.positions, tets.boundary, std::vector<TriangleMesh>{}))});
+    }
+    if (num_deformable_ > num_gels_) mesh_.gel_edge_sharpness = edge_sharpness(mesh_.gel, mesh_.rest_positions);
+    for (const BodySpec& body : spec_.bodies) poses_.push_back(body.world_from_body);
+  }
+
+  void set_laws() {
+    const auto count = spec_.bodies.size();
+    std::vector<double> friction(count * count, config_.friction ? config_.friction->coefficient : 0.0),
+        d_hat(count * count, scales_.d_hat_m);
+    for (const ContactSpec& contact : spec_.contact) {
+      const auto a = static_cast<std::size_t>(contact.between[0]), b = static_cast<std::size_t>(contact.between[1]);
+      for (const std::size_t at : {a * count + b, b * count + a}) {
+        if (contact.friction) friction[at] = *contact.friction;
+        if (contact.d_hat_m) d_hat[at] = *contact.d_hat_m;
+      }
+      if (contact.d_hat_m && *contact.d_hat_m > scales_.d_hat_m)
+        throw UsageError("contact of {} and {}: d_hat_mm is more than that of the gels, {:.4g} mm",
+                         spec_.bodies[a].name, spec_.bodies[b].name, 1e3 * scales_.d_hat_m);
+    }
+    const double most = *std::max_element(friction.begin(), friction.end());
+    if (most > 0.0 && !config_.friction)
+      throw UsageError("the press file has no section friction, which says how friction between bodies is solved");
+    if (most > 0.0 && settings_.friction) {
+      settings_.friction->coefficient = most;
+    } else if (most > 0.0) {
+      // The press file's own coefficient is zero.
+      PressConfig with = config_;
+      with.friction->coefficient = most;
+      settings_.friction = step_settings(with, scales_).friction;
+    }
+    double weight_n = 0.0;
+    for (const AffineBody& body : affine_) weight_n += body.mass_kg * spec_.gravity_m_s2.norm();
+    for (const ScenePhase& phase : spec_.motion) {
+      for (const auto& load : phase.load_n) weight_n = std::max(weight_n, load.second.norm());
+    }
+    const double own_n = settings_.barrier_stiffness_j_m4 * std::pow(scales_.d_hat_m, 3);
+    mesh_.laws.resize(count * count);
+    for (std::size_t a = 0; a < count; ++a) {
+      for (std::size_t b = 0; b < count; ++b) {
+        PairLaw& law = mesh_.laws[a * count + b];
+        law.friction = most > 0.0 ? friction[a * count + b] / most : 1.0;
+        law.d_hat = d_hat[a * count + b] / scales_.d_hat_m;
+        const bool hard = a >= num_deformable_ && b >= num_deformable_;
+        const double wanted_n = hard ? std::max(own_n, weight_n / (kCorners * kForceAtHalf)) : own_n;
+        law.stiffness = wanted_n / own_n / std::pow(law.d_hat, 3);
+      }
+    }
+  }
+
+  const Matrix4& pose_of_part(const Part& part) const { return poses_[part.body]; }
+  bool is_gel(const Part& part) const { return part.body < num_gels_; }
+
+  /// Where a phase has its bodies after a part of it.
+  std::vector<Matrix4> poses_in(const ScenePhase& phase, const std::vector<Matrix4>& start, double part) const {
+    std::vector<Matrix4> poses = poses_;
+    for (const WaySpec& way : phase.move) {
+      const auto body = static_cast<std::size_t>(way.body);
+      poses[body] = moved(start[body], way, part);
+    }
+    return poses;
+  }
+
+  /// One time step of a phase, between two parts of it; divided where it does not converge.
+  void step(const ScenePhase& phase, const std::vector<Matrix4>& start, double from, double to, int halvings,
+            StepReport& report) {
+    const double h = (to - from) * phase.steps * phase.substeps * config_.time_step_s;
+    const std::vector<Matrix4> poses = poses_in(phase, start, to);
+    StepGoal goal{.h_s = h, .object_target = mesh_.object_rows(progress_.state.x)};
+    Positions target = progress_.state.x.topRows(mesh_.num_gel_vertices);
+    const Positions at = target;
+    Vector3 shift = Vector3::Zero();
+    int moving = 0;
+    goal.gel_motion = Positions::Zero(mesh_.num_gel_vertices, 3);
+    for (const Part& part : parts_) {
+      const Matrix4 &before = poses_[part.body], &after = poses[part.body];
+      goal.world_from_gel.push_back(after.topLeftCorner<3, 3>());
+      if (!is_gel(part)) continue;
+      const Positions& rest = bodies_[part.body].tets.positions;
+      target.middleRows(part.first_row, rest.rows()) = transformed(after, rest);
+      if (before == after) continue;
+      goal.gel_motion.middleRows(part.first_row, rest.rows()) = transformed(after, rest) - transformed(before, rest);
+      shift += (after - before).topRightCorner<3, 1>();
+      ++moving;
+    }
+    if (moving == 0) goal.gel_motion.resize(0, 3);
+    if (moving > 0) goal.hand_shift_m = shift / moving;
+    goal.glued_target = target(glued_, Eigen::all);
+    goal.control_target = mesh_.control_rows(progress_.state.x);
+    for (std::size_t i = 0; i < num_rigid_; ++i) {
+      const std::size_t body = num_deformable_ + i;
+      const bool moves = std::any_of(phase.move.begin(), phase.move.end(),
+                                     [&](const WaySpec& way) { return way.body == static_cast<int>(body); });
+      const bool held = moves || std::find(phase.hold.begin(), phase.hold.end(), static_cast<int>(body)) !=
+                                     phase.hold.end();
+      goal.body_load_n.push_back(load_in(phase, body, to));
+      if (!held) continue;
+      goal.held_bodies.push_back(static_cast<int>(i));
+      const Matrix4 from_start = poses[body] * spec_.bodies[body].world_from_body.inverse();
+      const ObjectPart& object = mesh_.objects[i];
+      goal.object_target.middleRows(object.first_vertex - mesh_.num_gel_vertices, object.num_vertices) =
+          transformed(poses[body], bodies_[body].surface.positions);
+      goal.control_target.middleRows<4>(static_cast<Eigen::Index>(4 * i)) = transformed(from_start, affine_[i].rest_m);
+    }
+    goal.free_object = goal.held_bodies.size() < num_rigid_;
+    try {
+      const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
+        observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
+      });
+      poses_ = poses;
+      for (std::size_t i = 0; i < num_rigid_; ++i) {
+        const std::size_t body = num_deformable_ + i;
+        if (!std::binary_search(goal.held_bodies.begin(), goal.held_bodies.end(), static_cast<int>(i)))
+          poses_[body] = pose_of(affine_[i], points(i)) * spec_.bodies[body].world_from_body;
+      }
+      const StepReport earlier = report;
+      report = done;
+      report.add_earlier(earlier);
+    } catch (const SolverError& error) {
+      if (halvings >= config_.max_halvings) throw;
+      log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
+      const double middle = 0.5 * (from + to);
+      step(phase, start, from, middle, halvings + 1, report);
+      step(phase, start, middle, to, halvings + 1, report);
+    }
+  }
+
+  Vector3 load_in(const ScenePhase& phase, std::size_t body, double part) const {
+    const Vector3& before = loads_n_[body - num_deformable_];
+    for (const auto& [of, load] : phase.load_n) {
+      if (of == static_cast<int>(body)) return before + part * (load - before);
+    }
+    return before;
+  }
+
+  ControlPoints points(std::size_t rigid) const {
+    return progress_.state.x.middleRows<4>(mesh_.control_row(static_cast<int>(rigid)));
+  }
+
+  void run_phase(const ScenePhase& phase, int index) {
+    const std::vector<Matrix4> start = poses_;
+    const double start_s = time_s_;
+    const int steps = phase.steps * phase.substeps;
+    for (int f = 1; f <= phase.steps; ++f) {
+      if (restored()) continue;
+      StepReport report;
+      try {
+        for (int k = 0; k < phase.substeps; ++k) {
+          const int i = (f - 1) * phase.substeps + k;
+          step(phase, start, static_cast<double>(i) / steps, (i + 1.0) / steps, 0, report);
+        }
+      } catch (const SolverError& error) {
+        throw SolverError("frame {}: {}", out_.frames.size(), error.what());
+      }
+      time_s_ = start_s + f * phase.substeps * config_.time_step_s;
+      finish(index, report, stepper_->forces());
+    }
+    for (std::size_t i = 0; i < num_rigid_; ++i) loads_n_[i] = load_in(phase, num_deformable_ + i, 1.0);
+  }
+
+  bool restored() {
+    if (!store_ || !restoring_) return false;
+    const std::optional<std::string> bytes = store_->load();
+    restoring_ = bytes.has_value();
+    if (!restoring_) return false;
+    SceneFrame frame;
+    std::vector<Frame> of_gels(num_gels_);
+    unpack_frame(*bytes, frame, of_gels, progress_);
+    for (std::size_t g = 0; g < num_gels_; ++g) out_.gels[g].frames.push_back(std::move(of_gels[g]));
+    time_s_ = frame.time_s;
+    poses_ = frame.world_from_body;
+    log_info("frame {}/{} resumed from an interrupted run", out_.frames.size(), num_frames_);
+    out_.frames.push_back(std::move(frame));
+    return true;
+  }
+
+  /// Pairs of triangles of different bodies, or of one deformable body, that share a point.
+  int crossings(const Positions& x) const {
+    const SurfaceView deformable{x.topRows(mesh_.num_gel_vertices), whole_.boundary};
+    Triangles all(static_cast<Eigen::Index>(mesh_.object.triangles.size()), 3);
+    for (Eigen::Index t = 0; t < all.rows(); ++t) {
+      for (int k = 0; k < 3; ++k)
+        all(t, k) = mesh_.object.triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] -
+                    mesh_.num_gel_vertices;
+    }
+    const Positions objects = mesh_.object_rows(x);
+    const IntersectionReport with_gels = find_intersections(deformable, {objects, all});
+    std::int64_t sum = with_gels.gel_object + with_gels.gel_gel;
+    // Two that are fixed may share points.
+    for (std::size_t a = 0; a < num_rigid_; ++a) {
+      for (std::size_t b = a + 1; b < mesh_.objects.size(); ++b) {
+        const Positions first = mesh_.objects[a].rows(x), second = mesh_.objects[b].rows(x);
+        sum += find_intersections({first, bodies_[num_deformable_ + a].surface.triangles},
+                                  {second, bodies_[num_deformable_ + b].surface.triangles})
+                   .gel_object;
+      }
+    }
+    return static_cast<int>(sum);
+  }
+
+  /// How many times bodies wind around others, at most 1 where one is inside another.
+  double containment(const Positions& x) const {
+    double most = 0.0;
+    const auto look = [&](const Vector3& point, const Positions& at, const Triangles& triangles) {
+      const double winds = winding_number(point, {at, triangles});
+      if (std::abs(winds) > std::abs(most)) most = winds;
+    };
+    std::vector<Eigen::Index> first_rows;
+    for (const Part& part : parts_) first_rows.push_back(part.first_row + bodies_[part.body].tets.boundary(0, 0));
+    for (const ObjectPart& object : mesh_.objects) first_rows.push_back(object.first_vertex);
+    for (std::size_t a = 0; a < first_rows.size(); ++a) {
+      const Vector3 point = x.row(first_rows[a]);
+      for (std::size_t b = 0; b < first_rows.size(); ++b) {
+        if (a == b) continue;
+        if (b < parts_.size()) {
+          const TetMesh& tets = bodies_[b].tets;
+          look(point, x.middleRows(parts_[b].first_row, tets.num_vertices()), tets.boundary);
+        } else {
+          look(point, mesh_.objects[b - parts_.size()].rows(x), bodies_[b].surface.triangles);
+        }
+      }
+    }
+    return most;
+  }
+
+  void finish(int phase_index, const StepReport& report, const StepForces& forces) {
+    const Positions& x = progress_.state.x;
+    SceneFrame frame{.time_s = time_s_, .phase_index = phase_index, .world_from_body = poses_, .solver = report};
+    for (std::size_t i = 0; i < num_rigid_; ++i) {
+      const RigidMotion& motion = progress_.state.object_motion[i];
+      frame.velocity_m_s.push_back(motion.velocity_m_s);
+      frame.spin_rad_s.push_back(angular_velocity(affine_[i], points(i), motion));
+      frame.strain.push_back(strain_of(affine_[i], points(i)));
+    }
+    frame.between = forces.between;
+    if (frame.between.empty())
+      frame.between.assign(bodies_.size() * bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
+    frame.min_gap_m = stepper_->smallest_gap(x, scales_.gap_horizon_m);
+    frame.intersections = crossings(x);
+    const double contained = containment(x);
+    std::vector<Frame> of_gels;
+    for (const Part& part : parts_) {
+      const SolvedGel gel{bodies_[part.body].tets, part.front, part.rest_tets, part.first_row};
+      const Matrix4& pose = poses_[part.body];
+      const bool at_rest = phase_index < 0 && is_gel(part);
+      Frame own = gel_frame(gel, pose, at_rest ? gel.gel.positions : positions_in_gel(gel, pose, x), forces);
+      own.time_s = time_s_;
+      own.phase = phase_index < 0 ? PhaseKind::reference : PhaseKind::path;
+      own.phase_index = phase_index;
+      own.solver = report;
+      if (num_rigid_ > 0) {
+        add_object(own, pose, poses_[num_deformable_], frame.velocity_m_s[0], frame.spin_rad_s[0]);
+        own.body_strain = *std::max_element(frame.strain.begin(), frame.strain.end());
+      } else {
+        own.gel_from_object = pose.inverse();
+      }
+      own.min_gap_m = frame.min_gap_m;
+      own.intersections = frame.intersections;
+      own.gel_in_object = contained;
+      judge_frame(static_cast<int>(out_.frames.size()), numbers_of(own),
+                  limits_of(config_, settings_.newton, report.contact_force_n));
+      if (is_gel(part)) {
+        of_gels.push_back(own);
+        out_.gels[part.body].frames.push_back(std::move(own));
+      } else {
+        frame.soft_m.emplace_back(x.middleRows(part.first_row, gel.gel.num_vertices()));
+      }
+    }
+    log_info("frame {}/{}: {} Newton iterations in {} steps, smallest gap {:.3g} um", out_.frames.size(), num_frames_,
+             report.newton_iterations, report.time_steps, 1e6 * frame.min_gap_m);
+    out_.frames.push_back(std::move(frame));
+    if (store_) store_->save(pack_frame(out_.frames.back(), of_gels, progress_));
+  }
+
+  const Sensor& sensor_;
+  const std::vector<SceneBody>& bodies_;
+  const PressConfig& config_;
+  const SceneSpec& spec_;
+  const ProgressObserver& observe_;
+  ByteStore* store_;
+  const Scales scales_;
+  StepSettings settings_;
+  const std::size_t num_gels_, num_deformable_, num_rigid_;
+  Scene out_;
+  std::vector<Part> parts_;
+  std::vector<AffineBody> affine_;  // rigid bodies, at rest where they start
+  TetMesh whole_;                   // all deformable bodies
+  ContactMesh mesh_;
+  std::vector<int> glued_;
+  TimeStepper* stepper_ = nullptr;
+  Progress progress_;
+  std::vector<Matrix4> poses_;  // world_from_body
+  std::vector<Vector3> loads_n_ = std::vector<Vector3>(num_rigid_, Vector3::Zero());  // at the start of the phase
+  double time_s_ = 0.0;
+  int num_frames_ = 0;
+  bool restoring_ = true;
+};
+
+}  // namespace
+
+Scene run_scene(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
+                const SceneSpec& spec, const ProgressObserver& observe, ByteStore* store) {
+  return Stepping(sensor, bodies, config, spec, observe, store).run();
+}
+
+}  // namespace tacipc

@@ -1,0 +1,68 @@
+// The sample file of a scene: gels, soft, rigid and fixed bodies, and what moves them.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/config.h"
+
+namespace tacipc {
+
+/// What a body is.
+enum class BodyKind {
+  gel,    // the sensor's gel on its mount
+  soft,   // tetrahedra of a material of their own, without a mount
+  rigid,  // moves freely but where a phase moves or holds it
+  fixed,  // never moves
+};
+inline constexpr std::array kBodyKinds{"gel", "soft", "rigid", "fixed"};
+
+struct BodySpec {
+  std::string name;
+  BodyKind kind = BodyKind::gel;
+  std::filesystem::path mesh;      // soft: tetrahedra (gel.msh of tetmesh); rigid, fixed: a closed surface in metres
+  std::filesystem::path material;  // soft: its mechanics, as the section `material` of a sensor file
+  Matrix4 world_from_body = Matrix4::Identity();
+  std::optional<double> mass_kg;  // rigid: this, or
+  double density_kg_m3 = 0.0;
+  Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();  // rigid: how it starts
+};
+
+/// How two bodies touch, where that differs from the press file.
+struct ContactSpec {
+  std::array<int, 2> between{};  // numbers of bodies
+  std::optional<double> friction, d_hat_m;
+};
+
+/// The way of one body in a phase, from where it is at its start.
+struct WaySpec {
+  int body = 0;
+  Vector3 by_m = Vector3::Zero();
+  Vector3 turn_rad = Vector3::Zero();  // angle times axis, about the origin of the body's own frame
+  bool smooth = false;                 // 3s² − 2s³ of it after the part s of the phase, else s
+};
+
+struct ScenePhase {
+  int steps = 0;          // frames
+  int substeps = 1;       // time steps per frame
+  std::vector<WaySpec> move;  // gels and rigid bodies that go where they are told
+  std::vector<int> hold;      // rigid bodies that stay where they are
+  /// On rigid bodies that are free, at their centre of mass: reached evenly in this phase, kept until another is named.
+  std::vector<std::pair<int, Vector3>> load_n;
+};
+
+struct SceneSpec {
+  Vector3 gravity_m_s2 = {0.0, 0.0, -9.81};
+  std::vector<BodySpec> bodies;  // in the order gel, soft, rigid, fixed, each kind as the file has them
+  std::vector<ContactSpec> contact;
+  std::vector<ScenePhase> motion;
+
+  static SceneSpec read(ConfigReader& in);
+  /// How many there are of a kind.
+  int count(BodyKind kind) const;
+};
+
+}  // namespace tacipc
