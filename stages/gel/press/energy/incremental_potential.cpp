@@ -1,5 +1,7 @@
 #include "stages/gel/press/energy/incremental_potential.h"
 
+#include "stages/gel/press/energy/joined_term.h"
+
 namespace tacipc {
 
 double IncrementalPotential::value(const Positions& x) const {
@@ -25,7 +27,9 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
   add(h * h, terms.gravity);
   add(h * h, terms.constraint);
   add(h * h, terms.viscous_memory);
-  add(h * h * w.elastic_factor, terms.elasticity);
+  const auto elastic = parts_of(terms.elasticity);
+  for (std::size_t k = 0; k < elastic.size(); ++k)
+    add(h * h * (w.elastic_factors.empty() ? 1.0 : w.elastic_factors[k]), elastic[k]);
   if (terms.body_inertia) out.of_bodies = {{1.0, terms.body_inertia}, {h * h, terms.body_orthogonality}};
   out.friction = {kappa * w.friction_coefficient, terms.friction};
   out.barrier = {kappa, terms.barrier};
