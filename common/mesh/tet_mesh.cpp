@@ -39,6 +39,28 @@ std::vector<int> TetMesh::vertices(BoundaryTag tag) const {
   return found;
 }
 
+TetMesh joined(const std::vector<TetMesh>& meshes) {
+  Eigen::Index vertices = 0, tets = 0, triangles = 0;
+  for (const TetMesh& mesh : meshes) {
+    vertices += mesh.num_vertices();
+    tets += mesh.num_tets();
+    triangles += mesh.boundary.rows();
+  }
+  TetMesh out{Positions(vertices, 3), Tetrahedra(tets, 4), Triangles(triangles, 3), {}};
+  vertices = tets = triangles = 0;
+  for (const TetMesh& mesh : meshes) {
+    const auto first = static_cast<int>(vertices);
+    out.positions.middleRows(vertices, mesh.num_vertices()) = mesh.positions;
+    out.tets.middleRows(tets, mesh.num_tets()) = mesh.tets.array() + first;
+    out.boundary.middleRows(triangles, mesh.boundary.rows()) = mesh.boundary.array() + first;
+    out.tags.insert(out.tags.end(), mesh.tags.begin(), mesh.tags.end());
+    vertices += mesh.num_vertices();
+    tets += mesh.num_tets();
+    triangles += mesh.boundary.rows();
+  }
+  return out;
+}
+
 Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices) {
   std::vector<KeyedFace> faces;
   faces.reserve(static_cast<std::size_t>(4 * tets.rows()));

@@ -27,6 +27,9 @@ struct TetMesh {
 };
 
 /// Outward triangles that belong to exactly one tet, in the order of the tets. \throw DataError if three tets share a
+/// Several meshes as one: the vertices of the first, then those of the second, …; tets and boundary likewise.
+TetMesh joined(const std::vector<TetMesh>& meshes);
+
 /// face.
 Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices);
 

@@ -63,7 +63,7 @@ class Hand {
 
   Grasp run() {
     const std::string element = element_of(config_, sensor_.material);
-    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, both_, rest_both_, element), settings_, {*body_});
+    TimeStepper stepper(mesh_, make_gel_model({{sensor_.material, element, both_}}), settings_, {*body_});
     stepper_ = &stepper;
     for (Simulation& finger : out_.fingers) {
       finger.d_hat_m = scales_.d_hat_m;
@@ -125,7 +125,6 @@ class Hand {
       start_[side].topRightCorner<3, 1>() = -R.col(2) * (reach + scales_.start_gap_m);
     }
     both_ = joined(std::array{PlacedGel{gel_, start_[0]}, PlacedGel{gel_, start_[1]}});
-    rest_both_ = make_rest_tets(both_.positions, both_.tets);
     mesh_ = make_contact_mesh(both_.positions, both_.boundary, at, object_.triangles);
     mesh_.num_control_points = 4;
     const int anchor = gel_.vertices(BoundaryTag::glued).front();
@@ -391,7 +390,6 @@ class Hand {
   std::array<Matrix4, 2> start_;
   std::vector<Matrix3> turns_;
   TetMesh both_;
-  std::vector<RestTet> rest_both_;
   ContactMesh mesh_;
   std::vector<int> glued_;
   TimeStepper* stepper_ = nullptr;

@@ -42,8 +42,8 @@ struct Part {
 
 class Stepping {
  public:
-  Stepping(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
-           const SceneSpec& spec, const ProgressObserver& observe, ByteStore* store)
+  Stepping(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config, const SceneSpec& spec,
+           const ProgressObserver& observe, ByteStore* store)
       : sensor_(sensor),
         bodies_(bodies),
         config_(config),
@@ -138,8 +138,8 @@ class Stepping {
       const TetMesh& tets = bodies_[part.body].tets;
       const std::vector<int> glued = tets.vertices(BoundaryTag::glued);
       mesh_.gels.push_back({static_cast<int>(part.first_row), glued.empty() ? -1 : glued.front(),
-                            std::make_shared<const ContactMesh>(make_contact_mesh(
-                                tets.positions, tets.boundary, std::vector<TriangleMesh>{}))});
+                            std::make_shared<const ContactMesh>(
+                                make_contact_mesh(tets.positions, tets.boundary, std::vector<TriangleMesh>{}))});
     }
     if (num_deformable_ > num_gels_) mesh_.gel_edge_sharpness = edge_sharpness(mesh_.gel, mesh_.rest_positions);
     for (const BodySpec& body : spec_.bodies) poses_.push_back(body.world_from_body);
@@ -232,8 +232,8 @@ class Stepping {
       const std::size_t body = num_deformable_ + i;
       const bool moves = std::any_of(phase.move.begin(), phase.move.end(),
                                      [&](const WaySpec& way) { return way.body == static_cast<int>(body); });
-      const bool held = moves || std::find(phase.hold.begin(), phase.hold.end(), static_cast<int>(body)) !=
-                                     phase.hold.end();
+      const bool held =
+          moves || std::find(phase.hold.begin(), phase.hold.end(), static_cast<int>(body)) != phase.hold.end();
       goal.body_load_n.push_back(load_in(phase, body, to));
       if (!held) continue;
       goal.held_bodies.push_back(static_cast<int>(i));
@@ -321,8 +321,8 @@ class Stepping {
     Triangles all(static_cast<Eigen::Index>(mesh_.object.triangles.size()), 3);
     for (Eigen::Index t = 0; t < all.rows(); ++t) {
       for (int k = 0; k < 3; ++k)
-        all(t, k) = mesh_.object.triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] -
-                    mesh_.num_gel_vertices;
+        all(t, k) =
+            mesh_.object.triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] - mesh_.num_gel_vertices;
     }
     const Positions objects = mesh_.object_rows(x);
     const IntersectionReport with_gels = find_intersections(deformable, {objects, all});
@@ -430,7 +430,7 @@ class Stepping {
   std::vector<int> glued_;
   TimeStepper* stepper_ = nullptr;
   Progress progress_;
-  std::vector<Matrix4> poses_;  // world_from_body
+  std::vector<Matrix4> poses_;                                                        // world_from_body
   std::vector<Vector3> loads_n_ = std::vector<Vector3>(num_rigid_, Vector3::Zero());  // at the start of the phase
   double time_s_ = 0.0;
   int num_frames_ = 0;

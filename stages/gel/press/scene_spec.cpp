@@ -22,9 +22,8 @@ Vector3 triple(ConfigReader& in, const std::string& key, double unit) {
 
 /// A name is a folder's, too.
 bool is_name(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
+  return !text.empty() && std::all_of(text.begin(), text.end(),
+                                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
 }
 
 BodySpec read_body(ConfigReader& in) {

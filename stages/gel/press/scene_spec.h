@@ -46,8 +46,8 @@ struct WaySpec {
 };
 
 struct ScenePhase {
-  int steps = 0;          // frames
-  int substeps = 1;       // time steps per frame
+  int steps = 0;              // frames
+  int substeps = 1;           // time steps per frame
   std::vector<WaySpec> move;  // gels and rigid bodies that go where they are told
   std::vector<int> hold;      // rigid bodies that stay where they are
   /// On rigid bodies that are free, at their centre of mass: reached evenly in this phase, kept until another is named.

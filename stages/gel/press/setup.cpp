@@ -9,6 +9,7 @@
 #include "stages/gel/press/energy/barrier_stiffness.h"
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/energy/element.h"
+#include "stages/gel/press/energy/joined_term.h"
 #include "stages/gel/press/measure/front_surface.h"
 
 namespace tacipc {
@@ -35,18 +36,35 @@ std::string element_of(const PressConfig& config, const Material& material) {
   return material.poissons_ratio >= kAveragedVolumeFrom ? "averaged_volume" : "linear";
 }
 
-GelModel make_gel_model(const Material& material, const TetMesh& gel, const std::vector<RestTet>& rest,
-                        const std::string& element) {
-  const ElasticLaw law = make_elastic_law(material.law, material.lame_mu_pa(), material.lame_lambda_pa());
-  const Element kind = element == "averaged_volume" ? Element::averaged_volume : Element::linear;
-  GelModel model{.elasticity = make_elasticity(gel.positions, gel.tets, law, kind),
-                 .tets = gel.tets,
-                 .mass_kg = lumped_masses(gel.tets, rest, gel.num_vertices(), material.density_kg_m3),
-                 .glued = gel.vertices(BoundaryTag::glued)};
-  if (!material.relaxation.empty()) {
-    model.viscoelasticity =
-        std::make_shared<Viscoelasticity>(material.relaxation, make_tet_stress(gel.positions, gel.tets, law, kind));
+GelModel make_gel_model(const std::vector<DeformableBody>& bodies) {
+  std::vector<TetMesh> meshes;
+  for (const DeformableBody& body : bodies) meshes.push_back(body.mesh);
+  const TetMesh all = meshes.size() == 1 ? std::move(meshes.front()) : joined(meshes);
+  GelModel model{.elasticity = nullptr,
+                 .tets = all.tets,
+                 .mass_kg = Eigen::VectorXd(all.num_vertices()),
+                 .glued = all.vertices(BoundaryTag::glued)};
+  std::vector<std::shared_ptr<const EnergyTerm>> elastic;
+  std::vector<Viscoelasticity::Body> viscous;
+  bool relaxes = false;
+  Eigen::Index first_vertex = 0, first_tet = 0;
+  for (const auto& [material, element, mesh] : bodies) {
+    const ElasticLaw law = make_elastic_law(material.law, material.lame_mu_pa(), material.lame_lambda_pa());
+    const Element kind = element == "averaged_volume" ? Element::averaged_volume : Element::linear;
+    const Tetrahedra tets = all.tets.middleRows(first_tet, mesh.num_tets());
+    elastic.push_back(make_elasticity(all.positions, tets, law, kind));
+    model.mass_kg.segment(first_vertex, mesh.num_vertices()) = lumped_masses(
+        mesh.tets, make_rest_tets(mesh.positions, mesh.tets), mesh.num_vertices(), material.density_kg_m3);
+    viscous.push_back({.series = material.relaxation, .stress = std::nullopt});
+    if (!material.relaxation.empty()) {
+      relaxes = true;
+      viscous.back().stress = make_tet_stress(all.positions, tets, law, kind);
+    }
+    first_vertex += mesh.num_vertices();
+    first_tet += mesh.num_tets();
   }
+  model.elasticity = elastic.size() == 1 ? elastic.front() : std::make_shared<JoinedTerm>(std::move(elastic));
+  if (relaxes) model.viscoelasticity = std::make_shared<Viscoelasticity>(viscous);
   return model;
 }
 

@@ -28,8 +28,16 @@ Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh&
 /// The element that the configuration asks for, "auto" decided by Poisson's ratio: "linear" or "averaged_volume".
 std::string element_of(const PressConfig& config, const Material& material);
 
-GelModel make_gel_model(const Material& material, const TetMesh& gel, const std::vector<RestTet>& rest,
-                        const std::string& element);
+/// A deformable body: a gel, or a soft object.
+struct DeformableBody {
+  const Material& material;
+  std::string element;  // element_of
+  const TetMesh& mesh;  // where it is at rest
+};
+/// One body, or several of different materials, laws and elements that share no vertex, as the solver sees them: their
+/// vertices and tetrahedra follow one another as in joined(). The glued vertices are those of all; a body without any
+/// has no mount. \throw DataError naming the first tetrahedron of a body that is not positively oriented
+GelModel make_gel_model(const std::vector<DeformableBody>& bodies);
 
 StepSettings step_settings(const PressConfig& config, const Scales& scales);
 

@@ -54,7 +54,7 @@ class Motion {
   }
 
   Simulation run() {
-    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, gel_, rest_tets_, out_.element), settings_,
+    TimeStepper stepper(mesh_, make_gel_model({{sensor_.material, out_.element, gel_}}), settings_,
                         body_ ? std::vector{*body_} : std::vector<AffineBody>{});
     stepper_ = &stepper;
     progress_.state = {.x = Positions(mesh_.num_rows(), 3), .velocity_m_s = Positions::Zero(gel_.num_vertices(), 3)};

@@ -41,6 +41,24 @@ TEST(TetMesh, ThreeTetsOnOneFaceAreRefused) {
             "tet 2 refers to vertex 5, but there are 5 vertices");
 }
 
+TEST(TetMesh, JoinedHasTheRowsOfEachOneAfterAnother) {
+  const TetMesh one = two_tets();
+  TetMesh other = one;
+  other.positions.col(2).array() += 1.0;
+  std::swap(other.tags[0], other.tags[1]);
+  const TetMesh both = joined({one, other, one});
+  ASSERT_EQ(both.num_vertices(), 15);
+  ASSERT_EQ(both.num_tets(), 6);
+  ASSERT_EQ(both.tags.size(), 18u);
+  for (const auto& [mesh, k] : {std::pair(one, 0), std::pair(other, 1), std::pair(one, 2)}) {
+    EXPECT_EQ(both.positions.middleRows(5 * k, 5), mesh.positions);
+    EXPECT_EQ(both.tets.middleRows(2 * k, 2), Tetrahedra(mesh.tets.array() + 5 * k));
+    EXPECT_EQ(both.boundary.middleRows(6 * k, 6), Triangles(mesh.boundary.array() + 5 * k));
+    EXPECT_TRUE(std::equal(mesh.tags.begin(), mesh.tags.end(), both.tags.begin() + 6 * k));
+  }
+  EXPECT_EQ(boundary_triangles(both.tets, both.num_vertices()), both.boundary);
+}
+
 TEST(MshFile, EveryVersionGivesTheSameTetAndTaggedTriangle) {
   const ScratchFolder scratch;
   const std::vector<std::string> files{

@@ -1,5 +1,7 @@
 #include "stages/gel/press/energy/incremental_potential.h"
 
+#include "stages/gel/press/energy/joined_term.h"
+
 namespace tacipc {
 
 double IncrementalPotential::value(const Positions& x) const {
@@ -25,11 +27,13 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
   add(h * h, terms.gravity);
   add(h * h, terms.constraint);
   add(h * h, terms.viscous_memory);
-  add(h * h * w.elastic_factor, terms.elasticity);
   for (const StepTerms::Body& body : terms.bodies) {
     out.of_bodies.push_back({1.0, body.inertia});
     out.of_bodies.push_back({h * h, body.orthogonality});
   }
+  const auto elastic = parts_of(terms.elasticity);
+  for (std::size_t k = 0; k < elastic.size(); ++k)
+    add(h * h * (w.elastic_factors.empty() ? 1.0 : w.elastic_factors[k]), elastic[k]);
   out.friction = {kappa * w.friction_coefficient, terms.friction};
   out.barrier = {kappa, terms.barrier};
   return out;

@@ -30,8 +30,8 @@ struct StepTerms {
   std::shared_ptr<const EnergyTerm> stiffness_damping;  // ½ (x − xᵗ)ᵀ K (x − xᵗ)
   std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where x̂ does not include it
   std::shared_ptr<const EnergyTerm> constraint;         // what an augmented Lagrangian holds
-  std::shared_ptr<const EnergyTerm> elasticity;
-  std::shared_ptr<const EnergyTerm> viscous_memory;  // of a gel whose stress relaxes
+  std::shared_ptr<const EnergyTerm> elasticity;         // of one body, or JoinedTerm of several
+  std::shared_ptr<const EnergyTerm> viscous_memory;     // of a gel whose stress relaxes
   struct Body {
     std::shared_ptr<const EnergyTerm> inertia;        // about its points' x̂
     std::shared_ptr<const EnergyTerm> orthogonality;  // what keeps its shape
@@ -47,7 +47,8 @@ struct StepWeights {
   double friction_coefficient = 0.0;
   double mass_damping_per_s = 0.0;
   double stiffness_damping_s = 0.0;
-  double elastic_factor = 1.0;  // on the elasticity, more than 1 where stress relaxes
+  /// On each part of the elasticity, more than 1 where stress relaxes; empty: 1 on all.
+  std::vector<double> elastic_factors = {};
 };
 
 /// Ê(x) in kg m².   [Eq. 3, 5, 9]
@@ -62,7 +63,7 @@ struct IncrementalPotential {
 };
 
 /// Ê = inertia + αh C_M + βh C_K + h² (f Φ + viscous memory + gravity + constraint + orthogonality) + κ′(μ D + B), κ′ =
-/// h² × barrier stiffness: κ for the nominal h; f the elastic factor.
+/// h² × barrier stiffness: κ for the nominal h; f the elastic factor, of each part of Φ its own.
 IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& weights);
 
 }  // namespace tacipc

@@ -1,7 +1,8 @@
-// A gel whose stress relaxes: a Prony series over the elastic stress of its tetrahedra.
+// Gels whose stress relaxes: a Prony series over the elastic stress of their tetrahedra.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/sensor/sensor.h"
@@ -18,18 +19,26 @@ namespace tacipc {
 ///   Qᵢ ← e^{−h/τᵢ} Qᵢ + rᵢ ξᵢ (S_{n+1} − S_n),   ξᵢ = (1 − e^{−h/τᵢ}) τᵢ/h,
 /// the derivative by Green's strain of an energy of which only the first part depends on the law:
 ///   (1 + Σ rᵢ ξᵢ) ψ + M : E,   M = Σ (e^{−h/τᵢ} Qᵢ − rᵢ ξᵢ S_n) held during the step (ViscousMemory).
+/// Of several bodies each has a series of its own, or none: it is elastic then, and none of this concerns it.
 class Viscoelasticity {
  public:
-  /// \pre the series has members; their parts sum to less than 1
-  Viscoelasticity(const std::vector<Relaxation>& series, TetStress stress);
+  /// A body: its series, and the stress in its tetrahedra, none where the series has no members.
+  struct Body {
+    std::vector<Relaxation> series;
+    std::optional<TetStress> stress;
+  };
+  /// \pre the series of at least one body has members; the parts of each series sum to less than 1
+  explicit Viscoelasticity(const std::vector<Body>& bodies);
 
-  /// Qᵢ of each member of the series, Pa; none before the first step, which starts at rest.
+  /// Qᵢ of each member of the series, body by body, a row for each tetrahedron of its body, Pa; none before the first
+  /// step, which starts at rest.
   using History = std::vector<SymmetricRows>;
 
-  /// S at x.
-  SymmetricRows stress(const Positions& x) const { return stress_(x); }
-  /// 1 + Σ rᵢ ξᵢ: what a step multiplies the elastic energy by. E₀/E∞ for short steps, 1 for long ones.
-  double elastic_factor(double h_s) const;
+  /// S at x, a row for each tetrahedron of the bodies whose stress relaxes.
+  SymmetricRows stress(const Positions& x) const;
+  /// 1 + Σ rᵢ ξᵢ of each body: what a step multiplies its elastic energy by. E₀/E∞ for short steps, 1 for long ones and
+  /// for a body without a series.
+  std::vector<double> elastic_factors(double h_s) const;
   /// The other part of the energy of a step from stress S_n.
   std::shared_ptr<const ViscousMemory> memory(const History& history, const SymmetricRows& start_pa, double h_s) const;
   /// Takes the history over a step that changed S by `change_pa`.
@@ -43,8 +52,17 @@ class Viscoelasticity {
     double decay(double h_s) const;       // e^{−h/τ}
     double mean_decay(double h_s) const;  // ξ, its mean over the step
   };
-  std::vector<Member> series_;
-  TetStress stress_;
+  struct Relaxing {
+    std::size_t body;
+    std::vector<Member> series;
+    TetStress stress;
+    Eigen::Index first_row, num_rows;  // of the stress
+
+    double elastic_factor(double h_s) const;
+  };
+  std::vector<Relaxing> relaxing_;
+  std::size_t num_bodies_;
+  std::shared_ptr<const RestBody> body_;  // tetrahedra of all that relax
 };
 
 }  // namespace tacipc

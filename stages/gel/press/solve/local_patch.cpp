@@ -5,6 +5,7 @@
 #include "stages/gel/press/energy/averaged_elasticity.h"
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/energy/inertia.h"
+#include "stages/gel/press/energy/joined_term.h"
 #include "stages/gel/press/energy/restricted_term.h"
 #include "stages/gel/press/energy/viscous_memory.h"
 
@@ -46,6 +47,11 @@ LocalPatch grow_patch(const std::vector<int>& seeds, int rings, const Tetrahedra
 std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyTerm>& term,
                                              const std::vector<bool>& moves) {
   if (!term) return nullptr;
+  if (const auto* joined = dynamic_cast<const JoinedTerm*>(term.get())) {
+    std::vector<std::shared_ptr<const EnergyTerm>> parts;
+    for (const auto& part : joined->parts()) parts.push_back(restricted(part, moves));
+    return std::make_shared<JoinedTerm>(std::move(parts));
+  }
   std::vector<int> stencils;
   for (int i = 0; i < term->num_stencils(); ++i) {
     if (any_moves(moves, term->stencil(i))) stencils.push_back(i);

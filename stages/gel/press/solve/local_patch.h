@@ -19,7 +19,7 @@ struct LocalPatch {
 /// The vertices of `seeds` and their neighbours, `rings` tetrahedra far, without those that are prescribed.
 LocalPatch grow_patch(const std::vector<int>& seeds, int rings, const Tetrahedra& tets, const FreeVertices& all_free);
 
-/// The term's stencils with any vertex that moves; null for null.
+/// The term's stencils with any vertex that moves, part by part where it is joined of several; null for null.
 std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyTerm>& term,
                                              const std::vector<bool>& moves);
 

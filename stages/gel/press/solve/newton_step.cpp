@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "stages/gel/press/energy/joined_term.h"
 #include "stages/gel/press/solve/contact_assembly.h"
 
 namespace tacipc {
@@ -51,13 +52,12 @@ NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::sh
       own_pattern_(mesh_pattern(free_, *elasticity_)),
       pattern_(own_pattern_),
       solver_(make_linear_solver(solver)) {
-  if (const auto* linear = dynamic_cast<const Elasticity*>(elasticity_.get()); linear && linear->packs())
-    packs_.emplace(*linear->packs(), free_);
-  if (const auto* averaged = dynamic_cast<const AveragedElasticity*>(elasticity_.get());
-      averaged && averaged->packs()) {
-    averaged_ = averaged;
-    packs_.emplace(*averaged->packs(), free_);
-    volumes_.emplace(*averaged, free_);
+  for (const auto& part : parts_of(elasticity_)) {
+    const EnergyTerm* term = part.get();
+    if (const auto* linear = dynamic_cast<const Elasticity*>(term); linear && linear->packs())
+      packed_.push_back({term, ElasticAssembly(*linear->packs(), free_)});
+    if (const auto* averaged = dynamic_cast<const AveragedElasticity*>(term); averaged && averaged->packs())
+      packed_.push_back({term, ElasticAssembly(*averaged->packs(), free_), averaged, VolumeAssembly(*averaged, free_)});
   }
 }
 
@@ -90,16 +90,24 @@ NewtonStepper::Call NewtonStepper::start(const NewtonProblem& problem) {
           std::move(barrier)};
 }
 
-bool NewtonStepper::assemble_packs(double weight, const Positions& x) {
-  if (!packs_) return false;
-  if (!averaged_) {
-    packs_->add(x, {}, weight, system_);
-    return true;
-  }
-  const auto volume = averaged_->volume_derivatives(x);
-  packs_->add(x, volume.pressure, weight, system_);
-  volumes_->add(volume.second, x, weight, system_);
-  return true;
+void NewtonStepper::PackedPart::add(double weight, const Positions& x, NewtonSystem& system) {
+  if (!averaged) return packs.add(x, {}, weight, system);
+  const auto volume = averaged->volume_derivatives(x);
+  packs.add(x, volume.pressure, weight, system);
+  volumes->add(volume.second, x, weight, system);
+}
+
+void NewtonStepper::PackedPart::update(const Positions& x, NewtonSystem& system) {
+  if (!averaged) return packs.update(x, {}, kKeptHessian, system);
+  const auto volume = averaged->volume_derivatives(x);
+  packs.update(x, volume.pressure, kKeptHessian, system);
+  volumes->update(volume.second, x, packs, system);
+}
+
+NewtonStepper::PackedPart* NewtonStepper::packed(const EnergyTerm* term) {
+  const auto found =
+      std::find_if(packed_.begin(), packed_.end(), [&](const PackedPart& part) { return part.term == term; });
+  return found == packed_.end() ? nullptr : &*found;
 }
 
 bool NewtonStepper::update_packs(const Call& call) {
@@ -119,14 +127,10 @@ bool NewtonStepper::update_packs(const Call& call) {
     from += last - first;
   }
   for (const WeightedTerm& part : terms) {
-    if (part.term != elasticity_) {
-      add_gradient(part, x, free_, system_);
-    } else if (!averaged_) {
-      packs_->update(x, {}, kKeptHessian, system_);
+    if (PackedPart* elastic = packed(part.term.get())) {
+      elastic->update(x, system_);
     } else {
-      const auto volume = averaged_->volume_derivatives(x);
-      packs_->update(x, volume.pressure, kKeptHessian, system_);
-      volumes_->update(volume.second, x, *packs_, system_);
+      add_gradient(part, x, free_, system_);
     }
   }
   return true;
@@ -177,7 +181,10 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     clear(system_, free_, pattern_);
     bool all_kept = elastic == Order::hessian;
     for (const WeightedTerm& part : terms) {
-      if (part.term == elasticity_ && elastic == Order::hessian && assemble_packs(part.weight, x)) continue;
+      if (PackedPart* of_packs = elastic == Order::hessian ? packed(part.term.get()) : nullptr) {
+        of_packs->add(part.weight, x, system_);
+        continue;
+      }
       assemble(part, x, free_, first_object_vertex_, elastic, mounts_move ? still : call.object.of_vertices, system_);
       all_kept = all_kept && has_constant_hessian(part, first_object_vertex_);
     }

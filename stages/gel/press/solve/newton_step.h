@@ -47,8 +47,8 @@ struct NewtonDirection {
 
 class NewtonStepper {
  public:
-  /// \param elasticity over every tetrahedron with a free vertex: its stencils are the matrix's pattern, but for
-  /// contact between parts of the gel
+  /// \param elasticity over every tetrahedron with a free vertex, of one body or joined of several: its stencils are
+  /// the matrix's pattern, but for contact between parts of the gel
   NewtonStepper(FreeVertices free, int first_object_vertex, std::shared_ptr<const EnergyTerm> elasticity,
                 LinearSolverKind solver);
   NewtonStepper(const NewtonStepper&) = delete;
@@ -99,8 +99,18 @@ class NewtonStepper {
   Call start(const NewtonProblem& problem);
   /// Assembles the whole system, with elasticity to the given order. \return NewtonDirection::contact_sum
   double assemble_all(const Call& call, Order elastic, const Blend& blend);
-  /// Adds the elasticity in packs; false where it has none.
-  bool assemble_packs(double weight, const Positions& x);
+  /// A part of the elasticity that comes in packs.
+  struct PackedPart {
+    const EnergyTerm* term;
+    ElasticAssembly packs;
+    const AveragedElasticity* averaged = nullptr;  // what it is besides, where volumes are averaged
+    std::optional<VolumeAssembly> volumes = std::nullopt;
+
+    void add(double weight, const Positions& x, NewtonSystem& system);
+    void update(const Positions& x, NewtonSystem& system);
+  };
+  /// Null for a term that is no such part.
+  PackedPart* packed(const EnergyTerm* term);
   /// Where the matrix of the last call can be kept but for its contacts and elements that have changed since: makes it
   /// that at x without contacts, with all of its gradient.
   bool update_packs(const Call& call);
@@ -131,9 +141,7 @@ class NewtonStepper {
   FreeVertices free_;
   int first_object_vertex_;
   std::shared_ptr<const EnergyTerm> elasticity_;
-  std::optional<ElasticAssembly> packs_;          // of the elasticity, where it comes in packs,
-  const AveragedElasticity* averaged_ = nullptr;  // and what it is besides, where volumes are averaged
-  std::optional<VolumeAssembly> volumes_;
+  std::vector<PackedPart> packed_;  // of the elasticity
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
   NewtonSystem system_;             // of the last call
   std::vector<WeightedTerm> held_;  // terms in the matrix of the last call; none where it cannot be used again

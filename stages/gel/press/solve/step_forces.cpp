@@ -1,6 +1,8 @@
 // Within a time step: the forces it ends with.
+#include <algorithm>
 #include <cmath>
 
+#include "stages/gel/press/energy/joined_term.h"
 #include "stages/gel/press/solve/body_wrenches.h"
 #include "stages/gel/press/solve/step_under_way.h"
 
@@ -47,10 +49,11 @@ void TimeStepper::record_forces(const Step& step) {
   const auto touching = barrier(pairs_at(step.x));
   forces_.stand_off_m = stand_off(*touching, step.x);
   const IncrementalPotential energy = potential(step, touching);
+  const auto elastic = parts_of(gel_.elasticity), at_mount = parts_of(elasticity_at_mount_);
   for (const WeightedTerm& part : energy.terms) {
     if (part.term == step.terms.object_inertia || part.term == step.terms.constraint) continue;
-    if (part.term == gel_.elasticity) {
-      take_from_mount(force_of(part.weight, *elasticity_at_mount_));
+    if (const auto found = std::find(elastic.begin(), elastic.end(), part.term); found != elastic.end()) {
+      take_from_mount(force_of(part.weight, *at_mount[static_cast<std::size_t>(found - elastic.begin())]));
       continue;
     }
     const Positions force = force_of(part.weight, *part.term);

@@ -213,7 +213,7 @@ void TimeStepper::add_relaxation(Step& step, const State& state) const {
   const Viscoelasticity& gel = *gel_.viscoelasticity;
   step.start_stress_pa = gel.stress(state.x);
   step.terms.viscous_memory = gel.memory(state.viscous_pa, step.start_stress_pa, step.goal.h_s);
-  step.weights.elastic_factor = gel.elastic_factor(step.goal.h_s);
+  step.weights.elastic_factors = gel.elastic_factors(step.goal.h_s);
 }
 
 void TimeStepper::add_object_inertia(Step& step, const State& state) const {

@@ -54,7 +54,7 @@ struct StepSettings {
 
 /// The gel as the solver sees it; constant during a simulation.
 struct GelModel {
-  std::shared_ptr<const EnergyTerm> elasticity;  // over all tetrahedra
+  std::shared_ptr<const EnergyTerm> elasticity;  // over all tetrahedra; of several bodies JoinedTerm
   Tetrahedra tets;
   Eigen::VectorXd mass_kg;
   std::vector<int> glued;

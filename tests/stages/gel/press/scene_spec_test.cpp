@@ -25,14 +25,13 @@ SceneSpec read(const std::string& text) { return config_from_text<SceneSpec>(tex
 std::vector<std::string> faults(const std::string& text) { return faults_in<SceneSpec>(text, "scenes/scene.yaml"); }
 
 TEST(SceneSpec, BodiesAreSortedByKindAndEveryValueIsInSi) {
-  const SceneSpec spec = read(
-      "gravity_m_s2: [0, 0, -1.6]\n" + kBodies +
-      "contact:\n  - {between: [peg, table], friction: 0.3, d_hat_mm: 0.005}\n"
-      "motion:\n"
-      "  - steps: 4\n    substeps: 5\n"
-      "    move: [{body: left, by_mm: [0, 0, 2], turn_deg: [0, 30, 0], smooth: true}]\n"
-      "    hold: [peg]\n"
-      "  - steps: 2\n    load: [{body: peg, force_n: [0, 0, -3]}]\n");
+  const SceneSpec spec = read("gravity_m_s2: [0, 0, -1.6]\n" + kBodies +
+                              "contact:\n  - {between: [peg, table], friction: 0.3, d_hat_mm: 0.005}\n"
+                              "motion:\n"
+                              "  - steps: 4\n    substeps: 5\n"
+                              "    move: [{body: left, by_mm: [0, 0, 2], turn_deg: [0, 30, 0], smooth: true}]\n"
+                              "    hold: [peg]\n"
+                              "  - steps: 2\n    load: [{body: peg, force_n: [0, 0, -3]}]\n");
   ASSERT_EQ(spec.bodies.size(), 4u);
   EXPECT_EQ(spec.bodies[0].name, "left");
   EXPECT_EQ(spec.bodies[1].name, "ball");

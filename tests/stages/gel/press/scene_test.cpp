@@ -126,12 +126,12 @@ TEST_F(SceneOf, TwoGelsLiftABoxFromATable) {
   // The gels reach below the box: the table is a narrow one beside them.
   bodies_[3].surface = centered_box({2.5e-3, 2.5e-3, 0.01});
   config_.friction->coefficient = 0.9;
-  spec_.motion = {{.steps = 8, .hold = {2}, .move = {}},
-                  {.steps = 10, .move = {{.body = 0, .by_m = {0.5e-3, 0, 0}}, {.body = 1, .by_m = {-0.5e-3, 0, 0}}}},
-                  {.steps = 20,
-                   .move = {{.body = 0, .by_m = {0, 0, 3e-3}, .smooth = true},
-                            {.body = 1, .by_m = {0, 0, 3e-3}, .smooth = true}}},
-                  {.steps = 20}};
+  spec_.motion = {
+      {.steps = 8, .hold = {2}, .move = {}},
+      {.steps = 10, .move = {{.body = 0, .by_m = {0.5e-3, 0, 0}}, {.body = 1, .by_m = {-0.5e-3, 0, 0}}}},
+      {.steps = 20,
+       .move = {{.body = 0, .by_m = {0, 0, 3e-3}, .smooth = true}, {.body = 1, .by_m = {0, 0, 3e-3}, .smooth = true}}},
+      {.steps = 20}};
   const Scene scene = run();
   const double weight = kBoxMass_kg * kG;
   const SceneFrame& end = scene.frames.back();

@@ -76,7 +76,7 @@ TEST(Viscoelasticity, TheEnergyOfAStepHasTheForcesOfItsLastStress) {
   const Matrix3 turn = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
   for (const Gel& gel : kGels) {
     const auto elasticity = make_elasticity(block.rest, block.tets, gel.law, gel.element);
-    const Viscoelasticity model(kSeries, make_tet_stress(block.rest, block.tets, gel.law, gel.element));
+    const Viscoelasticity model({{kSeries, make_tet_stress(block.rest, block.tets, gel.law, gel.element)}});
     Viscoelasticity::History history;
     Positions x = block.rest;
     double phase = 0.0;
@@ -84,13 +84,58 @@ TEST(Viscoelasticity, TheEnergyOfAStepHasTheForcesOfItsLastStress) {
       const SymmetricRows start = model.stress(x);
       const auto memory = model.memory(history, start, h_s);
       x = crumpled(block, 0.03, phase += 1.0) * turn;
-      const Positions found = model.elastic_factor(h_s) * gradient_of(*elasticity, x) + gradient_of(*memory, x);
+      const Positions found =
+          model.elastic_factors(h_s).front() * gradient_of(*elasticity, x) + gradient_of(*memory, x);
       model.advance(history, model.stress(x) - start, h_s);
       SymmetricRows whole = model.stress(x);
       for (const SymmetricRows& member : history) whole += member;
       const TetStress body = make_tet_stress(block.rest, block.tets, gel.law, gel.element);
       EXPECT_LT((found - force_of(*body.body(), whole, x)).norm(), 1e-12 * found.norm()) << h_s;
     }
+  }
+}
+
+/// Of several bodies each relaxes by its own series and remembers what it would alone, bit for bit; one without a
+/// series is elastic.
+TEST(Viscoelasticity, OfSeveralBodiesEachIsAsItIsAlone) {
+  const Block block = make_block({1, 1, 1}, {2, 2, 1}, 0.2);
+  const auto n = block.rest.rows();
+  const std::vector<Relaxation> slow{{0.1, 3.0}};
+  const auto stress_of = [&](const Gel& gel, const Positions& rest, int body) {
+    return make_tet_stress(rest, Tetrahedra(block.tets.array() + body * static_cast<int>(n)), gel.law, gel.element);
+  };
+  Positions rest(3 * n, 3);
+  rest << block.rest, block.rest, block.rest;
+  const Gel &first = kGels[0], &last = kGels[2];
+  const Viscoelasticity together(
+      {{kSeries, stress_of(first, rest, 0)}, {{}, std::nullopt}, {slow, stress_of(last, rest, 2)}});
+  const Viscoelasticity of_first({{kSeries, stress_of(first, block.rest, 0)}}),
+      of_last({{slow, stress_of(last, block.rest, 0)}});
+  Viscoelasticity::History history, history_first, history_last;
+  Positions x = rest;
+  double phase = 0.0;
+  for (const double h_s : {0.01, 0.3, 5.0}) {
+    EXPECT_EQ(together.elastic_factors(h_s),
+              (std::vector<double>{of_first.elastic_factors(h_s).front(), 1.0, of_last.elastic_factors(h_s).front()}));
+    const Positions x_first = x.topRows(n), x_last = x.bottomRows(n);
+    const SymmetricRows start = together.stress(x), start_first = of_first.stress(x_first),
+                        start_last = of_last.stress(x_last);
+    const auto memory = together.memory(history, start, h_s);
+    const auto memory_first = of_first.memory(history_first, start_first, h_s),
+               memory_last = of_last.memory(history_last, start_last, h_s);
+    phase += 1.0;
+    x << crumpled(block, 0.03, phase), crumpled(block, 0.02, phase), crumpled(block, 0.01, phase);
+    const Positions force = gradient_of(*memory, x);
+    EXPECT_EQ(force.topRows(n), gradient_of(*memory_first, x.topRows(n)));
+    EXPECT_TRUE(force.middleRows(n, n).isZero(0.0));
+    EXPECT_EQ(force.bottomRows(n), gradient_of(*memory_last, x.bottomRows(n)));
+    together.advance(history, together.stress(x) - start, h_s);
+    of_first.advance(history_first, of_first.stress(x.topRows(n)) - start_first, h_s);
+    of_last.advance(history_last, of_last.stress(x.bottomRows(n)) - start_last, h_s);
+    ASSERT_EQ(history.size(), 3u);
+    EXPECT_EQ(history[0], history_first[0]);
+    EXPECT_EQ(history[1], history_first[1]);
+    EXPECT_EQ(history[2], history_last[0]);
   }
 }
 
@@ -132,12 +177,12 @@ class Bar {
  public:
   explicit Bar(const Gel& gel)
       : elasticity_(make_elasticity(block_.rest, block_.tets, gel.law, gel.element)),
-        model_(kSeries, make_tet_stress(block_.rest, block_.tets, gel.law, gel.element)) {}
+        model_({{kSeries, make_tet_stress(block_.rest, block_.tets, gel.law, gel.element)}}) {}
 
   /// \return the force with which its end pulls after a step to this strain
   double pull(double strain, double h_s) {
     const SymmetricRows start = model_.stress(x_);
-    const Sum energy({{model_.elastic_factor(h_s), elasticity_}, {1.0, model_.memory(history_, start, h_s)}});
+    const Sum energy({{model_.elastic_factors(h_s).front(), elasticity_}, {1.0, model_.memory(history_, start, h_s)}});
     const auto ends = [&](const Vector3& r) {
       std::array<std::optional<double>, 3> u;
       if (r.x() == 0.0) u[0] = 0.0;
