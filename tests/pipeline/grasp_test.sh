@@ -42,7 +42,13 @@ for side in left right; do
   [ "$(find "one/grasp/block/$side/render" -maxdepth 1 -name 'frame_*' | wc -l)" = 14 ] || fail "$side: not every frame was rendered"
   [ -s one/grasp/block/$side/press/contact_force.npy ] || fail "$side: no forces"
 done
-for file in index.html grasp_strip.png grasp_forces.svg; do [ -s one/grasp/block/report/$file ] || fail "$file is missing"; done
+for file in index.html grasp_strip.png view.html; do [ -s one/grasp/block/report/$file ] || fail "$file is missing"; done
+for link in grasp grasp/left grasp/right; do grep -q "<a href=\"view.html#$link\">" one/grasp/block/report/index.html || fail "no link to $link in 3-D"; done
+# Debian's Python, which has numpy.
+/usr/bin/python3 "$source_dir/tests/pipeline/check_view.py" one/grasp/block/report/view/grasp.js one/grasp/block
+browsed=0
+/usr/bin/python3 "$source_dir/tests/pipeline/browse_view.py" one/grasp/block/report "$build_dir/tests/pipeline/grasp_view_screenshots" || browsed=$?
+[ "$browsed" = 0 ] || [ "$browsed" = 77 ] || fail "the view has faults"
 grep -q '<h2>Grasp: lifted</h2>' one/grasp/block/report/index.html || fail "the page does not say what became of it"
 before=$(find one -name '*.yaml' -printf '%p %T@\n' | sort)
 grasp one GRASP=short.yaml THREADS=1 || fail "a second run failed"
