@@ -81,7 +81,7 @@ inline void write_pressed_cube(const ScratchFolder& scratch, const std::string& 
 inline std::vector<Matrix4> pressed_scene_fingers() {
   const auto finger = [](double side, double x, double z) {
     Matrix4 pose = Matrix4::Identity();
-    pose.topLeftCorner<3, 3>() << 0, 0, side, side, 0, 0, 0, -1, 0;  // columns: x, y = down, z
+    pose.topLeftCorner<3, 3>() << 0, 0, side, -side, 0, 0, 0, -1, 0;  // columns: x, y = down, z
     pose.topRightCorner<3, 1>() << x, 0.001, z;
     return pose;
   };
