@@ -51,14 +51,19 @@ std::string force_figure(const std::vector<GraspMoment>& moments) {
          curve_key(2) + "right finger, " + curve_key(3) + "carried by both, upwards</figcaption></figure>\n";
 }
 
-std::string slip_figure(const std::vector<GraspMoment>& moments) {
+/// Up to the frame that is judged: what comes after is the object let go.
+std::string slip_figure(const GraspReport& grasp) {
+  const std::vector<GraspMoment>& moments = grasp.moments;
   Chart chart = over_time(moments, "slip and turn");
   chart.left_label = "slip (mm)";
   chart.right_label = "turn (°)";
   chart.left.push_back(curve_of(moments, &GraspMoment::slip_m, 1e-3));
   chart.right.push_back(curve_of(moments, &GraspMoment::turn_rad, kDegree));
+  for (auto* curves : {&chart.left, &chart.right}) {
+    for (std::size_t i = grasp.judged_frame + 1; i < moments.size(); ++i) curves->front().values[i].reset();
+  }
   return "<figure>" + chart_svg(chart) + "<figcaption><b>In the hand</b>: " + curve_key(1) + "slip and " +
-         curve_key(2) + "turn of the object since it was freed</figcaption></figure>\n";
+         curve_key(2) + "turn of the object from when it was freed to when it is judged</figcaption></figure>\n";
 }
 
 }  // namespace
@@ -137,7 +142,7 @@ PageWords grasp_words(const GraspReport& grasp) {
               kGraspId, html_text(grasp.outcome), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), margin,
               grasp.judged_frame, number_text(1e3 * judged.slip_m), number_text(judged.turn_rad / kDegree),
               grasp.has_view ? " " + view_link(kGraspId) + "." : "", kGraspStrip, kGraspStrip) +
-          force_figure(grasp.moments) + slip_figure(grasp.moments) + "</div>\n</section>\n"};
+          force_figure(grasp.moments) + slip_figure(grasp) + "</div>\n</section>\n"};
 }
 
 std::vector<std::string> grasp_texts(const GraspReport& grasp, const SceneView& view) {

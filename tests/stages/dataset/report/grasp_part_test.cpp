@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "common/base/error.h"
 #include "tests/scratch_folder.h"
 #include "tests/stages/dataset/report/sample_folder.h"
@@ -61,6 +63,19 @@ TEST_F(GraspPartTest, PhasesAreStretchesOfTimeInItsCurves) {
     return std::stod(html.substr(from, html.find('"', from) - from));
   };
   EXPECT_NEAR(width(lift) / width(close), 2.0, 0.01);  // 20 ms beside 10 ms
+}
+
+TEST_F(GraspPartTest, SlipIsDrawnUpToTheFrameThatIsJudged) {
+  const auto points = [](const std::string& html, std::size_t curve) {
+    std::size_t at = html.find("points=\"");
+    for (; curve > 0; --curve) at = html.find("points=\"", at + 1);
+    return std::count(html.begin() + static_cast<std::ptrdiff_t>(at),
+                      html.begin() + static_cast<std::ptrdiff_t>(html.find("\"/>", at)), ',');
+  };
+  const std::string html = grasp_words(grasp(replaced(kRecord, "judged_frame: 2", "judged_frame: 1"))).first;
+  EXPECT_EQ(points(html, 0), 3);  // the left grip
+  EXPECT_EQ(points(html, 3), 2);  // slip
+  EXPECT_EQ(points(html, 4), 2);  // turn
 }
 
 TEST_F(GraspPartTest, AFramesWordsAreThoseOfItsMoment) {
