@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Opens the 3-D view of a report in a headless Chromium that draws without a graphics card: no console message, no request outside
-the folder, a picture that is not empty and changes with frame, colour, object and when turned, and twice the same picture.
+the sample's folder, a picture that is not empty and changes with frame, colour, object and when turned, and twice the same picture.
 
     browse_view.py REPORT SCREENSHOTS
 
@@ -25,6 +25,10 @@ PIXELS = """(() => {
   context.drawImage(scene, 0, 0, 200, 150);
   return Array.from(context.getImageData(0, 0, 200, 150).data);
 })()"""
+IMAGES = "[...document.querySelectorAll('#images img')].filter(i => i.style.visibility !== 'hidden').map(i => i.src)"
+# Names of the gels, where there are several.
+GELS = """document.getElementById('of-gels').hidden ? [] :
+  [...document.getElementById('seen').options].slice(1).map(o => o.textContent.split(',')[0])"""
 CHANGE = """(() => {{ const e = document.getElementById('{0}'); e.{1} = {2};
   e.dispatchEvent(new Event('{3}')); return true; }})()"""
 
@@ -53,6 +57,13 @@ class View:
         self.browser.value(CHANGE.format(element, field, repr(value).lower() if isinstance(value, bool) else repr(value), event))
 
 
+def image_faults(browser, frame):
+    """Tactile images beside the view are those of its frame."""
+    for name in browser.value(IMAGES):
+        if f"/frame_{frame}/tactile.png" not in name:
+            yield f"beside frame {frame} there is {name}"
+
+
 def look(browser, url, folder, shots, faults):
     """The pictures of one visit, by what they show."""
     browser.open(url, *SIZE, False, "light")
@@ -68,6 +79,7 @@ def look(browser, url, folder, shots, faults):
     view.change("frame", "0", "input")
     view.until(f"{last} 0 indentation glass")
     shown["first frame"] = view.picture("first")
+    faults += image_faults(browser, "0000")
     view.change("frame", str(frames), "input")
     view.change("object", "hidden")
     view.until(f"{last} {frames} indentation hidden")
@@ -81,8 +93,13 @@ def look(browser, url, folder, shots, faults):
     shown["turned"] = view.picture("turned")
     view.change("lines", False)
     shown["without lines"] = view.picture("plain")
+    for gel in range(len(browser.value(GELS))):  # of several, each as it is seen from its own frame
+        view.change("seen", str(gel))
+        view.until(f"{last}/{browser.value(GELS)[gel]} {frames} state hidden")
+        shown[browser.value(GELS)[gel]] = view.picture(browser.value(GELS)[gel])
     # The driver complains of our reading the picture, not of the page.
-    faults += [fault for fault in event_faults(browser.events, folder) if "ReadPixels" not in fault]
+    sample = os.path.dirname(os.path.realpath(folder))  # the images lie beside the report
+    faults += [fault for fault in event_faults(browser.events, sample) if "ReadPixels" not in fault]
     return shown
 
 

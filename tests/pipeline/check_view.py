@@ -1,8 +1,9 @@
-"""Unpacks the data of a 3-D view and compares them with the press they were made of.
+"""Unpacks the data of a 3-D view and compares them with the press or the grasp they were made of.
 
-    check_view.py VIEW.js PRESS_FOLDER"""
+    check_view.py VIEW.js FOLDER"""
 import base64
 import json
+import os
 import sys
 import zlib
 
@@ -26,19 +27,16 @@ class Planes:
         return np.stack([first, first + self.next(count), first + self.next(count)], axis=1)
 
 
-def main():
-    script, press = sys.argv[1:3]
-    with open(script, encoding="utf-8") as file:
-        data = json.loads(file.read().removeprefix("tacipc_view(").rstrip().removesuffix(");"))
-    planes = Planes(zlib.decompress(base64.b64decode(data["packed"])))
+def check_gel(planes, data, gel, press, world_from_gel):
+    """Compares one gel of the view with its press folder, frame by frame."""
     front = np.load(f"{press}/front_vertices.npy")
     positions = np.load(f"{press}/positions.npy")[:, front]
     states, forces = np.load(f"{press}/contact_state.npy"), np.load(f"{press}/contact_force.npy")[:, :, 0]
-    grid, count = data["gel"]["grid"], data["gel"]["vertices"]
+    grid, count = gel["grid"], gel["vertices"]
     half = 0.501 * grid["step_m"]
     assert half < 0.3e-6, f"a step is {grid['step_m']} m"
     assert count == len(front) and len(data["frames"]) == len(positions)
-    triangles = planes.triangles(data["gel"]["triangles"])
+    triangles = planes.triangles(gel["triangles"])
     assert triangles.min() == 0 and triangles.max() == count - 1
     steps, rows = np.zeros((count, 3), int), None
     for f, facts in enumerate(data["frames"]):
@@ -50,6 +48,10 @@ def main():
             rows = np.argmin(np.linalg.norm(shown[:, None] - positions[0][None], axis=2), axis=1)
             assert sorted(rows) == list(range(count))
         assert np.abs(shown - positions[facts["frame"]][rows]).max() <= half
+        # In the world: where the pose of this frame puts it.
+        pose, given = world_from_gel[facts["frame"]], np.array(gel["poses"][f]).reshape(4, 4)
+        there = positions[facts["frame"]][rows] @ pose[:3, :3].T + pose[:3, 3]
+        assert np.abs(shown @ given[:3, :3].T + given[:3, 3] - there).max() <= 2 * half
         pressure = planes.next(count) / 255 * data["pressure_pa"]
         assert np.array_equal(planes.next(count), states[facts["frame"]][rows])
         # Pressure: the force into the face over a third of the area around, as far as the colours reach.
@@ -62,12 +64,31 @@ def main():
         expected = np.maximum(0, -np.sum(forces[facts["frame"]][rows] * normal, axis=1)) / area
         expected = np.minimum(expected, data["pressure_pa"])
         assert np.abs(pressure - expected).max() <= 0.501 / 255 * data["pressure_pa"]
-    planes.triangles(data["object"]["triangles"])
-    object_steps = [np.cumsum(planes.next(data["object"]["vertices"])) for _ in range(3)]
+    for f, picture in enumerate(gel.get("pictures", [])):
+        assert not picture or f"frame_{data['frames'][f]['frame']:04}/tactile.png" in picture
+
+
+def main():
+    script, folder = sys.argv[1:3]
+    with open(script, encoding="utf-8") as file:
+        data = json.loads(file.read().removeprefix("tacipc_view(").rstrip().removesuffix(");"))
+    planes = Planes(zlib.decompress(base64.b64decode(data["packed"])))
+    objects = np.load(f"{folder}/object_pose.npy")
+    if os.path.exists(f"{folder}/finger_pose.npy"):
+        fingers = np.load(f"{folder}/finger_pose.npy")
+        assert [gel["name"] for gel in data["gels"]] == ["left", "right"]
+        for g, gel in enumerate(data["gels"]):
+            check_gel(planes, data, gel, f"{folder}/{gel['name']}/press", fingers[:, g])
+    else:
+        [gel] = data["gels"]
+        check_gel(planes, data, gel, folder, np.tile(np.eye(4), (len(objects), 1, 1)))
+    [shown] = data["objects"]
+    planes.triangles(shown["triangles"])
+    object_steps = [np.cumsum(planes.next(shown["vertices"])) for _ in range(3)]
     assert max(steps.max() for steps in object_steps) == 65535
     assert planes.at == len(planes.data)
-    poses = np.load(f"{press}/object_pose.npy").reshape(-1, 16)
-    assert np.array_equal(np.array(data["poses"]), poses[[facts["frame"] for facts in data["frames"]]])
+    frames = [facts["frame"] for facts in data["frames"]]
+    assert np.array_equal(np.array(shown["poses"]), objects.reshape(-1, 16)[frames])
 
 
 main()

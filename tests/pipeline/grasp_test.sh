@@ -42,9 +42,19 @@ for side in left right; do
   [ "$(find "one/grasp/block/$side/render" -maxdepth 1 -name 'frame_*' | wc -l)" = 14 ] || fail "$side: not every frame was rendered"
   [ -s one/grasp/block/$side/press/contact_force.npy ] || fail "$side: no forces"
 done
-for file in index.html grasp_strip.png grasp_forces.svg; do [ -s one/grasp/block/report/$file ] || fail "$file is missing"; done
+for file in index.html grasp_strip.png view.html; do [ -s one/grasp/block/report/$file ] || fail "$file is missing"; done
+for link in grasp grasp/left grasp/right; do grep -q "<a href=\"view.html#$link\">" one/grasp/block/report/index.html || fail "no link to $link in 3-D"; done
+# Debian's Python, which has numpy.
+/usr/bin/python3 "$source_dir/tests/pipeline/check_view.py" one/grasp/block/report/view/grasp.js one/grasp/block
+browsed=0
+/usr/bin/python3 "$source_dir/tests/pipeline/browse_view.py" one/grasp/block/report "$build_dir/tests/pipeline/grasp_view_screenshots" || browsed=$?
+[ "$browsed" = 0 ] || [ "$browsed" = 77 ] || fail "the view has faults"
 grep -q '<h2>Grasp: lifted</h2>' one/grasp/block/report/index.html || fail "the page does not say what became of it"
+make -s -f Makefile.data export SAMPLE=one/grasp/block OUT=one BUILD="$build_dir" PACKAGES=no > said.txt 2>&1 || { tail -5 said.txt >&2; fail "export failed"; }
+for side in left right; do [ -s one/grasp/block/export/surface_${side}_0013.vtu ] || fail "$side: was not exported"; done
+[ "$(head -c 4 one/grasp/block/export/sample.glb)" = glTF ] || fail "sample.glb is no glTF file"
 before=$(find one -name '*.yaml' -printf '%p %T@\n' | sort)
+make -s -f Makefile.data export SAMPLE=one/grasp/block OUT=one BUILD="$build_dir" PACKAGES=no > said.txt 2>&1 || fail "a second export failed"
 grasp one GRASP=short.yaml THREADS=1 || fail "a second run failed"
 [ "$before" = "$(find one -name '*.yaml' -printf '%p %T@\n' | sort)" ] || fail "a second run did something"
 

@@ -242,7 +242,7 @@ std::string sample_card(const SampleReport& sample, std::size_t index, const fs:
   std::string card = fmt::format("<article class=\"card\" id=\"{}\">\n<header><h3>{}</h3>{}", card_id(index),
                                  html_text(sample.name), verdict_badge(sample));
   if (!sample.object.empty()) card += "<span class=\"quiet\">object " + html_text(sample.object) + "</span>";
-  if (sample.has_view) card += fmt::format("<a href=\"{}#{}\">Turn it in 3-D</a>", kViewPage, card_id(index));
+  if (!sample.view.empty()) card += view_link(sample.view);
   return card + "</header>\n" + sample_body(sample, folder, Loading::in_sight) + "</article>\n";
 }
 

@@ -8,81 +8,16 @@
 #include <opencv2/imgproc.hpp>
 
 #include "stages/dataset/report/html.h"
+#include "stages/dataset/report/lettering.h"
 #include "stages/dataset/report/scaled_picture.h"
 
 namespace tacipc {
 namespace {
 
-using Color = std::array<double, 3>;  // RGB
 constexpr Color kPaper{243, 244, 247}, kCard{255, 255, 255}, kLine{218, 223, 230}, kInk{27, 35, 48};
 constexpr Color kQuiet{93, 104, 120}, kGood{21, 112, 60}, kBad{163, 35, 27}, kBadPaper{253, 234, 232};
 
 cv::Scalar scalar(const Color& color) { return {color[0], color[1], color[2]}; }
-
-/// The stroke font knows ASCII only: one '?' for each other character.
-std::string ascii(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code < 0x7f) out += c;
-    if (code < 0x20 || code == 0x7f || code >= 0xc0) out += '?';
-  }
-  return out;
-}
-
-constexpr int kOversampling = 4;  // drawn larger and averaged, strokes of a stroke font become smooth
-
-double font_scale(int height) { return static_cast<double>(kOversampling * height) / 22.0; }
-
-struct Text {
-  std::string words;
-  int height;  // of a capital letter, pixels
-  Color color;
-  bool bold = false;
-
-  int stroke() const {
-    return std::max(1, static_cast<int>(std::lround(kOversampling * height * (bold ? 0.18 : 0.115))));
-  }
-  int width() const {
-    int baseline = 0;
-    const cv::Size size = cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, font_scale(height), stroke(), &baseline);
-    return (size.width + kOversampling - 1) / kOversampling;
-  }
-};
-
-/// Shortened by dots to at most `width` pixels.
-Text fitted(Text text, int width) {
-  text.words = ascii(text.words);
-  if (text.width() <= width) return text;
-  std::string whole = text.words;
-  do {
-    whole.pop_back();
-    text.words = whole + "...";
-  } while (!whole.empty() && text.width() > width);
-  return text;
-}
-
-/// Left end of the text at x, its letters standing on row `baseline`.
-void draw_text(cv::Mat& sheet, const Text& text, int x, int baseline) {
-  const int margin = text.height;
-  const cv::Size size(text.width() + 2 * margin, 3 * text.height);
-  cv::Mat large = cv::Mat::zeros(size * kOversampling, CV_8UC1), mask;
-  cv::putText(large, text.words, {kOversampling * margin, kOversampling * 2 * text.height}, cv::FONT_HERSHEY_SIMPLEX,
-              font_scale(text.height), 255, text.stroke(), cv::LINE_AA);
-  cv::resize(large, mask, size, 0, 0, cv::INTER_AREA);
-  const cv::Rect place = cv::Rect(x - margin, baseline - 2 * text.height, size.width, size.height);
-  const cv::Rect inside = place & cv::Rect(0, 0, sheet.cols, sheet.rows);
-  for (int row = inside.y; row < inside.y + inside.height; ++row) {
-    for (int column = inside.x; column < inside.x + inside.width; ++column) {
-      const double part = mask.at<unsigned char>(row - place.y, column - place.x) / 255.0;
-      auto& pixel = sheet.at<cv::Vec3b>(row, column);
-      for (int c = 0; c < 3; ++c) {
-        pixel[c] = static_cast<unsigned char>(
-            std::lround((1.0 - part) * pixel[c] + part * text.color[static_cast<std::size_t>(c)]));
-      }
-    }
-  }
-}
 
 /// Scales the picture into the box, keeping its proportions.
 void draw_picture(cv::Mat& sheet, const ByteImage& image, const cv::Rect& box) {

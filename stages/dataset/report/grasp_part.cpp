@@ -4,18 +4,67 @@
 
 #include <algorithm>
 #include <numbers>
+#include <opencv2/core.hpp>
 
 #include "common/base/error.h"
-#include "common/image/plot.h"
+#include "common/format/html_text.h"
+#include "common/sample/render_folder.h"
 #include "common/stage/record.h"
+#include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
+#include "stages/dataset/report/lettering.h"
 #include "stages/dataset/report/scaled_picture.h"
+#include "stages/dataset/report/view/view_page.h"
 
 namespace tacipc {
 namespace {
 
-constexpr std::size_t kMostPictures = 10;
-constexpr int kWidth = 160, kHeight = 120, kGap = 4;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// The phases as stretches of time, over which the curves are.
+Chart over_time(const std::vector<GraspMoment>& moments, const std::string& what) {
+  Chart chart;
+  chart.what = what + " over time";
+  chart.x_label = "time (s)";
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    chart.x.push_back(moments[i].time_s);
+    if (i == 0) continue;
+    if (chart.bands.empty() || moments[i].phase != moments[i - 1].phase)
+      chart.bands.push_back({moments[i].phase, moments[i - 1].time_s, moments[i].time_s});
+    chart.bands.back().to = moments[i].time_s;
+  }
+  return chart;
+}
+
+Curve curve_of(const std::vector<GraspMoment>& moments, double GraspMoment::*number, double unit) {
+  Curve curve;
+  for (const GraspMoment& moment : moments) curve.values.push_back(moment.*number / unit);
+  return curve;
+}
+
+std::string force_figure(const std::vector<GraspMoment>& moments) {
+  Chart chart = over_time(moments, "forces");
+  chart.left_label = "force (N)";
+  for (const auto number : {&GraspMoment::grip_left_n, &GraspMoment::grip_right_n, &GraspMoment::carried_n})
+    chart.left.push_back(curve_of(moments, number, 1.0));
+  return "<figure>" + chart_svg(chart) + "<figcaption><b>Forces</b>: grip of the " + curve_key(1) + "left and the " +
+         curve_key(2) + "right finger, " + curve_key(3) + "carried by both, upwards</figcaption></figure>\n";
+}
+
+/// Up to the frame that is judged: what comes after is the object let go.
+std::string slip_figure(const GraspReport& grasp) {
+  const std::vector<GraspMoment>& moments = grasp.moments;
+  Chart chart = over_time(moments, "slip and turn");
+  chart.left_label = "slip (mm)";
+  chart.right_label = "turn (°)";
+  chart.left.push_back(curve_of(moments, &GraspMoment::slip_m, 1e-3));
+  chart.right.push_back(curve_of(moments, &GraspMoment::turn_rad, kDegree));
+  for (auto* curves : {&chart.left, &chart.right}) {
+    for (std::size_t i = grasp.judged_frame + 1; i < moments.size(); ++i) curves->front().values[i].reset();
+  }
+  return "<figure>" + chart_svg(chart) + "<figcaption><b>In the hand</b>: " + curve_key(1) + "slip and " +
+         curve_key(2) + "turn of the object from when it was freed to when it is judged</figcaption></figure>\n";
+}
 
 }  // namespace
 
@@ -28,68 +77,84 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
                     .mass_kg = summary.required_number("object_mass_kg"),
                     .grip_n = summary.required_number("grip_n"),
                     .friction_margin = summary.number("friction_margin"),
-                    .judged_frame = summary.required_count("judged_frame"),
-                    .slip_m = summary.required_number("slip_m"),
-                    .turn_rad = summary.required_number("turn_rad"),
+                    .judged_frame = static_cast<std::size_t>(summary.required_count("judged_frame")),
                     .moments = {}};
   for (const Record& frame : summary.sections("per_frame")) {
     grasp.moments.push_back({.time_s = frame.required_number("time_s"),
                              .phase = frame.required_text("phase"),
                              .grip_left_n = frame.required_number("grip_left_n"),
                              .grip_right_n = frame.required_number("grip_right_n"),
-                             .carried_n = frame.required_number("carried_n")});
+                             .carried_n = frame.required_number("carried_n"),
+                             .slip_m = frame.required_number("slip_m"),
+                             .turn_rad = frame.required_number("turn_rad")});
   }
-  if (grasp.moments.empty()) throw DataError("{}: has no frames", file.string());
+  if (grasp.judged_frame >= grasp.moments.size()) throw DataError("{}: has no frame that was judged", file.string());
   return grasp;
 }
 
-std::string grasp_plot(const GraspReport& grasp) {
-  Plot plot{.title = "Forces", .x_label = "time, s", .y_label = "N"};
-  plot.curves = {{.label = "grip, left"}, {.label = "grip, right"}, {.label = "carried by both"}};
-  for (const GraspMoment& m : grasp.moments) {
-    plot.curves[0].points.emplace_back(m.time_s, m.grip_left_n);
-    plot.curves[1].points.emplace_back(m.time_s, m.grip_right_n);
-    plot.curves[2].points.emplace_back(m.time_s, m.carried_n);
-  }
-  return to_svg(plot);
-}
-
-ByteImage grasp_strip(const std::filesystem::path& folder, std::size_t frames) {
-  const std::size_t count = std::min(kMostPictures, frames);
-  const int width = static_cast<int>(count) * (kWidth + kGap) - kGap, height = 2 * kHeight + kGap;
-  ByteImage strip(width, height, 3, 255);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t frame = count == 1 ? 0 : (k * (frames - 1) + (count - 1) / 2) / (count - 1);
-    for (int side = 0; side < 2; ++side) {
-      const ByteImage picture = fitted_picture(read_png(folder / (side == 0 ? "left" : "right") / "render" /
-                                                            fmt::format("frame_{:04d}", frame) / "tactile.png",
-                                                        3),
-                                               kWidth, kHeight);
-      for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-          for (int c = 0; c < 3; ++c)
-            strip.at(static_cast<int>(k) * (kWidth + kGap) + x, side * (kHeight + kGap) + y, c) = picture.at(x, y, c);
-        }
-      }
+ByteImage grasp_strip(const std::vector<SceneGel>& gels, const std::vector<GraspMoment>& frames) {
+  constexpr std::size_t kMostPictures = 10;
+  constexpr int kWidth = 160, kHeight = 120, kGap = 4, kLetters = 9, kHead = 36, kMargin = 52;
+  constexpr Color kInk{27, 35, 48}, kQuiet{93, 104, 120};
+  const std::size_t count = std::min(kMostPictures, frames.size());
+  const int columns = static_cast<int>(count), rows = static_cast<int>(gels.size());
+  ByteImage strip(kMargin + columns * (kWidth + kGap) - kGap, kHead + rows * (kHeight + kGap) - kGap, 3, 255);
+  cv::Mat sheet(strip.height, strip.width, CV_8UC3, strip.pixels.data());
+  for (int row = 0; row < rows; ++row)
+    draw_text(sheet, fitted({gels[static_cast<std::size_t>(row)].name, kLetters, kInk}, kMargin - 2 * kGap), kGap,
+              kHead + row * (kHeight + kGap) + (kHeight + kLetters) / 2);
+  for (int column = 0; column < columns; ++column) {
+    const std::size_t k = static_cast<std::size_t>(column);
+    const std::size_t frame = count == 1 ? 0 : (k * (frames.size() - 1) + (count - 1) / 2) / (count - 1);
+    const int x = kMargin + column * (kWidth + kGap);
+    draw_text(sheet, fitted({frames[frame].phase, kLetters, kInk}, kWidth), x, kLetters + 3);
+    draw_text(sheet, {fmt::format("frame {}, {:.4g} s", frame, frames[frame].time_s), kLetters, kQuiet}, x,
+              2 * kLetters + 10);
+    for (int row = 0; row < rows; ++row) {
+      const std::filesystem::path file =
+          frame_path(gels[static_cast<std::size_t>(row)].folder / "render", frame, FrameFile::tactile);
+      ByteImage picture = fitted_picture(read_png(file, 3), kWidth, kHeight);
+      cv::Mat(picture.height, picture.width, CV_8UC3, picture.pixels.data())
+          .copyTo(sheet({x, kHead + row * (kHeight + kGap), picture.width, picture.height}));
     }
   }
   return strip;
 }
 
-std::string grasp_section(const GraspReport& grasp) {
+PageWords grasp_words(const GraspReport& grasp) {
   const std::string margin = grasp.friction_margin
                                  ? fmt::format(" Friction of both fingers could carry {} times its weight.",
                                                number_text(grasp.friction_margin))
                                  : "";
-  return fmt::format(
-      "<section id=\"grasp\">\n<h2>Grasp: {}</h2>\n"
-      "<p>{} g gripped with {} N.{} When judged (frame {}), the object had slipped {} mm and turned {}° relative to "
-      "the "
-      "hand.</p>\n"
-      "<p><img src=\"{}\" alt=\"tactile images of the left finger above those of the right one, over time\"></p>\n"
-      "<p><img src=\"{}\" alt=\"forces over time\"></p>\n</section>\n",
-      grasp.outcome, number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), margin, grasp.judged_frame,
-      number_text(1e3 * grasp.slip_m), number_text(grasp.turn_rad * 180.0 / std::numbers::pi), kGraspStrip, kGraspPlot);
+  const GraspMoment& judged = grasp.moments[grasp.judged_frame];
+  return {
+      .intro = "Simulated touch: two camera-based tactile sensors grip one object between their soft gels.",
+      .thing = "finger",
+      .heading = "Fingers",
+      .first =
+          fmt::format(
+              "<section id=\"{}\">\n<h2>Grasp: {}</h2>\n"
+              "<p>{} g gripped with {} N.{} When judged (frame {}), the object had slipped {} mm and turned {}° "
+              "relative "
+              "to the hand.{}</p>\n"
+              "<figure class=\"strip\"><a href=\"{}\"><img src=\"{}\" alt=\"tactile images of the fingers, one above "
+              "the other, over time\"></a></figure>\n<div class=\"pictures\">\n",
+              kGraspId, html_text(grasp.outcome), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), margin,
+              grasp.judged_frame, number_text(1e3 * judged.slip_m), number_text(judged.turn_rad / kDegree),
+              grasp.has_view ? " " + view_link(kGraspId) + "." : "", kGraspStrip, kGraspStrip) +
+          force_figure(grasp.moments) + slip_figure(grasp) + "</div>\n</section>\n"};
+}
+
+std::vector<std::string> grasp_texts(const GraspReport& grasp, const SceneView& view) {
+  std::vector<std::string> texts;
+  for (const int frame : view.frames) {
+    const GraspMoment& moment = grasp.moments.at(static_cast<std::size_t>(frame));
+    texts.push_back(fmt::format("frame {} of {} · {} · {} s · grip left {} N, right {} N · carried {} N", frame,
+                                grasp.moments.size() - 1, moment.phase, number_text(moment.time_s),
+                                number_text(moment.grip_left_n), number_text(moment.grip_right_n),
+                                number_text(moment.carried_n)));
+  }
+  return texts;
 }
 
 }  // namespace tacipc

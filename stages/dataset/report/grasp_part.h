@@ -1,4 +1,4 @@
-// What a page shows of a grasp beside its two fingers: the outcome, forces over time, and both sensors' images in a
+// What a page shows of a grasp beside its fingers: the outcome, forces and slip over time, and the sensors' images in a
 // row.
 #pragma once
 
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "stages/dataset/report/page.h"
+#include "stages/dataset/report/view/scene_view.h"
 
 namespace tacipc {
 
@@ -16,30 +18,34 @@ struct GraspMoment {
   double time_s = 0.0;
   std::string phase;
   double grip_left_n = 0.0, grip_right_n = 0.0, carried_n = 0.0;
+  double slip_m = 0.0, turn_rad = 0.0;  // relative to the hand, since the object was freed
 };
 
 struct GraspReport {
   std::string outcome;
   double mass_kg = 0.0, grip_n = 0.0;
   std::optional<double> friction_margin;  // nothing where the object has no weight
-  int judged_frame = 0;                   // that the outcome is of, and these:
-  double slip_m = 0.0, turn_rad = 0.0;
+  std::size_t judged_frame = 0;           // that the outcome is of
   std::vector<GraspMoment> moments;
+  bool has_view = false;  // in 3-D, beside the page
 };
 
 /// \throw DataError if the folder has no record of a grasp
 GraspReport read_grasp(const std::filesystem::path& folder);
 
-/// Grip and carried force over time, as SVG text.
-std::string grasp_plot(const GraspReport& grasp);
-
-/// Images of the left finger above those of the right one, of at most ten frames from the first to the last.
-/// \throw DataError if one is not there
-ByteImage grasp_strip(const std::filesystem::path& folder, std::size_t frames);
-
-/// A section of the page, which has the plot and the strip beside it under these names.
-inline constexpr const char* kGraspPlot = "grasp_forces.svg";
+/// A row of images for each gel, of at most ten frames from the first to the last, with words what they are. `frames`:
+/// of the grasp. \throw DataError if an image is not there
+ByteImage grasp_strip(const std::vector<SceneGel>& gels, const std::vector<GraspMoment>& frames);
 inline constexpr const char* kGraspStrip = "grasp_strip.png";
-std::string grasp_section(const GraspReport& grasp);
+
+/// Id of the section on the page, and of the grasp's view.
+inline constexpr const char* kGraspId = "grasp";
+
+/// What the page says of the grasp; the strip lies beside it under its name.
+PageWords grasp_words(const GraspReport& grasp);
+
+/// What is said of each frame of a view: "frame 12 of 40 · lift · 0.12 s · grip left 5.01 N, right 4.98 N · carried
+/// 0.79 N".
+std::vector<std::string> grasp_texts(const GraspReport& grasp, const SceneView& view);
 
 }  // namespace tacipc

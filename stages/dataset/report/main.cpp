@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -33,30 +35,62 @@ const StageSpec kReport{
                {.flag = "--config", .help = "with --plan: how much is shown (YAML)", .required = false}},
     .options = {{.flag = "--title", .help = "heading of the page", .fallback = "Tactile samples"}}};
 
-/// Writes the data of a sample's view. A view shows a sample but proves nothing: one that cannot be read is left out.
-void write_view(Stage& stage, SampleReport& sample, const std::string& card) {
+/// Writes the data of one view under its id, if there is one, and lists it. `read` gives the view and `say` its texts.
+/// A view shows a sample but proves nothing: one that cannot be read is left out.
+template <typename Read, typename Say>
+bool write_view(Stage& stage, const ViewedSample& of, std::vector<ViewedSample>& viewed, Read&& read, Say&& say) {
   std::string script;
   try {
-    const auto view = read_press_view(sample.folder / "press");
-    if (!view) return;
-    script = view_script(*view, frame_texts(sample, *view));
+    const std::optional<SceneView> view = read();
+    if (!view) return false;
+    script = view_script(*view, say(*view));
   } catch (const std::runtime_error& error) {
-    log_warning("{}: no 3-D view: {}", sample.name, error.what());
-    return;
+    log_warning("{}: no 3-D view: {}", of.name, error.what());
+    return false;
   }
-  write_file(stage.output(view_data_name(card)), script);
-  sample.has_view = true;
+  write_file(stage.output(view_data_name(of.id)), script);
+  viewed.push_back(of);
+  return true;
+}
+
+void write_view_page(Stage& stage, const std::vector<ViewedSample>& viewed) {
+  if (viewed.empty()) return;
+  write_file(stage.output(kViewScript), view_program());
+  write_file(stage.output(kViewPage), view_page(stage.option("--title"), viewed));
 }
 
 void write_views(Stage& stage, std::vector<SampleReport>& samples) {
   std::vector<ViewedSample> viewed;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    write_view(stage, samples[i], card_id(i));
-    if (samples[i].has_view) viewed.push_back({card_id(i), samples[i].name});
+    SampleReport& sample = samples[i];
+    const auto read = [&] {
+      auto view = read_press_view(sample.folder / "press");
+      if (view) link_pictures(*view, {sample.folder / "render"}, stage.out());
+      return view;
+    };
+    const auto say = [&](const SceneView& view) { return frame_texts(sample, view); };
+    if (write_view(stage, {card_id(i), sample.name}, viewed, read, say)) sample.view = card_id(i);
   }
-  if (viewed.empty()) return;
-  write_file(stage.output(kViewScript), view_program());
-  write_file(stage.output(kViewPage), view_page(stage.option("--title"), viewed));
+  write_view_page(stage, viewed);
+}
+
+/// One view of all fingers, to which each finger's card leads too. \param fingers in the order of the scene's gels
+void write_grasp_view(Stage& stage, const SceneFolder& scene, GraspReport& grasp, std::vector<SampleReport>& fingers) {
+  std::vector<ViewedSample> viewed;
+  const auto read = [&] {
+    auto view = read_scene_view(scene, *stage.optional_input("--grasp"));
+    std::vector<std::filesystem::path> renders;
+    for (const SceneGel& gel : scene.gels) renders.push_back(gel.folder / "render");
+    if (view) link_pictures(*view, renders, stage.out());
+    return view;
+  };
+  const auto say = [&](const SceneView& view) { return grasp_texts(grasp, view); };
+  grasp.has_view = write_view(stage, {kGraspId, "grasp"}, viewed, read, say);
+  if (grasp.has_view) {
+    for (std::size_t i = 0; i < fingers.size(); ++i)
+      fingers[i].view = fmt::format("{}/{}", kGraspId, scene.gels[i].name);
+  }
+  write_view_page(stage, viewed);
 }
 
 /// Before any is shown: a picture that cannot be read makes its own sample a failed one, and does not end the page of
@@ -76,31 +110,30 @@ void try_pictures(SampleReport& sample) {
 
 void report_samples(Stage& stage) {
   // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
-  for (const char* name : {"index.html", "contact_sheet.png", kViewPage, "view"}) {
+  for (const char* name : {"index.html", "contact_sheet.png", kGraspStrip, kViewPage, "view"}) {
     std::error_code error;
     std::filesystem::remove_all(stage.out() / name, error);
     if (error) throw DataError("{}: cannot be removed: {}", (stage.out() / name).string(), error.message());
   }
-  const auto grasp = stage.optional_input("--grasp");
+  std::optional<SceneFolder> scene;
+  std::optional<GraspReport> grasp;
   std::vector<std::filesystem::path> folders = stage.inputs("--sample");
-  std::string first;
-  if (grasp) {
-    const GraspReport report = read_grasp(*grasp);
-    write_file(stage.output(kGraspPlot), grasp_plot(report));
-    write_png(stage.output(kGraspStrip), grasp_strip(*grasp, report.moments.size()));
-    first = grasp_section(report);
-    folders = {*grasp / "left", *grasp / "right"};
+  if (const auto folder = stage.optional_input("--grasp")) {
+    grasp = read_grasp(*folder);
+    scene = read_scene_folder(*folder);
+    write_png(stage.output(kGraspStrip), grasp_strip(scene->gels, grasp->moments));
+    for (const SceneGel& gel : scene->gels) folders.push_back(gel.folder);
   }
   std::vector<SampleReport> samples;
-  for (const auto& folder : folders) {
-    samples.push_back(read_sample(folder));
-    if (grasp) samples.back().name = folder.filename().string() + " finger";
-    SampleReport& sample = samples.back();
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    SampleReport& sample = samples.emplace_back(read_sample(folders[i]));
+    if (scene) sample.name = scene->gels[i].name + " finger";
     try_pictures(sample);
     if (!sample.passed()) log_warning("{}: failed: {}", sample.name, *sample.failure);
   }
-  write_views(stage, samples);
-  write_file(stage.output("index.html"), report_page(stage.option("--title"), samples, stage.out(), first));
+  grasp ? write_grasp_view(stage, *scene, *grasp, samples) : write_views(stage, samples);
+  write_file(stage.output("index.html"),
+             report_page(stage.option("--title"), samples, stage.out(), grasp ? grasp_words(*grasp) : PageWords{}));
   write_png(stage.output("contact_sheet.png"), contact_sheet(stage.option("--title"), samples));
   const auto passed = std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.passed(); });
   stage.summarize({{"samples", samples.size()},

@@ -12,7 +12,7 @@
 namespace tacipc {
 namespace {
 
-std::string tiles(const std::vector<SampleReport>& samples) {
+std::string tiles(const std::vector<SampleReport>& samples, const std::string& thing) {
   int passed = 0, iterations = 0;
   std::optional<double> distance_m, ratio, balance;
   const auto least = [](std::optional<double>& so_far, std::optional<double> value) {
@@ -26,7 +26,7 @@ std::string tiles(const std::vector<SampleReport>& samples) {
     for (const FrameReport& frame : sample.frames) balance = std::max(balance, frame.balance_relative);
   }
   const int all = static_cast<int>(samples.size());
-  return "<ul class=\"tiles\">\n" + tile(count_text(all), all == 1 ? "sample" : "samples") +
+  return "<ul class=\"tiles\">\n" + tile(count_text(all), all == 1 ? thing : thing + "s") +
          tile(count_text(passed), "passed", passed > 0 ? "good" : "") +
          tile(count_text(all - passed), "failed", passed < all ? "bad" : "") +
          tile(count_text(iterations), "Newton iterations") +
@@ -52,9 +52,10 @@ std::string summary_row(const SampleReport& sample, std::size_t index) {
   return row + fmt::format("<td class=\"word\">{}</td></tr>\n", reference);
 }
 
-std::string summary_table(const std::vector<SampleReport>& samples) {
+std::string summary_table(const std::vector<SampleReport>& samples, const std::string& thing) {
   std::string table =
-      "<div class=\"scroll\"><table>\n<thead><tr><th class=\"word\">sample</th><th class=\"word\">object</th>"
+      "<div class=\"scroll\"><table>\n<thead><tr><th class=\"word\">" + thing +
+      "</th><th class=\"word\">object</th>"
       "<th class=\"word\">verdict</th><th>depth<br>mm</th><th>press force<br>N</th><th>tangential<br>force "
       "N</th><th>Newton<br>iterations</th>"
       "<th>smallest<br>distance µm</th><th>smallest<br>volume ratio</th><th>gel<br>vertices</th>"
@@ -67,16 +68,15 @@ std::string summary_table(const std::vector<SampleReport>& samples) {
 }  // namespace
 
 std::string report_page(const std::string& title, const std::vector<SampleReport>& samples,
-                        const std::filesystem::path& folder, const std::string& first) {
+                        const std::filesystem::path& folder, const PageWords& words) {
   std::string page = page_head(title, "<style>" + page_style() + "</style>");
   page += "<body>\n<header>\n<h1>" + html_text(title) + "</h1>\n";
-  page +=
-      "<p class=\"quiet\">Simulated touch: each sample presses one object into the soft gel of a camera-based tactile "
-      "sensor. The gel deforms by finite elements without ever intersecting the object; its images are ray traced. "
-      "See all at a glance on the <a href=\"contact_sheet.png\">contact sheet</a>.</p>\n";
-  page += tiles(samples) + "</header>\n" + first;
-  page += "<section id=\"summary\">\n<h2>Summary</h2>\n" + summary_table(samples) + "</section>\n";
-  page += "<section id=\"samples\">\n<h2>Samples</h2>\n";
+  page += "<p class=\"quiet\">" + words.intro +
+          " The gel deforms by finite elements without ever intersecting the object; its images are ray traced. "
+          "See all at a glance on the <a href=\"contact_sheet.png\">contact sheet</a>.</p>\n";
+  page += tiles(samples, words.thing) + "</header>\n" + words.first;
+  page += "<section id=\"summary\">\n<h2>Summary</h2>\n" + summary_table(samples, words.thing) + "</section>\n";
+  page += "<section id=\"samples\">\n<h2>" + words.heading + "</h2>\n";
   for (std::size_t i = 0; i < samples.size(); ++i) page += sample_card(samples[i], i, folder);
   page += "</section>\n";
   page += legend();

@@ -61,6 +61,8 @@ tbody tr:hover { background: color-mix(in srgb, var(--accent) 7%, transparent); 
 figure { margin: 0; min-width: 0; }
 figure > a { display: block; }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; }
+.strip { overflow-x: auto; margin: .8rem 0 1rem; }
+.strip img { min-width: 48rem; }
 figcaption { margin-top: .35rem; font-size: .85rem; color: var(--quiet); }
 figcaption b { color: var(--ink); }
 .bar { display: flex; align-items: center; gap: .5rem; margin-top: .25rem; font-variant-numeric: tabular-nums; }

@@ -133,13 +133,17 @@ void warn_of_scale(const Record& summary, SampleReport& sample) {
     sample.warnings.push_back(fmt::format("The object is scaled by {:.4g}.", scale));
 }
 
+/// Of an object that fingers grip no side presses, so pictures and warnings of that side would mislead.
 void read_sides(const fs::path& folder, const Record& sides, SampleReport& sample) {
-  if (const fs::path picture = folder / "sides.png"; fs::is_regular_file(picture)) sample.sides = picture;
+  const bool one_presses = sample.placement.has_value();
+  if (const fs::path picture = folder / "sides.png"; one_presses && fs::is_regular_file(picture))
+    sample.sides = picture;
   const auto window = sides.numbers("window_mm", 2);
   if (!window) return;
   const std::string size = fmt::format("{:.3g} × {:.3g} mm", (*window)[0], (*window)[1]);
   if (const std::string hint = sides.text("size_hint").value_or(""); !hint.empty())
     sample.warnings.push_back("The object is " + hint + ".");
+  if (!one_presses) return;
   if (sides.flag("uniform").value_or(false)) {
     sample.warnings.push_back(
         fmt::format("The image is uniform: the side that presses is flat and fills the sensor's window of {}.", size));
@@ -252,8 +256,8 @@ void read_press_record(const Record& press, SampleReport& sample) {
   const Record summary = press.section("summary");
   sample.name = press.text("name").value_or(sample.name);
   read_summary(summary, sample);
-  sample.placement = read_placement(press);
   const Record asked = press.section("config").section("sample");
+  if (!asked.has("fingers")) sample.placement = read_placement(press);
   sample.motion = motion_text(asked);
   if (const auto depth_mm = asked_depth_mm(asked)) sample.depth_m = 1e-3 * *depth_mm;
   std::vector<std::string> names;

@@ -36,7 +36,7 @@ struct FrameReport {
   std::optional<int> substeps = std::nullopt;
 };
 
-/// How the object stands over the gel.
+/// How the object stands over the gel; nothing of a grasp.
 struct PlacementReport {
   std::string face;    // side that presses
   std::string chosen;  // who chose it
@@ -109,7 +109,7 @@ struct SampleReport {
   std::optional<SampleImages> images;
   std::vector<PhaseImage> phase_images;
 
-  bool has_view = false;  // in 3-D, beside the page
+  std::string view = {};  // in 3-D: where on the view's page; empty if there is none
 
   std::vector<std::pair<std::string, std::filesystem::path>> records;  // label and file, those that exist
   std::vector<std::pair<std::string, std::filesystem::path>> data;

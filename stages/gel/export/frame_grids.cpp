@@ -7,6 +7,12 @@ namespace {
 
 std::vector<double> numbers(const Positions& rows) { return {rows.data(), rows.data() + rows.size()}; }
 
+Positions moved(const Positions& points, const Matrix4& pose) {
+  Positions there = points * pose.topLeftCorner<3, 3>().transpose();
+  there.rowwise() += pose.topRightCorner<3, 1>().transpose();
+  return there;
+}
+
 /// Displacement and forces of every gel vertex.
 std::vector<VtuArray> gel_data(const TetMesh& gel, const PressFolder& press, std::size_t frame, const Positions& x) {
   const ContactParts forces = press.contact_forces(frame);
@@ -77,10 +83,22 @@ VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t fr
   return grid;
 }
 
-VtuGrid object_grid(const TriangleMesh& object, const Matrix4& gel_from_object) {
-  VtuGrid grid{.points = object.positions * gel_from_object.topLeftCorner<3, 3>().transpose(),
-               .cells = object.triangles};
-  grid.points.rowwise() += gel_from_object.topRightCorner<3, 1>().transpose();
+VtuGrid object_grid(const TriangleMesh& object, const Matrix4& world_from_object) {
+  return {.points = moved(object.positions, world_from_object), .cells = object.triangles};
+}
+
+VtuGrid in_world(VtuGrid grid, const Matrix4& world_from_gel) {
+  grid.points = moved(grid.points, world_from_gel);
+  Matrix4 turn = world_from_gel;
+  turn.topRightCorner<3, 1>().setZero();
+  for (auto* arrays : {&grid.point_data, &grid.cell_data}) {
+    for (VtuArray& array : *arrays) {
+      if (auto* values = std::get_if<std::vector<double>>(&array.values); values && array.components == 3) {
+        const auto rows = static_cast<Eigen::Index>(values->size() / 3);
+        *values = numbers(moved(Eigen::Map<const Positions>(values->data(), rows, 3), turn));
+      }
+    }
+  }
   return grid;
 }
 

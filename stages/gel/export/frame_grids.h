@@ -18,6 +18,9 @@ VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t f
 VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame);
 
 /// The object's triangles where a pose puts them.
-VtuGrid object_grid(const TriangleMesh& object, const Matrix4& gel_from_object);
+VtuGrid object_grid(const TriangleMesh& object, const Matrix4& world_from_object);
+
+/// A grid whose points, and with them all arrays of three components, are moved and turned into the world.
+VtuGrid in_world(VtuGrid grid, const Matrix4& world_from_gel);
 
 }  // namespace tacipc

@@ -72,10 +72,24 @@ std::uint16_t linear_channel(std::uint8_t code) {
       std::lround(65535.0 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4))));
 }
 
+/// The front of a gel in one frame.
+Positions front_at(const OpenGel& gel, std::size_t frame) {
+  return gel.press.positions(frame)(gel.press.front_vertices(), Eigen::all);
+}
+
+/// Of the deepest vertex of all gels in the last frame, m.
+double deepest_indentation(const OpenScene& scene) {
+  double deepest = 1e-6;
+  for (const OpenGel& gel : scene.gels) {
+    const Positions rest = front_at(gel, 0), last = front_at(gel, scene.times_s.size() - 1);
+    deepest = std::max(deepest, (rest.col(2) - last.col(2)).maxCoeff());
+  }
+  return deepest;
+}
+
 /// RGBA of the indentation, light at the deepest vertex.
-std::vector<std::uint16_t> indentation_colors(const Positions& rest, const Positions& last) {
+std::vector<std::uint16_t> indentation_colors(const Positions& rest, const Positions& last, double deepest) {
   const Eigen::VectorXd depth = rest.col(2) - last.col(2);
-  const double deepest = std::max(1e-6, depth.maxCoeff());
   std::vector<std::uint16_t> colors;
   for (const double d : depth) {
     for (const std::uint8_t code : perceptual_color(d / deepest)) colors.push_back(linear_channel(code));
@@ -103,20 +117,23 @@ Value material(const char* name, Value::List color, double roughness) {
        Value::Map{{"baseColorFactor", std::move(color)}, {"metallicFactor", 0.0}, {"roughnessFactor", roughness}}}};
 }
 
+std::string named(const char* kind, const std::string& name) {
+  return name.empty() ? std::string(kind) : std::string(kind) + " " + name;
+}
+
 /// The front as a mesh with a morph target per later frame.
-Value gel_mesh(const TetMesh& gel, const PressFolder& press, std::size_t frames, Buffer& buffer) {
-  const std::vector<int> front = press.front_vertices();
-  const Positions rest = press.positions(0)(front, Eigen::all);
-  const Positions last = press.positions(frames - 1)(front, Eigen::all);
+Value gel_mesh(const OpenGel& gel, std::size_t frames, double deepest, Buffer& buffer) {
+  const std::vector<int> front = gel.press.front_vertices();
+  const Positions rest = front_at(gel, 0), last = front_at(gel, frames - 1);
   const int positions = buffer.add(floats(rest), 3, kFloat, kVertices, true);
-  const int colors = buffer.add(indentation_colors(rest, last), 4, kUnsignedShort, kVertices);
-  const int indices = buffer.add(corners(gel.faces(BoundaryTag::front), &front), 1, kUnsignedInt, kIndices);
+  const int colors = buffer.add(indentation_colors(rest, last, deepest), 4, kUnsignedShort, kVertices);
+  const int indices = buffer.add(corners(gel.mesh.faces(BoundaryTag::front), &front), 1, kUnsignedInt, kIndices);
   Value primitive = Value::Map{
       {"attributes", Value::Map{{"POSITION", positions}, {"COLOR_0", colors}}}, {"indices", indices}, {"material", 0}};
-  Value mesh = Value::Map{{"name", "gel"}};
+  Value mesh = Value::Map{{"name", named("gel", gel.name)}};
   Value::List targets;
   for (std::size_t f = 1; f < frames; ++f) {
-    const Positions moved = press.positions(f)(front, Eigen::all) - rest;
+    const Positions moved = front_at(gel, f) - rest;
     targets.emplace_back(Value::Map{{"POSITION", buffer.add(floats(moved), 3, kFloat, kVertices, true)}});
   }
   if (frames > 1) {
@@ -127,11 +144,11 @@ Value gel_mesh(const TetMesh& gel, const PressFolder& press, std::size_t frames,
   return mesh;
 }
 
-Value object_mesh(const TriangleMesh& object, Buffer& buffer) {
-  const int positions = buffer.add(floats(object.positions), 3, kFloat, kVertices, true);
-  const int indices = buffer.add(corners(object.triangles), 1, kUnsignedInt, kIndices);
+Value object_mesh(const OpenObject& object, Buffer& buffer) {
+  const int positions = buffer.add(floats(object.mesh.positions), 3, kFloat, kVertices, true);
+  const int indices = buffer.add(corners(object.mesh.triangles), 1, kUnsignedInt, kIndices);
   return Value::Map{
-      {"name", "object"},
+      {"name", named("object", object.name)},
       {"primitives", Value::List{Value::Map{
                          {"attributes", Value::Map{{"POSITION", positions}}}, {"indices", indices}, {"material", 1}}}}};
 }
@@ -150,22 +167,32 @@ std::vector<float> rotations(const std::vector<Matrix4>& poses) {
   return values;
 }
 
-Value animation(const std::vector<double>& times_s, const std::vector<Matrix4>& poses, Buffer& buffer) {
-  const std::size_t frames = times_s.size();
-  std::vector<float> weights(frames * (frames - 1), 0.0F), places;
+/// Nodes: 0 is the root, gels follow, then objects.
+Value animation(const OpenScene& scene, Buffer& buffer) {
+  const std::size_t frames = scene.times_s.size();
+  std::vector<float> weights(frames * (frames - 1), 0.0F);
   for (std::size_t f = 1; f < frames; ++f) weights[f * (frames - 1) + f - 1] = 1.0F;
-  for (const Matrix4& pose : poses)
-    for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(pose(c, 3)));
-  const int time = buffer.add(std::vector<float>(times_s.begin(), times_s.end()), 1, kFloat, 0, true);
+  const int time = buffer.add(std::vector<float>(scene.times_s.begin(), scene.times_s.end()), 1, kFloat, 0, true);
   Value::List samplers, channels;
-  const auto play = [&](int output, int node, const char* path) {
+  const auto play = [&](int output, std::size_t node, const char* path) {
     channels.emplace_back(
         Value::Map{{"sampler", samplers.size()}, {"target", Value::Map{{"node", node}, {"path", path}}}});
     samplers.emplace_back(Value::Map{{"input", time}, {"output", output}, {"interpolation", "LINEAR"}});
   };
-  play(buffer.add(weights, 1, kFloat, 0), 1, "weights");
-  play(buffer.add(places, 3, kFloat, 0), 2, "translation");
-  play(buffer.add(rotations(poses), 4, kFloat, 0), 2, "rotation");
+  const auto play_poses = [&](const std::vector<Matrix4>& poses, std::size_t node) {
+    std::vector<float> places;
+    for (const Matrix4& pose : poses)
+      for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(pose(c, 3)));
+    play(buffer.add(places, 3, kFloat, 0), node, "translation");
+    play(buffer.add(rotations(poses), 4, kFloat, 0), node, "rotation");
+  };
+  std::size_t node = 1;
+  for (const OpenGel& gel : scene.gels) {
+    play(buffer.add(weights, 1, kFloat, 0), node, "weights");
+    if (!gel.world_from_gel.empty()) play_poses(gel.world_from_gel, node);
+    ++node;
+  }
+  for (const OpenObject& object : scene.objects) play_poses(object.world_from_object, node++);
   return Value::Map{{"name", "press"}, {"samplers", samplers}, {"channels", channels}};
 }
 
@@ -174,16 +201,26 @@ Value::List list_of(const std::vector<float>& values, std::size_t from, std::siz
           values.begin() + static_cast<std::ptrdiff_t>(from + count)};
 }
 
-Value::List nodes(const std::vector<Matrix4>& poses) {
+Value::List nodes(const OpenScene& scene) {
+  Value::List nodes, children;
+  const auto add = [&](const std::string& name, const std::vector<Matrix4>& poses) {
+    Value node = Value::Map{{"name", name}, {"mesh", children.size()}};
+    if (!poses.empty()) {
+      const Vector3 place = poses.front().topRightCorner<3, 1>();
+      node.set("translation", Value::List{place.x(), place.y(), place.z()});
+      node.set("rotation", list_of(rotations(poses), 0, 4));
+    }
+    children.emplace_back(children.size() + 1);
+    nodes.push_back(std::move(node));
+  };
+  for (const OpenGel& gel : scene.gels) add(named("gel", gel.name), gel.world_from_gel);
+  for (const OpenObject& object : scene.objects) add(named("object", object.name), object.world_from_object);
   const double half = std::sqrt(0.5);  // a quarter turn about x: z up becomes y up
-  const Vector3 place = poses.front().topRightCorner<3, 1>();
-  return {Value::Map{
-              {"name", "frame S"}, {"rotation", Value::List{-half, 0.0, 0.0, half}}, {"children", Value::List{1, 2}}},
-          Value::Map{{"name", "gel"}, {"mesh", 0}},
-          Value::Map{{"name", "object"},
-                     {"mesh", 1},
-                     {"translation", Value::List{place.x(), place.y(), place.z()}},
-                     {"rotation", list_of(rotations(poses), 0, 4)}}};
+  const bool fixed = scene.gels.size() == 1 && scene.gels.front().world_from_gel.empty();
+  nodes.insert(nodes.begin(), Value::Map{{"name", fixed ? "frame S" : "world"},
+                                         {"rotation", Value::List{-half, 0.0, 0.0, half}},
+                                         {"children", children}});
+  return nodes;
 }
 
 void append_number(std::string& bytes, std::uint32_t number) {
@@ -194,7 +231,7 @@ std::string glb(std::string json, const std::string& binary) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::size_t size = 12 + 8 + json.size() + 8 + binary.size();
   if (size > std::numeric_limits<std::uint32_t>::max())
-    throw DataError("the press is too large for a glTF file: {} bytes, at most 4 GiB", size);
+    throw DataError("the scene is too large for a glTF file: {} bytes, at most 4 GiB", size);
   std::string bytes = "glTF";
   for (const std::size_t number : {std::size_t{2}, size, json.size()})
     append_number(bytes, static_cast<std::uint32_t>(number));
@@ -205,19 +242,21 @@ std::string glb(std::string json, const std::string& binary) {
 
 }  // namespace
 
-std::string glb_bytes(const TetMesh& gel, const TriangleMesh& object, const PressFolder& press) {
-  const std::vector<double> times_s = press.times();
-  const std::vector<Matrix4> poses = press.poses();
+std::string glb_bytes(const OpenScene& scene) {
+  const std::size_t frames = scene.times_s.size();
+  const double deepest = deepest_indentation(scene);
   Buffer buffer;
-  const Value::List meshes{gel_mesh(gel, press, times_s.size(), buffer), object_mesh(object, buffer)};
+  Value::List meshes;
+  for (const OpenGel& gel : scene.gels) meshes.push_back(gel_mesh(gel, frames, deepest, buffer));
+  for (const OpenObject& object : scene.objects) meshes.push_back(object_mesh(object, buffer));
   Value file = Value::Map{{"asset", Value::Map{{"version", "2.0"}, {"generator", "TacIPC export"}}},
                           {"scene", 0},
                           {"scenes", Value::List{Value::Map{{"nodes", Value::List{0}}}}},
-                          {"nodes", nodes(poses)},
+                          {"nodes", nodes(scene)},
                           {"meshes", meshes},
                           {"materials", Value::List{material("gel", {1.0, 1.0, 1.0, 1.0}, 0.6),
                                                     material("object", {0.6, 0.54, 0.44, 1.0}, 0.4)}}};
-  if (times_s.size() > 1) file.set("animations", Value::List{animation(times_s, poses, buffer)});
+  if (frames > 1) file.set("animations", Value::List{animation(scene, buffer)});
   file.set("accessors", buffer.accessors());
   file.set("bufferViews", buffer.views());
   file.set("buffers", Value::List{Value::Map{{"byteLength", buffer.bytes().size()}}});

@@ -10,8 +10,9 @@ namespace {
 
 const tacipc::StageSpec kExport{
     .name = "export",
-    .summary = "Write the frames of a press as VTK files for ParaView, and as one binary glTF file for Blender.",
-    .inputs = {{.flag = "--press", .help = "folder that press wrote"},
+    .summary =
+        "Write the frames of a press or a grasp as VTK files for ParaView, and as one binary glTF file for Blender.",
+    .inputs = {{.flag = "--press", .help = "folder that press wrote, of one gel or of a grasp"},
                {.flag = "--gel", .help = "gel.msh of tetmesh, the one that was pressed"},
                {.flag = "--object", .help = "object.ply of decimate, the one that was pressed"}}};
 
@@ -20,30 +21,41 @@ const tacipc::StageSpec kExport{
 int main(int argc, char** argv) {
   using namespace tacipc;
   return run_stage(kExport, argc, argv, [](Stage& stage) {
-    const TetMesh gel = read_tet_mesh(stage.input("--gel"));
-    const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
-    const PressFolder press = open_press(stage.input("--press"), stage.input("--gel"), gel, stage.input("--object"));
-    const std::vector<double> times_s = press.times();
-    const std::vector<Matrix4> poses = press.poses();
-
+    const OpenScene scene = open_scene(stage.input("--press"), stage.input("--gel"), stage.input("--object"));
     std::vector<PvdEntry> surface, volume, bodies;
-    const auto write = [&](const char* kind, std::size_t frame, const VtuGrid& grid, std::vector<PvdEntry>& entries) {
-      const std::string name = fmt::format("{}_{:04}.vtu", kind, frame);
-      write_file(stage.output(name), vtu_bytes(grid));
-      entries.push_back({times_s[frame], name});
+    const auto write = [&](const std::string& kind, const std::string& name, std::size_t frame, std::size_t part,
+                           const VtuGrid& grid, std::vector<PvdEntry>& entries) {
+      const std::string file = fmt::format("{}{}{}_{:04}.vtu", kind, name.empty() ? "" : "_", name, frame);
+      write_file(stage.output(file), vtu_bytes(grid));
+      entries.push_back({scene.times_s[frame], file, part});
     };
-    for (std::size_t frame = 0; frame < times_s.size(); ++frame) {
-      write("surface", frame, surface_grid(gel, press, frame), surface);
-      write("volume", frame, volume_grid(gel, press, frame), volume);
-      write("object", frame, object_grid(object, poses[frame]), bodies);
+    for (std::size_t frame = 0; frame < scene.times_s.size(); ++frame) {
+      for (std::size_t g = 0; g < scene.gels.size(); ++g) {
+        const OpenGel& gel = scene.gels[g];
+        const auto placed = [&](VtuGrid grid) {
+          return gel.world_from_gel.empty() ? grid : in_world(std::move(grid), gel.world_from_gel[frame]);
+        };
+        write("surface", gel.name, frame, g, placed(surface_grid(gel.mesh, gel.press, frame)), surface);
+        write("volume", gel.name, frame, g, placed(volume_grid(gel.mesh, gel.press, frame)), volume);
+      }
+      for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        const OpenObject& object = scene.objects[o];
+        write("object", object.name, frame, o, object_grid(object.mesh, object.world_from_object[frame]), bodies);
+      }
     }
     write_file(stage.output("surface.pvd"), pvd_text(surface));
     write_file(stage.output("volume.pvd"), pvd_text(volume));
     write_file(stage.output("object.pvd"), pvd_text(bodies));
-    write_file(stage.output("sample.glb"), glb_bytes(gel, object, press));
-    stage.summarize({{"frames", times_s.size()},
-                     {"gel_vertices", gel.num_vertices()},
-                     {"tets", gel.num_tets()},
-                     {"object_triangles", object.num_triangles()}});
+    write_file(stage.output("sample.glb"), glb_bytes(scene));
+    Eigen::Index vertices = 0, tets = 0, triangles = 0;
+    for (const OpenGel& gel : scene.gels) {
+      vertices += gel.mesh.num_vertices();
+      tets += gel.mesh.num_tets();
+    }
+    for (const OpenObject& object : scene.objects) triangles += object.mesh.num_triangles();
+    stage.summarize({{"frames", scene.times_s.size()},
+                     {"gel_vertices", vertices},
+                     {"tets", tets},
+                     {"object_triangles", triangles}});
   });
 }

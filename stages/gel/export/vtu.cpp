@@ -86,7 +86,8 @@ std::string pvd_text(const std::vector<PvdEntry>& entries) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
       "<Collection>\n";
   for (const PvdEntry& entry : entries)
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time_s, entry.file);
+    text +=
+        fmt::format("    <DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", entry.time_s, entry.part, entry.file);
   return text + "  </Collection>\n</VTKFile>\n";
 }
 

@@ -34,6 +34,7 @@ std::string vtu_bytes(const VtuGrid& grid);
 struct PvdEntry {
   double time_s = 0.0;
   std::string file;
+  std::size_t part = 0;  // of what is shown together at one time
 };
 
 std::string pvd_text(const std::vector<PvdEntry>& entries);

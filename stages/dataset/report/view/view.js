@@ -1,13 +1,15 @@
-// The 3-D view of a sample: gel front, its rim and the object, frame by frame, in plain WebGL 2. Runs from disk: a classic
-// script, whose data come as another one (view/sample-N.js), because a page opened from disk may fetch nothing.
-// Coordinates are those of frame S in metres, z up on the screen. Layout of the data: view_data.h.
+// The 3-D view of a press or a grasp: fronts of gels, their rims and objects, frame by frame, in plain WebGL 2. Runs from
+// disk: a classic script, whose data come as another one (view/<id>.js), because a page opened from disk may fetch nothing.
+// Everything is drawn where its pose puts it in the world, or as one gel sees it from its own frame S; in metres, z up on
+// the screen. Layout of the data: view_data.h.
 "use strict";
 (() => {
   const element = id => document.getElementById(id);
   const canvas = element("scene");
   let key, data, scene, gl;
   let frame = 0, playing = 0, waiting = false;
-  const home = {azimuth: -1.12, elevation: 0.62, distance: 1, target: [0, 0, 0]};
+  let seen = -1;  // the gel in whose frame one looks; -1: the world
+  const home = {azimuth: 0, elevation: 0, distance: 1, target: [0, 0, 0]};
   const camera = {...home};
 
   function fail(why) {
@@ -65,17 +67,22 @@
   }
 
   function decoded(bytes) {
-    const next = integers(bytes), gel = data.gel, frames = [];
-    const corners = triangles(next, gel.triangles);
-    let before = null;
-    for (let f = 0; f < data.frames.length; ++f) {
-      const {whole, metres} = points(next, gel.vertices, before, gel.grid);
-      before = whole;
-      frames.push({positions: metres, pressure: next(gel.vertices), state: next(gel.vertices)});
-    }
-    const objectCorners = triangles(next, data.object.triangles);
-    const object = points(next, data.object.vertices, null, data.object.grid).metres;
-    return {corners, frames, rest: frames[0].positions, object, objectCorners};
+    const next = integers(bytes);
+    const gels = data.gels.map(gel => {
+      const corners = triangles(next, gel.triangles), frames = [];
+      let before = null;
+      for (let f = 0; f < data.frames.length; ++f) {
+        const {whole, metres} = points(next, gel.vertices, before, gel.grid);
+        before = whole;
+        frames.push({positions: metres, pressure: next(gel.vertices), state: next(gel.vertices)});
+      }
+      return {...gel, corners, frames, rest: frames[0].positions};
+    });
+    const objects = data.objects.map(object => {
+      const corners = triangles(next, object.triangles);
+      return {...object, corners, positions: points(next, object.vertices, null, object.grid).metres};
+    });
+    return {gels, objects};
   }
 
   function normalsOf(positions, corners) {
@@ -193,31 +200,56 @@
       const name = gl.getActiveUniform(program, i).name;
       uniforms[name] = gl.getUniformLocation(program, name);
     }
-    const front = meshOf(program, {position: 3, normal: 3, looks: 3, rest: 2}, parts.corners);
-    fill(front, "rest", parts.rest.filter((_, i) => i % 3 < 2));
-    const walls = meshOf(program, {position: 3}), object = meshOf(program, {position: 3}, parts.objectCorners);
-    fill(object, "position", parts.object);
+    const gels = parts.gels.map(gel => {
+      const front = meshOf(program, {position: 3, normal: 3, looks: 3, rest: 2}, gel.corners);
+      fill(front, "rest", gel.rest.filter((_, i) => i % 3 < 2));
+      return {...gel, front, walls: meshOf(program, {position: 3}), rim: rimOf(gel.corners)};
+    });
+    const objects = parts.objects.map(object => {
+      const mesh = meshOf(program, {position: 3}, object.corners);
+      fill(mesh, "position", object.positions);
+      return {...object, mesh};
+    });
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     const bar = new Uint8Array(data.colors.flat());
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, bar.length / 3, 1, 0, gl.RGB, gl.UNSIGNED_BYTE, bar);
     for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
     for (const size of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, size, gl.LINEAR);
-    return {...parts, program, uniforms, front, walls, object_mesh: object, rim: rimOf(parts.corners)};
+    return {program, uniforms, gels, objects};
   }
 
-  function showFrame() {
-    const now = scene.frames[frame], rest = scene.rest, count = rest.length / 3, looks = new Float32Array(3 * count);
+  function deform(gel) {
+    const now = gel.frames[frame], rest = gel.rest, count = rest.length / 3, looks = new Float32Array(3 * count);
     const pressure = element("color").value === "pressure";
     for (let v = 0; v < count; ++v) {
       looks[3 * v] = pressure ? now.pressure[v] / 255 : (rest[3 * v + 2] - now.positions[3 * v + 2]) / data.indentation_m;
       looks[3 * v + 1] = now.state[v] === 1 ? 1 : 0;
       looks[3 * v + 2] = now.state[v] === 2 ? 1 : 0;
     }
-    fill(scene.front, "position", now.positions);
-    fill(scene.front, "normal", normalsOf(now.positions, scene.corners));
-    fill(scene.front, "looks", looks);
-    fill(scene.walls, "position", wallsOf(now.positions, scene.rim, rest, data.gel.bottom_m));
+    fill(gel.front, "position", now.positions);
+    fill(gel.front, "normal", normalsOf(now.positions, gel.corners));
+    fill(gel.front, "looks", looks);
+    fill(gel.walls, "position", wallsOf(now.positions, gel.rim, rest, gel.bottom_m));
+  }
+
+  // The tactile image of each gel that is seen; of a frame that was not rendered, none.
+  function showImages() {
+    scene.gels.forEach((gel, i) => {
+      if (!gel.figure) return;
+      const file = gel.pictures[frame], [image, caption] = gel.figure.children;
+      gel.figure.hidden = seen >= 0 && seen !== i;
+      image.style.visibility = file ? "visible" : "hidden";
+      if (file) image.src = file;
+      caption.textContent = (gel.name || "tactile image") + (file ? "" : ": this frame was not rendered");
+      const next = gel.pictures[(frame + 1) % data.frames.length];
+      if (next) new Image().src = next;  // there when it is played
+    });
+  }
+
+  function showFrame() {
+    scene.gels.forEach(deform);
+    showImages();
     const facts = data.frames[frame];
     element("facts").textContent = facts.text;
     element("frame").value = frame;
@@ -230,6 +262,21 @@
     for (let k = 0; k < 4; ++k) sum += a[i % 4 + 4 * k] * b[4 * (i >> 2) + k];
     return sum;
   });
+
+  // Poses are given row by row, the card wants columns.
+  const columnsOf = pose => pose.map((_, i) => pose[4 * (i % 4) + (i >> 2)]);
+
+  // The rigid motion back, in columns.
+  function inverseOf(pose) {
+    const back = c => -(pose[c] * pose[3] + pose[4 + c] * pose[7] + pose[8 + c] * pose[11]);
+    return [pose[0], pose[1], pose[2], 0, pose[4], pose[5], pose[6], 0, pose[8], pose[9], pose[10], 0, back(0), back(1), back(2), 1];
+  }
+
+  // Where a part of the scene is in a frame, for the eye that looks, in columns.
+  function placeOf(part, f) {
+    const place = columnsOf(part.poses[f]);
+    return seen < 0 ? place : product(inverseOf(scene.gels[seen].poses[f]), place);
+  }
 
   function cameraMatrices() {
     const {azimuth, elevation, distance, target} = camera;
@@ -277,14 +324,18 @@
     gl.uniform3f(scene.uniforms.sticks, .25, .62, .42);
     gl.uniform3f(scene.uniforms.slips, .92, .5, .16);
     const {view, lens} = cameraMatrices(), clip = product(lens, view), mode = element("color").value === "state" ? 1 : 0;
-    paint(scene.front, clip, view, {mode, lines: element("lines").checked, plain: [.78, .8, .84, 1]});
-    paint(scene.walls, clip, view, {mode: 2, faceted: true, plain: [.9, .92, .95, 1]});
+    const put = (part, mesh, looks) => {
+      const place = placeOf(part, frame);
+      paint(mesh, product(clip, place), product(view, place), looks);
+    };
+    scene.gels.forEach((gel, i) => {
+      if (seen >= 0 && seen !== i) return;
+      put(gel, gel.front, {mode, lines: element("lines").checked, plain: [.78, .8, .84, 1]});
+      put(gel, gel.walls, {mode: 2, faceted: true, plain: [.9, .92, .95, 1]});
+    });
     const alpha = {solid: 1, glass: .34, hidden: 0}[element("object").value];
-    if (alpha > 0) {
-      const pose = data.poses[frame], columns = pose.map((_, i) => pose[4 * (i % 4) + (i >> 2)]);  // rows to columns
-      paint(scene.object_mesh, product(clip, columns), product(view, columns), {mode: 2, faceted: true, plain: [.8, .74, .64, alpha]});
-    }
-    canvas.dataset.drawn = [key, frame, element("color").value, element("object").value].join(" ");
+    if (alpha > 0) for (const object of scene.objects) put(object, object.mesh, {mode: 2, faceted: true, plain: [.8, .74, .64, alpha]});
+    canvas.dataset.drawn = [seen < 0 ? key : key + "/" + scene.gels[seen].name, frame, element("color").value, element("object").value].join(" ");
   }
 
   function redraw() {
@@ -335,6 +386,33 @@
     redraw();
   }
 
+  // Far enough away for what is seen: one gel from above its front, or all gels wherever they go.
+  function goHome() {
+    const ends = ({low_m: low, step_m: step, size}) => low.map((from, c) => [from, from + size[c] * step]);
+    const alone = scene.gels.length === 1 ? 0 : seen;
+    if (alone >= 0) {
+      const [x, y, z] = ends(scene.gels[alone].grid), wide = Math.hypot(x[1] - x[0], y[1] - y[0]);
+      Object.assign(home, {target: [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2, z[1] - wide / 30], distance: 1.6 * wide, azimuth: -1.12, elevation: .62});
+      return;
+    }
+    const least = [1e9, 1e9, 1e9], most = [-1e9, -1e9, -1e9];
+    for (const gel of scene.gels) {
+      const [x, y, z] = ends(gel.grid);
+      for (let f = 0; f < data.frames.length; ++f) {
+        const place = columnsOf(gel.poses[f]);
+        for (const a of x) for (const b of y) for (const d of [gel.bottom_m, z[1]]) {
+          for (let c = 0; c < 3; ++c) {
+            const at = place[c] * a + place[4 + c] * b + place[8 + c] * d + place[12 + c];
+            least[c] = Math.min(least[c], at);
+            most[c] = Math.max(most[c], at);
+          }
+        }
+      }
+    }
+    const sizes = most.map((end, c) => end - least[c]);
+    Object.assign(home, {target: most.map((end, c) => (end + least[c]) / 2), distance: 1.75 * Math.hypot(...sizes), azimuth: -1.38, elevation: .25});
+  }
+
   function reset() {
     Object.assign(camera, home, {target: [...home.target]});
     redraw();
@@ -379,8 +457,32 @@
     });
   }
 
+  function listImages() {
+    for (const gel of scene.gels) {
+      if (!gel.pictures) continue;
+      const image = Object.assign(new Image(), {alt: "tactile image " + gel.name});
+      gel.figure = document.createElement("figure");
+      gel.figure.append(image, document.createElement("figcaption"));
+      element("images").append(gel.figure);
+      element("images").hidden = false;
+    }
+  }
+
+  function look(gel) {
+    seen = gel;
+    element("seen").value = gel < 0 ? "" : gel;
+    goHome();
+    reset();
+  }
+
   function listen() {
     listenToCanvas();
+    element("of-gels").hidden = scene.gels.length < 2;
+    scene.gels.forEach((gel, i) => element("seen").append(new Option(gel.name + ", in its own frame", i)));
+    element("seen").addEventListener("change", event => {
+      look(event.target.value === "" ? -1 : Number(event.target.value));
+      showImages();
+    });
     element("frame").max = data.frames.length - 1;
     element("frame").addEventListener("input", event => {
       play(false);
@@ -406,18 +508,16 @@
     } catch (error) {
       return fail("The view cannot be shown: " + error.message);
     }
-    const {low_m: low, step_m: step, size} = data.gel.grid, wide = Math.hypot(size[0], size[1]) * step;
-    home.target = [low[0] + size[0] * step / 2, low[1] + size[1] * step / 2, low[2] + size[2] * step - wide / 30];
-    home.distance = 1.6 * wide;
     frame = data.frames.length - 1;
     listen();
-    reset();
+    listImages();
+    look(scene.gels.findIndex(gel => gel.name && gel.name === location.hash.split("/")[1]));
     showBar();
     showFrame();
   };
 
   function start() {
-    const samples = element("sample"), named = location.hash.slice(1);
+    const samples = element("sample"), named = location.hash.slice(1).split("/")[0];
     if ([...samples.options].some(option => option.value === named)) samples.value = named;
     key = samples.value;
     element("back").href = "index.html#" + key;

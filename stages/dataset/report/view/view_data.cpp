@@ -66,29 +66,30 @@ std::string packed_positions(const Positions& x, const Positions* before, const 
 }
 
 /// Not below a pascal, so that a press without contact has a bar too.
-double top_pressure(const PressView& view) {
+double top_pressure(const SceneView& view) {
   std::vector<double> pressures;
-  for (const ViewFrame& frame : view.frames)
-    std::copy_if(frame.pressure_pa.begin(), frame.pressure_pa.end(), std::back_inserter(pressures),
-                 [](double p) { return p > 0.0; });
+  for (const ViewedGel& gel : view.gels) {
+    for (const ViewedFront& frame : gel.frames)
+      std::copy_if(frame.pressure_pa.begin(), frame.pressure_pa.end(), std::back_inserter(pressures),
+                   [](double p) { return p > 0.0; });
+  }
   if (pressures.empty()) return 1.0;
   const auto at = pressures.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(pressures.size() - 1));
   std::nth_element(pressures.begin(), at, pressures.end());
   return std::max(1.0, *at);
 }
 
-/// Not below a micrometre.
-double deepest(const PressView& view) {
+/// Of all frames, not below a micrometre.
+double deepest(const SceneView& view) {
   double depth = 1e-6;
-  for (const ViewFrame& frame : view.frames)
-    depth = std::max(depth, (view.frames.front().positions.col(2) - frame.positions.col(2)).maxCoeff());
+  for (std::size_t f = 0; f < view.frames.size(); ++f) depth = std::max(depth, deepest_indentation(view, f));
   return depth;
 }
 
-std::string packed_frames(const PressView& view, const ViewGrid& grid, double top_pa) {
+std::string packed_frames(const ViewedGel& gel, const ViewGrid& grid, double top_pa) {
   std::string bytes;
   const Positions* before = nullptr;
-  for (const ViewFrame& frame : view.frames) {
+  for (const ViewedFront& frame : gel.frames) {
     bytes += packed_positions(frame.positions, before, grid);
     before = &frame.positions;
     std::vector<int> pressures, states;
@@ -151,33 +152,53 @@ std::string byte_planes(const std::vector<int>& values) {
   return planes;
 }
 
-std::string view_script(const PressView& view, const std::vector<std::string>& texts) {
+double deepest_indentation(const SceneView& view, std::size_t frame) {
+  double depth = 0.0;
+  for (const ViewedGel& gel : view.gels)
+    depth = std::max(depth, (gel.frames.front().positions.col(2) - gel.frames[frame].positions.col(2)).maxCoeff());
+  return depth;
+}
+
+std::string view_script(const SceneView& view, const std::vector<std::string>& texts) {
   assert(texts.size() == view.frames.size());
-  std::vector<const Positions*> sets;
-  Value::List frames, poses;
-  for (std::size_t f = 0; f < view.frames.size(); ++f) {
-    sets.push_back(&view.frames[f].positions);
-    frames.emplace_back(Value::Map{{"frame", view.frames[f].frame}, {"text", texts[f]}});
-    poses.push_back(pose_value(view.frames[f].gel_from_object));
-  }
-  const ViewGrid gel_grid = ViewGrid::around(sets), object_grid = ViewGrid::around({&view.object.positions});
   const double top_pa = top_pressure(view);
-  const std::string bytes = packed_triangles(view.front) + packed_frames(view, gel_grid, top_pa) +
-                            packed_triangles(view.object.triangles) +
-                            packed_positions(view.object.positions, nullptr, object_grid);
-  const Value data = Value::Map{{"gel", Value::Map{{"vertices", view.frames.front().positions.rows()},
-                                                   {"triangles", view.front.rows()},
-                                                   {"bottom_m", view.bottom_m},
-                                                   {"grid", grid_value(gel_grid)}}},
-                                {"object", Value::Map{{"vertices", view.object.num_vertices()},
-                                                      {"triangles", view.object.num_triangles()},
-                                                      {"grid", grid_value(object_grid)}}},
-                                {"indentation_m", deepest(view)},
-                                {"pressure_pa", top_pa},
-                                {"frames", frames},
-                                {"poses", poses},
-                                {"colors", color_bar()},
-                                {"packed", base64(deflated(bytes))}};
+  std::string bytes;
+  Value::List frames, gels, objects;
+  for (std::size_t f = 0; f < view.frames.size(); ++f)
+    frames.emplace_back(Value::Map{{"frame", view.frames[f]}, {"text", texts[f]}});
+  for (const ViewedGel& gel : view.gels) {
+    std::vector<const Positions*> sets;
+    Value::List poses;
+    for (const ViewedFront& frame : gel.frames) {
+      sets.push_back(&frame.positions);
+      poses.push_back(pose_value(frame.world_from_gel));
+    }
+    const ViewGrid grid = ViewGrid::around(sets);
+    bytes += packed_triangles(gel.front) + packed_frames(gel, grid, top_pa);
+    gels.emplace_back(Value::Map{{"name", gel.name},
+                                 {"vertices", gel.frames.front().positions.rows()},
+                                 {"triangles", gel.front.rows()},
+                                 {"bottom_m", gel.bottom_m},
+                                 {"grid", grid_value(grid)},
+                                 {"poses", poses}});
+    const auto there = [](const std::string& link) { return !link.empty(); };
+    if (std::any_of(gel.pictures.begin(), gel.pictures.end(), there))
+      gels.back().set("pictures", Value::List(gel.pictures.begin(), gel.pictures.end()));
+  }
+  for (const ViewedObject& object : view.objects) {
+    Value::List poses;
+    for (const Matrix4& pose : object.world_from_object) poses.push_back(pose_value(pose));
+    const ViewGrid grid = ViewGrid::around({&object.mesh.positions});
+    bytes += packed_triangles(object.mesh.triangles) + packed_positions(object.mesh.positions, nullptr, grid);
+    objects.emplace_back(Value::Map{{"name", object.name},
+                                    {"vertices", object.mesh.num_vertices()},
+                                    {"triangles", object.mesh.num_triangles()},
+                                    {"grid", grid_value(grid)},
+                                    {"poses", poses}});
+  }
+  const Value data = Value::Map{
+      {"gels", gels},     {"objects", objects},    {"indentation_m", deepest(view)},   {"pressure_pa", top_pa},
+      {"frames", frames}, {"colors", color_bar()}, {"packed", base64(deflated(bytes))}};
   return "tacipc_view(" + to_json(data) + ");\n";
 }
 

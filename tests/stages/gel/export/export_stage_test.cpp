@@ -15,9 +15,9 @@ class ExportStageTest : public ProgramTest {
  protected:
   void SetUp() override { write_pressed_cube(scratch_); }
 
-  int run(const std::string& out, const std::string& more = "") {
-    return run_command(fmt::format("cd {} && {}/export --press press --gel gel.msh --object object.ply --out {} {}",
-                                   (scratch_ / "").string(), TACIPC_BIN_DIR, out, more));
+  int run(const std::string& out, const std::string& more = "", const std::string& press = "press") {
+    return run_command(fmt::format("cd {} && {}/export --press {} --gel gel.msh --object object.ply --out {} {}",
+                                   (scratch_ / "").string(), TACIPC_BIN_DIR, press, out, more));
   }
 };
 
@@ -39,6 +39,35 @@ TEST_F(ExportStageTest, WritesThreeFilesAFrameAndThreeCollections) {
   EXPECT_THAT(record, HasSubstr("summary:\n  frames: 2\n  gel_vertices: 9\n  tets: 12\n  object_triangles: 4\n"));
   ASSERT_EQ(run("again", "--threads 1"), 0);
   EXPECT_EQ(read_file(scratch_ / "again/export.yaml"), record);
+}
+
+TEST_F(ExportStageTest, OfAGraspEveryGelIsInTheWorld) {
+  write_pressed_scene(scratch_);
+  ASSERT_EQ(run("scene/export", "", "scene"), 0) << said_;
+  const std::string collection = read_file(scratch_ / "scene/export/surface.pvd");
+  EXPECT_THAT(collection, HasSubstr("timestep=\"0.01\" part=\"0\" file=\"surface_left_0001.vtu\""));
+  EXPECT_THAT(collection, HasSubstr("timestep=\"0.01\" part=\"1\" file=\"surface_right_0001.vtu\""));
+  const VtuFile left = parse_vtu(read_file(scratch_ / "scene/export/surface_left_0001.vtu"));
+  const VtuFile right = parse_vtu(read_file(scratch_ / "scene/export/surface_right_0001.vtu"));
+  // The front, pressed in by 2 mm, of fingers whose S is at x = ∓15 mm.
+  EXPECT_NEAR(left.arrays.at("Points").values[3 * 7], -0.015 - 0.002, 1e-15);
+  EXPECT_NEAR(right.arrays.at("Points").values[3 * 7], 0.015 + 0.002, 1e-15);
+  EXPECT_EQ(left.arrays.at("normal_force").values[3 * 7], -4.0);
+  const VtuFile object = parse_vtu(read_file(scratch_ / "scene/export/object_0001.vtu"));
+  EXPECT_NEAR(object.arrays.at("Points").values[3 * 2 + 2], 1.0 - 0.003, 1e-15);
+  EXPECT_THAT(read_file(scratch_ / "scene/export/export.yaml"),
+              HasSubstr("summary:\n  frames: 2\n  gel_vertices: 18\n  tets: 24\n  object_triangles: 4\n"));
+  const std::string first = read_file(scratch_ / "scene/export/export.yaml");
+  ASSERT_EQ(run("scene/export", "", "scene"), 0) << said_;  // its own outputs are not part of what it reads
+  EXPECT_EQ(read_file(scratch_ / "scene/export/export.yaml"), first);
+}
+
+TEST_F(ExportStageTest, FingersOfOtherFramesThanTheirPosesAreAFailure) {
+  write_pressed_scene(scratch_);
+  const std::vector<double> times{0.0};
+  write_npy(scratch_ / "scene/left/press/time.npy", {1}, times.data());
+  EXPECT_EQ(run("scene/export", "", "scene"), 1);
+  EXPECT_EQ(said_, "export: error: scene/left/press/time.npy: has the shape (1,), expected (2,)\n");
 }
 
 TEST_F(ExportStageTest, AnUnfinishedPressIsAFailureWithItsReason) {

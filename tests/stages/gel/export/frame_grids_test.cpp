@@ -81,6 +81,21 @@ TEST_F(FrameGridsTest, TheObjectIsWhereItsPosePutsIt) {
   EXPECT_EQ(grid.cells, object.triangles);
 }
 
+TEST_F(FrameGridsTest, InTheWorldPointsAreMovedAndVectorsTurned) {
+  const TetMesh gel = read_tet_mesh(scratch_ / "gel.msh");
+  const Matrix4 pose = pressed_scene_fingers()[3];  // z of S along −x
+  const VtuGrid in_s = surface_grid(gel, press(), 1), grid = in_world(in_s, pose);
+  const Positions expected =
+      (in_s.points * pose.topLeftCorner<3, 3>().transpose()).rowwise() + pose.topRightCorner<3, 1>().transpose();
+  EXPECT_LT((grid.points - expected).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_DOUBLE_EQ(values(grid.point_data, "normal_force")[3 * 7], 4.0);
+  EXPECT_DOUBLE_EQ(values(grid.point_data, "displacement")[3 * 7], 0.002);
+  EXPECT_EQ(values(grid.point_data, "normal_force")[3 * 7 + 2], 0.0);
+  EXPECT_THAT(values<std::uint8_t>(grid.point_data, "contact_state"), ElementsAre(0, 0, 0, 0, 0, 1, 0, 2));
+  const VtuGrid volume = volume_grid(gel, press(), 1);
+  EXPECT_EQ(values(in_world(volume, pose).cell_data, "volume_ratio"), values(volume.cell_data, "volume_ratio"));
+}
+
 TEST_F(FrameGridsTest, WhatDoesNotBelongTogetherIsRefused) {
   EXPECT_EQ(error(), "");
   const std::vector<double> zeros(200, 0.0);

@@ -63,13 +63,11 @@ class GltfTest : public ::testing::Test {
  protected:
   GltfTest() {
     write_pressed_cube(scratch_);
-    const TetMesh gel = read_tet_mesh(scratch_ / "gel.msh");
-    const TriangleMesh object = read_triangle_mesh(scratch_ / "object.ply", 1.0);
-    const auto bytes = [&] {
-      return glb_bytes(gel, object, open_press(scratch_ / "press", scratch_ / "gel.msh", gel, scratch_ / "object.ply"));
-    };
-    bytes_ = bytes();
-    again_ = bytes();
+    bytes_ = bytes("press");
+    again_ = bytes("press");
+  }
+  std::string bytes(const char* folder) const {
+    return glb_bytes(open_scene(scratch_ / folder, scratch_ / "gel.msh", scratch_ / "object.ply"));
   }
 
   ScratchFolder scratch_;
@@ -119,6 +117,65 @@ TEST_F(GltfTest, TheObjectGoesThroughItsPosesAndZPointsUp) {
 }
 
 TEST_F(GltfTest, TheSamePressGivesTheSameBytes) { EXPECT_EQ(bytes_, again_); }
+
+/// Rows of three or four numbers of an accessor.
+Eigen::MatrixXd rows_of(const GlbFile& file, int accessor, std::size_t components) {
+  const std::vector<double> values = file.values<float>(accessor, components);
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      values.data(), static_cast<Eigen::Index>(values.size() / components), static_cast<Eigen::Index>(components));
+}
+
+/// Places of a node's vertices in the world in a frame, as a viewer computes them from the animation.
+Eigen::MatrixXd played(const GlbFile& file, std::size_t node, Eigen::Index frame) {
+  const Record json = file.json(), shown = json.sections("nodes").at(node);
+  const Record mesh = json.sections("meshes").at(static_cast<std::size_t>(shown.required_count("mesh")));
+  const Record primitive = mesh.sections("primitives").at(0), animation = json.sections("animations").at(0);
+  Eigen::MatrixXd points = rows_of(file, primitive.section("attributes").required_count("POSITION"), 3);
+  std::map<std::string, int> outputs;
+  for (const Record& channel : animation.sections("channels")) {
+    const Record target = channel.section("target"),
+                 sampler =
+                     animation.sections("samplers").at(static_cast<std::size_t>(channel.required_count("sampler")));
+    if (target.required_count("node") == static_cast<int>(node))
+      outputs[target.required_text("path")] = sampler.required_count("output");
+  }
+  if (primitive.has("targets")) {
+    const std::vector<Record> targets = primitive.sections("targets");
+    const Eigen::MatrixXd weights = rows_of(file, outputs.at("weights"), targets.size());
+    for (std::size_t t = 0; t < targets.size(); ++t)
+      points += weights(frame, static_cast<Eigen::Index>(t)) * rows_of(file, targets[t].required_count("POSITION"), 3);
+  }
+  const Eigen::VectorXd q = rows_of(file, outputs.at("rotation"), 4).row(frame);
+  const Matrix3 turn = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix();
+  const Eigen::RowVector3d place = rows_of(file, outputs.at("translation"), 3).row(frame);
+  return (points * turn.transpose()).rowwise() + place;
+}
+
+TEST_F(GltfTest, InASceneEveryGelAndObjectIsWhereItsPosePutsIt) {
+  write_pressed_scene(scratch_);
+  const GlbFile file(scratch_, bytes("scene"));
+  const std::vector<Record> nodes = file.json().sections("nodes");
+  ASSERT_EQ(nodes.size(), 4u);
+  EXPECT_EQ(nodes[0].required_text("name"), "world");
+  EXPECT_EQ(nodes[1].required_text("name"), "gel left");
+  EXPECT_EQ(nodes[2].required_text("name"), "gel right");
+  EXPECT_EQ(nodes[3].required_text("name"), "object");
+  const std::vector<Matrix4> fingers = pressed_scene_fingers();
+  for (const int frame : {0, 1}) {
+    for (const std::size_t g : {0u, 1u}) {
+      const PressFolder press(scratch_ / (g == 0 ? "scene/left/press" : "scene/right/press"));
+      const Matrix4& pose = fingers[2 * static_cast<std::size_t>(frame) + g];
+      const Positions x = press.positions(static_cast<std::size_t>(frame))(press.front_vertices(), Eigen::all);
+      const Eigen::MatrixXd there =
+          (x * pose.topLeftCorner<3, 3>().transpose()).rowwise() + pose.topRightCorner<3, 1>().transpose();
+      EXPECT_LT((played(file, 1 + g, frame) - there).cwiseAbs().maxCoeff(), 1e-8) << "gel " << g << ", frame " << frame;
+      EXPECT_GT(there.cwiseAbs().maxCoeff(), 1e-2);
+    }
+    Eigen::MatrixXd object = read_triangle_mesh(scratch_ / "object.ply", 1.0).positions;
+    object.col(2).array() -= 0.003 * frame;
+    EXPECT_LT((played(file, 3, frame) - object).cwiseAbs().maxCoeff(), 1e-7) << "frame " << frame;
+  }
+}
 
 }  // namespace
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// A finished press of a gel of six tetrahedra, as files.
+// A finished press of a gel of twelve tetrahedra, as files, and a scene of two of them.
 #pragma once
 
 #include <fmt/core.h>
@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "common/format/npy.h"
 #include "common/mesh/tet_mesh.h"
@@ -40,37 +42,72 @@ inline TetMesh cube_gel() {
   return gel;
 }
 
-/// Writes gel.msh, object.ply and press/ with two frames, in the second of which the whole gel is compressed to 80 %
-/// along z, the object turned by a right angle about z and moved by (1, 2, 3), vertex 5 sticks and vertex 7 slips.
-inline void write_pressed_cube(const ScratchFolder& scratch) {
+/// Writes gel.msh, object.ply and the press folder with two frames, in the second of which the whole gel is compressed
+/// to 80 % along z, the object turned by a right angle about z and moved by (1, 2, 3), vertex 5 sticks and vertex 7
+/// slips.
+inline void write_pressed_cube(const ScratchFolder& scratch, const std::string& press = "press") {
   const TetMesh gel = cube_gel();
   write_tet_mesh(scratch / "gel.msh", gel);
   write_ply(scratch / "object.ply", {Positions{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}},
                                      Triangles{{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}});
-  scratch.file("press/press.yaml",
-               fmt::format("stage: press\ninputs:\n  gel:\n    path: ../gel.msh\n    hash: {}\n  object:\n    path: "
-                           "../object.ply\n    hash: {}\n",
-                           content_hash(scratch / "gel.msh"), content_hash(scratch / "object.ply")));
+  const std::string up = std::filesystem::path(".").lexically_relative(press).string();
+  scratch.file(press + "/press.yaml",
+               fmt::format("stage: press\ninputs:\n  gel:\n    path: {0}/gel.msh\n    hash: {1}\n  object:\n    path: "
+                           "{0}/object.ply\n    hash: {2}\n",
+                           up, content_hash(scratch / "gel.msh"), content_hash(scratch / "object.ply")));
   Positions pressed = gel.positions;
   pressed.col(2) = (pressed.col(2).array() + 0.01) * 0.8 - 0.01;
   std::vector<double> positions(gel.positions.data(), gel.positions.data() + 27);
   positions.insert(positions.end(), pressed.data(), pressed.data() + 27);
-  write_npy(scratch / "press/positions.npy", {2, 9, 3}, positions.data());
+  write_npy(scratch / (press + "/positions.npy"), {2, 9, 3}, positions.data());
   const std::vector<double> poses{1, 0,  0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
                                   0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1};
-  write_npy(scratch / "press/object_pose.npy", {2, 4, 4}, poses.data());
+  write_npy(scratch / (press + "/object_pose.npy"), {2, 4, 4}, poses.data());
   const std::vector<double> times{0.0, 0.01};
-  write_npy(scratch / "press/time.npy", {2}, times.data());
+  write_npy(scratch / (press + "/time.npy"), {2}, times.data());
   const std::vector<std::int32_t> front{4, 5, 6, 7};
-  write_npy(scratch / "press/front_vertices.npy", {4}, front.data());
+  write_npy(scratch / (press + "/front_vertices.npy"), {4}, front.data());
   std::vector<double> force(2 * 4 * 2 * 3, 0.0);
   for (const std::size_t v : {1u, 3u}) {  // vertices 5 and 7 in frame 1
     force[((4 + v) * 2 + 0) * 3 + 2] = -1.0 - static_cast<double>(v);
     force[((4 + v) * 2 + 1) * 3 + 0] = 0.25 * static_cast<double>(v);
   }
-  write_npy(scratch / "press/contact_force.npy", {2, 4, 2, 3}, force.data());
+  write_npy(scratch / (press + "/contact_force.npy"), {2, 4, 2, 3}, force.data());
   const std::vector<std::uint8_t> states{0, 0, 0, 0, 0, 1, 0, 2};
-  write_npy(scratch / "press/contact_state.npy", {2, 4}, states.data());
+  write_npy(scratch / (press + "/contact_state.npy"), {2, 4}, states.data());
+}
+
+/// World from left and right finger of the scene below, in each of its two frames: their z axes along x and −x, moving.
+inline std::vector<Matrix4> pressed_scene_fingers() {
+  const auto finger = [](double side, double x, double z) {
+    Matrix4 pose = Matrix4::Identity();
+    pose.topLeftCorner<3, 3>() << 0, 0, side, -side, 0, 0, 0, -1, 0;  // columns: x, y = down, z
+    pose.topRightCorner<3, 1>() << x, 0.001, z;
+    return pose;
+  };
+  return {finger(1, -0.02, 0), finger(-1, 0.02, 0), finger(1, -0.015, 0.005), finger(-1, 0.015, 0.005)};
+}
+
+/// Writes the gel, the object and a grasp's folder scene/ with two such presses in it; the object falls by 3 mm.
+inline void write_pressed_scene(const ScratchFolder& scratch) {
+  for (const char* side : {"left", "right"}) write_pressed_cube(scratch, fmt::format("scene/{}/press", side));
+  scratch.file("scene/press.yaml",
+               fmt::format("stage: press\ninputs:\n  gel:\n    path: ../gel.msh\n    hash: {}\n  object:\n    path: "
+                           "../object.ply\n    hash: {}\n",
+                           content_hash(scratch / "gel.msh"), content_hash(scratch / "object.ply")));
+  const std::vector<double> times{0.0, 0.01};
+  write_npy(scratch / "scene/time.npy", {2}, times.data());
+  const auto write_poses = [&](const char* file, const std::vector<std::size_t>& shape,
+                               const std::vector<Matrix4>& poses) {
+    std::vector<double> values;
+    for (const Matrix4& pose : poses)
+      for (int i = 0; i < 16; ++i) values.push_back(pose(i / 4, i % 4));
+    write_npy(scratch / file, shape, values.data());
+  };
+  write_poses("scene/finger_pose.npy", {2, 2, 4, 4}, pressed_scene_fingers());
+  Matrix4 fallen = Matrix4::Identity();
+  fallen(2, 3) = -0.003;
+  write_poses("scene/object_pose.npy", {2, 4, 4}, {Matrix4::Identity(), fallen});
 }
 
 }  // namespace tacipc

@@ -42,12 +42,12 @@ TEST(Vtu, TetrahedraHaveTheirType) {
 }
 
 TEST(Pvd, ListsFilesWithTheirTimes) {
-  EXPECT_EQ(pvd_text({{0.0, "surface_0000.vtu"}, {0.01, "surface_0001.vtu"}}),
+  EXPECT_EQ(pvd_text({{0.0, "surface_0000.vtu"}, {0.01, "surface_0001.vtu", 1}}),
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
             "  <Collection>\n"
             "    <DataSet timestep=\"0\" part=\"0\" file=\"surface_0000.vtu\"/>\n"
-            "    <DataSet timestep=\"0.01\" part=\"0\" file=\"surface_0001.vtu\"/>\n"
+            "    <DataSet timestep=\"0.01\" part=\"1\" file=\"surface_0001.vtu\"/>\n"
             "  </Collection>\n</VTKFile>\n");
 }
 

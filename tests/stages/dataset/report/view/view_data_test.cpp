@@ -10,6 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The text behind `"name": ` up to what ends it.
 std::string field(const std::string& script, const std::string& name, const std::string& end) {
@@ -59,22 +60,29 @@ class Planes {
   std::size_t at_ = 0;
 };
 
-/// A square of two triangles, at rest and pressed, under a triangle that is 3 mm wide.
-PressView small_view() {
+/// A square of two triangles, at rest and pressed; `deeper` is by what factor.
+ViewedGel small_gel(const std::string& name, double deeper, const Matrix4& moved) {
   const Positions rest{{-1e-2, -1e-2, 0}, {1e-2, -1e-2, 0}, {-1e-2, 1e-2, 0}, {1e-2, 1e-2, 0}};
   Positions pressed = rest;
-  pressed(0, 2) = -4.321e-4;
+  pressed(0, 2) = deeper * -4.321e-4;
   pressed(3, 0) = 1.0007e-2;
-  const auto frame = [](int number, const Positions& x, const Eigen::Vector4d& pressure,
-                        std::vector<ContactState> state) {
-    return ViewFrame{number, x, pressure, std::move(state), Matrix4::Identity()};
-  };
   using enum ContactState;
-  return {.front = Triangles{{0, 1, 2}, {1, 3, 2}},
+  return {.name = name,
+          .front = Triangles{{0, 1, 2}, {1, 3, 2}},
           .bottom_m = -4e-3,
-          .frames = {frame(0, rest, Eigen::Vector4d::Zero(), {none, none, none, none}),
-                     frame(4, pressed, {5e3, 0, 2.5e3, 0}, {stick, none, slip, none})},
-          .object = {Positions{{0, 0, 0}, {3e-3, 0, 0}, {0, 1e-3, 0}}, Triangles{{0, 1, 2}}}};
+          .frames = {{rest, Eigen::Vector4d::Zero(), {none, none, none, none}, Matrix4::Identity()},
+                     {pressed, Eigen::Vector4d{5e3, 0, 2.5e3, 0}, {stick, none, slip, none}, moved}}};
+}
+
+/// Two of them and a triangle that is 3 mm wide.
+SceneView small_view() {
+  Matrix4 moved = Matrix4::Identity();
+  moved(0, 3) = 0.125;
+  return {.frames = {0, 4},
+          .gels = {small_gel("left", 1.0, moved), small_gel("right", 2.0, Matrix4::Identity())},
+          .objects = {{"object",
+                       {Positions{{0, 0, 0}, {3e-3, 0, 0}, {0, 1e-3, 0}}, Triangles{{0, 1, 2}}},
+                       {Matrix4::Identity(), moved}}}};
 }
 
 TEST(ViewData, PlanesHoldValuesOfBothSigns) {
@@ -85,35 +93,50 @@ TEST(ViewData, PlanesHoldValuesOfBothSigns) {
 }
 
 TEST(ViewData, PositionsComeBackToHalfAStep) {
-  const PressView view = small_view();
+  const SceneView view = small_view();
   const std::string script = view_script(view, {"rest", "pressed \"hard\""});
   EXPECT_THAT(script, HasSubstr("tacipc_view({"));
   EXPECT_THAT(script, HasSubstr(R"("text": "pressed \"hard\"")"));
-  Planes planes(unpacked(script, 3 * (6 + 2 * (12 + 8) + 3 + 9)));
-  EXPECT_THAT(planes.next(2), ElementsAre(0, 1));
-  EXPECT_THAT(planes.next(2), ElementsAre(1, 2));
-  EXPECT_THAT(planes.next(2), ElementsAre(2, 1));
-  const ViewGrid grid = ViewGrid::around({&view.frames[0].positions, &view.frames[1].positions});
-  EXPECT_NEAR(grid.step_m, 2.0007e-2 / 65535, 1e-18);
-  std::vector<int> steps(12, 0);
-  for (std::size_t f = 0; f < 2; ++f) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::vector<int> differences = planes.next(4);
-      for (int v = 0; v < 4; ++v) {
-        int& here = steps[static_cast<std::size_t>(3 * v + axis)];
-        const int from = f > 0 ? here : v > 0 ? steps[static_cast<std::size_t>(3 * (v - 1) + axis)] : 0;
-        here = from + differences[static_cast<std::size_t>(v)];
-        EXPECT_NEAR(grid.low_m[axis] + grid.step_m * here, view.frames[f].positions(v, axis), 0.5001 * grid.step_m)
-            << "frame " << f << ", vertex " << v << ", axis " << axis;
+  Planes planes(unpacked(script, 3 * (2 * (6 + 2 * (12 + 8)) + 3 + 9)));
+  for (const ViewedGel& gel : view.gels) {
+    EXPECT_THAT(planes.next(2), ElementsAre(0, 1));
+    EXPECT_THAT(planes.next(2), ElementsAre(1, 2));
+    EXPECT_THAT(planes.next(2), ElementsAre(2, 1));
+    const ViewGrid grid = ViewGrid::around({&gel.frames[0].positions, &gel.frames[1].positions});
+    EXPECT_NEAR(grid.step_m, 2.0007e-2 / 65535, 1e-18);
+    std::vector<int> steps(12, 0);
+    for (std::size_t f = 0; f < 2; ++f) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<int> differences = planes.next(4);
+        for (int v = 0; v < 4; ++v) {
+          int& here = steps[static_cast<std::size_t>(3 * v + axis)];
+          const int from = f > 0 ? here : v > 0 ? steps[static_cast<std::size_t>(3 * (v - 1) + axis)] : 0;
+          here = from + differences[static_cast<std::size_t>(v)];
+          EXPECT_NEAR(grid.low_m[axis] + grid.step_m * here, gel.frames[f].positions(v, axis), 0.5001 * grid.step_m)
+              << gel.name << ", frame " << f << ", vertex " << v << ", axis " << axis;
+        }
       }
+      EXPECT_THAT(planes.next(4), f == 0 ? ElementsAre(0, 0, 0, 0) : ElementsAre(255, 0, 128, 0));
+      EXPECT_THAT(planes.next(4), f == 0 ? ElementsAre(0, 0, 0, 0) : ElementsAre(1, 0, 2, 0));
     }
-    EXPECT_THAT(planes.next(4), f == 0 ? ElementsAre(0, 0, 0, 0) : ElementsAre(255, 0, 255, 0));
-    EXPECT_THAT(planes.next(4), f == 0 ? ElementsAre(0, 0, 0, 0) : ElementsAre(1, 0, 2, 0));
   }
   for (const int corner : {0, 1, 2}) EXPECT_THAT(planes.next(1), ElementsAre(corner));
   EXPECT_THAT(planes.next(3), ElementsAre(0, 65535, -65535));
-  EXPECT_DOUBLE_EQ(std::stod(field(script, "indentation_m", ",")), 4.321e-4);
-  EXPECT_DOUBLE_EQ(std::stod(field(script, "pressure_pa", ",")), 2.5e3);  // 99 % of two values: the lower one
+  // One bar for all gels: the deeper of both, and 99 % of four pressures, which is the third.
+  EXPECT_DOUBLE_EQ(std::stod(field(script, "indentation_m", ",")), 2 * 4.321e-4);
+  EXPECT_DOUBLE_EQ(std::stod(field(script, "pressure_pa", ",")), 5e3);
+}
+
+TEST(ViewData, PosesAndImagesAreListedPerFrame) {
+  SceneView view = small_view();
+  EXPECT_THAT(view_script(view, {"a", "b"}), Not(HasSubstr("pictures")));
+  view.gels[1].pictures = {"", "../right/render/frame_0004/tactile.png"};
+  const std::string script = view_script(view, {"a", "b"});
+  EXPECT_THAT(script, HasSubstr(R"("pictures": ["", "../right/render/frame_0004/tactile.png"])"));
+  const std::string moved = "[1, 0, 0, 0.125, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]";
+  const std::size_t first = script.find(moved);
+  EXPECT_NE(first, std::string::npos);                          // the left gel
+  EXPECT_NE(script.find(moved, first + 1), std::string::npos);  // the object
 }
 
 TEST(ViewData, TheSameViewGivesTheSameBytes) {

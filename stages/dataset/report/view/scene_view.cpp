@@ -1,0 +1,205 @@
+#include "stages/dataset/report/view/scene_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/mesh/spatial_order.h"
+#include "common/mesh/tet_mesh.h"
+#include "common/sample/press_folder.h"
+#include "common/sample/render_folder.h"
+#include "common/sample/sample_status.h"
+#include "common/stage/record.h"
+#include "stages/dataset/report/html.h"
+#include "stages/dataset/report/press_report.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The same triangles, each from its lowest corner on, in ascending order: similar numbers follow each other.
+Triangles sorted_triangles(const Triangles& triangles) {
+  std::vector<std::array<int, 3>> rows;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    std::array<int, 3> corners{triangles(t, 0), triangles(t, 1), triangles(t, 2)};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    rows.push_back(corners);
+  }
+  std::sort(rows.begin(), rows.end());
+  Triangles sorted(triangles.rows(), 3);
+  for (Eigen::Index t = 0; t < sorted.rows(); ++t) {
+    const auto& corners = rows[static_cast<std::size_t>(t)];
+    sorted.row(t) << corners[0], corners[1], corners[2];
+  }
+  return sorted;
+}
+
+/// Triangles with every corner replaced by `place[corner]`.
+Triangles renumbered(Triangles triangles, const std::vector<int>& place) {
+  for (Eigen::Index i = 0; i < triangles.size(); ++i)
+    triangles.data()[i] = place[static_cast<std::size_t>(triangles.data()[i])];
+  return sorted_triangles(triangles);
+}
+
+TriangleMesh ordered(const TriangleMesh& mesh) {
+  return {mesh.positions(spatial_order(mesh.positions), Eigen::all),
+          renumbered(mesh.triangles, spatial_rank(mesh.positions))};
+}
+
+/// The front alone: which rows of the gel its vertices are, and its triangles among these.
+struct Front {
+  std::vector<int> order;  // rows of front_vertices
+  std::vector<int> rows;   // the same as rows of the gel
+  Triangles triangles;
+};
+
+Front front_of(const TetMesh& gel) {
+  const std::vector<int> vertices = gel.vertices(BoundaryTag::front);
+  Front front{.order = spatial_order(gel.positions(vertices, Eigen::all)), .rows = {}, .triangles = {}};
+  std::vector<int> place(static_cast<std::size_t>(gel.num_vertices()), -1);
+  for (const int v : front.order) {
+    const int row = vertices[static_cast<std::size_t>(v)];
+    place[static_cast<std::size_t>(row)] = static_cast<int>(front.rows.size());
+    front.rows.push_back(row);
+  }
+  front.triangles = renumbered(gel.faces(BoundaryTag::front), place);
+  return front;
+}
+
+/// A gel whose press can be shown.
+struct ShownGel {
+  PressFolder press;
+  Front front;
+  double bottom_m;
+};
+
+/// The gel or object of a press, by its name among the record's inputs.
+std::optional<fs::path> input_of(const fs::path& folder, const std::string& input) {
+  std::string why;
+  return pressed_input(folder, Record::from_file(folder / "press.yaml"), input, why);
+}
+
+std::optional<ShownGel> open_gel(const fs::path& folder) {
+  if (was_dropped(folder) || !fs::is_regular_file(folder / "press.yaml")) return std::nullopt;
+  const auto gel_path = input_of(folder, "gel");
+  if (!gel_path) return std::nullopt;
+  const TetMesh gel = read_tet_mesh(*gel_path);
+  PressFolder press = PressFolder::finished(folder, {{kVertices, static_cast<std::size_t>(gel.num_vertices())}});
+  using enum PressArray;
+  for (const PressArray array : {positions, object_pose, contact_force, contact_state, front_vertices}) {
+    if (!press.has(array)) return std::nullopt;
+  }
+  press.require_front(gel.vertices(BoundaryTag::front));
+  return ShownGel{std::move(press), front_of(gel), gel.positions.col(2).minCoeff()};
+}
+
+ViewedFront read_frame(const ShownGel& gel, std::size_t frame, const Matrix4& world_from_gel) {
+  ViewedFront view{.positions = gel.press.positions(frame)(gel.front.rows, Eigen::all),
+                   .pressure_pa = {},
+                   .state = {},
+                   .world_from_gel = world_from_gel};
+  const Positions force = gel.press.contact_forces(frame).normal(gel.front.order, Eigen::all);
+  view.pressure_pa = vertex_pressures(view.positions, gel.front.triangles, force);
+  const std::vector<ContactState> states = gel.press.contact_states(frame);
+  for (const int v : gel.front.order) view.state.push_back(states[static_cast<std::size_t>(v)]);
+  return view;
+}
+
+/// \param gels in the order of the scene's
+SceneView view_of(const SceneFolder& scene, const std::vector<ShownGel>& gels,
+                  const std::vector<fs::path>& object_paths) {
+  std::size_t vertices = 0;
+  for (const ShownGel& gel : gels) vertices += gel.front.rows.size();
+  SceneView view{.frames = viewed_frames(static_cast<int>(scene.times_s.size()), vertices), .gels = {}, .objects = {}};
+  const auto shown = [&](const std::vector<Matrix4>& poses, auto&& take) {
+    for (const int frame : view.frames)
+      take(static_cast<std::size_t>(frame), poses.at(static_cast<std::size_t>(frame)));
+  };
+  for (std::size_t g = 0; g < gels.size(); ++g) {
+    ViewedGel& gel =
+        view.gels.emplace_back(ViewedGel{scene.gels[g].name, gels[g].front.triangles, gels[g].bottom_m, {}, {}});
+    shown(scene.gels[g].world_from_gel,
+          [&](std::size_t frame, const Matrix4& pose) { gel.frames.push_back(read_frame(gels[g], frame, pose)); });
+  }
+  for (std::size_t o = 0; o < object_paths.size(); ++o) {
+    ViewedObject& object = view.objects.emplace_back(
+        ViewedObject{scene.objects[o].name, ordered(read_triangle_mesh(object_paths[o], 1.0)), {}});
+    shown(scene.objects[o].world_from_object,
+          [&](std::size_t, const Matrix4& pose) { object.world_from_object.push_back(pose); });
+  }
+  return view;
+}
+
+}  // namespace
+
+std::vector<int> viewed_frames(int frames, std::size_t front_vertices) {
+  constexpr std::size_t kMostRows = 400'000;  // about 2 MB of data
+  const auto most = static_cast<int>(std::max<std::size_t>(2, kMostRows / std::max<std::size_t>(1, front_vertices)));
+  const int count = std::min(frames, most);
+  std::vector<int> chosen;
+  for (int i = 0; i < count; ++i)
+    chosen.push_back(count == 1 ? 0 : static_cast<int>(std::lround(double(i) * (frames - 1) / (count - 1))));
+  return chosen;
+}
+
+Eigen::VectorXd vertex_pressures(const Positions& x, const Triangles& triangles, const Positions& normal_force_n) {
+  Positions area = Positions::Zero(x.rows(), 3);  // Σ of a third of each triangle's area vector
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(x.rows());
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Vector3 a = x.row(triangles(t, 0)), b = x.row(triangles(t, 1)), c = x.row(triangles(t, 2));
+    const Vector3 third = (b - a).cross(c - a) / 6.0;
+    for (int k = 0; k < 3; ++k) {
+      area.row(triangles(t, k)) += third.transpose();
+      size[triangles(t, k)] += third.norm();
+    }
+  }
+  Eigen::VectorXd pressure = Eigen::VectorXd::Zero(x.rows());
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const double length = area.row(v).norm();
+    if (size[v] > 0.0 && length > 0.0)
+      pressure[v] = std::max(0.0, -normal_force_n.row(v).dot(area.row(v)) / (length * size[v]));
+  }
+  return pressure;
+}
+
+std::optional<SceneView> read_press_view(const fs::path& folder) {
+  auto gel = open_gel(folder);
+  if (!gel) return std::nullopt;
+  const auto object_path = input_of(folder, "object");
+  if (!object_path) return std::nullopt;
+  const std::vector<Matrix4> poses = gel->press.poses();
+  const SceneFolder scene{.times_s = std::vector<double>(poses.size()),
+                          .gels = {{"", folder.parent_path(), std::vector<Matrix4>(poses.size(), Matrix4::Identity())}},
+                          .objects = {{"object", poses}}};
+  std::vector<ShownGel> gels;
+  gels.push_back(std::move(*gel));
+  return view_of(scene, gels, {*object_path});
+}
+
+std::optional<SceneView> read_scene_view(const SceneFolder& scene, const fs::path& folder) {
+  std::vector<ShownGel> gels;
+  for (const SceneGel& placed : scene.gels) {
+    auto gel = open_gel(placed.press());
+    if (!gel) return std::nullopt;
+    gels.push_back(std::move(*gel));
+  }
+  std::vector<fs::path> object_paths;
+  for (const SceneObject& object : scene.objects) {
+    const auto path = input_of(folder, object.name);
+    if (!path) return std::nullopt;
+    object_paths.push_back(*path);
+  }
+  return view_of(scene, gels, object_paths);
+}
+
+void link_pictures(SceneView& view, const std::vector<fs::path>& render_folders, const fs::path& page_folder) {
+  for (std::size_t g = 0; g < view.gels.size(); ++g) {
+    for (const int frame : view.frames) {
+      const fs::path picture = frame_path(render_folders[g], static_cast<std::size_t>(frame), FrameFile::tactile);
+      view.gels[g].pictures.push_back(fs::is_regular_file(picture) ? html_link(picture, page_folder) : "");
+    }
+  }
+}
+
+}  // namespace tacipc

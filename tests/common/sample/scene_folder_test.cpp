@@ -1,0 +1,57 @@
+#include "common/sample/scene_folder.h"
+
+#include <gmock/gmock.h>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/format/npy.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc {
+namespace {
+
+class SceneFolderTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    scratch_.file("press.yaml", "stage: press\n");
+    write_npy(scratch_ / "time.npy", {2}, std::vector<double>{0.0, 0.25}.data());
+    write_poses("object_pose.npy", {2, 4, 4}, {1, 2});
+    write_poses("finger_pose.npy", {2, 2, 4, 4}, {10, 20, 30, 40});
+  }
+  /// Poses that are moved along x, one after the other.
+  void write_poses(const std::string& file, const std::vector<std::size_t>& shape, const std::vector<double>& along_x) {
+    std::vector<double> values;
+    for (const double x : along_x) values.insert(values.end(), {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    write_npy(scratch_ / file, shape, values.data());
+  }
+  std::string error() const {
+    return message_of<DataError>([&] { read_scene_folder(scratch_ / ""); });
+  }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(SceneFolderTest, EachGelAndObjectHasItsPoseInEveryFrame) {
+  EXPECT_TRUE(is_scene_folder(scratch_ / ""));
+  const SceneFolder scene = read_scene_folder(scratch_ / "");
+  EXPECT_THAT(scene.times_s, ::testing::ElementsAre(0.0, 0.25));
+  ASSERT_EQ(scene.gels.size(), 2u);
+  EXPECT_EQ(scene.gels[0].name, "left");
+  EXPECT_EQ(scene.gels[1].press(), scratch_ / "right/press");
+  EXPECT_EQ(scene.gels[0].world_from_gel[1](0, 3), 30);
+  EXPECT_EQ(scene.gels[1].world_from_gel[1](0, 3), 40);
+  ASSERT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.objects[0].world_from_object[1](0, 3), 2);
+}
+
+TEST_F(SceneFolderTest, WhatIsNotOneSceneIsRefused) {
+  write_poses("finger_pose.npy", {3, 2, 4, 4}, {1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(error(), (scratch_ / "finger_pose.npy").string() + ": has the shape (3, 2, 4, 4), expected (2, 2, 4, 4)");
+  std::filesystem::remove(scratch_ / "finger_pose.npy");
+  EXPECT_FALSE(is_scene_folder(scratch_ / ""));
+  std::filesystem::remove(scratch_ / "press.yaml");
+  EXPECT_EQ(error(), (scratch_ / "").string() + ": has no press.yaml, so the press did not finish");
+}
+
+}  // namespace
+}  // namespace tacipc
