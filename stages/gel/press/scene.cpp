@@ -1,5 +1,7 @@
 #include "stages/gel/press/scene.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -156,8 +158,8 @@ class Stepping {
         if (contact.d_hat_m) d_hat[at] = *contact.d_hat_m;
       }
       if (contact.d_hat_m && *contact.d_hat_m > scales_.d_hat_m)
-        throw UsageError("contact of {} and {}: d_hat_mm is more than that of the gels, {:.4g} mm",
-                         spec_.bodies[a].name, spec_.bodies[b].name, 1e3 * scales_.d_hat_m);
+        throw UsageError(fmt::format("contact of {} and {}: d_hat_mm is more than that of the gels, {:.4g} mm",
+                                     spec_.bodies[a].name, spec_.bodies[b].name, 1e3 * scales_.d_hat_m));
     }
     const double most = *std::max_element(friction.begin(), friction.end());
     if (most > 0.0 && !config_.friction)

@@ -12,23 +12,23 @@ namespace tacipc {
 
 /// What the files of one body hold.
 struct SceneBody {
-  TetMesh tets;          // gel, soft
-  Material material;     // gel, soft
-  TriangleMesh surface;  // rigid, fixed
+  TetMesh tets = {};          // gel, soft
+  Material material = {};     // gel, soft
+  TriangleMesh surface = {};  // rigid, fixed
 };
 
 /// One instant of a scene, in the world.
 struct SceneFrame {
   double time_s = 0.0;
-  int phase_index = -1;                           // into the motion; −1 for frame 0
-  std::vector<Matrix4> world_from_body;           // of gels their mounts, of soft bodies the identity
-  std::vector<Vector3> velocity_m_s, spin_rad_s;  // of rigid bodies: of their centres of mass, and about them
-  std::vector<double> strain;                     // of rigid bodies: max |AᵀA − I|
-  std::vector<Positions> soft_m;                  // of soft bodies
-  std::vector<Wrench> between;  // on body a by body b, about the world's origin, at a × number of bodies + b
-  double min_gap_m = 0.0;       // between two bodies, at most Simulation::gap_horizon_m
-  int intersections = 0;        // pairs of triangles, by an exact test
-  StepReport solver;
+  int phase_index = -1;                                     // into the motion; −1 for frame 0
+  std::vector<Matrix4> world_from_body = {};                // of gels their mounts, of soft bodies the identity
+  std::vector<Vector3> velocity_m_s = {}, spin_rad_s = {};  // of rigid bodies: of their centres of mass, and about them
+  std::vector<double> strain = {};                          // of rigid bodies: max |AᵀA − I|
+  std::vector<Positions> soft_m = {};                       // of soft bodies
+  std::vector<Wrench> between = {};  // on body a by body b, about the world's origin, at a × number of bodies + b
+  double min_gap_m = 0.0;            // between two bodies, at most Simulation::gap_horizon_m
+  int intersections = 0;             // pairs of triangles, by an exact test
+  StepReport solver = {};
 };
 
 struct Scene {

@@ -21,12 +21,12 @@ enum class BodyKind {
 inline constexpr std::array kBodyKinds{"gel", "soft", "rigid", "fixed"};
 
 struct BodySpec {
-  std::string name;
+  std::string name = {};
   BodyKind kind = BodyKind::gel;
-  std::filesystem::path mesh;      // soft: tetrahedra (gel.msh of tetmesh); rigid, fixed: a closed surface in metres
-  std::filesystem::path material;  // soft: its mechanics, as the section `material` of a sensor file
+  std::filesystem::path mesh = {};  // soft: tetrahedra (gel.msh of tetmesh); rigid, fixed: a closed surface in metres
+  std::filesystem::path material = {};  // soft: its mechanics, as the section `material` of a sensor file
   Matrix4 world_from_body = Matrix4::Identity();
-  std::optional<double> mass_kg;  // rigid: this, or
+  std::optional<double> mass_kg = std::nullopt;  // rigid: this, or
   double density_kg_m3 = 0.0;
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();  // rigid: how it starts
 };
@@ -34,7 +34,7 @@ struct BodySpec {
 /// How two bodies touch, where that differs from the press file.
 struct ContactSpec {
   std::array<int, 2> between{};  // numbers of bodies
-  std::optional<double> friction, d_hat_m;
+  std::optional<double> friction = std::nullopt, d_hat_m = std::nullopt;
 };
 
 /// The way of one body in a phase, from where it is at its start.
@@ -46,12 +46,12 @@ struct WaySpec {
 };
 
 struct ScenePhase {
-  int steps = 0;              // frames
-  int substeps = 1;           // time steps per frame
-  std::vector<WaySpec> move;  // gels and rigid bodies that go where they are told
-  std::vector<int> hold;      // rigid bodies that stay where they are
+  int steps = 0;                   // frames
+  int substeps = 1;                // time steps per frame
+  std::vector<WaySpec> move = {};  // gels and rigid bodies that go where they are told
+  std::vector<int> hold = {};      // rigid bodies that stay where they are
   /// On rigid bodies that are free, at their centre of mass: reached evenly in this phase, kept until another is named.
-  std::vector<std::pair<int, Vector3>> load_n;
+  std::vector<std::pair<int, Vector3>> load_n = {};
 };
 
 struct SceneSpec {

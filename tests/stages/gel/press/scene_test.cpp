@@ -127,7 +127,7 @@ TEST_F(SceneOf, TwoGelsLiftABoxFromATable) {
   bodies_[3].surface = centered_box({2.5e-3, 2.5e-3, 0.01});
   config_.friction->coefficient = 0.9;
   spec_.motion = {
-      {.steps = 8, .hold = {2}, .move = {}},
+      {.steps = 8, .hold = {2}},
       {.steps = 10, .move = {{.body = 0, .by_m = {0.5e-3, 0, 0}}, {.body = 1, .by_m = {-0.5e-3, 0, 0}}}},
       {.steps = 20,
        .move = {{.body = 0, .by_m = {0, 0, 3e-3}, .smooth = true}, {.body = 1, .by_m = {0, 0, 3e-3}, .smooth = true}}},
