@@ -24,6 +24,9 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
   if (!std::filesystem::is_regular_file(file)) throw DataError("{}: has no press.yaml", folder.string());
   const Record summary = Record::from_file(file).section("summary");
   if (!summary.has("outcome")) throw DataError("{}: is the record of a press, not of a grasp", file.string());
+  const Record pose = summary.section("pose");
+  const auto grip = pose.numbers("grip_m", 3);
+  if (!grip) throw DataError("{}: summary.pose.grip_m is missing", file.string());
   GraspReport grasp{.outcome = summary.required_text("outcome"),
                     .mass_kg = summary.required_number("object_mass_kg"),
                     .grip_n = summary.required_number("grip_n"),
@@ -31,6 +34,9 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
                     .judged_frame = summary.required_count("judged_frame"),
                     .slip_m = summary.required_number("slip_m"),
                     .turn_rad = summary.required_number("turn_rad"),
+                    .grip_m = Eigen::Map<const Vector3>(grip->data()),
+                    .lever_m = pose.required_number("lever_m"),
+                    .width_m = pose.number("width_m"),
                     .moments = {}};
   for (const Record& frame : summary.sections("per_frame")) {
     grasp.moments.push_back({.time_s = frame.required_number("time_s"),
@@ -81,15 +87,22 @@ std::string grasp_section(const GraspReport& grasp) {
                                  ? fmt::format(" Friction of both fingers could carry {} times its weight.",
                                                number_text(grasp.friction_margin))
                                  : "";
+  const Vector3 grip_mm = 1e3 * grasp.grip_m;
+  const std::string width =
+      grasp.width_m ? fmt::format(", where it is {} mm wide", number_text(1e3 * *grasp.width_m)) : "";
   return fmt::format(
       "<section id=\"grasp\">\n<h2>Grasp: {}</h2>\n"
-      "<p>{} g gripped with {} N.{} When judged (frame {}), the object had slipped {} mm and turned {}° relative to "
+      "<p>{} g gripped with {} N at ({}, {}, {}) mm from its centre of mass, in its own axes{}; the lever of the "
+      "centre of mass about the line of the grip is {} mm.{} When judged (frame {}), the object had slipped {} mm and "
+      "turned {}° relative to "
       "the "
       "hand.</p>\n"
       "<p><img src=\"{}\" alt=\"tactile images of the left finger above those of the right one, over time\"></p>\n"
       "<p><img src=\"{}\" alt=\"forces over time\"></p>\n</section>\n",
-      grasp.outcome, number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), margin, grasp.judged_frame,
-      number_text(1e3 * grasp.slip_m), number_text(grasp.turn_rad * 180.0 / std::numbers::pi), kGraspStrip, kGraspPlot);
+      grasp.outcome, number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), number_text(grip_mm.x()),
+      number_text(grip_mm.y()), number_text(grip_mm.z()), width, number_text(1e3 * grasp.lever_m), margin,
+      grasp.judged_frame, number_text(1e3 * grasp.slip_m), number_text(grasp.turn_rad * 180.0 / std::numbers::pi),
+      kGraspStrip, kGraspPlot);
 }
 
 }  // namespace tacipc

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/types.h"
 #include "common/image/image.h"
 
 namespace tacipc {
@@ -24,6 +25,9 @@ struct GraspReport {
   std::optional<double> friction_margin;  // nothing where the object has no weight
   int judged_frame = 0;                   // that the outcome is of, and these:
   double slip_m = 0.0, turn_rad = 0.0;
+  Vector3 grip_m = Vector3::Zero();  // from the centre of mass to where it is gripped, in the object's axes
+  double lever_m = 0.0;              // of the centre of mass about the line on which the fingers press
+  std::optional<double> width_m;     // of a drawn grasp
   std::vector<GraspMoment> moments;
 };
 
