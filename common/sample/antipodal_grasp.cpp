@@ -20,6 +20,7 @@ constexpr int kTries = 4000;  // places of the surface, after which an object co
 constexpr int kRim = 8;       // points on the rim of a patch
 constexpr int kCorners = 16;  // of the polygon around a round front
 constexpr double kRounding = 1e-9;
+constexpr double kUnit = 1e-6;  // by which the length of a quaternion may differ from 1
 
 /// What rules a place out, in the order in which it is asked.
 enum class Ruled { narrow, wide, cone, patch, blocked, count };
@@ -157,11 +158,23 @@ std::string why_none(const std::array<int, static_cast<std::size_t>(Ruled::count
 
 }  // namespace
 
+Eigen::Quaterniond read_rotation(ConfigReader& in) {
+  const auto xyzw = in.numbers_or("rotation_xyzw", {0.0, 0.0, 0.0, 1.0});
+  const Eigen::Quaterniond rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  if (std::abs(rotation.norm() - 1.0) > kUnit) in.fault("rotation_xyzw", "is no unit quaternion");
+  return rotation.normalized();
+}
+
 double GraspPose::lever_m() const { return (world_from_object * grip_m).tail<2>().norm(); }
 
 GraspDraw GraspDraw::read(ConfigReader& in) {
-  GraspDraw draw;
+  GraspDraw draw = read_limits(in);
   draw.seed = static_cast<std::uint64_t>(in.number_or("seed", 1.0, Range::between(0.0, 0x1p53)));
+  return draw;
+}
+
+GraspDraw GraspDraw::read_limits(ConfigReader& in) {
+  GraspDraw draw;
   draw.best_of = in.integer_or("best_of", draw.best_of, 1, kTries);
   draw.upright = in.flag_or("upright", draw.upright);
   const auto width = in.numbers_or("width_mm", {1e3 * draw.least_width_m, 1e3 * draw.most_width_m}, Range::positive());

@@ -1,6 +1,7 @@
 // Grasps of a closed object by two parallel fronts, drawn at random on its surface.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 
@@ -9,6 +10,9 @@
 #include "common/sensor/sensor.h"
 
 namespace tacipc {
+
+/// The key `rotation_xyzw`: a unit quaternion, scalar last; none where it is absent.
+Eigen::Quaterniond read_rotation(ConfigReader& in);
 
 /// How an object is held: turned so that the fingers close along x of the world, z up, and where.
 struct GraspPose {
@@ -31,6 +35,8 @@ struct GraspDraw {
   double depth_m = 0.5e-3;  // that the fronts may be pressed in to reach a patch
 
   static GraspDraw read(ConfigReader& in);
+  /// All keys but the seed.
+  static GraspDraw read_limits(ConfigReader& in);
 };
 
 /// A contact point p is drawn on the surface by area; the other, q, is the last point of the object on the line from p

@@ -3,15 +3,11 @@
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <numbers>
 
 #include "common/base/error.h"
 
 namespace tacipc {
-namespace {
-constexpr double kUnit = 1e-6;  // by which the length of a quaternion may differ from 1
-}
 
 GraspPhase GraspPhase::read(ConfigReader& in) {
   GraspPhase phase;
@@ -40,10 +36,7 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
     for (const char* key : {"rotation_xyzw", "turn_deg", "grip_mm"})
       if (fingers.has(key)) fingers.fault(key, "is drawn: give it or draw, not both"), fingers.ignore(key);
   } else {
-    const auto xyzw = fingers.numbers_or("rotation_xyzw", {0.0, 0.0, 0.0, 1.0});
-    spec.rotation = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
-    if (std::abs(spec.rotation.norm() - 1.0) > kUnit) fingers.fault("rotation_xyzw", "is no unit quaternion");
-    spec.rotation.normalize();
+    spec.rotation = read_rotation(fingers);
     spec.turn_rad = fingers.number_or("turn_deg", 0.0, kAnyTurn) * std::numbers::pi / 180.0;
     const auto grip_mm = fingers.numbers_or("grip_mm", {0.0, 0.0, 0.0});
     spec.grip_m = 1e-3 * Vector3(grip_mm[0], grip_mm[1], grip_mm[2]);

@@ -224,7 +224,8 @@ Value::Map grasp_lines(const GraspFrame& f, double body_strain) {
 Value::Map pose_lines(const GraspPose& pose) {
   Eigen::Quaterniond q(pose.world_from_object);
   if (q.w() < 0.0) q.coeffs() *= -1.0;
-  Value::Map lines{{"rotation_xyzw", Value::List{q.x(), q.y(), q.z(), q.w()}},
+  // Without a minus before a zero.
+  Value::Map lines{{"rotation_xyzw", Value::List{q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w()}},
                    {"grip_m", Value::List{pose.grip_m.x(), pose.grip_m.y(), pose.grip_m.z()}},
                    {"lever_m", pose.lever_m()}};
   if (pose.width_m) lines.emplace_back("width_m", *pose.width_m);
