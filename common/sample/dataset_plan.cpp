@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/printable.h"
+#include "common/sample/sample_status.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -95,7 +96,7 @@ std::optional<Failure> failure_of(const fs::path& sample_folder) {
   for (const std::string stage : {"press", "render"}) {
     const fs::path folder = sample_folder / stage;
     if (fs::exists(folder / (stage + ".yaml"))) continue;
-    const fs::path failed = folder / (stage + ".failed.yaml");
+    const fs::path failed = stage_file(sample_folder, stage, ".failed.yaml");
     if (!fs::exists(failed)) return Failure{.stage = stage, .reason = "not made", .made_nothing = true};
     const Record record = Record::from_file(failed);
     return Failure{.stage = stage,

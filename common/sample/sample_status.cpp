@@ -4,8 +4,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <string>
-
 namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
@@ -35,13 +33,32 @@ const char* status_word(SampleStatus status) {
   return "";
 }
 
+bool is_finger(const fs::path& sample_folder) {
+  return sample_folder.filename() == "left" || sample_folder.filename() == "right";
+}
+
+fs::path stage_folder(const fs::path& sample_folder, const std::string& stage) {
+  return stage == "press" && is_finger(sample_folder) ? sample_folder.parent_path() : sample_folder / stage;
+}
+
+fs::path stage_file(const fs::path& sample_folder, const std::string& stage, const std::string& ending) {
+  return stage_folder(sample_folder, stage) / (stage + ending);
+}
+
+std::optional<fs::path> timings_file(const fs::path& sample_folder, const std::string& stage) {
+  if (stage == "press" && sample_folder.filename() == "right") return std::nullopt;
+  fs::path file = stage_file(sample_folder, stage, ".timings.yaml");
+  if (!fs::exists(file)) return std::nullopt;
+  return file;
+}
+
 SampleStatus status_of(const fs::path& folder) {
-  if (!fs::exists(folder / "press")) return SampleStatus::unmade;
+  if (!fs::exists(stage_folder(folder, "press"))) return SampleStatus::unmade;
   if (fs::exists(folder / "press/press.yaml") && fs::exists(folder / "render/render.yaml")) return SampleStatus::made;
-  for (const char* stage : {"press", "render"})
-    if (is_locked(folder / stage / ".making")) return SampleStatus::running;
   for (const std::string stage : {"press", "render"})
-    if (fs::exists(folder / stage / (stage + ".failed.yaml"))) return SampleStatus::failed;
+    if (is_locked(stage_folder(folder, stage) / ".making")) return SampleStatus::running;
+  for (const std::string stage : {"press", "render"})
+    if (fs::exists(stage_file(folder, stage, ".failed.yaml"))) return SampleStatus::failed;
   return SampleStatus::unmade;
 }
 

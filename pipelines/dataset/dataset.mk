@@ -88,6 +88,18 @@ $(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $
 	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) $(if $(DATASET_MAPS),--maps $(DATASET_MAPS)) --seed $(6))
 endef
 
+# A grasp is pressed once, in its own folder; each of its fingers, left/ and right/ there, is a sample with press/ and render/. Both have a rule
+# together, which the plan gives twice where they belong to two blocks.
+dataset_finger = $$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/$(8)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/$(8)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) $(if $(DATASET_MAPS),--maps $(DATASET_MAPS)) --seed $(9))
+define dataset_grasp_rule
+DATASET_GRASP_$(1) := known
+$(DATASET_DIR)/samples/$(1)/left/render/render.yaml $(DATASET_DIR)/samples/$(1)/right/render/render.yaml &: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
+	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
+	$(call dataset_finger,$(1),$(2),$(3),$(4),$(5),$(6),$(7),left,$(word 1,$(6)))
+	$(call dataset_finger,$(1),$(2),$(3),$(4),$(5),$(6),$(7),right,$(word 2,$(6)))
+endef
+dataset_grasp = $(if $(DATASET_GRASP_$(1)),,$(dataset_grasp_rule))
+
 ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)
 # The plan is made first, then make restarts with its rules: gels and objects, then the samples in blocks of a
 # thousand, of which a part takes what it needs.
@@ -186,5 +198,5 @@ clean-plan: ## datasets: Remove the plan of a dataset (samples stay): CONFIG=
 	rm -rf '$(DATASET_DIR)/plan'
 clean-press: clean-render
 clean-press clean-render: clean-%: ## Remove what a stage, and those after it, made of every sample: CONFIG=
-	@[ ! -d '$(DATASET_DIR)/samples' ] || find '$(DATASET_DIR)/samples' -mindepth 3 -maxdepth 3 -name '$*' -exec rm -rf {} +
+	@[ ! -d '$(DATASET_DIR)/samples' ] || find '$(DATASET_DIR)/samples' -mindepth 3 -maxdepth 4 \( -name '$*' -o -name '$*.*' \) -prune -exec rm -rf {} +
 endif

@@ -9,7 +9,11 @@ tacipc=$programs/tacipc
 folder=$("$tacipc" table "$dataset/plan/samples.csv" --columns folder --where id="$(basename "$sample")")
 [ -n "$folder" ] || { echo "bundle: $(basename "$sample") is no sample of $dataset" >&2; exit 1; }
 folder=$(realpath "$dataset/$folder")
-[ -e "$folder/press/.command" ] || { echo "bundle: $(basename "$folder") has not been tried yet" >&2; exit 1; }
+# A finger of a grasp was pressed where both were, in the folder above its own.
+declare -A ran=([press]=$folder/press [render]=$folder/render)
+grasp=$folder
+case $folder in */left | */right) grasp=$(dirname "$folder") ran[press]=$grasp ;; esac
+[ -e "${ran[press]}/.command" ] || { echo "bundle: $(basename "$sample") has not been tried yet" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/expected"
@@ -17,38 +21,38 @@ mkdir "$work/expected"
 # Files that the commands name, what make says they depend on, and the plan's copies of paths that a motion follows.
 : > "$work/named"
 for stage in press render; do
-  [ -e "$folder/$stage/.command" ] || continue
+  [ -e "${ran[$stage]}/.command" ] || continue
   while read -r word; do
     if [ -f "$word" ]; then realpath "$word"; fi
-  done < <(tr ' ' '\n' < "$folder/$stage/.command") | { grep -v -e '/bin/[a-z]*$' -e "/$stage.yaml$" || true; } >> "$work/named"
-  for found in "$folder/$stage/$stage"{,.failed}.yaml; do
+  done < <(tr ' ' '\n' < "${ran[$stage]}/.command") | { grep -v -e '/bin/[a-z]*$' -e "/$stage.yaml$" || true; } >> "$work/named"
+  for found in "${ran[$stage]}/$stage"{,.failed}.yaml; do
     if [ -e "$found" ]; then cp "$found" "$work/expected/"; fi
   done
 done
-"$tacipc" paths "$folder/sample.yaml" | while read -r path; do realpath "$path"; done >> "$work/named"
-sort -u "$work/named" | grep -v -e '/decimate.yaml$' -e '/tetmesh.yaml$' -e '/press/press.yaml$' -e '/choices/' > "$work/all"
+"$tacipc" paths "$grasp/sample.yaml" | while read -r path; do realpath "$path"; done >> "$work/named"
+sort -u "$work/named" | grep -v -e '/decimate.yaml$' -e '/tetmesh.yaml$' -e '/press/press.yaml$' -e "^$grasp/press.yaml\$" -e '/choices/' > "$work/all"
 
 # The folders keep their places to each other, so that records are equal byte for byte.
-root=$(dirname "$folder")
+root=$(dirname "$grasp")
 while read -r file; do
   while [[ "$file" != "$root"/* ]]; do root=$(dirname "$root"); done
 done < "$work/all"
 {
   echo '#!/usr/bin/env bash'
-  echo "# Makes $(basename "$folder") again: BIN=folder of the programs bash replay.sh. Equal bytes need the same version and kind of processor."
+  echo "# Makes $(basename "$sample") again: BIN=folder of the programs bash replay.sh. Equal bytes need the same version and kind of processor."
   echo 'set -uo pipefail'
   echo 'cd "$(dirname "$0")/files"'
   for stage in press render; do
-    [ -e "$folder/$stage/.command" ] || continue
+    [ -e "${ran[$stage]}/.command" ] || continue
     echo "echo '$stage:'"
     printf 'OPENBLAS_NUM_THREADS=1 "${BIN:-bin}/%s"' "$stage"
-    read -r command < "$folder/$stage/.command"
+    read -r command < "${ran[$stage]}/.command"
     tr ' ' '\n' <<< "${command#*"/bin/$stage "}" | while read -r word; do
       if [[ "$word" == */* ]] && [ -e "$word" ]; then word=$(realpath --relative-to="$root" "$word"); fi
       printf ' %q' "$word"
     done
     echo
-    out=$(realpath --relative-to="$root" "$folder/$stage")
+    out=$(realpath --relative-to="$root" "${ran[$stage]}")
     echo "for record in $stage.yaml $stage.failed.yaml; do"
     echo "  [ ! -e ../expected/\$record ] || if cmp -s ../expected/\$record $out/\$record; then echo \"\$record is as it was\"; else echo \"\$record differs: diff expected/\$record files/$out/\$record\"; fi"
     echo 'done'
@@ -60,5 +64,5 @@ while read -r file; do
   cp "$file" "$work/files/${file#"$root"/}"
 done < "$work/all"
 mkdir -p "$(dirname "$archive")"
-tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -cz --transform "s|^|$(basename "$folder")/|" -f "$archive" replay.sh expected files
-echo "$archive: $(du -k "$archive" | cut -f1) kB; unpack, then BIN=$programs bash $(basename "$folder")/replay.sh"
+tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -cz --transform "s|^|$(basename "$sample")/|" -f "$archive" replay.sh expected files
+echo "$archive: $(du -k "$archive" | cut -f1) kB; unpack, then BIN=$programs bash $(basename "$sample")/replay.sh"

@@ -8,8 +8,9 @@ set -euo pipefail
 export LC_ALL=C
 dataset=$1 run=$2 stage=$3 record=$4 prerequisites=$5
 shift 5
-folder=${record%/*} sample=${record%/*/*}  # without processes: a tiny sample is as quick as these
-sample=${sample##*/}
+folder=${record%/*} sample=${record#"$dataset"/samples/*/}  # without processes: a tiny sample is as quick as these
+sample=${sample%/"$stage.yaml"}
+sample=${sample%/"$stage"}  # what is left for a grasp is its name, for the images of a finger that with /left or /right
 failed=$folder/$stage.failed.yaml
 said=''
 
@@ -104,8 +105,9 @@ if [ "$stage" = render ] && [ -e "$folder/../press/.dropped" ]; then
   exit 1
 fi
 rm -f "$folder/.dropped"
+if [ "$stage" = press ]; then rm -f "$folder"/{left,right}/press/.dropped; fi
 # Images of another press do not count as made while this one, or render after it, is interrupted.
-if [ "$stage" = press ]; then rm -f "$folder/../render/render.yaml" "$folder/../render/render.failed.yaml"; fi
+if [ "$stage" = press ]; then rm -f "$folder"/{..,left,right}/render/render{,.failed}.yaml; fi
 command="$*"
 write "$folder/.command" 'printf "%s\n%s\n" "$command" "$prerequisites" > "$folder/.command"'  # for a bundle
 # What ends because an input changed meanwhile, or was gone for a moment, is no failure: once more with the new one.

@@ -3,13 +3,14 @@
 $(call uses,sample/sample)
 
 MASS_G  ?= 80#      of the object
-TURN    ?= 0#       degrees by which it is turned about the vertical before it is gripped
-GRIP    ?= 0,0,0#   mm from its centre of mass to where it is gripped, along its own axes
+TURN    ?=#         degrees by which it is turned about the vertical before it is gripped (0),
+GRIP    ?=#         mm from its centre of mass to where it is gripped, along its own axes (0,0,0); where neither is given, a grasp is drawn:
+SEED ?= 1#    another number, another grasp
 LIFT_MM ?= 10#      how far it is lifted
 LIFT_STEPS ?= 20#   frames of that: 0.2 s with time steps of 10 ms
-GRASP   ?=#         or a file of your own (docs/grasp.md) in place of these five and FORCE_N
-grasp_given := $(foreach v,MASS_G TURN GRIP LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))# on the command line
-$(foreach v,MASS_G TURN GRIP LIFT_MM LIFT_STEPS GRASP,$(eval override $(v) := $(strip $($(v)))))
+GRASP   ?=#         or a file of your own (docs/grasp.md) in place of all these and FORCE_N
+grasp_given := $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))# on the command line
+$(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS GRASP,$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: grasp
 programs_for_grasp := decimate tetmesh press render report tacipc $(if $(filter-out no,$(WRAP)),wrap)
@@ -28,8 +29,12 @@ useless := $(filter MOTION DEPTH_MM DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG T
 ifneq ($(useless),)
   $(error $(firstword $(useless)): has no effect on a grasp$(if $(filter ROTATE,$(firstword $(useless))), (TURN turns the object about the vertical)))
 endif
+ifneq ($(and $(TURN)$(GRIP),$(filter SEED,$(grasp_given))),)
+  $(error SEED: has no effect where TURN or GRIP say how the object is gripped)
+endif
+# Of a hundred drawn grasps the one nearest to the centre of mass.
 define grasp_yaml
-fingers: {turn_deg: $(TURN), grip_mm: [$(GRIP)]}
+fingers: {$(if $(TURN)$(GRIP),turn_deg: $(or $(TURN),0)$(comma) grip_mm: [$(or $(GRIP),0$(comma)0$(comma)0)],draw: {seed: $(SEED)$(comma) best_of: 100$(comma) upright: true})}
 object: {mass_g: $(MASS_G)}
 motion:
   - {kind: close, force_n: $(or $(FORCE_N),5), steps: 10}
@@ -66,7 +71,7 @@ $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml: $(GRASPE
 $(GRASPED)/report/report.yaml: $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml | build
 	$(call run,report,--title "$(NAME)" --grasp $(GRASPED))
 
-grasp: $(GRASPED)/report/report.yaml ## own: Two sensors grip, hold and lift an object of your own: OBJECT=path.stl [MASS_G=80 FORCE_N=5 FRICTION=0.7 LIFT_MM=10 TURN= GRIP=; GRASP=your.yaml]
+grasp: $(GRASPED)/report/report.yaml ## own: Two sensors grip, hold and lift an object of your own: OBJECT=path.stl [MASS_G=80 FORCE_N=5 FRICTION=0.7 LIFT_MM=10 SEED=1; TURN= GRIP=; GRASP=your.yaml]
 	@$(BIN)/tacipc get $(GRASPED)/press.yaml summary.outcome
 	@echo; echo "Look at $(GRASPED)/report/index.html, $(GRASPED)/report/grasp_strip.png and $(GRASPED)/left/render/frame_*/tactile.png"
 else

@@ -58,6 +58,19 @@ make -s -f Makefile.data export SAMPLE=one/grasp/block OUT=one BUILD="$build_dir
 grasp one GRASP=short.yaml THREADS=1 || fail "a second run failed"
 [ "$before" = "$(find one -name '*.yaml' -printf '%p %T@\n' | sort)" ] || fail "a second run did something"
 
+# Nothing said of how it is gripped: the grasp nearest to its centre of mass of those drawn; another seed, another grasp.
+grasp drawn LIFT_MM=1 LIFT_STEPS=4 FORCE_N=1 MASS_G=10 || { tail -5 said.txt >&2; fail "a drawn grasp failed"; }
+[ "$(value drawn outcome)" = lifted ] || fail "a block gripped near its middle was $(value drawn outcome)"
+awk -v w="$(value drawn pose.width_m)" -v l="$(value drawn pose.lever_m)" 'BEGIN { exit !(w > 0.00799 && w < 0.00801 && l < 3e-4) }' || fail "the drawn grasp is not through the middle"
+grep -q 'where it is 8[0-9.]* mm wide' drawn/grasp/block/report/index.html || fail "the page does not say which grasp was drawn"
+grasp other SEED=2 LIFT_MM=1 LIFT_STEPS=4 FORCE_N=1 MASS_G=10 || fail "another seed failed"
+[ "$(value drawn 'pose.grip_m[0]')" != "$(value other 'pose.grip_m[0]')" ] || fail "another seed drew the same grasp"
+grasp given TURN=0 LIFT_MM=1 LIFT_STEPS=4 FORCE_N=1 MASS_G=10 || fail "a given grasp failed"
+[ "$(value given pose.lever_m)" = 0 ] || fail "TURN=0 does not grip the centre of mass"
+sed 's/fingers: {}/fingers: {draw: {width_mm: [2, 5]}}/' short.yaml > small_hand.yaml
+grasp five GRASP=small_hand.yaml && fail "a hand that opens 5 mm took a block of 8 mm"
+grep -q '4000 wider than 5 mm' said.txt || fail "it is not said why nothing was gripped"
+
 grasp three GRASP=short.yaml FRICTION=0.01 || fail "a grasp that slips failed"
 [ "$(value three outcome)" = dropped ] || fail "a block held by a friction of 0.01 was $(value three outcome)"
 
@@ -69,6 +82,7 @@ wrong() { # wrong MESSAGE VARIABLE=value …
 }
 wrong 'MASS_G: has no effect with GRASP' GRASP=short.yaml MASS_G=5
 wrong 'DEPTH_MM: has no effect on a grasp' DEPTH_MM=1
+wrong 'SEED: has no effect' SEED=2 TURN=30
 wrong 'GRASP: nothing.yaml does not exist' GRASP=nothing.yaml
 sed '0,/close/s/kind: close, force_n: 1/kind: hold/' short.yaml > hold_first.yaml
 wrong 'hold_first.yaml:4:.*fingers close first' GRASP=hold_first.yaml

@@ -80,7 +80,7 @@ class ShardTables {
   std::unique_ptr<Tables> tables_;
 };
 
-constexpr const char* kCounted[] = {"split", "sensor", "object", "motion"};
+constexpr const char* kCounted[] = {"split", "sensor", "object", "motion", "outcome"};
 constexpr const char* kMeasured[] = {
     "n_frames",        "press_force_N",    "tangential_force_N",    "max_indentation_mm",
     "min_distance_mm", "min_volume_ratio", "max_force_balance_rel", "clipped_fraction"};

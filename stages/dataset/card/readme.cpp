@@ -54,6 +54,16 @@ std::string contents_text(const CardContent& c) {
   };
   for (const char* split : {"train", "val", "test"})
     text += fmt::format("| {} | {} | {} |\n", split, of(c.counts.made, split), of(c.counts.not_made, split));
+  if (const auto found = c.counts.made.find("outcome"); found != c.counts.made.end()) {
+    std::string rows;
+    for (const auto& [outcome, count] : found->second)
+      if (!outcome.empty()) rows += fmt::format("| {} | {} |\n", outcome, count);
+    if (!rows.empty())
+      text +=
+          "\nA finger of a grasp is a sample of its own: `grasp` and `finger` say which, and `outcome` what became of "
+          "the object between both.\n\n| Outcome of a grasp | samples |\n|---|---|\n" +
+          rows;
+  }
   text += fmt::format(
       "\nSplits are by object: no object of `test` is in `train`. `splits/pose/` has a second division, by pose alone. "
       "Samples that could not be made ({} failed, {} never tried) are in no shard; `failures.csv` has the reason of "

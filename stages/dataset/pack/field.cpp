@@ -105,6 +105,16 @@ Numbers pose(SampleFrames& sample, std::size_t frame) {
   return {{7}, {at.x(), at.y(), at.z(), q.x(), q.y(), q.z(), q.w()}};
 }
 
+FieldData twist(SampleFrames& sample, std::size_t frame, Vector3 Twist::*part) {
+  if (!sample.arrays().has(PressArray::object_twist)) return Absent{"the object moves as prescribed"};
+  return numbers_of(sample.arrays().twists()[frame].*part);
+}
+
+FieldData of_grasp(SampleFrames& sample, std::size_t frame, const char* key) {
+  if (!sample.grasp()) return Absent{"no grasp"};
+  return scalar(sample.grasp_number(frame, key));
+}
+
 Numbers front_positions(SampleFrames& sample, std::size_t frame) {
   return numbers_of(Positions(sample.arrays().positions(frame)(sample.arrays().front_vertices(), Eigen::all)));
 }
@@ -353,6 +363,21 @@ std::vector<Field> observations() {
        false,
        true,
        {{"quat_order", "xyzw"}}},
+      {kObs, "object_velocity_mm_s", f32, "(T,3)", "mm/s", kS, "along the axes of S",
+       "velocity of the object's centre of mass in the world, for a finger of a grasp too",
+       source_of(PressArray::object_twist), kMmPerM,
+       [](SampleFrames& s, std::size_t f) -> FieldData { return twist(s, f, &Twist::velocity_m_s); }},
+      {kObs, "object_spin_rad_s", f32, "(T,3)", "rad/s", kS, "right-handed, along the axes of S",
+       "angular velocity of the object in the world", source_of(PressArray::object_twist), kSame,
+       [](SampleFrames& s, std::size_t f) -> FieldData { return twist(s, f, &Twist::spin_rad_s); }},
+      {kObs, "slip_mm", f32, "(T)", "mm", kNone, kNone,
+       "displacement of the object's point at the grip, relative to the hand, since the fingers have closed",
+       "press: record of the grasp", kMmPerM,
+       [](SampleFrames& s, std::size_t f) -> FieldData { return of_grasp(s, f, "slip_m"); }},
+      {kObs, "turn_deg", f32, "(T)", "deg", kNone, kNone,
+       "angle by which the object has turned relative to the hand since the fingers have closed",
+       "press: record of the grasp", kDegPerRad,
+       [](SampleFrames& s, std::size_t f) -> FieldData { return of_grasp(s, f, "turn_rad"); }},
       {kObs, "time_s", f64, "(T)", "s", kNone, kNone, "time of the frame, 0 at the first", source_of(PressArray::time),
        kSame, [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.arrays().times()[f]); }},
       {kObs,

@@ -7,6 +7,7 @@
 #include "common/base/log.h"
 #include "common/base/sha256.h"
 #include "common/format/csv.h"
+#include "common/sample/sample_status.h"
 #include "common/sensor/camera_description.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/pack/manifest.h"
@@ -50,9 +51,9 @@ std::vector<ShardSample> find_samples(Stage& stage, const PackConfig& config) {
           "configuration)",
           sample.folder.string(), sample.failure->stage);
     for (const std::string part : {"press", "render"}) {
-      for (const std::string& name : {part + ".yaml", part + ".failed.yaml"})
-        if (const fs::path path = sample.folder / part / name; fs::exists(path))
-          records.emplace_back(planned.id + "/" + name, path);
+      for (const auto& [ending, path] : {std::pair{".yaml", sample.folder / part / (part + ".yaml")},
+                                         {".failed.yaml", stage_file(sample.folder, part, ".failed.yaml")}})
+        if (fs::exists(path)) records.emplace_back(planned.id + "/" + part + ending, path);
     }
     samples.push_back(std::move(sample));
   });

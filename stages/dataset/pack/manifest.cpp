@@ -4,6 +4,7 @@
 
 #include "common/base/packed_units.h"
 #include "common/base/sha256.h"
+#include "common/sample/sample_status.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -23,6 +24,13 @@ std::vector<std::string> planned(const PlannedRow& plan) {
   return fields;
 }
 
+/// Name of the grasp and of the finger; empty where a sample is none.
+std::vector<std::string> planned_grasp(const PlannedRow& plan) {
+  const fs::path folder = plan.folder;
+  if (!is_finger(folder)) return {"", ""};
+  return {folder.parent_path().filename().string(), folder.filename().string()};
+}
+
 std::string number(double value) { return fmt::format("{}", value); }
 
 }  // namespace
@@ -33,7 +41,7 @@ std::vector<std::string> manifest_columns() {
   for (const char* name :
        {"offset", "status", "sensor_id", "n_frames", "press_frames", "press_force_N", "tangential_force_N",
         "max_indentation_mm", "min_distance_mm", "min_volume_ratio", "max_force_balance_rel", "newton_iterations",
-        "clipped_fraction", "press_sha256", "render_sha256"})
+        "clipped_fraction", "press_sha256", "render_sha256", "grasp", "finger", "outcome"})
     columns.emplace_back(name);
   return columns;
 }
@@ -51,6 +59,8 @@ std::vector<std::string> manifest_row(const PlannedRow& plan, const std::string&
         number(render.required_number("clipped_fraction")), sha256_of_file(sample.folder() / "press/press.yaml"),
         sha256_of_file(sample.folder() / "render/render.yaml")})
     row.push_back(field);
+  for (const std::string& field : planned_grasp(plan)) row.push_back(field);
+  row.push_back(sample.grasp() ? sample.grasp()->section("summary").required_text("outcome") : "");
   return row;
 }
 
@@ -58,7 +68,9 @@ std::vector<std::string> manifest_row(const PlannedRow& plan, const Failure& fai
   std::vector<std::string> row = planned(plan);
   row.emplace_back();
   row.emplace_back(failure.made_nothing ? "unmade" : "failed");
-  row.resize(manifest_columns().size());
+  row.resize(manifest_columns().size() - 3);
+  for (const std::string& field : planned_grasp(plan)) row.push_back(field);
+  row.emplace_back();  // outcome
   return row;
 }
 
@@ -67,10 +79,9 @@ std::vector<std::string> failure_columns() {
 }
 
 std::vector<std::string> failure_row(const PlannedRow& plan, const Failure& failure) {
-  return {plan.id,        failure.stage,
-          failure.reason, failure.frame,
-          failure.check,  failure.value,
-          failure.limit,  (fs::path(plan.folder) / failure.stage / (failure.stage + ".log")).generic_string()};
+  return {
+      plan.id,       failure.stage, failure.reason, failure.frame,
+      failure.check, failure.value, failure.limit,  stage_file(plan.folder, failure.stage, ".log").generic_string()};
 }
 
 std::vector<std::string> timing_columns() {
@@ -83,9 +94,8 @@ std::vector<std::string> timing_columns() {
 std::vector<std::string> timing_row(const std::string& id, const fs::path& sample_folder) {
   std::vector<std::string> row{id};
   for (const std::string stage : {"press", "render"}) {
-    const fs::path path = sample_folder / stage / (stage + ".timings.yaml");
     std::optional<Record> record;
-    if (fs::exists(path)) record = Record::from_file(path);
+    if (const auto path = timings_file(sample_folder, stage)) record = Record::from_file(*path);
     for (const char* key : {"threads", "wall_s", "processor_s", "peak_memory_mb"})
       row.push_back(record ? record->text(key).value_or("") : "");
   }

@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/mesh/tet_mesh.h"
+#include "common/sample/sample_status.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
@@ -35,6 +36,13 @@ SampleFrames::SampleFrames(fs::path folder)
       render_(Record::from_file(folder_ / "render/render.yaml")),
       per_frame_(press_.section("summary").sections("per_frame")),
       arrays_(folder_ / "press", {{kFrames, per_frame_.size()}}) {
+  if (is_finger(folder_)) {
+    grasp_ = Record::from_file(stage_file(folder_, "press", ".yaml"));
+    grasp_per_frame_ = grasp_->section("summary").sections("per_frame");
+    if (grasp_per_frame_.size() != per_frame_.size())
+      throw DataError("{}: the grasp has {} frames, its finger {}", folder_.string(), grasp_per_frame_.size(),
+                      per_frame_.size());
+  }
   const Record press_inputs = press_.section("inputs"), render_inputs = render_.section("inputs");
   // What shows and what is measured must be of the same press.
   if (render_inputs.section("press").required_text("hash") != content_hash(folder_ / "press"))
@@ -95,6 +103,10 @@ FieldData SampleFrames::marker_px(std::size_t frame, const std::string& reason) 
   if (!path) return Absent{reason};
   const MarkerPixels px = read_marker_px(*path);
   return Numbers{{static_cast<std::size_t>(px.rows()), 2}, {px.data(), px.data() + px.size()}};
+}
+
+double SampleFrames::grasp_number(std::size_t frame, const std::string& key) const {
+  return grasp_per_frame_[frame].required_number(key);
 }
 
 double SampleFrames::press_number(std::size_t frame, const std::string& key) const {

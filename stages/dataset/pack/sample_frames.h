@@ -58,6 +58,10 @@ class SampleFrames {
   FieldData marker_px(std::size_t frame, const std::string& reason);
   /// The arrays of the press.
   const PressFolder& arrays() const { return arrays_; }
+  /// The record of the grasp that the sample is a finger of.
+  const std::optional<Record>& grasp() const { return grasp_; }
+  /// A number of the frame in that record. \pre grasp()
+  double grasp_number(std::size_t frame, const std::string& key) const;
   /// A number of the frame in the press's record.
   double press_number(std::size_t frame, const std::string& key) const;
   /// Triangles of the front over its vertices.
@@ -71,6 +75,8 @@ class SampleFrames {
   Record render_;
   std::map<std::string, std::string> picture_hashes_;
   std::vector<Record> per_frame_;
+  std::optional<Record> grasp_;
+  std::vector<Record> grasp_per_frame_;
   PressFolder arrays_;
   std::vector<std::size_t> frames_;
   std::vector<std::string> variants_;

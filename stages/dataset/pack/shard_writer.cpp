@@ -70,6 +70,21 @@ Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_i
       {"press_yaml", sample.config_text("press", "config")},
       {"render_yaml", sample.config_text("render", "config")}};
   if (sample.press().section("inputs").has("path")) lines.emplace_back("path_csv", sample.config_text("press", "path"));
+  if (sample.grasp()) {
+    const Record grasp = sample.grasp()->section("summary"), pose = grasp.section("pose");
+    const std::filesystem::path folder = plan.folder;
+    lines.insert(lines.end(), {{"grasp", folder.parent_path().filename().string()},
+                               {"finger", folder.filename().string()},
+                               {"outcome", grasp.required_text("outcome")},
+                               {"judged_frame", grasp.required_count("judged_frame")},
+                               {"end_slip_mm", kMmPerM * grasp.required_number("slip_m")},
+                               {"end_turn_deg", grasp.required_number("turn_rad") * kDegPerRad},
+                               {"object_mass_g", 1e3 * grasp.required_number("object_mass_kg")},
+                               {"grip_N", grasp.required_number("grip_n")},
+                               {"lever_mm", kMmPerM * pose.required_number("lever_m")}});
+    if (const auto margin = grasp.number("friction_margin")) lines.emplace_back("friction_margin", *margin);
+    if (const auto width = pose.number("width_m")) lines.emplace_back("width_mm", kMmPerM * *width);
+  }
   for (const std::string& name : limits.keys()) lines.emplace_back("limit_" + name, limits.required_number(name));
   return lines;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/base/files.h"
+#include "common/sample/motion.h"
 #include "common/sample/placement.h"
 
 namespace tacipc {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int kMaxSteps = 100000;
 const std::vector<std::string> kKinds{"press", "shear", "twist", "tilt", "hold", "release", "load", "free", "path"};
+const std::vector<std::string> kGraspKinds{"close", "lift", "shake", "hold", "release"};
 
 /// Six digits: finer than any of these lengths and angles can be set, and short to read.
 std::string number_text(double value) { return fmt::format("{:.6g}", value); }
@@ -100,6 +102,55 @@ PhaseTemplate PhaseTemplate::read(ConfigReader& in) {
   return phase;
 }
 
+PhaseTemplate PhaseTemplate::read_of_grasp(ConfigReader& in) {
+  PhaseTemplate phase;
+  phase.kind = in.choice("kind", kGraspKinds);
+  const auto take = [&](const std::string& key) {
+    phase.numbers.push_back({key, Draw::read(in, key, Range::positive())});
+  };
+  if (phase.kind == "close") take("force_n");
+  if (phase.kind == "lift" || phase.kind == "release") take("distance_mm");
+  if (phase.kind == "shake") {
+    take("amplitude_mm"), take("frequency_hz");
+    phase.words.push_back({"axis", in.choice_or("axis", "z", {"y", "z"})});
+  }
+  phase.frames = in.integer("steps", 1, kMaxSteps);
+  phase.words.push_back({"steps", std::to_string(phase.frames)});
+  phase.words.push_back({"substeps", std::to_string(in.integer_or("substeps", 1, 1, 1000))});
+  return phase;
+}
+
+FingersTemplate FingersTemplate::read(ConfigReader& fingers, ConfigReader& object) {
+  FingersTemplate grasp;
+  if (auto draw = fingers.optional_section("draw")) {
+    grasp.draw = GraspDraw::read_limits(*draw);
+    for (const char* key : {"rotation_xyzw", "turn_deg", "grip_mm"})
+      if (fingers.has(key)) fingers.fault(key, "is drawn: give it or draw, not both"), fingers.ignore(key);
+  } else {
+    const Eigen::Quaterniond q = read_rotation(fingers);
+    grasp.words.push_back({"rotation_xyzw", fmt::format("[{}, {}, {}, {}]", q.x(), q.y(), q.z(), q.w())});
+    grasp.numbers.push_back({"turn_deg", Draw::read_or(fingers, "turn_deg", 0.0, kAnyTurn)});
+    if (fingers.has("grip_mm") && !fingers.is_list("grip_mm")) {
+      ConfigReader grip = fingers.section("grip_mm");
+      for (const char* axis : {"x", "y", "z"})
+        grasp.grip_mm.push_back({axis, Draw::read_or(grip, axis, 0.0, Range::any())});
+    } else {
+      for (const double at : fingers.numbers_or("grip_mm", {0.0, 0.0, 0.0})) grasp.grip_mm.push_back({"", {at, at}});
+    }
+  }
+  const auto gravity = fingers.numbers_or("gravity_m_s2", {0.0, 0.0, -9.81});
+  grasp.words.push_back({"gravity_m_s2", fmt::format("[{}, {}, {}]", gravity[0], gravity[1], gravity[2])});
+  grasp.numbers.push_back(
+      {"closing_speed_mm_s", Draw::read_or(fingers, "closing_speed_mm_s", 20.0, Range::positive())});
+  const bool mass = object.has("mass_g"), margin = object.has("friction_margin");
+  if (mass + margin + object.has("density_kg_m3") > 1)
+    object.fault("", "give one of mass_g, friction_margin, density_kg_m3");
+  grasp.weight.key = mass ? "mass_g" : margin ? "friction_margin" : "density_kg_m3";
+  grasp.weight.draw = Draw::read(object, grasp.weight.key, Range::positive());
+  grasp.weight.draw.log_uniform = margin;
+  return grasp;
+}
+
 const Draw* PhaseTemplate::number(const std::string& key) const {
   const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const Number& n) { return n.key == key; });
   return found == numbers.end() ? nullptr : &found->draw;
@@ -107,6 +158,18 @@ const Draw* PhaseTemplate::number(const std::string& key) const {
 
 MotionTemplate MotionTemplate::read(ConfigReader& in) {
   MotionTemplate motion;
+  if (auto fingers = in.optional_section("fingers")) {
+    if (in.has("placement"))
+      in.fault("placement", "fingers hold the object: there is no placement"), in.ignore("placement");
+    ConfigReader object = in.section("object");
+    motion.fingers = FingersTemplate::read(*fingers, object);
+    for (ConfigReader& phase : in.one_or_more_sections("motion")) {
+      motion.phases.push_back(PhaseTemplate::read_of_grasp(phase));
+      if (motion.phases.size() == 1 && motion.phases[0].kind != "close")
+        phase.fault("kind", "fingers close first: nothing is held before");
+    }
+    return motion;
+  }
   if (auto placement = in.optional_section("placement")) {
     if (placement->has("face")) motion.face = placement->choice("face", face_names());
     motion.rotate_deg = Draw::read_or(*placement, "rotate_deg", 0.0, Range::any());
@@ -134,6 +197,11 @@ MotionTemplate MotionTemplate::read(ConfigReader& in) {
 
 int MotionTemplate::dimensions() const {
   int count = center_x_mm.ranged() + center_y_mm.ranged() + rotate_deg.ranged();
+  if (fingers) {
+    for (const auto* numbers : {&fingers->grip_mm, &fingers->numbers})
+      for (const auto& number : *numbers) count += number.draw.ranged();
+    count += fingers->weight.draw.ranged();
+  }
   for (const PhaseTemplate& phase : phases)
     for (const auto& number : phase.numbers) count += number.draw.ranged();
   return count;
@@ -153,11 +221,30 @@ double MotionTemplate::max_depth_mm() const {
 }
 
 std::string MotionTemplate::sample_yaml(const std::function<double(int)>& u,
-                                        const std::function<std::string(int)>& path_name) const {
+                                        const std::function<std::string(int)>& path_name,
+                                        std::uint64_t draw_seed) const {
   int dimension = 0;
   const auto value = [&](const Draw& draw) { return number_text(draw.ranged() ? draw.at(u(dimension++)) : draw.low); };
-  const std::string x = value(center_x_mm), y = value(center_y_mm);
-  std::string text = fmt::format("placement:\n  center_mm: [{}, {}]\n  rotate_deg: {}\n", x, y, value(rotate_deg));
+  std::string text;
+  if (fingers) {
+    text = "fingers:\n";
+    if (const auto& draw = fingers->draw)
+      text += fmt::format(
+          "  draw: {{seed: {}, best_of: {}, upright: {}, width_mm: [{}, {}], patch_mm: {}, depth_mm: {}}}\n", draw_seed,
+          draw->best_of, draw->upright, number_text(1e3 * draw->least_width_m), number_text(1e3 * draw->most_width_m),
+          number_text(1e3 * draw->patch_m), number_text(1e3 * draw->depth_m));
+    if (!fingers->grip_mm.empty()) {
+      text += "  grip_mm: [";
+      for (std::size_t i = 0; i < 3; ++i) text += (i > 0 ? ", " : "") + value(fingers->grip_mm[i].draw);
+      text += "]\n";
+    }
+    for (const auto& number : fingers->numbers) text += fmt::format("  {}: {}\n", number.key, value(number.draw));
+    for (const auto& word : fingers->words) text += fmt::format("  {}: {}\n", word.key, word.text);
+    text += fmt::format("object: {{{}: {}}}\n", fingers->weight.key, value(fingers->weight.draw));
+  } else {
+    const std::string x = value(center_x_mm), y = value(center_y_mm);
+    text = fmt::format("placement:\n  center_mm: [{}, {}]\n  rotate_deg: {}\n", x, y, value(rotate_deg));
+  }
   if (face) text += fmt::format("  face: \"{}\"\n", *face);
   if (object_density_kg_m3) text += fmt::format("object: {{density_kg_m3: {}}}\n", number_text(*object_density_kg_m3));
   text += "motion:\n";

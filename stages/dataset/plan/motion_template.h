@@ -1,6 +1,8 @@
 // Motions with ranges: what `press` takes as --sample, a number or [low, high] in each place that may vary.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/sample/antipodal_grasp.h"
 
 namespace tacipc {
 
@@ -15,10 +18,11 @@ namespace tacipc {
 struct Draw {
   double low = 0.0;
   double high = 0.0;
+  bool log_uniform = false;
 
   bool ranged() const { return low < high; }
-  /// The value at u in [0, 1): low + u (high − low).
-  double at(double u) const { return low + u * (high - low); }
+  /// The value at u in [0, 1): low + u (high − low), or low (high / low)^u.
+  double at(double u) const { return log_uniform ? low * std::pow(high / low, u) : low + u * (high - low); }
   static Draw read(ConfigReader& in, const std::string& key, const Range& range);
   static Draw read_or(ConfigReader& in, const std::string& key, double fallback, const Range& range);
 };
@@ -39,7 +43,20 @@ struct PhaseTemplate {
   std::filesystem::path path_file;  // of kind path
 
   static PhaseTemplate read(ConfigReader& in);
+  /// Of a grasp.
+  static PhaseTemplate read_of_grasp(ConfigReader& in);
   const Draw* number(const std::string& key) const;
+};
+
+/// The keys `fingers` and `object` of a grasp, which take the place of a placement.
+struct FingersTemplate {
+  std::optional<GraspDraw> draw;               // each sample has a seed of its own; or
+  std::vector<PhaseTemplate::Number> grip_mm;  // x, y, z
+  std::vector<PhaseTemplate::Number> numbers;
+  std::vector<PhaseTemplate::Word> words;
+  PhaseTemplate::Number weight;  // mass_g, friction_margin (log-uniform) or density_kg_m3 of the object
+
+  static FingersTemplate read(ConfigReader& fingers, ConfigReader& object);
 };
 
 /// Placement and phases, as press reads them. Each ranged number is one dimension, in the order of `draws`.
@@ -47,9 +64,10 @@ struct MotionTemplate {
   Draw center_x_mm, center_y_mm, rotate_deg;
   std::optional<std::string> face = std::nullopt;
   std::optional<double> object_density_kg_m3 = std::nullopt;
+  std::optional<FingersTemplate> fingers = std::nullopt;  // a grasp: a sample of each of its two fingers
   std::vector<PhaseTemplate> phases = {};
 
-  /// The keys `placement`, `object` and `motion` of a map.
+  /// The keys `placement` or `fingers`, `object` and `motion` of a map.
   static MotionTemplate read(ConfigReader& in);
   /// Numbers that samples draw.
   int dimensions() const;
@@ -58,8 +76,9 @@ struct MotionTemplate {
   /// Lowest place of the object below the undeformed front that a press to a depth may ask for, mm; 0 without one.
   double max_depth_mm() const;
   /// The sample that has u(d) in [0, 1) along dimension d, as YAML for press. `path_name(p)` is the file of phase p as
-  /// seen from the sample's folder.
-  std::string sample_yaml(const std::function<double(int)>& u, const std::function<std::string(int)>& path_name) const;
+  /// seen from the sample's folder, `draw_seed` that of a drawn grasp.
+  std::string sample_yaml(const std::function<double(int)>& u, const std::function<std::string(int)>& path_name,
+                          std::uint64_t draw_seed) const;
 };
 
 }  // namespace tacipc

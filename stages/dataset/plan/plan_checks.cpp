@@ -24,7 +24,7 @@ std::vector<std::string> faults_of_plan(const DatasetConfig& config, const std::
   std::vector<std::string> faults;
   long long of_an_object = 0;
   for (const MotionChoice& choice : config.motions) {
-    of_an_object += choice.samples;
+    of_an_object += (choice.motion.fingers ? 2 : 1) * static_cast<long long>(choice.samples);
     const int ranges = choice.motion.dimensions();
     if (config.low_discrepancy && ranges > kSobolDimensions)
       faults.push_back(fmt::format("{}: motion {}: {} ranges; sampling: low_discrepancy has at most {}", file,

@@ -21,9 +21,8 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// `samples/017/<id>` → `017`, and `017/<id>`.
-std::string block_of(const PlannedSample& sample) { return sample.folder().substr(8, 3); }
-std::string place_of(const PlannedSample& sample) { return sample.folder().substr(8); }
+/// What follows `samples/`.
+std::string place_of(const std::string& folder) { return folder.substr(8); }
 
 /// Files that render reads for a gel, but its settings.
 std::string files_of_render(const std::vector<Choice>& choices, const SensorChoice& sensor) {
@@ -97,6 +96,13 @@ std::string paths_of(const MotionChoice& motion) {
   return text;
 }
 
+/// Seeds of the renders of a sample, or of both fingers of the grasp that it belongs to.
+std::string seeds_of(const std::vector<PlannedSample>& samples, const PlannedSample& sample) {
+  if (!sample.finger) return std::to_string(sample.seed);
+  const auto left = static_cast<std::size_t>(sample.index - *sample.finger);
+  return fmt::format("{} {}", samples[left].seed, samples[left + 1].seed);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig& config,
@@ -107,15 +113,18 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
   std::vector<std::string> blocks;
   std::set<std::string> shards;
   for (const PlannedSample& sample : samples) {
-    const std::string block = block_of(sample);
+    const std::string block = fmt::format("{:03}", sample.index / kSamplesOfAFolder);
     if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
     const MotionChoice& motion = config.motions[static_cast<std::size_t>(sample.motion)];
-    rules[block] += fmt::format("$(eval $(call dataset_sample,{},{},{},{},{},{},{}))\n", place_of(sample),
-                                config.objects[static_cast<std::size_t>(sample.object)].name,
-                                config.sensors[static_cast<std::size_t>(sample.sensor)].gel(),
-                                motion.press.generic_string(), paths_of(motion), sample.seed, motion.name);
+    // One rule makes both fingers of a grasp; make may be given the block of the right one alone.
+    if (sample.finger.value_or(0) == 0 || rules[block].empty())
+      rules[block] +=
+          fmt::format("$(eval $(call dataset_{},{},{},{},{},{},{},{}))\n", sample.finger ? "grasp" : "sample",
+                      place_of(sample.press_folder()), config.objects[static_cast<std::size_t>(sample.object)].name,
+                      config.sensors[static_cast<std::size_t>(sample.sensor)].gel(), motion.press.generic_string(),
+                      paths_of(motion), seeds_of(samples, sample), motion.name);
     shards.insert(sample.shard);
-    members[block].append(" ").append(place_of(sample));
+    members[block].append(" ").append(place_of(sample.folder()));
   }
   for (const std::string& block : blocks)
     files.emplace_back("blocks/" + block + ".mk",
@@ -141,7 +150,8 @@ int write_dataset_files(const DatasetConfig& config, const std::vector<Choice>& 
     replace_if_changed(dataset / "objects" / object.name / "object.yaml", object.spec.yaml());
   int written = 0;
   for (const PlannedSample& sample : samples)
-    written += replace_if_changed(dataset / sample.folder() / "sample.yaml", sample_yaml(config, sample));
+    if (sample.finger.value_or(0) == 0)
+      written += replace_if_changed(dataset / sample.press_folder() / "sample.yaml", sample_yaml(config, sample));
   return written;
 }
 

@@ -14,7 +14,6 @@ namespace tacipc {
 namespace {
 
 constexpr double kGoldenRatio = 0.6180339887498949;
-constexpr int kSamplesOfAFolder = 1000;
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -79,7 +78,13 @@ void assign_shards(std::vector<PlannedSample>& samples, double shard_bytes,
 
 const char* name_of(Split split) { return split == Split::train ? "train" : split == Split::val ? "val" : "test"; }
 
-std::string PlannedSample::folder() const { return fmt::format("samples/{:03}/{}", index / kSamplesOfAFolder, id); }
+std::string PlannedSample::press_folder() const {
+  return fmt::format("samples/{:03}/{}", (index - finger.value_or(0)) / kSamplesOfAFolder, finger ? grasp : id);
+}
+
+std::string PlannedSample::folder() const {
+  return press_folder() + (!finger ? "" : *finger == 0 ? "/left" : "/right");
+}
 
 std::vector<PlannedSample> plan_samples(const DatasetConfig& config,
                                         const std::vector<std::vector<double>>& packed_bytes) {
@@ -92,18 +97,25 @@ std::vector<PlannedSample> plan_samples(const DatasetConfig& config,
       for (std::size_t o = 0; o < config.objects.size(); ++o)
         for (std::size_t m = 0; m < config.motions.size(); ++m) {
           if (config.motions[m].samples <= r) continue;
-          PlannedSample sample{.id = "",
-                               .index = static_cast<int>(samples.size()),
-                               .sensor = static_cast<int>(s),
-                               .object = static_cast<int>(o),
-                               .motion = static_cast<int>(m),
-                               .repetition = r};
-          sample.id = fmt::format("{}__{}__{}__{:06}", config.sensors[s].name, config.objects[o].name,
-                                  config.motions[m].name, sample.index);
-          sample.seed = seed_of(static_cast<std::uint64_t>(config.seed), sample.id);
-          sample.split = splits[o];
-          sample.split_pose = pose_split(config, sample.motion, r);
-          samples.push_back(std::move(sample));
+          const bool grasp = config.motions[m].motion.fingers.has_value();
+          for (int side = 0; side < (grasp ? 2 : 1); ++side) {
+            PlannedSample sample{.id = "",
+                                 .index = static_cast<int>(samples.size()),
+                                 .sensor = static_cast<int>(s),
+                                 .object = static_cast<int>(o),
+                                 .motion = static_cast<int>(m),
+                                 .repetition = r};
+            sample.id = fmt::format("{}__{}__{}__{:06}", config.sensors[s].name, config.objects[o].name,
+                                    config.motions[m].name, sample.index);
+            if (grasp) {
+              sample.finger = side;
+              sample.grasp = side == 0 ? sample.id : samples.back().id;
+            }
+            sample.seed = seed_of(static_cast<std::uint64_t>(config.seed), sample.id);
+            sample.split = splits[o];
+            sample.split_pose = pose_split(config, sample.motion, r);
+            samples.push_back(std::move(sample));
+          }
         }
   assign_shards(samples, config.shard_bytes, packed_bytes);
   return samples;
@@ -119,6 +131,13 @@ double drawn_number(const DatasetConfig& config, const PlannedSample& sample, in
                   random_uniform(seed, hash_of("plan"), d));
 }
 
+std::uint64_t draw_seed(const DatasetConfig& config, const PlannedSample& sample) {
+  if (!config.low_discrepancy) return sample.seed;
+  return seed_of(static_cast<std::uint64_t>(config.seed),
+                 fmt::format("grasp {}__{}__{}", config.objects[static_cast<std::size_t>(sample.object)].name,
+                             config.motions[static_cast<std::size_t>(sample.motion)].name, sample.repetition));
+}
+
 std::string path_name(const DatasetConfig& config, int motion, int phase) {
   return fmt::format("paths/{}_{}.csv", config.motions[static_cast<std::size_t>(motion)].name, phase);
 }
@@ -129,7 +148,8 @@ std::string sample_yaml(const DatasetConfig& config, const PlannedSample& sample
   return fmt::format("# {} in gel {}, seed {}\n", sample.id,
                      config.sensors[static_cast<std::size_t>(sample.sensor)].gel(), sample.seed) +
          motion.sample_yaml([&](int d) { return drawn_number(config, sample, d); },
-                            [&](int phase) { return "../../../plan/" + path_name(config, sample.motion, phase); });
+                            [&](int phase) { return "../../../plan/" + path_name(config, sample.motion, phase); },
+                            draw_seed(config, sample));
 }
 
 std::string samples_csv(const DatasetConfig& config, const std::vector<PlannedSample>& samples) {

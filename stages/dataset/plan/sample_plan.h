@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,16 +16,23 @@ const char* name_of(Split split);
 struct PlannedSample {
   std::string id;  // <sensor>__<object>__<motion>__<index>
   int index = 0;
-  int sensor = 0, object = 0, motion = 0;  // of the configuration's lists
-  int repetition = 0;                      // how many of the same sensor, object and motion there are before it
-  std::uint64_t seed = 0;                  // hash of the dataset's seed and the id
-  Split split = Split::train;              // by object: none of a split's objects is in another
-  Split split_pose = Split::train;         // by pose: a motion's n-th sample has the same for all objects and sensors
-  std::string shard = {};                  // <split>-00000-of-00001
+  std::optional<int> finger = std::nullopt;  // of a grasp, whose two follow each other: 0 left, 1 right
+  std::string grasp = {};                    // its name, the id of its left finger
+  int sensor = 0, object = 0, motion = 0;    // of the configuration's lists
+  int repetition = 0;                        // how many of the same sensor, object and motion there are before it
+  std::uint64_t seed = 0;                    // hash of the dataset's seed and the id
+  Split split = Split::train;                // by object: none of a split's objects is in another
+  Split split_pose = Split::train;           // by pose: a motion's n-th sample has the same for all objects and sensors
+  std::string shard = {};                    // <split>-00000-of-00001
 
-  /// Where it lies in the dataset: at most a thousand beside each other.
+  /// Where it lies in the dataset: at most a thousand beside each other. The fingers of a grasp lie in its folder.
   std::string folder() const;
+  /// Folder of sample.yaml: that of the sample, or of the grasp that it is a finger of.
+  std::string press_folder() const;
 };
+
+/// Of the folders below samples/, and of the blocks in which make reads the plan.
+constexpr int kSamplesOfAFolder = 1000;
 
 /// Packed bytes of one rendered frame per pixel: 2.2 MB for 640 × 480 with the profile `full` (docs/pack.md).
 constexpr double kPackedBytesPerPixel = 7.2;
@@ -39,6 +47,9 @@ std::vector<PlannedSample> plan_samples(const DatasetConfig& config,
 /// shifted by a number of object and motion alone (modulo 1), so that all sensors see the same poses and the samples of
 /// an object fill the ranges evenly. Else a random number of the sample's own. [Cranley and Patterson 1976]
 double drawn_number(const DatasetConfig& config, const PlannedSample& sample, int dimension);
+
+/// Seed of a drawn grasp: like drawn_number(), the same for all sensors, or the sample's own.
+std::uint64_t draw_seed(const DatasetConfig& config, const PlannedSample& sample);
 
 /// What press reads as --sample. `plan_folder` is the plan's as seen from the sample's.
 std::string sample_yaml(const DatasetConfig& config, const PlannedSample& sample);

@@ -73,11 +73,17 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
   if (!std::filesystem::is_regular_file(file)) throw DataError("{}: has no press.yaml", folder.string());
   const Record summary = Record::from_file(file).section("summary");
   if (!summary.has("outcome")) throw DataError("{}: is the record of a press, not of a grasp", file.string());
+  const Record pose = summary.section("pose");
+  const auto grip = pose.numbers("grip_m", 3);
+  if (!grip) throw DataError("{}: summary.pose.grip_m is missing", file.string());
   GraspReport grasp{.outcome = summary.required_text("outcome"),
                     .mass_kg = summary.required_number("object_mass_kg"),
                     .grip_n = summary.required_number("grip_n"),
                     .friction_margin = summary.number("friction_margin"),
                     .judged_frame = static_cast<std::size_t>(summary.required_count("judged_frame")),
+                    .grip_m = Eigen::Map<const Vector3>(grip->data()),
+                    .lever_m = pose.required_number("lever_m"),
+                    .width_m = pose.number("width_m"),
                     .moments = {}};
   for (const Record& frame : summary.sections("per_frame")) {
     grasp.moments.push_back({.time_s = frame.required_number("time_s"),
@@ -127,6 +133,9 @@ PageWords grasp_words(const GraspReport& grasp) {
                                                number_text(grasp.friction_margin))
                                  : "";
   const GraspMoment& judged = grasp.moments[grasp.judged_frame];
+  const Vector3 grip_mm = 1e3 * grasp.grip_m;
+  const std::string width =
+      grasp.width_m ? fmt::format(", where it is {} mm wide", number_text(1e3 * *grasp.width_m)) : "";
   return {
       .intro = "Simulated touch: two camera-based tactile sensors grip one object between their soft gels.",
       .thing = "finger",
@@ -134,14 +143,17 @@ PageWords grasp_words(const GraspReport& grasp) {
       .first =
           fmt::format(
               "<section id=\"{}\">\n<h2>Grasp: {}</h2>\n"
-              "<p>{} g gripped with {} N.{} When judged (frame {}), the object had slipped {} mm and turned {}° "
-              "relative "
-              "to the hand.{}</p>\n"
+              "<p>{} g gripped with {} N at ({}, {}, {}) mm from its centre of mass, in its own axes{}; the lever of "
+              "the "
+              "centre of mass about the line of the grip is {} mm.{} When judged (frame {}), the object had slipped {} "
+              "mm and turned {}° relative to the hand.{}</p>\n"
               "<figure class=\"strip\"><a href=\"{}\"><img src=\"{}\" alt=\"tactile images of the fingers, one above "
               "the other, over time\"></a></figure>\n<div class=\"pictures\">\n",
-              kGraspId, html_text(grasp.outcome), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n), margin,
-              grasp.judged_frame, number_text(1e3 * judged.slip_m), number_text(judged.turn_rad / kDegree),
-              grasp.has_view ? " " + view_link(kGraspId) + "." : "", kGraspStrip, kGraspStrip) +
+              kGraspId, html_text(grasp.outcome), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n),
+              number_text(grip_mm.x()), number_text(grip_mm.y()), number_text(grip_mm.z()), width,
+              number_text(1e3 * grasp.lever_m), margin, grasp.judged_frame, number_text(1e3 * judged.slip_m),
+              number_text(judged.turn_rad / kDegree), grasp.has_view ? " " + view_link(kGraspId) + "." : "",
+              kGraspStrip, kGraspStrip) +
           force_figure(grasp.moments) + slip_figure(grasp) + "</div>\n</section>\n"};
 }
 

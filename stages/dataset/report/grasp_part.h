@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/types.h"
 #include "common/image/image.h"
 #include "stages/dataset/report/page.h"
 #include "stages/dataset/report/view/scene_view.h"
@@ -26,6 +27,9 @@ struct GraspReport {
   double mass_kg = 0.0, grip_n = 0.0;
   std::optional<double> friction_margin;  // nothing where the object has no weight
   std::size_t judged_frame = 0;           // that the outcome is of
+  Vector3 grip_m = Vector3::Zero();       // from the centre of mass to where it is gripped, in the object's axes
+  double lever_m = 0.0;                   // of the centre of mass about the line on which the fingers press
+  std::optional<double> width_m;          // of a drawn grasp
   std::vector<GraspMoment> moments;
   bool has_view = false;  // in 3-D, beside the page
 };

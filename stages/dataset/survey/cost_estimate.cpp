@@ -12,6 +12,7 @@
 #include "common/base/error.h"
 #include "common/sample/dataset_plan.h"
 #include "common/sample/sample_spec.h"
+#include "common/sample/sample_status.h"
 #include "common/sensor/averaged_volume.h"
 #include "common/stage/record.h"
 #include "common/stage/stage_timings.h"
@@ -41,8 +42,15 @@ GelSize size_of(const Record& tetmesh) {
           .poissons_ratio = sensor.section("material").required_number("poissons_ratio")};
 }
 
-MotionLength length_of(const SampleSpec& sample) {
+MotionLength length_of(const fs::path& sample_folder) {
+  const fs::path file = (is_finger(sample_folder) ? sample_folder.parent_path() : sample_folder) / "sample.yaml";
   MotionLength length;
+  if (is_finger(sample_folder)) {
+    ConfigReader grasp = ConfigReader::from_file(file);
+    for (ConfigReader& phase : grasp.sections("motion")) length.other_frames += phase.integer("steps", 1);
+    return length;
+  }
+  const auto sample = read_config<SampleSpec>(file);
   for (const Phase& phase : sample.motion)
     (phase.kind == PhaseKind::press ? length.press_frames : length.other_frames) += phase.steps;
   return length;
@@ -57,8 +65,9 @@ bool renders_all_frames(const fs::path& dataset) {
 
 std::optional<double> processor_seconds(const fs::path& sample) {
   std::optional<double> seconds;
-  for (const char* file : {"press/press.timings.yaml", "render/render.timings.yaml"})
-    if (fs::exists(sample / file)) seconds = seconds.value_or(0.0) + read_timings(sample / file).processor_s;
+  for (const char* stage : {"press", "render"})
+    if (const auto file = timings_file(sample, stage))
+      seconds = seconds.value_or(0.0) + read_timings(*file).processor_s;
   return seconds;
 }
 
@@ -125,8 +134,7 @@ CostEstimate estimate_cost(const fs::path& dataset, const CostModel& model) {
   for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
     const std::string gel = row.sensor + "-" + row.mesh;
     if (!gels.contains(gel)) gels[gel] = size_of(Record::from_file(dataset / "gels" / gel / "tetmesh.yaml"));
-    if (!motions.contains(row.motion))
-      motions[row.motion] = length_of(read_config<SampleSpec>(dataset / row.folder / "sample.yaml"));
+    if (!motions.contains(row.motion)) motions[row.motion] = length_of(dataset / row.folder);
     Group& group = groups[{gel, row.motion}];
     if (group.planned++ == 0) {
       group.modelled_seconds = modelled_seconds(model, gels[gel], motions[row.motion], all_frames);

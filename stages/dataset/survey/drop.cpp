@@ -87,7 +87,7 @@ Dropped drop_packed(const fs::path& dataset, const std::vector<std::string>& sta
     const fs::path press = folder / "press/press.yaml", render = folder / "render/render.yaml";
     const auto is_open = [&](const std::string& stage) { return !was_dropped(folder / stage); };
     if (std::none_of(stages.begin(), stages.end(), is_open) || !fs::exists(press) || !fs::exists(render)) return;
-    const MakingLock press_lock(folder / "press"), render_lock(folder / "render");
+    const MakingLock press_lock(stage_folder(folder, "press")), render_lock(folder / "render");
     if (!press_lock.held() || !render_lock.held() || !fs::exists(press) || !fs::exists(render) ||
         sha256_of_file(press) != found->second.press_sha256 || sha256_of_file(render) != found->second.render_sha256) {
       ++dropped.samples;

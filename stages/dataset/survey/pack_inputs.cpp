@@ -12,6 +12,7 @@
 #include "common/base/sha256.h"
 #include "common/config/config_text.h"
 #include "common/sample/dataset_plan.h"
+#include "common/sample/sample_status.h"
 #include "common/stage/record.h"
 #include "stages/dataset/survey/plan_lock.h"
 
@@ -66,9 +67,10 @@ void write_pack_inputs(const fs::path& dataset, const fs::path& profile) {
     }
     std::string line = plan_line(row);
     line.pop_back();
-    for (const char* record :
-         {"press/press.yaml", "press/press.failed.yaml", "render/render.yaml", "render/render.failed.yaml"})
-      line.append(" ").append(time_text(dataset / row.folder / record));
+    const fs::path folder = dataset / row.folder;
+    for (const std::string stage : {"press", "render"})
+      for (const fs::path& record : {folder / stage / (stage + ".yaml"), stage_file(folder, stage, ".failed.yaml")})
+        line.append(" ").append(time_text(record));
     text += line + "\n";
   });
   if (inputs.empty()) throw DataError("{} has no samples", table.string());

@@ -93,15 +93,16 @@ class Hand {
   /// Turns the object, hangs its grip point at the origin and puts the fingers beside it.
   void place_all() {
     const MassProperties mass = mass_properties(object_.positions, object_.triangles);
-    const double density = spec_.mass_kg ? *spec_.mass_kg / mass.volume_m3 : spec_.density_kg_m3;
-    body_ = make_affine_body(object_.positions, object_.triangles, density);
+    const double friction = config_.friction ? config_.friction->coefficient : 0.0;
+    body_ = make_affine_body(object_.positions, object_.triangles, spec_.density_of(mass.volume_m3, friction));
     out_.mass_kg = body_->mass_kg;
     out_.weight_n = body_->mass_kg * spec_.gravity_m_s2.norm();
     out_.center_of_mass_m = mass.center_m;
-    const Matrix3 turn = Eigen::AngleAxisd(spec_.turn_rad, Vector3::UnitZ()).toRotationMatrix();
+    out_.pose = spec_.pose_of(object_, mass, sensor_.gel, friction);
+    const Matrix3& turn = out_.pose.world_from_object;
     world_from_object_.setIdentity();
     world_from_object_.topLeftCorner<3, 3>() = turn;
-    world_from_object_.topRightCorner<3, 1>() = -turn * (mass.center_m + spec_.grip_m);
+    world_from_object_.topRightCorner<3, 1>() = -turn * (mass.center_m + out_.pose.grip_m);
     const Positions at = transformed(world_from_object_, object_.positions);
     // How far the object reaches towards each finger within what the finger can touch.
     const Eigen::RowVector3d low = gel_.positions.colwise().minCoeff(), high = gel_.positions.colwise().maxCoeff();
@@ -356,7 +357,7 @@ class Hand {
 
   /// The object's point at the grip, in the world.
   Vector3 grip_point(const GraspFrame& frame) const {
-    const Vector3 grip = out_.center_of_mass_m + spec_.grip_m;
+    const Vector3 grip = out_.center_of_mass_m + out_.pose.grip_m;
     return frame.world_from_object.topLeftCorner<3, 3>() * grip + frame.world_from_object.topRightCorner<3, 1>();
   }
 

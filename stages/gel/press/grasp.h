@@ -34,6 +34,7 @@ struct Grasp {
   std::vector<GraspFrame> frames;
   double mass_kg = 0.0, weight_n = 0.0;
   Vector3 center_of_mass_m = Vector3::Zero();  // in the object's axes
+  GraspPose pose;                              // in which it is gripped
   double grip_n = 0.0;                         // mean of both fingers when they have closed
   GraspOutcome outcome = GraspOutcome::lifted;
   std::size_t judged_frame = 0;  // the last one before the fingers release it: what the outcome is of

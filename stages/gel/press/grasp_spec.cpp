@@ -1,6 +1,11 @@
 #include "stages/gel/press/grasp_spec.h"
 
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
 #include <numbers>
+
+#include "common/base/error.h"
 
 namespace tacipc {
 
@@ -26,16 +31,31 @@ GraspPhase GraspPhase::read(ConfigReader& in) {
 GraspSpec GraspSpec::read(ConfigReader& in) {
   GraspSpec spec;
   ConfigReader fingers = in.section("fingers");
-  spec.turn_rad = fingers.number_or("turn_deg", 0.0, kAnyTurn) * std::numbers::pi / 180.0;
-  const auto grip_mm = fingers.numbers_or("grip_mm", {0.0, 0.0, 0.0});
-  spec.grip_m = 1e-3 * Vector3(grip_mm[0], grip_mm[1], grip_mm[2]);
+  if (auto draw = fingers.optional_section("draw")) {
+    spec.draw = GraspDraw::read(*draw);
+    for (const char* key : {"rotation_xyzw", "turn_deg", "grip_mm"})
+      if (fingers.has(key)) fingers.fault(key, "is drawn: give it or draw, not both"), fingers.ignore(key);
+  } else {
+    spec.rotation = read_rotation(fingers);
+    spec.turn_rad = fingers.number_or("turn_deg", 0.0, kAnyTurn) * std::numbers::pi / 180.0;
+    const auto grip_mm = fingers.numbers_or("grip_mm", {0.0, 0.0, 0.0});
+    spec.grip_m = 1e-3 * Vector3(grip_mm[0], grip_mm[1], grip_mm[2]);
+  }
   const auto gravity = fingers.numbers_or("gravity_m_s2", {0.0, 0.0, -9.81});
   spec.gravity_m_s2 = {gravity[0], gravity[1], gravity[2]};
   spec.closing_speed_m_s = 1e-3 * fingers.number_or("closing_speed_mm_s", 20.0, Range::positive());
   ConfigReader object = in.section("object");
+  const auto only = [&](const char* key, std::initializer_list<const char*> others) {
+    for (const char* other : others)
+      if (object.has(other)) object.fault(other, fmt::format("give {} or {}, not both", key, other));
+  };
   if (object.has("mass_g")) {
-    if (object.has("density_kg_m3")) object.fault("density_kg_m3", "give mass_g or density_kg_m3, not both");
+    only("mass_g", {"density_kg_m3", "friction_margin"});
     spec.mass_kg = 1e-3 * object.number("mass_g", Range::positive());
+  } else if (object.has("friction_margin")) {
+    only("friction_margin", {"density_kg_m3"});
+    spec.friction_margin = object.number("friction_margin", Range::positive());
+    if (spec.gravity_m_s2.isZero()) object.fault("friction_margin", "nothing has weight without gravity_m_s2");
   } else {
     spec.density_kg_m3 = object.number("density_kg_m3", Range::positive());
   }
@@ -45,6 +65,20 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
       phase.fault("kind", "fingers close first: nothing is held before");
   }
   return spec;
+}
+
+GraspPose GraspSpec::pose_of(const TriangleMesh& object, const MassProperties& mass, const GelShape& front,
+                             double friction) const {
+  if (draw) return draw_grasp(object, mass.center_m, front, friction, *draw);
+  const Matrix3 turn = Eigen::AngleAxisd(turn_rad, Vector3::UnitZ()).toRotationMatrix();
+  return {.world_from_object = turn * rotation.toRotationMatrix(), .grip_m = grip_m, .width_m = std::nullopt};
+}
+
+double GraspSpec::density_of(double volume_m3, double friction) const {
+  if (mass_kg) return *mass_kg / volume_m3;
+  if (!friction_margin) return density_kg_m3;
+  if (friction == 0.0) throw UsageError("object.friction_margin: the press file has no friction");
+  return 2.0 * friction * motion.front().force_n / (*friction_margin * gravity_m_s2.norm()) / volume_m3;
 }
 
 }  // namespace tacipc

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/mesh/mass_properties.h"
+#include "common/sample/antipodal_grasp.h"
 #include "common/sample/motion.h"
 
 namespace tacipc {
@@ -26,15 +28,23 @@ struct GraspPhase {
 /// Two sensors of one kind face each other along x of the world, z is up. The object hangs between them, held until the
 /// first `close` is over, and free from then on.
 struct GraspSpec {
-  std::optional<double> mass_kg;  // of the object, or
+  std::optional<double> mass_kg;          // of the object, or
+  std::optional<double> friction_margin;  // 2 μ × force of the first `close` / weight, or
   double density_kg_m3 = 0.0;
-  double turn_rad = 0.0;                     // of the object about z before it is gripped
+  std::optional<GraspDraw> draw;                                 // how it is held is drawn, or given:
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // of the object before it is gripped …
+  double turn_rad = 0.0;                                         // … and then about z of the world
   Vector3 grip_m = Vector3::Zero();          // where it is gripped, from its centre of mass, in its own axes
   Vector3 gravity_m_s2 = {0.0, 0.0, -9.81};  // of the world
   double closing_speed_m_s = 0.02;           // of each finger, at most
   std::vector<GraspPhase> motion;
 
   static GraspSpec read(ConfigReader& in);
+  /// How the object is held by fronts of this shape. \throw DataError if none of the drawn grasps is possible
+  GraspPose pose_of(const TriangleMesh& object, const MassProperties& mass, const GelShape& front,
+                    double friction) const;
+  /// Density of an object of this volume. \throw UsageError if a margin is wanted of no friction
+  double density_of(double volume_m3, double friction) const;
 };
 
 }  // namespace tacipc

@@ -220,6 +220,18 @@ Value::Map grasp_lines(const GraspFrame& f, double body_strain) {
           {"body_residual_n", f.body_residual_n}};
 }
 
+/// How the object is held.
+Value::Map pose_lines(const GraspPose& pose) {
+  Eigen::Quaterniond q(pose.world_from_object);
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  // Without a minus before a zero.
+  Value::Map lines{{"rotation_xyzw", Value::List{q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w()}},
+                   {"grip_m", Value::List{pose.grip_m.x(), pose.grip_m.y(), pose.grip_m.z()}},
+                   {"lever_m", pose.lever_m()}};
+  if (pose.width_m) lines.emplace_back("width_m", *pose.width_m);
+  return lines;
+}
+
 }  // namespace
 
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
@@ -271,6 +283,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
                      {"object_mass_kg", grasp.mass_kg},
                      {"center_of_mass_m",
                       Value::List{grasp.center_of_mass_m.x(), grasp.center_of_mass_m.y(), grasp.center_of_mass_m.z()}},
+                     {"pose", pose_lines(grasp.pose)},
                      {"grip_n", grasp.grip_n},
                      {"slip_m", judged.slip_m},
                      {"turn_rad", judged.turn_rad}};

@@ -77,8 +77,8 @@ SampleRow read_row(const PlannedRow& plan, const fs::path& dataset, SampleStatus
   const fs::path folder = dataset / plan.folder;
   row.dropped = was_dropped(folder / "press") || was_dropped(folder / "render");
   try {
-    row.press = timings_if_there(folder / "press/press.timings.yaml");
-    row.render = timings_if_there(folder / "render/render.timings.yaml");
+    if (const auto file = timings_file(folder, "press")) row.press = read_timings(*file);
+    if (const auto file = timings_file(folder, "render")) row.render = read_timings(*file);
     if (status == SampleStatus::failed) row.failure = failure_of(folder);
     if (status == SampleStatus::made) read_numbers(folder, row);
   } catch (const std::runtime_error& error) {

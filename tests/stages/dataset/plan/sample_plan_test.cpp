@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "stages/dataset/plan/plan_checks.h"
+#include "stages/dataset/plan/plan_files.h"
 #include "stages/dataset/plan/seeds.h"
 #include "tests/config_text.h"
 
@@ -44,6 +45,75 @@ TEST(SamplePlan, NamesAndFolders) {
   std::set<std::string> ids;
   for (const auto& sample : samples) ids.insert(sample.id);
   EXPECT_EQ(ids.size(), samples.size());
+}
+
+/// The same with a grasp of each object, too.
+DatasetConfig dataset_of_grasps(int objects, int samples, int sensors = 1) {
+  DatasetConfig config = dataset(objects, samples, sensors);
+  config.motions.push_back(
+      {.name = "grasp",
+       .samples = samples,
+       .press = "",
+       .motion = config_from_text<MotionTemplate>("fingers: {draw: {}}\nobject: {friction_margin: [0.5, 4]}\n"
+                                                  "motion: {kind: close, force_n: [1, 5], steps: 3}\n",
+                                                  "m.yaml")});
+  return config;
+}
+
+TEST(SamplePlan, FingersOfAGraspFollowEachOtherInItsFolder) {
+  auto config = dataset_of_grasps(5, 4);
+  config.splits = {.val = 0.2, .test = 0.2};
+  const auto samples = planned(config);
+  ASSERT_EQ(samples.size(), 60u);
+  EXPECT_FALSE(samples[0].finger);
+  EXPECT_EQ(samples[1].id, "sensor0__object0__grasp__000001");
+  EXPECT_EQ(samples[1].folder(), "samples/000/sensor0__object0__grasp__000001/left");
+  EXPECT_EQ(samples[2].id, "sensor0__object0__grasp__000002");
+  EXPECT_EQ(samples[2].folder(), "samples/000/sensor0__object0__grasp__000001/right");
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].index, static_cast<int>(i));
+    if (samples[i].finger != 0) continue;
+    EXPECT_EQ(samples[i + 1].finger, 1);
+    EXPECT_EQ(samples[i].press_folder(), samples[i + 1].press_folder());
+    EXPECT_EQ(samples[i].split, samples[i + 1].split);
+    EXPECT_EQ(samples[i].split_pose, samples[i + 1].split_pose);
+    EXPECT_NE(samples[i].seed, samples[i + 1].seed);
+  }
+}
+
+TEST(SamplePlan, SensorsDrawTheSameGraspAndSamplesOthers) {
+  auto config = dataset_of_grasps(2, 2, 2);
+  std::map<std::string, std::set<std::uint64_t>> seeds;
+  for (const auto& sample : planned(config))
+    if (sample.finger == 0)
+      seeds[std::to_string(sample.object) + "-" + std::to_string(sample.repetition)].insert(draw_seed(config, sample));
+  ASSERT_EQ(seeds.size(), 4u);
+  std::set<std::uint64_t> all;
+  for (const auto& [name, of_sensors] : seeds) {
+    EXPECT_EQ(of_sensors.size(), 1u) << name;
+    all.insert(of_sensors.begin(), of_sensors.end());
+  }
+  EXPECT_EQ(all.size(), 4u);
+  config.low_discrepancy = false;
+  for (const auto& sample : planned(config)) EXPECT_EQ(draw_seed(config, sample), sample.seed);
+}
+
+TEST(SamplePlan, AGraspInTwoBlocksHasItsRuleInBoth) {
+  DatasetConfig config = dataset_of_grasps(500, 1);
+  std::swap(config.motions[0], config.motions[1]);  // the fingers of object 333 are 999 and 1000
+  const auto samples = planned(config);
+  ASSERT_EQ(samples[999].finger, 0);
+  EXPECT_EQ(samples[1000].folder().substr(0, 12), "samples/000/");
+  const auto files = plan_files(config, {}, samples);
+  const auto content = [&](const std::string& name) {
+    for (const auto& [file, text] : files)
+      if (file == name) return text;
+    return std::string();
+  };
+  const std::string call = "dataset_grasp,000/" + samples[999].id + ",";
+  EXPECT_THAT(content("blocks/000.mk"), testing::HasSubstr(call));
+  EXPECT_THAT(content("blocks/001.mk"), testing::HasSubstr(call));
+  EXPECT_THAT(content("blocks/001.mk"), testing::HasSubstr("DATASET_BLOCK_001 := 000/" + samples[999].id + "/right "));
 }
 
 TEST(SamplePlan, MoreRepetitionsLeaveTheFirstAsTheyWere) {

@@ -1,10 +1,14 @@
 #include "stages/gel/press/grasp_spec.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "common/base/error.h"
 #include "tests/config_text.h"
+#include "tests/stages/gel/press/grasp_scene.h"
 
 namespace tacipc {
 namespace {
@@ -12,6 +16,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
 
 std::string text_of(const std::string& fingers, const std::string& object, const std::string& motion) {
   return "fingers: {" + fingers + "}\nobject: {" + object + "}\nmotion:\n" + motion;
@@ -93,6 +98,40 @@ TEST(GraspSpec, TheObjectHasAMassOrADensity) {
               ElementsAre(HasSubstr("give mass_g or density_kg_m3, not both")));
   EXPECT_THAT(faults("", ""), ElementsAre(HasSubstr("object.density_kg_m3: missing")));
   EXPECT_THAT(faults("", "mass_g: -1"), ElementsAre(HasSubstr("object.mass_g: -1 is outside")));
+}
+
+TEST(GraspSpec, AnObjectIsRotatedAndThenTurned) {
+  const double half = std::sqrt(0.5);
+  const GraspSpec spec = read(fmt::format("rotation_xyzw: [{}, 0, 0, {}], turn_deg: 90", half, half), "mass_g: 50");
+  const GraspPose pose = spec.pose_of({}, {}, {}, 0.5);
+  // y goes to z; z to -y, and from there to x.
+  EXPECT_LT((pose.world_from_object * Vector3::UnitY() - Vector3::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((pose.world_from_object * Vector3::UnitZ() - Vector3::UnitX()).norm(), 1e-12);
+  EXPECT_FALSE(pose.width_m);
+  EXPECT_THAT(faults("rotation_xyzw: [0, 0, 0, 2]", "mass_g: 50"),
+              ElementsAre(HasSubstr("fingers.rotation_xyzw: is no unit quaternion")));
+}
+
+TEST(GraspSpec, AGraspIsDrawnOrGiven) {
+  const TriangleMesh box = centered_box(Vector3(0.01, 0.015, 0.02));
+  const GraspSpec spec = read("draw: {seed: 3, patch_mm: 2}", "mass_g: 50");
+  const GelShape front{.outline = GelShape::Outline::disc, .radius_m = 0.01, .thickness_m = 0.002};
+  const GraspPose pose = spec.pose_of(box, mass_properties(box.positions, box.triangles), front, 0.5);
+  const GraspPose same = draw_grasp(box, Vector3::Zero(), front, 0.5, {.seed = 3, .patch_m = 2e-3});
+  EXPECT_LT((pose.grip_m - same.grip_m).norm(), 1e-12);
+  EXPECT_LT((pose.world_from_object - same.world_from_object).norm(), 1e-12);
+  EXPECT_THAT(faults("draw: {}, turn_deg: 30, grip_mm: [0, 0, 1]", "mass_g: 50"),
+              UnorderedElementsAre(HasSubstr("fingers.turn_deg: is drawn"), HasSubstr("fingers.grip_mm: is drawn")));
+}
+
+TEST(GraspSpec, AMarginIsAMass) {
+  const GraspSpec spec = read("gravity_m_s2: [0, 0, -10]", "friction_margin: 2");
+  EXPECT_NEAR(spec.density_of(1e-5, 0.5) * 1e-5, 0.1, 1e-12);  // 2 × 0.5 × 2 N carry twice the weight of 100 g
+  EXPECT_THROW(spec.density_of(1e-5, 0.0), UsageError);
+  EXPECT_THAT(faults("", "friction_margin: 2, density_kg_m3: 1000"),
+              ElementsAre(HasSubstr("give friction_margin or density_kg_m3, not both")));
+  EXPECT_THAT(faults("gravity_m_s2: [0, 0, 0]", "friction_margin: 2"),
+              ElementsAre(HasSubstr("nothing has weight without gravity_m_s2")));
 }
 
 TEST(GraspSpec, VectorsHaveThreeNumbers) {
