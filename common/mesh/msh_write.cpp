@@ -13,10 +13,27 @@
 namespace tacipc {
 namespace {
 
-constexpr std::array<BoundaryTag, 3> kTags{BoundaryTag::front, BoundaryTag::side, BoundaryTag::glued};
-constexpr std::array<const char*, 3> kTagNames{"front", "side", "glued"};
-constexpr int kGelTag = 4;
+constexpr int kVolumeTag = 4;
 constexpr int kVolume = 1;
+
+struct NamedTag {
+  BoundaryTag tag;
+  const char* name;
+  bool required;
+};
+
+/// What a file holds.
+struct Kind {
+  std::vector<NamedTag> tags;  // of its boundary
+  const char* volume;          // physical name
+  const char *said, *tags_said;
+};
+const Kind kGel{
+    {{BoundaryTag::front, "front", true}, {BoundaryTag::side, "side", false}, {BoundaryTag::glued, "glued", true}},
+    "gel",
+    "a gel",
+    "1 (front), 2 (side) or 3 (glued)"};
+const Kind kObject{{{BoundaryTag::free, "free", true}}, "object", "a soft object", "5 (free)"};
 
 /// Rows in an order that tells which triangles are there, each turned to begin with its smallest index.
 std::vector<std::array<int, 3>> canonical(const Triangles& triangles) {
@@ -50,15 +67,16 @@ void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
   };
   if (mesh.num_tets() == 0) throw DataError("{}: a mesh without tetrahedra is not written", path.string());
 
-  fmt::format_to(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n");
-  for (std::size_t i = 0; i < kTags.size(); ++i)
-    fmt::format_to(out, "2 {} \"{}\"\n", static_cast<int>(kTags[i]), kTagNames[i]);
-  fmt::format_to(out, "3 {} \"gel\"\n$EndPhysicalNames\n", kGelTag);
+  const bool is_object = std::find(mesh.tags.begin(), mesh.tags.end(), BoundaryTag::free) != mesh.tags.end();
+  const Kind& kind = is_object ? kObject : kGel;
+  fmt::format_to(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", kind.tags.size() + 1);
+  for (const NamedTag& named : kind.tags) fmt::format_to(out, "2 {} \"{}\"\n", static_cast<int>(named.tag), named.name);
+  fmt::format_to(out, "3 {} \"{}\"\n$EndPhysicalNames\n", kVolumeTag, kind.volume);
 
   std::vector<std::pair<int, Triangles>> surfaces;
-  for (const BoundaryTag tag : kTags)
-    if (Triangles faces = mesh.faces(tag); faces.rows() > 0)
-      surfaces.emplace_back(static_cast<int>(tag), std::move(faces));
+  for (const NamedTag& named : kind.tags)
+    if (Triangles faces = mesh.faces(named.tag); faces.rows() > 0)
+      surfaces.emplace_back(static_cast<int>(named.tag), std::move(faces));
 
   fmt::format_to(out, "$Entities\n0 0 {} 1\n", surfaces.size());
   for (const auto& [tag, faces] : surfaces) {
@@ -68,7 +86,7 @@ void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
   }
   fmt::format_to(out, "{} ", kVolume);
   write_bounds(mesh.tets);
-  fmt::format_to(out, " 1 {} {}", kGelTag, surfaces.size());
+  fmt::format_to(out, " 1 {} {}", kVolumeTag, surfaces.size());
   for (const auto& surface : surfaces) fmt::format_to(out, " {}", surface.first);
   fmt::format_to(out, "\n$EndEntities\n");
 
@@ -96,7 +114,10 @@ void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
   write_file(path, std::string_view(buffer.data(), buffer.size()));
 }
 
-TetMesh read_tet_mesh(const std::filesystem::path& path) {
+namespace {
+
+/// \throw DataError, naming the other kind where it is one
+TetMesh read_kind(const std::filesystem::path& path, const Kind& kind, const Kind& other) {
   MshContent content = read_msh(path);
   const std::string name = path.string();
   TetMesh mesh{.positions = std::move(content.positions),
@@ -110,22 +131,28 @@ TetMesh read_tet_mesh(const std::filesystem::path& path) {
     if (!(edges.determinant() > 0.0))
       throw DataError("{}: tet {} has volume {:.3g} m^3, must be positive", name, t, edges.determinant() / 6.0);
   }
-  std::array<bool, 3> found{};
+  const auto named = [](const Kind& in, int tag) {
+    return std::find_if(in.tags.begin(), in.tags.end(),
+                        [&](const NamedTag& one) { return static_cast<int>(one.tag) == tag; });
+  };
+  const std::vector<int>& tags = content.triangle_tags;
+  if (!tags.empty() &&
+      std::all_of(tags.begin(), tags.end(), [&](int t) { return named(other, t) != other.tags.end(); }))
+    throw DataError("{}: is the mesh of {}, expected that of {}", name, other.said, kind.said);
   for (std::size_t f = 0; f < content.triangle_tags.size(); ++f) {
-    const int tag = content.triangle_tags[f];
-    if (tag < 1 || tag > 3) {
+    const int tag = tags[f];
+    if (named(kind, tag) == kind.tags.end()) {
       const Eigen::RowVector3d centre =
           corner_sum(mesh.positions, mesh.boundary.row(static_cast<Eigen::Index>(f))) / 3.0;
-      throw DataError(
-          "{}: boundary triangle {} near ({:.4g}, {:.4g}, {:.4g}) m has physical tag {}, expected 1 (front), 2 (side) "
-          "or 3 (glued)",
-          name, f, centre[0], centre[1], centre[2], tag);
+      throw DataError("{}: boundary triangle {} near ({:.4g}, {:.4g}, {:.4g}) m has physical tag {}, expected {}", name,
+                      f, centre[0], centre[1], centre[2], tag, kind.tags_said);
     }
-    found[static_cast<std::size_t>(tag - 1)] = true;
     mesh.tags.push_back(static_cast<BoundaryTag>(tag));
   }
-  for (const std::size_t needed : {std::size_t{0}, std::size_t{2}})
-    if (!found[needed]) throw DataError("{}: no boundary triangle is tagged {}", name, kTagNames[needed]);
+  for (const NamedTag& one : kind.tags) {
+    if (one.required && std::find(mesh.tags.begin(), mesh.tags.end(), one.tag) == mesh.tags.end())
+      throw DataError("{}: no boundary triangle is tagged {}", name, one.name);
+  }
   const auto expected = canonical(boundary_triangles(mesh.tets, mesh.num_vertices()));
   if (canonical(mesh.boundary) != expected)
     throw DataError(
@@ -133,5 +160,11 @@ TetMesh read_tet_mesh(const std::filesystem::path& path) {
         mesh.boundary.rows(), expected.size());
   return mesh;
 }
+
+}  // namespace
+
+TetMesh read_tet_mesh(const std::filesystem::path& path) { return read_kind(path, kGel, kObject); }
+
+TetMesh read_object_tet_mesh(const std::filesystem::path& path) { return read_kind(path, kObject, kGel); }
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// A tetrahedral gel mesh with its tagged boundary, and its files (Gmsh MSH).
+// A tetrahedral mesh of a gel, or of a soft object, with its tagged boundary, and its files (Gmsh MSH).
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,9 @@
 
 namespace tacipc {
 
-/// What a boundary triangle is. The numbers are the physical tags in the MSH file.
-enum class BoundaryTag { front = 1, side = 2, glued = 3 };
+/// What a boundary triangle is: front, side or glued of a gel; free all over a soft object, which nothing holds. The
+/// numbers are the physical tags in the MSH file, where 4 is the volume.
+enum class BoundaryTag { front = 1, side = 2, glued = 3, free = 5 };
 
 /// Tetrahedral mesh in metres; tets are positively oriented; boundary triangles look outwards.
 struct TetMesh {
@@ -26,10 +27,10 @@ struct TetMesh {
   std::vector<int> vertices(BoundaryTag tag) const;
 };
 
-/// Outward triangles that belong to exactly one tet, in the order of the tets. \throw DataError if three tets share a
 /// Several meshes as one: the vertices of the first, then those of the second, …; tets and boundary likewise.
 TetMesh joined(const std::vector<TetMesh>& meshes);
 
+/// Outward triangles that belong to exactly one tet, in the order of the tets. \throw DataError if three tets share a
 /// face.
 Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices);
 
@@ -46,10 +47,13 @@ struct MshContent {
 MshContent read_msh(const std::filesystem::path& path);
 
 /// Writes a tagged mesh as MSH 4.1 ASCII (numbers read back to the same bits; physical groups front, side, glued and
-/// gel), readable by Gmsh and by read_msh. Boundary triangles are grouped by tag, in boundary order within each.
+/// gel, or free and object), readable by Gmsh and by read_msh. Boundary triangles are grouped by tag, in boundary order
+/// within each.
 void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh);
-/// Reads what write_tet_mesh wrote. \throw DataError if a tag is missing (a side alone may be), a tet is not positive,
-/// or the boundary does not fit the tets.
+/// Reads the gel that write_tet_mesh wrote. \throw DataError if a tag is missing (a side alone may be), a tet is not
+/// positive, the boundary does not fit the tets, or it is a soft object.
 TetMesh read_tet_mesh(const std::filesystem::path& path);
+/// Reads a soft object likewise. \throw DataError the same, or if it is a gel.
+TetMesh read_object_tet_mesh(const std::filesystem::path& path);
 
 }  // namespace tacipc

@@ -63,6 +63,7 @@ double GelShape::front_z(double x, double y) const {
 }
 
 Material Material::read(ConfigReader& in) {
+  in.accept_sources();
   Material material{.law = in.choice("law", {"neo_hookean", "stvk_hencky"}),
                     .density_kg_m3 = in.number("density_kg_m3", Range::positive()),
                     .youngs_modulus_pa = in.number("youngs_modulus_pa", Range::positive()),

@@ -48,6 +48,8 @@ struct Material {
   double poissons_ratio = 0.0;
   std::vector<Relaxation> relaxation = {};  // none: elastic; the parts sum to less than 1
 
+  /// The section `material` of a sensor, or a file of its own with the same keys. Values may say where they come from
+  /// (ConfigReader::accept_sources).
   static Material read(ConfigReader& in);
   /// Lamé parameters: λ = E ν / ((1 + ν)(1 − 2ν)), μ = E / (2(1 + ν)), in Pa, long-term like E.
   double lame_lambda_pa() const;

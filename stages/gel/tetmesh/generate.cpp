@@ -20,8 +20,29 @@ GenerateConfig GenerateConfig::read(ConfigReader& in) {
   return config;
 }
 
-TetMesh generate_gel(const GelShape& gel, const GenerateConfig& config) {
+TetMesh fill_and_check(const GelSurface& surface, const GenerateConfig& config,
+                       const std::function<double(const Vector3&)>& edge_length_m,
+                       const std::function<void(const TetMesh&)>& check) {
   constexpr int kStrongestOptimization = 10;
+  const auto checked = [&](const FillConfig& fill) {
+    TetMesh mesh = fill_with_tets(surface, fill, edge_length_m);
+    check(mesh);
+    return mesh;
+  };
+  FillConfig fill = config.fill;
+  fill.max_vertices = static_cast<int>(config.max_vertices);
+  if (fill.optimization_level < kStrongestOptimization) {
+    try {
+      return checked(fill);
+    } catch (const DataError& error) {
+      log_warning("{}; trying again with optimization_level {}", error.what(), kStrongestOptimization);
+    }
+    fill.optimization_level = kStrongestOptimization;
+  }
+  return checked(fill);
+}
+
+TetMesh generate_gel(const GelShape& gel, const GenerateConfig& config) {
   const Sizing sizing = sizing_for(config.sizing, gel);
   const double estimate = estimated_vertices(sizing);
   if (!(estimate <= config.max_vertices)) {
@@ -31,23 +52,9 @@ TetMesh generate_gel(const GelShape& gel, const GenerateConfig& config) {
   log_info("the sizing asks for about {:.0f} vertices", estimate);
   const GelSurface surface = gel_surface(sizing, config.seed);
   log_info("surface: {} vertices, {} triangles", surface.positions.rows(), surface.triangles.rows());
-  const auto wanted = [&](const Vector3& x) { return target_edge_length(sizing, x); };
-  const auto fill_and_check = [&](const FillConfig& fill) {
-    TetMesh mesh = fill_with_tets(surface, fill, wanted);
-    check_gel(mesh, gel, {.min_dihedral_deg = config.min_dihedral_deg}, "gel");
-    return mesh;
-  };
-  FillConfig fill = config.fill;
-  fill.max_vertices = static_cast<int>(config.max_vertices);
-  if (fill.optimization_level < kStrongestOptimization) {
-    try {
-      return fill_and_check(fill);
-    } catch (const DataError& error) {
-      log_warning("{}; trying again with optimization_level {}", error.what(), kStrongestOptimization);
-    }
-    fill.optimization_level = kStrongestOptimization;
-  }
-  return fill_and_check(fill);
+  return fill_and_check(
+      surface, config, [&](const Vector3& x) { return target_edge_length(sizing, x); },
+      [&](const TetMesh& mesh) { check_gel(mesh, gel, {.min_dihedral_deg = config.min_dihedral_deg}, "gel"); });
 }
 
 }  // namespace tacipc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "common/mesh/tet_mesh.h"
 #include "stages/gel/tetmesh/sizing.h"
@@ -19,7 +20,13 @@ struct GenerateConfig {
   static GenerateConfig read(ConfigReader& in);
 };
 
-/// Meshes a gel and checks it. If a tet is too flat, the fill is tried again with TetGen's strongest optimisation.
+/// Fills a surface with tets and checks them. If a check fails, the fill is tried again with TetGen's strongest
+/// optimisation. \throw DataError where TetGen gives up, and what `check` throws of the last try
+TetMesh fill_and_check(const GelSurface& surface, const GenerateConfig& config,
+                       const std::function<double(const Vector3&)>& edge_length_m,
+                       const std::function<void(const TetMesh&)>& check);
+
+/// Meshes a gel and checks it (check_gel).
 /// \throw DataError for a sizing that is too fine or does not fit the gel, and for a mesh that fails the checks
 TetMesh generate_gel(const GelShape& gel, const GenerateConfig& config);
 

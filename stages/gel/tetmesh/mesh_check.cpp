@@ -131,11 +131,15 @@ void check_faces(const TetMesh& mesh, const std::string& name) {
   }
 }
 
-void check_gel(const TetMesh& mesh, const GelShape& gel, const MeshLimits& limits, const std::string& name) {
+void check_body(const TetMesh& mesh, double min_dihedral_deg, const std::string& name) {
   if (mesh.num_tets() == 0) throw DataError("{}: has no tets", name);
-  check_tets(mesh, limits.min_dihedral_deg, name);
+  check_tets(mesh, min_dihedral_deg, name);
   check_overlap(mesh, name);
   check_boundary(mesh, name);
+}
+
+void check_gel(const TetMesh& mesh, const GelShape& gel, const MeshLimits& limits, const std::string& name) {
+  check_body(mesh, limits.min_dihedral_deg, name);
   check_faces(mesh, name);
   check_front(mesh, gel, limits.front_tolerance_m, name);
 }

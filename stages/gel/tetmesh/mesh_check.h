@@ -1,4 +1,4 @@
-// Checks that every gel must pass, generated or imported.
+// Checks that every gel must pass, generated or imported, and every soft object.
 #pragma once
 
 #include <string>
@@ -18,10 +18,13 @@ DihedralAngles dihedral_angles(const Vector3& a, const Vector3& b, const Vector3
 /// Checks that front, side and glued face each have a triangle. \throw DataError
 void check_faces(const TetMesh& mesh, const std::string& name);
 
-/// Checks that all tets are positive (exactly), no dihedral angle is below the limit, every vertex belongs to a tet,
-/// neighbours agree on their face, the boundary is `mesh.boundary`, each of its edges has two triangles, all three tags
-/// occur, and front vertices lie on the sensor's front within the tolerance (0: exactly). \throw DataError with
-/// numbers; `name` opens the message
+/// Checks that there are tets, that all are positive (exactly), no dihedral angle is below the limit, every vertex
+/// belongs to a tet, neighbours agree on their face, the boundary is `mesh.boundary`, and each of its edges has two
+/// triangles. \throw DataError with numbers; `name` opens the message
+void check_body(const TetMesh& mesh, double min_dihedral_deg, const std::string& name);
+
+/// Checks the same, and that all three tags of a gel occur, and front vertices lie on the sensor's front within the
+/// tolerance (0: exactly). \throw DataError likewise
 struct MeshLimits {
   double min_dihedral_deg = 0.0;
   double front_tolerance_m = 0.0;

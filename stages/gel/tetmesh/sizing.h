@@ -21,6 +21,8 @@ struct SizingConfig {
 
   /// Either `uniform_mm`, or all of the graded keys.
   static SizingConfig read(ConfigReader& in);
+  /// Whether the length is the same everywhere.
+  bool uniform() const { return centre_m == inner_m && inner_m == rim_m && rim_m == back_m; }
 };
 
 /// Target edge lengths in one gel.

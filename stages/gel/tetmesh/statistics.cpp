@@ -69,7 +69,7 @@ Value edge_lines(const EdgeStatistics& s, bool with_ratio) {
   return lines;
 }
 
-Value::Map shape_lines(const TetMesh& mesh, const GelShape& gel) {
+Value::Map shape_lines(const TetMesh& mesh) {
   std::vector<double> smallest, radius_edge;
   double largest = 0.0, volume = 0.0;
   for (Eigen::Index t = 0; t < mesh.num_tets(); ++t) {
@@ -93,8 +93,17 @@ Value::Map shape_lines(const TetMesh& mesh, const GelShape& gel) {
                                       {"max", rounded(largest)}}},
           {"radius_edge_ratio", Value::Map{{"median", rounded(lower_quantile(radius_edge, 0.5))},
                                            {"max", rounded(lower_quantile(radius_edge, 1.0))}}},
-          {"volume_mm3", rounded(1e9 * volume)},
-          {"analytic_volume_mm3", rounded(1e9 * analytic_volume(gel))}};
+          {"volume_mm3", rounded(1e9 * volume)}};
+}
+
+Value face_lines(const TetMesh& mesh, BoundaryTag tag) {
+  return Value::Map{{"vertices", mesh.vertices(tag).size()},
+                    {"triangles", static_cast<std::int64_t>(mesh.faces(tag).rows())}};
+}
+
+Value::Map count_lines(const TetMesh& mesh) {
+  return {{"vertices", static_cast<std::int64_t>(mesh.num_vertices())},
+          {"tets", static_cast<std::int64_t>(mesh.num_tets())}};
 }
 
 }  // namespace
@@ -132,14 +141,25 @@ GelEdges edge_statistics(const TetMesh& mesh, double reach_m, const std::functio
           .back = measure(mesh, back, 0.0, everywhere, wanted)};
 }
 
+Value::Map summary(const TetMesh& mesh, double edge_m) {
+  const auto wanted = [edge_m](const Vector3&) { return edge_m; };
+  const double everywhere = std::numeric_limits<double>::infinity();
+  const auto lines_of = [&](const Edges& edges) {
+    return edge_lines(measure(mesh, edges, 0.0, everywhere, wanted), true);
+  };
+  Value::Map lines = count_lines(mesh);
+  lines.emplace_back("free", face_lines(mesh, BoundaryTag::free));
+  lines.emplace_back("edge_length", Value::Map{{"all", lines_of(tet_edges(mesh.tets))},
+                                               {"surface", lines_of(unique_edges(mesh.boundary))}});
+  for (auto& line : shape_lines(mesh)) lines.push_back(std::move(line));
+  return lines;
+}
+
 Value::Map summary(const TetMesh& mesh, const GelShape& gel, const std::function<double(const Vector3&)>& wanted) {
-  Value::Map lines{{"vertices", static_cast<std::int64_t>(mesh.num_vertices())},
-                   {"tets", static_cast<std::int64_t>(mesh.num_tets())}};
+  Value::Map lines = count_lines(mesh);
   for (const auto& [tag, word] : {std::pair{BoundaryTag::front, "front"}, std::pair{BoundaryTag::side, "side"},
-                                  std::pair{BoundaryTag::glued, "glued"}}) {
-    lines.emplace_back(word, Value::Map{{"vertices", mesh.vertices(tag).size()},
-                                        {"triangles", static_cast<std::int64_t>(mesh.faces(tag).rows())}});
-  }
+                                  std::pair{BoundaryTag::glued, "glued"}})
+    lines.emplace_back(word, face_lines(mesh, tag));
   const GelEdges edges = edge_statistics(mesh, Sizing{{}, gel}.reach_m(), wanted);
   const bool with_ratio = static_cast<bool>(wanted);
   lines.emplace_back("edge_length", Value::Map{{"all", edge_lines(edges.all, with_ratio)},
@@ -147,7 +167,8 @@ Value::Map summary(const TetMesh& mesh, const GelShape& gel, const std::function
                                                {"front_inner", edge_lines(edges.front_inner, with_ratio)},
                                                {"front_rim", edge_lines(edges.front_rim, with_ratio)},
                                                {"back", edge_lines(edges.back, with_ratio)}});
-  for (auto& line : shape_lines(mesh, gel)) lines.push_back(std::move(line));
+  for (auto& line : shape_lines(mesh)) lines.push_back(std::move(line));
+  lines.emplace_back("analytic_volume_mm3", rounded(1e9 * analytic_volume(gel)));
   return lines;
 }
 

@@ -1,4 +1,4 @@
-// Numbers about a gel mesh for the record: sizes, edge lengths by region, shapes of tets, volume.
+// Numbers about a mesh for the record: sizes, edge lengths by region, shapes of tets, volume.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,11 @@ struct GelEdges {
 GelEdges edge_statistics(const TetMesh& mesh, double reach_m,
                          const std::function<double(const Vector3&)>& wanted_edge_length_m);
 
-/// The summary of the record. Without a target length (imported meshes) the ratios are left out.
+/// The summary of a soft object's record: its counts, edges of all tets and of the surface, and shapes. `edge_m`: the
+/// target length.
+Value::Map summary(const TetMesh& mesh, double edge_m);
+
+/// The summary of a gel's record. Without a target length (imported meshes) the ratios are left out.
 Value::Map summary(const TetMesh& mesh, const GelShape& gel,
                    const std::function<double(const Vector3&)>& wanted_edge_length_m);
 

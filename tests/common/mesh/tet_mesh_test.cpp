@@ -90,6 +90,25 @@ TEST(MshFile, TaggedMeshComesBackBitByBit) {
             "/dev/full: cannot be written: No space left on device");
 }
 
+TEST(MshFile, ASoftObjectIsFreeAllOverAndNoGel) {
+  const ScratchFolder scratch;
+  const TetMesh gel = two_tets();
+  TetMesh object = gel;
+  object.tags.assign(6, BoundaryTag::free);
+  write_tet_mesh(scratch / "object.msh", object);
+  write_tet_mesh(scratch / "gel.msh", gel);
+  const TetMesh back = read_object_tet_mesh(scratch / "object.msh");
+  EXPECT_EQ(back.positions, object.positions);
+  EXPECT_EQ(back.tets, object.tets);
+  EXPECT_EQ(back.faces(BoundaryTag::free), object.boundary);
+  EXPECT_TRUE(back.vertices(BoundaryTag::glued).empty());
+  EXPECT_EQ(read_msh(scratch / "object.msh").triangle_tags, std::vector<int>(6, 5));
+  EXPECT_EQ(message_of<DataError>([&] { read_tet_mesh(scratch / "object.msh"); }),
+            (scratch / "object.msh").string() + ": is the mesh of a soft object, expected that of a gel");
+  EXPECT_EQ(message_of<DataError>([&] { read_object_tet_mesh(scratch / "gel.msh"); }),
+            (scratch / "gel.msh").string() + ": is the mesh of a gel, expected that of a soft object");
+}
+
 class BadMsh : public ::testing::Test {
  protected:
   std::string error(const std::string& bytes, bool tagged = false) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/config_text.h"
+#include "tests/scratch_folder.h"
 
 namespace tacipc {
 namespace {
@@ -68,6 +69,22 @@ TEST(Material, LawIsOneOfTwoAndIncompressibilityIsOutOfReach) {
       faults_in<Material>("law: stvk\ndensity_kg_m3: 1000\nyoungs_modulus_pa: 1e5\npoissons_ratio: 0.5\n", "m.yaml"),
       ::testing::ElementsAre("m.yaml:1:6: law: 'stvk' is not one of neo_hookean, stvk_hencky",
                              "m.yaml:4:17: poissons_ratio: 0.5 is outside [0, 0.4999]"));
+}
+
+/// As in a sensor's file, values may say where they come from.
+TEST(Material, MayBeAFileOfItsOwn) {
+  const ScratchFolder scratch;
+  const std::string keys =
+      "law: stvk_hencky\nlaw_src: guess\ndensity_kg_m3: 300\nyoungs_modulus_pa: 2e4\npoissons_ratio: 0.3\n"
+      "relaxation: [{part: 0.1, time_s: 0.5}]\nrelaxation_src: derived\n";
+  const auto foam = read_config<Material>(scratch.file("foam.yaml", keys));
+  EXPECT_EQ(foam.law, "stvk_hencky");
+  EXPECT_EQ(foam.density_kg_m3, 300.0);
+  EXPECT_EQ(foam.youngs_modulus_pa, 2e4);
+  EXPECT_EQ(foam.relaxation.size(), 1u);
+  EXPECT_THAT(faults_in<Material>(keys + "density_kg_m3_src: hearsay\ncolour: red\n", "m.yaml"),
+              ::testing::ElementsAre("m.yaml:8:20: density_kg_m3_src: 'hearsay' is not one of known, derived, guess",
+                                     "m.yaml:9:1: colour: unknown key"));
 }
 
 TEST(Material, RelaxationIsAPronySeriesThatLeavesSomeOfTheModulus) {

@@ -22,11 +22,11 @@ Surface make_surface(const Triangles& triangles, int offset);
 
 struct ContactMesh;
 
-/// One of several gels: neighbouring rows of the whole, and the gel alone in a frame of its own.
+/// One of several gels and soft objects: neighbouring rows of the whole, and the body alone in a frame of its own.
 struct GelPart {
   int first_vertex = 0;
-  int anchor = 0;                           // a vertex of its mount, by its own number
-  std::shared_ptr<const ContactMesh> mesh;  // of this gel, undeformed, front up
+  int anchor = 0;                           // a vertex of its mount, by its own number; −1 for a body without a mount
+  std::shared_ptr<const ContactMesh> mesh;  // of this body, undeformed, a gel's front up
 };
 
 /// One of the rigid objects: neighbouring rows of the whole.

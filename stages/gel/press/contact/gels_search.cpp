@@ -24,9 +24,14 @@ void shift(std::vector<ContactPair>& pairs, std::size_t first, int by) {
   }
 }
 
+auto own_rows(const GelPart& part, const Positions& rows) {
+  return rows.middleRows(part.first_vertex, part.mesh->num_gel_vertices);
+}
+
 }  // namespace
 
-GelsSearch::GelsSearch(const ContactMesh& mesh) : mesh_(mesh), turns_(mesh.gels.size(), Matrix3::Identity()) {
+GelsSearch::GelsSearch(const ContactMesh& mesh)
+    : mesh_(mesh), turns_(mesh.gels.size(), Matrix3::Identity()), frames_(mesh.gels.size()) {
   if (mesh.gels.empty()) each_.push_back(std::make_unique<SelfSearch>(mesh));
   for (const GelPart& gel : mesh.gels) {
     each_.push_back(std::make_unique<SelfSearch>(*gel.mesh));
@@ -44,9 +49,16 @@ int GelsSearch::num_searches() const {
   return sum;
 }
 
-Positions GelsSearch::in_frame(std::size_t gel, const Positions& rows) const {
+Positions GelsSearch::places(std::size_t gel, const Positions& x) const {
   const GelPart& part = mesh_.gels[gel];
-  const auto own = rows.middleRows(part.first_vertex, part.mesh->num_gel_vertices);
+  if (part.anchor < 0) return frames_[gel].places(own_rows(part, x));
+  return displacements(gel, x).rowwise() + part.mesh->rest_positions.row(part.anchor);
+}
+
+Positions GelsSearch::displacements(std::size_t gel, const Positions& p) const {
+  const GelPart& part = mesh_.gels[gel];
+  const auto own = own_rows(part, p);
+  if (part.anchor < 0) return frames_[gel].displacements(own);
   return (own.rowwise() - own.row(part.anchor)) * turns_[gel];
 }
 
@@ -55,8 +67,8 @@ void GelsSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
   for (std::size_t g = 0; g < each_.size(); ++g) {
     const GelPart& part = mesh_.gels[g];
     const std::size_t before = out.size();
-    const Eigen::RowVector3d anchor = part.mesh->rest_positions.row(part.anchor);
-    each_[g]->pairs(in_frame(g, x).rowwise() + anchor, in_frame(g, p), d_hat_m, out);
+    if (part.anchor < 0) frames_[g] = body_frame(part.mesh->rest_positions, own_rows(part, x) + own_rows(part, p));
+    each_[g]->pairs(places(g, x), displacements(g, p), d_hat_m, out);
     shift(out, before, part.first_vertex);
   }
   across(x, p, d_hat_m, out);
@@ -70,8 +82,7 @@ void GelsSearch::around(const std::vector<bool>& moves, const Positions& x, doub
     const auto first = moves.begin() + part.first_vertex;
     const std::vector<bool> own(first, first + part.mesh->num_gel_vertices);
     const std::size_t before = out.size();
-    const Eigen::RowVector3d anchor = part.mesh->rest_positions.row(part.anchor);
-    each_[g]->around(own, in_frame(g, x).rowwise() + anchor, d_hat_m, reach_m, out);
+    each_[g]->around(own, places(g, x), d_hat_m, reach_m, out);
     shift(out, before, part.first_vertex);
   }
   std::vector<ContactPair> found;

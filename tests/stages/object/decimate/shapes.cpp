@@ -40,31 +40,6 @@ TriangleMesh cube(double size_m, int n) {
   return make_mesh(vertices, faces);
 }
 
-TriangleMesh sphere(double radius_m, int levels) {
-  std::vector<Vector3> vertices{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  std::vector<std::array<int, 3>> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                        {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  for (int level = 0; level < levels; ++level) {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-      const auto [found, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<int>(vertices.size()));
-      if (fresh) {
-        const Vector3 sum = vertices[a] + vertices[b];
-        vertices.push_back(sum / sum.norm());
-      }
-      return found->second;
-    };
-    std::vector<std::array<int, 3>> finer;
-    for (const auto& [a, b, c] : faces) {
-      const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    faces = std::move(finer);
-  }
-  for (Vector3& vertex : vertices) vertex *= radius_m;
-  return make_mesh(vertices, faces);
-}
-
 TriangleMesh bumpy_torus(double ring_m, double tube_m, double bump, int nu, int nv) {
   std::vector<Vector3> vertices;
   std::vector<std::array<int, 3>> faces;

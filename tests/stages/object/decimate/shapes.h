@@ -8,9 +8,6 @@ namespace tacipc {
 /// Cube [0, size]³, each side a grid of n × n squares.
 TriangleMesh cube(double size_m, int n = 1);
 
-/// Octahedron whose faces are split in four `levels` times, all vertices on the sphere.
-TriangleMesh sphere(double radius_m, int levels);
-
 /// Torus about z of nu × nv vertices whose tube radius is `tube (1 + bump sin(a u) sin(b v))`.
 TriangleMesh bumpy_torus(double ring_m, double tube_m, double bump, int nu, int nv);
 

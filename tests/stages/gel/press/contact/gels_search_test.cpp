@@ -10,6 +10,7 @@
 #include <random>
 
 #include "stages/gel/press/contact/distance.h"
+#include "tests/make_mesh.h"
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
@@ -248,6 +249,158 @@ TEST_F(TwoGels, OneGelAloneIsWhatSelfSearchFinds) {
     EXPECT_EQ(gels.num_searches(), itself.num_searches());
   }
   EXPECT_GT(near, 10u);
+}
+
+/// A ball that nothing holds over a gel on its mount. It has no flat face: all of its surface is searched.
+class BallOverAGel : public ::testing::Test {
+ protected:
+  BallOverAGel() {
+    const auto n = static_cast<int>(gel_.num_vertices()), m = static_cast<int>(ball_.num_vertices());
+    Positions both(n + m, 3);
+    both << gel_.positions, ball_.positions.rowwise() + Eigen::RowVector3d(0, 0, 1.6e-3);
+    Triangles surface(gel_.boundary.rows() + ball_.num_triangles(), 3);
+    surface << gel_.boundary, ball_.triangles.array() + n;
+    mesh_ = make_contact_mesh(both, surface, Positions(0, 3), Triangles(0, 3));
+    const auto alone = [](const Positions& rest, const Triangles& triangles) {
+      return std::make_shared<const ContactMesh>(make_contact_mesh(rest, triangles, Positions(0, 3), Triangles(0, 3)));
+    };
+    mesh_.gels = {{0, gel_.vertices(BoundaryTag::glued).front(), alone(gel_.positions, gel_.boundary)},
+                  {n, -1, alone(ball_.positions, ball_.triangles)}};
+    all_ = all_pairs(mesh_.gel);
+    x_ = mesh_.rest_positions;
+  }
+
+  Positions shaken(double largest_m) {
+    std::uniform_real_distribution<double> uniform(-largest_m, largest_m);
+    Positions p(x_.rows(), 3);
+    for (double& c : p.reshaped()) c = uniform(random_);
+    return p;
+  }
+  auto ball_rows(Positions& x) const { return x.bottomRows(ball_.num_vertices()); }
+  /// Turns the ball about its middle and shifts it.
+  Positions rolled(Positions x, double angle, const Vector3& by_m) const {
+    const Matrix3 turn = Eigen::AngleAxisd(angle, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+    const Eigen::RowVector3d middle = ball_rows(x).colwise().mean();
+    const Positions turned = (ball_rows(x).rowwise() - middle) * turn.transpose();
+    ball_rows(x) = turned.rowwise() + (middle + by_m.transpose());
+    return x;
+  }
+  bool of_ball(int v) const { return v >= gel_.num_vertices(); }
+  double reach(const ContactPair& pair) const {
+    const auto [low, high] = std::minmax_element(pair.vertices.begin(), pair.vertices.end());
+    if (of_ball(*low) != of_ball(*high)) return kRadius;
+    const double at_rest = closest_feature(pair, gather(mesh_.rest_positions, pair)).squared_distance;
+    return std::min(kRadius, 0.5 * std::sqrt(at_rest));
+  }
+  /// Number of the ball's pairs with itself that count; every pair that does must be found.
+  int expect_finds_all(GelsSearch& search, const Positions& p) {
+    std::vector<ContactPair> pairs;
+    search.pairs(x_, p, kRadius, pairs);
+    const std::vector<ContactPair> found = sorted(std::move(pairs));
+    EXPECT_TRUE(std::adjacent_find(found.begin(), found.end(), same) == found.end()) << "a pair counts twice";
+    int near = 0;
+    for (const ContactPair& pair : all_) {
+      double nearest = 1.0;
+      for (const double t : {0.0, 0.5, 1.0})
+        nearest = std::min(nearest, closest_feature(pair, gather(x_ + t * p, pair)).squared_distance);
+      if (std::sqrt(nearest) >= reach(pair)) continue;
+      if (of_ball(*std::min_element(pair.vertices.begin(), pair.vertices.end()))) ++near;
+      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), pair, less));
+    }
+    return near;
+  }
+
+  const TetMesh gel_ = block_gel(3, 0.004, 0.002);
+  const TriangleMesh ball_ = sphere(1.5e-3, 2);
+  ContactMesh mesh_;
+  std::vector<ContactPair> all_;
+  Positions x_;
+  std::mt19937 random_{3};
+};
+
+TEST_F(BallOverAGel, CrumpledAndRollingItsPairsWithItselfAreFound) {
+  GelsSearch search(mesh_);
+  int near = 0;
+  for (int call = 0; call < 6; ++call) {
+    const Positions end = rolled(x_, 0.4, {1e-3, -2e-3, 5e-4}) + shaken(call % 2 == 0 ? 0.35e-3 : 4e-6);
+    const Positions p = end - x_;
+    near += expect_finds_all(search, p);
+    x_ = end;
+  }
+  EXPECT_GT(near, 100);
+}
+
+TEST_F(BallOverAGel, WithoutADeformationItIsNotSearchedAgainHoweverFarItGoes) {
+  GelsSearch search(mesh_);
+  const Positions still = Positions::Zero(x_.rows(), 3);
+  x_ += shaken(0.35e-3);
+  const int near = expect_finds_all(search, still), searches = search.num_searches();
+  EXPECT_GT(near, 20);
+  for (int call = 0; call < 4; ++call) {
+    x_ = rolled(x_, 0.9, {3e-3, 0, 1e-3});
+    EXPECT_EQ(expect_finds_all(search, still), near);
+  }
+  // On a straight way, too.
+  EXPECT_EQ(expect_finds_all(search, rolled(x_, 0.0, {0, 5e-3, 0}) - x_), near);
+  EXPECT_EQ(search.num_searches(), searches);
+}
+
+TEST_F(BallOverAGel, AroundMovingVerticesNoNearPairIsMissed) {
+  GelsSearch search(mesh_);
+  x_ = rolled(x_ + shaken(0.2e-3), 2.0, {0, 0, 1e-3});
+  const Positions p = rolled(x_, 0.02, {2e-4, 0, 0}) - x_;
+  std::vector<ContactPair> pairs;
+  search.pairs(x_, p, kRadius, pairs);
+  x_ += 0.4 * p;
+  std::vector<bool> moves(static_cast<std::size_t>(x_.rows()), false);
+  const Eigen::RowVector3d pole = x_.row(x_.rows() - 1);
+  for (Eigen::Index v = 0; v < x_.rows(); ++v) moves[static_cast<std::size_t>(v)] = (x_.row(v) - pole).norm() < 1.3e-3;
+  ASSERT_GT(std::count(moves.begin(), moves.end(), true), 6);
+  constexpr double kFar_m = 0.3e-3;
+  std::vector<ContactPair> around;
+  search.around(moves, x_, kRadius, kFar_m, around);
+  around = sorted(std::move(around));
+  int near = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const Positions far = kFar_m / std::sqrt(3.0) * shaken(1.0).cwiseSign();
+    Positions moved = x_;
+    for (Eigen::Index v = 0; v < moved.rows(); ++v) {
+      if (moves[static_cast<std::size_t>(v)]) moved.row(v) += far.row(v);
+    }
+    for (const ContactPair& pair : all_) {
+      const auto& v = pair.vertices;
+      if (!(moves[v[0]] || moves[v[1]] || moves[v[2]] || moves[v[3]])) continue;
+      const double within = reach(pair);
+      if (closest_feature(pair, gather(moved, pair)).squared_distance >= within * within) continue;
+      ++near;
+      EXPECT_TRUE(std::binary_search(around.begin(), around.end(), pair, less));
+    }
+  }
+  EXPECT_GT(near, 20);
+}
+
+/// SelfSearch by itself: the ball's own places are those of its frame.
+TEST_F(BallOverAGel, HasNoFlatFaceAndIsSearchedWhole) {
+  const ContactMesh& alone = *mesh_.gels[1].mesh;
+  const OpenFace face(alone);
+  for (int v = 0; v < alone.num_vertices(); ++v) EXPECT_FALSE(face.has(v));
+  SelfSearch itself(alone);
+  const std::vector<ContactPair> all = all_pairs(alone.gel);
+  Positions x = alone.rest_positions;
+  // Squeezed flat, its poles come near each other.
+  x.col(2) *= 0.05;
+  std::vector<ContactPair> found;
+  itself.pairs(x, Positions::Zero(x.rows(), 3), kRadius, found);
+  found = sorted(std::move(found));
+  int near = 0;
+  for (const ContactPair& pair : all) {
+    const double at_rest = closest_feature(pair, gather(alone.rest_positions, pair)).squared_distance;
+    const double within = std::min(kRadius, 0.5 * std::sqrt(at_rest));
+    if (closest_feature(pair, gather(x, pair)).squared_distance >= within * within) continue;
+    ++near;
+    EXPECT_TRUE(std::binary_search(found.begin(), found.end(), pair, less));
+  }
+  EXPECT_GT(near, 300);
 }
 
 }  // namespace
