@@ -152,6 +152,7 @@ void contents(auto& io, auto& frame, auto& progress) {
 void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   io.plain(frame.time_s);
   io.plain(frame.phase);
+  each(io, frame.world_from_hand);
   for (auto& pose : frame.world_from_finger) each(io, pose);
   for (auto& force : frame.force_on_finger_n) each(io, force);
   each(io, frame.world_from_object);
@@ -169,7 +170,9 @@ void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   io.plain(progress.drive.last_grip_n);
   io.plain(progress.drive.stiffness_n_m);
   io.plain(progress.drive.let_go);
-  each(io, progress.hand_m);
+  io.plain(progress.drive.by_way);
+  io.plain(progress.drive.wanted_closed_m);
+  each(io, progress.world_from_hand);
   io.plain(progress.grip_n);
 }
 

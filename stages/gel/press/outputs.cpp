@@ -208,11 +208,11 @@ Value::Map grasp_lines(const GraspFrame& f, double body_strain) {
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
   return {{"time_s", f.time_s},
           {"phase", name_of(f.phase)},
-          {"grip_left_n", std::abs(f.force_on_finger_n[0].x())},
-          {"grip_right_n", std::abs(f.force_on_finger_n[1].x())},
+          {"grip_left_n", f.grip_n(0)},
+          {"grip_right_n", f.grip_n(1)},
           {"carried_n", 0.0 - carried.z()},
           {"height_m", f.world_from_object(2, 3)},
-          {"hand_height_m", f.world_from_finger[0](2, 3)},
+          {"hand_height_m", f.world_from_hand(2, 3)},
           {"slip_m", f.slip_m},
           {"turn_rad", f.turn_rad},
           {"body_strain", body_strain},
@@ -233,11 +233,10 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
                    const Grasp& grasp) {
   const auto& frames = grasp.frames;
-  std::optional<std::size_t> closed;  // last frame of the first phase
-  for (std::size_t f = 1; f < frames.size() && grasp.fingers[0].frames[f].phase_index == 0; ++f) closed = f;
   for (std::size_t side = 0; side < 2; ++side) {
     const std::string folder = std::string(side == 0 ? "left" : "right") + "/press";
-    stage.finish_part(folder, write_gel(stage, folder + "/", sensor, gel, config, closed, grasp.fingers[side]));
+    stage.finish_part(folder,
+                      write_gel(stage, folder + "/", sensor, gel, config, grasp.freed_frame, grasp.fingers[side]));
   }
   std::vector<double> time, object, twist, fingers, forces;
   Value::List per_frame;

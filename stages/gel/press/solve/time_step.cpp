@@ -25,6 +25,12 @@ constexpr double kSmallGap = 0.01, kWantedGap = 0.05, kMostStiffeningAtOnce = 10
 // Along a longer way of gels and object past each other pairs are not searched: × d̂, or × the median edge of the front.
 constexpr double kLongestWay = 20.0, kLongestWayOfEdge = 4.0;
 
+/// How far a rigid motion takes each point.
+Positions way_of(const Matrix4& motion, const Positions& from) {
+  const Matrix3 turn = motion.topLeftCorner<3, 3>() - Matrix3::Identity();
+  return (from * turn.transpose()).rowwise() + motion.topRightCorner<3, 1>().transpose();
+}
+
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian,
                            const AffineBody* free_body) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_rows()), false);
@@ -161,6 +167,8 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
                   .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
                   .mass_damping_per_s = settings_.mass_damping_per_s,
                   .stiffness_damping_s = settings_.stiffness_damping_s};
+  if (!goal.hand_motion.topLeftCorner<3, 3>().isIdentity(0.0))
+    step.turned_start = state.x + way_of(goal.hand_motion, state.x);
   add_gel_terms(step, state);
   if (gel_.viscoelasticity) add_relaxation(step, state);
   if (!goal.free_axes.empty()) add_object_inertia(step, state);
@@ -186,7 +194,8 @@ void TimeStepper::add_gel_terms(Step& step, const State& state) const {
     terms.gravity = std::make_shared<LinearLoad>(std::move(all), gel_.mass_kg * settings_.gravity_m_s2.transpose());
   }
   if (settings_.stiffness_damping_s > 0.0)
-    terms.stiffness_damping = std::make_shared<StiffnessDamping>(gel_.elasticity, start);
+    terms.stiffness_damping =
+        std::make_shared<StiffnessDamping>(gel_.elasticity, Positions(step.compared_start().topRows(n)));
   if (settings_.mass_damping_per_s > 0.0) terms.mass_damping = std::make_shared<Inertia>(gel_.mass_kg, start);
 }
 
@@ -241,7 +250,7 @@ void TimeStepper::start_ahead(Step& step, const State& state) {
     const ControlPoints before = mesh_.control_rows(state.x);
     if (mounts && smallest_gap(state.x, settings_.d_hat_m) < settings_.d_hat_m) {
       // Gaps are far smaller than what a held object and its fingers would slide past each other otherwise.
-      mesh_.control_rows(p).rowwise() = goal.hand_shift_m.transpose();
+      mesh_.control_rows(p) = way_of(goal.hand_motion, before);
     } else {
       // Without its weight, which contact mostly carries.
       mesh_.control_rows(p) = predicted(*body_, before, state.object_motion, Vector3::Zero(), goal.h_s) - before;

@@ -73,8 +73,10 @@ struct StepGoal {
   /// How gels go that are carried by their mounts: for each of their vertices the way it would go if the gel moved
   /// rigidly with its mount, and where glued vertices end, in the order of GelModel::glued. Empty: no mount moves.
   Positions gel_motion = {}, glued_target = {};
-  Vector3 hand_shift_m = Vector3::Zero();    // what all mounts have in common: a free object that they hold goes along
-  std::vector<Matrix3> world_from_gel = {};  // how several gels are turned meanwhile; empty for one
+  /// What all mounts have in common, a rigid motion of the world: a free object that they hold starts from there, and
+  /// where it turns, friction and damping count what is left of each motion beside it.
+  Matrix4 hand_motion = Matrix4::Identity();
+  std::vector<Matrix3> world_from_gel = {};  // how several gels are turned at its end; empty for one
   ControlPoints control_target = {};  // of the body's points, as object_target is of its vertices; unless it is free
 };
 
