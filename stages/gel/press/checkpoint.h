@@ -20,6 +20,7 @@ void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress);
 /// What a grasp goes on from.
 struct GraspProgress {
   State state;
+  Positions mount_n;  // forces of the mounts on all gels' vertices
   GripControl drive;
   Matrix4 world_from_hand = Matrix4::Identity();
   double grip_n = 0.0;  // Grasp::grip_n

@@ -94,7 +94,8 @@ class Hand {
 
   Grasp run() {
     const std::string element = element_of(config_, sensor_.material);
-    TimeStepper stepper(mesh_, make_gel_model(sensor_.material, both_, rest_both_, element), settings_, body_);
+    model_ = make_gel_model(sensor_.material, both_, rest_both_, element);
+    TimeStepper stepper(mesh_, model_, settings_, body_);
     stepper_ = &stepper;
     for (Simulation& finger : out_.fingers) {
       finger.d_hat_m = scales_.d_hat_m;
@@ -112,6 +113,8 @@ class Hand {
     state.velocity_m_s = Positions::Zero(both_.num_vertices(), 3);
     if (stepper.smallest_gap(state.x, scales_.gap_horizon_m) <= scales_.d_hat_m)
       throw DataError("the object is nearer to a finger than d_hat = {:.3g} m in frame 0", scales_.d_hat_m);
+    progress_.mount_n = Positions::Zero(both_.num_vertices(), 3);
+    whole_ = open_account(model_.mass_kg, instant(), spec_.gravity_m_s2, model_.elasticity->value(state.x));
     if (!restored()) finish(PhaseKind::reference, -1, {}, stepper.no_forces());
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
     for (Simulation& finger : out_.fingers) finger.times = stepper.times();
@@ -217,12 +220,14 @@ class Hand {
                   .world_from_gel = {poses[0].topLeftCorner<3, 3>(), poses[1].topLeftCorner<3, 3>()},
                   .control_target = control_at(world_from_object_)};
     if (goal.gel_motion.isZero(0.0)) goal.gel_motion.resize(0, 3);
+    const WholeInstant at_start = instant();
     try {
       const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
       drive.closed_m = closed;
       progress_.world_from_hand = to;
+      note_step(at_start, h);
       if (drive.let_go) world_from_object_ = pose_of(*body_, mesh_.control_rows(progress_.state.x));
       const StepReport earlier = report;
       report = done;
@@ -236,6 +241,36 @@ class Hand {
 
   void both_halves(double h, double closing_m, const HandMotion& hand, int halvings, StepReport& report) {
     for (int half = 0; half < 2; ++half) step(0.5 * h, 0.5 * closing_m, hand * 0.5, halvings, report);
+  }
+
+  WholeInstant instant() const {
+    const State& state = progress_.state;
+    return {state.x.topRows(both_.num_vertices()),
+            state.velocity_m_s,
+            {{&*body_, mesh_.control_rows(state.x), state.object_motion, !progress_.drive.let_go}}};
+  }
+
+  /// Energy and momentum of a time step that succeeded.
+  void note_step(const WholeInstant& before, double h) {
+    const StepForces& forces = stepper_->forces();
+    const WholeInstant after = instant();
+    StepExchange exchange{.h_s = h,
+                          .mount_n = forces.mount,
+                          .mount_before_n = progress_.mount_n,
+                          .elastic_j = model_.elasticity->value(progress_.state.x),
+                          .contact_j = forces.contact_j,
+                          .friction_loss_j = forces.friction_loss_j,
+                          .damping_loss_j = forces.damping_loss_j};
+    if (!progress_.drive.let_go) {
+      // Whoever holds the object passes its contact forces on, and does no work: it rests.
+      for (Eigen::Index v = 0; v < after.gel_m.rows(); ++v) {
+        const Vector3 force = forces.normal.row(v) + forces.friction.row(v), at = after.gel_m.row(v);
+        exchange.others.force_n += force;
+        exchange.others.torque_n_m += at.cross(force);
+      }
+    }
+    add_step(whole_, model_.mass_kg, before, after, spec_.gravity_m_s2, exchange);
+    progress_.mount_n = forces.mount;
   }
 
   /// The rigid motion of the world that takes the hand along.
@@ -356,6 +391,8 @@ class Hand {
     unpack_frame(*bytes, frame, of_fingers, progress_);
     for (const std::size_t side : {0, 1}) out_.fingers[side].frames.push_back(std::move(of_fingers[side]));
     time_s_ = frame.time_s;
+    whole_ = frame.whole;
+    whole_.momentum_residual_n = whole_.angular_residual_n_m = 0.0;
     world_from_object_ = frame.world_from_object;
     log_info("frame {}/{} resumed from an interrupted run", out_.frames.size(), num_frames_);
     out_.frames.push_back(frame);
@@ -381,7 +418,9 @@ class Hand {
                      .velocity_m_s = progress_.state.object_motion.velocity_m_s,
                      .spin_rad_s = spin(),
                      .body_residual_n = report.body_residual_n,
-                     .body_load_n = report.body_load_n};
+                     .body_load_n = report.body_load_n,
+                     .whole = whole_};
+    whole_.momentum_residual_n = whole_.angular_residual_n_m = 0.0;
     const Positions object_at = mesh_.object_rows(x), gels_at = x.topRows(both_.num_vertices());
     const IntersectionReport crossings = find_intersections({gels_at, both_.boundary}, {object_at, object_.triangles});
     const double gap = stepper_->smallest_gap(x, scales_.gap_horizon_m);
@@ -476,8 +515,10 @@ class Hand {
   std::vector<RestTet> rest_both_;
   ContactMesh mesh_;
   std::vector<int> glued_;
+  GelModel model_;
   TimeStepper* stepper_ = nullptr;
   GraspProgress progress_;
+  WholeAccount whole_;
   Matrix4 world_from_object_;
   double time_s_ = 0.0;
   int num_frames_ = 0;

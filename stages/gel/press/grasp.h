@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stages/gel/press/grasp_spec.h"
+#include "stages/gel/press/measure/conservation.h"
 #include "stages/gel/press/simulate.h"
 
 namespace tacipc {
@@ -24,6 +25,7 @@ struct GraspFrame {
   double body_residual_n = 0.0, body_load_n = 0.0;
   double slip_m = 0.0;    // of the object's point at the grip, in the hand, since the fingers closed
   double turn_rad = 0.0;  // of the object in the hand since then
+  WholeAccount whole;     // of gels and object; the residuals are those of the frame's time steps
 
   /// How hard a finger presses: |contact force along its z|.
   double grip_n(std::size_t side) const;

@@ -52,16 +52,22 @@ void TimeStepper::record_forces(const Step& step) {
       take_from_mount(force_of(part.weight, *elasticity_at_mount_));
       continue;
     }
+    // Half of what a damping force, linear in the way it acts along, takes.
+    if (part.term == step.terms.stiffness_damping)
+      forces_.damping_loss_j = 2.0 * part.weight / h2 * part.term->value(step.x);
     const Positions force = force_of(part.weight, *part.term);
     // Inside the gel it cancels with the elasticity's.
     if (part.term != step.terms.viscous_memory) forces_.body += force;
     take_from_mount(force);
   }
   if (energy.friction.term) {
-    forces_.friction = force_of(energy.friction.weight, *energy.friction.term);
+    const Positions on_all = -energy.friction.weight / h2 * gradient_of(*energy.friction.term, step.x);
+    forces_.friction = on_all.topRows(n);
+    forces_.friction_loss_j = -(on_all.array() * (step.x - step.compared_start()).array()).sum();
     take_from_mount(forces_.friction);
   }
   forces_.normal = force_of(energy.barrier.weight, *energy.barrier.term);
+  forces_.contact_j = energy.barrier.weight / h2 * energy.barrier.term->value(step.x);
   take_from_mount(forces_.normal);
 
   // Where weights of both signs cancel, rounding is left.

@@ -125,6 +125,8 @@ struct StepForces {
   /// Σ λ d / Σ λ over the pairs of gel and object, λ the force and d the distance between the two sides of each: the
   /// mean gap between the surfaces where they press on each other. Zero where nothing touches.
   double stand_off_m = 0.0;
+  double contact_j = 0.0;                              // energy of the barrier
+  double friction_loss_j = 0.0, damping_loss_j = 0.0;  // what friction and stiffness damping took in the step
 };
 
 /// Called after each Newton iteration, for progress lines.

@@ -209,6 +209,37 @@ TEST(Grasp, TurnsTheObjectInTheHandWithIt) {
   }
 }
 
+/// Momentum goes where forces say, and no energy is gained (but for 0.1 % of what is lost).
+TEST(Grasp, AccountsForMomentumAndEnergyOfTheWhole) {
+  const std::vector<GraspPhase> motion{close_phase(3, kGrip_n), hold_phase(5),          lift_phase(10, 3e-3),
+                                       hold_phase(6),           turn_phase(10, 0.8, 1), hold_phase(6)};
+  const Grasp grasp = run_grasp(kBox, grasp_config(0.8), grasp_of(kMass_kg, motion));
+  const double weight = kMass_kg * kG;
+  Vector3 lost = Vector3::Zero();
+  double loss_j = 0.0;
+  for (const GraspFrame& frame : grasp.frames) {
+    const WholeAccount& whole = frame.whole;
+    EXPECT_LT(whole.momentum_residual_n, 2e-3 * kGrip_n) << frame.time_s;
+    // Friction on both sides of a gap of at most d̂ = 29 um; the origin is 20 mm away at most.
+    EXPECT_LT(whole.angular_residual_n_m, 2 * 29e-6 * weight + 2e-3 * 0.02 * kGrip_n) << frame.time_s;
+    lost = whole.momentum_kg_m_s - whole.impulse_n_s;
+    EXPECT_LT(lost.norm(), 1e-4 * weight) << frame.time_s;
+    EXPECT_GE(whole.method_loss_j, loss_j - 2e-8) << frame.time_s;
+    EXPECT_GE(whole.friction_loss_j, 0.0);
+    loss_j = whole.method_loss_j;
+  }
+  const WholeAccount &before = grasp.frames[8].whole, &raised = grasp.frames[24].whole;
+  EXPECT_LT(grasp.frames[0].whole.elastic_j, 1e-20);
+  // Both gels weigh 2 x 0.8 g.
+  const double gels_kg = (raised.gravitational_j - before.gravitational_j) / (kG * 3e-3) - kMass_kg;
+  EXPECT_GT(gels_kg, 1e-3);
+  EXPECT_LT(gels_kg, 3e-3);
+  EXPECT_GT(raised.work_j - before.work_j, raised.gravitational_j - before.gravitational_j);
+  EXPECT_LT(raised.work_j - before.work_j, 1.1 * (raised.gravitational_j - before.gravitational_j));
+  EXPECT_LT(raised.kinetic_j, 1e-9);
+  EXPECT_GT(before.elastic_j, 1e-6);
+}
+
 /// Straight paths of vertices would cut across a large turn.
 TEST(Grasp, ATimeStepThatTurnsFarIsDivided) {
   const std::vector<GraspPhase> motion{close_phase(3, 3.0), hold_phase(3), turn_phase(2, 1.0, 0), hold_phase(5)};
@@ -326,6 +357,7 @@ TEST(Grasp, GoesOnFromAnyFrameToTheSameBytes) {
     EXPECT_EQ(again.judged_frame, grasp.judged_frame);
     EXPECT_EQ(again.grip_n, grasp.grip_n);
     EXPECT_EQ(again.frames.back().slip_m, grasp.frames.back().slip_m);
+    EXPECT_EQ(again.frames.back().whole.work_j, grasp.frames.back().whole.work_j);
   }
 }
 
