@@ -55,6 +55,9 @@ void GripControl::measure(double step_m, double grip_n) {
     double now = std::max(touched / step_m, kSofterMost * stiffness_n_m);
     if (std::abs(step_m) < kFirstTouch_m) now = std::min(now, kStifferMost * stiffness_n_m);
     stiffness_n_m = now;
+  } else if (std::abs(step_m) <= kMeasurable_m && !by_way && std::abs(grip_n - wanted_n) > kGripTolerance * wanted_n) {
+    // Steps that are too short to measure, and do not reach what is wanted, are those of too stiff a guess.
+    stiffness_n_m *= kSofterMost;
   }
   // Who grips next goes on from the grip there is.
   if (by_way) wanted_n = grip_n;

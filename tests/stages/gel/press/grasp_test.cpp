@@ -23,9 +23,7 @@ const TriangleMesh kBox = centered_box({4e-3, 4e-3, 4e-3});
 const TriangleMesh kBar = centered_box({4e-3, 30e-3, 4e-3});
 
 double carried_n(const GraspFrame& frame) { return -(frame.force_on_finger_n[0] + frame.force_on_finger_n[1]).z(); }
-double grip_n(const GraspFrame& frame) {
-  return 0.5 * (std::abs(frame.force_on_finger_n[0].x()) + std::abs(frame.force_on_finger_n[1].x()));
-}
+double grip_n(const GraspFrame& frame) { return 0.5 * (frame.grip_n(0) + frame.grip_n(1)); }
 Vector3 hand_of(const GraspFrame& frame) { return frame.world_from_hand.topRightCorner<3, 1>(); }
 double fingers_apart_m(const GraspFrame& frame) {
   return (frame.world_from_finger[1] - frame.world_from_finger[0])(0, 3);
@@ -192,6 +190,18 @@ TEST(Grasp, TurnsTheObjectInTheHandWithIt) {
     const double along = after.grip_n(0) - after.grip_n(1);
     EXPECT_NEAR(std::abs(along), axis == 1 ? weight : 0.0, 2e-3 * weight) << axis;
   }
+}
+
+/// Damping of strain rates counts no turn: what it takes meanwhile is less than what the gels hold.
+TEST(Grasp, ATurnStrainsNoGel) {
+  PressConfig config = grasp_config(0.8);
+  config.stiffness_damping_s = 0.02;
+  const std::vector<GraspPhase> motion{close_phase(3, kGrip_n), hold_phase(8), turn_phase(10, 1.0, 1), hold_phase(4)};
+  const Grasp grasp = run_grasp(kBox, config, grasp_of(kMass_kg, motion));
+  const WholeAccount &before = grasp.frames[11].whole, &after = grasp.frames.back().whole;
+  EXPECT_GT(before.damping_loss_j, 0.0);
+  EXPECT_LT(after.damping_loss_j - before.damping_loss_j, before.elastic_j);
+  EXPECT_NEAR(grip_n(grasp.frames.back()), kGrip_n, 0.02 * kGrip_n);
 }
 
 /// Momentum goes where forces say, and no energy is gained (but for 0.1 % of what is lost).

@@ -35,6 +35,17 @@ TEST(GripControl, ReachesAForceThroughASpringOfAnyStiffness) {
   }
 }
 
+/// A step that was short while something else changed the grip says that all is stiff.
+TEST(GripControl, RecoversFromAMuchTooStiffGuess) {
+  Spring spring{3e3, 1e-4};
+  spring.drive.grip(1.0);
+  for (int i = 0; i < 30; ++i) spring.step();
+  spring.drive.stiffness_n_m *= 1e4;
+  spring.drive.grip(2.0);
+  for (int i = 0; i < 30; ++i) spring.step();
+  EXPECT_NEAR(spring.drive.last_grip_n, 2.0, 0.04);
+}
+
 TEST(GripControl, OpensToASmallerForce) {
   Spring spring{3e3, 1e-4};
   spring.drive.grip(1.0);
