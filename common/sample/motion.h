@@ -12,7 +12,7 @@
 
 namespace tacipc {
 
-/// What a phase does, the last three of a grasp. The numbers stand in phase.npy; `reference` and `approach` name
+/// What a phase does, the last four of a grasp. The numbers stand in phase.npy; `reference` and `approach` name
 /// frames, not phases.
 enum class PhaseKind {
   reference,
@@ -28,11 +28,12 @@ enum class PhaseKind {
   free,
   close,
   lift,
-  shake
+  shake,
+  turn
 };
 
-inline constexpr std::array kPhaseNames{"reference", "approach", "press", "shear", "twist", "hold", "release",
-                                        "tilt",      "path",     "load",  "free",  "close", "lift", "shake"};
+inline constexpr std::array kPhaseNames{"reference", "approach", "press", "shear", "twist", "hold",  "release", "tilt",
+                                        "path",      "load",     "free",  "close", "lift",  "shake", "turn"};
 
 const char* name_of(PhaseKind kind);
 

@@ -42,9 +42,10 @@ FREE_OBJECT_RECORD := $(OUT)/free_object/free_object.yaml
 .PHONY: closed-forms closed-forms-page free-object free-object-page
 closed-forms-page: | build-closed-forms
 	$(call record_tests,$(CLOSED_FORMS_RECORD),verification/verification_test,*PatchTest*:*WideLayerTest*)
-# time_step_free_object_test.cpp, rigid_motion_test.cpp, simulate_free_test.cpp; time_step_mounts_test.cpp, grasp_test.cpp
+# time_step_free_object_test.cpp, rigid_motion_test.cpp, simulate_free_test.cpp; time_step_mounts_test.cpp, grasp_test.cpp,
+# grasp_onset_test.cpp
 free-object-page: | build-free-object
-	$(call record_tests,$(FREE_OBJECT_RECORD),stages/gel/press/press_test,CarriedPairs.*:FlyingBox.*:FreeBox.*:TallBox.*:RollingBall.*:DroppedBall.*:FlatFace.*:RigidMotion.*:FreeObject.*:MovingMount.*:TwoFingers.*:SlipperyFingers.*:Grasp.*)
+	$(call record_tests,$(FREE_OBJECT_RECORD),stages/gel/press/press_test,CarriedPairs.*:FlyingBox.*:FreeBox.*:TallBox.*:RollingBall.*:DroppedBall.*:FlatFace.*:RigidMotion.*:FreeObject.*:MovingMount.*:TwoFingers.*:SlipperyFingers.*:Grasp.*:GraspOnset.*)
 
 closed-forms: closed-forms-page ## studies: Patch test, compression, simple shear, momentum and energy against closed forms (a second)
 	$(call holds,$(CLOSED_FORMS_RECORD))

@@ -141,6 +141,24 @@ void contents(auto& io, auto& frame) {
   solver(io, frame.solver);
 }
 
+void account(auto& io, auto& whole) {
+  io.plain(whole.kinetic_j);
+  io.plain(whole.elastic_j);
+  io.plain(whole.contact_j);
+  io.plain(whole.gravitational_j);
+  io.plain(whole.work_j);
+  io.plain(whole.friction_loss_j);
+  io.plain(whole.damping_loss_j);
+  io.plain(whole.method_loss_j);
+  each(io, whole.momentum_kg_m_s);
+  each(io, whole.angular_momentum_kg_m2_s);
+  each(io, whole.impulse_n_s);
+  each(io, whole.angular_impulse_n_m_s);
+  each(io, whole.method_angular_n_m_s);
+  io.plain(whole.momentum_residual_n);
+  io.plain(whole.angular_residual_n_m);
+}
+
 void state_of(auto& io, auto& state) {
   io.rows(state.x);
   io.rows(state.velocity_m_s);
@@ -163,6 +181,7 @@ void contents(auto& io, auto& frame, auto& progress) {
 void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   io.plain(frame.time_s);
   io.plain(frame.phase);
+  each(io, frame.world_from_hand);
   for (auto& pose : frame.world_from_finger) each(io, pose);
   for (auto& force : frame.force_on_finger_n) each(io, force);
   each(io, frame.world_from_object);
@@ -172,15 +191,19 @@ void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   io.plain(frame.body_load_n);
   io.plain(frame.slip_m);
   io.plain(frame.turn_rad);
+  account(io, frame.whole);
   for (auto& of_finger : fingers) contents(io, of_finger);
   state_of(io, progress.state);
+  io.rows(progress.mount_n);
   io.plain(progress.drive.wanted_n);
   io.plain(progress.drive.closed_m);
   io.plain(progress.drive.last_step_m);
   io.plain(progress.drive.last_grip_n);
   io.plain(progress.drive.stiffness_n_m);
   io.plain(progress.drive.let_go);
-  each(io, progress.hand_m);
+  io.plain(progress.drive.by_way);
+  io.plain(progress.drive.wanted_closed_m);
+  each(io, progress.world_from_hand);
   io.plain(progress.grip_n);
 }
 

@@ -21,9 +21,10 @@ void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress);
 /// What a grasp goes on from.
 struct GraspProgress {
   State state;
+  Positions mount_n;  // forces of the mounts on all gels' vertices
   GripControl drive;
-  Vector3 hand_m = Vector3::Zero();  // displacement of the hand, the middle between the fingers
-  double grip_n = 0.0;               // Grasp::grip_n
+  Matrix4 world_from_hand = Matrix4::Identity();
+  double grip_n = 0.0;  // Grasp::grip_n
 };
 
 /// The same of a grasp: its frame, those of both fingers, and what the next ones start from.

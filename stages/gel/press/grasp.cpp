@@ -16,7 +16,8 @@
 namespace tacipc {
 namespace {
 
-constexpr int kMostClosingSteps = 200;  // after the frames of a phase `close`
+constexpr int kMostClosingSteps = 200;  // after the frames of a phase in which fingers close
+constexpr double kMostTurn_rad = 0.2;   // of the hand in a time step: a straight path cuts 0.5 % off at most
 constexpr double kUneven = 0.1;         // of both grips together, by which one may exceed the other without a warning
 // Outcome: a held object has slipped or turned from here on; one that rose by less than a part of the hand's way is
 // dropped.
@@ -28,6 +29,35 @@ Matrix3 world_from_finger(int side) {
   Matrix3 R;
   R << y.cross(z), y, z;
   return R;
+}
+
+/// How the hand moves in a time step: by a way, and about its origin by a rotation vector.
+struct HandMotion {
+  Vector3 shift_m = Vector3::Zero(), turn_rad = Vector3::Zero();
+
+  HandMotion operator*(double part) const { return {part * shift_m, part * turn_rad}; }
+  HandMotion operator-(const HandMotion& other) const { return {shift_m - other.shift_m, turn_rad - other.turn_rad}; }
+  Matrix3 turn() const {
+    const double angle = turn_rad.norm();
+    if (angle == 0.0) return Matrix3::Identity();
+    return Eigen::AngleAxisd(angle, turn_rad / angle).toRotationMatrix();
+  }
+};
+
+/// The hand's pose after that.
+Matrix4 moved(const Matrix4& world_from_hand, const HandMotion& by) {
+  Matrix4 pose = world_from_hand;
+  pose.topRightCorner<3, 1>() += by.shift_m;
+  if (by.turn_rad != Vector3::Zero()) {
+    const Matrix3 R = by.turn() * world_from_hand.topLeftCorner<3, 3>();
+    pose.topLeftCorner<3, 3>() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  }
+  return pose;
+}
+
+/// How hard a finger is pressed by a force.
+double pressing_n(const Vector3& force_n, const Matrix4& world_from_finger) {
+  return std::abs(force_n.dot(world_from_finger.col(2).head<3>()));
 }
 
 class Hand {
@@ -43,6 +73,7 @@ class Hand {
         store_(store),
         scales_(scales_of(config, sensor, gel)),
         settings_(step_settings(config, scales_)),
+        start_gap_m_(spec.start_gap_m.value_or(scales_.start_gap_m)),
         rest_tets_(make_rest_tets(gel.positions, gel.tets)) {
     if (config.augmented_lagrangian)
       throw UsageError(
@@ -63,7 +94,8 @@ class Hand {
 
   Grasp run() {
     const std::string element = element_of(config_, sensor_.material);
-    TimeStepper stepper(mesh_, make_gel_model({{sensor_.material, element, both_}}), settings_, {*body_});
+    model_ = make_gel_model({{sensor_.material, element, both_}});
+    TimeStepper stepper(mesh_, model_, settings_, {*body_});
     stepper_ = &stepper;
     for (Simulation& finger : out_.fingers) {
       finger.d_hat_m = scales_.d_hat_m;
@@ -81,10 +113,13 @@ class Hand {
     state.velocity_m_s = Positions::Zero(both_.num_vertices(), 3);
     if (stepper.smallest_gap(state.x, scales_.gap_horizon_m) <= scales_.d_hat_m)
       throw DataError("the object is nearer to a finger than d_hat = {:.3g} m in frame 0", scales_.d_hat_m);
+    progress_.mount_n = Positions::Zero(both_.num_vertices(), 3);
+    whole_ = open_account(model_.mass_kg, instant(), spec_.gravity_m_s2, model_.elasticity->value(state.x));
     if (!restored()) finish(PhaseKind::reference, -1, {}, stepper.no_forces());
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
     for (Simulation& finger : out_.fingers) finger.times = stepper.times();
     out_.grip_n = progress_.grip_n;
+    out_.freed_frame = *grip_frame_;
     judge_outcome();
     return std::move(out_);
   }
@@ -123,7 +158,7 @@ class Hand {
             "from the centre of mass, in the object's axes");
       start_[side].setIdentity();
       start_[side].topLeftCorner<3, 3>() = R;
-      start_[side].topRightCorner<3, 1>() = -R.col(2) * (reach + scales_.start_gap_m);
+      start_[side].topRightCorner<3, 1>() = -R.col(2) * (reach + start_gap_m_);
     }
     both_ = joined(std::array{PlacedGel{gel_, start_[0]}, PlacedGel{gel_, start_[1]}});
     mesh_ = make_contact_mesh(both_.positions, both_.boundary, at, object_.triangles);
@@ -133,9 +168,9 @@ class Hand {
         make_contact_mesh(gel_.positions, gel_.boundary, Positions(0, 3), Triangles(0, 3)));
     for (int side = 0; side < 2; ++side) {
       mesh_.gels.push_back({side * static_cast<int>(gel_.num_vertices()), anchor, alone});
-      turns_.push_back(start_[side].topLeftCorner<3, 3>());
     }
     glued_ = both_.vertices(BoundaryTag::glued);
+    start_width_m_ = start_[1](0, 3) - start_[0](0, 3);
   }
 
   ControlPoints control_at(const Matrix4& pose) const { return transformed(pose, body_->rest_m); }
@@ -144,27 +179,34 @@ class Hand {
     return {gel_, out_.fingers[side].front, rest_tets_, static_cast<Eigen::Index>(side) * gel_.num_vertices()};
   }
 
-  std::array<Matrix4, 2> finger_poses(double closed_m, const Vector3& hand_m) const {
+  std::array<Matrix4, 2> finger_poses(const Matrix4& world_from_hand, double closed_m) const {
     std::array<Matrix4, 2> poses = start_;
-    for (Matrix4& pose : poses) pose.topRightCorner<3, 1>() += hand_m + closed_m * pose.topLeftCorner<3, 3>().col(2);
+    for (Matrix4& pose : poses) {
+      pose.topRightCorner<3, 1>() += closed_m * pose.topLeftCorner<3, 3>().col(2);
+      pose = world_from_hand * pose;
+    }
     return poses;
+  }
+  std::array<Matrix4, 2> finger_poses() const {
+    return finger_poses(progress_.world_from_hand, progress_.drive.closed_m);
   }
 
   double grip_n() const {
     double sum = 0.0;
-    for (const std::size_t side : {0, 1}) sum += std::abs(force_on(side).x());
+    for (const std::size_t side : {0, 1}) sum += pressing_n(force_on(side), finger_poses()[side]);
     return 0.5 * sum;
   }
 
   Vector3 force_on(std::size_t side) const { return contact_force_on(part(side), stepper_->forces()); }
 
-  /// One time step, in which the hand moves and the fingers close; divided where it does not converge.
-  void step(double h, double closing_m, const Vector3& hand_m, int halvings, StepReport& report) {
+  /// One time step, in which the hand moves and the fingers close; divided where it turns too far for straight paths of
+  /// the vertices, or does not converge.
+  void step(double h, double closing_m, const HandMotion& hand, int halvings, StepReport& report) {
+    if (hand.turn_rad.norm() > kMostTurn_rad) return both_halves(h, closing_m, hand, halvings, report);
     GripControl& drive = progress_.drive;
     const double closed = drive.closed_m + closing_m;
-    const Vector3 moved = progress_.hand_m + hand_m;
-    const std::array<Matrix4, 2> before = finger_poses(drive.closed_m, progress_.hand_m),
-                                 poses = finger_poses(closed, moved);
+    const Matrix4 to = moved(progress_.world_from_hand, hand);
+    const std::array<Matrix4, 2> before = finger_poses(), poses = finger_poses(to, closed);
     const auto n = static_cast<int>(gel_.num_vertices());
     Positions target(2 * n, 3), start(2 * n, 3);
     target << transformed(poses[0], gel_.positions), transformed(poses[1], gel_.positions);
@@ -174,16 +216,18 @@ class Hand {
                   .free_object = drive.let_go,
                   .gel_motion = target - start,
                   .glued_target = target(glued_, Eigen::all),
-                  .hand_shift_m = hand_m,
-                  .world_from_gel = turns_,
+                  .hand_motion = motion_of(hand),
+                  .world_from_gel = {poses[0].topLeftCorner<3, 3>(), poses[1].topLeftCorner<3, 3>()},
                   .control_target = control_at(world_from_object_)};
     if (goal.gel_motion.isZero(0.0)) goal.gel_motion.resize(0, 3);
+    const WholeInstant at_start = instant();
     try {
       const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
       drive.closed_m = closed;
-      progress_.hand_m = moved;
+      progress_.world_from_hand = to;
+      note_step(at_start, h);
       if (drive.let_go) world_from_object_ = pose_of(*body_, mesh_.control_rows(progress_.state.x));
       const StepReport earlier = report;
       report = done;
@@ -191,27 +235,83 @@ class Hand {
     } catch (const SolverError& error) {
       if (halvings >= config_.max_halvings) throw;
       log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
-      step(0.5 * h, 0.5 * closing_m, 0.5 * hand_m, halvings + 1, report);
-      step(0.5 * h, 0.5 * closing_m, 0.5 * hand_m, halvings + 1, report);
+      both_halves(h, closing_m, hand, halvings + 1, report);
     }
   }
 
-  /// Where the hand is after a part of a phase, from where that began.
-  static Vector3 hand_in(const GraspPhase& phase, double part, double seconds) {
-    Vector3 at = Vector3::Zero();
-    if (phase.kind == PhaseKind::lift) at.z() = phase.distance_m * part * part * (3.0 - 2.0 * part);
+  void both_halves(double h, double closing_m, const HandMotion& hand, int halvings, StepReport& report) {
+    for (int half = 0; half < 2; ++half) step(0.5 * h, 0.5 * closing_m, hand * 0.5, halvings, report);
+  }
+
+  WholeInstant instant() const {
+    const State& state = progress_.state;
+    return {state.x.topRows(both_.num_vertices()),
+            state.velocity_m_s,
+            {{&*body_, mesh_.control_rows(state.x), state.object_motion[0], !progress_.drive.let_go}}};
+  }
+
+  /// Energy and momentum of a time step that succeeded.
+  void note_step(const WholeInstant& before, double h) {
+    const StepForces& forces = stepper_->forces();
+    const WholeInstant after = instant();
+    StepExchange exchange{.h_s = h,
+                          .mount_n = forces.mount,
+                          .mount_before_n = progress_.mount_n,
+                          .elastic_j = model_.elasticity->value(progress_.state.x),
+                          .contact_j = forces.contact_j,
+                          .friction_loss_j = forces.friction_loss_j,
+                          .damping_loss_j = forces.damping_loss_j};
+    if (!progress_.drive.let_go) {
+      // Whoever holds the object passes its contact forces on, and does no work: it rests.
+      for (Eigen::Index v = 0; v < after.gel_m.rows(); ++v) {
+        const Vector3 force = forces.normal.row(v) + forces.friction.row(v), at = after.gel_m.row(v);
+        exchange.others.force_n += force;
+        exchange.others.torque_n_m += at.cross(force);
+      }
+    }
+    add_step(whole_, model_.mass_kg, before, after, spec_.gravity_m_s2, exchange);
+    progress_.mount_n = forces.mount;
+  }
+
+  /// The rigid motion of the world that takes the hand along.
+  Matrix4 motion_of(const HandMotion& hand) const {
+    const Vector3 at = progress_.world_from_hand.topRightCorner<3, 1>();
+    Matrix4 motion = Matrix4::Identity();
+    motion.topLeftCorner<3, 3>() = hand.turn();
+    motion.topRightCorner<3, 1>() = (Matrix3::Identity() - hand.turn()) * at + hand.shift_m;
+    return motion;
+  }
+
+  /// How the hand has moved after a part of a phase.
+  static HandMotion hand_in(const GraspPhase& phase, double part, double seconds) {
+    HandMotion hand;
+    const double smooth = part * part * (3.0 - 2.0 * part);
+    if (phase.kind == PhaseKind::lift) hand.shift_m.z() = phase.distance_m * smooth;
     if (phase.kind == PhaseKind::shake)
-      at[phase.axis] =
+      hand.shift_m[phase.axis] =
           0.5 * phase.amplitude_m * (1.0 - std::cos(2.0 * std::numbers::pi * phase.frequency_hz * seconds));
-    return at;
+    if (phase.kind == PhaseKind::turn) hand.turn_rad[phase.axis] = phase.angle_rad * smooth;
+    return hand;
+  }
+
+  /// What the fingers are to have done after a part of a phase, from what they had at its start.
+  void set_goal(const GraspPhase& phase, double part, const GripControl& from) {
+    GripControl& drive = progress_.drive;
+    if (phase.kind == PhaseKind::approach) {
+      drive.go_to(start_gap_m_ - phase.gap_m);
+    } else if (phase.kind == PhaseKind::close && phase.width_m) {
+      drive.go_to(from.closed_m + part * (0.5 * (start_width_m_ - *phase.width_m) - from.closed_m));
+    } else if (phase.kind == PhaseKind::close) {
+      drive.grip(from.wanted_n + part * (phase.force_n - from.wanted_n));
+    }
   }
 
   void run_phase(const GraspPhase& phase, int index) {
     const double h = config_.time_step_s;
     const int steps = phase.steps * phase.substeps;
-    const bool closes = phase.kind == PhaseKind::close;
+    const bool closes = phase.kind == PhaseKind::close, goes_on = closes || phase.kind == PhaseKind::approach;
     GripControl& drive = progress_.drive;
-    const double from_n = drive.wanted_n;
+    const GripControl from = drive;
     for (int f = 1; f <= phase.steps; ++f) {
       const bool last = f == phase.steps;
       if (restored()) continue;
@@ -219,19 +319,14 @@ class Hand {
       try {
         for (int k = 0; k < phase.substeps; ++k) {
           const int i = (f - 1) * phase.substeps + k;
-          if (closes) drive.wanted_n = from_n + (i + 1.0) * (phase.force_n - from_n) / steps;
-          const Vector3 hand = hand_in(phase, (i + 1.0) / steps, (i + 1) * h) - hand_in(phase, 1.0 * i / steps, i * h);
-          time_step(phase, h, hand, report);
+          set_goal(phase, (i + 1.0) / steps, from);
+          time_step(phase, h, hand_in(phase, (i + 1.0) / steps, (i + 1) * h) - hand_in(phase, 1.0 * i / steps, i * h),
+                    report);
         }
         // The object does not wait: it is held until the fingers have their grip.
-        for (int more = 0; closes && last && !drive.lost() && !drive.has(phase.force_n); ++more) {
-          if (more == kMostClosingSteps)
-            throw SolverError(
-                "the fingers reached {:.3g} N instead of {:.3g} N in {} more time steps, each closed by {:.3g} mm: is "
-                "anything between them at fingers.grip_mm? A small closing_speed_mm_s, or a force_n that is too "
-                "much for the gel, can be why, too",
-                drive.last_grip_n, phase.force_n, kMostClosingSteps, 1e3 * drive.closed_m);
-          time_step(phase, h, Vector3::Zero(), report);
+        for (int more = 0; goes_on && last && !drive.lost() && !drive.arrived(); ++more) {
+          if (more == kMostClosingSteps) throw_not_closed();
+          time_step(phase, h, {}, report);
         }
       } catch (const SolverError& error) {
         throw SolverError("frame {}: {}", out_.frames.size(), error.what());
@@ -241,10 +336,25 @@ class Hand {
     }
   }
 
+  [[noreturn]] void throw_not_closed() const {
+    const GripControl& drive = progress_.drive;
+    if (drive.by_way)
+      throw SolverError(
+          "in {} more time steps each finger has closed by {:.3g} mm instead of {:.3g} mm: give the phase more steps, "
+          "or the fingers a larger closing_speed_mm_s",
+          kMostClosingSteps, 1e3 * drive.closed_m, 1e3 * drive.wanted_closed_m);
+    throw SolverError(
+        "the fingers reached {:.3g} N instead of {:.3g} N in {} more time steps, each closed by {:.3g} mm: is "
+        "anything between them at fingers.grip_mm? A small closing_speed_mm_s, or a force_n that is too "
+        "much for the gel, can be why, too",
+        drive.last_grip_n, drive.wanted_n, kMostClosingSteps, 1e3 * drive.closed_m);
+  }
+
   void let_go() {
     progress_.drive.let_go = true;
     progress_.grip_n = progress_.drive.last_grip_n;
-    const double left = std::abs(force_on(0).x()), right = std::abs(force_on(1).x());
+    const auto poses = finger_poses();
+    const double left = pressing_n(force_on(0), poses[0]), right = pressing_n(force_on(1), poses[1]);
     if (std::abs(left - right) > kUneven * (left + right))
       log_warning(
           "frame {}: when the object was freed the left finger pressed with {:.3g} N and the right one with {:.3g} N: "
@@ -252,7 +362,7 @@ class Hand {
           out_.frames.size(), left, right);
   }
 
-  void time_step(const GraspPhase& phase, double h, const Vector3& hand, StepReport& report) {
+  void time_step(const GraspPhase& phase, double h, const HandMotion& hand, StepReport& report) {
     GripControl& drive = progress_.drive;
     double closing = 0.0;
     if (phase.kind == PhaseKind::release) {
@@ -265,7 +375,10 @@ class Hand {
     step(h, closing, hand, 0, report);
     drive.measure(closing, grip_n());
     // What is left of it is kept from there on.
-    if (phase.kind == PhaseKind::release) drive.wanted_n = drive.last_grip_n;
+    if (phase.kind == PhaseKind::release) {
+      drive.wanted_n = drive.last_grip_n;
+      drive.wanted_closed_m = drive.closed_m;
+    }
   }
 
   bool restored() {
@@ -278,6 +391,8 @@ class Hand {
     unpack_frame(*bytes, frame, of_fingers, progress_);
     for (const std::size_t side : {0, 1}) out_.fingers[side].frames.push_back(std::move(of_fingers[side]));
     time_s_ = frame.time_s;
+    whole_ = frame.whole;
+    whole_.momentum_residual_n = whole_.angular_residual_n_m = 0.0;
     world_from_object_ = frame.world_from_object;
     log_info("frame {}/{} resumed from an interrupted run", out_.frames.size(), num_frames_);
     out_.frames.push_back(frame);
@@ -297,12 +412,15 @@ class Hand {
     const Positions& x = progress_.state.x;
     GraspFrame frame{.time_s = time_s_,
                      .phase = phase,
-                     .world_from_finger = finger_poses(progress_.drive.closed_m, progress_.hand_m),
+                     .world_from_hand = progress_.world_from_hand,
+                     .world_from_finger = finger_poses(),
                      .world_from_object = world_from_object_,
                      .velocity_m_s = progress_.state.object_motion[0].velocity_m_s,
                      .spin_rad_s = spin(),
                      .body_residual_n = report.body_residual_n,
-                     .body_load_n = report.body_load_n};
+                     .body_load_n = report.body_load_n,
+                     .whole = whole_};
+    whole_.momentum_residual_n = whole_.angular_residual_n_m = 0.0;
     const Positions object_at = mesh_.object_rows(x), gels_at = x.topRows(both_.num_vertices());
     const IntersectionReport crossings = find_intersections({gels_at, both_.boundary}, {object_at, object_.triangles});
     const double gap = stepper_->smallest_gap(x, scales_.gap_horizon_m);
@@ -329,11 +447,10 @@ class Hand {
       out_.fingers[side].frames.push_back(own);
     }
     if (grip_frame_) {
-      const GraspFrame& then = out_.frames[*grip_frame_];
-      frame.slip_m = (grip_point(frame) - hand(frame) - grip_point(then) + hand(then)).norm();
-      frame.turn_rad = Eigen::AngleAxisd(Matrix3(frame.world_from_object.topLeftCorner<3, 3>() *
-                                                 then.world_from_object.topLeftCorner<3, 3>().transpose()))
-                           .angle();
+      const Matrix4 then = hand_from_object(out_.frames[*grip_frame_]), now = hand_from_object(frame);
+      frame.slip_m = (grip_point(now) - grip_point(then)).norm();
+      frame.turn_rad =
+          Eigen::AngleAxisd(Matrix3(now.topLeftCorner<3, 3>() * then.topLeftCorner<3, 3>().transpose())).angle();
     }
     log_info(
         "frame {}/{} {}: grip {:.3f} N, carried {:.4f} N, slipped {:.3f} mm, turned {:.2f} deg, {} Newton iterations "
@@ -350,15 +467,18 @@ class Hand {
     if (!grip_frame_ && progress_.drive.let_go) grip_frame_ = out_.frames.size() - 1;
   }
 
-  /// The middle between the fingers.
-  static Vector3 hand(const GraspFrame& frame) {
-    return 0.5 * (frame.world_from_finger[0] + frame.world_from_finger[1]).topRightCorner<3, 1>();
+  static Matrix4 hand_from_object(const GraspFrame& frame) {
+    const Matrix3 to_hand = frame.world_from_hand.topLeftCorner<3, 3>().transpose();
+    Matrix4 pose = Matrix4::Identity();
+    pose.topLeftCorner<3, 3>() = to_hand * frame.world_from_object.topLeftCorner<3, 3>();
+    pose.topRightCorner<3, 1>() = to_hand * (frame.world_from_object - frame.world_from_hand).topRightCorner<3, 1>();
+    return pose;
   }
 
-  /// The object's point at the grip, in the world.
-  Vector3 grip_point(const GraspFrame& frame) const {
+  /// The object's point at the grip, where a pose of the object puts it.
+  Vector3 grip_point(const Matrix4& from_object) const {
     const Vector3 grip = out_.center_of_mass_m + out_.pose.grip_m;
-    return frame.world_from_object.topLeftCorner<3, 3>() * grip + frame.world_from_object.topRightCorner<3, 1>();
+    return from_object.topLeftCorner<3, 3>() * grip + from_object.topRightCorner<3, 1>();
   }
 
   void judge_outcome() {
@@ -368,8 +488,8 @@ class Hand {
     out_.judged_frame = static_cast<std::size_t>(released - out_.frames.begin()) - 1;
     const GraspFrame &end = out_.frames[out_.judged_frame], &begin = out_.frames[*grip_frame_];
     const bool touches = end.force_on_finger_n[0].norm() > kTouches_n && end.force_on_finger_n[1].norm() > kTouches_n;
-    const double hand = (end.world_from_finger[0] - begin.world_from_finger[0])(2, 3);
-    const double rose = (grip_point(end) - grip_point(begin)).z();
+    const double hand = (end.world_from_hand - begin.world_from_hand)(2, 3);
+    const double rose = (grip_point(end.world_from_object) - grip_point(begin.world_from_object)).z();
     out_.outcome = !touches || (hand >= kSlipped_m && rose < kDroppedPart * hand) ? GraspOutcome::dropped
                    : end.slip_m >= kSlipped_m                                     ? GraspOutcome::slipped
                    : end.turn_rad >= kTurned_rad                                  ? GraspOutcome::rotated
@@ -385,16 +505,19 @@ class Hand {
   ByteStore* store_;
   const Scales scales_;
   StepSettings settings_;
+  const double start_gap_m_;
   const std::vector<RestTet> rest_tets_;
   Grasp out_;
   std::optional<AffineBody> body_;
   std::array<Matrix4, 2> start_;
-  std::vector<Matrix3> turns_;
+  double start_width_m_ = 0.0;  // between the origins of both S
   TetMesh both_;
   ContactMesh mesh_;
   std::vector<int> glued_;
+  GelModel model_;
   TimeStepper* stepper_ = nullptr;
   GraspProgress progress_;
+  WholeAccount whole_;
   Matrix4 world_from_object_;
   double time_s_ = 0.0;
   int num_frames_ = 0;
@@ -403,6 +526,10 @@ class Hand {
 };
 
 }  // namespace
+
+double GraspFrame::grip_n(std::size_t side) const {
+  return pressing_n(force_on_finger_n[side], world_from_finger[side]);
+}
 
 Grasp grasp(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
             const GraspSpec& spec, const ProgressObserver& observe, ByteStore* store) {

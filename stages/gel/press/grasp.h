@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "stages/gel/press/grasp_spec.h"
+#include "stages/gel/press/measure/conservation.h"
 #include "stages/gel/press/simulate.h"
 
 namespace tacipc {
 
-/// One instant of a grasp, in the world: x from the left finger to the right, z up.
+/// One instant of a grasp, in the world: in frame 0 x is from the left finger to the right, z is up.
 struct GraspFrame {
   double time_s = 0.0;
   PhaseKind phase = PhaseKind::reference;
+  Matrix4 world_from_hand = Matrix4::Identity();  // its origin is where the object is gripped in frame 0
   std::array<Matrix4, 2> world_from_finger;
   std::array<Vector3, 2> force_on_finger_n = {Vector3::Zero(), Vector3::Zero()};  // by the object and by the other gel
   Matrix4 world_from_object;
@@ -23,6 +25,10 @@ struct GraspFrame {
   double body_residual_n = 0.0, body_load_n = 0.0;
   double slip_m = 0.0;    // of the object's point at the grip, in the hand, since the fingers closed
   double turn_rad = 0.0;  // of the object in the hand since then
+  WholeAccount whole;     // of gels and object; the residuals are those of the frame's time steps
+
+  /// How hard a finger presses: |contact force along its z|.
+  double grip_n(std::size_t side) const;
 };
 
 /// What became of the object, by its motion in the hand and by contact alone; docs/grasp.md.
@@ -37,6 +43,7 @@ struct Grasp {
   GraspPose pose;                              // in which it is gripped
   double grip_n = 0.0;                         // mean of both fingers when they have closed
   GraspOutcome outcome = GraspOutcome::lifted;
+  std::size_t freed_frame = 0;   // the last one of the first `close`
   std::size_t judged_frame = 0;  // the last one before the fingers release it: what the outcome is of
 };
 

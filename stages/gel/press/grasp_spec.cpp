@@ -11,17 +11,27 @@ namespace tacipc {
 
 GraspPhase GraspPhase::read(ConfigReader& in) {
   GraspPhase phase;
-  const std::string kind = in.choice("kind", {"close", "lift", "hold", "shake", "release"});
+  const std::string kind = in.choice("kind", {"approach", "close", "lift", "hold", "shake", "turn", "release"});
   for (std::size_t k = 0; k < kPhaseNames.size(); ++k) {
     if (kind == kPhaseNames[k]) phase.kind = static_cast<PhaseKind>(k);
   }
-  if (phase.kind == PhaseKind::close) phase.force_n = in.number("force_n", Range::positive());
+  if (phase.kind == PhaseKind::approach) phase.gap_m = 1e-3 * in.number("gap_mm", Range::positive());
+  if (phase.kind == PhaseKind::close && in.has("width_mm")) {
+    phase.width_m = 1e-3 * in.number("width_mm", Range::positive());
+    if (in.has("force_n")) in.fault("force_n", "give force_n or width_mm, not both");
+  } else if (phase.kind == PhaseKind::close) {
+    phase.force_n = in.number("force_n", Range::positive());
+  }
   if (phase.kind == PhaseKind::lift || phase.kind == PhaseKind::release)
     phase.distance_m = 1e-3 * in.number("distance_mm", Range::positive());
   if (phase.kind == PhaseKind::shake) {
     phase.amplitude_m = 1e-3 * in.number("amplitude_mm", Range::positive());
     phase.frequency_hz = in.number("frequency_hz", Range::positive());
     phase.axis = in.choice_or("axis", "z", {"y", "z"}) == "y" ? 1 : 2;
+  }
+  if (phase.kind == PhaseKind::turn) {
+    phase.angle_rad = in.number("turn_deg", kAnyTurn) * std::numbers::pi / 180.0;
+    phase.axis = in.choice("axis", {"x", "y", "z"})[0] - 'x';
   }
   phase.steps = in.integer("steps", 1, 100000);
   phase.substeps = in.integer_or("substeps", 1, 1, 1000);
@@ -44,6 +54,7 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
   const auto gravity = fingers.numbers_or("gravity_m_s2", {0.0, 0.0, -9.81});
   spec.gravity_m_s2 = {gravity[0], gravity[1], gravity[2]};
   spec.closing_speed_m_s = 1e-3 * fingers.number_or("closing_speed_mm_s", 20.0, Range::positive());
+  if (fingers.has("start_gap_mm")) spec.start_gap_m = 1e-3 * fingers.number("start_gap_mm", Range::positive());
   ConfigReader object = in.section("object");
   const auto only = [&](const char* key, std::initializer_list<const char*> others) {
     for (const char* other : others)
@@ -59,11 +70,16 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
   } else {
     spec.density_kg_m3 = object.number("density_kg_m3", Range::positive());
   }
+  bool closed = false;
   for (ConfigReader& phase : in.one_or_more_sections("motion")) {
     spec.motion.push_back(GraspPhase::read(phase));
-    if (spec.motion.size() == 1 && spec.motion[0].kind != PhaseKind::close)
+    const PhaseKind kind = spec.motion.back().kind;
+    if (!closed && kind != PhaseKind::close && kind != PhaseKind::approach)
       phase.fault("kind", "fingers close first: nothing is held before");
+    if (closed && kind == PhaseKind::approach) phase.fault("kind", "fingers approach before they first close");
+    closed = closed || kind == PhaseKind::close;
   }
+  if (!closed) in.fault("motion", "fingers never close");
   return spec;
 }
 

@@ -11,16 +11,19 @@
 
 namespace tacipc {
 
-/// What the fingers do in one phase. They carry on with the grip force of the last `close`.
+/// What the fingers do in one phase. They carry on with the grip force or the width of the last `close`.
 struct GraspPhase {
-  PhaseKind kind = PhaseKind::close;  // close, lift, hold, shake or release
-  int steps = 0;                      // frames
-  int substeps = 1;                   // time steps per frame
-  double force_n = 0.0;               // close: mean of both fingers at the end
-  double distance_m = 0.0;            // lift: upwards; release: of each finger, outwards
-  double amplitude_m = 0.0;           // shake: how far it goes from where it began …
-  double frequency_hz = 0.0;          // … and so often there and back in a second
-  int axis = 2;                       // shake: along y or z of the world
+  PhaseKind kind = PhaseKind::close;   // approach, close, lift, hold, shake, turn or release
+  int steps = 0;                       // frames
+  int substeps = 1;                    // time steps per frame
+  double force_n = 0.0;                // close: mean of both fingers at the end …
+  std::optional<double> width_m = {};  // … or how far the fronts' undeformed planes are apart then
+  double gap_m = 0.0;                  // approach: between each of these planes and the object, before the first close
+  double distance_m = 0.0;             // lift: upwards; release: of each finger, outwards
+  double amplitude_m = 0.0;            // shake: how far it goes from where it began …
+  double frequency_hz = 0.0;           // … and so often there and back in a second
+  int axis = 2;                        // shake: along y or z of the world; turn: about x, y or z
+  double angle_rad = 0.0;              // turn: of the hand, about where the object was gripped
 
   static GraspPhase read(ConfigReader& in);
 };
@@ -37,6 +40,7 @@ struct GraspSpec {
   Vector3 grip_m = Vector3::Zero();          // where it is gripped, from its centre of mass, in its own axes
   Vector3 gravity_m_s2 = {0.0, 0.0, -9.81};  // of the world
   double closing_speed_m_s = 0.02;           // of each finger, at most
+  std::optional<double> start_gap_m = {};    // of each finger in frame 0; absent: as the press file has it
   std::vector<GraspPhase> motion;
 
   static GraspSpec read(ConfigReader& in);

@@ -15,14 +15,29 @@ constexpr double kSofterMost = 0.5, kStifferMost = 4.0;
 constexpr double kGrowth = 2.0;
 constexpr double kMeasurable_m = 1e-6;   // a shorter step measures no stiffness
 constexpr double kGripTolerance = 0.02;  // of the force asked for, when fingers count as closed
+constexpr double kArrived_m = 1e-9;      // from where they are wanted
 
 }  // namespace
 
 bool GripControl::touches() const { return last_grip_n >= kTouches_n; }
 
-bool GripControl::has(double force_n) const { return std::abs(last_grip_n - force_n) <= kGripTolerance * force_n; }
+bool GripControl::arrived() const {
+  return by_way ? std::abs(wanted_closed_m - closed_m) <= kArrived_m
+                : std::abs(last_grip_n - wanted_n) <= kGripTolerance * wanted_n;
+}
+
+void GripControl::grip(double force_n) {
+  by_way = false;
+  wanted_n = force_n;
+}
+
+void GripControl::go_to(double to_m) {
+  by_way = true;
+  wanted_closed_m = to_m;
+}
 
 double GripControl::closing_step(double most_m, double reach_m, const Gap& gap) const {
+  if (by_way) return std::clamp(wanted_closed_m - closed_m, -most_m, most_m);
   if (!touches()) {
     // Up to the object, and then little by little: how stiff it is is not known yet.
     return std::clamp(gap(most_m + reach_m) - reach_m, std::min(kFirstTouch_m, most_m), most_m);
@@ -40,7 +55,12 @@ void GripControl::measure(double step_m, double grip_n) {
     double now = std::max(touched / step_m, kSofterMost * stiffness_n_m);
     if (std::abs(step_m) < kFirstTouch_m) now = std::min(now, kStifferMost * stiffness_n_m);
     stiffness_n_m = now;
+  } else if (std::abs(step_m) <= kMeasurable_m && !by_way && std::abs(grip_n - wanted_n) > kGripTolerance * wanted_n) {
+    // Steps that are too short to measure, and do not reach what is wanted, are those of too stiff a guess.
+    stiffness_n_m *= kSofterMost;
   }
+  // Who grips next goes on from the grip there is.
+  if (by_way) wanted_n = grip_n;
   last_step_m = step_m;
   last_grip_n = grip_n;
 }

@@ -208,16 +208,18 @@ Value::Map grasp_lines(const GraspFrame& f, double body_strain) {
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
   return {{"time_s", f.time_s},
           {"phase", name_of(f.phase)},
-          {"grip_left_n", std::abs(f.force_on_finger_n[0].x())},
-          {"grip_right_n", std::abs(f.force_on_finger_n[1].x())},
+          {"grip_left_n", f.grip_n(0)},
+          {"grip_right_n", f.grip_n(1)},
           {"carried_n", 0.0 - carried.z()},
           {"height_m", f.world_from_object(2, 3)},
-          {"hand_height_m", f.world_from_finger[0](2, 3)},
+          {"hand_height_m", f.world_from_hand(2, 3)},
           {"slip_m", f.slip_m},
           {"turn_rad", f.turn_rad},
           {"body_strain", body_strain},
           {"body_load_n", f.body_load_n},
-          {"body_residual_n", f.body_residual_n}};
+          {"body_residual_n", f.body_residual_n},
+          {"momentum_residual_n", f.whole.momentum_residual_n},
+          {"angular_residual_n_m", f.whole.angular_residual_n_m}};
 }
 
 /// How the object is held.
@@ -245,13 +247,13 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
                    const Grasp& grasp) {
   const auto& frames = grasp.frames;
-  std::optional<std::size_t> closed;  // last frame of the first phase
-  for (std::size_t f = 1; f < frames.size() && grasp.fingers[0].frames[f].phase_index == 0; ++f) closed = f;
   for (std::size_t side = 0; side < 2; ++side) {
     const std::string folder = std::string(side == 0 ? "left" : "right") + "/press";
-    stage.finish_part(folder, write_gel(stage, folder + "/", sensor, gel, config, closed, grasp.fingers[side]));
+    stage.finish_part(folder,
+                      write_gel(stage, folder + "/", sensor, gel, config, grasp.freed_frame, grasp.fingers[side]));
   }
-  std::vector<double> time, object, twist, fingers, forces;
+  std::vector<double> time, object, twist, fingers, forces, energy, momentum;
+  double momentum_residual_n = 0.0;
   Value::List per_frame;
   const auto add_matrix = [](std::vector<double>& all, const Matrix4& pose) {
     for (int r = 0; r < 4; ++r) {
@@ -268,6 +270,13 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
       add_matrix(fingers, f.world_from_finger[side]);
       forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
     }
+    const WholeAccount& whole = f.whole;
+    energy.insert(energy.end(), {whole.kinetic_j, whole.elastic_j, whole.contact_j, whole.gravitational_j, whole.work_j,
+                                 whole.friction_loss_j, whole.damping_loss_j, whole.method_loss_j});
+    for (const Vector3* row : {&whole.momentum_kg_m_s, &whole.angular_momentum_kg_m2_s, &whole.impulse_n_s,
+                               &whole.angular_impulse_n_m_s, &whole.method_angular_n_m_s})
+      momentum.insert(momentum.end(), row->begin(), row->end());
+    momentum_residual_n = std::max(momentum_residual_n, whole.momentum_residual_n);
     per_frame.emplace_back(grasp_lines(f, grasp.fingers[0].frames[i].body_strain));
   }
   const std::size_t n = frames.size();
@@ -276,6 +285,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   write_array(stage, "object_twist.npy", {n, 6}, twist);
   write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
   write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
+  write_array(stage, "energy.npy", {n, 8}, energy);
+  write_array(stage, "momentum.npy", {n, 5, 3}, momentum);
   const GraspFrame& judged = frames[grasp.judged_frame];
   Value::Map summary{{"frames", n},
                      {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
@@ -286,7 +297,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
                      {"pose", pose_lines(grasp.pose)},
                      {"grip_n", grasp.grip_n},
                      {"slip_m", judged.slip_m},
-                     {"turn_rad", judged.turn_rad}};
+                     {"turn_rad", judged.turn_rad},
+                     {"max_momentum_residual_n", momentum_residual_n}};
   // Friction that both fingers can give over the weight.
   if (const double mu = config.friction ? config.friction->coefficient : 0.0; grasp.weight_n > 0.0)
     summary.emplace_back("friction_margin", 2.0 * mu * grasp.grip_n / grasp.weight_n);

@@ -28,7 +28,7 @@ constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
 }  // namespace
 
 std::shared_ptr<const Friction> TimeStepper::friction_at(const Positions& lagged, const Step& step) {
-  return std::make_shared<const Friction>(*barrier(pairs_at(lagged)), lagged, step.start,
+  return std::make_shared<const Friction>(*barrier(pairs_at(lagged)), lagged, step.compared_start(),
                                           settings_.friction->speed_threshold_m_s * step.goal.h_s);
 }
 
@@ -74,7 +74,7 @@ double TimeStepper::friction_limit(const Step& step) const {
 }
 
 void TimeStepper::renew_friction(Step& step, Minimisation& run) {
-  auto renewed = std::make_shared<const Friction>(*run.barrier, step.x, step.start,
+  auto renewed = std::make_shared<const Friction>(*run.barrier, step.x, step.compared_start(),
                                                   settings_.friction->speed_threshold_m_s * step.goal.h_s);
   if (step.arrived) {
     const double change = friction_change(*renewed, step);

@@ -56,18 +56,24 @@ void TimeStepper::record_forces(const Step& step) {
       take_from_mount(force_of(part.weight, *at_mount[static_cast<std::size_t>(found - elastic.begin())]));
       continue;
     }
+    // Half of what a damping force, linear in the way it acts along, takes.
+    if (part.term == step.terms.stiffness_damping)
+      forces_.damping_loss_j = 2.0 * part.weight / h2 * part.term->value(step.x);
     const Positions force = force_of(part.weight, *part.term);
     // Inside the gel it cancels with the elasticity's.
     if (part.term != step.terms.viscous_memory) forces_.body += force;
     take_from_mount(force);
   }
   if (energy.friction.term) {
-    forces_.friction = force_of(energy.friction.weight, *energy.friction.term);
+    const Positions on_all = -energy.friction.weight / h2 * gradient_of(*energy.friction.term, step.x);
+    forces_.friction = on_all.topRows(n);
+    forces_.friction_loss_j = -(on_all.array() * (step.x - step.compared_start()).array()).sum();
     take_from_mount(forces_.friction);
   }
   forces_.normal = force_of(energy.barrier.weight, *energy.barrier.term);
+  forces_.contact_j = energy.barrier.weight / h2 * energy.barrier.term->value(step.x);
   take_from_mount(forces_.normal);
-  if (!bodies_.empty()) {
+  if (!bodies_.empty() || settings_.wrenches_between_bodies) {
     const auto bodies = static_cast<std::size_t>(mesh_.num_bodies());
     forces_.between.assign(bodies * bodies, {Vector3::Zero(), Vector3::Zero()});
     for (const WeightedContact* contact : {&energy.barrier, &energy.friction}) {

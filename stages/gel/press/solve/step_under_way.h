@@ -15,7 +15,8 @@ struct TimeStepper::Step {
   const IterationObserver& observe;
   const Positions& start;  // of gel and object
   Positions x;
-  StepTerms terms = {};  // all but contact
+  Positions turned_start = {};  // the start moved with the hand, where that turns
+  StepTerms terms = {};         // all but contact
   StepWeights weights = {};
   SymmetricRows start_stress_pa = {};      // elastic, where stress relaxes
   bool arrived = false;                    // objects are at their targets, and gels are where their mounts end
@@ -36,6 +37,9 @@ struct TimeStepper::Step {
   /// How often friction may still be renewed before an iteration of Newton's method, instead of at its minima.
   int renewals_left = 0;
   double least_friction_change_n = std::numeric_limits<double>::infinity();  // of those renewals since arrival
+
+  /// What slides and strain rates are measured from.
+  const Positions& compared_start() const { return turned_start.rows() > 0 ? turned_start : start; }
 };
 
 /// Newton's method at work on one minimum: what an iteration leaves for the next.

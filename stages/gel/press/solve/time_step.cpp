@@ -25,6 +25,12 @@ constexpr double kSmallGap = 0.01, kWantedGap = 0.05, kMostStiffeningAtOnce = 10
 // Along a longer way of gels and object past each other pairs are not searched: × d̂, or × the median edge of the front.
 constexpr double kLongestWay = 20.0, kLongestWayOfEdge = 4.0;
 
+/// How far a rigid motion takes each point.
+Positions way_of(const Matrix4& motion, const Positions& from) {
+  const Matrix3 turn = motion.topLeftCorner<3, 3>() - Matrix3::Identity();
+  return (from * turn.transpose()).rowwise() + motion.topRightCorner<3, 1>().transpose();
+}
+
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian,
                            const std::vector<AffineBody>& bodies, const std::vector<int>& free_bodies) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_rows()), false);
@@ -174,6 +180,8 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
                   .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
                   .mass_damping_per_s = settings_.mass_damping_per_s,
                   .stiffness_damping_s = settings_.stiffness_damping_s};
+  if (!goal.hand_motion.topLeftCorner<3, 3>().isIdentity(0.0))
+    step.turned_start = state.x + way_of(goal.hand_motion, state.x);
   add_gel_terms(step, state);
   if (gel_.viscoelasticity) add_relaxation(step, state);
   if (!goal.free_axes.empty()) add_object_inertia(step, state);
@@ -205,7 +213,8 @@ void TimeStepper::add_gel_terms(Step& step, const State& state) const {
     terms.gravity = std::make_shared<LinearLoad>(std::move(all), gel_.mass_kg * settings_.gravity_m_s2.transpose());
   }
   if (settings_.stiffness_damping_s > 0.0)
-    terms.stiffness_damping = std::make_shared<StiffnessDamping>(gel_.elasticity, start);
+    terms.stiffness_damping =
+        std::make_shared<StiffnessDamping>(gel_.elasticity, Positions(step.compared_start().topRows(n)));
   if (settings_.mass_damping_per_s > 0.0) terms.mass_damping = std::make_shared<Inertia>(gel_.mass_kg, start);
 }
 
@@ -257,7 +266,8 @@ void TimeStepper::for_each_held(const Step& step, Use&& use) const {
 }
 
 double TimeStepper::relative_way(const Positions& p) const {
-  const Eigen::RowVector3d of_object = mesh_.object_rows(p).colwise().mean();
+  const Eigen::RowVector3d of_object =
+      mesh_.objects.empty() ? Eigen::RowVector3d::Zero() : Eigen::RowVector3d(mesh_.object_rows(p).colwise().mean());
   return std::sqrt((p.topRows(mesh_.num_vertices()).rowwise() - of_object).rowwise().squaredNorm().maxCoeff());
 }
 
@@ -318,7 +328,7 @@ void TimeStepper::start_ahead(Step& step, const State& state) {
     auto points = p.middleRows<4>(mesh_.control_row(free.body));
     if (mounts && touches_moving_gel(step, mesh_.objects[i])) {
       // Gaps are far smaller than what a held object and its fingers would slide past each other otherwise.
-      points.rowwise() = goal.hand_shift_m.transpose();
+      points = way_of(goal.hand_motion, before);
     } else {
       // Without its weight, which contact mostly carries.
       points = predicted(bodies_[i], before, state.object_motion[i], Vector3::Zero(), goal.h_s) - before;

@@ -48,6 +48,7 @@ struct StepSettings {
   Vector3 gravity_m_s2 = Vector3::Zero();
   double mass_damping_per_s = 0.0;
   double stiffness_damping_s = 0.0;
+  bool wrenches_between_bodies = false;  // StepForces::between, without bodies that may be free, too
   LinearSolverKind linear_solver = LinearSolverKind::direct;
   NewtonSettings newton;
 };
@@ -76,8 +77,10 @@ struct StepGoal {
   /// How gels go that are carried by their mounts: for each of their vertices the way it would go if the gel moved
   /// rigidly with its mount, and where glued vertices end, in the order of GelModel::glued. Empty: no mount moves.
   Positions gel_motion = {}, glued_target = {};
-  Vector3 hand_shift_m = Vector3::Zero();    // what all mounts have in common: a free object that they hold goes along
-  std::vector<Matrix3> world_from_gel = {};  // how several gels are turned meanwhile; empty for one
+  /// What all mounts have in common, a rigid motion of the world: a free object that they hold starts from there, and
+  /// where it turns, friction and damping count what is left of each motion beside it.
+  Matrix4 hand_motion = Matrix4::Identity();
+  std::vector<Matrix3> world_from_gel = {};  // how several gels are turned at its end; empty for one
   /// Of the bodies' points, as object_target is of their vertices; rows of those that are free do not matter.
   Positions control_target = {};
 };
@@ -129,8 +132,10 @@ struct StepForces {
   /// mean gap between the surfaces where they press on each other. Zero where nothing touches.
   double stand_off_m = 0.0;
   /// By the contact of one body with another (ContactMesh::body_of()), about the world's origin: on body a by body b at
-  /// a × number of bodies + b. Where any object may be free; else empty.
+  /// a × number of bodies + b. Where any object may be free, or asked for; else empty.
   std::vector<Wrench> between = {};
+  double contact_j = 0.0;                              // energy of the barrier
+  double friction_loss_j = 0.0, damping_loss_j = 0.0;  // what friction and stiffness damping took in the step
 };
 
 /// Called after each Newton iteration, for progress lines.

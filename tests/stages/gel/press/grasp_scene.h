@@ -26,6 +26,15 @@ inline PressConfig grasp_config(double coefficient) {
 inline GraspPhase close_phase(int steps, double force_n) {
   return {.kind = PhaseKind::close, .steps = steps, .force_n = force_n};
 }
+inline GraspPhase close_to_phase(int steps, double width_m) {
+  return {.kind = PhaseKind::close, .steps = steps, .width_m = width_m};
+}
+inline GraspPhase approach_phase(int steps, double gap_m) {
+  return {.kind = PhaseKind::approach, .steps = steps, .gap_m = gap_m};
+}
+inline GraspPhase turn_phase(int steps, double angle_rad, int axis) {
+  return {.kind = PhaseKind::turn, .steps = steps, .axis = axis, .angle_rad = angle_rad};
+}
 inline GraspPhase hold_phase(int steps) { return {.kind = PhaseKind::hold, .steps = steps}; }
 inline GraspPhase lift_phase(int steps, double distance_m) {
   return {.kind = PhaseKind::lift, .steps = steps, .distance_m = distance_m};

@@ -63,11 +63,28 @@ TEST(GraspSpec, EveryValueIsInSi) {
   EXPECT_EQ(spec.motion[4].axis, 2);
   EXPECT_EQ(spec.motion[5].kind, PhaseKind::release);
   EXPECT_DOUBLE_EQ(spec.motion[5].distance_m, 2e-3);
+  EXPECT_FALSE(spec.motion[0].width_m);
+}
+
+TEST(GraspSpec, FingersMayApproachCloseToAWidthAndTurn) {
+  const GraspSpec spec = read("start_gap_mm: 3", "mass_g: 50",
+                              "  - {kind: approach, steps: 5, gap_mm: 0.5}\n"
+                              "  - {kind: close, steps: 6, width_mm: 12}\n"
+                              "  - {kind: turn, steps: 7, turn_deg: -90, axis: x}\n");
+  EXPECT_DOUBLE_EQ(spec.start_gap_m.value(), 3e-3);
+  ASSERT_EQ(spec.motion.size(), 3u);
+  EXPECT_EQ(spec.motion[0].kind, PhaseKind::approach);
+  EXPECT_DOUBLE_EQ(spec.motion[0].gap_m, 0.5e-3);
+  EXPECT_DOUBLE_EQ(spec.motion[1].width_m.value(), 0.012);
+  EXPECT_EQ(spec.motion[2].kind, PhaseKind::turn);
+  EXPECT_EQ(spec.motion[2].angle_rad, -0.5 * std::numbers::pi);
+  EXPECT_EQ(spec.motion[2].axis, 0);
 }
 
 TEST(GraspSpec, WhatIsNotSaidIsAnUprightObjectGrippedAtItsCenterOnEarth) {
   const GraspSpec spec = read("", "density_kg_m3: 1200");
   EXPECT_FALSE(spec.mass_kg);
+  EXPECT_FALSE(spec.start_gap_m);
   EXPECT_EQ(spec.density_kg_m3, 1200.0);
   EXPECT_EQ(spec.turn_rad, 0.0);
   EXPECT_EQ(spec.grip_m, Vector3::Zero());
@@ -78,6 +95,10 @@ TEST(GraspSpec, WhatIsNotSaidIsAnUprightObjectGrippedAtItsCenterOnEarth) {
 TEST(GraspSpec, FingersCloseFirst) {
   EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: lift, steps: 5, distance_mm: 10}\n" + kClose),
               ElementsAre(HasSubstr("motion[0].kind: fingers close first: nothing is held before")));
+  EXPECT_THAT(faults("", "mass_g: 50", kClose + "  - {kind: approach, steps: 5, gap_mm: 1}\n"),
+              ElementsAre(HasSubstr("motion[1].kind: fingers approach before they first close")));
+  EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: approach, steps: 5, gap_mm: 1}\n"),
+              ElementsAre(HasSubstr("motion: fingers never close")));
 }
 
 TEST(GraspSpec, RefusesWhatAPhaseDoesNotHave) {
@@ -87,10 +108,14 @@ TEST(GraspSpec, RefusesWhatAPhaseDoesNotHave) {
   EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: close, steps: 5, force_n: 0}\n"),
               ElementsAre(HasSubstr("motion[0].force_n: 0 is outside")));
   EXPECT_THAT(faults("", "mass_g: 50", kClose + "  - {kind: press, steps: 5}\n"),
-              Contains(HasSubstr("'press' is not one of close, lift, hold, shake, release")));
+              Contains(HasSubstr("'press' is not one of approach, close, lift, hold, shake, turn, release")));
   EXPECT_THAT(
       faults("", "mass_g: 50", kClose + "  - {kind: shake, steps: 5, amplitude_mm: 1, frequency_hz: 2, axis: x}\n"),
       ElementsAre(HasSubstr("'x' is not one of y, z")));
+  EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: close, steps: 5, force_n: 1, width_mm: 3}\n"),
+              ElementsAre(HasSubstr("motion[0].force_n: give force_n or width_mm, not both")));
+  EXPECT_THAT(faults("", "mass_g: 50", kClose + "  - {kind: turn, steps: 5, turn_deg: 3}\n"),
+              ElementsAre(HasSubstr("motion[1].axis: missing")));
 }
 
 TEST(GraspSpec, TheObjectHasAMassOrADensity) {
