@@ -226,7 +226,13 @@ void scene_contents(auto& io, auto& frame, auto& gels, auto& progress) {
   });
   io.plain(frame.min_gap_m);
   io.plain(frame.intersections);
+  account(io, frame.whole);
   solver(io, frame.solver);
+  io.rows(progress.mount_n);
+  all(progress.others, [&](auto& wrench) {
+    each(io, wrench.force_n);
+    each(io, wrench.torque_n_m);
+  });
   all(gels, [&](auto& of_gel) { contents(io, of_gel); });
   state_of(io, progress.state);
 }
@@ -259,13 +265,13 @@ void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2
   unpack(bytes, frame, fingers, progress);
 }
 
-std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const Progress& progress) {
+std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const SceneProgress& progress) {
   Writer writer;
   scene_contents(writer, frame, gels, progress);
   return writer.take();
 }
 
-void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, Progress& progress) {
+void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, SceneProgress& progress) {
   Reader reader(bytes);
   scene_contents(reader, frame, gels, progress);
   if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");

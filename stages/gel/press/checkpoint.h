@@ -31,9 +31,16 @@ struct GraspProgress {
 std::string pack_frame(const GraspFrame& frame, const std::array<Frame, 2>& fingers, const GraspProgress& progress);
 void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2>& fingers, GraspProgress& progress);
 
+/// What a scene goes on from.
+struct SceneProgress {
+  State state;
+  Positions mount_n;           // force of the mounts, a row per vertex of deformable bodies
+  std::vector<Wrench> others;  // of each body that is fixed or held on all others, about the world's origin
+};
+
 /// The same of a scene: its frame, those of its gels, and what the next ones start from.
-std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const Progress& progress);
-void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, Progress& progress);
+std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const SceneProgress& progress);
+void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, SceneProgress& progress);
 
 /// Frames in the scratch files of a stage.
 class ScratchFrames final : public FrameStore {

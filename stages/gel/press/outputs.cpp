@@ -203,6 +203,25 @@ void write_array(Stage& stage, const std::string& name, const std::vector<std::s
   write_npy(stage.output(name), shape, values.data());
 }
 
+/// Energy and momentum of the whole over the frames, as files.
+struct WholeArrays {
+  std::vector<double> energy, momentum;
+  double momentum_residual_n = 0.0;
+
+  void add(const WholeAccount& whole) {
+    energy.insert(energy.end(), {whole.kinetic_j, whole.elastic_j, whole.contact_j, whole.gravitational_j, whole.work_j,
+                                 whole.friction_loss_j, whole.damping_loss_j, whole.method_loss_j});
+    for (const Vector3* row : {&whole.momentum_kg_m_s, &whole.angular_momentum_kg_m2_s, &whole.impulse_n_s,
+                               &whole.angular_impulse_n_m_s, &whole.method_angular_n_m_s})
+      momentum.insert(momentum.end(), row->begin(), row->end());
+    momentum_residual_n = std::max(momentum_residual_n, whole.momentum_residual_n);
+  }
+  void write(Stage& stage) const {
+    write_array(stage, "energy.npy", {energy.size() / 8, 8}, energy);
+    write_array(stage, "momentum.npy", {momentum.size() / 15, 5, 3}, momentum);
+  }
+};
+
 /// One frame's lines of a grasp's record.
 Value::Map grasp_lines(const GraspFrame& f, double body_strain) {
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
@@ -252,8 +271,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
     stage.finish_part(folder,
                       write_gel(stage, folder + "/", sensor, gel, config, grasp.freed_frame, grasp.fingers[side]));
   }
-  std::vector<double> time, object, twist, fingers, forces, energy, momentum;
-  double momentum_residual_n = 0.0;
+  std::vector<double> time, object, twist, fingers, forces;
+  WholeArrays whole;
   Value::List per_frame;
   const auto add_matrix = [](std::vector<double>& all, const Matrix4& pose) {
     for (int r = 0; r < 4; ++r) {
@@ -270,13 +289,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
       add_matrix(fingers, f.world_from_finger[side]);
       forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
     }
-    const WholeAccount& whole = f.whole;
-    energy.insert(energy.end(), {whole.kinetic_j, whole.elastic_j, whole.contact_j, whole.gravitational_j, whole.work_j,
-                                 whole.friction_loss_j, whole.damping_loss_j, whole.method_loss_j});
-    for (const Vector3* row : {&whole.momentum_kg_m_s, &whole.angular_momentum_kg_m2_s, &whole.impulse_n_s,
-                               &whole.angular_impulse_n_m_s, &whole.method_angular_n_m_s})
-      momentum.insert(momentum.end(), row->begin(), row->end());
-    momentum_residual_n = std::max(momentum_residual_n, whole.momentum_residual_n);
+    whole.add(f.whole);
     per_frame.emplace_back(grasp_lines(f, grasp.fingers[0].frames[i].body_strain));
   }
   const std::size_t n = frames.size();
@@ -285,8 +298,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   write_array(stage, "object_twist.npy", {n, 6}, twist);
   write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
   write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
-  write_array(stage, "energy.npy", {n, 8}, energy);
-  write_array(stage, "momentum.npy", {n, 5, 3}, momentum);
+  whole.write(stage);
   const GraspFrame& judged = frames[grasp.judged_frame];
   Value::Map summary{{"frames", n},
                      {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
@@ -298,7 +310,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
                      {"grip_n", grasp.grip_n},
                      {"slip_m", judged.slip_m},
                      {"turn_rad", judged.turn_rad},
-                     {"max_momentum_residual_n", momentum_residual_n}};
+                     {"max_momentum_residual_n", whole.momentum_residual_n}};
   // Friction that both fingers can give over the weight.
   if (const double mu = config.friction ? config.friction->coefficient : 0.0; grasp.weight_n > 0.0)
     summary.emplace_back("friction_margin", 2.0 * mu * grasp.grip_n / grasp.weight_n);
@@ -319,6 +331,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   const std::vector<SceneFrame>& frames = scene.frames;
   const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),
                     deformable = scene.gels.size() + frames[0].soft_m.size();
+  WholeArrays whole;
   std::vector<double> time, poses, twists, wrenches;
   std::vector<std::vector<double>> soft(frames[0].soft_m.size());
   Value::List per_frame;
@@ -342,6 +355,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
       add(wrenches, wrench.torque_n_m);
     }
     for (std::size_t i = 0; i < soft.size(); ++i) add(soft[i], f.soft_m[i]);
+    whole.add(f.whole);
     intersections += f.intersections;
     min_gap_m = std::min(min_gap_m, f.min_gap_m);
     if (f.solver.body_load_n > 0.0)
@@ -361,6 +375,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   write_array(stage, "body_pose.npy", {n, count, 4, 4}, poses);
   if (rigid > 0) write_array(stage, "body_twist.npy", {n, rigid, 6}, twists);
   write_array(stage, "wrench.npy", {n, count, count, 6}, wrenches);
+  whole.write(stage);
   for (std::size_t i = 0; i < soft.size(); ++i)
     write_array(stage, "soft/" + spec.bodies[scene.gels.size() + i].name + "/positions.npy",
                 {n, static_cast<std::size_t>(frames[0].soft_m[i].rows()), 3}, soft[i]);
@@ -376,6 +391,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
                    {"intersections", intersections},
                    {"body_strain", strain},
                    {"max_body_balance_relative", balance},
+                   {"max_momentum_residual_n", whole.momentum_residual_n},
                    {"converged", true},
                    {"verdict", "pass"},
                    {"per_frame", std::move(per_frame)}});

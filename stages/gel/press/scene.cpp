@@ -63,6 +63,7 @@ class Stepping {
       throw UsageError("gravity_m_s2 is along the axes of one gel; a scene has it in the sample");
     if (config.mass_damping_per_s > 0.0) throw UsageError("damping.mass_per_s would hold back bodies that move");
     settings_.gravity_m_s2 = spec.gravity_m_s2;
+    settings_.wrenches_between_bodies = true;
     for (const ScenePhase& phase : spec.motion) num_frames_ += phase.steps;
     place_all();
     set_laws();
@@ -74,7 +75,8 @@ class Stepping {
       const SceneBody& body = bodies_[part.body];
       materials.push_back({body.material, element_of(config_, body.material), body.tets});
     }
-    TimeStepper stepper(mesh_, make_gel_model(materials), settings_, affine_);
+    model_ = make_gel_model(materials);
+    TimeStepper stepper(mesh_, model_, settings_, affine_);
     stepper_ = &stepper;
     for (std::size_t g = 0; g < num_gels_; ++g) {
       Simulation& gel = out_.gels.emplace_back();
@@ -99,8 +101,9 @@ class Stepping {
       state.object_motion.push_back(
           make_rigid_motion(affine_[i], affine_[i].rest_m, body.velocity_m_s, body.spin_rad_s));
     }
-    if (const double gap = stepper.smallest_gap(state.x, scales_.d_hat_m); gap == 0.0)
-      throw DataError("two bodies touch in frame 0");
+    progress_.mount_n = Positions::Zero(mesh_.num_gel_vertices, 3);
+    progress_.others.assign(bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
+    account_ = open_account(model_.mass_kg, instant({}), spec_.gravity_m_s2, model_.elasticity->value(state.x));
     if (!restored()) finish(-1, {}, stepper.no_forces());
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
     out_.times = stepper.times();
@@ -227,7 +230,7 @@ class Stepping {
       ++moving;
     }
     if (moving == 0) goal.gel_motion.resize(0, 3);
-    if (moving > 0) goal.hand_shift_m = shift / moving;
+    if (moving > 0) goal.hand_motion.topRightCorner<3, 1>() = shift / moving;
     goal.glued_target = target(glued_, Eigen::all);
     goal.control_target = mesh_.control_rows(progress_.state.x);
     for (std::size_t i = 0; i < num_rigid_; ++i) {
@@ -246,6 +249,8 @@ class Stepping {
       goal.control_target.middleRows<4>(static_cast<Eigen::Index>(4 * i)) = transformed(from_start, affine_[i].rest_m);
     }
     goal.free_object = goal.held_bodies.size() < num_rigid_;
+    const WholeInstant at_start = instant(goal.held_bodies);
+    const std::vector<Matrix4> poses_before = poses_;
     try {
       const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
@@ -256,6 +261,7 @@ class Stepping {
         if (!std::binary_search(goal.held_bodies.begin(), goal.held_bodies.end(), static_cast<int>(i)))
           poses_[body] = pose_of(affine_[i], points(i)) * spec_.bodies[body].world_from_body;
       }
+      note_step(goal, at_start, poses_before);
       const StepReport earlier = report;
       report = done;
       report.add_earlier(earlier);
@@ -266,6 +272,63 @@ class Stepping {
       step(phase, start, from, middle, halvings + 1, report);
       step(phase, start, middle, to, halvings + 1, report);
     }
+  }
+
+  WholeInstant instant(const std::vector<int>& held) const {
+    const State& state = progress_.state;
+    WholeInstant now{state.x.topRows(mesh_.num_gel_vertices), state.velocity_m_s, {}};
+    for (std::size_t i = 0; i < num_rigid_; ++i)
+      now.bodies.push_back({&affine_[i], points(i), state.object_motion[i],
+                            std::binary_search(held.begin(), held.end(), static_cast<int>(i))});
+    return now;
+  }
+
+  /// Energy and momentum of a time step that succeeded.
+  void note_step(const StepGoal& goal, const WholeInstant& before, const std::vector<Matrix4>& poses_before) {
+    const StepForces& forces = stepper_->forces();
+    StepExchange exchange{.h_s = goal.h_s,
+                          .mount_n = forces.mount,
+                          .mount_before_n = progress_.mount_n,
+                          .elastic_j = model_.elasticity->value(progress_.state.x),
+                          .contact_j = forces.contact_j,
+                          .friction_loss_j = forces.friction_loss_j,
+                          .damping_loss_j = forces.damping_loss_j};
+    const std::size_t count = bodies_.size();
+    std::vector<bool> outside(count, false);
+    for (std::size_t b = num_deformable_ + num_rigid_; b < count; ++b) outside[b] = true;
+    for (const int i : goal.held_bodies) outside[num_deformable_ + static_cast<std::size_t>(i)] = true;
+    for (std::size_t b = 0; b < count; ++b) {
+      Wrench now{Vector3::Zero(), Vector3::Zero()};
+      for (std::size_t a = 0; outside[b] && a < count; ++a) {
+        if (outside[a]) continue;
+        now.force_n += forces.between[a * count + b].force_n;
+        now.torque_n_m += forces.between[a * count + b].torque_n_m;
+      }
+      exchange.others.force_n += now.force_n;
+      exchange.others.torque_n_m += now.torque_n_m;
+      // x ↦ R x + t: about the world's origin the body turns by the vector of R and shifts by t, to first order.
+      const Matrix4 way = poses_[b] * poses_before[b].inverse();
+      const Eigen::AngleAxisd turn(Matrix3(way.topLeftCorner<3, 3>()));
+      exchange.others_work_j +=
+          0.5 * ((now.force_n + progress_.others[b].force_n).dot(Vector3(way.topRightCorner<3, 1>())) +
+                 (now.torque_n_m + progress_.others[b].torque_n_m).dot(turn.angle() * turn.axis()));
+      progress_.others[b] = now;
+    }
+    const WholeInstant after = instant(goal.held_bodies);
+    for (std::size_t i = 0; i < num_rigid_; ++i) {
+      const Vector3 at = center_of(after.bodies[i].control), way = at - center_of(before.bodies[i].control);
+      if (after.bodies[i].held) {
+        // Its height counts, so whoever lifts it does that work, too.
+        exchange.others_work_j -= affine_[i].mass_kg * spec_.gravity_m_s2.dot(way);
+        continue;
+      }
+      const Vector3& load = goal.body_load_n[i];
+      exchange.others.force_n += load;
+      exchange.others.torque_n_m += at.cross(load);
+      exchange.others_work_j += load.dot(way);
+    }
+    add_step(account_, model_.mass_kg, before, after, spec_.gravity_m_s2, exchange);
+    progress_.mount_n = forces.mount;
   }
 
   Vector3 load_in(const ScenePhase& phase, std::size_t body, double part) const {
@@ -312,6 +375,8 @@ class Stepping {
     for (std::size_t g = 0; g < num_gels_; ++g) out_.gels[g].frames.push_back(std::move(of_gels[g]));
     time_s_ = frame.time_s;
     poses_ = frame.world_from_body;
+    account_ = frame.whole;
+    account_.momentum_residual_n = account_.angular_residual_n_m = 0.0;
     log_info("frame {}/{} resumed from an interrupted run", out_.frames.size(), num_frames_);
     out_.frames.push_back(std::move(frame));
     return true;
@@ -368,7 +433,9 @@ class Stepping {
 
   void finish(int phase_index, const StepReport& report, const StepForces& forces) {
     const Positions& x = progress_.state.x;
-    SceneFrame frame{.time_s = time_s_, .phase_index = phase_index, .world_from_body = poses_, .solver = report};
+    SceneFrame frame{
+        .time_s = time_s_, .phase_index = phase_index, .world_from_body = poses_, .whole = account_, .solver = report};
+    account_.momentum_residual_n = account_.angular_residual_n_m = 0.0;
     for (std::size_t i = 0; i < num_rigid_; ++i) {
       const RigidMotion& motion = progress_.state.object_motion[i];
       frame.velocity_m_s.push_back(motion.velocity_m_s);
@@ -429,9 +496,11 @@ class Stepping {
   std::vector<AffineBody> affine_;  // rigid bodies, at rest where they start
   TetMesh whole_;                   // all deformable bodies
   ContactMesh mesh_;
+  GelModel model_;
   std::vector<int> glued_;
   TimeStepper* stepper_ = nullptr;
-  Progress progress_;
+  SceneProgress progress_;
+  WholeAccount account_;
   std::vector<Matrix4> poses_;                                                        // world_from_body
   std::vector<Vector3> loads_n_ = std::vector<Vector3>(num_rigid_, Vector3::Zero());  // at the start of the phase
   double time_s_ = 0.0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "stages/gel/press/grasp.h"
+#include "stages/gel/press/measure/conservation.h"
 #include "stages/gel/press/scene_spec.h"
 #include "stages/gel/press/simulate.h"
 
@@ -28,6 +29,7 @@ struct SceneFrame {
   std::vector<Wrench> between = {};  // on body a by body b, about the world's origin, at a × number of bodies + b
   double min_gap_m = 0.0;            // between two bodies, at most Simulation::gap_horizon_m
   int intersections = 0;             // pairs of triangles, by an exact test
+  WholeAccount whole = {};  // of all but what is fixed or held; the residuals are those of the frame's time steps
   StepReport solver = {};
 };
 

@@ -34,8 +34,8 @@ struct NewtonDirection {
   double slope = 0.0;                      // gᵀp over everything free
   double gradient_sum = 0.0;  // Σ of |gradient| over free vertices of gels, and over the object's free axes
   /// What residual forces are measured by: |Σ gradient of contact| over the free vertices of the gel that is touched
-  /// least, or on a free body where no gel is touched, of the barrier alone or with friction, whichever is smaller (friction may carry most of the normal force,
-  /// and the rest must balance, too).
+  /// least, or on a free body where no gel is touched, of the barrier alone or with friction, whichever is smaller
+  /// (friction may carry most of the normal force, and the rest must balance, too).
   double contact_sum = 0.0;
   /// |Σ residual force| and |Σ residual torque| about its centre, of each body that moves freely.
   struct Body {
