@@ -21,6 +21,9 @@ constexpr int kMaxHalvings = 40;
 // torques on an arm of so many metres.
 constexpr double kBodyTolerance = 5e-4, kLeastWeight = 0.01, kBodyArm = 0.01;
 constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
+// From so many whole steps in a row with an approximated Hessian on, each goes twice as far as the one before.
+constexpr int kCreeping = 6;
+constexpr double kMostStretch = 1e3;
 // Multipliers are renewed at minima known to this part of the constraint's tolerance.
 constexpr double kConstraintPart = 0.3;
 
@@ -66,6 +69,10 @@ void TimeStepper::minimise(Step& step) {
         direction.slope *= most / way;
       }
     }
+    if (!moving && run.stretch > 1.0) {
+      direction.p *= run.stretch;
+      direction.slope *= run.stretch;
+    }
     std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
     const double limit =
         moving ? bend_at_contacts(step, run, direction, pairs) : step_limit(pairs, step, direction.p, kNewtonSlack);
@@ -84,6 +91,7 @@ void TimeStepper::minimise(Step& step) {
       }
       alpha = *found;
       run.relax_next = false;
+      if (!step.bodies.empty()) stretch_next(run, direction, alpha);
       if (step.arrived && !converged && relax_patch(step, direction)) {
         run.barrier = barrier(pairs_at(step.x));
         run.energy = potential(step, run.barrier);
@@ -158,6 +166,19 @@ double TimeStepper::step_limit(const std::vector<ContactPair>& pairs, const Step
   const Stopwatch watch(times_.limits_s);
   const GapRule rule{slack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m};
   return std::min(contact_step_limit(pairs, step.x, p, rule), inversion_step_limit(gel_.tets, step.x, p));
+}
+
+void TimeStepper::stretch_next(Minimisation& run, const NewtonDirection& direction, double alpha) {
+  // Where a body could fall over, its energy has no minimum nearby; the approximation is one with such a minimum, and
+  // step after step goes just a little way.
+  if (alpha < 1.0) {
+    run.stretch = std::max(1.0, 0.5 * run.stretch);
+  } else if (direction.largest_share > 0.0) {
+    if (++run.crept >= kCreeping) run.stretch = std::min(2.0 * run.stretch, kMostStretch);
+    return;
+  }
+  if (direction.largest_share == 0.0) run.stretch = 1.0;
+  run.crept = 0;
 }
 
 std::optional<double> TimeStepper::line_search(Step& step, Minimisation& run, const NewtonDirection& direction,

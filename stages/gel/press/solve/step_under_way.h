@@ -53,6 +53,9 @@ struct TimeStepper::Minimisation {
   /// fixed object first.
   double part_of_motion = 1.0;
   double bent = 1.0;  // the part of the direction found that this move takes
+  /// Whole steps in a row that had to do with an approximated Hessian, and how many times as far the next one goes.
+  int crept = 0;
+  double stretch = 1.0;
   bool relax_next = false;
 };
 

@@ -226,6 +226,8 @@ class TimeStepper {
   /// Takes the longest of the steps limit, limit/2, … that decreases the energy. \return that step; none, and nothing
   /// moved, if there is none
   std::optional<double> line_search(Step& step, Minimisation& run, const NewtonDirection& direction, double limit);
+  /// Lets the next step go farther where those before it crept.
+  static void stretch_next(Minimisation& run, const NewtonDirection& direction, double alpha);
   /// minimise(), with an augmented Lagrangian's multipliers renewed until all targets are met.
   void minimise_constrained(Step& step);
 
