@@ -14,28 +14,12 @@ Matrix3 axes_to_gel(const Matrix4& world_from_gel) { return world_from_gel.topLe
 }  // namespace
 
 TetMesh joined(std::span<const PlacedGel> gels) {
-  Eigen::Index vertices = 0, tets = 0, triangles = 0;
-  for (const PlacedGel& placed : gels) {
-    vertices += placed.gel.num_vertices();
-    tets += placed.gel.tets.rows();
-    triangles += placed.gel.boundary.rows();
-  }
-  TetMesh all;
-  all.positions.resize(vertices, 3);
-  all.tets.resize(tets, 4);
-  all.boundary.resize(triangles, 3);
-  vertices = tets = triangles = 0;
+  std::vector<TetMesh> placed;
   for (const auto& [gel, world_from_gel] : gels) {
-    const auto first = static_cast<int>(vertices);
-    all.positions.middleRows(vertices, gel.num_vertices()) = transformed(world_from_gel, gel.positions);
-    all.tets.middleRows(tets, gel.tets.rows()) = gel.tets.array() + first;
-    all.boundary.middleRows(triangles, gel.boundary.rows()) = gel.boundary.array() + first;
-    all.tags.insert(all.tags.end(), gel.tags.begin(), gel.tags.end());
-    vertices += gel.num_vertices();
-    tets += gel.tets.rows();
-    triangles += gel.boundary.rows();
+    placed.push_back(gel);
+    placed.back().positions = transformed(world_from_gel, gel.positions);
   }
-  return all;
+  return joined(placed);
 }
 
 Vector3 contact_force_on(const SolvedGel& part, const StepForces& forces) {

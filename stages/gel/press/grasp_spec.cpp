@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numbers>
 
 #include "common/base/error.h"
@@ -94,7 +95,11 @@ double GraspSpec::density_of(double volume_m3, double friction) const {
   if (mass_kg) return *mass_kg / volume_m3;
   if (!friction_margin) return density_kg_m3;
   if (friction == 0.0) throw UsageError("object.friction_margin: the press file has no friction");
-  return 2.0 * friction * motion.front().force_n / (*friction_margin * gravity_m_s2.norm()) / volume_m3;
+  const auto close = std::find_if(motion.begin(), motion.end(),
+                                  [](const GraspPhase& phase) { return phase.kind == PhaseKind::close; });
+  if (!(close->force_n > 0.0))
+    throw UsageError("object.friction_margin: the first `close` of the motion has no force_n to take it from");
+  return 2.0 * friction * close->force_n / (*friction_margin * gravity_m_s2.norm()) / volume_m3;
 }
 
 }  // namespace tacipc

@@ -214,7 +214,6 @@ class Stepping {
     const std::vector<Matrix4> poses = poses_in(phase, start, to);
     StepGoal goal{.h_s = h, .object_target = mesh_.object_rows(progress_.state.x)};
     Positions target = progress_.state.x.topRows(mesh_.num_gel_vertices);
-    const Positions at = target;
     Vector3 shift = Vector3::Zero();
     int moving = 0;
     goal.gel_motion = Positions::Zero(mesh_.num_gel_vertices, 3);
@@ -229,8 +228,15 @@ class Stepping {
       shift += (after - before).topRightCorner<3, 1>();
       ++moving;
     }
-    if (moving == 0) goal.gel_motion.resize(0, 3);
-    if (moving > 0) goal.hand_motion.topRightCorner<3, 1>() = shift / moving;
+    if (moving == 0) {
+      goal.gel_motion.resize(0, 3);
+    } else {
+      goal.hand_motion.topRightCorner<3, 1>() = shift / moving;
+      for (const Part& part : parts_) {
+        if (!is_gel(part))
+          own_rows(part, goal.gel_motion).rowwise() += way_of_soft(part, poses, shift / moving, h).transpose();
+      }
+    }
     goal.glued_target = target(glued_, Eigen::all);
     goal.control_target = mesh_.control_rows(progress_.state.x);
     for (std::size_t i = 0; i < num_rigid_; ++i) {
@@ -329,6 +335,21 @@ class Stepping {
     }
     add_step(account_, model_.mass_kg, before, after, spec_.gravity_m_s2, exchange);
     progress_.mount_n = forces.mount;
+  }
+
+  auto own_rows(const Part& part, Positions& rows) const {
+    return rows.middleRows(part.first_row, bodies_[part.body].tets.num_vertices());
+  }
+
+  /// Where a soft body's step starts from while mounts move: along with them if it touches one that does, else where it
+  /// would fly to.
+  Vector3 way_of_soft(const Part& part, const std::vector<Matrix4>& poses, const Vector3& shift, double h) {
+    const std::vector<Wrench>& between = stepper_->forces().between;
+    for (std::size_t gel = 0; gel < num_gels_ && !between.empty(); ++gel) {
+      if (poses[gel] != poses_[gel] && between[part.body * bodies_.size() + gel].force_n != Vector3::Zero())
+        return shift;
+    }
+    return h * own_rows(part, progress_.state.velocity_m_s).colwise().mean().transpose();
   }
 
   Vector3 load_in(const ScenePhase& phase, std::size_t body, double part) const {

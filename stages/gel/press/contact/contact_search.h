@@ -1,6 +1,7 @@
 // Broad phase: which pairs of primitives may come near each other, now or during a step.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,8 @@ class ContactSearch {
  public:
   /// \pre the mesh stays where it is
   explicit ContactSearch(const ContactMesh& mesh) : mesh_(mesh), with_itself_(mesh), held_(mesh.objects.size(), false) {
+    const auto bodies = std::min(held_.size(), static_cast<std::size_t>(mesh.num_control_points / 4));
+    std::fill(held_.begin() + static_cast<std::ptrdiff_t>(bodies), held_.end(), true);
     for (const ObjectPart& object : mesh.objects) with_object_.push_back(std::make_unique<ObjectSearch>(mesh, object));
   }
 
@@ -64,7 +67,8 @@ class ContactSearch {
     with_itself_.forget();
   }
 
-  /// Says which objects go where they are told from now on: two of these do not touch each other.
+  /// Says which objects go where they are told from now on: two of these do not touch each other. Before, it is those
+  /// without points to move freely by.
   void hold(std::vector<bool> held) { held_ = std::move(held); }
 
   const ObjectSearch& with_object(std::size_t object = 0) const { return *with_object_[object]; }

@@ -28,9 +28,10 @@ struct CarriedBody {
 struct FreeVertices {
   std::vector<int> free_of_vertex;  // −1 for a vertex whose position is prescribed or follows from others
   std::vector<int> vertex_of_free;
-  std::vector<CarriedBody> carried;  // bodies whose points are free, the last ones of vertex_of_free
-  std::vector<int> gel_of_vertex;    // of the gel's vertices, where there are several gels; else empty
-  int num_control_points = 0;        // the last rows of positions: points that carry bodies, free or not
+  std::vector<CarriedBody> carried;     // bodies whose points are free, the last ones of vertex_of_free
+  std::vector<int> gel_of_vertex;       // of the gel's vertices, where there are several gels; else empty
+  std::vector<bool> gel_without_mount;  // of each of those
+  int num_control_points = 0;           // the last rows of positions: points that carry bodies, free or not
 
   /// All of `num_vertices` but those marked as fixed, numbered by vertex.
   FreeVertices(int num_vertices, const std::vector<bool>& fixed);

@@ -17,9 +17,9 @@ constexpr double kCoarseSolve = 1e-2, kFineSolve = 1e-3;
 constexpr double kLengthGrowth = 4.0;
 constexpr int kMaxExactHessianWaits = 10;
 constexpr int kMaxHalvings = 40;
-// What is left of the balance of a free object: this part of its weight and load, at least of so many newtons; of
-// torques on an arm of so many metres.
-constexpr double kBodyTolerance = 5e-4, kLeastWeight = 0.01, kBodyArm = 0.01;
+// What is left of the balance of a free object: this part of its weight and load, at least of kLeastWeight; of torques
+// on an arm of so many metres.
+constexpr double kBodyTolerance = 5e-4, kBodyArm = 0.01;
 constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
 // From so many whole steps in a row with an approximated Hessian on, each goes twice as far as the one before.
 constexpr int kCreeping = 6;
@@ -62,7 +62,7 @@ void TimeStepper::minimise(Step& step) {
     step.report.approximated_share = direction.largest_share;
     if (converged && is_final(step, run, direction)) return;
 
-    if (step.goal.free_object && !moving) {
+    if ((step.goal.free_object || mesh_.gels.size() > 1) && !moving) {
       // A light object may be asked to go far before it touches anything.
       if (const double way = relative_way(direction.p), most = longest_way(); way > most) {
         direction.p *= most / way;
@@ -130,6 +130,16 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   report.velocity_residual_m_s = run.residual_m_s;
   report.force_residual_n = direction.gradient_sum / (h * h);
   report.contact_force_n = direction.contact_sum / (h * h);
+  if (direction.gels.size() > 1) {
+    const auto limit = [&](double contact_sum) {
+      return std::max(settings_.newton.force_tolerance_n,
+                      settings_.newton.relative_force_tolerance * contact_sum / (h * h));
+    };
+    double worst = 0.0;
+    for (const NewtonDirection::Gel& gel : direction.gels)
+      worst = std::max(worst, gel.gradient_sum / (h * h) / limit(gel.contact_sum));
+    report.force_residual_n = worst * limit(direction.contact_sum);
+  }
   return direction;
 }
 

@@ -29,17 +29,21 @@ double sum_of_norms(const Eigen::Ref<const Eigen::VectorXd>& stacked) {
   return sum;
 }
 
-/// The smallest norm of the first columns, those of `gels`, that is not zero: of the gels that are touched, the one
-/// with the least force. The grips of two fingers cancel in their sum. Where none is touched, the same of the bodies
-/// behind them.
-double smallest_touch(const Eigen::Matrix3Xd& forces, int gels) {
-  double smallest = 0.0;
-  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
-    if (i == gels && smallest > 0.0) break;
-    const double norm = forces.col(i).norm();
-    if (norm > 0.0 && (smallest == 0.0 || norm < smallest)) smallest = norm;
+/// The least touch that is not zero, of gels, or of free bodies behind them where no gel is touched.
+double least_touch(const std::vector<double>& touches, int gels, const std::vector<bool>& without_mount) {
+  // Two fingers on a soft body cancel in its sum: gels that mounts hold tell more, and free bodies least.
+  const auto rank = [&](int i) {
+    return i >= gels ? 2 : !without_mount.empty() && without_mount[static_cast<std::size_t>(i)] ? 1 : 0;
+  };
+  for (int wanted = 0; wanted <= 2; ++wanted) {
+    double least = 0.0;
+    for (int i = 0; i < static_cast<int>(touches.size()); ++i) {
+      const double touch = touches[static_cast<std::size_t>(i)];
+      if (rank(i) == wanted && touch > 0.0 && (least == 0.0 || touch < least)) least = touch;
+    }
+    if (least > 0.0) return least;
   }
-  return smallest;
+  return 0.0;
 }
 
 }  // namespace
@@ -167,7 +171,7 @@ void NewtonStepper::hold_columns(const Call& call) {
   }
 }
 
-double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
+std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
   const Positions& x = call.problem.x;
   const std::vector<WeightedTerm>& terms = call.problem.potential.terms;
   // Carried along with their mounts, gels do not strain: of the Hessian times that motion only inertia and contact are
@@ -209,7 +213,10 @@ double NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend&
     for (const WeightedTerm& part : terms)
       add_inertia_coupling(part, first_object_vertex_, call.problem.motion, free_, system_);
   }
-  return std::min(smallest_touch(of_barrier, num_gels()), smallest_touch(so_far - without_contact, num_gels()));
+  std::vector<double> touches;
+  for (Eigen::Index i = 0; i < so_far.cols(); ++i)
+    touches.push_back(std::min(of_barrier.col(i).norm(), (so_far - without_contact).col(i).norm()));
+  return touches;
 }
 
 Eigen::VectorXd NewtonStepper::free_motion(const NewtonProblem& problem) const {
@@ -348,6 +355,25 @@ void NewtonStepper::measure_bodies(const Positions& x, NewtonDirection& out) con
   }
 }
 
+void NewtonStepper::measure_gels(const std::vector<double>& touches, NewtonDirection& out) const {
+  const std::vector<int>& gels = free_.gel_of_vertex;
+  out.contact_sum = least_touch(touches, num_gels(), free_.gel_without_mount);
+  out.gels.assign(static_cast<std::size_t>(num_gels()), {});
+  // Points of bodies are held to each other by their stiffness: what is missing to a body's balance says more.
+  const int points = BlockPattern::kBodyRows * static_cast<int>(free_.carried.size());
+  out.gradient_sum = 0.0;
+  for (int i = 0; i < free_.size() - points; ++i) {
+    const double norm = system_.gradient.segment<3>(3 * i).norm();
+    out.gradient_sum += norm;
+    const int v = free_.vertex_of_free[i];
+    if (!gels.empty()) out.gels[static_cast<std::size_t>(gels[static_cast<std::size_t>(v)])].gradient_sum += norm;
+  }
+  for (std::size_t g = 0; g < out.gels.size(); ++g) {
+    const bool soft = !free_.gel_without_mount.empty() && free_.gel_without_mount[g];
+    out.gels[g].contact_sum = soft ? std::max(touches[g], out.contact_sum) : touches[g];
+  }
+}
+
 NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& blend) {
   const Call call = start(problem);
   const auto raise_shares = [&](const std::vector<int>& vertices) {
@@ -358,7 +384,7 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
     return raised;
   };
   NewtonDirection out;
-  out.contact_sum = assemble_all(call, Order::hessian, blend);
+  std::vector<double> touches = assemble_all(call, Order::hessian, blend);
   bool projected = false;
   Blend before = blend;
   for (int tries = 1;; ++tries) {
@@ -376,16 +402,14 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
       reblend(call, before, blend);
     } else if (!projected) {
       projected = true;
-      out.contact_sum = assemble_all(call, Order::psd, blend);
+      touches = assemble_all(call, Order::psd, blend);
     } else {
       throw SolverError("the projected Hessian is not positive definite");
     }
   }
   measure_bodies(problem.x, out);
   out.largest_share = blend.largest();
-  // Points of bodies are held to each other by their stiffness: what is missing to a body's balance says more.
-  const auto of_points = 12 * static_cast<Eigen::Index>(free_.carried.size());
-  out.gradient_sum = sum_of_norms(system_.gradient.head(system_.gradient.size() - of_points));
+  measure_gels(touches, out);
   for (const int axis : problem.free_axes) out.gradient_sum += std::abs(system_.object_gradient[axis]);
   blend.lower();
   return out;

@@ -34,14 +34,20 @@ struct NewtonDirection {
   double slope = 0.0;                      // gᵀp over everything free
   double gradient_sum = 0.0;  // Σ of |gradient| over free vertices of gels, and over the object's free axes
   /// What residual forces are measured by: |Σ gradient of contact| over the free vertices of the gel that is touched
-  /// least, or on a free body where no gel is touched, of the barrier alone or with friction, whichever is smaller
-  /// (friction may carry most of the normal force, and the rest must balance, too).
+  /// least (bodies without a mount count where no other is touched, free bodies after them), of the barrier alone or
+  /// with friction, whichever is smaller (friction may carry most of the normal force, and the rest must balance, too).
   double contact_sum = 0.0;
   /// |Σ residual force| and |Σ residual torque| about its centre, of each body that moves freely.
   struct Body {
     double force, torque;
   };
   std::vector<Body> bodies;
+  /// gradient_sum and contact_sum of each of several gels, for each is measured by its own; of a body without a mount
+  /// the latter is at least that of the least touched gel.
+  struct Gel {
+    double gradient_sum = 0.0, contact_sum = 0.0;
+  };
+  std::vector<Gel> gels;
   double largest_share = 0.0;  // of the contact Hessian's PSD approximation: 0 exact, 1 nothing else somewhere
 };
 
@@ -97,8 +103,9 @@ class NewtonStepper {
 
   /// Finds the contacts that count, and extends the pattern by what they couple.
   Call start(const NewtonProblem& problem);
-  /// Assembles the whole system, with elasticity to the given order. \return NewtonDirection::contact_sum
-  double assemble_all(const Call& call, Order elastic, const Blend& blend);
+  /// Assembles the whole system, with elasticity to the given order. \return |Σ gradient of contact|, of the barrier
+  /// alone or with friction, whichever is smaller, on each gel and on each free body behind them
+  std::vector<double> assemble_all(const Call& call, Order elastic, const Blend& blend);
   /// A part of the elasticity that comes in packs.
   struct PackedPart {
     const EnergyTerm* term;
@@ -133,6 +140,8 @@ class NewtonStepper {
   Eigen::Index num_object_rows(const Positions& x) const {
     return x.rows() - first_object_vertex_ - free_.num_control_points;
   }
+  /// Sums of NewtonDirection over the gels' part of the system's gradient.
+  void measure_gels(const std::vector<double>& touches, NewtonDirection& out) const;
   /// NewtonDirection::bodies, of the system's gradient.
   void measure_bodies(const Positions& x, NewtonDirection& out) const;
   /// Free vertices in contact that go farther than `longest_m`.

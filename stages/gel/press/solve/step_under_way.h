@@ -66,6 +66,7 @@ void raise_shares_of_farthest(const Positions& p, Blend& blend);
 /// √(max |row i|²) over the first `rows` rows.
 double largest_row(const Positions& p, Eigen::Index rows);
 
+inline constexpr double kLeastWeight = 0.01;           // N: a lighter body's balance is measured as if it weighed this
 inline constexpr double kGapFloor = 1e-4;              // × d̂: no step leaves a smaller gap
 inline constexpr double kMovingSlack = 0.3;            // part of each gap that a move leaves: no line search guards it
 inline constexpr double kNewtonSlack = 0.1;            // part of each gap that a step leaves

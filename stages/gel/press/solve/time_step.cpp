@@ -46,8 +46,10 @@ FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glue
   for (const int v : glued) fixed[v] = true;
   FreeVertices free(order, fixed);
   free.num_control_points = mesh.num_control_points;
-  for (std::size_t g = 0; g < mesh.gels.size(); ++g)
+  for (std::size_t g = 0; g < mesh.gels.size(); ++g) {
     free.gel_of_vertex.insert(free.gel_of_vertex.end(), mesh.gels[g].mesh->num_gel_vertices, static_cast<int>(g));
+    free.gel_without_mount.push_back(mesh.gels[g].anchor < 0);
+  }
   for (const int body : free_bodies) {
     const auto i = static_cast<std::size_t>(body);
     free.carried.push_back({mesh.objects[i].first_vertex, bodies[i].weights, mesh.control_row(body)});
@@ -71,7 +73,6 @@ void StepReport::add_earlier(const StepReport& before) {
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings,
                          std::vector<AffineBody> bodies)
     : mesh_(mesh), gel_(std::move(gel)), settings_(settings), search_(mesh), bodies_(std::move(bodies)) {
-  newton_ = &stepper({});
   std::vector<bool> held(static_cast<std::size_t>(mesh.num_vertices()), false);
   for (const int v : gel_.glued) held[v] = true;
   elasticity_at_mount_ = restricted(gel_.elasticity, held);
@@ -213,9 +214,17 @@ void TimeStepper::add_gel_terms(Step& step, const State& state) const {
     terms.gravity = std::make_shared<LinearLoad>(std::move(all), gel_.mass_kg * settings_.gravity_m_s2.transpose());
   }
   if (settings_.stiffness_damping_s > 0.0)
-    terms.stiffness_damping =
-        std::make_shared<StiffnessDamping>(gel_.elasticity, Positions(step.compared_start().topRows(n)));
+    terms.stiffness_damping = std::make_shared<StiffnessDamping>(gel_.elasticity, start_beside_mounts(step));
   if (settings_.mass_damping_per_s > 0.0) terms.mass_damping = std::make_shared<Inertia>(gel_.mass_kg, start);
+}
+
+Positions TimeStepper::start_beside_mounts(const Step& step) const {
+  Positions start = step.compared_start().topRows(mesh_.num_gel_vertices);
+  for (std::size_t g = 0; g < step.goal.mount_motion.size(); ++g) {
+    auto rows = start.middleRows(mesh_.gels[g].first_vertex, mesh_.gels[g].mesh->num_gel_vertices);
+    rows += way_of(step.goal.mount_motion[g], Positions(rows));
+  }
+  return start;
 }
 
 void TimeStepper::add_relaxation(Step& step, const State& state) const {
@@ -306,16 +315,29 @@ Positions TimeStepper::way_of_held_objects(const Step& step, const Positions& x)
   return way;
 }
 
-bool TimeStepper::touches_moving_gel(const Step& step, const ObjectPart& object) {
-  std::vector<ContactPair> pairs = pairs_at(step.start);
-  std::erase_if(pairs, [&](const ContactPair& pair) {
-    const auto moves = [&](int v) {
-      return v < mesh_.num_gel_vertices && (step.goal.gel_motion.row(v).array() != 0.0).any();
-    };
-    return !(moves(pair.vertices[0]) && object.has(pair.vertices[3])) &&
-           !(moves(pair.vertices[3]) && object.has(pair.vertices[0]));
-  });
-  return smallest_distance(pairs, step.start, settings_.d_hat_m) < settings_.d_hat_m;
+std::optional<Positions> TimeStepper::way_with_gels(const Step& step, const ObjectPart& object,
+                                                    const Positions& points) {
+  const StepGoal& goal = step.goal;
+  std::vector<bool> touched(static_cast<std::size_t>(mesh_.num_gels()), false);
+  for (const ContactPair& pair : pairs_at(step.start)) {
+    const int first = pair.vertices[0], second = pair.vertices[3];
+    if (!object.has(first) && !object.has(second)) continue;
+    const int other = object.has(first) ? second : first;
+    if (other >= mesh_.num_gel_vertices) continue;
+    const auto gel = static_cast<std::size_t>(mesh_.body_of(other));
+    if (touched[gel] || (goal.gel_motion.row(other).array() == 0.0).all()) continue;
+    touched[gel] =
+        closest_feature(pair, gather(step.start, pair)).squared_distance < settings_.d_hat_m * settings_.d_hat_m;
+  }
+  Positions sum = Positions::Zero(points.rows(), 3);
+  int count = 0;
+  for (std::size_t gel = 0; gel < touched.size(); ++gel) {
+    if (!touched[gel]) continue;
+    sum += way_of(goal.mount_motion.empty() ? goal.hand_motion : goal.mount_motion[gel], points);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return Positions(sum / count);
 }
 
 void TimeStepper::start_ahead(Step& step, const State& state) {
@@ -326,9 +348,9 @@ void TimeStepper::start_ahead(Step& step, const State& state) {
     const auto i = static_cast<std::size_t>(free.body);
     const ControlPoints before = state.x.middleRows<4>(mesh_.control_row(free.body));
     auto points = p.middleRows<4>(mesh_.control_row(free.body));
-    if (mounts && touches_moving_gel(step, mesh_.objects[i])) {
+    if (const auto way = mounts ? way_with_gels(step, mesh_.objects[i], before) : std::nullopt) {
       // Gaps are far smaller than what a held object and its fingers would slide past each other otherwise.
-      points = way_of(goal.hand_motion, before);
+      points = *way;
     } else {
       // Without its weight, which contact mostly carries.
       points = predicted(bodies_[i], before, state.object_motion[i], Vector3::Zero(), goal.h_s) - before;
@@ -388,7 +410,7 @@ void TimeStepper::finish_bodies(Step& step, State& state) const {
       force += of_contact.force_n;
       torque += of_contact.torque_n_m - center.cross(of_contact.force_n);
     }
-    const double part = force.norm() / std::max(free.weight_n, std::numeric_limits<double>::min());
+    const double part = force.norm() / std::max(free.weight_n, kLeastWeight);
     if (part <= worst) continue;
     worst = part;
     step.report.body_residual_n = force.norm();

@@ -81,6 +81,8 @@ struct StepGoal {
   /// where it turns, friction and damping count what is left of each motion beside it.
   Matrix4 hand_motion = Matrix4::Identity();
   std::vector<Matrix3> world_from_gel = {};  // how several gels are turned at its end; empty for one
+  /// Rigid motion of each of several gels with its mount, the identity of a body without one; empty: hand_motion.
+  std::vector<Matrix4> mount_motion = {};
   /// Of the bodies' points, as object_target is of their vertices; rows of those that are free do not matter.
   Positions control_target = {};
 };
@@ -106,10 +108,14 @@ struct StepReport {
   int exact_hessian_waits = 0;  // iterations that were within the tolerances and went on for want of the exact Hessian
   double approximated_share = 0.0;  // largest share of the contact Hessian's PSD approximation in the last direction
   double velocity_residual_m_s = 0.0;
-  double force_residual_n = 0.0;             // Σ over free vertices of |residual force|
-  double barrier_factor = 1.0;               // on the barrier's stiffness
-  double friction_residual_n = 0.0;          // residual force if normal forces and tangent planes were renewed now
-  double contact_force_n = 0.0;              // |Σ forces of the object on the gel|, with or without friction: the less
+  /// Σ over free vertices of |residual force|; of several gels the one where it is the largest part of what it may be
+  /// there, times what it may be at contact_force_n.
+  double force_residual_n = 0.0;
+  double barrier_factor = 1.0;       // on the barrier's stiffness
+  double friction_residual_n = 0.0;  // residual force if normal forces and tangent planes were renewed now
+  /// |Σ contact forces on the gel|, with or without friction: the less; of several gels on the one touched least, where
+  /// none is touched on a body.
+  double contact_force_n = 0.0;
   Vector3 object_shift_m = Vector3::Zero();  // displacement of the object along its free axes
   /// Of a free object, |change of momentum / h − the forces on it| and the same of angular momentum about its centre;
   /// of several, of the one where the former is the largest part of the load.
@@ -155,7 +161,7 @@ class TimeStepper {
   const StepForces& forces() const { return forces_; }
   /// Those of a gel that nothing touches.
   StepForces no_forces() const;
-  /// Smallest gap between two bodies (not counting a gel with itself), at most `none`.
+  /// Smallest gap between two bodies, one of which can move by itself (not counting a gel with itself), at most `none`.
   double smallest_gap(const Positions& x, double none);
   /// Of all steps so far.
   SolverTimes times() const;
@@ -170,6 +176,8 @@ class TimeStepper {
   void add_gel_terms(Step& step, const State& state) const;
   /// Shares of 1 for all vertices that need some.
   Blend full_blend() const;
+  /// The start of the step as seen by damping: of gels, as their mounts have moved them since.
+  Positions start_beside_mounts(const Step& step) const;
   /// What a gel whose stress relaxes has besides.
   void add_relaxation(Step& step, const State& state) const;
   void add_object_inertia(Step& step, const State& state) const;
@@ -189,8 +197,8 @@ class TimeStepper {
   /// Calls use(object) for those of ContactMesh::objects that are not free in this step.
   template <typename Use>
   void for_each_held(const Step& step, Use&& use) const;
-  /// Whether a gel that moves with its mount is near the object.
-  bool touches_moving_gel(const Step& step, const ObjectPart& object);
+  /// How a body at these points goes along with the moving gels that it touches, if any: by the mean of their motions.
+  std::optional<Positions> way_with_gels(const Step& step, const ObjectPart& object, const Positions& points);
   /// Puts glued vertices where their mounts end.
   void arrive_at_mounts(Step& step) const;
   /// The augmented Lagrangian that holds glued and object vertices.
@@ -268,7 +276,7 @@ class TimeStepper {
   } last_search_;
   std::vector<AffineBody> bodies_;
   std::map<std::vector<int>, std::unique_ptr<NewtonStepper>> steppers_;  // by the bodies that are free
-  NewtonStepper* newton_;                                                // that of the step under way
+  NewtonStepper* newton_ = nullptr;                                      // that of the step under way
   StepForces forces_;
   SolverTimes times_;
 };
