@@ -1,5 +1,5 @@
-// A folder in which several gels and objects share one world, as `press` leaves a grasp: where each of them is in every
-// frame. The only reader of its arrays; each gel has a press folder of its own below it.
+// A folder in which several gels and objects share one world, as `press` leaves a grasp or a scene: where each of them
+// is in every frame. The only reader of its arrays; each gel has a press folder of its own below it.
 #pragma once
 
 #include <filesystem>
@@ -28,6 +28,9 @@ struct SceneFolder {
   std::vector<SceneGel> gels;
   std::vector<SceneObject> objects;
 };
+
+/// Name of a body's mesh among the inputs of a scene's record.
+inline std::string body_input(const std::string& body) { return "body_" + body; }
 
 /// Whether a press folder is that of a grasp and not of one gel.
 bool is_scene_folder(const std::filesystem::path& folder);

@@ -96,6 +96,7 @@ void Stage::link_output(const std::string& name, const fs::path& file, const std
 }
 
 fs::path Stage::partial_path(const std::string& name) const {
+  open_scratch();
   fs::path path = partial_ / name;
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
@@ -103,7 +104,10 @@ fs::path Stage::partial_path(const std::string& name) const {
   return path;
 }
 
-fs::path Stage::scratch(const std::string& name) const { return partial_ / kScratchFolder / name; }
+fs::path Stage::scratch(const std::string& name) const {
+  open_scratch();
+  return partial_ / kScratchFolder / name;
+}
 
 void Stage::save_scratch(const std::string& name, std::string_view bytes) {
   if (!scratch_belongs_to_inputs_ && inputs_changed()) throw DataError(kInputChanged);
@@ -154,7 +158,7 @@ void Stage::add_inputs(const std::vector<std::pair<std::string, fs::path>>& name
   added_inputs_.insert(added_inputs_.end(), named.begin(), named.end());
   for (const auto& [name, path] : named) refuse_changed(path);
   inputs_at_start_ = input_hashes(out_);
-  open_scratch();
+  scratch_is_open_ = false;
 }
 
 void Stage::refuse_changed(const fs::path& input) const {
@@ -308,11 +312,11 @@ void Stage::begin() {
   for (const auto& [flag, paths] : named_inputs_)
     for (const NamedPath& named : paths) refuse_changed(named.path);
   inputs_at_start_ = input_hashes(out_);
-  open_scratch();
 }
 
-void Stage::open_scratch() {
-  if (!spec_.resumable) return;
+void Stage::open_scratch() const {
+  if (!spec_.resumable || scratch_is_open_) return;
+  scratch_is_open_ = true;
   const std::string key = resume_key();
   if (read_checked_file(partial_ / kResumeKey) == key) {
     remove_unfinished_outputs(partial_);

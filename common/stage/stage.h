@@ -116,8 +116,9 @@ class Stage {
   /// The whole life of a stage under the lock of its folder. Returns the exit code.
   int run(const std::function<void(Stage&)>& body);
   void begin();
-  /// Keeps the scratch files of an equal earlier run, or none.
-  void open_scratch();
+  /// Keeps the scratch files of an equal earlier run, or none. Before the first file is written or looked for, but not
+  /// earlier: until all inputs are added no run is equal to an earlier one.
+  void open_scratch() const;
   void publish();
   void clean_up(int code) noexcept;
   void write_failure(const std::exception& error) const noexcept;
@@ -156,6 +157,7 @@ class Stage {
   std::vector<std::string> parts_;  // the outputs that are records of parts
   std::optional<Value> inputs_at_start_;
   bool scratch_belongs_to_inputs_ = false;
+  mutable bool scratch_is_open_ = false;
   Value::Map configs_;
   Value::Map notes_;
   Value::Map summary_;

@@ -2,8 +2,11 @@
 #include <malloc.h>
 
 #include "common/base/error.h"
+#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/sample/sample_inputs.h"
+#include "common/sample/scene_folder.h"
+#include "common/stage/record.h"
 #include "common/stage/stage.h"
 #include "stages/gel/press/checkpoint.h"
 #include "stages/gel/press/outputs.h"
@@ -15,16 +18,18 @@ const tacipc::StageSpec kPress{
     .summary =
         "Press an object into the gel: incremental potential contact, every frame proven free of intersection and "
         "inversion.",
-    .inputs = {{.flag = "--config", .help = "numerics (YAML)"},
-               {.flag = "--sensor", .help = "sensor (YAML)"},
-               {.flag = "--sample",
-                .help = "placement and motion, a grasp by two fingers, or a scene of bodies (YAML)"},
-               {.flag = "--gel", .help = "tetrahedral gel (gel.msh of tetmesh)"},
-               {.flag = "--object",
-                .help =
-                    "closed triangle mesh in metres (object.ply of decimate); none for a scene, which names its own",
-                .required = false},
-               {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false}},
+    .inputs =
+        {{.flag = "--config", .help = "numerics (YAML)"},
+         {.flag = "--sensor", .help = "sensor (YAML)"},
+         {.flag = "--sample", .help = "placement and motion, a grasp by two fingers, or a scene of bodies (YAML)"},
+         {.flag = "--gel", .help = "tetrahedral gel (gel.msh of tetmesh)"},
+         {.flag = "--object",
+          .help = "closed triangle mesh in metres (object.ply of decimate); none for a scene, which names its own",
+          .required = false},
+         {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false},
+         {.flag = "--soft",
+          .help = "of a scene: folder with <name>/object.msh of tetmesh for each soft body whose mesh is a surface",
+          .required = false}},
     .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}},
     .resumable = true};
 
@@ -53,30 +58,68 @@ void keep_freed_memory() {
   mallopt(M_TOP_PAD, 64 << 20);
 }
 
+/// The file of tetrahedra of a soft body: its mesh, or what `tetmesh --object` made of its surface.
+std::filesystem::path soft_mesh(const tacipc::Stage& stage, const tacipc::BodySpec& body) {
+  using namespace tacipc;
+  if (body.mesh.extension() == ".msh") return body.mesh;
+  const auto folder = stage.optional_input("--soft");
+  if (!folder)
+    throw UsageError(fmt::format("body {}: {} is a surface: --soft must be the folder with what tetmesh made of it",
+                                 body.name, body.mesh.string()));
+  const std::filesystem::path made = *folder / body.name, record = made / "tetmesh.yaml";
+  if (!std::filesystem::is_regular_file(record))
+    throw UsageError(fmt::format("body {}: {} is a surface, of which tetmesh has made no {}", body.name,
+                                 body.mesh.string(), (made / "object.msh").string()));
+  const auto of = Record::from_file(record).section("inputs").section("object").text("hash");
+  if (of != content_hash(body.mesh))
+    throw DataError("body {}: {} is of another surface than {}", body.name, record.string(), body.mesh.string());
+  return made / "object.msh";
+}
+
+/// \throw UsageError if a file that a body names is not there
+void require_file(const std::filesystem::path& scene, const tacipc::BodySpec& body, const char* key,
+                  const std::filesystem::path& file) {
+  if (!file.empty() && !std::filesystem::is_regular_file(file))
+    throw tacipc::UsageError(
+        fmt::format("{}: body {}: {}: {} does not exist", scene.string(), body.name, key, file.string()));
+}
+
 void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacipc::PressConfig& config,
                  const tacipc::ProgressObserver& progress) {
   using namespace tacipc;
   if (stage.optional_input("--object") || stage.optional_input("--object-config"))
     throw UsageError("--object and --object-config: the bodies of a scene are named in its file");
   const auto spec = stage.read_config<SceneSpec>("--sample");
+  for (const BodySpec& body : spec.bodies) {
+    require_file(stage.input("--sample"), body, "mesh", body.mesh);
+    require_file(stage.input("--sample"), body, "material", body.material);
+  }
   const TetMesh gel = read_tet_mesh(stage.input("--gel"));
   std::vector<SceneBody> bodies;
+  std::vector<std::pair<std::string, std::filesystem::path>> files;
   for (const BodySpec& spec_of : spec.bodies) {
     SceneBody& body = bodies.emplace_back();
-    if (spec_of.kind == BodyKind::gel) {
-      body.tets = gel;
-      body.material = sensor.material;
-      continue;
-    }
-    stage.add_input("bodies." + spec_of.name + ".mesh", spec_of.mesh);
-    if (spec_of.kind == BodyKind::soft) {
-      stage.add_input("bodies." + spec_of.name + ".material", spec_of.material);
-      body.tets = read_object_tet_mesh(spec_of.mesh);
-      body.material = read_config<Material>(spec_of.material);
-    } else {
-      body.surface = read_triangle_mesh(spec_of.mesh, 1.0);
+    switch (spec_of.kind) {
+      case BodyKind::gel:
+        body.tets = gel;
+        body.material = sensor.material;
+        break;
+      case BodyKind::soft: {
+        const std::filesystem::path tets = soft_mesh(stage, spec_of);
+        files.emplace_back(body_input(spec_of.name), tets);
+        files.emplace_back("material_" + spec_of.name, spec_of.material);
+        body.tets = read_object_tet_mesh(tets);
+        body.material = read_config<Material>(spec_of.material);
+        break;
+      }
+      case BodyKind::rigid:
+      case BodyKind::fixed:
+        files.emplace_back(body_input(spec_of.name), spec_of.mesh);
+        body.surface = read_triangle_mesh(spec_of.mesh, spec_of.metres_per_unit);
+        break;
     }
   }
+  stage.add_inputs(files);
   ScratchBytes frames(stage);
   write_outputs(stage, sensor, bodies, config, spec, run_scene(sensor, bodies, config, spec, progress, &frames));
 }
@@ -95,6 +138,9 @@ int main(int argc, char** argv) {
     };
     const ConfigReader what = ConfigReader::from_file(stage.input("--sample"));
     if (what.has("bodies")) return press_scene(stage, sensor, config, progress);
+    if (!stage.optional_input("--object"))
+      throw UsageError("--object is missing: what is pressed or gripped (only a scene names its bodies itself)");
+    if (stage.optional_input("--soft")) throw UsageError("--soft: only a scene has soft bodies");
     if (what.has("fingers")) {
       if (stage.optional_input("--object-config"))
         throw UsageError("--object-config says which side of the object is up; fingers take it as it is");

@@ -382,6 +382,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   Value::List names;
   for (std::size_t b = 0; b < count; ++b) {
     Value::Map body{{"name", spec.bodies[b].name}, {"kind", kBodyKinds[static_cast<std::size_t>(spec.bodies[b].kind)]}};
+    if (b >= deformable) body.emplace_back("metres_per_unit", spec.bodies[b].metres_per_unit);
     if (spec.bodies[b].kind == BodyKind::rigid) body.emplace_back("mass_kg", scene.mass_kg[b - deformable]);
     names.emplace_back(std::move(body));
   }

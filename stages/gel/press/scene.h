@@ -22,7 +22,7 @@ struct SceneBody {
 struct SceneFrame {
   double time_s = 0.0;
   int phase_index = -1;                                     // into the motion; −1 for frame 0
-  std::vector<Matrix4> world_from_body = {};                // of gels their mounts, of soft bodies the identity
+  std::vector<Matrix4> world_from_body = {};                // of gels their mounts, of soft bodies where they began
   std::vector<Vector3> velocity_m_s = {}, spin_rad_s = {};  // of rigid bodies: of their centres of mass, and about them
   std::vector<double> strain = {};                          // of rigid bodies: max |AᵀA − I|
   std::vector<Positions> soft_m = {};                       // of soft bodies

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <numbers>
 
+#include "common/mesh/triangle_mesh.h"
+
 namespace tacipc {
 namespace {
 
@@ -35,6 +37,8 @@ BodySpec read_body(ConfigReader& in) {
   const std::filesystem::path folder = std::filesystem::path(in.source()).parent_path();
   if (body.kind != BodyKind::gel) body.mesh = folder / in.text("mesh");
   if (body.kind == BodyKind::soft) body.material = folder / in.text("material");
+  if (body.kind == BodyKind::rigid || body.kind == BodyKind::fixed)
+    body.metres_per_unit = metres_per_unit(in.choice_or("unit", "m", {"m", "cm", "mm", "um", "in"}));
   if (body.kind == BodyKind::rigid) {
     if (in.has("mass_g")) {
       if (in.has("density_kg_m3")) in.fault("density_kg_m3", "give mass_g or density_kg_m3, not both");

@@ -23,7 +23,10 @@ inline constexpr std::array kBodyKinds{"gel", "soft", "rigid", "fixed"};
 struct BodySpec {
   std::string name = {};
   BodyKind kind = BodyKind::gel;
-  std::filesystem::path mesh = {};  // soft: tetrahedra (gel.msh of tetmesh); rigid, fixed: a closed surface in metres
+  /// Soft: tetrahedra (object.msh of `tetmesh --object`), or the surface that a folder has these of; rigid, fixed: a
+  /// closed surface.
+  std::filesystem::path mesh = {};
+  double metres_per_unit = 1.0;         // of the mesh of a rigid or fixed body; a soft one is in metres
   std::filesystem::path material = {};  // soft: its mechanics, as the section `material` of a sensor file
   Matrix4 world_from_body = Matrix4::Identity();
   std::optional<double> mass_kg = std::nullopt;  // rigid: this, or

@@ -32,6 +32,7 @@ class ResumeTest : public ::testing::Test {
     solved_ = 0;
     return run_stage(spec_, static_cast<int>(argv.size()), argv.data(), [&](Stage& stage) {
       const std::string text = read_file(stage.input("--mesh"));
+      for (const char* added : added_) stage.add_input(added, root_ / added);
       write_file(stage.output("half.txt"), "half");
       std::string all;
       for (int frame = 0; frame < kFrames; ++frame) {
@@ -75,6 +76,7 @@ class ResumeTest : public ::testing::Test {
                   .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}},
                   .resumable = true};
   ScratchFolder root_;
+  std::vector<const char*> added_ = {};  // inputs that no flag names
   int solved_ = 0;
 };
 
@@ -121,6 +123,18 @@ TEST_F(ResumeTest, AnotherInputOrOptionBeginsAnew) {
   ASSERT_EQ(run(nothing), 0);
   EXPECT_EQ(solved_, kFrames);
   EXPECT_EQ(read_file(root_ / "out/all.txt"), "b0b1b2b3b4");
+}
+
+TEST_F(ResumeTest, AddedInputsArePartOfWhatIsEqual) {
+  added_ = {"one.txt", "two.txt"};
+  for (const char* added : added_) write_file(root_ / added, "1");
+  run_killed_before(3);
+  ASSERT_EQ(run(nothing), 0);
+  EXPECT_EQ(solved_, 2);
+  run_killed_before(3);
+  write_file(root_ / "two.txt", "2");
+  ASSERT_EQ(run(nothing), 0);
+  EXPECT_EQ(solved_, kFrames);
 }
 
 TEST_F(ResumeTest, AnInputThatChangesOnTheWayIsNeverResumedFrom) {

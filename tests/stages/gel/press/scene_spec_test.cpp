@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 const std::string kBodies =
     "bodies:\n"
-    "  - {name: table, kind: fixed, mesh: table.ply}\n"
+    "  - {name: table, kind: fixed, mesh: table.ply, unit: mm}\n"
     "  - {name: peg, kind: rigid, mesh: parts/peg.ply, mass_g: 20, at_mm: [1, 2, 3], turn_deg: [0, 0, 90],\n"
     "     velocity_mm_s: [10, 0, 0], spin_rad_s: [0, 0, 2]}\n"
     "  - {name: left, kind: gel}\n"
@@ -39,6 +39,8 @@ TEST(SceneSpec, BodiesAreSortedByKindAndEveryValueIsInSi) {
   const BodySpec& peg = spec.bodies[2];
   EXPECT_EQ(peg.kind, BodyKind::rigid);
   EXPECT_EQ(peg.mesh, "scenes/parts/peg.ply");
+  EXPECT_EQ(peg.metres_per_unit, 1.0);
+  EXPECT_EQ(spec.bodies[3].metres_per_unit, 1e-3);
   EXPECT_DOUBLE_EQ(peg.mass_kg.value(), 0.02);
   Matrix4 pose;
   pose << 0, -1, 0, 1e-3, 1, 0, 0, 2e-3, 0, 0, 1, 3e-3, 0, 0, 0, 1;
@@ -71,6 +73,11 @@ TEST(SceneSpec, EachFaultIsNamedWhereItStands) {
   EXPECT_THAT(faults("bodies: [{name: a, kind: gel}, {name: a, kind: gel}]\n" + kMotion),
               Contains(HasSubstr("another body has this name")));
   EXPECT_THAT(faults("bodies: [{name: a/b, kind: gel}]\n" + kMotion), Contains(HasSubstr("letters, digits")));
+  EXPECT_THAT(faults("bodies: [{name: a, kind: fixed, mesh: a.ply, unit: ft}]\n" + kMotion),
+              Contains(HasSubstr("'ft' is not one of")));
+  // Tetrahedra are in metres.
+  EXPECT_THAT(faults("bodies: [{name: a, kind: soft, mesh: a.msh, material: a.yaml, unit: mm}]\n" + kMotion),
+              Contains(HasSubstr("unit: unknown key")));
   EXPECT_THAT(faults("bodies: [{name: a, kind: gell}]\n" + kMotion), Contains(HasSubstr("gell")));
   EXPECT_THAT(faults("bodies: [{name: a, kind: rigid, mesh: a.ply, mass_g: 2, density_kg_m3: 3}]\n" + kMotion),
               Contains(HasSubstr("not both")));
