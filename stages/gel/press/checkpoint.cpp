@@ -229,6 +229,7 @@ void scene_contents(auto& io, auto& frame, auto& gels, auto& progress) {
   account(io, frame.whole);
   solver(io, frame.solver);
   io.rows(progress.mount_n);
+  all(progress.held_bodies, [&](auto& body) { io.plain(body); });
   all(progress.others, [&](auto& wrench) {
     each(io, wrench.force_n);
     each(io, wrench.torque_n_m);

@@ -34,8 +34,9 @@ void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2
 /// What a scene goes on from.
 struct SceneProgress {
   State state;
-  Positions mount_n;           // force of the mounts, a row per vertex of deformable bodies
-  std::vector<Wrench> others;  // of each body that is fixed or held on all others, about the world's origin
+  Positions mount_n;             // force of the mounts, a row per vertex of deformable bodies
+  std::vector<int> held_bodies;  // in the last step
+  std::vector<Wrench> others;    // of each body that is fixed or held on all others, about the world's origin
 };
 
 /// The same of a scene: its frame, those of its gels, and what the next ones start from.

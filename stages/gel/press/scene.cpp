@@ -11,10 +11,14 @@
 #include "common/mesh/mass_properties.h"
 #include "common/sample/placement.h"
 #include "stages/gel/press/checkpoint.h"
+#include "stages/gel/press/contact/intersection_check.h"
+#include "stages/gel/press/contact/near_pairs.h"
 #include "stages/gel/press/contact/sharpness.h"
+#include "stages/gel/press/contact/surface_pairs.h"
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/gel_frame.h"
 #include "stages/gel/press/setup.h"
+#include "stages/gel/press/solve/step_limit.h"
 
 namespace tacipc {
 namespace {
@@ -22,6 +26,7 @@ namespace {
 // A pair of hard bodies pushes with this times κ d̂³/h² at half of d̂ (bound by the shape of the barrier, barrier.h); it
 // should bear the weight of a body on a few corners there.
 constexpr double kForceAtHalf = 4.3, kCorners = 4.0;
+constexpr std::size_t kMostBodies = 200;
 
 /// `from`, gone the part s of a way and turned about its own origin.
 Matrix4 moved(const Matrix4& from, const WaySpec& way, double s) {
@@ -46,8 +51,7 @@ class Stepping {
  public:
   Stepping(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config, const SceneSpec& spec,
            const ProgressObserver& observe, ByteStore* store)
-      : sensor_(sensor),
-        bodies_(bodies),
+      : bodies_(bodies),
         config_(config),
         spec_(spec),
         observe_(observe),
@@ -62,6 +66,9 @@ class Stepping {
     if (config.gravity_m_s2 != Vector3::Zero())
       throw UsageError("gravity_m_s2 is along the axes of one gel; a scene has it in the sample");
     if (config.mass_damping_per_s > 0.0) throw UsageError("damping.mass_per_s would hold back bodies that move");
+    if (config.quasi_static && num_deformable_ > num_gels_)
+      throw UsageError("dynamics: quasi_static holds only what a mount holds; soft bodies need inertia");
+    if (bodies.size() > kMostBodies) throw UsageError(fmt::format("a scene has at most {} bodies", kMostBodies));
     settings_.gravity_m_s2 = spec.gravity_m_s2;
     settings_.wrenches_between_bodies = true;
     for (const ScenePhase& phase : spec.motion) num_frames_ += phase.steps;
@@ -104,6 +111,7 @@ class Stepping {
     progress_.mount_n = Positions::Zero(mesh_.num_gel_vertices, 3);
     progress_.others.assign(bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     account_ = open_account(model_.mass_kg, instant({}), spec_.gravity_m_s2, model_.elasticity->value(state.x));
+    require_apart();
     if (!restored()) finish(-1, {}, stepper.no_forces());
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
     out_.times = stepper.times();
@@ -128,7 +136,12 @@ class Stepping {
     for (std::size_t b = num_deformable_; b < bodies_.size(); ++b) {
       const BodySpec& body = spec_.bodies[b];
       TriangleMesh object = bodies_[b].surface;
-      if (!check_object(object, config_)) throw DataError("body {}: its surface is not closed", body.name);
+      try {
+        if (!check_object(object, config_)) throw DataError("the object is not closed");
+        require_solid(mass_properties(object.positions, object.triangles).second_moment_m2);
+      } catch (const DataError& error) {
+        throw DataError("body {}: {}", body.name, error.what());
+      }
       object.positions = transformed(body.world_from_body, object.positions);
       if (body.kind == BodyKind::rigid) {
         const MassProperties mass = mass_properties(object.positions, object.triangles);
@@ -146,7 +159,13 @@ class Stepping {
                             std::make_shared<const ContactMesh>(
                                 make_contact_mesh(tets.positions, tets.boundary, std::vector<TriangleMesh>{}))});
     }
-    if (num_deformable_ > num_gels_) mesh_.gel_edge_sharpness = edge_sharpness(mesh_.gel, mesh_.rest_positions);
+    if (num_deformable_ > num_gels_) {
+      mesh_.gel_edge_sharpness = edge_sharpness(mesh_.gel, mesh_.rest_positions);
+      // Sensors' gels touch with their faces.
+      for (std::size_t e = 0; e < mesh_.gel.edges.size(); ++e) {
+        if (mesh_.gel.edges[e][0] < parts_[num_gels_].first_row) mesh_.gel_edge_sharpness[e] = 0.0;
+      }
+    }
     for (const BodySpec& body : spec_.bodies) poses_.push_back(body.world_from_body);
   }
 
@@ -177,9 +196,11 @@ class Stepping {
     }
     double weight_n = 0.0;
     for (const AffineBody& body : affine_) weight_n += body.mass_kg * spec_.gravity_m_s2.norm();
+    double load_n = 0.0;
     for (const ScenePhase& phase : spec_.motion) {
-      for (const auto& load : phase.load_n) weight_n = std::max(weight_n, load.second.norm());
+      for (const auto& load : phase.load_n) load_n = std::max(load_n, load.second.norm());
     }
+    weight_n += load_n;
     const double own_n = settings_.barrier_stiffness_j_m4 * std::pow(scales_.d_hat_m, 3);
     mesh_.laws.resize(count * count);
     for (std::size_t a = 0; a < count; ++a) {
@@ -194,7 +215,10 @@ class Stepping {
     }
   }
 
-  const Matrix4& pose_of_part(const Part& part) const { return poses_[part.body]; }
+  auto own_rows(const Part& part, Positions& rows) const {
+    return rows.middleRows(part.first_row, bodies_[part.body].tets.num_vertices());
+  }
+
   bool is_gel(const Part& part) const { return part.body < num_gels_; }
 
   /// Where a phase has its bodies after a part of it.
@@ -220,6 +244,7 @@ class Stepping {
     for (const Part& part : parts_) {
       const Matrix4 &before = poses_[part.body], &after = poses[part.body];
       goal.world_from_gel.push_back(after.topLeftCorner<3, 3>());
+      goal.mount_motion.push_back(is_gel(part) ? Matrix4(after * before.inverse()) : Matrix4(Matrix4::Identity()));
       if (!is_gel(part)) continue;
       const Positions& rest = bodies_[part.body].tets.positions;
       target.middleRows(part.first_row, rest.rows()) = transformed(after, rest);
@@ -231,7 +256,6 @@ class Stepping {
     if (moving == 0) {
       goal.gel_motion.resize(0, 3);
     } else {
-      goal.hand_motion.topRightCorner<3, 1>() = shift / moving;
       for (const Part& part : parts_) {
         if (!is_gel(part))
           own_rows(part, goal.gel_motion).rowwise() += way_of_soft(part, poses, shift / moving, h).transpose();
@@ -255,6 +279,7 @@ class Stepping {
       goal.control_target.middleRows<4>(static_cast<Eigen::Index>(4 * i)) = transformed(from_start, affine_[i].rest_m);
     }
     goal.free_object = goal.held_bodies.size() < num_rigid_;
+    require_free_way(goal);
     const WholeInstant at_start = instant(goal.held_bodies);
     const std::vector<Matrix4> poses_before = poses_;
     try {
@@ -267,6 +292,7 @@ class Stepping {
         if (!std::binary_search(goal.held_bodies.begin(), goal.held_bodies.end(), static_cast<int>(i)))
           poses_[body] = pose_of(affine_[i], points(i)) * spec_.bodies[body].world_from_body;
       }
+      if (goal.held_bodies != progress_.held_bodies) regroup(account_, model_.mass_kg, at_start, spec_.gravity_m_s2);
       note_step(goal, at_start, poses_before);
       const StepReport earlier = report;
       report = done;
@@ -312,12 +338,20 @@ class Stepping {
       }
       exchange.others.force_n += now.force_n;
       exchange.others.torque_n_m += now.torque_n_m;
+      if (!outside[b]) {
+        progress_.others[b] = now;
+        continue;
+      }
+      // Whoever only now begins to hold it had no force on it before.
+      const bool before_too = b >= num_deformable_ + num_rigid_ ||
+                              std::binary_search(progress_.held_bodies.begin(), progress_.held_bodies.end(),
+                                                 static_cast<int>(b - num_deformable_));
+      const Wrench& earlier = before_too ? progress_.others[b] : now;
       // x ↦ R x + t: about the world's origin the body turns by the vector of R and shifts by t, to first order.
       const Matrix4 way = poses_[b] * poses_before[b].inverse();
       const Eigen::AngleAxisd turn(Matrix3(way.topLeftCorner<3, 3>()));
-      exchange.others_work_j +=
-          0.5 * ((now.force_n + progress_.others[b].force_n).dot(Vector3(way.topRightCorner<3, 1>())) +
-                 (now.torque_n_m + progress_.others[b].torque_n_m).dot(turn.angle() * turn.axis()));
+      exchange.others_work_j += 0.5 * ((now.force_n + earlier.force_n).dot(Vector3(way.topRightCorner<3, 1>())) +
+                                       (now.torque_n_m + earlier.torque_n_m).dot(turn.angle() * turn.axis()));
       progress_.others[b] = now;
     }
     const WholeInstant after = instant(goal.held_bodies);
@@ -335,10 +369,7 @@ class Stepping {
     }
     add_step(account_, model_.mass_kg, before, after, spec_.gravity_m_s2, exchange);
     progress_.mount_n = forces.mount;
-  }
-
-  auto own_rows(const Part& part, Positions& rows) const {
-    return rows.middleRows(part.first_row, bodies_[part.body].tets.num_vertices());
+    progress_.held_bodies = goal.held_bodies;
   }
 
   /// Where a soft body's step starts from while mounts move: along with them if it touches one that does, else where it
@@ -403,53 +434,105 @@ class Stepping {
     return true;
   }
 
-  /// Pairs of triangles of different bodies, or of one deformable body, that share a point.
-  int crossings(const Positions& x) const {
-    const SurfaceView deformable{x.topRows(mesh_.num_gel_vertices), whole_.boundary};
-    Triangles all(static_cast<Eigen::Index>(mesh_.object.triangles.size()), 3);
-    for (Eigen::Index t = 0; t < all.rows(); ++t) {
-      for (int k = 0; k < 3; ++k)
-        all(t, k) =
-            mesh_.object.triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] - mesh_.num_gel_vertices;
+  const std::string& name(std::size_t body) const { return spec_.bodies[body].name; }
+  bool is_fixed(std::size_t body) const { return body >= num_deformable_ + num_rigid_; }
+
+  /// A body's surface at x.
+  struct Shape {
+    Positions positions;
+    Triangles triangles;
+    SurfaceView view() const { return {positions, triangles}; }
+  };
+  Shape shape_of(std::size_t body, const Positions& x) const {
+    if (body < num_deformable_) {
+      const TetMesh& tets = bodies_[body].tets;
+      return {x.middleRows(parts_[body].first_row, tets.num_vertices()), tets.boundary};
     }
-    const Positions objects = mesh_.object_rows(x);
-    const IntersectionReport with_gels = find_intersections(deformable, {objects, all});
-    std::int64_t sum = with_gels.gel_object + with_gels.gel_gel;
-    // Two that are fixed may share points.
-    for (std::size_t a = 0; a < num_rigid_; ++a) {
-      for (std::size_t b = a + 1; b < mesh_.objects.size(); ++b) {
-        const Positions first = mesh_.objects[a].rows(x), second = mesh_.objects[b].rows(x);
-        sum += find_intersections({first, bodies_[num_deformable_ + a].surface.triangles},
-                                  {second, bodies_[num_deformable_ + b].surface.triangles})
-                   .gel_object;
-      }
-    }
-    return static_cast<int>(sum);
+    return {mesh_.objects[body - num_deformable_].rows(x), bodies_[body].surface.triangles};
   }
 
-  /// How many times bodies wind around others, at most 1 where one is inside another.
-  double containment(const Positions& x) const {
-    double most = 0.0;
-    const auto look = [&](const Vector3& point, const Positions& at, const Triangles& triangles) {
-      const double winds = winding_number(point, {at, triangles});
-      if (std::abs(winds) > std::abs(most)) most = winds;
+  /// Judges what concerns bodies with each other: exact intersections, which of itself for a deformable one, and
+  /// whether one is inside another. Two that are fixed may share points. \return pairs of triangles that intersect
+  /// \throw VerdictError naming the bodies
+  int judge_bodies(const Positions& x) const {
+    const auto frame = static_cast<int>(out_.frames.size());
+    const auto miss = [&](const char* check, double value, double limit, const std::string& reason) {
+      throw VerdictError({.frame = frame, .check = check, .value = value, .limit = limit},
+                         fmt::format("frame {}: {}", frame, reason));
     };
-    std::vector<Eigen::Index> first_rows;
-    for (const Part& part : parts_) first_rows.push_back(part.first_row + bodies_[part.body].tets.boundary(0, 0));
-    for (const ObjectPart& object : mesh_.objects) first_rows.push_back(object.first_vertex);
-    for (std::size_t a = 0; a < first_rows.size(); ++a) {
-      const Vector3 point = x.row(first_rows[a]);
-      for (std::size_t b = 0; b < first_rows.size(); ++b) {
-        if (a == b) continue;
-        if (b < parts_.size()) {
-          const TetMesh& tets = bodies_[b].tets;
-          look(point, x.middleRows(parts_[b].first_row, tets.num_vertices()), tets.boundary);
-        } else {
-          look(point, mesh_.objects[b - parts_.size()].rows(x), bodies_[b].surface.triangles);
+    std::vector<Shape> shapes;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) shapes.push_back(shape_of(b, x));
+    for (std::size_t a = 0; a < bodies_.size(); ++a) {
+      for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
+        if (is_fixed(a)) continue;  // so are all that follow
+        const IntersectionReport found = find_intersections(shapes[a].view(), shapes[b].view());
+        if (found.gel_object > kVerdictLimits.intersections)
+          miss("intersections", static_cast<double>(found.gel_object), kVerdictLimits.intersections,
+               fmt::format("{} pairs of triangles of {} and {} intersect", found.gel_object, name(a), name(b)));
+        if (a < num_deformable_ && found.gel_gel > kVerdictLimits.intersections)
+          miss("intersections", static_cast<double>(found.gel_gel), kVerdictLimits.intersections,
+               fmt::format("{} pairs of triangles of {} intersect", found.gel_gel, name(a)));
+        for (const auto& [inner, outer] : {std::pair(a, b), std::pair(b, a)}) {
+          const Vector3 point = shapes[inner].positions.row(shapes[inner].triangles(0, 0));
+          const double winds = winding_number(point, shapes[outer].view());
+          if (!(std::abs(winds) < kVerdictLimits.gel_in_object))
+            miss("containment", winds, kVerdictLimits.gel_in_object,
+                 fmt::format("{} is inside {}", name(inner), name(outer)));
         }
       }
     }
-    return most;
+    return 0;
+  }
+
+  /// Two bodies in frame 0 that are as near as contact reaches, as an error.
+  void require_apart() const {
+    const Positions& x = progress_.state.x;
+    const Positions still = Positions::Zero(x.rows(), 3);
+    const std::vector<Surface> surfaces = surfaces_of_bodies();
+    for (std::size_t a = 0; a < bodies_.size(); ++a) {
+      for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
+        if (is_fixed(a)) continue;
+        const double d_hat = scales_.d_hat_m * mesh_.laws[a * bodies_.size() + b].d_hat;
+        std::vector<ContactPair> pairs;
+        pairs_between(surfaces[a], surfaces[b], x, still, d_hat, pairs);
+        if (const double gap = smallest_distance(pairs, x, 2.0 * d_hat); gap <= d_hat)
+          throw DataError("bodies {} and {} are {:.3g} mm apart in frame 0: contact would begin at {:.3g} mm already",
+                          name(a), name(b), 1e3 * gap, 1e3 * d_hat);
+      }
+    }
+  }
+
+  std::vector<Surface> surfaces_of_bodies() const {
+    std::vector<Surface> surfaces;
+    for (const Part& part : parts_)
+      surfaces.push_back(make_surface(bodies_[part.body].tets.boundary, static_cast<int>(part.first_row)));
+    for (const ObjectPart& object : mesh_.objects) surfaces.push_back(object.surface);
+    return surfaces;
+  }
+
+  /// Bodies that go where they are told do not feel each other: none may run into another.
+  void require_free_way(const StepGoal& goal) const {
+    const Positions& x = progress_.state.x;
+    Positions p = Positions::Zero(x.rows(), 3);
+    for (const int i : goal.held_bodies) {
+      const ObjectPart& object = mesh_.objects[static_cast<std::size_t>(i)];
+      object.rows(p) =
+          goal.object_target.middleRows(object.first_vertex - mesh_.num_gel_vertices, object.num_vertices) -
+          object.rows(x);
+    }
+    for (const int i : goal.held_bodies) {
+      const auto a = static_cast<std::size_t>(i);
+      for (std::size_t b = 0; b < mesh_.objects.size(); ++b) {
+        const bool told = b >= num_rigid_ ||
+                          std::binary_search(goal.held_bodies.begin(), goal.held_bodies.end(), static_cast<int>(b));
+        if (!told || (b < num_rigid_ && b <= a)) continue;
+        std::vector<ContactPair> pairs;
+        pairs_between(mesh_.objects[a].surface, mesh_.objects[b].surface, x, p, 0.0, pairs);
+        if (contact_step_limit(pairs, x, p, {.slack = 0.01}) < 1.0)
+          throw DataError("frame {}: {} runs into {}: both go where the scene says", out_.frames.size(),
+                          name(num_deformable_ + a), name(num_deformable_ + b));
+      }
+    }
   }
 
   void finish(int phase_index, const StepReport& report, const StepForces& forces) {
@@ -467,14 +550,20 @@ class Stepping {
     if (frame.between.empty())
       frame.between.assign(bodies_.size() * bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     frame.min_gap_m = stepper_->smallest_gap(x, scales_.gap_horizon_m);
-    frame.intersections = crossings(x);
-    const double contained = containment(x);
+    frame.intersections = judge_bodies(x);
     std::vector<Frame> of_gels;
     for (const Part& part : parts_) {
       const SolvedGel gel{bodies_[part.body].tets, part.front, part.rest_tets, part.first_row};
       const Matrix4& pose = poses_[part.body];
       const bool at_rest = phase_index < 0 && is_gel(part);
       Frame own = gel_frame(gel, pose, at_rest ? gel.gel.positions : positions_in_gel(gel, pose, x), forces);
+      if (!is_gel(part)) {
+        // Those that squeeze it cancel in their sum.
+        double most = kSmallestContactN;
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+          most = std::max(most, frame.between[part.body * bodies_.size() + b].force_n.norm());
+        own.balance.relative = own.balance.force_n / most;
+      }
       own.time_s = time_s_;
       own.phase = phase_index < 0 ? PhaseKind::reference : PhaseKind::path;
       own.phase_index = phase_index;
@@ -487,9 +576,12 @@ class Stepping {
       }
       own.min_gap_m = frame.min_gap_m;
       own.intersections = frame.intersections;
-      own.gel_in_object = contained;
-      judge_frame(static_cast<int>(out_.frames.size()), numbers_of(own),
-                  limits_of(config_, settings_.newton, report.contact_force_n));
+      try {
+        judge_frame(static_cast<int>(out_.frames.size()), numbers_of(own),
+                    limits_of(config_, settings_.newton, report.contact_force_n));
+      } catch (const VerdictError& error) {
+        throw VerdictError(error.miss(), fmt::format("body {}: {}", name(part.body), error.what()));
+      }
       if (is_gel(part)) {
         of_gels.push_back(own);
         out_.gels[part.body].frames.push_back(std::move(own));
@@ -503,7 +595,6 @@ class Stepping {
     if (store_) store_->save(pack_frame(out_.frames.back(), of_gels, progress_));
   }
 
-  const Sensor& sensor_;
   const std::vector<SceneBody>& bodies_;
   const PressConfig& config_;
   const SceneSpec& spec_;

@@ -80,20 +80,21 @@ ScenePhase read_phase(ConfigReader& in, const Names& names) {
   phase.steps = in.integer("steps", 1, 100000);
   phase.substeps = in.integer_or("substeps", 1, 1, 1000);
   const double time_steps = static_cast<double>(phase.steps) * phase.substeps;
-  const auto once = [&](ConfigReader& at, const std::string& key, int body) {
+  const auto once = [&](ConfigReader& at, const std::string& key, int body, const std::string& reason) {
     for (const WaySpec& way : phase.move) {
-      if (way.body == body) at.fault(key, "this body is moved or held twice in the phase");
+      if (way.body == body) at.fault(key, reason);
     }
     for (const int other : phase.hold) {
-      if (other == body) at.fault(key, "this body is moved or held twice in the phase");
+      if (other == body) at.fault(key, reason);
     }
   };
+  const std::string twice = "this body is moved or held twice in the phase";
   for (ConfigReader& move : in.sections("move")) {
     WaySpec way;
     way.body = names.read(move, "body");
     if (names.kind(way.body) != BodyKind::gel && names.kind(way.body) != BodyKind::rigid)
       move.fault("body", "gels and rigid bodies can be moved; a soft one goes with what it touches");
-    once(move, "body", way.body);
+    once(move, "body", way.body, twice);
     way.by_m = triple(move, "by_mm", 1e-3);
     way.turn_rad = turn(move, "turn_deg");
     way.smooth = move.flag_or("smooth", false);
@@ -105,13 +106,17 @@ ScenePhase read_phase(ConfigReader& in, const Names& names) {
   for (const std::string& name : in.choices_or("hold", {}, names.all())) {
     const int body = names.number(name);
     if (names.kind(body) != BodyKind::rigid) in.fault("hold", name + " is not a rigid body: those alone are free");
-    once(in, "hold", body);
+    once(in, "hold", body, twice);
     phase.hold.push_back(body);
   }
   for (ConfigReader& load : in.sections("load")) {
     const int body = names.read(load, "body");
     if (names.kind(body) != BodyKind::rigid) load.fault("body", "a load acts on a rigid body");
     const Vector3 force = load.vector3("force_n");
+    for (const auto& [other, unused] : phase.load_n) {
+      if (other == body) load.fault("body", "this body has another load in the phase");
+    }
+    once(load, "body", body, "a body that is moved or held bears no load");
     phase.load_n.emplace_back(body, force);
   }
   return phase;
@@ -145,6 +150,10 @@ SceneSpec SceneSpec::read(ConfigReader& in) {
       pair.fault("between", "expected the names of two bodies");
     } else {
       contact.between = {names.number(between[0]), names.number(between[1])};
+    }
+    for (const ContactSpec& other : spec.contact) {
+      if (std::minmax(other.between[0], other.between[1]) == std::minmax(contact.between[0], contact.between[1]))
+        pair.fault("between", "these two stand in the list already");
     }
     contact.friction = pair.optional_number("friction", Range::non_negative());
     if (const auto d_hat_mm = pair.optional_number("d_hat_mm", Range::positive())) contact.d_hat_m = 1e-3 * *d_hat_mm;

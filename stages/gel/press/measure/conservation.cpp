@@ -62,6 +62,17 @@ WholeAccount open_account(const Eigen::VectorXd& gel_mass_kg, const WholeInstant
   return account;
 }
 
+void regroup(WholeAccount& account, const Eigen::VectorXd& gel_mass_kg, const WholeInstant& now,
+             const Vector3& gravity_m_s2) {
+  const double stored = stored_j(account);
+  const Vector3 momentum = account.momentum_kg_m_s, angular = account.angular_momentum_kg_m2_s;
+  set_state(account, gel_mass_kg, now, momenta_of(gel_mass_kg, now), gravity_m_s2, account.elastic_j,
+            account.contact_j);
+  account.work_j += stored_j(account) - stored;
+  account.impulse_n_s += account.momentum_kg_m_s - momentum;
+  account.angular_impulse_n_m_s += account.angular_momentum_kg_m2_s - angular;
+}
+
 void add_step(WholeAccount& account, const Eigen::VectorXd& gel_mass_kg, const WholeInstant& before,
               const WholeInstant& after, const Vector3& gravity_m_s2, const StepExchange& exchange) {
   assert(before.bodies.size() == after.bodies.size());

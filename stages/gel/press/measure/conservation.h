@@ -76,6 +76,11 @@ struct WholeAccount {
 WholeAccount open_account(const Eigen::VectorXd& gel_mass_kg, const WholeInstant& start, const Vector3& gravity_m_s2,
                           double elastic_j);
 
+/// Bodies are held, or let go, that were not before: what they bring in or take away counts as work and impulse from
+/// outside. \param now with the new ones marked
+void regroup(WholeAccount& account, const Eigen::VectorXd& gel_mass_kg, const WholeInstant& now,
+             const Vector3& gravity_m_s2);
+
 /// Takes a step over. \pre gels and bodies are the same before and after, and were so when the account was opened
 void add_step(WholeAccount& account, const Eigen::VectorXd& gel_mass_kg, const WholeInstant& before,
               const WholeInstant& after, const Vector3& gravity_m_s2, const StepExchange& exchange);

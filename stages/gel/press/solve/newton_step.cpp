@@ -22,13 +22,6 @@ constexpr double kKeptHessian = 0.1;
 // Relative: the object's vertices go from rounded positions to rounded positions.
 constexpr double kSameTranslation = 1e-10;
 
-/// Σᵢ |row i| of a vector of stacked triples.
-double sum_of_norms(const Eigen::Ref<const Eigen::VectorXd>& stacked) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < stacked.size(); i += 3) sum += stacked.segment<3>(i).norm();
-  return sum;
-}
-
 /// The least touch that is not zero, of gels, or of free bodies behind them where no gel is touched.
 double least_touch(const std::vector<double>& touches, int gels, const std::vector<bool>& without_mount) {
   // Two fingers on a soft body cancel in its sum: gels that mounts hold tell more, and free bodies least.

@@ -237,7 +237,7 @@ TEST(Grasp, AccountsForMomentumAndEnergyOfTheWhole) {
 
 /// Straight paths of vertices would cut across a large turn.
 TEST(Grasp, ATimeStepThatTurnsFarIsDivided) {
-  const std::vector<GraspPhase> motion{close_phase(3, 3.0), hold_phase(3), turn_phase(2, 1.0, 0), hold_phase(5)};
+  const std::vector<GraspPhase> motion{close_phase(3, 2.0), hold_phase(3), turn_phase(2, 1.0, 0), hold_phase(5)};
   const Grasp grasp = run_grasp(kBox, grasp_config(0.8), grasp_of(kMass_kg, motion));
   // 0.5 rad each: in four parts of 0.125.
   for (const std::size_t f : {7, 8}) EXPECT_EQ(grasp.fingers[0].frames[f].solver.time_steps, 4) << f;

@@ -178,5 +178,91 @@ TEST_F(SceneOf, WhatItCannotBeIsSaidBeforeItStarts) {
   EXPECT_THAT(message(), HasSubstr("not closed"));
 }
 
+TEST_F(SceneOf, ASoftBallOfAnotherMaterialIsHeldByTwoGels) {
+  const Vector3 about_y(0, 0.5 * std::numbers::pi, 0);
+  add_gel("left", at({-3.2e-3, 0, 0}, about_y));
+  add_gel("right", at({3.2e-3, 0, 0}, -about_y));
+  // A block without a mount, softer than the gels.
+  TetMesh block = block_gel(3, 6e-3, 6e-3);
+  std::fill(block.tags.begin(), block.tags.end(), BoundaryTag::free);
+  Material soft = paper_sensor().material;
+  soft.youngs_modulus_pa *= 0.5;
+  spec_.bodies.push_back({.name = "block", .kind = BodyKind::soft, .world_from_body = at({0, 0, 3e-3})});
+  bodies_.push_back({.tets = block, .material = soft});
+  config_.friction->coefficient = 0.9;
+  spec_.gravity_m_s2.setZero();
+  spec_.motion = {{.steps = 10, .move = {{.body = 0, .by_m = {0.4e-3, 0, 0}}, {.body = 1, .by_m = {-0.4e-3, 0, 0}}}},
+                  {.steps = 10, .move = {{.body = 0, .by_m = {0, 0, 2e-3}}, {.body = 1, .by_m = {0, 0, 2e-3}}}},
+                  {.steps = 10}};
+  const Scene scene = run();
+  const SceneFrame &gripped = scene.frames[10], &end = scene.frames.back();
+  const double grip = on(gripped, 0, 2).force_n.norm();
+  EXPECT_GT(grip, 0.05);
+  EXPECT_NEAR(on(gripped, 1, 2).force_n.x(), -on(gripped, 0, 2).force_n.x(), 0.02 * grip);
+  // It goes along with the gels.
+  const double rose = end.soft_m[0].col(2).mean() - gripped.soft_m[0].col(2).mean();
+  EXPECT_NEAR(rose, 2e-3, 0.1e-3);
+  EXPECT_LT(end.whole.momentum_residual_n, 2e-3 * grip);
+}
+
+TEST_F(SceneOf, FixedBodiesMayShareFacesAndOneInsideAnotherIsFine) {
+  add_gel("gel", at(Vector3::Zero()));
+  add_box("left", BodyKind::fixed, {-3e-3, 0, 10e-3});
+  add_box("right", BodyKind::fixed, {3e-3, 0, 10e-3});
+  add_box("inside", BodyKind::fixed, {3e-3, 0, 10e-3}, {1e-3, 1e-3, 1e-3});
+  spec_.motion = {{.steps = 2}};
+  EXPECT_EQ(run().frames.size(), 3u);
+}
+
+TEST_F(SceneOf, ABodyThatIsThrownBringsItsEnergyAndMomentumFromOutside) {
+  add_gel("gel", at(Vector3::Zero()));
+  add_box("box", BodyKind::rigid, {0, 0, 20e-3});
+  spec_.gravity_m_s2.setZero();
+  // Carried by 1 mm in five steps of 10 ms, let go, and caught again.
+  spec_.motion = {{.steps = 5, .move = {{.body = 1, .by_m = {0, 0, 1e-3}}}}, {.steps = 5}, {.steps = 2, .hold = {1}}};
+  const Scene scene = run();
+  const double v = 1e-3 / 0.05;
+  const WholeAccount &flying = scene.frames[8].whole, &caught = scene.frames.back().whole;
+  EXPECT_NEAR(scene.frames[8].velocity_m_s[0].z(), v, 1e-9);
+  EXPECT_NEAR(flying.kinetic_j, 0.5 * kBoxMass_kg * v * v, 1e-9);
+  EXPECT_NEAR(flying.work_j, flying.kinetic_j, 1e-9);
+  EXPECT_NEAR(flying.impulse_n_s.z(), kBoxMass_kg * v, 1e-9);
+  EXPECT_NEAR(flying.method_loss_j, 0.0, 1e-9);
+  EXPECT_LT(flying.momentum_residual_n, 1e-6);
+  EXPECT_NEAR(caught.kinetic_j, 0.0, 1e-9);
+  EXPECT_NEAR(caught.work_j, 0.0, 1e-9);
+  EXPECT_NEAR(caught.impulse_n_s.z(), 0.0, 1e-9);
+}
+
+TEST_F(SceneOf, DampingLetsAGelTurnWithItsMount) {
+  add_gel("gel", at(Vector3::Zero()));
+  spec_.gravity_m_s2.setZero();
+  config_.stiffness_damping_s = 0.02;
+  spec_.motion = {{.steps = 6, .move = {{.body = 0, .turn_rad = {0, 0, 1.0}}}}};
+  const Scene scene = run();
+  double strained = 0.0;
+  for (const Frame& frame : scene.gels[0].frames)
+    strained = std::max(strained, (frame.positions - bodies_[0].tets.positions).cwiseAbs().maxCoeff());
+  EXPECT_LT(strained, 1e-5);
+}
+
+TEST_F(SceneOf, BodiesThatAreToldToMeetAreAnErrorThatNamesThem) {
+  add_gel("gel", at(Vector3::Zero()));
+  add_box("peg", BodyKind::rigid, {0, 0, 30e-3});
+  add_box("plate", BodyKind::fixed, {0, 0, 20e-3}, {0.01, 0.01, 0.5e-3});
+  spec_.motion = {{.steps = 2, .move = {{.body = 1, .by_m = {0, 0, -20e-3}}}}};
+  const auto message = [&] {
+    try {
+      run();
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(), HasSubstr("peg runs into plate"));
+  spec_.bodies[1].world_from_body = at({0, 0, 3.001e-3});
+  EXPECT_THAT(message(), HasSubstr("bodies gel and peg are 0.001 mm apart in frame 0"));
+}
+
 }  // namespace
 }  // namespace tacipc
