@@ -28,13 +28,14 @@ double profile_transform(const LayerProblem& problem, double t) {
 Eigen::MatrixXd weighted_cosines(const LayerProblem& problem, const std::vector<double>& t) {
   constexpr double kEnd = 24.0;
   constexpr int kPerPanel = 8;
+  const double share = problem.combined_modulus_pa() / problem.gel.plane_modulus_pa();
   const double fastest = *std::max_element(t.begin(), t.end()) / problem.thickness_m;
   const int panels = 24 + static_cast<int>(std::ceil(kEnd * fastest / (pi / 2.0)));
   Eigen::MatrixXd c(panels * kPerPanel, static_cast<Eigen::Index>(t.size()));
   for (int panel = 0; panel < panels; ++panel) {
     const Quadrature omega = gauss_legendre(kPerPanel, kEnd * panel / panels, kEnd * (panel + 1) / panels);
     for (int q = 0; q < kPerPanel; ++q) {
-      const double g = 1.0 - bonded_layer_kernel(omega.node[q], problem.gel.poissons_ratio);
+      const double g = share * (1.0 - bonded_layer_kernel(omega.node[q], problem.gel.poissons_ratio));
       const double root = std::sqrt(std::max(0.0, 2.0 / pi * g * omega.weight[q] / problem.thickness_m));
       for (std::size_t i = 0; i < t.size(); ++i) {
         c(panel * kPerPanel + q, static_cast<Eigen::Index>(i)) =
@@ -46,6 +47,11 @@ Eigen::MatrixXd weighted_cosines(const LayerProblem& problem, const std::vector<
 }
 
 }  // namespace
+
+double LayerProblem::combined_modulus_pa() const {
+  const double of_gel = gel.plane_modulus_pa();
+  return indenter ? 1.0 / (1.0 / of_gel + 1.0 / indenter->plane_modulus_pa()) : of_gel;
+}
 
 double bonded_layer_kernel(double omega, double poissons_ratio) {
   const double k = 3.0 - 4.0 * poissons_ratio, w = omega;
@@ -86,7 +92,7 @@ LayerSolution solve_bonded_layer(const LayerProblem& problem, double contact_rad
       Eigen::MatrixXd::Identity(points, points) - M.topLeftCorner(points, points) * weight.asDiagonal();
   // φ = δ φ₁ − φ₂, the answers to unit depth and to the profile.
   Eigen::MatrixXd right(points, 2);
-  const double scale = problem.gel.plane_modulus_pa() / pi;
+  const double scale = problem.combined_modulus_pa() / pi;
   for (int i = 0; i < points; ++i) right.row(i) << scale, scale * profile_transform(problem, t[i]);
   const Eigen::MatrixXd phi = system.partialPivLu().solve(right);
   const Eigen::RowVector2d force = 2.0 * pi * weight.transpose() * phi;

@@ -1,4 +1,4 @@
-// Rigid axisymmetric indenter on an elastic layer bonded to a rigid base: the exact linear solution.
+// Axisymmetric indenter, rigid or elastic, on an elastic layer bonded to a rigid base: the exact linear solution.
 #pragma once
 
 #include <optional>
@@ -21,6 +21,14 @@ struct LayerProblem {
   double thickness_m = 0.0;
   enum class Shape { sphere, paraboloid, flat } shape = Shape::sphere;
   double radius_m = 0.0;  // of curvature; of the punch for `flat`
+  /// Of a round indenter that yields, too, as a half space does [Hertz 1882]; none: rigid. Both are sunk in by the same
+  /// pressure, so that their compliances add up: (2/E*) K(ξh)/ξ + (2/E*ᵢ)/ξ = (2/E*꜀) K꜀/ξ with
+  ///   1/E*꜀ = 1/E* + 1/E*ᵢ,   1 − K꜀ = (E*꜀/E*) (1 − K).
+  /// The depth is then how far the indenter's inside has come towards the base since they touched.
+  std::optional<Elastic> indenter = {};
+
+  /// E*꜀ of the above; E* of the layer under a rigid indenter.
+  double combined_modulus_pa() const;
 };
 
 struct LayerSolution {
@@ -31,6 +39,7 @@ struct LayerSolution {
 
 /// Solution for a given contact radius a. With P(ξ) = ∫₀ᵃ φ(t) cos(ξt) dt the dual integral equations become
 ///   φ(t) = (E*/π) (δ − q(t)) + ∫₀ᵃ M(t, s) φ(s) ds,   M = (2/π) ∫₀^∞ (1 − K(ξh)) cos ξt cos ξs dξ,
+/// E* and K those of both where the indenter is elastic,
 /// by Abel's transform of the indenter's profile f(r): q(t) = t ∫₀ᵗ f′(r)/√(t² − r²) dr, which is t²/R for a
 /// paraboloid, t artanh(t/R) for a sphere and 0 for a flat punch. Round indenters leave smoothly, φ(a) = 0, which gives
 /// δ; then F = 2π ∫₀ᵃ φ dt. Solved by Gauss–Legendre collocation with `points` nodes.   [Lebedev & Ufliand 1958; Jaffar

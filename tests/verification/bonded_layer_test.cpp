@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "verification/bonded_layer.h"
 #include "verification/closed_forms.h"
@@ -91,6 +92,25 @@ TEST(BondedLayer, ThinCompressibleLayerIsABedOfSprings) {
     }
     before = excess;
   }
+}
+
+TEST(BondedLayer, AnElasticIndenterAddsItsCompliance) {
+  const double R = 0.01, depth = 1e-4;
+  const auto force = [&](double thickness_m, std::optional<Elastic> indenter) {
+    return press_bonded_layer({kGel, thickness_m, Shape::paraboloid, R, indenter}, depth).force_n;
+  };
+  const auto hertz_with = [&](double plane_modulus_pa) { return hertz({plane_modulus_pa, 0.0}, R, depth).force_n; };
+  const Elastic ball{6e4, 0.3};
+  const double both = 1.0 / (1.0 / kGel.plane_modulus_pa() + 1.0 / ball.plane_modulus_pa());
+  // A half space that is pressed into another one: Hertz with both moduli.
+  EXPECT_NEAR(force(1e3, ball) / hertz_with(both), 1.0, 1e-5);
+  // As good as rigid: a rigid one. Far softer than the gel: the layer is a rigid base, however thin.
+  EXPECT_NEAR(force(2e-3, Elastic{6e12, 0.3}) / force(2e-3, std::nullopt), 1.0, 1e-6);
+  EXPECT_NEAR(force(2e-3, Elastic{6.0, 0.3}) / hertz_with(6.0 / (1.0 - 0.09)), 1.0, 2e-4);
+  // In between the layer is stiffer than a half space, but not by as much as under a rigid one.
+  const double stiffer = force(2e-3, ball) / force(1e3, ball);
+  EXPECT_GT(stiffer, 1.02);
+  EXPECT_LT(stiffer, force(2e-3, std::nullopt) / force(1e3, std::nullopt));
 }
 
 TEST(BondedLayer, CollocationConverges) {

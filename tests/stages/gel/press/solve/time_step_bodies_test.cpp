@@ -50,7 +50,7 @@ class Bodies : public ::testing::Test {
   void go(int steps, const Vector3& gravity, const std::vector<int>& held = {}) {
     settings_.gravity_m_s2 = gravity;
     TimeStepper stepper(mesh_, gel(), settings_, bodies_);
-    StepGoal goal{.h_s = kH,
+    StepGoal goal{.h_s = h_s_,
                   .object_target = mesh_.object_rows(state_.x),
                   .free_object = true,
                   .held_bodies = held,
@@ -89,6 +89,7 @@ class Bodies : public ::testing::Test {
                          .newton = {.velocity_tolerance_m_s = 1e-7, .force_tolerance_n = 1e-6}};
   std::vector<Vector3> load_n_;  // on each; none where there are none
   StepForces forces_;
+  double h_s_ = kH;
   double worst_balance_ = 0.0;
   int iterations_ = 0;
 };
@@ -242,25 +243,31 @@ TriangleMesh turned(const std::vector<std::pair<double, double>>& radius_and_z, 
 class PegInHole : public Bodies {
  protected:
   static constexpr double kMouth = 0.05, kHole = 5e-3, kPeg = 4.975e-3, kLength = 20e-3;
-  void put(double depth_m) {
+  void add_peg(double depth_m) {
     const double tip = kMouth - depth_m;
     add(turned({{kPeg, tip}, {kPeg, tip + kLength}}, false), true);
-    // Around the wall of the hole, its mouth, the outside and the back.
-    add(turned({{kHole, kMouth}, {kHole, kMouth - 12e-3}, {8e-3, kMouth - 12e-3}, {8e-3, kMouth}}, true), false);
     settings_.d_hat_m = 2e-6;
     settings_.barrier_stiffness_j_m4 = 0.5 / std::pow(settings_.d_hat_m, 3);
     settings_.friction->speed_threshold_m_s = 1e-5;
-    build();
+  }
+  /// Part of the hole between two heights: around its wall, its upper rim, the outside and the back.
+  void add_hole(double top, double bottom) {
+    add(turned({{kHole, top}, {kHole, bottom}, {8e-3, bottom}, {8e-3, top}}, true), false);
   }
 };
 
-// Two points carry the peg: the mouth on one side, its tip on the other. With a load (F_x, −F_z) at the centre of mass, L
-// above the tip, it slides in if F_z > μ F_x (2 L − 2 μ r − ℓ)/ℓ, from the balance of forces and moments with both
+class JammingPeg : public PegInHole, public ::testing::WithParamInterface<double> {};
+
+// Two points carry the peg: the mouth on one side, its tip on the other. With a load (F_x, −F_z) at the centre of mass,
+// L above the tip, it slides in if F_z > μ F_x (2 L − 2 μ r − ℓ)/ℓ, from the balance of forces and moments with both
 // contacts at the edge of sliding: the line M/(r F_z) = λ + μ (1 + λ) F_x/F_z of Whitney 1982, λ = ℓ/(2 r μ).
-TEST_F(PegInHole, JamsWhereWhitneySays) {
+TEST_P(JammingPeg, JamsWhereWhitneySays) {
   constexpr double kDepth = 5e-3, kArm = 0.5 * kLength;
-  const double limit = kDepth / (kMu * (2.0 * kArm - 2.0 * kMu * kPeg - kDepth));  // F_x/F_z
-  put(kDepth);
+  const double mu = GetParam(), limit = kDepth / (mu * (2.0 * kArm - 2.0 * mu * kPeg - kDepth));  // F_x/F_z
+  add_peg(kDepth);
+  add_hole(kMouth, kMouth - 12e-3);
+  settings_.friction->coefficient = mu;
+  build();
   const State start = state_;
   const auto sunk_under = [&](double ratio) {
     state_ = start;
@@ -270,6 +277,87 @@ TEST_F(PegInHole, JamsWhereWhitneySays) {
   };
   EXPECT_LT(sunk_under(1.05 * limit), 0.2e-3);
   EXPECT_GT(sunk_under(0.95 * limit), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Friction, JammingPeg, ::testing::Values(0.3, kMu));
+
+/// The peg is tilted until mouth and wall press on it from both sides, and let go without any load. What they press it
+/// with, N at a distance of ℓ along the hole, turns it upright; friction on both sides of the diameter d holds it if
+/// N ℓ < μ N d.
+class WedgedPeg : public PegInHole {
+ protected:
+  static constexpr int kPart = 5;           // steps between two looks
+  static constexpr double kCreep = 1e-6;    // ε_v: what it creeps hardly lets the force sink
+  static constexpr double kStep = 2e-4;     // it comes free within a few steps
+  static constexpr double kPressed = 0.25;  // gaps, in d̂
+  struct Looks {
+    std::vector<double> mouth_n, wall_n, tilt_rad;
+  };
+  /// \param r ℓ over μ d
+  Looks let_go(double r) {
+    const double depth = r * 2.0 * kMu * kPeg, middle = kMouth - 0.5 * depth;
+    add_peg(depth);
+    add_hole(kMouth, middle + 0.1e-3);
+    add_hole(middle - 0.1e-3, kMouth - 12e-3);
+    // A force so small that it moves the peg by less than d̂ in a step.
+    settings_.barrier_stiffness_j_m4 = 1e-3 / std::pow(settings_.d_hat_m, 3);
+    settings_.friction->speed_threshold_m_s = kCreep;
+    h_s_ = kStep;
+    build();
+    tilt(depth, kPressed * settings_.d_hat_m);
+    Looks looks;
+    for (int i = 0; i < 9; ++i) {
+      go(i == 0 ? 1 : kPart, Vector3::Zero());
+      looks.mouth_n.push_back(on(0, 1).force_n.norm());
+      looks.wall_n.push_back(on(0, 2).force_n.norm());
+      const Vector3 axis = deformation_of(bodies_[0], points(0)).col(2);
+      looks.tilt_rad.push_back(std::atan2(axis.x(), axis.z()));
+    }
+    return looks;
+  }
+
+ private:
+  /// Turns the peg about the point half-way down to its tip, and shifts it, until mouth and tip are both `gap_m` away
+  /// from the other: (D/2 − s) cos θ − d/2 − ℓ/2 sin θ the mouth from the peg's side, D/2 + s − d/2 cos θ − ℓ/2 sin θ
+  /// the tip from the wall, alike where the shift s is −(D + d)/2 tan²(θ/2).
+  void tilt(double depth_m, double gap_m) {
+    const auto shift = [](double angle) { return -(kHole + kPeg) * std::pow(std::tan(0.5 * angle), 2); };
+    double low = 0.0, high = 0.1;
+    for (int i = 0; i < 60; ++i) {
+      const double angle = 0.5 * (low + high);
+      const double gap = kHole + shift(angle) - kPeg * std::cos(angle) - 0.5 * depth_m * std::sin(angle);
+      (gap > gap_m ? low : high) = angle;
+    }
+    const Matrix3 turn = Eigen::AngleAxisd(low, Vector3::UnitY()).toRotationMatrix();
+    const Eigen::RowVector3d from(0, 0, kMouth - 0.5 * depth_m), to = from + Eigen::RowVector3d(shift(low), 0, 0);
+    const auto place = [&](auto rows) { rows = (((rows.rowwise() - from) * turn.transpose()).rowwise() + to).eval(); };
+    place(mesh_.objects[0].rows(state_.x));
+    place(state_.x.middleRows<4>(mesh_.control_row(0)));
+  }
+};
+
+/// Friction that is not at its limit creeps at ε_v (1 − √(1 − r)), which turns the peg by that over d/2.
+TEST_F(WedgedPeg, StaysIfItIsLessDeepThanFrictionTimesItsDiameter) {
+  constexpr double r = 0.95;
+  const Looks looks = let_go(r);
+  const double first_n = looks.mouth_n[0];
+  EXPECT_GT(first_n, 0.2);
+  for (std::size_t i = 0; i < looks.mouth_n.size(); ++i) {
+    EXPECT_GT(looks.mouth_n[i], 0.95 * first_n) << i;
+    EXPECT_NEAR(looks.wall_n[i], looks.mouth_n[i], 0.02 * first_n) << i;
+  }
+  const double turned = looks.tilt_rad[2] - looks.tilt_rad.back();
+  const double time_s = kStep * kPart * (static_cast<double>(looks.tilt_rad.size()) - 3.0);
+  const double expected = kCreep * (1.0 - std::sqrt(1.0 - r)) / kPeg * time_s;
+  EXPECT_NEAR(turned, expected, 0.05 * expected);
+}
+
+TEST_F(WedgedPeg, ComesFreeIfItIsDeeper) {
+  const Looks looks = let_go(1.05);
+  EXPECT_GT(looks.mouth_n[0], 0.2);
+  EXPECT_EQ(looks.mouth_n.back(), 0.0);
+  EXPECT_EQ(looks.wall_n.back(), 0.0);
+  EXPECT_LT(looks.tilt_rad.back(), 0.99 * looks.tilt_rad.front());
 }
 
 }  // namespace
