@@ -2,11 +2,13 @@
 // is in every frame. The only reader of its arrays; each gel has a press folder of its own below it.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "common/base/types.h"
+#include "common/base/wrench.h"
 
 namespace tacipc {
 
@@ -18,24 +20,53 @@ struct SceneGel {
   std::filesystem::path press() const { return folder / "press"; }
 };
 
+/// A rigid or fixed body.
 struct SceneObject {
-  std::string name;                        // of its mesh among the inputs in press.yaml
+  std::string name;
   std::vector<Matrix4> world_from_object;  // m, per frame
+  std::string input = "object";            // name of its mesh among the inputs in press.yaml
+  double metres_per_unit = 1.0;            // of that mesh
+  bool fixed = false;
+};
+
+/// A soft body: the vertices of its tetrahedra in the world.
+struct SceneSoft {
+  std::string name;
+  std::string input;            // name of its mesh among the inputs in press.yaml
+  std::filesystem::path array;  // its positions
+
+  /// Of all frames, m. \throw DataError if there are not as many frames, or vertices, or one is not finite
+  std::vector<Positions> positions(std::size_t frames, std::size_t vertices) const;
 };
 
 struct SceneFolder {
   std::vector<double> times_s;
   std::vector<SceneGel> gels;
   std::vector<SceneObject> objects;
+  std::vector<SceneSoft> soft = {};
 };
 
 /// Name of a body's mesh among the inputs of a scene's record.
 inline std::string body_input(const std::string& body) { return "body_" + body; }
 
-/// Whether a press folder is that of a grasp and not of one gel.
+/// Whether a press folder is that of a grasp or a scene and not of one gel.
 bool is_scene_folder(const std::filesystem::path& folder);
 
 /// \throw DataError if the press did not finish, or an array is missing, has another shape, or holds what is not finite
 SceneFolder read_scene_folder(const std::filesystem::path& folder);
+
+/// All bodies of a scene, and the wrenches between them: N, N m about the world's origin.
+struct SceneBodies {
+  std::vector<std::string> bodies;              // their names
+  std::vector<std::string> kinds;               // gel, soft, rigid or fixed
+  std::vector<std::vector<Wrench>> per_frame;   // on body a by body b, at a × number of bodies + b
+  std::vector<std::vector<Matrix4>> body_pose;  // world_from_body, m, per frame
+  /// J, per frame: kinetic, elastic, of the contact barrier, gravitational; since the start: work of mounts and of
+  /// those who hold or load, lost by friction, by damping, by the time integration.
+  std::vector<std::array<double, 8>> energy_j;
+};
+
+/// \throw DataError as read_scene_folder, and for a grasp, which has none
+SceneBodies read_scene_bodies(const std::filesystem::path& folder);
 
 }  // namespace tacipc

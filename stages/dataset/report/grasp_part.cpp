@@ -2,18 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <numbers>
-#include <opencv2/core.hpp>
 
 #include "common/base/error.h"
 #include "common/format/html_text.h"
-#include "common/sample/render_folder.h"
 #include "common/stage/record.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/lettering.h"
-#include "stages/dataset/report/scaled_picture.h"
+#include "stages/dataset/report/timeline.h"
 #include "stages/dataset/report/view/view_page.h"
 
 namespace tacipc {
@@ -21,19 +17,10 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// The phases as stretches of time, over which the curves are.
-Chart over_time(const std::vector<GraspMoment>& moments, const std::string& what) {
-  Chart chart;
-  chart.what = what + " over time";
-  chart.x_label = "time (s)";
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    chart.x.push_back(moments[i].time_s);
-    if (i == 0) continue;
-    if (chart.bands.empty() || moments[i].phase != moments[i - 1].phase)
-      chart.bands.push_back({moments[i].phase, moments[i - 1].time_s, moments[i].time_s});
-    chart.bands.back().to = moments[i].time_s;
-  }
-  return chart;
+std::vector<Instant> instants_of(const std::vector<GraspMoment>& moments) {
+  std::vector<Instant> instants;
+  for (const GraspMoment& moment : moments) instants.push_back({moment.time_s, moment.phase});
+  return instants;
 }
 
 Curve curve_of(const std::vector<GraspMoment>& moments, double GraspMoment::*number, double unit) {
@@ -43,7 +30,7 @@ Curve curve_of(const std::vector<GraspMoment>& moments, double GraspMoment::*num
 }
 
 std::string force_figure(const std::vector<GraspMoment>& moments) {
-  Chart chart = over_time(moments, "forces");
+  Chart chart = over_time(instants_of(moments), "forces");
   chart.left_label = "force (N)";
   for (const auto number : {&GraspMoment::grip_left_n, &GraspMoment::grip_right_n, &GraspMoment::carried_n})
     chart.left.push_back(curve_of(moments, number, 1.0));
@@ -54,7 +41,7 @@ std::string force_figure(const std::vector<GraspMoment>& moments) {
 /// Up to the frame that is judged: what comes after is the object let go.
 std::string slip_figure(const GraspReport& grasp) {
   const std::vector<GraspMoment>& moments = grasp.moments;
-  Chart chart = over_time(moments, "slip and turn");
+  Chart chart = over_time(instants_of(moments), "slip and turn");
   chart.left_label = "slip (mm)";
   chart.right_label = "turn (°)";
   chart.left.push_back(curve_of(moments, &GraspMoment::slip_m, 1e-3));
@@ -99,32 +86,7 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
 }
 
 ByteImage grasp_strip(const std::vector<SceneGel>& gels, const std::vector<GraspMoment>& frames) {
-  constexpr std::size_t kMostPictures = 10;
-  constexpr int kWidth = 160, kHeight = 120, kGap = 4, kLetters = 9, kHead = 36, kMargin = 52;
-  constexpr Color kInk{27, 35, 48}, kQuiet{93, 104, 120};
-  const std::size_t count = std::min(kMostPictures, frames.size());
-  const int columns = static_cast<int>(count), rows = static_cast<int>(gels.size());
-  ByteImage strip(kMargin + columns * (kWidth + kGap) - kGap, kHead + rows * (kHeight + kGap) - kGap, 3, 255);
-  cv::Mat sheet(strip.height, strip.width, CV_8UC3, strip.pixels.data());
-  for (int row = 0; row < rows; ++row)
-    draw_text(sheet, fitted({gels[static_cast<std::size_t>(row)].name, kLetters, kInk}, kMargin - 2 * kGap), kGap,
-              kHead + row * (kHeight + kGap) + (kHeight + kLetters) / 2);
-  for (int column = 0; column < columns; ++column) {
-    const std::size_t k = static_cast<std::size_t>(column);
-    const std::size_t frame = count == 1 ? 0 : (k * (frames.size() - 1) + (count - 1) / 2) / (count - 1);
-    const int x = kMargin + column * (kWidth + kGap);
-    draw_text(sheet, fitted({frames[frame].phase, kLetters, kInk}, kWidth), x, kLetters + 3);
-    draw_text(sheet, {fmt::format("frame {}, {:.4g} s", frame, frames[frame].time_s), kLetters, kQuiet}, x,
-              2 * kLetters + 10);
-    for (int row = 0; row < rows; ++row) {
-      const std::filesystem::path file =
-          frame_path(gels[static_cast<std::size_t>(row)].folder / "render", frame, FrameFile::tactile);
-      ByteImage picture = fitted_picture(read_png(file, 3), kWidth, kHeight);
-      cv::Mat(picture.height, picture.width, CV_8UC3, picture.pixels.data())
-          .copyTo(sheet({x, kHead + row * (kHeight + kGap), picture.width, picture.height}));
-    }
-  }
-  return strip;
+  return picture_strip(gels, instants_of(frames));
 }
 
 PageWords grasp_words(const GraspReport& grasp) {

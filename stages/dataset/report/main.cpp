@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <variant>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -15,6 +16,7 @@
 #include "stages/dataset/report/grasp_part.h"
 #include "stages/dataset/report/page.h"
 #include "stages/dataset/report/sample.h"
+#include "stages/dataset/report/scene_part.h"
 #include "stages/dataset/report/view/view_data.h"
 #include "stages/dataset/report/view/view_page.h"
 
@@ -30,6 +32,7 @@ const StageSpec kReport{
                 .required = false,
                 .many = true},
                {.flag = "--grasp", .help = "or folder of a grasp, with left and right in it", .required = false},
+               {.flag = "--scene", .help = "or folder of a scene, with gels in it", .required = false},
                {.flag = "--plan", .help = "or of a dataset: samples.csv of plan", .required = false},
                {.flag = "--dataset", .help = "with --plan: dataset.yaml of plan", .required = false},
                {.flag = "--config", .help = "with --plan: how much is shown (YAML)", .required = false}},
@@ -74,21 +77,54 @@ void write_views(Stage& stage, std::vector<SampleReport>& samples) {
   write_view_page(stage, viewed);
 }
 
-/// One view of all fingers, to which each finger's card leads too. \param fingers in the order of the scene's gels
-void write_grasp_view(Stage& stage, const SceneFolder& scene, GraspReport& grasp, std::vector<SampleReport>& fingers) {
+/// Gels that share one world: fingers of a grasp, or the gels of a scene.
+struct Together {
+  std::filesystem::path folder;
+  SceneFolder scene;
+  std::variant<GraspReport, SceneReport> report;
+  const char* id;     // of the section and of the view
+  const char* strip;  // file of the pictures in rows
+
+  bool& has_view() {
+    return std::visit([](auto& of) -> bool& { return of.has_view; }, report);
+  }
+  PageWords words() const {
+    if (const auto* grasp = std::get_if<GraspReport>(&report)) return grasp_words(*grasp);
+    return scene_words(std::get<SceneReport>(report));
+  }
+  std::vector<std::string> texts(const SceneView& view) const {
+    if (const auto* grasp = std::get_if<GraspReport>(&report)) return grasp_texts(*grasp, view);
+    return scene_texts(std::get<SceneReport>(report), view);
+  }
+  ByteImage pictures() const {
+    if (const auto* grasp = std::get_if<GraspReport>(&report)) return grasp_strip(scene.gels, grasp->moments);
+    return picture_strip(scene.gels, std::get<SceneReport>(report).frames);
+  }
+};
+
+std::optional<Together> read_together(const Stage& stage) {
+  if (const auto folder = stage.optional_input("--grasp"))
+    return Together{*folder, read_scene_folder(*folder), read_grasp(*folder), kGraspId, kGraspStrip};
+  if (const auto folder = stage.optional_input("--scene"))
+    return Together{*folder, read_scene_folder(*folder), read_scene(*folder), kSceneId, kSceneStrip};
+  return std::nullopt;
+}
+
+/// One view of all gels, to which each gel's card leads too. \param samples in the order of the scene's gels
+void write_view_of_all(Stage& stage, Together& all, std::vector<SampleReport>& samples) {
   std::vector<ViewedSample> viewed;
   const auto read = [&] {
-    auto view = read_scene_view(scene, *stage.optional_input("--grasp"));
+    auto view = read_scene_view(all.scene, all.folder);
     std::vector<std::filesystem::path> renders;
-    for (const SceneGel& gel : scene.gels) renders.push_back(gel.folder / "render");
+    for (const SceneGel& gel : all.scene.gels) renders.push_back(gel.folder / "render");
     if (view) link_pictures(*view, renders, stage.out());
     return view;
   };
-  const auto say = [&](const SceneView& view) { return grasp_texts(grasp, view); };
-  grasp.has_view = write_view(stage, {kGraspId, "grasp"}, viewed, read, say);
-  if (grasp.has_view) {
-    for (std::size_t i = 0; i < fingers.size(); ++i)
-      fingers[i].view = fmt::format("{}/{}", kGraspId, scene.gels[i].name);
+  const auto say = [&](const SceneView& view) { return all.texts(view); };
+  all.has_view() = write_view(stage, {all.id, all.id}, viewed, read, say);
+  if (all.has_view()) {
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      samples[i].view = fmt::format("{}/{}", all.id, all.scene.gels[i].name);
   }
   write_view_page(stage, viewed);
 }
@@ -110,30 +146,27 @@ void try_pictures(SampleReport& sample) {
 
 void report_samples(Stage& stage) {
   // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
-  for (const char* name : {"index.html", "contact_sheet.png", kGraspStrip, kViewPage, "view"}) {
+  for (const char* name : {"index.html", "contact_sheet.png", kGraspStrip, kSceneStrip, kViewPage, "view"}) {
     std::error_code error;
     std::filesystem::remove_all(stage.out() / name, error);
     if (error) throw DataError("{}: cannot be removed: {}", (stage.out() / name).string(), error.message());
   }
-  std::optional<SceneFolder> scene;
-  std::optional<GraspReport> grasp;
+  std::optional<Together> all = read_together(stage);
   std::vector<std::filesystem::path> folders = stage.inputs("--sample");
-  if (const auto folder = stage.optional_input("--grasp")) {
-    grasp = read_grasp(*folder);
-    scene = read_scene_folder(*folder);
-    write_png(stage.output(kGraspStrip), grasp_strip(scene->gels, grasp->moments));
-    for (const SceneGel& gel : scene->gels) folders.push_back(gel.folder);
+  if (all) {
+    write_png(stage.output(all->strip), all->pictures());
+    for (const SceneGel& gel : all->scene.gels) folders.push_back(gel.folder);
   }
   std::vector<SampleReport> samples;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     SampleReport& sample = samples.emplace_back(read_sample(folders[i]));
-    if (scene) sample.name = scene->gels[i].name + " finger";
+    if (all) sample.name = all->scene.gels[i].name + (stage.optional_input("--grasp") ? " finger" : "");
     try_pictures(sample);
     if (!sample.passed()) log_warning("{}: failed: {}", sample.name, *sample.failure);
   }
-  grasp ? write_grasp_view(stage, *scene, *grasp, samples) : write_views(stage, samples);
+  all ? write_view_of_all(stage, *all, samples) : write_views(stage, samples);
   write_file(stage.output("index.html"),
-             report_page(stage.option("--title"), samples, stage.out(), grasp ? grasp_words(*grasp) : PageWords{}));
+             report_page(stage.option("--title"), samples, stage.out(), all ? all->words() : PageWords{}));
   write_png(stage.output("contact_sheet.png"), contact_sheet(stage.option("--title"), samples));
   const auto passed = std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.passed(); });
   stage.summarize({{"samples", samples.size()},
@@ -145,14 +178,15 @@ void report_samples(Stage& stage) {
 
 int main(int argc, char** argv) {
   return run_stage(kReport, argc, argv, [](Stage& stage) {
-    const bool samples = !stage.inputs("--sample").empty() || stage.optional_input("--grasp");
-    if (!stage.inputs("--sample").empty() && stage.optional_input("--grasp"))
-      throw UsageError("give either --sample or --grasp, not both");
-    int of_dataset = 0;
+    int of_samples = stage.inputs("--sample").empty() ? 0 : 1, of_dataset = 0;
+    for (const char* flag : {"--grasp", "--scene"}) of_samples += stage.optional_input(flag) ? 1 : 0;
     for (const char* flag : {"--plan", "--dataset", "--config"}) of_dataset += stage.optional_input(flag) ? 1 : 0;
+    if (of_samples > 1) throw UsageError("give one of --sample, --grasp and --scene");
+    const bool samples = of_samples == 1;
     if (samples == (of_dataset > 0) || (!samples && of_dataset != 3))
       throw UsageError(
-          "give either --sample, once per sample, or --grasp, or --plan, --dataset and --config of a dataset");
+          "give either --sample, once per sample, or --grasp, or --scene, or --plan, --dataset and --config of a "
+          "dataset");
     samples ? report_samples(stage) : report_dataset(stage);
   });
 }

@@ -37,6 +37,7 @@ std::string phase_text(const Record& phase) {
 }  // namespace
 
 std::string motion_text(const Record& sample) {
+  if (sample.has("bodies")) return fmt::format("scene of {} phases", sample.one_or_many("motion").size());
   std::string words;
   for (const Record& phase : sample.one_or_many("motion")) words += (words.empty() ? "" : ", ") + phase_text(phase);
   return words;

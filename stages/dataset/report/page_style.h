@@ -9,13 +9,13 @@ inline constexpr const char* kPageStyle = R"css(
   color-scheme: light dark;
   --paper: #f5f6f8; --card: #ffffff; --ink: #1b2330; --quiet: #5d6878; --line: #dde2e9; --accent: #1f6f8b;
   --good: #15703c; --good-paper: #dcf3e4; --bad: #a3231b; --bad-paper: #fde4e1; --warn: #6f5200; --warn-paper: #fdf3d3;
-  --color-2: #c2571a; --color-3: #7a4fb5; --stuck: #8fc7a4; --slipping: #f0a35e;
+  --color-2: #c2571a; --color-3: #7a4fb5; --color-4: #2f7d4f; --stuck: #8fc7a4; --slipping: #f0a35e;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --paper: #12161c; --card: #1b2129; --ink: #e6eaf0; --quiet: #9aa6b6; --line: #313a46; --accent: #6cc3de;
     --good: #7ddba0; --good-paper: #16361f; --bad: #ff9d94; --bad-paper: #451b18; --warn: #f0d27a; --warn-paper: #382d0d;
-    --color-2: #f2955a; --color-3: #b99be6; --stuck: #2f6b47; --slipping: #a5622a;
+    --color-2: #f2955a; --color-3: #b99be6; --color-4: #7cc79a; --stuck: #2f6b47; --slipping: #a5622a;
   }
 }
 * { box-sizing: border-box; }
@@ -101,6 +101,7 @@ details .scroll { margin-top: .5rem; }
 .color-1 { color: var(--accent); }
 .color-2 { color: var(--color-2); }
 .color-3 { color: var(--color-3); }
+.color-4 { color: var(--color-4); }
 .key { display: inline-block; width: 1.2rem; margin-right: .3rem; border-top: 3px solid currentColor; vertical-align: middle; }
 .quiver path { fill: none; stroke-linecap: round; stroke-linejoin: round; }
 .quiver .face { fill: var(--paper); stroke: var(--line); }

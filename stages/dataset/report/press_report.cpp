@@ -78,6 +78,7 @@ void add_torques(const PressFolder& press, std::vector<FrameReport>& frames) {
 
 /// Depths of all frames, and the one that counts for the sample: at the end of the press, or else the deepest.
 void add_depths(const PressFolder& arrays, const Record& press, SampleReport& sample) {
+  if (press.section("config").section("sample").has("bodies")) return;  // of a scene there is no one object
   const std::vector<Matrix4> poses = arrays.poses();
   std::string why;
   const auto object_path = pressed_input(arrays.folder(), press, "object", why);
@@ -257,7 +258,7 @@ void read_press_record(const Record& press, SampleReport& sample) {
   sample.name = press.text("name").value_or(sample.name);
   read_summary(summary, sample);
   const Record asked = press.section("config").section("sample");
-  if (!asked.has("fingers")) sample.placement = read_placement(press);
+  if (!asked.has("fingers") && !asked.has("bodies")) sample.placement = read_placement(press);
   sample.motion = motion_text(asked);
   if (const auto depth_mm = asked_depth_mm(asked)) sample.depth_m = 1e-3 * *depth_mm;
   std::vector<std::string> names;

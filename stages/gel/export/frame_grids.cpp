@@ -55,6 +55,13 @@ double tet_volume(const Positions& x, const Tetrahedra& tets, Eigen::Index t) {
   return edges.determinant() / 6.0;
 }
 
+VtuArray volume_ratios(const TetMesh& mesh, const Positions& x) {
+  std::vector<double> ratios(static_cast<std::size_t>(mesh.num_tets()));
+  for (Eigen::Index t = 0; t < mesh.num_tets(); ++t)
+    ratios[static_cast<std::size_t>(t)] = tet_volume(x, mesh.tets, t) / tet_volume(mesh.positions, mesh.tets, t);
+  return {"volume_ratio", 1, std::move(ratios)};
+}
+
 }  // namespace
 
 VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame) {
@@ -76,10 +83,14 @@ VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t f
 VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame) {
   VtuGrid grid{.points = press.positions(frame), .cells = gel.tets};
   grid.point_data = gel_data(gel, press, frame, grid.points);
-  std::vector<double> ratios(static_cast<std::size_t>(gel.num_tets()));
-  for (Eigen::Index t = 0; t < gel.num_tets(); ++t)
-    ratios[static_cast<std::size_t>(t)] = tet_volume(grid.points, gel.tets, t) / tet_volume(gel.positions, gel.tets, t);
-  grid.cell_data.push_back({"volume_ratio", 1, std::move(ratios)});
+  grid.cell_data.push_back(volume_ratios(gel, grid.points));
+  return grid;
+}
+
+VtuGrid soft_grid(const TetMesh& soft, const Positions& first, const Positions& x) {
+  VtuGrid grid{.points = x, .cells = soft.tets};
+  grid.point_data.push_back({"displacement", 3, numbers(x - first)});
+  grid.cell_data.push_back(volume_ratios(soft, x));
   return grid;
 }
 

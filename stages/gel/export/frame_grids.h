@@ -17,6 +17,10 @@ VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t f
 /// volume.
 VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame);
 
+/// The tetrahedra of a soft body with its vertices at `x`. Points: displacement since frame 0, where they were at
+/// `first`. Cells: volume_ratio, to the volume at rest.
+VtuGrid soft_grid(const TetMesh& soft, const Positions& first, const Positions& x);
+
 /// The object's triangles where a pose puts them.
 VtuGrid object_grid(const TriangleMesh& object, const Matrix4& world_from_object);
 

@@ -121,6 +121,22 @@ std::string named(const char* kind, const std::string& name) {
   return name.empty() ? std::string(kind) : std::string(kind) + " " + name;
 }
 
+/// A mesh with a morph target per later frame. \param later how far each vertex has moved by then
+Value morphing_mesh(const std::string& name, Value::Map attributes, int indices, int material,
+                    const std::vector<Positions>& later, Buffer& buffer) {
+  Value primitive = Value::Map{{"attributes", std::move(attributes)}, {"indices", indices}, {"material", material}};
+  Value mesh = Value::Map{{"name", name}};
+  Value::List targets;
+  for (const Positions& moved : later)
+    targets.emplace_back(Value::Map{{"POSITION", buffer.add(floats(moved), 3, kFloat, kVertices, true)}});
+  if (!later.empty()) {
+    mesh.set("weights", Value::List(later.size(), Value(0.0)));
+    primitive.set("targets", targets);
+  }
+  mesh.set("primitives", Value::List{primitive});
+  return mesh;
+}
+
 /// The front as a mesh with a morph target per later frame.
 Value gel_mesh(const OpenGel& gel, std::size_t frames, double deepest, Buffer& buffer) {
   const std::vector<int> front = gel.press.front_vertices();
@@ -128,20 +144,10 @@ Value gel_mesh(const OpenGel& gel, std::size_t frames, double deepest, Buffer& b
   const int positions = buffer.add(floats(rest), 3, kFloat, kVertices, true);
   const int colors = buffer.add(indentation_colors(rest, last, deepest), 4, kUnsignedShort, kVertices);
   const int indices = buffer.add(corners(gel.mesh.faces(BoundaryTag::front), &front), 1, kUnsignedInt, kIndices);
-  Value primitive = Value::Map{
-      {"attributes", Value::Map{{"POSITION", positions}, {"COLOR_0", colors}}}, {"indices", indices}, {"material", 0}};
-  Value mesh = Value::Map{{"name", named("gel", gel.name)}};
-  Value::List targets;
-  for (std::size_t f = 1; f < frames; ++f) {
-    const Positions moved = front_at(gel, f) - rest;
-    targets.emplace_back(Value::Map{{"POSITION", buffer.add(floats(moved), 3, kFloat, kVertices, true)}});
-  }
-  if (frames > 1) {
-    mesh.set("weights", Value::List(frames - 1, Value(0.0)));
-    primitive.set("targets", targets);
-  }
-  mesh.set("primitives", Value::List{primitive});
-  return mesh;
+  std::vector<Positions> later;
+  for (std::size_t f = 1; f < frames; ++f) later.emplace_back(front_at(gel, f) - rest);
+  return morphing_mesh(named("gel", gel.name), Value::Map{{"POSITION", positions}, {"COLOR_0", colors}}, indices, 0,
+                       later, buffer);
 }
 
 Value object_mesh(const OpenObject& object, Buffer& buffer) {
@@ -151,6 +157,18 @@ Value object_mesh(const OpenObject& object, Buffer& buffer) {
       {"name", named("object", object.name)},
       {"primitives", Value::List{Value::Map{
                          {"attributes", Value::Map{{"POSITION", positions}}}, {"indices", indices}, {"material", 1}}}}};
+}
+
+/// The surface of a soft body as a mesh with a morph target per later frame.
+Value soft_mesh(const OpenSoft& soft, Buffer& buffer) {
+  const std::vector<int> surface = soft.mesh.vertices(BoundaryTag::free);
+  const Positions first = soft.positions.front()(surface, Eigen::all);
+  const int positions = buffer.add(floats(first), 3, kFloat, kVertices, true);
+  const int indices = buffer.add(corners(soft.mesh.boundary, &surface), 1, kUnsignedInt, kIndices);
+  std::vector<Positions> later;
+  for (std::size_t f = 1; f < soft.positions.size(); ++f)
+    later.emplace_back(soft.positions[f](surface, Eigen::all) - first);
+  return morphing_mesh(named("soft", soft.name), Value::Map{{"POSITION", positions}}, indices, 2, later, buffer);
 }
 
 /// Quaternions x, y, z, w of the poses, each on the side of the one before, so that none turns the long way round.
@@ -167,7 +185,7 @@ std::vector<float> rotations(const std::vector<Matrix4>& poses) {
   return values;
 }
 
-/// Nodes: 0 is the root, gels follow, then objects.
+/// Nodes: 0 is the root, gels follow, then objects, then soft bodies.
 Value animation(const OpenScene& scene, Buffer& buffer) {
   const std::size_t frames = scene.times_s.size();
   std::vector<float> weights(frames * (frames - 1), 0.0F);
@@ -193,6 +211,7 @@ Value animation(const OpenScene& scene, Buffer& buffer) {
     ++node;
   }
   for (const OpenObject& object : scene.objects) play_poses(object.world_from_object, node++);
+  for (std::size_t i = 0; i < scene.soft.size(); ++i) play(buffer.add(weights, 1, kFloat, 0), node++, "weights");
   return Value::Map{{"name", "press"}, {"samplers", samplers}, {"channels", channels}};
 }
 
@@ -215,6 +234,7 @@ Value::List nodes(const OpenScene& scene) {
   };
   for (const OpenGel& gel : scene.gels) add(named("gel", gel.name), gel.world_from_gel);
   for (const OpenObject& object : scene.objects) add(named("object", object.name), object.world_from_object);
+  for (const OpenSoft& soft : scene.soft) add(named("soft", soft.name), {});
   const double half = std::sqrt(0.5);  // a quarter turn about x: z up becomes y up
   const bool fixed = scene.gels.size() == 1 && scene.gels.front().world_from_gel.empty();
   nodes.insert(nodes.begin(), Value::Map{{"name", fixed ? "frame S" : "world"},
@@ -249,13 +269,15 @@ std::string glb_bytes(const OpenScene& scene) {
   Value::List meshes;
   for (const OpenGel& gel : scene.gels) meshes.push_back(gel_mesh(gel, frames, deepest, buffer));
   for (const OpenObject& object : scene.objects) meshes.push_back(object_mesh(object, buffer));
+  for (const OpenSoft& soft : scene.soft) meshes.push_back(soft_mesh(soft, buffer));
+  Value::List materials{material("gel", {1.0, 1.0, 1.0, 1.0}, 0.6), material("object", {0.6, 0.54, 0.44, 1.0}, 0.4)};
+  if (!scene.soft.empty()) materials.push_back(material("soft", {0.35, 0.55, 0.5, 1.0}, 0.8));
   Value file = Value::Map{{"asset", Value::Map{{"version", "2.0"}, {"generator", "TacIPC export"}}},
                           {"scene", 0},
                           {"scenes", Value::List{Value::Map{{"nodes", Value::List{0}}}}},
                           {"nodes", nodes(scene)},
                           {"meshes", meshes},
-                          {"materials", Value::List{material("gel", {1.0, 1.0, 1.0, 1.0}, 0.6),
-                                                    material("object", {0.6, 0.54, 0.44, 1.0}, 0.4)}}};
+                          {"materials", materials}};
   if (frames > 1) file.set("animations", Value::List{animation(scene, buffer)});
   file.set("accessors", buffer.accessors());
   file.set("bufferViews", buffer.views());

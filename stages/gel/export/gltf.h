@@ -13,6 +13,7 @@ namespace tacipc {
 ///   every later frame (how far each vertex has moved), colours of the indentation in the last frame as in the report's
 ///   pictures, the same for all gels, and no normals: viewers must make their own, which are right in every frame;
 ///   where S moves in the world, the node has its pose;
+/// - a node per soft body, `soft <name>`: its surface as it is in frame 0, morphed likewise;
 /// - a node per object, `object` or `object <name>`: the mesh in its own frame; the node has the pose.
 /// One animation plays all at the times of the frames, linearly between them. With one frame there is none.
 /// Same scene, same bytes. \throw DataError if the file would exceed 4 GiB

@@ -11,18 +11,22 @@ namespace {
 const tacipc::StageSpec kExport{
     .name = "export",
     .summary =
-        "Write the frames of a press or a grasp as VTK files for ParaView, and as one binary glTF file for Blender.",
-    .inputs = {{.flag = "--press", .help = "folder that press wrote, of one gel or of a grasp"},
-               {.flag = "--gel", .help = "gel.msh of tetmesh, the one that was pressed"},
-               {.flag = "--object", .help = "object.ply of decimate, the one that was pressed"}}};
+        "Write the frames of a press, a grasp or a scene as VTK files for ParaView, and as one binary glTF file for "
+        "Blender.",
+    .inputs = {
+        {.flag = "--press", .help = "folder that press wrote, of one gel, of a grasp or of a scene"},
+        {.flag = "--gel", .help = "gel.msh of tetmesh, the one that was pressed"},
+        {.flag = "--object",
+         .help = "object.ply of decimate, the one that was pressed; none for a scene, whose record names its bodies",
+         .required = false}}};
 
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace tacipc;
   return run_stage(kExport, argc, argv, [](Stage& stage) {
-    const OpenScene scene = open_scene(stage.input("--press"), stage.input("--gel"), stage.input("--object"));
-    std::vector<PvdEntry> surface, volume, bodies;
+    const OpenScene scene = open_scene(stage.input("--press"), stage.input("--gel"), stage.optional_input("--object"));
+    std::vector<PvdEntry> surface, volume, bodies, soft;
     const auto write = [&](const std::string& kind, const std::string& name, std::size_t frame, std::size_t part,
                            const VtuGrid& grid, std::vector<PvdEntry>& entries) {
       const std::string file = fmt::format("{}{}{}_{:04}.vtu", kind, name.empty() ? "" : "_", name, frame);
@@ -42,10 +46,15 @@ int main(int argc, char** argv) {
         const OpenObject& object = scene.objects[o];
         write("object", object.name, frame, o, object_grid(object.mesh, object.world_from_object[frame]), bodies);
       }
+      for (std::size_t i = 0; i < scene.soft.size(); ++i) {
+        const OpenSoft& body = scene.soft[i];
+        write("soft", body.name, frame, i, soft_grid(body.mesh, body.positions[0], body.positions[frame]), soft);
+      }
     }
     write_file(stage.output("surface.pvd"), pvd_text(surface));
     write_file(stage.output("volume.pvd"), pvd_text(volume));
-    write_file(stage.output("object.pvd"), pvd_text(bodies));
+    if (!bodies.empty()) write_file(stage.output("object.pvd"), pvd_text(bodies));
+    if (!soft.empty()) write_file(stage.output("soft.pvd"), pvd_text(soft));
     write_file(stage.output("sample.glb"), glb_bytes(scene));
     Eigen::Index vertices = 0, tets = 0, triangles = 0;
     for (const OpenGel& gel : scene.gels) {

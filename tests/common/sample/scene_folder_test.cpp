@@ -44,6 +44,46 @@ TEST_F(SceneFolderTest, EachGelAndObjectHasItsPoseInEveryFrame) {
   EXPECT_EQ(scene.objects[0].world_from_object[1](0, 3), 2);
 }
 
+TEST_F(SceneFolderTest, BodiesOfASceneAreSortedByWhatTheyAre) {
+  std::filesystem::remove(scratch_ / "finger_pose.npy");
+  scratch_.file(
+      "press.yaml",
+      "stage: press\nsummary:\n  bodies:\n    - {name: pad, kind: gel}\n    - {name: ball, kind: soft}\n    - "
+      "{name: peg, kind: rigid, metres_per_unit: 0.001, mass_kg: 0.1}\n    - {name: wall, kind: fixed, "
+      "metres_per_unit: 1}\n");
+  write_poses("body_pose.npy", {2, 4, 4, 4}, {1, 2, 3, 4, 5, 6, 7, 8});
+  std::vector<double> wrenches(2 * 4 * 4 * 6, 0.0);
+  wrenches[((1 * 4 + 2) * 4 + 3) * 6 + 2] = 7.0;  // frame 1, on the peg by the wall, z
+  write_npy(scratch_ / "wrench.npy", {2, 4, 4, 6}, wrenches.data());
+  std::vector<double> energies(16, 0.0);
+  energies[8 + 4] = 0.5;
+  write_npy(scratch_ / "energy.npy", {2, 8}, energies.data());
+  scratch_.file("soft/ball/none", "");
+  write_npy(scratch_ / "soft/ball/positions.npy", {2, 1, 3}, std::vector<double>{1, 2, 3, 4, 5, 6}.data());
+  ASSERT_TRUE(is_scene_folder(scratch_ / ""));
+  const SceneFolder scene = read_scene_folder(scratch_ / "");
+  ASSERT_EQ(scene.gels.size(), 1u);
+  EXPECT_EQ(scene.gels[0].press(), scratch_ / "gels/pad/press");
+  EXPECT_EQ(scene.gels[0].world_from_gel[1](0, 3), 5);
+  ASSERT_EQ(scene.soft.size(), 1u);
+  EXPECT_EQ(scene.soft[0].input, "body_ball");
+  EXPECT_EQ(scene.soft[0].positions(2, 1)[1](0, 2), 6);
+  EXPECT_THAT(message_of<DataError>([&] { scene.soft[0].positions(2, 3); }), ::testing::HasSubstr("(2, 1, 3)"));
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.objects[0].name, "peg");
+  EXPECT_EQ(scene.objects[0].metres_per_unit, 1e-3);
+  EXPECT_EQ(scene.objects[0].world_from_object[1](0, 3), 7);
+  EXPECT_FALSE(scene.objects[0].fixed);
+  EXPECT_TRUE(scene.objects[1].fixed);
+  const SceneBodies forces = read_scene_bodies(scratch_ / "");
+  EXPECT_THAT(forces.bodies, ::testing::ElementsAre("pad", "ball", "peg", "wall"));
+  EXPECT_EQ(forces.per_frame[1][2 * 4 + 3].force_n.z(), 7.0);
+  EXPECT_EQ(forces.energy_j[1][4], 0.5);
+  EXPECT_EQ(forces.body_pose[0][3](0, 3), 4);
+  write_poses("body_pose.npy", {2, 3, 4, 4}, {1, 2, 3, 4, 5, 6});
+  EXPECT_THAT(error(), ::testing::HasSubstr("has the shape (2, 3, 4, 4), expected (2, 4, 4, 4)"));
+}
+
 TEST_F(SceneFolderTest, WhatIsNotOneSceneIsRefused) {
   write_poses("finger_pose.npy", {3, 2, 4, 4}, {1, 2, 3, 4, 5, 6});
   EXPECT_EQ(error(), (scratch_ / "finger_pose.npy").string() + ": has the shape (3, 2, 4, 4), expected (2, 2, 4, 4)");

@@ -106,9 +106,28 @@ ViewedFront read_frame(const ShownGel& gel, std::size_t frame, const Matrix4& wo
   return view;
 }
 
+/// The surface of a soft body, and its vertices in the view's frames.
+ViewedObject soft_object(const SceneSoft& soft, const fs::path& path, std::size_t frames,
+                         const std::vector<int>& shown) {
+  const TetMesh tets = read_object_tet_mesh(path);
+  const std::vector<Positions> all = soft.positions(frames, static_cast<std::size_t>(tets.num_vertices()));
+  const std::vector<int> surface = tets.vertices(BoundaryTag::free);
+  std::vector<int> place(static_cast<std::size_t>(tets.num_vertices()), -1), rows;
+  for (const int v : spatial_order(tets.positions(surface, Eigen::all))) {
+    const int row = surface[static_cast<std::size_t>(v)];
+    place[static_cast<std::size_t>(row)] = static_cast<int>(rows.size());
+    rows.push_back(row);
+  }
+  ViewedObject object{.name = soft.name,
+                      .mesh = {all.front()(rows, Eigen::all), renumbered(tets.boundary, place)},
+                      .world_from_object = std::vector<Matrix4>(shown.size(), Matrix4::Identity())};
+  for (const int frame : shown) object.deformed.emplace_back(all[static_cast<std::size_t>(frame)](rows, Eigen::all));
+  return object;
+}
+
 /// \param gels in the order of the scene's
-SceneView view_of(const SceneFolder& scene, const std::vector<ShownGel>& gels,
-                  const std::vector<fs::path>& object_paths) {
+/// \param bodies of the scene's objects, then of its soft bodies
+SceneView view_of(const SceneFolder& scene, const std::vector<ShownGel>& gels, const std::vector<fs::path>& bodies) {
   std::size_t vertices = 0;
   for (const ShownGel& gel : gels) vertices += gel.front.rows.size();
   SceneView view{.frames = viewed_frames(static_cast<int>(scene.times_s.size()), vertices), .gels = {}, .objects = {}};
@@ -122,12 +141,15 @@ SceneView view_of(const SceneFolder& scene, const std::vector<ShownGel>& gels,
     shown(scene.gels[g].world_from_gel,
           [&](std::size_t frame, const Matrix4& pose) { gel.frames.push_back(read_frame(gels[g], frame, pose)); });
   }
-  for (std::size_t o = 0; o < object_paths.size(); ++o) {
+  const std::size_t objects = scene.objects.size();
+  for (std::size_t o = 0; o < objects; ++o) {
+    const SceneObject& of = scene.objects[o];
     ViewedObject& object = view.objects.emplace_back(
-        ViewedObject{scene.objects[o].name, ordered(read_triangle_mesh(object_paths[o], 1.0)), {}});
-    shown(scene.objects[o].world_from_object,
-          [&](std::size_t, const Matrix4& pose) { object.world_from_object.push_back(pose); });
+        ViewedObject{of.name, ordered(read_triangle_mesh(bodies[o], of.metres_per_unit)), {}, of.fixed});
+    shown(of.world_from_object, [&](std::size_t, const Matrix4& pose) { object.world_from_object.push_back(pose); });
   }
+  for (std::size_t i = 0; i < scene.soft.size(); ++i)
+    view.objects.push_back(soft_object(scene.soft[i], bodies[objects + i], scene.times_s.size(), view.frames));
   return view;
 }
 
@@ -184,13 +206,16 @@ std::optional<SceneView> read_scene_view(const SceneFolder& scene, const fs::pat
     if (!gel) return std::nullopt;
     gels.push_back(std::move(*gel));
   }
-  std::vector<fs::path> object_paths;
-  for (const SceneObject& object : scene.objects) {
-    const auto path = input_of(folder, object.name);
+  std::vector<std::string> inputs;
+  for (const SceneObject& object : scene.objects) inputs.push_back(object.input);
+  for (const SceneSoft& soft : scene.soft) inputs.push_back(soft.input);
+  std::vector<fs::path> bodies;
+  for (const std::string& input : inputs) {
+    const auto path = input_of(folder, input);
     if (!path) return std::nullopt;
-    object_paths.push_back(*path);
+    bodies.push_back(*path);
   }
-  return view_of(scene, gels, object_paths);
+  return view_of(scene, gels, bodies);
 }
 
 void link_pictures(SceneView& view, const std::vector<fs::path>& render_folders, const fs::path& page_folder) {

@@ -1,4 +1,4 @@
-// What the 3-D view shows of a press or a grasp: fronts of gels and objects in one world, frame by frame.
+// What the 3-D view shows of a press, a grasp or a scene: fronts of gels and objects in one world, frame by frame.
 #pragma once
 
 #include <filesystem>
@@ -33,6 +33,8 @@ struct ViewedObject {
   std::string name;
   TriangleMesh mesh;
   std::vector<Matrix4> world_from_object;
+  bool fixed = false;
+  std::vector<Positions> deformed = {};  // m, of a soft body its vertices in the object's frame; else none
 };
 
 /// Everything has as many entries per frame as there are `frames`.

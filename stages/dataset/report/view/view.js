@@ -1,4 +1,4 @@
-// The 3-D view of a press or a grasp: fronts of gels, their rims and objects, frame by frame, in plain WebGL 2. Runs from
+// The 3-D view of a press, a grasp or a scene: fronts of gels, their rims and objects, frame by frame, in plain WebGL 2. Runs from
 // disk: a classic script, whose data come as another one (view/<id>.js), because a page opened from disk may fetch nothing.
 // Everything is drawn where its pose puts it in the world, or as one gel sees it from its own frame S; in metres, z up on
 // the screen. Layout of the data: view_data.h.
@@ -79,8 +79,14 @@
       return {...gel, corners, frames, rest: frames[0].positions};
     });
     const objects = data.objects.map(object => {
-      const corners = triangles(next, object.triangles);
-      return {...object, corners, positions: points(next, object.vertices, null, object.grid).metres};
+      const corners = triangles(next, object.triangles), frames = [];
+      let before = null;
+      for (let f = 0; f < (object.kind === "soft" ? data.frames.length : 1); ++f) {
+        const {whole, metres} = points(next, object.vertices, before, object.grid);
+        before = whole;
+        frames.push(metres);
+      }
+      return {...object, corners, frames};
     });
     return {gels, objects};
   }
@@ -207,7 +213,7 @@
     });
     const objects = parts.objects.map(object => {
       const mesh = meshOf(program, {position: 3}, object.corners);
-      fill(mesh, "position", object.positions);
+      fill(mesh, "position", object.frames[0]);
       return {...object, mesh};
     });
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
@@ -249,6 +255,7 @@
 
   function showFrame() {
     scene.gels.forEach(deform);
+    for (const object of scene.objects) if (object.kind === "soft") fill(object.mesh, "position", object.frames[frame]);
     showImages();
     const facts = data.frames[frame];
     element("facts").textContent = facts.text;
@@ -334,7 +341,10 @@
       put(gel, gel.walls, {mode: 2, faceted: true, plain: [.9, .92, .95, 1]});
     });
     const alpha = {solid: 1, glass: .34, hidden: 0}[element("object").value];
-    if (alpha > 0) for (const object of scene.objects) put(object, object.mesh, {mode: 2, faceted: true, plain: [.8, .74, .64, alpha]});
+    if (alpha > 0) for (const object of scene.objects) {
+      const color = {soft: [.56, .72, .68], fixed: [.66, .68, .72]}[object.kind] || [.8, .74, .64];
+      put(object, object.mesh, {mode: 2, faceted: true, plain: [...color, alpha]});
+    }
     canvas.dataset.drawn = [seen < 0 ? key : key + "/" + scene.gels[seen].name, frame, element("color").value, element("object").value].join(" ");
   }
 
@@ -386,21 +396,24 @@
     redraw();
   }
 
-  // Far enough away for what is seen: one gel from above its front, or all gels wherever they go.
+  // Far enough away for what is seen: one gel from above its front, or all gels, and of several bodies all that are not
+  // fixed, wherever they go.
   function goHome() {
     const ends = ({low_m: low, step_m: step, size}) => low.map((from, c) => [from, from + size[c] * step]);
-    const alone = scene.gels.length === 1 ? 0 : seen;
+    const bodies = scene.objects.some(object => object.kind) || scene.objects.length !== 1;
+    const alone = scene.gels.length === 1 && !bodies ? 0 : seen;
     if (alone >= 0) {
       const [x, y, z] = ends(scene.gels[alone].grid), wide = Math.hypot(x[1] - x[0], y[1] - y[0]);
       Object.assign(home, {target: [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2, z[1] - wide / 30], distance: 1.6 * wide, azimuth: -1.12, elevation: .62});
       return;
     }
     const least = [1e9, 1e9, 1e9], most = [-1e9, -1e9, -1e9];
-    for (const gel of scene.gels) {
-      const [x, y, z] = ends(gel.grid);
+    const moving = bodies ? scene.objects.filter(object => object.kind !== "fixed") : [];
+    for (const part of [...scene.gels, ...moving]) {
+      const [x, y, z] = ends(part.grid);
       for (let f = 0; f < data.frames.length; ++f) {
-        const place = columnsOf(gel.poses[f]);
-        for (const a of x) for (const b of y) for (const d of [gel.bottom_m, z[1]]) {
+        const place = columnsOf(part.poses[f]);
+        for (const a of x) for (const b of y) for (const d of [part.bottom_m ?? z[0], z[1]]) {
           for (let c = 0; c < 3; ++c) {
             const at = place[c] * a + place[4 + c] * b + place[8 + c] * d + place[12 + c];
             least[c] = Math.min(least[c], at);

@@ -188,13 +188,20 @@ std::string view_script(const SceneView& view, const std::vector<std::string>& t
   for (const ViewedObject& object : view.objects) {
     Value::List poses;
     for (const Matrix4& pose : object.world_from_object) poses.push_back(pose_value(pose));
-    const ViewGrid grid = ViewGrid::around({&object.mesh.positions});
-    bytes += packed_triangles(object.mesh.triangles) + packed_positions(object.mesh.positions, nullptr, grid);
+    std::vector<const Positions*> sets;
+    for (const Positions& x : object.deformed) sets.push_back(&x);
+    if (sets.empty()) sets.push_back(&object.mesh.positions);
+    const ViewGrid grid = ViewGrid::around(sets);
+    bytes += packed_triangles(object.mesh.triangles);
+    for (std::size_t i = 0; i < sets.size(); ++i)
+      bytes += packed_positions(*sets[i], i > 0 ? sets[i - 1] : nullptr, grid);
     objects.emplace_back(Value::Map{{"name", object.name},
                                     {"vertices", object.mesh.num_vertices()},
                                     {"triangles", object.mesh.num_triangles()},
                                     {"grid", grid_value(grid)},
                                     {"poses", poses}});
+    if (object.fixed) objects.back().set("kind", "fixed");
+    if (!object.deformed.empty()) objects.back().set("kind", "soft");
   }
   const Value data = Value::Map{
       {"gels", gels},     {"objects", objects},    {"indentation_m", deepest(view)},   {"pressure_pa", top_pa},

@@ -27,15 +27,16 @@ std::string byte_planes(const std::vector<int>& values);
 /// `tacipc_view({…});`, where
 /// - `frames` are lists of what a frame's line says, `texts` one for each frame of the view
 /// - `gels` and `objects` have their name, numbers of vertices and triangles, grid, and `poses`, for each frame the one
-///   that takes them to the world, row by row; gels also the `pictures` of each frame, if there are any
+///   that takes them to the world, row by row; gels also the `pictures` of each frame, if there are any; objects that
+///   are not rigid and free a `kind`, soft or fixed
 /// - `indentation_m` is the deepest indentation of all gels; `pressure_pa` the pressure that 255 stands for: 99 % of
 ///   all pressures that are not zero are below, so that the few peaks at edges do not take the colours
 /// - `colors` are the 256 colours of the bar
 /// - `packed` is base64 of a zlib stream of byte planes, in this order: for each gel triangles of its front and for
 ///   each frame positions, pressures (0 to 255), states (codes of contact_state.npy); for each object its triangles and
-///   positions. Triangles: first corners, each less the one before it; second less first, third less first. Positions,
-///   in the gel's or object's own frame: all x, all y, all z in steps of the grid, each less the vertex before it or,
-///   from the second frame on, less the frame before.
+///   positions, of a soft one those of every frame. Triangles: first corners, each less the one before it; second less
+///   first, third less first. Positions, in the gel's or object's own frame: all x, all y, all z in steps of the grid,
+///   each less the vertex before it or, from the second frame on, less the frame before.
 /// Same view, same bytes.
 std::string view_script(const SceneView& view, const std::vector<std::string>& texts);
 

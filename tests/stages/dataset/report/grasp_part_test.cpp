@@ -12,6 +12,7 @@
 namespace tacipc {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -22,6 +23,7 @@ summary:
   judged_frame: 2
   object_mass_kg: 0.08
   grip_n: 4.5
+  pose: {grip_m: [0, 0, 0.005], lever_m: 0.002, width_m: 0.03}
   slip_m: 0.0015
   turn_rad: 0.0174532925
   friction_margin: 1.5
@@ -45,7 +47,8 @@ TEST_F(GraspPartTest, ThePageTellsTheOutcomeAndLeadsToTheView) {
   GraspReport report = grasp();
   const std::string without = grasp_words(report).first;
   EXPECT_THAT(without, HasSubstr("<h2>Grasp: slipped</h2>"));
-  EXPECT_THAT(without, HasSubstr("80.0 g gripped with 4.50 N. Friction of both fingers could carry 1.50 times"));
+  EXPECT_THAT(without, AllOf(HasSubstr("80.0 g gripped with 4.50 N at (0, 0, 5.00) mm"),
+                             HasSubstr("Friction of both fingers could carry 1.50 times")));
   EXPECT_THAT(without, HasSubstr("(frame 2), the object had slipped 1.50 mm and turned 1.00°"));
   EXPECT_THAT(without, Not(HasSubstr("view.html")));
   report.has_view = true;

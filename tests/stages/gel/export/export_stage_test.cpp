@@ -62,6 +62,41 @@ TEST_F(ExportStageTest, OfAGraspEveryGelIsInTheWorld) {
   EXPECT_EQ(read_file(scratch_ / "scene/export/export.yaml"), first);
 }
 
+TEST_F(ExportStageTest, OfASceneEveryBodyIsInTheWorld) {
+  write_pressed_bodies(scratch_);
+  const auto run_scene = [&](const std::string& more) {
+    return run_command(fmt::format("cd {} && {}/export --press bodies --gel gel.msh --out vtk {}",
+                                   (scratch_ / "").string(), TACIPC_BIN_DIR, more));
+  };
+  ASSERT_EQ(run_scene(""), 0) << said_;
+  const std::vector<double> peg = parse_vtu(read_file(scratch_ / "vtk/object_peg_0001.vtu")).arrays.at("Points").values;
+  EXPECT_NEAR(peg[3 * 2 + 2], 1.0 - 0.003, 1e-15);
+  const std::vector<double> wall =
+      parse_vtu(read_file(scratch_ / "vtk/object_wall_0001.vtu")).arrays.at("Points").values;
+  EXPECT_NEAR(wall[3 * 2 + 2], 1e-3, 1e-15);
+  VtuFile soft = parse_vtu(read_file(scratch_ / "vtk/soft_ball_0001.vtu"));
+  EXPECT_EQ(soft.points, 9u);
+  EXPECT_NEAR(soft.arrays.at("displacement").values[3 * 8 + 2], 1e-3, 1e-15);
+  EXPECT_NEAR(soft.arrays.at("volume_ratio").values[0], 1.0, 1e-9);
+  EXPECT_THAT(read_file(scratch_ / "vtk/soft.pvd"), HasSubstr("file=\"soft_ball_0001.vtu\""));
+  EXPECT_EQ(parse_vtu(read_file(scratch_ / "vtk/surface_pad_0001.vtu")).points, 8u);
+  const std::string glb = read_file(scratch_ / "vtk/sample.glb");
+  for (const char* node : {"gel pad", "object peg", "object wall", "soft ball"})
+    EXPECT_NE(glb.find(fmt::format("\"name\": \"{}\"", node)), std::string::npos) << node;
+  EXPECT_EQ(run_scene("--object object.ply"), 2);
+  EXPECT_THAT(said_, HasSubstr("--object: the record of a scene names its bodies"));
+  write_file(scratch_ / "ball.msh", "another");
+  EXPECT_EQ(run_scene(""), 1);
+  EXPECT_THAT(said_, HasSubstr("ball.msh: is not the body_ball that bodies/press.yaml was made with"));
+}
+
+TEST_F(ExportStageTest, APressWithoutItsObjectIsRefused) {
+  EXPECT_EQ(run_command(fmt::format("cd {} && {}/export --press press --gel gel.msh --out vtk",
+                                    (scratch_ / "").string(), TACIPC_BIN_DIR)),
+            2);
+  EXPECT_THAT(said_, HasSubstr("--object is missing"));
+}
+
 TEST_F(ExportStageTest, FingersOfOtherFramesThanTheirPosesAreAFailure) {
   write_pressed_scene(scratch_);
   const std::vector<double> times{0.0};

@@ -1,4 +1,4 @@
-// A finished press of a gel of twelve tetrahedra, as files, and a scene of two of them.
+// A finished press of a gel of twelve tetrahedra, as files, a grasp of two of them, and a scene of one among bodies.
 #pragma once
 
 #include <fmt/core.h>
@@ -108,6 +108,55 @@ inline void write_pressed_scene(const ScratchFolder& scratch) {
   Matrix4 fallen = Matrix4::Identity();
   fallen(2, 3) = -0.003;
   write_poses("scene/object_pose.npy", {2, 4, 4}, {Matrix4::Identity(), fallen});
+}
+
+/// Writes a scene's folder bodies/ of two frames: the gel `pad` pressed as above, a soft cube `ball` of the same
+/// tetrahedra half a metre higher, whose vertices all rise by 1 mm, a rigid `peg` that falls by 3 mm and a fixed `wall`
+/// whose mesh is the peg's in millimetres. In frame 1 the peg pushes the pad down with 2 N and the wall along x with 1
+/// N.
+inline void write_pressed_bodies(const ScratchFolder& scratch) {
+  write_pressed_cube(scratch, "bodies/gels/pad/press");
+  TetMesh soft = cube_gel();
+  soft.tags.assign(soft.tags.size(), BoundaryTag::free);
+  write_tet_mesh(scratch / "ball.msh", soft);
+  std::string record = "stage: press\ninputs:\n";
+  for (const auto& [input, file] : {std::pair{"gel", "gel.msh"},
+                                    {"body_ball", "ball.msh"},
+                                    {"body_peg", "object.ply"},
+                                    {"body_wall", "object.ply"}})
+    record += fmt::format("  {}:\n    path: ../{}\n    hash: {}\n", input, file, content_hash(scratch / file));
+  record +=
+      "summary:\n  bodies:\n    - {name: pad, kind: gel}\n    - {name: ball, kind: soft}\n"
+      "    - {name: peg, kind: rigid, metres_per_unit: 1, mass_kg: 0.1}\n"
+      "    - {name: wall, kind: fixed, metres_per_unit: 0.001}\n"
+      "  per_frame:\n    - {time_s: 0, phase: -1}\n    - {time_s: 0.01, phase: 0}\n";
+  scratch.file("bodies/press.yaml", record);
+  const std::vector<double> times{0.0, 0.01};
+  write_npy(scratch / "bodies/time.npy", {2}, times.data());
+  std::vector<double> poses, positions;
+  for (int frame = 0; frame < 2; ++frame) {
+    for (int body = 0; body < 4; ++body) {
+      Matrix4 pose = Matrix4::Identity();
+      if (body == 2) pose(2, 3) = -0.003 * frame;
+      for (int i = 0; i < 16; ++i) poses.push_back(pose(i / 4, i % 4));
+    }
+    for (Eigen::Index v = 0; v < soft.num_vertices(); ++v) {
+      const Vector3 x = soft.positions.row(v).transpose() + Vector3(0, 0, 0.5 + 1e-3 * frame);
+      positions.insert(positions.end(), x.begin(), x.end());
+    }
+  }
+  write_npy(scratch / "bodies/body_pose.npy", {2, 4, 4, 4}, poses.data());
+  scratch.file("bodies/soft/ball/positions.npy", "");
+  write_npy(scratch / "bodies/soft/ball/positions.npy", {2, 9, 3}, positions.data());
+  std::vector<double> wrenches(2 * 4 * 4 * 6, 0.0), energies(16, 0.0);
+  const auto push = [&](std::size_t on, std::size_t by, std::size_t axis, double force) {
+    wrenches[((4 + on) * 4 + by) * 6 + axis] = force;
+    wrenches[((4 + by) * 4 + on) * 6 + axis] = -force;
+  };
+  push(0, 2, 2, -2.0);
+  push(2, 3, 0, 1.0);
+  write_npy(scratch / "bodies/wrench.npy", {2, 4, 4, 6}, wrenches.data());
+  write_npy(scratch / "bodies/energy.npy", {2, 8}, energies.data());
 }
 
 }  // namespace tacipc

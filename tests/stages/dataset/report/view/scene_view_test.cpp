@@ -62,6 +62,28 @@ TEST(SceneView, EveryGelAndObjectHasItsPoseInTheWorld) {
   EXPECT_FALSE(read_scene_view(scene, scratch / "scene"));
 }
 
+TEST(SceneView, OfASceneBodiesFollowTheirKind) {
+  const ScratchFolder scratch;
+  write_pressed_bodies(scratch);
+  const auto view = read_scene_view(read_scene_folder(scratch / "bodies"), scratch / "bodies");
+  ASSERT_TRUE(view);
+  ASSERT_EQ(view->gels.size(), 1u);
+  EXPECT_EQ(view->gels[0].name, "pad");
+  ASSERT_EQ(view->objects.size(), 3u);
+  const ViewedObject &peg = view->objects[0], &wall = view->objects[1], &ball = view->objects[2];
+  EXPECT_EQ(peg.world_from_object[1](2, 3), -0.003);
+  EXPECT_FALSE(peg.fixed);
+  EXPECT_TRUE(wall.fixed);
+  EXPECT_NEAR(wall.mesh.positions.maxCoeff(), 1e-3, 1e-15);
+  // The cube's surface without its centre.
+  ASSERT_EQ(ball.deformed.size(), 2u);
+  EXPECT_EQ(ball.mesh.num_vertices(), 8);
+  EXPECT_EQ(ball.mesh.num_triangles(), 12);
+  EXPECT_NEAR(signed_volume({ball.deformed[0], ball.mesh.triangles}), 1e-6, 1e-12);
+  EXPECT_TRUE(
+      (ball.deformed[1] - ball.deformed[0]).isApprox(Positions(Vector3(0, 0, 1e-3).transpose().replicate(8, 1)), 1e-9));
+}
+
 TEST(SceneView, OfAPressItsOwnFrameIsTheWorld) {
   const ScratchFolder scratch;
   write_pressed_cube(scratch);
