@@ -184,6 +184,11 @@ void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   each(io, frame.world_from_hand);
   for (auto& pose : frame.world_from_finger) each(io, pose);
   for (auto& force : frame.force_on_finger_n) each(io, force);
+  for (auto& drive : frame.drives) {
+    io.plain(drive.force_n);
+    io.plain(drive.closed_m);
+    io.plain(drive.velocity_m_s);
+  }
   each(io, frame.world_from_object);
   each(io, frame.velocity_m_s);
   each(io, frame.spin_rad_s);
@@ -195,14 +200,17 @@ void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   for (auto& of_finger : fingers) contents(io, of_finger);
   state_of(io, progress.state);
   io.rows(progress.mount_n);
-  io.plain(progress.drive.wanted_n);
-  io.plain(progress.drive.closed_m);
-  io.plain(progress.drive.last_step_m);
-  io.plain(progress.drive.last_grip_n);
-  io.plain(progress.drive.stiffness_n_m);
-  io.plain(progress.drive.let_go);
-  io.plain(progress.drive.by_way);
-  io.plain(progress.drive.wanted_closed_m);
+  for (auto& drive : progress.drives) {
+    io.plain(drive.wanted_n);
+    io.plain(drive.closed_m);
+    io.plain(drive.velocity_m_s);
+    io.plain(drive.last_step_m);
+    io.plain(drive.last_grip_n);
+    io.plain(drive.stiffness_n_m);
+    io.plain(drive.let_go);
+    io.plain(drive.by_way);
+    io.plain(drive.wanted_closed_m);
+  }
   each(io, progress.world_from_hand);
   io.plain(progress.grip_n);
 }

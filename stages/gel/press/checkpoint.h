@@ -21,8 +21,8 @@ void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress);
 /// What a grasp goes on from.
 struct GraspProgress {
   State state;
-  Positions mount_n;  // forces of the mounts on all gels' vertices
-  GripControl drive;
+  Positions mount_n;                  // forces of the mounts on all gels' vertices
+  std::array<GripControl, 2> drives;  // of left and right finger; one that moves both counts as two that are alike
   Matrix4 world_from_hand = Matrix4::Identity();
   double grip_n = 0.0;  // Grasp::grip_n
 };

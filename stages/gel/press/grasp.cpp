@@ -31,6 +31,9 @@ Matrix3 world_from_finger(int side) {
   return R;
 }
 
+/// How far the fingers close.
+using Ways = std::array<double, 2>;
+
 /// How the hand moves in a time step: by a way, and about its origin by a rotation vector.
 struct HandMotion {
   Vector3 shift_m = Vector3::Zero(), turn_rad = Vector3::Zero();
@@ -179,32 +182,51 @@ class Hand {
     return {gel_, out_.fingers[side].front, rest_tets_, static_cast<Eigen::Index>(side) * gel_.num_vertices()};
   }
 
-  std::array<Matrix4, 2> finger_poses(const Matrix4& world_from_hand, double closed_m) const {
+  std::array<Matrix4, 2> finger_poses(const Matrix4& world_from_hand, const Ways& closed_m) const {
     std::array<Matrix4, 2> poses = start_;
-    for (Matrix4& pose : poses) {
-      pose.topRightCorner<3, 1>() += closed_m * pose.topLeftCorner<3, 3>().col(2);
+    for (const std::size_t side : {0, 1}) {
+      Matrix4& pose = poses[side];
+      pose.topRightCorner<3, 1>() += closed_m[side] * pose.topLeftCorner<3, 3>().col(2);
       pose = world_from_hand * pose;
     }
     return poses;
   }
-  std::array<Matrix4, 2> finger_poses() const {
-    return finger_poses(progress_.world_from_hand, progress_.drive.closed_m);
+  Ways closed() const { return {progress_.drives[0].closed_m, progress_.drives[1].closed_m}; }
+  std::array<Matrix4, 2> finger_poses() const { return finger_poses(progress_.world_from_hand, closed()); }
+
+  /// By which each drive is controlled: one for both by their mean.
+  Ways grips_n() const {
+    const auto poses = finger_poses();
+    Ways grips{pressing_n(force_on(0), poses[0]), pressing_n(force_on(1), poses[1])};
+    if (!spec_.drive_each) grips.fill(0.5 * (grips[0] + grips[1]));
+    return grips;
+  }
+  double grip_n() const {
+    const Ways grips = grips_n();
+    return 0.5 * (grips[0] + grips[1]);
   }
 
-  double grip_n() const {
-    double sum = 0.0;
-    for (const std::size_t side : {0, 1}) sum += pressing_n(force_on(side), finger_poses()[side]);
-    return 0.5 * sum;
+  bool is_free() const { return progress_.drives[0].let_go; }
+  /// Whether the object is free and neither finger touches it: fingers neither close nor open any further then, except
+  /// in a release.
+  bool lost() const { return progress_.drives[0].lost() && progress_.drives[1].lost(); }
+  bool arrived() const {
+    const auto& [left, right] = progress_.drives;
+    if (left.by_way || !is_free()) return left.arrived(spec_.mount) && right.arrived(spec_.mount);
+    // Drives of their own may float with the object for ever, with what their damping takes between their grips.
+    GripControl mean = left;
+    mean.last_grip_n = grip_n();
+    mean.velocity_m_s = 0.5 * (left.velocity_m_s + right.velocity_m_s);
+    return mean.arrived(spec_.mount);
   }
 
   Vector3 force_on(std::size_t side) const { return contact_force_on(part(side), stepper_->forces()); }
 
   /// One time step, in which the hand moves and the fingers close; divided where it turns too far for straight paths of
   /// the vertices, or does not converge.
-  void step(double h, double closing_m, const HandMotion& hand, int halvings, StepReport& report) {
+  void step(double h, const Ways& closing_m, const HandMotion& hand, int halvings, StepReport& report) {
     if (hand.turn_rad.norm() > kMostTurn_rad) return both_halves(h, closing_m, hand, halvings, report);
-    GripControl& drive = progress_.drive;
-    const double closed = drive.closed_m + closing_m;
+    const Ways closed{progress_.drives[0].closed_m + closing_m[0], progress_.drives[1].closed_m + closing_m[1]};
     const Matrix4 to = moved(progress_.world_from_hand, hand);
     const std::array<Matrix4, 2> before = finger_poses(), poses = finger_poses(to, closed);
     const auto n = static_cast<int>(gel_.num_vertices());
@@ -213,7 +235,7 @@ class Hand {
     start << transformed(before[0], gel_.positions), transformed(before[1], gel_.positions);
     StepGoal goal{.h_s = h,
                   .object_target = transformed(world_from_object_, object_.positions),
-                  .free_object = drive.let_go,
+                  .free_object = is_free(),
                   .gel_motion = target - start,
                   .glued_target = target(glued_, Eigen::all),
                   .hand_motion = motion_of(hand),
@@ -225,10 +247,10 @@ class Hand {
       const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
-      drive.closed_m = closed;
+      for (const std::size_t side : {0, 1}) progress_.drives[side].closed_m = closed[side];
       progress_.world_from_hand = to;
       note_step(at_start, h);
-      if (drive.let_go) world_from_object_ = pose_of(*body_, mesh_.control_rows(progress_.state.x));
+      if (is_free()) world_from_object_ = pose_of(*body_, mesh_.control_rows(progress_.state.x));
       const StepReport earlier = report;
       report = done;
       report.add_earlier(earlier);
@@ -239,15 +261,16 @@ class Hand {
     }
   }
 
-  void both_halves(double h, double closing_m, const HandMotion& hand, int halvings, StepReport& report) {
-    for (int half = 0; half < 2; ++half) step(0.5 * h, 0.5 * closing_m, hand * 0.5, halvings, report);
+  void both_halves(double h, const Ways& closing_m, const HandMotion& hand, int halvings, StepReport& report) {
+    for (int half = 0; half < 2; ++half)
+      step(0.5 * h, {0.5 * closing_m[0], 0.5 * closing_m[1]}, hand * 0.5, halvings, report);
   }
 
   WholeInstant instant() const {
     const State& state = progress_.state;
     return {state.x.topRows(both_.num_vertices()),
             state.velocity_m_s,
-            {{&*body_, mesh_.control_rows(state.x), state.object_motion[0], !progress_.drive.let_go}}};
+            {{&*body_, mesh_.control_rows(state.x), state.object_motion[0], !is_free()}}};
   }
 
   /// Energy and momentum of a time step that succeeded.
@@ -261,7 +284,7 @@ class Hand {
                           .contact_j = forces.contact_j,
                           .friction_loss_j = forces.friction_loss_j,
                           .damping_loss_j = forces.damping_loss_j};
-    if (!progress_.drive.let_go) {
+    if (!is_free()) {
       // Whoever holds the object passes its contact forces on, and does no work: it rests.
       for (Eigen::Index v = 0; v < after.gel_m.rows(); ++v) {
         const Vector3 force = forces.normal.row(v) + forces.friction.row(v), at = after.gel_m.row(v);
@@ -295,14 +318,17 @@ class Hand {
   }
 
   /// What the fingers are to have done after a part of a phase, from what they had at its start.
-  void set_goal(const GraspPhase& phase, double part, const GripControl& from) {
-    GripControl& drive = progress_.drive;
-    if (phase.kind == PhaseKind::approach) {
-      drive.go_to(start_gap_m_ - phase.gap_m);
-    } else if (phase.kind == PhaseKind::close && phase.width_m) {
-      drive.go_to(from.closed_m + part * (0.5 * (start_width_m_ - *phase.width_m) - from.closed_m));
-    } else if (phase.kind == PhaseKind::close) {
-      drive.grip(from.wanted_n + part * (phase.force_n - from.wanted_n));
+  void set_goal(const GraspPhase& phase, double part, const std::array<GripControl, 2>& from) {
+    const double mean_m = 0.5 * (from[0].closed_m + from[1].closed_m);
+    for (const std::size_t side : {0, 1}) {
+      GripControl& drive = progress_.drives[side];
+      if (phase.kind == PhaseKind::approach) {
+        drive.go_to(start_gap_m_ - phase.gap_m);
+      } else if (phase.kind == PhaseKind::close && phase.width_m) {
+        drive.go_to(from[side].closed_m + part * (0.5 * (start_width_m_ - *phase.width_m) - mean_m));
+      } else if (phase.kind == PhaseKind::close) {
+        drive.grip(from[side].wanted_n + part * (phase.force_n - from[side].wanted_n));
+      }
     }
   }
 
@@ -310,8 +336,7 @@ class Hand {
     const double h = config_.time_step_s;
     const int steps = phase.steps * phase.substeps;
     const bool closes = phase.kind == PhaseKind::close, goes_on = closes || phase.kind == PhaseKind::approach;
-    GripControl& drive = progress_.drive;
-    const GripControl from = drive;
+    const std::array<GripControl, 2> from = progress_.drives;
     for (int f = 1; f <= phase.steps; ++f) {
       const bool last = f == phase.steps;
       if (restored()) continue;
@@ -324,20 +349,20 @@ class Hand {
                     report);
         }
         // The object does not wait: it is held until the fingers have their grip.
-        for (int more = 0; goes_on && last && !drive.lost() && !drive.arrived(); ++more) {
+        for (int more = 0; goes_on && last && !lost() && !arrived(); ++more) {
           if (more == kMostClosingSteps) throw_not_closed();
           time_step(phase, h, {}, report);
         }
       } catch (const SolverError& error) {
         throw SolverError("frame {}: {}", out_.frames.size(), error.what());
       }
-      if (closes && last && !drive.let_go) let_go();
+      if (closes && last && !is_free()) let_go();
       finish(phase.kind, index, report, stepper_->forces());
     }
   }
 
   [[noreturn]] void throw_not_closed() const {
-    const GripControl& drive = progress_.drive;
+    const GripControl& drive = progress_.drives[progress_.drives[0].arrived(spec_.mount) ? 1 : 0];
     if (drive.by_way)
       throw SolverError(
           "in {} more time steps each finger has closed by {:.3g} mm instead of {:.3g} mm: give the phase more steps, "
@@ -351,33 +376,122 @@ class Hand {
   }
 
   void let_go() {
-    progress_.drive.let_go = true;
-    progress_.grip_n = progress_.drive.last_grip_n;
+    for (GripControl& drive : progress_.drives) drive.let_go = true;
+    progress_.grip_n = grip_n();
     const auto poses = finger_poses();
     const double left = pressing_n(force_on(0), poses[0]), right = pressing_n(force_on(1), poses[1]);
     if (std::abs(left - right) > kUneven * (left + right))
       log_warning(
           "frame {}: when the object was freed the left finger pressed with {:.3g} N and the right one with {:.3g} N: "
-          "it will shift towards the weaker; choose fingers.grip_mm or turn_deg so that both press alike",
+          "it will shift towards the weaker; choose fingers.grip_mm or turn_deg so that both press alike, or "
+          "fingers.drive: each",
           out_.frames.size(), left, right);
   }
 
   void time_step(const GraspPhase& phase, double h, const HandMotion& hand, StepReport& report) {
-    GripControl& drive = progress_.drive;
-    double closing = 0.0;
-    if (phase.kind == PhaseKind::release) {
-      closing = -phase.distance_m / (phase.steps * phase.substeps);
-    } else if (!drive.lost()) {
-      closing = drive.closing_step(spec_.closing_speed_m_s * h, scales_.d_hat_m,
-                                   [&](double none) { return stepper_->smallest_gap(progress_.state.x, none); });
-    }
     time_s_ += h;
-    step(h, closing, hand, 0, report);
-    drive.measure(closing, grip_n());
-    // What is left of it is kept from there on.
     if (phase.kind == PhaseKind::release) {
-      drive.wanted_n = drive.last_grip_n;
-      drive.wanted_closed_m = drive.closed_m;
+      Ways opening;
+      opening.fill(-phase.distance_m / (phase.steps * phase.substeps));
+      step(h, opening, hand, 0, report);
+      measure(h, opening);
+      // What is left of it is kept from there on.
+      for (GripControl& drive : progress_.drives) {
+        drive.wanted_n = drive.last_grip_n;
+        drive.wanted_closed_m = drive.closed_m;
+      }
+    } else if (lost() || progress_.drives[0].by_way) {
+      const double most = spec_.closing_speed_m_s * h;
+      Ways ways{0.0, 0.0};
+      for (const std::size_t side : {0, 1}) {
+        const GripControl& drive = progress_.drives[side];
+        if (!lost()) ways[side] = std::clamp(drive.wanted_closed_m - drive.closed_m, -most, most);
+      }
+      step(h, ways, hand, 0, report);
+      measure(h, ways);
+    } else {
+      balanced_step(h, hand, report);
+    }
+  }
+
+  void measure(double h, const Ways& ways) {
+    const Ways grips = grips_n();
+    for (const std::size_t side : {0, 1}) progress_.drives[side].measure(h, ways[side], grips[side]);
+  }
+
+  /// How much farther than a motion of the hand the object's centre of mass goes along the closing axis, from one pose
+  /// to another.
+  double along_axis(const Matrix4& from, const Matrix4& to, const Matrix4& motion, const Matrix4& hand) const {
+    const Eigen::Vector4d center = out_.center_of_mass_m.homogeneous();
+    const Vector3 axis = (motion * hand).col(0).head<3>();
+    return axis.dot((to * center - motion * (from * center)).head<3>());
+  }
+
+  /// By how much more than in the last try a free object between two drives will go from left to right when both are
+  /// corrected: the solution of their three linear equations.
+  /// \param pull_n what its own balance is off by
+  static double shift_of_object(const std::array<WaySearch, 2>& search, double object_n_m, double pull_n) {
+    double force = pull_n, stiffness = object_n_m;
+    for (const std::size_t side : {0, 1}) {
+      const double own = search[side].stiffness_n_m(), all = own + search[side].inertia_n_m();
+      if (own == 0.0) continue;
+      force -= (side == 0 ? 1.0 : -1.0) * own * search[side].off_n() / all;
+      stiffness += own * search[side].inertia_n_m() / all;
+    }
+    return force / stiffness;
+  }
+
+  /// A time step that ends with each drive in balance: tried with several ways, each from where it begins.
+  void balanced_step(double h, const HandMotion& hand, StepReport& report) {
+    const GraspProgress before = progress_;
+    const WholeAccount whole_before = whole_;
+    const Matrix4 object_before = world_from_object_, motion = motion_of(hand);
+    const auto begin = [&](std::size_t side) {
+      return WaySearch(before.drives[side], spec_.mount, h, spec_.closing_speed_m_s * h, scales_.d_hat_m,
+                       [&](double none) { return stepper_->smallest_gap(progress_.state.x, none); });
+    };
+    const WaySearch left = begin(0);
+    std::array<WaySearch, 2> search{left, spec_.drive_each ? begin(1) : left};
+    // A held object leaves each drive alone.
+    const bool coupled = spec_.drive_each && is_free();
+    const double object_n_m = body_->mass_kg / (h * h);
+    const auto object_way = [&](const Matrix4& to) {
+      return along_axis(object_before, to, motion, before.world_from_hand);
+    };
+    if (coupled) {
+      Matrix4 flown = object_before;
+      flown.topRightCorner<3, 1>() += h * before.state.object_motion[0].velocity_m_s + h * h * spec_.gravity_m_s2;
+      const double pressed_n = before.drives[0].last_grip_n - before.drives[1].last_grip_n;
+      const double shift_m = shift_of_object(search, object_n_m, object_n_m * object_way(flown) + pressed_n);
+      search[0].expect(shift_m);
+      search[1].expect(-shift_m);
+    }
+    StepReport spent;
+    while (true) {
+      const Ways ways{search[0].way_m(), search[1].way_m()};
+      StepReport done;
+      step(h, ways, hand, 0, done);
+      const Ways grips = grips_n();
+      const double object_m = coupled ? object_way(world_from_object_) : 0.0;
+      search[0].note(grips[0], object_m);
+      search[1].note(grips[1], -object_m);
+      if (search[0].stands() && search[1].stands()) {
+        done.add_earlier(spent);
+        done.add_earlier(report);
+        report = done;
+        for (const std::size_t side : {0, 1})
+          progress_.drives[side].measure(h, ways[side], grips[side], search[side].found_n_m());
+        return;
+      }
+      done.time_steps = 0;  // it is the same step
+      done.add_earlier(spent);
+      spent = done;
+      progress_ = before;
+      whole_ = whole_before;
+      world_from_object_ = object_before;
+      const double shift_m = coupled ? shift_of_object(search, object_n_m, 0.0) : 0.0;
+      search[0].correct(shift_m);
+      search[1].correct(-shift_m);
     }
   }
 
@@ -404,6 +518,11 @@ class Hand {
     if (store_) store_->save(pack_frame(out_.frames.back(), of_fingers, progress_));
   }
 
+  FingerDrive drive_of(std::size_t side) const {
+    const GripControl& drive = progress_.drives[side];
+    return {drive.wanted_n, drive.closed_m, drive.velocity_m_s};
+  }
+
   Vector3 spin() const {
     return angular_velocity(*body_, mesh_.control_rows(progress_.state.x), progress_.state.object_motion[0]);
   }
@@ -414,6 +533,7 @@ class Hand {
                      .phase = phase,
                      .world_from_hand = progress_.world_from_hand,
                      .world_from_finger = finger_poses(),
+                     .drives = {drive_of(0), drive_of(1)},
                      .world_from_object = world_from_object_,
                      .velocity_m_s = progress_.state.object_motion[0].velocity_m_s,
                      .spin_rad_s = spin(),
@@ -464,7 +584,7 @@ class Hand {
   }
 
   void note_grip() {
-    if (!grip_frame_ && progress_.drive.let_go) grip_frame_ = out_.frames.size() - 1;
+    if (!grip_frame_ && is_free()) grip_frame_ = out_.frames.size() - 1;
   }
 
   static Matrix4 hand_from_object(const GraspFrame& frame) {

@@ -13,6 +13,12 @@
 
 namespace tacipc {
 
+/// Of a finger, along the axis by which it closes.
+struct FingerDrive {
+  double force_n = 0.0;  // that its drive closes with; where fingers go by a way, their grip
+  double closed_m = 0.0, velocity_m_s = 0.0;
+};
+
 /// One instant of a grasp, in the world: in frame 0 x is from the left finger to the right, z is up.
 struct GraspFrame {
   double time_s = 0.0;
@@ -20,6 +26,7 @@ struct GraspFrame {
   Matrix4 world_from_hand = Matrix4::Identity();  // its origin is where the object is gripped in frame 0
   std::array<Matrix4, 2> world_from_finger;
   std::array<Vector3, 2> force_on_finger_n = {Vector3::Zero(), Vector3::Zero()};  // by the object and by the other gel
+  std::array<FingerDrive, 2> drives = {};
   Matrix4 world_from_object;
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();
   double body_residual_n = 0.0, body_load_n = 0.0;

@@ -56,6 +56,11 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
   spec.gravity_m_s2 = {gravity[0], gravity[1], gravity[2]};
   spec.closing_speed_m_s = 1e-3 * fingers.number_or("closing_speed_mm_s", 20.0, Range::positive());
   if (fingers.has("start_gap_mm")) spec.start_gap_m = 1e-3 * fingers.number("start_gap_mm", Range::positive());
+  if (auto mount = fingers.optional_section("mount")) {
+    spec.mount.mass_kg = 1e-3 * mount->number_or("mass_g", 0.0, Range::non_negative());
+    spec.mount.damping_n_s_m = mount->number_or("damping_n_s_m", 0.0, Range::non_negative());
+  }
+  spec.drive_each = fingers.choice_or("drive", "one", {"one", "each"}) == "each";
   ConfigReader object = in.section("object");
   const auto only = [&](const char* key, std::initializer_list<const char*> others) {
     for (const char* other : others)

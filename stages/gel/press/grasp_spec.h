@@ -8,6 +8,7 @@
 #include "common/mesh/mass_properties.h"
 #include "common/sample/antipodal_grasp.h"
 #include "common/sample/motion.h"
+#include "stages/gel/press/grip_control.h"
 
 namespace tacipc {
 
@@ -40,6 +41,8 @@ struct GraspSpec {
   Vector3 grip_m = Vector3::Zero();          // where it is gripped, from its centre of mass, in its own axes
   Vector3 gravity_m_s2 = {0.0, 0.0, -9.81};  // of the world
   double closing_speed_m_s = 0.02;           // of each finger, at most
+  DriveInertia mount = {};                   // of a finger, along the axis by which it closes
+  bool drive_each = false;                   // each finger has a drive of its own, else one closes both by the same way
   std::optional<double> start_gap_m = {};    // of each finger in frame 0; absent: as the press file has it
   std::vector<GraspPhase> motion;
 

@@ -271,7 +271,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
     stage.finish_part(folder,
                       write_gel(stage, folder + "/", sensor, gel, config, grasp.freed_frame, grasp.fingers[side]));
   }
-  std::vector<double> time, object, twist, fingers, forces;
+  std::vector<double> time, object, twist, fingers, forces, drives;
   WholeArrays whole;
   Value::List per_frame;
   const auto add_matrix = [](std::vector<double>& all, const Matrix4& pose) {
@@ -288,6 +288,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
     for (std::size_t side = 0; side < 2; ++side) {
       add_matrix(fingers, f.world_from_finger[side]);
       forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
+      const FingerDrive& drive = f.drives[side];
+      drives.insert(drives.end(), {drive.force_n, drive.closed_m, drive.velocity_m_s});
     }
     whole.add(f.whole);
     per_frame.emplace_back(grasp_lines(f, grasp.fingers[0].frames[i].body_strain));
@@ -298,6 +300,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   write_array(stage, "object_twist.npy", {n, 6}, twist);
   write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
   write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
+  write_array(stage, "finger_drive.npy", {n, 2, 3}, drives);
   whole.write(stage);
   const GraspFrame& judged = frames[grasp.judged_frame];
   Value::Map summary{{"frames", n},

@@ -13,11 +13,9 @@ namespace {
 constexpr double kMu = 0.3, kGrip_n = 1.0;
 constexpr double kThreshold_m_s = 28.4e-6;  // ε_v: a thousandth of the gel's diagonal in a second
 
-/// Each step of the ramp ends with its grip; held for 0.3 s.
-const std::vector<GraspPhase> kCloseAndHold{close_phase(8, kGrip_n), hold_phase(30)};
-
-Grasp grasp_plate(const Vector3& half_m, double weight_n, double lever_m) {
-  GraspSpec spec = grasp_of(weight_n / kG, kCloseAndHold);
+/// Each step of the ramp ends with its grip; then it is held.
+Grasp grasp_plate(const Vector3& half_m, double weight_n, double lever_m, int held_steps) {
+  GraspSpec spec = grasp_of(weight_n / kG, {close_phase(8, kGrip_n), hold_phase(held_steps)});
   spec.grip_m = Vector3(0, lever_m, 0);
   return run_grasp(centered_box(half_m), grasp_config(kMu), spec);
 }
@@ -28,7 +26,7 @@ std::size_t before_end(const Grasp& grasp) { return grasp.frames.size() - 11; }
 /// m g against 2 μ N, two parts in a hundred on either side. Below, what sticks creeps at ε_v (1 − √(1 − r)), r = m
 /// g/(2 μ N); above, the plate accelerates by (1 − 1/r) g.
 TEST(GraspOnset, SlipBeginsWhereTheWeightIsWhatFrictionCanCarry) {
-  const auto at = [](double r) { return grasp_plate({4e-3, 14e-3, 40e-3}, r * 2.0 * kMu * kGrip_n, 0.0); };
+  const auto at = [](double r) { return grasp_plate({4e-3, 14e-3, 40e-3}, r * 2.0 * kMu * kGrip_n, 0.0, 40); };
   for (const double r : {0.9, 0.98}) {
     const Grasp held = at(r);
     const double sank_m =
@@ -99,7 +97,7 @@ double most_moment_n_m(const std::vector<PadPoint>& pads) {
 /// the force decides to where the moment does.
 TEST(GraspOnset, ABarTurnsWhereItsWeightIsWhatBothPadsCanBearOffTheirAxis) {
   for (const double lever_m : {5e-3, 18e-3}) {
-    const auto at = [&](double weight_n) { return grasp_plate({4e-3, 30e-3, 14e-3}, weight_n, lever_m); };
+    const auto at = [&](double weight_n) { return grasp_plate({4e-3, 30e-3, 14e-3}, weight_n, lever_m, 30); };
     const auto turns_rad = [](const Grasp& grasp) {
       return grasp.frames.back().turn_rad - grasp.frames[before_end(grasp)].turn_rad;
     };

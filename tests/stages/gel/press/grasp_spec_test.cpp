@@ -92,6 +92,21 @@ TEST(GraspSpec, WhatIsNotSaidIsAnUprightObjectGrippedAtItsCenterOnEarth) {
   EXPECT_DOUBLE_EQ(spec.closing_speed_m_s, 0.02);
 }
 
+TEST(GraspSpec, DrivesHaveMassAndDampingAndMayBeOneOrTwo) {
+  const GraspSpec usual = read("", "mass_g: 50");
+  EXPECT_TRUE(usual.mount.none());
+  EXPECT_FALSE(usual.drive_each);
+  EXPECT_FALSE(read("drive: one, mount: {}", "mass_g: 50").drive_each);
+  const GraspSpec spec = read("drive: each, mount: {mass_g: 200, damping_n_s_m: 30}", "mass_g: 50");
+  EXPECT_TRUE(spec.drive_each);
+  EXPECT_DOUBLE_EQ(spec.mount.mass_kg, 0.2);
+  EXPECT_EQ(spec.mount.damping_n_s_m, 30.0);
+  EXPECT_DOUBLE_EQ(spec.mount.stiffness_n_m(0.01), 5000.0);
+  EXPECT_THAT(faults("drive: both, mount: {mass_g: -1, damping_n_s_m: -2, mass_kg: 3}", "mass_g: 50"),
+              UnorderedElementsAre(HasSubstr("fingers.drive"), HasSubstr("fingers.mount.mass_g"),
+                                   HasSubstr("fingers.mount.damping_n_s_m"), HasSubstr("fingers.mount.mass_kg")));
+}
+
 TEST(GraspSpec, FingersCloseFirst) {
   EXPECT_THAT(faults("", "mass_g: 50", "  - {kind: lift, steps: 5, distance_mm: 10}\n" + kClose),
               ElementsAre(HasSubstr("motion[0].kind: fingers close first: nothing is held before")));
