@@ -466,16 +466,35 @@ class Hand {
       search[0].expect(shift_m);
       search[1].expect(-shift_m);
     }
+    const auto start_again = [&] {
+      progress_ = before;
+      whole_ = whole_before;
+      world_from_object_ = object_before;
+    };
     StepReport spent;
+    std::optional<Ways> solved;
+    bool gives_up = false;
     while (true) {
-      const Ways ways{search[0].way_m(), search[1].way_m()};
+      const Ways ways = gives_up ? *solved : Ways{search[0].way_m(), search[1].way_m()};
       StepReport done;
-      step(h, ways, hand, 0, done);
+      try {
+        step(h, ways, hand, 0, done);
+      } catch (const SolverError& error) {
+        // Better off balance than not at all.
+        if (!solved || gives_up) throw;
+        log_info("frame {}: {}; the fingers go by a way that could be solved", out_.frames.size(), error.what());
+        gives_up = true;
+        start_again();
+        continue;
+      }
+      solved = ways;
       const Ways grips = grips_n();
-      const double object_m = coupled ? object_way(world_from_object_) : 0.0;
-      search[0].note(grips[0], object_m);
-      search[1].note(grips[1], -object_m);
-      if (search[0].stands() && search[1].stands()) {
+      if (!gives_up) {
+        const double object_m = coupled ? object_way(world_from_object_) : 0.0;
+        search[0].note(grips[0], object_m);
+        search[1].note(grips[1], -object_m);
+      }
+      if (gives_up || (search[0].stands() && search[1].stands())) {
         done.add_earlier(spent);
         done.add_earlier(report);
         report = done;
@@ -486,9 +505,7 @@ class Hand {
       done.time_steps = 0;  // it is the same step
       done.add_earlier(spent);
       spent = done;
-      progress_ = before;
-      whole_ = whole_before;
-      world_from_object_ = object_before;
+      start_again();
       const double shift_m = coupled ? shift_of_object(search, object_n_m, 0.0) : 0.0;
       search[0].correct(shift_m);
       search[1].correct(-shift_m);
