@@ -104,7 +104,10 @@ class Stepping {
     progress_.mount_n = Positions::Zero(mesh_.num_gel_vertices, 3);
     progress_.others.assign(bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     account_ = open_account(model_.mass_kg, instant({}), spec_.gravity_m_s2, model_.elasticity->value(state.x));
-    if (!restored()) finish(-1, {}, stepper.no_forces());
+    if (!restored()) {
+      refuse_overlaps();
+      finish(-1, {}, stepper.no_forces());
+    }
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
     out_.times = stepper.times();
     for (Simulation& gel : out_.gels) gel.times = out_.times;
@@ -404,6 +407,26 @@ class Stepping {
       }
     }
     return static_cast<int>(sum);
+  }
+
+  const Triangles& triangles_of(std::size_t body) const {
+    return body < num_deformable_ ? bodies_[body].tets.boundary : bodies_[body].surface.triangles;
+  }
+
+  /// \throw DataError naming two bodies that intersect where they begin
+  void refuse_overlaps() const {
+    const Positions& x = progress_.state.x;
+    std::vector<Positions> at;
+    for (const Part& part : parts_)
+      at.emplace_back(x.middleRows(part.first_row, bodies_[part.body].tets.num_vertices()));
+    for (const ObjectPart& object : mesh_.objects) at.emplace_back(object.rows(x));
+    // Two that are fixed may share points.
+    for (std::size_t a = 0; a < num_deformable_ + num_rigid_; ++a) {
+      for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
+        if (find_intersections({at[a], triangles_of(a)}, {at[b], triangles_of(b)}).gel_object > 0)
+          throw DataError("bodies {} and {} intersect where they begin", spec_.bodies[a].name, spec_.bodies[b].name);
+      }
+    }
   }
 
   /// How many times bodies wind around others, at most 1 where one is inside another.
