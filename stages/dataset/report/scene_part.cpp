@@ -174,10 +174,10 @@ std::string energy_figure(const SceneReport& scene) {
     const std::array<double, kMostCurves> shown{e[0], e[1], weight, lost};
     for (std::size_t i = 0; i < kMostCurves; ++i) chart.left[i].values.emplace_back(1e3 * shown[i]);
   }
-  return figure(chart,
-                "<b>Energies</b> of all that is free: " + keys({"kinetic", "elastic", "gravitational, since frame 0",
-                                                                "lost by friction, damping and the time integration"},
-                                                               1));
+  return figure(chart, "<b>Energies</b> of all that is free, and the height of what is held: " +
+                           keys({"kinetic", "elastic", "gravitational, since frame 0",
+                                 "lost by friction, damping and the time integration"},
+                                1));
 }
 
 std::string body_list(const SceneBodies& scene) {
