@@ -1,4 +1,4 @@
-"""Unpacks the data of a 3-D view and compares them with the press or the grasp they were made of.
+"""Unpacks the data of a 3-D view and compares them with the press, the grasp or the scene they were made of.
 
     check_view.py VIEW.js FOLDER"""
 import base64
@@ -68,27 +68,57 @@ def check_gel(planes, data, gel, press, world_from_gel):
         assert not picture or f"frame_{data['frames'][f]['frame']:04}/tactile.png" in picture
 
 
+def check_object(planes, data, shown, poses, soft):
+    """Compares a body with its poses, (frames, 4, 4), or a soft one with its vertices, (frames, vertices, 3)."""
+    triangles, count, grid = planes.triangles(shown["triangles"]), shown["vertices"], shown["grid"]
+    assert triangles.min() == 0 and triangles.max() == count - 1
+    frames, steps, top = [facts["frame"] for facts in data["frames"]], np.zeros((count, 3), int), 0
+    rows = None
+    for f in frames if soft is not None else frames[:1]:
+        for axis in range(3):
+            difference = planes.next(count)
+            steps[:, axis] += difference if rows is not None else np.cumsum(difference)
+        top = max(top, steps.max())
+        if soft is None:
+            break
+        there = np.array(grid["low_m"]) + grid["step_m"] * steps
+        if rows is None:
+            rows = np.argmin(np.linalg.norm(there[:, None] - soft[f][None], axis=2), axis=1)
+            assert len(set(rows)) == count
+        assert np.abs(there - soft[f][rows]).max() <= 0.501 * grid["step_m"]
+    assert top == 65535
+    assert np.array_equal(np.array(shown["poses"]), poses.reshape(-1, 16)[frames])
+
+
 def main():
     script, folder = sys.argv[1:3]
     with open(script, encoding="utf-8") as file:
         data = json.loads(file.read().removeprefix("tacipc_view(").rstrip().removesuffix(");"))
     planes = Planes(zlib.decompress(base64.b64decode(data["packed"])))
-    objects = np.load(f"{folder}/object_pose.npy")
-    if os.path.exists(f"{folder}/finger_pose.npy"):
-        fingers = np.load(f"{folder}/finger_pose.npy")
+    soft = {}
+    if os.path.exists(f"{folder}/body_pose.npy"):  # bodies are gels, soft, rigid, fixed ones
+        bodies = np.load(f"{folder}/body_pose.npy")
+        for g, gel in enumerate(data["gels"]):
+            check_gel(planes, data, gel, f"{folder}/gels/{gel['name']}/press", bodies[:, g])
+        for shown in data["objects"]:
+            if shown.get("kind") == "soft":
+                soft[shown["name"]] = np.load(f"{folder}/soft/{shown['name']}/positions.npy")
+        assert len(data["gels"]) + len(data["objects"]) == bodies.shape[1]
+        poses = list(np.moveaxis(bodies[:, len(data["gels"]) + len(soft):], 1, 0))
+        poses += [np.tile(np.eye(4), (len(bodies), 1, 1))] * len(soft)
+    elif os.path.exists(f"{folder}/finger_pose.npy"):
+        poses, fingers = [np.load(f"{folder}/object_pose.npy")], np.load(f"{folder}/finger_pose.npy")
         assert [gel["name"] for gel in data["gels"]] == ["left", "right"]
         for g, gel in enumerate(data["gels"]):
             check_gel(planes, data, gel, f"{folder}/{gel['name']}/press", fingers[:, g])
     else:
+        poses = [np.load(f"{folder}/object_pose.npy")]
         [gel] = data["gels"]
-        check_gel(planes, data, gel, folder, np.tile(np.eye(4), (len(objects), 1, 1)))
-    [shown] = data["objects"]
-    planes.triangles(shown["triangles"])
-    object_steps = [np.cumsum(planes.next(shown["vertices"])) for _ in range(3)]
-    assert max(steps.max() for steps in object_steps) == 65535
+        check_gel(planes, data, gel, folder, np.tile(np.eye(4), (len(poses[0]), 1, 1)))
+    assert len(data["objects"]) == len(poses)
+    for shown, pose in zip(data["objects"], poses):
+        check_object(planes, data, shown, pose, soft.get(shown["name"]))
     assert planes.at == len(planes.data)
-    frames = [facts["frame"] for facts in data["frames"]]
-    assert np.array_equal(np.array(shown["poses"]), objects.reshape(-1, 16)[frames])
 
 
 main()

@@ -123,6 +123,48 @@ std::string motion_figure(const SceneReport& scene) {
                            keys(names, 1 + static_cast<int>(names.size())) + ", both since frame 0");
 }
 
+/// How far a rigid body has gone along the front of a gel since they touch, m; nothing where they do not.
+Curve slip_curve(const SceneBodies& scene, std::size_t gel, std::size_t body) {
+  Curve curve;
+  Vector3 first = Vector3::Zero();
+  bool touched = false;
+  for (std::size_t f = 0; f < scene.per_frame.size(); ++f) {
+    const auto& poses = scene.body_pose[f];
+    if (scene.per_frame[f][gel * scene.bodies.size() + body].force_n.norm() < kSmallestForceN) {
+      touched = false;
+      curve.values.emplace_back();
+      continue;
+    }
+    const Vector3 in_gel = (poses[gel].inverse() * poses[body]).topRightCorner<3, 1>();
+    if (!touched) first = in_gel;
+    touched = true;
+    curve.values.emplace_back((in_gel - first).head<2>().norm());
+  }
+  return curve;
+}
+
+std::string slip_figure(const SceneReport& scene) {
+  Chart chart = over_time(scene.frames, "slip of rigid bodies on gels");
+  chart.left_label = "gone by (mm)";
+  std::vector<std::string> names;
+  const std::size_t count = scene.bodies.bodies.size();
+  for (std::size_t pair = 0; pair < count * count && names.size() < kMostCurves; ++pair) {
+    const std::size_t gel = pair / count, body = pair % count;
+    if (scene.bodies.kinds[gel] != "gel" || scene.bodies.kinds[body] != "rigid") continue;
+    Curve curve = slip_curve(scene.bodies, gel, body);
+    if (std::none_of(curve.values.begin(), curve.values.end(), [](const auto& value) { return value.has_value(); }))
+      continue;
+    for (auto& value : curve.values) {
+      if (value) *value *= 1e3;
+    }
+    chart.left.push_back(std::move(curve));
+    names.push_back(scene.bodies.bodies[body] + " on " + scene.bodies.bodies[gel]);
+  }
+  if (names.empty()) return "";
+  return figure(chart, "<b>Along the front</b> since they touch: " + keys(names, 1) +
+                           ". The origin of the body's own frame; what the gel gives way counts");
+}
+
 std::string energy_figure(const SceneReport& scene) {
   Chart chart = over_time(scene.frames, "energies");
   chart.left_label = "energy (mJ)";
@@ -132,10 +174,10 @@ std::string energy_figure(const SceneReport& scene) {
     const std::array<double, kMostCurves> shown{e[0], e[1], weight, lost};
     for (std::size_t i = 0; i < kMostCurves; ++i) chart.left[i].values.emplace_back(1e3 * shown[i]);
   }
-  return figure(chart,
-                "<b>Energies</b> of all that is free: " + keys({"kinetic", "elastic", "gravitational, since frame 0",
-                                                                "lost by friction, damping and the time integration"},
-                                                               1));
+  return figure(chart, "<b>Energies</b> of all that is free, and the height of what is held: " +
+                           keys({"kinetic", "elastic", "gravitational, since frame 0",
+                                 "lost by friction, damping and the time integration"},
+                                1));
 }
 
 std::string body_list(const SceneBodies& scene) {
@@ -173,7 +215,8 @@ PageWords scene_words(const SceneReport& scene) {
                                "gels, one above the other, over time\"></a></figure>\n<div class=\"pictures\">\n",
                                kSceneId, body_list(scene.bodies), scene.has_view ? " " + view_link(kSceneId) + "." : "",
                                kSceneStrip, kSceneStrip) +
-                   force_figure(scene) + motion_figure(scene) + energy_figure(scene) + "</div>\n</section>\n"};
+                   force_figure(scene) + motion_figure(scene) + slip_figure(scene) + energy_figure(scene) +
+                   "</div>\n</section>\n"};
 }
 
 std::vector<std::string> scene_texts(const SceneReport& scene, const SceneView& view) {

@@ -111,8 +111,10 @@ class Stepping {
     progress_.mount_n = Positions::Zero(mesh_.num_gel_vertices, 3);
     progress_.others.assign(bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     account_ = open_account(model_.mass_kg, instant({}), spec_.gravity_m_s2, model_.elasticity->value(state.x));
-    require_apart();
-    if (!restored()) finish(-1, {}, stepper.no_forces());
+    if (!restored()) {
+      require_apart();
+      finish(-1, {}, stepper.no_forces());
+    }
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
     out_.times = stepper.times();
     for (Simulation& gel : out_.gels) gel.times = out_.times;
@@ -484,7 +486,7 @@ class Stepping {
     return 0;
   }
 
-  /// Two bodies in frame 0 that are as near as contact reaches, as an error.
+  /// \throw DataError naming two bodies that intersect where they begin, or are as near as contact reaches
   void require_apart() const {
     const Positions& x = progress_.state.x;
     const Positions still = Positions::Zero(x.rows(), 3);
@@ -492,6 +494,8 @@ class Stepping {
     for (std::size_t a = 0; a < bodies_.size(); ++a) {
       for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
         if (is_fixed(a)) continue;
+        if (find_intersections(shape_of(a, x).view(), shape_of(b, x).view()).gel_object > 0)
+          throw DataError("bodies {} and {} intersect where they begin", name(a), name(b));
         const double d_hat = scales_.d_hat_m * mesh_.laws[a * bodies_.size() + b].d_hat;
         std::vector<ContactPair> pairs;
         pairs_between(surfaces[a], surfaces[b], x, still, d_hat, pairs);

@@ -90,7 +90,8 @@ TEST_F(ReportStageTest, AFolderThatIsMissingOrNoSampleIsRefused) {
   EXPECT_FALSE(fs::exists(scratch_ / "out/demo/report/index.html"));
   EXPECT_EQ(run({}, "out/demo/report"), 2);
   EXPECT_EQ(said_,
-            "report: error: give either --sample, once per sample, or --grasp, or --scene, or --plan, --dataset and --config of a "
+            "report: error: give either --sample, once per sample, or --grasp, or --scene, or --plan, --dataset and "
+            "--config of a "
             "dataset\n");
 }
 

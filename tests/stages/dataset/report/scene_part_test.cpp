@@ -25,6 +25,7 @@ TEST_F(ScenePartTest, ThePageNamesBodiesAndThePairsThatPush) {
   EXPECT_THAT(html, HasSubstr(curve_key(1) + "pad and peg, " + curve_key(2) + "peg and wall</figcaption>"));
   EXPECT_THAT(html, Not(HasSubstr("pad and ball")));
   EXPECT_THAT(html, HasSubstr("height of " + curve_key(1) + "peg; turn of " + curve_key(2) + "peg"));
+  EXPECT_THAT(html, HasSubstr("<b>Along the front</b> since they touch: " + curve_key(1) + "peg on pad."));
   EXPECT_THAT(html, HasSubstr("<title>phase 1</title>"));
   EXPECT_THAT(html, Not(HasSubstr("view.html")));
   scene.has_view = true;

@@ -174,6 +174,8 @@ TEST_F(SceneOf, WhatItCannotBeIsSaidBeforeItStarts) {
   config_.friction.reset();
   EXPECT_THAT(message(), HasSubstr("no section friction"));
   spec_.contact.clear();
+  spec_.bodies[1].world_from_body = at({0, 0, 2.9e-3});
+  EXPECT_THAT(message(), HasSubstr("bodies gel and box intersect where they begin"));
   bodies_[1].surface.triangles.conservativeResize(11, 3);
   EXPECT_THAT(message(), HasSubstr("not closed"));
 }

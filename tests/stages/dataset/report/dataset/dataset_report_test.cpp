@@ -166,9 +166,8 @@ TEST_F(DatasetReportTest, SamplesAndADatasetAreNotMixed) {
   const DatasetFolder data(scratch_ / "", 1);
   data.make(0);
   EXPECT_EQ(report(data, "--sample " + data.sample(0).string()), 2);
-  EXPECT_THAT(
-      said_,
-      HasSubstr("give either --sample, once per sample, or --grasp, or --scene, or --plan, --dataset and --config of a dataset"));
+  EXPECT_THAT(said_, HasSubstr("give either --sample, once per sample, or --grasp, or --scene, or --plan, --dataset "
+                               "and --config of a dataset"));
   EXPECT_EQ(run_command(fmt::format("{}/report --out {}", TACIPC_BIN_DIR, (scratch_ / "out").string())), 2);
   write_file(config_, "{made: 2, faled: 5, rows: 10, sheet: 2, picture_px: 32, thumb_px: 16}\n");
   EXPECT_EQ(report(data), 2);

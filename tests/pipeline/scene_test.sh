@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# The goal scene on the three shipped examples: each passes its verdict and does what it is called; the same bytes on one thread and two, and
+# after a kill; nothing to do a second time; wrong files and names are told.
+. "$(dirname "$0")/common.sh"
+bin=$build_dir/bin
+
+scene() { # scene OUT EXAMPLE [VARIABLE=value …]
+  local out=$1 file=$2
+  shift 2
+  make -s -f Makefile.data scene SCENE="configs/scenes/$file.yaml" MESH=tiny OUT="$out" BUILD="$build_dir" PACKAGES=no "$@" > said.txt 2>&1
+}
+# Debian's Python, which has numpy.
+number() { # number FOLDER EXPRESSION: of its arrays pose (frames, bodies, 4, 4; mm) and force (frames, bodies, bodies, 3; N)
+  /usr/bin/python3 -c "import numpy as np
+pose, force = 1e3 * np.load('$1/body_pose.npy')[..., :3, 3], np.load('$1/wrench.npy')[..., :3]
+exit(0 if $2 else f'$2: {force[-1].tolist()} {pose[-1].tolist()}')"
+}
+
+for example in lift_block soft_ball peg_in_hole; do
+  scene one $example THREADS=1 || { tail -5 said.txt >&2; fail "$example: the goal failed"; }
+  folder=one/scene/$example
+  [ "$("$bin/tacipc" get $folder/press.yaml summary.verdict)" = pass ] || fail "$example: its verdict is not pass"
+  frames=$("$bin/tacipc" get $folder/press.yaml summary.frames)
+  for gel in "$folder"/gels/*; do
+    [ "$("$bin/tacipc" get "$gel/press/press.yaml" summary.verdict)" = pass ] || fail "$gel: its verdict is not pass"
+    [ "$(find "$gel/render" -maxdepth 1 -name 'frame_*' | wc -l)" = "$frames" ] || fail "$gel: not every frame was rendered"
+    grep -q "<a href=\"view.html#scene/$(basename "$gel")\">" $folder/report/index.html || fail "$gel: no link to it in 3-D"
+  done
+  for file in index.html scene_strip.png view.html; do [ -s $folder/report/$file ] || fail "$example: $file is missing"; done
+  /usr/bin/python3 "$source_dir/tests/pipeline/check_view.py" $folder/report/view/scene.js $folder
+done
+# Bodies are left, right, block, table; gel, ball, plate; left, right, peg, hole.
+number one/scene/lift_block 'abs(pose[-1, 2, 2] - 5) < 0.1 and force[-1, 2, 3].any() == 0' || fail "the block was not lifted"
+number one/scene/lift_block 'abs(force[-1, 2, :2, 2].sum() - 0.02 * 9.81) < 0.002' || fail "the gels do not carry the block"
+number one/scene/soft_ball 'force[20, 1, 0, 2] > 0.2 and abs(force[20, 1, :, 2].sum() - force[0, 1, :, 2].sum() - 0.003) < 0.001' || fail "the ball is not pressed between gel and plate"
+number one/scene/peg_in_hole 'abs(pose[-1, 2, 2] + 14) < 0.2 and 0.05 < pose[-1, 2, 1] < 0.15' || fail "the peg is not in the hole"
+browsed=0
+/usr/bin/python3 "$source_dir/tests/pipeline/browse_view.py" one/scene/peg_in_hole/report "$build_dir/tests/pipeline/scene_view_screenshots" || browsed=$?
+[ "$browsed" = 0 ] || [ "$browsed" = 77 ] || fail "the view has faults"
+
+before=$(find one -name '*.yaml' -printf '%p %T@\n' | sort)
+for example in lift_block soft_ball peg_in_hole; do scene one $example THREADS=1 || fail "a second run failed"; done
+[ "$before" = "$(find one -name '*.yaml' -printf '%p %T@\n' | sort)" ] || fail "a second run did something"
+make -s -f Makefile.data export SAMPLE=one/scene/soft_ball OUT=one BUILD="$build_dir" PACKAGES=no > said.txt 2>&1 || { tail -5 said.txt >&2; fail "export failed"; }
+for file in surface_gel_0034.vtu object_plate_0034.vtu soft_ball_0034.vtu soft.pvd sample.glb; do [ -s one/scene/soft_ball/export/$file ] || fail "$file is missing"; done
+
+# Killed once some frames are there, on another number of threads.
+of_all=("$bin/press" --config configs/press/default.yaml --sensor configs/sensors/mctac.yaml --gel one/gels/mctac-tiny/gel.msh)
+press() { # press OUT SCENE [FLAG …]
+  "${of_all[@]}" --out "$1" --sample "$2" "${@:3}"
+}
+soft=(--soft one/scene/soft_ball/tets --name soft_ball)
+"${of_all[@]}" --out killed --sample configs/scenes/soft_ball.yaml "${soft[@]}" --threads 2 > said.txt 2>&1 &
+killed=$!
+for _ in $(seq 4000); do [ ! -e killed/.partial-press/.scratch/bodies_00012 ] || break; sleep 0.005; done
+kill -KILL $killed 2> /dev/null || fail "the press was over before it could be killed"
+wait $killed 2> /dev/null || :
+press killed configs/scenes/soft_ball.yaml "${soft[@]}" --threads 1 > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the run after a kill failed"; }
+grep -q 'frame 12/34 resumed' said.txt || fail "it did not go on where it was"
+for file in body_pose.npy wrench.npy energy.npy momentum.npy soft/ball/positions.npy gels/gel/press/contact_force.npy; do
+  cmp killed/$file one/scene/soft_ball/$file || fail "$file is another one after a kill"
+done
+
+wrong() { # wrong CODE MESSAGE COMMAND …
+  local code=$1 message=$2 got=0
+  shift 2
+  "$@" > said.txt 2>&1 || got=$?
+  [ $got = "$code" ] || { tail -5 said.txt >&2; fail "$*: ended with $got instead of $code"; }
+  grep -qF -- "$message" said.txt || { tail -5 said.txt >&2; fail "$*: not said: $message"; }
+}
+changed() { sed "$2" "configs/scenes/$1.yaml" > "configs/scenes/$3.yaml"; }
+changed peg_in_hole 's/body: left/body: lift/' unknown
+wrong 2 "configs/scenes/unknown.yaml:13:16: motion[0].move[0].body: 'lift' is not one of left, right, peg, hole" press five configs/scenes/unknown.yaml
+changed peg_in_hole 's/hole\.off/gone.off/' gone
+wrong 2 'body hole: mesh: configs/scenes/meshes/gone.off does not exist' press five configs/scenes/gone.yaml
+wrong 2 'names '"'configs/scenes/meshes/gone.off'"', which does not exist' make -s -f Makefile.data scene SCENE=configs/scenes/gone.yaml MESH=tiny OUT=five BUILD="$build_dir" PACKAGES=no
+wrong 2 'body ball: configs/scenes/meshes/ball.off is a surface' press five configs/scenes/soft_ball.yaml
+changed lift_block 's/at_mm: \[0, 0, -18.012\]/at_mm: [0, 0, -17.9]/' overlap
+wrong 1 'bodies block and table intersect where they begin' press five configs/scenes/overlap.yaml
+changed soft_ball 's#meshes/ball.off#../../one/gels/mctac-tiny/gel.msh#' no_soft
+wrong 1 'is the mesh of a gel, expected that of a soft object' press five configs/scenes/no_soft.yaml
+changed soft_ball 's#meshes/ball.off#meshes/plate.off#' other
+wrong 1 'is of another surface than configs/scenes/meshes/plate.off' press five configs/scenes/other.yaml "${soft[@]}"
+wrong 2 '--object and --object-config: the bodies of a scene are named in its file' press five configs/scenes/peg_in_hole.yaml --object configs/scenes/meshes/ball.off
+wrong 2 '--object is missing' press five configs/motions/press_0500um.yaml
+[ ! -e five/press.yaml ] || fail "a wrong scene left a record"
+make_says() { wrong 2 "$1" make -s -f Makefile.data scene OUT=five BUILD="$build_dir" PACKAGES=no "${@:2}"; }
+make_says 'scene: say which scene'
+make_says 'SCENE: nothing.yaml does not exist' SCENE=nothing.yaml
+make_says 'DEPTH_MM: has no effect on a scene' SCENE=configs/scenes/soft_ball.yaml DEPTH_MM=1
+make_says 'SOFT: there is no configs/gels/finest.yaml' SCENE=configs/scenes/soft_ball.yaml SOFT=finest
+make_says 'configs/press/default.yaml: bodies: there is no such key' SCENE=configs/press/default.yaml
+echo "1 passed, 0 failed"
