@@ -345,9 +345,11 @@ class Hand {
         for (int k = 0; k < phase.substeps; ++k) {
           const int i = (f - 1) * phase.substeps + k;
           set_goal(phase, (i + 1.0) / steps, from);
+          enough_n_ = closes && !phase.width_m && i + 1 < steps ? phase.force_n : 0.0;
           time_step(phase, h, hand_in(phase, (i + 1.0) / steps, (i + 1) * h) - hand_in(phase, 1.0 * i / steps, i * h),
                     report);
         }
+        enough_n_ = 0.0;
         // The object does not wait: it is held until the fingers have their grip.
         for (int more = 0; goes_on && last && !lost() && !arrived(); ++more) {
           if (more == kMostClosingSteps) throw_not_closed();
@@ -494,7 +496,9 @@ class Hand {
         search[0].note(grips[0], object_m);
         search[1].note(grips[1], -object_m);
       }
-      if (gives_up || (search[0].stands() && search[1].stands())) {
+      // On the way to a grip, with the object still held, nothing hangs on how fast that grows.
+      const bool enough = !is_free() && spec_.mount.none() && std::max(grips[0], grips[1]) <= enough_n_;
+      if (gives_up || enough || (search[0].stands() && search[1].stands())) {
         done.add_earlier(spent);
         done.add_earlier(report);
         report = done;
@@ -658,6 +662,7 @@ class Hand {
   Matrix4 world_from_object_;
   double time_s_ = 0.0;
   int num_frames_ = 0;
+  double enough_n_ = 0.0;  // while the fingers close on a held object, a grip up to this needs no second try
   std::optional<std::size_t> grip_frame_;
   bool restoring_ = true;
 };
