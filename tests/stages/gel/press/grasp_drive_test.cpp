@@ -137,8 +137,9 @@ TEST(GraspDrive, EachPressesBothSidesAlike) {
       const double left = each.frames[f].grip_n(0), right = each.frames[f].grip_n(1);
       EXPECT_NEAR(left, right, 0.02 * kGrip_n) << mass_kg << " " << f;
     }
-    // The knob is pressed in farther than the face.
-    EXPECT_GT(each.frames.back().drives[1].closed_m, each.frames.back().drives[0].closed_m + 5e-5) << mass_kg;
+    // The knob is pressed in farther than the face. Later, without damping, both drift with the object.
+    const auto& drives = each.frames[each.freed_frame].drives;
+    EXPECT_GT(drives[1].closed_m, drives[0].closed_m + 5e-5) << mass_kg;
   }
 }
 
