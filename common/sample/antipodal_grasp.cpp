@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kTries = 4000;  // places of the surface, after which an object counts as not to be gripped
 constexpr int kRim = 8;       // points on the rim of a patch
+constexpr int kHalvings = 3;  // of a patch that no place has, after which none is asked for
 constexpr int kCorners = 16;  // of the polygon around a round front
 constexpr double kRounding = 1e-9;
 constexpr double kUnit = 1e-6;  // by which the length of a quaternion may differ from 1
@@ -186,8 +187,11 @@ GraspDraw GraspDraw::read_limits(ConfigReader& in) {
   return draw;
 }
 
-GraspPose draw_grasp(const TriangleMesh& object, const Vector3& center_of_mass_m, const GelShape& front,
-                     double friction, const GraspDraw& draw) {
+namespace {
+
+/// \throw DataError if no place has a patch as wide as `draw` asks for
+GraspPose draw_with_patch(const TriangleMesh& object, const Vector3& center_of_mass_m, const GelShape& front,
+                          double friction, const GraspDraw& draw) {
   std::vector<double> area_up_to;
   std::vector<Vector3> normals;
   for (Eigen::Index t = 0; t < object.num_triangles(); ++t) {
@@ -237,11 +241,27 @@ GraspPose draw_grasp(const TriangleMesh& object, const Vector3& center_of_mass_m
     }
     ++found;
     pose.width_m = width;
+    pose.patch_m = draw.patch_m;
     pose.grip_m = p + 0.5 * width * line - center_of_mass_m;
     if (!best || pose.lever_m() < best->lever_m()) best = pose;
   }
   if (!best) throw DataError("{}", why_none(ruled, friction, draw));
   return *best;
+}
+
+}  // namespace
+
+GraspPose draw_grasp(const TriangleMesh& object, const Vector3& center_of_mass_m, const GelShape& front,
+                     double friction, const GraspDraw& draw) {
+  GraspDraw narrower = draw;
+  for (int halvings = 0;; ++halvings) {
+    try {
+      return draw_with_patch(object, center_of_mass_m, front, friction, narrower);
+    } catch (const DataError&) {
+      if (narrower.patch_m == 0.0) throw;
+    }
+    narrower.patch_m = halvings < kHalvings ? 0.5 * narrower.patch_m : 0.0;
+  }
 }
 
 }  // namespace tacipc

@@ -18,7 +18,8 @@ Eigen::Quaterniond read_rotation(ConfigReader& in);
 struct GraspPose {
   Matrix3 world_from_object = Matrix3::Identity();
   Vector3 grip_m = Vector3::Zero();  // from the centre of mass, in the object's axes
-  std::optional<double> width_m;     // of a drawn one: distance of the two contact points
+  std::optional<double> width_m;     // of a drawn one: distance of the two contact points,
+  std::optional<double> patch_m;     // and how wide a patch was asked for in the end
 
   /// Distance of the centre of mass from the line on which the fingers press.
   double lever_m() const;
@@ -30,8 +31,8 @@ struct GraspDraw {
   int best_of = 1;  // the smallest lever of so many
   bool upright =
       false;  // z of the object looks up as far as the grasp lets it, else it is turned about the grasp's line
-  double least_width_m = 2e-3, most_width_m = 80e-3;
-  double patch_m = 5e-3;    // across
+  double least_width_m = 0.5e-3, most_width_m = 80e-3;
+  double patch_m = 5e-3;    // across, halved three times and then left out as long as no place has one
   double depth_m = 0.5e-3;  // that the fronts may be pressed in to reach a patch
 
   static GraspDraw read(ConfigReader& in);

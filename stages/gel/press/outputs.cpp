@@ -250,6 +250,7 @@ Value::Map pose_lines(const GraspPose& pose) {
                    {"grip_m", Value::List{pose.grip_m.x(), pose.grip_m.y(), pose.grip_m.z()}},
                    {"lever_m", pose.lever_m()}};
   if (pose.width_m) lines.emplace_back("width_m", *pose.width_m);
+  if (pose.patch_m) lines.emplace_back("patch_m", *pose.patch_m);
   return lines;
 }
 

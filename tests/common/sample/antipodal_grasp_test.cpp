@@ -218,14 +218,21 @@ TEST(AntipodalGrasp, ADomeOrDiscIsAsWideAsItsOutline) {
 
 TEST(AntipodalGrasp, WhatCannotBeGrippedSaysWhy) {
   EXPECT_THAT(refusal(make_box({0, 0, 0}, {0.09, 0.1, 0.11}), {}), HasSubstr("4000 wider than 80 mm"));
-  EXPECT_THAT(refusal(make_box({0, 0, 0}, {0.09, 0.1, 0.001}), {}),
+  EXPECT_THAT(refusal(make_box({0, 0, 0}, {0.09, 0.1, 0.001}), {.least_width_m = 2e-3}),
               AllOf(HasSubstr("wider than 80 mm"), HasSubstr("narrower than 2 mm")));
   const GraspDraw yielding{.patch_m = 0.0, .depth_m = 0.02};
   EXPECT_THAT(refusal(steep_cone(0.02), yielding),
               HasSubstr("with the other side's normal outside the friction cone of 26.6°"));
   EXPECT_EQ(refusal(steep_cone(0.02), yielding, 1.2), "");
-  EXPECT_THAT(refusal(ball(0.004), {}), HasSubstr("4000 without a patch of 5 mm within a depth of 0.5 mm"));
-  EXPECT_EQ(refusal(ball(0.004), {.patch_m = 2e-3}), "");
+}
+
+TEST(AntipodalGrasp, TakesANarrowerPatchWhereNoPlaceHasTheOneAskedFor) {
+  const auto patch_of = [](const TriangleMesh& object) {
+    return draw_grasp(object, Vector3::Zero(), kFront, kFriction, {}).patch_m.value();
+  };
+  EXPECT_EQ(patch_of(make_box({-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01})), 5e-3);
+  EXPECT_EQ(patch_of(ball(0.004)), 2.5e-3);  // 0.5 mm below its top it is 4 mm wide
+  EXPECT_EQ(patch_of(ball(0.0005)), 0.625e-3);
 }
 
 TEST(AntipodalGrasp, LimitsOfTheHandAreRead) {

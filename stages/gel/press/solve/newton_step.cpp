@@ -193,6 +193,7 @@ std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic,
     assemble(part, x, free_, first_object_vertex_, Order::psd, call.object.of_vertices, system_);
   if (mounts_move) system_.coupling -= system_.hessian.multiply(along);
   const Eigen::Matrix3Xd without_contact = gradient_sums();
+  const Eigen::VectorXd gradient_before = free_.gel_without_mount.empty() ? Eigen::VectorXd() : system_.gradient;
   Eigen::Matrix3Xd so_far = without_contact, of_barrier = 0.0 * without_contact;
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
     assemble_contact(contact.weight, *contact.term, active, x, free_, first_object_vertex_, blend, call.object,
@@ -209,6 +210,7 @@ std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic,
   std::vector<double> touches;
   for (Eigen::Index i = 0; i < so_far.cols(); ++i)
     touches.push_back(std::min(of_barrier.col(i).norm(), (so_far - without_contact).col(i).norm()));
+  measure_squeezed(gradient_before, touches);
   return touches;
 }
 
@@ -348,6 +350,20 @@ void NewtonStepper::measure_bodies(const Positions& x, NewtonDirection& out) con
   }
 }
 
+void NewtonStepper::measure_squeezed(const Eigen::VectorXd& gradient_before, std::vector<double>& touches) const {
+  const std::vector<bool>& soft = free_.gel_without_mount;
+  if (std::none_of(soft.begin(), soft.end(), [](bool is) { return is; })) return;
+  std::vector<double> sums(soft.size(), 0.0);
+  const int points = BlockPattern::kBodyRows * static_cast<int>(free_.carried.size());
+  for (int i = 0; i < free_.size() - points; ++i) {
+    const auto gel = static_cast<std::size_t>(free_.gel_of_vertex[static_cast<std::size_t>(free_.vertex_of_free[i])]);
+    if (soft[gel]) sums[gel] += (system_.gradient - gradient_before).segment<3>(3 * i).norm();
+  }
+  for (std::size_t g = 0; g < soft.size(); ++g) {
+    if (soft[g]) touches[g] = 0.5 * sums[g];
+  }
+}
+
 void NewtonStepper::measure_gels(const std::vector<double>& touches, NewtonDirection& out) const {
   const std::vector<int>& gels = free_.gel_of_vertex;
   out.contact_sum = least_touch(touches, num_gels(), free_.gel_without_mount);
@@ -362,8 +378,7 @@ void NewtonStepper::measure_gels(const std::vector<double>& touches, NewtonDirec
     if (!gels.empty()) out.gels[static_cast<std::size_t>(gels[static_cast<std::size_t>(v)])].gradient_sum += norm;
   }
   for (std::size_t g = 0; g < out.gels.size(); ++g) {
-    const bool soft = !free_.gel_without_mount.empty() && free_.gel_without_mount[g];
-    out.gels[g].contact_sum = soft ? std::max(touches[g], out.contact_sum) : touches[g];
+    out.gels[g].contact_sum = touches[g];
   }
 }
 

@@ -42,8 +42,7 @@ struct NewtonDirection {
     double force, torque;
   };
   std::vector<Body> bodies;
-  /// gradient_sum and contact_sum of each of several gels, for each is measured by its own; of a body without a mount
-  /// the latter is at least that of the least touched gel.
+  /// gradient_sum and contact_sum of each of several gels, for each is measured by its own.
   struct Gel {
     double gradient_sum = 0.0, contact_sum = 0.0;
   };
@@ -140,6 +139,9 @@ class NewtonStepper {
   Eigen::Index num_object_rows(const Positions& x) const {
     return x.rows() - first_object_vertex_ - free_.num_control_points;
   }
+  /// Of bodies without a mount: half of Σ |gradient of contact| over their vertices, for those that squeeze one cancel
+  /// in its sum. \param gradient_before the system's without contact
+  void measure_squeezed(const Eigen::VectorXd& gradient_before, std::vector<double>& touches) const;
   /// Sums of NewtonDirection over the gels' part of the system's gradient.
   void measure_gels(const std::vector<double>& touches, NewtonDirection& out) const;
   /// NewtonDirection::bodies, of the system's gradient.

@@ -85,7 +85,7 @@ motion:
 )",
                   {0.5, 0.5, 0.25, 0.75}),
             R"(fingers:
-  draw: {seed: 7, best_of: 3, upright: false, width_mm: [2, 80], patch_mm: 4, depth_mm: 0.5}
+  draw: {seed: 7, best_of: 3, upright: false, width_mm: [0.5, 80], patch_mm: 4, depth_mm: 0.5}
   closing_speed_mm_s: 15
   gravity_m_s2: [0, 0, -9.81]
 object: {friction_margin: 1.5}

@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/placement.h"
+#include "stages/gel/press/energy/elasticity.h"
 #include "tests/stages/gel/press/grasp_scene.h"
 
 namespace tacipc {
@@ -205,6 +206,24 @@ TEST_F(SceneOf, ASoftBallOfAnotherMaterialIsHeldByTwoGels) {
   const double rose = end.soft_m[0].col(2).mean() - gripped.soft_m[0].col(2).mean();
   EXPECT_NEAR(rose, 2e-3, 0.1e-3);
   EXPECT_LT(end.whole.momentum_residual_n, 2e-3 * grip);
+}
+
+TEST_F(SceneOf, ALightSoftBodyIsBalancedBesideAHardPress) {
+  add_gel("gel", at(Vector3::Zero()));
+  TetMesh block = block_gel(2, 4e-3, 4e-3);
+  std::fill(block.tags.begin(), block.tags.end(), BoundaryTag::free);
+  spec_.bodies.push_back({.name = "block", .kind = BodyKind::soft, .world_from_body = at({-6e-3, 0, 4.1e-3})});
+  bodies_.push_back({.tets = block, .material = paper_sensor().material});
+  add_box("press", BodyKind::rigid, {5e-3, 0, 3.1e-3});
+  spec_.motion = {{.steps = 20, .move = {{.body = 2, .by_m = {0, 0, -0.6e-3}}}}};
+  const Scene scene = run();  // each frame passes its verdict
+  double mass = 0.0;
+  for (const double of_vertex : lumped_masses(block.tets, make_rest_tets(block.positions, block.tets),
+                                              block.num_vertices(), paper_sensor().material.density_kg_m3))
+    mass += of_vertex;
+  const SceneFrame& end = scene.frames.back();
+  EXPECT_GT(on(end, 0, 2).force_n.norm(), 1.0);
+  EXPECT_NEAR(on(end, 1, 0).force_n.z(), mass * kG, 0.3 * mass * kG);
 }
 
 TEST_F(SceneOf, FixedBodiesMayShareFacesAndOneInsideAnotherIsFine) {
