@@ -93,7 +93,10 @@ GraspPose GraspSpec::pose_of(const TriangleMesh& object, const MassProperties& m
                              double friction) const {
   if (draw) return draw_grasp(object, mass.center_m, front, friction, *draw);
   const Matrix3 turn = Eigen::AngleAxisd(turn_rad, Vector3::UnitZ()).toRotationMatrix();
-  return {.world_from_object = turn * rotation.toRotationMatrix(), .grip_m = grip_m, .width_m = std::nullopt, .patch_m = std::nullopt};
+  return {.world_from_object = turn * rotation.toRotationMatrix(),
+          .grip_m = grip_m,
+          .width_m = std::nullopt,
+          .patch_m = std::nullopt};
 }
 
 double GraspSpec::density_of(double volume_m3, double friction) const {
