@@ -24,7 +24,8 @@ count=0
 ends() { # ends CODE GOAL… [VARIABLE=value …]
   local code=$1 got=0
   shift
-  make -s -f Makefile.data "$@" REFINEMENT_STUDIES='time_step d_hat' SHARED=no_such_folder OUT=out BUILD="$build_dir" PACKAGES=no >log.txt 2>&1 || got=$?
+  make -s -f Makefile.data "$@" REFINEMENT_STUDIES='time_step d_hat' FREE_OBJECT_TESTS='stages/gel/press/press_test=RigidMotion.*' SHARED=no_such_folder OUT=out \
+    BUILD="$build_dir" PACKAGES=no >log.txt 2>&1 || got=$?
   [ "$got" = "$code" ] || { cat log.txt; fail "'make $*' ended with $got, expected $code"; }
   count=$((count + 1))
 }
