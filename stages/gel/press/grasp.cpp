@@ -1,6 +1,5 @@
 #include "stages/gel/press/grasp.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +9,10 @@
 #include "common/mesh/mass_properties.h"
 #include "common/sample/placement.h"
 #include "stages/gel/press/checkpoint.h"
+#include "stages/gel/press/divided_step.h"
 #include "stages/gel/press/gel_frame.h"
+#include "stages/gel/press/grasp_outcome.h"
+#include "stages/gel/press/rigid_way.h"
 #include "stages/gel/press/setup.h"
 
 namespace tacipc {
@@ -19,10 +21,6 @@ namespace {
 constexpr int kMostClosingSteps = 200;  // after the frames of a phase in which fingers close
 constexpr double kMostTurn_rad = 0.2;   // of the hand in a time step: a straight path cuts 0.5 % off at most
 constexpr double kUneven = 0.1;         // of both grips together, by which one may exceed the other without a warning
-// Outcome: a held object has slipped or turned from here on; one that rose by less than a part of the hand's way is
-// dropped.
-constexpr double kSlipped_m = 1e-3, kTurned_rad = 5.0 * std::numbers::pi / 180.0, kDroppedPart = 0.2;
-
 /// z of S is x of the world for the left finger and −x for the right one; the images' down, y, is the world's.
 Matrix3 world_from_finger(int side) {
   const Vector3 z = side == 0 ? Vector3::UnitX() : Vector3(-Vector3::UnitX()), y = -Vector3::UnitZ();
@@ -33,30 +31,6 @@ Matrix3 world_from_finger(int side) {
 
 /// How far the fingers close.
 using Ways = std::array<double, 2>;
-
-/// How the hand moves in a time step: by a way, and about its origin by a rotation vector.
-struct HandMotion {
-  Vector3 shift_m = Vector3::Zero(), turn_rad = Vector3::Zero();
-
-  HandMotion operator*(double part) const { return {part * shift_m, part * turn_rad}; }
-  HandMotion operator-(const HandMotion& other) const { return {shift_m - other.shift_m, turn_rad - other.turn_rad}; }
-  Matrix3 turn() const {
-    const double angle = turn_rad.norm();
-    if (angle == 0.0) return Matrix3::Identity();
-    return Eigen::AngleAxisd(angle, turn_rad / angle).toRotationMatrix();
-  }
-};
-
-/// The hand's pose after that.
-Matrix4 moved(const Matrix4& world_from_hand, const HandMotion& by) {
-  Matrix4 pose = world_from_hand;
-  pose.topRightCorner<3, 1>() += by.shift_m;
-  if (by.turn_rad != Vector3::Zero()) {
-    const Matrix3 R = by.turn() * world_from_hand.topLeftCorner<3, 3>();
-    pose.topLeftCorner<3, 3>() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
-  }
-  return pose;
-}
 
 /// How hard a finger is pressed by a force.
 double pressing_n(const Vector3& force_n, const Matrix4& world_from_finger) {
@@ -224,7 +198,7 @@ class Hand {
 
   /// One time step, in which the hand moves and the fingers close; divided where it turns too far for straight paths of
   /// the vertices, or does not converge.
-  void step(double h, const Ways& closing_m, const HandMotion& hand, int halvings, StepReport& report) {
+  void step(double h, const Ways& closing_m, const RigidWay& hand, int halvings, StepReport& report) {
     if (hand.turn_rad.norm() > kMostTurn_rad) return both_halves(h, closing_m, hand, halvings, report);
     const Ways closed{progress_.drives[0].closed_m + closing_m[0], progress_.drives[1].closed_m + closing_m[1]};
     const Matrix4 to = moved(progress_.world_from_hand, hand);
@@ -238,12 +212,12 @@ class Hand {
                   .free_object = is_free(),
                   .gel_motion = target - start,
                   .glued_target = target(glued_, Eigen::all),
-                  .hand_motion = motion_of(hand),
+                  .hand_motion = motion_of_world(progress_.world_from_hand, hand),
                   .world_from_gel = {poses[0].topLeftCorner<3, 3>(), poses[1].topLeftCorner<3, 3>()},
                   .control_target = control_at(world_from_object_)};
     if (goal.gel_motion.isZero(0.0)) goal.gel_motion.resize(0, 3);
     const WholeInstant at_start = instant();
-    try {
+    const auto advance = [&] {
       const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
@@ -251,17 +225,13 @@ class Hand {
       progress_.world_from_hand = to;
       note_step(at_start, h);
       if (is_free()) world_from_object_ = pose_of(*body_, mesh_.control_rows(progress_.state.x));
-      const StepReport earlier = report;
-      report = done;
-      report.add_earlier(earlier);
-    } catch (const SolverError& error) {
-      if (halvings >= config_.max_halvings) throw;
-      log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
-      both_halves(h, closing_m, hand, halvings + 1, report);
-    }
+      return done;
+    };
+    advance_or_divide(out_.frames.size(), halvings, config_.max_halvings, report, advance,
+                      [&](int deeper) { both_halves(h, closing_m, hand, deeper, report); });
   }
 
-  void both_halves(double h, const Ways& closing_m, const HandMotion& hand, int halvings, StepReport& report) {
+  void both_halves(double h, const Ways& closing_m, const RigidWay& hand, int halvings, StepReport& report) {
     for (int half = 0; half < 2; ++half)
       step(0.5 * h, {0.5 * closing_m[0], 0.5 * closing_m[1]}, hand * 0.5, halvings, report);
   }
@@ -277,13 +247,7 @@ class Hand {
   void note_step(const WholeInstant& before, double h) {
     const StepForces& forces = stepper_->forces();
     const WholeInstant after = instant();
-    StepExchange exchange{.h_s = h,
-                          .mount_n = forces.mount,
-                          .mount_before_n = progress_.mount_n,
-                          .elastic_j = model_.elasticity->value(progress_.state.x),
-                          .contact_j = forces.contact_j,
-                          .friction_loss_j = forces.friction_loss_j,
-                          .damping_loss_j = forces.damping_loss_j};
+    StepExchange exchange = exchange_of(h, forces, progress_.mount_n, model_.elasticity->value(progress_.state.x));
     if (!is_free()) {
       // Whoever holds the object passes its contact forces on, and does no work: it rests.
       for (Eigen::Index v = 0; v < after.gel_m.rows(); ++v) {
@@ -296,19 +260,10 @@ class Hand {
     progress_.mount_n = forces.mount;
   }
 
-  /// The rigid motion of the world that takes the hand along.
-  Matrix4 motion_of(const HandMotion& hand) const {
-    const Vector3 at = progress_.world_from_hand.topRightCorner<3, 1>();
-    Matrix4 motion = Matrix4::Identity();
-    motion.topLeftCorner<3, 3>() = hand.turn();
-    motion.topRightCorner<3, 1>() = (Matrix3::Identity() - hand.turn()) * at + hand.shift_m;
-    return motion;
-  }
-
   /// How the hand has moved after a part of a phase.
-  static HandMotion hand_in(const GraspPhase& phase, double part, double seconds) {
-    HandMotion hand;
-    const double smooth = part * part * (3.0 - 2.0 * part);
+  static RigidWay hand_in(const GraspPhase& phase, double part, double seconds) {
+    RigidWay hand;
+    const double smooth = smooth_part(part);
     if (phase.kind == PhaseKind::lift) hand.shift_m.z() = phase.distance_m * smooth;
     if (phase.kind == PhaseKind::shake)
       hand.shift_m[phase.axis] =
@@ -390,7 +345,7 @@ class Hand {
           out_.frames.size(), left, right);
   }
 
-  void time_step(const GraspPhase& phase, double h, const HandMotion& hand, StepReport& report) {
+  void time_step(const GraspPhase& phase, double h, const RigidWay& hand, StepReport& report) {
     time_s_ += h;
     if (phase.kind == PhaseKind::release) {
       Ways opening;
@@ -444,10 +399,10 @@ class Hand {
   }
 
   /// A time step that ends with each drive in balance: tried with several ways, each from where it begins.
-  void balanced_step(double h, const HandMotion& hand, StepReport& report) {
+  void balanced_step(double h, const RigidWay& hand, StepReport& report) {
     const GraspProgress before = progress_;
     const WholeAccount whole_before = whole_;
-    const Matrix4 object_before = world_from_object_, motion = motion_of(hand);
+    const Matrix4 object_before = world_from_object_, motion = motion_of_world(progress_.world_from_hand, hand);
     const auto begin = [&](std::size_t side) {
       return WaySearch(before.drives[side], spec_.mount, h, spec_.closing_speed_m_s * h, scales_.d_hat_m,
                        [&](double none) { return stepper_->smallest_gap(progress_.state.x, none); });
@@ -588,10 +543,9 @@ class Hand {
       out_.fingers[side].frames.push_back(own);
     }
     if (grip_frame_) {
-      const Matrix4 then = hand_from_object(out_.frames[*grip_frame_]), now = hand_from_object(frame);
-      frame.slip_m = (grip_point(now) - grip_point(then)).norm();
-      frame.turn_rad =
-          Eigen::AngleAxisd(Matrix3(now.topLeftCorner<3, 3>() * then.topLeftCorner<3, 3>().transpose())).angle();
+      const InHand since = motion_in_hand(out_.frames[*grip_frame_], frame, grip_point());
+      frame.slip_m = since.slip_m;
+      frame.turn_rad = since.turn_rad;
     }
     log_info(
         "frame {}/{} {}: grip {:.3f} N, carried {:.4f} N, slipped {:.3f} mm, turned {:.2f} deg, {} Newton iterations "
@@ -608,34 +562,16 @@ class Hand {
     if (!grip_frame_ && is_free()) grip_frame_ = out_.frames.size() - 1;
   }
 
-  static Matrix4 hand_from_object(const GraspFrame& frame) {
-    const Matrix3 to_hand = frame.world_from_hand.topLeftCorner<3, 3>().transpose();
-    Matrix4 pose = Matrix4::Identity();
-    pose.topLeftCorner<3, 3>() = to_hand * frame.world_from_object.topLeftCorner<3, 3>();
-    pose.topRightCorner<3, 1>() = to_hand * (frame.world_from_object - frame.world_from_hand).topRightCorner<3, 1>();
-    return pose;
-  }
-
-  /// The object's point at the grip, where a pose of the object puts it.
-  Vector3 grip_point(const Matrix4& from_object) const {
-    const Vector3 grip = out_.center_of_mass_m + out_.pose.grip_m;
-    return from_object.topLeftCorner<3, 3>() * grip + from_object.topRightCorner<3, 1>();
-  }
-
   void judge_outcome() {
     // Fingers that open lose the object in any case.
     const auto released = std::find_if(out_.frames.begin(), out_.frames.end(),
                                        [](const GraspFrame& frame) { return frame.phase == PhaseKind::release; });
     out_.judged_frame = static_cast<std::size_t>(released - out_.frames.begin()) - 1;
-    const GraspFrame &end = out_.frames[out_.judged_frame], &begin = out_.frames[*grip_frame_];
-    const bool touches = end.force_on_finger_n[0].norm() > kTouches_n && end.force_on_finger_n[1].norm() > kTouches_n;
-    const double hand = (end.world_from_hand - begin.world_from_hand)(2, 3);
-    const double rose = (grip_point(end.world_from_object) - grip_point(begin.world_from_object)).z();
-    out_.outcome = !touches || (hand >= kSlipped_m && rose < kDroppedPart * hand) ? GraspOutcome::dropped
-                   : end.slip_m >= kSlipped_m                                     ? GraspOutcome::slipped
-                   : end.turn_rad >= kTurned_rad                                  ? GraspOutcome::rotated
-                                                                                  : GraspOutcome::lifted;
+    out_.outcome = outcome_of(out_.frames[*grip_frame_], out_.frames[out_.judged_frame], grip_point());
   }
+
+  /// Where it is gripped, in the object's axes.
+  Vector3 grip_point() const { return out_.center_of_mass_m + out_.pose.grip_m; }
 
   const Sensor& sensor_;
   const TetMesh& gel_;

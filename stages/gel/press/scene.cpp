@@ -11,12 +11,12 @@
 #include "common/mesh/mass_properties.h"
 #include "common/sample/placement.h"
 #include "stages/gel/press/checkpoint.h"
-#include "stages/gel/press/contact/intersection_check.h"
-#include "stages/gel/press/contact/near_pairs.h"
 #include "stages/gel/press/contact/sharpness.h"
 #include "stages/gel/press/contact/surface_pairs.h"
+#include "stages/gel/press/divided_step.h"
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/gel_frame.h"
+#include "stages/gel/press/scene_checks.h"
 #include "stages/gel/press/setup.h"
 #include "stages/gel/press/solve/step_limit.h"
 
@@ -27,17 +27,6 @@ namespace {
 // should bear the weight of a body on a few corners there.
 constexpr double kForceAtHalf = 4.3, kCorners = 4.0;
 constexpr std::size_t kMostBodies = 200;
-
-/// `from`, gone the part s of a way and turned about its own origin.
-Matrix4 moved(const Matrix4& from, const WaySpec& way, double s) {
-  if (way.smooth) s = s * s * (3.0 - 2.0 * s);
-  Matrix4 pose = from;
-  pose.topRightCorner<3, 1>() += s * way.by_m;
-  if (const double angle = way.turn_rad.norm(); angle > 0.0)
-    pose.topLeftCorner<3, 3>() =
-        Eigen::AngleAxisd(s * angle, way.turn_rad / angle).toRotationMatrix() * from.topLeftCorner<3, 3>();
-  return pose;
-}
 
 /// A deformable body as one part of the whole.
 struct Part {
@@ -112,7 +101,9 @@ class Stepping {
     progress_.others.assign(bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     account_ = open_account(model_.mass_kg, instant({}), spec_.gravity_m_s2, model_.elasticity->value(state.x));
     if (!restored()) {
-      require_apart();
+      require_apart(shapes(), [&](std::size_t a, std::size_t b) {
+        return scales_.d_hat_m * mesh_.laws[a * bodies_.size() + b].d_hat;
+      });
       finish(-1, {}, stepper.no_forces());
     }
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
@@ -132,8 +123,8 @@ class Stepping {
                         make_rest_tets(body.tets.positions, body.tets.tets), row});
       row += body.tets.num_vertices();
     }
-    whole_ = joined(placed);
-    glued_ = whole_.vertices(BoundaryTag::glued);
+    const TetMesh whole = joined(placed);
+    glued_ = whole.vertices(BoundaryTag::glued);
     std::vector<TriangleMesh> objects;
     for (std::size_t b = num_deformable_; b < bodies_.size(); ++b) {
       const BodySpec& body = spec_.bodies[b];
@@ -152,7 +143,7 @@ class Stepping {
       }
       objects.push_back(std::move(object));
     }
-    mesh_ = make_contact_mesh(whole_.positions, whole_.boundary, objects);
+    mesh_ = make_contact_mesh(whole.positions, whole.boundary, objects);
     mesh_.num_control_points = static_cast<int>(4 * num_rigid_);
     for (const Part& part : parts_) {
       const TetMesh& tets = bodies_[part.body].tets;
@@ -228,7 +219,7 @@ class Stepping {
     std::vector<Matrix4> poses = poses_;
     for (const WaySpec& way : phase.move) {
       const auto body = static_cast<std::size_t>(way.body);
-      poses[body] = moved(start[body], way, part);
+      poses[body] = moved(start[body], way.way * (way.smooth ? smooth_part(part) : part));
     }
     return poses;
   }
@@ -284,7 +275,7 @@ class Stepping {
     require_free_way(goal);
     const WholeInstant at_start = instant(goal.held_bodies);
     const std::vector<Matrix4> poses_before = poses_;
-    try {
+    const auto advance = [&] {
       const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
@@ -296,16 +287,13 @@ class Stepping {
       }
       if (goal.held_bodies != progress_.held_bodies) regroup(account_, model_.mass_kg, at_start, spec_.gravity_m_s2);
       note_step(goal, at_start, poses_before);
-      const StepReport earlier = report;
-      report = done;
-      report.add_earlier(earlier);
-    } catch (const SolverError& error) {
-      if (halvings >= config_.max_halvings) throw;
-      log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
+      return done;
+    };
+    advance_or_divide(out_.frames.size(), halvings, config_.max_halvings, report, advance, [&](int deeper) {
       const double middle = 0.5 * (from + to);
-      step(phase, start, from, middle, halvings + 1, report);
-      step(phase, start, middle, to, halvings + 1, report);
-    }
+      step(phase, start, from, middle, deeper, report);
+      step(phase, start, middle, to, deeper, report);
+    });
   }
 
   WholeInstant instant(const std::vector<int>& held) const {
@@ -320,13 +308,8 @@ class Stepping {
   /// Energy and momentum of a time step that succeeded.
   void note_step(const StepGoal& goal, const WholeInstant& before, const std::vector<Matrix4>& poses_before) {
     const StepForces& forces = stepper_->forces();
-    StepExchange exchange{.h_s = goal.h_s,
-                          .mount_n = forces.mount,
-                          .mount_before_n = progress_.mount_n,
-                          .elastic_j = model_.elasticity->value(progress_.state.x),
-                          .contact_j = forces.contact_j,
-                          .friction_loss_j = forces.friction_loss_j,
-                          .damping_loss_j = forces.damping_loss_j};
+    StepExchange exchange =
+        exchange_of(goal.h_s, forces, progress_.mount_n, model_.elasticity->value(progress_.state.x));
     const std::size_t count = bodies_.size();
     std::vector<bool> outside(count, false);
     for (std::size_t b = num_deformable_ + num_rigid_; b < count; ++b) outside[b] = true;
@@ -437,81 +420,24 @@ class Stepping {
   }
 
   const std::string& name(std::size_t body) const { return spec_.bodies[body].name; }
-  bool is_fixed(std::size_t body) const { return body >= num_deformable_ + num_rigid_; }
-
-  /// A body's surface at x.
-  struct Shape {
-    Positions positions;
-    Triangles triangles;
-    SurfaceView view() const { return {positions, triangles}; }
-  };
-  Shape shape_of(std::size_t body, const Positions& x) const {
-    if (body < num_deformable_) {
-      const TetMesh& tets = bodies_[body].tets;
-      return {x.middleRows(parts_[body].first_row, tets.num_vertices()), tets.boundary};
-    }
-    return {mesh_.objects[body - num_deformable_].rows(x), bodies_[body].surface.triangles};
-  }
-
-  /// Judges what concerns bodies with each other: exact intersections, which of itself for a deformable one, and
-  /// whether one is inside another. Two that are fixed may share points. \return pairs of triangles that intersect
-  /// \throw VerdictError naming the bodies
-  int judge_bodies(const Positions& x) const {
-    const auto frame = static_cast<int>(out_.frames.size());
-    const auto miss = [&](const char* check, double value, double limit, const std::string& reason) {
-      throw VerdictError({.frame = frame, .check = check, .value = value, .limit = limit},
-                         fmt::format("frame {}: {}", frame, reason));
-    };
-    std::vector<Shape> shapes;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) shapes.push_back(shape_of(b, x));
-    for (std::size_t a = 0; a < bodies_.size(); ++a) {
-      for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
-        if (is_fixed(a)) continue;  // so are all that follow
-        const IntersectionReport found = find_intersections(shapes[a].view(), shapes[b].view());
-        if (found.gel_object > kVerdictLimits.intersections)
-          miss("intersections", static_cast<double>(found.gel_object), kVerdictLimits.intersections,
-               fmt::format("{} pairs of triangles of {} and {} intersect", found.gel_object, name(a), name(b)));
-        if (a < num_deformable_ && found.gel_gel > kVerdictLimits.intersections)
-          miss("intersections", static_cast<double>(found.gel_gel), kVerdictLimits.intersections,
-               fmt::format("{} pairs of triangles of {} intersect", found.gel_gel, name(a)));
-        for (const auto& [inner, outer] : {std::pair(a, b), std::pair(b, a)}) {
-          const Vector3 point = shapes[inner].positions.row(shapes[inner].triangles(0, 0));
-          const double winds = winding_number(point, shapes[outer].view());
-          if (!(std::abs(winds) < kVerdictLimits.gel_in_object))
-            miss("containment", winds, kVerdictLimits.gel_in_object,
-                 fmt::format("{} is inside {}", name(inner), name(outer)));
-        }
-      }
-    }
-    return 0;
-  }
-
-  /// \throw DataError naming two bodies that intersect where they begin, or are as near as contact reaches
-  void require_apart() const {
+  std::vector<BodyShape> shapes() const {
     const Positions& x = progress_.state.x;
-    const Positions still = Positions::Zero(x.rows(), 3);
-    const std::vector<Surface> surfaces = surfaces_of_bodies();
-    for (std::size_t a = 0; a < bodies_.size(); ++a) {
-      for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
-        if (is_fixed(a)) continue;
-        if (find_intersections(shape_of(a, x).view(), shape_of(b, x).view()).gel_object > 0)
-          throw DataError("bodies {} and {} intersect where they begin", name(a), name(b));
-        const double d_hat = scales_.d_hat_m * mesh_.laws[a * bodies_.size() + b].d_hat;
-        std::vector<ContactPair> pairs;
-        pairs_between(surfaces[a], surfaces[b], x, still, d_hat, pairs);
-        if (const double gap = smallest_distance(pairs, x, 2.0 * d_hat); gap <= d_hat)
-          throw DataError("bodies {} and {} are {:.3g} mm apart in frame 0: contact would begin at {:.3g} mm already",
-                          name(a), name(b), 1e3 * gap, 1e3 * d_hat);
-      }
+    std::vector<BodyShape> all;
+    for (const Part& part : parts_) {
+      const TetMesh& tets = bodies_[part.body].tets;
+      all.push_back({.name = name(part.body),
+                     .positions = x.middleRows(part.first_row, tets.num_vertices()),
+                     .triangles = tets.boundary,
+                     .deformable = true});
     }
-  }
-
-  std::vector<Surface> surfaces_of_bodies() const {
-    std::vector<Surface> surfaces;
-    for (const Part& part : parts_)
-      surfaces.push_back(make_surface(bodies_[part.body].tets.boundary, static_cast<int>(part.first_row)));
-    for (const ObjectPart& object : mesh_.objects) surfaces.push_back(object.surface);
-    return surfaces;
+    for (std::size_t i = 0; i < mesh_.objects.size(); ++i) {
+      const std::size_t body = num_deformable_ + i;
+      all.push_back({.name = name(body),
+                     .positions = mesh_.objects[i].rows(x),
+                     .triangles = bodies_[body].surface.triangles,
+                     .fixed = i >= num_rigid_});
+    }
+    return all;
   }
 
   /// Bodies that go where they are told do not feel each other: none may run into another.
@@ -554,7 +480,7 @@ class Stepping {
     if (frame.between.empty())
       frame.between.assign(bodies_.size() * bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     frame.min_gap_m = stepper_->smallest_gap(x, scales_.gap_horizon_m);
-    frame.intersections = judge_bodies(x);
+    frame.intersections = judge_bodies(static_cast<int>(out_.frames.size()), shapes());
     std::vector<Frame> of_gels;
     for (const Part& part : parts_) {
       const SolvedGel gel{bodies_[part.body].tets, part.front, part.rest_tets, part.first_row};
@@ -610,7 +536,6 @@ class Stepping {
   Scene out_;
   std::vector<Part> parts_;
   std::vector<AffineBody> affine_;  // rigid bodies, at rest where they start
-  TetMesh whole_;                   // all deformable bodies
   ContactMesh mesh_;
   GelModel model_;
   std::vector<int> glued_;

@@ -1,6 +1,5 @@
 #include "stages/gel/press/scene_spec.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <numbers>
@@ -49,10 +48,7 @@ BodySpec read_body(ConfigReader& in) {
     body.velocity_m_s = triple(in, "velocity_mm_s", 1e-3);
     body.spin_rad_s = triple(in, "spin_rad_s", 1.0);
   }
-  const Vector3 angle = turn(in, "turn_deg");
-  body.world_from_body.topRightCorner<3, 1>() = triple(in, "at_mm", 1e-3);
-  if (angle != Vector3::Zero())
-    body.world_from_body.topLeftCorner<3, 3>() = Eigen::AngleAxisd(angle.norm(), angle.normalized()).toRotationMatrix();
+  body.world_from_body = moved(Matrix4::Identity(), {triple(in, "at_mm", 1e-3), turn(in, "turn_deg")});
   return body;
 }
 
@@ -95,11 +91,10 @@ ScenePhase read_phase(ConfigReader& in, const Names& names) {
     if (names.kind(way.body) != BodyKind::gel && names.kind(way.body) != BodyKind::rigid)
       move.fault("body", "gels and rigid bodies can be moved; a soft one goes with what it touches");
     once(move, "body", way.body, twice);
-    way.by_m = triple(move, "by_mm", 1e-3);
-    way.turn_rad = turn(move, "turn_deg");
+    way.way = {triple(move, "by_mm", 1e-3), turn(move, "turn_deg")};
     way.smooth = move.flag_or("smooth", false);
     // Halfway through a smooth way it goes 3/2 as fast.
-    if ((way.smooth ? 1.5 : 1.0) * way.turn_rad.norm() / time_steps > kLongestTurn_rad)
+    if ((way.smooth ? 1.5 : 1.0) * way.way.turn_rad.norm() / time_steps > kLongestTurn_rad)
       move.fault("turn_deg", "a body turns by at most 0.2 rad (11.5°) in a time step: give the phase more steps");
     phase.move.push_back(way);
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "stages/gel/press/rigid_way.h"
 
 namespace tacipc {
 
@@ -43,9 +44,8 @@ struct ContactSpec {
 /// The way of one body in a phase, from where it is at its start.
 struct WaySpec {
   int body = 0;
-  Vector3 by_m = Vector3::Zero();
-  Vector3 turn_rad = Vector3::Zero();  // angle times axis, about the origin of the body's own frame
-  bool smooth = false;                 // 3s² − 2s³ of it after the part s of the phase, else s
+  RigidWay way = {};
+  bool smooth = false;  // smooth_part(s) of it after the part s of the phase, else s
 };
 
 struct ScenePhase {

@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/sample/placement.h"
+#include "stages/gel/press/divided_step.h"
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/measure/front_surface.h"
 #include "stages/gel/press/setup.h"
@@ -103,7 +104,7 @@ class Motion {
     for (int axis = 0; axis < 3; ++axis) {
       if (goal.free[axis]) step.free_axes.push_back(axis);
     }
-    try {
+    const auto advance_whole = [&] {
       const StepReport done = stepper_->advance(progress_.state, step, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
@@ -114,16 +115,13 @@ class Motion {
         pose_ = goal.gel_from_object;
         pose_.topRightCorner<3, 1>() += done.object_shift_m;
       }
-      const StepReport earlier = report;
-      report = done;
-      report.add_earlier(earlier);
-    } catch (const SolverError& error) {
-      if (halvings >= config_.max_halvings) throw;
-      log_info("frame {}: {}; dividing the time step", out_.frames.size(), error.what());
+      return done;
+    };
+    advance_or_divide(out_.frames.size(), halvings, config_.max_halvings, report, advance_whole, [&](int deeper) {
       const double middle = 0.5 * (from + to);
-      advance(phase, start, from, middle, halvings + 1, report);
-      advance(phase, start, middle, to, halvings + 1, report);
-    }
+      advance(phase, start, from, middle, deeper, report);
+      advance(phase, start, middle, to, deeper, report);
+    });
   }
 
   /// Where the points that carry the object are when it is at a pose.

@@ -55,6 +55,16 @@ double stored_j(const WholeAccount& account) {
 
 }  // namespace
 
+StepExchange exchange_of(double h_s, const StepForces& forces, const Positions& mount_before_n, double elastic_j) {
+  return {.h_s = h_s,
+          .mount_n = forces.mount,
+          .mount_before_n = mount_before_n,
+          .elastic_j = elastic_j,
+          .contact_j = forces.contact_j,
+          .friction_loss_j = forces.friction_loss_j,
+          .damping_loss_j = forces.damping_loss_j};
+}
+
 WholeAccount open_account(const Eigen::VectorXd& gel_mass_kg, const WholeInstant& start, const Vector3& gravity_m_s2,
                           double elastic_j) {
   WholeAccount account;

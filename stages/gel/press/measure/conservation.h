@@ -6,6 +6,7 @@
 #include "common/base/types.h"
 #include "common/base/wrench.h"
 #include "stages/gel/press/solve/rigid_motion.h"
+#include "stages/gel/press/solve/time_step.h"
 
 namespace tacipc {
 
@@ -37,6 +38,9 @@ struct StepExchange {
   double friction_loss_j = 0.0;  // in the step
   double damping_loss_j = 0.0;
 };
+
+/// What a step's forces tell of it; the others are left out. \param elastic_j of the gels at its end
+StepExchange exchange_of(double h_s, const StepForces& forces, const Positions& mount_before_n, double elastic_j);
 
 /// Energies of the whole, what it has exchanged since the start, and its momentum.
 ///

@@ -59,8 +59,8 @@ TEST(SceneSpec, BodiesAreSortedByKindAndEveryValueIsInSi) {
   EXPECT_EQ(first.substeps, 5);
   ASSERT_EQ(first.move.size(), 1u);
   EXPECT_EQ(first.move[0].body, 0);
-  EXPECT_EQ(first.move[0].by_m, Vector3(0, 0, 2e-3));
-  EXPECT_LT((first.move[0].turn_rad - Vector3(0, std::numbers::pi / 6, 0)).norm(), 1e-15);
+  EXPECT_EQ(first.move[0].way.shift_m, Vector3(0, 0, 2e-3));
+  EXPECT_LT((first.move[0].way.turn_rad - Vector3(0, std::numbers::pi / 6, 0)).norm(), 1e-15);
   EXPECT_TRUE(first.move[0].smooth);
   EXPECT_EQ(first.hold, std::vector{2});
   ASSERT_EQ(spec.motion[1].load_n.size(), 1u);

@@ -83,7 +83,7 @@ TEST_F(SceneOf, TwoGelsPressOnEachOtherAsEachSeesItInItsOwnFrame) {
   add_gel("below", at(Vector3::Zero()));
   add_gel("above", at({0, 0, 0.5e-3}, {std::numbers::pi, 0, 0}));
   spec_.gravity_m_s2.setZero();
-  spec_.motion = {{.steps = 3, .move = {{.body = 1, .by_m = {0, 0, -0.6e-3}}}}};
+  spec_.motion = {{.steps = 3, .move = {{.body = 1, .way = {.shift_m = {0, 0, -0.6e-3}}}}}};
   config_.friction.reset();
   const Scene scene = run();
   const Frame &below = scene.gels[0].frames.back(), &above = scene.gels[1].frames.back();
@@ -108,8 +108,7 @@ TEST_F(SceneOf, AMountTakesItsGelAlongAndTurnsIt) {
   add_gel("gel", at(Vector3::Zero()));
   add_box("far", BodyKind::fixed, {0, 0, 0.05});
   spec_.gravity_m_s2.setZero();
-  spec_.motion = {{.steps = 10, .move = {{.body = 0, .by_m = {5e-3, 0, 1e-3}, .turn_rad = {0, 0, 1.0}}}},
-                  {.steps = 30}};
+  spec_.motion = {{.steps = 10, .move = {{.body = 0, .way = {{5e-3, 0, 1e-3}, {0, 0, 1.0}}}}}, {.steps = 30}};
   const Scene scene = run();
   const SceneFrame& end = scene.frames.back();
   EXPECT_LT((end.world_from_body[0] - at({5e-3, 0, 1e-3}, {0, 0, 1.0})).cwiseAbs().maxCoeff(), 1e-15);
@@ -129,9 +128,11 @@ TEST_F(SceneOf, TwoGelsLiftABoxFromATable) {
   config_.friction->coefficient = 0.9;
   spec_.motion = {
       {.steps = 8, .hold = {2}},
-      {.steps = 10, .move = {{.body = 0, .by_m = {0.5e-3, 0, 0}}, {.body = 1, .by_m = {-0.5e-3, 0, 0}}}},
+      {.steps = 10,
+       .move = {{.body = 0, .way = {.shift_m = {0.5e-3, 0, 0}}}, {.body = 1, .way = {.shift_m = {-0.5e-3, 0, 0}}}}},
       {.steps = 20,
-       .move = {{.body = 0, .by_m = {0, 0, 3e-3}, .smooth = true}, {.body = 1, .by_m = {0, 0, 3e-3}, .smooth = true}}},
+       .move = {{.body = 0, .way = {.shift_m = {0, 0, 3e-3}}, .smooth = true},
+                {.body = 1, .way = {.shift_m = {0, 0, 3e-3}}, .smooth = true}}},
       {.steps = 20}};
   const Scene scene = run();
   const double weight = kBoxMass_kg * kG;
@@ -194,9 +195,12 @@ TEST_F(SceneOf, ASoftBallOfAnotherMaterialIsHeldByTwoGels) {
   bodies_.push_back({.tets = block, .material = soft});
   config_.friction->coefficient = 0.9;
   spec_.gravity_m_s2.setZero();
-  spec_.motion = {{.steps = 10, .move = {{.body = 0, .by_m = {0.4e-3, 0, 0}}, {.body = 1, .by_m = {-0.4e-3, 0, 0}}}},
-                  {.steps = 10, .move = {{.body = 0, .by_m = {0, 0, 2e-3}}, {.body = 1, .by_m = {0, 0, 2e-3}}}},
-                  {.steps = 10}};
+  spec_.motion = {
+      {.steps = 10,
+       .move = {{.body = 0, .way = {.shift_m = {0.4e-3, 0, 0}}}, {.body = 1, .way = {.shift_m = {-0.4e-3, 0, 0}}}}},
+      {.steps = 10,
+       .move = {{.body = 0, .way = {.shift_m = {0, 0, 2e-3}}}, {.body = 1, .way = {.shift_m = {0, 0, 2e-3}}}}},
+      {.steps = 10}};
   const Scene scene = run();
   const SceneFrame &gripped = scene.frames[10], &end = scene.frames.back();
   const double grip = on(gripped, 0, 2).force_n.norm();
@@ -215,7 +219,7 @@ TEST_F(SceneOf, ALightSoftBodyIsBalancedBesideAHardPress) {
   spec_.bodies.push_back({.name = "block", .kind = BodyKind::soft, .world_from_body = at({-6e-3, 0, 4.1e-3})});
   bodies_.push_back({.tets = block, .material = paper_sensor().material});
   add_box("press", BodyKind::rigid, {5e-3, 0, 3.1e-3});
-  spec_.motion = {{.steps = 20, .move = {{.body = 2, .by_m = {0, 0, -0.6e-3}}}}};
+  spec_.motion = {{.steps = 20, .move = {{.body = 2, .way = {.shift_m = {0, 0, -0.6e-3}}}}}};
   const Scene scene = run();  // each frame passes its verdict
   double mass = 0.0;
   for (const double of_vertex : lumped_masses(block.tets, make_rest_tets(block.positions, block.tets),
@@ -240,7 +244,8 @@ TEST_F(SceneOf, ABodyThatIsThrownBringsItsEnergyAndMomentumFromOutside) {
   add_box("box", BodyKind::rigid, {0, 0, 20e-3});
   spec_.gravity_m_s2.setZero();
   // Carried by 1 mm in five steps of 10 ms, let go, and caught again.
-  spec_.motion = {{.steps = 5, .move = {{.body = 1, .by_m = {0, 0, 1e-3}}}}, {.steps = 5}, {.steps = 2, .hold = {1}}};
+  spec_.motion = {
+      {.steps = 5, .move = {{.body = 1, .way = {.shift_m = {0, 0, 1e-3}}}}}, {.steps = 5}, {.steps = 2, .hold = {1}}};
   const Scene scene = run();
   const double v = 1e-3 / 0.05;
   const WholeAccount &flying = scene.frames[8].whole, &caught = scene.frames.back().whole;
@@ -259,7 +264,7 @@ TEST_F(SceneOf, DampingLetsAGelTurnWithItsMount) {
   add_gel("gel", at(Vector3::Zero()));
   spec_.gravity_m_s2.setZero();
   config_.stiffness_damping_s = 0.02;
-  spec_.motion = {{.steps = 6, .move = {{.body = 0, .turn_rad = {0, 0, 1.0}}}}};
+  spec_.motion = {{.steps = 6, .move = {{.body = 0, .way = {.turn_rad = {0, 0, 1.0}}}}}};
   const Scene scene = run();
   double strained = 0.0;
   for (const Frame& frame : scene.gels[0].frames)
@@ -271,7 +276,7 @@ TEST_F(SceneOf, BodiesThatAreToldToMeetAreAnErrorThatNamesThem) {
   add_gel("gel", at(Vector3::Zero()));
   add_box("peg", BodyKind::rigid, {0, 0, 30e-3});
   add_box("plate", BodyKind::fixed, {0, 0, 20e-3}, {0.01, 0.01, 0.5e-3});
-  spec_.motion = {{.steps = 2, .move = {{.body = 1, .by_m = {0, 0, -20e-3}}}}};
+  spec_.motion = {{.steps = 2, .move = {{.body = 1, .way = {.shift_m = {0, 0, -20e-3}}}}}};
   const auto message = [&] {
     try {
       run();

@@ -1,0 +1,42 @@
+#include "stages/gel/press/grasp_outcome.h"
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+namespace tacipc {
+namespace {
+
+// A held object has slipped or turned from here on; one that rose by less than a part of the hand's way is dropped.
+constexpr double kSlipped_m = 1e-3, kTurned_rad = 5.0 * std::numbers::pi / 180.0, kDroppedPart = 0.2;
+
+Matrix4 hand_from_object(const GraspFrame& frame) {
+  const Matrix3 to_hand = frame.world_from_hand.topLeftCorner<3, 3>().transpose();
+  Matrix4 pose = Matrix4::Identity();
+  pose.topLeftCorner<3, 3>() = to_hand * frame.world_from_object.topLeftCorner<3, 3>();
+  pose.topRightCorner<3, 1>() = to_hand * (frame.world_from_object - frame.world_from_hand).topRightCorner<3, 1>();
+  return pose;
+}
+
+Vector3 at(const Matrix4& from_object, const Vector3& point_m) {
+  return from_object.topLeftCorner<3, 3>() * point_m + from_object.topRightCorner<3, 1>();
+}
+
+}  // namespace
+
+InHand motion_in_hand(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m) {
+  const Matrix4 before = hand_from_object(then), after = hand_from_object(now);
+  return {(at(after, grip_m) - at(before, grip_m)).norm(),
+          Eigen::AngleAxisd(Matrix3(after.topLeftCorner<3, 3>() * before.topLeftCorner<3, 3>().transpose())).angle()};
+}
+
+GraspOutcome outcome_of(const GraspFrame& begin, const GraspFrame& end, const Vector3& grip_m) {
+  const bool touches = end.force_on_finger_n[0].norm() > kTouches_n && end.force_on_finger_n[1].norm() > kTouches_n;
+  const double hand = (end.world_from_hand - begin.world_from_hand)(2, 3);
+  const double rose = (at(end.world_from_object, grip_m) - at(begin.world_from_object, grip_m)).z();
+  return !touches || (hand >= kSlipped_m && rose < kDroppedPart * hand) ? GraspOutcome::dropped
+         : end.slip_m >= kSlipped_m                                     ? GraspOutcome::slipped
+         : end.turn_rad >= kTurned_rad                                  ? GraspOutcome::rotated
+                                                                        : GraspOutcome::lifted;
+}
+
+}  // namespace tacipc

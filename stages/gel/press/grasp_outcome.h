@@ -1,0 +1,19 @@
+// What became of a gripped object: by its motion in the hand and by contact alone; docs/grasp.md.
+#pragma once
+
+#include "stages/gel/press/grasp.h"
+
+namespace tacipc {
+
+/// How the object has moved in the hand from one frame to another.
+struct InHand {
+  double slip_m = 0.0;    // of its point at the grip
+  double turn_rad = 0.0;  // of it
+};
+/// \param grip_m that point, in the object's axes
+InHand motion_in_hand(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m);
+
+/// \param begin when it was freed \param end the last frame before the fingers release it
+GraspOutcome outcome_of(const GraspFrame& begin, const GraspFrame& end, const Vector3& grip_m);
+
+}  // namespace tacipc

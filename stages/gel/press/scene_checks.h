@@ -1,0 +1,29 @@
+// What must hold between the bodies of a scene, by code that shares nothing with the solver.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/base/types.h"
+
+namespace tacipc {
+
+/// A body at one instant, in the world. Two that are fixed may share points.
+struct BodyShape {
+  const std::string& name;
+  Positions positions;
+  const Triangles& triangles;
+  bool deformable = false, fixed = false;
+};
+
+/// Exact intersections between bodies, and of each deformable one with itself, and whether one is inside another.
+/// \return pairs of triangles that intersect, which are none \throw VerdictError naming the bodies
+int judge_bodies(int frame, const std::vector<BodyShape>& bodies);
+
+/// \param d_hat_m of two bodies, by their numbers
+/// \throw DataError naming two bodies that intersect where they begin, or are as near as contact reaches
+void require_apart(const std::vector<BodyShape>& bodies,
+                   const std::function<double(std::size_t, std::size_t)>& d_hat_m);
+
+}  // namespace tacipc
