@@ -34,7 +34,9 @@ const char* status_word(SampleStatus status) {
 }
 
 bool is_finger(const fs::path& sample_folder) {
-  return sample_folder.filename() == "left" || sample_folder.filename() == "right";
+  if (sample_folder.filename() != "left" && sample_folder.filename() != "right") return false;
+  // A sample of that name has these files of its own.
+  return !fs::exists(sample_folder / "sample.yaml") && !fs::exists(sample_folder / "press/press.log");
 }
 
 fs::path stage_folder(const fs::path& sample_folder, const std::string& stage) {
@@ -46,7 +48,7 @@ fs::path stage_file(const fs::path& sample_folder, const std::string& stage, con
 }
 
 std::optional<fs::path> timings_file(const fs::path& sample_folder, const std::string& stage) {
-  if (stage == "press" && sample_folder.filename() == "right") return std::nullopt;
+  if (stage == "press" && is_finger(sample_folder) && sample_folder.filename() == "right") return std::nullopt;
   fs::path file = stage_file(sample_folder, stage, ".timings.yaml");
   if (!fs::exists(file)) return std::nullopt;
   return file;

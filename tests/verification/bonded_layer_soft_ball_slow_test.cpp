@@ -117,7 +117,8 @@ SceneSpec plate_presses_ball_onto_gel() {
                   .kind = BodyKind::rigid,
                   .world_from_body = at_height(2.0 * (kRadius + kDHat)),
                   .mass_kg = 1.0}};
-  spec.motion = {{.steps = 1, .move = {{.body = 2, .by_m = {0, 0, -kDown - 2.0 * kDHat}}}}, {.steps = 5, .hold = {2}}};
+  spec.motion = {{.steps = 1, .move = {{.body = 2, .way = {.shift_m = {0, 0, -kDown - 2.0 * kDHat}}}}},
+                 {.steps = 5, .hold = {2}}};
   return spec;
 }
 

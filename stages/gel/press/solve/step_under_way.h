@@ -63,6 +63,9 @@ struct TimeStepper::Minimisation {
 /// cause.
 void raise_shares_of_farthest(const Positions& p, Blend& blend);
 
+/// How far a rigid motion takes each point.
+Positions way_of(const Matrix4& motion, const Positions& from);
+
 /// √(max |row i|²) over the first `rows` rows.
 double largest_row(const Positions& p, Eigen::Index rows);
 
