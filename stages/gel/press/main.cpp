@@ -1,9 +1,13 @@
 #include <fmt/core.h>
 #include <malloc.h>
 
+#include <memory>
+
+#include "common/base/checked_file.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/sample/pose_file.h"
 #include "common/sample/sample_inputs.h"
 #include "common/sample/scene_folder.h"
 #include "common/stage/record.h"
@@ -29,12 +33,15 @@ const tacipc::StageSpec kPress{
          {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false},
          {.flag = "--soft",
           .help = "of a scene: folder with <name>/object.msh of tetmesh for each soft body whose mesh is a surface",
+          .required = false},
+         {.flag = "--solved",
+          .help = "of a scene: folder of frames that a press of its beginning has left in solved/, to go on from",
           .required = false}},
     .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}},
     .resumable = true};
 
 /// Frames of a grasp or a scene as scratch files of the stage.
-class ScratchBytes final : public tacipc::ByteStore {
+class ScratchBytes : public tacipc::ByteStore {
  public:
   explicit ScratchBytes(tacipc::Stage& stage) : stage_(stage) {}
   void save(const std::string& bytes) override { stage_.save_scratch(name(), bytes), ++next_; }
@@ -44,10 +51,41 @@ class ScratchBytes final : public tacipc::ByteStore {
     return bytes;
   }
 
- private:
+ protected:
   std::string name() const { return fmt::format("bodies_{:05d}", next_); }
   tacipc::Stage& stage_;
   int next_ = 0;
+};
+
+/// The same of a scene that is solved piece by piece: the first frames are those of a folder, others are left to it.
+class SolvedBytes final : public ScratchBytes {
+ public:
+  /// \param identity of all that a scene's frames depend on but its motion
+  SolvedBytes(tacipc::Stage& stage, std::filesystem::path folder, std::string identity)
+      : ScratchBytes(stage), folder_(std::move(folder)), identity_(std::move(identity)) {}
+  void save(const std::string& bytes) override {
+    keep(bytes);
+    ScratchBytes::save(bytes);
+  }
+  std::optional<std::string> load() override {
+    if (const auto file = folder_ / name(); std::filesystem::is_regular_file(file)) {
+      auto bytes = tacipc::read_checked_file(file);
+      if (!bytes || bytes->compare(0, identity_.size(), identity_) != 0)
+        throw tacipc::DataError("{}: is damaged, or of another gel, sensor, press file or body", file.string());
+      ++next_;
+      return bytes->substr(identity_.size());
+    }
+    auto bytes = stage_.load_scratch(name());
+    if (bytes) keep(*bytes), ++next_;
+    return bytes;
+  }
+
+ private:
+  void keep(const std::string& bytes) {
+    tacipc::write_checked_file(stage_.output("solved/" + name()), identity_ + bytes);
+  }
+  std::filesystem::path folder_;
+  std::string identity_;
 };
 
 /// Newton's method allocates and frees the same few megabytes in every iteration. Given back to the system each time,
@@ -84,6 +122,10 @@ void require_file(const std::filesystem::path& scene, const tacipc::BodySpec& bo
         fmt::format("{}: body {}: {}: {} does not exist", scene.string(), body.name, key, file.string()));
 }
 
+void read_path(const tacipc::BodySpec& spec, tacipc::SceneBody& body) {
+  if (!spec.path.empty()) body.path = tacipc::read_poses(spec.path);
+}
+
 void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacipc::PressConfig& config,
                  const tacipc::ProgressObserver& progress) {
   using namespace tacipc;
@@ -93,6 +135,7 @@ void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacip
   for (const BodySpec& body : spec.bodies) {
     require_file(stage.input("--sample"), body, "mesh", body.mesh);
     require_file(stage.input("--sample"), body, "material", body.material);
+    require_file(stage.input("--sample"), body, "path", body.path);
   }
   const TetMesh gel = read_tet_mesh(stage.input("--gel"));
   std::vector<SceneBody> bodies;
@@ -103,6 +146,7 @@ void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacip
       case BodyKind::gel:
         body.tets = gel;
         body.material = sensor.material;
+        read_path(spec_of, body);
         break;
       case BodyKind::soft: {
         const std::filesystem::path tets = soft_mesh(stage, spec_of);
@@ -116,12 +160,24 @@ void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacip
       case BodyKind::fixed:
         files.emplace_back(body_input(spec_of.name), spec_of.mesh);
         body.surface = read_triangle_mesh(spec_of.mesh, spec_of.metres_per_unit);
+        read_path(spec_of, body);
         break;
     }
   }
+  std::string identity;
+  for (const auto& [name, file] : files) identity += content_hash(file);
+  for (const BodySpec& body : spec.bodies) {
+    if (!body.path.empty()) files.emplace_back("path_" + body.name, body.path);
+  }
   stage.add_inputs(files);
-  ScratchBytes frames(stage);
-  write_outputs(stage, sensor, bodies, config, spec, run_scene(sensor, bodies, config, spec, progress, &frames));
+  std::unique_ptr<ScratchBytes> frames;
+  if (const auto solved = stage.optional_input("--solved")) {
+    for (const char* flag : {"--config", "--sensor", "--gel"}) identity += content_hash(stage.input(flag));
+    frames = std::make_unique<SolvedBytes>(stage, *solved, identity);
+  } else {
+    frames = std::make_unique<ScratchBytes>(stage);
+  }
+  write_outputs(stage, sensor, bodies, config, spec, run_scene(sensor, bodies, config, spec, progress, frames.get()));
 }
 
 }  // namespace
@@ -141,6 +197,7 @@ int main(int argc, char** argv) {
     if (!stage.optional_input("--object"))
       throw UsageError("--object is missing: what is pressed or gripped (only a scene names its bodies itself)");
     if (stage.optional_input("--soft")) throw UsageError("--soft: only a scene has soft bodies");
+    if (stage.optional_input("--solved")) throw UsageError("--solved: only a scene is solved piece by piece");
     if (what.has("fingers")) {
       if (stage.optional_input("--object-config"))
         throw UsageError("--object-config says which side of the object is up; fingers take it as it is");

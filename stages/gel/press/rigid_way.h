@@ -1,9 +1,13 @@
 // How a hand, a mount or a body that is told to goes, in a time step or a phase.
 #pragma once
 
+#include <span>
+
 #include "common/base/types.h"
 
 namespace tacipc {
+
+inline constexpr double kLongestTurn_rad = 0.2;  // of a body of a scene, in one time step
 
 /// A way in the world, and a turn about the moved frame's origin: a rotation vector, as long as the angle.
 struct RigidWay {
@@ -23,5 +27,9 @@ Matrix4 motion_of_world(const Matrix4& pose, const RigidWay& by);
 
 /// The part of a smooth way that is gone after the part s of its time: 3s² − 2s³.
 inline double smooth_part(double s) { return s * s * (3.0 - 2.0 * s); }
+
+/// Where a body on a path is at the time t, counted in poses: between two of them it goes straight and turns evenly.
+/// \pre 0 ≤ t ≤ path.size() − 1
+Matrix4 pose_on_path(std::span<const Matrix4> path, double t);
 
 }  // namespace tacipc

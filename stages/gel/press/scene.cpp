@@ -60,7 +60,14 @@ class Stepping {
     if (bodies.size() > kMostBodies) throw UsageError(fmt::format("a scene has at most {} bodies", kMostBodies));
     settings_.gravity_m_s2 = spec.gravity_m_s2;
     settings_.wrenches_between_bodies = true;
-    for (const ScenePhase& phase : spec.motion) num_frames_ += phase.steps;
+    int time_steps = 0;
+    for (const ScenePhase& phase : spec.motion) {
+      num_frames_ += phase.steps;
+      time_steps += phase.steps * phase.substeps;
+    }
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (!bodies[b].path.empty()) check_path(spec.bodies[b].name, bodies[b].path, time_steps);
+    }
     place_all();
     set_laws();
   }
@@ -118,7 +125,7 @@ class Stepping {
     Eigen::Index row = 0;
     for (std::size_t b = 0; b < num_deformable_; ++b) {
       const SceneBody& body = bodies_[b];
-      placed.push_back({body.tets, spec_.bodies[b].world_from_body});
+      placed.push_back({body.tets, start_pose(b)});
       parts_.push_back({b, b < num_gels_ ? make_front_surface(body.tets) : FrontSurface{},
                         make_rest_tets(body.tets.positions, body.tets.tets), row});
       row += body.tets.num_vertices();
@@ -135,7 +142,7 @@ class Stepping {
       } catch (const DataError& error) {
         throw DataError("body {}: {}", body.name, error.what());
       }
-      object.positions = transformed(body.world_from_body, object.positions);
+      object.positions = transformed(start_pose(b), object.positions);
       if (body.kind == BodyKind::rigid) {
         const MassProperties mass = mass_properties(object.positions, object.triangles);
         affine_.push_back(make_affine_body(object.positions, object.triangles,
@@ -159,7 +166,7 @@ class Stepping {
         if (mesh_.gel.edges[e][0] < parts_[num_gels_].first_row) mesh_.gel_edge_sharpness[e] = 0.0;
       }
     }
-    for (const BodySpec& body : spec_.bodies) poses_.push_back(body.world_from_body);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) poses_.push_back(start_pose(b));
   }
 
   void set_laws() {
@@ -214,9 +221,17 @@ class Stepping {
 
   bool is_gel(const Part& part) const { return part.body < num_gels_; }
 
+  Matrix4 start_pose(std::size_t body) const {
+    return bodies_[body].path.empty() ? spec_.bodies[body].world_from_body : bodies_[body].path.front();
+  }
+
   /// Where a phase has its bodies after a part of it.
   std::vector<Matrix4> poses_in(const ScenePhase& phase, const std::vector<Matrix4>& start, double part) const {
     std::vector<Matrix4> poses = poses_;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (!bodies_[b].path.empty())
+        poses[b] = pose_on_path(bodies_[b].path, steps_before_ + part * phase.steps * phase.substeps);
+    }
     for (const WaySpec& way : phase.move) {
       const auto body = static_cast<std::size_t>(way.body);
       poses[body] = moved(start[body], way.way * (way.smooth ? smooth_part(part) : part));
@@ -258,14 +273,15 @@ class Stepping {
     goal.control_target = mesh_.control_rows(progress_.state.x);
     for (std::size_t i = 0; i < num_rigid_; ++i) {
       const std::size_t body = num_deformable_ + i;
-      const bool moves = std::any_of(phase.move.begin(), phase.move.end(),
+      const bool moves = !bodies_[body].path.empty() ||
+                         std::any_of(phase.move.begin(), phase.move.end(),
                                      [&](const WaySpec& way) { return way.body == static_cast<int>(body); });
       const bool held =
           moves || std::find(phase.hold.begin(), phase.hold.end(), static_cast<int>(body)) != phase.hold.end();
       goal.body_load_n.push_back(load_in(phase, body, to));
       if (!held) continue;
       goal.held_bodies.push_back(static_cast<int>(i));
-      const Matrix4 from_start = poses[body] * spec_.bodies[body].world_from_body.inverse();
+      const Matrix4 from_start = poses[body] * start_pose(body).inverse();
       const ObjectPart& object = mesh_.objects[i];
       goal.object_target.middleRows(object.first_vertex - mesh_.num_gel_vertices, object.num_vertices) =
           transformed(poses[body], bodies_[body].surface.positions);
@@ -283,7 +299,7 @@ class Stepping {
       for (std::size_t i = 0; i < num_rigid_; ++i) {
         const std::size_t body = num_deformable_ + i;
         if (!std::binary_search(goal.held_bodies.begin(), goal.held_bodies.end(), static_cast<int>(i)))
-          poses_[body] = pose_of(affine_[i], points(i)) * spec_.bodies[body].world_from_body;
+          poses_[body] = pose_of(affine_[i], points(i)) * start_pose(body);
       }
       if (goal.held_bodies != progress_.held_bodies) regroup(account_, model_.mass_kg, at_start, spec_.gravity_m_s2);
       note_step(goal, at_start, poses_before);
@@ -398,6 +414,7 @@ class Stepping {
       time_s_ = start_s + f * phase.substeps * config_.time_step_s;
       finish(index, report, stepper_->forces());
     }
+    steps_before_ += steps;
     for (std::size_t i = 0; i < num_rigid_; ++i) loads_n_[i] = load_in(phase, num_deformable_ + i, 1.0);
   }
 
@@ -480,6 +497,8 @@ class Stepping {
     if (frame.between.empty())
       frame.between.assign(bodies_.size() * bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     frame.min_gap_m = stepper_->smallest_gap(x, scales_.gap_horizon_m);
+    for (const Part& part : parts_)
+      frame.vertex_velocity_m_s.emplace_back(own_rows(part, progress_.state.velocity_m_s));
     frame.intersections = judge_bodies(static_cast<int>(out_.frames.size()), shapes());
     std::vector<Frame> of_gels;
     for (const Part& part : parts_) {
@@ -546,6 +565,7 @@ class Stepping {
   std::vector<Vector3> loads_n_ = std::vector<Vector3>(num_rigid_, Vector3::Zero());  // at the start of the phase
   double time_s_ = 0.0;
   int num_frames_ = 0;
+  int steps_before_ = 0;  // time steps of the phases before this one
   bool restoring_ = true;
 };
 

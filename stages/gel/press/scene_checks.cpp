@@ -9,6 +9,7 @@
 #include "stages/gel/press/contact/intersection_check.h"
 #include "stages/gel/press/contact/near_pairs.h"
 #include "stages/gel/press/contact/surface_pairs.h"
+#include "stages/gel/press/rigid_way.h"
 #include "stages/gel/press/verdict.h"
 
 namespace tacipc {
@@ -27,6 +28,19 @@ void for_each_two(const std::vector<BodyShape>& bodies, Visit&& visit) {
 }
 
 }  // namespace
+
+void check_path(const std::string& name, const std::vector<Matrix4>& path, int time_steps) {
+  if (path.size() != static_cast<std::size_t>(time_steps) + 1)
+    throw DataError(
+        "body {}: its path has {} poses; {} time steps need {}: one for the start and one for the end of each", name,
+        path.size(), time_steps, time_steps + 1);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Matrix3 turn = path[i + 1].topLeftCorner<3, 3>() * path[i].topLeftCorner<3, 3>().transpose();
+    if (const double angle = Eigen::AngleAxisd(turn).angle(); angle > kLongestTurn_rad)
+      throw DataError("body {}: its path turns by {:.3g} rad in time step {}; a body turns by at most {} rad in one",
+                      name, angle, i + 1, kLongestTurn_rad);
+  }
+}
 
 int judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
   std::int64_t sum = 0;

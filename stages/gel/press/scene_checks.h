@@ -17,6 +17,10 @@ struct BodyShape {
   bool deformable = false, fixed = false;
 };
 
+/// \throw DataError if a body's path has not a pose for the start and for the end of each time step, or turns too far
+/// in one
+void check_path(const std::string& name, const std::vector<Matrix4>& path, int time_steps);
+
 /// Exact intersections between bodies, and of each deformable one with itself, and whether one is inside another.
 /// \return pairs of triangles that intersect, which are none \throw VerdictError naming the bodies
 int judge_bodies(int frame, const std::vector<BodyShape>& bodies);

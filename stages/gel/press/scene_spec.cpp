@@ -9,8 +9,6 @@
 namespace tacipc {
 namespace {
 
-constexpr double kLongestTurn_rad = 0.2;  // in one time step
-
 Vector3 turn(ConfigReader& in, const std::string& key) {
   const auto degrees = in.numbers_or(key, {0.0, 0.0, 0.0}, Range::between(-36000.0, 36000.0));
   return std::numbers::pi / 180.0 * Vector3(degrees[0], degrees[1], degrees[2]);
@@ -48,6 +46,14 @@ BodySpec read_body(ConfigReader& in) {
     body.velocity_m_s = triple(in, "velocity_mm_s", 1e-3);
     body.spin_rad_s = triple(in, "spin_rad_s", 1.0);
   }
+  if (in.has("path")) {
+    if (body.kind != BodyKind::gel && body.kind != BodyKind::rigid)
+      in.fault("path", "gels and rigid bodies can go along a path; a soft one goes with what it touches");
+    for (const char* key : {"at_mm", "turn_deg", "velocity_mm_s", "spin_rad_s"}) {
+      if (in.has(key)) in.fault(key, "a body with a path starts where that does, and goes as that does");
+    }
+    body.path = folder / in.text("path");
+  }
   body.world_from_body = moved(Matrix4::Identity(), {triple(in, "at_mm", 1e-3), turn(in, "turn_deg")});
   return body;
 }
@@ -64,6 +70,7 @@ class Names {
   }
   int read(ConfigReader& in, const std::string& key) const { return number(in.choice(key, names_)); }
   const std::vector<std::string>& all() const { return names_; }
+  bool has_path(int body) const { return !bodies_[static_cast<std::size_t>(body)].path.empty(); }
   BodyKind kind(int body) const { return bodies_[static_cast<std::size_t>(body)].kind; }
 
  private:
@@ -77,6 +84,7 @@ ScenePhase read_phase(ConfigReader& in, const Names& names) {
   phase.substeps = in.integer_or("substeps", 1, 1, 1000);
   const double time_steps = static_cast<double>(phase.steps) * phase.substeps;
   const auto once = [&](ConfigReader& at, const std::string& key, int body, const std::string& reason) {
+    if (names.has_path(body)) at.fault(key, "this body goes along its path in every phase");
     for (const WaySpec& way : phase.move) {
       if (way.body == body) at.fault(key, reason);
     }

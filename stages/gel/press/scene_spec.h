@@ -30,6 +30,8 @@ struct BodySpec {
   double metres_per_unit = 1.0;         // of the mesh of a rigid or fixed body; a soft one is in metres
   std::filesystem::path material = {};  // soft: its mechanics, as the section `material` of a sensor file
   Matrix4 world_from_body = Matrix4::Identity();
+  /// Gel or rigid: an array of poses, one for the start and one for the end of each time step, which it goes through.
+  std::filesystem::path path = {};
   std::optional<double> mass_kg = std::nullopt;  // rigid: this, or
   double density_kg_m3 = 0.0;
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();  // rigid: how it starts

@@ -1,0 +1,16 @@
+# MuJoCo as target MuJoCo::MuJoCo (Debian: libmujoco-dev, whose own configuration file names folders that nothing installs).
+find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h)
+find_library(MUJOCO_LIBRARY mujoco)
+if(MUJOCO_INCLUDE_DIR)
+  file(STRINGS ${MUJOCO_INCLUDE_DIR}/mujoco/mujoco.h line REGEX "^#define mjVERSION_HEADER [0-9]+" LIMIT_COUNT 1)
+  string(REGEX MATCH "[0-9]+$" number "${line}")
+  # 222 is 2.2.2; from 3 on there are seven digits or more.
+  string(REGEX REPLACE "^([0-9])([0-9])([0-9])$" "\\1.\\2.\\3" MuJoCo_VERSION "${number}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(MuJoCo REQUIRED_VARS MUJOCO_LIBRARY MUJOCO_INCLUDE_DIR VERSION_VAR MuJoCo_VERSION)
+if(MuJoCo_FOUND AND NOT TARGET MuJoCo::MuJoCo)
+  add_library(MuJoCo::MuJoCo INTERFACE IMPORTED)
+  target_include_directories(MuJoCo::MuJoCo SYSTEM INTERFACE ${MUJOCO_INCLUDE_DIR})
+  target_link_libraries(MuJoCo::MuJoCo INTERFACE ${MUJOCO_LIBRARY})
+endif()

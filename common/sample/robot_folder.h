@@ -1,0 +1,42 @@
+// A folder that `robot` wrote: the motion of a robot frame by frame. The only owner of its arrays.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/base/types.h"
+#include "common/base/wrench.h"
+#include "common/stage/stage.h"
+
+namespace tacipc {
+
+/// What a robot is made of, in the order of the arrays.
+struct RobotParts {
+  std::vector<std::string> bodies, pads, actuators;
+};
+
+struct RobotFolder {
+  RobotParts parts;
+  std::vector<double> times_s;
+  std::vector<int> step;                                                 // of the task, per frame
+  std::vector<std::vector<double>> qpos, qvel, control, actuator_force;  // per frame
+  std::vector<std::vector<Matrix4>> body_pose;                           // world_from_body, m
+  std::vector<std::vector<Vector3>> body_velocity_m_s, body_spin_rad_s;  // axes of the world
+  std::vector<std::vector<Matrix4>> pad_pose;                            // world_from_gel, m
+  std::vector<std::vector<Wrench>> pad_wrench;  // on each pad, about the origin of its S, axes of the world
+};
+
+/// Writes the arrays as outputs of a stage; names of the parts go into the record's summary, which the caller writes.
+void write_robot_folder(Stage& stage, const RobotFolder& robot);
+
+/// \throw DataError if the robot did not finish, or an array is missing or of another shape
+RobotFolder read_robot_folder(const std::filesystem::path& folder);
+
+/// The file with the shapes of a body in its own frame, in m; bodies without any have none.
+std::filesystem::path robot_shape(const std::filesystem::path& folder, const std::string& body);
+
+/// Lines of the summary of the record that read_robot_folder needs.
+Value::Map robot_summary(const RobotFolder& robot);
+
+}  // namespace tacipc

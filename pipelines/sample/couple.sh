@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Robot and press in turn, window by window, until they agree: couple.sh BIN OUT TASK ROBOT_ARGUMENTS -- PRESS_ARGUMENTS
+# The whole motion is OUT/robot in the end, its scene robot/scene.yaml. OUT/windows/0007/5/02/{robot,press} is the second try of the seventh window, of five frames; OUT/windows/0007/accepted names the try
+# that both agree on. OUT/solved has the frames of accepted windows, OUT/residuals.csv a line per try.
+# What is there is taken as it is, so an interrupted run goes on. A window that does not converge is halved; where one of a single frame
+# does not, the run ends: exit 1.
+set -euo pipefail
+export LC_ALL=C
+bin=$1 out=$2
+window=$("$bin/tacipc" get "$3" coupling.window_frames --default 5)
+most=$("$bin/tacipc" get "$3" coupling.most_tries --default 15)
+shift 3
+robot=() press=()
+while [ "$1" != -- ]; do robot+=("$1"); shift; done
+shift
+press=("$@")
+mkdir -p "$out/windows" "$out/solved"
+summary() { "$bin/tacipc" get "$1/robot.yaml" "summary.$2"; }
+
+# try_window FRAMES FOLDER: sets `accepted` to the try that both agree on; not 0 if there is none.
+try_window() {
+  local frames=$1 folder=$2 k=1 now last=''
+  : > "$folder/residuals.csv"
+  while :; do
+    now=$folder/$(printf '%02d' "$k")
+    if [ ! -f "$now/robot/robot.yaml" ]; then
+      local known=()
+      [ -z "$before" ] || known+=(--start "$before/robot")
+      if [ -n "$last" ]; then known+=(--try "$last/robot" --press "$last/press"); elif [ -n "$before" ]; then known+=(--press "$before/press"); fi
+      "$bin/robot" "${robot[@]}" --frames "$frames" ${known[@]+"${known[@]}"} --out "$now/robot"
+    fi
+    if [ -n "$last" ]; then
+      echo "$number,$frames,$(summary "$now/robot" window_first_frame),$((k - 1)),$(summary "$now/robot" residual_n),$(summary "$now/robot" residual_relative),$(summary "$now/robot" stiffness_n_m)" >> "$folder/residuals.csv"
+      if [ "$(summary "$now/robot" converged)" = true ]; then
+        accepted=$last
+        return 0
+      fi
+      [ "$k" -le "$most" ] || return 1
+    fi
+    if [ ! -f "$now/press/press.yaml" ]; then
+      "$bin/press" "${press[@]}" --sample "$now/robot/scene.yaml" --solved "$out/solved" --out "$now/press" || return 1
+    fi
+    last=$now k=$((k + 1))
+  done
+}
+
+before=''
+for ((w = 1;; ++w)); do
+  number=$(printf '%04d' "$w") length=$window
+  folder=$out/windows/$number
+  if [ ! -f "$folder/accepted" ]; then
+    while mkdir -p "$folder/$length" && ! try_window "$length" "$folder/$length"; do
+      [ "$length" -gt 1 ] || { echo "couple: window $w does not converge, not even of one frame: $folder" >&2; exit 1; }
+      length=$((length / 2))
+      echo "couple: window $w does not converge; now with $length frames"
+    done
+    # The answer's frames are the run's from here on; as links, so that a run that dies in between finds both.
+    ln -f "$accepted"/press/solved/* "$out/solved/"
+    echo "${accepted#"$folder"/}" > "$folder/accepted.new"
+    mv "$folder/accepted.new" "$folder/accepted"
+    echo "couple: window $w: $(tail -n 1 "$folder/$length/residuals.csv" | awk -F, '{ printf "frames %d to %d agree after %d tries, residual %.2g", $3 + 1, $3 + $2, $4, $6 }')"
+  fi
+  before=$folder/$(cat "$folder/accepted")
+  [ "$(summary "$before/robot" finished)" = false ] || break
+done
+{ echo 'window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m'; cat "$out"/windows/*/*/residuals.csv; } > "$out/residuals.csv.new"
+mv "$out/residuals.csv.new" "$out/residuals.csv"
+# The last window's folder has the whole motion.
+rm -rf "$out/robot.new"
+cp -r "$before/robot" "$out/robot.new"
+rm -rf "$out/robot"
+mv "$out/robot.new" "$out/robot"

@@ -1,0 +1,66 @@
+# A robot of MuJoCo with gels on its fingers (docs/robot.md): make -f Makefile.data robot TASK=configs/tasks/lift_and_shake.yaml
+# SENSOR, MESH, PRESS, SEED and NAME mean what they mean for `sample` and `grasp`.
+$(call uses,sample/sample sample/grasp)
+
+TASK  ?=#      a task of configs/tasks, or a file of your own
+ALONE ?= no#   yes: the robot moves by MuJoCo's own contacts, and the gels follow; no: it feels what the gels answer
+$(foreach v,TASK ALONE,$(eval override $(v) := $(strip $($(v)))))
+
+robot_is_built = @[ -x $(BIN)/robot ] || { echo "robot: not built for want of libmujoco-dev: make -f Makefile.data packages build GROUPS=robot" >&2; exit 2; }
+
+# $(call robot_rules,folder,name,task,sensor,mesh,press,seed): the robot in folder/robot, what its gels do in folder, the page in folder/report.
+# Files that a task names are not make's to know: what depends on them is what the task's own folders hold.
+define robot_rules
+$(1)/choice.txt: FORCE
+	$$(call replace_if_changed,{task: $$(abspath $(3))$$(comma) sensor: $(4)$$(comma) mesh: $(5)$$(comma) press: $(6)$$(comma) seed: $(7)$$(comma) alone: $$(ALONE)})
+$(1)/robot/robot.yaml: $(3) $$(wildcard $$(dir $(3))*.xml configs/robots/*.xml) $$(OUT)/gels/$(4)-$(5)/tetmesh.yaml configs/sensors/$(4).yaml configs/press/$(6).yaml $(1)/choice.txt | build
+	$$(robot_is_built)
+	$(if $(filter yes,$(ALONE)),$$(call run,robot,--name $(2) --task $(3) --seed $(7)),\
+	  OPENBLAS_NUM_THREADS=1 bash pipelines/sample/couple.sh $$(BIN) $(1) $(3) --name $(2) --task $(3) --seed $(7) -- \
+	    --name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --threads $$(THREADS))
+$(1)/press.yaml: $(1)/robot/robot.yaml | build
+	$$(call run,press,--name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --sample $(1)/robot/scene.yaml $(if $(filter yes,$(ALONE)),,--solved $(1)/solved))
+$(1)/rendered.txt: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) | build
+	@for pad in $$$$($$(BIN)/tacipc get $(1)/robot/robot.yaml summary.pads); do \
+	  OPENBLAS_NUM_THREADS=1 $$(BIN)/render --out $(1)/gels/$$$$pad/render --threads $$(THREADS) --press $(1)/gels/$$$$pad/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh \
+	    --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml || exit 1; done; date > $$@
+$(1)/report/report.yaml: $(1)/rendered.txt | build
+	$$(call run,report,--title "$(2)" --scene $(1))
+endef
+
+.PHONY: robot robot-demo
+programs_for_robot := robot tetmesh press render report tacipc
+packages_for_robot := robot
+ifneq ($(and $(filter robot,$(MAKECMDGOALS)),$(TASK)),)
+robot_name := $(or $(NAME),$(basename $(notdir $(TASK))))
+$(call check_name,TASK)
+$(call check_name,robot_name)
+ifeq ($(wildcard $(TASK)),)
+  $(error TASK: $(TASK) does not exist)
+endif
+$(foreach v,SENSOR:sensors MESH:gels PRESS:press,$(if $(wildcard configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml),,$(error \
+  $(firstword $(subst :, ,$(v))): there is no configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml)))
+useless := $(filter-out SENSOR MESH PRESS NAME,$(given)) $(if $(OBJECT),OBJECT)
+ifneq ($(strip $(useless)),)
+  $(error $(firstword $(useless)): has no effect on a robot, whose task says it)
+endif
+ROBOTED := $(OUT)/robot/$(robot_name)
+$(eval $(call robot_rules,$(ROBOTED),$(robot_name),$(TASK),$(SENSOR),$(MESH),$(PRESS),$(SEED)))
+
+robot: $(ROBOTED)/report/report.yaml ## own: A robot of MuJoCo with gels on its fingers: TASK=configs/tasks/lift_and_shake.yaml [SEED=1 SENSOR= MESH= PRESS=; ALONE=yes: the gels only follow]
+	@echo; echo "Look at $(ROBOTED)/report/index.html and $(ROBOTED)/gels/*/render/frame_*/tactile.png"
+else
+robot:
+	@echo "robot: say which task: make -f Makefile.data robot TASK=configs/tasks/lift_and_shake.yaml" >&2; exit 2
+endif
+
+# The four tasks that are shipped, on a coarser gel.
+demo_tasks := lift_and_shake turn_in_hand insert_peg slide_over
+demo_mesh  := adaptive_0400um
+programs_for_robot-demo := $(programs_for_robot)
+packages_for_robot-demo := robot
+ifneq ($(filter robot-demo,$(MAKECMDGOALS)),)
+$(foreach t,$(demo_tasks),$(eval $(call robot_rules,$(OUT)/robot-demo/$(t),$(t),configs/tasks/$(t).yaml,mctac,$(demo_mesh),default,1)))
+robot-demo: $(foreach t,$(demo_tasks),$(OUT)/robot-demo/$(t)/report/report.yaml) ## start: Four tasks of robots with gels on their fingers, with pages
+	@echo; echo "Look at $(OUT)/robot-demo/*/report/index.html"
+endif

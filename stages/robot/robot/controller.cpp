@@ -1,0 +1,190 @@
+#include "stages/robot/robot/controller.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.h"
+
+namespace tacipc {
+namespace {
+
+// Of the inverse kinematics: how near is near enough, and how hard a singular direction is held back.
+constexpr int kMostIterations = 30;
+constexpr double kNear = 1e-9, kDamping = 1e-4;
+constexpr double kReached_m = 1e-4, kReached_rad = 1e-2;
+
+double smooth_part(double s) { return s * s * (3.0 - 2.0 * s); }
+
+Matrix3 rotation_by(const Vector3& turn_rad) {
+  const double angle = turn_rad.norm();
+  return angle == 0.0 ? Matrix3(Matrix3::Identity()) : Eigen::AngleAxisd(angle, turn_rad / angle).toRotationMatrix();
+}
+
+}  // namespace
+
+Controller::Controller(const TaskSpec& task, RobotModel& robot) : task_(task), robot_(robot), plan_(robot.make_data()) {
+  const mjModel& m = robot.model();
+  for (int a = 0; a < m.nu; ++a) {
+    // force = gain × control + bias₁ × length with bias₁ = −gain: a servo that goes to the control.
+    const bool servo = m.actuator_trntype[a] == mjTRN_JOINT && m.actuator_gaintype[a] == mjGAIN_FIXED &&
+                       m.actuator_biastype[a] == mjBIAS_AFFINE && m.actuator_gainprm[mjNGAIN * a] > 0.0 &&
+                       m.actuator_biasprm[mjNBIAS * a + 1] == -m.actuator_gainprm[mjNGAIN * a] &&
+                       m.actuator_gear[6 * a] == 1.0;
+    const int joint = m.actuator_trnid[2 * a];
+    if (servo && (m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE)) servos_.push_back({a, joint});
+  }
+  for (const TaskStep& step : task.steps) {
+    for (const auto* named : {&step.set, &step.limit}) {
+      for (const auto& [name, value] : *named) robot.id(mjOBJ_ACTUATOR, name);
+    }
+    for (const std::string& site : {step.site, step.until ? step.until->site : std::string()}) {
+      if (!site.empty()) robot.id(mjOBJ_SITE, site);
+    }
+  }
+  begin_step(0.0);
+}
+
+Matrix4 Controller::site_pose(const mjData& data, int site) const {
+  return pose_from(data.site_xpos + 3 * site, data.site_xmat + 9 * site);
+}
+
+void Controller::set_servos(mjData& data) const {
+  const mjModel& m = robot_.model();
+  for (const Servo& servo : servos_) data.qpos[m.jnt_qposadr[servo.joint]] = robot_.data().ctrl[servo.actuator];
+}
+
+void Controller::begin_step(double time_s) {
+  const mjModel& m = robot_.model();
+  const mjData& d = robot_.data();
+  started_s_ = time_s;
+  start_control_.assign(d.ctrl, d.ctrl + m.nu);
+  start_qpos_.assign(d.qpos, d.qpos + m.nq);
+  if (done()) return;
+  const TaskStep& step = task_.steps[step_];
+  take_limits(step);
+  if (step.site.empty()) return;
+  // From where it is told to be, not from where its weight has it.
+  std::copy(start_qpos_.begin(), start_qpos_.end(), plan_->qpos);
+  set_servos(*plan_);
+  mj_kinematics(&m, plan_.get());
+  start_site_ = site_pose(*plan_, robot_.id(mjOBJ_SITE, step.site));
+}
+
+void Controller::take_limits(const TaskStep& step) {
+  mjModel& m = robot_.model();
+  for (const auto& [name, limit] : step.limit) {
+    const int actuator = robot_.id(mjOBJ_ACTUATOR, name);
+    m.actuator_forcelimited[actuator] = 1;
+    m.actuator_forcerange[2 * actuator] = -limit;
+    m.actuator_forcerange[2 * actuator + 1] = limit;
+  }
+}
+
+bool Controller::over(const TaskStep& step, const std::vector<double>& pads) const {
+  if (!step.until) return false;
+  if (!step.until->pad.empty()) {
+    for (std::size_t p = 0; p < task_.pads.size(); ++p) {
+      if (task_.pads[p].name == step.until->pad) return pads[p] >= step.until->force_n;
+    }
+  }
+  const double height = robot_.data().site_xpos[3 * robot_.id(mjOBJ_SITE, step.until->site) + 2];
+  return step.until->above_m ? height >= *step.until->above_m : height <= *step.until->below_m;
+}
+
+void Controller::act(const std::vector<double>& pads) {
+  mjData& d = robot_.data();
+  while (!done()) {
+    const TaskStep& step = task_.steps[step_];
+    const double elapsed = d.time - started_s_;
+    // The last control of a step that is over stays: its end, or where its condition was met. Times add up with
+    // rounding.
+    const bool at_end = elapsed >= step.seconds - 1e-9, early = !at_end && over(step, pads);
+    if (!early) {
+      const double part = std::clamp(elapsed / step.seconds, 0.0, 1.0);
+      const double share = step.smooth ? smooth_part(part) : part;
+      for (const auto& [name, value] : step.set) {
+        const int a = robot_.id(mjOBJ_ACTUATOR, name);
+        const double from = start_control_[static_cast<std::size_t>(a)];
+        d.ctrl[a] = from + share * (value - from);
+      }
+      if (!step.site.empty()) follow(step, share, std::min(elapsed, step.seconds));
+    }
+    if (!at_end && !early) return;
+    ++step_;
+    begin_step(d.time);
+  }
+}
+
+void Controller::follow(const TaskStep& step, double part, double elapsed_s) {
+  const mjModel& m = robot_.model();
+  const int site = robot_.id(mjOBJ_SITE, step.site);
+  const Vector3 start = start_site_.topRightCorner<3, 1>();
+  Vector3 by = step.to_m ? Vector3(*step.to_m - start) : step.by_m;
+  by *= part;
+  if (step.frequency_hz > 0.0)
+    by = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * step.frequency_hz * elapsed_s)) * step.shake_m;
+  const Vector3 target = start + by;
+  const Matrix3 turned = rotation_by(part * step.turn_rad) * start_site_.topLeftCorner<3, 3>();
+  std::copy(start_qpos_.begin(), start_qpos_.end(), plan_->qpos);
+  set_servos(*plan_);
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> all(6, m.nv);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J(6, static_cast<Eigen::Index>(servos_.size()));
+  double missing_m = 0.0, missing_rad = 0.0;
+  for (int i = 0; i < kMostIterations; ++i) {
+    mj_kinematics(&m, plan_.get());
+    mj_comPos(&m, plan_.get());
+    const Matrix4 now = site_pose(*plan_, site);
+    Eigen::Matrix<double, 6, 1> error;
+    error.head<3>() = target - now.topRightCorner<3, 1>();
+    const Eigen::AngleAxisd turn(Matrix3(turned * now.topLeftCorner<3, 3>().transpose()));
+    error.tail<3>() = turn.angle() * turn.axis();
+    missing_m = error.head<3>().norm(), missing_rad = error.tail<3>().norm();
+    if (error.norm() < kNear) break;
+    mj_jacSite(&m, plan_.get(), all.data(), all.data() + 3 * m.nv, site);
+    for (std::size_t s = 0; s < servos_.size(); ++s)
+      J.col(static_cast<Eigen::Index>(s)) = all.col(m.jnt_dofadr[servos_[s].joint]);
+    const Eigen::Matrix<double, 6, 6> A =
+        J * J.transpose() + kDamping * kDamping * Eigen::Matrix<double, 6, 6>::Identity();
+    const Eigen::VectorXd way = J.transpose() * A.ldlt().solve(error);
+    for (std::size_t s = 0; s < servos_.size(); ++s)
+      plan_->qpos[m.jnt_qposadr[servos_[s].joint]] += way[static_cast<Eigen::Index>(s)];
+  }
+  if (missing_m > kReached_m || missing_rad > kReached_rad)
+    throw DataError("step {}: site {} cannot go there: at {:.3f} s {:.2g} mm and {:.2g} rad are missing", step_ + 1,
+                    step.site, robot_.data().time, 1e3 * missing_m, missing_rad);
+  for (const Servo& servo : servos_) robot_.data().ctrl[servo.actuator] = plan_->qpos[m.jnt_qposadr[servo.joint]];
+}
+
+std::vector<double> Controller::state() const {
+  std::vector<double> all{static_cast<double>(step_), started_s_};
+  const mjModel& m = robot_.model();
+  all.insert(all.end(), start_control_.begin(), start_control_.end());
+  all.insert(all.end(), start_qpos_.begin(), start_qpos_.end());
+  for (int i = 0; i < 16; ++i) all.push_back(start_site_(i / 4, i % 4));
+  for (int a = 0; a < m.nu; ++a) {
+    all.push_back(m.actuator_forcelimited[a]);
+    all.insert(all.end(), {m.actuator_forcerange[2 * a], m.actuator_forcerange[2 * a + 1]});
+  }
+  return all;
+}
+
+void Controller::restore(const std::vector<double>& state) {
+  mjModel& m = robot_.model();
+  if (state.size() != this->state().size()) throw DataError("a saved state is of another model");
+  auto at = state.begin();
+  step_ = static_cast<std::size_t>(*at++);
+  started_s_ = *at++;
+  for (double& value : start_control_) value = *at++;
+  for (double& value : start_qpos_) value = *at++;
+  for (int i = 0; i < 16; ++i) start_site_(i / 4, i % 4) = *at++;
+  for (int a = 0; a < m.nu; ++a) {
+    m.actuator_forcelimited[a] = static_cast<mjtByte>(*at++);
+    m.actuator_forcerange[2 * a] = *at++;
+    m.actuator_forcerange[2 * a + 1] = *at++;
+  }
+}
+
+}  // namespace tacipc

@@ -1,0 +1,251 @@
+#include "stages/robot/robot/outputs.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/format/csv.h"
+#include "common/format/npy.h"
+#include "common/sample/robot_folder.h"
+#include "common/sample/scene_folder.h"
+#include "common/stage/record.h"
+#include "stages/robot/robot/pad_gap.h"
+#include "stages/robot/robot/shapes.h"
+
+namespace tacipc {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kState = "state.npy";
+constexpr const char* kBasis = "answers.npy";
+constexpr const char* kEvents = "contacts.csv";
+constexpr std::size_t kAnswerNumbers = 16 + 6 + 1;
+
+Value::List numbers(const Vector3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }
+
+Value::List turn_deg(const Matrix4& pose) {
+  const Eigen::AngleAxisd turn(Matrix3(pose.topLeftCorner<3, 3>()));
+  return numbers(180.0 / std::numbers::pi * turn.angle() * turn.axis());
+}
+
+/// Frames after which a body is let go.
+int held_frames(const TaskSpec& task, const ObjectSpec& object, int frames) {
+  return std::min(frames, static_cast<int>(std::ceil(object.held_s / task.frame_s - 1e-9)));
+}
+
+std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::vector<TaskObject>& objects,
+                       const RobotModel& robot, const std::vector<Matrix4>& object_start, int frames) {
+  Value::List bodies;
+  for (const PadSpec& pad : task.pads)
+    bodies.emplace_back(Value::Map{{"name", pad.name}, {"kind", "gel"}, {"path", "paths/" + pad.name + ".npy"}});
+  for (std::size_t i = 0; i < task.objects.size(); ++i) {
+    const ObjectSpec& spec = task.objects[i];
+    Value::Map body{{"name", spec.name},
+                    {"kind", spec.fixed ? "fixed" : "rigid"},
+                    {"mesh", fs::relative(fs::absolute(spec.mesh), fs::absolute(folder)).string()},
+                    {"unit", spec.unit}};
+    if (!spec.fixed) body.emplace_back("mass_g", 1e3 * objects[i].mass_kg);
+    body.emplace_back("at_mm", numbers(1e3 * object_start[i].topRightCorner<3, 1>()));
+    body.emplace_back("turn_deg", turn_deg(object_start[i]));
+    bodies.emplace_back(std::move(body));
+  }
+  Value::List contact;
+  for (const TouchSpec& touch : task.contact) {
+    Value::Map pair{{"between", Value::List(touch.between.begin(), touch.between.end())}};
+    if (touch.friction) pair.emplace_back("friction", *touch.friction);
+    if (touch.d_hat_mm) pair.emplace_back("d_hat_mm", *touch.d_hat_mm);
+    contact.emplace_back(std::move(pair));
+  }
+  std::set<int> ends{frames};
+  for (const ObjectSpec& object : task.objects) ends.insert(held_frames(task, object, frames));
+  Value::List motion;
+  int from = 0;
+  for (const int end : ends) {
+    if (end == from) continue;
+    Value::Map phase{{"steps", end - from}};
+    Value::List held;
+    for (const ObjectSpec& object : task.objects) {
+      if (!object.fixed && held_frames(task, object, frames) > from) held.emplace_back(object.name);
+    }
+    if (!held.empty()) phase.emplace_back("hold", std::move(held));
+    motion.emplace_back(std::move(phase));
+    from = end;
+  }
+  const mjtNum* g = robot.model().opt.gravity;
+  Value::Map scene{{"gravity_m_s2", numbers({g[0], g[1], g[2]})}, {"bodies", std::move(bodies)}};
+  if (!contact.empty()) scene.emplace_back("contact", std::move(contact));
+  scene.emplace_back("motion", std::move(motion));
+  return to_yaml(scene);
+}
+
+void add(std::vector<double>& all, const Matrix4& pose) {
+  for (int i = 0; i < 16; ++i) all.push_back(pose(i / 4, i % 4));
+}
+
+Matrix4 pose_at(const double* values) { return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values); }
+
+}  // namespace
+
+void write_outputs(Stage& stage, const TaskSpec& task, const std::vector<TaskObject>& objects, const RobotModel& robot,
+                   const std::vector<Matrix4>& object_start, const RobotRun& run, const WindowAnswers* answers) {
+  const mjModel& m = robot.model();
+  RobotFolder folder;
+  for (int b = 1; b < m.nbody; ++b) folder.parts.bodies.push_back(robot.name(mjOBJ_BODY, b));
+  for (const PadSpec& pad : task.pads) folder.parts.pads.push_back(pad.name);
+  for (int a = 0; a < m.nu; ++a) folder.parts.actuators.push_back(robot.name(mjOBJ_ACTUATOR, a));
+  for (const RobotFrame& frame : run.frames) {
+    folder.times_s.push_back(frame.time_s);
+    folder.step.push_back(frame.step);
+    folder.qpos.push_back(frame.qpos);
+    folder.qvel.push_back(frame.qvel);
+    folder.control.push_back(frame.control);
+    folder.actuator_force.push_back(frame.actuator_force);
+    folder.body_pose.push_back(frame.body_pose);
+    auto& velocities = folder.body_velocity_m_s.emplace_back();
+    auto& spins = folder.body_spin_rad_s.emplace_back();
+    for (const BodyTwist& twist : frame.body_twist) {
+      velocities.push_back(twist.velocity_m_s);
+      spins.push_back(twist.spin_rad_s);
+    }
+    folder.pad_pose.push_back(frame.pad_pose);
+    folder.pad_wrench.push_back(frame.pad_wrench);
+  }
+  write_robot_folder(stage, folder);
+  for (int b = 0; b < m.nbody; ++b) {
+    if (const TriangleMesh shape = shape_of_body(m, b); shape.num_triangles() > 0)
+      write_ply(stage.output(robot_shape("", robot.name(mjOBJ_BODY, b)).string()), shape);
+  }
+  std::string events = csv_line({"time_s", "first", "second", "event"});
+  for (const ContactEvent& event : run.events)
+    events += csv_line({fmt::format("{}", event.time_s), event.first, event.second, event.begins ? "begins" : "ends"});
+  write_file(stage.output(kEvents), events);
+  write_npy(stage.output(kState), {run.state.size()}, run.state.data());
+  for (std::size_t p = 0; p < task.pads.size(); ++p) {
+    std::vector<double> path;
+    for (const RobotFrame& frame : run.frames) add(path, frame.pad_pose[p]);
+    write_npy(stage.output("paths/" + task.pads[p].name + ".npy"), {run.frames.size(), 4, 4}, path.data());
+  }
+  write_file(stage.output("scene.yaml"),
+             scene_text(stage.out(), task, objects, robot, object_start, static_cast<int>(run.frames.size()) - 1));
+  if (answers) {
+    std::vector<double> basis;
+    for (const auto& frame : answers->frames) {
+      for (const PadAnswer& answer : frame) {
+        add(basis, answer.world_from_gel);
+        basis.insert(basis.end(), answer.wrench.force_n.begin(), answer.wrench.force_n.end());
+        basis.insert(basis.end(), answer.wrench.torque_n_m.begin(), answer.wrench.torque_n_m.end());
+        basis.push_back(answer.gap_m);
+      }
+    }
+    write_npy(stage.output(kBasis), {answers->frames.size(), task.pads.size(), kAnswerNumbers}, basis.data());
+  }
+  stage.summarize(robot_summary(folder));
+}
+
+RobotRun read_run(const fs::path& path) {
+  const RobotFolder folder = read_robot_folder(path);
+  RobotRun run;
+  for (std::size_t f = 0; f < folder.times_s.size(); ++f) {
+    RobotFrame& frame = run.frames.emplace_back();
+    frame = {.time_s = folder.times_s[f],
+             .step = folder.step[f],
+             .qpos = folder.qpos[f],
+             .qvel = folder.qvel[f],
+             .control = folder.control[f],
+             .actuator_force = folder.actuator_force[f],
+             .body_pose = folder.body_pose[f],
+             .body_twist = {},
+             .pad_pose = folder.pad_pose[f],
+             .pad_wrench = folder.pad_wrench[f]};
+    for (std::size_t b = 0; b < folder.parts.bodies.size(); ++b)
+      frame.body_twist.push_back({folder.body_velocity_m_s[f][b], folder.body_spin_rad_s[f][b]});
+  }
+  CsvReader events(path / kEvents);
+  while (events.next())
+    run.events.push_back({std::stod(events["time_s"]), events["first"], events["second"], events["event"] == "begins"});
+  run.state = read_npy(path / kState).data;
+  return run;
+}
+
+std::vector<std::vector<PadAnswer>> read_basis(const fs::path& folder, std::size_t pads) {
+  std::vector<std::vector<PadAnswer>> all;
+  if (!fs::is_regular_file(folder / kBasis)) return all;
+  const NpyArray basis = read_npy(folder / kBasis);
+  for (std::size_t at = 0; at < basis.data.size();) {
+    auto& frame = all.emplace_back();
+    for (std::size_t p = 0; p < pads; ++p, at += kAnswerNumbers) {
+      const double* n = basis.data.data() + at;
+      frame.push_back({.world_from_gel = pose_at(n),
+                       .wrench = {Vector3(n[16], n[17], n[18]), Vector3(n[19], n[20], n[21])},
+                       .gap_m = n[22]});
+    }
+  }
+  return all;
+}
+
+double gap_of(const TaskSpec& task, const std::vector<TaskObject>& objects, std::size_t pad,
+              const Matrix4& world_from_gel, const std::vector<Matrix4>& object_poses) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    gap =
+        std::min(gap, gap_before(objects[i].mesh, world_from_gel.inverse() * object_poses[i], task.pads[pad].radius_m));
+  // A number that can be written and mixed: nothing is met within a metre.
+  return std::min(gap, 1.0);
+}
+
+WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const std::vector<TaskObject>& objects,
+                           std::size_t first) {
+  const SceneBodies scene = read_scene_bodies(press);
+  const auto number = [&](const std::string& name) {
+    const auto found = std::find(scene.bodies.begin(), scene.bodies.end(), name);
+    if (found == scene.bodies.end()) throw DataError("{}: has no body {}", press.string(), name);
+    return static_cast<std::size_t>(found - scene.bodies.begin());
+  };
+  if (scene.per_frame.size() <= first)
+    throw DataError("{}: has {} frames, and the window begins after frame {}", press.string(), scene.per_frame.size(),
+                    first);
+  const std::size_t count = scene.bodies.size();
+  WindowAnswers answers;
+  for (const TaskObject& object : objects)
+    answers.inertia_n_m.push_back(object.mass_kg / (task.frame_s * task.frame_s));
+  for (std::size_t f = first; f < scene.per_frame.size(); ++f) {
+    std::vector<Matrix4> poses;
+    auto& rigid = answers.objects.emplace_back();
+    for (const ObjectSpec& object : task.objects) {
+      poses.push_back(scene.body_pose[f][number(object.name)]);
+      if (!object.fixed) rigid.push_back(poses.back());
+    }
+    auto& of_frame = answers.frames.emplace_back();
+    for (std::size_t p = 0; p < task.pads.size(); ++p) {
+      const std::size_t gel = number(task.pads[p].name);
+      PadAnswer answer{.world_from_gel = scene.body_pose[f][gel]};
+      for (std::size_t b = 0; b < count; ++b) {
+        answer.wrench.force_n += scene.per_frame[f][gel * count + b].force_n;
+        answer.wrench.torque_n_m += scene.per_frame[f][gel * count + b].torque_n_m;
+      }
+      double most = 0.0;
+      for (std::size_t o = 0; o < task.objects.size(); ++o) {
+        const ObjectSpec& object = task.objects[o];
+        const double force = scene.per_frame[f][gel * count + number(object.name)].force_n.norm();
+        if (force <= most) continue;
+        most = force;
+        const bool gives_way = !object.fixed && static_cast<double>(f) * task.frame_s > object.held_s - 1e-9;
+        answer.carried = gives_way ? static_cast<int>(o) : -1;
+      }
+      // About the origin of S instead of the world's.
+      answer.wrench.torque_n_m -= Vector3(answer.world_from_gel.topRightCorner<3, 1>()).cross(answer.wrench.force_n);
+      answer.gap_m = gap_of(task, objects, p, answer.world_from_gel, poses);
+      of_frame.push_back(answer);
+    }
+  }
+  return answers;
+}
+
+}  // namespace tacipc

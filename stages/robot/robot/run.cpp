@@ -1,0 +1,262 @@
+#include "stages/robot/robot/run.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/base/error.h"
+#include "stages/robot/robot/controller.h"
+
+namespace tacipc {
+namespace {
+
+using Pair = std::pair<std::string, std::string>;
+constexpr const char* kGel = "gel";  // what a pad touches by its gel, in the list of contacts
+
+class Runner {
+ public:
+  Runner(const TaskSpec& task, RobotModel& robot, bool coupled)
+      : task_(task), robot_(robot), coupled_(coupled), controller_(task, robot) {
+    const double steps = task.frame_s / robot.model().opt.timestep;
+    per_frame_ = static_cast<int>(std::lround(steps));
+    if (per_frame_ < 1 || std::abs(steps - per_frame_) > 1e-6 * steps)
+      throw UsageError(fmt::format("{}: frame_s, {:g} s, is not a whole number of the model's time steps, {:g} s",
+                                   task.model.string(), task.frame_s, robot.model().opt.timestep));
+    felt_.assign(task.pads.size(), {Vector3::Zero(), Vector3::Zero()});
+  }
+
+  RobotRun alone(const RobotProgress& progress) {
+    mj_step1(&robot_.model(), &robot_.data());
+    note(0);
+    for (int n = 1; !controller_.done() || n % per_frame_ != 1; ++n) {
+      progress(robot_.data().time);
+      advance();
+      for (std::size_t p = 0; p < felt_.size(); ++p) felt_[p] = robot_.pad_contact(p);
+      mj_step1(&robot_.model(), &robot_.data());
+      note(n);
+    }
+    return finished();
+  }
+
+  /// Between two frames the wrenches on the pads are constant: those that the press is to answer with where the
+  /// interval ends, as its own time step is an implicit one. What one side is pushed by, the other is pushed back by.
+  RobotRun window(const Window& window) {
+    if (window.before) {
+      run_ = *window.before;
+      restore(run_.state);
+      for (const ContactEvent& event : run_.events) {
+        const Pair pair{event.first, event.second};
+        event.begins ? void(touching_.insert(pair)) : void(touching_.erase(pair));
+      }
+      felt_ = run_.frames.back().pad_wrench;
+    } else {
+      mj_step1(&robot_.model(), &robot_.data());
+      note(0);
+    }
+    for (int f = 1; f <= window.frames && !run_.finished; ++f) interval(window, f);
+    return finished();
+  }
+
+ private:
+  void interval(const Window& window, int frame) {
+    const auto frames = static_cast<int>(run_.frames.size());
+    put_objects(window, frame);
+    const std::vector<double> start = state();
+    const std::size_t pads = felt_.size();
+    const auto set_forces = [&](const Eigen::VectorXd& forces) {
+      for (std::size_t p = 0; p < pads; ++p) felt_[p].force_n = forces.segment<3>(static_cast<Eigen::Index>(3 * p));
+    };
+    const auto end = [&](const Eigen::VectorXd& forces) {
+      restore(start);
+      set_forces(forces);
+      for (int n = 0; n < per_frame_; ++n) advance();
+      mj_kinematics(&robot_.model(), &robot_.data());
+      return origins();
+    };
+    const auto law = [&](const Eigen::VectorXd& at) { return forces_of(answered(window, frame, at)); };
+    Eigen::VectorXd forces(static_cast<Eigen::Index>(3 * pads));
+    for (std::size_t p = 0; p < pads; ++p) forces.segment<3>(static_cast<Eigen::Index>(3 * p)) = felt_[p].force_n;
+    for (std::size_t p = 0; p < pads; ++p)
+      felt_[p].torque_n_m =
+          window.answers ? answer(window, frame, p).wrench.torque_n_m : window.at_start[p].wrench.torque_n_m;
+    forces = balanced_forces(end, law, forces);
+    restore(start);
+    set_forces(forces);
+    for (int n = 0; n < per_frame_; ++n) {
+      advance();
+      mj_step1(&robot_.model(), &robot_.data());
+      note((frames - 1) * per_frame_ + n + 1);
+    }
+    // Its controls are the next window's to give; here they only tell whether there is one.
+    const std::vector<double> last = state();
+    act();
+    run_.finished = controller_.done();
+    restore(last);
+  }
+
+  void act() {
+    std::vector<double> forces;
+    for (const Wrench& wrench : felt_) forces.push_back(wrench.force_n.norm());
+    controller_.act(forces);
+  }
+
+  /// One time step of the model.
+  void advance() {
+    mj_step1(&robot_.model(), &robot_.data());
+    act();
+    if (coupled_) {
+      robot_.forget_pushes();
+      for (std::size_t p = 0; p < felt_.size(); ++p) robot_.push_pad(p, felt_[p]);
+    }
+    mj_step2(&robot_.model(), &robot_.data());
+    robot_.check();
+  }
+
+  Eigen::VectorXd origins() const {
+    Eigen::VectorXd all(static_cast<Eigen::Index>(3 * felt_.size()));
+    for (std::size_t p = 0; p < felt_.size(); ++p)
+      all.segment<3>(static_cast<Eigen::Index>(3 * p)) = robot_.pad_pose(p).topRightCorner<3, 1>();
+    return all;
+  }
+
+  static Eigen::VectorXd forces_of(const std::vector<Wrench>& wrenches) {
+    Eigen::VectorXd all(static_cast<Eigen::Index>(3 * wrenches.size()));
+    for (std::size_t p = 0; p < wrenches.size(); ++p)
+      all.segment<3>(static_cast<Eigen::Index>(3 * p)) = wrenches[p].force_n;
+    return all;
+  }
+
+  const PadAnswer& answer(const Window& window, int frame, std::size_t pad) const {
+    const auto& frames = window.answers->frames;
+    return frames[std::min(static_cast<std::size_t>(frame), frames.size() - 1)][pad];
+  }
+
+  /// What the gels would answer with their origins at these places at the end of a frame of the window.
+  std::vector<Wrench> answered(const Window& window, int frame, const Eigen::VectorXd& at) const {
+    std::vector<Wrench> wrenches;
+    const auto origin = [&](std::size_t p) { return Vector3(at.segment<3>(static_cast<Eigen::Index>(3 * p))); };
+    std::vector<Vector3> origins;
+    for (std::size_t p = 0; p < felt_.size(); ++p) origins.push_back(origin(p));
+    if (window.answers) {
+      const auto f = std::min(static_cast<std::size_t>(frame), window.answers->frames.size() - 1);
+      return felt_wrenches(window.answers->frames[f], origins, window.answers->stiffness_n_m[f],
+                           window.answers->inertia_n_m);
+    }
+    // What is held goes with the hand: its mean way is no way further in. A single pad has nothing to hold against.
+    Vector3 mean = Vector3::Zero();
+    for (std::size_t p = 0; felt_.size() > 1 && p < felt_.size(); ++p)
+      mean +=
+          (origin(p) - window.at_start[p].world_from_gel.topRightCorner<3, 1>()) / static_cast<double>(felt_.size());
+    for (std::size_t p = 0; p < felt_.size(); ++p) {
+      PadAnswer moved = window.at_start[p];
+      moved.world_from_gel.topRightCorner<3, 1>() += mean;
+      wrenches.push_back(felt_wrench(moved, origin(p), window.stiffness_n_m));
+    }
+    return wrenches;
+  }
+
+  void put_objects(const Window& window, int frame) {
+    const auto& poses =
+        window.answers
+            ? window.answers->objects[std::min(static_cast<std::size_t>(frame), window.answers->objects.size() - 1)]
+            : window.objects_at_start;
+    std::size_t rigid = 0;
+    for (std::size_t i = 0; i < task_.objects.size(); ++i) {
+      if (!task_.objects[i].fixed) robot_.put_object(i, poses[rigid++]);
+    }
+  }
+
+  /// A frame where one is due, and what has begun or ended to touch.
+  void note(int n) {
+    const mjModel& m = robot_.model();
+    const mjData& d = robot_.data();
+    std::set<Pair> now;
+    for (int c = 0; c < d.ncon; ++c) {
+      if (d.contact[c].dist < 0.0)
+        now.emplace(robot_.name(mjOBJ_GEOM, d.contact[c].geom1), robot_.name(mjOBJ_GEOM, d.contact[c].geom2));
+    }
+    for (std::size_t p = 0; p < felt_.size(); ++p) {
+      if (felt_[p].force_n != Vector3::Zero()) now.emplace(task_.pads[p].name, kGel);
+    }
+    for (const Pair& pair : touching_) {
+      if (!now.contains(pair)) run_.events.push_back({d.time, pair.first, pair.second, false});
+    }
+    for (const Pair& pair : now) {
+      if (!touching_.contains(pair)) run_.events.push_back({d.time, pair.first, pair.second, true});
+    }
+    touching_ = std::move(now);
+    if (n % per_frame_ != 0) return;
+    // Times of frames are their numbers': those of the model add up with rounding.
+    RobotFrame frame;
+    frame.time_s = n / per_frame_ * task_.frame_s;
+    frame.step = static_cast<int>(controller_.step());
+    frame.qpos.assign(d.qpos, d.qpos + m.nq);
+    frame.qvel.assign(d.qvel, d.qvel + m.nv);
+    frame.control.assign(d.ctrl, d.ctrl + m.nu);
+    frame.actuator_force.assign(d.actuator_force, d.actuator_force + m.nu);
+    for (int body = 1; body < m.nbody; ++body) {
+      frame.body_pose.push_back(robot_.body_pose(body));
+      frame.body_twist.push_back(robot_.body_twist(body));
+    }
+    for (std::size_t p = 0; p < felt_.size(); ++p) frame.pad_pose.push_back(robot_.pad_pose(p));
+    frame.pad_wrench = felt_;
+    run_.frames.push_back(std::move(frame));
+  }
+
+  std::vector<double> state() const {
+    const mjModel& m = robot_.model();
+    const mjData& d = robot_.data();
+    std::vector<double> all{d.time};
+    const auto add = [&](const mjtNum* values, int count) { all.insert(all.end(), values, values + count); };
+    add(d.qpos, m.nq), add(d.qvel, m.nv), add(d.act, m.na), add(d.qacc_warmstart, m.nv), add(d.ctrl, m.nu);
+    add(d.mocap_pos, 3 * m.nmocap), add(d.mocap_quat, 4 * m.nmocap);
+    add(d.actuator_force, m.nu);  // what the frame at this instant is to show
+    const std::vector<double> control = controller_.state();
+    all.insert(all.end(), control.begin(), control.end());
+    return all;
+  }
+
+  void restore(const std::vector<double>& state) {
+    const mjModel& m = robot_.model();
+    mjData& d = robot_.data();
+    const auto own = static_cast<std::size_t>(1 + m.nq + 2 * m.nv + m.na + 2 * m.nu + 7 * m.nmocap);
+    if (state.size() < own) throw DataError("a saved state is of another model");
+    const double* at = state.data();
+    d.time = *at++;
+    const auto take = [&](mjtNum* values, int count) { std::copy_n(at, count, values), at += count; };
+    take(d.qpos, m.nq), take(d.qvel, m.nv), take(d.act, m.na), take(d.qacc_warmstart, m.nv), take(d.ctrl, m.nu);
+    take(d.mocap_pos, 3 * m.nmocap), take(d.mocap_quat, 4 * m.nmocap);
+    take(d.actuator_force, m.nu);
+    controller_.restore({state.begin() + static_cast<std::ptrdiff_t>(own), state.end()});
+  }
+
+  RobotRun finished() {
+    run_.state = state();
+    return std::move(run_);
+  }
+
+  const TaskSpec& task_;
+  RobotModel& robot_;
+  const bool coupled_;
+  Controller controller_;
+  RobotRun run_;
+  std::set<Pair> touching_;
+  std::vector<Wrench> felt_;  // of each pad, now
+  int per_frame_ = 1;
+};
+
+}  // namespace
+
+RobotRun run_alone(const TaskSpec& task, RobotModel& robot, const RobotProgress& progress) {
+  RobotRun run = Runner(task, robot, false).alone(progress);
+  run.finished = true;
+  return run;
+}
+
+RobotRun run_window(const TaskSpec& task, RobotModel& robot, const Window& window) {
+  return Runner(task, robot, true).window(window);
+}
+
+}  // namespace tacipc
