@@ -56,6 +56,8 @@ for ((w = 1;; ++w)); do
     done
     # The answer's frames are the run's from here on; as links, so that a run that dies in between finds both.
     ln -f "$accepted"/press/solved/* "$out/solved/"
+    # Of the tries their records, poses and wrenches stay.
+    rm -rf "$folder"/*/*/press/{gels,soft,solved}
     echo "${accepted#"$folder"/}" > "$folder/accepted.new"
     mv "$folder/accepted.new" "$folder/accepted"
     echo "couple: window $w: $(tail -n 1 "$folder/$length/residuals.csv" | awk -F, '{ printf "frames %d to %d agree after %d tries, residual %.2g", $3 + 1, $3 + $2, $4, $6 }')"

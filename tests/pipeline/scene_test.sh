@@ -44,11 +44,37 @@ for example in lift_block soft_ball peg_in_hole; do scene one $example THREADS=1
 make -s -f Makefile.data export SAMPLE=one/scene/soft_ball OUT=one BUILD="$build_dir" PACKAGES=no > said.txt 2>&1 || { tail -5 said.txt >&2; fail "export failed"; }
 for file in surface_gel_0034.vtu object_plate_0034.vtu soft_ball_0034.vtu soft.pvd sample.glb; do [ -s one/scene/soft_ball/export/$file ] || fail "$file is missing"; done
 
-# Killed once some frames are there, on another number of threads.
 of_all=("$bin/press" --config configs/press/default.yaml --sensor configs/sensors/mctac.yaml --gel one/gels/mctac-tiny/gel.msh)
 press() { # press OUT SCENE [FLAG …]
   "${of_all[@]}" --out "$1" --sample "$2" "${@:3}"
 }
+# Piece by piece: gels on paths, of which the second piece has more and takes the frames of the first.
+/usr/bin/python3 - <<'PY'
+import numpy as np, os
+for name, steps in (("piece", 3), ("whole", 6)):
+    os.makedirs(name, exist_ok=True)
+    path = np.tile(np.eye(4), (steps + 1, 1, 1))
+    path[:, 2, 3] = 0.05e-3 * np.arange(steps + 1)
+    np.save(f"{name}/gel.npy", path)
+    scenes = os.path.relpath("configs/scenes", name)
+    open(f"{name}/scene.yaml", "w").write(f"""bodies:
+  - {{name: gel, kind: gel, path: gel.npy}}
+  - {{name: plate, kind: fixed, mesh: {scenes}/meshes/plate.off, unit: mm, at_mm: [0, 0, 1.1]}}
+motion: [{{steps: {steps}}}]
+""")
+PY
+press at_once whole/scene.yaml > said.txt 2>&1 || { tail -5 said.txt >&2; fail "a scene with a path failed"; }
+mkdir none
+press first piece/scene.yaml --solved none > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the first piece failed"; }
+press second whole/scene.yaml --solved first/solved > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the second piece failed"; }
+[ "$(find first/solved -type f | wc -l),$(find second/solved -type f | wc -l)" = 4,3 ] || fail "the pieces did not leave the frames that they solved"
+for file in body_pose.npy wrench.npy energy.npy gels/gel/press/positions.npy gels/gel/press/contact_force.npy; do
+  cmp "at_once/$file" "second/$file" || fail "solved piece by piece, $file is another"
+done
+code=0; "$bin/press" --config configs/press/small_gap.yaml --sensor configs/sensors/mctac.yaml --gel one/gels/mctac-tiny/gel.msh --sample whole/scene.yaml --solved first/solved --out other > said.txt 2>&1 || code=$?
+[ $code = 1 ] && grep -q 'of another gel, sensor, press file or body' said.txt || fail "frames of another press file were taken"
+
+# Killed once some frames are there, on another number of threads.
 soft=(--soft one/scene/soft_ball/tets --name soft_ball)
 "${of_all[@]}" --out killed --sample configs/scenes/soft_ball.yaml "${soft[@]}" --threads 2 > said.txt 2>&1 &
 killed=$!

@@ -5,6 +5,7 @@
 #include "stages/gel/export/frame_grids.h"
 #include "stages/gel/export/gltf.h"
 #include "stages/gel/export/open_press.h"
+#include "stages/gel/export/surface_arrays.h"
 
 namespace {
 
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
     if (!bodies.empty()) write_file(stage.output("object.pvd"), pvd_text(bodies));
     if (!soft.empty()) write_file(stage.output("soft.pvd"), pvd_text(soft));
     write_file(stage.output("sample.glb"), glb_bytes(scene));
+    write_surface_arrays(stage, scene);
     Eigen::Index vertices = 0, tets = 0, triangles = 0;
     for (const OpenGel& gel : scene.gels) {
       vertices += gel.mesh.num_vertices();

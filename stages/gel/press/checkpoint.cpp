@@ -228,7 +228,6 @@ void scene_contents(auto& io, auto& frame, auto& gels, auto& progress) {
   all(frame.spin_rad_s, numbers);
   all(frame.strain, [&](auto& strain) { io.plain(strain); });
   all(frame.soft_m, [&](auto& positions) { io.rows(positions); });
-  all(frame.vertex_velocity_m_s, [&](auto& velocities) { io.rows(velocities); });
   all(frame.between, [&](auto& wrench) {
     each(io, wrench.force_n);
     each(io, wrench.torque_n_m);

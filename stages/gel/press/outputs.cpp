@@ -375,13 +375,6 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
                                       {"min_gap_m", f.min_gap_m},
                                       {"intersections", f.intersections}});
   }
-  for (std::size_t b = 0; b < deformable; ++b) {
-    const auto vertices = static_cast<std::size_t>(frames[0].vertex_velocity_m_s[b].rows());
-    std::vector<double> velocities;
-    for (const SceneFrame& f : frames) add(velocities, f.vertex_velocity_m_s[b]);
-    write_array(stage, (b < scene.gels.size() ? "gels/" : "soft/") + spec.bodies[b].name + "/velocities.npy",
-                {n, vertices, 3}, velocities);
-  }
   write_array(stage, "time.npy", {n}, time);
   write_array(stage, "body_pose.npy", {n, count, 4, 4}, poses);
   if (rigid > 0) write_array(stage, "body_twist.npy", {n, rigid, 6}, twists);

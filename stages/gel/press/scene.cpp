@@ -497,8 +497,6 @@ class Stepping {
     if (frame.between.empty())
       frame.between.assign(bodies_.size() * bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
     frame.min_gap_m = stepper_->smallest_gap(x, scales_.gap_horizon_m);
-    for (const Part& part : parts_)
-      frame.vertex_velocity_m_s.emplace_back(own_rows(part, progress_.state.velocity_m_s));
     frame.intersections = judge_bodies(static_cast<int>(out_.frames.size()), shapes());
     std::vector<Frame> of_gels;
     for (const Part& part : parts_) {

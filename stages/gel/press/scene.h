@@ -28,7 +28,6 @@ struct SceneFrame {
   std::vector<Vector3> velocity_m_s = {}, spin_rad_s = {};  // of rigid bodies: of their centres of mass, and about them
   std::vector<double> strain = {};                          // of rigid bodies: max |AᵀA − I|
   std::vector<Positions> soft_m = {};                       // of soft bodies
-  std::vector<Positions> vertex_velocity_m_s = {};          // of gels and soft bodies
   std::vector<Wrench> between = {};  // on body a by body b, about the world's origin, at a × number of bodies + b
   double min_gap_m = 0.0;            // between two bodies, at most Simulation::gap_horizon_m
   int intersections = 0;             // pairs of triangles, by an exact test

@@ -28,13 +28,7 @@ Matrix3 rotation_by(const Vector3& turn_rad) {
 Controller::Controller(const TaskSpec& task, RobotModel& robot) : task_(task), robot_(robot), plan_(robot.make_data()) {
   const mjModel& m = robot.model();
   for (int a = 0; a < m.nu; ++a) {
-    // force = gain × control + bias₁ × length with bias₁ = −gain: a servo that goes to the control.
-    const bool servo = m.actuator_trntype[a] == mjTRN_JOINT && m.actuator_gaintype[a] == mjGAIN_FIXED &&
-                       m.actuator_biastype[a] == mjBIAS_AFFINE && m.actuator_gainprm[mjNGAIN * a] > 0.0 &&
-                       m.actuator_biasprm[mjNBIAS * a + 1] == -m.actuator_gainprm[mjNGAIN * a] &&
-                       m.actuator_gear[6 * a] == 1.0;
-    const int joint = m.actuator_trnid[2 * a];
-    if (servo && (m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE)) servos_.push_back({a, joint});
+    if (is_servo(m, a)) servos_.push_back({a, m.actuator_trnid[2 * a]});
   }
   for (const TaskStep& step : task.steps) {
     for (const auto* named : {&step.set, &step.limit}) {
@@ -62,9 +56,11 @@ void Controller::begin_step(double time_s) {
   started_s_ = time_s;
   start_control_.assign(d.ctrl, d.ctrl + m.nu);
   start_qpos_.assign(d.qpos, d.qpos + m.nq);
+  start_limit_.clear();
+  for (int a = 0; a < m.nu; ++a)
+    start_limit_.push_back(m.actuator_forcelimited[a] ? m.actuator_forcerange[2 * a + 1] : 0.0);
   if (done()) return;
   const TaskStep& step = task_.steps[step_];
-  take_limits(step);
   if (step.site.empty()) return;
   // From where it is told to be, not from where its weight has it.
   std::copy(start_qpos_.begin(), start_qpos_.end(), plan_->qpos);
@@ -73,13 +69,15 @@ void Controller::begin_step(double time_s) {
   start_site_ = site_pose(*plan_, robot_.id(mjOBJ_SITE, step.site));
 }
 
-void Controller::take_limits(const TaskStep& step) {
+void Controller::set_limits(const TaskStep& step, double part) {
   mjModel& m = robot_.model();
   for (const auto& [name, limit] : step.limit) {
     const int actuator = robot_.id(mjOBJ_ACTUATOR, name);
+    const double from = start_limit_[static_cast<std::size_t>(actuator)];
+    const double now = from > 0.0 ? from + part * (limit - from) : limit;
     m.actuator_forcelimited[actuator] = 1;
-    m.actuator_forcerange[2 * actuator] = -limit;
-    m.actuator_forcerange[2 * actuator + 1] = limit;
+    m.actuator_forcerange[2 * actuator] = -now;
+    m.actuator_forcerange[2 * actuator + 1] = now;
   }
 }
 
@@ -110,6 +108,7 @@ void Controller::act(const std::vector<double>& pads) {
         const double from = start_control_[static_cast<std::size_t>(a)];
         d.ctrl[a] = from + share * (value - from);
       }
+      set_limits(step, share);
       if (!step.site.empty()) follow(step, share, std::min(elapsed, step.seconds));
     }
     if (!at_end && !early) return;
@@ -163,6 +162,7 @@ std::vector<double> Controller::state() const {
   const mjModel& m = robot_.model();
   all.insert(all.end(), start_control_.begin(), start_control_.end());
   all.insert(all.end(), start_qpos_.begin(), start_qpos_.end());
+  all.insert(all.end(), start_limit_.begin(), start_limit_.end());
   for (int i = 0; i < 16; ++i) all.push_back(start_site_(i / 4, i % 4));
   for (int a = 0; a < m.nu; ++a) {
     all.push_back(m.actuator_forcelimited[a]);
@@ -179,6 +179,7 @@ void Controller::restore(const std::vector<double>& state) {
   started_s_ = *at++;
   for (double& value : start_control_) value = *at++;
   for (double& value : start_qpos_) value = *at++;
+  for (double& value : start_limit_) value = *at++;
   for (int i = 0; i < 16; ++i) start_site_(i / 4, i % 4) = *at++;
   for (int a = 0; a < m.nu; ++a) {
     m.actuator_forcelimited[a] = static_cast<mjtByte>(*at++);

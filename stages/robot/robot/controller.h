@@ -30,7 +30,7 @@ class Controller {
     int actuator, joint;
   };
   void begin_step(double time_s);
-  void take_limits(const TaskStep& step);
+  void set_limits(const TaskStep& step, double part);
   bool over(const TaskStep& step, const std::vector<double>& pads) const;
   void follow(const TaskStep& step, double part, double elapsed_s);
   Matrix4 site_pose(const mjData& data, int site) const;
@@ -43,7 +43,7 @@ class Controller {
   // What a step goes on from.
   std::size_t step_ = 0;
   double started_s_ = 0.0;
-  std::vector<double> start_control_, start_qpos_;
+  std::vector<double> start_control_, start_qpos_, start_limit_;  // of forces: 0 where there is none
   Matrix4 start_site_ = Matrix4::Identity();
 };
 

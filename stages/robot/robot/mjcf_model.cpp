@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cstdlib>
+#include <numbers>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -65,6 +66,15 @@ void to_wxyz(const Matrix3& rotation, mjtNum* wxyz) {
   wxyz[0] = q.w(), wxyz[1] = q.x(), wxyz[2] = q.y(), wxyz[3] = q.z();
 }
 
+bool is_servo(const mjModel& m, int a) {
+  const int joint = m.actuator_trnid[2 * a];
+  // force = gain × control + bias₁ × length with bias₁ = −gain.
+  return m.actuator_trntype[a] == mjTRN_JOINT && m.actuator_gaintype[a] == mjGAIN_FIXED &&
+         m.actuator_biastype[a] == mjBIAS_AFFINE && m.actuator_gainprm[mjNGAIN * a] > 0.0 &&
+         m.actuator_biasprm[mjNBIAS * a + 1] == -m.actuator_gainprm[mjNGAIN * a] && m.actuator_gear[6 * a] == 1.0 &&
+         (m.jnt_type[joint] == mjJNT_HINGE || m.jnt_type[joint] == mjJNT_SLIDE);
+}
+
 RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& objects, bool coupled) : task_(task) {
   mju_user_error = [](const char* text) { give_up(text); };
   mju_user_warning = [](const char* text) { warn(text); };
@@ -106,6 +116,17 @@ RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& obje
       if (task.objects[i].fixed) continue;
       const int at = m.jnt_qposadr[m.body_jntadr[object_bodies_[i]]];
       for (int k = 0; k < 7; ++k) data_->qpos[at + k] = m.qpos0[at + k];
+    }
+  }
+  for (const auto& [name, value] : task.start) {
+    const int joint = id(mjOBJ_JOINT, name);
+    const bool hinge = m.jnt_type[joint] == mjJNT_HINGE;
+    if (!hinge && m.jnt_type[joint] != mjJNT_SLIDE)
+      throw UsageError(fmt::format("start: joint {} is neither a hinge nor a slide", name));
+    const double q = value * (hinge ? std::numbers::pi / 180.0 : 1e-3);
+    data_->qpos[m.jnt_qposadr[joint]] = q;
+    for (int a = 0; a < m.nu; ++a) {
+      if (is_servo(m, a) && m.actuator_trnid[2 * a] == joint) data_->ctrl[a] = q;
     }
   }
   mj_forward(model_.get(), data_.get());

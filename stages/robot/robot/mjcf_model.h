@@ -77,6 +77,9 @@ class RobotModel {
   std::vector<int> pad_geoms_, object_bodies_;
 };
 
+/// Whether an actuator is a servo that brings a single joint to its control.
+bool is_servo(const mjModel& model, int actuator);
+
 /// MuJoCo's row-major 3 × 3 and w, x, y, z as ours, and back.
 Matrix4 pose_from(const mjtNum* position, const mjtNum* rotation);
 Eigen::Quaterniond quaternion_from(const mjtNum* wxyz);

@@ -28,11 +28,19 @@ class Runner {
   }
 
   RobotRun alone(const RobotProgress& progress) {
+    std::vector<Matrix4> held;
+    for (std::size_t i = 0; i < task_.objects.size(); ++i) held.push_back(robot_.body_pose(robot_.object_body(i)));
+    const auto hold = [&] {
+      for (std::size_t i = 0; i < task_.objects.size(); ++i) {
+        if (robot_.data().time < task_.objects[i].held_s - 1e-9) robot_.put_object(i, held[i]);
+      }
+    };
     mj_step1(&robot_.model(), &robot_.data());
     note(0);
     for (int n = 1; !controller_.done() || n % per_frame_ != 1; ++n) {
       progress(robot_.data().time);
       advance();
+      hold();
       for (std::size_t p = 0; p < felt_.size(); ++p) felt_[p] = robot_.pad_contact(p);
       mj_step1(&robot_.model(), &robot_.data());
       note(n);

@@ -117,6 +117,7 @@ TaskSpec TaskSpec::read(ConfigReader& in) {
   in.ignore("variables");  // drawn before
   task.model = folder / in.text("model");
   task.frame_s = in.number_or("frame_s", task.frame_s, Range{.low = 0.0, .high = 1.0, .open_low = true});
+  task.start = named_numbers(in, "start", Range::any());
   std::vector<std::string> names;
   const auto once = [&](ConfigReader& at, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) != names.end())

@@ -48,11 +48,12 @@ struct Condition {
 };
 
 struct TaskStep {
-  double seconds = 0.0;                                    // at most, with a condition
-  bool smooth = true;                                      // speeding up and slowing down
-  std::vector<std::pair<std::string, double>> set = {};    // controls of actuators at the end of the step; SI
-  std::vector<std::pair<std::string, double>> limit = {};  // largest force of actuators from here on
-  std::string site = {};                                   // that moves, by inverse kinematics; empty: none
+  double seconds = 0.0;                                  // at most, with a condition
+  bool smooth = true;                                    // speeding up and slowing down
+  std::vector<std::pair<std::string, double>> set = {};  // controls of actuators at the end of the step; SI
+  std::vector<std::pair<std::string, double>> limit =
+      {};                 // largest force of actuators at its end; at once if it had none
+  std::string site = {};  // that moves, by inverse kinematics; empty: none
   Vector3 by_m = Vector3::Zero(), turn_rad = Vector3::Zero();
   std::optional<Vector3> to_m = std::nullopt;  // instead of by_m
   Vector3 shake_m = Vector3::Zero();           // of this site, there and back
@@ -70,8 +71,9 @@ struct CouplingSpec {
 };
 
 struct TaskSpec {
-  std::filesystem::path model;  // MJCF
-  double frame_s = 0.01;        // of the press's frames
+  std::filesystem::path model;                        // MJCF
+  double frame_s = 0.01;                              // of the press's frames
+  std::vector<std::pair<std::string, double>> start;  // of joints that servos hold: degrees of hinges, mm of slides
   std::vector<PadSpec> pads;
   std::vector<ObjectSpec> objects;
   std::vector<TouchSpec> contact;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
+#include <vector>
 
 namespace tacipc {
 namespace {
@@ -38,6 +39,14 @@ TEST(RigidWay, ASmoothWayBeginsAndEndsAtRest) {
   EXPECT_EQ(smooth_part(1.0), 1.0);
   EXPECT_LT(smooth_part(1e-4), 1e-7);
   EXPECT_GT(smooth_part(1.0 - 1e-4), 1.0 - 1e-7);
+}
+
+TEST(RigidWay, OnAPathAPoseIsMetToTheBitAndBetweenTwoItGoesEvenly) {
+  const Matrix4 first = Matrix4::Identity(), last = moved(first, {{1, 2, 3}, {0, 0, 0.4}});
+  const std::vector<Matrix4> path{first, last};
+  EXPECT_EQ(pose_on_path(path, 1.0 - 1e-13), last);
+  EXPECT_EQ(pose_on_path(path, 0.0), first);
+  EXPECT_LT((pose_on_path(path, 0.25) - moved(first, {{0.25, 0.5, 0.75}, {0, 0, 0.1}})).cwiseAbs().maxCoeff(), 1e-15);
 }
 
 }  // namespace

@@ -54,6 +54,46 @@ class SceneOf : public ::testing::Test {
   std::vector<SceneBody> bodies_;
 };
 
+TEST_F(SceneOf, AGelOnAPathGoesAsOneThatIsMoved) {
+  const auto press = [&](bool by_path) {
+    spec_.bodies.clear(), bodies_.clear();
+    add_gel("gel", at(Vector3::Zero()));
+    add_box("above", BodyKind::fixed, {0, 0, 3.1e-3});
+    spec_.motion = {{.steps = 4}};
+    const RigidWay way{.shift_m = {0.1e-3, 0, 0.3e-3}, .turn_rad = {0, 0, 0.02}};
+    if (by_path) {
+      for (int k = 0; k <= 4; ++k) bodies_[0].path.push_back(moved(Matrix4::Identity(), way * (k / 4.0)));
+    } else {
+      spec_.motion[0].move = {{.body = 0, .way = way}};
+    }
+    return run();
+  };
+  const Scene moved = press(false), along = press(true);
+  EXPECT_EQ(along.frames[4].world_from_body[0], bodies_[0].path[4]);
+  EXPECT_GT(-along.gels[0].frames[4].force_n.z(), 1.0);
+  EXPECT_LT((along.gels[0].frames[4].force_n - moved.gels[0].frames[4].force_n).norm(), 1e-6);
+  EXPECT_LT((along.gels[0].frames[4].positions - moved.gels[0].frames[4].positions).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(SceneOf, APathHasAPoseForEachTimeStep) {
+  add_gel("gel", at(Vector3::Zero()));
+  add_box("above", BodyKind::fixed, {0, 0, 3.1e-3});
+  spec_.motion = {{.steps = 3, .substeps = 2}};
+  bodies_[0].path.assign(5, Matrix4::Identity());
+  const auto said = [&] {
+    try {
+      run();
+    } catch (const DataError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(said(), HasSubstr("body gel: its path has 5 poses; 6 time steps need 7"));
+  bodies_[0].path.assign(7, Matrix4::Identity());
+  bodies_[0].path[6] = at(Vector3::Zero(), {0, 0.3, 0});
+  EXPECT_THAT(said(), HasSubstr("body gel: its path turns by 0.3 rad in time step 6"));
+}
+
 TEST_F(SceneOf, ABoxOnAGelCarriesAnotherThatOnlyThenIsLetGo) {
   add_gel("gel", at(Vector3::Zero()));
   add_box("lower", BodyKind::rigid, {0, 0, 3.1e-3});
