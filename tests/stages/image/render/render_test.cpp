@@ -51,7 +51,7 @@ TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
 
 TEST_F(RenderStage, WritesTheLastFrameOfEachPhase) {
   press(slab(4, 3), 6, [](double, double) { return 0.05e-3; });
-  write_file(scratch_ / "config.yaml", "frames: phases\n");
+  write_file(scratch_ / "config.yaml", "frames: phases\nnoise: {seed: 1}\n");
   EXPECT_EQ(run("refused"), 1);
   EXPECT_THAT(said_, HasSubstr("what is rendered has no phases"));
   // Two of a kind in a row are one: frames 1 and 2; 3; 4 and 5.
@@ -162,7 +162,7 @@ TEST_F(RenderStage, RefusesWrongConfigurations) {
   write_file(scratch_ / "config.yaml", "frames: first\nsubpixel: 2\nnoise: {evry_frame: true}\n");
   EXPECT_EQ(run(), 2);
   EXPECT_EQ(said_,
-            "config.yaml:1:9: frames: 'first' is not one of last, all\n"
+            "config.yaml:1:9: frames: 'first' is not one of last, phases, all\n"
             "config.yaml:2:1: subpixel: unknown key (did you mean subpixels?)\n"
             "config.yaml:3:8: noise.seed: missing\n"
             "config.yaml:3:9: noise.evry_frame: unknown key (did you mean every_frame?)\n");
