@@ -45,9 +45,9 @@ $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml): $(SHARDS_DIR)/%/pack.yaml: $(SHARDS_
 	@cp $< $(@D)/packed.inputs || rm -f $(@D)/packed.inputs
 
 SHARD_RECORDS := $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml)
-$(DATASET_DIR)/pack/card.yaml: configs/datasets/card/$(CARD).yaml configs/datasets/card/loader.py $(SHARDS_DIR)/card.choice $(SHARDS_DIR)/shards.txt $(SHARD_RECORDS) | build
+$(DATASET_DIR)/pack/card.yaml: configs/datasets/card/$(CARD).yaml configs/datasets/card/loader.py configs/datasets/card/check_labels.py $(SHARDS_DIR)/card.choice $(SHARDS_DIR)/shards.txt $(SHARD_RECORDS) | build
 	$(call run,card,--name $(notdir $(DATASET_DIR)) --config $< --plan $(DATASET_DIR)/plan/samples.csv --dataset $(SHARDS_DIR)/dataset.yaml \
-	  --shards $(SHARDS_DIR)/shards.txt --loader configs/datasets/card/loader.py $(if $(wildcard CITATION.cff),--citation CITATION.cff))
+	  --shards $(SHARDS_DIR)/shards.txt --loader configs/datasets/card/loader.py --check-labels configs/datasets/card/check_labels.py $(if $(wildcard CITATION.cff),--citation CITATION.cff))
 
 $(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/datasets/repack/$(FORMAT).yaml $(SHARDS_DIR)/%/pack.yaml | build
 	$(call run,repack,--config $< --shard $(SHARDS_DIR)/$*/$*.h5)

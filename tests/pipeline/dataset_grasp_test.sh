@@ -30,7 +30,7 @@ motions:
   - name: lift
     samples: 2
     fingers: {draw: {width_mm: [2, 40]}}
-    object: {friction_margin: [2, 4]}
+    object: {friction_margin: [2, 4], friction: [0.4, 0.8], center_of_mass_shift_mm: {x: [-2, 2]}}
     motion:
       - {kind: close, force_n: [1, 1.5], steps: 2}
       - {kind: lift, distance_mm: [0.5, 1], steps: 2}
@@ -82,6 +82,11 @@ assert (left["finger"], right["finger"]) == ("left", "right")
 assert left["outcome"] == right["outcome"] == "lifted"
 assert left["object_mass_g"] == right["object_mass_g"] > 0
 assert 1.9 < left["friction_margin"] < 4.2
+assert "reason" not in left and "gross_slip_s" not in left
+lost = next(s for s in samples.values() if s.get("outcome") == "dropped")
+assert lost["reason"] == "weight" and lost["first_slip_s"] <= lost["gross_slip_s"]
+assert 0.2 <= left["mu"] == right["mu"] <= 0.8 and left["mu"] != 0.7 and lost["mu"] == 0.7
+assert np.allclose(left["center_of_mass_shift_mm"], right["center_of_mass_shift_mm"]) and abs(left["center_of_mass_shift_mm"][0]) <= 2
 grip = np.abs(left["force_N"][-1, 2]), np.abs(right["force_N"][-1, 2])
 assert 0.9 < min(grip) and max(grip) < 1.6, grip
 world = np.load(f"{folder}/samples/000/{lift}/object_twist.npy")
@@ -94,6 +99,28 @@ assert left["slip_mm"].shape == (len(frames),) and left["slip_mm"][-1] < 1
 press = [s for s in samples.values() if s["motion"] == "down"][0]
 assert "grasp" not in press and {"absent_object_velocity_mm_s", "absent_slip_mm"} <= set(press["absent"])
 END
+# Every label follows from what is packed beside it, and one that does not is found: a label, a pose, a force, a state.
+/usr/bin/python3 "$set/pack/check_labels.py" "$set"/pack/shards/*.h5 > said.txt || fail "labels differ: $(cat said.txt)"
+grep -q '6 of 6 samples agree$' said.txt || fail "not all fingers were checked: $(cat said.txt)"
+cat > tamper.py <<'END'
+import shutil, sys, h5py, numpy as np
+whole, to, what = sys.argv[1:]
+shutil.copy(whole, to)
+with h5py.File(to, "r+") as shard:
+    sample = next(s for s in shard["data"].values() if s.attrs.get("finger") == "right" and s.attrs["outcome"] == "dropped")
+    if what in sample.attrs:
+        sample.attrs[what] = "lifted" if what == "outcome" else "torque" if what == "reason" else sample.attrs[what] + 0.01
+    else:
+        field = sample["series/" + what]
+        values = field[...]
+        values[int(sample.attrs["freed_frame"]):] *= 0.5
+        field[...] = values
+END
+for what in outcome reason first_slip_s gross_slip_s rise_mm hand_pose object_pose finger_force_N slipping_force_N friction_margin; do
+  /usr/bin/python3 tamper.py "$set"/pack/shards/train-*.h5 tampered.h5 "$what" || fail "$what could not be changed"
+  /usr/bin/python3 "$set/pack/check_labels.py" tampered.h5 > said.txt && fail "a changed $what went unseen"
+  grep -q '5 of 6 samples agree$' said.txt || fail "$what: not one sample differs: $(cat said.txt)"
+done
 goal whole dataset-report > said.txt 2>&1 || fail "the report failed: $(cat said.txt)"
 grep -rq "$lift" $set/report || fail "the report has no grasp"
 goal whole estimate > said.txt 2>&1 || fail "the estimate failed: $(cat said.txt)"

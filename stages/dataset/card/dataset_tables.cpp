@@ -80,16 +80,31 @@ class ShardTables {
   std::unique_ptr<Tables> tables_;
 };
 
-constexpr const char* kCounted[] = {"split", "sensor", "object", "motion", "outcome"};
-constexpr const char* kMeasured[] = {
-    "n_frames",        "press_force_N",    "tangential_force_N",    "max_indentation_mm",
-    "min_distance_mm", "min_volume_ratio", "max_force_balance_rel", "clipped_fraction"};
+constexpr const char* kCounted[] = {"split", "sensor", "object", "motion", "outcome", "reason"};
+constexpr const char* kMeasured[] = {"n_frames",
+                                     "press_force_N",
+                                     "tangential_force_N",
+                                     "max_indentation_mm",
+                                     "min_distance_mm",
+                                     "min_volume_ratio",
+                                     "max_force_balance_rel",
+                                     "clipped_fraction",
+                                     "mu",
+                                     "object_mass_g",
+                                     "grip_N",
+                                     "friction_margin",
+                                     "lever_mm",
+                                     "end_slip_mm",
+                                     "end_turn_deg",
+                                     "first_slip_s",
+                                     "gross_slip_s"};
 
 void count(const CsvReader& row, DatasetCounts& counts) {
   ++counts.status[row["status"]];
   const bool made = row["status"] == "made";
   for (const char* column : kCounted) ++(made ? counts.made : counts.not_made)[column][row[column]];
   if (!made) return;
+  if (!row["outcome"].empty()) ++counts.outcomes[row["outcome"]][row["split"]];
   for (const char* column : kMeasured) {
     const std::string& text = row[column];
     double value = 0.0;

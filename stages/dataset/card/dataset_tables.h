@@ -21,6 +21,7 @@ struct DatasetCounts {
   std::map<std::string, int> status;                           // made, failed, unmade
   std::map<std::string, std::map<std::string, int>> made;      // by column (split, sensor, object, motion) and word
   std::map<std::string, std::map<std::string, int>> not_made;  // the same of those that are not
+  std::map<std::string, std::map<std::string, int>> outcomes;  // of made fingers of grasps, by outcome and split
   std::map<std::string, Extent> extents;                       // of made samples, by column of the manifest
 };
 

@@ -27,6 +27,7 @@ const StageSpec kCard{
                {.flag = "--shards",
                 .help = "text file with the record of each shard (pack.yaml), a line each, as seen from the file"},
                {.flag = "--loader", .help = "Python lines that load a shard"},
+               {.flag = "--check-labels", .help = "Python program that recomputes the labels of grasps"},
                {.flag = "--citation", .help = "CITATION.cff", .required = false}},
     .options = {{.flag = "--name", .help = "the dataset's name", .fallback = "dataset"}},
     .keeps_old_until_done = true};
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
       citation = read_file(*path);
       write_file(sums.output("CITATION.cff"), citation);
     }
+    if (!counts.outcomes.empty()) write_file(sums.output("check_labels.py"), read_file(stage.input("--check-labels")));
     const Record fields = Record::from_file(schema_path);
     write_file(sums.output("README.md"), dataset_card({.name = stage.option("--name"),
                                                        .config = config,

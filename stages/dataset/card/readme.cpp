@@ -29,6 +29,27 @@ std::string size_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
+/// Labels of grasps counted; nothing where there are none.
+std::string outcomes_text(const DatasetCounts& counts) {
+  if (counts.outcomes.empty()) return "";
+  std::string text =
+      "\nA finger of a grasp is a sample of its own: `grasp` and `finger` say which, `outcome` what became of the "
+      "object between both, and `reason` why it was not held. `check_labels.py` recomputes these and the times of slip "
+      "from "
+      "the poses, forces and contact states in `series/`.\n\n| Outcome of a grasp | samples | train | val | test "
+      "|\n|---|---|---|---|---|\n";
+  for (const auto& [outcome, splits] : counts.outcomes) {
+    int all = 0;
+    for (const auto& [split, count] : splits) all += count;
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", outcome, all, at_or_zero(splits, "train"),
+                        at_or_zero(splits, "val"), at_or_zero(splits, "test"));
+  }
+  std::string rows;
+  for (const auto& [reason, count] : counts.made.at("reason"))
+    if (!reason.empty()) rows += fmt::format("| {} | {} |\n", reason, count);
+  return rows.empty() ? text : text + "\n| Why it was not held | samples |\n|---|---|\n" + rows;
+}
+
 std::string contents_text(const CardContent& c) {
   int samples = 0, frames = 0;
   double bytes = 0.0;
@@ -54,16 +75,7 @@ std::string contents_text(const CardContent& c) {
   };
   for (const char* split : {"train", "val", "test"})
     text += fmt::format("| {} | {} | {} |\n", split, of(c.counts.made, split), of(c.counts.not_made, split));
-  if (const auto found = c.counts.made.find("outcome"); found != c.counts.made.end()) {
-    std::string rows;
-    for (const auto& [outcome, count] : found->second)
-      if (!outcome.empty()) rows += fmt::format("| {} | {} |\n", outcome, count);
-    if (!rows.empty())
-      text +=
-          "\nA finger of a grasp is a sample of its own: `grasp` and `finger` say which, and `outcome` what became of "
-          "the object between both.\n\n| Outcome of a grasp | samples |\n|---|---|\n" +
-          rows;
-  }
+  text += outcomes_text(c.counts);
   text += fmt::format(
       "\nSplits are by object: no object of `test` is in `train`. `splits/pose/` has a second division, by pose alone. "
       "Samples that could not be made ({} failed, {} never tried) are in no shard; `failures.csv` has the reason of "
@@ -173,9 +185,12 @@ std::string dataset_card(const CardContent& c) {
       "pose "
       "|\n| `sensors/{}/` … | sensor file, gel mesh, markers, camera.json |\n| `objects/<id>/` | the mesh that was "
       "pressed |\n"
-      "| `dataset.yaml` | the plan's configuration |\n| `timings.csv` | seconds and memory of each sample |\n"
+      "| `dataset.yaml` | the plan's configuration |\n{}| `timings.csv` | seconds and memory of each sample |\n"
       "| `checksums.sha256` | of all other files except `timings.csv`: `sha256sum -c checksums.sha256` |\n",
-      first_sensor);
+      first_sensor,
+      c.counts.outcomes.empty()
+          ? ""
+          : "| `check_labels.py` | recomputes the labels of grasps: `python3 check_labels.py shards/*.h5` |\n");
   text += "\n## Fields, units and frames\n\n" + fields_text(c);
   text += "\n## What the checks prove\n\n" + limits_text(c);
   if (!c.config.notes.empty()) text += "\n" + c.config.notes + "\n";

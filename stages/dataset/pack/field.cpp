@@ -96,13 +96,53 @@ Numbers summed_force(SampleFrames& sample, std::size_t frame, Part part) {
 }
 
 /// x, y, z in mm, then the unit quaternion x, y, z, w with w ≥ 0.
-Numbers pose(SampleFrames& sample, std::size_t frame) {
-  const Matrix4 s_from_object = sample.arrays().poses()[frame];
-  Eigen::Quaterniond q(Matrix3(s_from_object.topLeftCorner<3, 3>()));
+Numbers pose_numbers(const Matrix4& pose) {
+  Eigen::Quaterniond q(Matrix3(pose.topLeftCorner<3, 3>()));
   q.normalize();
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const Vector3 at = kMmPerM * s_from_object.topRightCorner<3, 1>();
+  const Vector3 at = kMmPerM * pose.topRightCorner<3, 1>();
   return {{7}, {at.x(), at.y(), at.z(), q.x(), q.y(), q.z(), q.w()}};
+}
+
+Numbers pose(SampleFrames& sample, std::size_t frame) { return pose_numbers(sample.arrays().poses()[frame]); }
+
+/// A frame of an array of the grasp with `poses` 4 × 4 matrices.
+Numbers world_poses(SampleFrames& sample, std::size_t frame, const char* file, std::size_t poses) {
+  const std::vector<double> values = sample.grasp_array(
+      file, poses == 1 ? std::vector<std::size_t>{4, 4} : std::vector<std::size_t>{poses, 4, 4}, frame);
+  Numbers all{{poses, 7}, {}};
+  if (poses == 1) all.shape = {7};
+  for (std::size_t p = 0; p < poses; ++p) {
+    const Numbers one =
+        pose_numbers(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data() + 16 * p).eval());
+    all.values.insert(all.values.end(), one.values.begin(), one.values.end());
+  }
+  return all;
+}
+
+/// Of both fingers, by their forces and states on each front vertex in this frame.
+Numbers of_fingers(SampleFrames& sample, std::size_t frame, double (*measure)(const FingerFront&)) {
+  Numbers both{{2}, {}};
+  for (const std::size_t side : {0, 1}) both.values.push_back(measure(sample.finger_front(side, frame)));
+  return both;
+}
+
+double normal_force(const FingerFront& front) { return front.normal_n.sum(); }
+
+double slipping_force(const FingerFront& front) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < front.states.size(); ++v)
+    if (front.states[v] == ContactState::slip) sum += front.normal_n[static_cast<Eigen::Index>(v)];
+  return sum;
+}
+
+/// Mean distance of the normal force from its centre, in the plane of the front.
+double friction_radius(const FingerFront& front) {
+  const double all = front.normal_n.sum();
+  if (all == 0.0) return 0.0;
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> flat = front.positions.leftCols<2>();
+  const Eigen::RowVector2d center = front.normal_n.transpose() * flat / all;
+  return front.normal_n.dot((flat.rowwise() - center).rowwise().norm()) / all;
 }
 
 FieldData twist(SampleFrames& sample, std::size_t frame, Vector3 Twist::*part) {
@@ -378,6 +418,12 @@ std::vector<Field> observations() {
        "angle by which the object has turned relative to the hand since the fingers have closed",
        "press: record of the grasp", kDegPerRad,
        [](SampleFrames& s, std::size_t f) -> FieldData { return of_grasp(s, f, "turn_rad"); }},
+      {kObs, "slip_share", f32, "(T)", "1", kNone, kNone,
+       "part of the finger's normal force that is on vertices that slip; 0 where it does not touch",
+       "press: record of the grasp", kSame,
+       [](SampleFrames& s, std::size_t f) -> FieldData {
+         return of_grasp(s, f, s.is_right_finger() ? "slip_share_right" : "slip_share_left");
+       }},
       {kObs, "time_s", f64, "(T)", "s", kNone, kNone, "time of the frame, 0 at the first", source_of(PressArray::time),
        kSame, [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.arrays().times()[f]); }},
       {kObs,
@@ -468,6 +514,81 @@ std::vector<Field> checks() {
           line("slipping", i32, "count", kNone, "front vertices that slip", kSame, "slipping")};
 }
 
+/// Of a grasp, in every frame of the press: what its labels follow from.
+std::vector<Field> series() {
+  constexpr auto kSeries = Section::series;
+  constexpr const char* kWorld = "world";
+  const auto sum = [](const char* name, const char* unit, const char* meaning, double scale,
+                      double (*measure)(const FingerFront&)) {
+    return Field{
+        kSeries,
+        name,
+        f64,
+        "(P,2)",
+        unit,
+        kNone,
+        kNone,
+        meaning,
+        source_of(PressArray::contact_force) + ", " + field_of(PressArray::contact_state).file + " of both fingers",
+        scale,
+        [measure](SampleFrames& s, std::size_t f) -> FieldData { return of_fingers(s, f, measure); }};
+  };
+  const auto poses = [](const char* name, const char* shape, const char* sign, const char* meaning, const char* file,
+                        std::size_t count) {
+    return Field{kSeries,
+                 name,
+                 f64,
+                 shape,
+                 "mm and 1",
+                 kWorld,
+                 sign,
+                 meaning,
+                 fmt::format("press: {} of the grasp", file),
+                 kSame,
+                 [=](SampleFrames& s, std::size_t f) -> FieldData { return world_poses(s, f, file, count); },
+                 false,
+                 true,
+                 {{"quat_order", "xyzw"}}};
+  };
+  return {
+      {kSeries, "time_s", f64, "(P)", "s", kNone, kNone, "time of the frame, 0 at the first",
+       source_of(PressArray::time), kSame,
+       [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.arrays().times()[f]); }},
+      {kSeries,
+       "phase",
+       u8,
+       "(P)",
+       "code",
+       kNone,
+       kNone,
+       "part of the motion that the frame ends or lies in",
+       source_of(PressArray::phase),
+       kSame,
+       [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(static_cast<double>(s.arrays().phases()[f])); },
+       false,
+       true,
+       {{"codes", phase_codes()}}},
+      poses("hand_pose", "(P,7)", "the world from the hand",
+            "position and unit quaternion of the hand, whose origin is where the object is gripped in frame 0",
+            "hand_pose.npy", 1),
+      poses("finger_pose", "(P,2,7)", "the world from S of the left and of the right finger",
+            "position and unit quaternion of both fingers", "finger_pose.npy", 2),
+      poses("object_pose", "(P,7)", "the world from the object's own frame",
+            "position and unit quaternion of the object", "object_pose.npy", 1),
+      {kSeries, "finger_force_N", f64, "(P,2,3)", "N", kWorld, "force on the left and on the right finger",
+       "contact force on each finger, of the object and of the other gel", "press: finger_force.npy of the grasp",
+       kNewton,
+       [](SampleFrames& s, std::size_t f) -> FieldData {
+         return Numbers{{2, 3}, s.grasp_array("finger_force.npy", {2, 3}, f)};
+       }},
+      sum("normal_force_N", "N", "sum of the lengths of the normal forces on the vertices of each front", kNewton,
+          normal_force),
+      sum("slipping_force_N", "N", "the same over those vertices that slip", kNewton, slipping_force),
+      sum("friction_radius_mm", "mm",
+          "mean distance of these normal forces from their centre, in the plane of the front; 0 where nothing touches",
+          kMmPerM, friction_radius)};
+}
+
 }  // namespace
 
 const char* name_of(Section section) {
@@ -478,6 +599,8 @@ const char* name_of(Section section) {
       return "sim";
     case Section::check:
       return "check";
+    case Section::series:
+      return "series";
   }
   return "";
 }
@@ -485,7 +608,7 @@ const char* name_of(Section section) {
 const std::vector<Field>& fields() {
   static const std::vector<Field> kFields = [] {
     std::vector<Field> all = observations();
-    for (auto part : {simulated(), checks()}) all.insert(all.end(), part.begin(), part.end());
+    for (auto part : {simulated(), checks(), series()}) all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
   return kFields;

@@ -14,7 +14,7 @@
 namespace tacipc {
 
 /// Part of a sample's group.
-enum class Section { obs, sim, check };
+enum class Section { obs, sim, check, series };
 
 const char* name_of(Section section);
 
@@ -24,7 +24,8 @@ struct Field {
   Section section;
   std::string name;
   NumberType type;
-  std::string shape;  // in letters: T frames, H rows, W columns of the image, h, w of the grid, N markers, V, F
+  std::string shape;  // in letters: T packed frames, P frames of the press, H rows, W columns of the image, h, w of the
+                      // grid, N markers, V, F
   std::string unit;
   std::string frame;  // of reference: "S", "camera", "image" or "none"
   std::string sign;   // what a positive value means, or "none"
@@ -37,6 +38,8 @@ struct Field {
   std::vector<std::pair<std::string, std::string>> more = {};  // further attributes: codes, quat_order
   std::optional<int> step_exponent = std::nullopt;             // the file holds multiples of 2^this, in its unit
 
+  /// Of every frame of the press, else of those that were rendered.
+  bool of_press_frames() const { return section == Section::series; }
   std::string path() const { return std::string(name_of(section)) + "/" + name; }
 };
 

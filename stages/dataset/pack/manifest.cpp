@@ -33,6 +33,42 @@ std::vector<std::string> planned_grasp(const PlannedRow& plan) {
 
 std::string number(double value) { return fmt::format("{}", value); }
 
+/// Labels and numbers of a grasp: a column each, and from its record. Empty where there is none.
+constexpr const char* kGraspColumns[] = {"outcome",
+                                         "reason",
+                                         "first_slip_s",
+                                         "gross_slip_s",
+                                         "end_slip_mm",
+                                         "end_turn_deg",
+                                         "mu",
+                                         "object_mass_g",
+                                         "grip_N",
+                                         "friction_margin",
+                                         "lever_mm",
+                                         "center_of_mass_shift_x_mm",
+                                         "center_of_mass_shift_y_mm",
+                                         "center_of_mass_shift_z_mm"};
+
+std::vector<std::string> grasp_fields(const SampleFrames& sample) {
+  const Record grasp = sample.grasp()->section("summary"),
+               slip = grasp.section(sample.is_right_finger() ? "slip_right" : "slip_left");
+  const auto or_nothing = [](std::optional<double> value) { return value ? number(*value) : std::string(); };
+  std::vector<std::string> fields{grasp.required_text("outcome"),
+                                  grasp.text("reason").value_or(""),
+                                  or_nothing(slip.number("first_slip_s")),
+                                  or_nothing(slip.number("gross_slip_s")),
+                                  number(kMmPerM * grasp.required_number("slip_m")),
+                                  number(kDegPerRad * grasp.required_number("turn_rad")),
+                                  number(grasp.required_number("friction_coefficient")),
+                                  number(1e3 * grasp.required_number("object_mass_kg")),
+                                  number(grasp.required_number("grip_n")),
+                                  or_nothing(grasp.number("friction_margin")),
+                                  number(kMmPerM * grasp.section("pose").required_number("lever_m"))};
+  for (const double shift_m : grasp.required_numbers("center_of_mass_shift_m", 3))
+    fields.push_back(number(kMmPerM * shift_m));
+  return fields;
+}
+
 }  // namespace
 
 std::vector<std::string> manifest_columns() {
@@ -41,8 +77,9 @@ std::vector<std::string> manifest_columns() {
   for (const char* name :
        {"offset", "status", "sensor_id", "n_frames", "press_frames", "press_force_N", "tangential_force_N",
         "max_indentation_mm", "min_distance_mm", "min_volume_ratio", "max_force_balance_rel", "newton_iterations",
-        "clipped_fraction", "press_sha256", "render_sha256", "grasp", "finger", "outcome"})
+        "clipped_fraction", "press_sha256", "render_sha256", "grasp", "finger"})
     columns.emplace_back(name);
+  columns.insert(columns.end(), std::begin(kGraspColumns), std::end(kGraspColumns));
   return columns;
 }
 
@@ -60,7 +97,9 @@ std::vector<std::string> manifest_row(const PlannedRow& plan, const std::string&
         sha256_of_file(sample.folder() / "render/render.yaml")})
     row.push_back(field);
   for (const std::string& field : planned_grasp(plan)) row.push_back(field);
-  row.push_back(sample.grasp() ? sample.grasp()->section("summary").required_text("outcome") : "");
+  if (sample.grasp())
+    for (std::string& field : grasp_fields(sample)) row.push_back(std::move(field));
+  row.resize(manifest_columns().size());
   return row;
 }
 
@@ -68,9 +107,9 @@ std::vector<std::string> manifest_row(const PlannedRow& plan, const Failure& fai
   std::vector<std::string> row = planned(plan);
   row.emplace_back();
   row.emplace_back(failure.made_nothing ? "unmade" : "failed");
-  row.resize(manifest_columns().size() - 3);
+  row.resize(manifest_columns().size() - std::size(kGraspColumns) - 2);
   for (const std::string& field : planned_grasp(plan)) row.push_back(field);
-  row.emplace_back();  // outcome
+  row.resize(manifest_columns().size());
   return row;
 }
 

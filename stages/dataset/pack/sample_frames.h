@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/format/npy.h"
 #include "common/image/image.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/render_folder.h"
@@ -20,6 +21,14 @@ namespace tacipc {
 struct Numbers {
   std::vector<std::size_t> shape;
   std::vector<double> values;
+};
+
+/// What touches the front of a finger in one frame: of each vertex its place in S (m), length of the normal force (N)
+/// and state.
+struct FingerFront {
+  Positions positions;
+  Eigen::VectorXd normal_n;
+  std::vector<ContactState> states;
 };
 
 /// Why a field is not there.
@@ -62,6 +71,13 @@ class SampleFrames {
   const std::optional<Record>& grasp() const { return grasp_; }
   /// A number of the frame in that record. \pre grasp()
   double grasp_number(std::size_t frame, const std::string& key) const;
+  bool is_right_finger() const { return folder_.filename() == "right"; }
+  /// A frame of an array in the grasp's folder, each frame of this shape. \pre grasp() \throw DataError if the file is
+  /// not the one of its record
+  std::vector<double> grasp_array(const std::string& file, const std::vector<std::size_t>& frame_shape,
+                                  std::size_t frame);
+  /// Of the left (0) or right (1) finger of the grasp. \pre grasp()
+  FingerFront finger_front(std::size_t side, std::size_t frame) const;
   /// A number of the frame in the press's record.
   double press_number(std::size_t frame, const std::string& key) const;
   /// Triangles of the front over its vertices.
@@ -77,6 +93,8 @@ class SampleFrames {
   std::vector<Record> per_frame_;
   std::optional<Record> grasp_;
   std::vector<Record> grasp_per_frame_;
+  std::map<std::string, NpyArray> grasp_arrays_;
+  std::optional<PressFolder> other_finger_;
   PressFolder arrays_;
   std::vector<std::size_t> frames_;
   std::vector<std::string> variants_;

@@ -15,6 +15,9 @@ Value schema(const PackConfig& config) {
       {"frame_S",
        "origin at the centre of the undeformed front of the gel; x to image right, y to image down, z out of the gel "
        "towards the object; right-handed; the camera looks along +z from behind"},
+      {"frame_world",
+       "of a grasp: x from the left finger to the right one before the hand turns, z up, origin where the object is "
+       "gripped in frame 0"},
       {"force", "on the gel by the object"},
       {"indentation", "positive into the gel"},
       {"quaternions", "x, y, z, w: scalar last, unit, scalar never negative"},
@@ -28,6 +31,7 @@ Value schema(const PackConfig& config) {
        "data/<id>/variants/<name>/ holds the fields with in_variants once more, of the same deformation "
        "under other light or of another sensor unit"}};
   const Value::Map letters{{"T", "packed frames"},
+                           {"P", "frames of the press, rendered or not"},
                            {"H", "rows of the image"},
                            {"W", "columns of the image"},
                            {"h", "rows of the force grid"},

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <map>
+#include <numeric>
 
 #include "common/base/error.h"
 #include "common/base/packed_units.h"
@@ -71,17 +72,33 @@ Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_i
       {"render_yaml", sample.config_text("render", "config")}};
   if (sample.press().section("inputs").has("path")) lines.emplace_back("path_csv", sample.config_text("press", "path"));
   if (sample.grasp()) {
-    const Record grasp = sample.grasp()->section("summary"), pose = grasp.section("pose");
+    const Record grasp = sample.grasp()->section("summary"), pose = grasp.section("pose"),
+                 slip = grasp.section(sample.is_right_finger() ? "slip_right" : "slip_left");
+    const auto vector = [](const Record& of, const char* key, double unit) {
+      Value::List list;
+      for (const double number : of.required_numbers(key, 3)) list.emplace_back(unit * number);
+      return list;
+    };
     const std::filesystem::path folder = plan.folder;
     lines.insert(lines.end(), {{"grasp", folder.parent_path().filename().string()},
                                {"finger", folder.filename().string()},
                                {"outcome", grasp.required_text("outcome")},
+                               {"freed_frame", grasp.required_count("freed_frame")},
                                {"judged_frame", grasp.required_count("judged_frame")},
                                {"end_slip_mm", kMmPerM * grasp.required_number("slip_m")},
                                {"end_turn_deg", grasp.required_number("turn_rad") * kDegPerRad},
+                               {"rise_mm", kMmPerM * grasp.required_number("rise_m")},
+                               {"hand_rise_mm", kMmPerM * grasp.required_number("hand_rise_m")},
                                {"object_mass_g", 1e3 * grasp.required_number("object_mass_kg")},
                                {"grip_N", grasp.required_number("grip_n")},
-                               {"lever_mm", kMmPerM * pose.required_number("lever_m")}});
+                               {"lever_mm", kMmPerM * pose.required_number("lever_m")},
+                               {"grip_mm", vector(pose, "grip_m", kMmPerM)},
+                               {"center_of_mass_mm", vector(grasp, "center_of_mass_m", kMmPerM)},
+                               {"center_of_mass_shift_mm", vector(grasp, "center_of_mass_shift_m", kMmPerM)},
+                               {"gravity_m_s2", vector(grasp, "gravity_m_s2", 1.0)}});
+    if (const auto reason = grasp.text("reason")) lines.emplace_back("reason", *reason);
+    for (const char* key : {"first_slip_s", "gross_slip_s"})
+      if (const auto time = slip.number(key)) lines.emplace_back(key, *time);
     if (const auto margin = grasp.number("friction_margin")) lines.emplace_back("friction_margin", *margin);
     if (const auto width = pose.number("width_m")) lines.emplace_back("width_mm", kMmPerM * *width);
   }
@@ -108,7 +125,11 @@ void ShardWriter::add_sensor(const std::string& id, const Value::Map& camera) {
 
 void ShardWriter::write_field(const Field& field, const std::string& group, SampleFrames& sample) {
   const std::string path = group + "/" + field.name;
-  const std::vector<std::size_t>& frames = sample.frames();
+  std::vector<std::size_t> frames = sample.frames();
+  if (field.of_press_frames()) {
+    frames.resize(sample.press_frames());
+    std::iota(frames.begin(), frames.end(), 0);
+  }
   std::vector<std::size_t> frame_shape;
   for (std::size_t i = 0; i < (field.per_frame ? frames.size() : 1); ++i) {
     const FieldData data = field.read(sample, frames[i]);
@@ -152,6 +173,10 @@ void ShardWriter::add_sample(const PlannedRow& plan, const std::string& sensor_i
   for (const auto& [name, value] : sample_attributes(plan, sensor_id, sample)) file_.attribute(group, name, value);
   for (const Section section : {Section::obs, Section::sim, Section::check})
     write_section(section, fmt::format("{}/{}", group, name_of(section)), sample, false);
+  if (sample.grasp())
+    write_section(Section::series, group + "/series", sample, false);
+  else
+    file_.attribute(group, "absent_series", "no grasp");
   for (const std::string& variant : config_.variants ? sample.variants() : std::vector<std::string>()) {
     sample.look_at(variant);
     write_section(Section::obs, group + "/variants/" + variant, sample, true);

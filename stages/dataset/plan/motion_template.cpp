@@ -120,6 +120,22 @@ PhaseTemplate PhaseTemplate::read_of_grasp(ConfigReader& in) {
   return phase;
 }
 
+namespace {
+
+/// A vector of the object: a list of numbers, or a map of those of x, y, z that may have ranges.
+std::vector<PhaseTemplate::Number> read_vector(ConfigReader& in, const std::string& key) {
+  std::vector<PhaseTemplate::Number> numbers;
+  if (in.has(key) && !in.is_list(key)) {
+    ConfigReader axes = in.section(key);
+    for (const char* axis : {"x", "y", "z"}) numbers.push_back({axis, Draw::read_or(axes, axis, 0.0, Range::any())});
+  } else {
+    for (const double at : in.numbers_or(key, {0.0, 0.0, 0.0})) numbers.push_back({"", {at, at}});
+  }
+  return numbers;
+}
+
+}  // namespace
+
 FingersTemplate FingersTemplate::read(ConfigReader& fingers, ConfigReader& object) {
   FingersTemplate grasp;
   if (auto draw = fingers.optional_section("draw")) {
@@ -130,13 +146,7 @@ FingersTemplate FingersTemplate::read(ConfigReader& fingers, ConfigReader& objec
     const Eigen::Quaterniond q = read_rotation(fingers);
     grasp.words.push_back({"rotation_xyzw", fmt::format("[{}, {}, {}, {}]", q.x(), q.y(), q.z(), q.w())});
     grasp.numbers.push_back({"turn_deg", Draw::read_or(fingers, "turn_deg", 0.0, kAnyTurn)});
-    if (fingers.has("grip_mm") && !fingers.is_list("grip_mm")) {
-      ConfigReader grip = fingers.section("grip_mm");
-      for (const char* axis : {"x", "y", "z"})
-        grasp.grip_mm.push_back({axis, Draw::read_or(grip, axis, 0.0, Range::any())});
-    } else {
-      for (const double at : fingers.numbers_or("grip_mm", {0.0, 0.0, 0.0})) grasp.grip_mm.push_back({"", {at, at}});
-    }
+    grasp.grip_mm = read_vector(fingers, "grip_mm");
   }
   const auto gravity = fingers.numbers_or("gravity_m_s2", {0.0, 0.0, -9.81});
   grasp.words.push_back({"gravity_m_s2", fmt::format("[{}, {}, {}]", gravity[0], gravity[1], gravity[2])});
@@ -148,7 +158,19 @@ FingersTemplate FingersTemplate::read(ConfigReader& fingers, ConfigReader& objec
   grasp.weight.key = mass ? "mass_g" : margin ? "friction_margin" : "density_kg_m3";
   grasp.weight.draw = Draw::read(object, grasp.weight.key, Range::positive());
   grasp.weight.draw.log_uniform = margin;
+  if (object.has("friction")) grasp.friction = Draw::read(object, "friction", Range::between(0.0, 10.0));
+  if (object.has("center_of_mass_shift_mm")) grasp.center_shift_mm = read_vector(object, "center_of_mass_shift_mm");
   return grasp;
+}
+
+std::vector<const Draw*> FingersTemplate::draws() const {
+  std::vector<const Draw*> all;
+  for (const auto* list : {&grip_mm, &numbers})
+    for (const auto& number : *list) all.push_back(&number.draw);
+  all.push_back(&weight.draw);
+  if (friction) all.push_back(&*friction);
+  for (const auto& number : center_shift_mm) all.push_back(&number.draw);
+  return all;
 }
 
 const Draw* PhaseTemplate::number(const std::string& key) const {
@@ -197,11 +219,8 @@ MotionTemplate MotionTemplate::read(ConfigReader& in) {
 
 int MotionTemplate::dimensions() const {
   int count = center_x_mm.ranged() + center_y_mm.ranged() + rotate_deg.ranged();
-  if (fingers) {
-    for (const auto* numbers : {&fingers->grip_mm, &fingers->numbers})
-      for (const auto& number : *numbers) count += number.draw.ranged();
-    count += fingers->weight.draw.ranged();
-  }
+  if (fingers)
+    for (const Draw* draw : fingers->draws()) count += draw->ranged();
   for (const PhaseTemplate& phase : phases)
     for (const auto& number : phase.numbers) count += number.draw.ranged();
   return count;
@@ -225,6 +244,11 @@ std::string MotionTemplate::sample_yaml(const std::function<double(int)>& u,
                                         std::uint64_t draw_seed) const {
   int dimension = 0;
   const auto value = [&](const Draw& draw) { return number_text(draw.ranged() ? draw.at(u(dimension++)) : draw.low); };
+  const auto list = [&](const std::vector<PhaseTemplate::Number>& numbers) {
+    std::string items;
+    for (const auto& number : numbers) items += (items.empty() ? "" : ", ") + value(number.draw);
+    return "[" + items + "]";
+  };
   std::string text;
   if (fingers) {
     text = "fingers:\n";
@@ -233,14 +257,13 @@ std::string MotionTemplate::sample_yaml(const std::function<double(int)>& u,
           "  draw: {{seed: {}, best_of: {}, upright: {}, width_mm: [{}, {}], patch_mm: {}, depth_mm: {}}}\n", draw_seed,
           draw->best_of, draw->upright, number_text(1e3 * draw->least_width_m), number_text(1e3 * draw->most_width_m),
           number_text(1e3 * draw->patch_m), number_text(1e3 * draw->depth_m));
-    if (!fingers->grip_mm.empty()) {
-      text += "  grip_mm: [";
-      for (std::size_t i = 0; i < 3; ++i) text += (i > 0 ? ", " : "") + value(fingers->grip_mm[i].draw);
-      text += "]\n";
-    }
+    if (!fingers->grip_mm.empty()) text += "  grip_mm: " + list(fingers->grip_mm) + "\n";
     for (const auto& number : fingers->numbers) text += fmt::format("  {}: {}\n", number.key, value(number.draw));
     for (const auto& word : fingers->words) text += fmt::format("  {}: {}\n", word.key, word.text);
-    text += fmt::format("object: {{{}: {}}}\n", fingers->weight.key, value(fingers->weight.draw));
+    text += fmt::format("object: {{{}: {}", fingers->weight.key, value(fingers->weight.draw));
+    if (fingers->friction) text += ", friction: " + value(*fingers->friction);
+    if (!fingers->center_shift_mm.empty()) text += ", center_of_mass_shift_mm: " + list(fingers->center_shift_mm);
+    text += "}\n";
   } else {
     const std::string x = value(center_x_mm), y = value(center_y_mm);
     text = fmt::format("placement:\n  center_mm: [{}, {}]\n  rotate_deg: {}\n", x, y, value(rotate_deg));

@@ -55,8 +55,12 @@ struct FingersTemplate {
   std::vector<PhaseTemplate::Number> numbers;
   std::vector<PhaseTemplate::Word> words;
   PhaseTemplate::Number weight;  // mass_g, friction_margin (log-uniform) or density_kg_m3 of the object
+  std::optional<Draw> friction;  // coefficient; none: as the press file has it
+  std::vector<PhaseTemplate::Number> center_shift_mm;  // x, y, z, or none
 
   static FingersTemplate read(ConfigReader& fingers, ConfigReader& object);
+  /// Every number, in the order in which they are drawn and written.
+  std::vector<const Draw*> draws() const;
 };
 
 /// Placement and phases, as press reads them. Each ranged number is one dimension, in the order of `draws`.

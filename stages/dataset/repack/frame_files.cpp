@@ -51,7 +51,7 @@ std::vector<FieldFile> field_files(const Hdf5Reader& shard, const std::string& s
   for (const std::string& section : shard.names(sample)) {
     const std::string group = sample + "/" + section;
     if (section != "variants") {
-      add_group(group, section == "sim" ? "sim." : "", section);
+      add_group(group, section == "sim" || section == "series" ? section + "." : "", section);
       continue;
     }
     for (const std::string& variant : shard.names(group)) add_group(group + "/" + variant, variant + ".", "variants");

@@ -53,6 +53,31 @@ std::string slip_figure(const GraspReport& grasp) {
          curve_key(2) + "turn of the object from when it was freed to when it is judged</figcaption></figure>\n";
 }
 
+/// Of the fingers: how much of the normal force is on vertices that slip, up to the frame that is judged.
+std::string share_figure(const GraspReport& grasp) {
+  Chart chart = over_time(instants_of(grasp.moments), "share that slips");
+  chart.left_label = "share";
+  for (const std::size_t side : {0, 1}) {
+    Curve& curve = chart.left.emplace_back();
+    for (std::size_t i = 0; i < grasp.moments.size(); ++i)
+      curve.values.push_back(i <= grasp.judged_frame ? grasp.moments[i].slip_share[side] : std::nullopt);
+  }
+  return "<figure>" + chart_svg(chart) + "<figcaption><b>Slip</b>: part of the normal force of the " + curve_key(1) +
+         "left and the " + curve_key(2) + "right finger on vertices that slip</figcaption></figure>\n";
+}
+
+/// "dropped (weight)".
+std::string outcome_text(const GraspReport& grasp) {
+  return html_text(grasp.outcome) + (grasp.reason ? " (" + html_text(*grasp.reason) + ")" : "");
+}
+
+std::string times_text(const FingerSlip& slip) {
+  const auto time = [](const std::optional<double>& time_s) {
+    return time_s ? "from " + number_text(time_s) + " s on" : std::string("never");
+  };
+  return "slips " + time(slip.first_s) + ", as a whole " + time(slip.gross_s);
+}
+
 }  // namespace
 
 GraspReport read_grasp(const std::filesystem::path& folder) {
@@ -72,6 +97,13 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
                     .lever_m = pose.required_number("lever_m"),
                     .width_m = pose.number("width_m"),
                     .moments = {}};
+  grasp.reason = summary.text("reason");
+  grasp.friction = summary.number("friction_coefficient");
+  grasp.center_shift_m = summary.numbers("center_of_mass_shift_m", 3);
+  for (const std::size_t side : {0, 1}) {
+    const Record slip = summary.section(side == 0 ? "slip_left" : "slip_right");
+    grasp.slips[side] = {.first_s = slip.number("first_slip_s"), .gross_s = slip.number("gross_slip_s")};
+  }
   for (const Record& frame : summary.sections("per_frame")) {
     grasp.moments.push_back({.time_s = frame.required_number("time_s"),
                              .phase = frame.required_text("phase"),
@@ -79,7 +111,8 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
                              .grip_right_n = frame.required_number("grip_right_n"),
                              .carried_n = frame.required_number("carried_n"),
                              .slip_m = frame.required_number("slip_m"),
-                             .turn_rad = frame.required_number("turn_rad")});
+                             .turn_rad = frame.required_number("turn_rad"),
+                             .slip_share = {frame.number("slip_share_left"), frame.number("slip_share_right")}});
   }
   if (grasp.judged_frame >= grasp.moments.size()) throw DataError("{}: has no frame that was judged", file.string());
   return grasp;
@@ -108,15 +141,43 @@ PageWords grasp_words(const GraspReport& grasp) {
               "<p>{} g gripped with {} N at ({}, {}, {}) mm from its centre of mass, in its own axes{}; the lever of "
               "the "
               "centre of mass about the line of the grip is {} mm.{} When judged (frame {}), the object had slipped {} "
-              "mm and turned {}° relative to the hand.{}</p>\n"
+              "mm and turned {}° relative to the hand. The left finger {}; the right finger {}.{}</p>\n"
               "<figure class=\"strip\"><a href=\"{}\"><img src=\"{}\" alt=\"tactile images of the fingers, one above "
               "the other, over time\"></a></figure>\n<div class=\"pictures\">\n",
-              kGraspId, html_text(grasp.outcome), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n),
+              kGraspId, outcome_text(grasp), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n),
               number_text(grip_mm.x()), number_text(grip_mm.y()), number_text(grip_mm.z()), width,
               number_text(1e3 * grasp.lever_m), margin, grasp.judged_frame, number_text(1e3 * judged.slip_m),
-              number_text(judged.turn_rad / kDegree), grasp.has_view ? " " + view_link(kGraspId) + "." : "",
-              kGraspStrip, kGraspStrip) +
-          force_figure(grasp.moments) + slip_figure(grasp) + "</div>\n</section>\n"};
+              number_text(judged.turn_rad / kDegree), times_text(grasp.slips[0]), times_text(grasp.slips[1]),
+              grasp.has_view ? " " + view_link(kGraspId) + "." : "", kGraspStrip, kGraspStrip) +
+          force_figure(grasp.moments) + slip_figure(grasp) + share_figure(grasp) + "</div>\n</section>\n"};
+}
+
+std::string grasp_article(const GraspReport& grasp, std::size_t side, const std::string& strip) {
+  const GraspMoment& judged = grasp.moments[grasp.judged_frame];
+  std::string shift;
+  if (grasp.center_shift_m) {
+    for (const double part_m : *grasp.center_shift_m) shift += (shift.empty() ? "" : ", ") + number_text(1e3 * part_m);
+  }
+  const std::pair<const char*, std::string> lines[] = {
+      {"outcome", outcome_text(grasp)},
+      {"this finger", times_text(grasp.slips[side])},
+      {"slip, turn", number_text(1e3 * judged.slip_m) + " mm, " + number_text(judged.turn_rad / kDegree) + "°"},
+      {"mass", number_text(1e3 * grasp.mass_kg) + " g"},
+      {"grip", number_text(grasp.grip_n) + " N"},
+      {"friction", number_text(grasp.friction)},
+      {"friction over weight", number_text(grasp.friction_margin)},
+      {"lever", number_text(1e3 * grasp.lever_m) + " mm"},
+      {"centre of mass shifted by", shift.empty() ? "–" : "(" + shift + ") mm"}};
+  std::string html = "<article class=\"card\">\n<header><h3>Grasp</h3></header>\n";
+  if (!strip.empty())
+    html += fmt::format(
+        "<figure class=\"strip\"><a href=\"{0}\"><img src=\"{0}\" alt=\"tactile images of both fingers, "
+        "one above the other, over time\"></a></figure>\n",
+        strip);
+  html += "<div class=\"pictures\">\n" + force_figure(grasp.moments) + slip_figure(grasp) + share_figure(grasp) +
+          "</div>\n<div class=\"facts\"><div><dl>";
+  for (const auto& [name, value] : lines) html += fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
+  return html + "</dl></div></div>\n</article>\n";
 }
 
 std::vector<std::string> grasp_texts(const GraspReport& grasp, const SceneView& view) {

@@ -2,6 +2,7 @@
 // row.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,11 +20,21 @@ struct GraspMoment {
   double time_s = 0.0;
   std::string phase;
   double grip_left_n = 0.0, grip_right_n = 0.0, carried_n = 0.0;
-  double slip_m = 0.0, turn_rad = 0.0;  // relative to the hand, since the object was freed
+  double slip_m = 0.0, turn_rad = 0.0;                   // relative to the hand, since the object was freed
+  std::array<std::optional<double>, 2> slip_share = {};  // of the normal force of left and right finger
+};
+
+/// When the contact of a finger slips, where it does.
+struct FingerSlip {
+  std::optional<double> first_s = std::nullopt, gross_s = std::nullopt;
 };
 
 struct GraspReport {
   std::string outcome;
+  std::optional<std::string> reason = std::nullopt;  // of any outcome but lifted
+  std::array<FingerSlip, 2> slips = {};              // of left and right finger
+  std::optional<double> friction = std::nullopt;     // coefficient
+  std::optional<std::vector<double>> center_shift_m = std::nullopt;
   double mass_kg = 0.0, grip_n = 0.0;
   std::optional<double> friction_margin;  // nothing where the object has no weight
   std::size_t judged_frame = 0;           // that the outcome is of
@@ -41,6 +52,10 @@ GraspReport read_grasp(const std::filesystem::path& folder);
 /// of the grasp. \throw DataError if an image is not there
 ByteImage grasp_strip(const std::vector<SceneGel>& gels, const std::vector<GraspMoment>& frames);
 inline constexpr const char* kGraspStrip = "grasp_strip.png";
+
+/// Of one finger: the strip of both, the labels, and curves of forces, of slip and of the share that slips.
+/// \param strip source of the strip's picture, HTML; empty: none
+std::string grasp_article(const GraspReport& grasp, std::size_t side, const std::string& strip);
 
 /// Id of the section on the page, and of the grasp's view.
 inline constexpr const char* kGraspId = "grasp";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
+#include "common/base/error.h"
 #include "common/sample/render_folder.h"
 #include "stages/dataset/report/lettering.h"
 #include "stages/dataset/report/scaled_picture.h"
@@ -29,7 +30,15 @@ ByteImage picture_strip(const std::vector<SceneGel>& gels, const std::vector<Ins
   constexpr std::size_t kMostPictures = 10;
   constexpr int kWidth = 160, kHeight = 120, kGap = 4, kLetters = 9, kHead = 36, kMargin = 52;
   constexpr Color kInk{27, 35, 48}, kQuiet{93, 104, 120};
-  const std::size_t count = std::min(kMostPictures, frames.size());
+  if (gels.empty()) throw DataError("no gel has images");
+  const std::filesystem::path first = gels.front().folder / "render";
+  std::vector<std::size_t> rendered;
+  if (std::filesystem::is_directory(first)) {
+    for (const std::size_t frame : frames_in(first))
+      if (frame < frames.size()) rendered.push_back(frame);
+  }
+  if (rendered.empty()) throw DataError("{}: has no images", first.string());
+  const std::size_t count = std::min(kMostPictures, rendered.size());
   const int columns = static_cast<int>(count), rows = static_cast<int>(gels.size());
   ByteImage strip(kMargin + columns * (kWidth + kGap) - kGap, kHead + rows * (kHeight + kGap) - kGap, 3, 255);
   cv::Mat sheet(strip.height, strip.width, CV_8UC3, strip.pixels.data());
@@ -38,7 +47,7 @@ ByteImage picture_strip(const std::vector<SceneGel>& gels, const std::vector<Ins
               kHead + row * (kHeight + kGap) + (kHeight + kLetters) / 2);
   for (int column = 0; column < columns; ++column) {
     const std::size_t k = static_cast<std::size_t>(column);
-    const std::size_t frame = count == 1 ? 0 : (k * (frames.size() - 1) + (count - 1) / 2) / (count - 1);
+    const std::size_t frame = rendered[count == 1 ? 0 : (k * (rendered.size() - 1) + (count - 1) / 2) / (count - 1)];
     const int x = kMargin + column * (kWidth + kGap);
     draw_text(sheet, fitted({frames[frame].phase, kLetters, kInk}, kWidth), x, kLetters + 3);
     draw_text(sheet, {fmt::format("frame {}, {:.4g} s", frame, frames[frame].time_s), kLetters, kQuiet}, x,

@@ -19,8 +19,8 @@ struct Instant {
 /// A chart without curves whose shaded stretches are the phases.
 Chart over_time(const std::vector<Instant>& frames, const std::string& what);
 
-/// A row of images for each gel, of at most ten frames from the first to the last, with words what they are. \throw
-/// DataError if an image is not there
+/// A row of images for each gel, of at most ten of the frames that were rendered, from the first to the last, with
+/// words what they are. \throw DataError if there are none, or a gel lacks one that the first gel has
 ByteImage picture_strip(const std::vector<SceneGel>& gels, const std::vector<Instant>& frames);
 
 }  // namespace tacipc

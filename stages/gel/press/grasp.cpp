@@ -11,6 +11,7 @@
 #include "stages/gel/press/checkpoint.h"
 #include "stages/gel/press/divided_step.h"
 #include "stages/gel/press/gel_frame.h"
+#include "stages/gel/press/grasp_labels.h"
 #include "stages/gel/press/grasp_outcome.h"
 #include "stages/gel/press/rigid_way.h"
 #include "stages/gel/press/setup.h"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr int kMostClosingSteps = 200;  // after the frames of a phase in which fingers close
 constexpr double kMostTurn_rad = 0.2;   // of the hand in a time step: a straight path cuts 0.5 % off at most
-constexpr double kUneven = 0.1;         // of both grips together, by which one may exceed the other without a warning
 /// z of S is x of the world for the left finger and −x for the right one; the images' down, y, is the world's.
 Matrix3 world_from_finger(int side) {
   const Vector3 z = side == 0 ? Vector3::UnitX() : Vector3(-Vector3::UnitX()), y = -Vector3::UnitZ();
@@ -44,12 +44,12 @@ class Hand {
       : sensor_(sensor),
         gel_(gel),
         object_(object),
-        config_(config),
+        config_(spec.pressed_with(config)),
         spec_(spec),
         observe_(observe),
         store_(store),
-        scales_(scales_of(config, sensor, gel)),
-        settings_(step_settings(config, scales_)),
+        scales_(scales_of(config_, sensor, gel)),
+        settings_(step_settings(config_, scales_)),
         start_gap_m_(spec.start_gap_m.value_or(scales_.start_gap_m)),
         rest_tets_(make_rest_tets(gel.positions, gel.tets)) {
     if (config.augmented_lagrangian)
@@ -104,9 +104,13 @@ class Hand {
  private:
   /// Turns the object, hangs its grip point at the origin and puts the fingers beside it.
   void place_all() {
-    const MassProperties mass = mass_properties(object_.positions, object_.triangles);
+    const MassProperties mass = spec_.mass_of(object_);
     const double friction = config_.friction ? config_.friction->coefficient : 0.0;
-    body_ = make_affine_body(object_.positions, object_.triangles, spec_.density_of(mass.volume_m3, friction));
+    body_ = make_affine_body(object_.positions, object_.triangles, spec_.density_of(mass.volume_m3, friction),
+                             spec_.center_shift_m);
+    out_.friction = friction;
+    out_.gravity_m_s2 = spec_.gravity_m_s2;
+    out_.center_shift_m = spec_.center_shift_m;
     out_.mass_kg = body_->mass_kg;
     out_.weight_n = body_->mass_kg * spec_.gravity_m_s2.norm();
     out_.center_of_mass_m = mass.center_m;
@@ -114,7 +118,7 @@ class Hand {
     const Matrix3& turn = out_.pose.world_from_object;
     world_from_object_.setIdentity();
     world_from_object_.topLeftCorner<3, 3>() = turn;
-    world_from_object_.topRightCorner<3, 1>() = -turn * (mass.center_m + out_.pose.grip_m);
+    world_from_object_.topRightCorner<3, 1>() = -turn * out_.grip_point();
     const Positions at = transformed(world_from_object_, object_.positions);
     // How far the object reaches towards each finger within what the finger can touch.
     const Eigen::RowVector3d low = gel_.positions.colwise().minCoeff(), high = gel_.positions.colwise().maxCoeff();
@@ -543,7 +547,7 @@ class Hand {
       out_.fingers[side].frames.push_back(own);
     }
     if (grip_frame_) {
-      const InHand since = motion_in_hand(out_.frames[*grip_frame_], frame, grip_point());
+      const InHand since = motion_in_hand(out_.frames[*grip_frame_], frame, out_.grip_point());
       frame.slip_m = since.slip_m;
       frame.turn_rad = since.turn_rad;
     }
@@ -567,16 +571,14 @@ class Hand {
     const auto released = std::find_if(out_.frames.begin(), out_.frames.end(),
                                        [](const GraspFrame& frame) { return frame.phase == PhaseKind::release; });
     out_.judged_frame = static_cast<std::size_t>(released - out_.frames.begin()) - 1;
-    out_.outcome = outcome_of(out_.frames[*grip_frame_], out_.frames[out_.judged_frame], grip_point());
+    out_.outcome = outcome_of(out_.frames[*grip_frame_], out_.frames[out_.judged_frame], out_.grip_point());
+    add_labels(out_);
   }
-
-  /// Where it is gripped, in the object's axes.
-  Vector3 grip_point() const { return out_.center_of_mass_m + out_.pose.grip_m; }
 
   const Sensor& sensor_;
   const TetMesh& gel_;
   const TriangleMesh& object_;
-  const PressConfig& config_;
+  const PressConfig config_;
   const GraspSpec& spec_;
   const ProgressObserver& observe_;
   ByteStore* store_;

@@ -38,20 +38,43 @@ struct GraspFrame {
   double grip_n(std::size_t side) const;
 };
 
+/// Contact of a finger with the object in one frame.
+struct FingerContact {
+  double slip_share = 0.0;         // of the normal force on the front: how much is on vertices that slip
+  double friction_radius_m = 0.0;  // mean distance of the normal force from its centre, in the plane of the front
+};
+
+/// When the contact of a finger began to slip; docs/grasp.md.
+struct SlipTimes {
+  std::optional<double> first_s, gross_s;
+};
+
 /// What became of the object, by its motion in the hand and by contact alone; docs/grasp.md.
 enum class GraspOutcome { lifted, slipped, rotated, dropped };
 inline constexpr std::array kGraspOutcomes{"lifted", "slipped", "rotated", "dropped"};
 
+/// Why it was not held, by what friction could bear; docs/grasp.md.
+enum class GraspReason { no_contact, weight, acceleration, torque, uneven_grip, other };
+inline constexpr std::array kGraspReasons{"no_contact", "weight", "acceleration", "torque", "uneven_grip", "other"};
+
 struct Grasp {
   std::array<Simulation, 2> fingers;  // left, right: each as a press of its own, in its own frame S
   std::vector<GraspFrame> frames;
-  double mass_kg = 0.0, weight_n = 0.0;
-  Vector3 center_of_mass_m = Vector3::Zero();  // in the object's axes
-  GraspPose pose;                              // in which it is gripped
-  double grip_n = 0.0;                         // mean of both fingers when they have closed
+  double mass_kg = 0.0, weight_n = 0.0, friction = 0.0;
+  Vector3 gravity_m_s2 = Vector3::Zero();
+  Vector3 center_of_mass_m = Vector3::Zero(), center_shift_m = Vector3::Zero();  // in the object's axes
+  GraspPose pose;                                                                // in which it is gripped
+  double grip_n = 0.0;  // mean of both fingers when they have closed
   GraspOutcome outcome = GraspOutcome::lifted;
+  std::optional<GraspReason> reason;                   // of any other outcome
+  std::vector<std::array<FingerContact, 2>> contacts;  // of each frame
+  std::vector<double> friction_use;  // of each frame from the one it was freed in as long as it is held
+  std::array<SlipTimes, 2> slips;
   std::size_t freed_frame = 0;   // the last one of the first `close`
   std::size_t judged_frame = 0;  // the last one before the fingers release it: what the outcome is of
+
+  /// Where the object is gripped, in its own axes.
+  Vector3 grip_point() const { return center_of_mass_m + pose.grip_m; }
 };
 
 /// Keeps bytes of frames in order, so that an interrupted run resumes.

@@ -9,6 +9,8 @@ namespace {
 // A held object has slipped or turned from here on; one that rose by less than a part of the hand's way is dropped.
 constexpr double kSlipped_m = 1e-3, kTurned_rad = 5.0 * std::numbers::pi / 180.0, kDroppedPart = 0.2;
 
+}  // namespace
+
 Matrix4 hand_from_object(const GraspFrame& frame) {
   const Matrix3 to_hand = frame.world_from_hand.topLeftCorner<3, 3>().transpose();
   Matrix4 pose = Matrix4::Identity();
@@ -16,6 +18,8 @@ Matrix4 hand_from_object(const GraspFrame& frame) {
   pose.topRightCorner<3, 1>() = to_hand * (frame.world_from_object - frame.world_from_hand).topRightCorner<3, 1>();
   return pose;
 }
+
+namespace {
 
 Vector3 at(const Matrix4& from_object, const Vector3& point_m) {
   return from_object.topLeftCorner<3, 3>() * point_m + from_object.topRightCorner<3, 1>();
@@ -29,14 +33,25 @@ InHand motion_in_hand(const GraspFrame& then, const GraspFrame& now, const Vecto
           Eigen::AngleAxisd(Matrix3(after.topLeftCorner<3, 3>() * before.topLeftCorner<3, 3>().transpose())).angle()};
 }
 
+bool both_touch(const GraspFrame& frame) {
+  return frame.force_on_finger_n[0].norm() > kTouches_n && frame.force_on_finger_n[1].norm() > kTouches_n;
+}
+
+bool is_held(const GraspFrame& frame) {
+  return both_touch(frame) && frame.slip_m < kSlipped_m && frame.turn_rad < kTurned_rad;
+}
+
+Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m) {
+  return {(at(now.world_from_object, grip_m) - at(then.world_from_object, grip_m)).z(),
+          (now.world_from_hand - then.world_from_hand)(2, 3)};
+}
+
 GraspOutcome outcome_of(const GraspFrame& begin, const GraspFrame& end, const Vector3& grip_m) {
-  const bool touches = end.force_on_finger_n[0].norm() > kTouches_n && end.force_on_finger_n[1].norm() > kTouches_n;
-  const double hand = (end.world_from_hand - begin.world_from_hand)(2, 3);
-  const double rose = (at(end.world_from_object, grip_m) - at(begin.world_from_object, grip_m)).z();
-  return !touches || (hand >= kSlipped_m && rose < kDroppedPart * hand) ? GraspOutcome::dropped
-         : end.slip_m >= kSlipped_m                                     ? GraspOutcome::slipped
-         : end.turn_rad >= kTurned_rad                                  ? GraspOutcome::rotated
-                                                                        : GraspOutcome::lifted;
+  const auto [rose, hand] = rise_of(begin, end, grip_m);
+  return !both_touch(end) || (hand >= kSlipped_m && rose < kDroppedPart * hand) ? GraspOutcome::dropped
+         : end.slip_m >= kSlipped_m                                             ? GraspOutcome::slipped
+         : end.turn_rad >= kTurned_rad                                          ? GraspOutcome::rotated
+                                                                                : GraspOutcome::lifted;
 }
 
 }  // namespace tacipc

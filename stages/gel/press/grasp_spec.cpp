@@ -76,6 +76,9 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
   } else {
     spec.density_kg_m3 = object.number("density_kg_m3", Range::positive());
   }
+  if (object.has("friction")) spec.friction_coefficient = object.number("friction", FrictionConfig::coefficients());
+  const auto shift_mm = object.numbers_or("center_of_mass_shift_mm", {0.0, 0.0, 0.0});
+  spec.center_shift_m = 1e-3 * Vector3(shift_mm[0], shift_mm[1], shift_mm[2]);
   bool closed = false;
   for (ConfigReader& phase : in.one_or_more_sections("motion")) {
     spec.motion.push_back(GraspPhase::read(phase));
@@ -89,12 +92,36 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
   return spec;
 }
 
+PressConfig GraspSpec::pressed_with(const PressConfig& config) const {
+  if (!friction_coefficient) return config;
+  if (!config.friction)
+    throw UsageError("object.friction: the press file has no friction section, which says how slow counts as sticking");
+  PressConfig with = config;
+  with.friction->coefficient = *friction_coefficient;
+  return with;
+}
+
+MassProperties GraspSpec::mass_of(const TriangleMesh& object) const {
+  MassProperties mass = mass_properties(object.positions, object.triangles);
+  mass.center_m += center_shift_m;
+  const Eigen::AlignedBox3d box(object.positions.colwise().minCoeff().transpose(),
+                                object.positions.colwise().maxCoeff().transpose());
+  if (!box.contains(mass.center_m)) {
+    const Vector3 at = 1e3 * mass.center_m, low = 1e3 * box.min(), high = 1e3 * box.max();
+    throw DataError(
+        "object.center_of_mass_shift_mm: the centre of mass would be at ({:.3g}, {:.3g}, {:.3g}) mm, outside of the "
+        "object, which reaches from ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, {:.3g}) mm",
+        at.x(), at.y(), at.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+  }
+  return mass;
+}
+
 GraspPose GraspSpec::pose_of(const TriangleMesh& object, const MassProperties& mass, const GelShape& front,
                              double friction) const {
   if (draw) return draw_grasp(object, mass.center_m, front, friction, *draw);
   const Matrix3 turn = Eigen::AngleAxisd(turn_rad, Vector3::UnitZ()).toRotationMatrix();
   return {.world_from_object = turn * rotation.toRotationMatrix(),
-          .grip_m = grip_m,
+          .grip_m = grip_m - center_shift_m,
           .width_m = std::nullopt,
           .patch_m = std::nullopt};
 }

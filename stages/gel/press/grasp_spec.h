@@ -9,6 +9,7 @@
 #include "common/sample/antipodal_grasp.h"
 #include "common/sample/motion.h"
 #include "stages/gel/press/grip_control.h"
+#include "stages/gel/press/press_config.h"
 
 namespace tacipc {
 
@@ -35,10 +36,12 @@ struct GraspSpec {
   std::optional<double> mass_kg;          // of the object, or
   std::optional<double> friction_margin;  // 2 μ × force of the first `close` / weight, or
   double density_kg_m3 = 0.0;
-  std::optional<GraspDraw> draw;                                 // how it is held is drawn, or given:
+  std::optional<double> friction_coefficient = {};  // coefficient between gels and object; absent: the press file's
+  Vector3 center_shift_m = Vector3::Zero();         // of its centre of mass from that of the solid, in its own axes
+  std::optional<GraspDraw> draw;                    // how it is held is drawn, or given:
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // of the object before it is gripped …
   double turn_rad = 0.0;                                         // … and then about z of the world
-  Vector3 grip_m = Vector3::Zero();          // where it is gripped, from its centre of mass, in its own axes
+  Vector3 grip_m = Vector3::Zero();          // where it is gripped, from the solid's centre, in the object's axes
   Vector3 gravity_m_s2 = {0.0, 0.0, -9.81};  // of the world
   double closing_speed_m_s = 0.02;           // of each finger, at most
   DriveInertia mount = {};                   // of a finger, along the axis by which it closes
@@ -47,7 +50,12 @@ struct GraspSpec {
   std::vector<GraspPhase> motion;
 
   static GraspSpec read(ConfigReader& in);
-  /// How the object is held by fronts of this shape. \throw DataError if none of the drawn grasps is possible
+  /// The press file with the friction of this object. \throw UsageError if the file has none to begin with
+  PressConfig pressed_with(const PressConfig& config) const;
+  /// Of the object as it is held. \throw DataError if its centre of mass would lie outside of its bounding box
+  MassProperties mass_of(const TriangleMesh& object) const;
+  /// How the object is held by fronts of this shape. \param mass mass_of(object)
+  /// \throw DataError if none of the drawn grasps is possible
   GraspPose pose_of(const TriangleMesh& object, const MassProperties& mass, const GelShape& front,
                     double friction) const;
   /// Density of an object of this volume. \throw UsageError if a margin is wanted of no friction

@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
       const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
       const TetMesh gel = read_tet_mesh(stage.input("--gel"));
       ScratchBytes frames(stage);
-      write_outputs(stage, sensor, gel, config, grasp(sensor, gel, object, config, spec, progress, &frames));
+      write_outputs(stage, sensor, gel, grasp(sensor, gel, object, config, spec, progress, &frames));
       return;
     }
     const SampleInputs inputs = read_sample(stage);

@@ -9,12 +9,15 @@
 #include "common/format/npy.h"
 #include "common/sample/press_folder.h"
 #include "common/sensor/markers.h"
+#include "stages/gel/press/grasp_outcome.h"
 #include "stages/gel/press/measure/contact_summary.h"
 #include "stages/gel/press/measure/traction_grid.h"
 #include "stages/gel/press/verdict.h"
 
 namespace tacipc {
 namespace {
+
+double coefficient_of(const PressConfig& config) { return config.friction ? config.friction->coefficient : 0.0; }
 
 void write_markers(Stage& stage, const std::string& folder, const PressWriter& writer,
                    const std::vector<Marker>& markers, const std::vector<Frame>& frames,
@@ -111,9 +114,9 @@ Value::Map limits() {
 }
 
 /// Every array of one gel, in a folder below --out ("" or with a slash at its end). \return the summary of its record
-/// \param end last frame of the first press
-Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel,
-                     const PressConfig& config, const std::optional<std::size_t>& end, const Simulation& simulation) {
+/// \param friction coefficient \param end last frame of the first press
+Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel, double friction,
+                     const std::optional<std::size_t>& end, const Simulation& simulation) {
   const auto& frames = simulation.frames;
   const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
   const std::vector<Marker> markers = bind_markers(sensor.markers, gel.positions, gel.faces(BoundaryTag::front));
@@ -160,7 +163,7 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
                      {"d_hat_m", simulation.d_hat_m},
                      {"barrier_stiffness", frames.back().solver.barrier_factor * simulation.barrier_stiffness},
                      {"element", simulation.element},
-                     {"friction_coefficient", config.friction ? config.friction->coefficient : 0.0},
+                     {"friction_coefficient", friction},
                      {"newton_iterations", iterations},
                      {"press_force_n", 0.0 - frames.back().force_n.z()},
                      {"tangential_force_n", frames.back().force_n.head<2>().norm()},
@@ -223,23 +226,43 @@ struct WholeArrays {
 };
 
 /// One frame's lines of a grasp's record.
-Value::Map grasp_lines(const GraspFrame& f, double body_strain) {
+Value::Map grasp_lines(const Grasp& grasp, std::size_t frame) {
+  const GraspFrame& f = grasp.frames[frame];
+  const auto& [left, right] = grasp.contacts[frame];
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
-  return {{"time_s", f.time_s},
-          {"phase", name_of(f.phase)},
-          {"grip_left_n", f.grip_n(0)},
-          {"grip_right_n", f.grip_n(1)},
-          {"carried_n", 0.0 - carried.z()},
-          {"height_m", f.world_from_object(2, 3)},
-          {"hand_height_m", f.world_from_hand(2, 3)},
-          {"slip_m", f.slip_m},
-          {"turn_rad", f.turn_rad},
-          {"body_strain", body_strain},
-          {"body_load_n", f.body_load_n},
-          {"body_residual_n", f.body_residual_n},
-          {"momentum_residual_n", f.whole.momentum_residual_n},
-          {"angular_residual_n_m", f.whole.angular_residual_n_m}};
+  Value::Map lines{{"time_s", f.time_s},
+                   {"phase", name_of(f.phase)},
+                   {"grip_left_n", f.grip_n(0)},
+                   {"grip_right_n", f.grip_n(1)},
+                   {"carried_n", 0.0 - carried.z()},
+                   {"height_m", f.world_from_object(2, 3)},
+                   {"hand_height_m", f.world_from_hand(2, 3)},
+                   {"slip_m", f.slip_m},
+                   {"turn_rad", f.turn_rad},
+                   {"slip_share_left", left.slip_share},
+                   {"slip_share_right", right.slip_share},
+                   {"friction_radius_left_m", left.friction_radius_m},
+                   {"friction_radius_right_m", right.friction_radius_m},
+                   {"body_strain", grasp.fingers[0].frames[frame].body_strain},
+                   {"body_load_n", f.body_load_n},
+                   {"body_residual_n", f.body_residual_n},
+                   {"momentum_residual_n", f.whole.momentum_residual_n},
+                   {"angular_residual_n_m", f.whole.angular_residual_n_m}};
+  if (const std::size_t since = frame - grasp.freed_frame;
+      frame >= grasp.freed_frame && since < grasp.friction_use.size() && std::isfinite(grasp.friction_use[since]))
+    lines.emplace_back("friction_use", grasp.friction_use[since]);
+  return lines;
 }
+
+/// Of one finger; a time that there is not is left out.
+Value::Map slip_lines(const SlipTimes& times) {
+  Value::Map lines;
+  if (times.first_s) lines.emplace_back("first_slip_s", *times.first_s);
+  if (times.gross_s) lines.emplace_back("gross_slip_s", *times.gross_s);
+  return lines;
+}
+
+Value::List list_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// How the object is held.
 Value::Map pose_lines(const GraspPose& pose) {
@@ -260,19 +283,19 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
                    const SampleSpec& sample, const Simulation& simulation) {
   std::vector<int> phases;
   for (const Frame& f : simulation.frames) phases.push_back(f.phase_index);
-  stage.summarize(write_gel(stage, "", sensor, gel, config, press_end_frame(sample, phases), simulation));
+  stage.summarize(
+      write_gel(stage, "", sensor, gel, coefficient_of(config), press_end_frame(sample, phases), simulation));
   add_cost(stage, simulation.times);
 }
 
-void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
-                   const Grasp& grasp) {
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const Grasp& grasp) {
   const auto& frames = grasp.frames;
   for (std::size_t side = 0; side < 2; ++side) {
     const std::string folder = std::string(side == 0 ? "left" : "right") + "/press";
-    stage.finish_part(folder,
-                      write_gel(stage, folder + "/", sensor, gel, config, grasp.freed_frame, grasp.fingers[side]));
+    stage.finish_part(
+        folder, write_gel(stage, folder + "/", sensor, gel, grasp.friction, grasp.freed_frame, grasp.fingers[side]));
   }
-  std::vector<double> time, object, twist, fingers, forces, drives;
+  std::vector<double> time, object, twist, hand, fingers, forces, drives;
   WholeArrays whole;
   Value::List per_frame;
   const auto add_matrix = [](std::vector<double>& all, const Matrix4& pose) {
@@ -286,6 +309,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
     add_matrix(object, f.world_from_object);
     twist.insert(twist.end(), f.velocity_m_s.begin(), f.velocity_m_s.end());
     twist.insert(twist.end(), f.spin_rad_s.begin(), f.spin_rad_s.end());
+    add_matrix(hand, f.world_from_hand);
     for (std::size_t side = 0; side < 2; ++side) {
       add_matrix(fingers, f.world_from_finger[side]);
       forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
@@ -293,31 +317,43 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
       drives.insert(drives.end(), {drive.force_n, drive.closed_m, drive.velocity_m_s});
     }
     whole.add(f.whole);
-    per_frame.emplace_back(grasp_lines(f, grasp.fingers[0].frames[i].body_strain));
+    per_frame.emplace_back(grasp_lines(grasp, i));
   }
   const std::size_t n = frames.size();
   write_array(stage, "time.npy", {n}, time);
   write_array(stage, "object_pose.npy", {n, 4, 4}, object);
   write_array(stage, "object_twist.npy", {n, 6}, twist);
+  write_array(stage, "hand_pose.npy", {n, 4, 4}, hand);
   write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
   write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
   write_array(stage, "finger_drive.npy", {n, 2, 3}, drives);
   whole.write(stage);
   const GraspFrame& judged = frames[grasp.judged_frame];
+  const Rise rise = rise_of(frames[grasp.freed_frame], judged, grasp.grip_point());
   Value::Map summary{{"frames", n},
                      {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
+                     {"freed_frame", grasp.freed_frame},
                      {"judged_frame", grasp.judged_frame},
                      {"object_mass_kg", grasp.mass_kg},
-                     {"center_of_mass_m",
-                      Value::List{grasp.center_of_mass_m.x(), grasp.center_of_mass_m.y(), grasp.center_of_mass_m.z()}},
+                     {"friction_coefficient", grasp.friction},
+                     {"gravity_m_s2", list_of(grasp.gravity_m_s2)},
+                     {"center_of_mass_m", list_of(grasp.center_of_mass_m)},
+                     {"center_of_mass_shift_m", list_of(grasp.center_shift_m)},
                      {"pose", pose_lines(grasp.pose)},
                      {"grip_n", grasp.grip_n},
                      {"slip_m", judged.slip_m},
                      {"turn_rad", judged.turn_rad},
+                     {"rise_m", rise.object_m},
+                     {"hand_rise_m", rise.hand_m},
                      {"max_momentum_residual_n", whole.momentum_residual_n}};
+  if (grasp.reason)
+    summary.emplace(summary.begin() + 2, "reason", kGraspReasons[static_cast<std::size_t>(*grasp.reason)]);
+  for (const std::size_t side : {0, 1})
+    if (const Value::Map lines = slip_lines(grasp.slips[side]); !lines.empty())
+      summary.emplace_back(side == 0 ? "slip_left" : "slip_right", lines);
   // Friction that both fingers can give over the weight.
-  if (const double mu = config.friction ? config.friction->coefficient : 0.0; grasp.weight_n > 0.0)
-    summary.emplace_back("friction_margin", 2.0 * mu * grasp.grip_n / grasp.weight_n);
+  if (grasp.weight_n > 0.0)
+    summary.emplace_back("friction_margin", 2.0 * grasp.friction * grasp.grip_n / grasp.weight_n);
   summary.emplace_back("converged", true);
   summary.emplace_back("verdict", "pass");
   summary.emplace_back("per_frame", std::move(per_frame));
@@ -329,8 +365,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
                    const SceneSpec& spec, const Scene& scene) {
   for (std::size_t g = 0; g < scene.gels.size(); ++g) {
     const std::string folder = "gels/" + spec.bodies[g].name + "/press";
-    stage.finish_part(folder,
-                      write_gel(stage, folder + "/", sensor, bodies[g].tets, config, std::nullopt, scene.gels[g]));
+    stage.finish_part(folder, write_gel(stage, folder + "/", sensor, bodies[g].tets, coefficient_of(config),
+                                        std::nullopt, scene.gels[g]));
   }
   const std::vector<SceneFrame>& frames = scene.frames;
   const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),

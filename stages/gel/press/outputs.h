@@ -14,8 +14,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
 
 /// A press folder of each finger in left/press and right/press, the motion of object and fingers in the world beside
 /// them, and the summary of the record.
-void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
-                   const Grasp& grasp);
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const Grasp& grasp);
 
 /// A press folder of each gel in gels/<name>/press, the motion of all bodies in the world and the wrenches between them
 /// beside these, and the summary of the record.

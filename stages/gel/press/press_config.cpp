@@ -4,7 +4,7 @@ namespace tacipc {
 
 FrictionConfig FrictionConfig::read(ConfigReader& in) {
   FrictionConfig config;
-  config.coefficient = in.number("coefficient", {.low = 0.0, .high = 10.0});
+  config.coefficient = in.number("coefficient", coefficients());
   config.relative_speed_threshold =
       in.number_or("relative_speed_threshold", 1e-3, {.low = 0.0, .high = 1.0, .open_low = true});
   const std::string lag = in.choice_or("lag", "once", {"once", "iterated", "iterated_at_minima"});

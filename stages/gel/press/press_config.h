@@ -21,6 +21,7 @@ struct FrictionConfig {
   double relative_lag_tolerance = 0.0;  // residual forces after renewing, as part of the contact force
 
   static FrictionConfig read(ConfigReader& in);
+  static Range coefficients() { return {.low = 0.0, .high = 10.0}; }
 };
 
 /// configs/press/*.yaml

@@ -1,6 +1,8 @@
 // A gel's front face, frame by frame, as render takes it: from a press, or from height maps.
 #pragma once
 
+#include <vector>
+
 #include "common/optics/membrane.h"
 #include "common/optics/trace.h"
 
@@ -11,6 +13,9 @@ class Deformation {
  public:
   virtual ~Deformation() = default;
   virtual std::size_t num_frames() const = 0;
+  /// The last frame of each phase of the motion, ascending; none where nothing is known of phases. Neighbouring phases
+  /// of one kind count as one.
+  virtual std::vector<std::size_t> phase_ends() const { return {}; }
   virtual Membrane at_rest() const = 0;
   /// Takes the membrane of `at_rest` to a frame.
   virtual void move(Membrane& membrane, std::size_t frame) const = 0;

@@ -41,6 +41,15 @@ SurfaceFields PressedGel::fields(std::size_t frame, const Membrane& membrane) co
   return {.traction_pa = traction_of(press_.contact_forces(frame), membrane), .contact = press_.contact_states(frame)};
 }
 
+std::vector<std::size_t> PressedGel::phase_ends() const {
+  std::vector<std::size_t> ends;
+  if (!press_.has(PressArray::phase)) return ends;
+  const std::vector<PhaseKind> phases = press_.phases();
+  for (std::size_t f = 1; f < phases.size(); ++f)
+    if (f + 1 == phases.size() || phases[f + 1] != phases[f]) ends.push_back(f);
+  return ends;
+}
+
 Positions PressedGel::markers(std::size_t frame) const {
   return press_.has(PressArray::markers) ? press_.markers(frame) : Positions(0, 3);
 }

@@ -22,6 +22,7 @@ class PressedGel : public Deformation {
   PressedGel(const std::filesystem::path& press, const TetMesh& gel);
 
   std::size_t num_frames() const override { return press_.extent(PressArray::positions, kFrames); }
+  std::vector<std::size_t> phase_ends() const override;
   Membrane at_rest() const override { return make_membrane(gel_, gel_.positions); }
   void move(Membrane& membrane, std::size_t frame) const override { move_membrane(membrane, positions(frame)); }
   SurfaceFields fields(std::size_t frame, const Membrane& membrane) const override;

@@ -65,10 +65,16 @@ RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& c
   assert(!units.empty() && units.front().needs_rays);
   RenderSummary summary;
   const std::size_t last = front.num_frames() - 1;
-  if (config.all_frames) {
-    for (std::size_t frame = 0; frame <= last; ++frame) summary.frames.push_back(frame);
-  } else {
-    summary.frames = last == 0 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, last};
+  summary.frames = {0};
+  if (config.frames == RenderedFrames::all) {
+    for (std::size_t frame = 1; frame <= last; ++frame) summary.frames.push_back(frame);
+  } else if (config.frames == RenderedFrames::phases) {
+    const std::vector<std::size_t> ends = front.phase_ends();
+    if (ends.empty() && last > 0)
+      throw DataError("frames: phases: what is rendered has no phases (phase.npy of a press)");
+    summary.frames.insert(summary.frames.end(), ends.begin(), ends.end());
+  } else if (last > 0) {
+    summary.frames.push_back(last);
   }
   std::vector<std::unique_ptr<Developer>> developers;
   for (const RenderUnit& unit : units) developers.push_back(make_developer(unit, config));

@@ -46,8 +46,11 @@ struct Variant {
 /// How the noise of the reference gets into the image: on codes, as a factor in linear light, or not at all.
 enum class Transfer { encoded, linear, none };
 
+/// Beside frame 0, the reference: the last one, the last of each phase of the motion, or all.
+enum class RenderedFrames { last, phases, all };
+
 struct RenderConfig {
-  bool all_frames = false;  // else the last one, and frame 0 as the reference
+  RenderedFrames frames = RenderedFrames::last;
   TraceSettings trace;
   bool basis_images = false;  // also the image of each light group alone
   Transfer transfer = Transfer::encoded;

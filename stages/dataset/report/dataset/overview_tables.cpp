@@ -70,7 +70,7 @@ double core_hours(const CostColumn& costs) {
 
 std::string counts_section(const DatasetTally& tally) {
   std::string html = "<section id=\"counts\">\n<h2>Samples</h2>\n<div class=\"tables\">\n";
-  for (const char* column : {"split", "pose split", "motion", "gel", "object"}) {
+  for (const char* column : {"split", "pose split", "motion", "gel", "outcome", "reason", "object"}) {
     const auto rows = tally.counts().find(column);
     if (rows != tally.counts().end()) html += counts_table(column, rows->second);
   }

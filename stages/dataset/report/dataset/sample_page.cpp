@@ -4,11 +4,15 @@
 
 #include <algorithm>
 
+#include "common/base/error.h"
 #include "common/format/html_text.h"
 #include "common/image/image.h"
 #include "common/sample/render_folder.h"
+#include "common/sample/sample_status.h"
 #include "stages/dataset/report/card.h"
 #include "stages/dataset/report/dataset/tally.h"
+#include "stages/dataset/report/grasp_part.h"
+#include "stages/dataset/report/html.h"
 #include "stages/dataset/report/scaled_picture.h"
 
 namespace tacipc {
@@ -76,6 +80,25 @@ std::string planned_facts(const PlannedRow& plan) {
   return html + "</p>\n";
 }
 
+/// Labels and curves of the grasp, with both fingers' images in rows where they are there.
+std::string grasp_of_finger(SamplePage& page, const fs::path& finger, const fs::path& folder) {
+  constexpr const char* kStrip = "grasp";
+  const fs::path grasp_folder = finger.parent_path();
+  const GraspReport grasp = read_grasp(grasp_folder);
+  std::vector<SceneGel> gels;
+  for (const char* name : {"left", "right"}) gels.push_back({name, grasp_folder / name, {}});
+  std::string strip;
+  try {
+    const ByteImage image = grasp_strip(gels, grasp.moments);
+    const std::string file = picture_name(page.shot.plan.id, kStrip);
+    page.pictures.emplace_back(file, jpeg_bytes(image, kQuality, file));
+    strip = html_link(folder / file, folder / "samples");
+  } catch (const DataError&) {
+    // Its images were dropped, or those of the other finger are not made yet.
+  }
+  return grasp_article(grasp, finger.filename() == "right" ? 1 : 0, strip);
+}
+
 }  // namespace
 
 SamplePage make_sample_page(const PlannedRow& plan, const fs::path& dataset, const fs::path& folder,
@@ -89,8 +112,10 @@ SamplePage make_sample_page(const PlannedRow& plan, const fs::path& dataset, con
     page.pictures.clear();
     page.shot.thumb_px.reset();
   }
+  std::string grasp;
+  if (is_finger(dataset / plan.folder) && sample.passed()) grasp = grasp_of_finger(page, dataset / plan.folder, folder);
   page.shot.passed = sample.passed();
-  page.body = "<p>" + verdict_badge(sample) + "</p>\n" + planned_facts(plan) + "<article class=\"card\">\n" +
+  page.body = "<p>" + verdict_badge(sample) + "</p>\n" + planned_facts(plan) + grasp + "<article class=\"card\">\n" +
               sample_body(sample, folder / "samples", Loading::at_once) + "</article>\n";
   return page;
 }

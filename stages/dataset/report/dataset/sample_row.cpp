@@ -63,6 +63,10 @@ void read_numbers(const fs::path& folder, SampleRow& row) {
   numbers.min_volume_ratio = sample.min_volume_ratio;
   const Record render = Record::from_file(folder / "render/render.yaml");
   numbers.depth_mm = render.section("summary").required_number("max_indentation_mm");
+  if (!is_finger(folder)) return;
+  const Record grasp = Record::from_file(stage_file(folder, "press", ".yaml")).section("summary");
+  row.outcome = grasp.required_text("outcome");
+  row.reason = grasp.text("reason").value_or("");
 }
 
 }  // namespace
@@ -84,6 +88,7 @@ SampleRow read_row(const PlannedRow& plan, const fs::path& dataset, SampleStatus
   } catch (const std::runtime_error& error) {
     row.status = SampleStatus::failed;
     row.numbers = {};
+    row.outcome = row.reason = "";
     row.failure = Failure{.stage = "report", .reason = error.what()};
   }
   return row;

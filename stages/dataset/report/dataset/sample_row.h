@@ -35,6 +35,7 @@ struct SampleRow {
   std::optional<Failure> failure = std::nullopt;  // of a failed one
   bool dropped = false;                           // files of a stage were removed after packing
   SampleNumbers numbers;
+  std::string outcome = {}, reason = {};  // labels of a made finger of a grasp; reason: of any outcome but lifted
   std::optional<StageTimings> press = std::nullopt, render = std::nullopt;
 };
 

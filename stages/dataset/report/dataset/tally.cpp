@@ -26,6 +26,8 @@ void DatasetTally::add(const SampleRow& row) {
   const auto status = static_cast<std::size_t>(row.status);
   ++all_.of[status];
   for (const auto& [column, word] : words) ++counts_[column][word].of[status];
+  if (!row.outcome.empty()) ++counts_["outcome"][row.outcome].of[status];
+  if (!row.reason.empty()) ++counts_["reason"][row.reason].of[status];
   dropped_ += row.dropped ? 1 : 0;
   if (row.press) press_.add(*row.press);
   if (row.render) render_.add(*row.render);

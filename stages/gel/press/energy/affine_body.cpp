@@ -19,24 +19,24 @@ ControlPoints tetrahedron() {
 
 }  // namespace
 
-AffineBody make_affine_body(const Positions& positions, const Triangles& triangles, double density_kg_m3) {
+AffineBody make_affine_body(const Positions& positions, const Triangles& triangles, double density_kg_m3,
+                            const Vector3& center_shift_m) {
   if (!(density_kg_m3 > 0.0))
     throw DataError("a body's density is {:.3g} kg/m³, expected a positive one", density_kg_m3);
   const MassProperties solid = mass_properties(positions, triangles);
   require_solid(solid.second_moment_m2);
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(solid.second_moment_m2);
   const Matrix3& axes = eigen.eigenvectors();
-  const Vector3 radii = eigen.eigenvalues().cwiseSqrt();
+  const Vector3 radii = eigen.eigenvalues().cwiseSqrt(), center = solid.center_m + center_shift_m;
 
   AffineBody body;
   body.mass_kg = density_kg_m3 * solid.volume_m3;
   body.volume_m3 = solid.volume_m3;
   body.rest_inertia_kg_m2 = inertia_tensor(body.mass_kg, solid.second_moment_m2);
   body.rest_m = tetrahedron() * radii.asDiagonal() * axes.transpose();
-  body.rest_m.rowwise() += solid.center_m.transpose();
+  body.rest_m.rowwise() += center.transpose();
   // βₖ(X) = ¼ (1 + tₖ · Λ^−½ Qᵀ (X − c))
-  const Positions scaled =
-      (positions.rowwise() - solid.center_m.transpose()) * axes * radii.cwiseInverse().asDiagonal();
+  const Positions scaled = (positions.rowwise() - center.transpose()) * axes * radii.cwiseInverse().asDiagonal();
   body.weights = (0.25 * (scaled * tetrahedron().transpose()).array() + 0.25).matrix();
   return body;
 }

@@ -21,10 +21,13 @@ struct AffineBody {
   double volume_m3 = 0.0;
 };
 
-/// A solid of uniform density.
+/// A solid of uniform density, or one whose centre of mass lies beside that of the solid: its second moment about it is
+/// that of the solid about its own.
 /// \param positions vertices at rest, in world axes
+/// \param center_shift_m from the solid's centre, in the same axes
 /// \throw DataError if the surface encloses no positive volume, or a solid without thickness
-AffineBody make_affine_body(const Positions& positions, const Triangles& triangles, double density_kg_m3);
+AffineBody make_affine_body(const Positions& positions, const Triangles& triangles, double density_kg_m3,
+                            const Vector3& center_shift_m = Vector3::Zero());
 
 /// Centre of mass: the mean of the control points.
 inline Vector3 center_of(const ControlPoints& control) { return control.colwise().mean().transpose(); }

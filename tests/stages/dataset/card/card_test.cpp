@@ -29,6 +29,7 @@ class CardTest : public ProgramTest {
     scratch_.file("pack.yaml", "obs: {rgb: true, indentation_mm: true}\n");
     scratch_.file("card.yaml", "purpose: To be tested.\nlicence: none but ours\nnotes: A note.\n");
     scratch_.file("loader.py", "print('loads')\n");
+    scratch_.file("check_labels.py", "print('checks')\n");
     pack(kTrain);
     pack(kVal);
   }
@@ -48,7 +49,8 @@ class CardTest : public ProgramTest {
     list(shards);
     return run_command(
         fmt::format("cd {} && {}/card --config card.yaml --plan data/plan/samples.csv --dataset "
-                    "data/plan/dataset.yaml --shards shards.txt --loader loader.py --name toys --out out --log-level "
+                    "data/plan/dataset.yaml --shards shards.txt --loader loader.py --check-labels check_labels.py "
+                    "--name toys --out out --log-level "
                     "error",
                     (scratch_ / "").string(), TACIPC_BIN_DIR));
   }
@@ -91,11 +93,13 @@ TEST_F(CardTest, ThereMayBeMoreShardsThanFilesThatAProcessOpens) {
   std::filesystem::remove_all(scratch_ / "shards");
   for (const std::string& shard : shards) pack(shard);
   list("shards/*/pack.yaml");
-  ASSERT_EQ(run_command(fmt::format("cd {} && ulimit -n 36 && {}/card --config card.yaml --plan data/plan/samples.csv "
-                                    "--dataset data/plan/dataset.yaml --shards shards.txt --loader loader.py "
-                                    "--out out --threads 1 --log-level error",
-                                    (scratch_ / "").string(), TACIPC_BIN_DIR)),
-            0)
+  ASSERT_EQ(
+      run_command(fmt::format(
+          "cd {} && ulimit -n 36 && {}/card --config card.yaml --plan data/plan/samples.csv "
+          "--dataset data/plan/dataset.yaml --shards shards.txt --loader loader.py --check-labels check_labels.py "
+          "--out out --threads 1 --log-level error",
+          (scratch_ / "").string(), TACIPC_BIN_DIR)),
+      0)
       << said_;
   const std::string failures = text("failures.csv");
   EXPECT_EQ(std::count(failures.begin(), failures.end(), '\n'), 25);

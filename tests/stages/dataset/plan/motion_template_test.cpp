@@ -107,6 +107,20 @@ TEST(MotionTemplate, AGraspThatIsGivenMayBeMoved) {
             "motion:\n  - {kind: close, force_n: 1, steps: 4, substeps: 1}\n");
 }
 
+TEST(MotionTemplate, FrictionAndCenterOfMassOfAGraspAreDrawnAfterItsWeight) {
+  EXPECT_EQ(
+      drawn("fingers: {grip_mm: [0, 0, 1]}\nobject: {friction_margin: [0.5, 2], friction: [0.2, 1], "
+            "center_of_mass_shift_mm: {x: [-5, 5], z: 1}}\nmotion: {kind: close, force_n: 1, steps: 4}\n",
+            {0.5, 0.25, 0.75}),
+      "fingers:\n  grip_mm: [0, 0, 1]\n  turn_deg: 0\n  closing_speed_mm_s: 20\n  rotation_xyzw: [0, 0, 0, 1]\n"
+      "  gravity_m_s2: [0, 0, -9.81]\nobject: {friction_margin: 1, friction: 0.4, center_of_mass_shift_mm: [2.5, 0, "
+      "1]}\nmotion:\n  - {kind: close, force_n: 1, steps: 4, substeps: 1}\n");
+  EXPECT_THAT(faults_in<MotionTemplate>("fingers: {}\nobject: {mass_g: 20, friction: [0.5, 11]}\n"
+                                        "motion: {kind: close, force_n: 1, steps: 4}\n",
+                                        "m.yaml"),
+              ElementsAre(testing::HasSubstr("object.friction")));
+}
+
 TEST(MotionTemplate, FaultsOfAGraspAreSaidBeforeAnythingIsPressed) {
   EXPECT_THAT(faults_in<MotionTemplate>(R"(fingers: {draw: {seed: 3}, turn_deg: 4}
 placement: {rotate_deg: 3}

@@ -20,6 +20,10 @@ using ::testing::Not;
 constexpr const char* kRecord = R"(stage: press
 summary:
   outcome: slipped
+  reason: acceleration
+  friction_coefficient: 0.55
+  center_of_mass_shift_m: [0.001, 0, -0.002]
+  slip_left: {first_slip_s: 0.02, gross_slip_s: 0.03}
   judged_frame: 2
   object_mass_kg: 0.08
   grip_n: 4.5
@@ -46,7 +50,7 @@ class GraspPartTest : public ::testing::Test {
 TEST_F(GraspPartTest, ThePageTellsTheOutcomeAndLeadsToTheView) {
   GraspReport report = grasp();
   const std::string without = grasp_words(report).first;
-  EXPECT_THAT(without, HasSubstr("<h2>Grasp: slipped</h2>"));
+  EXPECT_THAT(without, HasSubstr("<h2>Grasp: slipped (acceleration)</h2>"));
   EXPECT_THAT(without, AllOf(HasSubstr("80.0 g gripped with 4.50 N at (0, 0, 5.00) mm"),
                              HasSubstr("Friction of both fingers could carry 1.50 times")));
   EXPECT_THAT(without, HasSubstr("(frame 2), the object had slipped 1.50 mm and turned 1.00°"));
@@ -79,6 +83,26 @@ TEST_F(GraspPartTest, SlipIsDrawnUpToTheFrameThatIsJudged) {
   EXPECT_EQ(points(html, 0), 3);  // the left grip
   EXPECT_EQ(points(html, 3), 2);  // slip
   EXPECT_EQ(points(html, 4), 2);  // turn
+}
+
+TEST_F(GraspPartTest, AFingersPageHasTheLabelsOfItsGrasp) {
+  const std::string left = grasp_article(grasp(), 0, "strip.jpg"), right = grasp_article(grasp(), 1, "");
+  EXPECT_THAT(left, AllOf(HasSubstr("<dd>slipped (acceleration)</dd>"), HasSubstr("src=\"strip.jpg\""),
+                          HasSubstr("<dd>slips from 0.0200 s on, as a whole from 0.0300 s on</dd>"),
+                          HasSubstr("<dd>0.550</dd>"), HasSubstr("<dd>(1.00, 0, -2.00) mm</dd>")));
+  EXPECT_THAT(right, AllOf(HasSubstr("<dd>slips never, as a whole never</dd>"), Not(HasSubstr("<img"))));
+}
+
+TEST_F(GraspPartTest, TheStripHasWhatWasRendered) {
+  std::vector<SceneGel> gels{{"left", scratch_ / "left", {}}};
+  EXPECT_THROW(grasp_strip(gels, grasp().moments), DataError);
+  for (const int frame : {0, 2})
+    write_flat_png(scratch_ / fmt::format("left/render/frame_{:04}/tactile.png", frame), 320, 240,
+                   static_cast<std::uint8_t>(50 + frame));
+  const ByteImage strip = grasp_strip(gels, grasp().moments);
+  EXPECT_EQ(strip.at(strip.width - 82, strip.height - 62, 0), 52);
+  EXPECT_EQ(strip.at(strip.width - 82 - 164, strip.height - 62, 0), 50);
+  EXPECT_LT(strip.width, 3 * 164);
 }
 
 TEST_F(GraspPartTest, AFramesWordsAreThoseOfItsMoment) {

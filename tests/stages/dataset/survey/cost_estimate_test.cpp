@@ -26,24 +26,31 @@ void write_gel(const PlannedDataset& data, const char* nu) {
 
 TEST(CostEstimate, ModelAsWritten) {
   // Two thousand vertices, three hundred of the front touching: 2 · √4 a frame.
-  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, false), 4 * 5 * 0.02 + 0.1 + 1.0,
+  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, "last"), 4 * 5 * 0.02 + 0.1 + 1.0,
               1e-12);
-  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 10}, true),
+  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 10}, "all"),
               4 * (5 * 0.02 + 10 * 0.04) + 0.1 + 16 * 0.5, 1e-12);
   GelSize stiff = kGel;
   stiff.poissons_ratio = 0.4;
-  EXPECT_NEAR(modelled_seconds(kModel, stiff, {.press_frames = 5, .other_frames = 0}, false), 6 * 5 * 0.02 + 0.1 + 1.0,
+  EXPECT_NEAR(modelled_seconds(kModel, stiff, {.press_frames = 5, .other_frames = 0}, "last"), 6 * 5 * 0.02 + 0.1 + 1.0,
               1e-12);
-  EXPECT_EQ(modelled_bytes(kGel, {.press_frames = 5, .other_frames = 0}, false),
+  EXPECT_EQ(modelled_bytes(kGel, {.press_frames = 5, .other_frames = 0}, "last"),
             6 * (24 * 2000 + 49 * 1800 + 63000) + 8 * 1e5 * 2);
+}
+
+TEST(CostEstimate, RenderedFramesAreThoseThatItsConfigurationAsksFor) {
+  const MotionLength motion{.press_frames = 5, .other_frames = 10, .phases = 3};
+  EXPECT_EQ(rendered_frames(motion, "last"), 2);
+  EXPECT_EQ(rendered_frames(motion, "phases"), 4);
+  EXPECT_EQ(rendered_frames(motion, "all"), 16);
 }
 
 TEST(CostEstimate, WithoutMadeSamplesItIsTheModel) {
   const PlannedDataset data(3);
   write_gel(data, "0.3");
   const CostEstimate cost = estimate_cost(data.path(), kModel);
-  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, false);
-  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, false);
+  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, "last");
+  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, "last");
   EXPECT_EQ(cost.samples, 3u);
   EXPECT_EQ(cost.made, 0u);
   EXPECT_NEAR(cost.seconds, 2 * down + along, 1e-9);
@@ -63,8 +70,8 @@ TEST(CostEstimate, MadeSamplesScaleTheModelOfTheOthers) {
   data.make(0, 9.0);   // ten seconds with render …
   data.make(1, 11.0);  // … and twelve
   const CostEstimate cost = estimate_cost(data.path(), kModel);
-  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, false);
-  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, false);
+  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, "last");
+  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, "last");
   EXPECT_EQ(cost.made, 2u);
   EXPECT_EQ(cost.unmeasured, 2u);
   EXPECT_NEAR(cost.seconds_spent, 22.0, 1e-12);

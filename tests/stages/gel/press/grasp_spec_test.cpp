@@ -174,6 +174,33 @@ TEST(GraspSpec, AMarginIsAMass) {
               ElementsAre(HasSubstr("nothing has weight without gravity_m_s2")));
 }
 
+TEST(GraspSpec, AnObjectsFrictionTakesThePlaceOfThePressFiles) {
+  const GraspSpec spec = read("", "mass_g: 50, friction: 0.3");
+  PressConfig config = grasp_config(0.9);
+  EXPECT_EQ(spec.pressed_with(config).friction->coefficient, 0.3);
+  EXPECT_EQ(spec.pressed_with(config).friction->relative_speed_threshold, config.friction->relative_speed_threshold);
+  EXPECT_EQ(read("", "mass_g: 50").pressed_with(config).friction->coefficient, 0.9);
+  config.friction.reset();
+  EXPECT_THROW(spec.pressed_with(config), UsageError);
+  EXPECT_THAT(faults("", "mass_g: 50, friction: -1"), ElementsAre(HasSubstr("object.friction: -1 is outside")));
+}
+
+TEST(GraspSpec, TheCenterOfMassMayLieBesideThatOfTheSolidWithinItsBox) {
+  const TriangleMesh box = centered_box(Vector3(0.01, 0.015, 0.02));
+  const GraspSpec spec = read("grip_mm: [0, 0, 5]", "mass_g: 50, center_of_mass_shift_mm: [2, 0, -3]");
+  const MassProperties mass = spec.mass_of(box), solid = mass_properties(box.positions, box.triangles);
+  EXPECT_LT((mass.center_m - Vector3(2e-3, 0.0, -3e-3)).norm(), 1e-12);
+  EXPECT_EQ(mass.second_moment_m2, solid.second_moment_m2);
+  // grip_mm is measured from the solid's centre, so that the place stays while the lever changes.
+  const GraspPose pose = spec.pose_of(box, mass, {}, 0.5);
+  EXPECT_LT((mass.center_m + pose.grip_m - Vector3(0.0, 0.0, 5e-3)).norm(), 1e-12);
+  EXPECT_NEAR(pose.lever_m(), 8e-3, 1e-12);
+  const GraspSpec outside = read("", "mass_g: 50, center_of_mass_shift_mm: [0, 16, 0]");
+  EXPECT_THROW(outside.mass_of(box), DataError);
+  EXPECT_THAT(faults("", "mass_g: 50, center_of_mass_shift_mm: [1, 2]"),
+              ElementsAre(HasSubstr("object.center_of_mass_shift_mm")));
+}
+
 TEST(GraspSpec, VectorsHaveThreeNumbers) {
   EXPECT_THAT(faults("grip_mm: [1, 2]", "mass_g: 50"), ElementsAre(HasSubstr("fingers.grip_mm")));
   EXPECT_THAT(faults("gravity_m_s2: [1]", "mass_g: 50"), ElementsAre(HasSubstr("fingers.gravity_m_s2")));

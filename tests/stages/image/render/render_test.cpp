@@ -49,6 +49,19 @@ TEST_F(RenderStage, WritesTheReferenceAndTheLastFrame) {
   EXPECT_NEAR(sum / static_cast<double>(reference.pixels.size()), 127.5, 0.5);
 }
 
+TEST_F(RenderStage, WritesTheLastFrameOfEachPhase) {
+  press(slab(4, 3), 6, [](double, double) { return 0.05e-3; });
+  write_file(scratch_ / "config.yaml", "frames: phases\nnoise: {seed: 1}\n");
+  EXPECT_EQ(run("refused"), 1);
+  EXPECT_THAT(said_, HasSubstr("what is rendered has no phases"));
+  // Two of a kind in a row are one: frames 1 and 2; 3; 4 and 5.
+  write_npy(scratch_ / "press/phase.npy", {6}, std::vector<std::uint8_t>{0, 2, 2, 6, 2, 2}.data());
+  ASSERT_EQ(run(), 0) << said_;
+  EXPECT_THAT(read_file(scratch_ / "out/render.yaml"), HasSubstr("frames: [0, 2, 3, 5]"));
+  for (int frame = 0; frame < 6; ++frame)
+    EXPECT_EQ(fs::exists(scratch_ / fmt::format("out/frame_{:04}", frame)), frame != 1 && frame != 4) << frame;
+}
+
 TEST_F(RenderStage, WritesTheMapsThatADatasetWantsInItsPrecision) {
   ASSERT_EQ(run("all"), 0) << said_;
   const std::string flag = " --threads 1 --maps " + (scratch_ / "maps.yaml").string();
@@ -149,7 +162,7 @@ TEST_F(RenderStage, RefusesWrongConfigurations) {
   write_file(scratch_ / "config.yaml", "frames: first\nsubpixel: 2\nnoise: {evry_frame: true}\n");
   EXPECT_EQ(run(), 2);
   EXPECT_EQ(said_,
-            "config.yaml:1:9: frames: 'first' is not one of last, all\n"
+            "config.yaml:1:9: frames: 'first' is not one of last, phases, all\n"
             "config.yaml:2:1: subpixel: unknown key (did you mean subpixels?)\n"
             "config.yaml:3:8: noise.seed: missing\n"
             "config.yaml:3:9: noise.evry_frame: unknown key (did you mean every_frame?)\n");

@@ -72,6 +72,23 @@ TEST(AffineBody, FourParticlesHaveItsKineticEnergyInEveryAffineMotion) {
   }
 }
 
+/// The particles move with the centre: their second moment about it is the solid's about its own.
+TEST(AffineBody, ItsCenterOfMassMayLieBesideThatOfTheSolid) {
+  const TriangleMesh box = make_box({-0.015, -0.01, -0.005}, {0.015, 0.01, 0.005});
+  const Vector3 shift(4e-3, -3e-3, 1e-3);
+  const AffineBody solid = make_affine_body(box.positions, box.triangles, kDensity),
+                   body = make_affine_body(box.positions, box.triangles, kDensity, shift);
+  EXPECT_EQ(body.mass_kg, solid.mass_kg);
+  EXPECT_EQ(body.rest_inertia_kg_m2, solid.rest_inertia_kg_m2);
+  EXPECT_LT((center_of(body.rest_m) - center_of(solid.rest_m) - shift).norm(), 1e-15);
+  EXPECT_LT((affine_positions(body, body.rest_m) - box.positions).cwiseAbs().maxCoeff(), 1e-15);
+  // A turn about the new centre leaves it where it is.
+  const Matrix3 turn = some_rotation();
+  const ControlPoints turned = rigid_points(body, center_of(body.rest_m), turn);
+  EXPECT_LT((pose_of(body, turned).topLeftCorner<3, 3>() - turn).norm(), 1e-12);
+  EXPECT_LT((pose_of(body, turned).topRightCorner<3, 1>() - (shift - turn * shift)).norm(), 1e-12);
+}
+
 TEST(AffineBody, WeightsReproduceVerticesAndLinearFunctions) {
   TriangleMesh shape = make_l_shape();
   shape.positions = 0.01 * (shape.positions * some_rotation().transpose());
