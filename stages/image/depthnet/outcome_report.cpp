@@ -50,6 +50,26 @@ std::size_t held_in(const std::vector<GraspItem>& items) {
   return static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
 }
 
+/// How late the test's last images are, and how far its objects had slipped by then.
+struct Seen {
+  double median_s = 0.0, largest_s = 0.0, median_slip_mm = 0.0, largest_slip_mm = 0.0;
+};
+
+Seen seen_in(const std::vector<GraspItem>& items) {
+  std::vector<double> times_s, slips_mm;
+  for (const GraspItem& item : items) {
+    times_s.push_back(item.seen_s);
+    slips_mm.push_back(item.slip_mm);
+  }
+  const auto largest = [](const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+  };
+  return {.median_s = median(times_s),
+          .largest_s = largest(times_s),
+          .median_slip_mm = median(slips_mm),
+          .largest_slip_mm = largest(slips_mm)};
+}
+
 Value::Map split_lines(const std::vector<GraspItem>& items) {
   return {{"grasps", items.size()}, {"objects", objects_in(items)}, {"held", held_in(items)}};
 }
@@ -149,6 +169,12 @@ std::string outcome_page(const OutcomeStudy& study, int frames) {
       "the object be held? Trained on {} grasps of {} objects ({} held), judged by {} of {} others ({} held).\n\n",
       frames, study.train.size(), objects_in(study.train), held_in(study.train), study.test.size(),
       objects_in(study.test), held_in(study.test));
+  const Seen seen = seen_in(study.test);
+  text += fmt::format(
+      "The last of these images is of {:.3g} s after closing (median of the test; at most {:.3g} s). By then the "
+      "objects "
+      "had slipped by {:.3g} mm (at most {:.3g} mm).\n\n",
+      seen.median_s, seen.largest_s, seen.median_slip_mm, seen.largest_slip_mm);
   text += "| | accuracy | balanced accuracy | area under the ROC curve |\n|---|---|---|---|\n";
   text += score_row("network", network);
   text += score_row("the same, outcomes shuffled in the training", scores_of_kind(study, true));
@@ -165,6 +191,11 @@ std::string outcome_page(const OutcomeStudy& study, int frames) {
 Value::Map outcome_summary(const OutcomeStudy& study) {
   Value::Map lines{
       {"train", split_lines(study.train)}, {"val", split_lines(study.val)}, {"test", split_lines(study.test)}};
+  const Seen seen = seen_in(study.test);
+  lines.emplace_back("seen", Value::Map{{"median_s", seen.median_s},
+                                        {"largest_s", seen.largest_s},
+                                        {"median_slip_mm", seen.median_slip_mm},
+                                        {"largest_slip_mm", seen.largest_slip_mm}});
   std::int64_t weights = 0;
   for (const torch::Tensor& weight : weights_of(study.network)) weights += weight.numel();
   lines.emplace_back("weights", weights);

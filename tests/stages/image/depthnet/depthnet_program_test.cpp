@@ -225,6 +225,7 @@ TEST_F(Depthnet, ForetellsOutcomesAlikeByOneThreadTwoThreadsAndTheScript) {
   EXPECT_FALSE(table.next());
   const Record summary = Record::from_file(scratch_ / "out/depthnet.yaml").section("summary");
   EXPECT_EQ(summary.section("test").required_count("grasps"), 16);
+  EXPECT_NEAR(summary.section("seen").required_number("largest_slip_mm"), 0.75, 1e-6);
   EXPECT_EQ(summary.section("network").section("accuracy").numbers("seeds", 2)->front(),
             scores_of(said, held).accuracy);
   // It is no network of depth.
