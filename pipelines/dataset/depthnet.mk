@@ -1,5 +1,6 @@
 # A network that reads depth from touch, trained on a packed dataset and judged on its test objects:
 #   make -f Makefile.data depthnet CONFIG=configs/datasets/mini.yaml [NET=default]
+# With NET=outcome, or any with `task: outcome`, networks that foretell what becomes of grasps.
 $(call uses,dataset/pack)
 
 NET ?= default#        depthnet: a file of configs/depthnet, or a path
@@ -16,6 +17,7 @@ DEPTHNET_CONFIG := $(firstword $(wildcard configs/depthnet/$(NET).yaml $(NET)))
 ifeq ($(DEPTHNET_CONFIG),)
   $(error NET: there is no $(if $(filter %.yaml,$(NET)),,configs/depthnet/$(NET).yaml and no )$(NET))
 endif
+DEPTHNET_TASK := $(or $(shell sed -n 's/^task: *\([a-z]*\).*/\1/p' '$(DEPTHNET_CONFIG)'),depth)
 DEPTHNET_LIST := $(DATASET_DIR)/shards/shards.txt
 ifeq ($(wildcard $(DATASET_DIR)/pack/card.yaml),)
   $(error depthnet: $(DATASET_DIR) has not been packed; the goal dataset makes and packs it)
@@ -36,7 +38,15 @@ $(DEPTHNET)/test/depthnet.yaml: $(DEPTHNET)/depthnet.yaml $(DEPTHNET_SHARDS)
 # On all cores: nothing else is to be done meanwhile.
 depthnet_run = OPENBLAS_NUM_THREADS=1 $(BIN)/depthnet --out $(@D) --threads $(JOBS) $(1) --shards $(DEPTHNET_LIST)
 
-depthnet: $(DEPTHNET)/test/depthnet.yaml ## datasets: A network that reads depth, trained on a packed dataset and judged on its test objects: CONFIG= [NET=default]
-	@echo; $(BIN)/tacipc get $< summary.pressed.mae_mm.mean | sed 's/$$/ mm: mean error in contact on the test objects/'
-	@echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model.pt, and model_*.onnx for predict"
+depthnet: $(DEPTHNET)/$(if $(filter depth,$(DEPTHNET_TASK)),test/)depthnet.yaml ## datasets: A network that reads depth, trained on a packed dataset and judged on its test objects; of grasps NET=outcome: CONFIG= [NET=default]
+	$(depthnet_says_$(DEPTHNET_TASK))
+define depthnet_says_depth
+@echo; $(BIN)/tacipc get $< summary.pressed.mae_mm.mean | sed 's/$$/ mm: mean error in contact on the test objects/'
+@echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model.pt, and model_*.onnx for predict"
+endef
+define depthnet_says_outcome
+@echo; for who in network shuffled; do $(BIN)/tacipc get $< summary.$$who.accuracy.mean | sed "s/$$/: accuracy on the test objects, $$who, mean of the seeds/"; done
+@$(BIN)/tacipc get $< summary.grip_only.accuracy | sed 's/$$/: of the force of the grip alone/'
+@echo "Look at $(DEPTHNET)/outcome.md; the first seed's network is $(DEPTHNET)/model.pt"
+endef
 endif

@@ -41,6 +41,12 @@ mkdir -p none/datasets/a/{pack,shards}
 touch none/datasets/a/pack/card.yaml
 echo test-00000-of-00001/pack.yaml > none/datasets/a/shards/shards.txt
 asks "chain depthnet predict" depthnet CONFIG=a.yaml
+for net in default outcome; do  # of depth a second run judges; outcomes are judged where they are trained
+  make -n -f Makefile.data depthnet CONFIG=a.yaml NET=$net OUT=none BUILD=nothing PACKAGES=no REBUILD=no > $net.txt || fail "NET=$net: $(cat $net.txt)"
+  grep -q "depthnet --out none/datasets/a/depthnet/$net .*--config configs/depthnet/$net.yaml" $net.txt || fail "NET=$net trains nothing: $(cat $net.txt)"
+done
+grep -q -- --model default.txt && grep -q test/sheet.png default.txt || fail "nothing is judged: $(cat default.txt)"
+! grep -q -- --model outcome.txt && grep -q depthnet/outcome/outcome.md outcome.txt || fail "outcomes: $(cat outcome.txt)"
 for name in chromium-headless-shell python3-torch slurmd libgtest-dev libcgal-dev libtorch-dev libonnx-dev; do
   ! grep -qx "$name" packages/chain.txt || fail "$name for everybody"
 done

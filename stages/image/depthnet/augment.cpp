@@ -37,6 +37,21 @@ torch::Tensor shifted(const torch::Tensor& image, int dx, int dy) {
 
 }  // namespace
 
+SensorExample disturbed(const torch::Tensor& change, const torch::Tensor& reference, const AugmentationConfig& config,
+                        std::uint64_t seed, int epoch, std::size_t index) {
+  Draws draws(seed, epoch, index);
+  const torch::Tensor gain = draws.channels(config.gain), drift = draws.channels(config.drift_codes);
+  torch::Tensor seen = (change.to(torch::kFloat) * (1.0 + gain) + drift).contiguous();
+  draws.add_noise(seen, config.noise_codes * draws.uniform());
+  if (reference.defined()) {
+    const torch::Tensor rest = reference.to(torch::kFloat) + draws.channels(config.reference_codes);
+    seen = torch::cat({seen, rest.expand_as(seen)}, 1);
+  }
+  const auto whole = [&] { return static_cast<int>(std::lround(draws.within(config.shift_px + 0.5 - 1e-9))); };
+  const int dx = whole(), dy = whole();
+  return {.input = shifted(seen, dx, dy), .dx = dx, .dy = dy};
+}
+
 DepthExample example_of(const DepthItem& item) {
   return {.input = torch::cat({item.change, item.reference}).to(torch::kFloat).unsqueeze(0),
           .depth_mm = item.depth_mm.to(torch::kFloat).unsqueeze(0)};
@@ -44,15 +59,8 @@ DepthExample example_of(const DepthItem& item) {
 
 DepthExample augmented(const DepthItem& item, const AugmentationConfig& config, std::uint64_t seed, int epoch,
                        std::size_t index) {
-  Draws draws(seed, epoch, index);
-  const torch::Tensor gain = draws.channels(config.gain), drift = draws.channels(config.drift_codes);
-  torch::Tensor change = (item.change.to(torch::kFloat) * (1.0 + gain) + drift).contiguous();
-  draws.add_noise(change, config.noise_codes * draws.uniform());
-  const torch::Tensor reference = item.reference.to(torch::kFloat) + draws.channels(config.reference_codes);
-  const auto whole = [&] { return static_cast<int>(std::lround(draws.within(config.shift_px + 0.5 - 1e-9))); };
-  const int dx = whole(), dy = whole();
-  return {.input = shifted(torch::cat({change, reference}).unsqueeze(0), dx, dy),
-          .depth_mm = shifted(item.depth_mm.to(torch::kFloat).unsqueeze(0), dx, dy)};
+  const SensorExample seen = disturbed(item.change.unsqueeze(0), item.reference, config, seed, epoch, index);
+  return {.input = seen.input, .depth_mm = shifted(item.depth_mm.to(torch::kFloat).unsqueeze(0), seen.dx, seen.dy)};
 }
 
 }  // namespace tacipc

@@ -3,16 +3,18 @@
 namespace tacipc {
 namespace {
 
-NetworkConfig read_network(ConfigReader in) {
-  return {.levels = in.integer("levels", 1, 6),
-          .base_channels = in.integer("base_channels", 1, 256),
-          .reduction = in.integer("reduction", 1, 16)};
-}
-
 LossConfig read_loss(ConfigReader in) {
   return {.squared = in.choice("kind", {"mae", "mse"}) == "mse",
           .contact_weight = in.number("contact_weight", Range::between(0.0, 1000.0)),
           .slope_weight = in.number("slope_weight", Range::between(0.0, 1000.0))};
+}
+
+}  // namespace
+
+NetworkConfig read_network(ConfigReader in) {
+  return {.levels = in.integer("levels", 1, 6),
+          .base_channels = in.integer("base_channels", 1, 256),
+          .reduction = in.integer("reduction", 1, 16)};
 }
 
 ScheduleConfig read_schedule(ConfigReader in) {
@@ -27,16 +29,14 @@ ScheduleConfig read_schedule(ConfigReader in) {
   return schedule;
 }
 
-AugmentationConfig read_augmentation(ConfigReader in) {
+AugmentationConfig read_augmentation(ConfigReader in, bool reference) {
   const Range codes = Range::between(0.0, 128.0);
   return {.gain = in.number("gain", Range::between(0.0, 1.0)),
           .drift_codes = in.number("drift_codes", codes),
           .noise_codes = in.number("noise_codes", codes),
-          .reference_codes = in.number("reference_codes", codes),
+          .reference_codes = reference ? in.number("reference_codes", codes) : 0.0,
           .shift_px = in.integer("shift_px", 0, 64)};
 }
-
-}  // namespace
 
 DepthnetConfig DepthnetConfig::read(ConfigReader& in) {
   return {.network = read_network(in.section("network")),

@@ -39,6 +39,11 @@ struct AugmentationConfig {
   int shift_px = 0;              // of image, reference and depth together, pixels of the network
 };
 
+/// Sections that networks for all tasks have.
+NetworkConfig read_network(ConfigReader in);
+ScheduleConfig read_schedule(ConfigReader in);
+AugmentationConfig read_augmentation(ConfigReader in, bool reference = true);  // without reference_codes or with
+
 struct DepthnetConfig {
   NetworkConfig network;
   LossConfig loss;

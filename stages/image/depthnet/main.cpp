@@ -8,6 +8,8 @@
 #include "common/stage/stage.h"
 #include "stages/image/depthnet/judge.h"
 #include "stages/image/depthnet/onnx.h"
+#include "stages/image/depthnet/outcome_config.h"
+#include "stages/image/depthnet/outcome_report.h"
 #include "stages/image/depthnet/train.h"
 
 namespace {
@@ -17,12 +19,14 @@ namespace fs = std::filesystem;
 
 const StageSpec kDepthnet{
     .name = "depthnet",
-    .summary = "Train a network that reads depth from tactile images (--config), judge it on a dataset (--model).",
+    .summary =
+        "Train a network that reads depth from tactile images (--config), judge it on a dataset (--model); or train "
+        "and judge networks that foretell outcomes of grasps (--config with task: outcome).",
     .inputs = {{.flag = "--config", .help = "network and training (YAML)", .required = false},
                {.flag = "--model", .help = "model.pt of a training", .required = false},
                {.flag = "--shards",
                 .help = "a packed dataset: text file with the record of each shard (shards.txt). Training takes the "
-                        "splits train and val, judging the split test",
+                        "splits train and val, judging the split test; outcomes of grasps take all",
                 .required = false},
                {.flag = "--renders", .help = "folders of render to train on", .required = false, .many = true},
                {.flag = "--validation",
@@ -73,8 +77,13 @@ std::vector<std::pair<std::string, fs::path>> shards_of(Stage& stage) {
   return shards;
 }
 
-void train_network(Stage& stage) {
-  const auto config = stage.read_config<DepthnetConfig>("--config");
+/// Where the training of a name goes on.
+Checkpoints checkpoints_of(Stage& stage, const std::string& name) {
+  return {.load = [&stage, name] { return stage.load_scratch(name); },
+          .save = [&stage, name](const std::string& bytes) { stage.save_scratch(name, bytes); }};
+}
+
+void train_depth(Stage& stage, const DepthnetConfig& config) {
   TrainedNetwork network{.module = make_network(config.network, config.seed), .sizes = {}};
   Items training(network.module, config.network.reduction), validation(network.module, config.network.reduction);
   if (stage.optional_input("--shards"))
@@ -92,9 +101,7 @@ void train_network(Stage& stage) {
   log_info("{} images to train on, {} to judge by, {} weights", training.items().size(), validation.items().size(),
            weights);
   const std::vector<EpochRow> rows =
-      train(network.module, training.items(), validation.items(), config,
-            {.load = [&] { return stage.load_scratch("checkpoint"); },
-             .save = [&](const std::string& bytes) { stage.save_scratch("checkpoint", bytes); }});
+      train(network.module, training.items(), validation.items(), config, checkpoints_of(stage, "checkpoint"));
   network.sizes = training.sizes();
   save_network(network, stage.output("model.pt"));
   for (const ImageSize& size : network.sizes)
@@ -112,6 +119,39 @@ void train_network(Stage& stage) {
     summary.emplace_back("validation_mae_contact_mm", last.validation_mae_contact_mm);
   }
   stage.summarize(summary);
+}
+
+void foretell_outcomes(Stage& stage, const OutcomeConfig& config) {
+  if (!stage.optional_input("--shards")) throw UsageError("--config with task: outcome takes --shards");
+  const auto shards = shards_of(stage);
+  std::vector<GraspItem> items = read_grasps(shards, config.frames, make_outcome_network(config, config.seed));
+  std::vector<ImageSize> sizes;
+  for (const GraspItem& item : items)
+    if (std::find(sizes.begin(), sizes.end(), item.size) == sizes.end()) sizes.push_back(item.size);
+  const auto checkpoints = [&](const std::string& name) {
+    Checkpoints those = checkpoints_of(stage, "checkpoint_" + name);
+    those.at_end = true;
+    return those;
+  };
+  try {
+    const OutcomeStudy study = study_outcomes(std::move(items), config, checkpoints);
+    save_network({.module = study.network, .sizes = sizes}, stage.output("model.pt"));
+    write_file(stage.output("outcome.csv"), outcome_csv(study));
+    write_file(stage.output("history.csv"), outcome_history_csv(study));
+    write_file(stage.output("roc.svg"), roc_svg(study));
+    write_file(stage.output("outcome.md"), outcome_page(study, config.frames));
+    stage.summarize(outcome_summary(study));
+  } catch (const DataError& error) {
+    throw DataError("{}: {}", stage.input("--shards").string(), error.what());
+  }
+}
+
+void train_network(Stage& stage) {
+  const auto config = stage.read_config<TaskConfig>("--config");
+  if (const auto* outcome = std::get_if<OutcomeConfig>(&config.task))
+    foretell_outcomes(stage, *outcome);
+  else
+    train_depth(stage, std::get<DepthnetConfig>(config.task));
 }
 
 void judge_network(Stage& stage) {

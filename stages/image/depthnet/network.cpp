@@ -9,78 +9,18 @@
 #include <sstream>
 
 #include "common/base/error.h"
-#include "common/base/rng.h"
-#include "stages/image/depthnet/unet.h"
+#include "stages/image/depthnet/script_writer.h"
 
 // Small convolutions go through BLAS, whichever libblas.so.3 is.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace tacipc {
-namespace {
-
-/// Writes the network's source and makes the weights it names.
-class Builder : public NetworkWriter {
- public:
-  Builder(torch::jit::Module& module, std::uint64_t seed) : module_(module), seed_(seed) {}
-
-  void begin(double change_codes, double reference_codes, int multiple) override {
-    line("height = x.size(2)");
-    line("width = x.size(3)");
-    line(fmt::format("x = torch.cat([x[:, 0:3] * {}, x[:, 3:6] * {} - 1.0], 1)", 1.0 / change_codes,
-                     1.0 / reference_codes));
-    line(fmt::format("x = torch.replication_pad2d(x, [0, ({0} - width % {0}) % {0}, 0, ({0} - height % {0}) % {0}])",
-                     multiple));
-  }
-  void convolution(int in, int out, int width, bool rectified) override {
-    const std::string name = weight_name(count_);
-    // After a rectifier a variance of 2 / fan-in keeps the signal's size. The last layer begins near no indentation.
-    const double sigma =
-        rectified ? std::sqrt(2.0 / (in * width * width)) : 0.1 * std::sqrt(1.0 / (in * width * width));
-    torch::Tensor weight = torch::empty({out, in, width, width});
-    float* values = weight.data_ptr<float>();
-    for (std::int64_t i = 0; i < weight.numel(); ++i)
-      values[i] = static_cast<float>(
-          sigma * random_normal(seed_, static_cast<std::uint64_t>(count_), static_cast<std::uint64_t>(i)));
-    module_.register_parameter(name, weight.requires_grad_(true), false);
-    module_.register_parameter(bias_name(count_), torch::zeros({out}).requires_grad_(true), false);
-    const std::string call = fmt::format("torch.conv2d(x, self.{}, self.{}, [1, 1], [{}, {}])", name, bias_name(count_),
-                                         width / 2, width / 2);
-    line(rectified ? fmt::format("x = torch.relu({})", call) : "x = " + call);
-    ++count_;
-  }
-  void halve() override { line("x = torch.max_pool2d(x, [2, 2])"); }
-  void keep(int level) override { line(fmt::format("x{} = x", level)); }
-  void enlarge_and_join(int level) override {
-    line(fmt::format("x = torch.upsample_bilinear2d(x, [x{0}.size(2), x{0}.size(3)], False)", level));
-    line(fmt::format("x = torch.cat([x{}, x], 1)", level));
-  }
-  void end() override {
-    line("return x[:, :, 0:height, 0:width]");
-    module_.define(source_);
-  }
-
- private:
-  void line(const std::string& text) { source_ += "    " + text + "\n"; }
-
-  torch::jit::Module& module_;
-  std::uint64_t seed_;
-  int count_ = 0;
-  std::string source_ = "def indentation(self, x):\n";
-};
-
-}  // namespace
 
 torch::jit::Module make_network(const NetworkConfig& config, std::uint64_t seed) {
   torch::jit::Module module("DepthFromTouch");
-  Builder builder(module, seed);
-  write_unet(config, builder);
-  module.define(fmt::format(R"(
-def reduced(self, image, reference):
-    reference = reference.expand_as(image).to(6).permute([0, 3, 1, 2])
-    change = image.to(6).permute([0, 3, 1, 2]) - reference
-    return torch.avg_pool2d(torch.cat([change, reference], 1), [{0}, {0}], [{0}, {0}], [0, 0], True, False)
-)",
-                            config.reduction));
+  ScriptWriter writer(module, "indentation", seed);
+  write_unet(config, writer);
+  define_reduced(module, config.reduction);
   module.define(fmt::format(R"(
 def forward(self, image, reference):
     x = self.indentation(self.reduced(image, reference))
@@ -142,6 +82,8 @@ TrainedNetwork load_network(const std::filesystem::path& file) {
   }
   std::istringstream sizes(extra[kSizes]);
   for (ImageSize size; sizes >> size.first >> size.second;) network.sizes.push_back(size);
+  if (network.module.find_method("logit"))
+    throw DataError("{}: foretells outcomes of grasps, and reads no depth", file.string());
   if (network.sizes.empty() || !network.module.find_method("forward"))
     throw DataError("{}: is not a network that depthnet wrote", file.string());
   return network;

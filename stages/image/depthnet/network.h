@@ -16,8 +16,7 @@ namespace tacipc {
 
 /// A U-Net without normalisation, weights drawn by He et al. 2015 from the seed. Methods, N images each:
 /// - `forward(image, reference)`: u8 (N, H, W, 3) both, or one reference for all → indentation in mm, f32 (N, H, W)
-/// - `reduced(image, reference)`: the same arguments → what the network sees, f32 (N, 6, h, w): means over squares of
-///   the change against the reference, then of the reference, in codes
+/// - `reduced(image, reference)`: the same arguments → what the network sees, f32 (N, 6, h, w) (define_reduced)
 /// - `indentation(x)`: that → mm, f32 (N, 1, h, w)
 torch::jit::Module make_network(const NetworkConfig& config, std::uint64_t seed);
 

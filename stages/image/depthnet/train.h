@@ -1,13 +1,10 @@
-// Training: gradients of single images, in any number of threads, added in the order of the batch.
+// Training of the network that reads depth.
 #pragma once
 
-#include <chrono>
-#include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "stages/image/depthnet/augment.h"
+#include "stages/image/depthnet/learn.h"
 #include "stages/image/depthnet/network.h"
 
 namespace tacipc {
@@ -21,13 +18,6 @@ struct EpochRow {
   double mae_contact_mm = 0.0;
   double validation_mae_mm = 0.0;  // NaN without any
   double validation_mae_contact_mm = 0.0;
-};
-
-/// Where a training that was interrupted goes on.
-struct Checkpoints {
-  std::function<std::optional<std::string>()> load;
-  std::function<void(const std::string&)> save;
-  std::chrono::seconds between{20};  // at least, from one to the next
 };
 
 /// The network's loss of one example. \throw DataError if no pixel has a depth
@@ -44,8 +34,8 @@ struct ErrorSums {
 };
 ErrorSums errors_of(const torch::jit::Module& network, const std::vector<DepthItem>& items);
 
-/// Trains the weights in place (AdamW, Loshchilov and Hutter 2019) and returns a row per epoch, those before an
-/// interruption included. Results depend on nothing but network, items and configuration. \pre items are not empty
+/// Trains the weights in place and returns a row per epoch, those before an interruption included. Results depend on
+/// nothing but network, items and configuration. \pre items are not empty
 std::vector<EpochRow> train(torch::jit::Module& network, const std::vector<DepthItem>& items,
                             const std::vector<DepthItem>& validation, const DepthnetConfig& config,
                             const Checkpoints& checkpoints);

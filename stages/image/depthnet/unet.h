@@ -1,4 +1,4 @@
-// The network, step by step, for whoever writes it down: as TorchScript (network.h) or ONNX (onnx.h).
+// The network, step by step, for whoever writes it down: as TorchScript (script_writer.h) or ONNX (onnx.h).
 #pragma once
 
 #include <string>
@@ -26,6 +26,16 @@ class NetworkWriter {
   virtual void end() = 0;
 };
 
+/// Channels of the maps of a level, the first one 0.
+int channels_of(const NetworkConfig& config, int level);
+
+/// Channels that the first level sees.
+inline constexpr int kSeenChannels = 6;
+
+/// After the beginning: to the maps of the last level, the smallest. Whatever begins leaves a size that can be halved
+/// `levels` times.
+void write_contracting_path(const NetworkConfig& config, NetworkWriter& writer);
+/// All of it, to one channel of the size of the first maps.
 void write_unet(const NetworkConfig& config, NetworkWriter& writer);
 
 std::string weight_name(int convolution);

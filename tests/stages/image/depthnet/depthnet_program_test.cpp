@@ -1,15 +1,19 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
+#include <torch/script.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/files.h"
+#include "common/format/csv.h"
 #include "common/stage/record.h"
 #include "stages/image/depthnet/network.h"
 #include "stages/image/depthnet/onnx.h"
+#include "stages/image/depthnet/scores.h"
 #include "tests/program_test.h"
 #include "tests/stages/image/depthnet/dents.h"
+#include "tests/stages/image/depthnet/grasps.h"
 
 namespace tacipc {
 namespace {
@@ -177,6 +181,69 @@ TEST_F(Depthnet, LearnsFromADatasetAndIsJudgedByItsTestObjects) {
   write_shard(scratch_, {"train"});
   EXPECT_EQ(depthnet(judge), 1);
   EXPECT_THAT(said_, testing::HasSubstr("shards.txt: names no images with contact of the split test"));
+}
+
+TEST_F(Depthnet, ForetellsOutcomesAlikeByOneThreadTwoThreadsAndTheScript) {
+  const std::vector<MadeGrasp> made = made_grasps(8, true);
+  const std::string shards = fmt::format("--shards '{}' ", write_grasps(scratch_, made).string());
+  std::string net = kSmallOutcome;
+  net.replace(net.find("epochs: 8"), 9, "epochs: 4");
+  write_file(scratch_ / "net.yaml", net);
+  const std::string flags = shards + fmt::format("--config '{}' --threads ", (scratch_ / "net.yaml").string());
+  std::string first[5];
+  const char* const names[] = {"model.pt", "outcome.csv", "history.csv", "roc.svg", "outcome.md"};
+  for (const int threads : {1, 2}) {
+    ASSERT_EQ(depthnet(flags + std::to_string(threads)), 0) << said_;
+    for (std::size_t k = 0; k < std::size(names); ++k) {
+      const std::string bytes = read_file(scratch_ / "out" / names[k]);
+      if (threads == 1) first[k] = bytes;
+      EXPECT_EQ(bytes, first[k]) << names[k];
+    }
+  }
+  // The script of the first seed, asked with images as they are, says what the table has.
+  torch::jit::Module module = torch::jit::load((scratch_ / "out/model.pt").string());
+  CsvReader table(scratch_ / "out/outcome.csv");
+  std::vector<double> said;
+  std::vector<bool> held;
+  for (std::size_t i = 32; i < made.size(); ++i) {  // the last two objects
+    std::vector<torch::Tensor> images, references;
+    for (std::size_t f = 0; f < 2; ++f) {
+      references.push_back(tensor_of(made_image(made[i], i, f, 0)));
+      for (const std::size_t t : {kClosed, kHeldStill}) images.push_back(tensor_of(made_image(made[i], i, f, t)));
+    }
+    const torch::Tensor answer = module
+                                     .forward({torch::cat(images).reshape({1, 2, 2, kGraspSize, kGraspSize, 3}),
+                                               torch::cat(references).reshape({1, 2, kGraspSize, kGraspSize, 3})})
+                                     .toTensor();
+    ASSERT_TRUE(table.next());
+    EXPECT_EQ(table["grasp"], fmt::format("s{:03}", 2 * i));
+    EXPECT_EQ(table["outcome"], made[i].outcome);
+    EXPECT_NEAR(std::stod(table["network_4"]), answer.item<double>(), 1e-6);
+    said.push_back(std::stod(table["network_4"]));
+    held.push_back(table["held"] == "1");
+  }
+  EXPECT_FALSE(table.next());
+  const Record summary = Record::from_file(scratch_ / "out/depthnet.yaml").section("summary");
+  EXPECT_EQ(summary.section("test").required_count("grasps"), 16);
+  EXPECT_NEAR(summary.section("seen").required_number("largest_slip_mm"), 0.75, 1e-6);
+  EXPECT_EQ(summary.section("network").section("accuracy").numbers("seeds", 2)->front(),
+            scores_of(said, held).accuracy);
+  // It is no network of depth.
+  std::filesystem::rename(scratch_ / "out/model.pt", scratch_ / "model.pt");
+  EXPECT_EQ(depthnet(shards + fmt::format("--model '{}'", (scratch_ / "model.pt").string())), 1);
+  EXPECT_THAT(said_, testing::HasSubstr("model.pt: foretells outcomes of grasps, and reads no depth"));
+}
+
+TEST_F(Depthnet, RefusesGraspsOfOneOutcomeInOneLine) {
+  std::vector<MadeGrasp> made = made_grasps(2, true);
+  for (MadeGrasp& grasp : made) grasp.outcome = "lifted";
+  write_file(scratch_ / "net.yaml", kSmallOutcome);
+  const std::string config = fmt::format("--config '{}' ", (scratch_ / "net.yaml").string());
+  EXPECT_EQ(depthnet(config + fmt::format("--shards '{}'", write_grasps(scratch_, made).string())), 1);
+  EXPECT_THAT(said_, testing::HasSubstr("shards.txt: the split train has 6 grasps of 3 objects, all held: there is "
+                                        "nothing to tell apart"));
+  EXPECT_EQ(depthnet(config + fmt::format("--renders '{}'", (scratch_ / "").string())), 2);
+  EXPECT_THAT(said_, testing::HasSubstr("takes --shards"));
 }
 
 }  // namespace
