@@ -37,7 +37,7 @@ std::string pad_figure(const PadForces& pad, const std::vector<Instant>& frames,
   Chart chart = over_time(frames, "forces on pad " + pad.pad);
   chart.left_label = "force (N)";
   for (const bool felt : {false, true}) {
-    Curve normal{.values = {}, .titles = {}, .broad = !felt}, tangential = normal;
+    Curve normal{.values = {}, .titles = {}, .broad = !felt}, tangential{.values = {}, .titles = {}, .broad = !felt};
     for (const PadForce& force : felt ? pad.felt : pad.answered) {
       normal.values.emplace_back(force.normal_n);
       tangential.values.emplace_back(force.tangential_n);

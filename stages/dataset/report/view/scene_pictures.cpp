@@ -162,7 +162,7 @@ Viewpoint scene_viewpoint(const SceneView& view, double aspect) {
 
 ByteImage scene_pictures(const SceneView& view, const std::vector<PicturedInstant>& instants,
                          const std::vector<Instant>& frames, int width, int height) {
-  constexpr int kGap = 8, kLetters = 11, kHead = 46;
+  constexpr int kGap = 8, kLetters = 13, kHead = 54;
   constexpr Color kInk{27, 35, 48}, kQuiet{93, 104, 120};
   const int columns = static_cast<int>(instants.size());
   const Viewpoint from = scene_viewpoint(view, static_cast<double>(width) / height);

@@ -47,10 +47,10 @@ TEST_F(RobotPicturesTest, EveryInstantIsAPictureWithTheGelInIt) {
   const std::vector<Instant> frames{{0.0, "1 grip"}, {0.01, "2 move"}};
   const ByteImage strip = scene_pictures(view_, pictured_instants(view_, 1), frames, 120, 100);
   EXPECT_EQ(strip.width, 2 * 120 + 8);
-  EXPECT_EQ(strip.height, 46 + 100);
+  EXPECT_EQ(strip.height, 54 + 100);
   for (const int left : {0, 128}) {
     int blue = 0;
-    for (int y = 46; y < strip.height; ++y) {
+    for (int y = 54; y < strip.height; ++y) {
       for (int x = left; x < left + 120; ++x) blue += strip.at(x, y, 2) > strip.at(x, y, 0) + 40 ? 1 : 0;
     }
     EXPECT_GT(blue, 20) << left;
