@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <tuple>
 
@@ -54,11 +55,15 @@ std::string pad_figure(const PadForces& pad, const std::vector<Instant>& frames,
 std::string actuator_figure(const RobotFolder& motion, std::size_t actuator, const std::vector<Instant>& frames) {
   const std::string& name = motion.parts.actuators[actuator];
   Chart chart = over_time(frames, "actuator " + name);
-  chart.left_label = "control";
+  // Metres of a small machine have more digits than a tick has room for.
+  constexpr double kSmall = 0.1, kThousand = 1e3;
+  const auto is_small = [&](const std::vector<double>& now) { return std::abs(now[actuator]) < kSmall; };
+  const bool small = std::all_of(motion.control.begin(), motion.control.end(), is_small);
+  chart.left_label = small ? "control × 1000" : "control";
   chart.right_label = "force (N or N m)";
   Curve &control = chart.left.emplace_back(), &force = chart.right.emplace_back();
   for (std::size_t f = 0; f < motion.times_s.size(); ++f) {
-    control.values.emplace_back(motion.control[f][actuator]);
+    control.values.emplace_back((small ? kThousand : 1.0) * motion.control[f][actuator]);
     force.values.emplace_back(motion.actuator_force[f][actuator]);
   }
   return figure(chart,

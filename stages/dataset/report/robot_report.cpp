@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "common/base/error.h"
@@ -46,6 +47,10 @@ std::vector<CouplingTry> read_tries(const fs::path& file) {
                      .residual_n = number_in<double>(table, file, "residual_n"),
                      .residual_relative = number_in<double>(table, file, "residual_relative"),
                      .stiffness_n_m = number_in<double>(table, file, "stiffness_n_m")});
+  // A window that was halved has its tries with fewer frames after those with more, whatever the order of the lines.
+  std::stable_sort(tries.begin(), tries.end(), [](const CouplingTry& a, const CouplingTry& b) {
+    return a.window != b.window ? a.window < b.window : a.frames > b.frames;
+  });
   return tries;
 }
 

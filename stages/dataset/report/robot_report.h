@@ -26,8 +26,9 @@ struct RobotReport {
   std::vector<std::pair<std::string, double>> variables;  // that were drawn
   std::vector<std::string> steps;                         // of the task, "1 grip", "2 move", …
   RobotFolder motion;
-  std::vector<CouplingTry> tries;  // none of a robot that felt MuJoCo's own contacts
-  double tolerance = 1e-3;         // of residual_relative
+  std::vector<CouplingTry>
+      tries;                // in the order in which they were made; none of a robot that felt MuJoCo's own contacts
+  double tolerance = 1e-3;  // of residual_relative
 };
 
 /// Folder of a robot below that of its scene.

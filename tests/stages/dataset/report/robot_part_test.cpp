@@ -85,6 +85,7 @@ TEST_F(RobotPartTest, ThePageHasTheTaskItsForcesAndTheActuatorsThatChange) {
   EXPECT_THAT(html, HasSubstr("<img src=\"robot_strip.png\""));
   EXPECT_THAT(html, HasSubstr("They differ by at most 0.250 N"));
   EXPECT_THAT(html, HasSubstr("<b>Actuator grip</b>"));
+  EXPECT_THAT(html, HasSubstr("control × 1000"));  // 0.01
   EXPECT_THAT(html, Not(HasSubstr("<b>Actuator idle</b>")));
   EXPECT_THAT(html, HasSubstr("way of " + curve_key(1) + "peg; turn of " + curve_key(2) + "peg"));
   EXPECT_THAT(html, HasSubstr("<title>2 move</title>"));

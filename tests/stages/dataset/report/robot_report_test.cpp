@@ -24,6 +24,7 @@ TEST(RobotReport, TellsTaskStepsDrawnValuesAndTries) {
   EXPECT_THAT(robot->steps, ElementsAre("1 grip", "2 move"));
   EXPECT_EQ(robot->tolerance, 0.002);
   ASSERT_EQ(robot->tries.size(), 5u);
+  EXPECT_EQ(robot->tries[1].frames, 5);  // came before those of two frames
   EXPECT_EQ(robot->tries[3].window, 2);
   EXPECT_EQ(robot->tries[3].frames, 2);
   EXPECT_EQ(robot->tries[3].residual_relative, 0.05);
@@ -44,7 +45,7 @@ TEST(RobotReport, ATryThatIsNoNumberIsRefusedWithItsPlace) {
   write_robot_scene(scratch);
   const auto file = scratch.file("bodies/residuals.csv", replaced(kResiduals, "0.25,41000", "much,41000"));
   EXPECT_EQ(message_of<DataError>([&] { read_robot_report(scratch / "bodies"); }),
-            file.string() + ":4: residual_relative: expected a number, found 'much'");
+            file.string() + ":6: residual_relative: expected a number, found 'much'");
 }
 
 }  // namespace

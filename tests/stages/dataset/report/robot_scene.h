@@ -21,10 +21,11 @@ seed: 7
 summary: {bodies: [arm, peg], pads: [pad], actuators: [grip, idle]}
 )";
 
+/// Of a second window that was halved: a folder named 2 is listed before 5.
 constexpr const char* kResiduals =
     "window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m\n"
-    "0001,5,0,1,0,0,30000\n0002,5,5,1,2,0.5,40000\n0002,5,5,2,1,0.25,41000\n0002,2,5,1,0.1,0.05,42000\n"
-    "0002,2,5,2,0.002,0.0015,43000\n";
+    "0001,5,0,1,0,0,30000\n0002,2,5,1,0.1,0.05,42000\n0002,2,5,2,0.002,0.0015,43000\n"
+    "0002,5,5,1,2,0.5,40000\n0002,5,5,2,1,0.25,41000\n";
 
 /// Folder "bodies": its robot felt 0.25 N less along x, and 2 N into the gel as the press answers.
 inline void write_robot_scene(const ScratchFolder& scratch) {
