@@ -61,6 +61,9 @@ programs_for_robot-demo := $(programs_for_robot)
 packages_for_robot-demo := robot
 ifneq ($(filter robot-demo,$(MAKECMDGOALS)),)
 $(foreach t,$(demo_tasks),$(eval $(call robot_rules,$(OUT)/robot-demo/$(t),$(t),configs/tasks/$(t).yaml,mctac,$(demo_mesh),default,1)))
-robot-demo: $(foreach t,$(demo_tasks),$(OUT)/robot-demo/$(t)/report/report.yaml) ## start: Four tasks of robots with gels on their fingers, with pages
-	@echo; echo "Look at $(OUT)/robot-demo/*/report/index.html"
+demo_pages := $(foreach t,$(demo_tasks),$(OUT)/robot-demo/$(t)/report/report.yaml)
+$(OUT)/robot-demo/report/report.yaml: $(demo_pages) | build
+	$(call run,report,--title "Robots with gels on their fingers" $(foreach t,$(demo_tasks),--scene $(OUT)/robot-demo/$(t)))
+robot-demo: $(OUT)/robot-demo/report/report.yaml ## start: Four tasks of robots with gels on their fingers, with pages
+	@echo; echo "Look at $(OUT)/robot-demo/report/index.html"
 endif

@@ -90,6 +90,12 @@ def check_object(planes, data, shown, poses, soft):
     assert np.array_equal(np.array(shown["poses"]), poses.reshape(-1, 16)[frames])
 
 
+def robot_poses(folder, body):
+    with open(f"{folder}/robot/robot.yaml", encoding="utf-8") as file:
+        [line] = [line for line in file if line.startswith("  bodies: [")]
+    return np.load(f"{folder}/robot/body_pose.npy")[:, line.strip()[len("bodies: ["):-1].split(", ").index(body)]
+
+
 def main():
     script, folder = sys.argv[1:3]
     with open(script, encoding="utf-8") as file:
@@ -103,9 +109,10 @@ def main():
         for shown in data["objects"]:
             if shown.get("kind") == "soft":
                 soft[shown["name"]] = np.load(f"{folder}/soft/{shown['name']}/positions.npy")
-        assert len(data["gels"]) + len(data["objects"]) == bodies.shape[1]
-        poses = list(np.moveaxis(bodies[:, len(data["gels"]) + len(soft):], 1, 0))
-        poses += [np.tile(np.eye(4), (len(bodies), 1, 1))] * len(soft)
+        still, own = np.tile(np.eye(4), (len(bodies), 1, 1)), bodies.shape[1] - len(data["gels"])
+        poses = list(np.moveaxis(bodies[:, len(data["gels"]) + len(soft):], 1, 0)) + [still] * len(soft)
+        for shown in data["objects"][own:]:  # the robot's, and what stands around it
+            poses.append(still if shown["name"] == "world" else robot_poses(folder, shown["name"]))
     elif os.path.exists(f"{folder}/finger_pose.npy"):
         poses, fingers = [np.load(f"{folder}/object_pose.npy")], np.load(f"{folder}/finger_pose.npy")
         assert [gel["name"] for gel in data["gels"]] == ["left", "right"]

@@ -75,7 +75,7 @@ std::string curve_svg(const Curve& curve, const std::vector<double>& x_values, c
     }
   }
   end_line();
-  return fmt::format("<g class=\"color-{}\">\n{}{}</g>\n", color, lines, marks);
+  return fmt::format("<g class=\"color-{}{}\">\n{}{}</g>\n", color, curve.broad ? " broad" : "", lines, marks);
 }
 
 }  // namespace
@@ -119,6 +119,8 @@ std::string chart_svg(const Chart& chart) {
   return svg + "</svg>\n";
 }
 
-std::string curve_key(int color) { return fmt::format("<i class=\"key color-{}\"></i>", color); }
+std::string curve_key(int color, bool broad) {
+  return fmt::format("<i class=\"key color-{}{}\"></i>", color, broad ? " broad" : "");
+}
 
 }  // namespace tacipc

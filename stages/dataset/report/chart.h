@@ -11,6 +11,7 @@ namespace tacipc {
 struct Curve {
   std::vector<std::optional<double>> values;
   std::vector<std::string> titles = {};  // what a mark says when pointed at; empty: no marks
+  bool broad = false;                    // wide and pale, for one that others lie on
 };
 
 /// A shaded stretch of the x axis.
@@ -45,6 +46,6 @@ struct Chart {
 std::string chart_svg(const Chart& chart);
 
 /// A short line in the colour of a curve, to stand before its name in a caption (HTML).
-std::string curve_key(int color);
+std::string curve_key(int color, bool broad = false);
 
 }  // namespace tacipc

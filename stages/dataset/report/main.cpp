@@ -15,8 +15,12 @@
 #include "stages/dataset/report/dataset/dataset_report.h"
 #include "stages/dataset/report/grasp_part.h"
 #include "stages/dataset/report/page.h"
+#include "stages/dataset/report/robot_part.h"
 #include "stages/dataset/report/sample.h"
+#include "stages/dataset/report/scene_index.h"
 #include "stages/dataset/report/scene_part.h"
+#include "stages/dataset/report/view/robot_view.h"
+#include "stages/dataset/report/view/scene_pictures.h"
 #include "stages/dataset/report/view/view_data.h"
 #include "stages/dataset/report/view/view_page.h"
 
@@ -32,7 +36,10 @@ const StageSpec kReport{
                 .required = false,
                 .many = true},
                {.flag = "--grasp", .help = "or folder of a grasp, with left and right in it", .required = false},
-               {.flag = "--scene", .help = "or folder of a scene, with gels in it", .required = false},
+               {.flag = "--scene",
+                .help = "or folder of a scene, with gels in it; several: a page that leads to theirs",
+                .required = false,
+                .many = true},
                {.flag = "--plan", .help = "or of a dataset: samples.csv of plan", .required = false},
                {.flag = "--dataset", .help = "with --plan: dataset.yaml of plan", .required = false},
                {.flag = "--config", .help = "with --plan: how much is shown (YAML)", .required = false}},
@@ -82,15 +89,23 @@ struct Together {
   std::filesystem::path folder;
   SceneFolder scene;
   std::variant<GraspReport, SceneReport> report;
-  const char* id;     // of the section and of the view
-  const char* strip;  // file of the pictures in rows
+  const char* id;                         // of the section and of the view
+  const char* strip;                      // file of the pictures in rows
+  std::optional<RobotReport> robot = {};  // of a scene that has one
+  bool has_pictures = false;              // of the robot, beside the page
 
   bool& has_view() {
     return std::visit([](auto& of) -> bool& { return of.has_view; }, report);
   }
   PageWords words() const {
     if (const auto* grasp = std::get_if<GraspReport>(&report)) return grasp_words(*grasp);
-    return scene_words(std::get<SceneReport>(report));
+    const SceneReport& of = std::get<SceneReport>(report);
+    PageWords words = scene_words(of);
+    if (robot) {
+      words.intro = "A simulated robot with gels of camera-based tactile sensors.";
+      words.first = robot_sections(*robot, of.bodies, of.frames, has_pictures) + words.first;
+    }
+    return words;
   }
   std::vector<std::string> texts(const SceneView& view) const {
     if (const auto* grasp = std::get_if<GraspReport>(&report)) return grasp_texts(*grasp, view);
@@ -105,9 +120,23 @@ struct Together {
 std::optional<Together> read_together(const Stage& stage) {
   if (const auto folder = stage.optional_input("--grasp"))
     return Together{*folder, read_scene_folder(*folder), read_grasp(*folder), kGraspId, kGraspStrip};
-  if (const auto folder = stage.optional_input("--scene"))
-    return Together{*folder, read_scene_folder(*folder), read_scene(*folder), kSceneId, kSceneStrip};
+  for (const auto& folder : stage.inputs("--scene")) {
+    SceneReport scene = read_scene(folder);
+    auto robot = read_robot_report(folder);
+    if (robot) scene.frames = steps_over_time(*robot, scene.frames);
+    return Together{folder, read_scene_folder(folder), std::move(scene), kSceneId, kSceneStrip, std::move(robot)};
+  }
   return std::nullopt;
+}
+
+/// Adds the robot to the view of its scene, and writes pictures of both.
+void show_robot(Stage& stage, Together& all, SceneView& view) {
+  constexpr int kWidth = 440, kHeight = 420;
+  add_robot(view, all.robot->motion, robot_folder(all.folder), all.scene);
+  const SceneReport& scene = std::get<SceneReport>(all.report);
+  const auto instants = pictured_instants(view, first_contact(scene.bodies));
+  write_png(stage.output(kRobotStrip), scene_pictures(view, instants, scene.frames, kWidth, kHeight));
+  all.has_pictures = true;
 }
 
 /// One view of all gels, to which each gel's card leads too. \param samples in the order of the scene's gels
@@ -118,6 +147,7 @@ void write_view_of_all(Stage& stage, Together& all, std::vector<SampleReport>& s
     std::vector<std::filesystem::path> renders;
     for (const SceneGel& gel : all.scene.gels) renders.push_back(gel.folder / "render");
     if (view) link_pictures(*view, renders, stage.out());
+    if (view && all.robot) show_robot(stage, all, *view);
     return view;
   };
   const auto say = [&](const SceneView& view) { return all.texts(view); };
@@ -146,11 +176,13 @@ void try_pictures(SampleReport& sample) {
 
 void report_samples(Stage& stage) {
   // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
-  for (const char* name : {"index.html", "contact_sheet.png", kGraspStrip, kSceneStrip, kViewPage, "view"}) {
+  for (const char* name :
+       {"index.html", "contact_sheet.png", kGraspStrip, kSceneStrip, kRobotStrip, kViewPage, "view"}) {
     std::error_code error;
     std::filesystem::remove_all(stage.out() / name, error);
     if (error) throw DataError("{}: cannot be removed: {}", (stage.out() / name).string(), error.message());
   }
+  if (stage.inputs("--scene").size() > 1) return report_scenes(stage);
   std::optional<Together> all = read_together(stage);
   std::vector<std::filesystem::path> folders = stage.inputs("--sample");
   if (all) {
@@ -178,8 +210,8 @@ void report_samples(Stage& stage) {
 
 int main(int argc, char** argv) {
   return run_stage(kReport, argc, argv, [](Stage& stage) {
-    int of_samples = stage.inputs("--sample").empty() ? 0 : 1, of_dataset = 0;
-    for (const char* flag : {"--grasp", "--scene"}) of_samples += stage.optional_input(flag) ? 1 : 0;
+    int of_samples = stage.optional_input("--grasp") ? 1 : 0, of_dataset = 0;
+    for (const char* flag : {"--sample", "--scene"}) of_samples += stage.inputs(flag).empty() ? 0 : 1;
     for (const char* flag : {"--plan", "--dataset", "--config"}) of_dataset += stage.optional_input(flag) ? 1 : 0;
     if (of_samples > 1) throw UsageError("give one of --sample, --grasp and --scene");
     const bool samples = of_samples == 1;

@@ -97,12 +97,14 @@ details .scroll { margin-top: .5rem; }
 .curve .band-name { font-size: 11px; }
 .curve .rule-name { font-size: 11px; fill: var(--bad); }
 .curve polyline { fill: none; stroke: currentColor; stroke-width: 2; stroke-linejoin: round; }
+.curve .broad polyline { stroke-width: 8; stroke-opacity: .3; }
 .curve circle { fill: var(--card); stroke: currentColor; stroke-width: 2; }
 .color-1 { color: var(--accent); }
 .color-2 { color: var(--color-2); }
 .color-3 { color: var(--color-3); }
 .color-4 { color: var(--color-4); }
 .key { display: inline-block; width: 1.2rem; margin-right: .3rem; border-top: 3px solid currentColor; vertical-align: middle; }
+.key.broad { border-top-width: 9px; opacity: .35; }
 .quiver path { fill: none; stroke-linecap: round; stroke-linejoin: round; }
 .quiver .face { fill: var(--paper); stroke: var(--line); }
 .quiver .stuck { stroke: var(--stuck); stroke-width: 4; }

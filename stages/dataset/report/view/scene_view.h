@@ -34,6 +34,7 @@ struct ViewedObject {
   TriangleMesh mesh;
   std::vector<Matrix4> world_from_object;
   bool fixed = false;
+  bool robot = false;                    // a part of a robot
   std::vector<Positions> deformed = {};  // m, of a soft body its vertices in the object's frame; else none
 };
 

@@ -340,9 +340,13 @@
       put(gel, gel.front, {mode, lines: element("lines").checked, plain: [.78, .8, .84, 1]});
       put(gel, gel.walls, {mode: 2, faceted: true, plain: [.9, .92, .95, 1]});
     });
-    const alpha = {solid: 1, glass: .34, hidden: 0}[element("object").value];
-    if (alpha > 0) for (const object of scene.objects) {
-      const color = {soft: [.56, .72, .68], fixed: [.66, .68, .72]}[object.kind] || [.8, .74, .64];
+    const looks = {solid: 1, glass: .34, hidden: 0};
+    const alphas = {object: looks[element("object").value], robot: seen < 0 ? looks[element("robot").value] : 0};
+    // What is solid first: it is to be seen through what is not.
+    const shown = scene.objects.map(object => ({object, alpha: object.kind === "robot" ? alphas.robot : alphas.object}));
+    for (const {object, alpha} of shown.sort((a, b) => b.alpha - a.alpha)) {
+      if (alpha === 0) continue;
+      const color = {soft: [.56, .72, .68], fixed: [.66, .68, .72], robot: [.47, .5, .55]}[object.kind] || [.8, .74, .64];
       put(object, object.mesh, {mode: 2, faceted: true, plain: [...color, alpha]});
     }
     canvas.dataset.drawn = [seen < 0 ? key : key + "/" + scene.gels[seen].name, frame, element("color").value, element("object").value].join(" ");
@@ -397,7 +401,7 @@
   }
 
   // Far enough away for what is seen: one gel from above its front, or all gels, and of several bodies all that are not
-  // fixed, wherever they go.
+  // fixed or the robot's, wherever they go.
   function goHome() {
     const ends = ({low_m: low, step_m: step, size}) => low.map((from, c) => [from, from + size[c] * step]);
     const bodies = scene.objects.some(object => object.kind) || scene.objects.length !== 1;
@@ -408,7 +412,7 @@
       return;
     }
     const least = [1e9, 1e9, 1e9], most = [-1e9, -1e9, -1e9];
-    const moving = bodies ? scene.objects.filter(object => object.kind !== "fixed") : [];
+    const moving = bodies ? scene.objects.filter(object => object.kind !== "fixed" && object.kind !== "robot") : [];
     for (const part of [...scene.gels, ...moving]) {
       const [x, y, z] = ends(part.grid);
       for (let f = 0; f < data.frames.length; ++f) {
@@ -507,7 +511,8 @@
       showBar();
       showFrame();
     });
-    for (const id of ["object", "lines"]) element(id).addEventListener("change", redraw);
+    element("of-robots").hidden = scene.objects.every(object => object.kind !== "robot");
+    for (const id of ["object", "robot", "lines"]) element(id).addEventListener("change", redraw);
     element("reset").addEventListener("click", reset);
     window.addEventListener("resize", redraw);
   }

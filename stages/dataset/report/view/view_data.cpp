@@ -201,6 +201,7 @@ std::string view_script(const SceneView& view, const std::vector<std::string>& t
                                     {"grid", grid_value(grid)},
                                     {"poses", poses}});
     if (object.fixed) objects.back().set("kind", "fixed");
+    if (object.robot) objects.back().set("kind", "robot");
     if (!object.deformed.empty()) objects.back().set("kind", "soft");
   }
   const Value data = Value::Map{

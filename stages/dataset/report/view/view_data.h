@@ -28,7 +28,7 @@ std::string byte_planes(const std::vector<int>& values);
 /// - `frames` are lists of what a frame's line says, `texts` one for each frame of the view
 /// - `gels` and `objects` have their name, numbers of vertices and triangles, grid, and `poses`, for each frame the one
 ///   that takes them to the world, row by row; gels also the `pictures` of each frame, if there are any; objects that
-///   are not rigid and free a `kind`, soft or fixed
+///   are not rigid and free a `kind`: soft, fixed or robot
 /// - `indentation_m` is the deepest indentation of all gels; `pressure_pa` the pressure that 255 stands for: 99 % of
 ///   all pressures that are not zero are below, so that the few peaks at edges do not take the colours
 /// - `colors` are the 256 colours of the bar

@@ -34,7 +34,7 @@ header.top h1 { margin: 0; font-size: 1.3rem; }
 #states span::before { content: ""; display: inline-block; width: .8em; height: .8em; margin: 0 .4em 0 .9em; border-radius: 50%; background: var(--of); }
 #states span:first-child::before { margin-left: 0; }
 #images { display: flex; flex-direction: column; gap: .6rem; width: clamp(9rem, 24vw, 22rem); overflow: auto; }
-#images[hidden], #of-gels[hidden] { display: none; }
+#images[hidden], #of-gels[hidden], #of-robots[hidden] { display: none; }
 #images img { min-height: 4rem; background: var(--card); }
 @media (max-width: 700px) {
   .row { flex-direction: column; }
@@ -68,6 +68,7 @@ constexpr const char* kStage =
 <label id="of-gels" hidden>Show <select id="seen"><option value="">all, in the world</option></select></label>
 <label>Colour <select id="color"><option value="indentation">indentation</option><option value="pressure">contact pressure</option><option value="state">slip</option></select></label>
 <label>Object <select id="object"><option value="glass">translucent</option><option value="solid">solid</option><option value="hidden">hidden</option></select></label>
+<label id="of-robots" hidden>Robot <select id="robot"><option value="solid">solid</option><option value="glass">translucent</option><option value="hidden">hidden</option></select></label>
 <label><input id="lines" type="checkbox" checked> lines 1 mm apart at rest</label>
 <button id="reset" type="button">Reset view</button>
 </div>

@@ -31,6 +31,15 @@ TEST(Chart, AMissingValueBreaksTheLine) {
   EXPECT_EQ(count(chart_svg(chart_of({std::nullopt, std::nullopt})), "<polyline"), 0);
 }
 
+TEST(Chart, ACurveUnderOthersIsBroad) {
+  Chart chart = chart_of({1.0, 2.0});
+  chart.left[0].broad = true;
+  chart.left.push_back({{1.0, 2.0}});
+  const std::string svg = chart_svg(chart);
+  EXPECT_LT(svg.find("<g class=\"color-1 broad\">"), svg.find("<g class=\"color-2\">"));
+  EXPECT_EQ(curve_key(1, true), "<i class=\"key color-1 broad\"></i>");
+}
+
 TEST(Chart, FramesAreCountedInWholeNumbersToTheLast) {
   for (const std::size_t frames : {1u, 2u, 3u, 23u, 306u}) {
     Chart chart = chart_of(std::vector<std::optional<double>>(frames, 1.0));
