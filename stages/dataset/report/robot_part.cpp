@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/format/html_text.h"
+#include "common/sample/grasp_outcome.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/page_parts.h"
@@ -107,20 +108,44 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
   chart.left_label = "gone by (mm)";
   chart.right_label = "turned by (°)";
   std::vector<std::string> names;
+  std::string outcomes;
   for (std::size_t b = 0; b < scene.bodies.size() && names.size() < kMost; ++b) {
     if (scene.kinds[b] != "rigid") continue;
     const auto in_hand = [&](std::size_t f) -> Matrix4 {
       return hand_pose(robot.motion.pad_pose[f]).inverse() * scene.body_pose[f][b];
     };
-    const Matrix4 first = in_hand(*from);
+    const auto held_s = robot.held_s.find(scene.bodies[b]);
+    std::size_t freed = *from;
+    while (held_s != robot.held_s.end() && freed + 1 < frames.size() &&
+           robot.motion.times_s[freed] < held_s->second - 1e-9)
+      ++freed;
+    const Matrix4 first = in_hand(freed);
+    // Its point between the pads there.
+    const Vector3 grip = first.inverse().topRightCorner<3, 1>();
+    const auto at = [&](const Matrix4& pose) -> Vector3 { return (pose * grip.homogeneous()).head<3>(); };
     Curve slip, turn;
     for (std::size_t f = 0; f < frames.size(); ++f) {
-      const bool held = f >= *from;
+      const bool held = f >= freed;
       const Matrix4 now = in_hand(f);
       const Matrix3 turned = now.topLeftCorner<3, 3>() * first.topLeftCorner<3, 3>().transpose();
-      slip.values.push_back(held ? std::optional(1e3 * (now - first).topRightCorner<3, 1>().norm()) : std::nullopt);
+      slip.values.push_back(held ? std::optional(1e3 * (at(now) - at(first)).norm()) : std::nullopt);
       turn.values.push_back(held ? std::optional(Eigen::AngleAxisd(turned).angle() / kDegree) : std::nullopt);
     }
+    const std::size_t end = frames.size() - 1;
+    HeldMotion motion{
+        .touched = std::all_of(pads.begin(), pads.end(),
+                               [&](const PadForces& pad) { return pad.answered[end].normal_n > kContact_n; }),
+        .slip_m = 1e-3 * slip.values.back().value_or(0.0),
+        .turn_rad = kDegree * turn.values.back().value_or(0.0),
+        .rise_m = (at(scene.body_pose[end][b]) - at(scene.body_pose[freed][b])).z(),
+        .hand_rise_m = (hand_pose(robot.motion.pad_pose[end]) - hand_pose(robot.motion.pad_pose[freed]))(2, 3)};
+    // A single pad holds nothing.
+    if (pads.size() > 1)
+      outcomes += fmt::format(
+          "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand and turned by {:.1f}°; it rose by "
+          "{:.1f} mm, the hand by {:.1f} mm.</p>\n",
+          html_text(scene.bodies[b]), kGraspOutcomes[static_cast<std::size_t>(outcome_of(motion))], 1e3 * motion.slip_m,
+          motion.turn_rad / kDegree, 1e3 * motion.rise_m, 1e3 * motion.hand_rise_m);
     chart.left.push_back(std::move(slip));
     chart.right.push_back(std::move(turn));
     names.push_back(scene.bodies[b]);
@@ -131,8 +156,9 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
     slips += (i > 0 ? ", " : "") + curve_key(static_cast<int>(1 + i)) + html_text(names[i]);
     turns += (i > 0 ? ", " : "") + curve_key(static_cast<int>(1 + names.size() + i)) + html_text(names[i]);
   }
-  return figure(chart, "<b>As seen from the pads</b>, since all touch: way of " + slips + "; turn of " + turns +
-                           ". The origin of the body's own frame; that the gels give way counts");
+  return outcomes +
+         figure(chart, "<b>As seen from the pads</b>, since all touch and it is free: way of " + slips + "; turn of " +
+                           turns + ". Of the point that was gripped; that the gels give way counts");
 }
 
 /// Tries one after another; a line for each window, or part of one that was tried again with fewer frames.

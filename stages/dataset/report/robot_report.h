@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,7 @@ struct RobotReport {
   std::vector<CouplingTry>
       tries;                // in the order in which they were made; none of a robot that felt MuJoCo's own contacts
   double tolerance = 1e-3;  // of residual_relative
+  std::map<std::string, double> held_s = {};  // of objects that somebody holds at first: until then
 };
 
 /// Folder of a robot below that of its scene.

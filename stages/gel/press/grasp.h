@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/sample/grasp_outcome.h"
 #include "stages/gel/press/grasp_spec.h"
 #include "stages/gel/press/measure/conservation.h"
 #include "stages/gel/press/simulate.h"
@@ -48,10 +49,6 @@ struct FingerContact {
 struct SlipTimes {
   std::optional<double> first_s, gross_s;
 };
-
-/// What became of the object, by its motion in the hand and by contact alone; docs/grasp.md.
-enum class GraspOutcome { lifted, slipped, rotated, dropped };
-inline constexpr std::array kGraspOutcomes{"lifted", "slipped", "rotated", "dropped"};
 
 /// Why it was not held, by what friction could bear; docs/grasp.md.
 enum class GraspReason { no_contact, weight, acceleration, torque, uneven_grip, other };

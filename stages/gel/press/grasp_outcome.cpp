@@ -1,16 +1,8 @@
 #include "stages/gel/press/grasp_outcome.h"
 
 #include <Eigen/Geometry>
-#include <numbers>
 
 namespace tacipc {
-namespace {
-
-// A held object has slipped or turned from here on; one that rose by less than a part of the hand's way is dropped.
-constexpr double kSlipped_m = 1e-3, kTurned_rad = 5.0 * std::numbers::pi / 180.0, kDroppedPart = 0.2;
-
-}  // namespace
-
 Matrix4 hand_from_object(const GraspFrame& frame) {
   const Matrix3 to_hand = frame.world_from_hand.topLeftCorner<3, 3>().transpose();
   Matrix4 pose = Matrix4::Identity();
@@ -48,10 +40,11 @@ Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_
 
 GraspOutcome outcome_of(const GraspFrame& begin, const GraspFrame& end, const Vector3& grip_m) {
   const auto [rose, hand] = rise_of(begin, end, grip_m);
-  return !both_touch(end) || (hand >= kSlipped_m && rose < kDroppedPart * hand) ? GraspOutcome::dropped
-         : end.slip_m >= kSlipped_m                                             ? GraspOutcome::slipped
-         : end.turn_rad >= kTurned_rad                                          ? GraspOutcome::rotated
-                                                                                : GraspOutcome::lifted;
+  return outcome_of({.touched = both_touch(end),
+                     .slip_m = end.slip_m,
+                     .turn_rad = end.turn_rad,
+                     .rise_m = rose,
+                     .hand_rise_m = hand});
 }
 
 }  // namespace tacipc
