@@ -111,31 +111,13 @@ int main(int argc, char** argv) {
     std::optional<WindowAnswers> answers;
     if (press) answers = read_answers(*press, task, objects, first);
     if (earlier) {
-      const RobotRun tried = read_run(*earlier);
+      const TryJudgement judged =
+          judge_try(task, read_run(*earlier), first, read_basis(*earlier, task.pads.size()), stiffness, *answers);
       window.answers = &*answers;
-      if (tried.frames.size() != first + answers->frames.size())
-        throw DataError("{}: has {} frames, and its try {}", press->string(), first + answers->frames.size(),
-                        tried.frames.size());
-      std::vector<Wrench> felt, answered;
-      for (std::size_t f = first + 1; f < tried.frames.size(); ++f) {
-        for (std::size_t p = 0; p < task.pads.size(); ++p) {
-          felt.push_back(tried.frames[f].pad_wrench[p]);
-          answered.push_back(answers->frames[f - first][p].wrench);
-        }
-      }
-      const Residual residual = interface_residual(felt, answered, task.coupling.smallest_wrench_n);
-      std::vector<PadAnswer> all;
-      for (const auto& frame : answers->frames) all.insert(all.end(), frame.begin(), frame.end());
-      stiffness = learnt_stiffness(all).value_or(stiffness);
-      const std::vector<std::vector<PadAnswer>> basis = read_basis(*earlier, task.pads.size());
-      for (std::size_t f = 0; f < answers->frames.size(); ++f) {
-        auto& of_frame = answers->stiffness_n_m.emplace_back(task.pads.size(), stiffness);
-        for (std::size_t p = 0; f < basis.size() && p < task.pads.size(); ++p)
-          of_frame[p] = secant_stiffness(basis[f][p], answers->frames[f][p], stiffness);
-      }
-      stage.summarize({{"residual_n", residual.wrench_n},
-                       {"residual_relative", residual.relative},
-                       {"converged", residual.relative <= task.coupling.tolerance}});
+      stiffness = judged.stiffness_n_m;
+      stage.summarize({{"residual_n", judged.residual.wrench_n},
+                       {"residual_relative", judged.residual.relative},
+                       {"converged", judged.residual.relative <= task.coupling.tolerance}});
     } else if (answers) {
       window.at_start = answers->frames.front();
       window.objects_at_start = answers->objects.front();

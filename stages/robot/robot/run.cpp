@@ -30,7 +30,7 @@ class Runner {
   RobotRun alone(const RobotProgress& progress) {
     mj_step1(&robot_.model(), &robot_.data());
     note(0);
-    for (int n = 1; !controller_.done() || n % per_frame_ != 1; ++n) {
+    for (int n = 1; !controller_.done() || (n - 1) % per_frame_ != 0; ++n) {
       progress(robot_.data().time);
       advance();
       for (std::size_t p = 0; p < felt_.size(); ++p) felt_[p] = robot_.pad_contact(p);
@@ -253,6 +253,30 @@ RobotRun run_alone(const TaskSpec& task, RobotModel& robot, const RobotProgress&
   RobotRun run = Runner(task, robot, false).alone(progress);
   run.finished = true;
   return run;
+}
+
+TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t first,
+                       const std::vector<std::vector<PadAnswer>>& basis, double stiffness_n_m, WindowAnswers& answers) {
+  if (tried.frames.size() != first + answers.frames.size())
+    throw DataError("the press answered {} frames, and its try has {}", first + answers.frames.size(),
+                    tried.frames.size());
+  std::vector<Wrench> felt, answered;
+  std::vector<PadAnswer> all;
+  for (std::size_t f = 0; f < answers.frames.size(); ++f) {
+    all.insert(all.end(), answers.frames[f].begin(), answers.frames[f].end());
+    // Where the window begins both are as they were.
+    for (std::size_t p = 0; f > 0 && p < task.pads.size(); ++p) {
+      felt.push_back(tried.frames[first + f].pad_wrench[p]);
+      answered.push_back(answers.frames[f][p].wrench);
+    }
+  }
+  const double stiffness = learnt_stiffness(all).value_or(stiffness_n_m);
+  for (std::size_t f = 0; f < answers.frames.size(); ++f) {
+    auto& of_frame = answers.stiffness_n_m.emplace_back(task.pads.size(), stiffness);
+    for (std::size_t p = 0; f < basis.size() && p < task.pads.size(); ++p)
+      of_frame[p] = secant_stiffness(basis[f][p], answers.frames[f][p], stiffness);
+  }
+  return {interface_residual(felt, answered, task.coupling.smallest_wrench_n), stiffness};
 }
 
 RobotRun run_window(const TaskSpec& task, RobotModel& robot, const Window& window) {
