@@ -35,9 +35,9 @@ Value::List turn_deg(const Matrix4& pose) {
   return numbers(180.0 / std::numbers::pi * turn.angle() * turn.axis());
 }
 
-/// Frames after which a body is let go.
-int held_frames(const TaskSpec& task, const ObjectSpec& object, int frames) {
-  return std::min(frames, static_cast<int>(std::ceil(object.held_s / task.frame_s - 1e-9)));
+/// The frame after which a body is let go.
+int held_frames(const TaskSpec& task, const ObjectSpec& object) {
+  return static_cast<int>(std::ceil(std::min(1e9, object.held_s / task.frame_s - 1e-9)));
 }
 
 std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::vector<TaskObject>& objects,
@@ -64,7 +64,7 @@ std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::
     contact.emplace_back(std::move(pair));
   }
   std::set<int> ends{frames};
-  for (const ObjectSpec& object : task.objects) ends.insert(held_frames(task, object, frames));
+  for (const ObjectSpec& object : task.objects) ends.insert(std::min(frames, held_frames(task, object)));
   Value::List motion;
   int from = 0;
   for (const int end : ends) {
@@ -72,7 +72,7 @@ std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::
     Value::Map phase{{"steps", end - from}};
     Value::List held;
     for (const ObjectSpec& object : task.objects) {
-      if (!object.fixed && held_frames(task, object, frames) > from) held.emplace_back(object.name);
+      if (!object.fixed && held_frames(task, object) > from) held.emplace_back(object.name);
     }
     if (!held.empty()) phase.emplace_back("hold", std::move(held));
     motion.emplace_back(std::move(phase));
@@ -236,7 +236,8 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
         const double force = scene.per_frame[f][gel * count + number(object.name)].force_n.norm();
         if (force <= most) continue;
         most = force;
-        const bool gives_way = !object.fixed && static_cast<double>(f) * task.frame_s > object.held_s - 1e-9;
+        // It is held in the steps that lead to these frames.
+        const bool gives_way = !object.fixed && static_cast<int>(f) > held_frames(task, object);
         answer.carried = gives_way ? static_cast<int>(o) : -1;
       }
       // About the origin of S instead of the world's.

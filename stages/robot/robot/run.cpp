@@ -30,12 +30,13 @@ class Runner {
   RobotRun alone(const RobotProgress& progress) {
     mj_step1(&robot_.model(), &robot_.data());
     note(0);
-    for (int n = 1; !controller_.done() || (n - 1) % per_frame_ != 0; ++n) {
+    for (int n = 1;; ++n) {
       progress(robot_.data().time);
       advance();
       for (std::size_t p = 0; p < felt_.size(); ++p) felt_[p] = robot_.pad_contact(p);
       mj_step1(&robot_.model(), &robot_.data());
       note(n);
+      if (n % per_frame_ == 0 && is_over()) break;
     }
     return finished();
   }
@@ -89,11 +90,16 @@ class Runner {
       mj_step1(&robot_.model(), &robot_.data());
       note((frames - 1) * per_frame_ + n + 1);
     }
-    // Its controls are the next window's to give; here they only tell whether there is one.
+    run_.finished = is_over();
+  }
+
+  /// Whether the steps of the task are over now. The controls of this instant are the next time step's to give.
+  bool is_over() {
     const std::vector<double> last = state();
     act();
-    run_.finished = controller_.done();
+    const bool over = controller_.done();
     restore(last);
+    return over;
   }
 
   void act() {

@@ -40,8 +40,17 @@ TEST(GapBefore, OfATiltedFaceIsWhereItCrossesTheEdge) {
 }
 
 TEST(GapBefore, SeesATriangleWithoutACornerInFrontOfTheGel) {
-  const TriangleMesh large = make_mesh({{-1, -1, 0.001}, {2, -1, 0.001}, {-1, 2, 0.001}}, {{0, 1, 2}});
+  const TriangleMesh large = make_mesh({{-1, -1, 0.001}, {2, -1, 0.001}, {-1, 2, 0.001}}, {{0, 2, 1}});
   EXPECT_NEAR(gap_before(large, Matrix4::Identity(), 0.005), 0.001, 1e-15);
+}
+
+TEST(GapBefore, IsNotThatOfAFloorBesideTheGelOrOfWhatIsBehindIt) {
+  // The gel looks along the floor, 3 mm above it: of what is in front of it the floor is the side.
+  const TriangleMesh floor = make_box({-0.1, -0.02, -0.1}, {0.1, -0.003, 0.1});
+  EXPECT_EQ(gap_before(floor, Matrix4::Identity(), 0.005), std::numeric_limits<double>::infinity());
+  // Not quite along it.
+  EXPECT_EQ(gap_before(floor, moved({0, 0, 0}, 0.1), 0.005), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(gap_before(kBox, moved({0, 0, -0.1}), 0.005), std::numeric_limits<double>::infinity());
 }
 
 TEST(GapBefore, OfABallIsItsLowestPoint) {
