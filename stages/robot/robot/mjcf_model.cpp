@@ -230,11 +230,11 @@ Wrench RobotModel::pad_contact(std::size_t pad) const {
   return sum;
 }
 
-void RobotModel::check() const {
+void RobotModel::check(double time_s) const {
   for (const mjtWarning kind : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
     if (data_->warning[kind].number > 0)
       throw DataError("{}: the motion became unstable at {:.3f} s: a smaller timestep, or softer actuators",
-                      task_.model.string(), data_->time);
+                      task_.model.string(), time_s);
   }
 }
 

@@ -110,6 +110,7 @@ class Runner {
 
   /// One time step of the model.
   void advance() {
+    const double time_s = robot_.data().time;
     mj_step1(&robot_.model(), &robot_.data());
     act();
     if (coupled_) {
@@ -117,7 +118,7 @@ class Runner {
       for (std::size_t p = 0; p < felt_.size(); ++p) robot_.push_pad(p, felt_[p]);
     }
     mj_step2(&robot_.model(), &robot_.data());
-    robot_.check();
+    robot_.check(time_s);
   }
 
   Eigen::VectorXd origins() const {

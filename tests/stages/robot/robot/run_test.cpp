@@ -84,10 +84,10 @@ TEST(RunAlone, FramesAreWholeNumbersOfTimeSteps) {
 
 TEST(RunAlone, AMotionThatBecomesUnstableIsAnError) {
   const std::string spring =
-      R"(<actuator><general joint="z" gainprm="1e9" biastype="affine" biasprm="1e6 -1e9 0"/></actuator>)";
+      R"(<actuator><general joint="z" gainprm="1e9" biastype="affine" biasprm="0 -1e9 0"/></actuator>)";
   EXPECT_THAT(
       message_of<DataError>([&] { alone(mjcf(kPlate + falling_pad(0.5), spring), kAlone + "steps: {seconds: 1}\n"); }),
-      HasSubstr("the motion became unstable at"));
+      testing::ContainsRegex("the motion became unstable at 0\\.00[2-9] s"));
 }
 
 /// A weight on a spring between answers that stay: it is set on a gel at rest.
