@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "common/base/error.h"
 #include "stages/robot/robot/controller.h"
@@ -56,6 +57,7 @@ class Runner {
       mj_step1(&robot_.model(), &robot_.data());
       note(0);
     }
+    if (window.answers) along_.assign(window.answers->inertia_n_m.size(), Vector3::Zero()), along_before_ = along_;
     for (int f = 1; f <= window.frames && !run_.finished; ++f) interval(window, f);
     return finished();
   }
@@ -89,6 +91,10 @@ class Runner {
       advance();
       mj_step1(&robot_.model(), &robot_.data());
       note((frames - 1) * per_frame_ + n + 1);
+    }
+    if (window.answers) {
+      std::vector<Vector3> along = felt_at(window, frame, origins()).along_m;
+      along_before_ = std::exchange(along_, std::move(along));
     }
     run_.finished = is_over();
   }
@@ -135,31 +141,45 @@ class Runner {
     return all;
   }
 
+  static std::size_t index_of(const Window& window, int frame) {
+    return std::min(static_cast<std::size_t>(frame), window.answers->frames.size() - 1);
+  }
+
   const PadAnswer& answer(const Window& window, int frame, std::size_t pad) const {
-    const auto& frames = window.answers->frames;
-    return frames[std::min(static_cast<std::size_t>(frame), frames.size() - 1)][pad];
+    return window.answers->frames[index_of(window, frame)][pad];
+  }
+
+  std::vector<Vector3> origins_in(const Eigen::VectorXd& at) const {
+    std::vector<Vector3> all;
+    for (std::size_t p = 0; p < felt_.size(); ++p) all.emplace_back(at.segment<3>(static_cast<Eigen::Index>(3 * p)));
+    return all;
+  }
+
+  /// By the answers of an earlier try. An object that floats goes on as the frames before have moved it away from where
+  /// it was in them; one that something else holds is back there.
+  FeltWrenches felt_at(const Window& window, int frame, const Eigen::VectorXd& at) const {
+    const WindowAnswers& answers = *window.answers;
+    const std::size_t f = index_of(window, frame);
+    std::vector<Vector3> expected;
+    for (std::size_t o = 0; o < along_.size(); ++o)
+      expected.push_back(answers.floats[f][o] ? Vector3(2.0 * along_[o] - along_before_[o]) : Vector3(Vector3::Zero()));
+    return felt_wrenches(answers.frames[f], origins_in(at), answers.stiffness_n_m[f], answers.inertia_n_m, expected);
   }
 
   /// What the gels would answer with their origins at these places at the end of a frame of the window.
   std::vector<Wrench> answered(const Window& window, int frame, const Eigen::VectorXd& at) const {
+    if (window.answers) return felt_at(window, frame, at).wrenches;
     std::vector<Wrench> wrenches;
-    const auto origin = [&](std::size_t p) { return Vector3(at.segment<3>(static_cast<Eigen::Index>(3 * p))); };
-    std::vector<Vector3> origins;
-    for (std::size_t p = 0; p < felt_.size(); ++p) origins.push_back(origin(p));
-    if (window.answers) {
-      const auto f = std::min(static_cast<std::size_t>(frame), window.answers->frames.size() - 1);
-      return felt_wrenches(window.answers->frames[f], origins, window.answers->stiffness_n_m[f],
-                           window.answers->inertia_n_m);
-    }
+    const std::vector<Vector3> origins = origins_in(at);
     // What is held goes with the hand: its mean way is no way further in. A single pad has nothing to hold against.
     Vector3 mean = Vector3::Zero();
     for (std::size_t p = 0; felt_.size() > 1 && p < felt_.size(); ++p)
       mean +=
-          (origin(p) - window.at_start[p].world_from_gel.topRightCorner<3, 1>()) / static_cast<double>(felt_.size());
+          (origins[p] - window.at_start[p].world_from_gel.topRightCorner<3, 1>()) / static_cast<double>(felt_.size());
     for (std::size_t p = 0; p < felt_.size(); ++p) {
       PadAnswer moved = window.at_start[p];
       moved.world_from_gel.topRightCorner<3, 1>() += mean;
-      wrenches.push_back(felt_wrench(moved, origin(p), window.stiffness_n_m));
+      wrenches.push_back(felt_wrench(moved, origins[p], window.stiffness_n_m));
     }
     return wrenches;
   }
@@ -251,6 +271,8 @@ class Runner {
   RobotRun run_;
   std::set<Pair> touching_;
   std::vector<Wrench> felt_;  // of each pad, now
+  // By how much each object is away from where the last answers had it, at the last two frames of the window.
+  std::vector<Vector3> along_, along_before_;
   int per_frame_ = 1;
 };
 

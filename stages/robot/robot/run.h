@@ -43,6 +43,7 @@ struct WindowAnswers {
   std::vector<std::vector<double>> stiffness_n_m;  // of the spring between this answer and the next, as frames
   std::vector<double> inertia_n_m;                 // m/h² of each object of the task, h the time of a frame
   std::vector<std::vector<Matrix4>> objects;       // where the press had the rigid objects, for each frame
+  std::vector<std::vector<bool>> floats;           // whether nothing but gels touches an object, for each frame
 };
 
 /// How far a try was from what the press answered to it.

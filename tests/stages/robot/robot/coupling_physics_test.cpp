@@ -1,6 +1,8 @@
 // Robot and press in turn, with gels whose forces are known in closed form.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "tests/make_mesh.h"
@@ -102,6 +104,22 @@ INSTANTIATE_TEST_SUITE_P(Gels, CoupledGrip,
                                          Case{"heavy_fingers", 2e4, 1.0, 1.0, 0.2}),
                          [](const auto& test) { return test.param.name; });
 
+TEST(CoupledRobot, AFreeObjectIsCaughtFromOneSideInFewTriesOfLongWindows) {
+  // Fingers driven by force alone meet an object that comes along, one after the other; the hand flies.
+  const std::string palm = R"(<joint name="x" type="slide" axis="1 0 0"/><geom size="0.01" pos="0 0 0.1" mass="0.3"/>)";
+  for (const double force : {0.3, 3.0, 6.0}) {
+    for (const double stiffness : {2e3, 2e4, 7e4}) {
+      Robot it(mjcf(hand(0.1, palm), kMotors, kFreeFall), kFingers + grip(force, 0.2), block(0.05));
+      SpringPress press = held(stiffness, 1.0, 0.05);
+      press.velocity_m_s = {0.03, 0, 0};
+      const CoupledRun run = couple(it.task, it.robot, press, 1e-3, 15);
+      EXPECT_TRUE(run.run.finished) << force << " N, " << stiffness << " N/m";
+      EXPECT_LE(*std::max_element(run.tries.begin(), run.tries.end()), 3) << force << " N, " << stiffness << " N/m";
+      EXPECT_NEAR(run.run.frames.back().pad_wrench[0].force_n.x(), -force, 0.02 * force);
+    }
+  }
+}
+
 TEST(CoupledRobot, AnswersWithTheWrongSignDoNotConverge) {
   const double mass = 0.5;
   Robot it(mjcf(kPlate + falling_pad(mass, "damping=\"20\"")), kSetDown);
@@ -120,8 +138,7 @@ TEST(CoupledRobot, WhatOneSideGetsTheOtherLoses) {
   const double object_kg = 0.05, finger_kg = 0.1, palm_kg = 0.3;
   // The hand flies along x; nothing outside pushes.
   const std::string palm = R"(<joint name="x" type="slide" axis="1 0 0"/><geom size="0.01" pos="0 0 0.1" mass="0.3"/>)";
-  Robot it(mjcf(hand(finger_kg, palm), kMotors, kFreeFall),
-           "coupling: {window_frames: 2}\n" + kFingers + grip(1.0, 0.2), block(object_kg));
+  Robot it(mjcf(hand(finger_kg, palm), kMotors, kFreeFall), kFingers + grip(1.0, 0.2), block(object_kg));
   SpringPress press = held(2e4, 1.0, object_kg);
   // The object comes along, so both pads do not feel the same.
   press.velocity_m_s = {0.03, 0, 0};

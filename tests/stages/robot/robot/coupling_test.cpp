@@ -69,17 +69,19 @@ std::vector<PadAnswer> holding(int carried) {
 }
 const std::vector<double> kStiffnesses{kStiffness_n_m, 3.0 * kStiffness_n_m};
 
+const std::vector<Vector3> kStays{Vector3::Zero()};
+
 TEST(FeltWrenches, AnObjectThatDoesNotGiveWayMakesThemOneByOne) {
   const auto answers = holding(-1);
   const std::vector<Vector3> origins{{0, 0, -0.0099}, {0, 0, 0.01}};
-  const auto felt = felt_wrenches(answers, origins, kStiffnesses, {});
+  const auto felt = felt_wrenches(answers, origins, kStiffnesses, {}, {}).wrenches;
   for (std::size_t p = 0; p < 2; ++p)
     EXPECT_EQ(felt[p].force_n, felt_wrench(answers[p], origins[p], kStiffnesses[p]).force_n);
 }
 
-TEST(FeltWrenches, WithoutMassAnObjectGoesWhereItsSpringsPushEqually) {
+TEST(FeltWrenches, AlmostWithoutMassAnObjectGoesWhereItsSpringsPushEqually) {
   const std::vector<Vector3> origins{{0, 0, -0.0099}, {0, 0, 0.01}};
-  const auto felt = felt_wrenches(holding(0), origins, kStiffnesses, std::vector{0.0});
+  const auto felt = felt_wrenches(holding(0), origins, kStiffnesses, std::vector{1e-9}, kStays).wrenches;
   // In series: 1 / (1/K + 1/3K) = 3/4 K, on a way of 0.1 mm.
   const double both = 2.0 + 0.75 * kStiffness_n_m * 1e-4;
   EXPECT_NEAR(felt[0].force_n.z(), -both, 1e-9);
@@ -90,12 +92,52 @@ TEST(FeltWrenches, MovedTogetherTheyPushTheMassAlone) {
   const double inertia = 200.0;  // m/h²
   const Vector3 way(2e-5, 0.0, 1e-4);
   const std::vector<Vector3> origins{Vector3(0, 0, -0.01) + way, Vector3(0, 0, 0.01) + way};
-  const auto felt = felt_wrenches(holding(0), origins, kStiffnesses, std::vector{inertia});
+  const auto felt = felt_wrenches(holding(0), origins, kStiffnesses, std::vector{inertia}, kStays).wrenches;
   const Vector3 sum = felt[0].force_n + felt[1].force_n;
   // In series with the mass: u = K/(K + m/h²) way, and what the gels feel is −m/h² u.
   const double along = 4.0 * kStiffness_n_m, across = 0.5 * along;
   EXPECT_NEAR(sum.z(), -inertia * along / (along + inertia) * way.z(), 1e-9);
   EXPECT_NEAR(sum.x(), -inertia * across / (across + inertia) * way.x(), 1e-9);
+}
+
+TEST(FeltWrenches, OneThatIsNotPressedYetMeetsTheObjectThatTheOtherMoves) {
+  // The object is light, so it goes along with the first pad; the second waits 0.1 mm behind it, stiff.
+  std::vector<PadAnswer> answers = holding(0);
+  answers[1].wrench.force_n.setZero();
+  answers[1].gap_m = 1e-4;
+  const double inertia = 100.0, way = 5e-4;
+  const std::vector<Vector3> origins{{0, 0, -0.01 + way}, {0, 0, 0.01}};
+  const FeltWrenches felt = felt_wrenches(answers, origins, kStiffnesses, std::vector{inertia}, kStays);
+  // K (way − u) = m/h² u + 3 K (u − gap), the force that it began with being the object's own business.
+  const double K = kStiffness_n_m, u = (K * way + 3.0 * K * 1e-4) / (inertia + 4.0 * K);
+  ASSERT_GT(u, 1e-4);
+  EXPECT_LT((felt.along_m[0] - Vector3(0, 0, u)).norm(), 1e-12);
+  EXPECT_NEAR(felt.wrenches[0].force_n.z(), -2.0 - K * (way - u), 1e-9);
+  EXPECT_NEAR(felt.wrenches[1].force_n.z(), 3.0 * K * (u - 1e-4), 1e-9);
+}
+
+TEST(FeltWrenches, OneThatLosesTheObjectLetsTheOtherPushIt) {
+  // The second pad goes away by 1 mm; then the first alone pushes, with 2 N at the start.
+  const double inertia = 3000.0;
+  const std::vector<Vector3> origins{{0, 0, -0.01}, {0, 0, 0.011}};
+  const FeltWrenches felt = felt_wrenches(holding(0), origins, kStiffnesses, std::vector{inertia}, kStays);
+  EXPECT_EQ(felt.wrenches[1].force_n, Vector3::Zero());
+  const double u = 2.0 / (inertia + kStiffness_n_m);
+  EXPECT_NEAR(felt.along_m[0].z(), u, 1e-12);
+  EXPECT_NEAR(felt.wrenches[0].force_n.z(), -2.0 + kStiffness_n_m * u, 1e-9);
+}
+
+TEST(FeltWrenches, AnObjectGoesOnAsItIsExpectedTo) {
+  const Vector3 expected(1e-5, 0.0, 2e-4);
+  const std::vector<Vector3> origins{{0, 0, -0.01}, {0, 0, 0.01}};
+  // Of a heavy one nothing but that.
+  const FeltWrenches heavy = felt_wrenches(holding(0), origins, kStiffnesses, std::vector{1e12}, std::vector{expected});
+  EXPECT_LT((heavy.along_m[0] - expected).norm(), 1e-10);
+  EXPECT_NEAR(heavy.wrenches[1].force_n.z(), 2.0 + 3.0 * kStiffness_n_m * 2e-4, 1e-4);
+  // Pads that go with it feel what they answered.
+  const std::vector<Vector3> along{origins[0] + expected, origins[1] + expected};
+  const FeltWrenches same = felt_wrenches(holding(0), along, kStiffnesses, std::vector{50.0}, std::vector{expected});
+  EXPECT_LT((same.wrenches[0].force_n - Vector3(0, 0, -2)).norm(), 1e-9);
 }
 
 TEST(LearntStiffness, IsThatOfTheDeepestPad) {

@@ -200,6 +200,24 @@ TEST_F(PressAnswers, AnObjectGivesWayOnceItIsNoLongerHeld) {
   for (std::size_t f = 0; f < kFrames; ++f) EXPECT_EQ(answers.frames[f][0].carried, f < 4 ? -1 : 0) << f;
 }
 
+TEST_F(PressAnswers, AnObjectFloatsThatGelsAloneTouch) {
+  WindowAnswers answers = read_answers(folder_ / "press", task_, objects_, 0);
+  for (std::size_t f = 0; f < kFrames; ++f) EXPECT_EQ(answers.floats[f], (std::vector{f >= 4, false})) << f;
+  NpyArray wrenches = read_npy(folder_ / "press/wrench.npy");
+  set(wrenches.data, 4, 0, 2, {0, 0, 1e-3}, {0, 0, 0});
+  write_npy(folder_ / "press/wrench.npy", wrenches.shape, wrenches.data.data());
+  answers = read_answers(folder_ / "press", task_, objects_, 0);
+  EXPECT_FALSE(answers.floats[4][0]);
+}
+
+TEST_F(PressAnswers, AGelThatIsNotPressedHasTheNearestObjectBeforeIt) {
+  NpyArray wrenches = read_npy(folder_ / "press/wrench.npy");
+  std::fill(wrenches.data.begin(), wrenches.data.end(), 0.0);
+  write_npy(folder_ / "press/wrench.npy", wrenches.shape, wrenches.data.data());
+  EXPECT_EQ(read_answers(folder_ / "press", task_, objects_, 4).frames[0][0].carried, 0);
+  EXPECT_EQ(read_answers(folder_ / "press", task_, objects_, 3).frames[0][0].carried, -1);
+}
+
 TEST_F(PressAnswers, OfOtherBodiesOrTooFewFramesAreRefused) {
   EXPECT_THAT(message_of<DataError>([&] { read_answers(folder_ / "press", task_, objects_, 5); }),
               HasSubstr("has 5 frames, and the window begins after frame 5"));

@@ -51,7 +51,7 @@ struct SpringPress {
     PadAnswer pad{.world_from_gel = pose};
     pad.wrench.force_n = sign * force_on_gel(pose, center_m);
     pad.gap_m = -depth(pose, center_m);
-    pad.carried = mass_kg > 0.0 && pad.gap_m < 0.0 ? 0 : -1;
+    pad.carried = mass_kg > 0.0 ? 0 : -1;
     return pad;
   }
 
@@ -70,6 +70,7 @@ struct SpringPress {
       if (f > first) step(tried.frames[f].pad_pose, task.frame_s);
       auto& of_frame = all.frames.emplace_back();
       for (const Matrix4& pose : tried.frames[f].pad_pose) of_frame.push_back(answer(pose));
+      all.floats.emplace_back(task.objects.size(), mass_kg > 0.0);
       auto& objects = all.objects.emplace_back();
       for (const ObjectSpec& object : task.objects) {
         if (!object.fixed) objects.push_back(object_pose());
