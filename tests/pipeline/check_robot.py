@@ -75,5 +75,6 @@ for what, difference in worst.items():
 # The ball's own centre falls, whatever geom its body has; it does not begin to turn.
 centre = body_pose[:, ball - 1, :3, :3] @ np.full(3, 0.25) + body_pose[:, ball - 1, :3, 3]
 t, h = time[:, None], model.opt.timestep
-assert np.abs(centre - centre[0] - np.array([0, 0, -9.81]) * t * (t + h) / 2).max() < 1e-9, "the ball does not fall about its centre"
+fallen = np.array([0, 0, -9.81]) * t * (t + h) / 2
+assert np.abs(centre - centre[0] - fallen).max() < 1e-9, "the ball does not fall about its centre"
 assert np.abs(body_twist[:, ball - 1, 3:]).max() < 1e-9, "the ball turns"

@@ -17,10 +17,12 @@ using ::testing::HasSubstr;
 const std::string kArm = R"(
   <body name="shoulder" pos="0 0 0.3"><joint name="j1" axis="0 0 1"/><geom type="sphere" size="0.03"/>
     <body name="upper"><joint name="j2" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-      <body name="lower" pos="0.3 0 0"><joint name="j3" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0.25 0 0" size="0.02"/>
+      <body name="lower" pos="0.3 0 0"><joint name="j3" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0.25 0 0" size="0.02"/>
         <body name="w1" pos="0.25 0 0"><joint name="j4" axis="1 0 0"/><geom type="sphere" size="0.02"/>
           <body name="w2"><joint name="j5" axis="0 1 0"/><geom type="sphere" size="0.02"/>
-            <body name="w3"><joint name="j6" axis="0 0 1"/><geom name="pad" type="box" size="0.02 0.02 0.02" pos="0.05 0 0"/>
+            <body name="w3"><joint name="j6" axis="0 0 1"/>
+              <geom name="pad" type="box" size="0.02 0.02 0.02" pos="0.05 0 0"/>
               <site name="tool" pos="0.08 0 0"/></body></body></body></body></body></body>)";
 
 std::string servos(int count) {
@@ -121,7 +123,8 @@ const std::string kSlides =
     R"(<body name="other"><joint name="x" type="slide" axis="1 0 0"/><geom size="0.01" mass="1"/>
                                <site name="tool" pos="0 0 0.1"/></body>)";
 const std::string kDrives =
-    R"(<actuator><general name="z" joint="z" gainprm="100" biastype="affine" biasprm="0 -100 -5"/><motor name="push" joint="x"/></actuator>)";
+    R"(<actuator><general name="z" joint="z" gainprm="100" biastype="affine" biasprm="0 -100 -5"/>
+         <motor name="push" joint="x"/></actuator>)";
 const std::string kSlideTask = kPadLooksDown + kPlateObject;
 
 TEST(Controller, ControlsGoFromWhereTheyAreInTheirTime) {

@@ -187,7 +187,8 @@ TEST(RobotModel, PadUnderARestingBodyFeelsItsWeight) {
       folder,
       mjcf(R"(<body name="stand" pos="0 0 0.1"><joint type="slide" axis="1 0 0" range="0 0.0001" limited="true"/>
                 <geom name="pad" type="box" size="0.5 0.5 0.02" mass="100"/></body>
-              <body name="cup" pos="0.02 0.03 0.42"><freejoint/><geom name="cup" type="box" size="0.1 0.2 0.3"/></body>)"),
+              <body name="cup" pos="0.02 0.03 0.42"><freejoint/>
+                <geom name="cup" type="box" size="0.1 0.2 0.3"/></body>)"),
       "pads: {name: gel, geom: pad, at_mm: [0, 0, 20]}\n" + cup() + kOneStep);
   const Vector3 half(0.1, 0.2, 0.3);
   RobotModel robot(task, {{make_box(-half, half), 0.06}}, false);
@@ -220,7 +221,8 @@ TEST(RobotModel, PushOnAPadIsWhatMuJoCosOwnFunctionMakesOfIt) {
            R"(<body name="arm" euler="10 20 30"><joint type="hinge" axis="0 0 1"/><joint type="hinge" axis="0 1 0"/>
              <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
              <body pos="0.3 0 0" euler="0 40 0"><joint type="slide" axis="1 0 0"/><joint type="hinge" axis="1 0 1"/>
-               <geom type="box" size="0.1 0.02 0.03" pos="0.1 0.01 0"/><geom name="pad" type="box" size="0.01 0.01 0.01" pos="0.2 0 0.05" euler="0 90 0"/></body></body>)"),
+               <geom type="box" size="0.1 0.02 0.03" pos="0.1 0.01 0"/>
+               <geom name="pad" type="box" size="0.01 0.01 0.01" pos="0.2 0 0.05" euler="0 90 0"/></body></body>)"),
       "pads: {name: gel, geom: pad, at_mm: [1, 2, 10], turn_deg: [0, 30, 90]}\n" + cup() + kOneStep);
   RobotModel robot(task, {{make_box(-Vector3::Ones(), Vector3::Ones()), 0.06}}, true);
   const mjModel& m = robot.model();

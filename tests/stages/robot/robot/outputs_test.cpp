@@ -29,9 +29,11 @@ class Outputs : public testing::Test {
       : task_(written_task(
             folder_,
             mjcf(R"(<body name="table" pos="0.1 0.2 -0.3" euler="0 0 35"><geom type="box" size="1 1 0.1"/></body>
-                             <body name="cup" pos="0.1 -0.2 0.3" euler="10 -170 75"><freejoint/><geom size="0.01"/></body>
+                             <body name="cup" pos="0.1 -0.2 0.3" euler="10 -170 75"><freejoint/>
+                               <geom size="0.01"/></body>
                              <body name="arm" pos="0.3 0.1 0.5" euler="20 30 40"><joint name="j" axis="0 1 0"/>
-                               <geom name="pad" type="cylinder" size="0.01 0.005" pos="0.1 0 0" euler="0 90 0"/></body>)",
+                               <geom name="pad" type="cylinder" size="0.01 0.005" pos="0.1 0 0" euler="0 90 0"/>
+                             </body>)",
                  R"(<actuator><motor name="m" joint="j"/></actuator>)", R"(timestep="0.001" gravity="0 1 -3")"),
             "pads: {name: gel, geom: pad, at_mm: [1, 2, 5], turn_deg: [0, 20, 90]}\n"
             "objects:\n  - {name: cup, mesh: meshes/cup.off, unit: mm, mass_g: 20, held_s: 0.025}\n"

@@ -96,12 +96,13 @@ class Windows : public testing::Test {
   Windows()
       : task_(written_task(
             folder_,
-            mjcf(
-                kPlate + R"(<geom name="floor" type="plane" size="1 1 1" pos="0 0 0.5"/>)" +
-                    falling_pad(0.5, "damping=\"3\"") +
-                    R"(<body name="ball" pos="0.3 0 0.53"><joint type="slide" axis="0 0 1"/><joint type="hinge" axis="1 0 0"/>
+            mjcf(kPlate + R"(<geom name="floor" type="plane" size="1 1 1" pos="0 0 0.5"/>)" +
+                     falling_pad(0.5, "damping=\"3\"") +
+                     R"(<body name="ball" pos="0.3 0 0.53"><joint type="slide" axis="0 0 1"/>
+                      <joint type="hinge" axis="1 0 0"/>
                                              <geom name="ball" size="0.02" mass="0.1"/></body>)",
-                R"(<actuator><general name="z" joint="z" gainprm="800" biastype="affine" biasprm="0 -800 -2"/></actuator>)"),
+                 R"(<actuator><general name="z" joint="z" gainprm="800" biastype="affine"
+                                                 biasprm="0 -800 -2"/></actuator>)"),
             kAlone + "steps:\n  - {seconds: 0.035, set: {z: -0.01}}\n  - {seconds: 0.4, limit: {z: 4}, set: {z: "
                      "-0.02}}\n")) {}
 
