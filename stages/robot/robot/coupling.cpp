@@ -12,7 +12,7 @@ constexpr double kTorqueArm_m = 0.01;
 constexpr double kTangentialShare = 0.5;
 // Shorter ways are rounding, compared with how exactly a press knows its forces.
 constexpr double kShortestWay_m = 1e-7;
-constexpr double kMostSecant = 5.0;
+constexpr double kMostSecant = 5.0, kMostSliding = 100.0;
 // Of balanced_forces: to tell how a robot gives way, and how a law changes; when both agree.
 constexpr double kProbe_n = 0.1, kProbe_m = 1e-8, kNear_n = 1e-9, kNearRobot = 1e-6;
 constexpr int kMostRounds = 15, kMostNewton = 40;
@@ -95,7 +95,8 @@ double secant_stiffness(const PadAnswer& earlier, const PadAnswer& answer, doubl
   const double way =
       (answer.world_from_gel - earlier.world_from_gel).topRightCorner<3, 1>().dot(inwards(earlier.world_from_gel));
   if (std::abs(way) < kShortestWay_m) return otherwise;
-  return std::clamp((pressing(answer) - pressing(earlier)) / way, otherwise / kMostSecant, otherwise * kMostSecant);
+  const double softest = otherwise / (answer.may_slide ? kMostSliding : kMostSecant);
+  return std::clamp((pressing(answer) - pressing(earlier)) / way, softest, otherwise * kMostSecant);
 }
 
 Eigen::VectorXd balanced_forces(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& end,

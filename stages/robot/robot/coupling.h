@@ -19,7 +19,8 @@ struct PadAnswer {
   Wrench wrench{Vector3::Zero(), Vector3::Zero()};  // on the gel, world axes, about the origin of S
   double gap_m = 0.0;                               // along z of S from its front; counts where the gel is not pressed
   int carried = -1;  // the free object that presses on it the most or, of one that is not pressed, is nearest, by a
-                     // number; −1: none, or what does not give way
+                     // number; −1: none, or what does not give way, or is held by something else, too
+  bool may_slide = false;  // it is held by something else
 };
 
 /// The wrench on a gel that is not where it was when it answered: what it answered, and a spring in between. Along the
@@ -45,8 +46,8 @@ FeltWrenches felt_wrenches(std::span<const PadAnswer> answers, std::span<const V
 /// Stiffness of the gels from an answer: of the pad and frame that is deepest in, force over depth (−gap). Nothing
 /// where no gel is pressed.
 std::optional<double> learnt_stiffness(std::span<const PadAnswer> answer);
-/// Of one gel from two of its answers, Δforce over way along n, within a factor of five of `otherwise`; that, where it
-/// was not pressed in both or has hardly moved.
+/// Of one gel from two of its answers, Δforce over way along n, within a factor of five of `otherwise`, or down to a
+/// hundredth of it where the object may slide; `otherwise`, where it was not pressed in both or has hardly moved.
 double secant_stiffness(const PadAnswer& earlier, const PadAnswer& answer, double otherwise);
 
 /// Forces on pads for the next interval, which is to end where the gels would answer with them: f = law(end(f)), both

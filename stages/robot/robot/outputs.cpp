@@ -254,7 +254,10 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
       for (std::size_t o = 0; o < task.objects.size(); ++o) {
         const double force = scene.per_frame[f][gel * count + number(task.objects[o].name)].force_n.norm();
         const double gap = gap_to(task, objects, p, answer.world_from_gel, o, poses[o]);
-        if (force > most || (most == 0.0 && gap < nearest)) answer.carried = gives_way(o, f) ? static_cast<int>(o) : -1;
+        if (force > most || (most == 0.0 && gap < nearest)) {
+          answer.carried = floats[o] ? static_cast<int>(o) : -1;
+          answer.may_slide = !floats[o] && gives_way(o, f);
+        }
         most = std::max(most, force), nearest = std::min(nearest, gap);
       }
       // About the origin of S instead of the world's.

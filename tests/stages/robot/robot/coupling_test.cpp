@@ -160,6 +160,9 @@ TEST(SecantStiffness, StaysNearWhatIsKnownOtherwise) {
   EXPECT_EQ(secant_stiffness(earlier, later, 60000.0), 12000.0);
   // The force fell on the way in.
   EXPECT_EQ(secant_stiffness(answer_at({0, 0, 0}, {0, 0, -2.0}), later, 5000.0), 1000.0);
+  PadAnswer sliding = later;
+  sliding.may_slide = true;
+  EXPECT_EQ(secant_stiffness(answer_at({0, 0, 0}, {0, 0, -2.0}), sliding, 5000.0), 50.0);
   EXPECT_EQ(secant_stiffness(answer_at({0, 0, 0}, Vector3::Zero()), later, 777.0), 777.0);
   EXPECT_EQ(secant_stiffness(earlier, answer_at({0, 0, 1e-8}, {0, 0, -1.6}), 777.0), 777.0);
 }

@@ -210,6 +210,10 @@ TEST_F(PressAnswers, AnObjectFloatsThatGelsAloneTouch) {
   write_npy(folder_ / "press/wrench.npy", wrenches.shape, wrenches.data.data());
   answers = read_answers(folder_ / "press", task_, objects_, 0);
   EXPECT_FALSE(answers.floats[4][0]);
+  // It gives way as far as what else it touches lets it.
+  EXPECT_EQ(answers.frames[4][0].carried, -1);
+  EXPECT_TRUE(answers.frames[4][0].may_slide);
+  EXPECT_FALSE(answers.frames[3][0].may_slide);
 }
 
 TEST_F(PressAnswers, AGelThatIsNotPressedHasTheNearestObjectBeforeIt) {
