@@ -2,8 +2,8 @@
 # Robot and press in turn, window by window, until they agree: couple.sh BIN OUT TASK ROBOT_ARGUMENTS -- PRESS_ARGUMENTS
 # The whole motion is OUT/robot in the end, its scene robot/scene.yaml. OUT/windows/0007/5/02/{robot,press} is the second try of the seventh window, of five frames; OUT/windows/0007/accepted names the try
 # that both agree on. OUT/solved has the frames of accepted windows, OUT/residuals.csv a line per try.
-# What is there is taken as it is, so an interrupted run goes on. A window that does not converge is halved; where one of a single frame
-# does not, the run ends: exit 1.
+# What is there of the same inputs is taken as it is, so an interrupted run goes on. A window that does not converge is halved; where one of a single frame
+# does not, the run ends: exit 1. What robot refuses, or press for its input, ends it at once, with their exit code.
 set -euo pipefail
 export LC_ALL=C
 bin=$1 out=$2
@@ -17,18 +17,22 @@ press=("$@")
 mkdir -p "$out/windows" "$out/solved"
 summary() { "$bin/tacipc" get "$1/robot.yaml" "summary.$2"; }
 
+# robot_try OUT FRAMES BEFORE LAST: a try of a window, after the accepted try BEFORE and the last one of the same window; either may be empty.
+# What robot refuses, a shorter window does not mend.
+robot_try() {
+  local known=()
+  [ -z "$3" ] || known+=(--start "$3/robot")
+  if [ -n "$4" ]; then known+=(--try "$4/robot" --press "$4/press"); elif [ -n "$3" ]; then known+=(--press "$3/press"); fi
+  "$bin/robot" "${robot[@]}" --frames "$2" ${known[@]+"${known[@]}"} --out "$1" || exit $?
+}
+
 # try_window FRAMES FOLDER: sets `accepted` to the try that both agree on; not 0 if there is none.
 try_window() {
-  local frames=$1 folder=$2 k=1 now last=''
+  local frames=$1 folder=$2 k=1 now last='' code
   : > "$folder/residuals.csv"
   while :; do
     now=$folder/$(printf '%02d' "$k")
-    if [ ! -f "$now/robot/robot.yaml" ]; then
-      local known=()
-      [ -z "$before" ] || known+=(--start "$before/robot")
-      if [ -n "$last" ]; then known+=(--try "$last/robot" --press "$last/press"); elif [ -n "$before" ]; then known+=(--press "$before/press"); fi
-      "$bin/robot" "${robot[@]}" --frames "$frames" ${known[@]+"${known[@]}"} --out "$now/robot"
-    fi
+    [ -f "$now/robot/robot.yaml" ] || robot_try "$now/robot" "$frames" "$before" "$last"
     if [ -n "$last" ]; then
       echo "$number,$frames,$(summary "$now/robot" window_first_frame),$((k - 1)),$(summary "$now/robot" residual_n),$(summary "$now/robot" residual_relative),$(summary "$now/robot" stiffness_n_m)" >> "$folder/residuals.csv"
       if [ "$(summary "$now/robot" converged)" = true ]; then
@@ -38,13 +42,27 @@ try_window() {
       [ "$k" -le "$most" ] || return 1
     fi
     if [ ! -f "$now/press/press.yaml" ]; then
-      "$bin/press" "${press[@]}" --sample "$now/robot/scene.yaml" --solved "$out/solved" --out "$now/press" || return 1
+      "$bin/press" "${press[@]}" --sample "$now/robot/scene.yaml" --solved "$out/solved" --out "$now/press" || { code=$?; [ "$code" -eq 1 ] && return 1; exit "$code"; }
     fi
     last=$now k=$((k + 1))
   done
 }
 
-before=''
+# What the windows are of: all that robot reads and is told, and press. Those of anything else are none of this run.
+robot_try "$out/windows/begin" "$window" '' ''
+{
+  awk '/^inputs:/ { on = 1 } /^outputs:/ { on = 0 } /^task:/ { on = 1 } /^config:/ { on = 0 } on && !/^    path: /' "$out/windows/begin/robot.yaml"
+  for ((i = 0; i < ${#press[@]}; ++i)); do
+    if [ "${press[i]}" = --threads ]; then i=$((i + 1)); elif [ -f "${press[i]}" ]; then sha256sum < "${press[i]}"; else echo "${press[i]}"; fi
+  done
+} > "$out/windows/of.txt.new"
+if ! cmp -s "$out/windows/of.txt.new" "$out/windows/of.txt"; then
+  find "$out/windows" "$out/solved" -mindepth 1 -maxdepth 1 ! -name 'of.txt.new' -exec rm -rf {} +
+  mv "$out/windows/of.txt.new" "$out/windows/of.txt"
+fi
+rm -rf "$out/windows/begin" "$out/windows/of.txt.new"
+
+before='' prior=''
 for ((w = 1;; ++w)); do
   number=$(printf '%04d' "$w") length=$window
   folder=$out/windows/$number
@@ -62,13 +80,13 @@ for ((w = 1;; ++w)); do
     mv "$folder/accepted.new" "$folder/accepted"
     echo "couple: window $w: $(tail -n 1 "$folder/$length/residuals.csv" | awk -F, '{ printf "frames %d to %d agree after %d tries, residual %.2g", $3 + 1, $3 + $2, $4, $6 }')"
   fi
-  before=$folder/$(cat "$folder/accepted")
+  prior=$before
+  accepted=$(cat "$folder/accepted")
+  before=$folder/$accepted
   [ "$(summary "$before/robot" finished)" = false ] || break
 done
 { echo 'window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m'; cat "$out"/windows/*/*/residuals.csv; } > "$out/residuals.csv.new"
 mv "$out/residuals.csv.new" "$out/residuals.csv"
-# The last window's folder has the whole motion.
-rm -rf "$out/robot.new"
-cp -r "$before/robot" "$out/robot.new"
-rm -rf "$out/robot"
-mv "$out/robot.new" "$out/robot"
+# The last accepted try has the whole motion; made once more where it is to lie, so that the paths in its files are right.
+last=$((10#${accepted##*/} - 1))
+robot_try "$out/robot" "${accepted%%/*}" "$prior" "$([ "$last" = 0 ] || printf '%s/%s/%02d' "$folder" "${accepted%%/*}" "$last")"

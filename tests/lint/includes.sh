@@ -34,4 +34,7 @@ done
 # libtorch is one stage's business, headers too.
 bad=$(grep -rlE '#include <(torch|ATen|c10)/' common stages --include=*.cpp --include=*.h | grep -v '^stages/image/depthnet/' || true)
 [ -z "$bad" ] || { echo "$bad: includes libtorch; only depthnet may"; faults=1; }
+# MuJoCo likewise.
+bad=$(grep -rlE '#include <mujoco/' common stages --include=*.cpp --include=*.h | grep -v '^stages/robot/robot/' || true)
+[ -z "$bad" ] || { echo "$bad: includes MuJoCo; only robot may"; faults=1; }
 exit $faults

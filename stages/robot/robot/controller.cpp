@@ -101,7 +101,7 @@ void Controller::act(const std::vector<double>& pads) {
     // rounding.
     const bool at_end = elapsed >= step.seconds - 1e-9, early = !at_end && over(step, pads);
     if (!early) {
-      const double part = std::clamp(elapsed / step.seconds, 0.0, 1.0);
+      const double part = at_end ? 1.0 : std::max(0.0, elapsed / step.seconds);
       const double share = step.smooth ? smooth_part(part) : part;
       for (const auto& [name, value] : step.set) {
         const int a = robot_.id(mjOBJ_ACTUATOR, name);

@@ -12,7 +12,7 @@ constexpr double kTorqueArm_m = 0.01;
 constexpr double kTangentialShare = 0.5;
 // Shorter ways are rounding, compared with how exactly a press knows its forces.
 constexpr double kShortestWay_m = 1e-7;
-constexpr double kMostSecant = 5.0;
+constexpr double kMostSecant = 5.0, kMostSliding = 100.0;
 // Of balanced_forces: to tell how a robot gives way, and how a law changes; when both agree.
 constexpr double kProbe_n = 0.1, kProbe_m = 1e-8, kNear_n = 1e-9, kNearRobot = 1e-6;
 constexpr int kMostRounds = 15, kMostNewton = 40;
@@ -37,29 +37,46 @@ Wrench felt_wrench(const PadAnswer& answer, const Vector3& origin_m, double stif
   return {-now * n + across - kTangentialShare * stiffness_n_m * (way - d * n), answer.wrench.torque_n_m};
 }
 
-std::vector<Wrench> felt_wrenches(std::span<const PadAnswer> answers, std::span<const Vector3> origins_m,
-                                  std::span<const double> stiffness_n_m, std::span<const double> inertia_n_m) {
-  std::vector<Vector3> along(inertia_n_m.size(), Vector3::Zero());
+FeltWrenches felt_wrenches(std::span<const PadAnswer> answers, std::span<const Vector3> origins_m,
+                           std::span<const double> stiffness_n_m, std::span<const double> inertia_n_m,
+                           std::span<const Vector3> expected_m) {
+  const auto felt = [&](std::size_t p, const Vector3& along) {
+    return felt_wrench(answers[p], origins_m[p] - along, stiffness_n_m[p]);
+  };
+  FeltWrenches all{.wrenches = {}, .along_m = std::vector<Vector3>(expected_m.begin(), expected_m.end())};
   for (std::size_t o = 0; o < inertia_n_m.size(); ++o) {
-    Matrix3 sum = inertia_n_m[o] * Matrix3::Identity();
-    Vector3 pulled = Vector3::Zero();
-    for (std::size_t p = 0; p < answers.size(); ++p) {
-      if (answers[p].carried != static_cast<int>(o) || pressing(answers[p]) <= 0.0) continue;
-      const Vector3 n = inwards(answers[p].world_from_gel);
-      const Matrix3 K =
-          stiffness_n_m[p] * ((1.0 - kTangentialShare) * n * n.transpose() + kTangentialShare * Matrix3::Identity());
-      sum += K;
-      pulled += K * (origins_m[p] - answers[p].world_from_gel.topRightCorner<3, 1>());
+    if (inertia_n_m[o] == 0.0) continue;
+    Vector3& u = all.along_m[o];
+    std::vector<bool> touching, before;
+    for (const PadAnswer& answer : answers) touching.push_back(pressing(answer) > 0.0);
+    for (int round = 0; round < kMostRounds && touching != before; ++round) {
+      Matrix3 sum = inertia_n_m[o] * Matrix3::Identity();
+      Vector3 pulled = inertia_n_m[o] * expected_m[o];
+      for (std::size_t p = 0; p < answers.size(); ++p) {
+        if (answers[p].carried != static_cast<int>(o)) continue;
+        const Vector3 n = inwards(answers[p].world_from_gel);
+        const bool was = pressing(answers[p]) > 0.0;
+        if (!touching[p]) {
+          if (was) pulled += answers[p].wrench.force_n;
+          continue;
+        }
+        Matrix3 K = stiffness_n_m[p] * n * n.transpose();
+        if (was) K += kTangentialShare * stiffness_n_m[p] * (Matrix3::Identity() - n * n.transpose());
+        sum += K;
+        pulled += K * (origins_m[p] - answers[p].world_from_gel.topRightCorner<3, 1>());
+        if (!was) pulled -= stiffness_n_m[p] * answers[p].gap_m * n;
+      }
+      u = sum.ldlt().solve(pulled);
+      before = touching;
+      for (std::size_t p = 0; p < answers.size(); ++p) {
+        if (answers[p].carried == static_cast<int>(o)) touching[p] = felt(p, u).force_n != Vector3::Zero();
+      }
     }
-    along[o] = sum.ldlt().solve(pulled);
   }
-  std::vector<Wrench> felt;
-  for (std::size_t p = 0; p < answers.size(); ++p) {
-    const Vector3 moved =
-        answers[p].carried < 0 ? Vector3::Zero() : along[static_cast<std::size_t>(answers[p].carried)];
-    felt.push_back(felt_wrench(answers[p], origins_m[p] - moved, stiffness_n_m[p]));
-  }
-  return felt;
+  for (std::size_t p = 0; p < answers.size(); ++p)
+    all.wrenches.push_back(felt(p, answers[p].carried < 0 ? Vector3(Vector3::Zero())
+                                                          : all.along_m[static_cast<std::size_t>(answers[p].carried)]));
+  return all;
 }
 
 std::optional<double> learnt_stiffness(std::span<const PadAnswer> answer) {
@@ -78,7 +95,8 @@ double secant_stiffness(const PadAnswer& earlier, const PadAnswer& answer, doubl
   const double way =
       (answer.world_from_gel - earlier.world_from_gel).topRightCorner<3, 1>().dot(inwards(earlier.world_from_gel));
   if (std::abs(way) < kShortestWay_m) return otherwise;
-  return std::clamp((pressing(answer) - pressing(earlier)) / way, otherwise / kMostSecant, otherwise * kMostSecant);
+  const double softest = otherwise / (answer.may_slide ? kMostSliding : kMostSecant);
+  return std::clamp((pressing(answer) - pressing(earlier)) / way, softest, otherwise * kMostSecant);
 }
 
 Eigen::VectorXd balanced_forces(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& end,

@@ -18,7 +18,9 @@ struct PadAnswer {
   Matrix4 world_from_gel = Matrix4::Identity();
   Wrench wrench{Vector3::Zero(), Vector3::Zero()};  // on the gel, world axes, about the origin of S
   double gap_m = 0.0;                               // along z of S from its front; counts where the gel is not pressed
-  int carried = -1;  // the free object that presses on it the most, by a number; −1: none, or what does not give way
+  int carried = -1;  // the free object that presses on it the most or, of one that is not pressed, is nearest, by a
+                     // number; −1: none, or what does not give way, or is held by something else, too
+  bool may_slide = false;  // it is held by something else
 };
 
 /// The wrench on a gel that is not where it was when it answered: what it answered, and a spring in between. Along the
@@ -27,17 +29,25 @@ struct PadAnswer {
 /// across, half as stiff, while it is pressed before and after. Where it is again, x = x₀, this is what it answered.
 Wrench felt_wrench(const PadAnswer& answer, const Vector3& origin_m, double stiffness_n_m);
 
-/// Answers of all pads with their origins elsewhere. Gels that press on the same free object of mass m move it along:
-/// by u with (m/h² + Σ Kᵢ) u = Σ Kᵢ (xᵢ − x₀ᵢ), Kᵢ the matrix of the spring above, h the time since; their springs
-/// count from there. \param inertia_n_m m/h² of each object
-std::vector<Wrench> felt_wrenches(std::span<const PadAnswer> answers, std::span<const Vector3> origins_m,
-                                  std::span<const double> stiffness_n_m, std::span<const double> inertia_n_m);
+struct FeltWrenches {
+  std::vector<Wrench> wrenches;  // of each pad
+  std::vector<Vector3> along_m;  // of each object: u below
+};
+
+/// Answers of all pads with their origins elsewhere. A free object of mass m that gels press on gives way: it is by u
+/// elsewhere, with
+///   m/h² (u − û) = Σ (f₀ − f),   f the force of the spring above on a pad at x − u, f₀ what it answered,
+/// h the time since, û where it would be with these answers alone. Linear while no contact begins or ends; which do is
+/// found by taking those of the last u. \param inertia_n_m m/h² of each object \param expected_m û of each
+FeltWrenches felt_wrenches(std::span<const PadAnswer> answers, std::span<const Vector3> origins_m,
+                           std::span<const double> stiffness_n_m, std::span<const double> inertia_n_m,
+                           std::span<const Vector3> expected_m);
 
 /// Stiffness of the gels from an answer: of the pad and frame that is deepest in, force over depth (−gap). Nothing
 /// where no gel is pressed.
 std::optional<double> learnt_stiffness(std::span<const PadAnswer> answer);
-/// Of one gel from two of its answers, Δforce over way along n, within a factor of five of `otherwise`; that, where it
-/// was not pressed in both or has hardly moved.
+/// Of one gel from two of its answers, Δforce over way along n, within a factor of five of `otherwise`, or down to a
+/// hundredth of it where the object may slide; `otherwise`, where it was not pressed in both or has hardly moved.
 double secant_stiffness(const PadAnswer& earlier, const PadAnswer& answer, double otherwise);
 
 /// Forces on pads for the next interval, which is to end where the gels would answer with them: f = law(end(f)), both

@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
+#include <regex>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -41,10 +43,34 @@ T whole_number(const tacipc::Stage& stage, const std::string& flag) {
   return number;
 }
 
+/// The files that a model's elements name, in MJCF from the model's own folder or the one of its assets, and those that
+/// they include.
+void add_files_of(const std::filesystem::path& model, const std::filesystem::path& file,
+                  std::vector<std::pair<std::string, std::filesystem::path>>& all) {
+  static const std::regex kAssets(R"re((?:mesh|texture|asset)dir\s*=\s*["']([^"']+)["'])re"),
+      kFile(R"re(\bfile\s*=\s*["']([^"']+)["'])re");
+  const std::string text = tacipc::read_file(file);
+  const std::sregex_iterator end;
+  std::vector<std::filesystem::path> folders{model.parent_path()};
+  for (std::sregex_iterator at(text.begin(), text.end(), kAssets); at != end; ++at)
+    folders.push_back(model.parent_path() / (*at)[1].str());
+  for (std::sregex_iterator at(text.begin(), text.end(), kFile); at != end; ++at) {
+    for (const std::filesystem::path& folder : folders) {
+      const std::filesystem::path named = folder / (*at)[1].str();
+      if (!std::filesystem::is_regular_file(named)) continue;
+      const bool known = std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.second == named; });
+      if (known) continue;
+      all.emplace_back(fmt::format("model_file_{}", all.size()), named);
+      if (named.extension() == ".xml") add_files_of(model, named, all);
+    }
+  }
+}
+
 std::vector<tacipc::TaskObject> read_objects(tacipc::Stage& stage, const tacipc::TaskSpec& task) {
   using namespace tacipc;
   std::vector<TaskObject> objects;
   std::vector<std::pair<std::string, std::filesystem::path>> files{{"model", task.model}};
+  add_files_of(task.model, task.model, files);
   for (const ObjectSpec& spec : task.objects) {
     if (!std::filesystem::is_regular_file(spec.mesh))
       throw UsageError(fmt::format("object {}: mesh: {} does not exist", spec.name, spec.mesh.string()));
@@ -111,31 +137,13 @@ int main(int argc, char** argv) {
     std::optional<WindowAnswers> answers;
     if (press) answers = read_answers(*press, task, objects, first);
     if (earlier) {
-      const RobotRun tried = read_run(*earlier);
+      const TryJudgement judged =
+          judge_try(task, read_run(*earlier), first, read_basis(*earlier, task.pads.size()), stiffness, *answers);
       window.answers = &*answers;
-      if (tried.frames.size() != first + answers->frames.size())
-        throw DataError("{}: has {} frames, and its try {}", press->string(), first + answers->frames.size(),
-                        tried.frames.size());
-      std::vector<Wrench> felt, answered;
-      for (std::size_t f = first + 1; f < tried.frames.size(); ++f) {
-        for (std::size_t p = 0; p < task.pads.size(); ++p) {
-          felt.push_back(tried.frames[f].pad_wrench[p]);
-          answered.push_back(answers->frames[f - first][p].wrench);
-        }
-      }
-      const Residual residual = interface_residual(felt, answered, task.coupling.smallest_wrench_n);
-      std::vector<PadAnswer> all;
-      for (const auto& frame : answers->frames) all.insert(all.end(), frame.begin(), frame.end());
-      stiffness = learnt_stiffness(all).value_or(stiffness);
-      const std::vector<std::vector<PadAnswer>> basis = read_basis(*earlier, task.pads.size());
-      for (std::size_t f = 0; f < answers->frames.size(); ++f) {
-        auto& of_frame = answers->stiffness_n_m.emplace_back(task.pads.size(), stiffness);
-        for (std::size_t p = 0; f < basis.size() && p < task.pads.size(); ++p)
-          of_frame[p] = secant_stiffness(basis[f][p], answers->frames[f][p], stiffness);
-      }
-      stage.summarize({{"residual_n", residual.wrench_n},
-                       {"residual_relative", residual.relative},
-                       {"converged", residual.relative <= task.coupling.tolerance}});
+      stiffness = judged.stiffness_n_m;
+      stage.summarize({{"residual_n", judged.residual.wrench_n},
+                       {"residual_relative", judged.residual.relative},
+                       {"converged", judged.residual.relative <= task.coupling.tolerance}});
     } else if (answers) {
       window.at_start = answers->frames.front();
       window.objects_at_start = answers->objects.front();

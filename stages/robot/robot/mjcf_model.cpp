@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdlib>
 #include <numbers>
@@ -144,22 +145,41 @@ void RobotModel::give_mass(int body, const TaskObject& object) {
     m.body_ipos[3 * body + k] = mass.center_m[k];
   }
   to_wxyz(axes, m.body_iquat + 4 * body);
+  // What MuJoCo concluded from the frames that its own mass had, and takes short cuts by.
+  m.body_sameframe[body] = m.body_simple[body] = 0;
+  for (int k = 0; k < m.body_geomnum[body]; ++k) m.geom_sameframe[m.body_geomadr[body] + k] = 0;
+  for (int k = 0; k < m.nsite; ++k) {
+    if (m.site_bodyid[k] == body) m.site_sameframe[k] = 0;
+  }
+  const int first = m.jnt_dofadr[m.body_jntadr[body]];
+  for (int k = 0; k < 6; ++k) m.dof_simplenum[first + k] = 0;
+  // Those before count how many follow.
+  for (int k = first - 1; k >= 0 && m.dof_simplenum[k] > 0; --k) m.dof_simplenum[k] = m.dof_simplenum[k + 1] + 1;
 }
 
 void RobotModel::place(const ObjectSpec& spec, int body) {
+  if (!spec.at_m && !spec.turn_rad) return;
   mjModel& m = *model_;
   const int at = spec.fixed ? 0 : m.jnt_qposadr[m.body_jntadr[body]];
   mjtNum* position = spec.fixed ? m.body_pos + 3 * body : m.qpos0 + at;
   mjtNum* rotation = spec.fixed ? m.body_quat + 4 * body : m.qpos0 + at + 3;
-  if (spec.at_m) {
-    for (int k = 0; k < 3; ++k) position[k] = (*spec.at_m)[k];
-  }
+  const auto pose_of = [](const mjtNum* p, const mjtNum* q) {
+    return Eigen::Translation3d(p[0], p[1], p[2]) * quaternion_from(q).normalized();
+  };
+  // A fixed body may hang in other fixed ones.
+  Eigen::Isometry3d parent = Eigen::Isometry3d::Identity();
+  for (int up = m.body_parentid[body]; spec.fixed && up > 0; up = m.body_parentid[up])
+    parent = pose_of(m.body_pos + 3 * up, m.body_quat + 4 * up) * parent;
+  Eigen::Isometry3d pose = parent * pose_of(position, rotation);
+  if (spec.at_m) pose.translation() = *spec.at_m;
   if (spec.turn_rad) {
     const double angle = spec.turn_rad->norm();
-    to_wxyz(angle > 0.0 ? Eigen::AngleAxisd(angle, *spec.turn_rad / angle).toRotationMatrix()
-                        : Matrix3(Matrix3::Identity()),
-            rotation);
+    pose.linear() = angle > 0.0 ? Eigen::AngleAxisd(angle, *spec.turn_rad / angle).toRotationMatrix()
+                                : Matrix3(Matrix3::Identity());
   }
+  pose = parent.inverse() * pose;
+  for (int k = 0; k < 3; ++k) position[k] = pose.translation()[k];
+  to_wxyz(pose.linear(), rotation);
 }
 
 int RobotModel::id(mjtObj kind, const std::string& name) const {
@@ -231,11 +251,11 @@ Wrench RobotModel::pad_contact(std::size_t pad) const {
   return sum;
 }
 
-void RobotModel::check() const {
+void RobotModel::check(double time_s) const {
   for (const mjtWarning kind : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
     if (data_->warning[kind].number > 0)
       throw DataError("{}: the motion became unstable at {:.3f} s: a smaller timestep, or softer actuators",
-                      task_.model.string(), data_->time);
+                      task_.model.string(), time_s);
   }
 }
 

@@ -64,8 +64,8 @@ class RobotModel {
   /// Σ of the contacts of a pad's geom, about the origin of its S, along axes of the world: of the last step.
   Wrench pad_contact(std::size_t pad) const;
 
-  /// \throw DataError if the last step became unstable
-  void check() const;
+  /// \throw DataError if the last step, which began at this time, became unstable; MuJoCo then begins anew
+  void check(double time_s) const;
 
  private:
   void give_mass(int body, const TaskObject& object);

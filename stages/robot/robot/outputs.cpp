@@ -35,9 +35,9 @@ Value::List turn_deg(const Matrix4& pose) {
   return numbers(180.0 / std::numbers::pi * turn.angle() * turn.axis());
 }
 
-/// Frames after which a body is let go.
-int held_frames(const TaskSpec& task, const ObjectSpec& object, int frames) {
-  return std::min(frames, static_cast<int>(std::ceil(object.held_s / task.frame_s - 1e-9)));
+/// The frame after which a body is let go.
+int held_frames(const TaskSpec& task, const ObjectSpec& object) {
+  return static_cast<int>(std::ceil(std::min(1e9, object.held_s / task.frame_s - 1e-9)));
 }
 
 /// A scene takes its meshes along, so that its folder may go anywhere.
@@ -65,7 +65,7 @@ std::string scene_text(const TaskSpec& task, const std::vector<TaskObject>& obje
     contact.emplace_back(std::move(pair));
   }
   std::set<int> ends{frames};
-  for (const ObjectSpec& object : task.objects) ends.insert(held_frames(task, object, frames));
+  for (const ObjectSpec& object : task.objects) ends.insert(std::min(frames, held_frames(task, object)));
   Value::List motion;
   int from = 0;
   for (const int end : ends) {
@@ -73,7 +73,7 @@ std::string scene_text(const TaskSpec& task, const std::vector<TaskObject>& obje
     Value::Map phase{{"steps", end - from}};
     Value::List held;
     for (const ObjectSpec& object : task.objects) {
-      if (!object.fixed && held_frames(task, object, frames) > from) held.emplace_back(object.name);
+      if (!object.fixed && held_frames(task, object) > from) held.emplace_back(object.name);
     }
     if (!held.empty()) phase.emplace_back("hold", std::move(held));
     motion.emplace_back(std::move(phase));
@@ -91,6 +91,15 @@ void add(std::vector<double>& all, const Matrix4& pose) {
 }
 
 Matrix4 pose_at(const double* values) { return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values); }
+
+// A number that can be written and mixed: nothing is met within a metre.
+constexpr double kNowhere_m = 1.0;
+
+/// What of an object is in front of a pad.
+double gap_to(const TaskSpec& task, const std::vector<TaskObject>& objects, std::size_t pad,
+              const Matrix4& world_from_gel, std::size_t object, const Matrix4& object_pose) {
+  return gap_before(objects[object].mesh, world_from_gel.inverse() * object_pose, task.pads[pad].radius_m);
+}
 
 }  // namespace
 
@@ -194,12 +203,10 @@ std::vector<std::vector<PadAnswer>> read_basis(const fs::path& folder, std::size
 
 double gap_of(const TaskSpec& task, const std::vector<TaskObject>& objects, std::size_t pad,
               const Matrix4& world_from_gel, const std::vector<Matrix4>& object_poses) {
-  double gap = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    gap =
-        std::min(gap, gap_before(objects[i].mesh, world_from_gel.inverse() * object_poses[i], task.pads[pad].radius_m));
-  // A number that can be written and mixed: nothing is met within a metre.
-  return std::min(gap, 1.0);
+  double gap = kNowhere_m;
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    gap = std::min(gap, gap_to(task, objects, pad, world_from_gel, o, object_poses[o]));
+  return gap;
 }
 
 WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const std::vector<TaskObject>& objects,
@@ -214,6 +221,10 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
     throw DataError("{}: has {} frames, and the window begins after frame {}", press.string(), scene.per_frame.size(),
                     first);
   const std::size_t count = scene.bodies.size();
+  // It is held in the steps that lead to the frames before.
+  const auto gives_way = [&](std::size_t o, std::size_t frame) {
+    return !task.objects[o].fixed && static_cast<int>(frame) > held_frames(task, task.objects[o]);
+  };
   WindowAnswers answers;
   for (const TaskObject& object : objects)
     answers.inertia_n_m.push_back(object.mass_kg / (task.frame_s * task.frame_s));
@@ -224,6 +235,14 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
       poses.push_back(scene.body_pose[f][number(object.name)]);
       if (!object.fixed) rigid.push_back(poses.back());
     }
+    std::vector<bool>& floats = answers.floats.emplace_back();
+    for (std::size_t o = 0; o < task.objects.size(); ++o) {
+      bool free = gives_way(o, f);
+      for (std::size_t b = 0; b < count; ++b)
+        free = free && (scene.kinds[b] == "gel" ||
+                        scene.per_frame[f][number(task.objects[o].name) * count + b].force_n == Vector3::Zero());
+      floats.push_back(free);
+    }
     auto& of_frame = answers.frames.emplace_back();
     for (std::size_t p = 0; p < task.pads.size(); ++p) {
       const std::size_t gel = number(task.pads[p].name);
@@ -232,18 +251,20 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
         answer.wrench.force_n += scene.per_frame[f][gel * count + b].force_n;
         answer.wrench.torque_n_m += scene.per_frame[f][gel * count + b].torque_n_m;
       }
-      double most = 0.0;
+      // Who presses the most, else who is nearest.
+      double most = 0.0, nearest = kNowhere_m;
       for (std::size_t o = 0; o < task.objects.size(); ++o) {
-        const ObjectSpec& object = task.objects[o];
-        const double force = scene.per_frame[f][gel * count + number(object.name)].force_n.norm();
-        if (force <= most) continue;
-        most = force;
-        const bool gives_way = !object.fixed && static_cast<double>(f) * task.frame_s > object.held_s - 1e-9;
-        answer.carried = gives_way ? static_cast<int>(o) : -1;
+        const double force = scene.per_frame[f][gel * count + number(task.objects[o].name)].force_n.norm();
+        const double gap = gap_to(task, objects, p, answer.world_from_gel, o, poses[o]);
+        if (force > most || (most == 0.0 && gap < nearest)) {
+          answer.carried = floats[o] ? static_cast<int>(o) : -1;
+          answer.may_slide = !floats[o] && gives_way(o, f);
+        }
+        most = std::max(most, force), nearest = std::min(nearest, gap);
       }
       // About the origin of S instead of the world's.
       answer.wrench.torque_n_m -= Vector3(answer.world_from_gel.topRightCorner<3, 1>()).cross(answer.wrench.force_n);
-      answer.gap_m = gap_of(task, objects, p, answer.world_from_gel, poses);
+      answer.gap_m = nearest;
       of_frame.push_back(answer);
     }
   }

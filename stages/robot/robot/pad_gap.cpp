@@ -1,5 +1,6 @@
 #include "stages/robot/robot/pad_gap.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -19,6 +20,9 @@ std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, int axis, doub
   return kept;
 }
 
+// Of a facet's unit normal along the gel's axis: a floor beside the gel reaches behind its front.
+constexpr double kLooksAt = -0.17;
+
 }  // namespace
 
 double gap_before(const TriangleMesh& surface, const Matrix4& gel_from_surface, double radius_m) {
@@ -28,9 +32,12 @@ double gap_before(const TriangleMesh& surface, const Matrix4& gel_from_surface, 
   for (Eigen::Index f = 0; f < surface.num_triangles(); ++f) {
     std::vector<Vector3> polygon;
     for (int k = 0; k < 3; ++k) polygon.push_back(R * Vector3(surface.positions.row(surface.triangles(f, k))) + t);
+    const Vector3 normal = (polygon[1] - polygon[0]).cross(polygon[2] - polygon[0]);
+    if (normal.z() > kLooksAt * normal.norm()) continue;
     for (const int axis : {0, 1}) {
       for (const double sign : {1.0, -1.0}) polygon = clipped(polygon, axis, sign, radius_m);
     }
+    polygon = clipped(polygon, 2, -1.0, radius_m);
     for (const Vector3& corner : polygon) lowest = std::min(lowest, corner.z());
   }
   return lowest;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "common/base/error.h"
 #include "stages/robot/robot/controller.h"
@@ -37,13 +38,14 @@ class Runner {
     };
     mj_step1(&robot_.model(), &robot_.data());
     note(0);
-    for (int n = 1; !controller_.done() || n % per_frame_ != 1; ++n) {
+    for (int n = 1;; ++n) {
       progress(robot_.data().time);
       advance();
       hold();
       for (std::size_t p = 0; p < felt_.size(); ++p) felt_[p] = robot_.pad_contact(p);
       mj_step1(&robot_.model(), &robot_.data());
       note(n);
+      if (n % per_frame_ == 0 && is_over()) break;
     }
     return finished();
   }
@@ -63,6 +65,7 @@ class Runner {
       mj_step1(&robot_.model(), &robot_.data());
       note(0);
     }
+    if (window.answers) along_.assign(window.answers->inertia_n_m.size(), Vector3::Zero()), along_before_ = along_;
     for (int f = 1; f <= window.frames && !run_.finished; ++f) interval(window, f);
     return finished();
   }
@@ -97,11 +100,20 @@ class Runner {
       mj_step1(&robot_.model(), &robot_.data());
       note((frames - 1) * per_frame_ + n + 1);
     }
-    // Its controls are the next window's to give; here they only tell whether there is one.
+    if (window.answers) {
+      std::vector<Vector3> along = felt_at(window, frame, origins()).along_m;
+      along_before_ = std::exchange(along_, std::move(along));
+    }
+    run_.finished = is_over();
+  }
+
+  /// Whether the steps of the task are over now. The controls of this instant are the next time step's to give.
+  bool is_over() {
     const std::vector<double> last = state();
     act();
-    run_.finished = controller_.done();
+    const bool over = controller_.done();
     restore(last);
+    return over;
   }
 
   void act() {
@@ -112,6 +124,7 @@ class Runner {
 
   /// One time step of the model.
   void advance() {
+    const double time_s = robot_.data().time;
     mj_step1(&robot_.model(), &robot_.data());
     act();
     if (coupled_) {
@@ -119,7 +132,7 @@ class Runner {
       for (std::size_t p = 0; p < felt_.size(); ++p) robot_.push_pad(p, felt_[p]);
     }
     mj_step2(&robot_.model(), &robot_.data());
-    robot_.check();
+    robot_.check(time_s);
   }
 
   Eigen::VectorXd origins() const {
@@ -136,31 +149,45 @@ class Runner {
     return all;
   }
 
+  static std::size_t index_of(const Window& window, int frame) {
+    return std::min(static_cast<std::size_t>(frame), window.answers->frames.size() - 1);
+  }
+
   const PadAnswer& answer(const Window& window, int frame, std::size_t pad) const {
-    const auto& frames = window.answers->frames;
-    return frames[std::min(static_cast<std::size_t>(frame), frames.size() - 1)][pad];
+    return window.answers->frames[index_of(window, frame)][pad];
+  }
+
+  std::vector<Vector3> origins_in(const Eigen::VectorXd& at) const {
+    std::vector<Vector3> all;
+    for (std::size_t p = 0; p < felt_.size(); ++p) all.emplace_back(at.segment<3>(static_cast<Eigen::Index>(3 * p)));
+    return all;
+  }
+
+  /// By the answers of an earlier try. An object that floats goes on as the frames before have moved it away from where
+  /// it was in them; one that something else holds is back there.
+  FeltWrenches felt_at(const Window& window, int frame, const Eigen::VectorXd& at) const {
+    const WindowAnswers& answers = *window.answers;
+    const std::size_t f = index_of(window, frame);
+    std::vector<Vector3> expected;
+    for (std::size_t o = 0; o < along_.size(); ++o)
+      expected.push_back(answers.floats[f][o] ? Vector3(2.0 * along_[o] - along_before_[o]) : Vector3(Vector3::Zero()));
+    return felt_wrenches(answers.frames[f], origins_in(at), answers.stiffness_n_m[f], answers.inertia_n_m, expected);
   }
 
   /// What the gels would answer with their origins at these places at the end of a frame of the window.
   std::vector<Wrench> answered(const Window& window, int frame, const Eigen::VectorXd& at) const {
+    if (window.answers) return felt_at(window, frame, at).wrenches;
     std::vector<Wrench> wrenches;
-    const auto origin = [&](std::size_t p) { return Vector3(at.segment<3>(static_cast<Eigen::Index>(3 * p))); };
-    std::vector<Vector3> origins;
-    for (std::size_t p = 0; p < felt_.size(); ++p) origins.push_back(origin(p));
-    if (window.answers) {
-      const auto f = std::min(static_cast<std::size_t>(frame), window.answers->frames.size() - 1);
-      return felt_wrenches(window.answers->frames[f], origins, window.answers->stiffness_n_m[f],
-                           window.answers->inertia_n_m);
-    }
+    const std::vector<Vector3> origins = origins_in(at);
     // What is held goes with the hand: its mean way is no way further in. A single pad has nothing to hold against.
     Vector3 mean = Vector3::Zero();
     for (std::size_t p = 0; felt_.size() > 1 && p < felt_.size(); ++p)
       mean +=
-          (origin(p) - window.at_start[p].world_from_gel.topRightCorner<3, 1>()) / static_cast<double>(felt_.size());
+          (origins[p] - window.at_start[p].world_from_gel.topRightCorner<3, 1>()) / static_cast<double>(felt_.size());
     for (std::size_t p = 0; p < felt_.size(); ++p) {
       PadAnswer moved = window.at_start[p];
       moved.world_from_gel.topRightCorner<3, 1>() += mean;
-      wrenches.push_back(felt_wrench(moved, origin(p), window.stiffness_n_m));
+      wrenches.push_back(felt_wrench(moved, origins[p], window.stiffness_n_m));
     }
     return wrenches;
   }
@@ -252,6 +279,8 @@ class Runner {
   RobotRun run_;
   std::set<Pair> touching_;
   std::vector<Wrench> felt_;  // of each pad, now
+  // By how much each object is away from where the last answers had it, at the last two frames of the window.
+  std::vector<Vector3> along_, along_before_;
   int per_frame_ = 1;
 };
 
@@ -261,6 +290,30 @@ RobotRun run_alone(const TaskSpec& task, RobotModel& robot, const RobotProgress&
   RobotRun run = Runner(task, robot, false).alone(progress);
   run.finished = true;
   return run;
+}
+
+TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t first,
+                       const std::vector<std::vector<PadAnswer>>& basis, double stiffness_n_m, WindowAnswers& answers) {
+  if (tried.frames.size() != first + answers.frames.size())
+    throw DataError("the press answered {} frames, and its try has {}", first + answers.frames.size(),
+                    tried.frames.size());
+  std::vector<Wrench> felt, answered;
+  std::vector<PadAnswer> all;
+  for (std::size_t f = 0; f < answers.frames.size(); ++f) {
+    all.insert(all.end(), answers.frames[f].begin(), answers.frames[f].end());
+    // Where the window begins both are as they were.
+    for (std::size_t p = 0; f > 0 && p < task.pads.size(); ++p) {
+      felt.push_back(tried.frames[first + f].pad_wrench[p]);
+      answered.push_back(answers.frames[f][p].wrench);
+    }
+  }
+  const double stiffness = learnt_stiffness(all).value_or(stiffness_n_m);
+  for (std::size_t f = 0; f < answers.frames.size(); ++f) {
+    auto& of_frame = answers.stiffness_n_m.emplace_back(task.pads.size(), stiffness);
+    for (std::size_t p = 0; f < basis.size() && p < task.pads.size(); ++p)
+      of_frame[p] = secant_stiffness(basis[f][p], answers.frames[f][p], stiffness);
+  }
+  return {interface_residual(felt, answered, task.coupling.smallest_wrench_n), stiffness};
 }
 
 RobotRun run_window(const TaskSpec& task, RobotModel& robot, const Window& window) {

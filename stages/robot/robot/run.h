@@ -43,7 +43,20 @@ struct WindowAnswers {
   std::vector<std::vector<double>> stiffness_n_m;  // of the spring between this answer and the next, as frames
   std::vector<double> inertia_n_m;                 // m/h² of each object of the task, h the time of a frame
   std::vector<std::vector<Matrix4>> objects;       // where the press had the rigid objects, for each frame
+  std::vector<std::vector<bool>> floats;           // whether nothing but gels touches an object, for each frame
 };
+
+/// How far a try was from what the press answered to it.
+struct TryJudgement {
+  Residual residual;
+  double stiffness_n_m = 0.0;  // of a gel, as far as known
+};
+
+/// Compares what the pads of a try felt in its window, which begins with frame `first`, with the answers to it, and
+/// gives these the springs of the next try. \param basis the answers that the try began from, empty of a first try
+/// \param stiffness_n_m of the try. \throw DataError if try and answers have not as many frames
+TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t first,
+                       const std::vector<std::vector<PadAnswer>>& basis, double stiffness_n_m, WindowAnswers& answers);
 
 struct Window {
   const RobotRun* before = nullptr;        // the task so far; none at its start
