@@ -40,18 +40,17 @@ int held_frames(const TaskSpec& task, const ObjectSpec& object) {
   return static_cast<int>(std::ceil(std::min(1e9, object.held_s / task.frame_s - 1e-9)));
 }
 
-/// A scene takes its meshes along, so that its folder may go anywhere.
-std::string mesh_of(const ObjectSpec& object) { return "meshes/" + object.name + object.mesh.extension().string(); }
-
-std::string scene_text(const TaskSpec& task, const std::vector<TaskObject>& objects, const RobotModel& robot,
-                       const std::vector<Matrix4>& object_start, int frames) {
+std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::vector<TaskObject>& objects,
+                       const RobotModel& robot, const std::vector<Matrix4>& object_start, int frames) {
   Value::List bodies;
   for (const PadSpec& pad : task.pads)
     bodies.emplace_back(Value::Map{{"name", pad.name}, {"kind", "gel"}, {"path", "paths/" + pad.name + ".npy"}});
   for (std::size_t i = 0; i < task.objects.size(); ++i) {
     const ObjectSpec& spec = task.objects[i];
-    Value::Map body{
-        {"name", spec.name}, {"kind", spec.fixed ? "fixed" : "rigid"}, {"mesh", mesh_of(spec)}, {"unit", spec.unit}};
+    Value::Map body{{"name", spec.name},
+                    {"kind", spec.fixed ? "fixed" : "rigid"},
+                    {"mesh", fs::relative(fs::absolute(spec.mesh), fs::absolute(folder)).string()},
+                    {"unit", spec.unit}};
     if (!spec.fixed) body.emplace_back("mass_g", 1e3 * objects[i].mass_kg);
     body.emplace_back("at_mm", numbers(1e3 * object_start[i].topRightCorner<3, 1>()));
     body.emplace_back("turn_deg", turn_deg(object_start[i]));
@@ -142,9 +141,8 @@ void write_outputs(Stage& stage, const TaskSpec& task, const std::vector<TaskObj
     for (const RobotFrame& frame : run.frames) add(path, frame.pad_pose[p]);
     write_npy(stage.output("paths/" + task.pads[p].name + ".npy"), {run.frames.size(), 4, 4}, path.data());
   }
-  for (const ObjectSpec& object : task.objects) write_file(stage.output(mesh_of(object)), read_file(object.mesh));
   write_file(stage.output("scene.yaml"),
-             scene_text(task, objects, robot, object_start, static_cast<int>(run.frames.size()) - 1));
+             scene_text(stage.out(), task, objects, robot, object_start, static_cast<int>(run.frames.size()) - 1));
   if (answers) {
     std::vector<double> basis;
     for (const auto& frame : answers->frames) {
