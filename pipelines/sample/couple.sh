@@ -14,29 +14,43 @@ robot=() press=()
 while [ "$1" != -- ]; do robot+=("$1"); shift; done
 shift
 press=("$@")
+exact_after=6
 mkdir -p "$out/windows" "$out/solved"
 summary() { "$bin/tacipc" get "$1/robot.yaml" "summary.$2"; }
 
-# robot_try OUT FRAMES BEFORE LAST: a try of a window, after the accepted try BEFORE and the last one of the same window; either may be empty.
+# robot_try OUT FRAMES BEFORE LAST [FLAG …]: a try of a window, after the accepted try BEFORE and the last one of the same window; either may be empty.
 # What robot refuses, a shorter window does not mend.
 robot_try() {
   local known=()
   [ -z "$3" ] || known+=(--start "$3/robot")
   if [ -n "$4" ]; then known+=(--try "$4/robot" --press "$4/press"); elif [ -n "$3" ]; then known+=(--press "$3/press"); fi
-  "$bin/robot" "${robot[@]}" --frames "$2" ${known[@]+"${known[@]}"} --out "$1" || exit $?
+  "$bin/robot" "${robot[@]}" --frames "$2" ${known[@]+"${known[@]}"} "${@:5}" --out "$1" || exit $?
 }
 
 # try_window FRAMES FOLDER: sets `accepted` to the try that both agree on; not 0 if there is none.
 try_window() {
-  local frames=$1 folder=$2 k=1 now last='' code
+  local frames=$1 folder=$2 k=1 now last='' code apart
   : > "$folder/residuals.csv"
   while :; do
     now=$folder/$(printf '%02d' "$k")
     [ -f "$now/robot/robot.yaml" ] || robot_try "$now/robot" "$frames" "$before" "$last"
     if [ -n "$last" ]; then
-      echo "$number,$frames,$(summary "$now/robot" window_first_frame),$((k - 1)),$(summary "$now/robot" residual_n),$(summary "$now/robot" residual_relative),$(summary "$now/robot" stiffness_n_m)" >> "$folder/residuals.csv"
+      # After some tries the gels' answers may jump, so that no force agrees: then the robot feels an answer as it is, and may go a little elsewhere.
+      apart=''
+      if [ "$k" -gt "$exact_after" ] && [ "$(summary "$now/robot" converged)" != true ]; then
+        rm -rf "$folder/agreed"
+        robot_try "$folder/agreed/robot" "$frames" "$before" "$last" --exact yes
+        apart=$(summary "$folder/agreed/robot" position_residual_m)
+      fi
+      echo "$number,$frames,$(summary "$now/robot" window_first_frame),$((k - 1)),$(summary "$now/robot" residual_n),$(summary "$now/robot" residual_relative),$(summary "$now/robot" stiffness_n_m),$apart" >> "$folder/residuals.csv"
       if [ "$(summary "$now/robot" converged)" = true ]; then
         accepted=$last
+        return 0
+      fi
+      if [ -n "$apart" ] && [ "$(summary "$folder/agreed/robot" converged)" = true ]; then
+        cp -rl "$last/press" "$folder/agreed/press"
+        basename "$last" > "$folder/agreed/of"
+        accepted=$folder/agreed
         return 0
       fi
       [ "$k" -le "$most" ] || return 1
@@ -85,8 +99,13 @@ for ((w = 1;; ++w)); do
   before=$folder/$accepted
   [ "$(summary "$before/robot" finished)" = false ] || break
 done
-{ echo 'window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m'; cat "$out"/windows/*/*/residuals.csv; } > "$out/residuals.csv.new"
+{ echo 'window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m,apart_m'; cat "$out"/windows/*/*/residuals.csv; } > "$out/residuals.csv.new"
 mv "$out/residuals.csv.new" "$out/residuals.csv"
 # The last accepted try has the whole motion; made once more where it is to lie, so that the paths in its files are right.
-last=$((10#${accepted##*/} - 1))
-robot_try "$out/robot" "${accepted%%/*}" "$prior" "$([ "$last" = 0 ] || printf '%s/%s/%02d' "$folder" "${accepted%%/*}" "$last")"
+frames=${accepted%%/*} last='' flags=()
+if [ -f "$before/of" ]; then
+  last=$folder/$frames/$(cat "$before/of") flags=(--exact yes)
+elif [ "${accepted##*/}" != 01 ]; then
+  last=$(printf '%s/%s/%02d' "$folder" "$frames" $((10#${accepted##*/} - 1)))
+fi
+robot_try "$out/robot" "$frames" "$prior" "$last" ${flags[@]+"${flags[@]}"}

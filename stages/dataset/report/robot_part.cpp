@@ -296,8 +296,13 @@ CouplingSum sum_of(const std::vector<CouplingTry>& tries) {
     if (same && tries[i].frames < tries[i - 1].frames) ++sum.cut;
     sum.windows += same ? 0 : 1;
     sum.most_tries = std::max(sum.most_tries, ++of_window);
-    if (i + 1 == tries.size() || tries[i + 1].window != tries[i].window)
+    if (i + 1 < tries.size() && tries[i + 1].window == tries[i].window) continue;
+    if (tries[i].apart_m) {
+      ++sum.by_position;
+      sum.apart_m = std::max(sum.apart_m, *tries[i].apart_m);
+    } else {
       sum.residual = std::max(sum.residual, tries[i].residual_relative);
+    }
   }
   return sum;
 }
@@ -308,6 +313,11 @@ std::string coupling_text(const RobotReport& robot) {
       "All {} windows converged, with {} tries in all and {} in one at most, to a residual of {:.1e} or less; the "
       "tolerance is {:g}.",
       sum.windows, sum.tries, sum.most_tries, sum.residual, robot.tolerance);
+  if (sum.by_position > 0)
+    text += fmt::format(
+        " In {} of them the gels' answers jump, so that no force agrees; there the robot felt an answer as it is, and "
+        "went at most {:.1f} µm from where the gels were.",
+        sum.by_position, 1e6 * sum.apart_m);
   if (sum.cut > 0)
     text += " A window had to be halved " + (sum.cut == 1 ? std::string("once.") : fmt::format("{} times.", sum.cut));
   return text;

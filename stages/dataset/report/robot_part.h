@@ -40,6 +40,8 @@ struct CouplingSum {
   int windows = 0, tries = 0, most_tries = 0;  // in all; of one window
   int cut = 0;                                 // windows that had to be halved
   double residual = 0.0;                       // the largest relative residual of an accepted try
+  int by_position = 0;                         // windows whose gels' answers jump: accepted by the robot's place
+  double apart_m = 0.0;                        // of these, at most
 };
 CouplingSum sum_of(const std::vector<CouplingTry>& tries);
 

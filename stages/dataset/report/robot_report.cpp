@@ -46,7 +46,9 @@ std::vector<CouplingTry> read_tries(const fs::path& file) {
                      .number = number_in<int>(table, file, "try"),
                      .residual_n = number_in<double>(table, file, "residual_n"),
                      .residual_relative = number_in<double>(table, file, "residual_relative"),
-                     .stiffness_n_m = number_in<double>(table, file, "stiffness_n_m")});
+                     .stiffness_n_m = number_in<double>(table, file, "stiffness_n_m"),
+                     .apart_m = table["apart_m"].empty() ? std::nullopt
+                                                         : std::optional(number_in<double>(table, file, "apart_m"))});
   // A window that was halved has its tries with fewer frames after those with more, whatever the order of the lines.
   std::stable_sort(tries.begin(), tries.end(), [](const CouplingTry& a, const CouplingTry& b) {
     return a.window != b.window ? a.window < b.window : a.frames > b.frames;

@@ -18,6 +18,7 @@ struct CouplingTry {
   int window = 0, frames = 0;  // its number from 1, and how many frames it has
   int number = 0;              // of the try, from 1
   double residual_n = 0.0, residual_relative = 0.0, stiffness_n_m = 0.0;
+  std::optional<double> apart_m = {};  // of gels and robot, where that felt the answer as it is
 
   bool of_one_window(const CouplingTry& other) const { return window == other.window && frames == other.frames; }
 };

@@ -31,6 +31,9 @@ const tacipc::StageSpec kRobot{
     .options = {
         {.flag = "--name", .help = "name of the run", .fallback = "robot"},
         {.flag = "--seed", .help = "of the task's variables; 0: the middle of each range", .fallback = "0"},
+        {.flag = "--exact",
+         .help = "yes: feel what --press answered to --try as it is, wherever the pads go",
+         .fallback = "no"},
         {.flag = "--frames", .help = "of the window; 0: the whole task, by MuJoCo's own contacts", .fallback = "0"}}};
 
 template <typename T>
@@ -134,6 +137,10 @@ int main(int argc, char** argv) {
     const auto last = earlier ? earlier : start;
     if (last) stiffness = Record::from_file(*last / "robot.yaml").section("summary").required_number("stiffness_n_m");
     Window window{.before = before ? &*before : nullptr, .objects_at_start = rigid_start, .frames = frames};
+    window.exact = stage.option("--exact") == "yes";
+    if (!window.exact && stage.option("--exact") != "no") throw UsageError("--exact: yes or no");
+    if (window.exact && !earlier) throw UsageError("--exact: has no effect without --try");
+    bool converged = false;
     std::optional<WindowAnswers> answers;
     if (press) answers = read_answers(*press, task, objects, first);
     if (earlier) {
@@ -141,9 +148,8 @@ int main(int argc, char** argv) {
           judge_try(task, read_run(*earlier), first, read_basis(*earlier, task.pads.size()), stiffness, *answers);
       window.answers = &*answers;
       stiffness = judged.stiffness_n_m;
-      stage.summarize({{"residual_n", judged.residual.wrench_n},
-                       {"residual_relative", judged.residual.relative},
-                       {"converged", judged.residual.relative <= task.coupling.tolerance}});
+      stage.summarize({{"residual_n", judged.residual.wrench_n}, {"residual_relative", judged.residual.relative}});
+      converged = judged.residual.relative <= task.coupling.tolerance;
     } else if (answers) {
       window.at_start = answers->frames.front();
       window.objects_at_start = answers->objects.front();
@@ -155,6 +161,11 @@ int main(int argc, char** argv) {
     }
     window.stiffness_n_m = stiffness;
     const RobotRun run = run_window(task, robot, window);
+    if (earlier) {
+      const double apart_m = position_residual_m(run, first, *answers);
+      if (window.exact) converged = apart_m <= task.coupling.position_tolerance_m;
+      stage.summarize({{"position_residual_m", apart_m}, {"converged", converged}});
+    }
     stage.summarize({{"window_first_frame", first}, {"stiffness_n_m", stiffness}, {"finished", run.finished}});
     write_outputs(stage, task, objects, robot, object_start, run, earlier ? &*answers : nullptr);
   });

@@ -92,7 +92,12 @@ class Runner {
     for (std::size_t p = 0; p < pads; ++p)
       felt_[p].torque_n_m =
           window.answers ? answer(window, frame, p).wrench.torque_n_m : window.at_start[p].wrench.torque_n_m;
-    forces = balanced_forces(end, law, forces);
+    if (window.exact) {
+      for (std::size_t p = 0; p < pads; ++p)
+        forces.segment<3>(static_cast<Eigen::Index>(3 * p)) = answer(window, frame, p).wrench.force_n;
+    } else {
+      forces = balanced_forces(end, law, forces);
+    }
     restore(start);
     set_forces(forces);
     for (int n = 0; n < per_frame_; ++n) {
@@ -314,6 +319,17 @@ TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t 
       of_frame[p] = secant_stiffness(basis[f][p], answers.frames[f][p], stiffness);
   }
   return {interface_residual(felt, answered, task.coupling.smallest_wrench_n), stiffness};
+}
+
+double position_residual_m(const RobotRun& run, std::size_t first, const WindowAnswers& answers) {
+  double farthest = 0.0;
+  for (std::size_t f = 1; f < answers.frames.size() && first + f < run.frames.size(); ++f) {
+    for (std::size_t p = 0; p < answers.frames[f].size(); ++p) {
+      const Matrix4 apart = run.frames[first + f].pad_pose[p] - answers.frames[f][p].world_from_gel;
+      farthest = std::max(farthest, apart.topRightCorner<3, 1>().norm());
+    }
+  }
+  return farthest;
 }
 
 RobotRun run_window(const TaskSpec& task, RobotModel& robot, const Window& window) {

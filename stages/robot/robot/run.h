@@ -58,6 +58,9 @@ struct TryJudgement {
 TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t first,
                        const std::vector<std::vector<PadAnswer>>& basis, double stiffness_n_m, WindowAnswers& answers);
 
+/// How far the pads of a run are from where they were answered, at most, in frames after `first`.
+double position_residual_m(const RobotRun& run, std::size_t first, const WindowAnswers& answers);
+
 struct Window {
   const RobotRun* before = nullptr;        // the task so far; none at its start
   const WindowAnswers* answers = nullptr;  // none in the first try
@@ -66,6 +69,7 @@ struct Window {
   std::vector<Matrix4> objects_at_start = {};
   int frames = 0;              // of the window, fewer if the task ends before
   double stiffness_n_m = 0.0;  // of the spring between two answers
+  bool exact = false;          // the pads feel the answers as they are, wherever they go
 };
 
 using RobotProgress = std::function<void(double time_s)>;

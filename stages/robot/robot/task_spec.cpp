@@ -143,6 +143,8 @@ TaskSpec TaskSpec::read(ConfigReader& in) {
     CouplingSpec& c = task.coupling;
     c.window_frames = coupling->integer_or("window_frames", c.window_frames, 1, 1000);
     c.tolerance = coupling->number_or("tolerance", c.tolerance, Range{.low = 0.0, .high = 0.1, .open_low = true});
+    c.position_tolerance_m =
+        1e-6 * coupling->number_or("position_tolerance_um", 1e6 * c.position_tolerance_m, Range::positive());
     c.most_tries = coupling->integer_or("most_tries", c.most_tries, 2, 100);
     c.stiffness_n_m = coupling->number_or("stiffness_n_m", c.stiffness_n_m, Range::positive());
     c.smallest_wrench_n = coupling->number_or("smallest_wrench_n", c.smallest_wrench_n, Range::positive());

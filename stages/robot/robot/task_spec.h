@@ -63,8 +63,9 @@ struct TaskStep {
 
 /// How press and robot are brought to agree.
 struct CouplingSpec {
-  int window_frames = 5;    // in a window; it and most_tries are for pipelines/sample/couple.sh
-  double tolerance = 1e-3;  // of the interface's wrench
+  int window_frames = 5;               // in a window; it and most_tries are for pipelines/sample/couple.sh
+  double tolerance = 1e-3;             // of the interface's wrench
+  double position_tolerance_m = 5e-6;  // where the gels' answers jump, so that no wrench agrees
   int most_tries = 15;
   double stiffness_n_m = 3e4;       // of a gel, for the first try; learnt from its answers
   double smallest_wrench_n = 0.02;  // residuals are not judged against less than this

@@ -95,14 +95,16 @@ TEST_F(RobotPartTest, ThePageHasTheTaskItsForcesAndTheActuatorsThatChange) {
 
 TEST_F(RobotPartTest, TriesAreSummedOverWindowsAndTheirHalves) {
   const CouplingSum sum = sum_of(robot().tries);
-  EXPECT_EQ(sum.windows, 2);
-  EXPECT_EQ(sum.tries, 5);
+  EXPECT_EQ(sum.windows, 3);
+  EXPECT_EQ(sum.tries, 7);
+  EXPECT_EQ(sum.by_position, 1);
+  EXPECT_EQ(sum.apart_m, 2.5e-6);
   EXPECT_EQ(sum.most_tries, 4);
   EXPECT_EQ(sum.cut, 1);
   EXPECT_EQ(sum.residual, 0.0015);
   const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("All 2 windows converged, with 5 tries in all and 4 in one at most, to a residual of "
-                              "1.5e-03 or less; the tolerance is 0.002. A window had to be halved once."));
+  EXPECT_THAT(html, HasSubstr("All 3 windows converged, with 7 tries in all and 4 in one at most, to a residual of "
+                              "1.5e-03 or less; the tolerance is 0.002. In 1 of them the gels' answers jump"));
   EXPECT_THAT(html, HasSubstr("tolerance 0.002</text>"));
   EXPECT_THAT(html, HasSubstr("<title>window 2 of 2 frames, try 1: 0.05</title>"));
 }

@@ -23,7 +23,7 @@ TEST(RobotReport, TellsTaskStepsDrawnValuesAndTries) {
   EXPECT_THAT(robot->variables, ElementsAre(Pair("mass_g", 50.0)));
   EXPECT_THAT(robot->steps, ElementsAre("1 grip", "2 move"));
   EXPECT_EQ(robot->tolerance, 0.002);
-  ASSERT_EQ(robot->tries.size(), 5u);
+  ASSERT_EQ(robot->tries.size(), 7u);
   EXPECT_EQ(robot->tries[1].frames, 5);  // came before those of two frames
   EXPECT_EQ(robot->tries[3].window, 2);
   EXPECT_EQ(robot->tries[3].frames, 2);

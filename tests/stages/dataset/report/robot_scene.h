@@ -21,11 +21,13 @@ seed: 7
 summary: {bodies: [arm, peg], pads: [pad], actuators: [grip, idle]}
 )";
 
-/// Of a second window that was halved: a folder named 2 is listed before 5.
+/// Of a second window that was halved: a folder named 2 is listed before 5; and of a third that was accepted for the
+/// robot's place.
 constexpr const char* kResiduals =
-    "window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m\n"
-    "0001,5,0,1,0,0,30000\n0002,2,5,1,0.1,0.05,42000\n0002,2,5,2,0.002,0.0015,43000\n"
-    "0002,5,5,1,2,0.5,40000\n0002,5,5,2,1,0.25,41000\n";
+    "window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m,apart_m\n"
+    "0001,5,0,1,0,0,30000,\n0002,2,5,1,0.1,0.05,42000,\n0002,2,5,2,0.002,0.0015,43000,\n"
+    "0002,5,5,1,2,0.5,40000,\n0002,5,5,2,1,0.25,41000,1e-4\n"
+    "0003,5,7,1,1,0.3,41000,\n0003,5,7,2,0.5,0.2,41000,2.5e-6\n";
 
 /// Folder "bodies": its robot felt 0.25 N less along x, and 2 N into the gel as the press answers.
 inline void write_robot_scene(const ScratchFolder& scratch) {

@@ -30,7 +30,7 @@ TEST_F(SceneIndexTest, EverySceneHasPicturesNumbersAndALinkToItsPage) {
   EXPECT_THAT(html, HasSubstr("<h3><a href=\"../bodies/report/index.html\">bodies</a></h3>"));
   EXPECT_THAT(html, HasSubstr("<h3>plain</h3>"));  // has no page yet
   EXPECT_THAT(html, AllOf(HasSubstr("mass_g = 50.0"), HasSubstr("<b>2.00 N</b>largest force into a gel"),
-                          HasSubstr("<b>2</b>windows, all converged")));
+                          HasSubstr("<b>3</b>windows, all converged")));
   EXPECT_THAT(html.substr(html.find("<h3>plain")), Not(HasSubstr("converged")));
   for (const char* picture : {"scene-1.png", "scene-2.png"}) {
     EXPECT_THAT(html, HasSubstr(std::string("<img src=\"") + picture));
