@@ -15,7 +15,7 @@ $(1)/choice.txt: FORCE
 	$$(call replace_if_changed,{task: $$(abspath $(3))$$(comma) sensor: $(4)$$(comma) mesh: $(5)$$(comma) press: $(6)$$(comma) seed: $(7)$$(comma) alone: $$(ALONE)})
 $(1)/robot/robot.yaml: $(3) $$(wildcard $$(dir $(3))*.xml configs/robots/*.xml) $$(OUT)/gels/$(4)-$(5)/tetmesh.yaml configs/sensors/$(4).yaml configs/press/$(6).yaml $(1)/choice.txt | build
 	$$(robot_is_built)
-	$(if $(filter yes,$(ALONE)),$$(call run,robot,--name $(2) --task $(3) --seed $(7)),\
+	$(if $(filter yes,$(ALONE)),rm -f $(1)/residuals.csv; $$(call run,robot,--name $(2) --task $(3) --seed $(7)),\
 	  OPENBLAS_NUM_THREADS=1 bash pipelines/sample/couple.sh $$(BIN) $(1) $(3) --name $(2) --task $(3) --seed $(7) -- \
 	    --name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --threads $$(THREADS))
 $(1)/press.yaml: $(1)/robot/robot.yaml | build

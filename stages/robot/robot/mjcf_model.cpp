@@ -26,6 +26,8 @@ const char* kind_name(mjtObj kind) {
       return "site";
     case mjOBJ_ACTUATOR:
       return "actuator";
+    case mjOBJ_JOINT:
+      return "joint";
     default:
       return "body";
   }
@@ -39,6 +41,8 @@ int count_of(const mjModel& m, mjtObj kind) {
       return m.nsite;
     case mjOBJ_ACTUATOR:
       return m.nu;
+    case mjOBJ_JOINT:
+      return m.njnt;
     default:
       return m.nbody;
   }
