@@ -1,5 +1,7 @@
 #include "common/sample/robot_folder.h"
 
+#include <cctype>
+
 #include "common/base/error.h"
 #include "common/format/npy_field.h"
 #include "common/stage/record.h"
@@ -144,6 +146,13 @@ RobotFolder read_robot_folder(const fs::path& folder) {
   return robot;
 }
 
-fs::path robot_shape(const fs::path& folder, const std::string& body) { return folder / "shapes" / (body + ".ply"); }
+fs::path robot_shape(const fs::path& folder, const std::string& body) {
+  // A name of a model may hold what a file's may not.
+  std::string name = body;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '_';
+  }
+  return folder / "shapes" / (name + ".ply");
+}
 
 }  // namespace tacipc

@@ -39,8 +39,7 @@ try_window() {
       apart=''
       if [ "$k" -gt "$exact_after" ] && [ "$(summary "$now/robot" converged)" != true ]; then
         rm -rf "$folder/agreed"
-        robot_try "$folder/agreed/robot" "$frames" "$before" "$last" --exact yes
-        apart=$(summary "$folder/agreed/robot" position_residual_m)
+        if (robot_try "$folder/agreed/robot" "$frames" "$before" "$last" --exact yes); then apart=$(summary "$folder/agreed/robot" position_residual_m); fi
       fi
       echo "$number,$frames,$(summary "$now/robot" window_first_frame),$((k - 1)),$(summary "$now/robot" residual_n),$(summary "$now/robot" residual_relative),$(summary "$now/robot" stiffness_n_m),$apart" >> "$folder/residuals.csv"
       if [ "$(summary "$now/robot" converged)" = true ]; then
@@ -69,6 +68,8 @@ robot_try "$out/windows/begin" "$window" '' ''
   for ((i = 0; i < ${#press[@]}; ++i)); do
     if [ "${press[i]}" = --threads ]; then i=$((i + 1)); elif [ -f "${press[i]}" ]; then sha256sum < "${press[i]}"; else echo "${press[i]}"; fi
   done
+  sha256sum < "$bin/robot"
+  sha256sum < "$bin/press"
 } > "$out/windows/of.txt.new"
 if ! cmp -s "$out/windows/of.txt.new" "$out/windows/of.txt"; then
   find "$out/windows" "$out/solved" -mindepth 1 -maxdepth 1 ! -name 'of.txt.new' -exec rm -rf {} +
@@ -88,16 +89,20 @@ for ((w = 1;; ++w)); do
     done
     # The answer's frames are the run's from here on; as links, so that a run that dies in between finds both.
     ln -f "$accepted"/press/solved/* "$out/solved/"
-    # Of the tries their records, poses and wrenches stay.
-    rm -rf "$folder"/*/*/press/{gels,soft,solved}
     echo "${accepted#"$folder"/}" > "$folder/accepted.new"
     mv "$folder/accepted.new" "$folder/accepted"
+    # Of the tries their records, poses and wrenches stay.
+    rm -rf "$folder"/*/*/press/{gels,soft,solved}
     echo "couple: window $w: $(tail -n 1 "$folder/$length/residuals.csv" | awk -F, '{ printf "frames %d to %d agree after %d tries, residual %.2g", $3 + 1, $3 + $2, $4, $6 }')"
   fi
   prior=$before
   accepted=$(cat "$folder/accepted")
   before=$folder/$accepted
-  [ "$(summary "$before/robot" finished)" = false ] || break
+  case $(summary "$before/robot" finished) in
+    true) break ;;
+    false) ;;
+    *) exit 1 ;;
+  esac
 done
 { echo 'window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m,apart_m'; cat "$out"/windows/*/*/residuals.csv; } > "$out/residuals.csv.new"
 mv "$out/residuals.csv.new" "$out/residuals.csv"

@@ -6,6 +6,9 @@ TASK  ?=#      a task of configs/tasks, or a file of your own
 ALONE ?= no#   yes: the robot moves by MuJoCo's own contacts, and the gels follow; no: it feels what the gels answer
 $(foreach v,TASK ALONE,$(eval override $(v) := $(strip $($(v)))))
 
+ifeq ($(filter yes no,$(ALONE)),)
+  $(error ALONE: yes or no)
+endif
 robot_is_built = @[ -x $(BIN)/robot ] || { echo "robot: not built for want of libmujoco-dev: make -f Makefile.data packages build GROUPS=robot" >&2; exit 2; }
 
 # $(call robot_rules,folder,name,task,sensor,mesh,press,seed): the robot in folder/robot, what its gels do in folder, the page in folder/report.

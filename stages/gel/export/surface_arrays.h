@@ -9,7 +9,7 @@
 namespace tacipc {
 
 /// surfaces/<name>/{positions,velocities,triangles}.npy of each gel, object and soft body, in the world: velocities are
-/// the way since the frame before over its time, which is what an implicit step ends with; zero in frame 0.
+/// the way since the frame before over its time; zero in frame 0.
 void write_surface_arrays(Stage& stage, const OpenScene& scene);
 
 }  // namespace tacipc

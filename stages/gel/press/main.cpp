@@ -71,7 +71,8 @@ class SolvedBytes final : public ScratchBytes {
     if (const auto file = folder_ / name(); std::filesystem::is_regular_file(file)) {
       auto bytes = tacipc::read_checked_file(file);
       if (!bytes || bytes->compare(0, identity_.size(), identity_) != 0)
-        throw tacipc::DataError("{}: is damaged, or of another gel, sensor, press file or body", file.string());
+        throw tacipc::DataError("{}: is damaged, or of another gel, sensor, press file, body or contact",
+                                file.string());
       ++next_;
       return bytes->substr(identity_.size());
     }
@@ -126,6 +127,26 @@ void read_path(const tacipc::BodySpec& spec, tacipc::SceneBody& body) {
   if (!spec.path.empty()) body.path = tacipc::read_poses(spec.path);
 }
 
+/// All that a scene says but its motion and paths.
+std::string text_of(const tacipc::SceneSpec& spec) {
+  const auto numbers = [](const auto& matrix) {
+    std::string text;
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) text += fmt::format(" {}", matrix.data()[i]);
+    return text;
+  };
+  std::string text = "gravity" + numbers(spec.gravity_m_s2);
+  for (const tacipc::BodySpec& body : spec.bodies) {
+    text += fmt::format("; {} {} {} {} {}", body.name, static_cast<int>(body.kind), body.metres_per_unit,
+                        body.mass_kg.value_or(-1.0), body.density_kg_m3) +
+            numbers(body.velocity_m_s) + numbers(body.spin_rad_s);
+    if (body.path.empty()) text += numbers(body.world_from_body);
+  }
+  for (const tacipc::ContactSpec& contact : spec.contact)
+    text += fmt::format("; {} {} {} {}", contact.between[0], contact.between[1], contact.friction.value_or(-1.0),
+                        contact.d_hat_m.value_or(-1.0));
+  return text;
+}
+
 void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacipc::PressConfig& config,
                  const tacipc::ProgressObserver& progress) {
   using namespace tacipc;
@@ -166,6 +187,7 @@ void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacip
   }
   std::string identity;
   for (const auto& [name, file] : files) identity += content_hash(file);
+  identity += text_of(spec);
   for (const BodySpec& body : spec.bodies) {
     if (!body.path.empty()) files.emplace_back("path_" + body.name, body.path);
   }

@@ -54,6 +54,10 @@ class Stepping {
       throw UsageError("constraints: augmented_lagrangian holds one gel and one object; a scene needs elimination");
     if (config.gravity_m_s2 != Vector3::Zero())
       throw UsageError("gravity_m_s2 is along the axes of one gel; a scene has it in the sample");
+    if (spec.time_step_s && *spec.time_step_s != config.time_step_s)
+      throw UsageError(
+          fmt::format("time_step_s: the paths of the scene are made for steps of {:g} s, the press file has {:g} s",
+                      *spec.time_step_s, config.time_step_s));
     if (config.mass_damping_per_s > 0.0) throw UsageError("damping.mass_per_s would hold back bodies that move");
     if (config.quasi_static && num_deformable_ > num_gels_)
       throw UsageError("dynamics: quasi_static holds only what a mount holds; soft bodies need inertia");
@@ -431,9 +435,28 @@ class Stepping {
     poses_ = frame.world_from_body;
     account_ = frame.whole;
     account_.momentum_residual_n = account_.angular_residual_n_m = 0.0;
+    require_on_path();
     log_info("frame {}/{} resumed from an interrupted run", out_.frames.size(), num_frames_);
     out_.frames.push_back(std::move(frame));
     return true;
+  }
+
+  /// Frames that were solved before may be of other paths.
+  void require_on_path() const {
+    constexpr double kApart_m = 1e-4;
+    int at = 0;
+    for (std::size_t p = 0, left = out_.frames.size(); p < spec_.motion.size() && left > 0; ++p) {
+      const auto frames = std::min(left, static_cast<std::size_t>(spec_.motion[p].steps));
+      at += static_cast<int>(frames) * spec_.motion[p].substeps;
+      left -= frames;
+    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (bodies_[b].path.empty()) continue;
+      const Matrix4 apart = poses_[b] - bodies_[b].path[static_cast<std::size_t>(at)];
+      if (apart.topRightCorner<3, 1>().norm() > kApart_m)
+        throw DataError("frame {}: body {} was solved {:.3g} mm from where its path has it: of another motion",
+                        out_.frames.size(), name(b), 1e3 * apart.topRightCorner<3, 1>().norm());
+    }
   }
 
   const std::string& name(std::size_t body) const { return spec_.bodies[body].name; }

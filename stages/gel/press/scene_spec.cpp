@@ -48,7 +48,7 @@ BodySpec read_body(ConfigReader& in) {
   }
   if (in.has("path")) {
     if (body.kind != BodyKind::gel && body.kind != BodyKind::rigid)
-      in.fault("path", "gels and rigid bodies can go along a path; a soft one goes with what it touches");
+      in.fault("path", "gels and rigid bodies can go along a path");
     for (const char* key : {"at_mm", "turn_deg", "velocity_mm_s", "spin_rad_s"}) {
       if (in.has(key)) in.fault(key, "a body with a path starts where that does, and goes as that does");
     }
@@ -136,6 +136,7 @@ SceneSpec SceneSpec::read(ConfigReader& in) {
   SceneSpec spec;
   const auto gravity = in.numbers_or("gravity_m_s2", {0.0, 0.0, -9.81});
   spec.gravity_m_s2 = {gravity[0], gravity[1], gravity[2]};
+  spec.time_step_s = in.optional_number("time_step_s", Range::positive());
   for (ConfigReader& body : in.one_or_more_sections("bodies")) {
     spec.bodies.push_back(read_body(body));
     for (std::size_t i = 0; i + 1 < spec.bodies.size(); ++i) {

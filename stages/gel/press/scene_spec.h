@@ -64,6 +64,7 @@ struct SceneSpec {
   std::vector<BodySpec> bodies;  // in the order gel, soft, rigid, fixed, each kind as the file has them
   std::vector<ContactSpec> contact;
   std::vector<ScenePhase> motion;
+  std::optional<double> time_step_s = std::nullopt;  // that paths are made for: the press file's must be the same
 
   static SceneSpec read(ConfigReader& in);
   /// How many there are of a kind.

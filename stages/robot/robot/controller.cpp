@@ -123,8 +123,11 @@ void Controller::follow(const TaskStep& step, double part, double elapsed_s) {
   const Vector3 start = start_site_.topRightCorner<3, 1>();
   Vector3 by = step.to_m ? Vector3(*step.to_m - start) : step.by_m;
   by *= part;
-  if (step.frequency_hz > 0.0)
-    by = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * step.frequency_hz * elapsed_s)) * step.shake_m;
+  if (step.frequency_hz > 0.0) {
+    // Whole periods, so that it ends at rest.
+    const double periods = std::max(1.0, std::round(step.frequency_hz * step.seconds));
+    by = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * periods * elapsed_s / step.seconds)) * step.shake_m;
+  }
   const Vector3 target = start + by;
   const Matrix3 turned = rotation_by(part * step.turn_rad) * start_site_.topLeftCorner<3, 3>();
   std::copy(start_qpos_.begin(), start_qpos_.end(), plan_->qpos);
@@ -154,7 +157,14 @@ void Controller::follow(const TaskStep& step, double part, double elapsed_s) {
   if (missing_m > kReached_m || missing_rad > kReached_rad)
     throw DataError("step {}: site {} cannot go there: at {:.3f} s {:.2g} mm and {:.2g} rad are missing", step_ + 1,
                     step.site, robot_.data().time, 1e3 * missing_m, missing_rad);
-  for (const Servo& servo : servos_) robot_.data().ctrl[servo.actuator] = plan_->qpos[m.jnt_qposadr[servo.joint]];
+  for (const Servo& servo : servos_) {
+    const double q = plan_->qpos[m.jnt_qposadr[servo.joint]];
+    const mjtNum* range = m.jnt_range + 2 * servo.joint;
+    if (m.jnt_limited[servo.joint] && (q < range[0] || q > range[1]))
+      throw DataError("step {}: site {} cannot go there: at {:.3f} s joint {} would be at {:.4g}, beyond its range",
+                      step_ + 1, step.site, robot_.data().time, robot_.name(mjOBJ_JOINT, servo.joint), q);
+    robot_.data().ctrl[servo.actuator] = q;
+  }
 }
 
 std::vector<double> Controller::state() const {

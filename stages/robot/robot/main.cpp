@@ -81,6 +81,11 @@ std::vector<tacipc::TaskObject> read_objects(tacipc::Stage& stage, const tacipc:
     TaskObject& object = objects.emplace_back();
     object.mesh = read_triangle_mesh(spec.mesh, metres_per_unit(spec.unit));
     if (spec.fixed) continue;
+    try {
+      require_solid(mass_properties(object.mesh.positions, object.mesh.triangles).second_moment_m2);
+    } catch (const DataError& error) {
+      throw DataError("object {}: {}", spec.name, error.what());
+    }
     object.mass_kg = spec.mass_kg
                          ? *spec.mass_kg
                          : spec.density_kg_m3 * mass_properties(object.mesh.positions, object.mesh.triangles).volume_m3;

@@ -90,7 +90,14 @@ RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& obje
   if (m.opt.integrator == mjINT_RK4)
     throw UsageError(fmt::format("{}: integrator RK4 does not let forces in between its stages; take Euler or implicit",
                                  task.model.string()));
-  for (const PadSpec& pad : task.pads) pad_geoms_.push_back(id(mjOBJ_GEOM, pad.geom));
+  for (const PadSpec& pad : task.pads) {
+    pad_geoms_.push_back(id(mjOBJ_GEOM, pad.geom));
+    if (m.geom_type[pad_geoms_.back()] == mjGEOM_MESH)
+      throw UsageError(
+          fmt::format("pad {}: geom {} is a mesh, whose frame MuJoCo moves to its centre and principal axes; "
+                      "take a box or a cylinder",
+                      pad.name, pad.geom));
+  }
   for (std::size_t i = 0; i < task.objects.size(); ++i) {
     const ObjectSpec& spec = task.objects[i];
     const int body = id(mjOBJ_BODY, spec.name);
@@ -117,6 +124,7 @@ RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& obje
   mj_resetData(model_.get(), data_.get());
   if (m.nkey > 0) {
     mj_resetDataKeyframe(model_.get(), data_.get(), 0);
+    data_->time = 0.0;
     for (std::size_t i = 0; i < task.objects.size(); ++i) {
       if (task.objects[i].fixed) continue;
       const int at = m.jnt_qposadr[m.body_jntadr[object_bodies_[i]]];
@@ -130,9 +138,13 @@ RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& obje
       throw UsageError(fmt::format("start: joint {} is neither a hinge nor a slide", name));
     const double q = value * (hinge ? std::numbers::pi / 180.0 : 1e-3);
     data_->qpos[m.jnt_qposadr[joint]] = q;
+    bool held = false;
     for (int a = 0; a < m.nu; ++a) {
-      if (is_servo(m, a) && m.actuator_trnid[2 * a] == joint) data_->ctrl[a] = q;
+      if (!is_servo(m, a) || m.actuator_trnid[2 * a] != joint) continue;
+      data_->ctrl[a] = q;
+      held = true;
     }
+    if (!held) log_warning("start: no position servo holds joint {}: it may leave", name);
   }
   mj_forward(model_.get(), data_.get());
 }
@@ -234,7 +246,16 @@ void RobotModel::push_pad(std::size_t pad, const Wrench& wrench) {
   }
 }
 
-void RobotModel::forget_pushes() { mju_zero(data_->xfrc_applied, 6 * model_->nbody); }
+void RobotModel::forget_pushes() {
+  mju_zero(data_->xfrc_applied, 6 * model_->nbody);
+  // Objects stay where they are put.
+  const bool weightless = (model_->opt.disableflags & mjDSBL_GRAVITY) != 0;
+  for (std::size_t i = 0; i < task_.objects.size() && !weightless; ++i) {
+    if (task_.objects[i].fixed) continue;
+    const int body = object_bodies_[i];
+    for (int k = 0; k < 3; ++k) data_->xfrc_applied[6 * body + k] = -model_->body_mass[body] * model_->opt.gravity[k];
+  }
+}
 
 Wrench RobotModel::pad_contact(std::size_t pad) const {
   const Vector3 origin = pad_pose(pad).topRightCorner<3, 1>();

@@ -79,7 +79,10 @@ std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::
     from = end;
   }
   const mjtNum* g = robot.model().opt.gravity;
-  Value::Map scene{{"gravity_m_s2", numbers({g[0], g[1], g[2]})}, {"bodies", std::move(bodies)}};
+  const bool weightless = (robot.model().opt.disableflags & mjDSBL_GRAVITY) != 0;
+  Value::Map scene{{"time_step_s", task.frame_s},
+                   {"gravity_m_s2", weightless ? numbers(Vector3::Zero()) : numbers({g[0], g[1], g[2]})},
+                   {"bodies", std::move(bodies)}};
   if (!contact.empty()) scene.emplace_back("contact", std::move(contact));
   scene.emplace_back("motion", std::move(motion));
   return to_yaml(scene);
@@ -187,6 +190,8 @@ std::vector<std::vector<PadAnswer>> read_basis(const fs::path& folder, std::size
   std::vector<std::vector<PadAnswer>> all;
   if (!fs::is_regular_file(folder / kBasis)) return all;
   const NpyArray basis = read_npy(folder / kBasis);
+  if (basis.shape.size() != 3 || basis.shape[1] != pads || basis.shape[2] != kAnswerNumbers)
+    throw DataError("{}: is of another task", (folder / kBasis).string());
   for (std::size_t at = 0; at < basis.data.size();) {
     auto& frame = all.emplace_back();
     for (std::size_t p = 0; p < pads; ++p, at += kAnswerNumbers) {

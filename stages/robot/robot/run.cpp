@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -97,6 +98,13 @@ class Runner {
         forces.segment<3>(static_cast<Eigen::Index>(3 * p)) = answer(window, frame, p).wrench.force_n;
     } else {
       forces = balanced_forces(end, law, forces);
+      // Where nothing touches, what is left of Newton's method is rounding.
+      const std::vector<Wrench> wrenches = answered(window, frame, end(forces));
+      for (std::size_t p = 0; p < pads; ++p) {
+        if (wrenches[p].force_n != Vector3::Zero()) continue;
+        forces.segment<3>(static_cast<Eigen::Index>(3 * p)).setZero();
+        felt_[p].torque_n_m.setZero();
+      }
     }
     restore(start);
     set_forces(forces);
@@ -322,11 +330,14 @@ TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t 
 }
 
 double position_residual_m(const RobotRun& run, std::size_t first, const WindowAnswers& answers) {
+  constexpr double kArm_m = 0.01;  // at which a turn counts
+  if (run.frames.size() != first + answers.frames.size()) return std::numeric_limits<double>::infinity();
   double farthest = 0.0;
-  for (std::size_t f = 1; f < answers.frames.size() && first + f < run.frames.size(); ++f) {
+  for (std::size_t f = 1; f < answers.frames.size(); ++f) {
     for (std::size_t p = 0; p < answers.frames[f].size(); ++p) {
-      const Matrix4 apart = run.frames[first + f].pad_pose[p] - answers.frames[f][p].world_from_gel;
-      farthest = std::max(farthest, apart.topRightCorner<3, 1>().norm());
+      const Matrix4 apart = answers.frames[f][p].world_from_gel.inverse() * run.frames[first + f].pad_pose[p];
+      const double turn = Eigen::AngleAxisd(Matrix3(apart.topLeftCorner<3, 3>())).angle();
+      farthest = std::max({farthest, apart.topRightCorner<3, 1>().norm(), kArm_m * turn});
     }
   }
   return farthest;

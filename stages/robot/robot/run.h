@@ -58,7 +58,8 @@ struct TryJudgement {
 TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t first,
                        const std::vector<std::vector<PadAnswer>>& basis, double stiffness_n_m, WindowAnswers& answers);
 
-/// How far the pads of a run are from where they were answered, at most, in frames after `first`.
+/// How far the pads of a run are from where they were answered, at most, in frames after `first`: of the origin of S,
+/// and of a point 10 mm beside it as the pad turns. Infinite where there are not as many frames.
 double position_residual_m(const RobotRun& run, std::size_t first, const WindowAnswers& answers);
 
 struct Window {
