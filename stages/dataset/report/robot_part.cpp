@@ -98,9 +98,13 @@ Matrix4 hand_pose(const std::vector<Matrix4>& pads) {
   return pose;
 }
 
+/// To a tenth, without a minus before a zero.
+double tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
+
 /// How far the free bodies have gone and turned as seen from the pads.
+/// \param outcomes gets a sentence for each
 std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, const std::vector<PadForces>& pads,
-                        const std::vector<Instant>& frames) {
+                        const std::vector<Instant>& frames, std::string& outcomes) {
   constexpr std::size_t kMost = 2;
   const auto from = held_from(pads);
   if (!from) return "";
@@ -108,7 +112,6 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
   chart.left_label = "gone by (mm)";
   chart.right_label = "turned by (°)";
   std::vector<std::string> names;
-  std::string outcomes;
   for (std::size_t b = 0; b < scene.bodies.size() && names.size() < kMost; ++b) {
     if (scene.kinds[b] != "rigid") continue;
     const auto in_hand = [&](std::size_t f) -> Matrix4 {
@@ -145,7 +148,7 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
           "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand and turned by {:.1f}°; it rose by "
           "{:.1f} mm, the hand by {:.1f} mm.</p>\n",
           html_text(scene.bodies[b]), kGraspOutcomes[static_cast<std::size_t>(outcome_of(motion))], 1e3 * motion.slip_m,
-          motion.turn_rad / kDegree, 1e3 * motion.rise_m, 1e3 * motion.hand_rise_m);
+          motion.turn_rad / kDegree, tenths(1e3 * motion.rise_m), tenths(1e3 * motion.hand_rise_m));
     chart.left.push_back(std::move(slip));
     chart.right.push_back(std::move(turn));
     names.push_back(scene.bodies[b]);
@@ -156,8 +159,7 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
     slips += (i > 0 ? ", " : "") + curve_key(static_cast<int>(1 + i)) + html_text(names[i]);
     turns += (i > 0 ? ", " : "") + curve_key(static_cast<int>(1 + names.size() + i)) + html_text(names[i]);
   }
-  return outcomes +
-         figure(chart, "<b>As seen from the pads</b>, since all touch and it is free: way of " + slips + "; turn of " +
+  return figure(chart, "<b>As seen from the pads</b>, since all touch and it is free: way of " + slips + "; turn of " +
                            turns + ". Of the point that was gripped; that the gels give way counts");
 }
 
@@ -342,9 +344,11 @@ std::string robot_sections(const RobotReport& robot, const SceneBodies& scene, c
         "instants\"></a><figcaption>{1}</figcaption></figure>\n",
         kRobotStrip, picture_key(scene.kinds, true));
   const std::vector<PadForces> pads = pad_forces(robot, scene);
-  html += "<div class=\"pictures\">\n";
+  std::string outcomes;
+  const std::string held = hold_figure(robot, scene, pads, frames, outcomes);
+  html += outcomes + "<div class=\"pictures\">\n";
   for (const PadForces& pad : pads) html += pad_figure(pad, frames, !robot.tries.empty());
-  html += hold_figure(robot, scene, pads, frames);
+  html += held;
   for (std::size_t a = 0; a < robot.motion.parts.actuators.size(); ++a) {
     if (changes(robot.motion, a)) html += actuator_figure(robot.motion, a, frames);
   }
