@@ -18,8 +18,10 @@ import csv, sys
 import numpy as np
 folder, weight = sys.argv[1], 9.81e-3 * float(sys.argv[2])
 rows = list(csv.DictReader(open(folder + "/residuals.csv")))
-last = {row["first_frame"]: float(row["residual_relative"]) for row in rows}
-assert max(last.values()) <= 1e-3, last
+# By force or, where answers jump, by place.
+last = {row["first_frame"]: row for row in rows}
+for row in last.values():
+    assert float(row["residual_relative"]) <= 1e-3 or float(row["apart_m"] or 1) <= 5e-6, row
 assert len(rows) <= 90, len(rows)
 # Bodies are left, right, block, table.
 wrench, pose = np.load(folder + "/press/wrench.npy"), np.load(folder + "/press/body_pose.npy")
