@@ -1,4 +1,5 @@
-// What became of a gripped object, told from its motion in the hand and from contact alone: one definition for all who ask.
+// What became of a gripped object, told from its motion in the hand and from contact alone: one definition for all who
+// ask.
 #pragma once
 
 #include <array>
@@ -22,10 +23,10 @@ struct HeldMotion {
 
 inline GraspOutcome outcome_of(const HeldMotion& held) {
   const bool left_behind = held.hand_rise_m >= kSlipped_m && held.rise_m < kDroppedPart * held.hand_rise_m;
-  return !held.touched || left_behind    ? GraspOutcome::dropped
-         : held.slip_m >= kSlipped_m     ? GraspOutcome::slipped
-         : held.turn_rad >= kTurned_rad  ? GraspOutcome::rotated
-                                         : GraspOutcome::lifted;
+  return !held.touched || left_behind   ? GraspOutcome::dropped
+         : held.slip_m >= kSlipped_m    ? GraspOutcome::slipped
+         : held.turn_rad >= kTurned_rad ? GraspOutcome::rotated
+                                        : GraspOutcome::lifted;
 }
 
 }  // namespace tacipc
