@@ -41,6 +41,9 @@ for path in sorted(glob.glob(os.path.join(pack, "shards/*.h5"))):
                 if not field["packed"]:
                     assert field["path"] not in sample
                     continue
+                if group not in sample:
+                    assert sample.attrs["absent_" + group]
+                    continue
                 if field["path"] not in sample:
                     assert sample[group].attrs["absent_" + key]
                     continue

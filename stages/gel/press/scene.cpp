@@ -296,7 +296,7 @@ class Stepping {
     const WholeInstant at_start = instant(goal.held_bodies);
     const std::vector<Matrix4> poses_before = poses_;
     const auto advance = [&] {
-      const StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
+      StepReport done = stepper_->advance(progress_.state, goal, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
       poses_ = poses;

@@ -238,7 +238,8 @@ class Runner {
     if (n % per_frame_ != 0) return;
     // Times of frames are their numbers': those of the model add up with rounding.
     RobotFrame frame;
-    frame.time_s = n / per_frame_ * task_.frame_s;
+    const int number = n / per_frame_;
+    frame.time_s = number * task_.frame_s;
     frame.step = static_cast<int>(controller_.step());
     frame.qpos.assign(d.qpos, d.qpos + m.nq);
     frame.qvel.assign(d.qvel, d.qvel + m.nv);
