@@ -142,13 +142,17 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
         .turn_rad = kDegree * turn.values.back().value_or(0.0),
         .rise_m = (at(scene.body_pose[end][b]) - at(scene.body_pose[freed][b])).z(),
         .hand_rise_m = (hand_pose(robot.motion.pad_pose[end]) - hand_pose(robot.motion.pad_pose[freed]))(2, 3)};
+    const GraspOutcome outcome = outcome_of(motion);
+    const char* word = outcome == GraspOutcome::lifted && motion.hand_rise_m < kSlipped_m
+                           ? "held"
+                           : kGraspOutcomes[static_cast<std::size_t>(outcome)];
     // A single pad holds nothing.
     if (pads.size() > 1)
       outcomes += fmt::format(
           "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand and turned by {:.1f}°; it rose by "
           "{:.1f} mm, the hand by {:.1f} mm.</p>\n",
-          html_text(scene.bodies[b]), kGraspOutcomes[static_cast<std::size_t>(outcome_of(motion))], 1e3 * motion.slip_m,
-          motion.turn_rad / kDegree, tenths(1e3 * motion.rise_m), tenths(1e3 * motion.hand_rise_m));
+          html_text(scene.bodies[b]), word, 1e3 * motion.slip_m, motion.turn_rad / kDegree, tenths(1e3 * motion.rise_m),
+          tenths(1e3 * motion.hand_rise_m));
     chart.left.push_back(std::move(slip));
     chart.right.push_back(std::move(turn));
     names.push_back(scene.bodies[b]);
