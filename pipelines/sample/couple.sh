@@ -16,6 +16,8 @@ shift
 press=("$@")
 exact_after=6
 mkdir -p "$out/windows" "$out/solved"
+exec 9> "$out/windows.lock"
+flock -n 9 || { echo "couple: another run works in $out" >&2; exit 1; }
 summary() { "$bin/tacipc" get "$1/robot.yaml" "summary.$2"; }
 
 # robot_try OUT FRAMES BEFORE LAST [FLAG …]: a try of a window, after the accepted try BEFORE and the last one of the same window; either may be empty.

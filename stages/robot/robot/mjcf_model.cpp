@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <numbers>
@@ -118,6 +119,15 @@ RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& obje
         silent.push_back(m.body_geomadr[object_bodies_[i]] + g);
     }
     for (const int geom : silent) m.geom_contype[geom] = m.geom_conaffinity[geom] = 0;
+    for (int pair = 0; pair < m.npair; ++pair) {
+      for (const int geom : {m.pair_geom1[pair], m.pair_geom2[pair]}) {
+        if (std::find(silent.begin(), silent.end(), geom) != silent.end())
+          throw UsageError(
+              fmt::format("{}: contact pair of {}: what a gel or a rigid object touches is the press's; "
+                          "leave the pair out",
+                          task.model.string(), name(mjOBJ_GEOM, geom)));
+      }
+    }
   }
   // The home keyframe, where there is one, else the zero of all joints; objects stay where the task puts them.
   mj_setConst(model_.get(), data_.get());
