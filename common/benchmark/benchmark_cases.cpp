@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/base/error.h"
+#include "common/mesh/triangle_mesh.h"
 
 namespace tacipc {
 namespace {
@@ -27,7 +28,7 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
     object.ball_radius_m = 1e-3 * *radius;
   if (in.has("mesh")) {
     object.mesh = plain(in, "mesh");
-    object.unit = in.choice("unit", {"m", "cm", "mm", "um", "in"});
+    object.unit = in.choice("unit", kLengthUnits);
     object.edge_radius_m = 1e-3 * in.number("edge_radius_mm", Range::non_negative());
   }
   if (object.ball_radius_m.has_value() != object.mesh.empty()) in.fault("mesh", "give either ball_radius_mm or mesh");

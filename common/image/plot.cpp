@@ -16,13 +16,6 @@ namespace {
 constexpr double kWidth = 480.0, kHeight = 320.0;
 constexpr PlotArea kArea{.left = 62.0, .right = 458.0, .top = 28.0, .bottom = 276.0};
 constexpr double kLine = 14.0;  // of the labels of curves, below the plot
-const AxesLook kLook{.grid = "stroke=\"#ddd\"",
-                     .axis = "fill=\"none\" stroke=\"#444\"",
-                     .x_tick = "",
-                     .y_tick = "",
-                     .x_label_below = 15.0,
-                     .y_label_left = 5.0,
-                     .decimals = 1};
 constexpr std::array<const char*, 8> kColors{"#1f5fa8", "#c2571a", "#3a8a4a", "#7a4fa0",
                                              "#b0306a", "#7d6608", "#4d9aa6", "#55555f"};
 
@@ -65,8 +58,8 @@ std::string to_svg(const Plot& plot) {
   const Scale x{cover(xs, !logarithmic), kArea.left, kArea.right, logarithmic};
   const Scale y{cover(ys, !logarithmic), kArea.bottom, kArea.top, logarithmic};
   std::string out = svg_file_start(kWidth, kHeight + kLine * static_cast<double>(plot.curves.size()), 11);
-  out += x_ticks_svg(plot_ticks(x), kArea, kLook) + y_ticks_svg(plot_ticks(y), kArea, kLook);
-  out += axes_svg(kArea, kLook);
+  out += x_ticks_svg(plot_ticks(x), kArea, file_axes()) + y_ticks_svg(plot_ticks(y), kArea, file_axes());
+  out += axes_svg(kArea, file_axes());
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const PlotCurve& curve = plot.curves[i];
     const char* color = kColors[i % kColors.size()];

@@ -27,6 +27,17 @@ std::string path_svg(const std::string& data, const std::string& look) {
 
 }  // namespace
 
+const AxesLook& file_axes() {
+  static const AxesLook kLook{.grid = "stroke=\"#ddd\"",
+                              .axis = "fill=\"none\" stroke=\"#444\"",
+                              .x_tick = "",
+                              .y_tick = "",
+                              .x_label_below = 15.0,
+                              .y_label_left = 5.0,
+                              .decimals = 1};
+  return kLook;
+}
+
 std::string svg_file_start(double width, double height, int font_size) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "

@@ -26,6 +26,9 @@ struct AxesLook {
   int decimals = 2;             // of coordinates
 };
 
+/// Of a drawing that is a file of its own.
+const AxesLook& file_axes();
+
 /// A line of the grid and its label.
 struct Tick {
   double at;  // drawing coordinate

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/types.h"
 
@@ -17,8 +18,9 @@ struct TriangleMesh {
   Eigen::Index num_triangles() const { return triangles.rows(); }
 };
 
-/// What a file's numbers mean: metres per unit.
-double metres_per_unit(const std::string& unit);  // "m", "cm", "mm", "um", "in"; \throw UsageError otherwise
+/// What a file's numbers may mean.
+inline const std::vector<std::string> kLengthUnits{"m", "cm", "mm", "um", "in"};
+double metres_per_unit(const std::string& unit);  // of one of these; \throw UsageError otherwise
 
 /// Reads a surface by the file's suffix (.stl .obj .off .ply, any case) and scales it to metres. Polygons are split
 /// into triangles (a fan from the first corner of convex ones, ear clipping of concave ones); STL corners with equal

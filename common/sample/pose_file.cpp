@@ -1,6 +1,7 @@
 #include "common/sample/pose_file.h"
 
 #include "common/base/error.h"
+#include "common/format/npy_pose.h"
 
 namespace tacipc {
 
@@ -24,8 +25,7 @@ const NpyField& ball_poses_field() {
 
 void write_poses(Stage& stage, const NpyField& field, const std::vector<Matrix4>& gel_from_object) {
   std::vector<double> values;
-  for (const Matrix4& pose : gel_from_object)
-    for (int i = 0; i < 16; ++i) values.push_back(pose(i / 4, i % 4));
+  for (const Matrix4& pose : gel_from_object) append_pose(values, pose);
   write_field(field, stage.output(field.file), {{std::get<std::string_view>(field.shape[0]), gel_from_object.size()}},
               values);
 }
@@ -38,7 +38,7 @@ std::vector<Matrix4> read_poses(const std::filesystem::path& path) {
     throw DataError("{}: holds no 4 x 4 poses", path.string());
   std::vector<Matrix4> poses;
   for (std::size_t frame = 0; frame < array.data.size() / 16; ++frame) {
-    const Matrix4 pose = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&array.data[16 * frame]);
+    const Matrix4 pose = pose_of(&array.data[16 * frame]);
     const Matrix3 rotation = pose.topLeftCorner<3, 3>();
     const bool rigid = pose.allFinite() && (rotation.transpose() * rotation - Matrix3::Identity()).norm() < 1e-6 &&
                        rotation.determinant() > 0.0 && pose.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-12);

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/format/npy_pose.h"
 #include "common/stage/record.h"
 
 namespace tacipc {
@@ -191,8 +192,7 @@ std::vector<PhaseKind> PressFolder::phases() const {
 std::vector<Matrix4> PressFolder::poses() const {
   const std::vector<double> values = whole(PressArray::object_pose);
   std::vector<Matrix4> poses;
-  for (std::size_t at = 0; at < values.size(); at += 16)
-    poses.emplace_back(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&values[at]));
+  for (std::size_t at = 0; at < values.size(); at += 16) poses.push_back(pose_of(&values[at]));
   return poses;
 }
 
@@ -265,9 +265,7 @@ void PressWriter::append(std::vector<double>& all, const std::vector<ContactStat
   for (const ContactState state : states) all.push_back(static_cast<double>(state));
 }
 
-void PressWriter::append(std::vector<double>& all, const Matrix4& pose) {
-  for (int i = 0; i < 16; ++i) all.push_back(pose(i / 4, i % 4));
-}
+void PressWriter::append(std::vector<double>& all, const Matrix4& pose) { append_pose(all, pose); }
 
 void PressWriter::append(std::vector<double>& all, const Positions& rows) {
   all.insert(all.end(), rows.data(), rows.data() + rows.size());

@@ -4,6 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/format/npy_field.h"
+#include "common/format/npy_pose.h"
 #include "common/stage/record.h"
 
 namespace tacipc {
@@ -11,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFrames = "frames", kBodies = "bodies", kPads = "pads", kActuators = "actuators",
-                           kPositions = "positions", kVelocities = "velocities";
+constexpr std::string_view kBodies = "bodies", kPads = "pads", kActuators = "actuators", kPositions = "positions",
+                           kVelocities = "velocities";
 
 const NpyField kTimes{.file = "time.npy", .shape = {kFrames}, .unit = "s"};
 const NpyField kSteps{.file = "step.npy", .type = NpyType::i4, .shape = {kFrames}};
@@ -25,89 +26,63 @@ const NpyField kBodyTwist{.file = "body_twist.npy", .shape = {kFrames, kBodies, 
 const NpyField kPadPose{.file = "pad_pose.npy", .shape = {kFrames, kPads, 4, 4}, .unit = "m"};
 const NpyField kPadWrench{.file = "pad_wrench.npy", .shape = {kFrames, kPads, 6}, .unit = "N, N m"};
 
-void add(std::vector<double>& all, const Matrix4& pose) {
-  for (int i = 0; i < 16; ++i) all.push_back(pose(i / 4, i % 4));
-}
+void add(std::vector<double>& all, double number) { all.push_back(number); }
+void add(std::vector<double>& all, const Matrix4& pose) { append_pose(all, pose); }
 void add(std::vector<double>& all, const Vector3& v) { all.insert(all.end(), v.begin(), v.end()); }
+void add(std::vector<double>& all, const Twist& twist) { add(all, twist.velocity_m_s), add(all, twist.spin_rad_s); }
+void add(std::vector<double>& all, const Wrench& wrench) { add(all, wrench.force_n), add(all, wrench.torque_n_m); }
 
-/// Rows of one frame each.
-std::vector<std::vector<double>> rows(const std::vector<double>& values, std::size_t frames) {
-  std::vector<std::vector<double>> all;
-  const std::size_t each = frames > 0 ? values.size() / frames : 0;
-  for (std::size_t f = 0; f < frames; ++f)
-    all.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(f * each),
-                     values.begin() + static_cast<std::ptrdiff_t>((f + 1) * each));
-  return all;
-}
+void take(const double*& at, double& number) { number = *at++; }
+void take(const double*& at, Matrix4& pose) { pose = pose_of(at), at += 16; }
+void take(const double*& at, Vector3& v) { v = {at[0], at[1], at[2]}, at += 3; }
+void take(const double*& at, Twist& twist) { take(at, twist.velocity_m_s), take(at, twist.spin_rad_s); }
+void take(const double*& at, Wrench& wrench) { take(at, wrench.force_n), take(at, wrench.torque_n_m); }
 
-std::vector<std::vector<Matrix4>> poses(const std::vector<double>& values, std::size_t frames) {
-  std::vector<std::vector<Matrix4>> all;
-  for (const auto& row : rows(values, frames)) {
-    auto& of_frame = all.emplace_back();
-    for (std::size_t at = 0; at < row.size(); at += 16)
-      of_frame.emplace_back(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(row.data() + at));
-  }
-  return all;
-}
-
-/// Two vectors each: linear and angular.
+/// Calls visit(field, member) for each array that has a row of things per frame.
 template <typename Visit>
-void pairs(const std::vector<double>& values, std::size_t frames, Visit&& visit) {
-  const auto by_frame = rows(values, frames);
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t at = 0; at < by_frame[f].size(); at += 6) {
-      const double* six = by_frame[f].data() + at;
-      visit(f, Vector3(six[0], six[1], six[2]), Vector3(six[3], six[4], six[5]));
-    }
-  }
+void each_row(Visit&& visit) {
+  visit(kQpos, &RobotFrame::qpos);
+  visit(kQvel, &RobotFrame::qvel);
+  visit(kControl, &RobotFrame::control);
+  visit(kActuatorForce, &RobotFrame::actuator_force);
+  visit(kBodyPose, &RobotFrame::body_pose);
+  visit(kBodyTwist, &RobotFrame::body_twist);
+  visit(kPadPose, &RobotFrame::pad_pose);
+  visit(kPadWrench, &RobotFrame::pad_wrench);
 }
 
 }  // namespace
 
 void write_robot_folder(Stage& stage, const RobotFolder& robot) {
-  const std::size_t frames = robot.times_s.size();
-  const Extents known{{kFrames, frames},
+  const std::vector<RobotFrame>& frames = robot.frames;
+  const Extents known{{kFrames, frames.size()},
                       {kBodies, robot.parts.bodies.size()},
                       {kPads, robot.parts.pads.size()},
                       {kActuators, robot.parts.actuators.size()},
-                      {kPositions, robot.qpos[0].size()},
-                      {kVelocities, robot.qvel[0].size()}};
+                      {kPositions, frames[0].qpos.size()},
+                      {kVelocities, frames[0].qvel.size()}};
   const auto write = [&](const NpyField& field, const std::vector<double>& values) {
     write_field(field, stage.output(field.file), known, values);
   };
-  const auto joined = [&](const std::vector<std::vector<double>>& all) {
-    std::vector<double> values;
-    for (const auto& row : all) values.insert(values.end(), row.begin(), row.end());
-    return values;
-  };
-  write(kTimes, robot.times_s);
-  write(kSteps, {robot.step.begin(), robot.step.end()});
-  write(kQpos, joined(robot.qpos));
-  write(kQvel, joined(robot.qvel));
-  write(kControl, joined(robot.control));
-  write(kActuatorForce, joined(robot.actuator_force));
-  std::vector<double> body_pose, body_twist, pad_pose, pad_wrench;
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (const Matrix4& pose : robot.body_pose[f]) add(body_pose, pose);
-    for (std::size_t b = 0; b < robot.parts.bodies.size(); ++b) {
-      add(body_twist, robot.body_velocity_m_s[f][b]);
-      add(body_twist, robot.body_spin_rad_s[f][b]);
-    }
-    for (const Matrix4& pose : robot.pad_pose[f]) add(pad_pose, pose);
-    for (const Wrench& wrench : robot.pad_wrench[f]) {
-      add(pad_wrench, wrench.force_n);
-      add(pad_wrench, wrench.torque_n_m);
-    }
+  std::vector<double> times, steps;
+  for (const RobotFrame& frame : frames) {
+    times.push_back(frame.time_s);
+    steps.push_back(frame.step);
   }
-  write(kBodyPose, body_pose);
-  write(kBodyTwist, body_twist);
-  write(kPadPose, pad_pose);
-  write(kPadWrench, pad_wrench);
+  write(kTimes, times);
+  write(kSteps, steps);
+  each_row([&](const NpyField& field, auto member) {
+    std::vector<double> values;
+    for (const RobotFrame& frame : frames) {
+      for (const auto& item : frame.*member) add(values, item);
+    }
+    write(field, values);
+  });
 }
 
 Value::Map robot_summary(const RobotFolder& robot) {
   const auto list = [](const std::vector<std::string>& names) { return Value::List(names.begin(), names.end()); };
-  return {{"frames", robot.times_s.size()},
+  return {{"frames", robot.frames.size()},
           {"bodies", list(robot.parts.bodies)},
           {"pads", list(robot.parts.pads)},
           {"actuators", list(robot.parts.actuators)}};
@@ -117,31 +92,27 @@ RobotFolder read_robot_folder(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "robot.yaml"))
     throw DataError("{}: has no robot.yaml, so the robot did not finish", folder.string());
   const Record summary = Record::from_file(folder / "robot.yaml").section("summary");
-  RobotFolder robot;
-  robot.parts = {summary.texts("bodies"), summary.texts("pads"), summary.texts("actuators")};
+  RobotFolder robot{.parts = {summary.texts("bodies"), summary.texts("pads"), summary.texts("actuators")},
+                    .frames = {}};
   Extents known{{kBodies, robot.parts.bodies.size()},
                 {kPads, robot.parts.pads.size()},
                 {kActuators, robot.parts.actuators.size()}};
   const auto read = [&](const NpyField& field) { return read_field(field, folder / field.file, known).data; };
-  robot.times_s = read(kTimes);
-  const std::size_t frames = robot.times_s.size();
-  if (frames == 0) throw DataError("{}: has no frames", (folder / kTimes.file).string());
-  for (const double step : read(kSteps)) robot.step.push_back(static_cast<int>(step));
-  robot.qpos = rows(read(kQpos), frames);
-  robot.qvel = rows(read(kQvel), frames);
-  robot.control = rows(read(kControl), frames);
-  robot.actuator_force = rows(read(kActuatorForce), frames);
-  robot.body_pose = poses(read(kBodyPose), frames);
-  robot.pad_pose = poses(read(kPadPose), frames);
-  robot.body_velocity_m_s.resize(frames);
-  robot.body_spin_rad_s.resize(frames);
-  robot.pad_wrench.resize(frames);
-  pairs(read(kBodyTwist), frames, [&](std::size_t f, const Vector3& velocity, const Vector3& spin) {
-    robot.body_velocity_m_s[f].push_back(velocity);
-    robot.body_spin_rad_s[f].push_back(spin);
-  });
-  pairs(read(kPadWrench), frames, [&](std::size_t f, const Vector3& force, const Vector3& torque) {
-    robot.pad_wrench[f].push_back({force, torque});
+  const std::vector<double> times = read(kTimes), steps = read(kSteps);
+  if (times.empty()) throw DataError("{}: has no frames", (folder / kTimes.file).string());
+  for (std::size_t f = 0; f < times.size(); ++f) {
+    RobotFrame& frame = robot.frames.emplace_back();
+    frame.time_s = times[f];
+    frame.step = static_cast<int>(steps[f]);
+  }
+  each_row([&](const NpyField& field, auto member) {
+    const std::vector<double> values = read(field);
+    const std::size_t items = known.at(std::get<std::string_view>(field.shape[1]));
+    const double* at = values.data();
+    for (RobotFrame& frame : robot.frames) {
+      (frame.*member).resize(items);
+      for (auto& item : frame.*member) take(at, item);
+    }
   });
   return robot;
 }

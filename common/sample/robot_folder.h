@@ -7,6 +7,7 @@
 
 #include "common/base/types.h"
 #include "common/base/wrench.h"
+#include "common/sample/press_folder.h"
 #include "common/stage/stage.h"
 
 namespace tacipc {
@@ -16,15 +17,20 @@ struct RobotParts {
   std::vector<std::string> bodies, pads, actuators;
 };
 
+/// One instant, in the world.
+struct RobotFrame {
+  double time_s = 0.0;
+  int step = 0;  // of the task
+  std::vector<double> qpos, qvel, control, actuator_force;
+  std::vector<Matrix4> body_pose;  // world_from_body of all bodies of the model but the world, m
+  std::vector<Twist> body_twist;   // of the origins of their frames
+  std::vector<Matrix4> pad_pose;   // world_from_gel, m
+  std::vector<Wrench> pad_wrench;  // as the robot felt it: on the pad, about the origin of its S
+};
+
 struct RobotFolder {
   RobotParts parts;
-  std::vector<double> times_s;
-  std::vector<int> step;                                                 // of the task, per frame
-  std::vector<std::vector<double>> qpos, qvel, control, actuator_force;  // per frame
-  std::vector<std::vector<Matrix4>> body_pose;                           // world_from_body, m
-  std::vector<std::vector<Vector3>> body_velocity_m_s, body_spin_rad_s;  // axes of the world
-  std::vector<std::vector<Matrix4>> pad_pose;                            // world_from_gel, m
-  std::vector<std::vector<Wrench>> pad_wrench;  // on each pad, about the origin of its S, axes of the world
+  std::vector<RobotFrame> frames;
 };
 
 /// Writes the arrays as outputs of a stage; names of the parts go into the record's summary, which the caller writes.

@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/format/npy_field.h"
+#include "common/format/npy_pose.h"
 #include "common/sample/press_folder.h"
 #include "common/stage/record.h"
 
@@ -27,9 +28,7 @@ const NpyField kWrenches{.file = "wrench.npy", .shape = {kFrames, kBodies, kBodi
 const NpyField kEnergies{.file = "energy.npy", .shape = {kFrames, 8}, .unit = "J"};
 const NpyField kSoftPositions{.file = "positions.npy", .shape = {kFrames, kVertices, 3}, .unit = "m"};
 
-Matrix4 pose_at(const std::vector<double>& values, std::size_t index) {
-  return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data() + 16 * index);
-}
+Matrix4 pose_at(const std::vector<double>& values, std::size_t index) { return pose_of(values.data() + 16 * index); }
 
 /// An array of the folder; what the symbols of its shape stand for is kept.
 std::vector<double> values_of(const fs::path& folder, const NpyField& field, Extents& known) {

@@ -7,6 +7,10 @@ define newline
 
 endef
 
+# $(call check_choices,SENSOR:sensors MESH:gels …): each variable is the name of a file in that folder of configs/.
+check_choices = $(foreach v,$(1),$(if $(wildcard configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml),,$(error \
+  $(firstword $(subst :, ,$(v))): there is no configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml)))
+
 .PHONY: FORCE# for targets that are looked at in every run
 
 # A file that is rewritten only when what it is to say has changed.

@@ -16,8 +16,8 @@ shift
 press=("$@")
 exact_after=6
 mkdir -p "$out/windows" "$out/solved"
-exec 9> "$out/windows.lock"
-flock -n 9 || { echo "couple: another run works in $out" >&2; exit 1; }
+exec 9> "$out/windows.lock" # which stages do not keep when this is killed
+flock -w 5 9 || { echo "couple: another run works in $out" >&2; exit 1; }
 summary() { "$bin/tacipc" get "$1/robot.yaml" "summary.$2"; }
 
 # robot_try OUT FRAMES BEFORE LAST [FLAG …]: a try of a window, after the accepted try BEFORE and the last one of the same window; either may be empty.
@@ -26,7 +26,7 @@ robot_try() {
   local known=()
   [ -z "$3" ] || known+=(--start "$3/robot")
   if [ -n "$4" ]; then known+=(--try "$4/robot" --press "$4/press"); elif [ -n "$3" ]; then known+=(--press "$3/press"); fi
-  "$bin/robot" "${robot[@]}" --frames "$2" ${known[@]+"${known[@]}"} "${@:5}" --out "$1" || exit $?
+  "$bin/robot" "${robot[@]}" --frames "$2" ${known[@]+"${known[@]}"} "${@:5}" --out "$1" 9>&- || exit $?
 }
 
 # try_window FRAMES FOLDER: sets `accepted` to the try that both agree on; not 0 if there is none.
@@ -57,7 +57,7 @@ try_window() {
       [ "$k" -le "$most" ] || return 1
     fi
     if [ ! -f "$now/press/press.yaml" ]; then
-      "$bin/press" "${press[@]}" --sample "$now/robot/scene.yaml" --solved "$out/solved" --out "$now/press" || { code=$?; [ "$code" -eq 1 ] && return 1; exit "$code"; }
+      "$bin/press" "${press[@]}" --sample "$now/robot/scene.yaml" --solved "$out/solved" --out "$now/press" 9>&- || { code=$?; [ "$code" -eq 1 ] && return 1; exit "$code"; }
     fi
     last=$now k=$((k + 1))
   done

@@ -23,11 +23,13 @@ $(1)/robot/robot.yaml: $(3) $$(wildcard $$(dir $(3))*.xml configs/robots/*.xml) 
 	    --name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --threads $$(THREADS))
 $(1)/press.yaml: $(1)/robot/robot.yaml | build
 	$$(call run,press,--name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --sample $(1)/robot/scene.yaml $(if $(filter yes,$(ALONE)),,--solved $(1)/solved))
-$(1)/rendered.txt: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) | build
-	@for pad in $$$$($$(BIN)/tacipc get $(1)/robot/robot.yaml summary.pads); do \
-	  OPENBLAS_NUM_THREADS=1 $$(BIN)/render --out $(1)/gels/$$$$pad/render --threads $$(THREADS) --press $(1)/gels/$$$$pad/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh \
-	    --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml || exit 1; done; date > $$@
-$(1)/report/report.yaml: $(1)/rendered.txt | build
+$(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) | build
+	$$(call run,render,--press $(1)/gels/$$*/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml)
+# Which gels there are.
+$(1)/pads.mk: $(3) FORCE | build
+	$$(call replace_if_changed_by,echo "robot_pads_$(2) := $$$$({ $$(BIN)/tacipc get $(3) pads --fields name 2> /dev/null || $$(BIN)/tacipc get $(3) pads.name; } | paste -s -d ' ')")
+include $(1)/pads.mk
+$(1)/report/report.yaml: $$(foreach p,$$(robot_pads_$(2)),$(1)/gels/$$(p)/render/render.yaml) | build
 	$$(call run,report,--title "$(2)" --scene $(1))
 endef
 
@@ -41,8 +43,7 @@ $(call check_name,robot_name)
 ifeq ($(wildcard $(TASK)),)
   $(error TASK: $(TASK) does not exist)
 endif
-$(foreach v,SENSOR:sensors MESH:gels PRESS:press,$(if $(wildcard configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml),,$(error \
-  $(firstword $(subst :, ,$(v))): there is no configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml)))
+$(call check_choices,SENSOR:sensors MESH:gels PRESS:press)
 useless := $(filter-out SENSOR MESH PRESS NAME,$(given)) $(if $(OBJECT),OBJECT)
 ifneq ($(strip $(useless)),)
   $(error $(firstword $(useless)): has no effect on a robot, whose task says it)

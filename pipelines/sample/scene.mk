@@ -15,8 +15,7 @@ $(call check_name,scene_name)
 ifeq ($(wildcard $(SCENE)),)
   $(error SCENE: $(SCENE) does not exist)
 endif
-$(foreach v,SENSOR:sensors MESH:gels PRESS:press SOFT:gels,$(if $(wildcard configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml),,$(error \
-  $(firstword $(subst :, ,$(v))): there is no configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml)))
+$(call check_choices,SENSOR:sensors MESH:gels PRESS:press SOFT:gels)
 useless := $(filter-out SENSOR MESH PRESS FRICTION NAME,$(given)) $(if $(OBJECT),OBJECT)
 ifneq ($(strip $(useless)),)
   $(error $(firstword $(useless)): has no effect on a scene, whose file says it)

@@ -116,7 +116,7 @@ SceneSpec plate_presses_ball_onto_gel() {
                  {.name = "plate",
                   .kind = BodyKind::rigid,
                   .world_from_body = at_height(2.0 * (kRadius + kDHat)),
-                  .mass_kg = 1.0}};
+                  .mass = {.mass_kg = 1.0}}};
   spec.motion = {{.steps = 1, .move = {{.body = 2, .way = {.shift_m = {0, 0, -kDown - 2.0 * kDHat}}}}},
                  {.steps = 5, .hold = {2}}};
   return spec;

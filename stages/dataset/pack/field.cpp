@@ -9,6 +9,7 @@
 
 #include "common/base/packed_units.h"
 #include "common/base/rounding.h"
+#include "common/format/npy_pose.h"
 
 namespace tacipc {
 namespace {
@@ -113,8 +114,7 @@ Numbers world_poses(SampleFrames& sample, std::size_t frame, const char* file, s
   Numbers all{{poses, 7}, {}};
   if (poses == 1) all.shape = {7};
   for (std::size_t p = 0; p < poses; ++p) {
-    const Numbers one =
-        pose_numbers(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data() + 16 * p).eval());
+    const Numbers one = pose_numbers(pose_of(values.data() + 16 * p));
     all.values.insert(all.values.end(), one.values.begin(), one.values.end());
   }
   return all;
@@ -221,6 +221,38 @@ std::string slip_codes() {
   using enum ContactState;
   return fmt::format("{:d} no contact, {:d} sticks, {:d} slips", static_cast<int>(none), static_cast<int>(stick),
                      static_cast<int>(slip));
+}
+
+/// Of the group's frames, (T) or (P).
+Field time_field(Section group, const char* shape) {
+  return {group,
+          "time_s",
+          f64,
+          shape,
+          "s",
+          kNone,
+          kNone,
+          "time of the frame, 0 at the first",
+          source_of(PressArray::time),
+          kSame,
+          [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.arrays().times()[f]); }};
+}
+Field phase_field(Section group, const char* shape) {
+  return {
+      group,
+      "phase",
+      u8,
+      shape,
+      "code",
+      kNone,
+      kNone,
+      "part of the motion that the frame ends or lies in",
+      source_of(PressArray::phase),
+      kSame,
+      [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(static_cast<double>(s.arrays().phases()[f])); },
+      false,
+      true,
+      {{"codes", phase_codes()}}};
 }
 
 std::vector<Field> observations() {
@@ -424,22 +456,8 @@ std::vector<Field> observations() {
        [](SampleFrames& s, std::size_t f) -> FieldData {
          return of_grasp(s, f, s.is_right_finger() ? "slip_share_right" : "slip_share_left");
        }},
-      {kObs, "time_s", f64, "(T)", "s", kNone, kNone, "time of the frame, 0 at the first", source_of(PressArray::time),
-       kSame, [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.arrays().times()[f]); }},
-      {kObs,
-       "phase",
-       u8,
-       "(T)",
-       "code",
-       kNone,
-       kNone,
-       "part of the motion that the frame ends or lies in",
-       source_of(PressArray::phase),
-       kSame,
-       [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(static_cast<double>(s.arrays().phases()[f])); },
-       false,
-       true,
-       {{"codes", phase_codes()}}},
+      time_field(kObs, "(T)"),
+      phase_field(kObs, "(T)"),
       {kObs, "frame", i32, "(T)", "count", kNone, kNone,
        "number of the frame in the press (not all need have been rendered)", "render: record", kSame,
        [](SampleFrames&, std::size_t f) -> FieldData { return scalar(static_cast<double>(f)); }}};
@@ -551,23 +569,8 @@ std::vector<Field> series() {
                  {{"quat_order", "xyzw"}}};
   };
   return {
-      {kSeries, "time_s", f64, "(P)", "s", kNone, kNone, "time of the frame, 0 at the first",
-       source_of(PressArray::time), kSame,
-       [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.arrays().times()[f]); }},
-      {kSeries,
-       "phase",
-       u8,
-       "(P)",
-       "code",
-       kNone,
-       kNone,
-       "part of the motion that the frame ends or lies in",
-       source_of(PressArray::phase),
-       kSame,
-       [](SampleFrames& s, std::size_t f) -> FieldData { return scalar(static_cast<double>(s.arrays().phases()[f])); },
-       false,
-       true,
-       {{"codes", phase_codes()}}},
+      time_field(kSeries, "(P)"),
+      phase_field(kSeries, "(P)"),
       poses("hand_pose", "(P,7)", "the world from the hand",
             "position and unit quaternion of the hand, whose origin is where the object is gripped in frame 0",
             "hand_pose.npy", 1),

@@ -58,14 +58,14 @@ std::string actuator_figure(const RobotFolder& motion, std::size_t actuator, con
   Chart chart = over_time(frames, "actuator " + name);
   // Metres of a small machine have more digits than a tick has room for.
   constexpr double kSmall = 0.1, kThousand = 1e3;
-  const auto is_small = [&](const std::vector<double>& now) { return std::abs(now[actuator]) < kSmall; };
-  const bool small = std::all_of(motion.control.begin(), motion.control.end(), is_small);
+  const auto is_small = [&](const RobotFrame& now) { return std::abs(now.control[actuator]) < kSmall; };
+  const bool small = std::all_of(motion.frames.begin(), motion.frames.end(), is_small);
   chart.left_label = small ? "control × 1000" : "control";
   chart.right_label = "force (N or N m)";
   Curve &control = chart.left.emplace_back(), &force = chart.right.emplace_back();
-  for (std::size_t f = 0; f < motion.times_s.size(); ++f) {
-    control.values.emplace_back((small ? kThousand : 1.0) * motion.control[f][actuator]);
-    force.values.emplace_back(motion.actuator_force[f][actuator]);
+  for (const RobotFrame& frame : motion.frames) {
+    control.values.emplace_back((small ? kThousand : 1.0) * frame.control[actuator]);
+    force.values.emplace_back(frame.actuator_force[actuator]);
   }
   return figure(chart,
                 fmt::format("<b>Actuator {}</b>: {}what it was told (m, rad, or what the model says), {}the force "
@@ -74,8 +74,10 @@ std::string actuator_figure(const RobotFolder& motion, std::size_t actuator, con
 }
 
 bool changes(const RobotFolder& motion, std::size_t actuator) {
-  const auto other = [&](const std::vector<double>& now) { return now[actuator] != motion.control.front()[actuator]; };
-  return std::any_of(motion.control.begin(), motion.control.end(), other);
+  const auto other = [&](const RobotFrame& now) {
+    return now.control[actuator] != motion.frames.front().control[actuator];
+  };
+  return std::any_of(motion.frames.begin(), motion.frames.end(), other);
 }
 
 /// From when on every pad that ever touches does; nothing if none does.
@@ -115,12 +117,12 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
   for (std::size_t b = 0; b < scene.bodies.size() && names.size() < kMost; ++b) {
     if (scene.kinds[b] != "rigid") continue;
     const auto in_hand = [&](std::size_t f) -> Matrix4 {
-      return hand_pose(robot.motion.pad_pose[f]).inverse() * scene.body_pose[f][b];
+      return hand_pose(robot.motion.frames[f].pad_pose).inverse() * scene.body_pose[f][b];
     };
     const auto held_s = robot.held_s.find(scene.bodies[b]);
     std::size_t freed = *from;
     while (held_s != robot.held_s.end() && freed + 1 < frames.size() &&
-           robot.motion.times_s[freed] < held_s->second - 1e-9)
+           robot.motion.frames[freed].time_s < held_s->second - 1e-9)
       ++freed;
     const Matrix4 first = in_hand(freed);
     // Its point between the pads there.
@@ -141,7 +143,8 @@ std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, cons
         .slip_m = 1e-3 * slip.values.back().value_or(0.0),
         .turn_rad = kDegree * turn.values.back().value_or(0.0),
         .rise_m = (at(scene.body_pose[end][b]) - at(scene.body_pose[freed][b])).z(),
-        .hand_rise_m = (hand_pose(robot.motion.pad_pose[end]) - hand_pose(robot.motion.pad_pose[freed]))(2, 3)};
+        .hand_rise_m =
+            (hand_pose(robot.motion.frames[end].pad_pose) - hand_pose(robot.motion.frames[freed].pad_pose))(2, 3)};
     const GraspOutcome outcome = outcome_of(motion);
     const char* word = outcome == GraspOutcome::lifted && motion.hand_rise_m < kSlipped_m
                            ? "held"
@@ -243,13 +246,13 @@ std::string swatch(const Color& color, const char* what) {
 }  // namespace
 
 std::vector<Instant> steps_over_time(const RobotReport& robot, std::vector<Instant> frames) {
-  const std::vector<int>& step = robot.motion.step;
-  if (step.size() != frames.size())
-    throw DataError("robot: has {} frames, and its scene {}", step.size(), frames.size());
+  const std::vector<RobotFrame>& moved = robot.motion.frames;
+  if (moved.size() != frames.size())
+    throw DataError("robot: has {} frames, and its scene {}", moved.size(), frames.size());
   if (robot.steps.empty()) throw DataError("robot: its task has no steps");
   for (std::size_t f = 0; f < frames.size(); ++f) {
     // After the last step there may be a frame more.
-    const auto number = std::min(static_cast<std::size_t>(std::max(0, step[f])), robot.steps.size() - 1);
+    const auto number = std::min(static_cast<std::size_t>(std::max(0, moved[f].step)), robot.steps.size() - 1);
     frames[f].phase = robot.steps[number];
   }
   return frames;
@@ -272,8 +275,8 @@ std::vector<PadForces> pad_forces(const RobotReport& robot, const SceneBodies& s
     for (std::size_t f = 0; f < scene.per_frame.size(); ++f) {
       Vector3 answer = Vector3::Zero();
       for (std::size_t by = 0; by < count; ++by) answer += scene.per_frame[f][body * count + by].force_n;
-      const Vector3& felt = robot.motion.pad_wrench.at(f).at(p).force_n;
-      const Matrix4& pose = robot.motion.pad_pose.at(f).at(p);
+      const Vector3& felt = robot.motion.frames.at(f).pad_wrench.at(p).force_n;
+      const Matrix4& pose = robot.motion.frames.at(f).pad_pose.at(p);
       pad.answered.push_back(pad_force(pose, answer));
       pad.felt.push_back(pad_force(pose, felt));
       pad.apart_n = std::max(pad.apart_n, (felt - answer).norm());

@@ -8,12 +8,12 @@
 #include "common/base/log.h"
 #include "common/mesh/mass_properties.h"
 #include "common/sample/placement.h"
+#include "common/sample/rigid_way.h"
 #include "stages/gel/press/checkpoint.h"
 #include "stages/gel/press/divided_step.h"
 #include "stages/gel/press/gel_frame.h"
 #include "stages/gel/press/grasp_labels.h"
 #include "stages/gel/press/grasp_outcome.h"
-#include "stages/gel/press/rigid_way.h"
 #include "stages/gel/press/setup.h"
 
 namespace tacipc {

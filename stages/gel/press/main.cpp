@@ -137,7 +137,7 @@ std::string text_of(const tacipc::SceneSpec& spec) {
   std::string text = "gravity" + numbers(spec.gravity_m_s2);
   for (const tacipc::BodySpec& body : spec.bodies) {
     text += fmt::format("; {} {} {} {} {}", body.name, static_cast<int>(body.kind), body.metres_per_unit,
-                        body.mass_kg.value_or(-1.0), body.density_kg_m3) +
+                        body.mass.mass_kg.value_or(-1.0), body.mass.density_kg_m3) +
             numbers(body.velocity_m_s) + numbers(body.spin_rad_s);
     if (body.path.empty()) text += numbers(body.world_from_body);
   }

@@ -7,6 +7,7 @@
 
 #include "common/base/files.h"
 #include "common/format/npy.h"
+#include "common/format/npy_pose.h"
 #include "common/sample/press_folder.h"
 #include "common/sensor/markers.h"
 #include "stages/gel/press/grasp_outcome.h"
@@ -298,20 +299,15 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   std::vector<double> time, object, twist, hand, fingers, forces, drives;
   WholeArrays whole;
   Value::List per_frame;
-  const auto add_matrix = [](std::vector<double>& all, const Matrix4& pose) {
-    for (int r = 0; r < 4; ++r) {
-      for (int c = 0; c < 4; ++c) all.push_back(pose(r, c));
-    }
-  };
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const GraspFrame& f = frames[i];
     time.push_back(f.time_s);
-    add_matrix(object, f.world_from_object);
+    append_pose(object, f.world_from_object);
     twist.insert(twist.end(), f.velocity_m_s.begin(), f.velocity_m_s.end());
     twist.insert(twist.end(), f.spin_rad_s.begin(), f.spin_rad_s.end());
-    add_matrix(hand, f.world_from_hand);
+    append_pose(hand, f.world_from_hand);
     for (std::size_t side = 0; side < 2; ++side) {
-      add_matrix(fingers, f.world_from_finger[side]);
+      append_pose(fingers, f.world_from_finger[side]);
       forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
       const FingerDrive& drive = f.drives[side];
       drives.insert(drives.end(), {drive.force_n, drive.closed_m, drive.velocity_m_s});
@@ -384,7 +380,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   };
   for (const SceneFrame& f : frames) {
     time.push_back(f.time_s);
-    for (const Matrix4& pose : f.world_from_body) add(poses, pose);
+    for (const Matrix4& pose : f.world_from_body) append_pose(poses, pose);
     for (std::size_t i = 0; i < rigid; ++i) {
       add(twists, f.velocity_m_s[i]);
       add(twists, f.spin_rad_s[i]);

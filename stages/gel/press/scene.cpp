@@ -149,8 +149,7 @@ class Stepping {
       object.positions = transformed(start_pose(b), object.positions);
       if (body.kind == BodyKind::rigid) {
         const MassProperties mass = mass_properties(object.positions, object.triangles);
-        affine_.push_back(make_affine_body(object.positions, object.triangles,
-                                           body.mass_kg ? *body.mass_kg / mass.volume_m3 : body.density_kg_m3));
+        affine_.push_back(make_affine_body(object.positions, object.triangles, body.mass.density_of(mass.volume_m3)));
       }
       objects.push_back(std::move(object));
     }

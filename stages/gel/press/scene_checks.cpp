@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/sample/rigid_way.h"
 #include "stages/gel/press/contact/intersection_check.h"
 #include "stages/gel/press/contact/near_pairs.h"
 #include "stages/gel/press/contact/surface_pairs.h"
-#include "stages/gel/press/rigid_way.h"
 #include "stages/gel/press/verdict.h"
 
 namespace tacipc {

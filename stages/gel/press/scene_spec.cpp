@@ -1,50 +1,26 @@
 #include "stages/gel/press/scene_spec.h"
 
 #include <algorithm>
-#include <cctype>
-#include <numbers>
 
 #include "common/mesh/triangle_mesh.h"
 
 namespace tacipc {
 namespace {
 
-Vector3 turn(ConfigReader& in, const std::string& key) {
-  const auto degrees = in.numbers_or(key, {0.0, 0.0, 0.0}, Range::between(-36000.0, 36000.0));
-  return std::numbers::pi / 180.0 * Vector3(degrees[0], degrees[1], degrees[2]);
-}
-
-Vector3 triple(ConfigReader& in, const std::string& key, double unit) {
-  const auto numbers = in.numbers_or(key, {0.0, 0.0, 0.0});
-  return unit * Vector3(numbers[0], numbers[1], numbers[2]);
-}
-
-/// A name is a folder's, too.
-bool is_name(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(),
-                                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
-}
-
 BodySpec read_body(ConfigReader& in) {
   BodySpec body;
-  body.name = in.text("name");
-  if (!is_name(body.name)) in.fault("name", "a name has letters, digits, _ and - alone");
+  body.name = read_body_name(in, "name");
   const std::string kind = in.choice("kind", {kBodyKinds.begin(), kBodyKinds.end()});
   body.kind = static_cast<BodyKind>(std::find(kBodyKinds.begin(), kBodyKinds.end(), kind) - kBodyKinds.begin());
   const std::filesystem::path folder = std::filesystem::path(in.source()).parent_path();
   if (body.kind != BodyKind::gel) body.mesh = folder / in.text("mesh");
   if (body.kind == BodyKind::soft) body.material = folder / in.text("material");
   if (body.kind == BodyKind::rigid || body.kind == BodyKind::fixed)
-    body.metres_per_unit = metres_per_unit(in.choice_or("unit", "m", {"m", "cm", "mm", "um", "in"}));
+    body.metres_per_unit = metres_per_unit(in.choice_or("unit", "m", kLengthUnits));
   if (body.kind == BodyKind::rigid) {
-    if (in.has("mass_g")) {
-      if (in.has("density_kg_m3")) in.fault("density_kg_m3", "give mass_g or density_kg_m3, not both");
-      body.mass_kg = 1e-3 * in.number("mass_g", Range::positive());
-    } else {
-      body.density_kg_m3 = in.number("density_kg_m3", Range::positive());
-    }
-    body.velocity_m_s = triple(in, "velocity_mm_s", 1e-3);
-    body.spin_rad_s = triple(in, "spin_rad_s", 1.0);
+    body.mass = read_body_mass(in);
+    body.velocity_m_s = read_triple(in, "velocity_mm_s", 1e-3);
+    body.spin_rad_s = read_triple(in, "spin_rad_s", 1.0);
   }
   if (in.has("path")) {
     if (body.kind != BodyKind::gel && body.kind != BodyKind::rigid)
@@ -54,7 +30,7 @@ BodySpec read_body(ConfigReader& in) {
     }
     body.path = folder / in.text("path");
   }
-  body.world_from_body = moved(Matrix4::Identity(), {triple(in, "at_mm", 1e-3), turn(in, "turn_deg")});
+  body.world_from_body = moved(Matrix4::Identity(), {read_triple(in, "at_mm", 1e-3), read_turn(in, "turn_deg")});
   return body;
 }
 
@@ -99,7 +75,7 @@ ScenePhase read_phase(ConfigReader& in, const Names& names) {
     if (names.kind(way.body) != BodyKind::gel && names.kind(way.body) != BodyKind::rigid)
       move.fault("body", "gels and rigid bodies can be moved; a soft one goes with what it touches");
     once(move, "body", way.body, twice);
-    way.way = {triple(move, "by_mm", 1e-3), turn(move, "turn_deg")};
+    way.way = {read_triple(move, "by_mm", 1e-3), read_turn(move, "turn_deg")};
     way.smooth = move.flag_or("smooth", false);
     // Halfway through a smooth way it goes 3/2 as fast.
     if ((way.smooth ? 1.5 : 1.0) * way.way.turn_rad.norm() / time_steps > kLongestTurn_rad)

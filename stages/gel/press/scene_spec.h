@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "common/config/config.h"
-#include "stages/gel/press/rigid_way.h"
+#include "common/sample/body_keys.h"
+#include "common/sample/rigid_way.h"
 
 namespace tacipc {
 
@@ -32,8 +33,7 @@ struct BodySpec {
   Matrix4 world_from_body = Matrix4::Identity();
   /// Gel or rigid: an array of poses, one for the start and one for the end of each time step, which it goes through.
   std::filesystem::path path = {};
-  std::optional<double> mass_kg = std::nullopt;  // rigid: this, or
-  double density_kg_m3 = 0.0;
+  BodyMass mass = {};                                                    // rigid
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();  // rigid: how it starts
 };
 

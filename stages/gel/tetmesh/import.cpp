@@ -95,7 +95,7 @@ void check_side(const TetMesh& mesh, const GelShape& gel, double tolerance_m, co
 
 ImportConfig ImportConfig::read(ConfigReader& in) {
   ImportConfig config;
-  config.unit_m = metres_per_unit(in.choice("unit", {"m", "cm", "mm", "um", "in"}));
+  config.unit_m = metres_per_unit(in.choice("unit", kLengthUnits));
   ConfigReader transform = in.section("transform");
   const auto scale = transform.numbers("scale", 3, Range::positive());
   config.scale = {scale[0], scale[1], scale[2]};

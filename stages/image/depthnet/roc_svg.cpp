@@ -9,13 +9,6 @@ namespace {
 
 constexpr PlotArea kArea{.left = 50.0, .right = 350.0, .top = 14.0, .bottom = 314.0};
 constexpr double kWidth = 366.0, kHeight = 412.0, kLegend = 366.0, kLine = 16.0;
-const AxesLook kLook{.grid = "stroke=\"#ddd\"",
-                     .axis = "fill=\"none\" stroke=\"#444\"",
-                     .x_tick = "",
-                     .y_tick = "",
-                     .x_label_below = 15.0,
-                     .y_label_left = 5.0,
-                     .decimals = 1};
 constexpr const char *kNetwork = "#1f5fa8", *kShuffled = "#c2571a", *kGrip = "#3a8a4a";
 constexpr int kShares = 100;  // of the x axis, where curves are averaged
 
@@ -64,8 +57,9 @@ std::string roc_svg(const OutcomeStudy& study) {
     x.push_back({x_at(0.2 * k), fmt::format("{:.1f}", 0.2 * k)});
     y.push_back({y_at(0.2 * k), fmt::format("{:.1f}", 0.2 * k)});
   }
-  std::string svg = svg_file_start(kWidth, kHeight, 11) + x_ticks_svg(x, kArea, kLook) + y_ticks_svg(y, kArea, kLook);
-  svg += axes_svg(kArea, kLook);
+  std::string svg =
+      svg_file_start(kWidth, kHeight, 11) + x_ticks_svg(x, kArea, file_axes()) + y_ticks_svg(y, kArea, file_axes());
+  svg += axes_svg(kArea, file_axes());
   svg += curve({{0.0, 0.0}, {1.0, 1.0}}, "#888", "stroke-dasharray=\"3 4\"");
   svg += curves_of(study, true, kShuffled);
   svg += curve(roc_of(study.grip_only, held_of(study.test)), kGrip, "stroke-width=\"2.5\"");

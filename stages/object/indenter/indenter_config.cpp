@@ -1,5 +1,7 @@
 #include "stages/object/indenter/indenter_config.h"
 
+#include "common/mesh/triangle_mesh.h"
+
 namespace tacipc {
 
 IndenterConfig IndenterConfig::read(ConfigReader& in) {
@@ -11,7 +13,7 @@ IndenterConfig IndenterConfig::read(ConfigReader& in) {
   }
   if (auto mesh = in.optional_section("mesh")) {
     RoundedMesh wanted;
-    wanted.unit = mesh->choice("unit", {"m", "cm", "mm", "um", "in"});
+    wanted.unit = mesh->choice("unit", kLengthUnits);
     wanted.edge_radius_m = 1e-3 * mesh->number("edge_radius_mm", Range::non_negative());
     wanted.spacing_m = 1e-3 * mesh->number("spacing_mm", Range::positive());
     wanted.relief_m = 1e-3 * mesh->number("relief_mm", Range::positive());

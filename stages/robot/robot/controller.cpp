@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "common/base/error.h"
+#include "common/format/npy_pose.h"
+#include "common/sample/rigid_way.h"
 
 namespace tacipc {
 namespace {
@@ -15,13 +17,6 @@ namespace {
 constexpr int kMostIterations = 30;
 constexpr double kNear = 1e-9, kDamping = 1e-4;
 constexpr double kReached_m = 1e-4, kReached_rad = 1e-2;
-
-double smooth_part(double s) { return s * s * (3.0 - 2.0 * s); }
-
-Matrix3 rotation_by(const Vector3& turn_rad) {
-  const double angle = turn_rad.norm();
-  return angle == 0.0 ? Matrix3(Matrix3::Identity()) : Eigen::AngleAxisd(angle, turn_rad / angle).toRotationMatrix();
-}
 
 }  // namespace
 
@@ -120,16 +115,14 @@ void Controller::act(const std::vector<double>& pads) {
 void Controller::follow(const TaskStep& step, double part, double elapsed_s) {
   const mjModel& m = robot_.model();
   const int site = robot_.id(mjOBJ_SITE, step.site);
-  const Vector3 start = start_site_.topRightCorner<3, 1>();
-  Vector3 by = step.to_m ? Vector3(*step.to_m - start) : step.by_m;
+  Vector3 by = step.to_m ? Vector3(*step.to_m - start_site_.topRightCorner<3, 1>()) : step.by_m;
   by *= part;
   if (step.frequency_hz > 0.0) {
     // Whole periods, so that it ends at rest.
     const double periods = std::max(1.0, std::round(step.frequency_hz * step.seconds));
     by = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * periods * elapsed_s / step.seconds)) * step.shake_m;
   }
-  const Vector3 target = start + by;
-  const Matrix3 turned = rotation_by(part * step.turn_rad) * start_site_.topLeftCorner<3, 3>();
+  const Matrix4 target = moved(start_site_, {by, part * step.turn_rad});
   std::copy(start_qpos_.begin(), start_qpos_.end(), plan_->qpos);
   set_servos(*plan_);
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> all(6, m.nv);
@@ -140,8 +133,8 @@ void Controller::follow(const TaskStep& step, double part, double elapsed_s) {
     mj_comPos(&m, plan_.get());
     const Matrix4 now = site_pose(*plan_, site);
     Eigen::Matrix<double, 6, 1> error;
-    error.head<3>() = target - now.topRightCorner<3, 1>();
-    const Eigen::AngleAxisd turn(Matrix3(turned * now.topLeftCorner<3, 3>().transpose()));
+    error.head<3>() = (target - now).topRightCorner<3, 1>();
+    const Eigen::AngleAxisd turn(Matrix3(target.topLeftCorner<3, 3>() * now.topLeftCorner<3, 3>().transpose()));
     error.tail<3>() = turn.angle() * turn.axis();
     missing_m = error.head<3>().norm(), missing_rad = error.tail<3>().norm();
     if (error.norm() < kNear) break;
@@ -173,7 +166,7 @@ std::vector<double> Controller::state() const {
   all.insert(all.end(), start_control_.begin(), start_control_.end());
   all.insert(all.end(), start_qpos_.begin(), start_qpos_.end());
   all.insert(all.end(), start_limit_.begin(), start_limit_.end());
-  for (int i = 0; i < 16; ++i) all.push_back(start_site_(i / 4, i % 4));
+  append_pose(all, start_site_);
   for (int a = 0; a < m.nu; ++a) {
     all.push_back(m.actuator_forcelimited[a]);
     all.insert(all.end(), {m.actuator_forcerange[2 * a], m.actuator_forcerange[2 * a + 1]});
@@ -190,7 +183,8 @@ void Controller::restore(const std::vector<double>& state) {
   for (double& value : start_control_) value = *at++;
   for (double& value : start_qpos_) value = *at++;
   for (double& value : start_limit_) value = *at++;
-  for (int i = 0; i < 16; ++i) start_site_(i / 4, i % 4) = *at++;
+  start_site_ = pose_of(&*at);
+  at += 16;
   for (int a = 0; a < m.nu; ++a) {
     m.actuator_forcelimited[a] = static_cast<mjtByte>(*at++);
     m.actuator_forcerange[2 * a] = *at++;

@@ -82,13 +82,12 @@ std::vector<tacipc::TaskObject> read_objects(tacipc::Stage& stage, const tacipc:
     object.mesh = read_triangle_mesh(spec.mesh, metres_per_unit(spec.unit));
     if (spec.fixed) continue;
     try {
-      require_solid(mass_properties(object.mesh.positions, object.mesh.triangles).second_moment_m2);
+      const MassProperties mass = mass_properties(object.mesh.positions, object.mesh.triangles);
+      require_solid(mass.second_moment_m2);
+      object.mass_kg = spec.mass.mass_of(mass.volume_m3);
     } catch (const DataError& error) {
       throw DataError("object {}: {}", spec.name, error.what());
     }
-    object.mass_kg = spec.mass_kg
-                         ? *spec.mass_kg
-                         : spec.density_kg_m3 * mass_properties(object.mesh.positions, object.mesh.triangles).volume_m3;
   }
   stage.add_inputs(files);
   return objects;

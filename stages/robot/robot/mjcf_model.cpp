@@ -13,6 +13,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/mesh/mass_properties.h"
+#include "common/sample/rigid_way.h"
 
 namespace tacipc {
 namespace {
@@ -198,11 +199,7 @@ void RobotModel::place(const ObjectSpec& spec, int body) {
     parent = pose_of(m.body_pos + 3 * up, m.body_quat + 4 * up) * parent;
   Eigen::Isometry3d pose = parent * pose_of(position, rotation);
   if (spec.at_m) pose.translation() = *spec.at_m;
-  if (spec.turn_rad) {
-    const double angle = spec.turn_rad->norm();
-    pose.linear() = angle > 0.0 ? Eigen::AngleAxisd(angle, *spec.turn_rad / angle).toRotationMatrix()
-                                : Matrix3(Matrix3::Identity());
-  }
+  if (spec.turn_rad) pose.linear() = RigidWay{.turn_rad = *spec.turn_rad}.turn();
   pose = parent.inverse() * pose;
   for (int k = 0; k < 3; ++k) position[k] = pose.translation()[k];
   to_wxyz(pose.linear(), rotation);
@@ -226,7 +223,7 @@ std::string RobotModel::name(mjtObj kind, int id) const {
 
 Matrix4 RobotModel::body_pose(int body) const { return pose_from(data_->xpos + 3 * body, data_->xmat + 9 * body); }
 
-BodyTwist RobotModel::body_twist(int body) const {
+Twist RobotModel::body_twist(int body) const {
   std::array<mjtNum, 6> twist{};
   // At the frame's origin; angular velocity comes first.
   mj_objectVelocity(model_.get(), data_.get(), mjOBJ_XBODY, body, twist.data(), 0);

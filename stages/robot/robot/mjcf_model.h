@@ -11,6 +11,7 @@
 #include "common/base/types.h"
 #include "common/base/wrench.h"
 #include "common/mesh/triangle_mesh.h"
+#include "common/sample/press_folder.h"
 #include "stages/robot/robot/task_spec.h"
 
 namespace tacipc {
@@ -18,11 +19,6 @@ namespace tacipc {
 struct ModelFree {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
   void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-/// Linear and angular velocity along axes of the world.
-struct BodyTwist {
-  Vector3 velocity_m_s, spin_rad_s;
 };
 
 /// What the press has of an object.
@@ -52,7 +48,7 @@ class RobotModel {
   std::string name(mjtObj kind, int id) const;
 
   Matrix4 body_pose(int body) const;
-  BodyTwist body_twist(int body) const;
+  Twist body_twist(int body) const;
   Matrix4 pad_pose(std::size_t pad) const;
   int object_body(std::size_t object) const { return object_bodies_[object]; }
   /// Puts a rigid object where it is, at rest.

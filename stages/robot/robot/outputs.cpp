@@ -12,6 +12,7 @@
 #include "common/base/files.h"
 #include "common/format/csv.h"
 #include "common/format/npy.h"
+#include "common/format/npy_pose.h"
 #include "common/sample/robot_folder.h"
 #include "common/sample/scene_folder.h"
 #include "common/stage/record.h"
@@ -88,12 +89,6 @@ std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::
   return to_yaml(scene);
 }
 
-void add(std::vector<double>& all, const Matrix4& pose) {
-  for (int i = 0; i < 16; ++i) all.push_back(pose(i / 4, i % 4));
-}
-
-Matrix4 pose_at(const double* values) { return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values); }
-
 // A number that can be written and mixed: nothing is met within a metre.
 constexpr double kNowhere_m = 1.0;
 
@@ -112,23 +107,7 @@ void write_outputs(Stage& stage, const TaskSpec& task, const std::vector<TaskObj
   for (int b = 1; b < m.nbody; ++b) folder.parts.bodies.push_back(robot.name(mjOBJ_BODY, b));
   for (const PadSpec& pad : task.pads) folder.parts.pads.push_back(pad.name);
   for (int a = 0; a < m.nu; ++a) folder.parts.actuators.push_back(robot.name(mjOBJ_ACTUATOR, a));
-  for (const RobotFrame& frame : run.frames) {
-    folder.times_s.push_back(frame.time_s);
-    folder.step.push_back(frame.step);
-    folder.qpos.push_back(frame.qpos);
-    folder.qvel.push_back(frame.qvel);
-    folder.control.push_back(frame.control);
-    folder.actuator_force.push_back(frame.actuator_force);
-    folder.body_pose.push_back(frame.body_pose);
-    auto& velocities = folder.body_velocity_m_s.emplace_back();
-    auto& spins = folder.body_spin_rad_s.emplace_back();
-    for (const BodyTwist& twist : frame.body_twist) {
-      velocities.push_back(twist.velocity_m_s);
-      spins.push_back(twist.spin_rad_s);
-    }
-    folder.pad_pose.push_back(frame.pad_pose);
-    folder.pad_wrench.push_back(frame.pad_wrench);
-  }
+  folder.frames = run.frames;
   write_robot_folder(stage, folder);
   for (int b = 0; b < m.nbody; ++b) {
     if (const TriangleMesh shape = shape_of_body(m, b); shape.num_triangles() > 0)
@@ -141,7 +120,7 @@ void write_outputs(Stage& stage, const TaskSpec& task, const std::vector<TaskObj
   write_npy(stage.output(kState), {run.state.size()}, run.state.data());
   for (std::size_t p = 0; p < task.pads.size(); ++p) {
     std::vector<double> path;
-    for (const RobotFrame& frame : run.frames) add(path, frame.pad_pose[p]);
+    for (const RobotFrame& frame : run.frames) append_pose(path, frame.pad_pose[p]);
     write_npy(stage.output("paths/" + task.pads[p].name + ".npy"), {run.frames.size(), 4, 4}, path.data());
   }
   write_file(stage.output("scene.yaml"),
@@ -150,7 +129,7 @@ void write_outputs(Stage& stage, const TaskSpec& task, const std::vector<TaskObj
     std::vector<double> basis;
     for (const auto& frame : answers->frames) {
       for (const PadAnswer& answer : frame) {
-        add(basis, answer.world_from_gel);
+        append_pose(basis, answer.world_from_gel);
         basis.insert(basis.end(), answer.wrench.force_n.begin(), answer.wrench.force_n.end());
         basis.insert(basis.end(), answer.wrench.torque_n_m.begin(), answer.wrench.torque_n_m.end());
         basis.push_back(answer.gap_m);
@@ -162,23 +141,8 @@ void write_outputs(Stage& stage, const TaskSpec& task, const std::vector<TaskObj
 }
 
 RobotRun read_run(const fs::path& path) {
-  const RobotFolder folder = read_robot_folder(path);
   RobotRun run;
-  for (std::size_t f = 0; f < folder.times_s.size(); ++f) {
-    RobotFrame& frame = run.frames.emplace_back();
-    frame = {.time_s = folder.times_s[f],
-             .step = folder.step[f],
-             .qpos = folder.qpos[f],
-             .qvel = folder.qvel[f],
-             .control = folder.control[f],
-             .actuator_force = folder.actuator_force[f],
-             .body_pose = folder.body_pose[f],
-             .body_twist = {},
-             .pad_pose = folder.pad_pose[f],
-             .pad_wrench = folder.pad_wrench[f]};
-    for (std::size_t b = 0; b < folder.parts.bodies.size(); ++b)
-      frame.body_twist.push_back({folder.body_velocity_m_s[f][b], folder.body_spin_rad_s[f][b]});
-  }
+  run.frames = read_robot_folder(path).frames;
   CsvReader events(path / kEvents);
   while (events.next())
     run.events.push_back({std::stod(events["time_s"]), events["first"], events["second"], events["event"] == "begins"});
@@ -196,7 +160,7 @@ std::vector<std::vector<PadAnswer>> read_basis(const fs::path& folder, std::size
     auto& frame = all.emplace_back();
     for (std::size_t p = 0; p < pads; ++p, at += kAnswerNumbers) {
       const double* n = basis.data.data() + at;
-      frame.push_back({.world_from_gel = pose_at(n),
+      frame.push_back({.world_from_gel = pose_of(n),
                        .wrench = {Vector3(n[16], n[17], n[18]), Vector3(n[19], n[20], n[21])},
                        .gap_m = n[22]});
     }

@@ -6,21 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "common/sample/robot_folder.h"
 #include "stages/robot/robot/coupling.h"
 #include "stages/robot/robot/mjcf_model.h"
 
 namespace tacipc {
-
-/// One instant, in the world.
-struct RobotFrame {
-  double time_s = 0.0;
-  int step = 0;  // of the task
-  std::vector<double> qpos, qvel, control, actuator_force;
-  std::vector<Matrix4> body_pose;     // of all bodies of the model but the world
-  std::vector<BodyTwist> body_twist;  // at the origins of their frames
-  std::vector<Matrix4> pad_pose;      // world_from_gel
-  std::vector<Wrench> pad_wrench;     // as the robot felt it: on the pad, about the origin of its S
-};
 
 /// Two geoms, or a pad and what its gel touches, begin or end to touch.
 struct ContactEvent {

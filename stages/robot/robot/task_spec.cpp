@@ -1,60 +1,31 @@
 #include "stages/robot/robot/task_spec.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <numbers>
+
+#include "common/mesh/triangle_mesh.h"
+#include "common/sample/rigid_way.h"
 
 namespace tacipc {
 namespace {
 
-const std::vector<std::string> kUnits{"m", "cm", "mm", "um", "in"};
-
-Vector3 vector_of(const std::vector<double>& numbers, double unit) {
-  return unit * Vector3(numbers[0], numbers[1], numbers[2]);
-}
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-Vector3 turn(ConfigReader& in, const std::string& key) {
-  return vector_of(in.numbers_or(key, {0.0, 0.0, 0.0}, Range::between(-36000.0, 36000.0)), kDegree);
-}
-
-/// A name is a folder's, too.
-std::string name_in(ConfigReader& in, const std::string& key) {
-  std::string name = in.text(key);
-  if (name.empty() || !std::all_of(name.begin(), name.end(),
-                                   [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; }))
-    in.fault(key, "a name has letters, digits, _ and - alone");
-  return name;
-}
-
 PadSpec read_pad(ConfigReader& in) {
-  PadSpec pad{.name = name_in(in, "name"), .geom = in.text("geom")};
-  const Vector3 angle = turn(in, "turn_deg");
-  if (angle != Vector3::Zero())
-    pad.geom_from_gel.topLeftCorner<3, 3>() = Eigen::AngleAxisd(angle.norm(), angle.normalized()).toRotationMatrix();
+  PadSpec pad{.name = read_body_name(in, "name"), .geom = in.text("geom")};
+  pad.geom_from_gel = moved(Matrix4::Identity(), {read_triple(in, "at_mm", 1e-3), read_turn(in, "turn_deg")});
   pad.radius_m = 1e-3 * in.number_or("radius_mm", 1e3 * pad.radius_m, Range::positive());
-  pad.geom_from_gel.topRightCorner<3, 1>() = vector_of(in.numbers_or("at_mm", {0.0, 0.0, 0.0}), 1e-3);
   return pad;
 }
 
 ObjectSpec read_object(ConfigReader& in, const std::filesystem::path& folder) {
-  ObjectSpec object{.name = name_in(in, "name"),
+  ObjectSpec object{.name = read_body_name(in, "name"),
                     .fixed = in.choice_or("kind", "rigid", {"rigid", "fixed"}) == "fixed",
                     .mesh = folder / in.text("mesh"),
-                    .unit = in.choice_or("unit", "m", kUnits)};
+                    .unit = in.choice_or("unit", "m", kLengthUnits)};
   if (!object.fixed) {
-    if (in.has("mass_g")) {
-      if (in.has("density_kg_m3")) in.fault("density_kg_m3", "give mass_g or density_kg_m3, not both");
-      object.mass_kg = 1e-3 * in.number("mass_g", Range::positive());
-    } else {
-      object.density_kg_m3 = in.number("density_kg_m3", Range::positive());
-    }
+    object.mass = read_body_mass(in);
     object.held_s = in.number_or("held_s", 0.0, Range::non_negative());
   }
   if (in.has("at_mm")) object.at_m = 1e-3 * in.vector3("at_mm");
-  if (in.has("turn_deg")) object.turn_rad = turn(in, "turn_deg");
+  if (in.has("turn_deg")) object.turn_rad = read_turn(in, "turn_deg");
   return object;
 }
 
@@ -95,9 +66,9 @@ TaskStep read_step(ConfigReader& in, const std::vector<PadSpec>& pads) {
       step.to_m = 1e-3 * move->vector3("to_mm");
       if (move->has("by_mm")) move->fault("by_mm", "give by_mm or to_mm, not both");
     } else {
-      step.by_m = vector_of(move->numbers_or("by_mm", {0.0, 0.0, 0.0}), 1e-3);
+      step.by_m = read_triple(*move, "by_mm", 1e-3);
     }
-    step.turn_rad = turn(*move, "turn_deg");
+    step.turn_rad = read_turn(*move, "turn_deg");
   }
   if (auto shake = in.optional_section("shake")) {
     if (!step.site.empty()) shake->fault("site", "a step moves or shakes, not both");

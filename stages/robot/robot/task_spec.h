@@ -10,6 +10,7 @@
 
 #include "common/base/types.h"
 #include "common/config/config.h"
+#include "common/sample/body_keys.h"
 
 namespace tacipc {
 
@@ -27,8 +28,7 @@ struct ObjectSpec {
   bool fixed = false;  // else rigid, on a free joint
   std::filesystem::path mesh;
   std::string unit = "m";
-  std::optional<double> mass_kg = std::nullopt;  // rigid: this, or
-  double density_kg_m3 = 0.0;
+  BodyMass mass = {};                                                   // rigid
   std::optional<Vector3> at_m = std::nullopt, turn_rad = std::nullopt;  // where it is, instead of where the model says
   double held_s = 0.0;                                                  // rigid: until then it stays where it is
 };

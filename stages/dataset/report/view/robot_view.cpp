@@ -55,7 +55,7 @@ void add_robot(SceneView& view, const RobotFolder& robot, const std::filesystem:
   };
   add(kWorld, [](std::size_t) -> Matrix4 { return Matrix4::Identity(); });
   for (std::size_t b = 0; b < robot.parts.bodies.size(); ++b)
-    add(robot.parts.bodies[b], [&](std::size_t frame) { return robot.body_pose[frame][b]; });
+    add(robot.parts.bodies[b], [&](std::size_t frame) { return robot.frames[frame].body_pose[b]; });
 }
 
 }  // namespace tacipc

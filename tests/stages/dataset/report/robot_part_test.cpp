@@ -57,7 +57,8 @@ TEST_F(RobotPartTest, StepsOfTheTaskArePhases) {
 
 TEST_F(RobotPartTest, AFrameAfterTheLastStepBelongsToIt) {
   RobotReport over = robot();
-  over.motion.step = {1, 2};
+  over.motion.frames[0].step = 1;
+  over.motion.frames[1].step = 2;
   EXPECT_EQ(steps_over_time(over, scene().frames)[1].phase, "2 move");
 }
 

@@ -41,7 +41,7 @@ TEST(SceneSpec, BodiesAreSortedByKindAndEveryValueIsInSi) {
   EXPECT_EQ(peg.mesh, "scenes/parts/peg.ply");
   EXPECT_EQ(peg.metres_per_unit, 1.0);
   EXPECT_EQ(spec.bodies[3].metres_per_unit, 1e-3);
-  EXPECT_DOUBLE_EQ(peg.mass_kg.value(), 0.02);
+  EXPECT_DOUBLE_EQ(peg.mass.mass_kg.value(), 0.02);
   Matrix4 pose;
   pose << 0, -1, 0, 1e-3, 1, 0, 0, 2e-3, 0, 0, 1, 3e-3, 0, 0, 0, 1;
   EXPECT_LT((peg.world_from_body - pose).cwiseAbs().maxCoeff(), 1e-15);

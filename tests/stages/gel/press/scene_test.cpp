@@ -11,6 +11,7 @@
 #include "common/base/error.h"
 #include "common/sample/placement.h"
 #include "stages/gel/press/energy/elasticity.h"
+#include "tests/scratch_folder.h"
 #include "tests/stages/gel/press/grasp_scene.h"
 
 namespace tacipc {
@@ -38,7 +39,7 @@ class SceneOf : public ::testing::Test {
   }
   void add_box(const std::string& name, BodyKind kind, const Vector3& place, const Vector3& half = kHalf) {
     BodySpec body{.name = name, .kind = kind, .world_from_body = at(place)};
-    if (kind == BodyKind::rigid) body.mass_kg = kBoxMass_kg;
+    if (kind == BodyKind::rigid) body.mass.mass_kg = kBoxMass_kg;
     spec_.bodies.push_back(body);
     bodies_.push_back({.surface = centered_box(half)});
   }
@@ -75,19 +76,34 @@ TEST_F(SceneOf, AGelOnAPathGoesAsOneThatIsMoved) {
   EXPECT_LT((along.gels[0].frames[4].positions - moved.gels[0].frames[4].positions).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST_F(SceneOf, FramesOfAnotherPathOrTimeStepAreRefused) {
+  add_gel("gel", at(Vector3::Zero()));
+  add_box("above", BodyKind::fixed, {0, 0, 3.1e-3});
+  const auto rise_by = [&](double way_m, int steps) {
+    bodies_[0].path.clear();
+    for (int k = 0; k <= steps; ++k) bodies_[0].path.push_back(at({0, 0, way_m * k}));
+    spec_.motion = {{.steps = steps}};
+  };
+  rise_by(1e-5, 2);
+  MemoryBytes first;
+  run(&first);
+  rise_by(1e-5, 3);
+  MemoryBytes same(first.saved);
+  EXPECT_EQ(run(&same).frames.size(), 4u);
+  rise_by(2e-4, 3);
+  MemoryBytes other(first.saved);
+  EXPECT_THAT(message_of<DataError>([&] { run(&other); }),
+              HasSubstr("frame 1: body gel was solved 0.19 mm from where its path has it"));
+  spec_.time_step_s = 0.5 * config_.time_step_s;
+  EXPECT_THAT(message_of<UsageError>([&] { run(); }), HasSubstr("time_step_s: the paths of the scene are made for"));
+}
+
 TEST_F(SceneOf, APathHasAPoseForEachTimeStep) {
   add_gel("gel", at(Vector3::Zero()));
   add_box("above", BodyKind::fixed, {0, 0, 3.1e-3});
   spec_.motion = {{.steps = 3, .substeps = 2}};
   bodies_[0].path.assign(5, Matrix4::Identity());
-  const auto said = [&] {
-    try {
-      run();
-    } catch (const DataError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto said = [&] { return message_of<DataError>([&] { run(); }); };
   EXPECT_THAT(said(), HasSubstr("body gel: its path has 5 poses; 6 time steps need 7"));
   bodies_[0].path.assign(7, Matrix4::Identity());
   bodies_[0].path[6] = at(Vector3::Zero(), {0, 0.3, 0});

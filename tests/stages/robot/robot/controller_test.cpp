@@ -106,6 +106,34 @@ TEST(Controller, ShakesAPointThereAndBack) {
   }
 }
 
+TEST(Controller, AShakeEndsAtRestWhateverItsFrequency) {
+  // 1.7 periods in its time are two.
+  Told told(mjcf(kPlate + kArm, servos(6)),
+            kArmPads + "steps:\n  - {seconds: 1, shake: {site: tool, amplitude_mm: [0, 0, 4], frequency_hz: 1.7}}\n");
+  told.at(0.0);
+  const Vector3 start = told.site().topRightCorner<3, 1>();
+  const auto height = [&](double time) {
+    told.at(time);
+    return (told.site().topRightCorner<3, 1>() - start).z();
+  };
+  EXPECT_NEAR(height(0.25), 0.004, 1e-6);
+  EXPECT_NEAR(height(0.5), 0.0, 1e-6);
+  EXPECT_NEAR(height(0.999), 0.0, 4e-7);  // ½ a t²: it arrives without a speed
+  EXPECT_NEAR(height(1.0), 0.0, 1e-9);
+}
+
+TEST(Controller, RefusesAPlaceBeyondAJointsRange) {
+  const std::string hinge = R"(<joint name="j3" axis="0 1 0")";
+  std::string arm = kArm;
+  arm.insert(arm.find(hinge) + hinge.size(), R"( limited="true" range="60 70")");
+  Told told(mjcf(kPlate + arm, servos(6)),
+            kArmPads + "steps:\n  - {seconds: 1, move: {site: tool, by_mm: [-80, 0, 0]}}\n");
+  told.at(0.0);
+  EXPECT_THAT(
+      message_of<DataError>([&] { told.at(1.0); }),
+      testing::ContainsRegex("step 1: site tool cannot go there: at 1.000 s joint j3 would be at 1\\.[0-9]+, beyond"));
+}
+
 TEST(Controller, RefusesAPlaceOutOfReachAndATurnThatItsJointsLack) {
   Told far(mjcf(kPlate + kArm, servos(6)),
            kArmPads + "steps:\n  - {seconds: 1, move: {site: tool, to_mm: [900, 0, 300]}}\n");

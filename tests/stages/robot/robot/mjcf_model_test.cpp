@@ -101,7 +101,7 @@ TEST(RobotModel, AFreeBodyTurnsAboutTheCentreOfItsMesh) {
   // Falls without turning: gravity acts at the centre.
   for (int n = 0; n < 100; ++n) mj_step(&robot.model(), &robot.data());
   mj_forward(&robot.model(), &robot.data());
-  const BodyTwist twist = robot.body_twist(robot.object_body(0));
+  const Twist twist = robot.body_twist(robot.object_body(0));
   EXPECT_LT(twist.spin_rad_s.norm(), 1e-12);
   EXPECT_NEAR(twist.velocity_m_s.z(), -9.81 * 0.1, 1e-9);
 }
@@ -160,6 +160,13 @@ TEST(RobotModel, WhatTheModelLacksOrHasInAnotherWayIsSaid) {
             file + ": body cup is to be fixed to the world");
   EXPECT_THAT(usage(mjcf(kPadBody + free_body(), "", R"(integrator="RK4")"), kPadLooksDown + cup()),
               HasSubstr("integrator RK4 does not let forces in between its stages"));
+  EXPECT_EQ(
+      usage(mjcf(R"(<body name="weight"><joint name="z" type="slide"/><geom name="pad" type="mesh" mesh="t"/></body>)" +
+                     free_body(),
+                 R"(<asset><mesh name="t" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset>)"),
+            kPadLooksDown + cup()),
+      "pad gel: geom pad is a mesh, whose frame MuJoCo moves to its centre and principal axes; take a box or a "
+      "cylinder");
   EXPECT_THAT(message.operator()<DataError>("<mujoco><worldbody><geom size=\"x\"/></worldbody></mujoco>",
                                             kPadLooksDown + cup()),
               testing::StartsWith(file + ": "));
@@ -211,6 +218,31 @@ TEST(RobotModel, CoupledItsPadsAndObjectsTouchNothing) {
   const RobotModel alone(task, {{box, 0.06}}, false), coupled(task, {{box, 0.06}}, true);
   EXPECT_GT(alone.data().ncon, 0);
   EXPECT_EQ(coupled.data().ncon, 0);
+}
+
+TEST(RobotModel, CoupledAPairThatWouldTouchAllTheSameIsRefused) {
+  const ScratchFolder folder;
+  const TaskSpec task =
+      written_task(folder, mjcf(kPadBody + free_body(), R"(<contact><pair geom1="pad" geom2="cup"/></contact>)"),
+                   kPadLooksDown + cup() + kOneStep);
+  const TriangleMesh box = make_box(-Vector3::Ones(), Vector3::Ones());
+  EXPECT_NO_THROW(RobotModel(task, {{box, 0.06}}, false));
+  EXPECT_THAT(message_of<UsageError>([&] { RobotModel(task, {{box, 0.06}}, true); }), HasSubstr("contact pair of "));
+}
+
+TEST(RobotModel, CoupledAnObjectStaysWhereItIsPut) {
+  const ScratchFolder folder;
+  const TaskSpec task = written_task(folder, mjcf(kPadBody + free_body()), kPadLooksDown + cup() + kOneStep);
+  RobotModel robot(task, {{make_box(-Vector3::Ones(), Vector3::Ones()), 0.06}}, true);
+  const Matrix4 before = robot.body_pose(robot.object_body(0));
+  for (int n = 0; n < 10; ++n) {
+    mj_step1(&robot.model(), &robot.data());
+    robot.forget_pushes();
+    mj_step2(&robot.model(), &robot.data());
+  }
+  mj_kinematics(&robot.model(), &robot.data());
+  // Free it would have fallen by half a millimetre.
+  EXPECT_LT((robot.body_pose(robot.object_body(0)) - before).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(RobotModel, PushOnAPadIsWhatMuJoCosOwnFunctionMakesOfIt) {
@@ -276,7 +308,7 @@ TEST(RobotModel, TwistIsThatOfTheFramesOriginAlongTheWorld) {
   const double velocity[6] = {1, 2, 3, 4, 5, 6};
   std::copy_n(velocity, 6, robot.data().qvel + at);
   mj_forward(&robot.model(), &robot.data());
-  const BodyTwist twist = robot.body_twist(robot.object_body(0));
+  const Twist twist = robot.body_twist(robot.object_body(0));
   EXPECT_LT((twist.velocity_m_s - Vector3(1, 2, 3)).norm(), 1e-12);
   // MuJoCo's spin of a free joint is along the body's axes: its y is z of the world, its z is −y.
   EXPECT_LT((twist.spin_rad_s - Vector3(4, -6, 5)).norm(), 1e-12);

@@ -202,6 +202,51 @@ TEST_F(Windows, ForcesLieOnTheLawOfTheLastAnswer) {
   EXPECT_GT(pressed, 10);
 }
 
+TEST_F(Windows, OneThatIsExactFeelsTheAnswersWhereverItGoes) {
+  WindowAnswers answers{.frames = {}, .stiffness_n_m = {}, .inertia_n_m = {0.0}, .objects = {}, .floats = {}};
+  for (int f = 0; f <= 4; ++f) {
+    PadAnswer answer = window(4, nullptr).at_start[0];
+    answer.wrench = {Vector3(0.1, 0, f), Vector3(0, 0.01, 0)};
+    answers.frames.push_back({answer});
+    answers.stiffness_n_m.push_back({2e4});
+    answers.objects.emplace_back();
+    answers.floats.push_back({false});
+  }
+  Window exact = window(4, nullptr);
+  exact.answers = &answers;
+  exact.exact = true;
+  RobotModel robot(task_, {{}}, true);
+  const RobotRun run = run_window(task_, robot, exact);
+  ASSERT_EQ(run.frames.size(), 5u);
+  double farthest = 0.0;
+  for (std::size_t f = 1; f < run.frames.size(); ++f) {
+    EXPECT_EQ(run.frames[f].pad_wrench[0].force_n, answers.frames[f][0].wrench.force_n);
+    EXPECT_EQ(run.frames[f].pad_wrench[0].torque_n_m, answers.frames[f][0].wrench.torque_n_m);
+    farthest = std::max(farthest, std::abs(run.frames[f].pad_pose[0](2, 3) - 0.99));
+  }
+  EXPECT_GT(farthest, 1e-4);
+  EXPECT_DOUBLE_EQ(position_residual_m(run, 0, answers), farthest);
+}
+
+TEST(PositionResidual, CountsAWayAndATurnAndWantsAsManyFrames) {
+  const auto residual = [](const Matrix4& pose, std::size_t frames) {
+    RobotRun run;
+    run.frames.resize(2);
+    for (RobotFrame& frame : run.frames) frame.pad_pose = {Matrix4::Identity()};
+    run.frames[1].pad_pose = {pose};
+    WindowAnswers answers;
+    answers.frames.assign(frames, {PadAnswer{}});
+    return position_residual_m(run, 0, answers);
+  };
+  Matrix4 away = Matrix4::Identity(), turned = Matrix4::Identity();
+  away(0, 3) = 3e-6;
+  turned.topLeftCorner<3, 3>() = Eigen::AngleAxisd(2e-3, Vector3::UnitX()).toRotationMatrix();
+  EXPECT_EQ(residual(Matrix4::Identity(), 2), 0.0);
+  EXPECT_DOUBLE_EQ(residual(away, 2), 3e-6);
+  EXPECT_NEAR(residual(turned, 2), 2e-5, 1e-10);  // of a point 10 mm away
+  EXPECT_EQ(residual(away, 3), std::numeric_limits<double>::infinity());
+}
+
 TEST_F(Windows, AStateOfAnotherModelIsRefused) {
   RobotModel robot(task_, {{}}, true);
   RobotRun run = run_window(task_, robot, window(2, nullptr));

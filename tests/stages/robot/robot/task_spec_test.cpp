@@ -32,7 +32,8 @@ TEST(TaskSpec, EveryValueIsInSiAndFilesStandBesideTheTask) {
       "  - {name: ball, mesh: ball.ply, density_kg_m3: 1000}\n"
       "  - {name: table, kind: fixed, mesh: table.ply}\n"
       "contact: [{between: [left, cup], friction: 0.4, d_hat_mm: 0.01}]\n"
-      "coupling: {window_frames: 3, tolerance: 0.01, most_tries: 7, stiffness_n_m: 5000, smallest_wrench_n: 0.1}\n"
+      "coupling: {window_frames: 3, tolerance: 0.01, most_tries: 7, stiffness_n_m: 5000, smallest_wrench_n: 0.1, "
+      "position_tolerance_um: 2}\n"
       "steps:\n"
       "  - {seconds: 0.5, set: {a: 0.1, b: -2}, limit: {a: 3}, smooth: false, until: {pad: right, force_n: 2}}\n"
       "  - {seconds: 1, move: {site: hand, by_mm: [1, 2, 3], turn_deg: [0, 90, 0]}, until: {site: hand, above_mm: 4}}\n"
@@ -52,12 +53,12 @@ TEST(TaskSpec, EveryValueIsInSiAndFilesStandBesideTheTask) {
   const ObjectSpec& cup = task.objects[0];
   EXPECT_EQ(cup.mesh, "tasks/cup.ply");
   EXPECT_EQ(cup.unit, "mm");
-  EXPECT_DOUBLE_EQ(cup.mass_kg.value(), 0.02);
+  EXPECT_DOUBLE_EQ(cup.mass.mass_kg.value(), 0.02);
   EXPECT_LT((cup.at_m.value() - Vector3(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
   EXPECT_LT((cup.turn_rad.value() - Vector3(0, 0, std::numbers::pi / 2)).norm(), 1e-15);
   EXPECT_EQ(cup.held_s, 0.3);
-  EXPECT_EQ(task.objects[1].density_kg_m3, 1000.0);
-  EXPECT_FALSE(task.objects[1].mass_kg || task.objects[1].at_m || task.objects[1].turn_rad);
+  EXPECT_EQ(task.objects[1].mass.density_kg_m3, 1000.0);
+  EXPECT_FALSE(task.objects[1].mass.mass_kg || task.objects[1].at_m || task.objects[1].turn_rad);
   EXPECT_TRUE(task.objects[2].fixed);
   ASSERT_EQ(task.contact.size(), 1u);
   EXPECT_THAT(task.contact[0].between, ElementsAre("left", "cup"));
@@ -66,6 +67,7 @@ TEST(TaskSpec, EveryValueIsInSiAndFilesStandBesideTheTask) {
   EXPECT_EQ(task.coupling.window_frames, 3);
   EXPECT_EQ(task.coupling.tolerance, 0.01);
   EXPECT_EQ(task.coupling.most_tries, 7);
+  EXPECT_DOUBLE_EQ(task.coupling.position_tolerance_m, 2e-6);
   EXPECT_EQ(task.coupling.stiffness_n_m, 5000.0);
   EXPECT_EQ(task.coupling.smallest_wrench_n, 0.1);
   ASSERT_EQ(task.steps.size(), 4u);

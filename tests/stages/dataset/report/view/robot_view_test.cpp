@@ -27,7 +27,7 @@ class RobotViewTest : public ::testing::Test {
 };
 
 TEST_F(RobotViewTest, ShapesThatTheSceneHasNotAreAddedAtTheirPoses) {
-  robot_.body_pose[1][0](0, 3) = 0.02;
+  robot_.frames[1].body_pose[0](0, 3) = 0.02;
   const std::vector<ViewedObject> objects = added();
   ASSERT_EQ(objects.size(), 2u);  // the peg is the scene's
   EXPECT_EQ(objects[0].name, "world");
@@ -48,7 +48,7 @@ TEST_F(RobotViewTest, WhatCarriesAGelEndsBehindIt) {
 }
 
 TEST_F(RobotViewTest, WhatMovesAgainstTheGelKeepsItsShape) {
-  robot_.body_pose[1][0](0, 3) = 0.02;
+  robot_.frames[1].body_pose[0](0, 3) = 0.02;
   EXPECT_NEAR(added()[1].mesh.positions(0, 2), 1e-4, 1e-12);
 }
 

@@ -1,4 +1,4 @@
-#include "stages/gel/press/rigid_way.h"
+#include "common/sample/rigid_way.h"
 
 #include <gtest/gtest.h>
 
