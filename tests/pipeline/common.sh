@@ -34,6 +34,14 @@ tiny_sample() { # tiny_sample OUT [VARIABLE=value …]
 
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
+refused() { # refused CODE MESSAGE COMMAND …: it ends with this code and says this; what it said stays in said.txt
+  local code=$1 message=$2 got=0
+  shift 2
+  "$@" > said.txt 2>&1 || got=$?
+  [ $got = "$code" ] || { tail -5 said.txt >&2; fail "$*: ended with $got instead of $code"; }
+  grep -qF -- "$message" said.txt || { tail -5 said.txt >&2; fail "$*: not said: $message"; }
+}
+
 same_files() { # same_files A B: equal trees but for logs
   diff -r --exclude='*.log' --exclude='*.timings.yaml' "$1" "$2" || fail "$1 and $2 differ"
 }

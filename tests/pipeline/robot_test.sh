@@ -105,11 +105,7 @@ echo '<mujocoinclude><site name="tip" pos="0 0 0.001"/></mujocoinclude>' > mine/
 grep -q 'window 1:' said.txt || fail "the windows of another model were taken"
 
 wrong() { # wrong CODE MESSAGE COMMAND …
-  local code=$1 message=$2 got=0
-  shift 2
-  "$@" > said.txt 2>&1 || got=$?
-  [ $got = "$code" ] || { tail -5 said.txt >&2; fail "$*: ended with $got instead of $code"; }
-  grep -qF -- "$message" said.txt || { tail -5 said.txt >&2; fail "$*: not said: $message"; }
+  refused "$@"
   ! grep -q 'does not converge' said.txt || fail "$*: taken for a window that does not converge"
 }
 apart() { (couple "$@"); }

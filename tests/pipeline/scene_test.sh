@@ -87,28 +87,21 @@ for file in body_pose.npy wrench.npy energy.npy momentum.npy soft/ball/positions
   cmp killed/$file one/scene/soft_ball/$file || fail "$file is another one after a kill"
 done
 
-wrong() { # wrong CODE MESSAGE COMMAND …
-  local code=$1 message=$2 got=0
-  shift 2
-  "$@" > said.txt 2>&1 || got=$?
-  [ $got = "$code" ] || { tail -5 said.txt >&2; fail "$*: ended with $got instead of $code"; }
-  grep -qF -- "$message" said.txt || { tail -5 said.txt >&2; fail "$*: not said: $message"; }
-}
 changed() { sed "$2" "configs/scenes/$1.yaml" > "configs/scenes/$3.yaml"; }
 changed peg_in_hole 's/body: left/body: lift/' unknown
-wrong 2 "configs/scenes/unknown.yaml:13:16: motion[0].move[0].body: 'lift' is not one of left, right, peg, hole" press five configs/scenes/unknown.yaml
+refused 2 "configs/scenes/unknown.yaml:13:16: motion[0].move[0].body: 'lift' is not one of left, right, peg, hole" press five configs/scenes/unknown.yaml
 changed peg_in_hole 's/hole\.off/gone.off/' gone
-wrong 2 'body hole: mesh: configs/scenes/meshes/gone.off does not exist' press five configs/scenes/gone.yaml
-wrong 2 'names '"'configs/scenes/meshes/gone.off'"', which does not exist' make -s -f Makefile.data scene SCENE=configs/scenes/gone.yaml MESH=tiny OUT=five BUILD="$build_dir" PACKAGES=no
-wrong 2 'body ball: configs/scenes/meshes/ball.off is a surface' press five configs/scenes/soft_ball.yaml
+refused 2 'body hole: mesh: configs/scenes/meshes/gone.off does not exist' press five configs/scenes/gone.yaml
+refused 2 'names '"'configs/scenes/meshes/gone.off'"', which does not exist' make -s -f Makefile.data scene SCENE=configs/scenes/gone.yaml MESH=tiny OUT=five BUILD="$build_dir" PACKAGES=no
+refused 2 'body ball: configs/scenes/meshes/ball.off is a surface' press five configs/scenes/soft_ball.yaml
 changed lift_block 's/at_mm: \[0, 0, -18.012\]/at_mm: [0, 0, -17.9]/' overlap
-wrong 1 'bodies block and table intersect where they begin' press five configs/scenes/overlap.yaml
+refused 1 'bodies block and table intersect where they begin' press five configs/scenes/overlap.yaml
 changed soft_ball 's#meshes/ball.off#../../one/gels/mctac-tiny/gel.msh#' no_soft
-wrong 1 'is the mesh of a gel, expected that of a soft object' press five configs/scenes/no_soft.yaml
+refused 1 'is the mesh of a gel, expected that of a soft object' press five configs/scenes/no_soft.yaml
 changed soft_ball 's#meshes/ball.off#meshes/plate.off#' other
-wrong 1 'is of another surface than configs/scenes/meshes/plate.off' press five configs/scenes/other.yaml "${soft[@]}"
-wrong 2 '--object and --object-config: the bodies of a scene are named in its file' press five configs/scenes/peg_in_hole.yaml --object configs/scenes/meshes/ball.off
-wrong 2 '--object is missing' press five configs/motions/press_0500um.yaml
+refused 1 'is of another surface than configs/scenes/meshes/plate.off' press five configs/scenes/other.yaml "${soft[@]}"
+refused 2 '--object and --object-config: the bodies of a scene are named in its file' press five configs/scenes/peg_in_hole.yaml --object configs/scenes/meshes/ball.off
+refused 2 '--object is missing' press five configs/motions/press_0500um.yaml
 [ ! -e five/press.yaml ] || fail "a wrong scene left a record"
 make_says() { wrong 2 "$1" make -s -f Makefile.data scene OUT=five BUILD="$build_dir" PACKAGES=no "${@:2}"; }
 make_says 'scene: say which scene'
