@@ -103,7 +103,7 @@ refused 1 'is of another surface than configs/scenes/meshes/plate.off' press fiv
 refused 2 '--object and --object-config: the bodies of a scene are named in its file' press five configs/scenes/peg_in_hole.yaml --object configs/scenes/meshes/ball.off
 refused 2 '--object is missing' press five configs/motions/press_0500um.yaml
 [ ! -e five/press.yaml ] || fail "a wrong scene left a record"
-make_says() { wrong 2 "$1" make -s -f Makefile.data scene OUT=five BUILD="$build_dir" PACKAGES=no "${@:2}"; }
+make_says() { refused 2 "$1" make -s -f Makefile.data scene OUT=five BUILD="$build_dir" PACKAGES=no "${@:2}"; }
 make_says 'scene: say which scene'
 make_says 'SCENE: nothing.yaml does not exist' SCENE=nothing.yaml
 make_says 'DEPTH_MM: has no effect on a scene' SCENE=configs/scenes/soft_ball.yaml DEPTH_MM=1
