@@ -104,6 +104,20 @@ echo '<mujocoinclude><site name="tip" pos="0 0 0.001"/></mujocoinclude>' > mine/
 (couple short short 1) > said.txt 2>&1
 grep -q 'window 1:' said.txt || fail "the windows of another model were taken"
 
+# The robot alone, by MuJoCo's contact with a pad that is not much softer than the gel: the gel goes where its pad did.
+sed -i 's#type="cylinder"#& solref="-300000 -1000"#' mine/slide.xml
+robot alone slide ALONE=yes || { tail -5 said.txt >&2; fail "a robot alone failed"; }
+[ "$("$bin/tacipc" get alone/robot/slide/press.yaml summary.verdict)" = pass ] || fail "the verdict of a robot alone is not pass"
+[ ! -e alone/robot/slide/residuals.csv ] || fail "a robot alone has windows"
+/usr/bin/python3 - alone/robot/slide <<'END'
+import sys
+import numpy as np
+folder = sys.argv[1]
+gel, pad = np.load(folder + "/body_pose.npy")[:, 0], np.load(folder + "/robot/pad_pose.npy")[:, 0]
+assert gel.shape == pad.shape == (31, 4, 4) and np.abs(gel - pad).max() < 1e-9, "the gel is not where the robot has it"
+assert np.load(folder + "/wrench.npy")[-1, 0, 1, 2] > 0.001, "the gel touches nothing"
+END
+
 wrong() { # wrong CODE MESSAGE COMMAND …
   refused "$@"
   ! grep -q 'does not converge' said.txt || fail "$*: taken for a window that does not converge"
