@@ -267,6 +267,12 @@ std::vector<double> ConfigReader::numbers_or(const std::string& key, std::vector
   return keep(key, values);
 }
 
+std::vector<double> ConfigReader::any_numbers(const std::string& key, const Range& range) {
+  const Node* node = find(key, false);
+  if (node && node->kind == Node::Kind::list) return numbers(key, node->items.size(), range);
+  return numbers_or(key, {}, range);
+}
+
 Vector3 ConfigReader::vector3(const std::string& key) {
   const auto values = numbers(key, 3);
   return {values[0], values[1], values[2]};

@@ -66,6 +66,8 @@ class ConfigReader {
   /// A list of different words, each one of `options`.
   std::vector<std::string> choices_or(const std::string& key, std::vector<std::string> fallback,
                                       const std::vector<std::string>& options);
+  /// A list of any number of numbers (empty where the key is absent).
+  std::vector<double> any_numbers(const std::string& key, const Range& range = Range::any());
   /// A list of words (empty where the key is absent).
   std::vector<std::string> texts(const std::string& key);
 

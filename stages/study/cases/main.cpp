@@ -4,6 +4,7 @@
 #include "common/base/files.h"
 #include "common/stage/stage.h"
 #include "stages/study/cases/case_files.h"
+#include "stages/study/cases/identify_files.h"
 #include "stages/study/cases/marker_files.h"
 
 namespace {
@@ -12,20 +13,22 @@ using namespace tacipc;
 
 const StageSpec kCases{
     .name = "cases",
-    .summary = "Write the inputs of the stages from the one file of a benchmark against photographs.",
+    .summary = "Write the inputs of the stages from the one file of a benchmark or of an identification.",
     .inputs = {{.flag = "--config", .help = "the benchmark (YAML)"},
                {.flag = "--circles",
                 .help = "contact circles of its photographs (CSV), where it names them",
                 .required = false}}};
 
-/// Photographs, or marker vectors (`fields`) measured in them.
+/// Photographs, marker vectors (`fields`) measured in them, or `measurements` that tell a sensor's mechanics.
 struct Benchmark {
   std::optional<BenchmarkCases> photographs;
   std::optional<MarkerBenchmark> markers;
+  std::optional<IdentifySpec> identify;
 
   static Benchmark read(ConfigReader& in) {
-    if (in.has("fields")) return {.photographs = {}, .markers = MarkerBenchmark::read(in)};
-    return {.photographs = BenchmarkCases::read(in), .markers = {}};
+    if (in.has("measurements")) return {.photographs = {}, .markers = {}, .identify = IdentifySpec::read(in)};
+    if (in.has("fields")) return {.photographs = {}, .markers = MarkerBenchmark::read(in), .identify = {}};
+    return {.photographs = BenchmarkCases::read(in), .markers = {}, .identify = {}};
   }
 };
 
@@ -35,8 +38,15 @@ int main(int argc, char** argv) {
   return run_stage(kCases, argc, argv, [](Stage& stage) {
     const auto benchmark = stage.read_config<Benchmark>("--config");
     const std::string folder = stage.input("--config").parent_path().generic_string();
+    if ((benchmark.markers || benchmark.identify) && stage.optional_input("--circles"))
+      throw UsageError("--circles: the benchmark names no circles");
+    if (benchmark.identify) {
+      const IdentifySpec& spec = *benchmark.identify;
+      for (const auto& [name, content] : identify_files(spec, folder)) write_file(stage.output(name), content);
+      stage.summarize({{"nodes", spec.nodes().size()}, {"measurements", spec.measurements.size()}});
+      return;
+    }
     if (benchmark.markers) {
-      if (stage.optional_input("--circles")) throw UsageError("--circles: the benchmark names no circles");
       for (const auto& [name, content] : marker_files(*benchmark.markers, folder))
         write_file(stage.output(name), content);
       stage.summarize({{"depths", benchmark.markers->depths}, {"variants", benchmark.markers->variants.size()}});

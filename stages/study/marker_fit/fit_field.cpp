@@ -84,13 +84,13 @@ FieldFit fit_field(const PressedRuns& runs, const MeasuredPressAndShear& measure
   const Eigen::Matrix2Xd press_places = from_axis(measured.press, assumed);
   const Eigen::Matrix2Xd shear_places = from_axis(measured.shear, assumed);
   const auto pressed_px = [&](double depth_m) {
-    Eigen::Matrix2Xd px = assumed.px_per_m * runs.pressed(press_places, depth_m);
+    Eigen::Matrix2Xd px = assumed.px_per_m * runs.pressed(press_places, depth_m).topRows<2>();
     if (benchmark.remove_press_median) remove_median(px);
     return px;
   };
   FieldFit fit;
   const auto sheared_px = [&](double way_m) {
-    Eigen::Matrix2Xd px = assumed.px_per_m * runs.sheared(shear_places, fit.depth_m, way_m);
+    Eigen::Matrix2Xd px = assumed.px_per_m * runs.sheared(shear_places, fit.depth_m, way_m).topRows<2>();
     if (benchmark.remove_shear_median) remove_median(px);
     return px;
   };

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "common/benchmark/marker_benchmark.h"
-#include "stages/study/marker_fit/measured_field.h"
-#include "stages/study/marker_fit/pressed_runs.h"
+#include "common/benchmark/measured_field.h"
+#include "common/benchmark/pressed_runs.h"
 
 namespace tacipc {
 

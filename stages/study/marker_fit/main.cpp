@@ -4,9 +4,9 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/benchmark/quiver.h"
 #include "common/stage/stage.h"
 #include "stages/study/marker_fit/fit_report.h"
-#include "stages/study/marker_fit/quiver.h"
 
 namespace {
 

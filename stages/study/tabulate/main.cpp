@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/stage/stage.h"
+#include "stages/study/tabulate/card.h"
 #include "stages/study/tabulate/comparison.h"
 #include "stages/study/tabulate/image_table.h"
 #include "stages/study/tabulate/markdown.h"
@@ -18,7 +19,9 @@ using namespace tacipc;
 
 const StageSpec kTabulate{
     .name = "tabulate",
-    .summary = "Tables of what many runs measured: images of several methods, gel meshes, costs of stages.",
+    .summary =
+        "Tables of what many runs measured: images of several methods, gel meshes, costs of stages, what a sensor was "
+        "fitted on.",
     .inputs = {
         {.flag = "--config", .help = "kind of table, its rows and columns (YAML)"},
         {.flag = "--samples",
@@ -41,16 +44,27 @@ const StageSpec kTabulate{
         {.flag = "--timings",
          .help = "costs: <stage>.timings.yaml of all runs that count",
          .required = false,
-         .many = true}}};
+         .many = true},
+        {.flag = "--identified",
+         .help = "card: folders that identify wrote, by the names of their files",
+         .required = false,
+         .many = true,
+         .named = true},
+        {.flag = "--compared",
+         .help = "card: folders that sim2real wrote, by the names of their files",
+         .required = false,
+         .many = true,
+         .named = true}}};
 
 struct TabulateConfig {
   std::string kind;
-  std::variant<ImageTableConfig, ComparisonConfig, MeshTableConfig, StageCostsConfig> table;
+  std::variant<ImageTableConfig, ComparisonConfig, MeshTableConfig, StageCostsConfig, CardConfig> table;
 
   static TabulateConfig read(ConfigReader& in) {
-    const std::string kind = in.choice("kind", {"images", "comparison", "meshes", "costs"});
+    const std::string kind = in.choice("kind", {"images", "comparison", "meshes", "costs", "card"});
     if (kind == "comparison") return {kind, ComparisonConfig::read(in)};
     if (kind == "meshes") return {kind, MeshTableConfig::read(in)};
+    if (kind == "card") return {kind, CardConfig::read(in)};
     if (kind == "costs") return {kind, StageCostsConfig::read(in)};
     return {kind, ImageTableConfig::read(in)};
   }
@@ -62,7 +76,8 @@ struct Flags {
 const std::map<std::string, Flags> kFlags{{"images", {{"--samples"}, {"--pictures"}}},
                                           {"comparison", {{"--samples", "--pictures", "--benchmark"}, {"--circles"}}},
                                           {"meshes", {{"--records"}, {}}},
-                                          {"costs", {{"--timings"}, {}}}};
+                                          {"costs", {{"--timings"}, {}}},
+                                          {"card", {{}, {"--identified", "--compared"}}}};
 
 /// \throw UsageError if a flag is missing that this kind of table needs, or one is given that it has no use for
 void check_flags(const Stage& stage, const std::string& kind) {
@@ -112,6 +127,18 @@ void make(Stage& stage, const StageCostsConfig& config) {
   write_file(stage.varying_output("table.md"), to_markdown(costs, config));
   write_file(stage.varying_output("table.csv"), to_csv(costs));
   stage.summarize({{"rows", costs.size()}});
+}
+
+void make(Stage& stage, const CardConfig& config) {
+  std::vector<CardMechanics> mechanics;
+  for (const auto& [name, folder] : stage.named_inputs("--identified")) mechanics.push_back({name, folder});
+  std::vector<CardImages> images;
+  for (const auto& [name, folder] : stage.named_inputs("--compared")) images.push_back(read_card_images(name, folder));
+  const Card card = make_card(config, mechanics, images);
+  write_file(stage.output("card.md"), card.page);
+  write_file(stage.output("card.yaml"), to_yaml(card.values));
+  for (const auto& [name, path] : card.pictures) write_file(stage.output(name), read_file(path));
+  stage.summarize({{"mechanics", mechanics.size()}, {"images", images.size()}});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "stages/study/marker_fit/marker_lattice.h"
+#include "common/benchmark/marker_lattice.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +20,15 @@ Positions places(int rows, int columns, double spacing_m) {
   return out;
 }
 
-Eigen::Vector2d wave(double x_m, double y_m) {
-  return {std::sin(2e3 * x_m) * std::cos(1e3 * y_m), std::cos(1.5e3 * x_m + 2e3 * y_m)};
+Vector3 wave(double x_m, double y_m) {
+  return {std::sin(2e3 * x_m) * std::cos(1e3 * y_m), std::cos(1.5e3 * x_m + 2e3 * y_m), std::sin(2e3 * (x_m - y_m))};
 }
 
 double worst_error(double spacing_m) {
   const int count = static_cast<int>(std::lround(3e-3 / spacing_m)) + 1;
   const Positions rest = places(count, count, spacing_m);
   Positions values(rest.rows(), 3);
-  for (Eigen::Index m = 0; m < rest.rows(); ++m) values.row(m) << wave(rest(m, 0), rest(m, 1)).transpose(), 7.0;
+  for (Eigen::Index m = 0; m < rest.rows(); ++m) values.row(m) = wave(rest(m, 0), rest(m, 1)).transpose();
   const MarkerLattice lattice(rest, "m");
   double worst = 0.0;
   for (double x = -0.4e-3; x < 1.4e-3; x += 0.07e-3)
@@ -50,7 +50,7 @@ TEST(MarkerLattice, IsExactForALinearFieldUpToTheEdgeInAnyOrder) {
   for (Eigen::Index m = 0; m < 20; ++m) values.row(m) << 2.0 * rest(m, 0) + 1.0, rest(m, 1) - rest(m, 0), 9.0;
   const MarkerLattice lattice(rest, "m");
   for (const auto& [x, y] : {std::pair{-1e-3, -2e-3}, {1e-3, -0.5e-3}, {0.13e-3, -1.9e-3}, {0.9e-3, -1.1e-3}})
-    EXPECT_LT((lattice.at({x, y}, values) - Eigen::Vector2d(2.0 * x + 1.0, y - x)).norm(), 1e-12);
+    EXPECT_LT((lattice.at({x, y}, values) - Vector3(2.0 * x + 1.0, y - x, 9.0)).norm(), 1e-12);
   EXPECT_EQ(message_of<DataError>([&] {
               lattice.at({1.1e-3, -1e-3}, values);
             }),

@@ -1,4 +1,4 @@
-#include "stages/study/marker_fit/measured_field.h"
+#include "common/benchmark/measured_field.h"
 
 #include <algorithm>
 #include <cassert>

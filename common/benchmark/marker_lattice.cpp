@@ -1,4 +1,4 @@
-#include "stages/study/marker_fit/marker_lattice.h"
+#include "common/benchmark/marker_lattice.h"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +57,7 @@ MarkerLattice::MarkerLattice(const Positions& rest_m, const std::string& source)
   }
 }
 
-Eigen::Vector2d MarkerLattice::at(const Eigen::Vector2d& point_m, const Positions& vectors) const {
+Vector3 MarkerLattice::at(const Eigen::Vector2d& point_m, const Positions& vectors) const {
   const Eigen::Vector2d place = (point_m - first_m_).cwiseQuotient(spacing_m_);
   std::array<std::array<double, 4>, 2> weight{};
   Eigen::Vector2i cell;
@@ -79,13 +79,12 @@ Eigen::Vector2d MarkerLattice::at(const Eigen::Vector2d& point_m, const Position
       w[3] = 0.0;
     }
   }
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Vector3 sum = Vector3::Zero();
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
       const double w = weight[0][static_cast<std::size_t>(i)] * weight[1][static_cast<std::size_t>(j)];
       if (w == 0.0) continue;
-      const Eigen::Vector2d v = vectors.row(marker_(cell.y() + j - 1, cell.x() + i - 1)).head<2>();
-      sum += w * v;
+      sum += w * vectors.row(marker_(cell.y() + j - 1, cell.x() + i - 1)).transpose();
     }
   return sum;
 }

@@ -15,10 +15,10 @@ class MarkerLattice {
   /// at least 4 × 4, within a thousandth of its spacing
   MarkerLattice(const Positions& rest_m, const std::string& source);
 
-  /// Displacement in x and y at a point of the undeformed front, m, from the `vectors` of all markers: cubic in
+  /// Displacement at a point of the undeformed front, m, from the `vectors` of all markers: cubic in
   /// each direction (Catmull and Rom's), its slopes one-sided in the outermost cells. \throw DataError if the point
   /// lies outside the lattice
-  Eigen::Vector2d at(const Eigen::Vector2d& point_m, const Positions& vectors) const;
+  Vector3 at(const Eigen::Vector2d& point_m, const Positions& vectors) const;
 
  private:
   std::string source_;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/study/marker_fit/marker_lattice.h"
+#include "common/benchmark/marker_lattice.h"
 
 namespace tacipc {
 
@@ -37,10 +37,10 @@ class PressedRuns {
 
   /// Displacement since rest, m, at points given from the ball's axis, m: pressed to a depth, linear between the frames
   /// of the deepest press. \pre 0 ≤ depth_m ≤ deepest_m()
-  Eigen::Matrix2Xd pressed(const Eigen::Matrix2Xd& from_axis_m, double depth_m) const;
+  Eigen::Matrix3Xd pressed(const Eigen::Matrix2Xd& from_axis_m, double depth_m) const;
   /// The same pressed and then dragged by `way_m`: linear between the frames of a run and between the two runs next to
   /// the depth. \pre shallowest_m() ≤ depth_m ≤ deepest_m(), 0 ≤ way_m ≤ longest_way_m()
-  Eigen::Matrix2Xd sheared(const Eigen::Matrix2Xd& from_axis_m, double depth_m, double way_m) const;
+  Eigen::Matrix3Xd sheared(const Eigen::Matrix2Xd& from_axis_m, double depth_m, double way_m) const;
 
  private:
   std::vector<PressedRun> runs_;

@@ -1,4 +1,4 @@
-#include "stages/study/marker_fit/quiver.h"
+#include "common/benchmark/quiver.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
-#include "stages/study/marker_fit/measured_field.h"
+#include "common/benchmark/measured_field.h"
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "stages/study/marker_fit/quiver.h"
+#include "common/benchmark/quiver.h"
 #include "tests/scratch_folder.h"
 #include "tests/shared_data.h"
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "stages/study/marker_fit/measured_field.h"
+#include "common/benchmark/measured_field.h"
 
 namespace tacipc {
 

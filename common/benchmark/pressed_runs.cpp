@@ -1,4 +1,4 @@
-#include "stages/study/marker_fit/pressed_runs.h"
+#include "common/benchmark/pressed_runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,14 +45,14 @@ std::pair<std::size_t, double> between(const std::vector<double>& values, double
   return {i, width > 0.0 ? std::clamp((value - values[i]) / width, 0.0, 1.0) : 0.0};
 }
 
-Eigen::Matrix2Xd frame_at(const PressedRun& run, std::size_t frame, const Eigen::Matrix2Xd& from_axis_m) {
-  Eigen::Matrix2Xd out(2, from_axis_m.cols());
+Eigen::Matrix3Xd frame_at(const PressedRun& run, std::size_t frame, const Eigen::Matrix2Xd& from_axis_m) {
+  Eigen::Matrix3Xd out(3, from_axis_m.cols());
   for (Eigen::Index i = 0; i < out.cols(); ++i)
     out.col(i) = run.lattice.at(run.place_m + from_axis_m.col(i), run.displacement_m[frame]);
   return out;
 }
 
-Eigen::Matrix2Xd blend(const PressedRun& run, const std::vector<std::size_t>& frames, std::pair<std::size_t, double> at,
+Eigen::Matrix3Xd blend(const PressedRun& run, const std::vector<std::size_t>& frames, std::pair<std::size_t, double> at,
                        const Eigen::Matrix2Xd& from_axis_m) {
   const auto& [i, part] = at;
   return (1.0 - part) * frame_at(run, frames[i], from_axis_m) + part * frame_at(run, frames[i + 1], from_axis_m);
@@ -82,12 +82,12 @@ double PressedRuns::longest_way_m() const {
   return way;
 }
 
-Eigen::Matrix2Xd PressedRuns::pressed(const Eigen::Matrix2Xd& from_axis_m, double depth_m) const {
+Eigen::Matrix3Xd PressedRuns::pressed(const Eigen::Matrix2Xd& from_axis_m, double depth_m) const {
   const PressedRun& run = runs_.back();
   return blend(run, run.press_frame, between(run.depth_m, depth_m), from_axis_m);
 }
 
-Eigen::Matrix2Xd PressedRuns::sheared(const Eigen::Matrix2Xd& from_axis_m, double depth_m, double way_m) const {
+Eigen::Matrix3Xd PressedRuns::sheared(const Eigen::Matrix2Xd& from_axis_m, double depth_m, double way_m) const {
   std::vector<double> depths;
   for (const PressedRun& run : runs_) depths.push_back(run.final_depth_m());
   const auto [i, part] = between(depths, depth_m);

@@ -1,0 +1,92 @@
+# A sensor's mechanics from measured forces and marker vectors: make -f Makefile.data identify IDENTIFY=configs/studies/identify/gsmini_force.yaml
+# The file says what is known, measured (below SHARED) and simulated; docs/identify.md has the keys and results.
+IDENTIFY ?= configs/studies/identify/gsmini_force.yaml#  what identify fits
+override IDENTIFY := $(strip $(IDENTIFY))
+identify_name := $(basename $(notdir $(IDENTIFY)))
+IDENTIFIED := $(OUT)/identify/$(identify_name)
+packages_for_identify := identify
+
+.PHONY: identify
+ifneq ($(filter identify,$(MAKECMDGOALS)),)
+$(call check_name,IDENTIFY)
+$(call check_name,SHARED)
+ifeq ($(wildcard $(IDENTIFY)),)
+  $(error IDENTIFY: $(IDENTIFY) does not exist)
+endif
+ifeq ($(wildcard $(SHARED)),)
+  $(error SHARED: $(SHARED) does not exist; the measurements are looked for there)
+endif
+
+# Inputs of the stages: made from the one file first, then make restarts with its variables.
+$(IDENTIFIED)/cases/cases.yaml: $(IDENTIFY) | build
+	$(call run,cases,--config $<)
+$(IDENTIFIED)/cases/cases.mk: $(IDENTIFIED)/cases/cases.yaml ;
+include $(IDENTIFIED)/cases/cases.mk
+
+# Settings are rewritten only when they change: another prior presses nothing again.
+$(foreach f,$(IDENTIFY_RUNS:%=motion_%.yaml) $(IDENTIFY_MEASUREMENTS:%=%/indenter.yaml),$(eval $(IDENTIFIED)/cases/$(f): $(IDENTIFIED)/cases/cases.yaml ;)$(eval $(call changed_config,$(IDENTIFIED)/settings/$(f),$(IDENTIFIED)/cases/$(f),)))
+$(eval $(call changed_config,$(IDENTIFIED)/settings/sensor.yaml,$(IDENTIFY_SENSOR),$(IDENTIFY_CHANGES)))
+# Friction of the gel and a mount that gives way are added by the fit: presses have that of the node, and none.
+$(IDENTIFIED)/settings/rigid.yaml: $(IDENTIFIED)/settings/sensor.yaml | build
+	$(BIN)/tacipc set $< $$(for key in gel.friction gel.friction_src mount mount_src; do [ -z "$$($(BIN)/tacipc get $< $$key --default '')" ] || echo "-$$key"; done) > $@.new && mv $@.new $@
+$(foreach n,$(IDENTIFY_NODES),$(eval $(call changed_config,$(IDENTIFIED)/settings/$(n)/sensor.yaml,$(IDENTIFIED)/settings/rigid.yaml,$(IDENTIFY_SET_$(n))))\
+  $(eval $(call changed_config,$(IDENTIFIED)/settings/$(n)/press.yaml,$(IDENTIFY_PRESS),$(addprefix friction.coefficient=,$(IDENTIFY_FRICTION_$(n))))))
+
+# $(call identify_gel,name,node,mesh)
+define identify_gel
+$(IDENTIFIED)/$(1)/tetmesh.yaml: $(IDENTIFIED)/settings/$(2)/sensor.yaml $(3) | build
+	$$(call run,tetmesh,--sensor $$< --config $(3))
+endef
+$(foreach g,$(IDENTIFY_GELS),$(eval $(call identify_gel,$(g),$(IDENTIFY_FIRST_$(g)),$(IDENTIFY_MESH))))
+define identify_indenter
+$(IDENTIFIED)/indenters/$(1)/indenter.yaml: $(IDENTIFIED)/settings/$(1)/indenter.yaml $(addprefix $(SHARED)/,$(IDENTIFY_OBJECT_$(1))) | build
+	$$(call run,indenter,--config $$< $(addprefix --mesh $(SHARED)/,$(IDENTIFY_OBJECT_$(1))))
+endef
+$(foreach m,$(IDENTIFY_MEASUREMENTS),$(eval $(call identify_indenter,$(m))))
+
+# $(call identify_press,folder below runs,run,folder of the sensor below settings,gel,press configuration)
+define identify_press
+$(IDENTIFIED)/runs/$(1)/$(2)/press.yaml: $(IDENTIFIED)/indenters/$(IDENTIFY_MEASUREMENT_$(2))/indenter.yaml $(IDENTIFIED)/$(4)/tetmesh.yaml \
+    $(IDENTIFIED)/settings/$(3)/sensor.yaml $(IDENTIFIED)/settings/motion_$(2).yaml $(5) | build
+	$$(call run,press,--name $(1)_$(2) --object $(IDENTIFIED)/indenters/$(IDENTIFY_MEASUREMENT_$(2))/object.ply --object-config configs/objects/embossed.yaml \
+	  --gel $(IDENTIFIED)/$(4)/gel.msh --sensor $(IDENTIFIED)/settings/$(3)/sensor.yaml --config $(5) --sample $(IDENTIFIED)/settings/motion_$(2).yaml --log-level warning)
+endef
+$(foreach n,$(IDENTIFY_NODES),$(foreach r,$(IDENTIFY_RUNS),$(eval $(call identify_press,$(n),$(r),$(n),$(IDENTIFY_GEL_$(n)),$(IDENTIFIED)/settings/$(n)/press.yaml))))
+
+# Checks: the middle node with another mesh or other numerics.
+identify_checked := $(foreach r,$(IDENTIFY_RUNS),$(if $(IDENTIFY_CHECKED_$(r)),$(r)))
+define identify_check
+$(call changed_config,$(IDENTIFIED)/settings/$(1)/sensor.yaml,$(IDENTIFIED)/settings/$(IDENTIFY_MIDDLE)/sensor.yaml,$(IDENTIFY_CHECK_CHANGES_$(1)))
+$(if $(IDENTIFY_CHECK_MESH_$(1)),$(call identify_gel,gel_$(1),$(1),$(IDENTIFY_CHECK_MESH_$(1))))
+endef
+identify_check_gel = $(if $(IDENTIFY_CHECK_MESH_$(1)),gel_$(1),$(IDENTIFY_GEL_$(IDENTIFY_MIDDLE)))
+identify_check_press = $(or $(IDENTIFY_CHECK_PRESS_$(1)),$(IDENTIFIED)/settings/$(IDENTIFY_MIDDLE)/press.yaml)
+$(foreach c,$(IDENTIFY_CHECKS),$(eval $(call identify_check,$(c)))$(foreach r,$(identify_checked),$(eval $(call identify_press,$(c),$(r),$(c),$(call identify_check_gel,$(c)),$(call identify_check_press,$(c))))))
+
+identify_runs := $(foreach n,$(IDENTIFY_NODES),$(IDENTIFY_RUNS:%=$(n)/%)) $(foreach c,$(IDENTIFY_CHECKS),$(identify_checked:%=$(c)/%))
+$(IDENTIFIED)/fit/identify.yaml: $(IDENTIFY) $(IDENTIFIED)/settings/sensor.yaml $(identify_runs:%=$(IDENTIFIED)/runs/%/press.yaml) \
+    $(foreach m,$(IDENTIFY_MEASUREMENTS),$(SHARED)/$(IDENTIFY_FILE_$(m))) | build
+	$(call run,identify,--config $(IDENTIFY) --sensor $(IDENTIFIED)/settings/sensor.yaml \
+	  --measured $(foreach m,$(IDENTIFY_MEASUREMENTS),$(m)=$(SHARED)/$(IDENTIFY_FILE_$(m))) --runs $(foreach r,$(identify_runs),$(r)=$(IDENTIFIED)/runs/$(r)))
+
+identify: $(IDENTIFIED)/fit/identify.yaml ## own: A sensor's mechanics from measured forces and marker vectors: IDENTIFY=configs/studies/identify/gsmini_force.yaml (minutes)
+	@cat $(IDENTIFIED)/fit/table.md
+	@echo; echo "Look at $(IDENTIFIED)/fit/*.svg; the sensor file is $(IDENTIFIED)/fit/sensor.yaml"
+endif
+
+# The blind card of a sensor: CASES= names what is fitted and what is compared; each part is made by its own goal.
+.PHONY: blind-card
+packages_for_blind-card := identify
+ifneq ($(filter blind-card,$(MAKECMDGOALS)),)
+$(call check_name,CASES)
+CARD := $(OUT)/cards/$(basename $(notdir $(CASES)))
+# $(call card_files,key): the files that the card names under a key, from here
+card_files = $(shell for i in 0 1 2 3 4 5 6 7 8 9; do file=$$($(BIN)/tacipc get '$(CASES)' "$(1)[$$i]" --default ''); [ -z "$$file" ] || realpath -ms --relative-to=. "$(dir $(CASES))$$file"; done)
+blind-card: | build ## own: Blind card of a sensor: what was fitted, on what, and predictions beside measurements: CASES=configs/studies/cards/gelsight_mini.yaml
+	@[ "$$($(BIN)/tacipc get '$(CASES)' kind --default '')" = card ] || { echo 'blind-card: CASES: $(CASES) is no card (kind: card; there are $(wildcard configs/studies/cards/*.yaml))' >&2; exit 2; }
+	$(foreach f,$(call card_files,mechanics),$(call make_again,REBUILD=no IDENTIFY=$(f) identify)$(newline)	)
+	$(foreach f,$(call card_files,photographs),$(call make_again,REBUILD=no CASES=$(f) sim2real-page)$(newline)	)
+	$(call run_again,tabulate,$(CARD),--config $(CASES) $(if $(call card_files,mechanics),--identified $(foreach f,$(call card_files,mechanics),$(basename $(notdir $(f)))=$(OUT)/identify/$(basename $(notdir $(f)))/fit)) \
+	  $(if $(call card_files,photographs),--compared $(foreach f,$(call card_files,photographs),$(basename $(notdir $(f)))=$(OUT)/sim2real/$(basename $(notdir $(f))))))
+	@echo; echo "Look at $(CARD)/card.md; card.yaml has the same numbers"
+endif

@@ -1,0 +1,92 @@
+// What the measurements should be for given mechanics, and how far off they are.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/benchmark/identify_spec.h"
+#include "common/benchmark/measured_field.h"
+#include "common/benchmark/pressed_runs.h"
+#include "common/sensor/camera_model.h"
+#include "stages/study/identify/force_model.h"
+#include "stages/study/identify/node_grid.h"
+#include "stages/study/identify/parameters.h"
+
+namespace tacipc {
+
+/// A row of a table: depth (mm), travel (mm) or time (s), and force (N).
+struct MeasuredForce {
+  double at = 0.0;
+  double force_n = 0.0;
+  double sigma_n = 0.0;
+};
+
+/// A measurement of forces beside what was simulated for it.
+struct ForceData {
+  std::vector<MeasuredForce> fitted, held_out;
+  CurveTable press;                // force, N per Pa, over depth, mm
+  std::vector<CurveTable> shears;  // tangential force over travel, of each depth of Measurement::depths_mm
+};
+
+/// A measurement of marker vectors beside what was simulated for it.
+struct MarkerData {
+  std::vector<PressedRuns> runs;  // of each node
+  MarkerField press, shear;
+};
+
+/// Of each measurement, one of the two.
+struct MeasurementData {
+  std::optional<ForceData> force;
+  std::optional<MarkerData> markers;
+};
+
+class MechanicsModel {
+ public:
+  /// \param data in the order of spec.measurements. \param held the sensor's own mechanics, for what is not fitted
+  MechanicsModel(const IdentifySpec& spec, std::vector<MeasurementData> data, const Sensor& held);
+
+  const IdentifySpec& spec() const { return spec_; }
+  const Unknowns& unknowns() const { return unknowns_; }
+  const MeasurementData& data(std::size_t measurement) const { return data_[measurement]; }
+
+  /// What the fitted rows of a measurement should be: forces, N, or displacements, px (x and y of each fitted
+  /// marker of the press, then of the shear).
+  Eigen::VectorXd predicted(std::size_t measurement, const Eigen::VectorXd& u) const;
+  /// What they are, and their deviations.
+  Eigen::VectorXd measured(std::size_t measurement) const;
+  Eigen::VectorXd sigma(std::size_t measurement) const;
+  /// Force of a press to a depth by the table, mm.
+  double press_force_n(std::size_t measurement, const Eigen::VectorXd& u, double depth_mm) const;
+  /// Displacements of the press [0] and of the shear [1], px; 2 × markers.
+  std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd> marker_px(std::size_t measurement, const Eigen::VectorXd& u) const;
+
+  /// Which markers are fitted: all, or the even or the odd ones, so that the others are predicted.
+  enum class Markers { all, even, odd };
+  Markers fitted_markers = Markers::all;
+  bool fits_marker(Eigen::Index i) const {
+    return fitted_markers == Markers::all || (i % 2 == 0) == (fitted_markers == Markers::even);
+  }
+  /// Deviations of measurements are multiplied by these (1 unless the fit found them too small).
+  std::vector<double> sigma_factor;
+  /// (predicted − measured) / deviation of every fitted row, then (u − mean) / deviation of every prior.
+  Eigen::VectorXd residuals(const Eigen::VectorXd& u) const;
+  Eigen::Index rows() const;  // without those of priors
+  Eigen::Vector2d camera_px() const { return {held_.camera.width_px, held_.camera.height_px}; }
+
+ private:
+  Eigen::VectorXd fitted_coordinates(const Eigen::Matrix2Xd& press, const Eigen::Matrix2Xd& shear) const;
+  Mounting mounting(const Eigen::VectorXd& u) const;
+  Eigen::VectorXd node_weights(const Eigen::VectorXd& u) const;
+  double zero_mm(std::size_t measurement, const Eigen::VectorXd& u) const;
+
+  IdentifySpec spec_;
+  Unknowns unknowns_;
+  NodeGrid grid_;
+  std::vector<MeasurementData> data_;
+  Sensor held_;
+  std::optional<CameraModel> camera_;
+};
+
+}  // namespace tacipc

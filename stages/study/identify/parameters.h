@@ -1,0 +1,44 @@
+// What is fitted: the sensor's mechanics, and what each measurement leaves unknown.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/benchmark/identify_spec.h"
+
+namespace tacipc {
+
+/// One unknown. The fit works with u: the number itself, or its logarithm where the prior is that of the logarithm.
+struct Unknown {
+  std::string name;
+  std::string measurement = {};  // that it belongs to alone; none: it is of the sensor
+  Prior prior;
+
+  double u_of(double value) const;
+  double value_of(double u) const;
+  double u_mean() const { return u_of(prior.mean); }
+  double u_low() const;  // −∞ where a logarithm is bounded by 0
+  double u_high() const;
+};
+
+/// All unknowns in a fixed order.
+class Unknowns {
+ public:
+  explicit Unknowns(const IdentifySpec& spec);
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(all_.size()); }
+  const Unknown& operator[](Eigen::Index i) const { return all_[static_cast<std::size_t>(i)]; }
+  const std::vector<Unknown>& all() const { return all_; }
+  std::optional<Eigen::Index> find(const std::string& name, const std::string& measurement = {}) const;
+  /// Value of an unknown at u, or what holds where it is not fitted.
+  double value(const Eigen::VectorXd& u, const std::string& name, const std::string& measurement, double held) const;
+  Eigen::VectorXd prior_mean() const;
+  bool within_bounds(const Eigen::VectorXd& u) const;
+
+ private:
+  std::vector<Unknown> all_;
+};
+
+}  // namespace tacipc

@@ -1,0 +1,92 @@
+#include "stages/study/identify/predictions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/rng.h"
+
+namespace tacipc {
+namespace {
+
+/// ln of the checked over the unchecked force at a depth.
+double change_at(const CheckedPress& check, double depth_mm) {
+  const Eigen::Vector2d as_it_is(1.0, 0.0), checked(0.0, 1.0);
+  const double force = check.table.blend(as_it_is).at(depth_mm), other = check.table.blend(checked).at(depth_mm);
+  return force > 0.0 && other > 0.0 ? std::log(other / force) : 0.0;
+}
+
+double mean_change(const CheckedPress& check, const MechanicsModel& model) {
+  const auto& rows = model.data(check.measurement).force->fitted;
+  double sum = 0.0;
+  for (const MeasuredForce& row : rows) sum += change_at(check, row.at);
+  return sum / static_cast<double>(rows.size());
+}
+
+}  // namespace
+
+double model_error(const std::vector<CheckedPress>& checks, const MechanicsModel& model, std::size_t measurement,
+                   double depth_mm) {
+  double sum = 0.0;
+  for (const CheckedPress& check : checks)
+    if (check.measurement == measurement) sum += std::pow(change_at(check, depth_mm) - mean_change(check, model), 2);
+  return std::sqrt(sum);
+}
+
+std::map<std::string, double> modulus_error(const std::vector<CheckedPress>& checks, const MechanicsModel& model) {
+  std::map<std::string, double> sum, count, out;
+  for (const CheckedPress& check : checks) {
+    sum[check.check] += mean_change(check, model);
+    count[check.check] += 1.0;
+  }
+  for (const auto& [name, total] : sum) out[name] = total / count[name];
+  return out;
+}
+
+std::vector<ForcePrediction> predict_forces(const MechanicsModel& model, const Posterior& posterior,
+                                            const std::vector<CheckedPress>& checks) {
+  std::vector<ForcePrediction> out;
+  const Eigen::VectorXd mean = posterior.mean_u();
+  const auto& measurements = model.spec().measurements;
+  for (std::size_t m = 0; m < measurements.size(); ++m) {
+    if (measurements[m].kind != MeasurementKind::press) continue;
+    const ForceData& data = *model.data(m).force;
+    std::vector<ForcePrediction> rows;
+    const auto row = [&](double depth, bool fitted, std::optional<double> measured) {
+      rows.push_back(
+          {.measurement = measurements[m].name, .depth_mm = depth, .fitted = fitted, .measured_n = measured});
+    };
+    for (const MeasuredForce& f : data.fitted) row(f.at, true, f.force_n);
+    for (const MeasuredForce& f : data.held_out) row(f.at, false, f.force_n);
+    for (const double depth : measurements[m].predict_mm)
+      if (std::none_of(rows.begin(), rows.end(), [&](const ForcePrediction& p) { return p.depth_mm == depth; }))
+        row(depth, false, std::nullopt);
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const ForcePrediction& a, const ForcePrediction& b) { return a.depth_mm < b.depth_mm; });
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      ForcePrediction& p = rows[r];
+      p.force_n = model.press_force_n(m, mean, p.depth_mm);
+      const double relative = model_error(checks, model, m, p.depth_mm);
+      const double noise = std::hypot(measurements[m].sigma_n, measurements[m].sigma_relative * p.force_n);
+      Eigen::VectorXd force(posterior.u.cols()), seen(posterior.u.cols());
+      for (Eigen::Index k = 0; k < force.size(); ++k) {
+        if (posterior.weight[k] <= 0.0) {
+          force[k] = seen[k] = p.force_n;
+          continue;
+        }
+        const auto counter = static_cast<std::uint64_t>(k);
+        const auto stream = hash_of(p.measurement) + r;
+        force[k] = model.press_force_n(m, posterior.u.col(k), p.depth_mm);
+        seen[k] = force[k] * (1.0 + relative * random_normal(1, stream, 2 * counter)) +
+                  noise * random_normal(1, stream, 2 * counter + 1);
+      }
+      p.parameter_sigma = posterior.deviation(force);
+      p.model_sigma = relative * p.force_n;
+      p.low_n = posterior.quantile(seen, 0.025);
+      p.high_n = posterior.quantile(seen, 0.975);
+    }
+    out.insert(out.end(), rows.begin(), rows.end());
+  }
+  return out;
+}
+
+}  // namespace tacipc

@@ -1,0 +1,45 @@
+// What the fitted mechanics say of presses that were not fitted, and how sure they are of it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stages/study/identify/fit.h"
+
+namespace tacipc {
+
+/// Force of a press to a depth.
+struct ForcePrediction {
+  std::string measurement;
+  double depth_mm = 0.0;
+  bool fitted = false;
+  double force_n = 0.0;              // of the mean of the draws
+  double parameter_sigma = 0.0;      // N, of the draws
+  double model_sigma = 0.0;          // N, what the checks change
+  double low_n = 0.0, high_n = 0.0;  // 95 % of what a measurement would say lies between: both, and its own error
+  std::optional<double> measured_n = std::nullopt;
+
+  bool covered() const { return measured_n && *measured_n >= low_n && *measured_n <= high_n; }
+};
+
+/// Of each check, for each measurement of a press: the force at the middle node over its depths, and with the check.
+struct CheckedPress {
+  std::string check;
+  std::size_t measurement = 0;
+  CurveTable table;  // rows: as it is, checked
+};
+
+/// Relative change of a press's force at a depth in the gel by the checks, that of the modulus it makes at the fitted
+/// rows left out: root of the sum of squares over the checks.
+double model_error(const std::vector<CheckedPress>& checks, const MechanicsModel& model, std::size_t measurement,
+                   double depth_mm);
+/// The relative change of the modulus by each check: of the mean force over the fitted rows of all presses.
+std::map<std::string, double> modulus_error(const std::vector<CheckedPress>& checks, const MechanicsModel& model);
+
+/// Every row of every press, and the depths of Measurement::predict_mm that have none, ascending.
+std::vector<ForcePrediction> predict_forces(const MechanicsModel& model, const Posterior& posterior,
+                                            const std::vector<CheckedPress>& checks);
+
+}  // namespace tacipc

@@ -1,0 +1,138 @@
+#include "stages/study/tabulate/card.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/benchmark/benchmark_cases.h"
+#include "common/config/key_path.h"
+#include "common/format/csv.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kCodes = 255.0;
+
+Value record_of(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) throw DataError("{}: does not exist: it is not finished", path.string());
+  return ConfigReader::from_file(path).content();
+}
+
+/// A value of a record. \throw DataError if it has none there
+const Value& at(const Value& record, const std::filesystem::path& path, const std::string& key) {
+  const KeyPath found = follow(record, key);
+  if (!found.rest.empty()) throw DataError("{}: has no {}", path.string(), key);
+  return *found.at;
+}
+
+double number(const std::string& text, const std::filesystem::path& path) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw DataError("{}: '{}' is no number", path.string(), text);
+  return value;
+}
+
+double number_at(const Value& record, const std::filesystem::path& path, const std::string& key) {
+  const auto* text = std::get_if<std::string>(&at(record, path, key).data());
+  if (!text) throw DataError("{}: {} is no number", path.string(), key);
+  return number(*text, path);
+}
+
+}  // namespace
+
+CardConfig CardConfig::read(ConfigReader& in) {
+  CardConfig out;
+  out.title = in.text("title");
+  out.about = in.text_or("about", "");
+  out.mechanics = in.texts("mechanics");
+  out.photographs = in.texts("photographs");
+  if (out.mechanics.empty() && out.photographs.empty()) in.fault("mechanics", "neither this nor photographs are named");
+  return out;
+}
+
+CardImages read_card_images(const std::string& name, const std::filesystem::path& folder) {
+  CardImages out{.name = name, .folder = folder, .photographs = {}};
+  const auto record_path = folder / "calibrate" / "calibrate.yaml";
+  const Value record = record_of(record_path);
+  out.calibrated_on = static_cast<int>(number_at(record, record_path, "summary.photographs"));
+  const auto& model = at(record, record_path, "summary.model");
+  const auto* kept = std::get_if<std::string>(&model.data());
+  out.predicted_rmse_codes =
+      number_at(record, record_path, "summary.held_out_rmse_codes." + (kept ? *kept : std::string()));
+  const auto samples = folder / "metrics" / "ours" / "samples.csv";
+  CsvReader table(samples);
+  while (table.next()) {
+    if (table["region"] != "box") continue;
+    out.photographs.push_back({.name = table["name"],
+                               .rmse_codes = kCodes * std::sqrt(number(table["mse"], samples)),
+                               .ssim = number(table["ssim_s"], samples),
+                               .mae = number(table["mae"], samples),
+                               .psnr_db = number(table["psnr_db"], samples)});
+  }
+  if (out.photographs.empty()) throw DataError("{}: has no photograph with a contact box", samples.string());
+  return out;
+}
+
+Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mechanics,
+               const std::vector<CardImages>& images) {
+  Card out;
+  out.page = fmt::format("# Blind card: {}\n\n", config.title);
+  if (!config.about.empty()) out.page += config.about + "\n\n";
+  out.page +=
+      "*Fitted* rows were seen by the fit, *predicted* ones were not. ± and intervals of 95 % are the model's own: of "
+      "its "
+      "parameters, of its mesh, gap and material law where the file checks them, and, of an interval, of the "
+      "measurement.\n";
+  Value::Map fits, compared;
+  for (const CardMechanics& m : mechanics) {
+    out.page += fmt::format("\n## Mechanics: {}\n\n{}", m.name, read_file(m.folder / "table.md"));
+    const Value record = record_of(m.folder / "identify.yaml");
+    fits.emplace_back(m.name, at(record, m.folder / "identify.yaml", "summary"));
+    std::vector<std::filesystem::path> plots;
+    for (const auto& entry : std::filesystem::directory_iterator(m.folder))
+      if (entry.path().extension() == ".svg") plots.push_back(entry.path());
+    std::sort(plots.begin(), plots.end());
+    out.page += '\n';
+    for (const auto& plot : plots) {
+      const std::string picture = m.name + "_" + plot.filename().string();
+      out.pictures[picture] = plot;
+      out.page += fmt::format("![{}]({})\n", plot.stem().string(), picture);
+    }
+  }
+  for (const CardImages& i : images) {
+    out.page += fmt::format(
+        "\n## Images: {}\n\nLight fitted on {} photographs; of each of these, left out of the fit, the error is {:.1f} "
+        "codes, "
+        "which is what to expect of the others. Errors are in the contact box.\n\n"
+        "| photograph | expected, codes | error, codes | SSIM-S | MAE | PSNR, dB |\n|---|---|---|---|---|---|\n",
+        i.name, i.calibrated_on, i.predicted_rmse_codes);
+    Value::List rows;
+    for (const CardPhotograph& p : i.photographs) {
+      out.page += fmt::format("| {} | {:.1f} | {:.1f} | {:.3f} | {:.4f} | {:.2f} |\n", p.name, i.predicted_rmse_codes,
+                              p.rmse_codes, p.ssim, p.mae, p.psnr_db);
+      rows.emplace_back(Value::Map{{"photograph", p.name},
+                                   {"error_codes", p.rmse_codes},
+                                   {"ssim_s", p.ssim},
+                                   {"mae", p.mae},
+                                   {"psnr_db", p.psnr_db}});
+    }
+    const std::string picture = i.name + "_sheet.png";
+    out.pictures[picture] = i.folder / "comparison" / "sheet.png";
+    out.page += fmt::format("\nPhotograph, ours, twice the difference, the depth-based method:\n\n![{}]({})\n", i.name,
+                            picture);
+    compared.emplace_back(i.name, Value::Map{{"calibrated_on", i.calibrated_on},
+                                             {"expected_codes", i.predicted_rmse_codes},
+                                             {"photographs", std::move(rows)}});
+  }
+  out.values.emplace_back("title", config.title);
+  if (!fits.empty()) out.values.emplace_back("mechanics", std::move(fits));
+  if (!compared.empty()) out.values.emplace_back("images", std::move(compared));
+  return out;
+}
+
+}  // namespace tacipc
