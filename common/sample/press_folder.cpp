@@ -28,8 +28,8 @@ std::string code_list(const Names& names) {
   return text;
 }
 
-const std::array<NpyField, 13>& all_fields() {
-  static const std::array<NpyField, 13> kFields{{
+const std::array<NpyField, 14>& all_fields() {
+  static const std::array<NpyField, 14> kFields{{
       {"positions.npy", f8, {kFrames, kVertices, 3}, "m", "gel vertices in the order of `gel.msh`; frame 0 is rest"},
       {"object_pose.npy", f8, {kFrames, 4, 4}, "m", "`gel_from_object`"},
       {"time.npy", f8, {kFrames}, "s", "time of the frame, 0 at the first"},
@@ -80,6 +80,12 @@ const std::array<NpyField, 13>& all_fields() {
        "velocity of the object's centre of mass and its angular velocity; only where the motion has a phase in which "
        "it "
        "is free"},
+      {"holder_pose.npy",
+       f8,
+       {kFrames, 4, 4},
+       "m",
+       "`gel_from_object` if the mount were rigid, so the motion of the object's holder against the sensor's housing; "
+       "only of a sensor whose [mount](press.md#a-mount-that-gives-way) gives way"},
   }};
   return kFields;
 }
@@ -189,8 +195,12 @@ std::vector<PhaseKind> PressFolder::phases() const {
   return codes_of<PhaseKind>(whole(PressArray::phase), kPhaseNames, path(PressArray::phase));
 }
 
-std::vector<Matrix4> PressFolder::poses() const {
-  const std::vector<double> values = whole(PressArray::object_pose);
+std::vector<Matrix4> PressFolder::poses() const { return poses_of(PressArray::object_pose); }
+
+std::vector<Matrix4> PressFolder::holder_poses() const { return poses_of(PressArray::holder_pose); }
+
+std::vector<Matrix4> PressFolder::poses_of(PressArray array) const {
+  const std::vector<double> values = whole(array);
   std::vector<Matrix4> poses;
   for (std::size_t at = 0; at < values.size(); at += 16) poses.push_back(pose_of(&values[at]));
   return poses;

@@ -33,7 +33,8 @@ enum class PressArray {
   first_slip,
   markers,
   marker_displacement,
-  object_twist
+  object_twist,
+  holder_pose
 };
 
 /// Symbols of shapes.
@@ -87,6 +88,7 @@ class PressFolder {
   std::vector<double> times() const;                     // s
   std::vector<PhaseKind> phases() const;                 // per frame
   std::vector<Matrix4> poses() const;                    // gel_from_object, m, per frame
+  std::vector<Matrix4> holder_poses() const;             // the same on a rigid mount
   std::vector<Wrench> wrenches() const;                  // on the gel, about the origin of S, per frame
   std::vector<Twist> twists() const;                     // of the object, per frame
   std::vector<int> front_vertices() const;               // rows of positions; \throw DataError if one is none of these
@@ -103,6 +105,7 @@ class PressFolder {
   void refuse_no_frames(PressArray array) const;
   void refuse_changed(PressArray array) const;
   std::vector<double> whole(PressArray array) const;
+  std::vector<Matrix4> poses_of(PressArray array) const;
   std::vector<double> frame_of(PressArray array, std::size_t frame) const;
 
   std::filesystem::path folder_;

@@ -85,6 +85,13 @@ double Material::lame_lambda_pa() const {
 
 double Material::lame_mu_pa() const { return youngs_modulus_pa / (2.0 * (1.0 + poissons_ratio)); }
 
+Mount Mount::read(ConfigReader& in) {
+  // Up to a metre per newton: a spring that soft holds no gel.
+  const Range compliance = Range::between(0.0, 1e3);
+  return {.compliance_m_per_n = kMillimetre * in.number_or("compliance_mm_per_n", 0.0, compliance),
+          .shear_compliance_m_per_n = kMillimetre * in.number_or("shear_compliance_mm_per_n", 0.0, compliance)};
+}
+
 MarkerGrid MarkerGrid::read(ConfigReader& in) {
   MarkerGrid grid{.given = true};
   grid.rows = in.integer_or("rows", grid.rows, 1, 1000);
@@ -115,9 +122,11 @@ Sensor Sensor::read(ConfigReader& in) {
   sensor.name = in.text("name");
   ConfigReader gel = in.section("gel");
   sensor.gel = GelShape::read(gel);
+  sensor.friction = gel.optional_number("friction", Range::between(0.0, 10.0));
   sensor.stack = OpticalStack::read(in, gel, sensor.gel.thickness_m);
   ConfigReader material = in.section("material");
   sensor.material = Material::read(material);
+  if (auto mount = in.optional_section("mount")) sensor.mount = Mount::read(*mount);
   if (in.has("light_field")) {
     sensor.light_field = LightField::read(in);
   } else {

@@ -77,6 +77,18 @@ struct OpticalStack {
   LayerStack from(double z_m) const;
 };
 
+/// What the gel's glued face is held by: a spring along z and one along x and y, without mass. It moves by compliance ×
+/// force against the housing and takes frame S with it.
+struct Mount {
+  double compliance_m_per_n = 0.0;        // along z; 0: rigid
+  double shear_compliance_m_per_n = 0.0;  // along x and y
+
+  bool gives_way() const { return compliance_m_per_n > 0.0 || shear_compliance_m_per_n > 0.0; }
+  /// Along x, y, z.
+  Vector3 compliance() const { return {shear_compliance_m_per_n, shear_compliance_m_per_n, compliance_m_per_n}; }
+  static Mount read(ConfigReader& in);
+};
+
 /// Paint on the front face as seen from inside: a Lambert part and a glossy lobe (GGX microfacets of roughness
 /// `ggx_alpha`, Schlick's Fresnel from `specular_f0`).
 struct Coating {
@@ -199,7 +211,9 @@ std::array<double, 3> read_light_color(ConfigReader& in);
 struct Sensor {
   std::string name = {};
   GelShape gel;
+  std::optional<double> friction = std::nullopt;  // coefficient of the gel's surface; absent: as whoever presses says
   Material material;
+  Mount mount = {};
   OpticalStack stack;
   Coating coating;
   std::array<double, 3> ambient_rgb{};  // radiance added everywhere: the veil of internal reflections and housing

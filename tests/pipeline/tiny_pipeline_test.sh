@@ -47,6 +47,13 @@ grep -q '^  friction_coefficient: 0.7$' $record || fail "the coefficient of the 
 drag FRICTION=0.5
 [ "$before" = "$(cat $record)" ] || fail "the same friction gave another record"
 
+# The friction of a sensor's own gel goes before that, and a mount that gives way leaves where the holder was.
+sed 's/^  outline: disc/  friction: 0.4\n&/; s/^material:/mount: {compliance_mm_per_n: 0.05}\n&/' configs/sensors/mctac.yaml > configs/sensors/held.yaml
+drag SENSOR=held FRICTION=0.5
+grep -q '^friction_from: sensor$' $record || fail "the record does not say whose friction it is"
+grep -q '^  friction_coefficient: 0.4$' $record || fail "the friction of the sensor's gel does not count"
+[ -s one/sample/dragged/press/holder_pose.npy ] || fail "where the holder was is not written"
+
 # A path: its rows are in a file that the motion names, and another path is another sample.
 mkdir moves
 echo 'motion: {kind: path, file: "down.csv"}  # beside this file' > moves/down.yaml

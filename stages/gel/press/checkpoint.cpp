@@ -174,6 +174,7 @@ void state_of(auto& io, auto& state) {
 
 void contents(auto& io, auto& frame, auto& progress) {
   contents(io, frame);
+  each(io, frame.holder_pose);
   state_of(io, progress.state);
   each(io, progress.object_shift_m);
 }

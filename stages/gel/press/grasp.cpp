@@ -52,6 +52,7 @@ class Hand {
         settings_(step_settings(config_, scales_)),
         start_gap_m_(spec.start_gap_m.value_or(scales_.start_gap_m)),
         rest_tets_(make_rest_tets(gel.positions, gel.tets)) {
+    require_rigid_mount(sensor);
     if (config.augmented_lagrangian)
       throw UsageError(
           "constraints: augmented_lagrangian holds gels and object to their poses; a grasp needs elimination");
@@ -105,7 +106,7 @@ class Hand {
   /// Turns the object, hangs its grip point at the origin and puts the fingers beside it.
   void place_all() {
     const MassProperties mass = spec_.mass_of(object_);
-    const double friction = config_.friction ? config_.friction->coefficient : 0.0;
+    const double friction = config_.coefficient_of_friction();
     body_ = make_affine_body(object_.positions, object_.triangles, spec_.density_of(mass.volume_m3, friction),
                              spec_.center_shift_m);
     out_.friction = friction;

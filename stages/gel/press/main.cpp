@@ -208,14 +208,20 @@ int main(int argc, char** argv) {
   using namespace tacipc;
   keep_freed_memory();
   return run_stage(kPress, argc, argv, [](Stage& stage) {
-    const auto config = stage.read_config<PressConfig>("--config");
+    const auto file = stage.read_config<PressConfig>("--config");
     const auto sensor = stage.read_config<Sensor>("--sensor");
+    const PressConfig config = file.with_friction_of(sensor);
+    if (file.takes_friction_of(sensor)) {
+      log_info("friction {:g} of the sensor's gel, instead of {:g} of the press file", *sensor.friction,
+               file.coefficient_of_friction());
+      stage.note("friction_from", "sensor");
+    }
     const auto progress = [](int frame, int count, int iteration, double residual) {
       show_progress((frame - 1.0) / count, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s", frame,
                                                        count, iteration, residual));
     };
     const ConfigReader what = ConfigReader::from_file(stage.input("--sample"));
-    if (what.has("bodies")) return press_scene(stage, sensor, config, progress);
+    if (what.has("bodies")) return press_scene(stage, sensor, file, progress);
     if (!stage.optional_input("--object"))
       throw UsageError("--object is missing: what is pressed or gripped (only a scene names its bodies itself)");
     if (stage.optional_input("--soft")) throw UsageError("--soft: only a scene has soft bodies");

@@ -18,8 +18,6 @@
 namespace tacipc {
 namespace {
 
-double coefficient_of(const PressConfig& config) { return config.friction ? config.friction->coefficient : 0.0; }
-
 void write_markers(Stage& stage, const std::string& folder, const PressWriter& writer,
                    const std::vector<Marker>& markers, const std::vector<Frame>& frames,
                    const std::optional<std::size_t>& end) {
@@ -137,6 +135,8 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
       return Twist{f.object_velocity_m_s, f.object_spin_rad_s};
     });
   }
+  if (simulation.mount_gives_way)
+    writer.write(PressArray::holder_pose, frames, [](const Frame& f) { return f.holder_pose; });
   write_contact(writer, sensor, simulation);
   write_markers(stage, folder, writer, markers, frames, end);
 
@@ -285,7 +285,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   std::vector<int> phases;
   for (const Frame& f : simulation.frames) phases.push_back(f.phase_index);
   stage.summarize(
-      write_gel(stage, "", sensor, gel, coefficient_of(config), press_end_frame(sample, phases), simulation));
+      write_gel(stage, "", sensor, gel, config.coefficient_of_friction(), press_end_frame(sample, phases), simulation));
   add_cost(stage, simulation.times);
 }
 
@@ -361,8 +361,9 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
                    const SceneSpec& spec, const Scene& scene) {
   for (std::size_t g = 0; g < scene.gels.size(); ++g) {
     const std::string folder = "gels/" + spec.bodies[g].name + "/press";
-    stage.finish_part(folder, write_gel(stage, folder + "/", sensor, bodies[g].tets, coefficient_of(config),
-                                        std::nullopt, scene.gels[g]));
+    stage.finish_part(
+        folder, write_gel(stage, folder + "/", sensor, bodies[g].tets,
+                          config.with_friction_of(sensor).coefficient_of_friction(), std::nullopt, scene.gels[g]));
   }
   const std::vector<SceneFrame>& frames = scene.frames;
   const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),

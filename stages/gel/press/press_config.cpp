@@ -64,4 +64,14 @@ PressConfig PressConfig::read(ConfigReader& in) {
   return config;
 }
 
+bool PressConfig::takes_friction_of(const Sensor& sensor) const {
+  return sensor.friction && coefficient_of_friction() > 0.0;
+}
+
+PressConfig PressConfig::with_friction_of(const Sensor& sensor) const {
+  PressConfig with = *this;
+  if (takes_friction_of(sensor)) with.friction->coefficient = *sensor.friction;
+  return with;
+}
+
 }  // namespace tacipc

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/sensor/sensor.h"
 #include "stages/gel/press/contact/pair_counting.h"
 #include "stages/gel/press/solve/linear_solver.h"
 
@@ -50,6 +51,11 @@ struct PressConfig {
   int max_halvings = 0;           // of a time step; reaching it is a failure
 
   static PressConfig read(ConfigReader& in);
+  double coefficient_of_friction() const { return friction ? friction->coefficient : 0.0; }
+  /// Whether a sensor's own coefficient takes the place of the configuration's: where that has any friction.
+  bool takes_friction_of(const Sensor& sensor) const;
+  /// Itself, with that coefficient where it does.
+  PressConfig with_friction_of(const Sensor& sensor) const;
 };
 
 }  // namespace tacipc

@@ -47,9 +47,11 @@ class Stepping {
         store_(store),
         scales_(scales_of(config, sensor, bodies[0].tets)),
         settings_(step_settings(config, scales_)),
+        gel_friction_(config.with_friction_of(sensor).coefficient_of_friction()),
         num_gels_(static_cast<std::size_t>(spec.count(BodyKind::gel))),
         num_deformable_(num_gels_ + static_cast<std::size_t>(spec.count(BodyKind::soft))),
         num_rigid_(static_cast<std::size_t>(spec.count(BodyKind::rigid))) {
+    require_rigid_mount(sensor);
     if (config.augmented_lagrangian)
       throw UsageError("constraints: augmented_lagrangian holds one gel and one object; a scene needs elimination");
     if (config.gravity_m_s2 != Vector3::Zero())
@@ -174,8 +176,13 @@ class Stepping {
 
   void set_laws() {
     const auto count = spec_.bodies.size();
-    std::vector<double> friction(count * count, config_.friction ? config_.friction->coefficient : 0.0),
+    std::vector<double> friction(count * count, config_.coefficient_of_friction()),
         d_hat(count * count, scales_.d_hat_m);
+    for (std::size_t a = 0; a < count; ++a) {
+      for (std::size_t b = 0; b < count; ++b) {
+        if (std::min(a, b) < num_gels_) friction[a * count + b] = gel_friction_;
+      }
+    }
     for (const ContactSpec& contact : spec_.contact) {
       const auto a = static_cast<std::size_t>(contact.between[0]), b = static_cast<std::size_t>(contact.between[1]);
       for (const std::size_t at : {a * count + b, b * count + a}) {
@@ -571,6 +578,7 @@ class Stepping {
   ByteStore* store_;
   const Scales scales_;
   StepSettings settings_;
+  const double gel_friction_;  // coefficient, of gels with whatever they touch
   const std::size_t num_gels_, num_deformable_, num_rigid_;
   Scene out_;
   std::vector<Part> parts_;

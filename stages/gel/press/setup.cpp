@@ -1,5 +1,7 @@
 #include "stages/gel/press/setup.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 
@@ -117,6 +119,14 @@ bool check_object(const TriangleMesh& object, const PressConfig& config) {
   return true;
 }
 
+void require_rigid_mount(const Sensor& sensor) {
+  if (sensor.mount.gives_way())
+    throw UsageError(
+        fmt::format("{}: a mount that gives way is for single presses, not for grasps and scenes; leave the section "
+                    "mount out",
+                    sensor.name));
+}
+
 void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressConfig& config) {
   for (const Phase& phase : sample.motion) {
     if (phase.kind == PhaseKind::press && phase.depth_m >= sensor.gel.thickness_m) {
@@ -128,6 +138,16 @@ void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressCon
                                                  [](const Phase& phase) { return phase.load_n.has_value(); }))
     throw UsageError(
         "constraints: augmented_lagrangian holds the object to its pose; a load or a free object needs elimination");
+  if (sensor.mount.gives_way()) {
+    if (config.augmented_lagrangian)
+      throw UsageError(
+          "constraints: augmented_lagrangian holds the object to its pose; a mount that gives way needs elimination");
+    if (std::any_of(sample.motion.begin(), sample.motion.end(),
+                    [](const Phase& phase) { return phase.kind == PhaseKind::free; }))
+      throw UsageError(
+          fmt::format("{}: its mount gives way to a held object, not to one that is free; leave the section mount out",
+                      sensor.name));
+  }
   const bool weightless = config.gravity_m_s2 == Vector3::Zero();
   for (const Phase& phase : sample.motion) {
     if (phase.kind == PhaseKind::free && weightless && phase.load_n == Vector3::Zero()) {

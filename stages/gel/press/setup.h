@@ -45,6 +45,9 @@ StepSettings step_settings(const PressConfig& config, const Scales& scales);
 /// it: which pieces of surface are near a vertex is told by what their edges and corners have in common
 bool check_object(const TriangleMesh& object, const PressConfig& config);
 
+/// \throw UsageError if the sensor's mount gives way: several gels and bodies are held by rigid ones
+void require_rigid_mount(const Sensor& sensor);
+
 /// \throw DataError or UsageError if the gel or the configuration does not allow the motion.
 void check_motion(const SampleSpec& sample, const Sensor& sensor, const PressConfig& config);
 

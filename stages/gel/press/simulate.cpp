@@ -27,6 +27,7 @@ class Motion {
         store_(store),
         scales_(scales_of(config, sensor, gel)),
         settings_(step_settings(config, scales_)),
+        compliance_m_n_(sensor.mount.compliance()),
         rest_tets_(make_rest_tets(gel.positions, gel.tets)) {
     check_motion(sample, sensor, config);
     closed_ = check_object(object, config);
@@ -48,6 +49,7 @@ class Motion {
       body_ = make_affine_body(object.positions, object.triangles, *sample.density_kg_m3);
     }
     out_.object_may_be_free = body_.has_value();
+    out_.mount_gives_way = sensor.mount.gives_way();
     placed_ = place(object.positions, {out_.face, sample.rotate_rad, sample.center_x_m, sample.center_y_m},
                     scales_.start_gap_m);
     mesh_ = make_contact_mesh(gel.positions, gel.boundary, transformed(placed_, object.positions), object.triangles);
@@ -61,7 +63,7 @@ class Motion {
     progress_.state = {.x = Positions(mesh_.num_rows(), 3), .velocity_m_s = Positions::Zero(gel_.num_vertices(), 3)};
     progress_.state.x.topRows(mesh_.num_vertices()) = mesh_.rest_positions;
     if (body_) mesh_.control_rows(progress_.state.x) = control_at(placed_);
-    pose_ = placed_;
+    pose_ = holder_ = placed_;
     if (const double gap = stepper.smallest_gap(progress_.state.x, scales_.gap_horizon_m); gap <= scales_.d_hat_m) {
       throw DataError("the object is {:.3g} m from the gel in frame 0, nearer than d_hat = {:.3g} m", gap,
                       scales_.d_hat_m);
@@ -72,10 +74,10 @@ class Motion {
       const Phase& phase = sample_.motion[p];
       const std::array<bool, 3> free = start.free;
       const Vector3 load_n = start.load_n;
-      start = phase_start(sample_, object_.positions, placed_, pose_, scales_.start_gap_m);
+      start = phase_start(sample_, object_.positions, placed_, holder_, scales_.start_gap_m);
       start.free = free;
       start.load_n = load_n;
-      progress_.object_shift_m.setZero();
+      progress_.object_shift_m = pose_.topRightCorner<3, 1>() - holder_.topRightCorner<3, 1>();
       const double phase_start_s = time_s_;
       for (int index = 1; index <= phase.steps; ++index) {
         if (!restored()) run_frame(phase, static_cast<int>(p), index, start, phase_start_s);
@@ -94,6 +96,7 @@ class Motion {
   /// not converge.
   void advance(const Phase& phase, const PhaseStart& start, double from, double to, int halvings, StepReport& report) {
     Goal goal = goal_of(phase, to, start, config_.time_step_s);
+    const Vector3 held = goal.gel_from_object.topRightCorner<3, 1>();
     goal.gel_from_object.topRightCorner<3, 1>() += progress_.object_shift_m;
     StepGoal step{.h_s = (to - from) * goal.duration_s,
                   .object_target = transformed(goal.gel_from_object, object_.positions),
@@ -102,7 +105,11 @@ class Motion {
                   .free_object = phase.kind == PhaseKind::free};
     if (body_) step.control_target = control_at(goal.gel_from_object);
     for (int axis = 0; axis < 3; ++axis) {
-      if (goal.free[axis]) step.free_axes.push_back(axis);
+      const bool on_mount = !goal.free[axis] && compliance_m_n_[axis] > 0.0;
+      if (goal.free[axis] || on_mount) step.free_axes.push_back(axis);
+      if (!on_mount) continue;
+      step.mount_stiffness_n_m[axis] = 1.0 / compliance_m_n_[axis];
+      step.mount_shift_m[axis] = progress_.object_shift_m[axis];
     }
     const auto advance_whole = [&] {
       const StepReport done = stepper_->advance(progress_.state, step, [&](int iteration, double residual) {
@@ -115,6 +122,7 @@ class Motion {
         pose_ = goal.gel_from_object;
         pose_.topRightCorner<3, 1>() += done.object_shift_m;
       }
+      find_holder(goal, held);
       return done;
     };
     advance_or_divide(out_.frames.size(), halvings, config_.max_halvings, report, advance_whole, [&](int deeper) {
@@ -122,6 +130,19 @@ class Motion {
       advance(phase, start, from, middle, deeper, report);
       advance(phase, start, middle, to, deeper, report);
     });
+  }
+
+  /// Where a rigid mount would have the object after a step: along axes of a load, as far from it as the mount gives
+  /// way to the force.
+  void find_holder(const Goal& goal, const Vector3& held_m) {
+    holder_ = pose_;
+    if (!out_.mount_gives_way) return;
+    const StepForces& forces = stepper_->forces();
+    const Vector3 on_gel_n = forces.normal.colwise().sum() + forces.friction.colwise().sum();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (compliance_m_n_[axis] > 0.0)
+        holder_(axis, 3) = goal.free[axis] ? pose_(axis, 3) + compliance_m_n_[axis] * on_gel_n[axis] : held_m[axis];
+    }
   }
 
   /// Where the points that carry the object are when it is at a pose.
@@ -152,6 +173,7 @@ class Motion {
     restoring_ = store_->load(frame, progress_);
     if (!restoring_) return false;
     pose_ = frame.gel_from_object;
+    holder_ = frame.holder_pose;
     time_s_ = frame.time_s;
     touched_ = touched_ || frame.balance.contact_n != Vector3::Zero();
     log_info("frame {}/{} resumed from an interrupted run", out_.frames.size(), num_frames_);
@@ -164,6 +186,7 @@ class Motion {
     const Positions& x = progress_.state.x;
     frame.positions = x.topRows(gel_.num_vertices());
     frame.gel_from_object = pose_;
+    frame.holder_pose = holder_;
     frame.time_s = time_s_;
     frame.normal_force_n = on_front(out_.front, forces.normal);
     frame.friction_force_n = on_front(out_.front, forces.friction);
@@ -218,13 +241,14 @@ class Motion {
   FrameStore* store_;
   const Scales scales_;
   const StepSettings settings_;
+  const Vector3 compliance_m_n_;  // of the sensor's mount
   const std::vector<RestTet> rest_tets_;
   Simulation out_;
   ContactMesh mesh_;
   std::optional<AffineBody> body_;  // the object, where it is free in any phase
   TimeStepper* stepper_ = nullptr;
   double time_s_ = 0.0;
-  Matrix4 placed_, pose_;
+  Matrix4 placed_, pose_, holder_;
   int num_frames_ = 0;
   bool touched_ = false, restoring_ = true, closed_ = false;
   Progress progress_;

@@ -22,14 +22,15 @@ namespace tacipc {
 struct Frame {
   double time_s = 0.0;
   PhaseKind phase = PhaseKind::reference;
-  int phase_index = -1;                     // into the sample's motion; −1 for frame 0
-  Positions positions;                      // gel, m
-  Matrix4 gel_from_object;                  // pose of the object
-  Positions normal_force_n;                 // on each front vertex; gel on gel adds pairs that cancel
-  Positions friction_force_n;               // the same by friction
-  std::vector<ContactState> contact_state;  // of each front vertex
-  Vector3 force_n = Vector3::Zero();        // Σ on the gel by the object, wherever it touches
-  Vector3 torque_n_m = Vector3::Zero();     // the same about the origin of S
+  int phase_index = -1;                       // into the sample's motion; −1 for frame 0
+  Positions positions;                        // gel, m
+  Matrix4 gel_from_object;                    // pose of the object
+  Matrix4 holder_pose = Matrix4::Identity();  // the same on a rigid mount: what a prescribed motion prescribes
+  Positions normal_force_n;                   // on each front vertex; gel on gel adds pairs that cancel
+  Positions friction_force_n;                 // the same by friction
+  std::vector<ContactState> contact_state;    // of each front vertex
+  Vector3 force_n = Vector3::Zero();          // Σ on the gel by the object, wherever it touches
+  Vector3 torque_n_m = Vector3::Zero();       // the same about the origin of S
   Balance balance;
   double min_gap_m = 0.0;    // gel–object, at most `gap_horizon_m`
   double stand_off_m = 0.0;  // mean gap where they press on each other, by force
@@ -50,6 +51,7 @@ struct Simulation {
   double gap_horizon_m = 0.0;      // gaps are looked for up to this distance
   double object_mass_kg = 0.0;     // 0 where the sample gives no density
   bool object_may_be_free = false;
+  bool mount_gives_way = false;
   std::string face;
   FrontSurface front;
   std::string element;  // "linear", "averaged_volume"
@@ -68,7 +70,8 @@ using ProgressObserver = std::function<void(int frame, int num_frames, int itera
 /// What a frame starts from.
 struct Progress {
   State state;
-  Vector3 object_shift_m = Vector3::Zero();  // along its free axes, since the start of the phase
+  /// Of the object along its free axes since the start of the phase, or against where a rigid mount would have it.
+  Vector3 object_shift_m = Vector3::Zero();
 };
 
 /// Keeps the frames of a motion as they are solved, so that an interrupted run resumes.

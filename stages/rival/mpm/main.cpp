@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
              scene.setup.step_s, scene.object_points_m.rows());
     if (!sensor.material.relaxation.empty())
       log_warning("{}: material points do not relax, they have the long-term modulus", sensor.name);
+    if (sensor.mount.gives_way()) log_warning("{}: the mount of material points is rigid", sensor.name);
     const double start_s = wall_s();
     const MpmRun run = run_with_progress(scene, 1.0, 0.0, config.largest_change ? 1.0 / 3.0 : 1.0);
     const double took_s = wall_s() - start_s;

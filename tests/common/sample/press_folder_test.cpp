@@ -69,6 +69,7 @@ class PressFolderTest : public ::testing::Test {
     writer.write(markers, {1, 2, 3, 4, 5, 6});
     writer.write(marker_displacement, {0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6});
     writer.write(object_twist, {0, 0, 0, 0, 0, 0, 7, 8, 9, 10, 11, 12});
+    writer.write(holder_pose, kInstants, [](const Instant& i) { return Matrix4(2.0 * i.pose); });
   }
 
   std::string refused(const std::function<void(const PressFolder&)>& read) const {
@@ -94,7 +95,8 @@ TEST_F(PressFolderTest, EveryDeclaredArrayIsInTheFile) {
                                                                               {"first_slip.npy", {2}},
                                                                               {"markers.npy", {2, 1, 3}},
                                                                               {"marker_displacement.npy", {2, 1, 2, 3}},
-                                                                              {"object_twist.npy", {2, 6}}};
+                                                                              {"object_twist.npy", {2, 6}},
+                                                                              {"holder_pose.npy", {2, 4, 4}}};
   ASSERT_EQ(press_fields().size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
     EXPECT_EQ(press_fields()[i].file, written[i].first);
@@ -120,6 +122,7 @@ TEST_F(PressFolderTest, WhatIsWrittenReadsBack) {
   EXPECT_THAT(press.times(), ElementsAre(0.0, 0.25));
   EXPECT_THAT(press.phases(), ElementsAre(PhaseKind::reference, PhaseKind::load));
   EXPECT_EQ(press.poses()[1], kInstants[1].pose);
+  EXPECT_EQ(press.holder_poses()[1], Matrix4(2.0 * kInstants[1].pose));
   EXPECT_EQ(press.wrenches()[1].torque_n_m, kInstants[1].wrench.torque_n_m);
   EXPECT_THAT(press.front_vertices(), ElementsAre(0, 2));
   EXPECT_THAT(press.first_slips(), ElementsAre(kNever, 0.25));
@@ -146,8 +149,8 @@ TEST_F(PressFolderTest, AFileOfWhichOneBitIsNotAsRecordedIsRefused) {
       press.markers(frame);
       press.marker_displacements(frame);
     }
-    press.times(), press.phases(), press.poses(), press.wrenches(), press.twists(), press.front_vertices(),
-        press.first_slips();
+    press.times(), press.phases(), press.poses(), press.holder_poses(), press.wrenches(), press.twists(),
+        press.front_vertices(), press.first_slips();
   };
   EXPECT_NO_THROW(read_all(PressFolder::finished(folder_)));
   for (const NpyField& field : press_fields()) {

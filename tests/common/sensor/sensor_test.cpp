@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/base/files.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
@@ -106,6 +107,40 @@ TEST(Material, RelaxationIsAPronySeriesThatLeavesSomeOfTheModulus) {
               ::testing::ElementsAre("m.yaml:5:13: relaxation: its parts sum to 1, which must be less than 1"));
   EXPECT_THAT(faults_in<Material>(elastic + "relaxation: {part: 0.4, time_s: 1}\n", "m.yaml"),
               ::testing::ElementsAre("m.yaml:5:13: relaxation: expected a list of maps, found a map"));
+}
+
+/// A shipped sensor's text with some of it replaced.
+std::string changed_mctac(const std::string& part, const std::string& by) {
+  std::string text = read_file(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
+  return text.replace(text.find(part), part.size(), by);
+}
+
+TEST(Sensor, MountIsRigidAndFrictionThatOfThePressUnlessGiven) {
+  const auto plain = read_config<Sensor>(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
+  EXPECT_FALSE(plain.mount.gives_way());
+  EXPECT_FALSE(plain.friction);
+  const auto sensor =
+      config_from_text<Sensor>(changed_mctac("\nmaterial:",
+                                             "\nmount: {compliance_mm_per_n: 0.01, compliance_mm_per_n_src: derived, "
+                                             "shear_compliance_mm_per_n: 0.02}\nmaterial:"),
+                               "s.yaml");
+  EXPECT_TRUE(sensor.mount.gives_way());
+  EXPECT_LT((sensor.mount.compliance() - Vector3(2e-5, 2e-5, 1e-5)).norm(), 1e-18);
+  const auto across = config_from_text<Sensor>(
+      changed_mctac("\nmaterial:", "\nmount: {shear_compliance_mm_per_n: 0.02}\nmaterial:"), "s.yaml");
+  EXPECT_TRUE(across.mount.gives_way());
+  EXPECT_EQ(across.mount.compliance_m_per_n, 0.0);
+  const auto rough = config_from_text<Sensor>(changed_mctac("\ngel:\n", "\ngel:\n  friction: 0.85\n"), "s.yaml");
+  EXPECT_EQ(rough.friction, 0.85);
+  EXPECT_THAT(
+      faults_in<Sensor>(changed_mctac("\nmaterial:", "\nmount: {compliance_mm_per_n: -1, stiffness: 3}\nmaterial:"),
+                        "s.yaml"),
+      ::testing::ElementsAre(::testing::HasSubstr("mount.compliance_mm_per_n: -1 is outside [0, 1000]"),
+                             ::testing::HasSubstr("mount.stiffness: unknown key")));
+  EXPECT_THAT(faults_in<Sensor>(changed_mctac("\ngel:\n", "\ngel:\n  friction: 11\n"), "s.yaml"),
+              ::testing::ElementsAre(::testing::HasSubstr("gel.friction: 11 is outside [0, 10]")));
+  EXPECT_THAT(faults_in<Sensor>(changed_mctac("\nmaterial:\n", "\nmaterial:\n  friction: 0.5\n"), "s.yaml"),
+              ::testing::ElementsAre(::testing::HasSubstr("material.friction: unknown key")));
 }
 
 TEST(Sensor, FaultsOfMeaningNameTheirPlace) {

@@ -21,7 +21,7 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
     if (term) out.terms.push_back({weight, std::move(term)});
   };
   add(1.0, terms.inertia);
-  add(1.0, terms.object_inertia);
+  add(1.0, terms.object_pull);
   add(w.mass_damping_per_s * h, terms.mass_damping);
   add(w.stiffness_damping_s * h, terms.stiffness_damping);
   add(h * h, terms.gravity);

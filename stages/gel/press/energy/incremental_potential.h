@@ -23,9 +23,8 @@ struct WeightedContact {
 
 /// The parts of one time step; null where a part is absent.
 struct StepTerms {
-  std::shared_ptr<const EnergyTerm> inertia;  // of the gel about x̂
-  std::shared_ptr<const EnergyTerm>
-      object_inertia;  // of an object with free axes, about its x̂ (which includes its load)
+  std::shared_ptr<const EnergyTerm> inertia;            // of the gel about x̂
+  std::shared_ptr<const EnergyTerm> object_pull;        // of an object with free axes: its inertia about x̂, its mount
   std::shared_ptr<const EnergyTerm> mass_damping;       // an inertia about the start of the step
   std::shared_ptr<const EnergyTerm> stiffness_damping;  // ½ (x − xᵗ)ᵀ K (x − xᵗ)
   std::shared_ptr<const EnergyTerm> gravity;            // −Σ m g·x where x̂ does not include it

@@ -51,7 +51,7 @@ void TimeStepper::record_forces(const Step& step) {
   const IncrementalPotential energy = potential(step, touching);
   const auto elastic = parts_of(gel_.elasticity), at_mount = parts_of(elasticity_at_mount_);
   for (const WeightedTerm& part : energy.terms) {
-    if (part.term == step.terms.object_inertia || part.term == step.terms.constraint) continue;
+    if (part.term == step.terms.object_pull || part.term == step.terms.constraint) continue;
     if (const auto found = std::find(elastic.begin(), elastic.end(), part.term); found != elastic.end()) {
       take_from_mount(force_of(part.weight, *at_mount[static_cast<std::size_t>(found - elastic.begin())]));
       continue;

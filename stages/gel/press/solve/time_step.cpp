@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/mesh/spatial_order.h"
 #include "stages/gel/press/contact/near_pairs.h"
+#include "stages/gel/press/energy/axis_springs.h"
 #include "stages/gel/press/energy/linear_load.h"
 #include "stages/gel/press/energy/stiffness_damping.h"
 #include "stages/gel/press/solve/local_patch.h"
@@ -177,7 +178,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
     step.turned_start = state.x + way_of(goal.hand_motion, state.x);
   add_gel_terms(step, state);
   if (gel_.viscoelasticity) add_relaxation(step, state);
-  if (!goal.free_axes.empty()) add_object_inertia(step, state);
+  if (!goal.free_axes.empty()) add_object_pull(step, state);
   if (settings_.augmented_lagrangian) add_constraint(step);
   if (goal.free_object) add_bodies(step, state);
   if (goal.free_object || goal.gel_motion.size() > 0) start_ahead(step, state);
@@ -226,15 +227,21 @@ void TimeStepper::add_relaxation(Step& step, const State& state) const {
   step.weights.elastic_factors = gel.elastic_factors(step.goal.h_s);
 }
 
-void TimeStepper::add_object_inertia(Step& step, const State& state) const {
+void TimeStepper::add_object_pull(Step& step, const State& state) const {
   const StepGoal& goal = step.goal;
   const int n = mesh_.num_gel_vertices;
   const double h = goal.h_s;
-  const Eigen::RowVector3d fall = h * h * settings_.gravity_m_s2.transpose();
-  const Eigen::RowVector3d x_hat = state.x.row(n) + h * state.object_velocity_m_s.transpose() + fall +
-                                   h * h / goal.object_mass_kg * goal.load_n.transpose();
-  step.terms.object_inertia =
-      std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, goal.object_mass_kg), Positions(x_hat), n);
+  Vector3 stiffness = Vector3::Constant(goal.object_mass_kg),
+          target = goal.object_target.row(0) - goal.mount_shift_m.transpose();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const double mount = goal.mount_stiffness_n_m[axis]; mount > 0.0) {
+      stiffness[axis] = h * h * mount;
+    } else if (goal.object_mass_kg > 0.0) {
+      target[axis] = state.x(n, axis) + h * state.object_velocity_m_s[axis] + h * h * settings_.gravity_m_s2[axis] +
+                     h * h / goal.object_mass_kg * goal.load_n[axis];
+    }
+  }
+  step.terms.object_pull = std::make_shared<AxisSprings>(n, stiffness, target);
 }
 
 double TimeStepper::relative_way(const Positions& p) const {
@@ -266,7 +273,9 @@ void TimeStepper::finish_step(Step& step, State& state) {
     state.velocity_m_s = (step.x.topRows(n) - state.x.topRows(n)) / h;
   }
   state.object_velocity_m_s.setZero();
-  for (const int axis : step.goal.free_axes) state.object_velocity_m_s[axis] = step.object_shift[axis] / h;
+  for (const int axis : step.goal.free_axes) {
+    if (step.goal.mount_stiffness_n_m[axis] == 0.0) state.object_velocity_m_s[axis] = step.object_shift[axis] / h;
+  }
   state.x = std::move(step.x);
   if (!settings_.augmented_lagrangian) place_held_objects(step, state.x);
 }

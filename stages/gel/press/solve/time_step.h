@@ -66,9 +66,12 @@ struct GelModel {
 struct StepGoal {
   double h_s = 0.0;
   Positions object_target;           // of their vertices; along free axes, where they would be without any shift
-  std::vector<int> free_axes = {};   // of S, along which the object moves as loads and contact have it
-  Vector3 load_n = Vector3::Zero();  // on the object, along these
+  std::vector<int> free_axes = {};   // of S, along which the object moves as loads, its mount and contact have it
+  Vector3 load_n = Vector3::Zero();  // on the object, along those without a mount
   double object_mass_kg = 0.0;       // its inertia along these; > 0 if there are any
+  /// Of a mount that gives way, along free axes, 0 along others: a spring without mass pulls the object to where it
+  /// would be on a rigid one, and object_target is already `mount_shift_m` past that.
+  Vector3 mount_stiffness_n_m = Vector3::Zero(), mount_shift_m = Vector3::Zero();
   /// Bodies move and turn as their weight, the load at their centre of mass, and contact have it: nothing of them is
   /// prescribed. \pre there are bodies
   bool free_object = false;
@@ -91,7 +94,7 @@ struct StepGoal {
 struct State {
   Positions x;
   Positions velocity_m_s;                                                // gel rows
-  Vector3 object_velocity_m_s = Vector3::Zero();                         // along free axes
+  Vector3 object_velocity_m_s = Vector3::Zero();                         // along axes of a load
   std::vector<RigidMotion> object_motion = std::vector<RigidMotion>(1);  // of each object that may be free
   double barrier_factor = 1.0;                                           // on the barrier's stiffness in the next step
   Viscoelasticity::History viscous_pa = {};                              // of a gel whose stress relaxes
@@ -180,7 +183,7 @@ class TimeStepper {
   Positions start_beside_mounts(const Step& step) const;
   /// What a gel whose stress relaxes has besides.
   void add_relaxation(Step& step, const State& state) const;
-  void add_object_inertia(Step& step, const State& state) const;
+  void add_object_pull(Step& step, const State& state) const;
   /// The terms of free objects.
   void add_bodies(Step& step, const State& state);
   /// Lets the step start with gels moved with their mounts and a free object where it would fly to, or as near to that

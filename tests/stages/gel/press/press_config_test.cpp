@@ -18,6 +18,25 @@ TEST(PressConfig, ShippedSettingsAreThePapers) {
   EXPECT_FALSE(config.friction);
 }
 
+TEST(PressConfig, TakesTheFrictionOfASensorWhereItHasAny) {
+  const auto read = [](const std::string& friction) {
+    return config_from_text<PressConfig>(
+        "time_step_s: 0.01\nnewton: {}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6}\n" + friction, "x.yaml");
+  };
+  Sensor sensor;
+  const PressConfig rough = read("friction: {coefficient: 0.4, relative_speed_threshold: 2e-3}\n");
+  EXPECT_FALSE(rough.takes_friction_of(sensor));
+  EXPECT_EQ(rough.with_friction_of(sensor).coefficient_of_friction(), 0.4);
+  sensor.friction = 0.9;
+  EXPECT_TRUE(rough.takes_friction_of(sensor));
+  EXPECT_EQ(rough.with_friction_of(sensor).coefficient_of_friction(), 0.9);
+  EXPECT_EQ(rough.with_friction_of(sensor).friction->relative_speed_threshold, 2e-3);
+  for (const char* none : {"", "friction: {coefficient: 0}\n"}) {
+    EXPECT_FALSE(read(none).takes_friction_of(sensor)) << none;
+    EXPECT_EQ(read(none).with_friction_of(sensor).coefficient_of_friction(), 0.0) << none;
+  }
+}
+
 TEST(PressConfig, ContactHessianIsAdaptiveUnlessNamed) {
   const auto read = [](const std::string& newton) {
     return config_from_text<PressConfig>(

@@ -198,6 +198,26 @@ TEST_F(SceneOf, TwoGelsLiftABoxFromATable) {
   EXPECT_NEAR(on(end, 2, 0).force_n.z() + on(end, 2, 1).force_n.z(), weight, 1e-2 * weight);
 }
 
+TEST_F(SceneOf, TouchesGelsWithTheFrictionOfTheirSensor) {
+  add_gel("gel", at(Vector3::Zero()));
+  add_box("box", BodyKind::rigid, {0, 0, 3.1e-3});
+  add_box("floor", BodyKind::fixed, {13.1e-3, 0, 0});
+  spec_.motion = {{.steps = 3}, {.steps = 3, .load_n = {{1, {0.15, 0, 0}}}}};
+  config_.friction->coefficient = 0.2;
+  Sensor sensor = paper_sensor();
+  sensor.friction = 0.9;
+  const auto end = [&](const Sensor& of) {
+    return run_scene(of, bodies_, config_, spec_, ignore_progress).frames.back().world_from_body[1];
+  };
+  const Matrix4 of_sensor = end(sensor), of_file = end(paper_sensor());
+  spec_.contact = {{.between = {0, 1}, .friction = 0.9}};
+  EXPECT_EQ(end(paper_sensor()), of_sensor);
+  EXPECT_GT(of_file(0, 3), of_sensor(0, 3) + 0.1e-3);
+  // What a pair says of itself counts.
+  spec_.contact = {{.between = {0, 1}, .friction = 0.2}};
+  EXPECT_LT((end(sensor) - of_file).cwiseAbs().maxCoeff(), 0.03e-3);
+}
+
 TEST_F(SceneOf, ResumesToTheSameBitsWithAnyNumberOfThreads) {
   add_gel("gel", at(Vector3::Zero()));
   add_box("box", BodyKind::rigid, {0, 0, 3.1e-3});

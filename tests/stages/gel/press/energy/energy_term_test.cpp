@@ -8,6 +8,7 @@
 #include <random>
 
 #include "stages/gel/press/energy/averaged_elasticity.h"
+#include "stages/gel/press/energy/axis_springs.h"
 #include "stages/gel/press/energy/barrier.h"
 #include "stages/gel/press/energy/contact_barrier.h"
 #include "stages/gel/press/energy/dirichlet.h"
@@ -105,6 +106,8 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   all.push_back({"inertia", std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, 2.0), Positions{{0.1, 0.2, 0.3}}),
                  Vector3(0.3, -0.2, 0.5), 1e-3, false, false, true});
+  all.push_back({"axis_springs", std::make_shared<AxisSprings>(0, Vector3(2.0, 0.0, 50.0), Vector3(0.1, 0.2, 0.3)),
+                 Vector3(0.4, -0.1, 0.2), 1e-2, false, false, true});
   all.push_back({"linear_load", std::make_shared<LinearLoad>(std::vector<int>{0}, Positions{{0.1, -2.0, 0.3}}),
                  Vector3(0.3, -0.2, 0.5), 1e-3, false, false, true});
   all.push_back(

@@ -36,7 +36,7 @@ class NewtonStepTest : public ::testing::Test {
     StepTerms terms;
     terms.elasticity = elasticity_;
     terms.inertia = std::make_shared<Inertia>(mass, Positions(x_.topRows(n).array() + 0.01));
-    terms.object_inertia =
+    terms.object_pull =
         std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, 30.0), Positions(x_.row(n).array() - 0.1), n);
     terms.barrier = barrier_;
     terms.friction = std::make_shared<Friction>(*barrier_, x_, start_, 0.05);
@@ -210,8 +210,8 @@ TEST_F(NewtonStepTest, DescendsHoweverCoarselyItIsSolved) {
     const int n = mesh_.num_gel_vertices;
     StepTerms terms;
     terms.elasticity = elasticity_;
-    terms.object_inertia = std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, 1.0),
-                                                     Positions(x_.row(n).array() + 0.04 * (place - 30)), n);
+    terms.object_pull = std::make_shared<Inertia>(Eigen::VectorXd::Constant(1, 1.0),
+                                                  Positions(x_.row(n).array() + 0.04 * (place - 30)), n);
     terms.barrier = barrier_;
     const IncrementalPotential potential =
         make_incremental_potential(terms, {.h_s = 0.5, .barrier_stiffness_j_m4 = 2000.0, .friction_coefficient = 0.0});
