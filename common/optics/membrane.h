@@ -6,6 +6,7 @@
 
 #include "common/base/types.h"
 #include "common/mesh/tet_mesh.h"
+#include "common/mesh/vertex_normals.h"
 
 namespace tacipc {
 
@@ -18,10 +19,6 @@ struct Membrane {
   std::vector<std::array<int, 2>> outline;  // boundary edges in the direction of their triangle
   std::vector<int> gel_rows;                // rows of the gel's vertices that these are; empty if from plain arrays
 };
-
-/// Unit vertex normals: triangle normals weighted by the angle at the vertex (Thürmer and Wüthrich 1998), so that the
-/// way a flat region is cut into triangles does not tilt them. Zero for a vertex without a triangle of some area.
-Positions vertex_normals(const Positions& positions, const Triangles& triangles);
 
 /// Directed edges that occur in one triangle only, in triangle order.
 std::vector<std::array<int, 2>> boundary_edges(const Triangles& triangles);

@@ -1,9 +1,7 @@
-// A straight pinhole camera, and the triangles it sees.
+// A straight pinhole camera, and where a ray meets a triangle.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "common/base/types.h"
@@ -53,25 +51,6 @@ inline std::optional<RayHit> ray_hit(const Vector3& ray, const Vector3& a, const
   const double sum = u + v + w;
   if (!inside || sum == 0.0) return std::nullopt;
   return RayHit{(u * a.z() + v * b.z() + w * c.z()) / sum, {u / sum, v / sum, w / sum}};
-}
-
-/// Calls visit(x, y, triangle, hit) for every pixel whose centre's ray meets a triangle, triangle by triangle.
-/// \pre `seen` in camera coordinates, every z > 0
-template <typename Visit>
-void for_each_hit(const Pinhole& pinhole, const Positions& seen, const Triangles& triangles, const Visit& visit) {
-  // One pixel more on each side than the exact box: rounding must not cut a triangle short.
-  const auto first = [](double low) { return static_cast<int>(std::floor(std::max(low - 1.5, 0.0))); };
-  const auto last = [](double high, int count) {
-    return static_cast<int>(std::ceil(std::min(high + 0.5, count - 1.0)));
-  };
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const Vector3 a = seen.row(triangles(t, 0)), b = seen.row(triangles(t, 1)), c = seen.row(triangles(t, 2));
-    const auto [left, right] = std::minmax({pinhole.column(a), pinhole.column(b), pinhole.column(c)});
-    const auto [top, bottom] = std::minmax({pinhole.row(a), pinhole.row(b), pinhole.row(c)});
-    for (int y = first(top); y <= last(bottom, pinhole.height); ++y)
-      for (int x = first(left); x <= last(right, pinhole.width); ++x)
-        if (const auto hit = ray_hit(pinhole.ray(x, y), a, b, c)) visit(x, y, t, *hit);
-  }
 }
 
 }  // namespace tacipc

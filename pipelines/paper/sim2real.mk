@@ -8,7 +8,7 @@ cases_name := $(basename $(notdir $(CASES)))
 SIM2REAL := $(OUT)/sim2real/$(cases_name)
 
 .PHONY: sim2real sim2real-page
-ifneq ($(filter sim2real sim2real-page paper-real paper-fragment-real depth-rivals depth-networks,$(MAKECMDGOALS)),)
+ifneq ($(filter sim2real sim2real-page rivals paper-real paper-fragment-real depth-rivals depth-networks,$(MAKECMDGOALS)),)
 $(call check_name,CASES)
 $(call check_name,SHARED)
 ifeq ($(wildcard $(CASES)),)

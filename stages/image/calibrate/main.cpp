@@ -35,7 +35,13 @@ const StageSpec kCalibrate{
                {.flag = "--shapes",
                 .help = "indentation maps (EXR), one per label, in place of a press",
                 .required = false,
-                .many = true}}};
+                .many = true},
+               {.flag = "--rival",
+                .help = "another simulator's light, to be fitted in place of ours (YAML)",
+                .required = false},
+               {.flag = "--balls",
+                .help = "balls.csv of calibrate: contacts as fitted, in place of the labels' circles (with --rival)",
+                .required = false}}};
 
 /// Twice the residual of the model, about grey.
 ByteImage residual_picture(const ByteImage& simulated, const ByteImage& real) {
@@ -101,6 +107,9 @@ void write_calibrated_sensor(Stage& stage, const LightField& light) {
   write_file(stage.output("reference.png"), read_file(stage.input("--background")));
 }
 
+/// Nearer than this the ball counts as touching the membrane, in balls.csv.
+constexpr double kTouchingM = 2e-5;
+
 void calibrate_balls(Stage& stage) {
   if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
     throw UsageError("give --photographs and --labels of balls, or --basis, or a configuration with sensor_fit");
@@ -146,12 +155,17 @@ void calibrate_balls(Stage& stage) {
 
   write_file(stage.output("light.yaml"), to_yaml(fit.light.to_value()));
   write_calibrated_sensor(stage, fit.light);
-  std::string table = "image,x_mm,y_mm,depth_mm,rmse_codes\n";
+  std::string table =
+      press ? "image,x_mm,y_mm,depth_mm,rmse_codes,contact_mm\n" : "image,x_mm,y_mm,depth_mm,rmse_codes\n";
   std::vector<Matrix4> poses;
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const Ball& ball = balls[i];
-    table += fmt::format("{},{},{},{},{}\n", ball.label.image, 1e3 * ball.x_m, 1e3 * ball.y_m, 1e3 * ball.depth_m,
+    table += fmt::format("{},{},{},{},{}", ball.label.image, 1e3 * ball.x_m, 1e3 * ball.y_m, 1e3 * ball.depth_m,
                          ball.rmse_codes);
+    if (press)
+      table += fmt::format(
+          ",{}", 1e3 * contact_radius(press->at_depth(ball.depth_m), ball.depth_m, config.ball_radius_m, kTouchingM));
+    table += "\n";
     poses.push_back(ball_pose(ball.x_m, ball.y_m, ball.depth_m, config.ball_radius_m));
     const ByteImage simulated = add_change(background, code_change(fit.light, ball.view));
     write_png(stage.output("residuals/" + ball.label.image), residual_picture(simulated, photographs[i]));
@@ -171,7 +185,13 @@ void calibrate_balls(Stage& stage) {
 int main(int argc, char** argv) {
   return run_stage(kCalibrate, argc, argv, [](Stage& stage) {
     const bool whole_sensor = ConfigReader::from_file(stage.input("--config")).has("sensor_fit");
-    if (whole_sensor)
+    const bool rival = stage.optional_input("--rival").has_value();
+    if (stage.optional_input("--balls") && !rival) throw UsageError("--balls: is for --rival alone");
+    if (rival && (whole_sensor || !stage.inputs("--basis").empty()))
+      throw UsageError("--rival: is fitted to balls, without --basis or sensor_fit");
+    if (rival)
+      calibrate_rival(stage);
+    else if (whole_sensor)
       calibrate_sensor(stage);
     else if (stage.inputs("--basis").empty())
       calibrate_balls(stage);

@@ -47,7 +47,7 @@ void deliver(Stage& stage, const std::string& name, const MembraneView& view, co
   write_exr(stage.output("depth/" + name + ".exr"), depth, {"Y"});
 }
 
-void shade_shapes(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
+void shade_shapes(Stage& stage, const ImagePlaces& config, const Sensor& sensor, const LightField& light,
                   const ByteImage& background) {
   const auto& shapes = stage.inputs("--shapes");
   if (shapes.size() != config.images.size())
@@ -59,7 +59,7 @@ void shade_shapes(Stage& stage, const ShadeConfig& config, const Sensor& sensor,
   stage.summarize({{"images", shapes.size()}});
 }
 
-void shade_press(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
+void shade_press(Stage& stage, const ImagePlaces& config, const Sensor& sensor, const LightField& light,
                  const ByteImage& background) {
   const auto folder = *stage.optional_input("--press");
   const FrontFrames press = read_front_frames(folder, *stage.optional_input("--gel"));
@@ -88,11 +88,7 @@ void shade_press(Stage& stage, const ShadeConfig& config, const Sensor& sensor, 
                      {"center_px", Value::List{fitted.place.x_px, fitted.place.y_px}},
                      {"center_mm", Value::List{1e3 * center_m.x(), 1e3 * center_m.y()}},
                      {"yaw_deg", fitted.place.yaw_rad * 180.0 / std::numbers::pi}};
-  if (config.fit)
-    summary.emplace_back("fit", Value::Map{{"image", config.fit->image},
-                                           {"rmse_codes_before", fitted.rmse_before},
-                                           {"rmse_codes_after", fitted.rmse_after},
-                                           {"views", fitted.views}});
+  if (config.fit) summary.emplace_back("fit", fitted.to_value(config.fit->image));
   stage.summarize(summary);
 }
 
@@ -102,7 +98,7 @@ struct ContactRim {
   static ContactRim read(ConfigReader& in) { return {1e-3 * in.number("contact_gap_mm", Range::positive())}; }
 };
 
-void shade_contacts(Stage& stage, const ShadeConfig& config, const Sensor& sensor, const LightField& light,
+void shade_contacts(Stage& stage, const ImagePlaces& config, const Sensor& sensor, const LightField& light,
                     const ByteImage& background) {
   const double radius_m = config.ball_radius_m.value();
   const BallPress press = read_ball_press(*stage.optional_input("--press"), *stage.optional_input("--gel"), radius_m,
@@ -131,7 +127,7 @@ int main(int argc, char** argv) {
     const bool press = stage.optional_input("--press").has_value(), gel = stage.optional_input("--gel").has_value();
     if (press != gel) throw UsageError("--press and --gel belong together");
     if (press != stage.inputs("--shapes").empty()) throw UsageError("give either --press or --shapes");
-    const auto config = stage.read_config<ShadeConfig>("--config");
+    const auto config = stage.read_config<ImagePlaces>("--config");
     if (stage.optional_input("--photograph").has_value() != (press && config.fit.has_value()))
       throw UsageError("--photograph: needed where a press is to be fitted to it, and only there");
     if (stage.optional_input("--contact").has_value() != (press && config.ball_radius_m.has_value()))

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "common/base/types.h"
 #include "common/config/config.h"
+#include "stages/rival/baseline/object_depth.h"
 
 namespace tacipc {
 
@@ -17,20 +19,47 @@ struct GaussianSize {
   double sigma_px = 0.0;
 };
 
+/// OpenCV's Gaussian window of n pixels (odd) without a σ: σ = 0.3 ((n − 1)/2 − 1) + 0.8, cut at ±(n − 1)/2. Made for
+/// pixels of another size, its σ and its half width keep their length in mm.
+struct GaussianWindow {
+  double half_px = 0.0;  // not whole where scaled
+  double sigma_px = 0.0;
+
+  static GaussianWindow of_size(int size_px);
+  GaussianWindow scaled(double factor) const { return {half_px * factor, sigma_px * factor}; }
+};
+
 /// How the membrane follows from the object's depth alone.
 struct DeformationConfig {
-  enum class Method { difference_of_gaussians, exponential_kernel, none };
+  enum class Method { difference_of_gaussians, exponential_kernel, two_gaussians, pyramid, rigid, none };
   Method method = Method::difference_of_gaussians;
-  GaussianSize near_kernel;  // k1 [difference of Gaussians only, as what follows]
+  GaussianSize near_kernel;  // k1 [the two with Gaussians only, as what follows]
   GaussianSize far_kernel;   // k2
   int iterations = 0;
+  int far_iterations = 0;                // two_gaussians only
   double exponential_factor = 1.0;       // f of the exponential kernel
   std::optional<int> designed_width_px;  // of the images the kernels were made for; absent: taken as they are
+  std::vector<GaussianWindow> levels;    // of the pyramid, px of the images it was made for; the last closes it
+  double contact_share = 0.0;            // of the press's depth: what is less deep does not keep its height
+  double designed_pixel_m = 0.0;         // of those images
 
   static DeformationConfig read(ConfigReader& in);
   /// Kernels for images `width_px` wide: n and σ scale with the width, n to the nearest of the same parity and at least
-  /// 1.
-  DeformationConfig scaled_to(int width_px) const;
+  /// 1. Those of the pyramid for pixels of `pixel_m`.
+  DeformationConfig scaled_to(int width_px, double pixel_m) const;
+};
+
+/// TACTO's depth of a contact force: the object goes towards the camera by min(F, F_largest) / F_largest of the
+/// deepest.
+struct ForceDepth {
+  double applied_n = 0.0;
+  double largest_n = 0.0;
+  double deepest_m = 0.0;
+
+  static ForceDepth read(ConfigReader& in);
+  double depth_m() const;
+  /// The way of an object whose frame's origin is at `object`. \pre it is not at the camera
+  Vector3 way_m(const Vector3& object, const Vector3& camera) const;
 };
 
 /// One light of the Phong model. The direction (x along columns, y along rows as the normals of phong.h) is not
@@ -39,7 +68,7 @@ struct PhongLight {
   std::array<double, 3> direction{};
   std::array<double, 3> rgb{};  // 0 … 255
   double diffuse = 0.0;
-  double specular = 0.0;
+  double specular = 0.0;  // of `phong` only
 };
 
 struct PhongConfig {
@@ -53,13 +82,33 @@ struct PhongConfig {
   static PhongConfig read(ConfigReader& in);
 };
 
+/// Light that is added to the photograph as a change of codes (change.h).
+struct ChangeConfig {
+  enum class Model { lambert_sum, metallic_roughness, table, network };
+  Model model = Model::lambert_sum;
+  double metres_per_pixel = 0.0;   // lambert_sum only, as what follows
+  std::vector<PhongLight> lights;  // added up
+  std::optional<GaussianSize> blur;
+  std::optional<GaussianWindow> window;  // metallic_roughness only: of the change, px of images of designed_pixel_m
+  double designed_pixel_m = 0.0;
+  double noise_codes = 0.0;    // standard deviation per pixel and channel of the finished image
+  double final_blur_px = 0.0;  // σ of a last blur of the change, as a light field's
+
+  bool needs_light() const { return model != Model::lambert_sum; }
+  static ChangeConfig read(ConfigReader& in, const std::string& model);
+};
+
 struct BaselineConfig {
   std::optional<double> front_depth_m;  // of the undeformed front from the camera; absent: the sensor's
+  ObjectRays rays = ObjectRays::refracted;
+  std::optional<ForceDepth> force;
   DeformationConfig deformation;
   double texture_sigma_m = 0.0;  // of the membrane's height, normally distributed
   std::uint64_t seed = 0;
-  std::optional<PhongConfig> shading;  // absent: the height map alone
+  std::optional<PhongConfig> phong;  // at most one of the two; neither: the height map alone
+  std::optional<ChangeConfig> change;
 
+  bool shades() const { return phong || change; }
   static BaselineConfig read(ConfigReader& in);
 };
 

@@ -31,6 +31,37 @@ Raster difference_of_gaussians(const Raster& h, const DeformationConfig& config)
   return a;
 }
 
+/// M of the header, `times` times.
+Raster raised(const Raster& h, const std::vector<double>& profile, int times) {
+  Raster f = h;
+  for (int i = 0; i < times; ++i) {
+    f = correlate_separable(f, profile);
+    for (std::size_t k = 0; k < f.values.size(); ++k) f.values[k] = std::max(f.values[k], h.values[k]);
+  }
+  return f;
+}
+
+Raster two_gaussians(const Raster& h, const DeformationConfig& config) {
+  const auto near_profile = folded_gaussian_profile(config.near_kernel.size_px, config.near_kernel.sigma_px);
+  const auto far_profile = folded_gaussian_profile(config.far_kernel.size_px, config.far_kernel.sigma_px);
+  Raster f = raised(h, near_profile, config.iterations);
+  const Raster far = raised(h, far_profile, config.far_iterations);
+  for (std::size_t i = 0; i < f.values.size(); ++i) f.values[i] = 2.0 * f.values[i] - far.values[i];
+  return correlate_separable(f, near_profile);
+}
+
+Raster pyramid(const Raster& h, const DeformationConfig& config) {
+  const double least = config.contact_share * maximum(h);
+  Raster f = h;
+  for (std::size_t level = 0; level < config.levels.size(); ++level) {
+    f = correlate_separable(f, cut_gaussian_profile(config.levels[level].half_px, config.levels[level].sigma_px));
+    if (level + 1 == config.levels.size()) break;
+    for (std::size_t i = 0; i < f.values.size(); ++i)
+      if (h.values[i] > least) f.values[i] = h.values[i];
+  }
+  return f;
+}
+
 }  // namespace
 
 Raster protrusion(const Raster& depth_m, const Raster& front_depth_m) {
@@ -50,6 +81,11 @@ Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig&
     case DeformationConfig::Method::exponential_kernel:
       // The kernel's sum is 1, so padding the depth with the front's depth is padding the protrusion with zero.
       return correlate(protrusion_m, exponential_kernel(config.exponential_factor), Border::constant, 0.0);
+    case DeformationConfig::Method::two_gaussians:
+      return two_gaussians(protrusion_m, config);
+    case DeformationConfig::Method::pyramid:
+      return pyramid(protrusion_m, config);
+    case DeformationConfig::Method::rigid:
     case DeformationConfig::Method::none:
       return protrusion_m;
   }

@@ -14,7 +14,11 @@ Raster protrusion(const Raster& depth_m, const Raster& front_depth_m);
 /// - difference of Gaussians [Gomes2021]: with S(f, k) = max(k * f · max h / max(k * f), h) (factor 1 where max(k * f)
 ///   is 0), a = Sᵗ(h, k1), b = Sᵗ(Sᵗ(h, k2), k1) over t iterations, 2 a − b. It bulges (< 0) around the contact.
 /// - exponential kernel [Tacchi2023's rival]: the 13 × 13 kernel on h, 0 outside the image.
-/// - none: h.
+/// - two Gaussians, as Chen et al. (2022) have it: with M(f, k) = max(k * f, h): S = Mᵗ(h, k1), B = Mᵘ(h, k2), and
+///   k1 * (2 S − B).
+/// - pyramid [SiYuan2022, Zhao2024]: from f = h, for every level but the last f ← k * f and then f = h where the object
+///   keeps its height: in contact, deeper than contact_share of the deepest point. The last level blurs it all.
+/// - rigid, none: h. (A rigid object's own normals may light it; those of a map are its slopes.)
 Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config);
 
 /// Adds N(0, σ) to every value, by seed and pixel alone.

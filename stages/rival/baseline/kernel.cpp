@@ -67,6 +67,23 @@ Raster correlate(const Raster& image, const Raster& kernel, Border border, doubl
   return out;
 }
 
+std::vector<double> cut_gaussian_profile(double half, double sigma) {
+  assert(sigma > 0.0);
+  const int reach = static_cast<int>(std::lround(half));
+  std::vector<double> profile;
+  double sum = 0.0;
+  for (int i = -reach; i <= reach; ++i) sum += profile.emplace_back(std::exp(-0.5 * i * i / (sigma * sigma)));
+  for (double& weight : profile) weight /= sum;
+  return profile;
+}
+
+Raster correlate_separable(const Raster& image, const std::vector<double>& profile) {
+  Raster out(image.width, image.height);
+  cv::Mat target = view(out);
+  cv::sepFilter2D(view(image), target, CV_64F, profile, profile);
+  return out;
+}
+
 void keep_to_one_thread() { cv::setNumThreads(1); }
 
 }  // namespace tacipc

@@ -24,6 +24,12 @@ enum class Border { reflect_101, constant };
 /// half
 Raster correlate(const Raster& image, const Raster& kernel, Border border = Border::reflect_101, double outside = 0.0);
 
+/// exp(−i²/2σ²), |i| ≤ half to the nearest whole number, divided by its sum. \pre sigma > 0
+std::vector<double> cut_gaussian_profile(double half, double sigma);
+
+/// correlate with profile(x) profile(y), mirrored about the outermost pixel centres: as a separable filter.
+Raster correlate_separable(const Raster& image, const std::vector<double>& profile);
+
 /// OpenCV's own threads would not heed --threads: from here on it has none.
 void keep_to_one_thread();
 

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/statistics.h"
+#include "common/benchmark/image_places.h"
 #include "common/image/picture.h"
 #include "common/mesh/triangle_mesh.h"
+#include "common/mesh/vertex_normals.h"
 #include "common/sample/pose_file.h"
 #include "common/sample/render_folder.h"
 #include "common/sensor/camera_image.h"
@@ -22,34 +26,43 @@ using namespace tacipc;
 
 const StageSpec kBaseline{
     .name = "baseline",
-    .summary = "Make tactile images as the depth-based simulators do: blurred depth, Phong light.",
+    .summary =
+        "Make tactile images as simulators do that know the object's depth alone: its shape, blurred, and a light.",
     .inputs = {{.flag = "--config", .help = "kernels and lights (YAML)"},
                {.flag = "--sensor", .help = "the sensor: camera and gel (YAML)"},
                {.flag = "--background", .help = "photograph without contact (PNG)", .required = false},
+               {.flag = "--light",
+                .help = "table or network (NPY) or lamps (YAML) of calibrate, where the shading has its light there",
+                .required = false},
                {.flag = "--depth", .help = "depth maps (EXR)", .required = false, .many = true},
                {.flag = "--object",
                 .help = "triangle mesh in metres (object.ply of decimate), in place of depth maps",
                 .required = false},
-               {.flag = "--pose", .help = "gel_from_object per frame (NPY)", .required = false}}};
-
-std::vector<Raster> depth_maps(Stage& stage, const Camera& camera) {
-  std::vector<Raster> maps;
-  for (const auto& path : stage.inputs("--depth")) {
-    maps.push_back(read_depth(path));
-    check_camera_size(path, maps.back().width, maps.back().height, camera);
-  }
-  const auto mesh = stage.optional_input("--object"), pose = stage.optional_input("--pose");
-  if (!mesh) return maps;
-  const TriangleMesh object = read_triangle_mesh(*mesh, 1.0);
-  for (const Matrix4& gel_from_object : read_poses(*pose))
-    maps.push_back(object_depth(object, gel_from_object, camera, mesh->string()));
-  return maps;
-}
+               {.flag = "--pose", .help = "gel_from_object per frame (NPY)", .required = false},
+               {.flag = "--places",
+                .help = "which of these poses, moved where in the image (YAML, as for shade)",
+                .required = false},
+               {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false}}};
 
 void check_flags(const Stage& stage) {
   const bool mesh = stage.optional_input("--object").has_value();
   if (mesh != stage.optional_input("--pose").has_value()) throw UsageError("--object and --pose belong together");
   if (mesh != stage.inputs("--depth").empty()) throw UsageError("give either --depth or --object");
+  if (!mesh && stage.optional_input("--places")) throw UsageError("--places: moves an object, which --depth has not");
+}
+
+/// What the configuration wants beside it, and nothing else. \throw UsageError
+void check_light(const Stage& stage, const BaselineConfig& config) {
+  const bool photograph = stage.optional_input("--background").has_value();
+  if (photograph != config.shades())
+    throw UsageError(photograph ? "--background: the configuration has no shading to use it"
+                                : "--background: needed where the configuration has shading");
+  const bool light = stage.optional_input("--light").has_value();
+  if (light != (config.change && config.change->needs_light()))
+    throw UsageError(light ? "--light: the configuration's shading has its own"
+                           : "--light: needed for the configuration's shading");
+  if (config.force && !stage.optional_input("--object"))
+    throw UsageError("contact_force: moves an object, which --depth has not");
 }
 
 /// An object's depth counts from this sensor's camera: above another's front, all of the image would be pressed.
@@ -62,29 +75,103 @@ void check_front(double front_depth_m, const Raster& own_front) {
                       1e3 * front_depth_m, 1e3 * depth_m));
 }
 
+/// Everything that frames have in common.
+struct Simulator {
+  BaselineConfig config;  // for this camera
+  Sensor sensor;
+  ObjectCamera camera;
+  Raster front;
+  std::optional<ByteImage> background = {};
+  std::optional<ChangeOfCodes> change = {};
+  std::optional<TriangleMesh> object = {};
+  Positions normals = {};  // of its vertices, where the light wants them
+  std::string name = {};   // of its file
+
+  SeenObject seen(Matrix4 pose) const {
+    if (config.force)
+      pose.topRightCorner<3, 1>() += config.force->way_m(pose.topRightCorner<3, 1>(), sensor.camera.position_m);
+    return camera.see(*object, normals, pose, name);
+  }
+  BaselineFrame frame(SeenObject object_seen) const {
+    return simulate_depth(std::move(object_seen), front, config, background, change ? &*change : nullptr);
+  }
+};
+
+Simulator make_simulator(Stage& stage) {
+  auto config = stage.read_config<BaselineConfig>("--config");
+  const auto sensor = stage.read_config<Sensor>("--sensor");
+  check_light(stage, config);
+  const Camera& camera = sensor.camera;
+  config.deformation = config.deformation.scaled_to(camera.width_px, camera.window_width_m / camera.width_px);
+  ObjectCamera seen(sensor, config.rays);
+  Raster front = seen.front();
+  const auto mesh = stage.optional_input("--object");
+  if (config.front_depth_m) {
+    if (mesh) check_front(*config.front_depth_m, front);
+    front = Raster(camera.width_px, camera.height_px, *config.front_depth_m);
+  }
+  Simulator out{.config = config, .sensor = sensor, .camera = std::move(seen), .front = std::move(front)};
+  if (const auto photograph = stage.optional_input("--background"))
+    out.background = read_photograph(*photograph, camera);
+  if (config.change) {
+    const auto file = stage.optional_input("--light");
+    out.change.emplace(*config.change, file ? read_light(*file, config.change->model) : RivalLight{}, sensor);
+  }
+  if (!mesh) return out;
+  out.object = read_triangle_mesh(*mesh, 1.0);
+  out.name = mesh->string();
+  if (config.deformation.method == DeformationConfig::Method::rigid && config.change &&
+      config.change->model == ChangeConfig::Model::metallic_roughness)
+    out.normals = vertex_normals(out.object->positions, out.object->triangles);
+  return out;
+}
+
+/// The poses, or those of the images that --places names, moved to the place given there or found on the photograph.
+std::vector<Matrix4> wanted_poses(Stage& stage, const Simulator& simulator) {
+  const std::vector<Matrix4> poses = read_poses(*stage.optional_input("--pose"));
+  if (!stage.optional_input("--places")) return poses;
+  const auto places = stage.read_config<ImagePlaces>("--places");
+  if (places.ball_radius_m) throw UsageError("--places: images are told by contacts, which only shade knows");
+  for (const NamedFrame& image : places.images)
+    if (static_cast<std::size_t>(image.frame) >= poses.size())
+      throw DataError("{}: {} is to be frame {}, there are poses up to {}", stage.optional_input("--pose")->string(),
+                      image.name, image.frame, poses.size() - 1);
+  const auto moved = [&](const ImagePlace& place, const NamedFrame& image) -> Matrix4 {
+    return place_pose(place, simulator.sensor) * poses[static_cast<std::size_t>(image.frame)];
+  };
+  ImagePlace place = places.place;
+  if (places.fit) {
+    const auto file = stage.optional_input("--photograph");
+    if (!file) throw UsageError("--photograph: needed where a place is to be fitted to it");
+    if (!simulator.config.shades()) throw UsageError("--places: no place can be fitted without shading");
+    const ByteImage photograph = read_photograph(*file, simulator.sensor.camera);
+    const NamedFrame& image = *std::find_if(places.images.begin(), places.images.end(),
+                                            [&](const NamedFrame& one) { return one.name == places.fit->image; });
+    const FittedPlace fitted = search_place(place, *places.fit, photograph, [&](const ImagePlace& at) {
+      return *simulator.frame(simulator.seen(moved(at, image))).tactile;
+    });
+    place = fitted.place;
+    stage.summarize({{"fit", fitted.to_value(image.name)}});
+  }
+  std::vector<Matrix4> out;
+  for (const NamedFrame& image : places.images) out.push_back(moved(place, image));
+  write_poses(stage, image_poses_field(), out);
+  stage.summarize(
+      {{"center_px", Value::List{place.x_px, place.y_px}}, {"yaw_deg", place.yaw_rad * 180.0 / std::numbers::pi}});
+  return out;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   return run_stage(kBaseline, argc, argv, [](Stage& stage) {
     check_flags(stage);
-    const auto config = stage.read_config<BaselineConfig>("--config");
-    const auto sensor = stage.read_config<Sensor>("--sensor");
-    const auto photograph = stage.optional_input("--background");
-    if (photograph.has_value() != config.shading.has_value())
-      throw UsageError(photograph ? "--background: the configuration has no shading to use it"
-                                  : "--background: needed where the configuration has shading");
     keep_to_one_thread();
-    const Camera& camera = sensor.camera;
-    std::optional<ByteImage> background;
-    if (photograph) background = read_photograph(*photograph, camera);
-    const Raster own_front = front_depth(sensor);
-    if (config.front_depth_m && stage.optional_input("--object")) check_front(*config.front_depth_m, own_front);
-    const Raster front =
-        config.front_depth_m ? Raster(camera.width_px, camera.height_px, *config.front_depth_m) : own_front;
+    const Simulator simulator = make_simulator(stage);
     double deepest_m = 0.0;
-    const std::vector<Raster> maps = depth_maps(stage, camera);
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-      const BaselineFrame frame = simulate_depth(maps[i], front, config, background);
+    std::vector<double> object_s, membrane_s, light_s;
+    const auto deliver = [&](std::size_t i, SeenObject seen) {
+      const BaselineFrame frame = simulator.frame(std::move(seen));
       const std::string folder = frame_folder(i);
       write_frame(stage, folder, FrameFile::indentation, frame.indentation);
       write_frame(stage, folder, FrameFile::depth, frame.depth);
@@ -92,9 +179,27 @@ int main(int argc, char** argv) {
       write_frame(stage, folder, FrameFile::indentation_picture, picture_of_height(frame.indentation));
       if (frame.tactile) write_frame(stage, folder, FrameFile::tactile, *frame.tactile);
       deepest_m = std::max(deepest_m, top);
+      membrane_s.push_back(frame.membrane_s);
+      light_s.push_back(frame.light_s);
+    };
+    if (simulator.object) {
+      for (const Matrix4& pose : wanted_poses(stage, simulator)) {
+        const double started = processor_s();
+        SeenObject seen = simulator.seen(pose);
+        object_s.push_back(processor_s() - started);
+        deliver(membrane_s.size(), std::move(seen));
+      }
+      if (!(deepest_m > 0.0)) log_warning("{} is in the gel in no frame (it is read in metres)", simulator.name);
+    } else {
+      for (const auto& path : stage.inputs("--depth")) {
+        SeenObject seen{.depth = read_depth(path)};
+        check_camera_size(path, seen.depth.width, seen.depth.height, simulator.sensor.camera);
+        deliver(membrane_s.size(), std::move(seen));
+      }
     }
-    if (stage.optional_input("--object") && !(deepest_m > 0.0))
-      log_warning("{} is in the gel in no frame (it is read in metres)", stage.optional_input("--object")->string());
-    stage.summarize({{"frames", maps.size()}, {"max_indentation_mm", 1e3 * deepest_m}});
+    stage.summarize({{"frames", membrane_s.size()}, {"max_indentation_mm", 1e3 * deepest_m}});
+    // Processor seconds of a frame, files not counted.
+    if (simulator.object) stage.cost({{"object_s", upper_median(object_s)}});
+    stage.cost({{"membrane_s", upper_median(membrane_s)}, {"light_s", upper_median(light_s)}});
   });
 }

@@ -14,10 +14,13 @@ std::uint8_t overlaid(double code, double opacity, double color);
 ///   max(k_d d, 0) + k_s R_z^p,  d = N · L, R = 2 d N − L   (L not normalised; odd powers keep the sign).
 double phong_opacity(const PhongLight& light, const std::array<double, 3>& normal, int shininess);
 
+/// (−dz/dx, −dz/dy, 1) / |…| of depth / metres_per_pixel at a pixel, by central differences along columns (to the
+/// right) and rows (downwards); 0 across the outermost pixels, as of a mirrored border.
+std::array<double, 3> phong_normal(const Raster& depth_m, double metres_per_pixel, int x, int y);
+
 /// The tactile image [Gomes2021]: ambient × background fades to black with protrusion / gel thickness (clamped to
 /// [0, 1]); then each light's colour is laid over it with its opacity, codes truncated every time; then the blur.
-/// Normals are (−dz/dx, −dz/dy, 1) / |…| of depth / metres_per_pixel, by central differences along columns (to the
-/// right) and rows (downwards); the mirrored border gives slope 0 on the outermost pixels. \pre equal sizes, RGB
+/// \pre equal sizes, RGB
 ByteImage phong_image(const ByteImage& background, const Raster& depth_m, const Raster& protrusion_m,
                       const PhongConfig& config);
 

@@ -5,7 +5,10 @@
 
 #include "common/image/image.h"
 #include "common/sensor/light_field.h"
+#include "common/sensor/light_network.h"
+#include "common/sensor/metallic_lamps.h"
 #include "common/sensor/sensor.h"
+#include "common/sensor/slope_table.h"
 #include "tests/config_text.h"
 #include "tests/program_test.h"
 
@@ -98,6 +101,42 @@ TEST_F(CalibrateProgram, LedColoursComeFromTheirBasisImages) {
     EXPECT_NEAR(leds[1].numbers("rgb_linear", 3)[c], 0.4 - 0.2 * static_cast<double>(c), 0.004);
     EXPECT_NEAR(in.section("ambient").numbers("rgb", 3)[c], 0.1, 0.004);
   }
+}
+
+TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromTheSameBalls) {
+  scratch_.file("table.yaml",
+                "{model: table, bins: 21, samples: all, smoothing_bins: 1, ridge: 0.01, flat_is_dark: true}\n");
+  scratch_.file("network.yaml", "{model: network, epochs: 2, batch: 100, rate: 0.001, dropout: 0.05, seed: 1}\n");
+  scratch_.file(
+      "lamps.yaml",
+      "model: metallic_roughness\nmetallic_lamps: {change_factor: 0.5, lamps: [{position_mm: [28, 0, -11], rgb: "
+      "[1, 0, 0]}, {position_mm: [0, 28, -11], rgb: [0, 0, 1]}]}\n");
+  for (const std::string model : {"table", "network", "lamps"}) {
+    ASSERT_EQ(run(balls_ + "--rival " + model + ".yaml --out " + model + " --threads 1"), 0) << said_;
+    ASSERT_EQ(run(balls_ + "--rival " + model + ".yaml --out again_" + model + " --threads 3"), 0) << said_;
+    EXPECT_EQ(content_hash(scratch_ / model), content_hash(scratch_ / ("again_" + model)));
+  }
+  EXPECT_EQ(SlopeTable::read(scratch_ / "table/light.npy").bins, 21);
+  LightNetwork::read(scratch_ / "network/light.npy");
+  EXPECT_EQ(read_config<MetallicLamps>(scratch_ / "lamps/light.yaml").lamps.size(), 2U);
+  for (const std::string model : {"table", "lamps"}) {
+    ConfigReader record = ConfigReader::from_file(scratch_ / (model + "/calibrate.yaml"));
+    ConfigReader summary = record.section("summary");
+    EXPECT_GT(summary.number("held_out_rmse_codes"), summary.number("rmse_codes"));
+  }
+  // Contacts of our fit in place of the labels' circles: another centre is another table.
+  scratch_.file("balls.csv",
+                "image,x_mm,y_mm,contact_mm\nb0.png,-1.7,1.4,2.0\nb1.png,-0.5,0.5,2.0\nb2.png,0.7,-0.5,2.0\n"
+                "b3.png,2,-1.4,2.0\n");
+  ASSERT_EQ(run(balls_ + "--rival table.yaml --balls balls.csv --out moved"), 0) << said_;
+  EXPECT_NE(read_file(scratch_ / "moved/light.npy"), read_file(scratch_ / "table/light.npy"));
+  scratch_.file("balls.csv", "image,x_mm,y_mm,contact_mm\nb1.png,-1.7,1.4,2.0\n");
+  EXPECT_EQ(run(balls_ + "--rival table.yaml --balls balls.csv --out a"), 1);
+  EXPECT_EQ(said_, "calibrate: error: balls.csv:2: b1.png is not the ball of the labels there\n");
+  EXPECT_EQ(run(balls_ + "--balls balls.csv --out a"), 2);
+  EXPECT_EQ(said_, "calibrate: error: --balls: is for --rival alone\n");
+  EXPECT_EQ(run(balls_ + shapes_ + "--rival table.yaml --out a"), 2);
+  EXPECT_EQ(said_, "calibrate: error: --rival: has membranes of its own; leave out --press, --gel and --shapes\n");
 }
 
 TEST_F(CalibrateProgram, WrongFlagsAndFilesAreSaidOnce) {

@@ -90,16 +90,6 @@ TEST(PlacePose, IsTheMotionOfTheFront) {
   EXPECT_NEAR(origin.y(), 2.05e-3, 1e-15);
 }
 
-TEST(ShadeConfig, FaultsAreSaid) {
-  EXPECT_THAT(
-      faults_in<ShadeConfig>("images: [{name: a, frame: 1}, {name: a, frame: 2}]\nplace: {center_px: [1, 2]}\n"
-                             "fit: {image: b, box_px: [0, 0, 1.5, 2], yaw: true}\n",
-                             "s.yaml"),
-      testing::ElementsAre(testing::HasSubstr("images[1].name: is given twice"),
-                           testing::HasSubstr("fit.image: is not one of the images"),
-                           testing::HasSubstr("fit.box_px: expected whole pixels, at least one wide and high")));
-}
-
 class ShadeProgram : public ProgramTest {};
 
 TEST_F(ShadeProgram, ShapesGiveImagesOnTheBackground) {

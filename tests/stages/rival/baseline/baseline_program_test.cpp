@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include "common/config/config.h"
 #include "common/format/npy.h"
 #include "common/image/image.h"
 #include "tests/program_test.h"
@@ -68,7 +69,43 @@ TEST_F(BaselineProgram, ItsOwnDepthMapGoesInAgain) {
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "b/frame_0001/tactile.png"));
 }
 
+TEST_F(BaselineProgram, AnOwnPlaceIsFoundOnItsOwnPhotograph) {
+  scratch_.file("lamps.yaml",
+                "metallic_lamps: {change_factor: 0.5, lamps: [{position_mm: [25, 0, -6], rgb: [1, 0, 0]}, "
+                "{position_mm: [0, 25, -6], rgb: [0, 1, 0]}]}\n");
+  const std::string lit = object_ + " --background background.png --light lamps.yaml";
+  scratch_.file("there.yaml", "images: [{name: a, frame: 1}]\nplace: {center_px: [33.25, 22.5], yaw_deg: 3}\n");
+  ASSERT_EQ(run("tacto", lit + " --places there.yaml --out there"), 0) << said_;
+  scratch_.file("start.yaml",
+                "images: [{name: b, frame: 0}, {name: a, frame: 1}]\nplace: {center_px: [31, 24]}\n"
+                "fit: {image: a, box_px: [10, 5, 44, 38], yaw: true}\n");
+  const std::string fit = lit + " --places start.yaml --photograph there/frame_0000/tactile.png";
+  ASSERT_EQ(run("tacto", fit + " --out found"), 0) << said_;
+  ConfigReader record = ConfigReader::from_file(scratch_ / "found/baseline.yaml");
+  ConfigReader summary = record.section("summary");
+  const auto center = summary.numbers("center_px", 2);
+  EXPECT_NEAR(center[0], 33.25, 0.05);
+  EXPECT_NEAR(center[1], 22.5, 0.05);
+  EXPECT_NEAR(summary.number("yaw_deg"), 3.0, 0.1);
+  EXPECT_EQ(read_npy(scratch_ / "found/object_pose.npy").shape, (std::vector<std::size_t>{2, 4, 4}));
+  // Frames are the images, at that place.
+  const ByteImage photograph = read_png(scratch_ / "there/frame_0000/tactile.png", 3);
+  const ByteImage image = read_png(scratch_ / "found/frame_0001/tactile.png", 3);
+  int worst = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    worst = std::max(worst, std::abs(int{image.pixels[i]} - int{photograph.pixels[i]}));
+  EXPECT_LE(worst, 2);
+  EXPECT_EQ(run("tacto", lit + " --places start.yaml --out a"), 2);
+  EXPECT_EQ(said_, "baseline: error: --photograph: needed where a place is to be fitted to it\n");
+}
+
 TEST_F(BaselineProgram, WrongFlagsAndFilesAreSaidOnce) {
+  EXPECT_EQ(run("taxim", object_ + " --background background.png --out a"), 2);
+  EXPECT_EQ(said_, "baseline: error: --light: needed for the configuration's shading\n");
+  EXPECT_EQ(run("chen_2022", object_ + " --background background.png --light pose.npy --out a"), 2);
+  EXPECT_EQ(said_, "baseline: error: --light: the configuration's shading has its own\n");
+  EXPECT_EQ(run("taxim", object_ + " --background background.png --light pose.npy --out a"), 1);
+  EXPECT_EQ(said_, "baseline: error: pose.npy: is no table of bins x bins x 6 x 3\n");
   EXPECT_EQ(run("height_map", "--out a"), 2);
   EXPECT_EQ(said_, "baseline: error: give either --depth or --object\n");
   EXPECT_EQ(run("height_map", "--object tip.obj --out a"), 2);

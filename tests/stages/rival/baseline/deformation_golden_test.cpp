@@ -61,6 +61,23 @@ const Sample kExponential[] = {{33, 27, 0.029273186270898786}, {5, 5, 0.03000000
                                {80, 52, 0.029945745287826255}, {99, 79, 0.03000000000000002},
                                {0, 40, 0.03000000000000002},   {62, 28, 0.02994006533101761}};
 
+const Sample kTwoGaussians[] = {{33, 27, 0.000784015662488507},
+                                {5, 5, 0.0},
+                                {50, 30, 3.5491238190078585e-05},
+                                {70, 40, 0.00030000000000000046},
+                                {80, 52, 0.0001371099133734093},
+                                {99, 79, 0.0},
+                                {0, 40, 0.0},
+                                {62, 28, 0.00013417814288984957}};
+const Sample kTaxim[] = {{33, 27, 0.0007978078781582531},  {5, 5, 3.754533372989728e-05},
+                         {50, 30, 0.0001685267214848948},  {70, 40, 0.00018646739973154677},
+                         {80, 52, 0.00013652932897673264}, {99, 79, 7.723222910766074e-06},
+                         {0, 40, 3.8374100093555544e-05},  {62, 28, 9.080556234937903e-05}};
+const Sample kFots[] = {{33, 27, 0.000793191212755948},   {5, 5, 3.4802677335988256e-07},
+                        {50, 30, 8.791120969846238e-05},  {70, 40, 0.0002999999999999999},
+                        {80, 52, 0.00012447863975557097}, {99, 79, 5.070820914353764e-10},
+                        {0, 40, 6.307399028883367e-07},   {62, 28, 0.00014140914009887982}};
+
 /// The heights that make_golden.py computes too.
 Raster object_height() {
   Raster h(100, 80);
@@ -74,8 +91,8 @@ Raster object_height() {
   return h;
 }
 
-DeformationConfig published() {
-  return read_config<BaselineConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/rivals/baseline/gomes_2021.yaml")
+DeformationConfig published(const std::string& name = "gomes_2021") {
+  return read_config<BaselineConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/rivals/baseline/" + name + ".yaml")
       .deformation;
 }
 
@@ -110,6 +127,36 @@ TEST(Golden, CorrelationAnchorsAtHalfTheSizeAndMirrors) {
 TEST(Golden, DifferenceOfGaussians) {
   const Raster out = membrane_indentation(object_height(), published());
   for (const Sample& s : kDifference) EXPECT_NEAR(out.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+}
+
+TEST(Golden, TwoGaussiansOfChen) {
+  const Raster out = membrane_indentation(object_height(), published("chen_2022"));
+  for (const Sample& s : kTwoGaussians) EXPECT_NEAR(out.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+}
+
+TEST(Golden, PyramidsKeepTheirLengthsOnOtherPixels) {
+  const Raster taxim = membrane_indentation(object_height(), published("taxim").scaled_to(320, 0.05926e-3));
+  for (const Sample& s : kTaxim) EXPECT_NEAR(taxim.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+  const Raster fots = membrane_indentation(object_height(), published("fots").scaled_to(320, 0.05926e-3));
+  for (const Sample& s : kFots) EXPECT_NEAR(fots.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+}
+
+TEST(Golden, WindowsAreThosePublishedAndScaled) {
+  // n on pixels of 0.059259 mm, and σ in mm.
+  const auto taxim = published("taxim").scaled_to(320, 0.059259e-3).levels;
+  const std::array<double, 6> taxim_mm{0.900, 0.457, 0.236, 0.103, 0.059, 0.032};
+  const std::array<std::size_t, 6> taxim_px{101, 51, 25, 11, 5, 3};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(taxim[i].sigma_px * 0.059259, taxim_mm[i], 5e-4);
+    EXPECT_EQ(cut_gaussian_profile(taxim[i].half_px, taxim[i].sigma_px).size(), taxim_px[i]);
+  }
+  const auto fots = published("fots").scaled_to(320, 0.059259e-3).levels;
+  const std::array<double, 4> fots_mm{0.409, 0.179, 0.102, 0.056};
+  const std::array<std::size_t, 4> fots_px{45, 19, 9, 5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(fots[i].sigma_px * 0.059259, fots_mm[i], 5e-4);
+    EXPECT_EQ(cut_gaussian_profile(fots[i].half_px, fots[i].sigma_px).size(), fots_px[i]);
+  }
 }
 
 TEST(Golden, ExponentialMembrane) {

@@ -45,6 +45,32 @@ def exponential():
     return w / w.sum()
 
 
+def raised(h, k, rounds):
+    f = h
+    for _ in range(rounds):
+        f = np.maximum(correlate(f, k, mode="mirror"), h)
+    return f
+
+
+def two_gaussians(h, near, near_rounds, far, far_rounds):
+    return correlate(2 * raised(h, near, near_rounds) - raised(h, far, far_rounds), near, mode="mirror")
+
+
+def window(size, factor):
+    """OpenCV's Gaussian of `size` pixels on pixels 1/factor times as large, cut at half its width."""
+    sigma, half = (0.3 * ((size - 1) / 2 - 1) + 0.8) * factor, int(np.floor((size - 1) / 2 * factor + 0.5))
+    w = np.exp(-0.5 * (np.arange(-half, half + 1) / sigma) ** 2)
+    return np.outer(w, w) / w.sum() ** 2
+
+
+def pyramid(h, sizes, share, factor):
+    f = h
+    for size in sizes[:-1]:
+        f = correlate(f, window(size, factor), mode="mirror")
+        f = np.where(h > share * h.max(), h, f)
+    return correlate(f, window(sizes[-1], factor), mode="mirror")
+
+
 for size, sigma in ((21, 7), (52, 9), (3, 1), (5, 4)):
     profile = kernel(size, sigma).sum(axis=0)
     print(f"{{{size}, {sigma}, {{" + ", ".join(repr(float(v)) for v in profile) + "}},")
@@ -54,6 +80,9 @@ near, far = kernel(21, 7), kernel(52, 9)
 maps = {
     "correlate": correlate(h, far, mode="mirror"),
     "difference": difference(h, near, far, 3),
+    "two_gaussians": two_gaussians(h, kernel(5, 3), 6, kernel(7, 7), 3),
+    "pyramid of Taxim at 0.05926 mm": pyramid(h, (201, 101, 51, 21, 11, 5, 5), 0.4, 0.0295 / 0.05926),
+    "pyramid of FOTS at 0.05926 mm": pyramid(h, (51, 21, 11, 5, 5), 0, 0.0510725 / 0.05926),
     "exponential": correlate(0.03 - h, exponential(), mode="constant", cval=0.03),
 }
 for name, m in maps.items():

@@ -14,7 +14,7 @@ BaselineConfig shipped(const std::string& name) {
 
 /// Codes in the middle of a plane z' = slope_x x + slope_y y (in pixels) before a grey photograph, without final blur.
 std::array<int, 3> bgr_on_slope(double slope_x, double slope_y) {
-  PhongConfig config = *shipped("gomes_2021").shading;
+  PhongConfig config = *shipped("gomes_2021").phong;
   config.final_blur.reset();
   Raster depth(7, 7);
   for (int y = 0; y < 7; ++y)
@@ -35,7 +35,7 @@ TEST(Phong, FlatAndSlopesHaveThePublishedCodes) {
 TEST(Phong, FlatOpacitiesOfBothLightSets) {
   const auto opacities = [](const char* name) {
     std::vector<double> out;
-    const PhongConfig config = *shipped(name).shading;
+    const PhongConfig config = *shipped(name).phong;
     for (const PhongLight& light : config.lights) out.push_back(phong_opacity(light, {0, 0, 1}, 5));
     return out;
   };
@@ -57,7 +57,7 @@ TEST(Phong, CodesAreTruncatedAndClampedEveryTime) {
 }
 
 TEST(Phong, ProtrusionDarkensAndTheBorderIsFlat) {
-  PhongConfig config = *shipped("gomes_2021").shading;
+  PhongConfig config = *shipped("gomes_2021").phong;
   config.final_blur.reset();
   config.lights.clear();
   Raster protrusion(5, 5);
@@ -80,7 +80,7 @@ TEST(Phong, ProtrusionDarkensAndTheBorderIsFlat) {
 }
 
 TEST(Phong, TheFinalBlurLeavesAConstantImage) {
-  const PhongConfig config = *shipped("gomes_2021").shading;
+  const PhongConfig config = *shipped("gomes_2021").phong;
   const ByteImage image = phong_image(ByteImage(20, 10, 3, 128), Raster(20, 10), Raster(20, 10), config);
   for (int x = 0; x < 20; ++x) {
     EXPECT_EQ(image.at(x, 4, 2), 135);

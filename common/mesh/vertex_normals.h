@@ -1,0 +1,12 @@
+// Smooth normals of a triangulated surface.
+#pragma once
+
+#include "common/base/types.h"
+
+namespace tacipc {
+
+/// Unit vertex normals: triangle normals weighted by the angle at the vertex (Thürmer and Wüthrich 1998), so that the
+/// way a flat region is cut into triangles does not tilt them. Zero for a vertex without a triangle of some area.
+Positions vertex_normals(const Positions& positions, const Triangles& triangles);
+
+}  // namespace tacipc

@@ -1,0 +1,103 @@
+#include "stages/image/calibrate/fit_metallic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/sensor/camera_model.h"
+#include "stages/image/calibrate/gauss_newton.h"
+
+namespace tacipc {
+namespace {
+
+MetallicLamps lamps_at(MetallicLamps lamps, const Eigen::VectorXd& u) {
+  lamps.change_factor = u[0];
+  for (std::size_t l = 0; l < lamps.lamps.size(); ++l)
+    for (std::size_t c = 0; c < 3; ++c) lamps.lamps[l].rgb[c] = u[static_cast<Eigen::Index>(1 + 3 * l + c)];
+  return lamps;
+}
+
+}  // namespace
+
+MetallicSamples metallic_samples(const Samples& samples, const Vector3& ball_m, double radius_m,
+                                 const std::vector<MetallicLamp>& lamps, const Sensor& sensor) {
+  const CameraModel camera(sensor.camera, sensor.stack);
+  const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
+  const auto columns = static_cast<Eigen::Index>(lamps.size());
+  MetallicSamples out{.samples = samples, .ball = Eigen::MatrixXd(rows, columns), .empty = {}};
+  out.empty = out.ball;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
+    const CameraRay ray = camera.ray(x + 0.5, y + 0.5).value();
+    const Vector3 rest = ray.origin - ray.origin.z() / ray.direction.z() * ray.direction;
+    const Vector3 to_ball = ball_m - ray.origin;
+    const double along = to_ball.dot(ray.direction);
+    const double squared = along * along - to_ball.squaredNorm() + radius_m * radius_m;
+    const Vector3 point = ray.origin + (along - std::sqrt(std::max(squared, 0.0))) * ray.direction;
+    const bool touched = squared > 0.0 && point.z() < 0.0;
+    for (Eigen::Index l = 0; l < columns; ++l) {
+      const Vector3& lamp = lamps[static_cast<std::size_t>(l)].position_m;
+      out.empty(i, l) = metallic_light(rest, -Vector3::UnitZ(), sensor.camera.position_m, lamp);
+      out.ball(i, l) = touched ? metallic_light(point, (point - ball_m) / radius_m, sensor.camera.position_m, lamp)
+                               : out.empty(i, l);
+    }
+  }
+  return out;
+}
+
+double metallic_change(const MetallicSamples& samples, const MetallicLamps& lamps, Eigen::Index i, std::size_t c) {
+  double ball = 0.0, empty = 0.0;
+  for (std::size_t l = 0; l < lamps.lamps.size(); ++l) {
+    const auto column = static_cast<Eigen::Index>(l);
+    ball += lamps.lamps[l].rgb[c] * samples.ball(i, column);
+    empty += lamps.lamps[l].rgb[c] * samples.empty(i, column);
+  }
+  return ball == empty ? 0.0 : lamps.change_factor * (metallic_code(ball) - metallic_code(empty));
+}
+
+double metallic_rmse(const std::vector<MetallicSamples>& balls, const MetallicLamps& lamps) {
+  double squares = 0.0, count = 0.0;
+  for (const MetallicSamples& ball : balls) {
+    for (Eigen::Index i = 0; i < ball.samples.target.rows(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto column = static_cast<Eigen::Index>(c);
+        const double error = metallic_change(ball, lamps, i, c) - ball.samples.target(i, column);
+        squares += ball.samples.used(i, column) * error * error;
+        count += ball.samples.used(i, column);
+      }
+    }
+  }
+  return std::sqrt(squares / count);
+}
+
+MetallicLamps fit_metallic(const std::vector<MetallicSamples>& balls, const MetallicLamps& start) {
+  const auto n = static_cast<Eigen::Index>(1 + 3 * start.lamps.size());
+  Eigen::VectorXd u(n);
+  u[0] = start.change_factor;
+  for (std::size_t l = 0; l < start.lamps.size(); ++l)
+    for (std::size_t c = 0; c < 3; ++c) u[static_cast<Eigen::Index>(1 + 3 * l + c)] = start.lamps[l].rgb[c];
+  constexpr double kLargest = 1e3;  // far beyond white in all channels
+  GaussNewtonSettings settings{.step = Eigen::VectorXd::Constant(n, 1e-4),
+                               .lower = Eigen::VectorXd::Zero(n),
+                               .upper = Eigen::VectorXd::Constant(n, kLargest),
+                               .max_iterations = 100};
+  settings.lower[0] = 1e-3;
+  Eigen::Index rows = 0;
+  for (const MetallicSamples& ball : balls) rows += ball.samples.target.size();
+  const auto residuals = [&](const Eigen::VectorXd& at) {
+    const MetallicLamps lamps = lamps_at(start, at);
+    Eigen::VectorXd all(rows);
+    Eigen::Index row = 0;
+    for (const MetallicSamples& ball : balls)
+      for (Eigen::Index i = 0; i < ball.samples.target.rows(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto column = static_cast<Eigen::Index>(c);
+          all[row++] =
+              ball.samples.used(i, column) * (metallic_change(ball, lamps, i, c) - ball.samples.target(i, column));
+        }
+    return all;
+  };
+  return lamps_at(start, gauss_newton(residuals, u, settings).parameters);
+}
+
+}  // namespace tacipc

@@ -1,0 +1,166 @@
+// Another simulator's light from the same photographs of balls.
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/benchmark/ball_labels.h"
+#include "common/format/csv.h"
+#include "common/sensor/camera_image.h"
+#include "common/sensor/camera_model.h"
+#include "stages/image/calibrate/fit_metallic.h"
+#include "stages/image/calibrate/fit_table.h"
+#include "stages/image/calibrate/modes.h"
+#include "stages/image/calibrate/train_network.h"
+
+namespace tacipc {
+namespace {
+
+/// The contacts: circles as labelled, taken as exact, or those of our fit.
+std::vector<BallDisc> contact_discs(const Stage& stage, const std::vector<BallLabel>& labels, const Sensor& sensor,
+                                    double ball_radius_m) {
+  const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
+  std::vector<BallDisc> discs;
+  if (const auto table = stage.optional_input("--balls")) {
+    const CameraModel camera(sensor.camera, sensor.stack);
+    CsvReader csv(*table);
+    while (csv.next()) {
+      const auto number = [&](const char* column) { return std::strtod(csv[column].c_str(), nullptr); };
+      const auto center = camera.project({1e-3 * number("x_mm"), 1e-3 * number("y_mm"), 0.0});
+      if (!center || discs.size() >= labels.size() || csv["image"] != labels[discs.size()].image)
+        throw DataError("{}:{}: {} is not the ball of the labels there", table->string(), csv.line(), csv["image"]);
+      discs.push_back({.x_px = center->x() - 0.5,
+                       .y_px = center->y() - 0.5,
+                       .contact_px = 1e-3 * number("contact_mm") / pixel,
+                       .radius_px = ball_radius_m / pixel});
+    }
+    if (discs.size() != labels.size()) throw DataError("{}: has fewer balls than labels", table->string());
+    return discs;
+  }
+  for (const BallLabel& label : labels)
+    discs.push_back(
+        {.x_px = label.x_px, .y_px = label.y_px, .contact_px = label.radius_px, .radius_px = ball_radius_m / pixel});
+  return discs;
+}
+
+/// Balls in and out of a fold, as of our own fit.
+template <typename Ball>
+std::pair<std::vector<Ball>, std::vector<Ball>> split(const std::vector<Ball>& balls, int folds, int fold) {
+  std::pair<std::vector<Ball>, std::vector<Ball>> parts;
+  for (std::size_t b = 0; b < balls.size(); ++b)
+    (static_cast<int>(b) % folds == fold ? parts.second : parts.first).push_back(balls[b]);
+  return parts;
+}
+
+/// Sum over pixels in contacts of (table − photograph)², and how many codes there are.
+std::pair<double, double> table_errors(const SlopeTable& table, const std::vector<std::vector<DiscPixel>>& balls,
+                                       const Camera& camera) {
+  double squares = 0.0, count = 0.0;
+  for (const auto& pixels : balls) {
+    for (const DiscPixel& pixel : pixels) {
+      const auto codes = table.change(pixel.slope_x, pixel.slope_y,
+                                      SlopeTable::terms(pixel.x, pixel.y, camera.width_px, camera.height_px));
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!pixel.used[c]) continue;
+        squares += (codes[c] - pixel.target[c]) * (codes[c] - pixel.target[c]);
+        count += 1.0;
+      }
+    }
+  }
+  return {squares, count};
+}
+
+void calibrate_table(Stage& stage, const RivalFit& fit, const std::vector<std::vector<DiscPixel>>& balls,
+                     const Camera& camera, int folds) {
+  const SlopeTable table = fit_table(balls, camera.width_px, camera.height_px, fit.table);
+  table.write(stage.output("light.npy"));
+  double squares = 0.0, count = 0.0;
+  for (int fold = 0; fold < folds; ++fold) {
+    const auto [kept, left] = split(balls, folds, fold);
+    const auto [error, codes] =
+        table_errors(fit_table(kept, camera.width_px, camera.height_px, fit.table), left, camera);
+    squares += error;
+    count += codes;
+  }
+  const auto [error, codes] = table_errors(table, balls, camera);
+  stage.summarize({{"held_out_rmse_codes", std::sqrt(squares / count)}, {"rmse_codes", std::sqrt(error / codes)}});
+}
+
+void calibrate_network(Stage& stage, const RivalFit& fit, const std::vector<std::vector<DiscPixel>>& balls,
+                       const Camera& camera) {
+  const NetworkSamples samples = network_samples(balls, camera.width_px, camera.height_px);
+  const LightNetwork network = train_network(samples, fit.network);
+  network.write(stage.output("light.npy"));
+  LightNetwork gradient;
+  stage.summarize({{"samples", static_cast<std::size_t>(samples.inputs.cols())},
+                   {"parameters", num_parameters()},
+                   {"rmse_codes", 255.0 * std::sqrt(loss_and_gradient(network, samples, {}, gradient))}});
+}
+
+void calibrate_metallic(Stage& stage, const RivalFit& fit, const std::vector<MetallicSamples>& balls, int folds) {
+  const MetallicLamps lamps = fit_metallic(balls, fit.lamps);
+  write_file(stage.output("light.yaml"), to_yaml(lamps.to_value()));
+  double squares = 0.0, count = 0.0;
+  for (int fold = 0; fold < folds; ++fold) {
+    const auto [kept, left] = split(balls, folds, fold);
+    double codes = 0.0;
+    for (const MetallicSamples& ball : left) codes += ball.samples.used.sum();
+    const double rmse = metallic_rmse(left, fit_metallic(kept, fit.lamps));
+    squares += rmse * rmse * codes;
+    count += codes;
+  }
+  MetallicLamps dark = lamps;
+  for (MetallicLamp& lamp : dark.lamps) lamp.rgb = {};
+  stage.summarize({{"held_out_rmse_codes", std::sqrt(squares / count)},
+                   {"rmse_codes", metallic_rmse(balls, lamps)},
+                   {"rmse_codes_at_start", metallic_rmse(balls, fit.lamps)},
+                   {"rmse_codes_without_light", metallic_rmse(balls, dark)},
+                   {"change_factor", lamps.change_factor}});
+}
+
+}  // namespace
+
+void calibrate_rival(Stage& stage) {
+  if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
+    throw UsageError("--rival: needs --photographs and --labels of balls");
+  if (stage.optional_input("--press") || stage.optional_input("--gel") || !stage.inputs("--shapes").empty())
+    throw UsageError("--rival: has membranes of its own; leave out --press, --gel and --shapes");
+  const auto config = stage.read_config<CalibrateConfig>("--config");
+  const auto fit = stage.read_config<RivalFit>("--rival");
+  const auto sensor = stage.read_config<Sensor>("--sensor");
+  const Camera& camera = sensor.camera;
+  const ByteImage background = read_photograph(stage.input("--background"), camera);
+  const auto labels = read_labels(*stage.optional_input("--labels"));
+  if (static_cast<int>(labels.size()) < config.folds)
+    throw DataError("{} photographs cannot be divided into {} folds", labels.size(), config.folds);
+  const std::vector<BallDisc> discs = contact_discs(stage, labels, sensor, config.ball_radius_m);
+  const double pixel = camera.window_width_m / camera.width_px;
+  std::vector<std::vector<DiscPixel>> balls;
+  std::vector<MetallicSamples> lit;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const ByteImage photograph = read_photograph(*stage.optional_input("--photographs") / labels[i].image, camera);
+    const Samples samples = make_samples(photograph, background, labels[i], config);
+    if (fit.model != RivalFit::Model::metallic_roughness) {
+      balls.push_back(
+          disc_pixels(discs[i], photograph, background, fit.remove_drift ? samples.drift : std::array<double, 3>{}));
+      continue;
+    }
+    const auto center = CameraModel(camera, sensor.stack).on_plane(discs[i].x_px + 0.5, discs[i].y_px + 0.5);
+    if (!center) throw DataError("{}: the camera does not see the front face at the label's centre", labels[i].image);
+    const double contact = std::min(discs[i].contact_px * pixel, config.ball_radius_m);
+    const double above = std::sqrt(config.ball_radius_m * config.ball_radius_m - contact * contact);
+    lit.push_back(
+        metallic_samples(samples, {center->x(), center->y(), above}, config.ball_radius_m, fit.lamps.lamps, sensor));
+  }
+  stage.summarize({{"photographs", labels.size()}});
+  switch (fit.model) {
+    case RivalFit::Model::table:
+      return calibrate_table(stage, fit, balls, camera, config.folds);
+    case RivalFit::Model::network:
+      return calibrate_network(stage, fit, balls, camera);
+    case RivalFit::Model::metallic_roughness:
+      return calibrate_metallic(stage, fit, lit, config.folds);
+  }
+}
+
+}  // namespace tacipc

@@ -1,0 +1,38 @@
+// FOTS' network from photographs of balls [Zhao2024].
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/sensor/light_network.h"
+#include "stages/image/calibrate/ball_discs.h"
+#include "stages/image/calibrate/rival_config.h"
+
+namespace tacipc {
+
+/// A column per sample.
+struct NetworkSamples {
+  Eigen::MatrixXf inputs;   // 5 rows
+  Eigen::MatrixXf targets;  // 3 rows, change over 255
+};
+
+/// The pixels that are slanted and clipped in no channel.
+NetworkSamples network_samples(const std::vector<std::vector<DiscPixel>>& balls, int width_px, int height_px);
+
+/// Weights and biases uniform in ±1/√(inputs of the layer).
+LightNetwork initial_network(std::uint64_t seed);
+
+/// What each hidden value is multiplied by: 0 or 1 / (1 − dropout). Empty: nothing is dropped.
+using DropoutMasks = std::array<Eigen::MatrixXf, LightNetwork::kLayers - 1>;
+
+/// Mean squared error over samples and channels; its gradient in the form of a network.
+double loss_and_gradient(const LightNetwork& network, const NetworkSamples& samples, const DropoutMasks& masks,
+                         LightNetwork& gradient);
+
+/// Adam (0.9, 0.999, 1e-8) on batches, shuffled every epoch. One thread: equal bytes for a seed.
+/// \throw DataError if there are no samples
+LightNetwork train_network(const NetworkSamples& samples, const NetworkFit& settings);
+
+}  // namespace tacipc

@@ -1,0 +1,128 @@
+#include "stages/image/calibrate/fit_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/error.h"
+#include "tests/scratch_folder.h"
+
+namespace tacipc {
+namespace {
+
+constexpr int kWidth = 120, kHeight = 90;
+
+/// The change that the photographs below show: linear in the slope, quadratic over the field.
+std::array<double, 3> known(double slope_x, double slope_y, int x, int y) {
+  const auto t = SlopeTable::terms(x, y, kWidth, kHeight);
+  const double field = 1.0 + 0.3 * t[0] - 0.2 * t[1] + 0.1 * t[2] + 0.4 * t[3] - 0.25 * t[4];
+  return {40.0 * slope_x * field, 30.0 * slope_y * field, 20.0 * (slope_x - slope_y) * field};
+}
+
+std::vector<std::vector<DiscPixel>> balls_of_known_light() {
+  std::vector<std::vector<DiscPixel>> balls;
+  const ByteImage grey(kWidth, kHeight, 3, 128);
+  for (int i = 0; i < 12; ++i) {
+    const BallDisc disc{
+        .x_px = 20.0 + 27.0 * (i % 4), .y_px = 18.0 + 27.0 * (i / 4), .contact_px = 16, .radius_px = 24};
+    balls.push_back(disc_pixels(disc, grey, grey, {}));
+    for (DiscPixel& pixel : balls.back()) pixel.target = known(pixel.slope_x, pixel.slope_y, pixel.x, pixel.y);
+  }
+  return balls;
+}
+
+TEST(BallDiscs, SlopesAreTheBallsAndRiseToItsCentre) {
+  ByteImage photo(40, 30, 3, 130), background(40, 30, 3, 128);
+  photo.at(23, 16, 1) = 255;
+  const auto pixels =
+      disc_pixels({.x_px = 20, .y_px = 12, .contact_px = 5.5, .radius_px = 13}, photo, background, {1.0, 0.0, -2.0});
+  const auto found =
+      std::find_if(pixels.begin(), pixels.end(), [](const DiscPixel& p) { return p.x == 23 && p.y == 16; });
+  ASSERT_NE(found, pixels.end());
+  EXPECT_NEAR(found->slope_x, -3.0 / 12.0, 1e-15);  // 3² + 4² + 12² = 13²
+  EXPECT_NEAR(found->slope_y, -4.0 / 12.0, 1e-15);
+  EXPECT_EQ(found->target[0], 1.0);
+  EXPECT_EQ(found->target[2], 4.0);
+  EXPECT_FALSE(found->used[1]);
+  EXPECT_FALSE(found->all_used());
+  EXPECT_TRUE(found->used[0]);
+  for (const DiscPixel& p : pixels) EXPECT_LT(std::hypot(p.x - 20.0, p.y - 12.0), 5.5);
+  EXPECT_EQ(disc_pixels({.x_px = 20, .y_px = 12, .contact_px = 9, .radius_px = 1.5}, photo, background, {}).size(), 9U)
+      << "a ball ends where it does";
+}
+
+TEST(NearestMarked, IsTheLeastDistanceOfIndices) {
+  std::vector<bool> marked(49, false);
+  marked[1 * 7 + 1] = marked[5 * 7 + 6] = true;
+  const auto flat = nearest_marked(marked, 7, false);
+  EXPECT_EQ(flat[8], 8U);
+  EXPECT_EQ(flat[1 * 7 + 6], 41U);  // 4² against 5²
+  EXPECT_EQ(flat[0], 8U);
+  EXPECT_EQ(nearest_marked(marked, 7, true)[1 * 7 + 6], 8U) << "one step around the circle of six";
+}
+
+TEST(FitTable, AKnownQuadraticComesBackFromEveryPixel) {
+  const auto balls = balls_of_known_light();
+  const SlopeTable table =
+      fit_table(balls, kWidth, kHeight, {.bins = 61, .pooled = true, .smoothing_bins = 0.0, .ridge = 1e-9});
+  double squares = 0.0, size = 0.0;
+  for (const auto& pixels : balls)
+    for (const DiscPixel& p : pixels) {
+      const auto codes = table.change(p.slope_x, p.slope_y, SlopeTable::terms(p.x, p.y, kWidth, kHeight));
+      for (std::size_t c = 0; c < 3; ++c) squares += std::pow(codes[c] - p.target[c], 2);
+      for (std::size_t c = 0; c < 3; ++c) size += p.target[c] * p.target[c];
+    }
+  EXPECT_LT(std::sqrt(squares / size), 0.05) << "a bin's width";
+  // Between the balls, at a slope that they have, the polynomial of the bin holds.
+  const double slope = 0.5;
+  const auto codes = table.change(slope, 0.0, SlopeTable::terms(33, 31, kWidth, kHeight));
+  EXPECT_NEAR(codes[0], known(slope, 0.0, 33, 31)[0], 2.0);
+}
+
+TEST(FitTable, AsReleasedOnePixelOfEachBallTellsTheBin) {
+  auto balls = balls_of_known_light();
+  const TableFit released{.bins = 61};
+  const SlopeTable table = fit_table(balls, kWidth, kHeight, released);
+  const auto codes = table.change(0.5, 0.0, SlopeTable::terms(60, 45, kWidth, kHeight));
+  EXPECT_NEAR(codes[0], known(0.5, 0.0, 60, 45)[0], 2.0);
+  // Of the pixels of a bin the last counts: others may say anything.
+  const SlopeTable bins(61);
+  for (auto& pixels : balls)
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      for (std::size_t k = i + 1; k < pixels.size(); ++k)
+        if (bins.inclination_bin(std::hypot(pixels[i].slope_x, pixels[i].slope_y)) ==
+                bins.inclination_bin(std::hypot(pixels[k].slope_x, pixels[k].slope_y)) &&
+            bins.direction_bin(pixels[i].slope_x, pixels[i].slope_y) ==
+                bins.direction_bin(pixels[k].slope_x, pixels[k].slope_y))
+          pixels[i].target = {99.0, 99.0, 99.0};
+  EXPECT_EQ(fit_table(balls, kWidth, kHeight, released).weights, table.weights);
+}
+
+TEST(FitTable, SlopesBeyondTheBallsHaveTheNearestWeights) {
+  const SlopeTable table = fit_table(balls_of_known_light(), kWidth, kHeight,
+                                     {.bins = 61, .pooled = true, .smoothing_bins = 1.0, .ridge = 0.01});
+  const auto terms = SlopeTable::terms(60, 45, kWidth, kHeight);
+  EXPECT_EQ(table.change(20.0, 0.0, terms), table.change(30.0, 0.0, terms));
+  EXPECT_GT(table.change(20.0, 0.0, terms)[0], table.change(0.5, 0.0, terms)[0]);
+}
+
+TEST(FitTable, AFlatGelMayBeHeldAtZero) {
+  TableFit settings{.bins = 61, .pooled = true, .smoothing_bins = 2.0, .ridge = 0.01};
+  const auto terms = SlopeTable::terms(10, 80, kWidth, kHeight);
+  auto balls = balls_of_known_light();
+  for (auto& pixels : balls)
+    for (DiscPixel& p : pixels) p.target[0] += 5.0;
+  EXPECT_GT(fit_table(balls, kWidth, kHeight, settings).change(0.0, 0.0, terms)[0], 1.0);
+  settings.flat_is_dark = true;
+  EXPECT_EQ(fit_table(balls, kWidth, kHeight, settings).change(0.0, 0.0, terms)[0], 0.0);
+}
+
+TEST(FitTable, WithoutAPixelThereIsNone) {
+  EXPECT_EQ(message_of<DataError>([] { fit_table({{}}, kWidth, kHeight, {.bins = 5, .pooled = true}); }),
+            "no ball has a pixel in its contact that is not clipped");
+  EXPECT_EQ(message_of<DataError>([] { fit_table({{}}, kWidth, kHeight, {.bins = 5}); }),
+            "no ball has a pixel in its contact that is not clipped");
+}
+
+}  // namespace
+}  // namespace tacipc
