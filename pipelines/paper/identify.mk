@@ -19,6 +19,7 @@ endif
 
 # Inputs of the stages: made from the one file first, then make restarts with its variables.
 $(IDENTIFIED)/cases/cases.yaml: $(IDENTIFY) | build
+	@[ -x $(BIN)/identify ] || { echo "identify: not built for want of libceres-dev: make -f Makefile.data packages build GROUPS=identify" >&2; exit 2; }
 	$(call run,cases,--config $<)
 $(IDENTIFIED)/cases/cases.mk: $(IDENTIFIED)/cases/cases.yaml ;
 include $(IDENTIFIED)/cases/cases.mk
@@ -69,7 +70,9 @@ $(IDENTIFIED)/fit/identify.yaml: $(IDENTIFY) $(IDENTIFIED)/settings/sensor.yaml 
 	$(call run,identify,--config $(IDENTIFY) --sensor $(IDENTIFIED)/settings/sensor.yaml \
 	  --measured $(foreach m,$(IDENTIFY_MEASUREMENTS),$(m)=$(SHARED)/$(IDENTIFY_FILE_$(m))) --runs $(foreach r,$(identify_runs),$(r)=$(IDENTIFIED)/runs/$(r)))
 
+# docs/identify.md has places for the shipped ones.
 identify: $(IDENTIFIED)/fit/identify.yaml ## own: A sensor's mechanics from measured forces and marker vectors: IDENTIFY=configs/studies/identify/gsmini_force.yaml (minutes)
+	@! grep -qsxF '<!-- $(identify_name) -->' docs/identify.md || $(call fill_docs,identify.md,$(identify_name)=$(IDENTIFIED)/fit/table.md)
 	@cat $(IDENTIFIED)/fit/table.md
 	@echo; echo "Look at $(IDENTIFIED)/fit/*.svg; the sensor file is $(IDENTIFIED)/fit/sensor.yaml"
 endif

@@ -33,8 +33,8 @@ asks() { # asks "GROUPS" GOAL …
 }
 asks "chain" demo
 asks "chain tests" packages GROUPS=tests
-asks "chain tests loaders wrap robot depthnet predict" check
-asks "chain tests loaders cluster pages wrap robot depthnet predict" check-slow
+asks "chain tests loaders wrap identify robot depthnet predict" check
+asks "chain tests loaders cluster pages wrap identify robot depthnet predict" check-slow
 asks "chain" sample OBJECT=pyramid.stl
 asks "chain wrap" sample OBJECT=pyramid.stl WRAP=yes
 mkdir -p none/datasets/a/{pack,shards}

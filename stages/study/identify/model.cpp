@@ -36,8 +36,9 @@ MechanicsModel::MechanicsModel(const IdentifySpec& spec, std::vector<Measurement
 
 Mounting MechanicsModel::mounting(const Eigen::VectorXd& u) const {
   return {.modulus_pa = unknowns_.value(u, kModulus, {}, held_.material.youngs_modulus_pa),
-          .compliance_mm_per_n = unknowns_.value(u, kMount, {}, 0.0),
-          .shear_compliance_mm_per_n = unknowns_.value(u, kShearMount, {}, 0.0)};
+          .compliance_mm_per_n = unknowns_.value(u, kMount, {}, 1e3 * held_.mount.compliance_m_per_n),
+          .shear_compliance_mm_per_n =
+              unknowns_.value(u, kShearMount, {}, 1e3 * held_.mount.shear_compliance_m_per_n)};
 }
 
 Eigen::VectorXd MechanicsModel::node_weights(const Eigen::VectorXd& u) const {
