@@ -89,7 +89,7 @@ blind-card: | build ## own: Blind card of a sensor: what was fitted, on what, an
 	@[ "$$($(BIN)/tacipc get '$(CASES)' kind --default '')" = card ] || { echo 'blind-card: CASES: $(CASES) is no card (kind: card; there are $(wildcard configs/studies/cards/*.yaml))' >&2; exit 2; }
 	$(foreach f,$(call card_files,mechanics),$(call make_again,REBUILD=no IDENTIFY=$(f) identify)$(newline)	)
 	$(foreach f,$(call card_files,photographs),$(call make_again,REBUILD=no CASES=$(f) sim2real-page)$(newline)	)
-	$(call run_again,tabulate,$(CARD),--config $(CASES) $(if $(call card_files,mechanics),--identified $(foreach f,$(call card_files,mechanics),$(basename $(notdir $(f)))=$(OUT)/identify/$(basename $(notdir $(f)))/fit)) \
-	  $(if $(call card_files,photographs),--compared $(foreach f,$(call card_files,photographs),$(basename $(notdir $(f)))=$(OUT)/sim2real/$(basename $(notdir $(f))))))
+	OPENBLAS_NUM_THREADS=1 $(BIN)/tabulate --out $(CARD) --threads $(THREADS) --config $(CASES) $(if $(call card_files,mechanics),--identified $(foreach f,$(call card_files,mechanics),$(basename $(notdir $(f)))=$(OUT)/identify/$(basename $(notdir $(f)))/fit)) \
+	  $(if $(call card_files,photographs),--compared $(foreach f,$(call card_files,photographs),$(basename $(notdir $(f)))=$(OUT)/sim2real/$(basename $(notdir $(f)))))
 	@echo; echo "Look at $(CARD)/card.md; card.yaml has the same numbers"
 endif
