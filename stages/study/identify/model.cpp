@@ -14,13 +14,6 @@ NodeGrid grid_of(const IdentifySpec& spec) {
   return NodeGrid(std::move(axes));
 }
 
-/// Weights of two neighbours among ascending depths; beyond the ends those of the last two, extrapolated.
-std::pair<std::size_t, double> neighbours(const std::vector<double>& depths, double depth) {
-  const auto above = std::upper_bound(depths.begin() + 1, depths.end() - 1, depth);
-  const auto i = static_cast<std::size_t>(above - depths.begin()) - 1;
-  return {i, (depth - depths[i]) / (depths[i + 1] - depths[i])};
-}
-
 }  // namespace
 
 MechanicsModel::MechanicsModel(const IdentifySpec& spec, std::vector<MeasurementData> data, const Sensor& held)
@@ -37,8 +30,7 @@ MechanicsModel::MechanicsModel(const IdentifySpec& spec, std::vector<Measurement
 Mounting MechanicsModel::mounting(const Eigen::VectorXd& u) const {
   return {.modulus_pa = unknowns_.value(u, kModulus, {}, held_.material.youngs_modulus_pa),
           .compliance_mm_per_n = unknowns_.value(u, kMount, {}, 1e3 * held_.mount.compliance_m_per_n),
-          .shear_compliance_mm_per_n =
-              unknowns_.value(u, kShearMount, {}, 1e3 * held_.mount.shear_compliance_m_per_n)};
+          .shear_compliance_mm_per_n = unknowns_.value(u, kShearMount, {}, 1e3 * held_.mount.shear_compliance_m_per_n)};
 }
 
 Eigen::VectorXd MechanicsModel::node_weights(const Eigen::VectorXd& u) const {
@@ -121,9 +113,11 @@ Eigen::VectorXd MechanicsModel::predicted(std::size_t measurement, const Eigen::
   } else if (m.kind == MeasurementKind::shear) {
     const double depth = m.depth_mm + zero;
     const double reached = depth - mount.compliance_mm_per_n * pressed_force_n(press, mount, depth);
-    const auto [i, part] = neighbours(m.depths_mm, reached);
-    CurveTable table = data.shears[i];
-    table.y = (1.0 - part) * data.shears[i].y + part * data.shears[i + 1].y;
+    const Eigen::VectorXd of_depth = NodeGrid({m.depths_mm}).weights({reached});
+    CurveTable table = data.shears.front();
+    table.y.setZero();
+    for (std::size_t k = 0; k < data.shears.size(); ++k)
+      table.y += of_depth[static_cast<Eigen::Index>(k)] * data.shears[k].y;
     const Curve shear = table.blend(weights);
     each([&](double travel) { return sheared_force_n(shear, mount, travel); });
   } else {

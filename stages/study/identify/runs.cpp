@@ -1,10 +1,13 @@
 #include "stages/study/identify/runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/format/csv.h"
 #include "common/sample/press_folder.h"
 
@@ -81,10 +84,15 @@ void read_rows(const Measurement& m, const std::filesystem::path& path, ForceDat
     row.sigma_n = std::hypot(m.sigma_n, m.sigma_relative * row.force_n);
     if (!(row.at >= 0.0)) throw DataError("{}:{}: {} must not be negative", path.string(), table.line(), at);
     const double furthest = m.kind == MeasurementKind::press ? m.depths_mm.back() : m.travel_mm;
-    if (m.kind != MeasurementKind::relaxation && row.at > furthest)
-      throw DataError("{}:{}: {} {:g} is beyond what is simulated, {:g}", path.string(), table.line(), at, row.at,
-                      furthest);
-    (m.fit_to_mm && row.at > *m.fit_to_mm * (1.0 + 1e-9) ? data.held_out : data.fitted).push_back(row);
+    const bool held_out = m.fit_to_mm && row.at > *m.fit_to_mm * (1.0 + 1e-9);
+    if (m.kind != MeasurementKind::relaxation && row.at > furthest) {
+      const std::string beyond = fmt::format("{}:{}: {} {:g} is beyond what is simulated, {:g}", path.string(),
+                                             table.line(), at, row.at, furthest);
+      if (!held_out) throw DataError("{}", beyond);
+      log_warning("{}: it is left out", beyond);
+      continue;
+    }
+    (held_out ? data.held_out : data.fitted).push_back(row);
   }
   const auto earlier = [](const MeasuredForce& a, const MeasuredForce& b) { return a.at < b.at; };
   std::stable_sort(data.fitted.begin(), data.fitted.end(), earlier);

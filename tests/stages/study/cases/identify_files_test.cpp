@@ -10,18 +10,22 @@
 namespace tacipc {
 namespace {
 
-const std::string kHead = "title: gel\nsensor: ../s.yaml\nmesh: m.yaml\npress: p.yaml\nchanges: [+gel.dome_radius_mm=145]\n";
+const std::string kHead =
+    "title: gel\nsensor: ../s.yaml\nmesh: m.yaml\npress: p.yaml\nchanges: [+gel.dome_radius_mm=145]\n";
 const std::string kParameters =
     "parameters:\n  youngs_modulus_pa: {mean: 1.0e+5, factor: 2}\n  thickness_mm: {mean: 3, sigma: 1, nodes: [2, 4]}\n"
     "  poissons_ratio: {mean: 0.47, sigma: 0.02, nodes: [0.45, 0.47, 0.49]}\n";
 const std::string kPress =
-    "  - {name: ball, kind: press, ball: {radius_mm: 4, edge_mm: 0.2}, file: a.csv, columns: {depth_mm: d, force_n: f}, sigma: "
+    "  - {name: ball, kind: press, ball: {radius_mm: 4, edge_mm: 0.2}, file: a.csv, columns: {depth_mm: d, force_n: "
+    "f}, sigma: "
     "{force_n: 0.01}, simulate: {to_mm: 1.2, press_frames: 6}}\n";
 const std::string kDrag =
-    "  - {name: key, kind: shear, mesh: {file: k.stl, edge_radius_mm: 0.2, spacing_mm: 0.1}, center_mm: [1, -2], file: b.csv, "
+    "  - {name: key, kind: shear, mesh: {file: k.stl, edge_radius_mm: 0.2, spacing_mm: 0.1}, center_mm: [1, -2], file: "
+    "b.csv, "
     "depth_mm: 0.5, columns: {travel_mm: x, force_n: f}, sigma: {force_n: 0.01}, simulate: {depths_mm: [0.4, 0.6], "
     "press_frames: 4, travel_mm: 1, shear_frames: 5, direction_deg: 90}}\n";
-const std::string kChecks = "checks:\n  - {name: finer, mesh: f.yaml}\n  - {name: law, changes: [material.law=stvk_hencky]}\n";
+const std::string kChecks =
+    "checks:\n  - {name: finer, mesh: f.yaml}\n  - {name: law, changes: [material.law=stvk_hencky]}\n";
 
 IdentifySpec spec(const std::string& text) { return config_from_text<IdentifySpec>(text, "i.yaml"); }
 
@@ -81,7 +85,8 @@ TEST(IdentifySpec, TellsWhatIsWrong) {
         {"[+gel.dome_radius_mm=145]", "['a b']", "has a blank"},
         {"[+gel.dome_radius_mm=145]", "x", "changes"}})
     EXPECT_THAT(faults(with(whole, from, to)), testing::HasSubstr(said)) << to;
-  EXPECT_THAT(faults(kHead + "parameters: {}\nmeasurements:\n" + kPress), testing::HasSubstr("names nothing to identify"));
+  EXPECT_THAT(faults(kHead + "parameters: {}\nmeasurements:\n" + kPress),
+              testing::HasSubstr("names nothing to identify"));
 }
 
 }  // namespace
