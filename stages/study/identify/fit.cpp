@@ -36,15 +36,15 @@ struct Scaled {
 
 double scaled(const Unknown& unknown, double u) { return (u - unknown.u_mean()) / unknown.prior.sigma; }
 
-/// Central differences inside the bounds, one-sided at them.
-Eigen::MatrixXd jacobian(const MechanicsModel& model, const Eigen::VectorXd& u) {
+/// Central differences by `step` (of u), inside the bounds; one-sided at them.
+Eigen::MatrixXd jacobian(const MechanicsModel& model, const Eigen::VectorXd& u, const Eigen::VectorXd& step) {
   const Eigen::Index n = u.size();
   Eigen::MatrixXd out(model.rows() + n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Unknown& unknown = model.unknowns()[i];
     Eigen::VectorXd low = u, high = u;
-    low[i] = std::max(u[i] - kStep * unknown.prior.sigma, unknown.u_low());
-    high[i] = std::min(u[i] + kStep * unknown.prior.sigma, unknown.u_high());
+    low[i] = std::max(u[i] - step[i], unknown.u_low());
+    high[i] = std::min(u[i] + step[i], unknown.u_high());
     out.col(i) = (model.residuals(high) - model.residuals(low)) / (high[i] - low[i]);
   }
   return out;
@@ -85,9 +85,20 @@ std::pair<Eigen::VectorXd, int> minimise(const MechanicsModel& model, const Eige
   return {u, static_cast<int>(summary.iterations.size())};
 }
 
+/// Markers between frames are interpolated, with a kink at each frame: differences over as much as the deviations
+/// themselves, which those over small steps tell first, see past it.
 Eigen::MatrixXd covariance_at(const MechanicsModel& model, const Eigen::VectorXd& u) {
-  const Eigen::MatrixXd j = jacobian(model, u);
-  return (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(u.size(), u.size()));
+  const Eigen::Index n = u.size();
+  Eigen::VectorXd step(n);
+  for (Eigen::Index i = 0; i < n; ++i) step[i] = kStep * model.unknowns()[i].prior.sigma;
+  Eigen::MatrixXd covariance;
+  for (int round = 0; round < 3; ++round) {
+    const Eigen::MatrixXd j = jacobian(model, u, step);
+    covariance = (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+    // Of one unknown, the others held: a step that changes the residuals by about one deviation.
+    for (Eigen::Index i = 0; i < n; ++i) step[i] = 1.0 / j.col(i).norm();
+  }
+  return covariance;
 }
 
 }  // namespace
