@@ -86,6 +86,15 @@ define dataset_sample
 $(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
 	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
 	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) $(if $(DATASET_MAPS),--maps $(DATASET_MAPS)) --seed $(6))
+$(foreach m,$(DATASET_ENSEMBLE_$(3)),$(call dataset_member,$(1),$(2),$(word 1,$(subst :, ,$(m))),$(word 2,$(subst :, ,$(m))),$(4),$(5),$(7)))
+endef
+
+# The press of a sample by a member of an ensemble, after the sample and only where that was pressed. $(call dataset_member,place,object,member,its gel,press,paths,motion)
+define dataset_member
+DATASET_MEMBERS_$(1) += $(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml
+$(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml: $(sort $(call dataset_press_inputs,$(1),$(2),$(4),$(5),$(6),,$(7))) | $(DATASET_DIR)/samples/$(1)/render/render.yaml
+	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(call dataset_press_inputs,$(1),$(2),$(4),$(5),$(6),,$(7)),--name $(notdir $(1))-$(3) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(4)/gel.msh --sensor $(DATASET_SENSOR_$(4)) --config $(5) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
+
 endef
 
 # A grasp is pressed once, in its own folder; each of its fingers, left/ and right/ there, is a sample with press/ and render/. Both have a rule
@@ -140,7 +149,8 @@ endif
 endif
 
 DATASET_RETRY := $(if $(filter retry,$(MAKECMDGOALS)),yes,$(RETRY))
-dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml)
+dataset_members = $(if $(DATASET_ENSEMBLE),$(foreach s,$(1),$(DATASET_MEMBERS_$(s))))# presses of an ensemble beside these samples
+dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(DATASET_LIST))
 
 plan: $(DATASET_DIR)/plan/plan.yaml ## datasets: Samples of a dataset, without making them: CONFIG=configs/datasets/mini.yaml
 	@echo; echo "$(DATASET_SAMPLES) samples; look at $(DATASET_DIR)/plan/samples.csv"
@@ -160,13 +170,13 @@ dataset: dataset-samples ## datasets: Make and pack a dataset: CONFIG=configs/da
 retry: dataset ## datasets: Samples of a dataset that failed or are missing, again: CONFIG=
 
 dataset-shared: $(DATASET_SHARED)
-dataset-some: $(SAMPLES:%=$(DATASET_DIR)/samples/%/render/render.yaml)
+dataset-some: $(SAMPLES:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(SAMPLES))
 dataset-part: dataset-samples
 	@rm -f $(DATASET_RUN) $(DATASET_RUN).full
 	@$(BIN)/survey status --all-made '$(DATASET_DIR)' --first $(DATASET_FIRST) --end $(DATASET_END)
 
 DATASET_PILOT := $(if $(and $(filter estimate,$(MAKECMDGOALS)),$(DATASET_SAMPLES)),$(if $(filter-out 0,$(PILOT)),$(shell $(BIN)/survey pilot '$(DATASET_DIR)' '$(PILOT)')))
-estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/render.yaml) ## datasets: Core-hours and disk of a dataset in advance: CONFIG= [PILOT=20: measured on 20 samples]
+estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(DATASET_PILOT)) ## datasets: Core-hours and disk of a dataset in advance: CONFIG= [PILOT=20: measured on 20 samples]
 	@$(BIN)/survey estimate '$(DATASET_DIR)' --model $(COST_MODEL)
 	@echo "  cost model: $(COST_MODEL)$(if $(filter $(COST_MODEL_SHIPPED),$(COST_MODEL)),$(comma) as shipped: bench-press measures this machine)"
 
@@ -198,5 +208,5 @@ clean-plan: ## datasets: Remove the plan of a dataset (samples stay): CONFIG=
 	rm -rf '$(DATASET_DIR)/plan'
 clean-press: clean-render
 clean-press clean-render: clean-%: ## Remove what a stage, and those after it, made of every sample: CONFIG=
-	@[ ! -d '$(DATASET_DIR)/samples' ] || find '$(DATASET_DIR)/samples' -mindepth 3 -maxdepth 4 \( -name '$*' -o -name '$*.*' \) -prune -exec rm -rf {} +
+	@[ ! -d '$(DATASET_DIR)/samples' ] || find '$(DATASET_DIR)/samples' -mindepth 3 -maxdepth 5 \( -name '$*' -o -name '$*.*' \) -prune -exec rm -rf {} +
 endif

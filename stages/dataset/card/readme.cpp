@@ -76,6 +76,13 @@ std::string contents_text(const CardContent& c) {
   for (const char* split : {"train", "val", "test"})
     text += fmt::format("| {} | {} | {} |\n", split, of(c.counts.made, split), of(c.counts.not_made, split));
   text += outcomes_text(c.counts);
+  if (!c.shards.ensemble.empty())
+    text += fmt::format(
+        "\nLabels in `ensemble/` tell how sure they are, by the ensemble \"{}\": `<label>_sigma` is their standard "
+        "deviation over presses by sensors that fit measurements of this one alike, `<label>_mesh` what a coarser gel "
+        "changes. Of these presses {} by members are there; {} presses are missing, and samples with fewer members "
+        "say so (`num_members`, `missing`).\n",
+        c.shards.ensemble, c.shards.members_pressed, c.shards.presses_missing);
   text += fmt::format(
       "\nSplits are by object: no object of `test` is in `train`. `splits/pose/` has a second division, by pose alone. "
       "Samples that could not be made ({} failed, {} never tried) are in no shard; `failures.csv` has the reason of "

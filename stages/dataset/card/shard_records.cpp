@@ -53,6 +53,12 @@ ShardRecords read_shard_records(const std::vector<fs::path>& records) {
     if (!schema_hash.empty() && schema != schema_hash)
       throw DataError("{}: packed with other fields than {}", path.string(), records.front().string());
     schema_hash = schema;
+    if (summary.has("ensemble")) {
+      const Record ensemble = summary.section("ensemble");
+      all.ensemble = ensemble.required_text("title");
+      all.members_pressed += static_cast<std::size_t>(ensemble.required_count("members_pressed"));
+      all.presses_missing += static_cast<std::size_t>(ensemble.required_count("presses_missing"));
+    }
     add_files(summary, "sensors", path.parent_path(), all.sensors);
     add_files(summary, "objects", path.parent_path(), all.objects);
     for (std::string& version : summary.texts("versions")) all.versions.insert(std::move(version));

@@ -34,6 +34,8 @@ struct ShardRecords {
   std::map<std::string, std::map<std::string, OriginFile>> objects;
   std::set<std::string> versions;
   std::vector<Record> limits;  // each different one once
+  std::string ensemble;        // its title; empty: there is none
+  std::size_t members_pressed = 0, presses_missing = 0;
 };
 
 /// \throw DataError if two shards have one name, were packed with different fields, or mean different files by one name

@@ -592,6 +592,59 @@ std::vector<Field> series() {
           kMmPerM, friction_radius)};
 }
 
+/// Of a sample that an ensemble has pressed, too: each label, its standard deviation over the members, and by how much
+/// the members' mesh changes it.
+std::vector<Field> ensemble() {
+  constexpr auto kEnsemble = Section::ensemble;
+  struct Label {
+    EnsembleLabel label;
+    const char *name, *shape, *unit, *frame, *sign, *meaning;
+    double scale;
+  };
+  const std::vector<Label> labels{
+      {EnsembleLabel::press_force, "press_force_N", "(T)", "N", kS, "positive when the object pushes into the gel",
+       "force on the gel along -z", kNewton},
+      {EnsembleLabel::tangential_force, "tangential_force_N", "(T)", "N", kS, kNone,
+       "length of the force on the gel along x and y", kNewton},
+      {EnsembleLabel::torque, "torque_Nmm", "(T,3)", "N mm", kS, "torque on the gel by the object, right-handed",
+       "resultant torque about the origin of S", kNmmPerNm},
+      {EnsembleLabel::contact_area, "contact_area_mm2", "(T)", "mm^2", kNone, kNone,
+       "area of the front that carries contact force", kSame},
+      {EnsembleLabel::deepest_indentation, "deepest_indentation_mm", "(T)", "mm", kS,
+       "positive into the gel (along -z of S)", "largest way of a front vertex along -z since rest", kMmPerM},
+      {EnsembleLabel::object_depth, "object_depth_mm", "(T)", "mm", kS, "positive below the undeformed front",
+       "depth of the object's lowest point, where a mount gives way", kMmPerM}};
+  std::vector<Field> all;
+  for (const Label& l : labels) {
+    const std::string name = l.name;
+    const EnsembleLabel label = l.label;
+    using Values = std::function<std::optional<std::vector<double>>(const EnsembleLabels&, std::size_t)>;
+    const auto add = [&](const std::string& suffix, const std::string& sign, const std::string& meaning,
+                         const std::string& why_not, Values values_of) {
+      all.push_back({kEnsemble, name + suffix, f32, l.shape, l.unit, l.frame, sign, meaning,
+                     "press: arrays and record" + std::string(suffix.empty() ? "" : " of the members"), l.scale,
+                     [=](SampleFrames& s, std::size_t f) -> FieldData {
+                       if (label == EnsembleLabel::object_depth && !s.ensemble().any_mount_gives_way())
+                         return Absent{"the mounts are rigid"};
+                       auto values = values_of(s.ensemble(), f);
+                       if (!values) return Absent{why_not};
+                       if (values->size() == 1) return scalar(values->front());
+                       return Numbers{{values->size()}, std::move(*values)};
+                     }});
+    };
+    add("", l.sign, l.meaning, "",
+        [label](const EnsembleLabels& of, std::size_t f) { return std::optional(of.label(label, f)); });
+    add("_sigma", kNone, "standard deviation of " + name + " over the members (n - 1)",
+        "fewer than two members were pressed",
+        [label](const EnsembleLabels& of, std::size_t f) { return of.sigma(label, f); });
+    add("_mesh", "positive: more with the coarser mesh",
+        name + " of the sensor in the members' mesh, minus that of the sample",
+        "the members have the mesh of the sample, or this press failed",
+        [label](const EnsembleLabels& of, std::size_t f) { return of.mesh_difference(label, f); });
+  }
+  return all;
+}
+
 }  // namespace
 
 const char* name_of(Section section) {
@@ -604,6 +657,8 @@ const char* name_of(Section section) {
       return "check";
     case Section::series:
       return "series";
+    case Section::ensemble:
+      return "ensemble";
   }
   return "";
 }
@@ -611,7 +666,7 @@ const char* name_of(Section section) {
 const std::vector<Field>& fields() {
   static const std::vector<Field> kFields = [] {
     std::vector<Field> all = observations();
-    for (auto part : {simulated(), checks(), series()}) all.insert(all.end(), part.begin(), part.end());
+    for (auto part : {simulated(), checks(), series(), ensemble()}) all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
   return kFields;

@@ -14,7 +14,7 @@
 namespace tacipc {
 
 /// Part of a sample's group.
-enum class Section { obs, sim, check, series };
+enum class Section { obs, sim, check, series, ensemble };
 
 const char* name_of(Section section);
 

@@ -7,6 +7,7 @@
 #include "common/base/log.h"
 #include "common/base/sha256.h"
 #include "common/format/csv.h"
+#include "common/sample/ensemble.h"
 #include "common/sample/sample_status.h"
 #include "common/sensor/camera_description.h"
 #include "common/stage/stage.h"
@@ -37,8 +38,17 @@ struct ShardSample {
   std::optional<Failure> failure;
 };
 
+/// What the dataset has pressed beside its samples, if anything.
+std::optional<DatasetEnsemble> ensemble_of(Stage& stage) {
+  const fs::path dataset = fs::absolute(stage.input("--plan")).parent_path().parent_path();
+  auto ensemble = ensemble_of_dataset(dataset);
+  if (ensemble) stage.add_input("ensemble", dataset / kEnsembleFile);
+  return ensemble;
+}
+
 /// The shard's part of the plan and what is there of it; the records that are become inputs.
-std::vector<ShardSample> find_samples(Stage& stage, const PackConfig& config) {
+/// \param presses beside each sample
+std::vector<ShardSample> find_samples(Stage& stage, const PackConfig& config, const std::vector<std::string>& presses) {
   const fs::path plan = stage.input("--plan");
   const fs::path dataset = fs::absolute(plan).parent_path().parent_path();
   std::vector<ShardSample> samples;
@@ -50,6 +60,11 @@ std::vector<ShardSample> find_samples(Stage& stage, const PackConfig& config) {
           "{}: {} has neither a record nor a failure: make the samples first (or set unmade: list in the "
           "configuration)",
           sample.folder.string(), sample.failure->stage);
+    for (const std::string& press : presses) {
+      for (const char* record : {"press.yaml", "press.failed.yaml"})
+        if (const fs::path path = member_press(sample.folder, press) / record; fs::exists(path))
+          records.emplace_back(planned.id + "/ensemble/" + press + "/" + record, path);
+    }
     for (const std::string part : {"press", "render"}) {
       for (const auto& [ending, path] : {std::pair{".yaml", sample.folder / part / (part + ".yaml")},
                                          {".failed.yaml", stage_file(sample.folder, part, ".failed.yaml")}})
@@ -74,8 +89,10 @@ int main(int argc, char** argv) {
     const std::string& shard = stage.option("--shard");
     if (shard.empty() || shard.find('/') != std::string::npos || shard.front() == '.')
       throw UsageError("--shard is required, for instance train-00000-of-00001");
-    const std::vector<ShardSample> samples = find_samples(stage, config);
-    const std::string schema_text = to_json(schema(config));
+    const auto ensemble = ensemble_of(stage);
+    const std::vector<ShardSample> samples =
+        find_samples(stage, config, ensemble ? ensemble->presses() : std::vector<std::string>());
+    const std::string schema_text = to_json(schema(config, ensemble.has_value()));
     Value::Map root{{"format", "tactile-shard"},
                     {"version", 1},
                     {"shard", shard},
@@ -91,6 +108,7 @@ int main(int argc, char** argv) {
     const fs::path path = stage.output(name);
     ShardWriter writer(path, config, root);
     Origins origins;
+    std::size_t presses_made = 0, presses_missing = 0;
     std::string manifest = csv_line(manifest_columns()), failures = csv_line(failure_columns()),
                 timings = csv_line(timing_columns());
     for (const ShardSample& at : samples) {
@@ -102,6 +120,11 @@ int main(int argc, char** argv) {
         continue;
       }
       SampleFrames sample(at.folder);
+      if (ensemble && at.plan.sensor == ensemble->sensor && !sample.grasp()) {
+        sample.add_ensemble(*ensemble);
+        presses_made += sample.ensemble().made().size();
+        presses_missing += sample.ensemble().missing().size();
+      }
       const std::string sensor_id = sensor_id_of(at.plan, sample);
       origins.add(at.plan, sensor_id, sample);
       manifest += csv_line(manifest_row(at.plan, sensor_id, writer.samples(), sample));
@@ -124,6 +147,14 @@ int main(int argc, char** argv) {
                        {"frames", writer.frames()},
                        {"bytes", static_cast<std::size_t>(fs::file_size(path))},
                        {"sha256", digest}};
+    if (ensemble) {
+      summary.emplace_back("ensemble", Value::Map{{"title", ensemble->title},
+                                                  {"members_pressed", presses_made},
+                                                  {"presses_missing", presses_missing}});
+      if (presses_missing > 0)
+        log_warning("{}: {} presses of the ensemble are not there; fewer members make the deviations of their samples",
+                    shard, presses_missing);
+    }
     for (auto& line : origins.lines(stage.out())) summary.push_back(line);
     stage.summarize(summary);
   });

@@ -12,9 +12,9 @@ PackConfig PackConfig::read(ConfigReader& in) {
   PackConfig config;
   config.variants = in.flag_or("variants", false);
   config.list_unmade = in.choice_or("unmade", "refuse", {"refuse", "list"}) == "list";
-  for (const Section section : {Section::obs, Section::sim, Section::check, Section::series}) {
+  for (const Section section : {Section::obs, Section::sim, Section::check, Section::series, Section::ensemble}) {
     // What judges a sample, and what labels follow from, is never left out.
-    if (section == Section::check || section == Section::series) {
+    if (section != Section::obs && section != Section::sim) {
       for (const Field& field : fields())
         if (field.section == section) config.packed.push_back(&field);
       continue;

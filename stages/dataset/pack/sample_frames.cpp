@@ -140,6 +140,10 @@ double SampleFrames::press_number(std::size_t frame, const std::string& key) con
   return per_frame_[frame].required_number(key);
 }
 
+void SampleFrames::add_ensemble(const DatasetEnsemble& ensemble) {
+  ensemble_ = std::make_unique<EnsembleLabels>(ensemble, folder_, press_input("object"));
+}
+
 Numbers SampleFrames::front_triangles() {
   const fs::path gel_path = press_input("gel");
   if (content_hash(gel_path) != press_.section("inputs").section("gel").required_text("hash"))

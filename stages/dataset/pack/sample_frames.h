@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "common/sample/render_folder.h"
 #include "common/sensor/sensor.h"
 #include "common/stage/record.h"
+#include "stages/dataset/pack/ensemble_labels.h"
 
 namespace tacipc {
 
@@ -80,6 +82,11 @@ class SampleFrames {
   FingerFront finger_front(std::size_t side, std::size_t frame) const;
   /// A number of the frame in the press's record.
   double press_number(std::size_t frame, const std::string& key) const;
+  /// Adds what an ensemble has pressed beside the sample. \throw DataError as EnsembleLabels
+  void add_ensemble(const DatasetEnsemble& ensemble);
+  /// \pre add_ensemble
+  const EnsembleLabels& ensemble() const { return *ensemble_; }
+  bool has_ensemble() const { return ensemble_ != nullptr; }
   /// Triangles of the front over its vertices.
   Numbers front_triangles();
 
@@ -100,6 +107,7 @@ class SampleFrames {
   std::vector<std::string> variants_;
   std::string variant_;
   Sensor sensor_;
+  std::unique_ptr<EnsembleLabels> ensemble_;
 };
 
 }  // namespace tacipc

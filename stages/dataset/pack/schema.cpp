@@ -2,16 +2,17 @@
 
 namespace tacipc {
 
-Value schema(const PackConfig& config) {
+Value schema(const PackConfig& config, bool with_ensemble) {
   Value::List list;
   for (const Field& field : fields()) {
+    if (field.section == Section::ensemble && !with_ensemble) continue;
     Value::Map lines{{"path", field.path()}};
     for (auto& line : attributes_of(field)) lines.push_back(line);
     lines.emplace_back("packed", config.packs(field));
     lines.emplace_back("in_variants", config.variants && field.in_variants && config.packs(field));
     list.emplace_back(std::move(lines));
   }
-  const Value::Map conventions{
+  Value::Map conventions{
       {"frame_S",
        "origin at the centre of the undeformed front of the gel; x to image right, y to image down, z out of the gel "
        "towards the object; right-handed; the camera looks along +z from behind"},
@@ -30,6 +31,13 @@ Value schema(const PackConfig& config) {
       {"variants",
        "data/<id>/variants/<name>/ holds the fields with in_variants once more, of the same deformation "
        "under other light or of another sensor unit"}};
+  if (with_ensemble)
+    conventions.emplace_back(
+        "ensemble",
+        "data/<id>/ensemble/ tells how sure labels are: <label>_sigma is the standard deviation over presses by "
+        "sensors "
+        "that fit the measurements alike, <label>_mesh what a coarser gel changes; its attributes `members` and "
+        "`missing` name who was pressed and who was not");
   const Value::Map letters{{"T", "packed frames"},
                            {"P", "frames of the press, rendered or not"},
                            {"H", "rows of the image"},

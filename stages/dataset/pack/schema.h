@@ -8,6 +8,6 @@ namespace tacipc {
 
 /// Name and version of the format, conventions, what the letters of shapes mean, and each field with its attributes and
 /// whether this dataset packs it.
-Value schema(const PackConfig& config);
+Value schema(const PackConfig& config, bool with_ensemble);
 
 }  // namespace tacipc

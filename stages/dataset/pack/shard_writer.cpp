@@ -26,6 +26,12 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
   return text.empty() ? "one number" : text;
 }
 
+std::string words(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& word : all) text.append(text.empty() ? "" : " ").append(word);
+  return text;
+}
+
 std::int64_t whole_number(const std::string& text) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -177,6 +183,17 @@ void ShardWriter::add_sample(const PlannedRow& plan, const std::string& sensor_i
     write_section(Section::series, group + "/series", sample, false);
   else
     file_.attribute(group, "absent_series", "no grasp");
+  if (sample.has_ensemble()) {
+    write_section(Section::ensemble, group + "/ensemble", sample, false);
+    const EnsembleLabels& ensemble = sample.ensemble();
+    for (const auto& [key, value] :
+         Value::Map{{"title", ensemble.ensemble().title},
+                    {"members", words(ensemble.made())},
+                    {"missing", words(ensemble.missing())},
+                    {"num_members", ensemble.made().size()},
+                    {"mesh", ensemble.ensemble().mesh.empty() ? plan.mesh : ensemble.ensemble().mesh}})
+      file_.attribute(group + "/ensemble", key, value);
+  }
   for (const std::string& variant : config_.variants ? sample.variants() : std::vector<std::string>()) {
     sample.look_at(variant);
     write_section(Section::obs, group + "/variants/" + variant, sample, true);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -80,6 +81,22 @@ std::optional<timespec> time_of_change(const timespec& old, const std::map<std::
   return time;
 }
 
+/// Gels of an ensemble that are none of the dataset's own. What members change of the sensor is a file that the gel
+/// depends on.
+void add_members(const DatasetConfig& config, const EnsembleChoice& ensemble, std::vector<Choice>& choices) {
+  std::set<std::string> known;
+  for (const Choice& choice : choices) known.insert(choice.name);
+  for (const SensorChoice& sensor : config.sensors) {
+    if (!ensemble.is_of(sensor)) continue;
+    for (const std::string& press : ensemble.planned(config.sensors).presses()) {
+      Choice gel{"gel-" + ensemble.gel_of(sensor, press),
+                 {{"sensor", sensor.sensor}, {"mesh", ensemble.mesh_config.value_or(sensor.mesh_config)}}};
+      if (!ensemble.mesh_config && sensor.import) gel.files.push_back({"import", *sensor.import});
+      if (known.insert(gel.name).second) choices.push_back(std::move(gel));
+    }
+  }
+}
+
 void write_choice(const Choice& choice, const fs::path& folder) {
   std::string text;
   std::map<std::string, ChosenContent> after;
@@ -122,6 +139,7 @@ std::vector<Choice> choices_of(const DatasetConfig& config, const std::vector<Se
     choices.push_back(std::move(gel));
     choices.push_back(std::move(render));
   }
+  if (config.ensemble) add_members(config, *config.ensemble, choices);
   for (const ObjectChoice& object : config.objects)
     choices.push_back({"object-" + object.name,
                        {{object.embossed ? "pattern" : "mesh", object.file}, {"decimate", config.decimate}}});

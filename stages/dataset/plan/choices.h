@@ -15,7 +15,8 @@ struct ChosenFile {
   std::filesystem::path file;
 };
 
-/// Files that something is made of: gel-<gel>, object-<object>, motion-<motion> (press), render-<gel>.
+/// Files that something is made of: gel-<gel>, object-<object>, motion-<motion> (press), render-<gel>; gels of an
+/// ensemble's members are some of the first.
 struct Choice {
   std::string name;
   std::vector<ChosenFile> files;

@@ -28,6 +28,7 @@ class Reader {
     for (ConfigReader& item : in_.one_or_more_sections("sensors")) read_sensor(item);
     for (ConfigReader& item : in_.one_or_more_sections("objects")) read_objects(item);
     for (ConfigReader& item : in_.one_or_more_sections("motions")) read_motion(item, press);
+    if (auto ensemble = in_.optional_section("ensemble")) read_ensemble(*ensemble);
     if (auto splits = in_.optional_section("splits")) read_splits(*splits);
     read_outputs();
     config_.stop_after_failures = in_.integer_or("stop_after_failures", 10, 1);
@@ -153,6 +154,27 @@ class Reader {
     config_.motions.push_back(std::move(choice));
   }
 
+  void read_ensemble(ConfigReader& in) {
+    EnsembleChoice choice;
+    choice.file = file(in, "file");
+    const auto members = static_cast<std::size_t>(in.integer_or("members", 4, 2, 1000));
+    if (in.has("mesh")) choice.mesh_config = file(in, "mesh");
+    if (!fs::is_regular_file(choice.file)) return;
+    ConfigReader content = ConfigReader::from_file(choice.file);
+    choice.ensemble = Ensemble::read(content);
+    content.finish();
+    auto& all = choice.ensemble.members;
+    if (all.size() < members)
+      in.fault("members",
+               std::to_string(members) + " are more than the " + std::to_string(all.size()) + " of the file");
+    all.resize(std::min(all.size(), members));
+    if (std::none_of(config_.sensors.begin(), config_.sensors.end(),
+                     [&](const SensorChoice& sensor) { return choice.is_of(sensor); }))
+      in.fault("file",
+               "is of the sensor " + choice.ensemble.sensor.generic_string() + ", which is none of this dataset");
+    config_.ensemble = std::move(choice);
+  }
+
   void read_splits(ConfigReader& splits) {
     config_.splits.val = splits.number_or("val", 0.0, Range{.low = 0.0, .high = 1.0, .open_high = true});
     config_.splits.test = splits.number_or("test", 0.0, Range{.low = 0.0, .high = 1.0, .open_high = true});
@@ -187,6 +209,32 @@ class Reader {
 };
 
 }  // namespace
+
+bool EnsembleChoice::is_of(const SensorChoice& sensor) const {
+  std::error_code error;
+  return fs::equivalent(sensor.sensor, ensemble.sensor, error);
+}
+
+std::string EnsembleChoice::mesh_of(const SensorChoice& sensor) const {
+  return mesh_config ? mesh_config->stem().string() : sensor.mesh;
+}
+
+std::string EnsembleChoice::gel_of(const SensorChoice& sensor, const std::string& press) const {
+  const std::string gel = sensor.name + "-" + mesh_of(sensor);
+  return press == kNominal ? gel : gel + "." + press;
+}
+
+std::string EnsembleChoice::sensor_file(const SensorChoice& sensor, const std::string& member) {
+  return "ensemble/" + sensor.name + "/" + member + ".yaml";
+}
+
+DatasetEnsemble EnsembleChoice::planned(const std::vector<SensorChoice>& sensors) const {
+  DatasetEnsemble planned{.title = ensemble.title, .mesh = mesh_config ? mesh_config->stem().string() : ""};
+  for (const SensorChoice& sensor : sensors)
+    if (is_of(sensor)) planned.sensor = sensor.name;
+  for (const EnsembleMember& member : ensemble.members) planned.members.push_back(member.name);
+  return planned;
+}
 
 DatasetConfig DatasetConfig::read(ConfigReader& in) {
   DatasetConfig config;

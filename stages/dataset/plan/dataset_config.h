@@ -9,6 +9,7 @@
 
 #include "common/config/config.h"
 #include "common/sample/dataset_maps.h"
+#include "common/sample/ensemble.h"
 #include "common/sample/object.h"
 #include "stages/dataset/plan/motion_template.h"
 
@@ -41,6 +42,23 @@ struct MotionChoice {
   MotionTemplate motion;
 };
 
+/// Members of an ensemble that press every sample of its sensor, too.
+struct EnsembleChoice {
+  Ensemble ensemble;  // no more members than are pressed
+  std::filesystem::path file;
+  std::optional<std::filesystem::path> mesh_config = std::nullopt;  // of the gels of members; absent: the sample's
+
+  /// Whether samples of this sensor are pressed by members.
+  bool is_of(const SensorChoice& sensor) const;
+  /// Name of the mesh of the members' gels, and of the gel of a press (DatasetEnsemble::presses).
+  std::string mesh_of(const SensorChoice& sensor) const;
+  std::string gel_of(const SensorChoice& sensor, const std::string& press) const;
+  /// Its sensor file, as the make rules name it.
+  static std::string sensor_file(const SensorChoice& sensor, const std::string& member);
+  /// What pack has to know of it.
+  DatasetEnsemble planned(const std::vector<SensorChoice>& sensors) const;
+};
+
 /// Shares of objects, and of poses, that validation and test have; objects may also be named.
 struct Splits {
   double val = 0.0;
@@ -59,6 +77,7 @@ struct DatasetConfig {
   std::filesystem::path decimate;
   std::filesystem::path render;
   DatasetMaps maps = {};
+  std::optional<EnsembleChoice> ensemble = std::nullopt;
   Splits splits;
   double shard_bytes = 1e9;
   std::string pack = "full";           // profile that a finished run packs with, or none

@@ -34,6 +34,30 @@ std::string files_of_render(const std::vector<Choice>& choices, const SensorChoi
   return joined(files);
 }
 
+/// Gels of the members, and for each gel of samples the presses beside them, each with its gel.
+std::string ensemble_mk(const DatasetConfig& config, const EnsembleChoice& choice) {
+  std::string text;
+  std::set<std::string> known;
+  for (const SensorChoice& sensor : config.sensors) known.insert(sensor.gel());
+  const DatasetEnsemble planned = choice.planned(config.sensors);
+  for (const SensorChoice& sensor : config.sensors) {
+    if (!choice.is_of(sensor)) continue;
+    std::string presses;
+    for (const std::string& press : planned.presses()) {
+      const std::string gel = choice.gel_of(sensor, press);
+      presses += fmt::format(" {}:{}", press, gel);
+      if (!known.insert(gel).second) continue;
+      const std::string file = press == kNominal ? sensor.sensor.generic_string()
+                                                 : "$(DATASET_DIR)/" + EnsembleChoice::sensor_file(sensor, press);
+      text += fmt::format("$(eval $(call dataset_gel,{},{},{},{},))\n", gel, file,
+                          choice.mesh_config.value_or(sensor.mesh_config).generic_string(),
+                          !choice.mesh_config && sensor.import ? sensor.import->generic_string() : "");
+    }
+    text += fmt::format("DATASET_ENSEMBLE_{} :={}\n", sensor.gel(), presses);
+  }
+  return text + "DATASET_ENSEMBLE := yes\n";
+}
+
 std::string dataset_mk(const DatasetConfig& config, const std::vector<Choice>& choices,
                        const std::vector<std::string>& blocks, const std::vector<std::string>& shards,
                        std::size_t samples) {
@@ -55,6 +79,7 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Choice>& c
     text += fmt::format("$(eval $(call dataset_gel,{},{},{},{},{}))\n", choice.gel(), choice.sensor.generic_string(),
                         choice.mesh_config.generic_string(), choice.import ? choice.import->generic_string() : "",
                         files_of_render(choices, choice));
+  if (config.ensemble) text += ensemble_mk(config, *config.ensemble);
   for (const ObjectChoice& object : config.objects)
     text += fmt::format("$(eval $(call dataset_{},{},{}))\n",
                         object.embossed    ? "embossed"
@@ -144,6 +169,17 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
 
 int write_dataset_files(const DatasetConfig& config, const std::vector<Choice>& choices,
                         const std::vector<PlannedSample>& samples, const fs::path& dataset) {
+  if (config.ensemble) {
+    for (const SensorChoice& sensor : config.sensors) {
+      if (!config.ensemble->is_of(sensor)) continue;
+      for (const EnsembleMember& member : config.ensemble->ensemble.members)
+        replace_if_changed(dataset / EnsembleChoice::sensor_file(sensor, member.name),
+                           sensor_of(config.ensemble->ensemble, member));
+    }
+    replace_if_changed(dataset / kEnsembleFile, config.ensemble->planned(config.sensors).yaml());
+  } else {
+    fs::remove(dataset / kEnsembleFile);
+  }
   write_choices(choices, dataset / "choices");
   replace_if_changed(dataset / kMapsFile, config.maps.yaml());
   for (const ObjectChoice& object : config.objects)

@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/dataset_plan.h"
+#include "common/sample/ensemble.h"
 #include "common/sample/sample_spec.h"
 #include "common/sample/sample_status.h"
 #include "common/sensor/averaged_volume.h"
@@ -68,11 +69,15 @@ std::string frames_of_render(const fs::path& dataset) {
   return Record::from_file(dataset / "plan" / path).text("frames").value_or("last");
 }
 
-std::optional<double> processor_seconds(const fs::path& sample) {
+/// \param presses of an ensemble, beside the sample
+std::optional<double> processor_seconds(const fs::path& sample, const std::vector<std::string>& presses) {
   std::optional<double> seconds;
   for (const char* stage : {"press", "render"})
     if (const auto file = timings_file(sample, stage))
       seconds = seconds.value_or(0.0) + read_timings(*file).processor_s;
+  for (const std::string& press : presses)
+    if (const fs::path file = member_press(sample, press) / "press.timings.yaml"; seconds && fs::exists(file))
+      *seconds += read_timings(file).processor_s;
   return seconds;
 }
 
@@ -136,21 +141,35 @@ CostEstimate estimate_cost(const fs::path& dataset, const CostModel& model) {
   std::size_t made = 0;
   for_each_planned(table, std::nullopt, [&](const PlannedRow& row) { made += is_made(row) ? 1 : 0; });
 
+  const auto ensemble = ensemble_of_dataset(dataset);
   std::map<std::string, GelSize> gels;
   std::map<std::string, MotionLength> motions;
   std::map<std::pair<std::string, std::string>, Group> groups;
   std::size_t made_before = 0;
+  const auto size_of_gel = [&](const std::string& gel) {
+    if (!gels.contains(gel)) gels[gel] = size_of(Record::from_file(dataset / "gels" / gel / "tetmesh.yaml"));
+    return gels[gel];
+  };
   for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
     const std::string gel = row.sensor + "-" + row.mesh;
-    if (!gels.contains(gel)) gels[gel] = size_of(Record::from_file(dataset / "gels" / gel / "tetmesh.yaml"));
+    size_of_gel(gel);
+    const bool has_presses = ensemble && row.sensor == ensemble->sensor && !is_finger(dataset / row.folder);
+    const std::vector<std::string> presses = has_presses ? ensemble->presses() : std::vector<std::string>();
     if (!motions.contains(row.motion)) motions[row.motion] = length_of(dataset / row.folder);
     Group& group = groups[{gel, row.motion}];
     if (group.planned++ == 0) {
       group.modelled_seconds = modelled_seconds(model, gels[gel], motions[row.motion], frames);
       group.modelled_bytes = modelled_bytes(gels[gel], motions[row.motion], frames);
+      if (has_presses) {
+        GelSize of_members = size_of_gel(row.sensor + "-" + (ensemble->mesh.empty() ? row.mesh : ensemble->mesh));
+        of_members.pixels = 0.0;  // nobody looks
+        const auto count = static_cast<double>(presses.size());
+        group.modelled_seconds += count * modelled_seconds(model, of_members, motions[row.motion], frames);
+        group.modelled_bytes += count * modelled_bytes(of_members, motions[row.motion], frames);
+      }
     }
     if (!is_made(row)) return;
-    if (const auto seconds = processor_seconds(dataset / row.folder)) {
+    if (const auto seconds = processor_seconds(dataset / row.folder, presses)) {
       ++group.timed;
       group.seconds += *seconds;
     }

@@ -13,6 +13,7 @@
 #include "common/base/sha256.h"
 #include "common/format/csv.h"
 #include "common/sample/dataset_plan.h"
+#include "common/sample/ensemble.h"
 #include "common/sample/sample_status.h"
 #include "common/stage/record.h"
 #include "stages/dataset/survey/plan_lock.h"
@@ -74,6 +75,18 @@ void remove_outputs(const fs::path& folder, const std::string& stage) {
   for (auto below = folders.rbegin(); below != folders.rend(); ++below) fs::remove(folder / *below, not_empty);
 }
 
+/// What members of an ensemble have pressed beside a sample. One that is being made stays.
+void drop_members(const fs::path& sample_folder) {
+  const fs::path all = member_presses(sample_folder);
+  if (!fs::is_directory(all)) return;
+  for (const auto& member : fs::directory_iterator(all)) {
+    const fs::path press = member_press(sample_folder, member.path().filename().string());
+    if (!fs::exists(press / "press.yaml") || was_dropped(press)) continue;
+    const MakingLock lock(press);
+    if (lock.held()) remove_outputs(press, "press");
+  }
+}
+
 }  // namespace
 
 Dropped drop_packed(const fs::path& dataset, const std::vector<std::string>& stages, bool whole_shards) {
@@ -95,6 +108,7 @@ Dropped drop_packed(const fs::path& dataset, const std::vector<std::string>& sta
     }
     for (const std::string& stage : stages) {
       if (!is_open(stage)) continue;
+      if (stage == "press") drop_members(folder);
       remove_outputs(folder / stage, stage);
       ++dropped.stages;
     }

@@ -12,6 +12,7 @@
 #include "common/base/sha256.h"
 #include "common/config/config_text.h"
 #include "common/sample/dataset_plan.h"
+#include "common/sample/ensemble.h"
 #include "common/sample/sample_status.h"
 #include "common/stage/record.h"
 #include "stages/dataset/survey/plan_lock.h"
@@ -55,7 +56,13 @@ void write_pack_inputs(const fs::path& dataset, const fs::path& profile) {
     if (!fs::exists(file)) throw UsageError(fmt::format("there is no {}", file.string()));
 
   const std::string shared = shared_configuration(configuration);
-  const std::string common = sha256(shared) + sha256_of_file(profile) + "\n";
+  std::string common = sha256(shared) + sha256_of_file(profile);
+  std::vector<std::string> presses;  // beside each sample
+  if (const auto ensemble = ensemble_of_dataset(dataset)) {
+    common += sha256_of_file(dataset / kEnsembleFile);
+    presses = ensemble->presses();
+  }
+  common += "\n";
   std::map<std::string, std::string> inputs;  // of each shard
   std::string names, records;
   for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
@@ -71,6 +78,9 @@ void write_pack_inputs(const fs::path& dataset, const fs::path& profile) {
     for (const std::string stage : {"press", "render"})
       for (const fs::path& record : {folder / stage / (stage + ".yaml"), stage_file(folder, stage, ".failed.yaml")})
         line.append(" ").append(time_text(record));
+    for (const std::string& press : presses)
+      for (const char* record : {"press.yaml", "press.failed.yaml"})
+        line.append(" ").append(time_text(member_press(folder, press) / record));
     text += line + "\n";
   });
   if (inputs.empty()) throw DataError("{} has no samples", table.string());

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/dataset_plan.h"
+#include "common/sample/ensemble.h"
 #include "common/sample/sample_status.h"
 #include "stages/dataset/survey/plan_lock.h"
 
@@ -37,6 +38,7 @@ DatasetStatus dataset_status(const fs::path& dataset, const IndexRange& range, s
   const fs::path table = samples_table(dataset);
   const double time = static_cast<double>(now);
   DatasetStatus status;
+  const auto ensemble = ensemble_of_dataset(dataset);
   double first_recent = time;
   for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
     if (!lies_in(row.index, range)) return;
@@ -45,6 +47,16 @@ DatasetStatus dataset_status(const fs::path& dataset, const IndexRange& range, s
     switch (status_of(folder)) {
       case SampleStatus::made: {
         ++status.made;
+        if (ensemble && row.sensor == ensemble->sensor && !is_finger(folder)) {
+          for (const std::string& press : ensemble->presses()) {
+            const fs::path of_member = member_press(folder, press);
+            ++status.presses;
+            if (fs::exists(of_member / "press.yaml"))
+              ++status.presses_made;
+            else if (fs::exists(of_member / "press.failed.yaml"))
+              ++status.presses_failed;
+          }
+        }
         const auto made = time_of(folder / "render/render.yaml");
         if (made && *made > time - kRecent_s) {
           ++status.made_recently;
@@ -75,12 +87,16 @@ DatasetStatus dataset_status(const fs::path& dataset, const IndexRange& range, s
 std::string to_text(const DatasetStatus& status, const fs::path& dataset) {
   std::string text = fmt::format("{}: {} samples: {} made, {} failed, {} running, {} left\n", name_of_dataset(dataset),
                                  status.samples, status.made, status.failed, status.running, status.left());
+  if (status.presses > 0)
+    text += fmt::format("  ensemble: {} presses beside the samples made: {} made, {} failed, {} left\n", status.presses,
+                        status.presses_made, status.presses_failed,
+                        status.presses - status.presses_made - status.presses_failed);
   if (status.made_recently > 1 && status.left() > 0) {
     const double seconds = std::max(status.recent_seconds, 1.0), late = static_cast<double>(status.made_recently);
     text += fmt::format("  {:.1f} per minute recently; the rest takes {:.2f} hours at this rate\n",
                         60.0 * late / seconds, static_cast<double>(status.left()) * seconds / late / 3600.0);
   }
-  if (status.failed > 0)
+  if (status.failed > 0 || status.presses_failed > 0)
     text +=
         fmt::format("  reasons in {}/failures.csv; again: make -f Makefile.data retry CONFIG=...\n", dataset.string());
   return text;

@@ -20,6 +20,8 @@ struct DatasetStatus {
   std::size_t samples = 0, made = 0, failed = 0, running = 0;
   std::size_t made_recently = 0;  // in the ten minutes before `now` …
   double recent_seconds = 0.0;    // … since the first of which so much time has passed
+  /// Presses by members of an ensemble beside samples that are made.
+  std::size_t presses = 0, presses_made = 0, presses_failed = 0;
 
   std::size_t left() const { return samples - made - failed; }
 };
