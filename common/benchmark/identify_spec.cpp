@@ -197,7 +197,7 @@ IdentifySpec IdentifySpec::read(ConfigReader& in) {
   out.changes = read_changes(in);
   out.seed = in.integer_or("seed", 1, 0);
   out.draws = in.integer_or("draws", 4000, 100, 1000000);
-  out.members = in.integer_or("members", 8, 1, 1000);
+  out.members = in.integer_or("members", 8, 2, 1000);
   ConfigReader parameters = in.section("parameters");
   for (const char* name : {kModulus, kPoisson, kThickness, kFriction, kMount, kShearMount})
     if (parameters.has(name)) out.parameters.push_back(read_parameter(parameters, name));

@@ -84,6 +84,7 @@ END
 grep -q 'youngs_modulus_pa: .*# \[fitted ± ' $fit/sensor.yaml || fail "the sensor file does not say what was fitted"
 grep -q 'poissons_ratio: 0.43  # \[measured\] paper' $fit/sensor.yaml || fail "the sensor file does not say what was measured"
 [ "$(grep -c 'name: m0' $fit/ensemble.yaml)" = 3 ] || fail "there are not three members"
+grep -q 'sensor: sensor.yaml' $fit/ensemble.yaml || fail "the ensemble is not of the fitted sensor"
 for picture in curve_small residual_large profile_thickness_mm; do [ -s $fit/$picture.svg ] || fail "there is no $picture.svg"; done
 
 # The sensor file presses like the truth.

@@ -387,17 +387,12 @@ std::string fitted_sensor(const std::string& text, const std::string& name, cons
   return out;
 }
 
-std::string ensemble_file(const IdentifyResult& result, const std::string& sensor, int members) {
-  std::string out = fmt::format(
-      "# Mechanics drawn from what {} left uncertain, as changes of the sensor file.\ntitle: {}\nsensor: "
-      "{}\nmembers:\n",
-      result.model.spec().title, result.model.spec().title, sensor);
-  const auto columns = result.posterior.resampled(members);
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    std::string set;
-    for (const auto& [key, yaml] : sensor_changes(result.model, result.posterior.u.col(columns[k])))
-      set += fmt::format("{}{}: {}", set.empty() ? "" : ", ", key, yaml);
-    out += fmt::format("  - {{name: m{:02}, set: {{{}}}}}\n", k, set);
+Ensemble ensemble_of(const IdentifyResult& result, const std::filesystem::path& sensor, int members) {
+  Ensemble out{.title = "drawn from what " + result.model.spec().title + " left uncertain", .sensor = sensor};
+  for (const Eigen::Index column : result.posterior.resampled(members)) {
+    EnsembleMember member{.name = fmt::format("m{:02}", out.members.size())};
+    for (const auto& change : sensor_changes(result.model, result.posterior.u.col(column))) member.set.push_back(change);
+    out.members.push_back(std::move(member));
   }
   return out;
 }

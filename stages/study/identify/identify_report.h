@@ -1,11 +1,13 @@
 // The fit as tables, plots and files that other stages take.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "common/base/value.h"
+#include "common/sample/ensemble.h"
 #include "stages/study/identify/fit.h"
 #include "stages/study/identify/predictions.h"
 
@@ -61,6 +63,6 @@ std::map<std::string, std::string> sensor_changes(const MechanicsModel& model, c
 /// [fitted ± deviation], [measured] or [guess].
 std::string fitted_sensor(const std::string& text, const std::string& name, const IdentifyResult& result);
 /// Members drawn from the posterior, as changes of the sensor file at `sensor`.
-std::string ensemble_file(const IdentifyResult& result, const std::string& sensor, int members);
+Ensemble ensemble_of(const IdentifyResult& result, const std::filesystem::path& sensor, int members);
 
 }  // namespace tacipc

@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
                  profile_plot(unknown, fit, i, profile(model, fit, i, kProfilePoints)));
     }
     write_file(stage.output("sensor.yaml"), fitted_sensor(read_file(sensor_file), sensor_file.string(), result));
-    write_file(stage.output("ensemble.yaml"), ensemble_file(result, "sensor.yaml", spec.members));
+    write_file(stage.output(kEnsembleFile), ensemble_of(result, stage.out() / "sensor.yaml", spec.members).yaml(stage.out()));
     stage.summarize(result_summary(result));
   });
 }
