@@ -15,9 +15,9 @@ $(foreach f,$(PAPER_TABLE) $(addprefix $(PAPER_CONFIGS)/,mpm.yaml legacy_tacchi.
   $(if $(wildcard $(f)),,$(error paper-real: $(f) does not exist)))
 
 # Tacchi with each of its published densities of points (6 per mm2 is its default), and with the criterion of its program for images:
-# all under our light, so that only membranes differ; the densities also under light of their own.
-PAPER_TACCHI_LIT := tacchi tacchi-60 tacchi-6
-PAPER_TACCHI     := $(PAPER_TACCHI_LIT) tacchi-100um tacchi-image
+# all under our light, so that only membranes differ; the densest and the sparsest also under light of their own.
+PAPER_TACCHI_LIT := tacchi tacchi-6
+PAPER_TACCHI     := $(PAPER_TACCHI_LIT) tacchi-60 tacchi-100um tacchi-image
 PAPER_TACCHI_KEYS_tacchi-60    := object.samples_per_mm2=60
 PAPER_TACCHI_KEYS_tacchi-6     := object.samples_per_mm2=6
 PAPER_TACCHI_KEYS_tacchi-100um := motion.frame_criterion=within_100um

@@ -52,7 +52,7 @@ cp truth/background.png shared/shots
 goal() { make -s -f Makefile.data paper-real CASES=configs/studies/sim2real/"$1".yaml OUT=out BUILD="$build_dir" PACKAGES=no SHARED=shared >log.txt 2>&1; }
 goal made || { cat log.txt; fail "paper-real"; }
 real=out/paper/real/made
-for method in ours {tacchi,tacchi-60,tacchi-6}{,-our-light} tacchi-100um-our-light tacchi-image-our-light depth-based depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential background; do
+for method in ours {tacchi,tacchi-6}{,-our-light} tacchi-60-our-light tacchi-100um-our-light tacchi-image-our-light depth-based depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential background; do
   grep -q "method: $method$" $real/tabulate.yaml || fail "$method is not a row"
 done
 error_of() { awk -F, '$2 == "box" { sum += $3; ++n } END { print sum / n }' "$1/samples.csv"; }
