@@ -60,13 +60,13 @@ FOTS_BLOCK := gel.lattice=block +gel.counts=[127,105,22]
 FOTS_NUMERICS_tacchi_legacy := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy := $(FOTS_BLOCK) +material.youngs_modulus_pa=1.45e+5 +material.poissons_ratio=0.45
 FOTS_NUMERICS_tacchi_legacy_sensor_material := $(RIVALS_LEGACY)
-FOTS_KEYS_tacchi_legacy_sensor_material := $(FOTS_BLOCK) time.step_s=2.0e-5 motion.check_every=10
+FOTS_KEYS_tacchi_legacy_sensor_material := $(FOTS_BLOCK) time.step_s=2.0e-5 motion.check_every=5
 FOTS_NUMERICS_tacchi_legacy_tenth_density := $(RIVALS_LEGACY)
-FOTS_KEYS_tacchi_legacy_tenth_density := $(FOTS_KEYS_tacchi_legacy) material.density_kg_m3=1.0e+5 time.step_s=3.16e-5 motion.check_every=6
+FOTS_KEYS_tacchi_legacy_tenth_density := $(FOTS_KEYS_tacchi_legacy) material.density_kg_m3=1.0e+5 time.step_s=3.16e-5 motion.check_every=3
 FOTS_NUMERICS_tacchi_legacy_grid_0400um := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy_grid_0400um := $(FOTS_KEYS_tacchi_legacy) grid.spacing_mm=0.4
 FOTS_NUMERICS_tacchi_legacy_grid_and_density := $(RIVALS_LEGACY)
-FOTS_KEYS_tacchi_legacy_grid_and_density := $(FOTS_KEYS_tacchi_legacy_grid_0400um) material.density_kg_m3=1.0e+4 time.step_s=3.1e-5 motion.check_every=6
+FOTS_KEYS_tacchi_legacy_grid_and_density := $(FOTS_KEYS_tacchi_legacy_grid_0400um) material.density_kg_m3=1.0e+4 time.step_s=3.1e-5 motion.check_every=3
 FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
 FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
 FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths at which what is checked at half the speed is

@@ -14,7 +14,9 @@ $(1)/render.yaml: $(2)/press.yaml $(COINS_SENSOR) configs/render/$(4).yaml $$(RE
 	$$(call run,render,--press $(2) --gel $(OUT)/gels/mctac-$(3)/gel.msh --sensor $(COINS_SENSOR) --config configs/render/$(4).yaml)
 endef
 
-# Tacchi as published ends when its gel is as deep as asked; here also when its object is, as in the other simulators.
+# Tacchi as published ends when its gel is as deep as asked; here also when its object is, as in the other simulators, and with the other
+# published densities of its object's points (6 per mm2 is its default).
+$(foreach d,60 6,$(eval $(call changed_config,$(PAPER)/objects/tacchi_$(d).config.yaml,configs/rivals/mpm/legacy_mctac.yaml,object.samples_per_mm2=$(d))))
 COINS_DEEP := $(PAPER)/objects/tacchi_deep.config.yaml
 $(eval $(call changed_config,$(COINS_DEEP),configs/rivals/mpm/legacy_mctac.yaml,motion.depth_of=object))
 # $(call coins_tacchi,folder,object,configuration)
@@ -34,6 +36,8 @@ $(call coins_render,$(1)/fine/render,$(1)/fine/press,$(PAPER_FINE),$(PAPER_LIGHT
 $(call coins_render,$(1)/noise/render,$(1)/fine/press,$(PAPER_FINE),default)
 $(call coins_tacchi,$(1)/tacchi,$(2),configs/rivals/mpm/legacy_mctac.yaml)
 $(call coins_tacchi,$(1)/tacchi_deep,$(2),$(COINS_DEEP))
+$(call coins_tacchi,$(1)/tacchi_60,$(2),$(PAPER)/objects/tacchi_60.config.yaml)
+$(call coins_tacchi,$(1)/tacchi_6,$(2),$(PAPER)/objects/tacchi_6.config.yaml)
 $(1)/tacchi/legacy/baseline.yaml: $(1)/tacchi/render/render.yaml $(1)/tacipc/render/render.yaml configs/rivals/baseline/tacchi.yaml | build
 	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacchi/render/frame_0001/depth.exr)
 $(1)/tacipc/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/tacchi.yaml | build
@@ -65,14 +69,16 @@ COINS_FROM_rest                := noise/render frame_0000/tactile.png
 COINS_FROM_tacipc              := tacipc/render $(COINS_LAST)/tactile.png
 COINS_FROM_tacchi              := tacchi/render frame_0001/tactile.png
 COINS_FROM_tacchi_deep         := tacchi_deep/render frame_0001/tactile.png
+COINS_FROM_tacchi_60           := tacchi_60/render frame_0001/tactile.png
+COINS_FROM_tacchi_6            := tacchi_6/render frame_0001/tactile.png
 COINS_FROM_depth-based         := depth-based/render frame_0001/tactile.png
 COINS_FROM_tacipc_legacy       := tacipc/legacy frame_0000/tactile.png
 COINS_FROM_tacchi_legacy       := tacchi/legacy frame_0000/tactile.png
 COINS_FROM_depth-based_legacy  := depth-based/legacy $(COINS_LAST)/tactile.png
 COINS_FROM_older_kernel_legacy := older_kernel/legacy $(COINS_LAST)/tactile.png
-COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep depth-based tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
-COINS_SHAPES  := fine tacipc tacchi tacchi_deep depth-based# methods whose depth is compared
-COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep depth-based rest# and those compared with the reference's gel in the light that they have themselves
+COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep tacchi_60 tacchi_6 depth-based tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
+COINS_SHAPES  := fine tacipc tacchi tacchi_deep tacchi_60 tacchi_6 depth-based# methods whose depth is compared
+COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep tacchi_60 tacchi_6 depth-based rest# and those compared with the reference's gel in the light that they have themselves
 
 coins_record = $(firstword $(COINS_FROM_$(1)))/$(if $(filter render,$(notdir $(firstword $(COINS_FROM_$(1))))),render,baseline).yaml
 define coins_images
@@ -99,7 +105,7 @@ $(PAPER)/objects-table/metrics/$(1)_one_light/metrics.yaml: $(COINS_IMAGES)/$(1)
 endef
 $(foreach m,$(COINS_IN_ONE_LIGHT),$(eval $(call coins_in_one_light,$(m))))
 
-COINS_RIVALS := $(filter-out fine,$(COINS_METHODS)) $(COINS_IN_ONE_LIGHT:%=%_one_light)
+COINS_RIVALS := $(filter-out fine tacchi_60 tacchi_6,$(COINS_METHODS)) $(COINS_IN_ONE_LIGHT:%=%_one_light)
 $(PAPER)/objects-table/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/objects.yaml $(COINS_RIVALS:%=$(PAPER)/objects-table/metrics/%/metrics.yaml) | build
 	$(call run,tabulate,--config $< --samples $(foreach m,$(COINS_RIVALS),$(m)=$(PAPER)/objects-table/metrics/$(m)/samples.csv) \
 	  --pictures $(foreach m,$(COINS_METHODS),$(PAPER_OBJECTS:%=$(m)=$(COINS_IMAGES)/$(m)/%.png)))

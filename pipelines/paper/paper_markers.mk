@@ -20,7 +20,7 @@ endef
 RIVALS_LEGACY := legacy_mctac
 RIVALS_PHYSICAL := coarse_checked
 RIVALS_PHYSICAL_KEYS_shear := object.mass_ratio=1.0e+7 object.press_speed_mm_s=75 object.move_speed_mm_s=75
-RIVALS_PHYSICAL_KEYS_twist := object.mass_ratio=1.0e+7 object.press_speed_mm_s=75 object.move_speed_mm_s=200
+RIVALS_PHYSICAL_KEYS_twist := object.mass_ratio=1.0e+7 object.press_speed_mm_s=75 object.move_speed_mm_s=141
 
 # board3. The press runs are those of the goal board3, on our own gel and on the published one.
 RIVALS_BOARD3 := $(RIVALS_RUNS)/board3
@@ -35,10 +35,10 @@ $(foreach m,shear twist,$(eval $(call board3_tacchi,tacchi_legacy,$(m),$(RIVALS_
 
 # One value changed at a time, in the shear. Of Tacchi's, as published: name and keys. The true density takes the time step that keeps the
 # Courant number (0.1 ms / sqrt(1e6 / 1010)).
-RIVALS_FACTORS := points_1000 points_10000 points_1000000 light_object drag_20 depth_of_object grid_0400um true_density glued_nodes published_material
-RIVALS_KEYS_points_1000 := object.samples=1000
-RIVALS_KEYS_points_10000 := object.samples=10000
-RIVALS_KEYS_points_1000000 := object.samples=1000000
+RIVALS_FACTORS := points_6 points_60 within_100um light_object drag_20 depth_of_object grid_0400um true_density glued_nodes published_material
+RIVALS_KEYS_points_6 := object.samples_per_mm2=6
+RIVALS_KEYS_points_60 := object.samples_per_mm2=60
+RIVALS_KEYS_within_100um := motion.frame_criterion=within_100um
 RIVALS_KEYS_light_object := object.mass_ratio=0.01
 RIVALS_KEYS_drag_20 := object.move_speed_mm_s=20
 RIVALS_KEYS_depth_of_object := motion.depth_of=object
@@ -66,9 +66,9 @@ $(eval $(call sample_rules,$(RIVALS_QUICK)/tacipc,tacipc,$(RIVALS_QUICK)/object,
 # $(call quick_tacchi,name,configuration,keys)
 quick_tacchi = $(call tacchi_run,$(RIVALS_QUICK)/$(1),$(1),$(2),$(3),configs/sensors/mctac_3mm.yaml,configs/studies/paper/markers/quick_shear.yaml,$(RIVALS_QUICK)/object/decimate.yaml,$(RIVALS_QUICK)/object/object.ply,configs/objects/embossed.yaml)
 RIVALS_QUICK_PHYSICAL := gel.spacing_mm=0.5 grid.spacing_mm=1 object.press_speed_mm_s=200 object.move_speed_mm_s=200 half_speed.largest_change=0.2
-$(eval $(call quick_tacchi,tacchi_legacy,$(RIVALS_LEGACY),object.samples=20000))
+$(eval $(call quick_tacchi,tacchi_legacy,$(RIVALS_LEGACY),object.samples_per_mm2=60))
 $(eval $(call quick_tacchi,tacchi_physical,$(RIVALS_PHYSICAL),$(RIVALS_QUICK_PHYSICAL)))
-$(eval $(call quick_tacchi,points_1000,$(RIVALS_LEGACY),object.samples=1000))
+$(eval $(call quick_tacchi,points_6,$(RIVALS_LEGACY),object.samples_per_mm2=6))
 
 # $(call comparison_rule,title,runs,factors): $(RIVALS_RUNS)/pages/<title>
 define comparison_rule
@@ -76,7 +76,7 @@ $(RIVALS_RUNS)/pages/$(1)/compare_simulators.yaml: configs/studies/paper/markers
 	$$(call run,compare_simulators,--config configs/studies/paper/markers/$(1).yaml $(2:%=--run %) $(3:%=--factor %))
 endef
 $(eval $(call comparison_rule,board3,$(RIVALS_BOARD3_RUNS),$(RIVALS_BOARD3_FACTORS)))
-$(eval $(call comparison_rule,quick,$(RIVALS_QUICK)/tacipc/press $(RIVALS_QUICK)/tacchi_legacy $(RIVALS_QUICK)/tacchi_physical,$(RIVALS_QUICK)/points_1000))
+$(eval $(call comparison_rule,quick,$(RIVALS_QUICK)/tacipc/press $(RIVALS_QUICK)/tacchi_legacy $(RIVALS_QUICK)/tacchi_physical,$(RIVALS_QUICK)/points_6))
 
 .PHONY: paper-markers paper-quick-markers paper-board3-fragment paper-quick-fragment paper-board3-folders paper-quick-folders
 paper-board3-folders:

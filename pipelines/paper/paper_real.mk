@@ -14,22 +14,33 @@ endif
 $(foreach f,$(PAPER_TABLE) $(addprefix $(PAPER_CONFIGS)/,mpm.yaml legacy_tacchi.yaml legacy_gomes_2021.yaml legacy_exponential_13.yaml),\
   $(if $(wildcard $(f)),,$(error paper-real: $(f) does not exist)))
 
-# Tacchi's gel under the balls that calibrate, each at the place and depth that our calibration found, and under the objects
-# at ours. $(call paper_mpm,folder,indenter folder)
+# Tacchi with each of its published densities of points (6 per mm2 is its default), and with the criterion of its program for images:
+# all under our light, so that only membranes differ; the densest and the sparsest also under light of their own.
+PAPER_TACCHI_LIT := tacchi tacchi-6
+PAPER_TACCHI     := $(PAPER_TACCHI_LIT) tacchi-60 tacchi-100um tacchi-image
+PAPER_TACCHI_KEYS_tacchi-60    := object.samples_per_mm2=60
+PAPER_TACCHI_KEYS_tacchi-6     := object.samples_per_mm2=6
+PAPER_TACCHI_KEYS_tacchi-100um := motion.frame_criterion=within_100um
+PAPER_TACCHI_KEYS_tacchi-image := object.samples_per_mm2=6 motion.frame_criterion=within_100um
+$(foreach t,$(PAPER_TACCHI),$(eval $(call changed_config,$(PAPER_REAL)/$(t)/numerics.yaml,$(PAPER_CONFIGS)/mpm.yaml,$(PAPER_TACCHI_KEYS_$(t)))))
+
+# Its gel under the balls that calibrate, each at the place and depth that our calibration found, and under the objects
+# at ours. $(call paper_mpm,which Tacchi,balls/ball_0000 or objects/name,indenter folder)
 define paper_mpm
-$(1)/mpm.yaml: $(1)/motion.yaml $(2)/indenter.yaml $(PAPER_CONFIGS)/mpm.yaml $(CASES_SENSOR) | build
-	$$(call run,mpm,--name $(notdir $(1)) --config $(PAPER_CONFIGS)/mpm.yaml --sensor $(CASES_SENSOR) --sample $(1)/motion.yaml \
-	  --object $(2)/object.ply --object-config configs/objects/embossed.yaml)
+$(PAPER_REAL)/$(1)/$(2)/mpm.yaml: $(PAPER_REAL)/motions/$(2)/motion.yaml $(3)/indenter.yaml $(PAPER_REAL)/$(1)/numerics.yaml $(CASES_SENSOR) | build
+	$$(call run,mpm,--name $(notdir $(2)) --config $(PAPER_REAL)/$(1)/numerics.yaml --sensor $(CASES_SENSOR) --sample $(PAPER_REAL)/motions/$(2)/motion.yaml \
+	  --object $(3)/object.ply --object-config configs/objects/embossed.yaml)
 endef
-PAPER_BALLS := $(if $(CASES_LABELS),$(shell seq -f %04.0f 0 $$(($$(grep -c '[^[:space:]]' $(cases_labels)) - 1))))
-paper_ball = $(PAPER_REAL)/tacchi/balls/ball_$(1)
-$(foreach b,$(PAPER_BALLS),$(eval $(call paper_mpm,$(call paper_ball,$(b)),$(SIM2REAL)/ball/indenter)))
-$(PAPER_REAL)/tacchi/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.yaml
+PAPER_BALLS := $(if $(CASES_LABELS),$(shell seq -f balls/ball_%04.0f 0 $$(($$(grep -c '[^[:space:]]' $(cases_labels)) - 1))))
+$(PAPER_REAL)/motions/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.yaml
 	mkdir -p $(@D)
 	mapfile -t balls < <($(BIN)/tacipc table $(<D)/balls.csv --columns x_mm,y_mm,depth_mm); read -r x y depth <<< "$${balls[10#$*]}"; \
 	printf 'placement: {center_mm: [%s, %s]}\nmotion: {kind: press, depth_mm: %s, steps: 1}\n' "$$x" "$$y" "$$depth" > $@
-$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/mpm.yaml) $(CASES_CALIBRATE) | build
-	$(call run,calibrate,$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/frame_0001/seen_indentation.exr))
+define paper_light
+$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/mpm.yaml) $(CASES_CALIBRATE) | build
+	$$(call run,calibrate,$$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/frame_0001/seen_indentation.exr))
+endef
+$(foreach t,$(PAPER_TACCHI_LIT),$(eval $(call paper_light,$(t)))$(foreach b,$(PAPER_BALLS),$(eval $(call paper_mpm,$(t),$(b),$(SIM2REAL)/ball/indenter))))
 
 # $(call paper_shade,method,object,light's record,record of the shapes,shapes)
 define paper_shade
@@ -46,15 +57,20 @@ $(PAPER_REAL)/simulated/$(1)/$(2)/shade.yaml: $(PAPER_REAL)/legacy/$(1)/$(2)/bas
 	for image in $(CASES_IMAGES_$(2)); do cp "$$$${frames[i]}" $$(@D)/$$$$image.png; i=$$$$((i + 1)); done
 	touch $$@
 endef
+# $(call paper_tacchi,which Tacchi,object)
+define paper_tacchi
+$(call paper_mpm,$(1),objects/$(2),$(SIM2REAL)/objects/$(2)/indenter)
+$(if $(filter $(1),$(PAPER_TACCHI_LIT)),$(call paper_shade,$(1),$(2),$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml,$(PAPER_REAL)/$(1)/objects/$(2)/mpm.yaml,$(call cases_frames,$(2),$(PAPER_REAL)/$(1)/objects/$(2),1,seen_indentation.exr)))
+$(call paper_shade,$(1)-our-light,$(2),$(SIM2REAL)/calibrate/calibrate.yaml,$(PAPER_REAL)/$(1)/objects/$(2)/mpm.yaml,$(call cases_frames,$(2),$(PAPER_REAL)/$(1)/objects/$(2),1,seen_indentation.exr))
+
+endef
 define paper_objects
-$(PAPER_REAL)/tacchi/objects/$(1)/motion.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(SIM2REAL)/cases/cases.yaml
+$(PAPER_REAL)/motions/objects/$(1)/motion.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(SIM2REAL)/cases/cases.yaml
 	mkdir -p $$(@D)
 	{ read -r x; read -r y; read -r yaw; } < <($(BIN)/tacipc get $$< summary.center_mm summary.yaw_deg); \
 	echo "placement: {center_mm: [$$$$x, $$$$y], rotate_deg: $$$$yaw}" > $$@
 	cat $(SIM2REAL)/cases/objects/$(1)/motion.yaml >> $$@
-$(call paper_mpm,$(PAPER_REAL)/tacchi/objects/$(1),$(SIM2REAL)/objects/$(1)/indenter)
-$(call paper_shade,tacchi,$(1),$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call cases_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
-$(call paper_shade,tacchi-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(PAPER_REAL)/tacchi/objects/$(1)/mpm.yaml,$(call cases_frames,$(1),$(PAPER_REAL)/tacchi/objects/$(1),1,seen_indentation.exr))
+$(foreach t,$(PAPER_TACCHI),$(call paper_tacchi,$(t),$(1)))
 $(call paper_shade,depth-based-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(SIM2REAL)/rival/objects/$(1)/baseline.yaml,$(call cases_frames,$(1),$(SIM2REAL)/rival/objects/$(1),0,indentation.exr))
 $(call paper_legacy,legacy-ours,$(1),tacchi,$(SIM2REAL)/ours/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(SIM2REAL)/ours/$(1)/depth/$(i).exr))
 $(call paper_legacy,legacy-tacchi,$(1),tacchi,$(PAPER_REAL)/simulated/tacchi/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(PAPER_REAL)/simulated/tacchi/$(1)/depth/$(i).exr))
@@ -64,7 +80,7 @@ endef
 $(foreach o,$(CASES_OBJECTS),$(eval $(call paper_objects,$(o))))
 
 # All of them scored as ours are.
-PAPER_METHODS := tacchi tacchi-our-light depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential
+PAPER_METHODS := $(PAPER_TACCHI_LIT) $(PAPER_TACCHI:%=%-our-light) depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential
 paper_images = $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(PAPER_REAL)/simulated/$(1)/$(o)/$(i).png))
 $(foreach m,$(PAPER_METHODS),$(eval $(PAPER_REAL)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(PAPER_REAL)/simulated/$(m)/$(o)/shade.yaml)))
 $(PAPER_REAL)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build

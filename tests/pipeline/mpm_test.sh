@@ -4,7 +4,7 @@
 . "$(dirname "$0")/common.sh"
 
 # Coarse numerics, and a block of 6 x 6 x 1.6 mm in place of the published one.
-sed -i -e 's/counts: .*/counts: [31, 31, 9]/; s/samples: 100000 .*/samples: 20000/' configs/rivals/mpm/legacy.yaml
+sed -i -e 's/counts: .*/counts: [31, 31, 9]/; s/samples_per_mm2: 600 .*/samples_per_mm2: 60/' configs/rivals/mpm/legacy.yaml
 sed -i -e 's/rows: 19 /rows: 3 /; s/columns: 19/columns: 3/; s/window_mm: .*/window_mm: [5.0, 3.75]/' configs/sensors/mctac.yaml
 sample() { make -s -f Makefile.data mpm-sample OBJECT=pyramid.stl STEPS=2 MPM=legacy BUILD="$build_dir" PACKAGES=no "$@"; }
 material_points() { # material_points OUT [VARIABLE=value …]

@@ -6,7 +6,7 @@ quick() { make -s -f Makefile.data paper-quick-markers SHARED="$1" OUT=out BUILD
 quick no_such_folder
 page=out/paper/markers/board3.md
 for row in 'TacIPC' 'Tacchi, as published' 'Tacchi, true density'; do grep -q "^| $row | [0-9]" $page || { cat $page log.txt; fail "no row $row"; }; done
-grep -q '^| Tacchi, as published | `object.samples` 1000 (20000) |' $page || { cat $page; fail "no row of the changed value"; }
+grep -q '^| Tacchi, as published | `object.samples_per_mm2` 6 (60) |' $page || { cat $page; fail "no row of the changed value"; }
 grep -o '(paper_results/[^)]*)' $page | tr -d '()' > links.txt
 [ "$(wc -l < links.txt)" = 4 ] || { cat $page; fail "not four pictures"; }
 while read -r link; do [ -s "out/paper/markers/$link" ] || fail "$link is not there"; done < links.txt

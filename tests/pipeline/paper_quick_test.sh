@@ -14,7 +14,7 @@ if [ -d "$shared" ]; then
   if grep -n 'Not made in this run\|Not run' $page; then fail "parts are missing"; fi
   grep -q '^| Tacchi, as published' $page || fail "no markers by Tacchi"
 fi
-for row in '| TacIPC | 0' '| Tacchi | 0' '| depth-based | 0' '| uniform_0500um |' '| press: TacIPC' 'All runs in the folders of this page together: ' 'smoother, ' '| **TacIPC, a sample'; do
+for row in '| TacIPC | 0' '| Tacchi | 0' '| depth-based | 0' '| uniform_0500um |' '| press: TacIPC' 'All runs in the folders of this page together: ' 'times with other settings): ' '| **TacIPC, a sample'; do
   grep -qF "$row" $page || { cat $page; fail "no row '$row'"; }
 done
 for record in "$folder"/objects/*/{depth-based,older_kernel}/legacy/baseline.yaml; do # 0.5 mm, and its width of float

@@ -27,7 +27,7 @@ sed -i 's/contact_gap_mm: .*/contact_gap_mm: 0.06/; s/fit_contact_gap: true/fit_
 # A coarse gel of material points, and the published optics as they are shipped.
 made=configs/studies/sim2real/made
 cp configs/studies/sim2real/gelsight_sim2real/legacy_*.yaml $made
-sed -e 's/spacing_mm: 0.2$/spacing_mm: 0.5/; s/spacing_mm: 0.12890625.*/spacing_mm: 0.5/; s/samples: 100000.*/samples: 20000/; s/step_s: 5.0e-5/step_s: 1.0e-4/' \
+sed -e 's/spacing_mm: 0.2$/spacing_mm: 0.5/; s/spacing_mm: 0.12890625.*/spacing_mm: 0.5/; s/samples_per_mm2: 600 .*/samples_per_mm2: 20/; s/step_s: 5.0e-5/step_s: 1.0e-4/' \
   configs/studies/sim2real/gelsight_sim2real/mpm.yaml > $made/mpm.yaml
 grep -v crop_px configs/studies/sim2real/gelsight_sim2real/table.yaml > $made/table.yaml
 
@@ -52,7 +52,7 @@ cp truth/background.png shared/shots
 goal() { make -s -f Makefile.data paper-real CASES=configs/studies/sim2real/"$1".yaml OUT=out BUILD="$build_dir" PACKAGES=no SHARED=shared >log.txt 2>&1; }
 goal made || { cat log.txt; fail "paper-real"; }
 real=out/paper/real/made
-for method in ours tacchi depth-based tacchi-our-light depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential background; do
+for method in ours {tacchi,tacchi-6}{,-our-light} tacchi-60-our-light tacchi-100um-our-light tacchi-image-our-light depth-based depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential background; do
   grep -q "method: $method$" $real/tabulate.yaml || fail "$method is not a row"
 done
 error_of() { awk -F, '$2 == "box" { sum += $3; ++n } END { print sum / n }' "$1/samples.csv"; }
@@ -63,7 +63,7 @@ for sheet in real_same_optics real_published_optics; do
   grep -q "paper_results/$sheet.png" $real/table.md && [ -s $real/paper_results/$sheet.png ] || fail "no sheet $sheet"
 done
 # Tacchi's ball stands where ours does.
-grep -q 'depth_mm: 0.8, steps: 1' $real/tacchi/objects/ball/motion.yaml || fail "other depths"
+grep -q 'depth_mm: 0.8, steps: 1' $real/motions/objects/ball/motion.yaml || fail "other depths"
 
 stamp() { find out -name '*.yaml' -not -name '*.timings.yaml' -printf '%p %T@\n' | sort; }
 stamp > before.txt

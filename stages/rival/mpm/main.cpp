@@ -56,8 +56,8 @@ int main(int argc, char** argv) {
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const SampleInputs inputs = read_sample(stage);
     const MpmScene scene = make_scene(config, sensor, inputs.sample, inputs.object, inputs.face);
-    log_info("{} particles, steps of {:.3g} s, {} points of the object", scene.lattice.rest_m.rows(),
-             scene.setup.step_s, scene.object_points_m.rows());
+    log_info("{} particles, steps of {:.3g} s, {} points of the object, {:.3g} per mm2", scene.lattice.rest_m.rows(),
+             scene.setup.step_s, scene.object_points_m.rows(), 1e-6 * scene.points_per_m2());
     if (!sensor.material.relaxation.empty())
       log_warning("{}: material points do not relax, they have the long-term modulus", sensor.name);
     if (sensor.mount.gives_way()) log_warning("{}: the mount of material points is rigid", sensor.name);

@@ -1,6 +1,7 @@
 #include "stages/rival/mpm/mpm_config.h"
 
 #include <cmath>
+#include <map>
 
 #include "common/base/units.h"
 
@@ -19,6 +20,13 @@ std::array<int, 3> read_counts(ConfigReader& in) {
   return counts;
 }
 
+/// What the front may lack of a frame's depth; the published programs have three.
+double read_frame_within_m(ConfigReader& in) {
+  static const std::map<std::string, double> kWithin{
+      {"beyond", 0.0}, {"within_1um", 1e-6}, {"within_10um", 1e-5}, {"within_100um", 1e-4}};
+  return kWithin.at(in.choice_or("frame_criterion", "beyond", {"beyond", "within_1um", "within_10um", "within_100um"}));
+}
+
 }  // namespace
 
 LatticeConfig LatticeConfig::read(ConfigReader& in) {
@@ -34,15 +42,7 @@ LatticeConfig LatticeConfig::read(ConfigReader& in) {
 
 ObjectPointsConfig ObjectPointsConfig::read(ConfigReader& in) {
   ObjectPointsConfig config;
-  if (in.has("samples_per_mm2")) {
-    config.samples_per_m2 = 1e6 * in.number("samples_per_mm2", Range::positive());
-    if (in.has("samples")) {
-      in.fault("samples", "give samples or samples_per_mm2, not both");
-      in.ignore("samples");
-    }
-  } else {
-    config.samples = in.integer("samples", 1, 10'000'000);
-  }
+  config.samples_per_m2 = 1e6 * in.number("samples_per_mm2", Range::positive());
   config.mass_ratio = in.number("mass_ratio", Range::positive());
   config.press_speed_m_s = kMillimetre * in.number("press_speed_mm_s", Range::positive());
   config.move_speed_m_s = kMillimetre * in.number("move_speed_mm_s", Range::positive());
@@ -78,6 +78,7 @@ MpmConfig MpmConfig::read(ConfigReader& in) {
   config.object = ObjectPointsConfig::read(object);
   ConfigReader motion = in.section("motion");
   config.depth_of_gel = motion.choice("depth_of", {"gel", "object"}) == "gel";
+  config.frame_within_m = read_frame_within_m(motion);
   config.check_every = motion.integer_or("check_every", 1, 1, 1000);
   config.hold_frame_s = motion.number("hold_frame_s", Range::positive());
   const std::string pixels = in.choice("pixels", {"ends", "centres", "none"});

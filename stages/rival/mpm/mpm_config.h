@@ -24,11 +24,10 @@ struct LatticeConfig {
 
 /// The rigid object as points of its surface.
 struct ObjectPointsConfig {
-  std::optional<int> samples = std::nullopt;  // on the whole surface; or
-  std::optional<double> samples_per_m2 = std::nullopt;
+  double samples_per_m2 = 0.0;   // of its whole surface
   double mass_ratio = 0.0;       // of a point over a particle of the gel
   double press_speed_m_s = 0.0;  // of presses and releases
-  double move_speed_m_s = 0.0;   // of everything else, at its fastest point
+  double move_speed_m_s = 0.0;   // of everything else, at the fastest point of its surface
   double start_gap_m = 0.0;      // between the object's lowest point and z = 0 in frame 0
   std::uint64_t seed = 1;
 
@@ -48,6 +47,7 @@ struct MpmConfig {
   double damping_per_s = 0.0;
   ObjectPointsConfig object = {};
   bool depth_of_gel = false;    // a press is as deep as the gel's front is, else as the object's lowest point
+  double frame_within_m = 0.0;  // of the gel: a frame is the first look at which the front lacks at most that much
   int check_every = 1;          // steps between looks at the front's depth
   double hold_frame_s = 0.0;    // a frame in which nothing moves
   bool height_maps = true;      // of every frame; else markers only

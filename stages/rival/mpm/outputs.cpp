@@ -83,6 +83,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const MpmScene& scene, co
                      {"columns", scene.lattice.num_columns()},
                      {"layers", scene.lattice.layers},
                      {"object_points", static_cast<std::int64_t>(scene.object_points_m.rows())},
+                     {"object_points_per_mm2", scene.points_per_m2() * 1e-6},
                      {"grid_nodes", run.grid_nodes},
                      {"substeps", last.steps},
                      {"substep_s", setup.step_s},

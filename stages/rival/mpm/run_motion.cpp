@@ -11,18 +11,9 @@
 namespace tacipc {
 namespace {
 
-/// Corners of a mesh's bounding box.
-Positions box_corners(const Positions& positions) {
-  const Vector3 low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
-  Positions corners(8, 3);
-  for (int k = 0; k < 8; ++k)
-    corners.row(k) << (k & 1 ? high : low).x(), (k & 2 ? high : low).y(), (k & 4 ? high : low).z();
-  return corners;
-}
-
-/// Largest displacement of any point between two poses.
-double travel(const Positions& corners, const Matrix4& from, const Matrix4& to) {
-  return (transformed(to, corners) - transformed(from, corners)).rowwise().norm().maxCoeff();
+/// Largest displacement of any point of the object between two poses. The distance is convex, so a vertex has it.
+double travel(const Positions& vertices, const Matrix4& from, const Matrix4& to) {
+  return (transformed(to, vertices) - transformed(from, vertices)).rowwise().norm().maxCoeff();
 }
 
 class Motion {
@@ -31,7 +22,6 @@ class Motion {
       : scene_(scene),
         speed_factor_(speed_factor),
         observe_(observe),
-        corners_(box_corners(scene.object.positions)),
         points_(scene.lattice.rest_m, scene.setup),
         placed_(place(scene.object.positions,
                       {scene.face, scene.sample.rotate_rad, scene.sample.center_x_m, scene.sample.center_y_m},
@@ -71,7 +61,7 @@ class Motion {
   double lowest_m() const { return transformed(pose_, scene_.object.positions).col(2).minCoeff(); }
 
   void step_to(const Matrix4& pose) {
-    out_.object_speed_m_s = std::max(out_.object_speed_m_s, travel(corners_, pose_, pose) / step_s());
+    out_.object_speed_m_s = std::max(out_.object_speed_m_s, travel(scene_.object.positions, pose_, pose) / step_s());
     points_.step(pose);
     pose_ = pose;
     out_.particle_speed_m_s = std::max(out_.particle_speed_m_s, points_.largest_speed_m_s());
@@ -83,21 +73,22 @@ class Motion {
       observe_(static_cast<int>(out_.frames.size()), num_frames_, points_.num_steps(), depth_m);
   }
 
-  /// Straight down until the gel's front is that deep.
+  /// Straight down until a look, at least one, finds the gel's front that deep, as the frame's criterion has it.
   void press_until(double depth_m) {
     const double down_m = scene_.config.object.press_speed_m_s * speed_factor_ * step_s();
-    double reached_m = gel_depth_m();
-    for (int steps = 1; reached_m < depth_m; ++steps) {
-      Matrix4 pose = pose_;
-      pose(2, 3) -= down_m;
-      step_to(pose);
-      if (steps % scene_.config.check_every != 0) continue;
+    double reached_m = 0.0;
+    do {
+      for (int s = 0; s < scene_.config.check_every; ++s) {
+        Matrix4 pose = pose_;
+        pose(2, 3) -= down_m;
+        step_to(pose);
+      }
       reached_m = gel_depth_m();
       report_progress(reached_m);
       if (const double lowest = lowest_m(); lowest < -scene_.lattice.thickness_m)
         throw SolverError("the object is {:.3g} mm deep, through the gel, whose front is {:.3g} mm deep", -1e3 * lowest,
                           1e3 * reached_m);
-    }
+    } while (reached_m < depth_m - scene_.config.frame_within_m);
   }
 
   /// Along the phase's path to its frame `index`, evenly.
@@ -109,7 +100,7 @@ class Motion {
     const bool vertical = phase.kind == PhaseKind::press || phase.kind == PhaseKind::release;
     const auto& object = scene_.config.object;
     const double speed = speed_factor_ * (vertical ? object.press_speed_m_s : object.move_speed_m_s);
-    const double travel_m = travel(corners_, pose_, goal(index));
+    const double travel_m = travel(scene_.object.positions, pose_, goal(index));
     const double duration_s = travel_m > 0.0 ? travel_m / speed : scene_.config.hold_frame_s / speed_factor_;
     const int steps = std::max(1, static_cast<int>(std::ceil(duration_s / step_s() - 1e-9)));
     for (int s = 1; s <= steps; ++s) {
@@ -140,7 +131,6 @@ class Motion {
   const MpmScene& scene_;
   double speed_factor_;
   const MpmObserver& observe_;
-  Positions corners_;
   MaterialPoints points_;
   Matrix4 placed_, pose_;
   int num_frames_ = 0;
@@ -149,6 +139,8 @@ class Motion {
 };
 
 }  // namespace
+
+double MpmScene::points_per_m2() const { return static_cast<double>(object_points_m.rows()) / surface_area(object); }
 
 MpmScene make_scene(const MpmConfig& config, const Sensor& sensor, const SampleSpec& sample, const TriangleMesh& object,
                     const std::string& default_face) {
@@ -188,8 +180,7 @@ MpmScene make_scene(const MpmConfig& config, const Sensor& sensor, const SampleS
     setup.held_below_m = -scene.lattice.thickness_m;
   if (setup.damping_per_s * setup.step_s >= 1.0)
     throw UsageError("damping_per_s: takes more than all velocity in one step");
-  const double wanted =
-      config.object.samples ? *config.object.samples : std::ceil(*config.object.samples_per_m2 * surface_area(object));
+  const double wanted = std::ceil(config.object.samples_per_m2 * surface_area(object));
   constexpr double kMaxPoints = 1e8;
   if (!(wanted <= kMaxPoints)) throw DataError("the object's surface would get {:.3g} points", wanted);
   scene.object_points_m = sample_surface(object, std::max(1, static_cast<int>(wanted)), config.object.seed);

@@ -36,6 +36,8 @@ struct MpmScene {
   MpmSetup setup;
   TriangleMesh object;
   Positions object_points_m;
+
+  double points_per_m2() const;  // of the object's whole surface
 };
 
 /// Fills the gel with particles and the object's surface with points. \throw UsageError if the sample asks for a load,

@@ -57,16 +57,20 @@ std::string named(const MeasuredRow& row) {
   return markdown_cell(row.name) + (row.group.empty() ? "" : " (" + markdown_cell(row.group) + ")");
 }
 
+/// Number of a column as its differences count: the logarithm where its mean is geometric.
+double value_of(double number, const Finding& finding, const ImageTableConfig& config) {
+  const auto column = std::find_if(config.columns.begin(), config.columns.end(),
+                                   [&](const ShownColumn& shown) { return shown.column == finding.column; });
+  return column->geometric ? std::log(number) : number;
+}
+
 /// Of two rows with several runs, how often their difference is the deviation that it has between single runs,
 /// √(s₁² + s₂²) with s² = Σ (mean of a run − mean of all)² / (runs − 1); of geometric columns by logarithms. None of
 /// single runs, or where all runs agree.
 std::optional<double> difference_in_deviations(const MethodScores& row, const MethodScores& against,
                                                const Finding& finding, const ImageTableConfig& config) {
   if (row.runs == 1 || against.runs == 1) return std::nullopt;
-  const bool geometric = std::find_if(config.columns.begin(), config.columns.end(), [&](const ShownColumn& shown) {
-                           return shown.column == finding.column;
-                         })->geometric;
-  const auto value = [&](double number) { return geometric ? std::log(number) : number; };
+  const auto value = [&](double number) { return value_of(number, finding, config); };
   const auto mean_of = [&](const MethodScores& of) { return value(of.cell(finding.region, finding.column).mean); };
   const auto deviation_of = [&](const MethodScores& of) {
     const auto runs = static_cast<double>(of.runs);
@@ -77,19 +81,45 @@ std::optional<double> difference_in_deviations(const MethodScores& row, const Me
   return std::abs(mean_of(row) - mean_of(against)) / deviation;
 }
 
+/// Means of a finding's row and of its variants: the smallest and the largest.
+struct Spread {
+  double low = 0.0, high = 0.0;
+};
+
+Spread spread_of(const Finding& finding, const std::vector<MethodScores>& rows) {
+  const auto mean_of = [&](const std::string& method) {
+    return row_in(rows, method).cell(finding.region, finding.column).mean;
+  };
+  Spread spread{.low = mean_of(finding.row), .high = mean_of(finding.row)};
+  for (const std::string& variant : finding.variants) {
+    spread.low = std::min(spread.low, mean_of(variant));
+    spread.high = std::max(spread.high, mean_of(variant));
+  }
+  return spread;
+}
+
 /// `- <region>, <column>: <row> 0.62 times <row>: <what that means>`
 std::string sentence(const Finding& finding, const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
   constexpr double kClear = 2.0;  // deviations
   const MethodScores &row = row_in(rows, finding.row), &against = row_in(rows, finding.against);
-  const double ratio =
-      row.cell(finding.region, finding.column).mean / against.cell(finding.region, finding.column).mean;
+  const double mean = row.cell(finding.region, finding.column).mean,
+               other = against.cell(finding.region, finding.column).mean, ratio = mean / other;
   const bool same_group = row.row.group == against.row.group;
   std::string text =
       fmt::format("- {}, {}: {} has {} times that of {}",
                   markdown_cell(heading_of(config.regions, &ShownRegion::region, finding.region)),
                   markdown_cell(heading_of(config.columns, &ShownColumn::column, finding.column)), named(row.row),
                   markdown_number(ratio, 2), same_group ? markdown_cell(against.row.name) : named(against.row));
-  const std::string meaning = ratio < 1.0 ? finding.below : finding.above;
+  std::string meaning = ratio < 1.0 ? finding.below : finding.above;
+  if (!finding.variants.empty()) {
+    const auto [low, high] = spread_of(finding, rows);
+    text += fmt::format(" ({} to {} times with other settings)", markdown_number(low / other, 2),
+                        markdown_number(high / other, 2));
+    const auto value = [&](double number) { return value_of(number, finding, config); };
+    if (!(std::abs(value(mean) - value(other)) > value(high) - value(low)))
+      meaning = fmt::format("less than the settings change{}.",
+                            high < other || low > other ? ", though with all of them on the same side" : "");
+  }
   const auto deviations = difference_in_deviations(row, against, finding, config);
   if (!deviations) return text + ": " + meaning + "\n";
   text += fmt::format(", a difference of {} deviations between single runs: ", markdown_number(*deviations, 1));

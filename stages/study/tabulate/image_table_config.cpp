@@ -43,11 +43,14 @@ Finding read_finding(ConfigReader& in, const ImageTableConfig& config) {
                   .row = in.text("row"),
                   .against = in.text("against"),
                   .below = in.text("below"),
-                  .above = in.text("above")};
+                  .above = in.text("above"),
+                  .variants = in.has("variants") ? in.texts("variants") : std::vector<std::string>{}};
   must_be_one_of(in, "region", finding.region, config.regions, &ShownRegion::region, "regions");
   must_be_one_of(in, "column", finding.column, config.columns, &ShownColumn::column, "columns");
   must_be_one_of(in, "row", finding.row, config.rows, &MeasuredRow::method, "rows' methods");
   must_be_one_of(in, "against", finding.against, config.rows, &MeasuredRow::method, "rows' methods");
+  for (const std::string& variant : finding.variants)
+    must_be_one_of(in, "variants", variant, config.rows, &MeasuredRow::method, "rows' methods");
   return finding;
 }
 

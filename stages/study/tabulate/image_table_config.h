@@ -59,8 +59,9 @@ struct Finding {
   std::string column;
   std::string row;  // methods of rows
   std::string against;
-  std::string below;  // what it means if the ratio of the means is below 1,
-  std::string above;  // and if it is not
+  std::string below;                       // what it means if the ratio of the means is below 1,
+  std::string above;                       // and if it is not
+  std::vector<std::string> variants = {};  // methods that are `row` with other settings: all must be on the same side
 };
 
 struct SheetConfig {

@@ -80,8 +80,9 @@ TEST_F(MpmProgram, WritesWhatPressAndBaselineDo) {
   EXPECT_LT(pressed.at(0, 0, 0), 0.05e-3f);
   EXPECT_NEAR(depth.at(16, 12, 0), 12e-3f - pressed.at(16, 12, 0), 1e-8f);
   const std::string record = read_file(scratch_ / "out/mpm.yaml");
-  for (const std::string line : {"largest_mach: ", "substeps: ", "momentum_kg_m_s: ", "gel_depth_m: ",
-                                 "marker_change_at_half_speed: ", "press_end_frame: 2", "courant: 0.4"})
+  for (const std::string line :
+       {"largest_mach: ", "substeps: ", "momentum_kg_m_s: ", "gel_depth_m: ", "object_points_per_mm2: 100.",
+        "marker_change_at_half_speed: ", "press_end_frame: 2", "courant: 0.4"})
     EXPECT_THAT(record, HasSubstr(line));
 }
 

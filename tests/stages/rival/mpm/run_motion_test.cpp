@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.h"
 #include "tests/make_mesh.h"
@@ -25,8 +26,11 @@ MpmConfig coarse() {
   config.gel = {.spacing_m = 0.2e-3};
   config.grid_spacing_m = 0.4e-3;
   config.courant = 0.4;
-  config.object = {
-      .samples = 3000, .mass_ratio = 50, .press_speed_m_s = 0.4, .move_speed_m_s = 0.4, .start_gap_m = 1e-3};
+  config.object = {.samples_per_m2 = 3000 / 16e-6,
+                   .mass_ratio = 50,
+                   .press_speed_m_s = 0.4,
+                   .move_speed_m_s = 0.4,
+                   .start_gap_m = 1e-3};
   config.depth_of_gel = true;
   config.check_every = 2;
   config.hold_frame_s = 1e-4;
@@ -61,6 +65,51 @@ TEST(RunMotion, PressesUntilTheFrontIsThatDeep) {
   }
   EXPECT_NEAR(done.object_speed_m_s, 0.4, 1e-9);
   EXPECT_NEAR(done.frames[3].time_s, done.frames[3].steps * 0.4 * 0.4e-3 / 18.62075, 1e-8);
+}
+
+TEST(RunMotion, AFrameIsTheFirstLookThatLacksAtMostWhatItsCriterionAllows) {
+  MpmConfig config = coarse();
+  config.check_every = 1;
+  int last_steps = std::numeric_limits<int>::max();
+  for (const double within_m : {0.0, 1e-6, 1e-5, 1e-4}) {
+    config.frame_within_m = within_m;
+    const MpmFrame frame = run(config, {press(0.3e-3, 1)}).frames[1];
+    EXPECT_GE(frame.gel_depth_m, 0.3e-3 - within_m);
+    EXPECT_LT(frame.gel_depth_m, 0.3e-3 - within_m + 0.01e-3) << "a step later than the first that is deep enough";
+    EXPECT_LE(frame.steps, last_steps);
+    last_steps = frame.steps;
+  }
+  // Frames 0.05 mm apart, of which each may lack 0.1 mm: each is a look of its own, as a program that saves one a step
+  // has it.
+  const MpmRun many = run(config, {press(0.3e-3, 6)});
+  for (std::size_t f = 1; f < many.frames.size(); ++f) EXPECT_GT(many.frames[f].steps, many.frames[f - 1].steps) << f;
+}
+
+TEST(RunMotion, TheSpeedOfATurnIsThatOfTheFastestPoint) {
+  SampleSpec sample;
+  sample.motion = {press(0.1e-3, 1), {.kind = PhaseKind::twist, .steps = 1, .angle_rad = 0.1}};
+  // An octahedron: four corners 2 mm from the axis, in a box whose own are 2.83 mm away.
+  const double r = 2e-3, h = 1e-3;
+  const TriangleMesh octahedron =
+      make_mesh({{r, 0, h}, {0, r, h}, {-r, 0, h}, {0, -r, h}, {0, 0, 0}, {0, 0, 2 * h}},
+                {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 0, 5}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}});
+  MpmConfig config = coarse();
+  config.object.press_speed_m_s = 0.1;
+  const MpmScene scene = make_scene(config, small_sensor(), sample, octahedron, "-z");
+  const MpmRun done = run_motion(scene, 1.0, [](int, int, int, double) {});
+  EXPECT_NEAR(done.object_speed_m_s, 0.4, 0.01) << "whole steps take a little longer";
+  const double took_s = done.frames[2].time_s - done.frames[1].time_s;
+  EXPECT_NEAR(took_s, 0.1 * 2e-3 / 0.4, 0.02 * took_s);
+}
+
+TEST(RunMotion, PointsCoverTheWholeSurfaceEvenly) {
+  MpmConfig config = coarse();
+  config.object.samples_per_m2 = 60e6;
+  SampleSpec sample;
+  sample.motion = {press(0.1e-3, 1)};
+  const MpmScene scene = make_scene(config, small_sensor(), sample, brick(), "-z");
+  EXPECT_NEAR(static_cast<double>(scene.object_points_m.rows()), 960.0, 1.0) << "60 per mm2 of 16 mm2";
+  EXPECT_NEAR(scene.points_per_m2(), 60e6, 0.1e6);
 }
 
 TEST(RunMotion, OrUntilTheObjectIs) {
@@ -130,7 +179,7 @@ TEST(RunMotion, SaysWhatItCannotDo) {
               }),
               ::testing::StartsWith("a press to 0.1 mm begins where the gel is 0.2"));
   MpmConfig feather = coarse();
-  feather.object.samples = 1;
+  feather.object.samples_per_m2 = 1e-3;
   feather.object.mass_ratio = 1e-3;
   EXPECT_THAT(message_of<SolverError>([&] { run(feather, {press(0.3e-3, 1)}); }),
               ::testing::StartsWith("the object is 1.2"));

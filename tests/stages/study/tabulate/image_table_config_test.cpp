@@ -36,10 +36,13 @@ TEST(ImageTableConfig, NamesEveryFault) {
                   "t.yaml:6:126: sheets[0].columns[1].method: is given twice"));
   EXPECT_THAT(
       faults_in<ImageTableConfig>(
-          kSmallTable + "findings: [{region: crop, column: mae, row: c, against: a, below: l, above: a}]\n", "t.yaml"),
+          kSmallTable +
+              "findings: [{region: crop, column: mae, row: c, against: a, variants: [a, d], below: l, above: a}]\n",
+          "t.yaml"),
       ElementsAre("t.yaml:5:21: findings[0].region: is not one of the regions",
                   "t.yaml:5:35: findings[0].column: is not one of the columns",
-                  "t.yaml:5:45: findings[0].row: is not one of the rows' methods"));
+                  "t.yaml:5:45: findings[0].row: is not one of the rows' methods",
+                  "t.yaml:5:70: findings[0].variants: is not one of the rows' methods"));
   EXPECT_THAT(faults_in<ImageTableConfig>(kSmallTable.substr(0, kSmallTable.find("rows:")) +
                                               "rows: [{name: m, method: a}, {name: n, method: a}]\n",
                                           "t.yaml"),

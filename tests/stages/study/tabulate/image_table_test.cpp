@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/stages/study/tabulate/small_table.h"
 
 namespace tacipc {
@@ -94,6 +96,39 @@ TEST(ImageTable, FindingsCompareTwoRows) {
                       "- Contact box, PSNR ln: second (others) has 2.00 times that of first: as much.\n"),
             std::string::npos)
       << text;
+}
+
+TEST(ImageTable, FindingsSmallerThanTheSpreadOfSettingsAreNone) {
+  const auto text_of = [](const std::string& row, const std::string& variant, const std::string& mean,
+                          const std::array<std::string, 3>& last) {
+    const ScratchFolder scratch;
+    std::string text = kSmallTable.substr(0, kSmallTable.find("rows:")) +
+                       "rows: [{name: one, method: a}, {name: two, method: b}, {name: other, method: c}]\n"
+                       "findings: [{region: box, column: psnr_ln, row: " +
+                       row + ", against: c, variants: [" + variant + "], below: less., above: more.}]\n";
+    text.replace(text.find("digits: 1"), 9, "digits: 1, mean: " + mean);
+    const auto config = config_from_text<ImageTableConfig>(text, "t.yaml");
+    return to_markdown(read_methods({samples_of(scratch, "a", last[0]), samples_of(scratch, "b", last[1]),
+                                     samples_of(scratch, "c", last[2])},
+                                    config),
+                       config);
+  };
+  const auto says = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  };
+  // Means of 25 and 55 with two settings, 80 of the other: a difference of 55 is more than their 30, one of 25 is not.
+  const std::array<std::string, 3> apart{"30", "90", "140"};
+  says(text_of("a", "b", "arithmetic", apart),
+       "one has 0.31 times that of other (0.31 to 0.69 times with other settings): less.\n");
+  says(text_of("b", "a", "arithmetic", apart),
+       "two has 0.69 times that of other (0.31 to 0.69 times with other settings): less than the settings change, "
+       "though with all of them on the same side.\n");
+  says(text_of("a", "b", "arithmetic", {"30", "90", "60"}),
+       "one has 0.62 times that of other (0.62 to 1.38 times with other settings): less than the settings change.\n");
+  // Geometric means of 40, 20 and 70: 1.75 times is less than twice.
+  says(text_of("a", "b", "geometric", {"80", "20", "245"}),
+       "one has 0.57 times that of other (0.29 to 0.57 times with other settings): less than the settings change, "
+       "though with all of them on the same side.\n");
 }
 
 TEST(ImageTable, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
