@@ -12,7 +12,7 @@ cat > configs/studies/fots/made.yaml <<'END'
 title: made
 data: data/made
 fields: {press: p.csv, shear: s.csv, remove_press_median: true, remove_shear_median: false, image_px: [320, 240], px_per_mm: 20,
-  contact_px: [160, 120], shear_marker_px: [168, 128], least_length_px: 1.0}
+  contact_px: [160, 120], shear_marker_px: [160, 120], least_length_px: 1.0}
 ball: {radius_mm: 3.0, edge_mm: 0.4}
 friction: 0.8
 sensor: made/sensor.yaml
