@@ -45,10 +45,39 @@ $(FOTS)/runs/$(1)/$(2)/press.yaml: $(FOTS)/runs/$(1)/indenter/indenter.yaml $(FO
 endef
 $(foreach v,$(MARKERS_VARIANTS),$(eval $(call fots_variant,$(v)))$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_run,$(v),$(d)))))
 
+# FOTS' and Taxim's motion of markers on the way of the deepest of these presses. FOTS' factors as published, then fitted to these very vectors,
+# which no other row is: the most that its formulas can do here. Taxim's unit responses are those of this gel under a small ball.
+FOTS_RIVALS := fots_published fots_fitted taxim_superposition
+FOTS_FITTED_KEYS := markers.press_per_mm2=1.26514 markers.shear_per_mm2=0.065174
+FOTS_DEEPEST := $(lastword $(MARKERS_DEPTHS))
+$(FOTS)/unit/indenter/indenter.yaml: configs/studies/fots/unit_response/indenter.yaml | build
+	$(call run,indenter,--config $<)
+$(FOTS)/unit/settings.yaml: $(MARKERS_PRESS) configs/studies/fots/unit_response/friction.yaml
+	mkdir -p $(@D)
+	cat $^ > $@
+$(FOTS)/unit/press/press.yaml: $(FOTS)/unit/indenter/indenter.yaml $(FOTS)/unit/settings.yaml configs/studies/fots/unit_response/motion.yaml $(FOTS)/runs/base/gel/tetmesh.yaml | build
+	$(call run,press,--name unit --object $(FOTS)/unit/indenter/object.ply --object-config configs/objects/embossed.yaml --gel $(FOTS)/runs/base/gel/gel.msh \
+	  --sensor $(FOTS)/runs/base/settings/sensor.yaml --config $(FOTS)/unit/settings.yaml --sample configs/studies/fots/unit_response/motion.yaml)
+$(FOTS)/rivals/fots_published.yaml: configs/rivals/baseline/fots_markers.yaml
+	mkdir -p $(@D)
+	cp $< $@
+$(FOTS)/rivals/fots_fitted.yaml: configs/rivals/baseline/fots_markers.yaml | build
+	mkdir -p $(@D)
+	$(BIN)/tacipc set $< $(FOTS_FITTED_KEYS) > $@
+$(FOTS)/rivals/taxim_superposition.yaml: configs/rivals/baseline/taxim_markers.yaml
+	mkdir -p $(@D)
+	cp $< $@
+$(FOTS)/rivals/taxim_superposition/baseline.yaml: $(FOTS)/unit/press/press.yaml
+$(FOTS_RIVALS:%=$(FOTS)/rivals/%/baseline.yaml): $(FOTS)/rivals/%/baseline.yaml: $(FOTS)/rivals/%.yaml $(FOTS)/runs/base/$(FOTS_DEEPEST)/press.yaml | build
+	$(call try,baseline,--config $< --sensor $(FOTS)/runs/base/settings/sensor.yaml --object $(FOTS)/runs/base/indenter/object.ply \
+	  --press $(FOTS)/runs/base/$(FOTS_DEEPEST) $(if $(filter taxim_superposition,$*),--response $(FOTS)/unit/press))
+FOTS_RIVAL_RECORDS := $(FOTS_RIVALS:%=$(FOTS)/rivals/%/baseline.yaml)
+fots_rival_runs = $(foreach r,$(FOTS_RIVALS),$(r)=$(FOTS)/rivals/$(r))
+
 $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
-    $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(foreach a,$(ALSO),$(shell find $(a) -name "*.npy")) | build
+    $(FOTS_RIVAL_RECORDS) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(foreach a,$(ALSO),$(shell find $(a) -name "*.npy")) | build
 	$(call run,marker_fit,--config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
-	  --runs $(foreach v,$(MARKERS_VARIANTS),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(foreach a,$(ALSO:%/=%),$(notdir $(a))=$(a)))
+	  --runs $(foreach v,$(MARKERS_VARIANTS),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(fots_rival_runs) $(foreach a,$(ALSO:%/=%),$(notdir $(a))=$(a)))
 
 # The same with rows of Tacchi, for pipelines/paper/paper_markers.mk. As published: its particles in a block as large as the gel, and its material,
 # for with the sensor's, which is stiffer, the published step is too long; then that material with a shorter step; a tenth of the density,
@@ -73,24 +102,24 @@ FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths at which what is checked 
 $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call tacchi_run,$(FOTS)/runs/$(t)/$(d),$(t)_$(d),$(FOTS_NUMERICS_$(t)),$(FOTS_KEYS_$(t)) $(if $(filter tacchi_physical,$(t)),$(if $(filter $(d),$(FOTS_CHECKED)),,-half_speed)),$(FOTS)/runs/base/settings/sensor.yaml,$(FOTS)/cases/motion_$(d).yaml,$(FOTS)/runs/base/indenter/indenter.yaml,$(FOTS)/runs/base/indenter/object.ply,configs/objects/embossed.yaml))))
 
 $(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
-    $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(t)/$(d)/mpm.yaml)) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) | build
+    $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(t)/$(d)/mpm.yaml)) $(FOTS_RIVAL_RECORDS) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) | build
 	$(call run,marker_fit,--name TacIPC --config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
-	  --runs $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)))
+	  --runs $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(fots_rival_runs))
 
 .PHONY: fots-tacchi-folders
 fots-tacchi-folders:
 	$(call paper_folders,fots,$(FOTS)/cases $(foreach v,$(MARKERS_VARIANTS),$(FOTS)/runs/$(v)/indenter $(FOTS)/runs/$(v)/gel) \
-	  $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),$(MARKERS_DEPTHS:%=$(FOTS)/runs/$(v)/%)) $(FOTS)/fit_tacchi)
+	  $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),$(MARKERS_DEPTHS:%=$(FOTS)/runs/$(v)/%)) $(FOTS)/unit $(FOTS)/rivals $(FOTS)/fit_tacchi)
 fots-tacchi: $(FOTS)/fit_tacchi/marker_fit.yaml fots-tacchi-folders
 	@mkdir -p $(RIVALS_MARKERS)/paper_results
 	@cp $(<D)/vectors.csv $(RIVALS_MARKERS)/fots_vectors.csv
 	@for picture in $(<D)/*.svg; do cp "$$picture" $(RIVALS_MARKERS)/paper_results/fots_$$(basename "$$picture"); done
 	@{ cat $(<D)/others.md; echo; \
-	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_legacy_tenth_density`: as published, but a tenth as heavy. `tacchi_legacy_grid_0400um`: as published, but on cells that hold eight particles. `tacchi_legacy_grid_and_density`: on those and a hundredth as heavy. `tacchi_physical`: the material and density of the gel, and a coarse grid.'; \
-	  echo; cat $(<D)/table.md; for field in shear press; do printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf ' %s |' $$row; done; \
-	  printf '\n|'; for row in TacIPC $(FOTS_TACCHI); do printf -- '---|'; done; printf '\n|'; \
+	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_legacy_tenth_density`: as published, but a tenth as heavy. `tacchi_legacy_grid_0400um`: as published, but on cells that hold eight particles. `tacchi_legacy_grid_and_density`: on those and a hundredth as heavy. `tacchi_physical`: the material and density of the gel, and a coarse grid. `fots_published`, `fots_fitted`: FOTS with its published factors, and with factors fitted to these very vectors, the most its formulas can do. `taxim_superposition`: Taxim with unit responses of this gel.'; \
+	  echo; cat $(<D)/table.md; for field in shear press; do printf '\n|'; for row in TacIPC $(FOTS_TACCHI) $(FOTS_RIVALS); do printf ' %s |' $$row; done; \
+	  printf '\n|'; for row in TacIPC $(FOTS_TACCHI) $(FOTS_RIVALS); do printf -- '---|'; done; printf '\n|'; \
 	  printf ' ![TacIPC: %s](paper_results/fots_%s.svg) |' $$field $$field; \
-	  for row in $(FOTS_TACCHI); do [ ! -e $(<D)/$${row}_$$field.svg ] && printf ' no fit |' || printf ' ![%s: %s](paper_results/fots_%s_%s.svg) |' $$row $$field $$row $$field; done; echo; done; } > $(RIVALS_MARKERS)/fots.md
+	  for row in $(FOTS_TACCHI) $(FOTS_RIVALS); do [ ! -e $(<D)/$${row}_$$field.svg ] && printf ' no fit |' || printf ' ![%s: %s](paper_results/fots_%s_%s.svg) |' $$row $$field $$row $$field; done; echo; done; } > $(RIVALS_MARKERS)/fots.md
 	@cat $(RIVALS_MARKERS)/fots.md
 
 # docs/fots.md has a place for the table of the shipped benchmark.

@@ -17,6 +17,7 @@
 #include "common/sensor/camera_image.h"
 #include "common/stage/stage.h"
 #include "stages/rival/baseline/kernel.h"
+#include "stages/rival/baseline/marker_mode.h"
 #include "stages/rival/baseline/object_depth.h"
 #include "stages/rival/baseline/simulate_depth.h"
 
@@ -42,12 +43,20 @@ const StageSpec kBaseline{
                {.flag = "--places",
                 .help = "which of these poses, moved where in the image (YAML, as for shade)",
                 .required = false},
-               {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false}}};
+               {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false},
+               {.flag = "--press",
+                .help = "folder of a press of the object, whose way its markers go (with a section markers)",
+                .required = false},
+               {.flag = "--response",
+                .help = "folder of a press of a small object in the middle, then along x: unit responses of markers",
+                .required = false}}};
 
 void check_flags(const Stage& stage) {
   const bool mesh = stage.optional_input("--object").has_value();
   if (mesh != stage.optional_input("--pose").has_value()) throw UsageError("--object and --pose belong together");
   if (mesh != stage.inputs("--depth").empty()) throw UsageError("give either --depth or --object");
+  if (stage.optional_input("--press") || stage.optional_input("--response"))
+    throw UsageError("--press and --response are for a configuration with markers");
   if (!mesh && stage.optional_input("--places")) throw UsageError("--places: moves an object, which --depth has not");
 }
 
@@ -165,6 +174,7 @@ std::vector<Matrix4> wanted_poses(Stage& stage, const Simulator& simulator) {
 
 int main(int argc, char** argv) {
   return run_stage(kBaseline, argc, argv, [](Stage& stage) {
+    if (ConfigReader::from_file(stage.input("--config")).has("markers")) return move_markers(stage);
     check_flags(stage);
     keep_to_one_thread();
     const Simulator simulator = make_simulator(stage);

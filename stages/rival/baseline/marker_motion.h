@@ -1,0 +1,68 @@
+// How markers move under an object, by formulas of FOTS and by superposition as Taxim does it.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/base/types.h"
+#include "common/sensor/sensor.h"
+#include "stages/rival/baseline/marker_config.h"
+
+namespace tacipc {
+
+/// A marker or node in contact, and how deep the object is there, m > 0.
+struct ContactPoint {
+  Eigen::Vector2d place_m;
+  double depth_m = 0.0;
+};
+
+/// How the object has moved since the end of the press.
+struct ObjectMotion {
+  Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  // of the contact, at that end
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();
+  double turn_rad = 0.0;  // from x towards y
+};
+
+/// Displacement of a marker at rest at M [Zhao2024]:
+///   press M' = M + Σ_i h_i (M − C_i) exp(−λ_d |M − C_i|²), h_i the depth of contact marker C_i in mm;
+///   shear M'' = M' + s exp(−λ_s |M' − G|²);
+///   twist M''' = M'' + (Rot(θ) − 1)(M'' − G) exp(−λ_t |M'' − G|²), θ within ± 50°.
+Eigen::Vector2d fots_displacement(const Eigen::Vector2d& marker_m, const std::vector<ContactPoint>& contact,
+                                  const ObjectMotion& motion, const FotsMotion& model);
+
+/// min |A x − b|, x ≥ 0, by coordinate descent on the normal equations to 1e-10 of the largest entry.
+/// \pre no column of A is zero
+Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+/// Displacement of the nodes of a square lattice around one that is moved by 1: into the gel, along x, along y.
+struct UnitResponse {
+  int reach_x = 0, reach_y = 0;          // nodes on either side
+  Positions pressed = {}, sheared = {};  // row after row; along z and along x
+
+  /// Displacement (x, y, into the gel) `dx`, `dy` nodes from the loaded one; 0 beyond the lattice.
+  Vector3 press(int dx, int dy) const;
+  Vector3 shear_x(int dx, int dy) const;
+  /// shear_x turned by 90°.
+  Vector3 shear_y(int dx, int dy) const;
+
+  /// From a press folder: a small object pressed on the middle of the lattice, then moved along x.
+  /// \throw DataError if it has no such motion, or its markers are not the sensor's whole lattice with one in the
+  /// middle
+  static UnitResponse read(const std::filesystem::path& folder, const MarkerGrid& grid);
+};
+
+/// Taxim's superposition [SiYuan2022] on that lattice: loads f ≥ 0 whose normal displacements give the depth at the
+/// nodes in contact; loads s ≥ 0 along an axis that move all of them by the object's way, then each times depth /
+/// largest depth.
+class Superposition {
+ public:
+  /// `depth_m` of every node, 0 where it is not in contact.
+  Superposition(const UnitResponse& response, const MarkerGrid& grid, const std::vector<double>& depth_m);
+  /// In-plane displacement of every node, m.
+  std::vector<Eigen::Vector2d> displacement(const Eigen::Vector2d& shift_m) const;
+
+ private:
+  std::vector<Eigen::Vector2d> press_, along_x_, along_y_;  // the latter of a way of 1 m
+};
+
+}  // namespace tacipc
