@@ -55,7 +55,7 @@ std::string to_svg(const Plot& plot) {
       ys.push_back(logarithmic ? std::log10(p.y()) : p.y());
     }
   }
-  const Scale x{cover(xs, !logarithmic), kArea.left, kArea.right, logarithmic};
+  const Scale x{cover(xs, plot.zero_in_x && !logarithmic), kArea.left, kArea.right, logarithmic};
   const Scale y{cover(ys, !logarithmic), kArea.bottom, kArea.top, logarithmic};
   std::string out = svg_file_start(kWidth, kHeight + kLine * static_cast<double>(plot.curves.size()), 11);
   out += x_ticks_svg(plot_ticks(x), kArea, file_axes()) + y_ticks_svg(plot_ticks(y), kArea, file_axes());

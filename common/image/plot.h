@@ -20,6 +20,7 @@ struct Plot {
   std::string y_label;
   std::vector<PlotCurve> curves = {};
   bool logarithmic = false;  // both axes; points that are not positive are left out
+  bool zero_in_x = true;     // the axis begins at 0, or at the least value
 };
 
 /// 480 × 320 pixels, axes with round ticks, one colour per curve, a legend.

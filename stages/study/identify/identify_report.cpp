@@ -317,7 +317,7 @@ std::map<std::string, std::string> result_plots(const IdentifyResult& result) {
 std::string profile_plot(const Unknown& unknown, const Fit& fit, Eigen::Index index,
                          const std::vector<ProfilePoint>& points) {
   const std::string name = unknown.measurement.empty() ? unknown.name : unknown.name + " of " + unknown.measurement;
-  Plot plot{.title = name, .x_label = unknown.name, .y_label = "squared residuals above the least"};
+  Plot plot{.title = name, .x_label = unknown.name, .y_label = "squared residuals above the least", .zero_in_x = false};
   PlotCurve cost{.label = "profile", .marks = true}, normal{.label = "by the covariance"},
       prior{.label = "prior alone"};
   const double sigma = std::sqrt(fit.covariance(index, index));
@@ -391,7 +391,8 @@ Ensemble ensemble_of(const IdentifyResult& result, const std::filesystem::path& 
   Ensemble out{.title = "drawn from what " + result.model.spec().title + " left uncertain", .sensor = sensor};
   for (const Eigen::Index column : result.posterior.resampled(members)) {
     EnsembleMember member{.name = fmt::format("m{:02}", out.members.size())};
-    for (const auto& change : sensor_changes(result.model, result.posterior.u.col(column))) member.set.push_back(change);
+    for (const auto& change : sensor_changes(result.model, result.posterior.u.col(column)))
+      member.set.push_back(change);
     out.members.push_back(std::move(member));
   }
   return out;

@@ -15,6 +15,15 @@ TEST(Plot, WritesWhatItShows) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(Plot, AnAxisMayBeginAtItsLeastValue) {
+  Plot plot{.title = "", .x_label = "", .y_label = "", .curves = {{"one", {{40, 1}, {50, 2}}}}};
+  EXPECT_NE(to_svg(plot).find(">0</text>"), std::string::npos);
+  EXPECT_NE(to_svg(plot).find(">20</text>"), std::string::npos);
+  plot.zero_in_x = false;
+  EXPECT_EQ(to_svg(plot).find(">20</text>"), std::string::npos);
+  EXPECT_NE(to_svg(plot).find(">45</text>"), std::string::npos);
+}
+
 TEST(Plot, LogarithmicAxesHaveTheNumbersThemselvesAndLeaveZeroOut) {
   const std::string svg = to_svg(Plot{.title = "",
                                       .x_label = "",
