@@ -64,7 +64,8 @@ std::vector<Estimate> estimates_of(const MechanicsModel& model, const Fit& fit, 
                    .high = posterior.quantile(values, 0.975),
                    .prior = unknown.prior,
                    .told = told_by_measurements(unknown, posterior.deviation(u)),
-                   .at_bound = fit.u[i] - unknown.u_low() < near || unknown.u_high() - fit.u[i] < near});
+                   .at_bound = fit.u[i] - unknown.u_low() < near || unknown.u_high() - fit.u[i] < near,
+                   .against_prior = std::abs(mean[i] - unknown.u_mean()) >= 3.0 * unknown.prior.sigma});
   }
   return out;
 }
@@ -148,7 +149,10 @@ std::string result_table(const IdentifyResult& result) {
     out += fmt::format("| {}{} | {}{} | {} | {} … {} | {} | {} |\n", e.name,
                        e.measurement.empty() ? "" : " of " + e.measurement, rounded(e.value, e.sigma),
                        e.at_bound ? " (at its bound)" : "", deviation_text(e.sigma), rounded(e.low, e.sigma),
-                       rounded(e.high, e.sigma), prior, e.told ? "measurements" : "prior");
+                       rounded(e.high, e.sigma), prior,
+                       !e.told           ? "prior"
+                       : e.against_prior ? "measurements, against the prior"
+                                         : "measurements");
   }
   if (!result.modulus_error.empty()) {
     out += "\nThe model's own error of a modulus:";
@@ -199,6 +203,7 @@ Value::Map result_summary(const IdentifyResult& result) {
                                          {"told_by", e.told ? "measurements" : "prior"}})
       line.emplace_back(key, value);
     if (e.at_bound) line.emplace_back("at_bound", true);
+    if (e.against_prior) line.emplace_back("against_prior", true);
     unknowns.emplace_back(std::move(line));
   }
   for (const ForcePrediction& p : result.forces) {

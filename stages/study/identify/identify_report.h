@@ -22,6 +22,7 @@ struct Estimate {
   Prior prior;
   bool told = false;  // by the measurements, else by the prior
   bool at_bound = false;
+  bool against_prior = false;  // three or more of its deviations from the prior's mean
 };
 std::vector<Estimate> estimates_of(const MechanicsModel& model, const Fit& fit, const Posterior& posterior);
 
