@@ -1,6 +1,6 @@
-"""Deviations of a packed dataset against those of the presses that it was made of. check_ensemble.py DATASET MEMBERS
+"""Deviations of a packed dataset against those of the presses that it was made of. check_ensemble.py DATASET MEMBERS [ID=MEMBER …]
 
-MEMBERS: how many must have been pressed beside each sample; the first sample may miss one press, named after it."""
+ID=MEMBER … are presses that must be missing, all others of MEMBERS members there; m01 alone is on a mount that gives way."""
 import glob
 import os
 import sys
@@ -44,6 +44,13 @@ for path in sorted(glob.glob(os.path.join(dataset, "pack/shards/*.h5"))):
                 np.testing.assert_allclose(found[label + "_sigma"][:], spread, rtol=1e-5, atol=1e-7)
                 assert label != "press_force_N" or spread[-1] > 1e-3
             assert "contact_area_mm2" in found
-            assert found.attrs["absent_object_depth_mm"] == "the mounts are rigid"
+            # Only a mount that gives way lets objects go less far than they are moved, all turned alike.
+            holds = [os.path.exists(os.path.join(folder, "ensemble", member, "press/holder_pose.npy")) for member in members]
+            if any(holds):
+                z = [np.load(os.path.join(folder, "ensemble", m, "press/object_pose.npy"))[frames, 2, 3] for m in members]
+                np.testing.assert_allclose(found["object_depth_mm_sigma"][:], 1e3 * np.std(z, axis=0, ddof=1), rtol=1e-4, atol=1e-7)
+                assert found["object_depth_mm_sigma"][-1] > 1e-3 and holds == [False, True]
+            else:
+                assert found.attrs["absent_object_depth_mm"] == "the mounts are rigid"
             samples += 1
 assert samples == 2, samples
