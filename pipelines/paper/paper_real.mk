@@ -1,7 +1,7 @@
 # Table I (a) of the paper on photographs: our images, Tacchi's and the depth-based method's, each under light fitted to the
 # same balls on its own membranes, then all with the optics that the rivals were published with. What sim2real.mk makes is
 # used as it is; docs/sim2real.md has the protocol.
-$(call uses,paper/sim2real paper/paper)
+$(call uses,paper/sim2real paper/paper paper/rivals)
 
 .PHONY: paper-real
 ifneq ($(filter paper-real paper-fragment-real depth-rivals,$(MAKECMDGOALS)),)
@@ -86,21 +86,29 @@ $(foreach m,$(PAPER_METHODS),$(eval $(PAPER_REAL)/metrics/$(m)/metrics.yaml: $(f
 $(PAPER_REAL)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
 	$(call run,metrics,--config $(SIM2REAL)/cases/metrics.yaml --images $(call paper_images,$*) --reference $(CASES_REAL))
 
-PAPER_SCORES := $(foreach m,ours depth-based background,$(SIM2REAL)/metrics/$(m)/metrics.yaml) $(foreach m,$(PAPER_METHODS),$(PAPER_REAL)/metrics/$(m)/metrics.yaml)
+# Rows of the table that rivals.mk makes.
+PAPER_RIVALS := $(filter-out $(PAPER_METHODS) ours depth-based background,$(call rivals_methods,$(PAPER_TABLE),name))
+PAPER_SCORES := $(foreach m,ours depth-based background,$(SIM2REAL)/metrics/$(m)/metrics.yaml) $(foreach m,$(PAPER_METHODS),$(PAPER_REAL)/metrics/$(m)/metrics.yaml) \
+  $(foreach m,$(PAPER_RIVALS),$(RIVALS)/metrics/$(m)/metrics.yaml)
 $(PAPER_REAL)/tabulate.yaml: $(PAPER_TABLE) $(PAPER_SCORES) | build
 	$(call run,tabulate,--config $(PAPER_TABLE) --pictures $(addprefix photograph=,$(CASES_REAL)) \
-	  $(foreach m,ours depth-based,$(addprefix $(m)=,$(call sim2real_images,$(m)))) $(foreach m,$(PAPER_METHODS),$(addprefix $(m)=,$(call paper_images,$(m)))) \
-	  --samples $(foreach m,ours depth-based background,$(m)=$(SIM2REAL)/metrics/$(m)/samples.csv) $(foreach m,$(PAPER_METHODS),$(m)=$(PAPER_REAL)/metrics/$(m)/samples.csv))
+	  $(foreach m,ours depth-based,$(addprefix $(m)=,$(call sim2real_images,$(m)))) $(foreach m,$(PAPER_METHODS),$(addprefix $(m)=,$(call paper_images,$(m)))) $(foreach m,$(PAPER_RIVALS),$(call rivals_pictures,$(m))) \
+	  --samples $(foreach m,ours depth-based background,$(m)=$(SIM2REAL)/metrics/$(m)/samples.csv) $(foreach m,$(PAPER_METHODS),$(m)=$(PAPER_REAL)/metrics/$(m)/samples.csv) \
+  $(foreach m,$(PAPER_RIVALS),$(m)=$(RIVALS)/metrics/$(m)/samples.csv))
 
-paper-real: $(PAPER_REAL)/tabulate.yaml ## studies: Table I (a) of the paper on the photographs of sim2real: three simulators, fitted light and published optics (needs SHARED)
+paper-real: $(PAPER_REAL)/tabulate.yaml $(if $(RIVALS_TABLE),rivals) ## studies: Table I (a) of the paper on the photographs of sim2real: six simulators, fitted light and published optics (needs SHARED)
+	@$(if $(PAPER_MORE),$(call make_again,REBUILD=no CASES=$(PAPER_MORE) rivals))
 	@echo; echo "Look at $(PAPER_REAL)/table.md and $(PAPER_REAL)/paper_results"
+
+# Beside the shipped photographs those whose depths are unknown: without Tacchi, whose runs need them.
+PAPER_MORE := $(if $(and $(filter gelsight_sim2real,$(cases_name)),$(wildcard $(SHARED)/data/gsmini_balls)),configs/studies/sim2real/gsmini_balls.yaml)
 
 # On the page of the paper (paper.mk).
 $(eval $(call paper_fragment,real,$(PAPER_REAL)/tabulate.yaml,yes))
 paper-fragment-real: paper-real-folders
 .PHONY: paper-real-folders
 paper-real-folders:
-	$(call paper_folders,real,$(PAPER_REAL) $(addprefix $(SIM2REAL)/,cases gel ball objects rest calibrate rival ours depth-based background metrics))
+	$(call paper_folders,real,$(PAPER_REAL) $(RIVALS) $(addprefix $(SIM2REAL)/,cases gel ball objects rest calibrate rival ours depth-based background metrics))
 else
 paper-real:
 endif

@@ -3,7 +3,7 @@
 $(call uses,paper/sim2real paper/paper)
 
 .PHONY: rivals
-ifneq ($(filter rivals paper-real paper-fragment-real,$(MAKECMDGOALS)),)
+ifneq ($(filter rivals paper-real paper-fragment-real depth-rivals,$(MAKECMDGOALS)),)
 RIVALS := $(OUT)/paper/rivals/$(cases_name)
 RIVALS_CONFIGS := $(basename $(CASES))
 RIVALS_TABLE := $(wildcard $(RIVALS_CONFIGS)/rivals.yaml)
