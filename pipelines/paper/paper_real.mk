@@ -28,8 +28,9 @@ $(PAPER_REAL)/tacchi/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.y
 	mkdir -p $(@D)
 	mapfile -t balls < <($(BIN)/tacipc table $(<D)/balls.csv --columns x_mm,y_mm,depth_mm); read -r x y depth <<< "$${balls[10#$*]}"; \
 	printf 'placement: {center_mm: [%s, %s]}\nmotion: {kind: press, depth_mm: %s, steps: 1}\n' "$$x" "$$y" "$$depth" > $@
-$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/mpm.yaml) $(CASES_CALIBRATE) | build
-	$(call run,calibrate,$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/frame_0001/seen_indentation.exr))
+$(PAPER_REAL)/tacchi/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/mpm.yaml) $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/tacchi/objects/$(o)/mpm.yaml) $(CASES_CALIBRATE) | build
+	$(call run,calibrate,$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(call paper_ball,$(b))/frame_0001/seen_indentation.exr) \
+	  $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/tacchi/objects/$(o)/frame_$(call known_frame,$(o),0)/seen_indentation.exr))
 
 # $(call paper_shade,method,object,light's record,record of the shapes,shapes)
 define paper_shade
