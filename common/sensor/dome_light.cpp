@@ -47,11 +47,10 @@ double horizon_tangent(const MembraneView& view, int x, int y, double azimuth_ra
   return highest;
 }
 
-void dome_irradiance(const DomeBins& bins, const MembraneView& view, int x, int y, double* out) {
+void dome_irradiance(const DomeBins& bins, const MembraneView& view, int x, int y, const Vector3& normal, double* out) {
   constexpr int kDirectionsPerBin = 2;
   const int bands = bins.bands(), directions = kDirectionsPerBin * bins.azimuths;
   std::fill_n(out, bins.size(), 0.0);
-  const Vector3& normal = view.normal[view.index(x, y)];
   const double nz = normal.z();
   for (int d = 0; d < directions; ++d) {
     const double azimuth = 2.0 * std::numbers::pi * d / directions;

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "common/base/types.h"
+
 namespace tacipc {
 
 struct MembraneView;
@@ -22,10 +24,10 @@ struct DomeBins {
 /// and growing with the distance by 1/16 of it, so that the horizon's place is known to that part.
 double horizon_tangent(const MembraneView& view, int x, int y, double azimuth_rad);
 
-/// Irradiance of a pixel by each bin of unit radiance less that of the flat front:
+/// Irradiance of a pixel, whose membrane has this normal, by each bin of unit radiance less that of the flat front:
 ///   ∫∫ h_k(α) max(−n · w, 0) cos ε dε dα,  w = (cos ε cos α, cos ε sin α, −sin ε),
 /// over elevations ε of the band above the horizon, in closed form; over α by two directions a bin. Bins by azimuth,
 /// then band. \pre out has bins.size() entries
-void dome_irradiance(const DomeBins& bins, const MembraneView& view, int x, int y, double* out);
+void dome_irradiance(const DomeBins& bins, const MembraneView& view, int x, int y, const Vector3& normal, double* out);
 
 }  // namespace tacipc

@@ -59,18 +59,23 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
 /// q_l of one lamp at a pixel.
 double relative_irradiance(const MembraneView& view, int x, int y, const Vector3& lamp_m, double softness);
 
-/// q of lamp `lamp` of the geometry, with its width.
-double relative_irradiance(const LightGeometry& geometry, const MembraneView& view, int x, int y, std::size_t lamp);
+/// q of lamp `lamp` of the geometry, with its width, where the membrane has this normal.
+double relative_irradiance(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                           std::size_t lamp);
 
-/// Bases of a pixel: lamps (q, q²), then the dome, then monomials by degree and falling power of n_x, depth last.
-/// \pre out has num_bases() entries
-void light_bases(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out);
+/// Bases of a pixel whose membrane has this normal: lamps (q, q²), then the dome, then monomials by degree and falling
+/// power of n_x, depth last. \pre out has num_bases() entries
+void light_bases(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                 double* out);
 
 /// Features of a pixel from its bases: each times f = (1, x, y, …) by degree and falling power of x.
 /// \pre out has num_features() entries
 void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const double* bases, double* out);
 
 /// Both in one. \pre out has num_features() entries
+void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                    double* out);
+/// The same with the view's own normal.
 void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out);
 
 /// Change of code in channel c: Σ_l (a_lc · f) q_l + (b_lc · f) q_l² + Σ_k (d_kc · f) D_k + Σ_m (e_mc · f) φ_m(n), f =

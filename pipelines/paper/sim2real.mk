@@ -80,7 +80,7 @@ placing = $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml,--pho
 define sim2real_object
 $(SIM2REAL)/ours/$(1)/shade.yaml: $(call cases_press,$(1))/press/press.yaml $(SIM2REAL)/calibrate/calibrate.yaml | build
 	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/calibrate/light.yaml --press $(call cases_press,$(1))/press \
-	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)))
+	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)) $(if $(filter $(1),$(CASES_KNOWN)),$$$$(find $(SIM2REAL)/calibrate -path '*/relief/$(1).exr' -printf '--relief %p')))
 $(SIM2REAL)/rival/objects/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(CASES_BASELINE) | build
 	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) $(call cases_posed,$(1)))
 $(SIM2REAL)/depth-based/$(1)/shade.yaml: $(SIM2REAL)/rival/objects/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml | build

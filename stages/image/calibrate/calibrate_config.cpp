@@ -60,6 +60,7 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
     in.fault("environment_degree", "without lamps there must be an environment");
   config.shadow_softness = in.number("shadow_softness", Range::positive());
   config.blur_px = in.number("blur_px", Range::between(0.0, 100.0));
+  config.relief_slope = in.number_or("relief_slope", 0.0, Range::between(0.0, 1.0));
   config.ridge = in.number("ridge", Range::non_negative());
   config.folds = in.integer("folds", 2, 1000);
   return config;

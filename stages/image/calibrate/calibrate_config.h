@@ -46,12 +46,13 @@ struct CalibrateConfig {
   bool fit_lamps = true;  // else they stay where the guess has them
   int environment_degree = 0;
   bool environment_depth = false;
-  DomeBins dome;
+  DomeBins dome = {};
   int field_degree = 1;
   double shadow_softness = 0.0;
   double blur_px = 0.0;
-  double ridge = 0.0;  // on the weights, as a part of each feature's own square sum
-  int folds = 0;       // of the cross-validation over balls
+  double relief_slope = 0.0;  // expected deviation of a print's slopes from its mesh; 0: reliefs are not measured
+  double ridge = 0.0;         // on the weights, as a part of each feature's own square sum
+  int folds = 0;              // of the cross-validation over balls
 
   static CalibrateConfig read(ConfigReader& in);
 };

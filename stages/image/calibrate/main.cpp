@@ -14,6 +14,7 @@
 #include "common/stage/stage.h"
 #include "stages/image/calibrate/fit_light.h"
 #include "stages/image/calibrate/known_object.h"
+#include "stages/image/calibrate/measure_relief.h"
 #include "stages/image/calibrate/modes.h"
 #include "stages/image/calibrate/sensor_file.h"
 
@@ -142,15 +143,13 @@ std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background,
     if (!center) throw DataError("{}: the camera does not see the front face at its centre", known.name);
     object.x_m = center->x();
     object.y_m = center->y();
-    const auto& box = known.box_px;
-    const auto inside = [&](int x, int y) {
-      return x >= box[0] && x < box[0] + box[2] && y >= box[1] && y < box[1] + box[3];
-    };
+    object.box_px = known.box_px;
+    object.photograph = known.photograph;
     const ByteImage photograph =
         read_photograph(*stage.optional_input("--photographs") / known.photograph, sensor.camera);
     object.samples = make_samples(
-        photograph, background, known.photograph, inside, [&](int x, int y) { return !inside(x, y); },
-        config.fit_stride_px);
+        photograph, background, known.photograph, [&](int x, int y) { return object.inside(x, y); },
+        [&](int x, int y) { return !object.inside(x, y); }, config.fit_stride_px);
     if (!shapes.empty()) {
       const std::size_t at = balls + objects.size();
       if (at < shapes.size()) object.view = view_height_map(read_camera_exr(shapes[at], {"Y"}, sensor.camera), sensor);
@@ -163,6 +162,11 @@ std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background,
         throw DataError("{}: has no frame {}", press->path.string(), known.frame);
       object.triangles = std::move(frames.triangles);
       object.front = std::move(frames.frames[static_cast<std::size_t>(known.frame)]);
+      object.origin_z_m = frames.gel_from_object[static_cast<std::size_t>(known.frame)](2, 3);
+      if (known.frame > 1) {
+        object.front_before = std::move(frames.frames[static_cast<std::size_t>(known.frame) - 1]);
+        object.origin_z_before_m = frames.gel_from_object[static_cast<std::size_t>(known.frame) - 1](2, 3);
+      }
       object.view = view_object(object, sensor);
     }
     objects.push_back(std::move(object));
@@ -232,6 +236,11 @@ void calibrate_balls(Stage& stage) {
     write_poses(stage, ball_poses_field(), poses);
     write_file(stage.output("contact.yaml"), to_yaml(Value::Map{{"contact_gap_mm", 1e3 * fit.contact_gap_m}}));
   }
+  if (press && config.relief_slope > 0.0)
+    for (const KnownObject& object : objects)
+      measure_relief(object, read_photograph(*stage.optional_input("--photographs") / object.photograph, camera),
+                     background, fit.light, sensor, config.relief_slope)
+          .write(stage.output("relief/" + object.name + ".exr"));
   Value::Map summary = summary_of(fit, balls.size(), objects, parameters_per_lamp(config));
   if (press) summary.emplace_back("contact_gap_mm", 1e3 * fit.contact_gap_m);
   stage.summarize(summary);

@@ -74,7 +74,7 @@ Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView
   std::vector<double> pixel(static_cast<std::size_t>(geometry.num_bases()));
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
-      light_bases(geometry, view, x, y, pixel.data());
+      light_bases(geometry, view, x, y, view.normal[view.index(x, y)], pixel.data());
       for (int k = 0; k < bases.channels; ++k)
         bases.at(x - x0, y - y0, k) = static_cast<float>(pixel[static_cast<std::size_t>(k)]);
     }

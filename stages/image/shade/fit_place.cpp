@@ -60,15 +60,24 @@ Matrix4 place_pose(const ImagePlace& place, const Sensor& sensor) {
   return pose;
 }
 
+MembraneView view_at(const FrontFrames& press, int frame, const ImagePlace& place, const PrintRelief* relief,
+                     const Sensor& sensor) {
+  const auto at = static_cast<std::size_t>(frame);
+  MembraneView view = view_membrane(at_place(press.frames[at], place, sensor), press.triangles, sensor);
+  if (!relief) return view;
+  const Vector3 axis = plane_point(place, sensor);
+  apply_relief(*relief, {axis.x(), axis.y(), place.yaw_rad, press.gel_from_object[at](2, 3)}, view);
+  return view;
+}
+
 FittedPlace fit_place(const FrontFrames& press, int frame, const ImagePlace& start, const PlaceFit& fit,
                       const ByteImage& photograph, const ByteImage& background, const LightField& light,
-                      const Sensor& sensor) {
+                      const Sensor& sensor, const PrintRelief* relief) {
   constexpr double kSmallestStep = 1.0 / 32.0;
   FittedPlace result{.place = start};
   const auto score = [&](const ImagePlace& place) {
     ++result.views;
-    const auto& front = press.frames[static_cast<std::size_t>(frame)];
-    const MembraneView view = view_membrane(at_place(front, place, sensor), press.triangles, sensor);
+    const MembraneView view = view_at(press, frame, place, relief, sensor);
     return mismatch(add_change(background, code_change(light, view)), photograph, fit.box_px);
   };
   double best = score(start);

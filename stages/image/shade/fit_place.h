@@ -4,6 +4,7 @@
 #include "common/image/image.h"
 #include "common/sample/front_frames.h"
 #include "common/sensor/light_field.h"
+#include "common/sensor/print_relief.h"
 #include "common/sensor/sensor.h"
 #include "stages/image/shade/shade_config.h"
 
@@ -13,6 +14,10 @@ namespace tacipc {
 Positions at_place(const Positions& front, const ImagePlace& place, const Sensor& sensor);
 /// The rigid motion that does it: Rz(yaw), then the translation.
 Matrix4 place_pose(const ImagePlace& place, const Sensor& sensor);
+
+/// What the camera sees of a frame at a place, with the object's print if its relief is given.
+MembraneView view_at(const FrontFrames& press, int frame, const ImagePlace& place, const PrintRelief* relief,
+                     const Sensor& sensor);
 
 struct FittedPlace {
   ImagePlace place;
@@ -27,6 +32,6 @@ struct FittedPlace {
 /// surface.
 FittedPlace fit_place(const FrontFrames& press, int frame, const ImagePlace& start, const PlaceFit& fit,
                       const ByteImage& photograph, const ByteImage& background, const LightField& light,
-                      const Sensor& sensor);
+                      const Sensor& sensor, const PrintRelief* relief = nullptr);
 
 }  // namespace tacipc

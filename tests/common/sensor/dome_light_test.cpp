@@ -39,6 +39,11 @@ MembraneView step() {
 constexpr int kMiddleX = 60, kMiddleY = 40;  // x = y = 0
 constexpr double kPixelMm = 0.05;
 
+/// Of the pixel in the middle.
+void irradiance(const DomeBins& bins, const MembraneView& view, std::vector<double>& out) {
+  dome_irradiance(bins, view, kMiddleX, kMiddleY, view.normal[view.index(kMiddleX, kMiddleY)], out.data());
+}
+
 TEST(HorizonTangent, OfAStepIsItsHeightOverItsDistance) {
   const MembraneView view = step();
   for (const double distance_mm : {0.4, 1.0, 2.5}) {
@@ -56,7 +61,7 @@ TEST(HorizonTangent, OfAStepIsItsHeightOverItsDistance) {
 TEST(DomeIrradiance, OfAFlatFrontDoesNotChange) {
   const DomeBins bins{.azimuths = 6, .elevation_tan = {0.0, 0.5, 1.5}};
   std::vector<double> out(static_cast<std::size_t>(bins.size()), 1.0);
-  dome_irradiance(bins, view_of([](double, double) { return 0.0; }), kMiddleX, kMiddleY, out.data());
+  irradiance(bins, view_of([](double, double) { return 0.0; }), out);
   for (const double value : out) EXPECT_NEAR(value, 0.0, 1e-12);
 }
 
@@ -65,7 +70,7 @@ TEST(DomeIrradiance, OfASlopeUnderUniformLightIsThatOfTheVisiblePart) {
   const DomeBins bins{.azimuths = 12, .elevation_tan = {0.0, 0.2, 0.5, 1.0}};
   const double slope = 0.3, cosine = 1.0 / std::hypot(1.0, slope);
   std::vector<double> out(static_cast<std::size_t>(bins.size()));
-  dome_irradiance(bins, view_of([&](double x, double) { return 1e-3 + slope * x; }), kMiddleX, kMiddleY, out.data());
+  irradiance(bins, view_of([&](double x, double) { return 1e-3 + slope * x; }), out);
   EXPECT_NEAR(std::accumulate(out.begin(), out.end(), 0.0), 0.5 * std::numbers::pi * (cosine - 1.0), 2e-3);
   // The front rises into the gel along x: light from there is lost, and gained from the other side.
   EXPECT_LT(out[1], 0.0);
@@ -76,7 +81,7 @@ TEST(DomeIrradiance, BesideAStepLosesWhatLiesBelowItsEdge) {
   const MembraneView view = step();
   const DomeBins bins{.azimuths = 4, .elevation_tan = {0.0, 0.2, 0.8}};
   std::vector<double> out(static_cast<std::size_t>(bins.size()));
-  dome_irradiance(bins, view, kMiddleX, kMiddleY, out.data());
+  irradiance(bins, view, out);
   // Towards +x the horizon is at the tangent 0.6 cos α; the hat's two other directions, at 45°, count half.
   const auto lost = [](double low, double high) {
     const auto share = [](double t) { return 0.5 * t * t / (1.0 + t * t); };

@@ -165,7 +165,7 @@ TEST(Features, OfADomeStandBetweenLampsAndPolynomialAndComeBackFromTheirFile) {
   Eigen::VectorXd f(light.geometry.num_features());
   light_features(light.geometry, view, 45, 10, f.data());
   std::vector<double> dome(8);
-  dome_irradiance(light.geometry.dome, view, 45, 10, dome.data());
+  dome_irradiance(light.geometry.dome, view, 45, 10, view.normal[view.index(45, 10)], dome.data());
   for (Eigen::Index k = 0; k < 8; ++k) EXPECT_EQ(f[12 + 3 * k], dome[static_cast<std::size_t>(k)]) << k;
   EXPECT_NEAR(f[12 + 3 * 8], view.normal[view.index(45, 10)].x(), 1e-15);
   const LightField read = config_from_text<LightField>(to_yaml(light.to_value()), "light.yaml");
@@ -189,7 +189,7 @@ TEST(RelativeIrradiance, OfAWideLampIsTheMeanOverItsWidth) {
     const double turn = 0.6 * (2.0 * i / (kPoints - 1) - 1.0);
     sum += relative_irradiance(slope, 30, 20, Eigen::AngleAxisd(turn, Vector3::UnitZ()) * geometry.lamps_m[0], 0.01);
   }
-  EXPECT_NEAR(relative_irradiance(geometry, slope, 30, 20, 0), sum / kPoints, 1e-4);
+  EXPECT_NEAR(relative_irradiance(geometry, slope, 30, 20, slope.normal[slope.index(30, 20)], 0), sum / kPoints, 1e-4);
 }
 
 TEST(LightFieldFile, ReadsBackToTheSameBits) {

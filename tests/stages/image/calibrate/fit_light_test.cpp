@@ -320,12 +320,14 @@ TEST(FitLight, AKnownObjectTellsLampsThatShallowBallsDoNot) {
   light.weights.row(0) << 60.0, -12.0, -10.0;
   light.weights.row(6) << -10.0, 55.0, 30.0;
   const ByteImage background(120, 120, 3, 128);
-  std::vector<Ball> balls(6);
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    Ball& ball = balls[i];
-    ball.label = {.image = "b", .x_px = 42.0 + 6.0 * (i % 3), .y_px = 45.0 + 5.0 * i, .radius_px = 10};
+  std::vector<Ball> balls;
+  for (int i = 0; i < 6; ++i) {
+    Ball ball;
+    ball.label = {.image = "b", .x_px = 42.0 + 6 * (i % 3), .y_px = 45.0 + 5 * i, .radius_px = 10};
     ball.view = ball_view((ball.label.x_px - 59.5) * 1e-4, (ball.label.y_px - 59.5) * 1e-4, 0.1e-3 + 0.02e-3 * i);
-    ball.samples = make_samples(noisy_photograph(light, ball.view, 7u + i), background, ball.label, settings);
+    const auto seed = static_cast<unsigned>(7 + i);
+    ball.samples = make_samples(noisy_photograph(light, ball.view, seed), background, ball.label, settings);
+    balls.push_back(std::move(ball));
   }
   settings.folds = 3;
   std::vector<KnownObject> none, objects(1);
