@@ -49,6 +49,13 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
   if (std::none_of(object.images.begin(), object.images.end(),
                    [&](const PhotographCase& image) { return image.name == object.fit_image; }))
     fit.fault("image", "is not one of the images");
+  if (in.has("calibrates")) {
+    object.calibrates = in.text("calibrates");
+    if (std::none_of(object.images.begin(), object.images.end(),
+                     [&](const PhotographCase& image) { return image.name == object.calibrates; }))
+      in.fault("calibrates", "is not one of the images");
+    if (object.images.size() == 1) in.fault("calibrates", "leaves no image of the object to test");
+  }
   return object;
 }
 

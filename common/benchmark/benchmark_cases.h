@@ -34,6 +34,7 @@ struct ObjectCase {
   std::array<int, 4> box_px{};  // x, y, width, height of the contact
   std::string fit_image;        // the one that centre and yaw are fitted to; none where circles tell the place
   bool fit_yaw = false;
+  std::string calibrates;              // the one that calibrates the light beside the balls, and counts in no mean
   std::vector<PhotographCase> images;  // ever deeper
 };
 

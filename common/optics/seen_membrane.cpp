@@ -40,6 +40,7 @@ MembraneView view_membrane(const Positions& positions, const Triangles& triangle
     if (const auto& x = fallen[static_cast<std::size_t>(y)])
       throw DataError("a camera ray slips through the front face at pixel ({}, {}), even after a retry", *x, y);
   }
+  bound_depth(view);
   return view;
 }
 
@@ -55,6 +56,7 @@ MembraneView view_of(const TraceResult& traced, const Sensor& sensor, bool refra
       view.normal[i] = Vector3(traced.normal.at(x, y, 0), traced.normal.at(x, y, 1), traced.normal.at(x, y, 2));
     }
   });
+  bound_depth(view);
   return view;
 }
 

@@ -65,29 +65,68 @@ double relative_irradiance(const MembraneView& view, int x, int y, const Vector3
   return lamp_visibility(view, x, y, lamp_m, softness) * lit / flat - 1.0;
 }
 
-void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out) {
+double relative_irradiance(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                           std::size_t lamp) {
+  const Vector3& middle = geometry.lamps_m[lamp];
+  const double half = geometry.lamp_half_width_rad.empty() ? 0.0 : geometry.lamp_half_width_rad[lamp];
+  constexpr std::array<double, 5> kNodes{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                                         0.9061798459386640};
+  constexpr std::array<double, 5> kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                           0.4786286704993665, 0.2369268850561891};
   const std::size_t i = view.index(x, y);
-  const double field_x = view.rest[i].x() / geometry.field_half_width_m;
-  const double field_y = view.rest[i].y() / geometry.field_half_width_m;
-  const auto put = [&](double value) {
+  if (half == 0.0) {
+    const double here = irradiance(view.point[i], normal, middle);
+    if (here == 0.0) return -1.0;
+    const double flat = irradiance(view.rest[i], Vector3::UnitZ(), middle);
+    return lamp_visibility(view, x, y, middle, geometry.shadow_softness) * here / flat - 1.0;
+  }
+  double flat = 0.0, lit = 0.0;
+  for (std::size_t k = 0; k < kNodes.size(); ++k) {
+    const Vector3 point = Eigen::AngleAxisd(half * kNodes[k], Vector3::UnitZ()) * middle;
+    flat += kWeights[k] * irradiance(view.rest[i], Vector3::UnitZ(), point);
+    const double here = irradiance(view.point[i], normal, point);
+    if (here > 0.0) lit += kWeights[k] * here * lamp_visibility(view, x, y, point, geometry.shadow_softness);
+  }
+  return lit / flat - 1.0;
+}
+
+void light_bases(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& n, double* out) {
+  const std::size_t i = view.index(x, y);
+  for (std::size_t lamp = 0; lamp < geometry.lamps_m.size(); ++lamp) {
+    const double q = relative_irradiance(geometry, view, x, y, n, lamp);
+    *out++ = q;
+    *out++ = q * q;
+  }
+  if (geometry.dome.size() > 0) dome_irradiance(geometry.dome, view, x, y, n, out);
+  out += geometry.dome.size();
+  for (int degree = 1; degree <= geometry.environment_degree; ++degree)
+    for (int power_y = 0; power_y <= degree; ++power_y)
+      *out++ = std::pow(n.x(), degree - power_y) * std::pow(n.y(), power_y);
+  if (geometry.environment_depth) *out++ = (view.rest[i].z() - view.point[i].z()) / kMillimetre;
+}
+
+void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const double* bases, double* out) {
+  const double field_x = rest.x() / geometry.field_half_width_m, field_y = rest.y() / geometry.field_half_width_m;
+  for (int basis = 0; basis < geometry.num_bases(); ++basis) {
     for (int degree = 0; degree <= geometry.field_degree; ++degree) {
       for (int power_y = 0; power_y <= degree; ++power_y) {
-        double f = value;
+        double f = bases[basis];
         for (int k = 0; k < degree; ++k) f *= k < degree - power_y ? field_x : field_y;
         *out++ = f;
       }
     }
-  };
-  for (const Vector3& lamp : geometry.lamps_m) {
-    const double q = relative_irradiance(view, x, y, lamp, geometry.shadow_softness);
-    put(q);
-    put(q * q);
   }
-  const Vector3& n = view.normal[i];
-  for (int degree = 1; degree <= geometry.environment_degree; ++degree)
-    for (int power_y = 0; power_y <= degree; ++power_y)
-      put(std::pow(n.x(), degree - power_y) * std::pow(n.y(), power_y));
-  if (geometry.environment_depth) put((view.rest[i].z() - view.point[i].z()) / kMillimetre);
+}
+
+void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                    double* out) {
+  std::vector<double> bases(static_cast<std::size_t>(geometry.num_bases()));
+  light_bases(geometry, view, x, y, normal, bases.data());
+  spread_over_field(geometry, view.rest[view.index(x, y)], bases.data(), out);
+}
+
+void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out) {
+  light_features(geometry, view, x, y, view.normal[view.index(x, y)], out);
 }
 
 FloatImage code_change(const LightField& light, const MembraneView& view) {

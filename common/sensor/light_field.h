@@ -10,6 +10,7 @@
 #include "common/base/value.h"
 #include "common/config/config.h"
 #include "common/image/image.h"
+#include "common/sensor/dome_light.h"
 
 namespace tacipc {
 
@@ -26,19 +27,29 @@ struct MembraneView;
 /// width of the penumbra. The environment is a polynomial φ_m(n) = n_x^i n_y^j, 1 ≤ i + j ≤ degree, of the unit normal:
 /// spherical harmonics up to that degree without their constant, restricted to the sphere; with `environment_depth` it
 /// also varies along z, by φ = (z_rest − z) / 1 mm.
+///
+/// A lamp of half width w is a strip: it covers azimuths ± w about the z axis from its position, and q is of the sum of
+/// V g over five of its points (Gauss–Legendre) in place of V g.
+///
+/// The dome (dome_light.h) is light from all sides in bins of direction, each hidden by the membrane's true horizon.
+/// Its features are the irradiance from each bin less that of the flat front. They count as environment.
 struct LightGeometry {
-  std::vector<Vector3> lamps_m = {};  // frame S
-  double shadow_softness = 0.0;       // > 0; tangent
-  int environment_degree = 0;         // 0: none
-  bool environment_depth = false;     // one more monomial: how deep the membrane lies
-  int field_degree = 1;               // of the polynomial in x and y by which weights vary over the field
-  double field_half_width_m = 1;      // x and y of the fields below run from −1 to 1 over this
+  std::vector<Vector3> lamps_m = {};             // frame S
+  std::vector<double> lamp_half_width_rad = {};  // of each lamp; none: points
+  double shadow_softness = 0.0;                  // > 0; tangent
+  int environment_degree = 0;                    // 0: none
+  DomeBins dome = {};
+  bool environment_depth = false;  // one more monomial: how deep the membrane lies
+  int field_degree = 1;            // of the polynomial in x and y by which weights vary over the field
+  double field_half_width_m = 1;   // x and y of the fields below run from −1 to 1 over this
 
   int num_monomials() const { return environment_degree * (environment_degree + 3) / 2 + (environment_depth ? 1 : 0); }
   /// 1, x, y, x², xy, y², … up to field_degree
   int num_field_terms() const { return (field_degree + 1) * (field_degree + 2) / 2; }
-  /// As many as field terms for each lamp's q, for its q², and for each monomial.
-  int num_features() const { return num_field_terms() * (2 * static_cast<int>(lamps_m.size()) + num_monomials()); }
+  /// A lamp's q and its q², a bin of the dome, a monomial: each is one, and has as many features as the field has
+  /// terms.
+  int num_bases() const { return 2 * static_cast<int>(lamps_m.size()) + dome.size() + num_monomials(); }
+  int num_features() const { return num_field_terms() * num_bases(); }
   int first_environment_feature() const { return num_field_terms() * 2 * static_cast<int>(lamps_m.size()); }
 };
 
@@ -48,13 +59,28 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
 /// q_l of one lamp at a pixel.
 double relative_irradiance(const MembraneView& view, int x, int y, const Vector3& lamp_m, double softness);
 
-/// All features of a pixel, in the order lamps (q · f, q² · f), then monomials · f by degree and falling power of n_x,
-/// depth last; f = (1, x, y, …) by degree and falling power of x. \pre out has num_features() entries
+/// q of lamp `lamp` of the geometry, with its width, where the membrane has this normal.
+double relative_irradiance(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                           std::size_t lamp);
+
+/// Bases of a pixel whose membrane has this normal: lamps (q, q²), then the dome, then monomials by degree and falling
+/// power of n_x, depth last. \pre out has num_bases() entries
+void light_bases(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                 double* out);
+
+/// Features of a pixel from its bases: each times f = (1, x, y, …) by degree and falling power of x.
+/// \pre out has num_features() entries
+void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const double* bases, double* out);
+
+/// Both in one. \pre out has num_features() entries
+void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
+                    double* out);
+/// The same with the view's own normal.
 void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out);
 
-/// Change of code in channel c: Σ_l (a_lc · f) q_l + (b_lc · f) q_l² + Σ_m (e_mc · f) φ_m(n), f = (1, x, y, …): a is
-/// what a lamp contributes through the camera's colour matrix (so it may be negative) and the vignetting, b the
-/// curvature of the response, e the environment.
+/// Change of code in channel c: Σ_l (a_lc · f) q_l + (b_lc · f) q_l² + Σ_k (d_kc · f) D_k + Σ_m (e_mc · f) φ_m(n), f =
+/// (1, x, y, …): a is what a lamp contributes through the camera's colour matrix (so it may be negative) and the
+/// vignetting, b the curvature of the response, d the dome's radiance, e the rest of the environment.
 struct LightField {
   LightGeometry geometry;
   Eigen::Matrix<double, Eigen::Dynamic, 3> weights;  // #features × channels, codes
@@ -63,6 +89,9 @@ struct LightField {
   static LightField read(ConfigReader& in);
   Value to_value() const;
 };
+
+/// `azimuths`, at least 3, number of `bands` and their `elevation_tan` of a section `dome`.
+DomeBins read_dome_bins(ConfigReader& in);
 
 /// Codes by which the image of `view` differs from the photograph without contact, not rounded.
 FloatImage code_change(const LightField& light, const MembraneView& view);

@@ -1,6 +1,9 @@
 // The file of a light field: section `light_field`, lengths in mm, weights in codes.
+#include <algorithm>
 #include <array>
+#include <functional>
 
+#include "common/base/units.h"
 #include "common/sensor/light_field.h"
 
 namespace tacipc {
@@ -32,7 +35,22 @@ std::string monomial_key(int power_x, int power_y) {
   return "nx" + std::to_string(power_x) + "_ny" + std::to_string(power_y);
 }
 
+std::string bin_key(int azimuth, int band) {
+  return "azimuth" + std::to_string(azimuth) + "_band" + std::to_string(band);
+}
+
 }  // namespace
+
+DomeBins read_dome_bins(ConfigReader& in) {
+  DomeBins bins;
+  bins.azimuths = in.integer("azimuths", 3, 360);
+  const auto bands = static_cast<std::size_t>(in.integer("bands", 1, 90));
+  bins.elevation_tan = in.numbers("elevation_tan", bands, Range::non_negative());
+  const auto& edges = bins.elevation_tan;
+  if (std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<>{}) != edges.end())
+    in.fault("elevation_tan", "expected the bands' lower edges, ascending");
+  return bins;
+}
 
 LightField LightField::read(ConfigReader& file) {
   ConfigReader in = file.section("light_field");
@@ -47,11 +65,18 @@ LightField LightField::read(ConfigReader& file) {
     geometry.lamps_m.push_back(1e-3 * lamp.vector3("position_mm"));
     if (!(geometry.lamps_m.back().z() < 0.0))
       lamp.fault("position_mm", "a lamp must lie behind the front face (z < 0)");
+    geometry.lamp_half_width_rad.push_back(kDegree * lamp.number_or("half_width_deg", 0.0, Range::between(0.0, 90.0)));
     read_rows(lamp.section("linear_codes"), geometry, rows);
     read_rows(lamp.section("quadratic_codes"), geometry, rows);
   }
+  if (auto dome = in.optional_section("dome")) {
+    geometry.dome = read_dome_bins(*dome);
+    for (int k = 0; k < geometry.dome.azimuths; ++k)
+      for (int band = 0; band < geometry.dome.bands(); ++band)
+        read_rows(dome->section(bin_key(k, band)), geometry, rows);
+  }
   if (auto environment = in.optional_section("environment")) {
-    geometry.environment_degree = environment->integer("degree", 1, 8);
+    geometry.environment_degree = environment->integer("degree", 0, 8);
     for (int degree = 1; degree <= geometry.environment_degree; ++degree)
       for (int y = 0; y <= degree; ++y) read_rows(environment->section(monomial_key(degree - y, y)), geometry, rows);
     geometry.environment_depth = environment->has("depth");
@@ -72,15 +97,29 @@ Value LightField::to_value() const {
                  {"blur_px", blur_px}};
   const int terms = geometry.num_field_terms();
   int row = 0;
+  const auto& widths = geometry.lamp_half_width_rad;
   Value::List lamps;
-  for (const Vector3& lamp : geometry.lamps_m) {
-    lamps.push_back(Value::Map{{"position_mm", Value::List{1e3 * lamp.x(), 1e3 * lamp.y(), 1e3 * lamp.z()}},
-                               {"linear_codes", rows_to_value(*this, row)},
-                               {"quadratic_codes", rows_to_value(*this, row + terms)}});
+  for (std::size_t l = 0; l < geometry.lamps_m.size(); ++l) {
+    const Vector3& at = geometry.lamps_m[l];
+    Value::Map lamp{{"position_mm", Value::List{1e3 * at.x(), 1e3 * at.y(), 1e3 * at.z()}}};
+    if (!widths.empty() && widths[l] > 0.0) lamp.emplace_back("half_width_deg", widths[l] / kDegree);
+    lamp.emplace_back("linear_codes", rows_to_value(*this, row));
+    lamp.emplace_back("quadratic_codes", rows_to_value(*this, row + terms));
+    lamps.push_back(std::move(lamp));
     row += 2 * terms;
   }
   if (!lamps.empty()) out.emplace_back("lamps", std::move(lamps));
-  if (geometry.environment_degree > 0) {
+  if (geometry.dome.size() > 0) {
+    Value::List edges;
+    for (const double edge : geometry.dome.elevation_tan) edges.push_back(edge);
+    Value::Map dome{
+        {"azimuths", geometry.dome.azimuths}, {"bands", geometry.dome.bands()}, {"elevation_tan", std::move(edges)}};
+    for (int k = 0; k < geometry.dome.azimuths; ++k)
+      for (int band = 0; band < geometry.dome.bands(); ++band, row += terms)
+        dome.emplace_back(bin_key(k, band), rows_to_value(*this, row));
+    out.emplace_back("dome", std::move(dome));
+  }
+  if (geometry.environment_degree > 0 || geometry.environment_depth) {
     Value::Map environment{{"degree", geometry.environment_degree}};
     for (int degree = 1; degree <= geometry.environment_degree; ++degree)
       for (int y = 0; y <= degree; ++y, row += terms)

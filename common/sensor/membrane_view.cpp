@@ -7,6 +7,11 @@
 
 namespace tacipc {
 
+void bound_depth(MembraneView& view) {
+  view.lowest_z = 0.0;
+  for (const Vector3& point : view.point) view.lowest_z = std::min(view.lowest_z, point.z());
+}
+
 MembraneView flat_view(const CameraModel& rays, const Camera& camera) {
   MembraneView view{.width = camera.width_px, .height = camera.height_px, .point = {}, .normal = {}, .rest = {}};
   for (int y = 0; y < view.height; ++y) {
@@ -33,6 +38,7 @@ MembraneView view_height_map(const FloatImage& indentation_m, const Sensor& sens
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x)
       view.point[view.index(x, y)] = point_at_z(rays, x, y, -indentation_m.at(x, y, 0));
+  bound_depth(view);
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       const auto at = [&](int u, int v) {

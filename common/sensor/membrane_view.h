@@ -17,11 +17,15 @@ struct MembraneView {
   std::vector<Vector3> point;   // frame S, m
   std::vector<Vector3> normal;  // unit, outward: (0, 0, 1) where it is flat
   std::vector<Vector3> rest;    // the point of the plane z = 0 on the same ray
+  double lowest_z = -3e-3;      // m; no point lies deeper. A bound that every press keeps until the view is complete
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
 };
+
+/// Sets lowest_z to the deepest point.
+void bound_depth(MembraneView& view);
 
 /// All of it flat. \throw DataError if a pixel looks away from the plane z = 0
 MembraneView flat_view(const CameraModel& rays, const Camera& camera);

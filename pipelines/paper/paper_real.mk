@@ -37,8 +37,9 @@ $(PAPER_REAL)/motions/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.
 	mapfile -t balls < <($(BIN)/tacipc table $(<D)/balls.csv --columns x_mm,y_mm,depth_mm); read -r x y depth <<< "$${balls[10#$*]}"; \
 	printf 'placement: {center_mm: [%s, %s]}\nmotion: {kind: press, depth_mm: %s, steps: 1}\n' "$$x" "$$y" "$$depth" > $@
 define paper_light
-$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/mpm.yaml) $(CASES_CALIBRATE) | build
-	$$(call run,calibrate,$$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/frame_0001/seen_indentation.exr))
+$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/mpm.yaml) $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/mpm.yaml) $(CASES_CALIBRATE) | build
+	$$(call run,calibrate,$$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/frame_0001/seen_indentation.exr) \
+	  $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/frame_$(call known_frame,$(o),0)/seen_indentation.exr))
 endef
 $(foreach t,$(PAPER_TACCHI_LIT),$(eval $(call paper_light,$(t)))$(foreach b,$(PAPER_BALLS),$(eval $(call paper_mpm,$(t),$(b),$(SIM2REAL)/ball/indenter))))
 

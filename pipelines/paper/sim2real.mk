@@ -61,14 +61,17 @@ background_record := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.yaml)
 
 # The light: on our membranes, and on those of the depth-based method under the same balls.
 calibration = --config $(CASES_CALIBRATE) --sensor $(CASES_SENSOR) --background $(cases_background) \
-  --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(cases_labels)
-$(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(background_record) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
-	$(call run,calibrate,$(calibration) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh)
+  --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(cases_labels) $(if $(CASES_KNOWN),--objects $(SIM2REAL)/cases/known_objects.yaml)
+known_frame = $(shell printf '%04d' $$(($(CASES_KNOWN_FRAME_$(1)) + $(2))))
+$(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/objects/$(o)/press/press.yaml) $(background_record) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+	$(call run,calibrate,$(calibration) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh \
+	  $(foreach o,$(CASES_KNOWN),--object-press $(o)=$(SIM2REAL)/objects/$(o)/press))
 $(SIM2REAL)/rival/balls/baseline.yaml: $(SIM2REAL)/calibrate/calibrate.yaml $(CASES_BASELINE) | build
 	$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(SIM2REAL)/ball/indenter/object.ply \
 	  --pose $(SIM2REAL)/calibrate/ball_poses.npy)
-$(SIM2REAL)/rival/calibrate/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(CASES_CALIBRATE) | build
-	$(call run,calibrate,$(calibration) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr)
+$(SIM2REAL)/rival/calibrate/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/rival/objects/$(o)/baseline.yaml) $(CASES_CALIBRATE) | build
+	$(call run,calibrate,$(calibration) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr \
+	  $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/rival/objects/$(o)/frame_$(call known_frame,$(o),-1)/indentation.exr))
 
 # Images of one object: ours, then the depth-based method's at the same place and depth.
 shading = --config $(SIM2REAL)/cases/objects/$(1)/shade.yaml --sensor $(CASES_SENSOR) --background $(cases_background)
@@ -77,7 +80,7 @@ placing = $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml,--pho
 define sim2real_object
 $(SIM2REAL)/ours/$(1)/shade.yaml: $(call cases_press,$(1))/press/press.yaml $(SIM2REAL)/calibrate/calibrate.yaml | build
 	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/calibrate/light.yaml --press $(call cases_press,$(1))/press \
-	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)))
+	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)) $(if $(filter $(1),$(CASES_KNOWN)),$$$$(find $(SIM2REAL)/calibrate -path '*/relief/$(1).exr' -printf '--relief %p')))
 $(SIM2REAL)/rival/objects/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(CASES_BASELINE) | build
 	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) $(call cases_posed,$(1)))
 $(SIM2REAL)/depth-based/$(1)/shade.yaml: $(SIM2REAL)/rival/objects/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml | build

@@ -1,6 +1,7 @@
 #include "stages/image/calibrate/calibrate_config.h"
 
-#include <numbers>
+#include "common/base/units.h"
+#include "common/sensor/light_field.h"
 
 namespace tacipc {
 
@@ -16,16 +17,21 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
   config.fit_stride_px = in.integer("fit_stride_px", 1, 100);
   config.drift_radius_px = in.number("drift_radius_px", Range::positive());
   for (ConfigReader& item : in.sections("lamps")) {
-    config.lamps.push_back({.azimuth_rad = item.number("azimuth_deg") * std::numbers::pi / 180.0,
-                            .distance_m = 1e-3 * item.number("distance_mm", Range::positive()),
-                            .elevation_tan = item.number("elevation_tan", Range::positive())});
+    config.lamps.push_back(
+        {.azimuth_rad = item.number("azimuth_deg") * kDegree,
+         .distance_m = 1e-3 * item.number("distance_mm", Range::positive()),
+         .elevation_tan = item.number("elevation_tan", Range::positive()),
+         .half_width_rad = kDegree * item.number_or("half_width_deg", 0.0, Range::between(0.0, 90.0))});
   }
   if (auto bounds = in.optional_section("lamp_bounds")) {
-    config.bounds.azimuth_rad = bounds->number("azimuth_deg", Range::between(0.0, 180.0)) * std::numbers::pi / 180.0;
+    config.bounds.azimuth_rad = bounds->number("azimuth_deg", Range::between(0.0, 180.0)) * kDegree;
     const auto elevation = bounds->numbers("elevation_tan", 2, Range::positive());
     const auto distance = bounds->numbers("distance_mm", 2, Range::positive());
     if (elevation[0] > elevation[1]) bounds->fault("elevation_tan", "expected [least, largest]");
     if (distance[0] > distance[1]) bounds->fault("distance_mm", "expected [least, largest]");
+    const auto width = bounds->numbers_or("half_width_deg", {0.0, 0.0}, Range::between(0.0, 90.0));
+    if (width[0] > width[1]) bounds->fault("half_width_deg", "expected [least, largest]");
+    config.bounds.half_width_rad = {kDegree * width[0], kDegree * width[1]};
     config.bounds.elevation_tan = {elevation[0], elevation[1]};
     config.bounds.distance_m = {1e-3 * distance[0], 1e-3 * distance[1]};
   } else if (!config.lamps.empty()) {
@@ -35,7 +41,9 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
     const auto inside = [](double value, const std::array<double, 2>& range) {
       return value >= range[0] && value <= range[1];
     };
-    if (inside(lamp.elevation_tan, config.bounds.elevation_tan) && inside(lamp.distance_m, config.bounds.distance_m))
+    const bool free_width = config.bounds.half_width_rad[1] > config.bounds.half_width_rad[0];
+    if (inside(lamp.elevation_tan, config.bounds.elevation_tan) && inside(lamp.distance_m, config.bounds.distance_m) &&
+        (!free_width || inside(lamp.half_width_rad, config.bounds.half_width_rad)))
       continue;
     in.fault("lamps", "a lamp starts outside lamp_bounds");
     break;
@@ -43,13 +51,16 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
   config.fit_lamps = in.flag_or("fit_lamps", true);
   config.environment_degree = in.integer("environment_degree", 0, 8);
   config.environment_depth = in.flag_or("environment_depth", false);
-  if (config.environment_depth && config.environment_degree == 0)
-    in.fault("environment_depth", "without environment_degree there is no environment");
+  if (auto dome = in.optional_section("dome")) config.dome = read_dome_bins(*dome);
+  const bool environment = config.environment_degree > 0 || config.dome.size() > 0;
+  if (config.environment_depth && !environment)
+    in.fault("environment_depth", "without environment_degree or dome there is no environment");
   config.field_degree = in.integer_or("field_degree", 1, 0, 4);
-  if (config.lamps.empty() && config.environment_degree == 0)
+  if (config.lamps.empty() && !environment)
     in.fault("environment_degree", "without lamps there must be an environment");
   config.shadow_softness = in.number("shadow_softness", Range::positive());
   config.blur_px = in.number("blur_px", Range::between(0.0, 100.0));
+  config.relief_slope = in.number_or("relief_slope", 0.0, Range::between(0.0, 1.0));
   config.ridge = in.number("ridge", Range::non_negative());
   config.folds = in.integer("folds", 2, 1000);
   return config;

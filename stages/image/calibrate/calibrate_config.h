@@ -7,6 +7,7 @@
 
 #include "common/base/types.h"
 #include "common/config/config.h"
+#include "common/sensor/dome_light.h"
 
 namespace tacipc {
 
@@ -16,6 +17,7 @@ struct LampGuess {
   double azimuth_rad = 0.0;
   double distance_m = 0.0;
   double elevation_tan = 0.0;
+  double half_width_rad = 0.0;  // of a strip, in azimuth
 
   Vector3 position_m() const {
     return distance_m * Vector3(std::cos(azimuth_rad), std::sin(azimuth_rad), -elevation_tan);
@@ -28,6 +30,7 @@ struct LampBounds {
   double azimuth_rad = 0.0;  // either way from the guess
   std::array<double, 2> elevation_tan{};
   std::array<double, 2> distance_m{};
+  std::array<double, 2> half_width_rad{};  // equal: widths stay at the guess
 };
 
 struct CalibrateConfig {
@@ -43,11 +46,13 @@ struct CalibrateConfig {
   bool fit_lamps = true;  // else they stay where the guess has them
   int environment_degree = 0;
   bool environment_depth = false;
+  DomeBins dome = {};
   int field_degree = 1;
   double shadow_softness = 0.0;
   double blur_px = 0.0;
-  double ridge = 0.0;  // on the weights, as a part of each feature's own square sum
-  int folds = 0;       // of the cross-validation over balls
+  double relief_slope = 0.0;  // expected deviation of a print's slopes from its mesh; 0: reliefs are not measured
+  double ridge = 0.0;         // on the weights, as a part of each feature's own square sum
+  int folds = 0;              // of the cross-validation over balls
 
   static CalibrateConfig read(ConfigReader& in);
 };

@@ -11,6 +11,7 @@
 #include "common/base/log.h"
 #include "common/base/statistics.h"
 #include "common/optics/seen_membrane.h"
+#include "stages/image/calibrate/fit_lamps.h"
 
 namespace tacipc {
 namespace {
@@ -18,87 +19,12 @@ namespace {
 LightGeometry start_geometry(const CalibrateConfig& config, const Sensor& sensor) {
   LightGeometry geometry{.shadow_softness = config.shadow_softness,
                          .environment_degree = config.environment_degree,
+                         .dome = config.dome,
                          .environment_depth = config.environment_depth,
                          .field_degree = config.field_degree,
                          .field_half_width_m = 0.5 * sensor.camera.window_width_m};
-  for (const LampGuess& lamp : config.lamps) geometry.lamps_m.push_back(lamp.position_m());
+  set_lamps(geometry, config.lamps);
   return geometry;
-}
-
-std::vector<Eigen::MatrixXd> all_features(const std::vector<Ball>& balls, const LightGeometry& geometry) {
-  std::vector<Eigen::MatrixXd> features(balls.size());
-  tbb::parallel_for(std::size_t{0}, balls.size(),
-                    [&](std::size_t i) { features[i] = feature_matrix(geometry, balls[i].view, balls[i].samples); });
-  return features;
-}
-
-std::vector<NormalEquations> all_equations(const std::vector<Ball>& balls,
-                                           const std::vector<Eigen::MatrixXd>& features) {
-  std::vector<NormalEquations> equations(balls.size());
-  tbb::parallel_for(std::size_t{0}, balls.size(),
-                    [&](std::size_t i) { equations[i] = normal_equations(features[i], balls[i].samples); });
-  return equations;
-}
-
-NormalEquations sum_of(const std::vector<NormalEquations>& equations) {
-  NormalEquations sum;
-  for (const NormalEquations& e : equations) sum.add(e);
-  return sum;
-}
-
-/// Residuals of one ball, channel after channel; 0 where a sample is not used.
-Eigen::VectorXd residuals_of(const Samples& samples, const Eigen::MatrixXd& features, const Codes& weights) {
-  const Codes difference = (features * weights - samples.target).cwiseProduct(samples.used);
-  return Eigen::Map<const Eigen::VectorXd>(difference.data(), difference.size());
-}
-
-/// `lamps` at the parameters of the fit.
-std::vector<LampGuess> lamps_at(std::vector<LampGuess> lamps, const Eigen::VectorXd& u) {
-  for (std::size_t l = 0; l < lamps.size(); ++l) {
-    const auto i = static_cast<Eigen::Index>(3 * l);
-    lamps[l].azimuth_rad = u[i];
-    lamps[l].elevation_tan = u[i + 1];
-    lamps[l].distance_m = std::exp(u[i + 2]);
-  }
-  return lamps;
-}
-
-GaussNewtonResult fit_lamps(const std::vector<Ball>& balls, const std::vector<LampGuess>& start, LightGeometry geometry,
-                            const CalibrateConfig& config) {
-  const std::vector<LampGuess>& guess = config.lamps;
-  geometry.environment_degree = 0;
-  geometry.environment_depth = false;
-  const auto n = static_cast<Eigen::Index>(3 * start.size());
-  Eigen::VectorXd u(n);
-  GaussNewtonSettings settings{
-      .step = Eigen::VectorXd::Constant(n, 1e-3), .lower = Eigen::VectorXd(n), .upper = Eigen::VectorXd(n)};
-  for (std::size_t l = 0; l < start.size(); ++l) {
-    const auto i = static_cast<Eigen::Index>(3 * l);
-    u.segment<3>(i) << start[l].azimuth_rad, start[l].elevation_tan, std::log(start[l].distance_m);
-    const LampBounds& bounds = config.bounds;
-    settings.lower.segment<3>(i) << guess[l].azimuth_rad - bounds.azimuth_rad, bounds.elevation_tan[0],
-        std::log(bounds.distance_m[0]);
-    settings.upper.segment<3>(i) << guess[l].azimuth_rad + bounds.azimuth_rad, bounds.elevation_tan[1],
-        std::log(bounds.distance_m[1]);
-  }
-  const auto residuals = [&](const Eigen::VectorXd& at) {
-    geometry.lamps_m.clear();
-    for (const LampGuess& lamp : lamps_at(start, at)) geometry.lamps_m.push_back(lamp.position_m());
-    const auto features = all_features(balls, geometry);
-    const Codes weights = sum_of(all_equations(balls, features)).solve(config.ridge);
-    std::vector<Eigen::VectorXd> parts;
-    Eigen::Index rows = 0;
-    for (std::size_t b = 0; b < balls.size(); ++b)
-      rows += parts.emplace_back(residuals_of(balls[b].samples, features[b], weights)).size();
-    Eigen::VectorXd all(rows);
-    Eigen::Index row = 0;
-    for (const Eigen::VectorXd& part : parts) {
-      all.segment(row, part.size()) = part;
-      row += part.size();
-    }
-    return all;
-  };
-  return gauss_newton(residuals, u, settings);
 }
 
 double label_radius_m(const Ball& ball, const Sensor& sensor) {
@@ -117,15 +43,12 @@ double fitted_gap(const std::vector<Ball>& balls, const BallPress& press, const 
 /// Fits centre and depth of one ball to its photograph under the light as it is, held by its label.
 void fit_ball(Ball& ball, const BallPress& press, const Sensor& sensor, const LightField& light, double sigma_px,
               const CalibrateConfig& config) {
-  // Neighbouring residuals agree over about this many pixels: so many samples count as one.
-  constexpr double kCorrelatedPixels = 100.0;
   const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
-  const double samples_per_fact = kCorrelatedPixels / (config.fit_stride_px * config.fit_stride_px);
   // The label's radius, where two of the centre's uncertainties make one of the depth's: d ≈ a² / R.
   const double contact = label_radius_m(ball, sensor);
   const Vector3 label(ball.x_m, ball.y_m, ball.depth_m);
   const Vector3 sigma = sigma_px * pixel * Vector3(1.0, 1.0, std::max(2.0 * contact / config.ball_radius_m, 0.1));
-  const double typical = std::max(ball.rmse_codes, 1.0) * std::sqrt(samples_per_fact);
+  const double typical = std::max(ball.rmse_codes, 1.0) * std::sqrt(samples_per_fact(config));
   const auto residuals = [&](const Eigen::VectorXd& u) {
     Ball at = ball;
     std::tie(at.x_m, at.y_m, at.depth_m) = std::tuple(u[0], u[1], u[2]);
@@ -162,12 +85,16 @@ std::vector<Part> parts_of(const LightGeometry& geometry) {
   return parts;
 }
 
-double held_out_rmse(const std::vector<NormalEquations>& equations, const Part& part, const CalibrateConfig& config) {
+/// The balls come first among `equations`; the objects behind them are never left out.
+double held_out_rmse(const std::vector<NormalEquations>& equations, std::size_t balls, const Part& part,
+                     const CalibrateConfig& config) {
   double squares = 0.0, count = 0.0;
   for (int fold = 0; fold < config.folds; ++fold) {
     NormalEquations kept, left;
-    for (std::size_t b = 0; b < equations.size(); ++b)
-      (static_cast<int>(b) % config.folds == fold ? left : kept).add(equations[b].part(part.first, part.last));
+    for (std::size_t b = 0; b < equations.size(); ++b) {
+      const bool leave = b < balls && static_cast<int>(b) % config.folds == fold;
+      (leave ? left : kept).add(equations[b].part(part.first, part.last));
+    }
     if (left.gram[0].size() == 0) continue;
     const auto residual = left.residual(kept.solve(config.ridge));
     for (std::size_t c = 0; c < 3; ++c) {
@@ -178,13 +105,25 @@ double held_out_rmse(const std::vector<NormalEquations>& equations, const Part& 
   return std::sqrt(squares / count);
 }
 
+/// Of one photograph under the light of all others.
+double left_out_rmse(const std::vector<NormalEquations>& equations, std::size_t which, const Part& part,
+                     const CalibrateConfig& config) {
+  NormalEquations kept;
+  for (std::size_t b = 0; b < equations.size(); ++b)
+    if (b != which) kept.add(equations[b].part(part.first, part.last));
+  const NormalEquations left = equations[which].part(part.first, part.last);
+  const auto residual = left.residual(kept.solve(config.ridge));
+  return std::sqrt((residual[0] + residual[1] + residual[2]) / (left.count[0] + left.count[1] + left.count[2]));
+}
+
 LightGeometry part_of(const LightGeometry& geometry, ModelKind kind) {
   LightGeometry out = geometry;
   if (kind == ModelKind::lamps) {
     out.environment_degree = 0;
     out.environment_depth = false;
+    out.dome = {};
   }
-  if (kind == ModelKind::environment) out.lamps_m.clear();
+  if (kind == ModelKind::environment) set_lamps(out, {});
   return out;
 }
 
@@ -198,7 +137,8 @@ MembraneView view_ball(const BallPress& press, const Ball& ball, const Sensor& s
   return view_membrane(moved(press.at_depth(ball.depth_m), ball.x_m, ball.y_m, 0.0), press.front, sensor);
 }
 
-LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Sensor& sensor, const CalibrateConfig& config) {
+LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, BallPress* press, const Sensor& sensor,
+                   const CalibrateConfig& config) {
   if (static_cast<int>(balls.size()) < config.folds)
     throw DataError("{} photographs cannot be divided into {} folds", balls.size(), config.folds);
   LightFit fit;
@@ -206,29 +146,37 @@ LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Sensor& sen
   LightGeometry geometry = start_geometry(config, sensor);
   std::vector<LampGuess> lamps = config.lamps;
   std::vector<Ball> labelled = balls;
+  std::vector<Contact*> contacts;
+  for (Ball& ball : balls) contacts.push_back(&ball);
+  for (KnownObject& object : objects) contacts.push_back(&object);
+  const std::vector<const Contact*> seen(contacts.begin(), contacts.end());
   const bool fit_balls = press && config.label_sigma_px > 0.0;
   int rounds = !fit_balls ? 1 : config.fit_contact_gap ? 20 : 3;
   std::vector<NormalEquations> equations;
   for (int round = 0; round < rounds; ++round) {
     if (config.fit_lamps && !lamps.empty()) {
-      fit.lamps = fit_lamps(balls, lamps, geometry, config);
-      lamps = lamps_at(lamps, fit.lamps->parameters);
-      geometry.lamps_m.clear();
-      for (const LampGuess& lamp : lamps) geometry.lamps_m.push_back(lamp.position_m());
+      fit.lamps = fit_lamps(seen, lamps, geometry, config);
+      lamps = lamps_at(lamps, fit.lamps->parameters, config);
+      set_lamps(geometry, lamps);
     }
-    const auto features = all_features(balls, geometry);
-    equations = all_equations(balls, features);
-    fit.light = {.geometry = geometry, .weights = sum_of(equations).solve(config.ridge), .blur_px = config.blur_px};
+    const auto features = all_features(seen, geometry, config.blur_px);
+    Weights best = best_weights(seen, features, config.ridge);
+    equations = std::move(best.equations);
+    fit.light = {.geometry = geometry, .weights = std::move(best.codes), .blur_px = config.blur_px};
     double squares = 0.0, count = 0.0;
-    for (std::size_t b = 0; b < balls.size(); ++b) {
-      const Eigen::VectorXd r = residuals_of(balls[b].samples, features[b], fit.light.weights);
-      balls[b].rmse_codes = std::sqrt(r.squaredNorm() / std::max(balls[b].samples.used.sum(), 1.0));
+    for (std::size_t b = 0; b < contacts.size(); ++b) {
+      const Eigen::VectorXd r = residuals_of(contacts[b]->samples, features[b], fit.light.weights);
+      contacts[b]->rmse_codes = std::sqrt(r.squaredNorm() / std::max(contacts[b]->samples.used.sum(), 1.0));
       squares += r.squaredNorm();
-      count += balls[b].samples.used.sum();
+      count += contacts[b]->samples.used.sum();
     }
-    log_info("round {}: residual {:.3f} codes over {} balls", round + 1, std::sqrt(squares / count), balls.size());
+    log_info("round {}: residual {:.3f} codes over {} photographs", round + 1, std::sqrt(squares / count), seen.size());
     if (round + 1 == rounds) break;
-    tbb::parallel_for(std::size_t{0}, balls.size(), [&](std::size_t b) {
+    tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t b) {
+      if (b >= balls.size()) {
+        fit_object(objects[b - balls.size()], sensor, fit.light);
+        return;
+      }
       Ball ball = labelled[b];  // the label holds it, not the round before
       ball.rmse_codes = balls[b].rmse_codes;
       fit_ball(ball, *press, sensor, fit.light, config.label_sigma_px, config);
@@ -243,14 +191,17 @@ LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Sensor& sen
     press->set_rim(fit.contact_gap_m);
     for (Ball& ball : labelled) ball.depth_m = press->depth_of_contact(label_radius_m(ball, sensor), ball.label.image);
   }
+  if (fit.lamps) fit.knowledge = lamp_knowledge(seen, lamps, geometry, config);
   double best = std::numeric_limits<double>::infinity();
   Part chosen{};
   for (const Part& part : parts_of(geometry)) {
-    fit.held_out.push_back({part.kind, held_out_rmse(equations, part, config)});
+    fit.held_out.push_back({part.kind, held_out_rmse(equations, balls.size(), part, config)});
     if (!(fit.held_out.back().rmse_codes < best)) continue;
     best = fit.held_out.back().rmse_codes;
     chosen = part;
   }
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    objects[o].left_out_rmse_codes = left_out_rmse(equations, balls.size() + o, chosen, config);
   const NormalEquations all = sum_of(equations).part(chosen.first, chosen.last);
   fit.kind = chosen.kind;
   fit.light = {
@@ -258,11 +209,11 @@ LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Sensor& sen
   fit.condition = all.condition();
   const auto residual = all.residual(fit.light.weights);
   double used = 0.0, total = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    fit.rmse_codes[c] = std::sqrt(residual[c] / all.count[c]);
-    used += all.count[c];
+  for (std::size_t c = 0; c < 3; ++c) fit.rmse_codes[c] = std::sqrt(residual[c] / all.count[c]);
+  for (const Contact* contact : seen) {
+    used += contact->samples.used.sum();
+    total += static_cast<double>(contact->samples.used.size());
   }
-  for (const Ball& ball : balls) total += static_cast<double>(ball.samples.used.size());
   fit.unused_fraction = 1.0 - used / total;
   return fit;
 }

@@ -9,20 +9,19 @@
 #include "common/sensor/light_field.h"
 #include "common/sensor/membrane_view.h"
 #include "common/sensor/sensor.h"
+#include "stages/image/calibrate/fit_lamps.h"
 #include "stages/image/calibrate/gauss_newton.h"
+#include "stages/image/calibrate/known_object.h"
 #include "stages/image/calibrate/samples.h"
 
 namespace tacipc {
 
-/// One photograph, its membrane and where the ball is.
-struct Ball {
+/// One photograph of a ball, and where it is.
+struct Ball : Contact {
   BallLabel label;
   double x_m = 0.0;  // of the ball's centre, frame S
   double y_m = 0.0;
   double depth_m = 0.0;
-  MembraneView view;
-  Samples samples;
-  double rmse_codes = 0.0;  // of the samples used, all channels
 };
 
 /// Which parts of the light a model has.
@@ -39,7 +38,8 @@ struct LightFit {
   LightField light;
   ModelKind kind = ModelKind::both;
   std::vector<HeldOut> held_out;           // of every kind the configuration allows
-  std::optional<GaussNewtonResult> lamps;  // azimuth (rad), elevation (tangent), ln distance (m) of each lamp
+  std::optional<GaussNewtonResult> lamps;  // parameters as of fit_lamps
+  std::vector<LampKnowledge> knowledge;    // of each of these parameters
   std::array<double, 3> rmse_codes{};      // per channel, of the fit itself
   double condition = 0.0;                  // of the weights' linear system
   double unused_fraction = 0.0;            // of the samples: clipped
@@ -53,9 +53,9 @@ MembraneView view_ball(const BallPress& press, const Ball& ball, const Sensor& s
 /// labels (label_sigma_px), and the light again. With fit_contact_gap the rim's gap becomes, after every such fit, the
 /// median over balls of the gap at the label's radius, and the labels' depths follow: `press` is left with that rim.
 /// Without, the balls' views stay as they are.
-/// Lamps are fitted by Gauss–Newton on the residual of the best weights (variable projection, Golub and Pereyra
-/// 1973), without environment, so that the lamps explain as much as possible. Then the kind of model is chosen by
-/// cross-validation over the balls.
-LightFit fit_light(std::vector<Ball>& balls, BallPress* press, const Sensor& sensor, const CalibrateConfig& config);
+/// Known objects calibrate beside the balls; where `press` is given they find their places anew as the balls do.
+/// The kind of model is chosen by cross-validation over the balls.
+LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, BallPress* press, const Sensor& sensor,
+                   const CalibrateConfig& config);
 
 }  // namespace tacipc

@@ -1,16 +1,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/units.h"
 #include "common/sample/pose_file.h"
 #include "common/sensor/camera_image.h"
 #include "common/sensor/camera_model.h"
 #include "common/stage/stage.h"
 #include "stages/image/calibrate/fit_light.h"
+#include "stages/image/calibrate/known_object.h"
+#include "stages/image/calibrate/measure_relief.h"
 #include "stages/image/calibrate/modes.h"
 #include "stages/image/calibrate/sensor_file.h"
 
@@ -32,8 +36,16 @@ const StageSpec kCalibrate{
                {.flag = "--labels", .help = "lines `image.png (x, y) radius`, pixels", .required = false},
                {.flag = "--press", .help = "folder of a press of the ball, with increasing depth", .required = false},
                {.flag = "--gel", .help = "gel.msh of that press", .required = false},
+               {.flag = "--objects",
+                .help = "known objects that calibrate too: photographs, places (YAML)",
+                .required = false},
+               {.flag = "--object-press",
+                .help = "folder of a press of such an object in the same gel",
+                .required = false,
+                .many = true,
+                .named = true},
                {.flag = "--shapes",
-                .help = "indentation maps (EXR), one per label, in place of a press",
+                .help = "indentation maps (EXR), one per label, then one per object, in place of presses",
                 .required = false,
                 .many = true},
                {.flag = "--rival",
@@ -52,22 +64,25 @@ ByteImage residual_picture(const ByteImage& simulated, const ByteImage& real) {
   return out;
 }
 
-Value::List lamp_lines(const GaussNewtonResult& lamps) {
+Value::List lamp_lines(const LightFit& fit, int each) {
+  constexpr std::array<const char*, 4> kNames{"azimuth_deg", "elevation_tan", "ln_distance_mm", "half_width_deg"};
   Value::List lines;
-  const Eigen::VectorXd& u = lamps.parameters;
-  const Eigen::VectorXd sigma = lamps.covariance.diagonal().cwiseSqrt();
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  for (Eigen::Index i = 0; i < u.size(); i += 3)
-    lines.push_back(Value::Map{{"azimuth_deg", kDegrees * u[i]},
-                               {"azimuth_sigma_deg", kDegrees * sigma[i]},
-                               {"elevation_tan", u[i + 1]},
-                               {"elevation_tan_sigma", sigma[i + 1]},
-                               {"distance_mm", 1e3 * std::exp(u[i + 2])},
-                               {"distance_relative_sigma", sigma[i + 2]}});
+  Value::Map line;
+  for (std::size_t i = 0; i < fit.knowledge.size(); ++i) {
+    const LampKnowledge& known = fit.knowledge[i];
+    const std::size_t k = i % static_cast<std::size_t>(each);
+    const double unit = k == 0 || k == 3 ? 1.0 / kDegree : 1.0, shift = k == 2 ? std::log(1e3) : 0.0;
+    line.emplace_back(kNames[k], Value::Map{{"value", unit * known.value + shift},
+                                            {"sigma", unit * known.sigma},
+                                            {"sigma_over_prior", known.sigma / known.prior},
+                                            {"told_by", known.told ? "photographs" : "prior"}});
+    if (k + 1 == static_cast<std::size_t>(each)) lines.push_back(std::exchange(line, {}));
+  }
   return lines;
 }
 
-Value::Map summary_of(const LightFit& fit, std::size_t balls) {
+Value::Map summary_of(const LightFit& fit, std::size_t balls, const std::vector<KnownObject>& objects,
+                      int lamp_parameters) {
   Value::Map held_out;
   for (const HeldOut& one : fit.held_out) held_out.emplace_back(name_of(one.kind), one.rmse_codes);
   Value::Map summary{{"photographs", balls},
@@ -76,6 +91,15 @@ Value::Map summary_of(const LightFit& fit, std::size_t balls) {
                      {"rmse_codes", Value::List{fit.rmse_codes[0], fit.rmse_codes[1], fit.rmse_codes[2]}},
                      {"condition_number", fit.condition},
                      {"clipped_fraction", fit.unused_fraction}};
+  Value::List known;
+  for (const KnownObject& object : objects)
+    known.push_back(Value::Map{{"name", object.name},
+                               {"x_mm", 1e3 * object.x_m},
+                               {"y_mm", 1e3 * object.y_m},
+                               {"yaw_deg", object.yaw_rad / kDegree},
+                               {"rmse_codes", object.rmse_codes},
+                               {"left_out_rmse_codes", object.left_out_rmse_codes}});
+  if (!known.empty()) summary.emplace_back("objects", std::move(known));
   if (!fit.lamps) return summary;
   Value::List covariance;
   for (Eigen::Index i = 0; i < fit.lamps->covariance.rows(); ++i) {
@@ -86,7 +110,7 @@ Value::Map summary_of(const LightFit& fit, std::size_t balls) {
   summary.emplace_back("lamps", Value::Map{{"iterations", fit.lamps->iterations},
                                            {"converged", fit.lamps->converged},
                                            {"condition_number", fit.lamps->condition},
-                                           {"fitted", lamp_lines(*fit.lamps)},
+                                           {"fitted", lamp_lines(fit, lamp_parameters)},
                                            {"covariance", std::move(covariance)}});
   return summary;
 }
@@ -110,6 +134,55 @@ void write_calibrated_sensor(Stage& stage, const LightField& light) {
 /// Nearer than this the ball counts as touching the membrane, in balls.csv.
 constexpr double kTouchingM = 2e-5;
 
+std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background, const CalibrateConfig& config,
+                                      const Sensor& sensor, std::size_t balls) {
+  std::vector<KnownObject> objects;
+  const auto& presses = stage.named_inputs("--object-press");
+  if (!stage.optional_input("--objects")) {
+    if (!presses.empty()) throw UsageError("--object-press belongs to --objects");
+    return objects;
+  }
+  const auto& shapes = stage.inputs("--shapes");
+  const CameraModel rays(sensor.camera, sensor.stack);
+  for (const KnownObjectConfig& known : stage.read_config<KnownObjectsConfig>("--objects").objects) {
+    KnownObject object;
+    object.name = known.name;
+    object.fit_yaw = known.fit_yaw;
+    const auto center = rays.on_plane(known.center_px[0] + 0.5, known.center_px[1] + 0.5);
+    if (!center) throw DataError("{}: the camera does not see the front face at its centre", known.name);
+    object.x_m = center->x();
+    object.y_m = center->y();
+    object.box_px = known.box_px;
+    object.photograph = known.photograph;
+    const ByteImage photograph =
+        read_photograph(*stage.optional_input("--photographs") / known.photograph, sensor.camera);
+    object.samples = make_samples(
+        photograph, background, known.photograph, [&](int x, int y) { return object.inside(x, y); },
+        [&](int x, int y) { return !object.inside(x, y); }, config.fit_stride_px);
+    if (!shapes.empty()) {
+      const std::size_t at = balls + objects.size();
+      if (at < shapes.size()) object.view = view_height_map(read_camera_exr(shapes[at], {"Y"}, sensor.camera), sensor);
+    } else {
+      const auto press =
+          std::find_if(presses.begin(), presses.end(), [&](const NamedPath& one) { return one.name == known.name; });
+      if (press == presses.end()) throw UsageError(fmt::format("--object-press {}=… is missing", known.name));
+      FrontFrames frames = read_front_frames(press->path, *stage.optional_input("--gel"));
+      if (static_cast<std::size_t>(known.frame) >= frames.frames.size())
+        throw DataError("{}: has no frame {}", press->path.string(), known.frame);
+      object.triangles = std::move(frames.triangles);
+      object.front = std::move(frames.frames[static_cast<std::size_t>(known.frame)]);
+      object.origin_z_m = frames.gel_from_object[static_cast<std::size_t>(known.frame)](2, 3);
+      if (known.frame > 1) {
+        object.front_before = std::move(frames.frames[static_cast<std::size_t>(known.frame) - 1]);
+        object.origin_z_before_m = frames.gel_from_object[static_cast<std::size_t>(known.frame) - 1](2, 3);
+      }
+      object.view = view_object(object, sensor);
+    }
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
 void calibrate_balls(Stage& stage) {
   if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
     throw UsageError("give --photographs and --labels of balls, or --basis, or a configuration with sensor_fit");
@@ -122,8 +195,11 @@ void calibrate_balls(Stage& stage) {
   const Camera& camera = sensor.camera;
   const ByteImage background = read_photograph(stage.input("--background"), camera);
   const auto labels = read_labels(*stage.optional_input("--labels"));
-  if (!shapes.empty() && shapes.size() != labels.size())
-    throw UsageError(fmt::format("{} --shapes for {} labels", shapes.size(), labels.size()));
+  std::vector<KnownObject> objects = read_objects(stage, background, config, sensor, labels.size());
+  if (!shapes.empty() && shapes.size() != labels.size() + objects.size())
+    throw UsageError(objects.empty() ? fmt::format("{} --shapes for {} labels", shapes.size(), labels.size())
+                                     : fmt::format("{} --shapes for {} labels and {} objects", shapes.size(),
+                                                   labels.size(), objects.size()));
   std::optional<BallPress> press;
   if (press_folder) press = read_ball_press(*press_folder, *gel, config.ball_radius_m, config.contact_gap_m);
 
@@ -136,12 +212,11 @@ void calibrate_balls(Stage& stage) {
     photographs.push_back(read_photograph(*stage.optional_input("--photographs") / label.image, camera));
     const auto center = rays.on_plane(label.x_px + 0.5, label.y_px + 0.5);
     if (!center) throw DataError("{}: the camera does not see the front face at the label's centre", label.image);
-    Ball ball{.label = label,
-              .x_m = center->x(),
-              .y_m = center->y(),
-              .depth_m = 0.0,
-              .view = {},
-              .samples = make_samples(photographs.back(), background, label, config)};
+    Ball ball;
+    ball.label = label;
+    ball.x_m = center->x();
+    ball.y_m = center->y();
+    ball.samples = make_samples(photographs.back(), background, label, config);
     if (press) {
       ball.depth_m = press->depth_of_contact(label.radius_px * pixel, label.image);
       ball.view = view_ball(*press, ball, sensor);
@@ -151,7 +226,7 @@ void calibrate_balls(Stage& stage) {
     }
     balls.push_back(std::move(ball));
   }
-  const LightFit fit = fit_light(balls, press ? &*press : nullptr, sensor, config);
+  const LightFit fit = fit_light(balls, objects, press ? &*press : nullptr, sensor, config);
 
   write_file(stage.output("light.yaml"), to_yaml(fit.light.to_value()));
   write_calibrated_sensor(stage, fit.light);
@@ -175,7 +250,12 @@ void calibrate_balls(Stage& stage) {
     write_poses(stage, ball_poses_field(), poses);
     write_file(stage.output("contact.yaml"), to_yaml(Value::Map{{"contact_gap_mm", 1e3 * fit.contact_gap_m}}));
   }
-  Value::Map summary = summary_of(fit, balls.size());
+  if (press && config.relief_slope > 0.0)
+    for (const KnownObject& object : objects)
+      measure_relief(object, read_photograph(*stage.optional_input("--photographs") / object.photograph, camera),
+                     background, fit.light, sensor, config.relief_slope)
+          .write(stage.output("relief/" + object.name + ".exr"));
+  Value::Map summary = summary_of(fit, balls.size(), objects, parameters_per_lamp(config));
   if (press) summary.emplace_back("contact_gap_mm", 1e3 * fit.contact_gap_m);
   stage.summarize(summary);
 }

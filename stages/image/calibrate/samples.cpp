@@ -9,59 +9,132 @@
 
 namespace tacipc {
 
-Samples make_samples(const ByteImage& photograph, const ByteImage& background, const BallLabel& label,
-                     const CalibrateConfig& config) {
+Samples make_samples(const ByteImage& photograph, const ByteImage& background, const std::string& image,
+                     const std::function<bool(int, int)>& inside, const std::function<bool(int, int)>& far,
+                     int stride) {
   Samples samples;
   std::array<double, 3> sum{};
   double count = 0.0;
   for (int y = 0; y < photograph.height; ++y) {
     for (int x = 0; x < photograph.width; ++x) {
-      const double distance = std::hypot(x - label.x_px, y - label.y_px);
-      if (distance > config.drift_radius_px) {
+      if (far(x, y)) {
         for (int c = 0; c < 3; ++c)
           sum[static_cast<std::size_t>(c)] += int{photograph.at(x, y, c)} - int{background.at(x, y, c)};
         count += 1.0;
       }
-      if (distance < config.fit_radius_px && x % config.fit_stride_px == 0 && y % config.fit_stride_px == 0)
-        samples.pixels.push_back({x, y});
+      if (x % stride == 0 && y % stride == 0 && inside(x, y)) samples.pixels.push_back({x, y});
     }
   }
-  if (count == 0.0) throw DataError("{}: no pixel is farther than drift_radius_px from the contact", label.image);
+  if (count == 0.0) throw DataError("{}: no pixel lies far enough from the contact to tell the drift", image);
   const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
   samples.target.resize(rows, 3);
   samples.used.resize(rows, 3);
+  samples.clipped.resize(rows, 3);
   for (int c = 0; c < 3; ++c) {
     const double drift = samples.drift[static_cast<std::size_t>(c)] = sum[static_cast<std::size_t>(c)] / count;
     for (Eigen::Index i = 0; i < rows; ++i) {
       const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
       const int code = photograph.at(x, y, c), before = background.at(x, y, c);
+      const bool known = before > 0 && before < 255;
       samples.target(i, c) = code - before - drift;
-      samples.used(i, c) = code > 0 && code < 255 && before > 0 && before < 255 ? 1.0 : 0.0;
+      samples.used(i, c) = known && code > 0 && code < 255 ? 1.0 : 0.0;
+      samples.clipped(i, c) = !known ? 0.0 : code == 0 ? -1.0 : code == 255 ? 1.0 : 0.0;
     }
   }
   return samples;
 }
 
-Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples) {
+Samples make_samples(const ByteImage& photograph, const ByteImage& background, const BallLabel& label,
+                     const CalibrateConfig& config) {
+  const auto distance = [&](int x, int y) { return std::hypot(x - label.x_px, y - label.y_px); };
+  return make_samples(
+      photograph, background, label.image, [&](int x, int y) { return distance(x, y) < config.fit_radius_px; },
+      [&](int x, int y) { return distance(x, y) > config.drift_radius_px; }, config.fit_stride_px);
+}
+
+Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples,
+                               double blur_px) {
   const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> out(rows, geometry.num_features());
+  if (blur_px == 0.0 || rows == 0) {
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
+      light_features(geometry, view, x, y, out.row(i).data());
+    }
+    return out;
+  }
+  // The field varies so little within a blur that bases are blurred before it is put on them.
+  const auto [left, right] = std::minmax_element(samples.pixels.begin(), samples.pixels.end());
+  const auto by_row = [](const auto& a, const auto& b) { return a[1] < b[1]; };
+  const auto [top, bottom] = std::minmax_element(samples.pixels.begin(), samples.pixels.end(), by_row);
+  const int margin = static_cast<int>(std::ceil(4.0 * blur_px));
+  const int x0 = std::max((*left)[0] - margin, 0), y0 = std::max((*top)[1] - margin, 0);
+  const int x1 = std::min((*right)[0] + margin + 1, view.width), y1 = std::min((*bottom)[1] + margin + 1, view.height);
+  FloatImage bases(x1 - x0, y1 - y0, geometry.num_bases());
+  std::vector<double> pixel(static_cast<std::size_t>(geometry.num_bases()));
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      light_bases(geometry, view, x, y, view.normal[view.index(x, y)], pixel.data());
+      for (int k = 0; k < bases.channels; ++k)
+        bases.at(x - x0, y - y0, k) = static_cast<float>(pixel[static_cast<std::size_t>(k)]);
+    }
+  const FloatImage blurred = gaussian_blurred(bases, blur_px);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
-    light_features(geometry, view, x, y, out.row(i).data());
+    for (int k = 0; k < bases.channels; ++k) pixel[static_cast<std::size_t>(k)] = double{blurred.at(x - x0, y - y0, k)};
+    spread_over_field(geometry, view.rest[view.index(x, y)], pixel.data(), out.row(i).data());
   }
   return out;
 }
 
-NormalEquations normal_equations(const Eigen::MatrixXd& features, const Samples& samples) {
+Codes active_samples(const Samples& samples, const Codes& simulated) {
+  const Codes beyond = (simulated - samples.target).cwiseProduct(samples.clipped);
+  return samples.used + (beyond.array() < 0.0).cast<double>().matrix();
+}
+
+Eigen::VectorXd residuals_of(const Samples& samples, const Eigen::MatrixXd& features, const Codes& weights) {
+  const Codes simulated = features * weights;
+  const Codes difference = (simulated - samples.target).cwiseProduct(active_samples(samples, simulated));
+  return Eigen::Map<const Eigen::VectorXd>(difference.data(), difference.size());
+}
+
+namespace {
+
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& features, const std::vector<Eigen::Index>& rows) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), features.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = features.row(rows[i]);
+  return out;
+}
+
+Eigen::MatrixXd gram_of(const Eigen::MatrixXd& features) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(features.cols(), features.cols());
+  if (features.rows() == 0) return gram;
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(features.transpose());
+  return gram.selfadjointView<Eigen::Lower>();
+}
+
+}  // namespace
+
+NormalEquations normal_equations(const Eigen::MatrixXd& features, const Samples& samples, const Codes& active) {
+  // Nearly all samples count in all channels: their sums are formed once.
+  std::vector<Eigen::Index> common;
+  std::array<std::vector<Eigen::Index>, 3> own;
+  for (Eigen::Index i = 0; i < features.rows(); ++i) {
+    if (active.row(i).minCoeff() > 0.0)
+      common.push_back(i);
+    else
+      for (Eigen::Index c = 0; c < 3; ++c)
+        if (active(i, c) > 0.0) own[static_cast<std::size_t>(c)].push_back(i);
+  }
+  const Eigen::MatrixXd shared = gram_of(rows_of(features, common));
   NormalEquations out;
   for (Eigen::Index c = 0; c < 3; ++c) {
     const auto k = static_cast<std::size_t>(c);
-    const Eigen::MatrixXd weighted = features.array().colwise() * samples.used.col(c).array();
-    const Eigen::VectorXd target = samples.target.col(c).cwiseProduct(samples.used.col(c));
-    out.gram[k] = weighted.transpose() * features;
+    const Eigen::VectorXd target = samples.target.col(c).cwiseProduct(active.col(c));
+    out.gram[k] = shared + gram_of(rows_of(features, own[k]));
     out.moment[k] = features.transpose() * target;
     out.square[k] = target.squaredNorm();
-    out.count[k] = samples.used.col(c).sum();
+    out.count[k] = active.col(c).sum();
   }
   return out;
 }

@@ -9,13 +9,21 @@ Positions at_place(const Positions& front, const ImagePlace& place, const Sensor
   return moved(front, pose(0, 3), pose(1, 3), place.yaw_rad);
 }
 
+MembraneView view_at(const FrontFrames& press, int frame, const ImagePlace& place, const PrintRelief* relief,
+                     const Sensor& sensor) {
+  const auto at = static_cast<std::size_t>(frame);
+  MembraneView view = view_membrane(at_place(press.frames[at], place, sensor), press.triangles, sensor);
+  if (!relief) return view;
+  const Vector3 axis = plane_point(place, sensor);
+  apply_relief(*relief, {axis.x(), axis.y(), place.yaw_rad, press.gel_from_object[at](2, 3)}, view);
+  return view;
+}
+
 FittedPlace fit_place(const FrontFrames& press, int frame, const ImagePlace& start, const PlaceFit& fit,
                       const ByteImage& photograph, const ByteImage& background, const LightField& light,
-                      const Sensor& sensor) {
+                      const Sensor& sensor, const PrintRelief* relief) {
   return search_place(start, fit, photograph, [&](const ImagePlace& place) {
-    const auto& front = press.frames[static_cast<std::size_t>(frame)];
-    const MembraneView view = view_membrane(at_place(front, place, sensor), press.triangles, sensor);
-    return add_change(background, code_change(light, view));
+    return add_change(background, code_change(light, view_at(press, frame, place, relief, sensor)));
   });
 }
 

@@ -9,6 +9,7 @@
 #include "common/optics/seen_membrane.h"
 #include "common/sample/pose_file.h"
 #include "common/sensor/camera_image.h"
+#include "common/sensor/print_relief.h"
 #include "common/stage/stage.h"
 #include "stages/image/shade/fit_place.h"
 
@@ -27,6 +28,7 @@ const StageSpec kShade{
                {.flag = "--gel", .help = "gel.msh of that press", .required = false},
                {.flag = "--contact", .help = "contact.yaml of calibrate: contacts of a ball", .required = false},
                {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false},
+               {.flag = "--relief", .help = "the object's print, of calibrate (EXR); with --press", .required = false},
                {.flag = "--shapes",
                 .help = "indentation maps (EXR), one per image, in place of a press",
                 .required = false,
@@ -63,6 +65,8 @@ void shade_press(Stage& stage, const ImagePlaces& config, const Sensor& sensor, 
                  const ByteImage& background) {
   const auto folder = *stage.optional_input("--press");
   const FrontFrames press = read_front_frames(folder, *stage.optional_input("--gel"));
+  std::optional<PrintRelief> relief;
+  if (const auto file = stage.optional_input("--relief")) relief = PrintRelief::read(*file, sensor.camera);
   for (const NamedFrame& image : config.images)
     if (static_cast<std::size_t>(image.frame) >= press.frames.size())
       throw DataError("{}: {} is to be frame {}, the press has frames up to {}", folder.string(), image.name,
@@ -72,14 +76,14 @@ void shade_press(Stage& stage, const ImagePlaces& config, const Sensor& sensor, 
     const ByteImage photograph = read_photograph(*stage.optional_input("--photograph"), sensor.camera);
     for (const NamedFrame& image : config.images)
       if (image.name == config.fit->image)
-        fitted = fit_place(press, image.frame, config.place, *config.fit, photograph, background, light, sensor);
+        fitted = fit_place(press, image.frame, config.place, *config.fit, photograph, background, light, sensor,
+                           relief ? &*relief : nullptr);
   }
   std::vector<Matrix4> poses;
   for (const NamedFrame& image : config.images) {
     const auto frame = static_cast<std::size_t>(image.frame);
-    deliver(stage, image.name,
-            view_membrane(at_place(press.frames[frame], fitted.place, sensor), press.triangles, sensor), sensor, light,
-            background);
+    const MembraneView view = view_at(press, image.frame, fitted.place, relief ? &*relief : nullptr, sensor);
+    deliver(stage, image.name, view, sensor, light, background);
     poses.emplace_back(place_pose(fitted.place, sensor) * press.gel_from_object[frame]);
   }
   write_poses(stage, image_poses_field(), poses);
@@ -132,6 +136,8 @@ int main(int argc, char** argv) {
       throw UsageError("--photograph: needed where a press is to be fitted to it, and only there");
     if (stage.optional_input("--contact").has_value() != (press && config.ball_radius_m.has_value()))
       throw UsageError("--contact: needed where a press is to match contacts of a ball, and only there");
+    if (stage.optional_input("--relief").has_value() && (!press || config.ball_radius_m))
+      throw UsageError("--relief: for a press at a depth, and only there");
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const auto light = stage.read_config<LightField>("--light");
     const ByteImage background = read_photograph(stage.input("--background"), sensor.camera);

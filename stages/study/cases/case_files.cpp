@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace tacipc {
@@ -44,6 +45,24 @@ std::string shade(const ObjectCase& object) {
                             object.fit_yaw);
 }
 
+/// What calibrate takes of objects that calibrate; empty if none does.
+std::string known_objects(const BenchmarkCases& cases) {
+  std::string text;
+  for (const ObjectCase& object : cases.objects) {
+    int frame = 0;
+    for (const PhotographCase& image : object.images) {
+      ++frame;
+      if (image.name != object.calibrates) continue;
+      const auto& box = object.box_px;
+      text += fmt::format(
+          "  - {{name: {}, photograph: {}, frame: {}, center_px: [{}, {}], box_px: [{}, {}, {}, {}], yaw: {}}}\n",
+          object.name, image.photograph, frame, object.center_px[0], object.center_px[1], box[0], box[1], box[2],
+          box[3], object.fit_yaw);
+    }
+  }
+  return text.empty() ? text : "objects:\n" + text;
+}
+
 std::string metrics(const BenchmarkCases& cases) {
   std::string text = "kind: images\noffset_outside_box: true\nboxes:\n";
   // The metrics name images below the folder that all have in common, which with one object is the object's.
@@ -83,7 +102,7 @@ std::string variables(const BenchmarkCases& cases, const std::string& folder) {
                                    {"CALIBRATE", cases.calibrate},
                                    {"BASELINE", cases.baseline}})
     set(name, setting(path));
-  std::string objects;
+  std::string objects, known;
   for (const ObjectCase& object : cases.objects) {
     objects += (objects.empty() ? "" : " ") + object.name;
     std::string images;
@@ -93,9 +112,16 @@ std::string variables(const BenchmarkCases& cases, const std::string& folder) {
     }
     set("IMAGES_" + object.name, images);
     set("FIT_" + object.name, object.fit_image);
+    if (!object.calibrates.empty()) {
+      known += (known.empty() ? "" : " ") + object.name;
+      const auto at = std::find_if(object.images.begin(), object.images.end(),
+                                   [&](const PhotographCase& image) { return image.name == object.calibrates; });
+      set("KNOWN_FRAME_" + object.name, fmt::format("{}", at - object.images.begin() + 1));
+    }
     set("MESH_" + object.name, object.mesh.empty() ? "" : cases.data + "/" + object.mesh);
   }
   set("OBJECTS", objects);
+  set("KNOWN", known);
   return text;
 }
 
@@ -112,6 +138,7 @@ std::vector<std::pair<std::string, std::string>> case_files(const BenchmarkCases
     files.emplace_back("labels.txt", labels(cases.labels_of_circles));
     files.emplace_back("background.yaml", fmt::format("contact_radii: {}\n", cases.circle_table->background_radii));
   }
+  if (const std::string known = known_objects(cases); !known.empty()) files.emplace_back("known_objects.yaml", known);
   for (const ObjectCase& object : cases.objects) {
     if (!cases.circle_table) {  // else the press that calibrates serves
       files.emplace_back("objects/" + object.name + "/indenter.yaml", indenter(object, cases));

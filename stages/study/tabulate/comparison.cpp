@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <set>
 
 #include "common/base/error.h"
 #include "stages/study/tabulate/markdown.h"
@@ -35,6 +36,12 @@ std::size_t place_of(const MethodScores& method, const std::string& image) {
   throw DataError("row '{}': {} was not measured", method.row.name, image);
 }
 
+std::string remark(const PhotographCase& image, const ObjectCase& object) {
+  const bool place = image.name == object.fit_image;
+  if (image.name == object.calibrates) return place ? " (calibrates, place; in no mean)" : " (calibrates; in no mean)";
+  return place ? " (fitted place)" : "";
+}
+
 }  // namespace
 
 ComparisonConfig ComparisonConfig::read(ConfigReader& in) {
@@ -47,7 +54,10 @@ ComparisonConfig ComparisonConfig::read(ConfigReader& in) {
 
 std::vector<MethodScores> read_comparison(const std::vector<NamedPath>& tables, const ComparisonConfig& config,
                                           const BenchmarkCases& cases) {
-  auto methods = read_methods(tables, config.rows, kRegions, kColumns);
+  std::set<std::string> calibrating;
+  for (const ObjectCase& object : cases.objects)
+    if (!object.calibrates.empty()) calibrating.insert(object.calibrates);
+  auto methods = read_methods(tables, config.rows, kRegions, kColumns, calibrating);
   for (const MethodScores& method : methods)
     if (method.runs > 1) throw DataError("{}: a comparison takes one table for each method", method.row.method);
   std::size_t images = 0;
@@ -84,8 +94,8 @@ std::string to_markdown(const std::vector<MethodScores>& methods, const Benchmar
       add_cells(cells, [&, &in = region](const std::string& column) { return method.cell(in, column).mean; });
     text += markdown_row(cells);
   }
-  text += fmt::format("\nMeans over {} photographs; the first four columns in the contact box. ",
-                      methods.front().images.size());
+  text +=
+      fmt::format("\nMeans over {} photographs; the first four columns in the contact box. ", methods.front().counted);
   if (const auto& must = cases.must)
     text += fmt::format("Required of the first row there: SSIM-S {}, MAE {}, PSNR {} dB{}; ahead of ", (*must)[0],
                         (*must)[1], (*must)[2], verdict.musts ? " (holds)" : " (**missed**)");
@@ -99,7 +109,7 @@ std::string to_markdown(const std::vector<MethodScores>& methods, const Benchmar
   text += markdown_head(headings);
   for (const ObjectCase& object : cases.objects)
     for (const PhotographCase& image : object.images) {
-      std::vector<std::string> cells{image.name + (image.name == object.fit_image ? " (fitted place)" : "")};
+      std::vector<std::string> cells{image.name + remark(image, object)};
       for (const MethodScores& method : methods)
         add_cells(cells, [&, i = place_of(method, image.name)](const std::string& column) {
           return method.cell("box", column).values[i];

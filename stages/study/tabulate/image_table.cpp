@@ -140,7 +140,7 @@ std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableC
   std::string text;
   for (const ShownRegion& region : config.regions) text += region_table(region, rows, config) + "\n";
   text += fmt::format("{}: mean ± standard deviation over {} images{}.", markdown_cell(config.title),
-                      rows.front().images.size(), of_runs(rows));
+                      rows.front().counted, of_runs(rows));
   if (config.printed) text += fmt::format(" Printed numbers: {}.", config.printed->source);
   text += "\n";
   text += markdown_paragraph(config.caption);
@@ -157,9 +157,9 @@ std::string to_csv(const std::vector<MethodScores>& rows, const ImageTableConfig
     for (const MethodScores& row : rows)
       for (const ShownColumn& column : config.columns) {
         const MeanDeviation& cell = row.cell(region.region, column.column);
-        text += csv_line({row.row.name, row.row.group, region.region, column.column,
-                          fmt::format("{}", row.images.size()), fmt::format("{}", row.runs),
-                          fmt::format("{}", cell.mean), fmt::format("{}", cell.deviation), ""});
+        text += csv_line({row.row.name, row.row.group, region.region, column.column, fmt::format("{}", row.counted),
+                          fmt::format("{}", row.runs), fmt::format("{}", cell.mean), fmt::format("{}", cell.deviation),
+                          ""});
       }
   if (!config.printed) return text;
   for (const PrintedRow& row : config.printed->rows)

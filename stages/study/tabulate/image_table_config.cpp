@@ -103,6 +103,7 @@ ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
                               .heading = item.text("heading")});
     refuse_repeats(item, "region", config.regions, &ShownRegion::region);
   }
+  config.uncounted = in.texts("uncounted");
   for (ConfigReader& item : in.one_or_more_sections("rows")) {
     config.rows.push_back(
         {.name = item.text("name"), .method = item.text("method"), .group = item.text_or("group", "")});

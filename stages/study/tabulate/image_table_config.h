@@ -79,6 +79,7 @@ struct ImageTableConfig {
   std::vector<ShownColumn> columns;
   std::vector<ShownRegion> regions;
   std::vector<MeasuredRow> rows;
+  std::vector<std::string> uncounted;  // images that were measured but calibrate: in no mean
   std::optional<PrintedRows> printed;
   std::vector<Finding> findings;
   std::vector<SheetConfig> sheets;

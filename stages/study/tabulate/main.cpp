@@ -92,7 +92,8 @@ void check_flags(const Stage& stage, const std::string& kind) {
 }
 
 void make(Stage& stage, const ImageTableConfig& config) {
-  const auto rows = read_methods(stage.named_inputs("--samples"), config.rows, config.regions, config.columns);
+  const auto rows = read_methods(stage.named_inputs("--samples"), config.rows, config.regions, config.columns,
+                                 {config.uncounted.begin(), config.uncounted.end()});
   for (const SheetConfig& sheet : config.sheets) {
     const auto pictures = pictures_of_columns(stage.named_inputs("--pictures"), sheet);
     write_png(stage.output(in_folder(config.link_folder, sheet.name + ".png")), picture_sheet(pictures, sheet));

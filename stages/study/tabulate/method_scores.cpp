@@ -28,7 +28,7 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
 }
 
 MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::vector<ShownRegion>& regions,
-                      const std::vector<ShownColumn>& columns) {
+                      const std::vector<ShownColumn>& columns, const std::set<std::string>& uncounted) {
   MethodScores scores{.row = row, .images = {}, .cells = {}};
   std::map<std::string, std::vector<std::string>> images;  // by region
   CsvReader csv(table);
@@ -54,7 +54,12 @@ MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::
       throw DataError("{}: region {} has other images than region {}", table.string(), region, regions.front().region);
     for (const ShownColumn& shown : columns) {
       auto& cell = scores.cells[{region, shown.column}];
-      static_cast<MeanDeviation&>(cell) = mean_of(cell.values, shown.geometric);
+      std::vector<double> counted;
+      for (std::size_t i = 0; i < cell.values.size(); ++i)
+        if (!uncounted.contains(fs::path(scores.images[i]).stem().string())) counted.push_back(cell.values[i]);
+      if (counted.empty()) throw DataError("{}: none of its images counts", table.string());
+      static_cast<MeanDeviation&>(cell) = mean_of(counted, shown.geometric);
+      scores.counted = counted.size();
     }
   }
   return scores;
@@ -62,13 +67,14 @@ MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::
 
 /// Means over the images of each run, and of each image over the runs.
 MethodScores read_method(const std::vector<fs::path>& tables, const MeasuredRow& row,
-                         const std::vector<ShownRegion>& regions, const std::vector<ShownColumn>& columns) {
-  MethodScores scores = read_run(tables.front(), row, regions, columns);
+                         const std::vector<ShownRegion>& regions, const std::vector<ShownColumn>& columns,
+                         const std::set<std::string>& uncounted) {
+  MethodScores scores = read_run(tables.front(), row, regions, columns, uncounted);
   if (tables.size() == 1) return scores;
   scores.runs = tables.size();
   std::vector<MethodScores> runs{scores};
   for (std::size_t run = 1; run < tables.size(); ++run) {
-    runs.push_back(read_run(tables[run], row, regions, columns));
+    runs.push_back(read_run(tables[run], row, regions, columns, uncounted));
     if (runs.back().images != scores.images)
       throw DataError("{}: has other images, or another order of them, than {}", tables[run].string(),
                       tables.front().string());
@@ -101,8 +107,8 @@ std::string difference(const std::vector<std::string>& a, const std::vector<std:
 }  // namespace
 
 std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, const std::vector<MeasuredRow>& rows,
-                                       const std::vector<ShownRegion>& regions,
-                                       const std::vector<ShownColumn>& columns) {
+                                       const std::vector<ShownRegion>& regions, const std::vector<ShownColumn>& columns,
+                                       const std::set<std::string>& uncounted) {
   std::map<std::string, std::vector<fs::path>> by_method;
   for (const NamedPath& table : tables) {
     auto& runs = by_method[table.name];
@@ -115,7 +121,7 @@ std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, con
   for (const MeasuredRow& row : rows) {
     const auto place = by_method.find(row.method);
     if (place == by_method.end()) throw DataError("row '{}': no table was given for {}", row.name, row.method);
-    methods.push_back(read_method(place->second, row, regions, columns));
+    methods.push_back(read_method(place->second, row, regions, columns, uncounted));
     const auto first = sorted(methods.front().images), these = sorted(methods.back().images);
     if (these != first)
       throw DataError("{}: was measured on other images than the first row; {} is only in one of them",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,18 +21,20 @@ struct MethodScores {
   };
   MeasuredRow row;
   std::size_t runs = 1;
+  std::size_t counted = 0;                                    // images in the means
   std::vector<std::string> images;                            // in the order of samples.csv, the same in all regions
   std::map<std::pair<std::string, std::string>, Cell> cells;  // by region and column of samples.csv
 
   const Cell& cell(const std::string& region, const std::string& column) const { return cells.at({region, column}); }
 };
 
+/// Images named in `uncounted` (without folder and ending) are read and stay out of the means.
 /// The samples.csv of metrics, given by their methods, in the order of the rows. Several of one method are its runs:
 /// mean and deviation are then those of their means over the images. \throw DataError if a row has no table, a table no
 /// row, a table lacks a column or region or has an image twice, or regions, methods or runs were not measured on images
 /// of the same names
 std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, const std::vector<MeasuredRow>& rows,
-                                       const std::vector<ShownRegion>& regions,
-                                       const std::vector<ShownColumn>& columns);
+                                       const std::vector<ShownRegion>& regions, const std::vector<ShownColumn>& columns,
+                                       const std::set<std::string>& uncounted = {});
 
 }  // namespace tacipc

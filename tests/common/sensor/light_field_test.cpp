@@ -154,6 +154,44 @@ TEST(Features, OfDepthComeLastAndComeBackFromTheirFile) {
   EXPECT_EQ(read.weights, light.weights);
 }
 
+TEST(Features, OfADomeStandBetweenLampsAndPolynomialAndComeBackFromTheirFile) {
+  LightField light = example();
+  light.geometry.dome = {.azimuths = 4, .elevation_tan = {0.0, 0.5}};
+  light.geometry.lamp_half_width_rad = {0.0, 0.3};
+  ASSERT_EQ(light.geometry.num_features(), 3 * (2 * 2 + 8 + 5));
+  light.weights.resize(light.geometry.num_features(), 3);
+  for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
+  const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
+  Eigen::VectorXd f(light.geometry.num_features());
+  light_features(light.geometry, view, 45, 10, f.data());
+  std::vector<double> dome(8);
+  dome_irradiance(light.geometry.dome, view, 45, 10, view.normal[view.index(45, 10)], dome.data());
+  for (Eigen::Index k = 0; k < 8; ++k) EXPECT_EQ(f[12 + 3 * k], dome[static_cast<std::size_t>(k)]) << k;
+  EXPECT_NEAR(f[12 + 3 * 8], view.normal[view.index(45, 10)].x(), 1e-15);
+  const LightField read = config_from_text<LightField>(to_yaml(light.to_value()), "light.yaml");
+  EXPECT_EQ(read.weights, light.weights);
+  EXPECT_EQ(read.geometry.dome.elevation_tan, light.geometry.dome.elevation_tan);
+  EXPECT_NEAR(read.geometry.lamp_half_width_rad[1], 0.3, 1e-15);
+  EXPECT_THAT(faults_in<LightField>("light_field: {field_half_width_mm: 1, shadow_softness: 0.1, blur_px: 0, dome: "
+                                    "{azimuths: 3, bands: 2, elevation_tan: [1, 0.5]}}\n",
+                                    "l.yaml"),
+              testing::Contains(testing::HasSubstr("elevation_tan: expected the bands' lower edges, ascending")));
+}
+
+TEST(RelativeIrradiance, OfAWideLampIsTheMeanOverItsWidth) {
+  // No distance and no shadow matters: q is the mean of the points' q, each times its share of the flat irradiance,
+  // which on the axis is the same for all.
+  LightGeometry geometry{.lamps_m = {{20e-3, 0, -9e-3}}, .lamp_half_width_rad = {0.6}, .shadow_softness = 0.01};
+  const MembraneView slope = view_of([](double x, double y) { return 0.2 * x + 0.1 * y; }, sensor(61, 41));
+  double sum = 0.0;
+  constexpr int kPoints = 2001;
+  for (int i = 0; i < kPoints; ++i) {
+    const double turn = 0.6 * (2.0 * i / (kPoints - 1) - 1.0);
+    sum += relative_irradiance(slope, 30, 20, Eigen::AngleAxisd(turn, Vector3::UnitZ()) * geometry.lamps_m[0], 0.01);
+  }
+  EXPECT_NEAR(relative_irradiance(geometry, slope, 30, 20, slope.normal[slope.index(30, 20)], 0), sum / kPoints, 1e-4);
+}
+
 TEST(LightFieldFile, ReadsBackToTheSameBits) {
   const LightField light = example(), again = config_from_text<LightField>(to_yaml(light.to_value()), "light.yaml");
   EXPECT_EQ(again.weights, light.weights);

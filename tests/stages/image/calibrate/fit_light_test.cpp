@@ -194,7 +194,8 @@ TEST(FitLight, FindsLampsFromPhotographsOfBalls) {
   const CalibrateConfig settings = config();
   std::vector<Ball> balls = synthetic_balls(true_light(), settings);
   EXPECT_NEAR(balls[0].samples.drift[2], 3.0, 0.2);
-  const LightFit fit = fit_light(balls, nullptr, sensor(), settings);
+  std::vector<KnownObject> objects;
+  const LightFit fit = fit_light(balls, objects, nullptr, sensor(), settings);
   ASSERT_TRUE(fit.lamps.has_value());
   const Eigen::VectorXd& u = fit.lamps->parameters;
   const double degrees[] = {22.0, 118.0, 255.0}, elevation[] = {0.42, 0.55, 0.47};
@@ -270,16 +271,108 @@ TEST(FitLight, FindsWhichRimTheLabelsMean) {
     balls.push_back(std::move(ball));
   }
   settings.folds = 3;
-  const LightFit fit = fit_light(balls, &press, sensor(), settings);
+  std::vector<KnownObject> objects;
+  const LightFit fit = fit_light(balls, objects, &press, sensor(), settings);
   EXPECT_NEAR(fit.contact_gap_m, kSeen, 6e-6);
   for (std::size_t i = 0; i < balls.size(); ++i) EXPECT_NEAR(balls[i].depth_m, depths[i], 8e-6) << i;
+}
+
+/// A block of 4 × 4 mm, 0.8 mm deep, its walls at 60°, and the front flat beside it.
+MembraneView block_view(double x_m, double y_m) {
+  FloatImage map(120, 120, 1);
+  const Pinhole pinhole(sensor().camera);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 120; ++x) {
+      const Vector3 p = pinhole.plane_point(x, y);
+      const double beside = std::max(std::abs(p.x() - x_m), std::abs(p.y() - y_m)) - 2e-3;
+      map.at(x, y, 0) = static_cast<float>(std::clamp(0.8e-3 - std::sqrt(3.0) * beside, 0.0, 0.8e-3));
+    }
+  return view_height_map(map, sensor());
+}
+
+/// Its codes with noise of 1.2 codes that is the same at every run.
+ByteImage noisy_photograph(const LightField& light, const MembraneView& view, unsigned seed) {
+  FloatImage change = code_change(light, view);
+  for (float& code : change.pixels) {
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k) sum += static_cast<double>((seed = seed * 1664525u + 1013904223u) >> 8) / 16777216.0;
+    code += static_cast<float>(1.2 * std::sqrt(3.0) * (sum - 2.0));
+  }
+  return add_change(ByteImage(120, 120, 3, 128), change);
+}
+
+TEST(FitLight, AKnownObjectTellsLampsThatShallowBallsDoNot) {
+  CalibrateConfig settings = config();
+  settings.bounds = {
+      .azimuth_rad = 0.5, .elevation_tan = {0.2, 0.9}, .distance_m = {10e-3, 60e-3}, .half_width_rad = {0.05, 0.7}};
+  settings.lamps.resize(2);
+  for (LampGuess& lamp : settings.lamps) lamp.half_width_rad = 0.3;
+  settings.shadow_softness = 0.1;
+  settings.ridge = 1e-8;
+  const double azimuth[] = {0.3, 2.1}, elevation[] = {0.45, 0.6}, width[] = {0.45, 0.2};
+  LightField light{.geometry = {.shadow_softness = 0.1, .field_half_width_m = 6e-3}, .weights = {}, .blur_px = 0.0};
+  std::vector<LampGuess> lamps;
+  for (std::size_t l = 0; l < 2; ++l)
+    lamps.push_back(
+        {.azimuth_rad = azimuth[l], .distance_m = 20e-3, .elevation_tan = elevation[l], .half_width_rad = width[l]});
+  set_lamps(light.geometry, lamps);
+  light.weights = Codes::Zero(light.geometry.num_features(), 3);
+  light.weights.row(0) << 60.0, -12.0, -10.0;
+  light.weights.row(6) << -10.0, 55.0, 30.0;
+  const ByteImage background(120, 120, 3, 128);
+  std::vector<Ball> balls;
+  for (int i = 0; i < 6; ++i) {
+    Ball ball;
+    ball.label = {.image = "b", .x_px = 42.0 + 6 * (i % 3), .y_px = 45.0 + 5 * i, .radius_px = 10};
+    ball.view = ball_view((ball.label.x_px - 59.5) * 1e-4, (ball.label.y_px - 59.5) * 1e-4, 0.1e-3 + 0.02e-3 * i);
+    const auto seed = static_cast<unsigned>(7 + i);
+    ball.samples = make_samples(noisy_photograph(light, ball.view, seed), background, ball.label, settings);
+    balls.push_back(std::move(ball));
+  }
+  settings.folds = 3;
+  std::vector<KnownObject> none, objects(1);
+  const LightFit alone = fit_light(balls, none, nullptr, sensor(), settings);
+  ASSERT_EQ(alone.knowledge.size(), 8u);
+  for (const std::size_t lamp : {0u, 4u}) EXPECT_FALSE(alone.knowledge[lamp + 1].told) << lamp;
+
+  objects[0].name = "block";
+  objects[0].view = block_view(0.3e-3, -0.2e-3);
+  const auto inside = [](int x, int y) { return std::max(std::abs(x - 60), std::abs(y - 60)) < 45; };
+  objects[0].samples = make_samples(
+      noisy_photograph(light, objects[0].view, 99u), background, "block", inside,
+      [&](int x, int y) { return !inside(x, y); }, 2);
+  const LightFit both = fit_light(balls, objects, nullptr, sensor(), settings);
+  for (std::size_t l = 0; l < 2; ++l) {
+    const LampKnowledge *at = &both.knowledge[4 * l], &high = at[1], &wide = at[3];
+    EXPECT_TRUE(at->told && high.told && wide.told) << l;
+    EXPECT_NEAR(at->value, azimuth[l], 2.0 * at->sigma) << l;
+    EXPECT_NEAR(high.value, elevation[l], 2.0 * high.sigma) << l;
+    EXPECT_NEAR(at[2].value, std::log(20e-3), 2.0 * at[2].sigma) << l;
+    EXPECT_NEAR(wide.value, width[l], 2.0 * wide.sigma) << l;
+    EXPECT_LT(high.sigma, 0.1) << l;
+  }
+  EXPECT_LT(objects[0].rmse_codes, 1.6);
+  EXPECT_GT(objects[0].left_out_rmse_codes, objects[0].rmse_codes);
+}
+
+TEST(ActiveSamples, AreClippedOnesOnlyWhereTheLightDoesNotReachTheClip) {
+  Samples samples;
+  samples.target = Codes::Constant(3, 3, -100.0);
+  samples.used = Codes::Zero(3, 3);
+  samples.clipped = Codes::Zero(3, 3);
+  samples.used(0, 0) = 1.0;
+  samples.clipped(1, 0) = -1.0;  // black: a change of −100 or less
+  samples.clipped(2, 0) = 1.0;   // white: −100 or more
+  EXPECT_EQ(active_samples(samples, Codes::Constant(3, 3, -90.0)).col(0), Vector3(1, 1, 0));
+  EXPECT_EQ(active_samples(samples, Codes::Constant(3, 3, -110.0)).col(0), Vector3(1, 0, 1));
 }
 
 TEST(FitLight, FewerBallsThanFoldsIsSaid) {
   CalibrateConfig settings = config();
   settings.folds = 9;
   std::vector<Ball> balls = synthetic_balls(true_light(), settings);
-  EXPECT_EQ(message_of<DataError>([&] { fit_light(balls, nullptr, sensor(), settings); }),
+  std::vector<KnownObject> objects;
+  EXPECT_EQ(message_of<DataError>([&] { fit_light(balls, objects, nullptr, sensor(), settings); }),
             "8 photographs cannot be divided into 9 folds");
 }
 
@@ -290,7 +383,7 @@ TEST(NormalEquations, ResidualAndPartsAreThoseOfTheRows) {
   samples.target = Codes::Random(6, 3);
   samples.used = Codes::Ones(6, 3);
   samples.used(2, 1) = 0.0;
-  const NormalEquations equations = normal_equations(features, samples);
+  const NormalEquations equations = normal_equations(features, samples, samples.used);
   const Codes weights = equations.part(0, 2).solve(0.0);
   for (Eigen::Index c = 0; c < 3; ++c) {
     const Eigen::MatrixXd a = features.leftCols(2).array().colwise() * samples.used.col(c).array();
@@ -301,7 +394,7 @@ TEST(NormalEquations, ResidualAndPartsAreThoseOfTheRows) {
   }
   EXPECT_EQ(equations.count[1], 5.0);
   features.col(2) = 2.0 * features.col(1);
-  EXPECT_EQ(message_of<SolverError>([&] { normal_equations(features, samples).solve(0.0); }),
+  EXPECT_EQ(message_of<SolverError>([&] { normal_equations(features, samples, samples.used).solve(0.0); }),
             "the photographs do not determine all weights of the light: give more of them or a larger ridge");
 }
 

@@ -39,6 +39,7 @@ objects:
     center_px: [20.5, 16]
     box_px: [0, 0, 10, 10]
     fit: {image: block_b, yaw: true}
+    calibrates: block_b
     images: [{name: block_a, depth_mm: 0.25}, {name: block_b, depth_mm: 0.5}]
 )";
 
@@ -59,7 +60,13 @@ TEST(CaseFiles, SayWhatEachStageNeeds) {
             "images:\n  - {name: block_a, frame: 1}\n  - {name: block_b, frame: 2}\nplace: {center_px: [20.5, 16]}\n"
             "fit: {image: block_b, box_px: [0, 0, 10, 10], yaw: true}\n");
   EXPECT_THAT(file("metrics.yaml"), testing::HasSubstr("{starts_with: block/block_b.png, px: [0, 0, 10, 10]}"));
+  EXPECT_EQ(
+      file("known_objects.yaml"),
+      "objects:\n  - {name: block, photograph: block_b_real.png, frame: 2, center_px: [20.5, 16], box_px: [0, 0, 10, "
+      "10], yaw: true}\n");
   const std::string variables = file("cases.mk");
+  EXPECT_THAT(variables, testing::HasSubstr("CASES_KNOWN := block\n"));
+  EXPECT_THAT(variables, testing::HasSubstr("CASES_KNOWN_FRAME_block := 2\n"));
   EXPECT_THAT(variables, testing::HasSubstr("CASES_OBJECTS := ball block\n"));
   EXPECT_THAT(variables, testing::HasSubstr("CASES_MESH := configs/m.yaml\n"));
   EXPECT_THAT(variables, testing::HasSubstr("CASES_MESH_block := shots/block.stl\n"));

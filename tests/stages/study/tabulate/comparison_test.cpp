@@ -36,6 +36,12 @@ TEST(Comparison, ShowsTheImagesOfTheBenchmarkInItsOrder) {
               testing::EndsWith("| image, in the box | ours: SSIM-S | SSIM-W | MAE | PSNR dB |\n|---|---|---|---|---|\n"
                                 "| ball_a | 0.850 | 0.800 | 0.0200 | 25.00 |\n"
                                 "| ball_b (fitted place) | 0.500 | 0.400 | 0.2000 | 10.00 |\n"));
+  BenchmarkCases calibrated = cases();
+  calibrated.objects[0].calibrates = "ball_b";
+  const std::string page = to_markdown(read_comparison({{"a", file}}, kOursAlone, calibrated), calibrated);
+  EXPECT_THAT(page, testing::HasSubstr("| ours | 0.850 | 0.800 | 0.0200 | 25.00 | 0.950 | 0.900 | 0.0100 | 30.00 |\n"));
+  EXPECT_THAT(page, testing::HasSubstr("Means over 1 photographs"));
+  EXPECT_THAT(page, testing::EndsWith("| ball_b (calibrates, place; in no mean) | 0.500 | 0.400 | 0.2000 | 10.00 |\n"));
   const auto said = [&](const std::string& images) {
     std::string text = kHeader;
     for (const char image : images)
