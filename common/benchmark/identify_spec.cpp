@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/benchmark/benchmark_cases.h"
 
@@ -25,7 +26,7 @@ std::vector<double> ascending(ConfigReader& in, const std::string& key, std::siz
 /// Values outside which a parameter has no meaning.
 Range natural_range(const std::string& name) {
   if (name == kPoisson) return {.low = 0.0, .high = 0.5, .open_low = true, .open_high = true};
-  if (name == kModulus || name == kThickness) return Range::positive();
+  if (name == kModulus || name == kThickness || name == kFriction) return Range::positive();
   return Range::non_negative();
 }
 
@@ -47,11 +48,13 @@ MechanicsParameter read_parameter(ConfigReader& parameters, const std::string& n
 }
 
 void read_relaxation(ConfigReader& parameters, IdentifySpec& out) {
-  for (ConfigReader& term : parameters.sections("relaxation")) {
+  // Parts that could sum to 1 would leave nothing in the end.
+  std::vector<ConfigReader> terms = parameters.sections("relaxation");
+  for (ConfigReader& term : terms) {
     const std::string index = std::to_string(out.relaxation.size());
     ConfigReader part = term.section("part"), time = term.section("time_s");
     MechanicsParameter g{.name = "relaxation_" + index + "_part",
-                         .prior = Prior::read(part, {.low = 0.0, .high = 1.0, .open_high = true})};
+                         .prior = Prior::read(part, Range::between(0.0, 0.95 / static_cast<double>(terms.size())))};
     MechanicsParameter tau{.name = "relaxation_" + index + "_time_s", .prior = Prior::read(time, Range::positive())};
     out.relaxation.emplace_back(std::move(g), std::move(tau));
   }
@@ -123,11 +126,11 @@ Measurement read_measurement(ConfigReader& in) {
     if (auto zero = in.optional_section("depth_zero_mm")) out.depth_zero_mm = Prior::read(*zero, Range::any());
   }
   ConfigReader simulate = in.section("simulate");
-  out.press_frames = simulate.integer("press_frames", 1, 10000);
+  out.press_frames = simulate.integer("press_frames", 2, 10000);
   if (out.sheared()) {
     out.depths_mm = ascending(simulate, "depths_mm", 2, Range::positive());
     out.travel_mm = simulate.number("travel_mm", Range::positive());
-    out.shear_frames = simulate.integer("shear_frames", 1, 10000);
+    out.shear_frames = simulate.integer("shear_frames", 2, 10000);
     out.direction_deg = simulate.number_or("direction_deg", 0.0);
   } else {
     out.depths_mm = {simulate.number("to_mm", Range::positive())};
@@ -149,10 +152,25 @@ Measurement read_measurement(ConfigReader& in) {
     for (const double depth : out.predict_mm)
       if (depth > deepest) in.fault("predict_mm", "is deeper than simulate.to_mm");
   } else if (out.kind != MeasurementKind::markers) {
-    out.depth_mm = in.number("depth_mm", Range::between(0.0, deepest));
+    const double least = out.sheared() && !out.depths_mm.empty() ? out.depths_mm.front() : 0.0;
+    out.depth_mm = in.number("depth_mm", Range::between(least, deepest));
     if (out.kind == MeasurementKind::relaxation) out.ramp_s = in.number("ramp_s", Range::positive());
   }
   return out;
+}
+
+/// Folders are called like nodes and checks, in them like runs.
+void refuse_same_names(ConfigReader& in, const IdentifySpec& spec) {
+  std::set<std::string> folders, runs;
+  const auto single = [&](const std::string& key, std::set<std::string>& names, const std::string& name) {
+    if (name.find('/') != std::string::npos || name.starts_with('.'))
+      in.fault(key, fmt::format("'{}' is no name of a folder", name));
+    if (!names.insert(name).second) in.fault(key, fmt::format("two folders would be called {}", name));
+  };
+  for (const RunNode& node : spec.nodes()) folders.insert(node.name);
+  for (const ModelCheck& check : spec.checks) single("checks", folders, check.name);
+  for (const Measurement& m : spec.measurements)
+    for (const double depth : m.depths_mm) single("measurements", runs, run_name(m, depth));
 }
 
 }  // namespace
@@ -220,6 +238,10 @@ IdentifySpec IdentifySpec::read(ConfigReader& in) {
       item.fault("name", "needs a mesh, a press or changes");
     out.checks.push_back(std::move(check));
   }
+  if (!out.checks.empty() && std::none_of(out.measurements.begin(), out.measurements.end(),
+                                          [](const Measurement& m) { return m.kind == MeasurementKind::press; }))
+    in.fault("checks", "need a measurement of kind press");
+  refuse_same_names(in, out);
   if (out.parameters.empty() && out.relaxation.empty()) in.fault("parameters", "names nothing to identify");
   return out;
 }

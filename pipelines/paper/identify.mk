@@ -23,13 +23,19 @@ $(IDENTIFIED)/cases/cases.yaml: $(IDENTIFY) | build
 	$(call run,cases,--config $<)
 $(IDENTIFIED)/cases/cases.mk: $(IDENTIFIED)/cases/cases.yaml ;
 include $(IDENTIFIED)/cases/cases.mk
+identify_tables := $(foreach m,$(IDENTIFY_MEASUREMENTS),$(addprefix $(SHARED)/,$(IDENTIFY_TABLES_$(m))))
+identify_missing := $(filter-out $(wildcard $(identify_tables)),$(identify_tables))
+ifneq ($(identify_missing),)
+  $(error IDENTIFY: there is no $(identify_missing), which $(IDENTIFY) names)
+endif
 
 # Settings are rewritten only when they change: another prior presses nothing again.
 $(foreach f,$(IDENTIFY_RUNS:%=motion_%.yaml) $(IDENTIFY_MEASUREMENTS:%=%/indenter.yaml),$(eval $(IDENTIFIED)/cases/$(f): $(IDENTIFIED)/cases/cases.yaml ;)$(eval $(call changed_config,$(IDENTIFIED)/settings/$(f),$(IDENTIFIED)/cases/$(f),)))
 $(eval $(call changed_config,$(IDENTIFIED)/settings/sensor.yaml,$(IDENTIFY_SENSOR),$(IDENTIFY_CHANGES)))
-# Friction of the gel and a mount that gives way are added by the fit: presses have that of the node, and none.
+# Presses are those of the relaxed gel on a rigid mount, and where friction has nodes with theirs: the fit adds the rest.
+identify_unpressed := mount mount_src material.relaxation material.relaxation_src $(if $(IDENTIFY_FRICTION_$(IDENTIFY_MIDDLE)),gel.friction gel.friction_src)
 $(IDENTIFIED)/settings/rigid.yaml: $(IDENTIFIED)/settings/sensor.yaml | build
-	$(BIN)/tacipc set $< $$(for key in gel.friction gel.friction_src mount mount_src; do [ -z "$$($(BIN)/tacipc get $< $$key --default '')" ] || echo "-$$key"; done) > $@.new && mv $@.new $@
+	$(BIN)/tacipc set $< $$(for key in $(identify_unpressed); do [ -z "$$($(BIN)/tacipc get $< $$key --default '')" ] || echo "-$$key"; done) > $@.new && mv $@.new $@
 $(foreach n,$(IDENTIFY_NODES),$(eval $(call changed_config,$(IDENTIFIED)/settings/$(n)/sensor.yaml,$(IDENTIFIED)/settings/rigid.yaml,$(IDENTIFY_SET_$(n))))\
   $(eval $(call changed_config,$(IDENTIFIED)/settings/$(n)/press.yaml,$(IDENTIFY_PRESS),$(addprefix friction.coefficient=,$(IDENTIFY_FRICTION_$(n))))))
 
@@ -58,21 +64,22 @@ $(foreach n,$(IDENTIFY_NODES),$(foreach r,$(IDENTIFY_RUNS),$(eval $(call identif
 identify_checked := $(foreach r,$(IDENTIFY_RUNS),$(if $(IDENTIFY_CHECKED_$(r)),$(r)))
 define identify_check
 $(call changed_config,$(IDENTIFIED)/settings/$(1)/sensor.yaml,$(IDENTIFIED)/settings/$(IDENTIFY_MIDDLE)/sensor.yaml,$(IDENTIFY_CHECK_CHANGES_$(1)))
+$(if $(IDENTIFY_CHECK_PRESS_$(1)),$(call changed_config,$(IDENTIFIED)/settings/$(1)/press.yaml,$(IDENTIFY_CHECK_PRESS_$(1)),$(addprefix friction.coefficient=,$(IDENTIFY_FRICTION_$(IDENTIFY_MIDDLE)))))
 $(if $(IDENTIFY_CHECK_MESH_$(1)),$(call identify_gel,gel_$(1),$(1),$(IDENTIFY_CHECK_MESH_$(1))))
 endef
 identify_check_gel = $(if $(IDENTIFY_CHECK_MESH_$(1)),gel_$(1),$(IDENTIFY_GEL_$(IDENTIFY_MIDDLE)))
-identify_check_press = $(or $(IDENTIFY_CHECK_PRESS_$(1)),$(IDENTIFIED)/settings/$(IDENTIFY_MIDDLE)/press.yaml)
+identify_check_press = $(if $(IDENTIFY_CHECK_PRESS_$(1)),$(IDENTIFIED)/settings/$(1)/press.yaml,$(IDENTIFIED)/settings/$(IDENTIFY_MIDDLE)/press.yaml)
 $(foreach c,$(IDENTIFY_CHECKS),$(eval $(call identify_check,$(c)))$(foreach r,$(identify_checked),$(eval $(call identify_press,$(c),$(r),$(c),$(call identify_check_gel,$(c)),$(call identify_check_press,$(c))))))
 
 identify_runs := $(foreach n,$(IDENTIFY_NODES),$(IDENTIFY_RUNS:%=$(n)/%)) $(foreach c,$(IDENTIFY_CHECKS),$(identify_checked:%=$(c)/%))
 $(IDENTIFIED)/fit/identify.yaml: $(IDENTIFY) $(IDENTIFIED)/settings/sensor.yaml $(identify_runs:%=$(IDENTIFIED)/runs/%/press.yaml) \
-    $(foreach m,$(IDENTIFY_MEASUREMENTS),$(SHARED)/$(IDENTIFY_FILE_$(m))) | build
+    $(identify_tables) | build
 	$(call run,identify,--config $(IDENTIFY) --sensor $(IDENTIFIED)/settings/sensor.yaml \
 	  --measured $(foreach m,$(IDENTIFY_MEASUREMENTS),$(m)=$(SHARED)/$(IDENTIFY_FILE_$(m))) --runs $(foreach r,$(identify_runs),$(r)=$(IDENTIFIED)/runs/$(r)))
 
 # docs/identify.md has places for the shipped ones.
 identify: $(IDENTIFIED)/fit/identify.yaml ## own: A sensor's mechanics from measured forces and marker vectors: IDENTIFY=configs/studies/identify/gsmini_force.yaml (minutes)
-	@! grep -qsxF '<!-- $(identify_name) -->' docs/identify.md || $(call fill_docs,identify.md,$(identify_name)=$(IDENTIFIED)/fit/table.md)
+	@! grep -qsxF '<!-- $(identify_name) -->' docs/identify.md || [ $(IDENTIFY) != configs/studies/identify/$(identify_name).yaml ] || $(call fill_docs,identify.md,$(identify_name)=$(IDENTIFIED)/fit/table.md)
 	@cat $(IDENTIFIED)/fit/table.md
 	@echo; echo "Look at $(IDENTIFIED)/fit/*.svg; the sensor file is $(IDENTIFIED)/fit/sensor.yaml"
 endif
@@ -84,7 +91,7 @@ ifneq ($(filter blind-card,$(MAKECMDGOALS)),)
 $(call check_name,CASES)
 CARD := $(OUT)/cards/$(basename $(notdir $(CASES)))
 # $(call card_files,key): the files that the card names under a key, from here
-card_files = $(shell for i in 0 1 2 3 4 5 6 7 8 9; do file=$$($(BIN)/tacipc get '$(CASES)' "$(1)[$$i]" --default ''); [ -z "$$file" ] || realpath -ms --relative-to=. "$(dir $(CASES))$$file"; done)
+card_files = $(shell for i in $$(seq 0 99); do file=$$($(BIN)/tacipc get '$(CASES)' "$(1)[$$i]" --default ''); [ -z "$$file" ] || realpath -ms --relative-to=. "$(dir $(CASES))$$file"; done)
 blind-card: | build ## own: Blind card of a sensor: what was fitted, on what, and predictions beside measurements: CASES=configs/studies/cards/gelsight_mini.yaml
 	@[ "$$($(BIN)/tacipc get '$(CASES)' kind --default '')" = card ] || { echo 'blind-card: CASES: $(CASES) is no card (kind: card; there are $(wildcard configs/studies/cards/*.yaml))' >&2; exit 2; }
 	$(foreach f,$(call card_files,mechanics),$(call make_again,REBUILD=no IDENTIFY=$(f) identify)$(newline)	)

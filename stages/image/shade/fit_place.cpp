@@ -14,8 +14,8 @@ MembraneView view_at(const FrontFrames& press, int frame, const ImagePlace& plac
   const auto at = static_cast<std::size_t>(frame);
   MembraneView view = view_membrane(at_place(press.frames[at], place, sensor), press.triangles, sensor);
   if (!relief) return view;
-  const Vector3 axis = plane_point(place, sensor);
-  apply_relief(*relief, {axis.x(), axis.y(), place.yaw_rad, press.gel_from_object[at](2, 3)}, view);
+  const Matrix4 pose = place_pose(place, sensor);
+  apply_relief(*relief, {pose(0, 3), pose(1, 3), place.yaw_rad, press.gel_from_object[at](2, 3)}, view);
   return view;
 }
 

@@ -47,6 +47,8 @@ std::vector<std::pair<std::string, std::string>> identify_files(const IdentifySp
   for (const Measurement& m : spec.measurements) {
     add(measurements, m.name);
     set("FILE_" + m.name, m.file);
+    set("TABLES_" + m.name,
+        m.markers ? m.file + "/" + m.markers->press_file + " " + m.file + "/" + m.markers->shear_file : m.file);
     if (!m.mesh.empty()) set("OBJECT_" + m.name, m.mesh);
     files.emplace_back(m.name + "/indenter.yaml", indenter(m));
     for (const double depth : m.depths_mm) {

@@ -32,6 +32,17 @@ struct Benchmark {
   }
 };
 
+/// Only of the forces of a quasi-static press may the modulus be taken out.
+void refuse_moving_press(const std::filesystem::path& file) {
+  ConfigReader in = ConfigReader::from_file(file);
+  const std::string dynamics = in.text_or("dynamics", "implicit_euler");
+  if (dynamics != "quasi_static") in.fault("dynamics", "must be quasi_static where mechanics are identified");
+  if (in.has("gravity_m_s2")) in.fault("gravity_m_s2", "must not be there where mechanics are identified");
+  for (const std::string& key : in.keys())
+    if (key != "dynamics" && key != "gravity_m_s2") in.ignore(key);
+  in.finish();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -42,6 +53,9 @@ int main(int argc, char** argv) {
       throw UsageError("--circles: the benchmark names no circles");
     if (benchmark.identify) {
       const IdentifySpec& spec = *benchmark.identify;
+      refuse_moving_press(std::filesystem::path(folder) / spec.press);
+      for (const ModelCheck& check : spec.checks)
+        if (!check.press.empty()) refuse_moving_press(std::filesystem::path(folder) / check.press);
       for (const auto& [name, content] : identify_files(spec, folder)) write_file(stage.output(name), content);
       stage.summarize({{"nodes", spec.nodes().size()}, {"measurements", spec.measurements.size()}});
       return;

@@ -6,33 +6,28 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/base/rng.h"
 
 namespace tacipc {
 namespace {
 
-/// Step of differences in u: small beside the prior, so that they stay within what is simulated.
+/// Step of differences, in deviations of the prior.
 constexpr double kStep = 1e-3;
 
-/// Residuals over the unknowns in units of their priors' deviations, where all are of size one. Outside the bounds, as
-/// a difference may look, the model is asked at the bound and the residual continued linearly by its prior.
-struct Scaled {
-  const MechanicsModel& model;
-
-  Eigen::VectorXd u_of(const double* s) const {
-    Eigen::VectorXd u(model.unknowns().size());
-    for (Eigen::Index i = 0; i < u.size(); ++i)
-      u[i] = model.unknowns()[i].u_mean() + s[i] * model.unknowns()[i].prior.sigma;
-    return u;
+/// Those of mechanics that are not possible (a marker beyond what was simulated or what the camera sees, no finite
+/// force): nothing.
+std::optional<Eigen::VectorXd> possible_residuals(const MechanicsModel& model, const Eigen::VectorXd& u) {
+  try {
+    Eigen::VectorXd r = model.residuals(u);
+    if (r.allFinite()) return r;
+  } catch (const DataError&) {
   }
-  bool operator()(double const* const* parameters, double* residuals) const {
-    const Eigen::VectorXd r = model.residuals(u_of(parameters[0]));
-    std::copy(r.begin(), r.end(), residuals);
-    return r.allFinite();
-  }
-};
+  return std::nullopt;
+}
 
 double scaled(const Unknown& unknown, double u) { return (u - unknown.u_mean()) / unknown.prior.sigma; }
 
@@ -50,20 +45,56 @@ Eigen::MatrixXd jacobian(const MechanicsModel& model, const Eigen::VectorXd& u, 
   return out;
 }
 
+Eigen::VectorXd small_steps(const MechanicsModel& model) {
+  Eigen::VectorXd step(model.unknowns().size());
+  for (Eigen::Index i = 0; i < step.size(); ++i) step[i] = kStep * model.unknowns()[i].prior.sigma;
+  return step;
+}
+
+/// Residuals over the unknowns in deviations of their priors, where all are of size one.
+class ScaledCost final : public ceres::CostFunction {
+ public:
+  explicit ScaledCost(const MechanicsModel& model) : model_(model) {
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(model.unknowns().size()));
+    set_num_residuals(static_cast<int>(model.rows() + model.unknowns().size()));
+  }
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::VectorXd u = u_of(model_.unknowns(), parameters[0]);
+    const auto r = possible_residuals(model_, u);
+    if (!r) return false;
+    std::copy(r->begin(), r->end(), residuals);
+    if (!jacobians || !jacobians[0]) return true;
+    Eigen::MatrixXd j;
+    try {
+      j = jacobian(model_, u, small_steps(model_));
+    } catch (const DataError&) {
+      return false;
+    }
+    for (Eigen::Index i = 0; i < u.size(); ++i) j.col(i) *= model_.unknowns()[i].prior.sigma;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobians[0], j.rows(),
+                                                                                       j.cols()) = j;
+    return j.allFinite();
+  }
+  static Eigen::VectorXd u_of(const Unknowns& unknowns, const double* s) {
+    Eigen::VectorXd u(unknowns.size());
+    for (Eigen::Index i = 0; i < u.size(); ++i)
+      u[i] =
+          std::clamp(unknowns[i].u_mean() + s[i] * unknowns[i].prior.sigma, unknowns[i].u_low(), unknowns[i].u_high());
+    return u;
+  }
+
+ private:
+  const MechanicsModel& model_;
+};
+
 /// \param held an unknown that stays where it starts, or −1
 std::pair<Eigen::VectorXd, int> minimise(const MechanicsModel& model, const Eigen::VectorXd& start, Eigen::Index held) {
   const Unknowns& unknowns = model.unknowns();
   const int n = static_cast<int>(unknowns.size());
   std::vector<double> s(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) s[static_cast<std::size_t>(i)] = scaled(unknowns[i], start[i]);
-  ceres::NumericDiffOptions differences;
-  differences.relative_step_size = kStep;
-  auto* cost = new ceres::DynamicNumericDiffCostFunction<Scaled, ceres::CENTRAL>(new Scaled{model},
-                                                                                 ceres::TAKE_OWNERSHIP, differences);
-  cost->AddParameterBlock(n);
-  cost->SetNumResiduals(static_cast<int>(model.rows()) + n);
   ceres::Problem problem;
-  problem.AddResidualBlock(cost, nullptr, s.data());
+  problem.AddResidualBlock(new ScaledCost(model), nullptr, s.data());
   if (held >= 0) problem.SetManifold(s.data(), new ceres::SubsetManifold(n, {static_cast<int>(held)}));
   for (int i = 0; i < n; ++i) {
     const double low = scaled(unknowns[i], unknowns[i].u_low()), high = scaled(unknowns[i], unknowns[i].u_high());
@@ -80,17 +111,14 @@ std::pair<Eigen::VectorXd, int> minimise(const MechanicsModel& model, const Eige
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) throw DataError("the fit failed: {}", summary.message);
-  Eigen::VectorXd u = Scaled{model}.u_of(s.data());
-  for (Eigen::Index i = 0; i < n; ++i) u[i] = std::clamp(u[i], unknowns[i].u_low(), unknowns[i].u_high());
-  return {u, static_cast<int>(summary.iterations.size())};
+  return {ScaledCost::u_of(unknowns, s.data()), static_cast<int>(summary.iterations.size())};
 }
 
 /// Markers between frames are interpolated, with a kink at each frame: differences over as much as the deviations
 /// themselves, which those over small steps tell first, see past it.
 Eigen::MatrixXd covariance_at(const MechanicsModel& model, const Eigen::VectorXd& u) {
   const Eigen::Index n = u.size();
-  Eigen::VectorXd step(n);
-  for (Eigen::Index i = 0; i < n; ++i) step[i] = kStep * model.unknowns()[i].prior.sigma;
+  Eigen::VectorXd step = small_steps(model);
   Eigen::MatrixXd covariance;
   for (int round = 0; round < 3; ++round) {
     const Eigen::MatrixXd j = jacobian(model, u, step);
@@ -105,8 +133,10 @@ Eigen::MatrixXd covariance_at(const MechanicsModel& model, const Eigen::VectorXd
 
 Fit fit_mechanics(MechanicsModel& model) {
   constexpr Eigen::Index kEnoughRows = 8;
+  constexpr int kRounds = 6;
   Fit fit{.u = model.unknowns().prior_mean(), .covariance = {}};
-  for (int round = 0; round < 4; ++round) {
+  model.residuals(fit.u);  // says what is wrong with data that no mechanics fit
+  for (int round = 0;; ++round) {
     const auto [u, iterations] = minimise(model, fit.u, -1);
     fit.u = u;
     fit.iterations += iterations;
@@ -120,6 +150,10 @@ Fit fit_mechanics(MechanicsModel& model) {
       model.sigma_factor[m] = factor;
     }
     if (!changed) break;
+    if (round == kRounds) {
+      log_warning("deviations of measurements still grow after {} fits", kRounds);
+      break;
+    }
   }
   fit.covariance = covariance_at(model, fit.u);
   return fit;
@@ -190,10 +224,11 @@ Posterior draw_posterior(const MechanicsModel& model, const Fit& fit, int draws,
     out.u.col(k) = fit.u + lower * t;
     if (!model.unknowns().within_bounds(out.u.col(k))) continue;
     const double density = -0.5 * (kFreedom + static_cast<double>(n)) * std::log1p(t.squaredNorm() / kFreedom);
-    logarithm[k] = -0.5 * (model.residuals(out.u.col(k)).squaredNorm() - least) - density;
+    if (const auto r = possible_residuals(model, out.u.col(k)))
+      logarithm[k] = -0.5 * (r->squaredNorm() - least) - density;
   }
   const double largest = logarithm.maxCoeff();
-  if (!std::isfinite(largest)) throw DataError("no draw of the mechanics lies within the bounds");
+  if (!std::isfinite(largest)) throw DataError("no draw of the mechanics is possible");
   for (int k = 0; k < draws; ++k) out.weight[k] = std::exp(logarithm[k] - largest);
   out.weight /= out.weight.sum();
   out.effective_draws = 1.0 / out.weight.squaredNorm();

@@ -52,7 +52,7 @@ std::vector<double> relaxing_force_n(const Curve& force_per_pa, const Mounting& 
       kept += decay[i] * memory[i] - gain[i] * elastic;
       stiffness += gain[i];
     }
-    const double way = depth_mm * std::min(to / ramp_s, 1.0);
+    const double way = std::max(0.0, depth_mm) * std::min(to / ramp_s, 1.0);
     const auto total = [&](double mm) { return kept + stiffness * mounting.modulus_pa * force_per_pa.at(mm); };
     const double depth =
         mounting.compliance_mm_per_n > 0.0

@@ -139,6 +139,12 @@ std::map<std::size_t, std::vector<MarkerErrors>> all_marker_errors(MechanicsMode
   return out;
 }
 
+double misfit(const MechanicsModel& model, std::size_t measurement, const Eigen::VectorXd& u) {
+  const Eigen::VectorXd off =
+      (model.predicted(measurement, u) - model.measured(measurement)).cwiseQuotient(model.sigma(measurement));
+  return std::sqrt(off.squaredNorm() / static_cast<double>(off.size()));
+}
+
 std::string result_table(const IdentifyResult& result) {
   const IdentifySpec& spec = result.model.spec();
   std::string out = fmt::format("| {} | value | ± | 95 % | prior | told by |\n|---|---|---|---|---|---|\n", spec.title);
@@ -153,6 +159,12 @@ std::string result_table(const IdentifyResult& result) {
                        !e.told           ? "prior"
                        : e.against_prior ? "measurements, against the prior"
                                          : "measurements");
+  }
+  out += "\n| measurement | fitted rows | misfit / stated deviation | deviation taken |\n|---|---|---|---|\n";
+  for (std::size_t m = 0; m < spec.measurements.size(); ++m) {
+    const double factor = result.model.sigma_factor[m], off = misfit(result.model, m, result.u);
+    out += fmt::format("| {} | {} | {:.2f} | {} |\n", spec.measurements[m].name, result.model.measured(m).size(),
+                       off * factor, factor > 1.0 ? fmt::format("{:.2f} times the stated", factor) : "as stated");
   }
   if (!result.modulus_error.empty()) {
     out += "\nThe model's own error of a modulus:";

@@ -48,6 +48,9 @@ struct IdentifyResult {
   std::map<std::size_t, std::vector<MarkerErrors>> markers;
 };
 
+/// Root mean square of (model − measured) / deviation over the fitted rows.
+double misfit(const MechanicsModel& model, std::size_t measurement, const Eigen::VectorXd& u);
+
 /// Markdown: the unknowns of the sensor, then forces measured and predicted, then markers.
 std::string result_table(const IdentifyResult& result);
 /// Lines of the record's summary.

@@ -79,6 +79,12 @@ int main(int argc, char** argv) {
                                 .forces = predict_forces(model, posterior, checks),
                                 .modulus_error = modulus_error(checks, model),
                                 .markers = all_marker_errors(model, posterior)};
+    constexpr double kTooFar = 2.0;
+    for (std::size_t m = 0; m < spec.measurements.size(); ++m)
+      if (const double off = misfit(model, m, result.u); off > kTooFar)
+        log_warning(
+            "{}: the model is {:.1f} deviations off: something is missing in it, or the deviations are too small",
+            spec.measurements[m].name, off);
     for (const Estimate& e : result.estimates)
       log_info("{}{}: {:.6g} ± {:.2g} ({})", e.name, e.measurement.empty() ? "" : " of " + e.measurement, e.value,
                e.sigma, e.told ? "told by measurements" : "by its prior");
@@ -92,7 +98,8 @@ int main(int argc, char** argv) {
                  profile_plot(unknown, fit, i, profile(model, fit, i, kProfilePoints)));
     }
     write_file(stage.output("sensor.yaml"), fitted_sensor(read_file(sensor_file), sensor_file.string(), result));
-    write_file(stage.output(kEnsembleFile), ensemble_of(result, stage.out() / "sensor.yaml", spec.members).yaml(stage.out()));
+    write_file(stage.output(kEnsembleFile),
+               ensemble_of(result, stage.out() / "sensor.yaml", spec.members).yaml(stage.out()));
     stage.summarize(result_summary(result));
   });
 }

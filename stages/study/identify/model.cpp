@@ -8,9 +8,17 @@
 namespace tacipc {
 namespace {
 
+/// Forces and displacements approach those of a sticking contact as friction grows, nearly linearly in 1/μ; in μ a
+/// polynomial would overshoot them between its nodes.
+double place_on_axis(const std::string& name, double value) { return name == kFriction ? 1.0 / value : value; }
+
 NodeGrid grid_of(const IdentifySpec& spec) {
   std::vector<std::vector<double>> axes;
-  for (const MechanicsParameter* axis : spec.axes()) axes.push_back(axis->nodes);
+  for (const MechanicsParameter* axis : spec.axes()) {
+    std::vector<double> places;
+    for (const double node : axis->nodes) places.push_back(place_on_axis(axis->name, node));
+    axes.push_back(std::move(places));
+  }
   return NodeGrid(std::move(axes));
 }
 
@@ -35,7 +43,8 @@ Mounting MechanicsModel::mounting(const Eigen::VectorXd& u) const {
 
 Eigen::VectorXd MechanicsModel::node_weights(const Eigen::VectorXd& u) const {
   std::vector<double> at;
-  for (const MechanicsParameter* axis : spec_.axes()) at.push_back(unknowns_.value(u, axis->name, {}, 0.0));
+  for (const MechanicsParameter* axis : spec_.axes())
+    at.push_back(place_on_axis(axis->name, unknowns_.value(u, axis->name, {}, 0.0)));
   return grid_.weights(at);
 }
 
@@ -77,7 +86,7 @@ std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd> MechanicsModel::marker_px(std::siz
     for (Eigen::Index i = 0; i < rest_m.cols(); ++i) {
       const Vector3 point = moved.col(i) + Vector3(rest_m(0, i), rest_m(1, i), 0.0);
       const auto px = camera_->project(point);
-      if (!px) throw DataError("{}: a simulated marker leaves the image", m.name);
+      if (!px) throw DataError("{}: the camera does not see one of the simulated markers", m.name);
       out.col(i) = *px + shift + own(name + "_scale") * (*px - middle) - field.rest_px.col(i);
     }
     return out;
@@ -111,7 +120,7 @@ Eigen::VectorXd MechanicsModel::predicted(std::size_t measurement, const Eigen::
   if (m.kind == MeasurementKind::press) {
     each([&](double depth) { return pressed_force_n(press, mount, depth + zero); });
   } else if (m.kind == MeasurementKind::shear) {
-    const double depth = m.depth_mm + zero;
+    const double depth = std::max(0.0, m.depth_mm + zero);
     const double reached = depth - mount.compliance_mm_per_n * pressed_force_n(press, mount, depth);
     const Eigen::VectorXd of_depth = NodeGrid({m.depths_mm}).weights({reached});
     CurveTable table = data.shears.front();

@@ -9,7 +9,7 @@ namespace tacipc {
 /// A grid with a node for every combination of the values of its axes; the first axis varies slowest.
 class NodeGrid {
  public:
-  /// \pre values of each axis ascend
+  /// \pre values of each axis are different
   explicit NodeGrid(std::vector<std::vector<double>> axes) : axes_(std::move(axes)) {}
 
   Eigen::Index size() const;

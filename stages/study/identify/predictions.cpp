@@ -15,11 +15,15 @@ double change_at(const CheckedPress& check, double depth_mm) {
   return force > 0.0 && other > 0.0 ? std::log(other / force) : 0.0;
 }
 
+/// Over the fitted rows, as the fit weighs them: by (force / deviation)².
 double mean_change(const CheckedPress& check, const MechanicsModel& model) {
-  const auto& rows = model.data(check.measurement).force->fitted;
-  double sum = 0.0;
-  for (const MeasuredForce& row : rows) sum += change_at(check, row.at);
-  return sum / static_cast<double>(rows.size());
+  double sum = 0.0, weights = 0.0;
+  for (const MeasuredForce& row : model.data(check.measurement).force->fitted) {
+    const double weight = std::pow(row.force_n / row.sigma_n, 2);
+    sum += weight * change_at(check, row.at);
+    weights += weight;
+  }
+  return weights > 0.0 ? sum / weights : 0.0;
 }
 
 }  // namespace

@@ -31,11 +31,12 @@ struct CheckedPress {
   CurveTable table;  // rows: as it is, checked
 };
 
-/// Relative change of a press's force at a depth in the gel by the checks, that of the modulus it makes at the fitted
+/// Relative change of a press's force at a depth of its table by the checks, that of the modulus it makes at the fitted
 /// rows left out: root of the sum of squares over the checks.
 double model_error(const std::vector<CheckedPress>& checks, const MechanicsModel& model, std::size_t measurement,
                    double depth_mm);
-/// The relative change of the modulus by each check: of the mean force over the fitted rows of all presses.
+/// What each check changes in ln(force), mean over the fitted rows of each press, and over the presses: the modulus
+/// changes by as much the other way.
 std::map<std::string, double> modulus_error(const std::vector<CheckedPress>& checks, const MechanicsModel& model);
 
 /// Every row of every press, and the depths of Measurement::predict_mm that have none, ascending.

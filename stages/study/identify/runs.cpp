@@ -67,7 +67,8 @@ CurveTable table_of(const std::vector<std::filesystem::path>& folders, const std
 }
 
 double number_in(const CsvReader& table, const std::filesystem::path& path, const std::string& column) {
-  const std::string& text = table[column];
+  std::string text = table[column];
+  text.erase(0, text.find_first_not_of(' '));
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
@@ -82,10 +83,12 @@ void read_rows(const Measurement& m, const std::filesystem::path& path, ForceDat
     MeasuredForce row{.at = m.columns.factor(at) * number_in(table, path, m.columns.column(at)),
                       .force_n = m.columns.factor("force_n") * number_in(table, path, m.columns.column("force_n"))};
     row.sigma_n = std::hypot(m.sigma_n, m.sigma_relative * row.force_n);
-    if (!(row.at >= 0.0)) throw DataError("{}:{}: {} must not be negative", path.string(), table.line(), at);
+    // Before contact a press has no force.
+    if (!(row.at >= 0.0) && m.kind != MeasurementKind::press)
+      throw DataError("{}:{}: {} must not be negative", path.string(), table.line(), at);
     const double furthest = m.kind == MeasurementKind::press ? m.depths_mm.back() : m.travel_mm;
     const bool held_out = m.fit_to_mm && row.at > *m.fit_to_mm * (1.0 + 1e-9);
-    if (m.kind != MeasurementKind::relaxation && row.at > furthest) {
+    if (m.kind != MeasurementKind::relaxation && row.at > furthest * (1.0 + 1e-9)) {
       const std::string beyond = fmt::format("{}:{}: {} {:g} is beyond what is simulated, {:g}", path.string(),
                                              table.line(), at, row.at, furthest);
       if (!held_out) throw DataError("{}", beyond);

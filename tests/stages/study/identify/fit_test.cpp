@@ -179,11 +179,12 @@ struct Known {
 Known identified(const IdentifySpec& spec, const Truth& truth, unsigned seed) {
   MechanicsModel model(spec, made_up(spec, truth, seed), sensor());
   const Fit fit = fit_mechanics(model);
-  Known out{.estimates = estimates_of(model, fit, draw_posterior(model, fit, spec.draws, 1)), .off_over_sigma = {}};
+  const Posterior posterior = draw_posterior(model, fit, spec.draws, 1);
+  Known out{.estimates = estimates_of(model, fit, posterior), .off_over_sigma = {}};
   for (Eigen::Index i = 0; i < model.unknowns().size(); ++i) {
     const Unknown& unknown = model.unknowns()[i];
-    const double off = fit.u[i] - unknown.u_of(true_value(truth, unknown.name));
-    out.off_over_sigma.push_back(off / std::sqrt(fit.covariance(i, i)));
+    const double off = posterior.mean_u()[i] - unknown.u_of(true_value(truth, unknown.name));
+    out.off_over_sigma.push_back(off / posterior.deviation(posterior.u.row(i).transpose()));
   }
   return out;
 }
