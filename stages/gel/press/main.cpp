@@ -211,17 +211,21 @@ int main(int argc, char** argv) {
     const auto file = stage.read_config<PressConfig>("--config");
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const PressConfig config = file.with_friction_of(sensor);
-    if (file.takes_friction_of(sensor)) {
+    const auto tell_friction = [&] {
+      if (!file.takes_friction_of(sensor)) return;
       log_info("friction {:g} of the sensor's gel, instead of {:g} of the press file", *sensor.friction,
                file.coefficient_of_friction());
       stage.note("friction_from", "sensor");
-    }
+    };
     const auto progress = [](int frame, int count, int iteration, double residual) {
       show_progress((frame - 1.0) / count, fmt::format("frame {}/{}, Newton iteration {}, residual {:.1e} m/s", frame,
                                                        count, iteration, residual));
     };
     const ConfigReader what = ConfigReader::from_file(stage.input("--sample"));
-    if (what.has("bodies")) return press_scene(stage, sensor, file, progress);
+    if (what.has("bodies")) {
+      tell_friction();
+      return press_scene(stage, sensor, file, progress);
+    }
     if (!stage.optional_input("--object"))
       throw UsageError("--object is missing: what is pressed or gripped (only a scene names its bodies itself)");
     if (stage.optional_input("--soft")) throw UsageError("--soft: only a scene has soft bodies");
@@ -230,12 +234,14 @@ int main(int argc, char** argv) {
       if (stage.optional_input("--object-config"))
         throw UsageError("--object-config says which side of the object is up; fingers take it as it is");
       const auto spec = stage.read_config<GraspSpec>("--sample");
+      if (!spec.friction_coefficient) tell_friction();
       const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
       const TetMesh gel = read_tet_mesh(stage.input("--gel"));
       ScratchBytes frames(stage);
       write_outputs(stage, sensor, gel, grasp(sensor, gel, object, config, spec, progress, &frames));
       return;
     }
+    tell_friction();
     const SampleInputs inputs = read_sample(stage);
     const TetMesh gel = read_tet_mesh(stage.input("--gel"));
     ScratchFrames frames(stage);
