@@ -34,7 +34,7 @@ parameters:
 measurements:
   - {name: small, kind: press, ball: {radius_mm: 2, edge_mm: 0.5}, file: data/small.csv, columns: {depth_mm: depth, force_n: force}, factors: {force_n: -1}, sigma: {relative: 0.005, force_n: 0.001}, fit_to_mm: 0.7, predict_mm: [0.85], simulate: {to_mm: 0.9, press_frames: 9}}
   - {name: large, kind: press, ball: {radius_mm: 7, edge_mm: 0.8}, file: data/large.csv, columns: {depth_mm: depth, force_n: force}, sigma: {relative: 0.005, force_n: 0.001}, simulate: {to_mm: 0.9, press_frames: 9}}
-checks: [{name: other_law, changes: [material.law=stvk_hencky]}]
+checks: [{name: other_law, changes: [material.law=stvk_hencky]}, {name: same, press: press.yaml}]
 END
 
 # The truth lies between the nodes; its rows are those of a press.
@@ -85,6 +85,8 @@ grep -q 'youngs_modulus_pa: .*# \[fitted ± ' $fit/sensor.yaml || fail "the sens
 grep -q 'poissons_ratio: 0.43  # \[measured\] paper' $fit/sensor.yaml || fail "the sensor file does not say what was measured"
 [ "$(grep -c 'name: m0' $fit/ensemble.yaml)" = 3 ] || fail "there are not three members"
 grep -q 'sensor: sensor.yaml' $fit/ensemble.yaml || fail "the ensemble is not of the fitted sensor"
+# A check that changes nothing: no error of the model.
+awk '/^  modulus_error:/ { inside = 1 } inside && /same:/ { exit !($2 < 1e-12 && $2 > -1e-12) }' $fit/identify.yaml || fail "a check that changes nothing changes the modulus"
 for picture in curve_small residual_large profile_thickness_mm; do [ -s $fit/$picture.svg ] || fail "there is no $picture.svg"; done
 
 # The sensor file presses like the truth.
@@ -121,6 +123,13 @@ sed 's/nodes: \[1.6, 2.2, 2.8\]/nodes: [2.8, 1.6]/' mine/gel.yaml > mine/nodes.y
 wrong 'nodes: must ascend' mine/nodes.yaml
 sed 's/bounds: \[0, 0.5\]/bounds: [0.1, 0.5]/' mine/gel.yaml > mine/bounds.yaml
 wrong 'mount_compliance_mm_per_n.bounds: must be the least and the largest value' mine/bounds.yaml
+sed 's/small.csv/gone.csv/' mine/gel.yaml > mine/gone.yaml
+wrong 'there is no shared/data/gone.csv, which mine/gone.yaml names' mine/gone.yaml
+sed 's/quasi_static/implicit_euler/' mine/press.yaml > mine/moving.yaml
+sed 's/press: press.yaml/press: moving.yaml/' mine/gel.yaml > mine/dynamics.yaml
+wrong 'dynamics: must be quasi_static' mine/dynamics.yaml
+sed 's/name: other_law/name: n00/' mine/gel.yaml > mine/twice.yaml
+wrong 'two folders would be called n00' mine/twice.yaml
 wrong 'IDENTIFY: nothing.yaml does not exist' nothing.yaml
 refused 2 'is no card' make -s -f Makefile.data blind-card CASES=mine/gel.yaml OUT="$scratch/wrong" BUILD="$build_dir" PACKAGES=no REBUILD=no
 echo "1 passed, 0 failed"

@@ -106,9 +106,9 @@ Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mecha
   }
   for (const CardImages& i : images) {
     out.page += fmt::format(
-        "\n## Images: {}\n\nLight fitted on {} photographs; of each of these, left out of the fit, the error is {:.1f} "
-        "codes, "
-        "which is what to expect of the others. Errors are in the contact box.\n\n"
+        "\n## Images: {}\n\nLight fitted on {} photographs; the contacts of those left out of the fit "
+        "(cross-validation) have an error of "
+        "{:.1f} codes, which is what to expect of the others. Errors are in the contact box.\n\n"
         "| photograph | expected, codes | error, codes | SSIM-S | MAE | PSNR, dB |\n|---|---|---|---|---|---|\n",
         i.name, i.calibrated_on, i.predicted_rmse_codes);
     Value::List rows;

@@ -40,7 +40,7 @@ TEST(Card, PutsFitsPredictionsAndMeasurementsOnOnePage) {
   const Card card = make_card(config(), {{.name = "g", .folder = folders.fit}}, {read_card_images("s", folders.shots)});
   for (const char* part :
        {"# Blind card: a gel\n", "Of two pads.", "## Mechanics: g\n\n| gel | value |\n",
-        "![curve_ball](g_curve_ball.svg)", "Light fitted on 22 photographs", "the error is 5.5 codes",
+        "![curve_ball](g_curve_ball.svg)", "Light fitted on 22 photographs", "have an error of 5.5 codes",
         // √0.0004 of 255 codes
         "| a/a_1.png | 5.5 | 5.1 | 0.910 | 0.0200 | 31.50 |", "![s](s_sheet.png)"})
     EXPECT_THAT(card.page, testing::HasSubstr(part));
