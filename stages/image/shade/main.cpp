@@ -1,9 +1,11 @@
 #include <fmt/core.h>
 
+#include <ctime>
 #include <numbers>
 #include <optional>
 
 #include "common/base/error.h"
+#include "common/base/statistics.h"
 #include "common/benchmark/ball_press.h"
 #include "common/image/picture.h"
 #include "common/optics/seen_membrane.h"
@@ -34,10 +36,26 @@ const StageSpec kShade{
                 .required = false,
                 .many = true}}};
 
+/// Processor seconds of images, files not counted.
+struct Times {
+  std::vector<double> view_s = {}, light_s = {};
+
+  /// Calls `work` and notes what it took.
+  template <typename Work>
+  static auto timed(std::vector<double>& times, Work&& work) {
+    const std::clock_t started = std::clock();
+    auto result = work();
+    times.push_back(static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC);
+    return result;
+  }
+  void tell(Stage& stage) const { stage.cost({{"view_s", upper_median(view_s)}, {"light_s", upper_median(light_s)}}); }
+};
+
 /// Pictures one membrane and writes it under its name, with its normals and its depth along the camera's axis.
 void deliver(Stage& stage, const std::string& name, const MembraneView& view, const Sensor& sensor,
-             const LightField& light, const ByteImage& background) {
-  write_png(stage.output(name + ".png"), add_change(background, code_change(light, view)));
+             const LightField& light, const ByteImage& background, Times& times) {
+  write_png(stage.output(name + ".png"),
+            Times::timed(times.light_s, [&] { return add_change(background, code_change(light, view)); }));
   FloatImage normals(view.width, view.height, 3);
   for (std::size_t i = 0; i < view.normal.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
@@ -54,10 +72,13 @@ void shade_shapes(Stage& stage, const ImagePlaces& config, const Sensor& sensor,
   const auto& shapes = stage.inputs("--shapes");
   if (shapes.size() != config.images.size())
     throw UsageError(fmt::format("{} --shapes for {} images", shapes.size(), config.images.size()));
+  Times times;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const FloatImage indentation = read_camera_exr(shapes[i], {"Y"}, sensor.camera);
-    deliver(stage, config.images[i].name, view_height_map(indentation, sensor), sensor, light, background);
+    const MembraneView view = Times::timed(times.view_s, [&] { return view_height_map(indentation, sensor); });
+    deliver(stage, config.images[i].name, view, sensor, light, background, times);
   }
+  times.tell(stage);
   stage.summarize({{"images", shapes.size()}});
 }
 
@@ -79,14 +100,17 @@ void shade_press(Stage& stage, const ImagePlaces& config, const Sensor& sensor, 
         fitted = fit_place(press, image.frame, config.place, *config.fit, photograph, background, light, sensor,
                            relief ? &*relief : nullptr);
   }
+  Times times;
   std::vector<Matrix4> poses;
   for (const NamedFrame& image : config.images) {
     const auto frame = static_cast<std::size_t>(image.frame);
-    const MembraneView view = view_at(press, image.frame, fitted.place, relief ? &*relief : nullptr, sensor);
-    deliver(stage, image.name, view, sensor, light, background);
+    const MembraneView view = Times::timed(
+        times.view_s, [&] { return view_at(press, image.frame, fitted.place, relief ? &*relief : nullptr, sensor); });
+    deliver(stage, image.name, view, sensor, light, background, times);
     poses.emplace_back(place_pose(fitted.place, sensor) * press.gel_from_object[frame]);
   }
   write_poses(stage, image_poses_field(), poses);
+  times.tell(stage);
   const Vector3 center_m = place_pose(fitted.place, sensor).topRightCorner<3, 1>();
   Value::Map summary{{"images", config.images.size()},
                      {"center_px", Value::List{fitted.place.x_px, fitted.place.y_px}},
@@ -107,6 +131,7 @@ void shade_contacts(Stage& stage, const ImagePlaces& config, const Sensor& senso
   const double radius_m = config.ball_radius_m.value();
   const BallPress press = read_ball_press(*stage.optional_input("--press"), *stage.optional_input("--gel"), radius_m,
                                           stage.read_config<ContactRim>("--contact").gap_m);
+  Times times;
   std::vector<Matrix4> poses;
   Value::Map depths;
   for (const NamedFrame& image : config.images) {
@@ -114,13 +139,15 @@ void shade_contacts(Stage& stage, const ImagePlaces& config, const Sensor& senso
     const double depth =
         press.depth_of_contact(contact.radius_px * sensor.camera.window_width_m / sensor.camera.width_px, image.name);
     const Matrix4 place = place_pose(contact.center, sensor);
-    deliver(stage, image.name,
-            view_membrane(at_place(press.at_depth(depth), contact.center, sensor), press.front, sensor), sensor, light,
-            background);
+    const MembraneView view = Times::timed(times.view_s, [&] {
+      return view_membrane(at_place(press.at_depth(depth), contact.center, sensor), press.front, sensor);
+    });
+    deliver(stage, image.name, view, sensor, light, background, times);
     poses.push_back(ball_pose(place(0, 3), place(1, 3), depth, radius_m));
     depths.emplace_back(image.name, 1e3 * depth);
   }
   write_poses(stage, image_poses_field(), poses);
+  times.tell(stage);
   stage.summarize({{"images", config.images.size()}, {"depth_mm", depths}});
 }
 
