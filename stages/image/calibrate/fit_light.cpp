@@ -105,19 +105,6 @@ double held_out_rmse(const std::vector<NormalEquations>& equations, std::size_t 
   return std::sqrt(squares / count);
 }
 
-/// The light of all photographs outside a ball's fold: under its own, light and place of a ball would agree on
-/// anything.
-LightField light_without(const std::vector<NormalEquations>& equations, std::size_t ball, std::size_t balls,
-                         const LightField& light, const CalibrateConfig& config) {
-  const auto folds = static_cast<std::size_t>(config.folds);
-  NormalEquations kept;
-  for (std::size_t b = 0; b < equations.size(); ++b)
-    if (b >= balls || b % folds != ball % folds) kept.add(equations[b]);
-  LightField out = light;
-  out.weights = kept.solve(config.ridge);
-  return out;
-}
-
 /// Of one photograph under the light of all others.
 double left_out_rmse(const std::vector<NormalEquations>& equations, std::size_t which, const Part& part,
                      const CalibrateConfig& config) {
@@ -193,8 +180,7 @@ LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, 
       }
       Ball ball = labelled[b];  // the label holds it, not the round before
       ball.rmse_codes = balls[b].rmse_codes;
-      fit_ball(ball, *press, sensor, light_without(equations, b, balls.size(), fit.light, config),
-               config.label_sigma_px, config);
+      fit_ball(ball, *press, sensor, fit.light, config.label_sigma_px, config);
       balls[b] = ball;
     });
     if (!config.fit_contact_gap) continue;
