@@ -43,6 +43,24 @@ double number_at(const Value& record, const std::filesystem::path& path, const s
   return number(*text, path);
 }
 
+/// Files of the photographs of known objects that calibrate beside the balls.
+std::vector<std::string> calibrating_objects(const std::filesystem::path& folder) {
+  const auto path = folder / "cases" / "known_objects.yaml";
+  std::vector<std::string> files;
+  if (!std::filesystem::exists(path)) return files;
+  ConfigReader in = ConfigReader::from_file(path);
+  for (ConfigReader& object : in.sections("objects")) files.push_back(object.text("photograph"));
+  return files;
+}
+
+/// Whether an image `a/b_1.0.png` is of a photograph `b_1.0_real.png`.
+bool is_of(const std::string& image, const std::string& photograph) {
+  const std::string stem = std::filesystem::path(image).stem().string();
+  if (!photograph.starts_with(stem)) return false;
+  const std::string rest = photograph.substr(stem.size());
+  return rest.starts_with('_') || rest == std::filesystem::path(photograph).extension();
+}
+
 }  // namespace
 
 CardConfig CardConfig::read(ConfigReader& in) {
@@ -65,10 +83,14 @@ CardImages read_card_images(const std::string& name, const std::filesystem::path
   out.predicted_rmse_codes =
       number_at(record, record_path, "summary.held_out_rmse_codes." + (kept ? *kept : std::string()));
   const auto samples = folder / "metrics" / "ours" / "samples.csv";
+  const std::vector<std::string> calibrating = calibrating_objects(folder);
   CsvReader table(samples);
   while (table.next()) {
     if (table["region"] != "box") continue;
-    out.photographs.push_back({.name = table["name"],
+    const std::string image = table["name"];
+    out.photographs.push_back({.name = image,
+                               .fitted = std::any_of(calibrating.begin(), calibrating.end(),
+                                                     [&](const std::string& file) { return is_of(image, file); }),
                                .rmse_codes = kCodes * std::sqrt(number(table["mse"], samples)),
                                .ssim = number(table["ssim_s"], samples),
                                .mae = number(table["mae"], samples),
@@ -106,16 +128,22 @@ Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mecha
   }
   for (const CardImages& i : images) {
     out.page += fmt::format(
-        "\n## Images: {}\n\nLight fitted on {} photographs; the contacts of those left out of the fit "
+        "\n## Images: {}\n\nLight fitted on {} photographs of balls{}; the contacts of balls left out of the fit "
         "(cross-validation) have an error of "
-        "{:.1f} codes, which is what to expect of the others. Errors are in the contact box.\n\n"
-        "| photograph | expected, codes | error, codes | SSIM-S | MAE | PSNR, dB |\n|---|---|---|---|---|---|\n",
-        i.name, i.calibrated_on, i.predicted_rmse_codes);
+        "{:.1f} codes, which is what to expect of photographs that were not fitted. Errors are in the contact box.\n\n"
+        "| photograph | | expected, codes | error, codes | SSIM-S | MAE | PSNR, dB |\n|---|---|---|---|---|---|---|\n",
+        i.name, i.calibrated_on,
+        std::any_of(i.photographs.begin(), i.photographs.end(), [](const CardPhotograph& p) { return p.fitted; })
+            ? " and those marked as fitted"
+            : "",
+        i.predicted_rmse_codes);
     Value::List rows;
     for (const CardPhotograph& p : i.photographs) {
-      out.page += fmt::format("| {} | {:.1f} | {:.1f} | {:.3f} | {:.4f} | {:.2f} |\n", p.name, i.predicted_rmse_codes,
-                              p.rmse_codes, p.ssim, p.mae, p.psnr_db);
+      out.page += fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.3f} | {:.4f} | {:.2f} |\n", p.name,
+                              p.fitted ? "fitted" : "predicted", i.predicted_rmse_codes, p.rmse_codes, p.ssim, p.mae,
+                              p.psnr_db);
       rows.emplace_back(Value::Map{{"photograph", p.name},
+                                   {"fitted", p.fitted},
                                    {"error_codes", p.rmse_codes},
                                    {"ssim_s", p.ssim},
                                    {"mae", p.mae},

@@ -27,9 +27,10 @@ struct CardMechanics {
   std::filesystem::path folder;
 };
 
-/// One photograph that nothing was fitted to but its place: errors in the contact box.
+/// One photograph: errors in the contact box.
 struct CardPhotograph {
   std::string name;
+  bool fitted = false;  // the light learnt from it; to others nothing was fitted but, at most, the place
   double rmse_codes = 0.0, ssim = 0.0, mae = 0.0, psnr_db = 0.0;
 };
 
@@ -37,7 +38,7 @@ struct CardPhotograph {
 struct CardImages {
   std::string name;
   std::filesystem::path folder;
-  int calibrated_on = 0;              // photographs
+  int calibrated_on = 0;              // photographs of balls
   double predicted_rmse_codes = 0.0;  // error of those that calibrate, each left out of the fit
   std::vector<CardPhotograph> photographs;
 };

@@ -23,9 +23,12 @@ struct Folders {
     write_file(fit / "curve_ball.svg", "<svg/>");
     write_file(shots / "calibrate" / "calibrate.yaml",
                "summary:\n  photographs: 22\n  model: both\n  held_out_rmse_codes: {lamps: 7.5, both: 5.5}\n");
-    write_file(
-        shots / "metrics" / "ours" / "samples.csv",
-        "name,region,mae,mse,psnr_db,ssim_s\na/a_1.png,full,0.1,0.0004,30,0.9\na/a_1.png,box,0.02,0.0004,31.5,0.91\n");
+    write_file(shots / "metrics" / "ours" / "samples.csv",
+               "name,region,mae,mse,psnr_db,ssim_s\na/a_1.png,full,0.1,0.0004,30,0.9\na/"
+               "a_1.png,box,0.02,0.0004,31.5,0.91\na/a_1.0.png,box,0.02,0.0004,31.5,0.92\n");
+    std::filesystem::create_directories(shots / "cases");
+    write_file(shots / "cases" / "known_objects.yaml",
+               "objects:\n  - {name: a, photograph: a_1.0_real.png, frame: 4}\n");
     write_file(shots / "comparison" / "sheet.png", "png");
   }
 };
@@ -40,9 +43,11 @@ TEST(Card, PutsFitsPredictionsAndMeasurementsOnOnePage) {
   const Card card = make_card(config(), {{.name = "g", .folder = folders.fit}}, {read_card_images("s", folders.shots)});
   for (const char* part :
        {"# Blind card: a gel\n", "Of two pads.", "## Mechanics: g\n\n| gel | value |\n",
-        "![curve_ball](g_curve_ball.svg)", "Light fitted on 22 photographs", "have an error of 5.5 codes",
+        "![curve_ball](g_curve_ball.svg)", "Light fitted on 22 photographs of balls and those marked as fitted",
+        "have an error of 5.5 codes",
         // √0.0004 of 255 codes
-        "| a/a_1.png | 5.5 | 5.1 | 0.910 | 0.0200 | 31.50 |", "![s](s_sheet.png)"})
+        "| a/a_1.png | predicted | 5.5 | 5.1 | 0.910 | 0.0200 | 31.50 |", "| a/a_1.0.png | fitted | 5.5 |",
+        "![s](s_sheet.png)"})
     EXPECT_THAT(card.page, testing::HasSubstr(part));
   EXPECT_EQ(card.pictures.at("s_sheet.png"), folders.shots / "comparison" / "sheet.png");
   const std::string yaml = to_yaml(card.values);
