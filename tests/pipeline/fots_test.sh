@@ -6,7 +6,7 @@ export OPENBLAS_NUM_THREADS=1
 bin=$build_dir/bin
 mkdir -p configs/studies/fots/made shots/data/made
 sed 's/centre_mm: .*/centre_mm: 0.6/; s/inner_mm: .*/inner_mm: 1.2/; s/rim_mm: .*/rim_mm: 4/' configs/studies/fots/fots_markers/mesh.yaml > configs/studies/fots/made/mesh.yaml
-sed 's/rows: 53/rows: 17/; s/columns: 69/columns: 21/; s/pitch_mm: 0.25/pitch_mm: 0.8/' configs/studies/fots/fots_markers/sensor.yaml > configs/studies/fots/made/sensor.yaml
+sed 's/rows: 61/rows: 17/; s/columns: 77/columns: 21/; s/pitch_mm: 0.25/pitch_mm: 0.8/' configs/studies/fots/fots_markers/sensor.yaml > configs/studies/fots/made/sensor.yaml
 cp configs/studies/fots/fots_markers/press.yaml configs/studies/fots/made/press.yaml
 cat > configs/studies/fots/made.yaml <<'END'
 title: made
