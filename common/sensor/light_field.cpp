@@ -90,6 +90,8 @@ double relative_irradiance(const LightGeometry& geometry, const MembraneView& vi
   return lit / flat - 1.0;
 }
 
+namespace {
+
 void light_bases(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& n, double* out) {
   const std::size_t i = view.index(x, y);
   for (std::size_t lamp = 0; lamp < geometry.lamps_m.size(); ++lamp) {
@@ -117,6 +119,8 @@ void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const
     }
   }
 }
+
+}  // namespace
 
 void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
                     double* out) {

@@ -63,16 +63,9 @@ double relative_irradiance(const MembraneView& view, int x, int y, const Vector3
 double relative_irradiance(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
                            std::size_t lamp);
 
-/// Bases of a pixel whose membrane has this normal: lamps (q, q²), then the dome, then monomials by degree and falling
-/// power of n_x, depth last. \pre out has num_bases() entries
-void light_bases(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
-                 double* out);
-
-/// Features of a pixel from its bases: each times f = (1, x, y, …) by degree and falling power of x.
-/// \pre out has num_features() entries
-void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const double* bases, double* out);
-
-/// Both in one. \pre out has num_features() entries
+/// All features of a pixel whose membrane has this normal. Bases are the lamps (q, q²), then the dome, then monomials
+/// by degree and falling power of n_x, depth last; each times f = (1, x, y, …) by degree and falling power of x. \pre
+/// out has num_features() entries
 void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
                     double* out);
 /// The same with the view's own normal.

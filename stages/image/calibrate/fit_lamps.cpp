@@ -46,7 +46,7 @@ Eigen::VectorXd parameters_of(const std::vector<LampGuess>& lamps, const Calibra
 Eigen::VectorXd projected_residuals(const std::vector<const Contact*>& contacts, const std::vector<LampGuess>& lamps,
                                     LightGeometry& geometry, const CalibrateConfig& config) {
   set_lamps(geometry, lamps);
-  const auto features = all_features(contacts, geometry, 0.0);
+  const auto features = all_features(contacts, geometry);
   const Codes weights = best_weights(contacts, features, config.ridge).codes;
   std::vector<Eigen::VectorXd> parts;
   Eigen::Index rows = 0;
@@ -63,11 +63,10 @@ Eigen::VectorXd projected_residuals(const std::vector<const Contact*>& contacts,
 
 }  // namespace
 
-std::vector<Eigen::MatrixXd> all_features(const std::vector<const Contact*>& contacts, const LightGeometry& geometry,
-                                          double blur_px) {
+std::vector<Eigen::MatrixXd> all_features(const std::vector<const Contact*>& contacts, const LightGeometry& geometry) {
   std::vector<Eigen::MatrixXd> features(contacts.size());
   tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
-    features[i] = feature_matrix(geometry, contacts[i]->view, contacts[i]->samples, blur_px);
+    features[i] = feature_matrix(geometry, contacts[i]->view, contacts[i]->samples);
   });
   return features;
 }

@@ -10,9 +10,8 @@
 
 namespace tacipc {
 
-/// Features of all contacts at a geometry, one matrix each, as the optics blur them.
-std::vector<Eigen::MatrixXd> all_features(const std::vector<const Contact*>& contacts, const LightGeometry& geometry,
-                                          double blur_px);
+/// Features of all contacts at a geometry, one matrix each.
+std::vector<Eigen::MatrixXd> all_features(const std::vector<const Contact*>& contacts, const LightGeometry& geometry);
 
 /// Weights that explain the contacts best, and their normal equations over the samples that are active under them.
 struct Weights {

@@ -159,8 +159,7 @@ LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, 
       lamps = lamps_at(lamps, fit.lamps->parameters, config);
       set_lamps(geometry, lamps);
     }
-    // Places are found without blur, so the light they are found under is fitted without.
-    const auto features = all_features(seen, geometry, round + 1 == rounds ? config.blur_px : 0.0);
+    const auto features = all_features(seen, geometry);
     Weights best = best_weights(seen, features, config.ridge);
     equations = std::move(best.equations);
     fit.light = {.geometry = geometry, .weights = std::move(best.codes), .blur_px = config.blur_px};

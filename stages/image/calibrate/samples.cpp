@@ -52,37 +52,12 @@ Samples make_samples(const ByteImage& photograph, const ByteImage& background, c
       [&](int x, int y) { return distance(x, y) > config.drift_radius_px; }, config.fit_stride_px);
 }
 
-Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples,
-                               double blur_px) {
+Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples) {
   const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> out(rows, geometry.num_features());
-  if (blur_px == 0.0 || rows == 0) {
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
-      light_features(geometry, view, x, y, out.row(i).data());
-    }
-    return out;
-  }
-  // The field varies so little within a blur that bases are blurred before it is put on them.
-  const auto [left, right] = std::minmax_element(samples.pixels.begin(), samples.pixels.end());
-  const auto by_row = [](const auto& a, const auto& b) { return a[1] < b[1]; };
-  const auto [top, bottom] = std::minmax_element(samples.pixels.begin(), samples.pixels.end(), by_row);
-  const int margin = static_cast<int>(std::ceil(4.0 * blur_px));
-  const int x0 = std::max((*left)[0] - margin, 0), y0 = std::max((*top)[1] - margin, 0);
-  const int x1 = std::min((*right)[0] + margin + 1, view.width), y1 = std::min((*bottom)[1] + margin + 1, view.height);
-  FloatImage bases(x1 - x0, y1 - y0, geometry.num_bases());
-  std::vector<double> pixel(static_cast<std::size_t>(geometry.num_bases()));
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      light_bases(geometry, view, x, y, view.normal[view.index(x, y)], pixel.data());
-      for (int k = 0; k < bases.channels; ++k)
-        bases.at(x - x0, y - y0, k) = static_cast<float>(pixel[static_cast<std::size_t>(k)]);
-    }
-  const FloatImage blurred = gaussian_blurred(bases, blur_px);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
-    for (int k = 0; k < bases.channels; ++k) pixel[static_cast<std::size_t>(k)] = double{blurred.at(x - x0, y - y0, k)};
-    spread_over_field(geometry, view.rest[view.index(x, y)], pixel.data(), out.row(i).data());
+    light_features(geometry, view, x, y, out.row(i).data());
   }
   return out;
 }

@@ -42,9 +42,8 @@ Samples make_samples(const ByteImage& photograph, const ByteImage& background, c
 Samples make_samples(const ByteImage& photograph, const ByteImage& background, const BallLabel& label,
                      const CalibrateConfig& config);
 
-/// Features of all samples, one row each, as the optics blur them.
-Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples,
-                               double blur_px = 0.0);
+/// Features of all samples, one row each.
+Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples);
 
 /// `used`, and clipped samples where the light is on the wrong side of the clipped code.
 Codes active_samples(const Samples& samples, const Codes& simulated);
