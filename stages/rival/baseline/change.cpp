@@ -11,12 +11,6 @@
 namespace tacipc {
 namespace {
 
-FloatImage to_image(const Raster& raster) {
-  FloatImage image(raster.width, raster.height, 1);
-  for (std::size_t i = 0; i < raster.values.size(); ++i) image.pixels[i] = static_cast<float>(raster.values[i]);
-  return image;
-}
-
 FloatImage blurred(const FloatImage& change, const std::vector<double>& profile) {
   FloatImage out = change;
   Raster one(change.width, change.height);

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "common/image/image.h"
+
 namespace tacipc {
 
 /// Row-major numbers, row 0 on top.
@@ -19,5 +21,12 @@ struct Raster {
   }
   double at(int x, int y) const { return const_cast<Raster*>(this)->at(x, y); }
 };
+
+/// The same as an image of one channel, in single precision.
+inline FloatImage to_image(const Raster& raster) {
+  FloatImage image(raster.width, raster.height, 1);
+  for (std::size_t i = 0; i < raster.values.size(); ++i) image.pixels[i] = static_cast<float>(raster.values[i]);
+  return image;
+}
 
 }  // namespace tacipc

@@ -7,16 +7,6 @@
 #include "stages/rival/baseline/phong.h"
 
 namespace tacipc {
-namespace {
-
-FloatImage to_image(const Raster& raster) {
-  FloatImage image(raster.width, raster.height, 1);
-  for (std::size_t i = 0; i < raster.values.size(); ++i) image.pixels[i] = static_cast<float>(raster.values[i]);
-  return image;
-}
-
-}  // namespace
-
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 BaselineFrame simulate_depth(SeenObject seen, const Raster& front_depth_m, const BaselineConfig& config,

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
-#include <sstream>
 
 #include "common/benchmark/quiver.h"
-#include "common/config/config_text.h"
 #include "common/image/plot.h"
 
 namespace tacipc {
@@ -21,31 +18,9 @@ std::string rounded(double value, double sigma) {
   return fmt::format("{:.{}g}", value, digits);
 }
 
-std::string deviation_text(double sigma) { return fmt::format("{:.2g}", sigma); }
-
-/// Key of the sensor file that a parameter of the mechanics is.
-std::string sensor_key(const std::string& name) {
-  if (name == kModulus || name == kPoisson) return "material." + name;
-  if (name == kThickness) return "gel." + name;
-  if (name == kFriction) return "gel.friction";
-  if (name == kMount) return "mount.compliance_mm_per_n";
-  if (name == kShearMount) return "mount.shear_compliance_mm_per_n";
-  return {};
-}
-
-std::string terms_yaml(const IdentifySpec& spec, const Unknowns& unknowns, const Eigen::VectorXd& u) {
-  std::string out = "[";
-  for (const auto& [part, time] : spec.relaxation)
-    out += fmt::format("{}{{part: {:.6g}, time_s: {:.6g}}}", out.size() > 1 ? ", " : "",
-                       unknowns.value(u, part.name, {}, 0.0), unknowns.value(u, time.name, {}, 0.0));
-  return out + "]";
-}
-
-std::string path_of(const std::string& section, const std::string& key) {
-  return section.empty() ? key : section + "." + key;
-}
-
 }  // namespace
+
+std::string deviation_text(double sigma) { return fmt::format("{:.2g}", sigma); }
 
 std::vector<Estimate> estimates_of(const MechanicsModel& model, const Fit& fit, const Posterior& posterior) {
   std::vector<Estimate> out;
@@ -67,75 +42,6 @@ std::vector<Estimate> estimates_of(const MechanicsModel& model, const Fit& fit, 
                    .at_bound = fit.u[i] - unknown.u_low() < near || unknown.u_high() - fit.u[i] < near,
                    .against_prior = std::abs(mean[i] - unknown.u_mean()) >= 3.0 * unknown.prior.sigma});
   }
-  return out;
-}
-
-std::vector<MarkerErrors> marker_errors(const MechanicsModel& model, std::size_t measurement,
-                                        const Posterior& posterior, bool fitted) {
-  const MarkerMeasurement& m = *model.spec().measurements[measurement].markers;
-  const MarkerData& data = *model.data(measurement).markers;
-  const auto mean = model.marker_px(measurement, posterior.mean_u());
-  constexpr int kDraws = 200;
-  std::vector<std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd>> drawn;
-  for (const Eigen::Index k : posterior.resampled(kDraws))
-    drawn.push_back(model.marker_px(measurement, posterior.u.col(k)));
-  const double noise = model.sigma_factor[measurement] * m.sigma_px;
-  std::vector<MarkerErrors> out;
-  const auto add = [&](const std::string& photograph, const MarkerField& field, const Eigen::Matrix2Xd& px,
-                       auto&& part) {
-    MarkerErrors e{.photograph = photograph, .fitted = fitted};
-    for (Eigen::Index i = 0; i < px.cols(); ++i) {
-      if (model.fits_marker(i) != fitted) continue;
-      ++e.vectors;
-      e.measured_px += field.moved_px.col(i).norm();
-      e.error_px += (px.col(i) - field.moved_px.col(i)).norm();
-      for (Eigen::Index k = 0; k < 2; ++k) {
-        double square = noise * noise;
-        for (const auto& draw : drawn) square += std::pow(part(draw)(k, i) - px(k, i), 2) / kDraws;
-        e.inside += std::abs(px(k, i) - field.moved_px(k, i)) <= 1.96 * std::sqrt(square);
-      }
-    }
-    out.push_back(e);
-  };
-  add("press", data.press, mean.first, [](const auto& both) -> const Eigen::Matrix2Xd& { return both.first; });
-  add("press and shear", data.shear, mean.second,
-      [](const auto& both) -> const Eigen::Matrix2Xd& { return both.second; });
-  return out;
-}
-
-std::map<std::size_t, std::vector<MarkerErrors>> all_marker_errors(MechanicsModel& model, const Posterior& posterior) {
-  std::map<std::size_t, std::vector<MarkerErrors>> out;
-  for (std::size_t m = 0; m < model.spec().measurements.size(); ++m)
-    if (model.spec().measurements[m].markers) out[m] = marker_errors(model, m, posterior, true);
-  if (out.empty()) return out;
-  const std::vector<double> factors = model.sigma_factor;
-  for (const auto part : {MechanicsModel::Markers::even, MechanicsModel::Markers::odd}) {
-    model.fitted_markers = part;
-    model.sigma_factor.assign(factors.size(), 1.0);
-    const Fit fit = fit_mechanics(model);
-    const Posterior half = draw_posterior(model, fit, model.spec().draws, model.spec().seed);
-    for (auto& [m, errors] : out)
-      for (const MarkerErrors& e : marker_errors(model, m, half, false)) {
-        auto same = std::find_if(errors.begin(), errors.end(),
-                                 [&](const MarkerErrors& o) { return !o.fitted && o.photograph == e.photograph; });
-        if (same == errors.end()) {
-          errors.push_back(e);
-          continue;
-        }
-        same->vectors += e.vectors;
-        same->measured_px += e.measured_px;
-        same->error_px += e.error_px;
-        same->inside += e.inside;
-      }
-  }
-  model.fitted_markers = MechanicsModel::Markers::all;
-  model.sigma_factor = factors;
-  for (auto& [m, errors] : out)
-    for (MarkerErrors& e : errors) {
-      e.measured_px /= e.vectors;
-      e.error_px /= e.vectors;
-      e.inside /= 2 * e.vectors;
-    }
   return out;
 }
 
@@ -346,73 +252,6 @@ std::string profile_plot(const Unknown& unknown, const Fit& fit, Eigen::Index in
   }
   plot.curves = {cost, normal, prior};
   return to_svg(plot);
-}
-
-std::map<std::string, std::string> sensor_changes(const MechanicsModel& model, const Eigen::VectorXd& u) {
-  std::map<std::string, std::string> out;
-  for (Eigen::Index i = 0; i < model.unknowns().size(); ++i) {
-    const Unknown& unknown = model.unknowns()[i];
-    const std::string key = unknown.measurement.empty() ? sensor_key(unknown.name) : "";
-    if (!key.empty()) out[key] = fmt::format("{:.6g}", unknown.value_of(u[i]));
-  }
-  if (!model.spec().relaxation.empty()) out["material.relaxation"] = terms_yaml(model.spec(), model.unknowns(), u);
-  return out;
-}
-
-std::string fitted_sensor(const std::string& text, const std::string& name, const IdentifyResult& result) {
-  ConfigText file(text, name);
-  std::map<std::string, std::string> said;  // key → note
-  const auto put = [&](const std::string& key, const std::string& yaml) {
-    ConfigReader in = ConfigReader::from_text(file.text(), name);
-    const std::string section = key.substr(0, key.find('.')), inner = key.substr(key.find('.') + 1);
-    const bool there = in.has(section) && in.section(section).has(inner);
-    there ? file.set(key, yaml) : file.add(key, yaml);
-  };
-  for (const auto& [key, yaml] : sensor_changes(result.model, result.u)) {
-    put(key, yaml);
-    put(key + "_src", "derived");
-    std::string deviation;
-    for (const Estimate& e : result.estimates)
-      if (e.measurement.empty() && sensor_key(e.name) == key)
-        deviation = " ± " + deviation_text(e.sigma) + (e.told ? "" : ", by its prior");
-    said[key] = "[fitted" + deviation + "]";
-  }
-  ConfigReader in = ConfigReader::from_text(file.text(), name);
-  const Sensor sensor = Sensor::read(in);
-  in.finish();
-  for (const auto& [path, source] : sensor.sources)
-    said.emplace(path, source == "known" ? "[measured]" : source == "derived" ? "[derived]" : "[guess]");
-  static const std::regex section_line(R"(^(\w+):\s*(#.*)?$)"), value_line(R"(^  (\w+): ([^#]*[^# ])\s*(#\s?(.*))?$)");
-  std::string out, section, line;
-  std::istringstream lines(file.text());
-  while (std::getline(lines, line)) {
-    std::smatch match;
-    if (std::regex_match(line, match, section_line))
-      section = match[1];
-    else if (!line.empty() && line[0] != ' ' && line[0] != '#')
-      section.clear();
-    const bool mechanics = section == "gel" || section == "material" || section == "mount";
-    if (mechanics && std::regex_match(line, match, value_line)) {
-      const auto note = said.find(path_of(section, match[1]));
-      const std::string old = note != said.end() && note->second.starts_with("[fitted") ? "" : match[4].str();
-      if (note != said.end())
-        line =
-            fmt::format("  {}: {}  # {}{}", match[1].str(), match[2].str(), note->second, old.empty() ? "" : " " + old);
-    }
-    out += line + '\n';
-  }
-  return out;
-}
-
-Ensemble ensemble_of(const IdentifyResult& result, const std::filesystem::path& sensor, int members) {
-  Ensemble out{.title = "drawn from what " + result.model.spec().title + " left uncertain", .sensor = sensor};
-  for (const Eigen::Index column : result.posterior.resampled(members)) {
-    EnsembleMember member{.name = fmt::format("m{:02}", out.members.size())};
-    for (const auto& change : sensor_changes(result.model, result.posterior.u.col(column)))
-      member.set.push_back(change);
-    out.members.push_back(std::move(member));
-  }
-  return out;
 }
 
 }  // namespace tacipc

@@ -7,6 +7,7 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/stage/stage.h"
+#include "stages/study/identify/fitted_sensor.h"
 #include "stages/study/identify/identify_report.h"
 #include "stages/study/identify/runs.h"
 

@@ -33,28 +33,21 @@ TEST(TrainNetwork, TheGradientIsThatOfFiniteDifferences) {
   }
   loss_and_gradient(network, samples, masks, gradient);
   constexpr float kStep = 2e-3F;
-  for (std::size_t l = 0; l < LightNetwork::kLayers; ++l) {
-    for (const auto& [row, column] : {std::pair{0, 0}, {1, 3}, {2, 4}}) {
-      float& weight = network.layers[l].weights(row, column);
-      const float before = weight;
-      weight = before + kStep;
-      const double above = loss_and_gradient(network, samples, masks, unused);
-      weight = before - kStep;
-      const double below = loss_and_gradient(network, samples, masks, unused);
-      weight = before;
-      const double slope = (above - below) / (2.0 * double{kStep});
-      EXPECT_NEAR(double{gradient.layers[l].weights(row, column)}, slope, 2e-5 + 0.02 * std::abs(slope))
-          << "layer " << l << ", " << row << ", " << column;
-    }
-    float& bias = network.layers[l].bias[1];
-    const float before = bias;
-    bias = before + kStep;
+  const auto expect_slope = [&](float& parameter, float derivative, const std::string& which) {
+    const float before = parameter;
+    parameter = before + kStep;
     const double above = loss_and_gradient(network, samples, masks, unused);
-    bias = before - kStep;
+    parameter = before - kStep;
     const double below = loss_and_gradient(network, samples, masks, unused);
-    bias = before;
+    parameter = before;
     const double slope = (above - below) / (2.0 * double{kStep});
-    EXPECT_NEAR(double{gradient.layers[l].bias[1]}, slope, 2e-5 + 0.02 * std::abs(slope)) << "layer " << l;
+    EXPECT_NEAR(double{derivative}, slope, 2e-5 + 0.02 * std::abs(slope)) << which;
+  };
+  for (std::size_t l = 0; l < LightNetwork::kLayers; ++l) {
+    for (const auto& [row, column] : {std::pair{0, 0}, {1, 3}, {2, 4}})
+      expect_slope(network.layers[l].weights(row, column), gradient.layers[l].weights(row, column),
+                   "layer " + std::to_string(l) + ", " + std::to_string(row) + ", " + std::to_string(column));
+    expect_slope(network.layers[l].bias[1], gradient.layers[l].bias[1], "layer " + std::to_string(l));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "common/format/npy.h"
 #include "stages/study/identify/identify_report.h"
 #include "tests/scratch_folder.h"
+#include "tests/stages/study/identify/made_up_sensor.h"
 
 namespace tacipc {
 namespace {
@@ -29,44 +30,6 @@ double ball_force(double radius_mm, double depth_mm, double nu, double thickness
 double drag_force(double radius_mm, double depth_mm, double travel_mm, const Truth& t) {
   const double normal = ball_force(radius_mm, depth_mm, t.poisson, t.thickness_mm);
   return t.friction * normal * std::tanh(1.2e-6 * std::sqrt(depth_mm) * travel_mm / (t.friction * normal));
-}
-
-std::string sensor_text() {
-  std::string text = R"(name: made_up
-gel: {outline: disc, radius_mm: 15, thickness_mm: 4}
-material: {law: neo_hookean, density_kg_m3: 1000, youngs_modulus_pa: 2.0e+5, poissons_ratio: 0.47}
-coating: {albedo: [0.5, 0.5, 0.5]}
-leds: {emission: lambertian, size_mm: 0, list: [{rgb_linear: [1, 1, 1], intensity: 1, position_mm: [0, 5, -12]}]}
-camera: {model: rectified, position_mm: [0, 0, -20], width_px: 160, height_px: 120, window_mm: [16, 12]}
-markers: {rows: 5, columns: 5, pitch_mm: 1}
-response: {mean_level: 0.4, curve: srgb}
-noise: {full_well_e: 5000, read_e: 4}
-)";
-  return text;
-}
-
-Sensor sensor() {
-  ConfigReader in = ConfigReader::from_text(sensor_text(), "sensor");
-  Sensor out = Sensor::read(in);
-  in.finish();
-  return out;
-}
-
-IdentifySpec spec_of(const std::string& parameters, const std::string& measurements) {
-  ConfigReader in = ConfigReader::from_text("title: t\nsensor: s\nmesh: m\npress: p\ndraws: 2000\nparameters:\n" +
-                                                parameters + "measurements:\n" + measurements,
-                                            "identify");
-  IdentifySpec spec = IdentifySpec::read(in);
-  in.finish();
-  return spec;
-}
-
-std::string press(const std::string& name, double radius_mm, const std::string& more = "") {
-  return fmt::format(
-      "  - {{name: {}, kind: press, ball: {{radius_mm: {}, edge_mm: 0.2}}, file: f, columns: {{depth_mm: d, force_n: "
-      "f}}, "
-      "sigma: {{relative: 0.01, force_n: 0.003}}, simulate: {{to_mm: 2, press_frames: 20}}{}}}\n",
-      name, radius_mm, more);
 }
 
 const std::string kZero = ", depth_zero_mm: {mean: 0, sigma: 0.1}";
@@ -177,7 +140,7 @@ struct Known {
 };
 
 Known identified(const IdentifySpec& spec, const Truth& truth, unsigned seed) {
-  MechanicsModel model(spec, made_up(spec, truth, seed), sensor());
+  MechanicsModel model(spec, made_up(spec, truth, seed), made_up_sensor());
   const Fit fit = fit_mechanics(model);
   const Posterior posterior = draw_posterior(model, fit, spec.draws, 1);
   Known out{.estimates = estimates_of(model, fit, posterior), .off_over_sigma = {}};
@@ -231,15 +194,16 @@ void expect_honest(const IdentifySpec& spec, const Truth& truth) {
 }
 
 TEST(Identify, FindsModulusMountAndZeroOfDepthAndHowSureItIs) {
-  expect_honest(spec_of(kModulusOnly + "  mount_compliance_mm_per_n: {mean: 0.01, sigma: 0.03, bounds: [0, 0.2]}\n",
-                        press("ball", 4.0, kZero)),
-                Truth());
+  expect_honest(
+      made_up_spec(kModulusOnly + "  mount_compliance_mm_per_n: {mean: 0.01, sigma: 0.03, bounds: [0, 0.2]}\n",
+                   made_up_press("ball", 4.0, kZero)),
+      Truth());
 }
 
 TEST(Identify, FindsPoissonsRatioAndThicknessByTwoBalls) {
   Truth rigid;
   rigid.mount = 0.0;
-  const IdentifySpec spec = spec_of(kElastic, press("small", 1.5) + press("large", 9.0));
+  const IdentifySpec spec = made_up_spec(kElastic, made_up_press("small", 1.5) + made_up_press("large", 9.0));
   int told = 0, within = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Known known = identified(spec, rigid, seed);
@@ -261,7 +225,7 @@ TEST(Identify, FindsFrictionAndTheMountAcrossByADrag) {
       "shear_frames: 40}}\n";
   Truth truth;
   truth.zero_mm = 0.0;
-  const IdentifySpec spec = spec_of(kModulusOnly + kFrictionLine + kMounts, press("ball", 4.0) + drag);
+  const IdentifySpec spec = made_up_spec(kModulusOnly + kFrictionLine + kMounts, made_up_press("ball", 4.0) + drag);
   expect_honest(spec, truth);
 }
 
@@ -273,7 +237,7 @@ TEST(Identify, FindsHowStressRelaxes) {
   Truth rigid;
   rigid.mount = 0.0;
   rigid.zero_mm = 0.0;
-  const IdentifySpec spec = spec_of(kModulusOnly + kRelaxation, held);
+  const IdentifySpec spec = made_up_spec(kModulusOnly + kRelaxation, held);
   expect_honest(spec, rigid);
 }
 
@@ -282,7 +246,7 @@ TEST(Identify, SaysWhatMeasurementsDoNotTell) {
   rigid.mount = 0.0;
   rigid.zero_mm = 0.0;
   // One ball: modulus, thickness and Poisson's ratio change its force nearly alike. Nothing is dragged.
-  const IdentifySpec spec = spec_of(kElastic + kFrictionLine, press("ball", 4.0));
+  const IdentifySpec spec = made_up_spec(kElastic + kFrictionLine, made_up_press("ball", 4.0));
   const Known known = identified(spec, rigid, 3);
   for (const Estimate& e : known.estimates) {
     EXPECT_TRUE(e.name != kModulus || e.told);
@@ -294,23 +258,23 @@ TEST(Identify, SaysWhatMeasurementsDoNotTell) {
 }
 
 TEST(Identify, DeviationsGrowWhereTheModelIsWrong) {
-  IdentifySpec spec = spec_of(kModulusOnly, press("ball", 4.0));
+  IdentifySpec spec = made_up_spec(kModulusOnly, made_up_press("ball", 4.0));
   Truth truth;  // its mount gives way, which the model does not know
   truth.mount = 0.1;
-  MechanicsModel model(spec, made_up(spec, truth, 1), sensor());
+  MechanicsModel model(spec, made_up(spec, truth, 1), made_up_sensor());
   fit_mechanics(model);
   EXPECT_GT(model.sigma_factor[0], 3.0);
   truth.mount = truth.zero_mm = 0.0;
-  MechanicsModel right(spec, made_up(spec, truth, 1), sensor());
+  MechanicsModel right(spec, made_up(spec, truth, 1), made_up_sensor());
   fit_mechanics(right);
   EXPECT_LT(right.sigma_factor[0], 1.5);
 }
 
 TEST(Profile, IsTheParabolaOfTheCovarianceWhereTheModelIsNearlyLinear) {
-  const IdentifySpec spec = spec_of(kModulusOnly, press("ball", 4.0));
+  const IdentifySpec spec = made_up_spec(kModulusOnly, made_up_press("ball", 4.0));
   Truth truth;
   truth.mount = truth.zero_mm = 0.0;
-  MechanicsModel model(spec, made_up(spec, truth, 1), sensor());
+  MechanicsModel model(spec, made_up(spec, truth, 1), made_up_sensor());
   const Fit fit = fit_mechanics(model);
   const auto points = profile(model, fit, 0, 7);
   ASSERT_EQ(points.size(), 7U);
@@ -320,10 +284,10 @@ TEST(Profile, IsTheParabolaOfTheCovarianceWhereTheModelIsNearlyLinear) {
 }
 
 TEST(Posterior, OfANearlyLinearModelIsNormalAndTheSameForTheSameSeed) {
-  const IdentifySpec spec = spec_of(kModulusOnly, press("ball", 4.0));
+  const IdentifySpec spec = made_up_spec(kModulusOnly, made_up_press("ball", 4.0));
   Truth truth;
   truth.mount = truth.zero_mm = 0.0;
-  MechanicsModel model(spec, made_up(spec, truth, 1), sensor());
+  MechanicsModel model(spec, made_up(spec, truth, 1), made_up_sensor());
   const Fit fit = fit_mechanics(model);
   const Posterior posterior = draw_posterior(model, fit, 2000, 7), again = draw_posterior(model, fit, 2000, 7);
   EXPECT_EQ(posterior.u, again.u);
@@ -370,13 +334,14 @@ void write_marker_run(const std::filesystem::path& folder, double depth_mm, doub
 
 TEST(Identify, FindsThicknessDepthAndTravelByMarkersThoughTheImageMoved) {
   const ScratchFolder scratch;
-  const IdentifySpec spec = spec_of("  thickness_mm: {mean: 4, factor: 1.5, nodes: [3, 4, 5, 6]}\n",
-                                    "  - {name: shots, kind: markers, ball: {radius_mm: 2, edge_mm: 0.2}, file: f, "
-                                    "fields: {press: p, shear: s, contact_px: "
-                                    "[80, 60], contact_sigma_px: 3, shift_sigma_px: 3, scale_sigma: 0.02, sigma_px: "
-                                    "0.2}, depth_mm: {mean: 1, sigma: 0.4}, "
-                                    "travel_mm: {mean: 0.5, sigma: 0.4}, simulate: {depths_mm: [0.5, 1, 1.5], "
-                                    "press_frames: 4, travel_mm: 1, shear_frames: 5}}\n");
+  const IdentifySpec spec =
+      made_up_spec("  thickness_mm: {mean: 4, factor: 1.5, nodes: [3, 4, 5, 6]}\n",
+                   "  - {name: shots, kind: markers, ball: {radius_mm: 2, edge_mm: 0.2}, file: f, "
+                   "fields: {press: p, shear: s, contact_px: "
+                   "[80, 60], contact_sigma_px: 3, shift_sigma_px: 3, scale_sigma: 0.02, sigma_px: "
+                   "0.2}, depth_mm: {mean: 1, sigma: 0.4}, "
+                   "travel_mm: {mean: 0.5, sigma: 0.4}, simulate: {depths_mm: [0.5, 1, 1.5], "
+                   "press_frames: 4, travel_mm: 1, shear_frames: 5}}\n");
   MarkerData data;
   for (const double thickness : {3.0, 4.0, 5.0, 6.0}) {
     const auto node = scratch / fmt::format("t{}", thickness);
@@ -388,7 +353,7 @@ TEST(Identify, FindsThicknessDepthAndTravelByMarkersThoughTheImageMoved) {
     for (int c = 0; c < 9; ++c) data.press.rest_px.col(9 * r + c) << 20.0 + 15.0 * c, 15.0 + 15.0 * r;
   data.press.moved_px = Eigen::Matrix2Xd::Zero(2, 63);
   data.shear = data.press;
-  MechanicsModel model(spec, {{.force = {}, .markers = data}}, sensor());
+  MechanicsModel model(spec, {{.force = {}, .markers = data}}, made_up_sensor());
   Eigen::VectorXd truth = model.unknowns().prior_mean();
   const auto set = [&](const std::string& name, const std::string& of, double value) {
     const auto i = model.unknowns().find(name, of);
@@ -405,7 +370,7 @@ TEST(Identify, FindsThicknessDepthAndTravelByMarkersThoughTheImageMoved) {
   const auto [pressed, sheared] = model.marker_px(0, truth);
   std::mt19937 engine(4);
   std::normal_distribution<double> normal(0.0, 0.2);
-  MechanicsModel measured(spec, {{.force = {}, .markers = data}}, sensor());
+  MechanicsModel measured(spec, {{.force = {}, .markers = data}}, made_up_sensor());
   const auto thickness = *measured.unknowns().find(kThickness);
   Honesty honesty;
   for (int repetition = 0; repetition < 20; ++repetition) {
@@ -413,7 +378,7 @@ TEST(Identify, FindsThicknessDepthAndTravelByMarkersThoughTheImageMoved) {
     data.shear.moved_px = sheared;
     for (double& v : data.press.moved_px.reshaped()) v += normal(engine);
     for (double& v : data.shear.moved_px.reshaped()) v += normal(engine);
-    measured = MechanicsModel(spec, {{.force = {}, .markers = data}}, sensor());
+    measured = MechanicsModel(spec, {{.force = {}, .markers = data}}, made_up_sensor());
     const Fit fit = fit_mechanics(measured);
     std::vector<double> off;
     for (Eigen::Index i = 0; i < truth.size(); ++i)
