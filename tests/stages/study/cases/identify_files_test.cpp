@@ -1,10 +1,10 @@
 #include "stages/study/cases/identify_files.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <map>
 
-#include "common/base/error.h"
 #include "tests/config_text.h"
 
 namespace tacipc {
@@ -56,12 +56,7 @@ TEST(IdentifyFiles, NameEveryRunAtEveryNode) {
 }
 
 std::string faults(const std::string& text) {
-  try {
-    spec(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
+  return fmt::format("{}", fmt::join(faults_of([&] { spec(text); }), "\n"));
 }
 
 TEST(IdentifySpec, TellsWhatIsWrong) {
