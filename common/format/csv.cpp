@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 
 #include "common/base/error.h"
@@ -75,6 +76,17 @@ const std::string& CsvReader::operator[](std::string_view column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end()) throw DataError("{}: has no column '{}'", name_, column);
   return row_[static_cast<std::size_t>(found - columns_.begin())];
+}
+
+double CsvReader::number(std::string_view column) const {
+  const std::string& field = (*this)[column];
+  const char* begin = field.data() + std::min(field.find_first_not_of(' '), field.size());
+  const char* end = field.data() + field.size();
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc{} || stop != end)
+    throw DataError("{}:{}: {}: '{}' is not a number", name_, line_, column, field);
+  return value;
 }
 
 }  // namespace tacipc

@@ -25,6 +25,9 @@ class CsvReader {
   bool next();
   /// Field of the current row. \throw DataError if the table has no such column
   const std::string& operator[](std::string_view column) const;
+  /// The same as a number, which may be inf or nan; blanks before it do not count. \throw DataError `FILE:LINE: column:
+  /// …` if it is none
+  double number(std::string_view column) const;
   const std::vector<std::string>& row() const { return row_; }
   /// Number of the line that the current row ended on.
   int line() const { return line_; }

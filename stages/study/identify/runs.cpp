@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "common/base/error.h"
@@ -66,23 +65,15 @@ CurveTable table_of(const std::vector<std::filesystem::path>& folders, const std
   return table;
 }
 
-double number_in(const CsvReader& table, const std::filesystem::path& path, const std::string& column) {
-  std::string text = table[column];
-  text.erase(0, text.find_first_not_of(' '));
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    throw DataError("{}:{}: {}: expected a number, found '{}'", path.string(), table.line(), column, text);
-  return value;
-}
-
 void read_rows(const Measurement& m, const std::filesystem::path& path, ForceData& data) {
   const std::string& at = m.columns.column_of.front().first;
   CsvReader table(path);
   while (table.next()) {
-    MeasuredForce row{.at = m.columns.factor(at) * number_in(table, path, m.columns.column(at)),
-                      .force_n = m.columns.factor("force_n") * number_in(table, path, m.columns.column("force_n"))};
+    MeasuredForce row{.at = m.columns.factor(at) * table.number(m.columns.column(at)),
+                      .force_n = m.columns.factor("force_n") * table.number(m.columns.column("force_n"))};
     row.sigma_n = std::hypot(m.sigma_n, m.sigma_relative * row.force_n);
+    if (!std::isfinite(row.at) || !std::isfinite(row.force_n))
+      throw DataError("{}:{}: is not finite", path.string(), table.line());
     // Before contact a press has no force.
     if (!(row.at >= 0.0) && m.kind != MeasurementKind::press)
       throw DataError("{}:{}: {} must not be negative", path.string(), table.line(), at);

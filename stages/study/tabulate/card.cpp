@@ -29,18 +29,12 @@ const Value& at(const Value& record, const std::filesystem::path& path, const st
   return *found.at;
 }
 
-double number(const std::string& text, const std::filesystem::path& path) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size())
-    throw DataError("{}: '{}' is no number", path.string(), text);
-  return value;
-}
-
 double number_at(const Value& record, const std::filesystem::path& path, const std::string& key) {
+  double value = 0.0;
   const auto* text = std::get_if<std::string>(&at(record, path, key).data());
-  if (!text) throw DataError("{}: {} is no number", path.string(), key);
-  return number(*text, path);
+  if (!text || std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc{})
+    throw DataError("{}: {} is no number", path.string(), key);
+  return value;
 }
 
 /// Files of the photographs of known objects that calibrate beside the balls.
@@ -91,10 +85,10 @@ CardImages read_card_images(const std::string& name, const std::filesystem::path
     out.photographs.push_back({.name = image,
                                .fitted = std::any_of(calibrating.begin(), calibrating.end(),
                                                      [&](const std::string& file) { return is_of(image, file); }),
-                               .rmse_codes = kCodes * std::sqrt(number(table["mse"], samples)),
-                               .ssim = number(table["ssim_s"], samples),
-                               .mae = number(table["mae"], samples),
-                               .psnr_db = number(table["psnr_db"], samples)});
+                               .rmse_codes = kCodes * std::sqrt(table.number("mse")),
+                               .ssim = table.number("ssim_s"),
+                               .mae = table.number("mae"),
+                               .psnr_db = table.number("psnr_db")});
   }
   if (out.photographs.empty()) throw DataError("{}: has no photograph with a contact box", samples.string());
   return out;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 
 #include "common/base/error.h"
@@ -35,14 +34,8 @@ MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::
   while (csv.next()) {
     const std::string& region = csv["region"];
     images[region].push_back(csv["name"]);
-    for (const ShownColumn& shown : columns) {
-      const std::string& text = csv[shown.column];
-      char* end = nullptr;
-      const double number = std::strtod(text.c_str(), &end);
-      if (text.empty() || *end != '\0')
-        throw DataError("{}:{}: {}: '{}' is not a number", table.string(), csv.line(), shown.column, text);
-      scores.cells[{region, shown.column}].values.push_back(number);
-    }
+    for (const ShownColumn& shown : columns)
+      scores.cells[{region, shown.column}].values.push_back(csv.number(shown.column));
   }
   for (const auto& [region, heading] : regions) {
     const auto names = sorted(images[region]);

@@ -36,6 +36,16 @@ TEST(Csv, TakesLinesOfWindows) {
   EXPECT_EQ(in["b"], "2");
 }
 
+TEST(Csv, ReadsNumbersWhole) {
+  const ScratchFolder scratch;
+  const auto path = scratch.file("t.csv", "a,b,c\n 1.5e-3,inf,2x\n");
+  CsvReader in(path);
+  ASSERT_TRUE(in.next());
+  EXPECT_EQ(in.number("a"), 1.5e-3);
+  EXPECT_EQ(in.number("b"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(message_of<DataError>([&] { in.number("c"); }), path.string() + ":2: c: '2x' is not a number");
+}
+
 TEST(Csv, FaultsSayWhere) {
   const ScratchFolder scratch;
   const auto path = scratch.file("t.csv", "a,b\n1,2\n3\n");
