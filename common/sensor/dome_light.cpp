@@ -10,69 +10,192 @@
 namespace tacipc {
 namespace {
 
-/// From the plane up to elevation ε of a tangent: ∫ cos² ε and ∫ sin ε cos ε, of which the irradiance per azimuth is
-/// n_z · across − A · along, A = n_x cos α + n_y sin α.
-struct Elevation {
-  double along, across;
+constexpr int kDirectionsPerBin = 2;
+constexpr int kBlockPx = 16;
+constexpr double kNoHorizon = -std::numeric_limits<double>::infinity();
+constexpr double kLeastHorizon = 0.005;
 
-  static Elevation of(double tangent) {
-    const double square = tangent * tangent;
-    return {0.5 * (std::atan(tangent) + tangent / (1.0 + square)), 0.5 * square / (1.0 + square)};
+/// One pixel of the undeformed front: parallax within a shadow's length is neglected.
+double pixel_width(const MembraneView& view) { return view.rest[1].x() - view.rest[0].x(); }
+double pixel_height(const MembraneView& view) {
+  return view.rest[static_cast<std::size_t>(view.width)].y() - view.rest[0].y();
+}
+
+/// The highest tangent on the way by (dx, dy) pixels a step over heights `z_of(i)` by pixel, if it exceeds `highest`,
+/// else that. `lowest_z(u, v)`: no point of the way from pixel (u, v) on lies deeper.
+template <typename Height, typename Lowest>
+double march(const MembraneView& view, const Height& z_of, int x, int y, double dx, double dy, double pixel,
+             double highest, const Lowest& lowest_z) {
+  const double z = z_of(view.index(x, y));
+  if (z - lowest_z(x, y) <= highest * pixel) return highest;
+  for (double s = 1.0;; s += std::max(1.0, s / 16.0)) {
+    const double u = x + s * dx, v = y + s * dy;
+    if (!(u >= 0.0 && v >= 0.0 && u <= view.width - 1 && v <= view.height - 1)) return highest;
+    const int u0 = std::min(static_cast<int>(u), view.width - 2), v0 = std::min(static_cast<int>(v), view.height - 2);
+    if (z - lowest_z(u0, v0) <= highest * s * pixel) return highest;  // no point farther away can be higher
+    const double a = u - u0, b = v - v0;
+    const std::size_t i = view.index(u0, v0), j = view.index(u0, v0 + 1);
+    const double there = (1 - b) * ((1 - a) * z_of(i) + a * z_of(i + 1)) + b * ((1 - a) * z_of(j) + a * z_of(j + 1));
+    highest = std::max(highest, (z - there) / (s * pixel));
   }
-  static Elevation zenith() { return {0.25 * std::numbers::pi, 0.5}; }
-  double integral(double a, double nz) const { return nz * across - a * along; }
-};
+}
+
+/// Deepest z of each block of pixels, then of each block and its eight neighbours.
+std::vector<double> lowest_around(const MembraneView& view, int wide, int high) {
+  std::vector<double> own(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high), 0.0);
+  const auto at = [&](int i, int j) {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(wide) + static_cast<std::size_t>(i);
+  };
+  for (int y = 0; y < view.height; ++y)
+    for (int x = 0; x < view.width; ++x) {
+      double& z = own[at(x / kBlockPx, y / kBlockPx)];
+      z = std::min(z, view.point[view.index(x, y)].z());
+    }
+  std::vector<double> around = own;
+  for (int j = 0; j < high; ++j)
+    for (int i = 0; i < wide; ++i)
+      for (int v = std::max(j - 1, 0); v <= std::min(j + 1, high - 1); ++v)
+        for (int u = std::max(i - 1, 0); u <= std::min(i + 1, wide - 1); ++u)
+          around[at(i, j)] = std::min(around[at(i, j)], own[at(u, v)]);
+  return around;
+}
+
+/// Deepest z on the way from any pixel of a block. Every half block on the way from its middle, rays from its other
+/// pixels are within three quarters of a block: in the block around that place or one of its neighbours.
+std::vector<double> lowest_on_the_way(const std::vector<double>& around, int wide, int high, double dx, double dy) {
+  std::vector<double> out(around.size());
+  for (int j = 0; j < high; ++j)
+    for (int i = 0; i < wide; ++i) {
+      double lowest = 0.0;
+      for (double s = 0.0;; s += 0.5) {  // blocks
+        const double u = i + 0.5 + s * dx, v = j + 0.5 + s * dy;
+        if (!(u > -1.0 && v > -1.0 && u < wide + 1.0 && v < high + 1.0)) break;
+        const int k = std::clamp(static_cast<int>(std::floor(u)), 0, wide - 1),
+                  l = std::clamp(static_cast<int>(std::floor(v)), 0, high - 1);
+        lowest = std::min(lowest, around[static_cast<std::size_t>(l * wide + k)]);
+      }
+      out[static_cast<std::size_t>(j * wide + i)] = lowest;
+    }
+  return out;
+}
 
 }  // namespace
 
 double horizon_tangent(const MembraneView& view, int x, int y, double azimuth_rad) {
-  if (view.width < 2 || view.height < 2) return -std::numeric_limits<double>::infinity();
-  // One pixel of the undeformed front: parallax within a shadow's length is neglected.
-  const double pixel = view.rest[1].x() - view.rest[0].x();
-  const double tall = view.rest[static_cast<std::size_t>(view.width)].y() - view.rest[0].y();
-  const double dx = std::cos(azimuth_rad), dy = std::sin(azimuth_rad) * pixel / tall;
-  const double z = view.point[view.index(x, y)].z();
-  double highest = -std::numeric_limits<double>::infinity();
-  for (double s = 1.0;; s += std::max(1.0, s / 16.0)) {
-    const double u = x + s * dx, v = y + s * dy;
-    if (!(u >= 0.0 && v >= 0.0 && u <= view.width - 1 && v <= view.height - 1)) break;
-    if (z - view.lowest_z < highest * s * pixel) break;  // no point farther away can be higher
-    const int u0 = std::min(static_cast<int>(u), view.width - 2), v0 = std::min(static_cast<int>(v), view.height - 2);
-    const double a = u - u0, b = v - v0;
-    const std::size_t i = view.index(u0, v0), j = view.index(u0, v0 + 1);
-    const double there = (1 - b) * ((1 - a) * view.point[i].z() + a * view.point[i + 1].z()) +
-                         b * ((1 - a) * view.point[j].z() + a * view.point[j + 1].z());
-    highest = std::max(highest, (z - there) / (s * pixel));
-  }
-  return highest;
+  if (view.width < 2 || view.height < 2) return kNoHorizon;
+  const double pixel = pixel_width(view), dy = std::sin(azimuth_rad) * pixel / pixel_height(view);
+  return march(
+      view, [&](std::size_t i) { return view.point[i].z(); }, x, y, std::cos(azimuth_rad), dy, pixel, kNoHorizon,
+      [&](int, int) { return view.lowest_z; });
 }
 
-void dome_irradiance(const DomeBins& bins, const MembraneView& view, int x, int y, const Vector3& normal, double* out) {
-  constexpr int kDirectionsPerBin = 2;
-  const int bands = bins.bands(), directions = kDirectionsPerBin * bins.azimuths;
-  std::fill_n(out, bins.size(), 0.0);
+DomeIrradiance::Elevation DomeIrradiance::Elevation::of(double tangent) {
+  const double square = tangent * tangent;
+  return {0.5 * (std::atan(tangent) + tangent / (1.0 + square)), 0.5 * square / (1.0 + square)};
+}
+
+DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) : bins_(bins), view_(&view) {
+  for (const Vector3& point : view.point) z_.push_back(point.z());
+  for (const double tangent : bins.elevation_tan) edges_.push_back(Elevation::of(tangent));
+  edges_.push_back({0.25 * std::numbers::pi, 0.5});
+  const bool alone = view.width < 2 || view.height < 2;  // nothing stands beside a pixel
+  const int wide = (view.width + kBlockPx - 1) / kBlockPx, high = (view.height + kBlockPx - 1) / kBlockPx;
+  const std::vector<double> around = lowest_around(view, wide, high);
+  blocks_wide_ = wide;
+  pixel_m_ = alone ? 1.0 : pixel_width(view);
+  const int count = kDirectionsPerBin * bins.azimuths;
+  for (int d = 0; d < count; ++d) {
+    const double azimuth = 2.0 * std::numbers::pi * d / count;
+    Direction direction;
+    direction.cosine = std::cos(azimuth);
+    direction.sine = std::sin(azimuth);
+    direction.dx = direction.cosine;
+    direction.dy = alone ? 0.0 : direction.sine * pixel_m_ / pixel_height(view);
+    direction.lowest = lowest_on_the_way(around, wide, high, direction.dx, direction.dy);
+    for (auto row = direction.lowest.begin(); row != direction.lowest.end(); row += wide)
+      direction.lowest_of_row.push_back(*std::min_element(row, row + wide));
+    directions_.push_back(std::move(direction));
+  }
+}
+
+template <typename Horizon>
+void DomeIrradiance::integrate(const Vector3& normal, const Horizon& horizon, double* out) const {
+  const int bands = bins_.bands(), count = static_cast<int>(directions_.size());
+  std::fill_n(out, bins_.size(), 0.0);
   const double nz = normal.z();
-  for (int d = 0; d < directions; ++d) {
-    const double azimuth = 2.0 * std::numbers::pi * d / directions;
-    const double a = normal.x() * std::cos(azimuth) + normal.y() * std::sin(azimuth);
+  for (int d = 0; d < count; ++d) {
+    const Direction& direction = directions_[static_cast<std::size_t>(d)];
+    const double a = normal.x() * direction.cosine + normal.y() * direction.sine;
     // Above the plane's own horizon too, which the march meets only one pixel away.
     const double facing = nz > 0.0 ? a / nz : std::numeric_limits<double>::infinity();
-    const double horizon = std::max(horizon_tangent(view, x, y, azimuth), facing);
-    const int bin = d / kDirectionsPerBin, next = (bin + 1) % bins.azimuths;
+    const double tangent = std::max(facing, horizon(d, std::max(facing, kLeastHorizon)));
+    const int bin = d / kDirectionsPerBin, next = (bin + 1) % bins_.azimuths;
     const double share = static_cast<double>(d % kDirectionsPerBin) / kDirectionsPerBin;
     for (int band = 0; band < bands; ++band) {
-      const double low = bins.elevation_tan[static_cast<std::size_t>(band)];
-      const bool last = band + 1 == bands;
-      const double high =
-          last ? std::numeric_limits<double>::infinity() : bins.elevation_tan[static_cast<std::size_t>(band) + 1];
-      const Elevation top = last ? Elevation::zenith() : Elevation::of(high);
-      double value = Elevation::of(low).integral(0.0, 1.0) - top.integral(0.0, 1.0);
-      if (horizon < high) value += top.integral(a, nz) - Elevation::of(std::max(low, horizon)).integral(a, nz);
-      value *= 2.0 * std::numbers::pi / directions;
+      const auto k = static_cast<std::size_t>(band);
+      const Elevation &bottom = edges_[k], &top = edges_[k + 1];
+      const double high = band + 1 == bands ? std::numeric_limits<double>::infinity() : bins_.elevation_tan[k + 1];
+      double value = bottom.integral(0.0, 1.0) - top.integral(0.0, 1.0);
+      if (tangent <= bins_.elevation_tan[k])
+        value += top.integral(a, nz) - bottom.integral(a, nz);
+      else if (tangent < high)
+        value += top.integral(a, nz) - Elevation::of(tangent).integral(a, nz);
+      value *= 2.0 * std::numbers::pi / count;
       out[bin * bands + band] += (1.0 - share) * value;
       out[next * bands + band] += share * value;
     }
   }
+}
+
+void DomeIrradiance::at(int x, int y, const Vector3& normal, double* out) const {
+  const auto marched = [&](int d, double least) {
+    const Direction& direction = directions_[static_cast<std::size_t>(d)];
+    const double highest = march(
+        *view_, [&](std::size_t i) { return z_[i]; }, x, y, direction.dx, direction.dy, pixel_m_, least,
+        [&](int u, int v) {
+          return direction.lowest[static_cast<std::size_t>(v / kBlockPx * blocks_wide_ + u / kBlockPx)];
+        });
+    return highest > least ? highest : kNoHorizon;
+  };
+  integrate(normal, marched, out);
+}
+
+std::vector<double> DomeIrradiance::row_horizons(int y) const {
+  const int width = view_->width, height = view_->height;
+  std::vector<double> out(directions_.size() * static_cast<std::size_t>(width), kLeastHorizon);
+  const double* z = &z_[view_->index(0, y)];
+  const double top = *std::max_element(z, z + width);
+  for (std::size_t d = 0; d < directions_.size() && height > 1; ++d) {
+    const Direction& direction = directions_[d];
+    double* horizon = &out[d * static_cast<std::size_t>(width)];
+    for (double s = 1.0;; s += std::max(1.0, s / 16.0)) {
+      const double u = s * direction.dx, v = y + s * direction.dy;
+      if (!(v >= 0.0 && v <= height - 1)) break;
+      const int u0 = static_cast<int>(std::floor(u)), v0 = std::min(static_cast<int>(v), height - 2);
+      const int first = std::max(0, -u0), last = std::min(width, width - 1 - u0);
+      if (first >= last) break;
+      if (top - direction.lowest_of_row[static_cast<std::size_t>(v0 / kBlockPx)] <= kLeastHorizon * s * pixel_m_) break;
+      const double a = u - u0, b = v - v0, inverse = 1.0 / (s * pixel_m_);
+      const double *above = &z_[view_->index(0, v0)], *below = &z_[view_->index(0, v0 + 1)];
+      for (int x = first; x < last; ++x) {
+        const int i = x + u0;
+        const double there =
+            (1 - b) * ((1 - a) * above[i] + a * above[i + 1]) + b * ((1 - a) * below[i] + a * below[i + 1]);
+        horizon[x] = std::max(horizon[x], (z[x] - there) * inverse);
+      }
+    }
+  }
+  for (double& tangent : out)
+    if (tangent == kLeastHorizon) tangent = kNoHorizon;
+  return out;
+}
+
+void DomeIrradiance::at(int x, const std::vector<double>& row_horizons, const Vector3& normal, double* out) const {
+  const auto width = static_cast<std::size_t>(view_->width);
+  integrate(
+      normal,
+      [&](int d, double) { return row_horizons[static_cast<std::size_t>(d) * width + static_cast<std::size_t>(x)]; },
+      out);
 }
 
 }  // namespace tacipc

@@ -24,10 +24,50 @@ struct DomeBins {
 /// and growing with the distance by 1/16 of it, so that the horizon's place is known to that part.
 double horizon_tangent(const MembraneView& view, int x, int y, double azimuth_rad);
 
-/// Irradiance of a pixel, whose membrane has this normal, by each bin of unit radiance less that of the flat front:
-///   ∫∫ h_k(α) max(−n · w, 0) cos ε dε dα,  w = (cos ε cos α, cos ε sin α, −sin ε),
-/// over elevations ε of the band above the horizon, in closed form; over α by two directions a bin. Bins by azimuth,
-/// then band. \pre out has bins.size() entries
-void dome_irradiance(const DomeBins& bins, const MembraneView& view, int x, int y, const Vector3& normal, double* out);
+/// What the bins of a dome give to the pixels of one view.
+class DomeIrradiance {
+ public:
+  /// \pre the view stays as it is, but for its normals
+  DomeIrradiance(const DomeBins& bins, const MembraneView& view);
+
+  /// Irradiance of a pixel, whose membrane has this normal, by each bin of unit radiance less that of the flat front:
+  ///   ∫∫ h_k(α) max(−n · w, 0) cos ε dε dα,  w = (cos ε cos α, cos ε sin α, −sin ε),
+  /// over elevations ε of the band above the horizon, in closed form; over α by two directions a bin. Bins by azimuth,
+  /// then band. A horizon less than 0.005 above the plane, which hides 3e-5 of the light at most, is not looked for.
+  /// \pre out has bins.size() entries
+  void at(int x, int y, const Vector3& normal, double* out) const;
+
+  /// The horizons of a row of pixels, by direction, then pixel: for whole images, where marches side by side read the
+  /// same lines of points. Those below 0.005 are −∞.
+  std::vector<double> row_horizons(int y) const;
+  /// As above, with the horizons that this row has.
+  void at(int x, const std::vector<double>& row_horizons, const Vector3& normal, double* out) const;
+
+ private:
+  /// From the plane up to elevation ε of a tangent: ∫ cos² ε and ∫ sin ε cos ε, of which the irradiance per azimuth is
+  /// n_z · across − A · along, A = n_x cos α + n_y sin α.
+  struct Elevation {
+    double along = 0.0, across = 0.0;
+
+    static Elevation of(double tangent);
+    double integral(double a, double nz) const { return nz * across - a * along; }
+  };
+  struct Direction {
+    double cosine = 0.0, sine = 0.0;
+    double dx = 0.0, dy = 0.0;          // a step of one pixel's width, in pixels
+    std::vector<double> lowest;         // by block of pixels: z of the deepest point on the way from any of them
+    std::vector<double> lowest_of_row;  // of a row of blocks
+  };
+  template <typename Horizon>
+  void integrate(const Vector3& normal, const Horizon& horizon, double* out) const;
+
+  DomeBins bins_;
+  const MembraneView* view_;
+  std::vector<double> z_;  // of its points
+  int blocks_wide_ = 0;
+  double pixel_m_ = 0.0;
+  std::vector<Elevation> edges_;  // of the bands, and the zenith
+  std::vector<Direction> directions_;
+};
 
 }  // namespace tacipc

@@ -90,22 +90,32 @@ double relative_irradiance(const LightGeometry& geometry, const MembraneView& vi
   return lit / flat - 1.0;
 }
 
-namespace {
+LightFeatures::LightFeatures(const LightGeometry& geometry, const MembraneView& view)
+    : geometry_(&geometry), view_(&view) {
+  if (geometry.dome.size() > 0) dome_.emplace(geometry.dome, view);
+}
 
-void light_bases(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& n, double* out) {
+void LightFeatures::bases(int x, int y, const Vector3& n, const std::vector<double>* row_horizons, double* out) const {
+  const LightGeometry& geometry = *geometry_;
+  const MembraneView& view = *view_;
   const std::size_t i = view.index(x, y);
   for (std::size_t lamp = 0; lamp < geometry.lamps_m.size(); ++lamp) {
     const double q = relative_irradiance(geometry, view, x, y, n, lamp);
     *out++ = q;
     *out++ = q * q;
   }
-  if (geometry.dome.size() > 0) dome_irradiance(geometry.dome, view, x, y, n, out);
+  if (dome_ && row_horizons)
+    dome_->at(x, *row_horizons, n, out);
+  else if (dome_)
+    dome_->at(x, y, n, out);
   out += geometry.dome.size();
   for (int degree = 1; degree <= geometry.environment_degree; ++degree)
     for (int power_y = 0; power_y <= degree; ++power_y)
       *out++ = std::pow(n.x(), degree - power_y) * std::pow(n.y(), power_y);
   if (geometry.environment_depth) *out++ = (view.rest[i].z() - view.point[i].z()) / kMillimetre;
 }
+
+namespace {
 
 void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const double* bases, double* out) {
   const double field_x = rest.x() / geometry.field_half_width_m, field_y = rest.y() / geometry.field_half_width_m;
@@ -122,26 +132,33 @@ void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const
 
 }  // namespace
 
-void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
-                    double* out) {
-  std::vector<double> bases(static_cast<std::size_t>(geometry.num_bases()));
-  light_bases(geometry, view, x, y, normal, bases.data());
-  spread_over_field(geometry, view.rest[view.index(x, y)], bases.data(), out);
+void LightFeatures::make(int x, int y, const Vector3& normal, const std::vector<double>* row_horizons,
+                         double* out) const {
+  std::vector<double> values(static_cast<std::size_t>(geometry_->num_bases()));
+  bases(x, y, normal, row_horizons, values.data());
+  spread_over_field(*geometry_, view_->rest[view_->index(x, y)], values.data(), out);
 }
 
-void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out) {
-  light_features(geometry, view, x, y, view.normal[view.index(x, y)], out);
+void LightFeatures::at(int x, int y, const Vector3& normal, double* out) const { make(x, y, normal, nullptr, out); }
+
+void LightFeatures::at(int x, int y, double* out) const { at(x, y, view_->normal[view_->index(x, y)], out); }
+
+void LightFeatures::row(int y, Eigen::MatrixXd& out) const {
+  out.resize(geometry_->num_features(), view_->width);
+  const auto horizons = dome_ ? dome_->row_horizons(y) : std::vector<double>{};
+  for (int x = 0; x < view_->width; ++x)
+    make(x, y, view_->normal[view_->index(x, y)], dome_ ? &horizons : nullptr, out.col(x).data());
 }
 
 FloatImage code_change(const LightField& light, const MembraneView& view) {
   FloatImage change(view.width, view.height, 3);
+  const LightFeatures of(light.geometry, view);
   tbb::parallel_for(0, view.height, [&](int y) {
-    Eigen::VectorXd features(light.geometry.num_features());
-    for (int x = 0; x < view.width; ++x) {
-      light_features(light.geometry, view, x, y, features.data());
-      const Vector3 codes = light.weights.transpose() * features;
-      for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes[c]);
-    }
+    Eigen::MatrixXd features;
+    of.row(y, features);
+    const Eigen::MatrixXd codes = light.weights.transpose() * features;
+    for (int x = 0; x < view.width; ++x)
+      for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes(c, x));
   });
   return gaussian_blurred(change, light.blur_px);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "common/base/types.h"
@@ -63,13 +64,28 @@ double relative_irradiance(const MembraneView& view, int x, int y, const Vector3
 double relative_irradiance(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
                            std::size_t lamp);
 
-/// All features of a pixel whose membrane has this normal. Bases are the lamps (q, q²), then the dome, then monomials
-/// by degree and falling power of n_x, depth last; each times f = (1, x, y, …) by degree and falling power of x. \pre
-/// out has num_features() entries
-void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, const Vector3& normal,
-                    double* out);
-/// The same with the view's own normal.
-void light_features(const LightGeometry& geometry, const MembraneView& view, int x, int y, double* out);
+/// All features of the pixels of one view. Bases are the lamps (q, q²), then the dome, then monomials by degree and
+/// falling power of n_x, depth last; each times f = (1, x, y, …) by degree and falling power of x.
+class LightFeatures {
+ public:
+  /// \pre the view stays as it is, but for its normals
+  LightFeatures(const LightGeometry& geometry, const MembraneView& view);
+
+  /// Of a pixel whose membrane has this normal. \pre out has num_features() entries
+  void at(int x, int y, const Vector3& normal, double* out) const;
+  /// The same with the view's own normal.
+  void at(int x, int y, double* out) const;
+  /// All pixels of a row with the view's own normals, a column each: faster than one after the other.
+  void row(int y, Eigen::MatrixXd& out) const;
+
+ private:
+  void bases(int x, int y, const Vector3& normal, const std::vector<double>* row_horizons, double* out) const;
+  void make(int x, int y, const Vector3& normal, const std::vector<double>* row_horizons, double* out) const;
+
+  const LightGeometry* geometry_;
+  const MembraneView* view_;
+  std::optional<DomeIrradiance> dome_;
+};
 
 /// Change of code in channel c: Σ_l (a_lc · f) q_l + (b_lc · f) q_l² + Σ_k (d_kc · f) D_k + Σ_m (e_mc · f) φ_m(n), f =
 /// (1, x, y, …): a is what a lamp contributes through the camera's colour matrix (so it may be negative) and the

@@ -1,8 +1,9 @@
 # TACTO, Taxim, FOTS and constants published for this very sensor on the photographs of sim2real: make -f Makefile.data rivals [CASES=…].
-# Each has its light from the balls that calibrate ours. $(basename CASES)/rivals.yaml says which rows are made; docs/sim2real.md has the protocol.
+# Each has its light from the photographs that calibrate ours: balls, and known objects where the file names them; rows `-balls` from balls alone.
+# $(basename CASES)/rivals.yaml says which rows are made; docs/sim2real.md has the protocol.
 $(call uses,paper/sim2real paper/paper)
 
-.PHONY: rivals
+.PHONY: rivals build-bench-rivals
 ifneq ($(filter rivals paper-real paper-fragment-real depth-rivals,$(MAKECMDGOALS)),)
 RIVALS := $(OUT)/paper/rivals/$(cases_name)
 RIVALS_CONFIGS := $(basename $(CASES))
@@ -13,9 +14,18 @@ ifeq ($(or $(RIVALS_TABLE),$(filter-out rivals,$(MAKECMDGOALS))),)
   $(error rivals: $(RIVALS_CONFIGS)/rivals.yaml does not exist)
 endif
 
+# Known objects as their lights see them, where our fit has put them: rigid, straight from above, and along the camera's rays.
+$(eval $(call changed_config,$(RIVALS)/rigid/parallel.yaml,configs/rivals/baseline/rigid.yaml,+rays=parallel))
+$(eval $(call changed_config,$(RIVALS)/rigid/refracted.yaml,configs/rivals/baseline/rigid.yaml,))
+define rivals_rigid
+$(RIVALS)/rigid/$(1)/$(2)/baseline.yaml: $(SIM2REAL)/ours/$(2)/shade.yaml $(RIVALS)/rigid/$(1).yaml | build
+	$$(call run,baseline,--config $(RIVALS)/rigid/$(1).yaml --sensor $(CASES_SENSOR) $(call cases_posed,$(2)))
+endef
+$(foreach r,parallel refracted,$(foreach o,$(CASES_KNOWN),$(eval $(call rivals_rigid,$(r),$(o)))))
+rivals_rays = $(if $(filter tacto,$(1)),refracted,parallel)
+
 # Their lights. Circles that are not the contact's rim are no labels for them: then the contacts are those of our fit.
 rivals_balls := $(if $(CASES_TABLE),--balls $(SIM2REAL)/calibrate/balls.csv)
-RIVALS_FITS := taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%)
 $(RIVALS)/fits/taxim_%.yaml: configs/rivals/calibrate/taxim_%.yaml
 	mkdir -p $(@D)
 	cp $< $@
@@ -25,8 +35,29 @@ $(RIVALS)/fits/fots_%.yaml: configs/rivals/calibrate/fots.yaml | build
 $(RIVALS)/fits/tacto.yaml: $(RIVALS_CONFIGS)/tacto_lamps.yaml
 	mkdir -p $(@D)
 	{ echo 'model: metallic_roughness'; cat $<; } > $@
-$(RIVALS_FITS:%=$(RIVALS)/calibrate/%/calibrate.yaml): $(RIVALS)/calibrate/%/calibrate.yaml: $(RIVALS)/fits/%.yaml $(background_record) $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) | build
-	$(call run,calibrate,$(calibration) --rival $< $(rivals_balls))
+# $(call rivals_fit,fit)
+define rivals_fit
+$(RIVALS)/calibrate/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/baseline.yaml) $(background_record) $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) | build
+	$$(call run,calibrate,$$(calibration) --rival $(RIVALS)/fits/$(1).yaml $(rivals_balls) \
+	  $(if $(CASES_KNOWN),--shapes $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/frame_$$(call known_frame,$(o),-1)/indentation.exr)))
+$(RIVALS)/calibrate_balls/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml $(CASES_CALIBRATE) | build
+	$$(call run,calibrate,$$(calibration_balls) --rival $(RIVALS)/fits/$(1).yaml)
+endef
+$(foreach f,taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%),$(eval $(call rivals_fit,$(f))))
+# Ours and the depth-based method's from balls alone.
+$(RIVALS)/calibrate_balls/ours/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+	$(call run,calibrate,$(calibration_balls) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh)
+$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(CASES_CALIBRATE) | build
+	$(call run,calibrate,$(calibration_balls) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr)
+
+# Our light and that of the depth-based method without their last blur: $(call rival_sharp_light,name,folder of calibrate)
+define rival_sharp_light
+$(RIVALS)/sharp/$(1).yaml: $(2)/calibrate.yaml | build
+	mkdir -p $$(@D)
+	$(BIN)/tacipc set $(2)/light.yaml light_field.blur_px=0 > $$@
+endef
+$(eval $(call rival_sharp_light,ours,$(SIM2REAL)/calibrate))
+$(eval $(call rival_sharp_light,depth-based,$(SIM2REAL)/rival/calibrate))
 
 # $(call rival,method,configuration,changed keys,light's file,its record)
 RIVAL_METHODS :=
@@ -39,19 +70,31 @@ $(RIVALS)/configs/$(1).yaml: configs/rivals/baseline/$(2).yaml $(CASES_CALIBRATE
 	$(BIN)/tacipc set $$< $(3) > $$@
 endef
 rival_blurred = +shading.final_blur_px=$(RIVALS_BLUR)
-define rival_pair
-$(call rival,$(1),$(2),$(rival_blurred),$(3),$(4))
-$(call rival,$(1)-own,$(2),$(rival_blurred),$(3),$(4))
-$(call rival,$(1)-sharp,$(2),,$(3),$(4))
+# $(call rival_rows,method,configuration,light's file below a folder of calibrate): from all photographs, at its own place, without blur, from balls alone
+define rival_rows
+$(call rival,$(1),$(2),$(rival_blurred),$(RIVALS)/calibrate/$(3),$(dir $(RIVALS)/calibrate/$(3))calibrate.yaml)
+$(call rival,$(1)-own,$(2),$(rival_blurred),$(RIVALS)/calibrate/$(3),$(dir $(RIVALS)/calibrate/$(3))calibrate.yaml)
+$(call rival,$(1)-sharp,$(2),,$(RIVALS)/calibrate/$(3),$(dir $(RIVALS)/calibrate/$(3))calibrate.yaml)
+$(call rival,$(1)-balls,$(2),$(rival_blurred),$(RIVALS)/calibrate_balls/$(3),$(dir $(RIVALS)/calibrate_balls/$(3))calibrate.yaml)
 endef
-$(eval $(call rival_pair,tacto-pure,tacto,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
-$(eval $(call rival_pair,tacto,tacto,$(RIVALS)/calibrate/tacto/light.yaml,$(RIVALS)/calibrate/tacto/calibrate.yaml))
-$(eval $(call rival_pair,chen,chen_2022,,))
-$(eval $(call rival_pair,taxim-released,taxim,$(RIVALS)/calibrate/taxim_released/light.npy,$(RIVALS)/calibrate/taxim_released/calibrate.yaml))
-$(eval $(call rival_pair,taxim,taxim,$(RIVALS)/calibrate/taxim_pooled/light.npy,$(RIVALS)/calibrate/taxim_pooled/calibrate.yaml))
-$(foreach s,$(RIVALS_SEEDS),$(eval $(call rival_pair,fots$(filter-out 1,$(s)),fots,$(RIVALS)/calibrate/fots_$(s)/light.npy,$(RIVALS)/calibrate/fots_$(s)/calibrate.yaml)))
+$(eval $(call rival_rows,tacto,tacto,tacto/light.yaml))
+$(eval $(call rival_rows,taxim-released,taxim,taxim_released/light.npy))
+$(eval $(call rival_rows,taxim,taxim,taxim_pooled/light.npy))
+$(foreach s,$(RIVALS_SEEDS),$(eval $(call rival_rows,fots$(filter-out 1,$(s)),fots,fots_$(s)/light.npy)))
+# Constants as published.
+$(foreach v,own sharp,$(eval $(call rival,chen-$(v),chen_2022,$(if $(filter own,$(v)),$(rival_blurred)),,)))
+$(eval $(call rival,chen,chen_2022,$(rival_blurred),,))
+$(eval $(call rival,tacto-pure,tacto,$(rival_blurred),$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
+$(eval $(call rival,tacto-pure-sharp,tacto,,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
 $(eval $(call rival,tacto-noise,tacto,+shading.noise_codes=7,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
-# Their light on other membranes: what is light, and what membrane.
+# The depth-based method, whose light is made as ours; sim2real.mk has its first row.
+$(eval $(call rival,depth-based,height_map,+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
+$(eval $(call rival,depth-based-own,height_map,+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
+$(eval $(call rival,depth-based-sharp,height_map,+shading.model=light_field,$(RIVALS)/sharp/depth-based.yaml,$(RIVALS)/sharp/depth-based.yaml))
+$(eval $(call rival,depth-based-balls,height_map,+shading.model=light_field,$(RIVALS)/calibrate_balls/depth-based/light.yaml,$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml))
+# The light of one on the membranes of another: what is light, and what membrane.
+$(foreach m,taxim fots,$(eval $(call rival,ours-on-$(m),$(m),shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml)))
+$(eval $(call rival,ours-on-tacto,rigid,+shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml))
 $(eval $(call rival,fots-on-taxim,taxim,shading.model=network $(rival_blurred),$(RIVALS)/calibrate/fots_1/light.npy,$(RIVALS)/calibrate/fots_1/calibrate.yaml))
 $(eval $(call rival,fots-on-ours,given,shading.model=network $(rival_blurred),$(RIVALS)/calibrate/fots_1/light.npy,$(RIVALS)/calibrate/fots_1/calibrate.yaml))
 $(eval $(call rival,taxim-on-ours,given,shading.model=table $(rival_blurred),$(RIVALS)/calibrate/taxim_pooled/light.npy,$(RIVALS)/calibrate/taxim_pooled/calibrate.yaml))
@@ -71,35 +114,27 @@ $(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(RIVALS)/runs/$(1)/$(2)/baseline.yaml
 endef
 $(foreach m,$(RIVAL_METHODS),$(foreach o,$(CASES_OBJECTS),$(eval $(call rival_images,$(m),$(o)))))
 
-# Our light on their membranes, and light without its last blur: ours at the place found with it.
-# $(call rival_shaded,method,object,light's file,prerequisites,what else)
+# Our press at the place that was found with our light: without the slopes of its print, without the last blur, under the light of balls alone.
+# $(call rival_shaded,method,object,light's file,its record)
 define rival_shaded
-$(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(4) | build
-	$$(call run,shade,--sensor $(CASES_SENSOR) --background $(cases_background) --light $(3) $(5))
+$(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(4) $(RIVALS)/places/$(2).yaml | build
+	$$(call run,shade,--sensor $(CASES_SENSOR) --background $(cases_background) --light $(3) --config $(RIVALS)/places/$(2).yaml \
+	  --press $(call cases_press,$(2))/press --gel $(SIM2REAL)/gel/gel.msh $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml))
 endef
-rival_shapes = --config $(SIM2REAL)/cases/objects/$(1)/shade.yaml --shapes $(call cases_frames,$(1),$(2),0,indentation.exr)
-define rival_sharp_light
-$(RIVALS)/sharp/$(1).yaml: $(2)/calibrate.yaml | build
-	mkdir -p $$(@D)
-	$(BIN)/tacipc set $(2)/light.yaml light_field.blur_px=0 > $$@
-endef
-$(eval $(call rival_sharp_light,ours,$(SIM2REAL)/calibrate))
-$(eval $(call rival_sharp_light,depth-based,$(SIM2REAL)/rival/calibrate))
 define rival_object
-$(foreach m,taxim fots tacto,$(call rival_shaded,ours-on-$(m),$(1),$(SIM2REAL)/calibrate/light.yaml,$(RIVALS)/runs/$(m)/$(1)/baseline.yaml $(SIM2REAL)/calibrate/calibrate.yaml,$(call rival_shapes,$(1),$(RIVALS)/runs/$(m)/$(1)))
-)
-$(call rival_shaded,depth-based-sharp,$(1),$(RIVALS)/sharp/depth-based.yaml,$(RIVALS)/sharp/depth-based.yaml $(SIM2REAL)/rival/objects/$(1)/baseline.yaml,$(call rival_shapes,$(1),$(SIM2REAL)/rival/objects/$(1)))
-$(RIVALS)/sharp/$(1).places.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml | build
+$(RIVALS)/places/$(1).yaml: $(SIM2REAL)/ours/$(1)/shade.yaml | build
 	mkdir -p $$(@D)
 	$(if $(CASES_TABLE),cp $(SIM2REAL)/cases/objects/$(1)/shade.yaml $$@,{ read -r x; read -r y; read -r yaw; } < <($(BIN)/tacipc get $$< summary.center_px summary.yaw_deg); \
 	$(BIN)/tacipc set $(SIM2REAL)/cases/objects/$(1)/shade.yaml -fit "place.center_px=[$$$$x, $$$$y]" "+place.yaw_deg=$$$$yaw" > $$@)
-$(call rival_shaded,ours-sharp,$(1),$(RIVALS)/sharp/ours.yaml,$(RIVALS)/sharp/ours.yaml $(RIVALS)/sharp/$(1).places.yaml,--config $(RIVALS)/sharp/$(1).places.yaml --press $(call cases_press,$(1))/press --gel $(SIM2REAL)/gel/gel.msh $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml))
+$(call rival_shaded,ours-light,$(1),$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml)
+$(call rival_shaded,ours-sharp,$(1),$(RIVALS)/sharp/ours.yaml,$(RIVALS)/sharp/ours.yaml)
+$(call rival_shaded,ours-balls,$(1),$(RIVALS)/calibrate_balls/ours/light.yaml,$(RIVALS)/calibrate_balls/ours/calibrate.yaml)
 endef
 $(foreach o,$(CASES_OBJECTS),$(eval $(call rival_object,$(o))))
 
 # Scored as ours are; of FOTS' network every seed is a run of its row.
 rivals_images = $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(RIVALS)/simulated/$(1)/$(o)/$(i).png))
-$(foreach m,$(RIVAL_METHODS) ours-on-taxim ours-on-fots ours-on-tacto depth-based-sharp ours-sharp,$(eval $(RIVALS)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(RIVALS)/simulated/$(m)/$(o)/shade.yaml)))
+$(foreach m,$(RIVAL_METHODS) ours-light ours-sharp ours-balls,$(eval $(RIVALS)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(RIVALS)/simulated/$(m)/$(o)/shade.yaml)))
 $(RIVALS)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
 	$(call run,metrics,--config $(SIM2REAL)/cases/metrics.yaml --images $(call rivals_images,$*) --reference $(CASES_REAL))
 rivals_from = $(if $(filter ours depth-based background,$(1)),$(SIM2REAL),$(RIVALS))/metrics/$(1)
@@ -110,13 +145,27 @@ rivals_runs = $(if $(filter fots-seeds%,$(1)),$(foreach s,$(RIVALS_SEEDS),$(call
 rivals_methods = $(sort $(shell sed -nE 's/.*[{ ]$(2): .*method: ([a-z0-9-]+)[,}].*/\1/p' $(1)))
 RIVALS_ROWS := $(if $(RIVALS_TABLE),$(call rivals_methods,$(RIVALS_TABLE),name))
 RIVALS_SHOWN := $(if $(RIVALS_TABLE),$(filter-out photograph,$(call rivals_methods,$(RIVALS_TABLE),heading)))
-$(RIVALS)/tabulate.yaml: $(RIVALS_TABLE) $(foreach m,$(RIVALS_ROWS),$(addsuffix /metrics.yaml,$(call rivals_runs,$(m)))) | build
+RIVALS_METRICS := $(foreach m,$(RIVALS_ROWS),$(addsuffix /metrics.yaml,$(call rivals_runs,$(m))))
+
+# What an image costs, on the first object's way, when all else is made: nothing runs beside it. $(call rivals_speed,what else)
+build-bench-rivals: build
+	@cmake --build $(BUILD) --target bench_rivals -j $(JOBS) -- --quiet
+RIVALS_TIMED := depth-based tacto taxim fots chen
+rivals_timed_press := $(call cases_press,$(firstword $(CASES_OBJECTS)))
+rivals_timed := $(RIVALS_TIMED:%=$(RIVALS)/configs/%.yaml) $(foreach m,$(RIVALS_TIMED),$(RIVAL_RECORD_$(m))) $(rivals_timed_press)/press/press.yaml
+rivals_speed = $(call run,bench_rivals,--sensor $(CASES_SENSOR) --press $(rivals_timed_press)/press --gel $(SIM2REAL)/gel/gel.msh --object $(rivals_timed_press)/indenter/object.ply \
+  --light $(SIM2REAL)/calibrate/light.yaml --configs $(foreach m,$(RIVALS_TIMED),$(m)=$(RIVALS)/configs/$(m).yaml) \
+  --lights $(foreach m,$(RIVALS_TIMED),$(if $(RIVAL_LIGHT_$(m)),$(m)=$(lastword $(RIVAL_LIGHT_$(m))))) $(1))
+$(RIVALS)/speed/bench_rivals.yaml: $(rivals_timed) | $(RIVALS_METRICS) build-bench-rivals
+	$(call rivals_speed)
+$(RIVALS)/tabulate.yaml: $(RIVALS_TABLE) $(RIVALS_METRICS) $(RIVALS)/speed/bench_rivals.yaml | build
 	$(call run,tabulate,--config $(RIVALS_TABLE) --samples $(foreach m,$(RIVALS_ROWS),$(foreach r,$(call rivals_runs,$(m)),$(m)=$(r)/samples.csv)) \
-	  --pictures $(addprefix photograph=,$(CASES_REAL)) $(foreach m,$(RIVALS_SHOWN),$(call rivals_pictures,$(m))))
+	  --speeds $(RIVALS)/speed/image_speeds.csv --pictures $(addprefix photograph=,$(CASES_REAL)) $(foreach m,$(RIVALS_SHOWN),$(call rivals_pictures,$(m))))
 
 # docs/sim2real.md has places for the tables of the shipped benchmarks.
 rivals: $(RIVALS)/tabulate.yaml ## studies: TACTO, Taxim, FOTS beside ours on the photographs of sim2real: CASES=… (needs SHARED)
 	@! grep -qsxF '<!-- rivals_$(cases_name) -->' docs/sim2real.md || $(call fill_docs,sim2real.md,rivals_$(cases_name)=$(RIVALS)/table.md)
+	@! grep -qsxF '<!-- speed_$(cases_name) -->' docs/sim2real.md || $(call fill_docs,sim2real.md,speed_$(cases_name)=$(RIVALS)/speed/speeds.md)
 	@echo; echo "Look at $(RIVALS)/table.md"
 else
 rivals:

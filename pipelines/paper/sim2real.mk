@@ -60,8 +60,9 @@ $(SIM2REAL)/rest/background.yaml: $(SIM2REAL)/cases/cases.yaml | build
 background_record := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.yaml)
 
 # The light: on our membranes, and on those of the depth-based method under the same balls.
-calibration = --config $(CASES_CALIBRATE) --sensor $(CASES_SENSOR) --background $(cases_background) \
-  --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(cases_labels) $(if $(CASES_KNOWN),--objects $(SIM2REAL)/cases/known_objects.yaml)
+calibration_balls = --config $(CASES_CALIBRATE) --sensor $(CASES_SENSOR) --background $(cases_background) \
+  --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(cases_labels)
+calibration = $(calibration_balls) $(if $(CASES_KNOWN),--objects $(SIM2REAL)/cases/known_objects.yaml)
 known_frame = $(shell printf '%04d' $$(($(CASES_KNOWN_FRAME_$(1)) + $(2))))
 $(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/objects/$(o)/press/press.yaml) $(background_record) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
 	$(call run,calibrate,$(calibration) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh \

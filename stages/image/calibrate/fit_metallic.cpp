@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/sensor/camera_model.h"
+#include "common/sensor/membrane_view.h"
 #include "stages/image/calibrate/gauss_newton.h"
 
 namespace tacipc {
@@ -17,42 +19,67 @@ MetallicLamps lamps_at(MetallicLamps lamps, const Eigen::VectorXd& u) {
   return lamps;
 }
 
-}  // namespace
+/// Where a sample's ray meets the object in the gel, and the object's outward normal there.
+struct Meeting {
+  Vector3 point, normal;
+};
 
-MetallicSamples metallic_samples(const Samples& samples, const Vector3& ball_m, double radius_m,
-                                 const std::vector<MetallicLamp>& lamps, const Sensor& sensor) {
+/// `object(x, y, ray)`: a Meeting, or none where the front is met first.
+template <typename Object>
+MetallicSamples lit_samples(const Samples& samples, const std::vector<MetallicLamp>& lamps, const Sensor& sensor,
+                            Object&& object) {
   const CameraModel camera(sensor.camera, sensor.stack);
   const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
   const auto columns = static_cast<Eigen::Index>(lamps.size());
-  MetallicSamples out{.samples = samples, .ball = Eigen::MatrixXd(rows, columns), .empty = {}};
-  out.empty = out.ball;
+  MetallicSamples out{.samples = samples, .object = Eigen::MatrixXd(rows, columns), .empty = {}};
+  out.empty = out.object;
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
     const CameraRay ray = camera.ray(x + 0.5, y + 0.5).value();
     const Vector3 rest = ray.origin - ray.origin.z() / ray.direction.z() * ray.direction;
-    const Vector3 to_ball = ball_m - ray.origin;
-    const double along = to_ball.dot(ray.direction);
-    const double squared = along * along - to_ball.squaredNorm() + radius_m * radius_m;
-    const Vector3 point = ray.origin + (along - std::sqrt(std::max(squared, 0.0))) * ray.direction;
-    const bool touched = squared > 0.0 && point.z() < 0.0;
+    const std::optional<Meeting> met = object(x, y, ray);
     for (Eigen::Index l = 0; l < columns; ++l) {
       const Vector3& lamp = lamps[static_cast<std::size_t>(l)].position_m;
       out.empty(i, l) = metallic_light(rest, -Vector3::UnitZ(), sensor.camera.position_m, lamp);
-      out.ball(i, l) = touched ? metallic_light(point, (point - ball_m) / radius_m, sensor.camera.position_m, lamp)
-                               : out.empty(i, l);
+      out.object(i, l) =
+          met ? metallic_light(met->point, met->normal, sensor.camera.position_m, lamp) : out.empty(i, l);
     }
   }
   return out;
 }
 
+}  // namespace
+
+MetallicSamples metallic_samples(const Samples& samples, const Vector3& ball_m, double radius_m,
+                                 const std::vector<MetallicLamp>& lamps, const Sensor& sensor) {
+  return lit_samples(samples, lamps, sensor, [&](int, int, const CameraRay& ray) -> std::optional<Meeting> {
+    const Vector3 to_ball = ball_m - ray.origin;
+    const double along = to_ball.dot(ray.direction);
+    const double squared = along * along - to_ball.squaredNorm() + radius_m * radius_m;
+    const Vector3 point = ray.origin + (along - std::sqrt(std::max(squared, 0.0))) * ray.direction;
+    if (!(squared > 0.0 && point.z() < 0.0)) return std::nullopt;
+    return Meeting{point, (point - ball_m) / radius_m};
+  });
+}
+
+MetallicSamples metallic_samples(const Samples& samples, const FloatImage& height_m,
+                                 const std::vector<MetallicLamp>& lamps, const Sensor& sensor) {
+  const MembraneView view = view_height_map(height_m, sensor);
+  return lit_samples(samples, lamps, sensor, [&](int x, int y, const CameraRay&) -> std::optional<Meeting> {
+    if (!(height_m.at(x, y, 0) > 0.0F)) return std::nullopt;
+    const std::size_t i = view.index(x, y);
+    return Meeting{view.point[i], -view.normal[i]};
+  });
+}
+
 double metallic_change(const MetallicSamples& samples, const MetallicLamps& lamps, Eigen::Index i, std::size_t c) {
-  double ball = 0.0, empty = 0.0;
+  double object = 0.0, empty = 0.0;
   for (std::size_t l = 0; l < lamps.lamps.size(); ++l) {
     const auto column = static_cast<Eigen::Index>(l);
-    ball += lamps.lamps[l].rgb[c] * samples.ball(i, column);
+    object += lamps.lamps[l].rgb[c] * samples.object(i, column);
     empty += lamps.lamps[l].rgb[c] * samples.empty(i, column);
   }
-  return ball == empty ? 0.0 : lamps.change_factor * (metallic_code(ball) - metallic_code(empty));
+  return object == empty ? 0.0 : lamps.change_factor * (metallic_code(object) - metallic_code(empty));
 }
 
 double metallic_rmse(const std::vector<MetallicSamples>& balls, const MetallicLamps& lamps) {

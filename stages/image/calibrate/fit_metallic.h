@@ -1,4 +1,5 @@
-// Colours of TACTO's lamps from photographs of balls on its own membranes: the ball itself, cut by the front.
+// Colours of TACTO's lamps from photographs of balls and known objects on its own membranes: the object itself, cut by
+// the front.
 #pragma once
 
 #include <vector>
@@ -9,14 +10,18 @@
 
 namespace tacipc {
 
-/// Samples of one photograph under the lamps: light of each, of colour 1, on ball and on the front without it.
+/// Samples of one photograph under the lamps: light of each, of colour 1, on the object and on the front without it.
 struct MetallicSamples {
   Samples samples;
-  Eigen::MatrixXd ball, empty;  // samples × lamps; equal where the ball is not in the gel
+  Eigen::MatrixXd object, empty;  // samples × lamps; equal where the object is not in the gel
 };
 
 /// The ball about (x, y), `depth_m` deep, on the camera's rays.
 MetallicSamples metallic_samples(const Samples& samples, const Vector3& ball_m, double radius_m,
+                                 const std::vector<MetallicLamp>& lamps, const Sensor& sensor);
+
+/// An object by its height into the gel (m) on the camera's rays, with the normals of that map.
+MetallicSamples metallic_samples(const Samples& samples, const FloatImage& height_m,
                                  const std::vector<MetallicLamp>& lamps, const Sensor& sensor);
 
 /// Change of code of sample i in channel c.

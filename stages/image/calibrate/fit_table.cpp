@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kTerms = SlopeTable::kTerms;
 
-int bin_of(const SlopeTable& table, const DiscPixel& pixel) {
+int bin_of(const SlopeTable& table, const ContactPixel& pixel) {
   return table.inclination_bin(std::hypot(pixel.slope_x, pixel.slope_y)) * table.bins +
          table.direction_bin(pixel.slope_x, pixel.slope_y);
 }
@@ -25,14 +25,14 @@ struct BallTable {
   std::vector<std::array<double, kTerms>> terms;
 };
 
-BallTable table_of_ball(const std::vector<DiscPixel>& pixels, const SlopeTable& table, int width, int height) {
+BallTable table_of_ball(const std::vector<ContactPixel>& pixels, const SlopeTable& table, int width, int height) {
   const auto size = static_cast<std::size_t>(table.bins) * static_cast<std::size_t>(table.bins);
   std::array<std::vector<bool>, 3> has_value;
   for (auto& one : has_value) one.assign(size, false);
   std::vector<bool> has_place(size, false);
   std::vector<std::array<double, 3>> value(size);
   std::vector<std::array<double, kTerms>> terms(size);
-  for (const DiscPixel& pixel : pixels) {
+  for (const ContactPixel& pixel : pixels) {
     if (!pixel.all_used()) continue;
     // The centre's own pixel is filed under −π, the direction of (−0, −0), as released.
     const bool center = pixel.slope_x == 0.0 && pixel.slope_y == 0.0;
@@ -53,11 +53,11 @@ BallTable table_of_ball(const std::vector<DiscPixel>& pixels, const SlopeTable& 
   return out;
 }
 
-SlopeTable released_table(const std::vector<std::vector<DiscPixel>>& balls, int width, int height, int bins) {
+SlopeTable released_table(const std::vector<std::vector<ContactPixel>>& balls, int width, int height, int bins) {
   SlopeTable table(bins);
   std::vector<BallTable> tables;
   for (const auto& pixels : balls)
-    if (std::any_of(pixels.begin(), pixels.end(), [](const DiscPixel& p) { return p.all_used(); }))
+    if (std::any_of(pixels.begin(), pixels.end(), [](const ContactPixel& p) { return p.all_used(); }))
       tables.push_back(table_of_ball(pixels, table, width, height));
   if (tables.empty()) throw DataError("no ball has a pixel in its contact that is not clipped");
   const auto rows = static_cast<Eigen::Index>(tables.size());
@@ -116,13 +116,13 @@ std::vector<BinEquations> smoothed(const std::vector<BinEquations>& in, int bins
   return out;
 }
 
-SlopeTable pooled_table(const std::vector<std::vector<DiscPixel>>& balls, int width, int height,
+SlopeTable pooled_table(const std::vector<std::vector<ContactPixel>>& balls, int width, int height,
                         const TableFit& settings) {
   SlopeTable table(settings.bins);
   const int bins = settings.bins;
   std::vector<BinEquations> equations(static_cast<std::size_t>(bins) * static_cast<std::size_t>(bins));
   for (const auto& pixels : balls) {
-    for (const DiscPixel& pixel : pixels) {
+    for (const ContactPixel& pixel : pixels) {
       auto bin = static_cast<std::size_t>(bin_of(table, pixel));
       // The last direction is −x alone, where the first begins.
       if (bin % static_cast<std::size_t>(bins) == static_cast<std::size_t>(bins - 1))
@@ -194,7 +194,7 @@ std::vector<std::size_t> nearest_marked(const std::vector<bool>& marked, int bin
   return nearest;
 }
 
-SlopeTable fit_table(const std::vector<std::vector<DiscPixel>>& balls, int width_px, int height_px,
+SlopeTable fit_table(const std::vector<std::vector<ContactPixel>>& balls, int width_px, int height_px,
                      const TableFit& settings) {
   SlopeTable table = settings.pooled ? pooled_table(balls, width_px, height_px, settings)
                                      : released_table(balls, width_px, height_px, settings.bins);

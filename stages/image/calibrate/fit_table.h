@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/sensor/slope_table.h"
-#include "stages/image/calibrate/ball_discs.h"
+#include "stages/image/calibrate/contact_pixels.h"
 #include "stages/image/calibrate/rival_config.h"
 
 namespace tacipc {
@@ -16,7 +16,7 @@ namespace tacipc {
 /// that
 ///   no pixel reaches take the nearest one's weights.
 /// \throw DataError if no ball has a pixel
-SlopeTable fit_table(const std::vector<std::vector<DiscPixel>>& balls, int width_px, int height_px,
+SlopeTable fit_table(const std::vector<std::vector<ContactPixel>>& balls, int width_px, int height_px,
                      const TableFit& settings);
 
 /// For each bin the index of the nearest of those marked, by (Δ inclination)² + (Δ direction)², around the circle where

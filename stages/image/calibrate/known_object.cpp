@@ -25,13 +25,20 @@ KnownObjectsConfig KnownObjectsConfig::read(ConfigReader& in) {
   return config;
 }
 
+Samples object_samples(const KnownObjectConfig& known, const ByteImage& photograph, const ByteImage& background,
+                       int stride) {
+  return make_samples(
+      photograph, background, known.photograph, [&](int x, int y) { return known.inside(x, y); },
+      [&](int x, int y) { return !known.inside(x, y); }, stride);
+}
+
 MembraneView view_object(const KnownObject& object, const Sensor& sensor) {
   return view_membrane(moved(object.front, object.x_m, object.y_m, object.yaw_rad), object.triangles, sensor);
 }
 
 void fit_object(KnownObject& object, const Sensor& sensor, const LightField& light) {
   const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
-  const double reach = 10.0 * pixel, turn = object.fit_yaw ? 10.0 * kDegree : 0.0;
+  const double reach = 10.0 * pixel, turn = object.known.fit_yaw ? 10.0 * kDegree : 0.0;
   const Eigen::Vector3d start(object.x_m, object.y_m, object.yaw_rad);
   const auto at = [&](const Eigen::VectorXd& u) {
     KnownObject moved = object;

@@ -22,7 +22,15 @@ struct KnownObjectConfig {
   std::array<double, 2> center_px{};
   std::array<int, 4> box_px{};  // x, y, width, height: these pixels enter the fit, those outside tell the drift
   bool fit_yaw = false;
+
+  bool inside(int x, int y) const {
+    return x >= box_px[0] && x < box_px[0] + box_px[2] && y >= box_px[1] && y < box_px[1] + box_px[3];
+  }
 };
+
+/// The pixels in its box, less the drift that those outside tell.
+Samples object_samples(const KnownObjectConfig& known, const ByteImage& photograph, const ByteImage& background,
+                       int stride);
 
 /// configs made by the stage cases: `objects: [{name, photograph, frame, center_px, box_px, yaw}]`
 struct KnownObjectsConfig {
@@ -32,23 +40,16 @@ struct KnownObjectsConfig {
 
 /// A simulated press over the origin of S, where it is on its photograph, and what is seen of it.
 struct KnownObject : Contact {
-  std::string name;
+  KnownObjectConfig known;
   Triangles triangles;          // none: the view is given and stays
   Positions front;              // m
   Positions front_before = {};  // of the frame before, if that is a press already
   double origin_z_m = 0.0;      // of the object, in both frames
   double origin_z_before_m = 0.0;
-  std::array<int, 4> box_px{};
-  std::string photograph;
   double x_m = 0.0;
   double y_m = 0.0;
-  double yaw_rad = 0.0;  // about z, from x towards y
-  bool fit_yaw = false;
+  double yaw_rad = 0.0;              // about z, from x towards y
   double left_out_rmse_codes = 0.0;  // under the light of all other photographs
-
-  bool inside(int x, int y) const {
-    return x >= box_px[0] && x < box_px[0] + box_px[2] && y >= box_px[1] && y < box_px[1] + box_px[3];
-  }
 };
 
 /// Its membrane where it is.

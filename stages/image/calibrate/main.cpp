@@ -93,7 +93,7 @@ Value::Map summary_of(const LightFit& fit, std::size_t balls, const std::vector<
                      {"clipped_fraction", fit.unused_fraction}};
   Value::List known;
   for (const KnownObject& object : objects)
-    known.push_back(Value::Map{{"name", object.name},
+    known.push_back(Value::Map{{"name", object.known.name},
                                {"x_mm", 1e3 * object.x_m},
                                {"y_mm", 1e3 * object.y_m},
                                {"yaw_deg", object.yaw_rad / kDegree},
@@ -146,19 +146,14 @@ std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background,
   const CameraModel rays(sensor.camera, sensor.stack);
   for (const KnownObjectConfig& known : stage.read_config<KnownObjectsConfig>("--objects").objects) {
     KnownObject object;
-    object.name = known.name;
-    object.fit_yaw = known.fit_yaw;
+    object.known = known;
     const auto center = rays.on_plane(known.center_px[0] + 0.5, known.center_px[1] + 0.5);
     if (!center) throw DataError("{}: the camera does not see the front face at its centre", known.name);
     object.x_m = center->x();
     object.y_m = center->y();
-    object.box_px = known.box_px;
-    object.photograph = known.photograph;
-    const ByteImage photograph =
-        read_photograph(*stage.optional_input("--photographs") / known.photograph, sensor.camera);
-    object.samples = make_samples(
-        photograph, background, known.photograph, [&](int x, int y) { return object.inside(x, y); },
-        [&](int x, int y) { return !object.inside(x, y); }, config.fit_stride_px);
+    object.samples =
+        object_samples(known, read_photograph(*stage.optional_input("--photographs") / known.photograph, sensor.camera),
+                       background, config.fit_stride_px);
     if (!shapes.empty()) {
       const std::size_t at = balls + objects.size();
       if (at < shapes.size()) object.view = view_height_map(read_camera_exr(shapes[at], {"Y"}, sensor.camera), sensor);
@@ -252,9 +247,9 @@ void calibrate_balls(Stage& stage) {
   }
   if (press && config.relief_slope > 0.0)
     for (const KnownObject& object : objects)
-      measure_relief(object, read_photograph(*stage.optional_input("--photographs") / object.photograph, camera),
+      measure_relief(object, read_photograph(*stage.optional_input("--photographs") / object.known.photograph, camera),
                      background, fit.light, sensor, config.relief_slope)
-          .write(stage.output("relief/" + object.name + ".exr"));
+          .write(stage.output("relief/" + object.known.name + ".exr"));
   Value::Map summary = summary_of(fit, balls.size(), objects, parameters_per_lamp(config));
   if (press) summary.emplace_back("contact_gap_mm", 1e3 * fit.contact_gap_m);
   stage.summarize(summary);

@@ -77,7 +77,7 @@ PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograp
   double squares = 0.0, count = 0.0;
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x)
-      if (!object.inside(x, y))
+      if (!object.known.inside(x, y))
         for (int c = 0; c < 3; ++c, count += 1.0)
           squares += std::pow(int{photograph.at(x, y, c)} - int{background.at(x, y, c)} -
                                   object.samples.drift[static_cast<std::size_t>(c)],
@@ -85,6 +85,7 @@ PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograp
   const double variance = std::max(squares / std::max(count, 1.0), 1.0);
 
   const FloatImage change = code_change(light, view);
+  const LightFeatures of(light.geometry, view);
   std::vector<Eigen::Vector2d> slopes(view.point.size(), Eigen::Vector2d::Zero());
   tbb::parallel_for(0, view.height, [&](int y) {
     Eigen::VectorXd features(light.geometry.num_features());
@@ -92,7 +93,7 @@ PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograp
       const std::size_t i = view.index(x, y);
       if (!touched[i]) continue;
       const auto codes = [&](const Vector3& normal) {
-        light_features(light.geometry, view, x, y, normal, features.data());
+        of.at(x, y, normal, features.data());
         return Vector3(light.weights.transpose() * features);
       };
       const Vector3 here = codes(view.normal[i]);

@@ -1,4 +1,4 @@
-// Another simulator's light from the same photographs of balls.
+// Another simulator's light from the same photographs of balls and known objects.
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +10,7 @@
 #include "common/sensor/camera_model.h"
 #include "stages/image/calibrate/fit_metallic.h"
 #include "stages/image/calibrate/fit_table.h"
+#include "stages/image/calibrate/known_object.h"
 #include "stages/image/calibrate/modes.h"
 #include "stages/image/calibrate/train_network.h"
 
@@ -43,21 +44,27 @@ std::vector<BallDisc> contact_discs(const Stage& stage, const std::vector<BallLa
   return discs;
 }
 
-/// Balls in and out of a fold, as of our own fit.
-template <typename Ball>
-std::pair<std::vector<Ball>, std::vector<Ball>> split(const std::vector<Ball>& balls, int folds, int fold) {
-  std::pair<std::vector<Ball>, std::vector<Ball>> parts;
-  for (std::size_t b = 0; b < balls.size(); ++b)
-    (static_cast<int>(b) % folds == fold ? parts.second : parts.first).push_back(balls[b]);
-  return parts;
-}
+/// What photographs show, the balls first.
+template <typename Contact>
+struct Shown {
+  std::vector<Contact> contacts;
+  std::size_t balls = 0;  // the others are known objects
+
+  /// In and out of a fold, as of our own fit: balls alone are left out.
+  std::pair<std::vector<Contact>, std::vector<Contact>> split(int folds, int fold) const {
+    std::pair<std::vector<Contact>, std::vector<Contact>> parts;
+    for (std::size_t b = 0; b < contacts.size(); ++b)
+      (b < balls && static_cast<int>(b) % folds == fold ? parts.second : parts.first).push_back(contacts[b]);
+    return parts;
+  }
+};
 
 /// Sum over pixels in contacts of (table − photograph)², and how many codes there are.
-std::pair<double, double> table_errors(const SlopeTable& table, const std::vector<std::vector<DiscPixel>>& balls,
+std::pair<double, double> table_errors(const SlopeTable& table, const std::vector<std::vector<ContactPixel>>& balls,
                                        const Camera& camera) {
   double squares = 0.0, count = 0.0;
   for (const auto& pixels : balls) {
-    for (const DiscPixel& pixel : pixels) {
+    for (const ContactPixel& pixel : pixels) {
       const auto codes = table.change(pixel.slope_x, pixel.slope_y,
                                       SlopeTable::terms(pixel.x, pixel.y, camera.width_px, camera.height_px));
       for (std::size_t c = 0; c < 3; ++c) {
@@ -70,25 +77,25 @@ std::pair<double, double> table_errors(const SlopeTable& table, const std::vecto
   return {squares, count};
 }
 
-void calibrate_table(Stage& stage, const RivalFit& fit, const std::vector<std::vector<DiscPixel>>& balls,
+void calibrate_table(Stage& stage, const RivalFit& fit, const Shown<std::vector<ContactPixel>>& shown,
                      const Camera& camera, int folds) {
-  const SlopeTable table = fit_table(balls, camera.width_px, camera.height_px, fit.table);
+  const SlopeTable table = fit_table(shown.contacts, camera.width_px, camera.height_px, fit.table);
   table.write(stage.output("light.npy"));
   double squares = 0.0, count = 0.0;
   for (int fold = 0; fold < folds; ++fold) {
-    const auto [kept, left] = split(balls, folds, fold);
+    const auto [kept, left] = shown.split(folds, fold);
     const auto [error, codes] =
         table_errors(fit_table(kept, camera.width_px, camera.height_px, fit.table), left, camera);
     squares += error;
     count += codes;
   }
-  const auto [error, codes] = table_errors(table, balls, camera);
+  const auto [error, codes] = table_errors(table, shown.contacts, camera);
   stage.summarize({{"held_out_rmse_codes", std::sqrt(squares / count)}, {"rmse_codes", std::sqrt(error / codes)}});
 }
 
-void calibrate_network(Stage& stage, const RivalFit& fit, const std::vector<std::vector<DiscPixel>>& balls,
+void calibrate_network(Stage& stage, const RivalFit& fit, const std::vector<std::vector<ContactPixel>>& contacts,
                        const Camera& camera) {
-  const NetworkSamples samples = network_samples(balls, camera.width_px, camera.height_px);
+  const NetworkSamples samples = network_samples(contacts, camera.width_px, camera.height_px);
   const LightNetwork network = train_network(samples, fit.network);
   network.write(stage.output("light.npy"));
   LightNetwork gradient;
@@ -97,12 +104,12 @@ void calibrate_network(Stage& stage, const RivalFit& fit, const std::vector<std:
                    {"rmse_codes", 255.0 * std::sqrt(loss_and_gradient(network, samples, {}, gradient))}});
 }
 
-void calibrate_metallic(Stage& stage, const RivalFit& fit, const std::vector<MetallicSamples>& balls, int folds) {
-  const MetallicLamps lamps = fit_metallic(balls, fit.lamps);
+void calibrate_metallic(Stage& stage, const RivalFit& fit, const Shown<MetallicSamples>& shown, int folds) {
+  const MetallicLamps lamps = fit_metallic(shown.contacts, fit.lamps);
   write_file(stage.output("light.yaml"), to_yaml(lamps.to_value()));
   double squares = 0.0, count = 0.0;
   for (int fold = 0; fold < folds; ++fold) {
-    const auto [kept, left] = split(balls, folds, fold);
+    const auto [kept, left] = shown.split(folds, fold);
     double codes = 0.0;
     for (const MetallicSamples& ball : left) codes += ball.samples.used.sum();
     const double rmse = metallic_rmse(left, fit_metallic(kept, fit.lamps));
@@ -112,9 +119,9 @@ void calibrate_metallic(Stage& stage, const RivalFit& fit, const std::vector<Met
   MetallicLamps dark = lamps;
   for (MetallicLamp& lamp : dark.lamps) lamp.rgb = {};
   stage.summarize({{"held_out_rmse_codes", std::sqrt(squares / count)},
-                   {"rmse_codes", metallic_rmse(balls, lamps)},
-                   {"rmse_codes_at_start", metallic_rmse(balls, fit.lamps)},
-                   {"rmse_codes_without_light", metallic_rmse(balls, dark)},
+                   {"rmse_codes", metallic_rmse(shown.contacts, lamps)},
+                   {"rmse_codes_at_start", metallic_rmse(shown.contacts, fit.lamps)},
+                   {"rmse_codes_without_light", metallic_rmse(shown.contacts, dark)},
                    {"change_factor", lamps.change_factor}});
 }
 
@@ -123,8 +130,8 @@ void calibrate_metallic(Stage& stage, const RivalFit& fit, const std::vector<Met
 void calibrate_rival(Stage& stage) {
   if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
     throw UsageError("--rival: needs --photographs and --labels of balls");
-  if (stage.optional_input("--press") || stage.optional_input("--gel") || !stage.inputs("--shapes").empty())
-    throw UsageError("--rival: has membranes of its own; leave out --press, --gel and --shapes");
+  if (stage.optional_input("--press") || stage.optional_input("--gel"))
+    throw UsageError("--rival: has membranes of its own; leave out --press and --gel");
   const auto config = stage.read_config<CalibrateConfig>("--config");
   const auto fit = stage.read_config<RivalFit>("--rival");
   const auto sensor = stage.read_config<Sensor>("--sensor");
@@ -135,29 +142,48 @@ void calibrate_rival(Stage& stage) {
     throw DataError("{} photographs cannot be divided into {} folds", labels.size(), config.folds);
   const std::vector<BallDisc> discs = contact_discs(stage, labels, sensor, config.ball_radius_m);
   const double pixel = camera.window_width_m / camera.width_px;
-  std::vector<std::vector<DiscPixel>> balls;
-  std::vector<MetallicSamples> lit;
+  Shown<std::vector<ContactPixel>> unlit{.contacts = {}, .balls = labels.size()};
+  Shown<MetallicSamples> lit{.contacts = {}, .balls = labels.size()};
+  const bool lamps = fit.model == RivalFit::Model::metallic_roughness;
+  const auto drift_of = [&](const Samples& samples) {
+    return fit.remove_drift ? samples.drift : std::array<double, 3>{};
+  };
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const ByteImage photograph = read_photograph(*stage.optional_input("--photographs") / labels[i].image, camera);
     const Samples samples = make_samples(photograph, background, labels[i], config);
-    if (fit.model != RivalFit::Model::metallic_roughness) {
-      balls.push_back(
-          disc_pixels(discs[i], photograph, background, fit.remove_drift ? samples.drift : std::array<double, 3>{}));
+    if (!lamps) {
+      unlit.contacts.push_back(disc_pixels(discs[i], photograph, background, drift_of(samples)));
       continue;
     }
     const auto center = CameraModel(camera, sensor.stack).on_plane(discs[i].x_px + 0.5, discs[i].y_px + 0.5);
     if (!center) throw DataError("{}: the camera does not see the front face at the label's centre", labels[i].image);
     const double contact = std::min(discs[i].contact_px * pixel, config.ball_radius_m);
     const double above = std::sqrt(config.ball_radius_m * config.ball_radius_m - contact * contact);
-    lit.push_back(
+    lit.contacts.push_back(
         metallic_samples(samples, {center->x(), center->y(), above}, config.ball_radius_m, fit.lamps.lamps, sensor));
   }
-  stage.summarize({{"photographs", labels.size()}});
+  const auto& shapes = stage.inputs("--shapes");
+  const auto objects = stage.optional_input("--objects") ? stage.read_config<KnownObjectsConfig>("--objects").objects
+                                                         : std::vector<KnownObjectConfig>{};
+  if (shapes.size() != objects.size())
+    throw UsageError(
+        fmt::format("--rival: {} --shapes of rigid objects for {} known objects", shapes.size(), objects.size()));
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const FloatImage height = read_camera_exr(shapes[i], {"Y"}, camera);
+    const ByteImage photograph =
+        read_photograph(*stage.optional_input("--photographs") / objects[i].photograph, camera);
+    const Samples samples = object_samples(objects[i], photograph, background, config.fit_stride_px);
+    if (lamps)
+      lit.contacts.push_back(metallic_samples(samples, height, fit.lamps.lamps, sensor));
+    else
+      unlit.contacts.push_back(object_pixels(height, pixel, photograph, background, drift_of(samples)));
+  }
+  stage.summarize({{"photographs", labels.size()}, {"objects", objects.size()}});
   switch (fit.model) {
     case RivalFit::Model::table:
-      return calibrate_table(stage, fit, balls, camera, config.folds);
+      return calibrate_table(stage, fit, unlit, camera, config.folds);
     case RivalFit::Model::network:
-      return calibrate_network(stage, fit, balls, camera);
+      return calibrate_network(stage, fit, unlit.contacts, camera);
     case RivalFit::Model::metallic_roughness:
       return calibrate_metallic(stage, fit, lit, config.folds);
   }

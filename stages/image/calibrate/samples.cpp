@@ -55,9 +55,10 @@ Samples make_samples(const ByteImage& photograph, const ByteImage& background, c
 Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples) {
   const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> out(rows, geometry.num_features());
+  const LightFeatures of(geometry, view);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
-    light_features(geometry, view, x, y, out.row(i).data());
+    of.at(x, y, out.row(i).data());
   }
   return out;
 }

@@ -51,16 +51,16 @@ struct Moments {
 
 }  // namespace
 
-NetworkSamples network_samples(const std::vector<std::vector<DiscPixel>>& balls, int width_px, int height_px) {
-  std::vector<const DiscPixel*> wanted;
+NetworkSamples network_samples(const std::vector<std::vector<ContactPixel>>& balls, int width_px, int height_px) {
+  std::vector<const ContactPixel*> wanted;
   for (const auto& pixels : balls)
-    for (const DiscPixel& pixel : pixels)
+    for (const ContactPixel& pixel : pixels)
       if (pixel.all_used() && (pixel.slope_x != 0.0 || pixel.slope_y != 0.0)) wanted.push_back(&pixel);
   NetworkSamples samples;
   samples.inputs.resize(5, static_cast<Eigen::Index>(wanted.size()));
   samples.targets.resize(3, samples.inputs.cols());
   for (Eigen::Index i = 0; i < samples.inputs.cols(); ++i) {
-    const DiscPixel& pixel = *wanted[static_cast<std::size_t>(i)];
+    const ContactPixel& pixel = *wanted[static_cast<std::size_t>(i)];
     const auto input = LightNetwork::input(pixel.x, pixel.y, width_px, height_px, pixel.slope_x, pixel.slope_y);
     samples.inputs.col(i) = Eigen::Map<const Eigen::Matrix<float, 5, 1>>(input.data());
     for (Eigen::Index c = 0; c < 3; ++c)

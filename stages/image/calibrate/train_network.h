@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/sensor/light_network.h"
-#include "stages/image/calibrate/ball_discs.h"
+#include "stages/image/calibrate/contact_pixels.h"
 #include "stages/image/calibrate/rival_config.h"
 
 namespace tacipc {
@@ -19,7 +19,7 @@ struct NetworkSamples {
 };
 
 /// The pixels that are slanted and clipped in no channel.
-NetworkSamples network_samples(const std::vector<std::vector<DiscPixel>>& balls, int width_px, int height_px);
+NetworkSamples network_samples(const std::vector<std::vector<ContactPixel>>& balls, int width_px, int height_px);
 
 /// Weights and biases uniform in ±1/√(inputs of the layer).
 LightNetwork initial_network(std::uint64_t seed);

@@ -119,7 +119,7 @@ ChangeConfig ChangeConfig::read(ConfigReader& in, const std::string& model) {
       config.designed_pixel_m = 1e-3 * window->number("designed_mm_per_px", Range::positive());
     }
   } else {
-    config.model = model == "table" ? Model::table : Model::network;
+    config.model = model == "table" ? Model::table : model == "network" ? Model::network : Model::light_field;
   }
   config.noise_codes = in.number_or("noise_codes", 0.0, Range::non_negative());
   config.final_blur_px = in.number_or("final_blur_px", 0.0, Range::between(0.0, 100.0));
@@ -138,8 +138,8 @@ BaselineConfig BaselineConfig::read(ConfigReader& in) {
   config.texture_sigma_m = 1e-3 * in.number("texture_sigma_mm", Range::non_negative());
   config.seed = static_cast<std::uint64_t>(in.integer_or("seed", 1, 0));
   if (auto shading = in.optional_section("shading")) {
-    const std::string model =
-        shading->choice_or("model", "phong", {"phong", "lambert_sum", "metallic_roughness", "table", "network"});
+    const std::string model = shading->choice_or(
+        "model", "phong", {"phong", "lambert_sum", "metallic_roughness", "table", "network", "light_field"});
     if (model == "phong")
       config.phong = PhongConfig::read(*shading);
     else

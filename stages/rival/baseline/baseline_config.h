@@ -84,7 +84,7 @@ struct PhongConfig {
 
 /// Light that is added to the photograph as a change of codes (change.h).
 struct ChangeConfig {
-  enum class Model { lambert_sum, metallic_roughness, table, network };
+  enum class Model { lambert_sum, metallic_roughness, table, network, light_field };
   Model model = Model::lambert_sum;
   double metres_per_pixel = 0.0;   // lambert_sum only, as what follows
   std::vector<PhongLight> lights;  // added up

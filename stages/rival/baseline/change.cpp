@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/base/rng.h"
-#include "common/sensor/light_field.h"
 #include "stages/rival/baseline/kernel.h"
 #include "stages/rival/baseline/phong.h"
 
@@ -45,6 +44,8 @@ RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model mod
       return SlopeTable::read(file);
     case ChangeConfig::Model::network:
       return LightNetwork::read(file);
+    case ChangeConfig::Model::light_field:
+      return read_config<LightField>(file);
   }
   return {};
 }
@@ -89,6 +90,9 @@ FloatImage ChangeOfCodes::operator()(const Raster& indentation_m, const std::vec
       break;
     case ChangeConfig::Model::network:
       change = network(indentation_m);
+      break;
+    case ChangeConfig::Model::light_field:
+      change = code_change(std::get<LightField>(light_), view_height_map(to_image(indentation_m), sensor_));
       break;
   }
   return gaussian_blurred(change, config_.final_blur_px);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "common/sensor/light_field.h"
 #include "common/sensor/light_network.h"
 #include "common/sensor/membrane_view.h"
 #include "common/sensor/metallic_lamps.h"
@@ -18,7 +19,7 @@
 namespace tacipc {
 
 /// What `calibrate` found, or a file says: nothing for lights that the configuration lists.
-using RivalLight = std::variant<std::monostate, MetallicLamps, SlopeTable, LightNetwork>;
+using RivalLight = std::variant<std::monostate, MetallicLamps, SlopeTable, LightNetwork, LightField>;
 /// \throw DataError, ConfigError if it is no light of this model
 RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model);
 
@@ -41,7 +42,9 @@ class ChangeOfCodes {
   ///   whole codes of 0 … 255 after each light, less the same of a flat gel; then g(n, σ).
   /// - metallic_roughness: factor × (code rendered − code without object), then the window.
   /// - table, network: of the slopes of the height map straight from above; the network's answer less that for a flat
-  /// gel. final_blur_px comes last of all.
+  /// gel.
+  /// - light_field: that of light_field.h, our own, with the blur that belongs to it.
+  /// final_blur_px comes last of all.
   FloatImage operator()(const Raster& indentation_m, const std::vector<Vector3>& object_normal) const;
 
  private:

@@ -10,16 +10,13 @@
 #include "common/base/statistics.h"
 #include "common/benchmark/image_places.h"
 #include "common/image/picture.h"
-#include "common/mesh/triangle_mesh.h"
-#include "common/mesh/vertex_normals.h"
 #include "common/sample/pose_file.h"
 #include "common/sample/render_folder.h"
 #include "common/sensor/camera_image.h"
 #include "common/stage/stage.h"
 #include "stages/rival/baseline/kernel.h"
 #include "stages/rival/baseline/marker_mode.h"
-#include "stages/rival/baseline/object_depth.h"
-#include "stages/rival/baseline/simulate_depth.h"
+#include "stages/rival/baseline/simulator.h"
 
 namespace {
 
@@ -74,69 +71,20 @@ void check_light(const Stage& stage, const BaselineConfig& config) {
     throw UsageError("contact_force: moves an object, which --depth has not");
 }
 
-/// An object's depth counts from this sensor's camera: above another's front, all of the image would be pressed.
-void check_front(double front_depth_m, const Raster& own_front) {
-  constexpr double kFrontToleranceM = 1e-5;
-  for (const double depth_m : own_front.values)
-    if (std::abs(depth_m - front_depth_m) > kFrontToleranceM)
-      throw UsageError(
-          fmt::format("front_depth_mm: {:g} is not this sensor's, {:g}, which --object needs; leave it out",
-                      1e3 * front_depth_m, 1e3 * depth_m));
-}
-
-/// Everything that frames have in common.
-struct Simulator {
-  BaselineConfig config;  // for this camera
-  Sensor sensor;
-  ObjectCamera camera;
-  Raster front;
-  std::optional<ByteImage> background = {};
-  std::optional<ChangeOfCodes> change = {};
-  std::optional<TriangleMesh> object = {};
-  Positions normals = {};  // of its vertices, where the light wants them
-  std::string name = {};   // of its file
-
-  SeenObject seen(Matrix4 pose) const {
-    if (config.force)
-      pose.topRightCorner<3, 1>() += config.force->way_m(pose.topRightCorner<3, 1>(), sensor.camera.position_m);
-    return camera.see(*object, normals, pose, name);
-  }
-  BaselineFrame frame(SeenObject object_seen) const {
-    return simulate_depth(std::move(object_seen), front, config, background, change ? &*change : nullptr);
-  }
-};
-
-Simulator make_simulator(Stage& stage) {
-  auto config = stage.read_config<BaselineConfig>("--config");
+BaselineSimulator make_simulator(Stage& stage) {
+  const auto config = stage.read_config<BaselineConfig>("--config");
   const auto sensor = stage.read_config<Sensor>("--sensor");
   check_light(stage, config);
-  const Camera& camera = sensor.camera;
-  config.deformation = config.deformation.scaled_to(camera.width_px, camera.window_width_m / camera.width_px);
-  ObjectCamera seen(sensor, config.rays);
-  Raster front = seen.front();
-  const auto mesh = stage.optional_input("--object");
-  if (config.front_depth_m) {
-    if (mesh) check_front(*config.front_depth_m, front);
-    front = Raster(camera.width_px, camera.height_px, *config.front_depth_m);
-  }
-  Simulator out{.config = config, .sensor = sensor, .camera = std::move(seen), .front = std::move(front)};
+  std::optional<ByteImage> background;
   if (const auto photograph = stage.optional_input("--background"))
-    out.background = read_photograph(*photograph, camera);
-  if (config.change) {
-    const auto file = stage.optional_input("--light");
-    out.change.emplace(*config.change, file ? read_light(*file, config.change->model) : RivalLight{}, sensor);
-  }
-  if (!mesh) return out;
-  out.object = read_triangle_mesh(*mesh, 1.0);
-  out.name = mesh->string();
-  if (config.deformation.method == DeformationConfig::Method::rigid && config.change &&
-      config.change->model == ChangeConfig::Model::metallic_roughness)
-    out.normals = vertex_normals(out.object->positions, out.object->triangles);
+    background = read_photograph(*photograph, sensor.camera);
+  BaselineSimulator out(config, sensor, std::move(background), stage.optional_input("--light"));
+  if (const auto mesh = stage.optional_input("--object")) out.take_object(*mesh);
   return out;
 }
 
 /// The poses, or those of the images that --places names, moved to the place given there or found on the photograph.
-std::vector<Matrix4> wanted_poses(Stage& stage, const Simulator& simulator) {
+std::vector<Matrix4> wanted_poses(Stage& stage, const BaselineSimulator& simulator) {
   const std::vector<Matrix4> poses = read_poses(*stage.optional_input("--pose"));
   if (!stage.optional_input("--places")) return poses;
   const auto places = stage.read_config<ImagePlaces>("--places");
@@ -146,14 +94,14 @@ std::vector<Matrix4> wanted_poses(Stage& stage, const Simulator& simulator) {
       throw DataError("{}: {} is to be frame {}, there are poses up to {}", stage.optional_input("--pose")->string(),
                       image.name, image.frame, poses.size() - 1);
   const auto moved = [&](const ImagePlace& place, const NamedFrame& image) -> Matrix4 {
-    return place_pose(place, simulator.sensor) * poses[static_cast<std::size_t>(image.frame)];
+    return place_pose(place, simulator.sensor()) * poses[static_cast<std::size_t>(image.frame)];
   };
   ImagePlace place = places.place;
   if (places.fit) {
     const auto file = stage.optional_input("--photograph");
     if (!file) throw UsageError("--photograph: needed where a place is to be fitted to it");
-    if (!simulator.config.shades()) throw UsageError("--places: no place can be fitted without shading");
-    const ByteImage photograph = read_photograph(*file, simulator.sensor.camera);
+    if (!simulator.config().shades()) throw UsageError("--places: no place can be fitted without shading");
+    const ByteImage photograph = read_photograph(*file, simulator.sensor().camera);
     const NamedFrame& image = *std::find_if(places.images.begin(), places.images.end(),
                                             [&](const NamedFrame& one) { return one.name == places.fit->image; });
     const FittedPlace fitted = search_place(place, *places.fit, photograph, [&](const ImagePlace& at) {
@@ -177,7 +125,7 @@ int main(int argc, char** argv) {
     if (ConfigReader::from_file(stage.input("--config")).has("markers")) return move_markers(stage);
     check_flags(stage);
     keep_to_one_thread();
-    const Simulator simulator = make_simulator(stage);
+    const BaselineSimulator simulator = make_simulator(stage);
     double deepest_m = 0.0;
     std::vector<double> object_s, membrane_s, light_s;
     const auto deliver = [&](std::size_t i, SeenObject seen) {
@@ -192,24 +140,24 @@ int main(int argc, char** argv) {
       membrane_s.push_back(frame.membrane_s);
       light_s.push_back(frame.light_s);
     };
-    if (simulator.object) {
+    if (simulator.has_object()) {
       for (const Matrix4& pose : wanted_poses(stage, simulator)) {
         const double started = processor_s();
         SeenObject seen = simulator.seen(pose);
         object_s.push_back(processor_s() - started);
         deliver(membrane_s.size(), std::move(seen));
       }
-      if (!(deepest_m > 0.0)) log_warning("{} is in the gel in no frame (it is read in metres)", simulator.name);
+      if (!(deepest_m > 0.0)) log_warning("{} is in the gel in no frame (it is read in metres)", simulator.name());
     } else {
       for (const auto& path : stage.inputs("--depth")) {
         SeenObject seen{.depth = read_depth(path)};
-        check_camera_size(path, seen.depth.width, seen.depth.height, simulator.sensor.camera);
+        check_camera_size(path, seen.depth.width, seen.depth.height, simulator.sensor().camera);
         deliver(membrane_s.size(), std::move(seen));
       }
     }
     stage.summarize({{"frames", membrane_s.size()}, {"max_indentation_mm", 1e3 * deepest_m}});
     // Processor seconds of a frame, files not counted.
-    if (simulator.object) stage.cost({{"object_s", upper_median(object_s)}});
+    if (simulator.has_object()) stage.cost({{"object_s", upper_median(object_s)}});
     stage.cost({{"membrane_s", upper_median(membrane_s)}, {"light_s", upper_median(light_s)}});
   });
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -19,26 +20,51 @@ std::string group_line(const std::string& group, std::size_t columns) {
   return text + "\n";
 }
 
+/// Width and height of the images whose speed was measured, in the order of the file.
+std::vector<std::array<int, 2>> sizes_of(const std::vector<ImageSpeed>& speeds) {
+  std::vector<std::array<int, 2>> sizes;
+  for (const ImageSpeed& speed : speeds) {
+    const std::array<int, 2> size{speed.width_px, speed.height_px};
+    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+  }
+  return sizes;
+}
+
+/// `38 + press 527`, or nothing where this row was not timed.
+std::string speed_cell(const std::vector<ImageSpeed>& speeds, const std::string& method,
+                       const std::array<int, 2>& size) {
+  for (const ImageSpeed& speed : speeds)
+    if (speed.method == method && speed.width_px == size[0] && speed.height_px == size[1])
+      return markdown_number(speed.image_ms(), 0) +
+             (speed.simulation_ms > 0.0 ? " + press " + markdown_number(speed.simulation_ms, 0) : "");
+  return "";
+}
+
 std::string region_table(const ShownRegion& region, const std::vector<MethodScores>& rows,
-                         const ImageTableConfig& config) {
+                         const ImageTableConfig& config, const std::vector<ImageSpeed>& speeds) {
+  const auto sizes = sizes_of(speeds);
+  const std::size_t width = config.columns.size() + sizes.size();
   std::vector<std::string> headings{markdown_cell(region.heading)};
   for (const ShownColumn& column : config.columns) headings.push_back(markdown_cell(column.heading));
+  for (const auto& [across, down] : sizes) headings.push_back(fmt::format("CPU ms, {} × {}", across, down));
   std::string text = markdown_head(headings), group;
   for (const MethodScores& row : rows) {
-    if (row.row.group != group && !row.row.group.empty()) text += group_line(row.row.group, config.columns.size());
+    if (row.row.group != group && !row.row.group.empty()) text += group_line(row.row.group, width);
     group = row.row.group;
     std::vector<std::string> cells{markdown_cell(row.row.name)};
     for (const ShownColumn& column : config.columns) {
       const MeanDeviation& cell = row.cell(region.region, column.column);
       cells.push_back(markdown_deviation(cell.mean, cell.deviation, column.digits, column.geometric ? "×÷" : "±"));
     }
+    for (const auto& size : sizes) cells.push_back(speed_cell(speeds, row.row.timed_as, size));
     text += markdown_row(cells);
   }
   if (!config.printed || config.printed->region != region.region) return text;
-  text += group_line(config.printed->label, config.columns.size());
+  text += group_line(config.printed->label, width);
   for (const PrintedRow& row : config.printed->rows) {
     std::vector<std::string> cells{markdown_cell(row.name)};
     for (const ShownColumn& column : config.columns) cells.push_back(row.value(column.column).value_or("–"));
+    cells.resize(1 + width);
     text += markdown_row(cells);
   }
   return text;
@@ -136,9 +162,10 @@ std::string of_runs(const std::vector<MethodScores>& rows) {
 
 }  // namespace
 
-std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
+std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config,
+                        const std::vector<ImageSpeed>& speeds) {
   std::string text;
-  for (const ShownRegion& region : config.regions) text += region_table(region, rows, config) + "\n";
+  for (const ShownRegion& region : config.regions) text += region_table(region, rows, config, speeds) + "\n";
   text += fmt::format("{}: mean ± standard deviation over {} images{}.", markdown_cell(config.title),
                       rows.front().counted, of_runs(rows));
   if (config.printed) text += fmt::format(" Printed numbers: {}.", config.printed->source);

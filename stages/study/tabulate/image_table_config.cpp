@@ -105,8 +105,9 @@ ImageTableConfig ImageTableConfig::read(ConfigReader& in) {
   }
   config.uncounted = in.texts("uncounted");
   for (ConfigReader& item : in.one_or_more_sections("rows")) {
-    config.rows.push_back(
-        {.name = item.text("name"), .method = item.text("method"), .group = item.text_or("group", "")});
+    MeasuredRow row{.name = item.text("name"), .method = item.text("method"), .group = item.text_or("group", "")};
+    row.timed_as = item.text_or("timed_as", row.method);
+    config.rows.push_back(std::move(row));
     refuse_repeats(item, "method", config.rows, &MeasuredRow::method);
   }
   if (auto printed = in.optional_section("printed")) config.printed = read_printed(*printed, config);

@@ -29,7 +29,8 @@ struct ShownRegion {
 struct MeasuredRow {
   std::string name;
   std::string method;
-  std::string group;  // rows of one group stand together under its name; empty: no such line
+  std::string group;          // rows of one group stand together under its name; empty: no such line
+  std::string timed_as = {};  // method of whose images the speed is shown
 };
 
 /// Means that somebody else printed, beside the measured ones.

@@ -34,6 +34,9 @@ const StageSpec kTabulate{
          .required = false,
          .many = true,
          .named = true},
+        {.flag = "--speeds",
+         .help = "images: image_speeds.csv of bench_rivals, what an image costs by the rows' methods",
+         .required = false},
         {.flag = "--benchmark", .help = "comparison: the photographs and what is required (YAML)", .required = false},
         {.flag = "--circles", .help = "comparison: contact circles, where the benchmark names them", .required = false},
         {.flag = "--records",
@@ -73,7 +76,7 @@ struct TabulateConfig {
 struct Flags {
   std::set<std::string> required, optional;
 };
-const std::map<std::string, Flags> kFlags{{"images", {{"--samples"}, {"--pictures"}}},
+const std::map<std::string, Flags> kFlags{{"images", {{"--samples"}, {"--pictures", "--speeds"}}},
                                           {"comparison", {{"--samples", "--pictures", "--benchmark"}, {"--circles"}}},
                                           {"meshes", {{"--records"}, {}}},
                                           {"costs", {{"--timings"}, {}}},
@@ -98,7 +101,10 @@ void make(Stage& stage, const ImageTableConfig& config) {
     const auto pictures = pictures_of_columns(stage.named_inputs("--pictures"), sheet);
     write_png(stage.output(in_folder(config.link_folder, sheet.name + ".png")), picture_sheet(pictures, sheet));
   }
-  write_file(stage.output("table.md"), to_markdown(rows, config));
+  const auto file = stage.optional_input("--speeds");
+  // No two runs agree in times.
+  const auto page = file ? stage.varying_output("table.md") : stage.output("table.md");
+  write_file(page, to_markdown(rows, config, file ? read_image_speeds(*file) : std::vector<ImageSpeed>{}));
   write_file(stage.output("table.csv"), to_csv(rows, config));
   stage.summarize({{"rows", rows.size()}, {"images", rows.front().images.size()}});
 }

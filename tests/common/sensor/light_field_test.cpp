@@ -106,7 +106,7 @@ TEST(Features, OfAFieldOfSecondDegreeHaveItsTermsAndComeBackFromTheirFile) {
   for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
   const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
   Eigen::VectorXd f(light.geometry.num_features());
-  light_features(light.geometry, view, 45, 10, f.data());
+  LightFeatures(light.geometry, view).at(45, 10, f.data());
   const std::size_t i = view.index(45, 10);
   const double x = view.rest[i].x() / 3e-3, y = view.rest[i].y() / 3e-3, n = view.normal[i].x();
   const double terms[] = {1.0, x, y, x * x, x * y, y * y};
@@ -122,7 +122,7 @@ TEST(Features, StandInTheirOrder) {
   EXPECT_EQ(light.geometry.first_environment_feature(), 12);
   const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
   Eigen::VectorXd f(light.geometry.num_features());
-  light_features(light.geometry, view, 45, 10, f.data());
+  LightFeatures(light.geometry, view).at(45, 10, f.data());
   const std::size_t i = view.index(45, 10);
   const double x = view.rest[i].x() / 3e-3, y = view.rest[i].y() / 3e-3;
   const double q = relative_irradiance(view, 45, 10, light.geometry.lamps_m[1], 0.125);
@@ -144,7 +144,7 @@ TEST(Features, OfDepthComeLastAndComeBackFromTheirFile) {
   for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
   const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
   Eigen::VectorXd f(light.geometry.num_features());
-  light_features(light.geometry, view, 45, 10, f.data());
+  LightFeatures(light.geometry, view).at(45, 10, f.data());
   const std::size_t i = view.index(45, 10);
   const double x = view.rest[i].x() / 3e-3, y = view.rest[i].y() / 3e-3, depth_mm = -1e3 * view.point[i].z();
   EXPECT_THAT(std::vector<double>(f.data() + 27, f.data() + 30),
@@ -163,9 +163,9 @@ TEST(Features, OfADomeStandBetweenLampsAndPolynomialAndComeBackFromTheirFile) {
   for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
   const MembraneView view = view_of([](double x, double y) { return 0.1 * x + 0.05 * y + 1e-3; }, sensor());
   Eigen::VectorXd f(light.geometry.num_features());
-  light_features(light.geometry, view, 45, 10, f.data());
+  LightFeatures(light.geometry, view).at(45, 10, f.data());
   std::vector<double> dome(8);
-  dome_irradiance(light.geometry.dome, view, 45, 10, view.normal[view.index(45, 10)], dome.data());
+  DomeIrradiance(light.geometry.dome, view).at(45, 10, view.normal[view.index(45, 10)], dome.data());
   for (Eigen::Index k = 0; k < 8; ++k) EXPECT_EQ(f[12 + 3 * k], dome[static_cast<std::size_t>(k)]) << k;
   EXPECT_NEAR(f[12 + 3 * 8], view.normal[view.index(45, 10)].x(), 1e-15);
   const LightField read = config_from_text<LightField>(to_yaml(light.to_value()), "light.yaml");

@@ -136,7 +136,50 @@ TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromTheSameBalls) {
   EXPECT_EQ(run(balls_ + "--balls balls.csv --out a"), 2);
   EXPECT_EQ(said_, "calibrate: error: --balls: is for --rival alone\n");
   EXPECT_EQ(run(balls_ + shapes_ + "--rival table.yaml --out a"), 2);
-  EXPECT_EQ(said_, "calibrate: error: --rival: has membranes of its own; leave out --press, --gel and --shapes\n");
+  EXPECT_EQ(said_, "calibrate: error: --rival: 4 --shapes of rigid objects for 0 known objects\n");
+  EXPECT_EQ(run(balls_ + "--press photos --gel c.yaml --rival table.yaml --out a"), 2);
+  EXPECT_EQ(said_, "calibrate: error: --rival: has membranes of its own; leave out --press and --gel\n");
+}
+
+// Steep walls that no ball shows: every light learns from them, and balls alone are left out of folds.
+TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromKnownObjectsToo) {
+  scratch_.file("table.yaml",
+                "{model: table, bins: 21, samples: all, smoothing_bins: 0, ridge: 0.01, flat_is_dark: true}\n");
+  scratch_.file("network.yaml", "{model: network, epochs: 2, batch: 100, rate: 0.001, dropout: 0.05, seed: 1}\n");
+  scratch_.file("lamps.yaml",
+                "model: metallic_roughness\nmetallic_lamps: {change_factor: 0.5, lamps: [{position_mm: [28, 0, -11], "
+                "rgb: [1, 0, 0]}, {position_mm: [0, 28, -11], rgb: [0, 0, 1]}]}\n");
+  scratch_.file(
+      "objects.yaml",
+      "objects: [{name: ridge, photograph: ridge.png, frame: 1, center_px: [30, 30], box_px: [15, 15, 30, 30], "
+      "yaw: false}]\n");
+  // A ridge along y whose walls rise by 2: the right one dark, the left one bright.
+  constexpr double kPixelM = 18.963e-3 / 60;
+  ByteImage photo(60, 60, 3, 121);
+  FloatImage map(60, 60, 1);
+  for (int y = 20; y < 40; ++y)
+    for (int x = 21; x < 40; ++x) {
+      map.at(x, y, 0) = static_cast<float>(2.0 * kPixelM * (10 - std::abs(x - 30)));
+      photo.at(x, y, 0) = x < 30 ? 200 : x > 30 ? 40 : 121;
+    }
+  write_png(scratch_ / "photos/ridge.png", photo);
+  write_exr(scratch_ / "ridge.exr", map, {"Y"});
+  const std::string known = balls_ + "--objects objects.yaml --shapes ridge.exr ";
+  for (const std::string model : {"table", "network", "lamps"}) {
+    ASSERT_EQ(run(balls_ + "--rival " + model + ".yaml --out balls_" + model), 0) << said_;
+    ASSERT_EQ(run(known + "--rival " + model + ".yaml --out " + model), 0) << said_;
+    const std::string file = model == "lamps" ? "/light.yaml" : "/light.npy";
+    EXPECT_NE(read_file(scratch_ / (model + file)), read_file(scratch_ / ("balls_" + model + file))) << model;
+    EXPECT_THAT(read_file(scratch_ / (model + "/calibrate.yaml")), testing::HasSubstr("objects: 1\n"));
+  }
+  // x and y from −1 to 1 over the image: this pixel's terms, and the red of the wall beside it.
+  const SlopeTable table = SlopeTable::read(scratch_ / "table/light.npy");
+  const auto terms = SlopeTable::terms(25, 30, 60, 60);
+  EXPECT_NEAR(table.change(2.0, 0.0, terms)[0], 200 - 121, 4.0);
+  EXPECT_NEAR(table.change(-2.0, 0.0, terms)[0], 40 - 121, 4.0);
+  EXPECT_LT(std::abs(SlopeTable::read(scratch_ / "balls_table/light.npy").change(2.0, 0.0, terms)[0]), 40.0);
+  EXPECT_EQ(run(balls_ + "--objects objects.yaml --rival table.yaml --out a"), 2);
+  EXPECT_EQ(said_, "calibrate: error: --rival: 0 --shapes of rigid objects for 1 known objects\n");
 }
 
 TEST_F(CalibrateProgram, WrongFlagsAndFilesAreSaidOnce) {

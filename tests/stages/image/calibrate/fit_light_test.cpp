@@ -335,7 +335,7 @@ TEST(FitLight, AKnownObjectTellsLampsThatShallowBallsDoNot) {
   ASSERT_EQ(alone.knowledge.size(), 8u);
   for (const std::size_t lamp : {0u, 4u}) EXPECT_FALSE(alone.knowledge[lamp + 1].told) << lamp;
 
-  objects[0].name = "block";
+  objects[0].known.name = "block";
   objects[0].view = block_view(0.3e-3, -0.2e-3);
   const auto inside = [](int x, int y) { return std::max(std::abs(x - 60), std::abs(y - 60)) < 45; };
   objects[0].samples = make_samples(

@@ -19,14 +19,14 @@ std::array<double, 3> known(double slope_x, double slope_y, int x, int y) {
   return {40.0 * slope_x * field, 30.0 * slope_y * field, 20.0 * (slope_x - slope_y) * field};
 }
 
-std::vector<std::vector<DiscPixel>> balls_of_known_light() {
-  std::vector<std::vector<DiscPixel>> balls;
+std::vector<std::vector<ContactPixel>> balls_of_known_light() {
+  std::vector<std::vector<ContactPixel>> balls;
   const ByteImage grey(kWidth, kHeight, 3, 128);
   for (int i = 0; i < 12; ++i) {
     const BallDisc disc{
         .x_px = 20.0 + 27.0 * (i % 4), .y_px = 18.0 + 27.0 * (i / 4), .contact_px = 16, .radius_px = 24};
     balls.push_back(disc_pixels(disc, grey, grey, {}));
-    for (DiscPixel& pixel : balls.back()) pixel.target = known(pixel.slope_x, pixel.slope_y, pixel.x, pixel.y);
+    for (ContactPixel& pixel : balls.back()) pixel.target = known(pixel.slope_x, pixel.slope_y, pixel.x, pixel.y);
   }
   return balls;
 }
@@ -37,7 +37,7 @@ TEST(BallDiscs, SlopesAreTheBallsAndRiseToItsCentre) {
   const auto pixels =
       disc_pixels({.x_px = 20, .y_px = 12, .contact_px = 5.5, .radius_px = 13}, photo, background, {1.0, 0.0, -2.0});
   const auto found =
-      std::find_if(pixels.begin(), pixels.end(), [](const DiscPixel& p) { return p.x == 23 && p.y == 16; });
+      std::find_if(pixels.begin(), pixels.end(), [](const ContactPixel& p) { return p.x == 23 && p.y == 16; });
   ASSERT_NE(found, pixels.end());
   EXPECT_NEAR(found->slope_x, -3.0 / 12.0, 1e-15);  // 3² + 4² + 12² = 13²
   EXPECT_NEAR(found->slope_y, -4.0 / 12.0, 1e-15);
@@ -46,9 +46,26 @@ TEST(BallDiscs, SlopesAreTheBallsAndRiseToItsCentre) {
   EXPECT_FALSE(found->used[1]);
   EXPECT_FALSE(found->all_used());
   EXPECT_TRUE(found->used[0]);
-  for (const DiscPixel& p : pixels) EXPECT_LT(std::hypot(p.x - 20.0, p.y - 12.0), 5.5);
+  for (const ContactPixel& p : pixels) EXPECT_LT(std::hypot(p.x - 20.0, p.y - 12.0), 5.5);
   EXPECT_EQ(disc_pixels({.x_px = 20, .y_px = 12, .contact_px = 9, .radius_px = 1.5}, photo, background, {}).size(), 9U)
       << "a ball ends where it does";
+}
+
+TEST(ObjectPixels, AreThoseWhoseNeighboursAreInTheGel) {
+  ByteImage photo(12, 9, 3, 130);
+  const ByteImage background(12, 9, 3, 128);
+  photo.at(5, 4, 2) = 0;
+  FloatImage height(12, 9, 1);
+  for (int y = 2; y < 7; ++y)
+    for (int x = 3; x < 9; ++x) height.at(x, y, 0) = static_cast<float>(1e-3 + 1e-4 * x - 0.5e-4 * y);
+  const auto pixels = object_pixels(height, 2e-4, photo, background, {1.0, 0.0, -2.0});
+  EXPECT_EQ(pixels.size(), 12U);  // 4 × 3 of 6 × 5
+  for (const ContactPixel& pixel : pixels) {
+    EXPECT_NEAR(pixel.slope_x, 0.5, 1e-6);
+    EXPECT_NEAR(pixel.slope_y, -0.25, 1e-6);
+    EXPECT_EQ(pixel.target[0], 1.0);
+    EXPECT_EQ(pixel.used[2], !(pixel.x == 5 && pixel.y == 4));
+  }
 }
 
 TEST(NearestMarked, IsTheLeastDistanceOfIndices) {
@@ -67,7 +84,7 @@ TEST(FitTable, AKnownQuadraticComesBackFromEveryPixel) {
       fit_table(balls, kWidth, kHeight, {.bins = 61, .pooled = true, .smoothing_bins = 0.0, .ridge = 1e-9});
   double squares = 0.0, size = 0.0;
   for (const auto& pixels : balls)
-    for (const DiscPixel& p : pixels) {
+    for (const ContactPixel& p : pixels) {
       const auto codes = table.change(p.slope_x, p.slope_y, SlopeTable::terms(p.x, p.y, kWidth, kHeight));
       for (std::size_t c = 0; c < 3; ++c) squares += std::pow(codes[c] - p.target[c], 2);
       for (std::size_t c = 0; c < 3; ++c) size += p.target[c] * p.target[c];
@@ -111,7 +128,7 @@ TEST(FitTable, AFlatGelMayBeHeldAtZero) {
   const auto terms = SlopeTable::terms(10, 80, kWidth, kHeight);
   auto balls = balls_of_known_light();
   for (auto& pixels : balls)
-    for (DiscPixel& p : pixels) p.target[0] += 5.0;
+    for (ContactPixel& p : pixels) p.target[0] += 5.0;
   EXPECT_GT(fit_table(balls, kWidth, kHeight, settings).change(0.0, 0.0, terms)[0], 1.0);
   settings.flat_is_dark = true;
   EXPECT_EQ(fit_table(balls, kWidth, kHeight, settings).change(0.0, 0.0, terms)[0], 0.0);

@@ -42,7 +42,7 @@ KnownObject pressed_block() {
   object.x_m = 0.3e-3;
   object.y_m = -0.1e-3;
   object.yaw_rad = 0.2;
-  object.box_px = {10, 10, 80, 80};
+  object.known.box_px = {10, 10, 80, 80};
   object.triangles.resize(2 * (kSide - 1) * (kSide - 1), 3);
   for (int j = 0, t = 0; j + 1 < kSide; ++j)
     for (int i = 0; i + 1 < kSide; ++i) {

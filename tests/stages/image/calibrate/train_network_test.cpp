@@ -84,9 +84,9 @@ TEST(TrainNetwork, ASmoothFunctionIsLearnt) {
 }
 
 TEST(NetworkSamples, FlatAndClippedPixelsAreLeftOut) {
-  const DiscPixel good{
+  const ContactPixel good{
       .x = 10, .y = 20, .slope_x = 0.75, .slope_y = 0.0, .target = {25.5, 0, -51}, .used = {true, true, true}};
-  DiscPixel flat = good, clipped = good;
+  ContactPixel flat = good, clipped = good;
   flat.slope_x = 0.0;
   clipped.used[1] = false;
   const NetworkSamples samples = network_samples({{flat, good}, {clipped}}, 40, 80);

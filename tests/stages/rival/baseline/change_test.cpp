@@ -47,6 +47,22 @@ TEST(Change, SlopesAreCentralAndTheBorderRepeats) {
   EXPECT_NEAR(slopes.y.at(7, 29), -0.125, 1e-12);
 }
 
+TEST(Change, OurLightIsThatOfShade) {
+  const Sensor sensor = small_sensor();
+  LightField light{.geometry = {.environment_degree = 1, .field_degree = 0, .field_half_width_m = 4e-3},
+                   .weights = {},
+                   .blur_px = 1.0};
+  light.weights.resize(light.geometry.num_features(), 3);
+  light.weights << 10, 20, 30, 40, 50, 60;
+  ChangeConfig config;
+  config.model = ChangeConfig::Model::light_field;
+  const ChangeOfCodes change(config, light, sensor);
+  EXPECT_TRUE(is_zero(change(Raster(40, 30), {})));
+  const Raster slanted = plane(0.75, 0.0);
+  EXPECT_EQ(change(slanted, {}).pixels, code_change(light, view_height_map(to_image(slanted), sensor)).pixels);
+  EXPECT_FALSE(is_zero(change(slanted, {})));
+}
+
 // A flat gel under the published lights has codes (57, 96, 58); slopes turn the lights' shares.
 TEST(Change, LightsOfChenAreAddedAndCutAndAFlatGelIsTheirZero) {
   ChangeConfig config = shipped("chen_2022");

@@ -41,6 +41,26 @@ TEST(ImageTable, HasATablePerRegionAndPrintedRowsInTheirsAlone) {
             "![pictures](figures/s.png)\n");
 }
 
+TEST(ImageTable, SpeedsAreLastColumnsOfTheRowsThatWereTimed) {
+  const ScratchFolder scratch;
+  const auto config = small_table(kPrinted);
+  const auto rows = read_methods({samples_of(scratch, "a"), samples_of(scratch, "b")}, config);
+  const std::vector<ImageSpeed> speeds{
+      {.method = "a", .width_px = 32, .height_px = 24, .simulation_ms = 527.4, .membrane_ms = 14.6, .light_ms = 24},
+      {.method = "c", .width_px = 32, .height_px = 24, .light_ms = 1},
+      {.method = "a", .width_px = 64, .height_px = 48, .object_ms = 1, .membrane_ms = 2, .light_ms = 3}};
+  const std::string text = to_markdown(rows, config, speeds);
+  EXPECT_NE(text.find("| Whole image | SSIM-S | PSNR ln | CPU ms, 32 × 24 | CPU ms, 64 × 48 |\n"
+                      "|---|---|---|---|---|\n"
+                      "| first | 0.625 ± 0.125 | 12.0 ± 2.0 | 39 + press 527 | 6 |\n"
+                      "| **others** |  |  |  |  |\n"
+                      "| second | 0.625 ± 0.125 | 12.0 ± 2.0 | | |\n"
+                      "| **elsewhere** |  |  |  |  |\n"
+                      "| p\\|q | – | 55.92 | | |\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(ImageTable, GeometricMeansHaveAFactor) {
   const ScratchFolder scratch;
   auto config = small_table();

@@ -1,0 +1,189 @@
+// Measures what a tactile image costs: TacIPC's of a press, and those of simulators that know the object's depth alone.
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+
+#include <array>
+#include <map>
+
+#include "bench/machine.h"
+#include "bench/rivals_report.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/statistics.h"
+#include "common/optics/seen_membrane.h"
+#include "common/sample/front_frames.h"
+#include "common/sample/pose_file.h"
+#include "common/sensor/camera_image.h"
+#include "common/sensor/light_field.h"
+#include "common/stage/stage.h"
+#include "common/stage/stage_timings.h"
+#include "stages/rival/baseline/kernel.h"
+#include "stages/rival/baseline/simulator.h"
+
+using namespace tacipc;
+
+namespace {
+
+const StageSpec kBench{
+    .name = "bench_rivals",
+    .summary = "Measure what a tactile image costs, by ours and other simulators.",
+    .inputs = {{.flag = "--sensor", .help = "the sensor (YAML); its images get the sizes that are measured"},
+               {.flag = "--press", .help = "folder of a press, from the first frame on with increasing depth"},
+               {.flag = "--gel", .help = "gel.msh of that press"},
+               {.flag = "--object", .help = "its object (object.ply)"},
+               {.flag = "--light", .help = "light.yaml of calibrate, for TacIPC's images"},
+               {.flag = "--configs", .help = "baseline configurations, by method", .many = true, .named = true},
+               {.flag = "--lights",
+                .help = "light of a method whose configuration has none of its own",
+                .required = false,
+                .many = true,
+                .named = true},
+               {.flag = "--mpm",
+                .help = "folders of mpm, by method: seen under TacIPC's light",
+                .required = false,
+                .many = true,
+                .named = true}}};
+
+constexpr std::array<std::array<int, 2>, 2> kSizes{{{320, 240}, {640, 480}}};
+constexpr int kLeastFrames = 12;  // timed of every method: frames are repeated where there are fewer
+
+/// The same field of view along x in images of another size.
+Sensor resized(Sensor sensor, int width_px, int height_px) {
+  Camera& camera = sensor.camera;
+  if (camera.intrinsics_px) throw DataError("the sensor's camera has intrinsics, which belong to one size of image");
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.window_height_m = camera.window_width_m * height_px / width_px;
+  return sensor;
+}
+
+template <typename Work>
+double timed_ms(Work&& work) {
+  const double started = bench::processor_s();
+  work();
+  return 1e3 * (bench::processor_s() - started);
+}
+
+ImageSpeed sized(const std::string& method, const Sensor& sensor) {
+  return {.method = method, .width_px = sensor.camera.width_px, .height_px = sensor.camera.height_px};
+}
+
+/// Frames 1 … count of a press or a list of poses, as often as it takes.
+std::vector<std::size_t> timed_frames(std::size_t count) {
+  std::vector<std::size_t> frames;
+  while (frames.size() < kLeastFrames)
+    for (std::size_t frame = 1; frame <= count; ++frame) frames.push_back(frame);
+  return frames;
+}
+
+double simulation_ms(const std::filesystem::path& record, std::size_t frames) {
+  return 1e3 * read_timings_of(record).processor_s / static_cast<double>(frames);
+}
+
+ImageSpeed of_press(const FrontFrames& press, const LightField& light, const Sensor& sensor) {
+  const ByteImage background(sensor.camera.width_px, sensor.camera.height_px, 3, 128);
+  std::vector<double> membrane, lit;
+  for (const std::size_t frame : timed_frames(press.frames.size() - 1)) {
+    MembraneView view;
+    membrane.push_back(timed_ms([&] { view = view_membrane(press.frames[frame], press.triangles, sensor); }));
+    lit.push_back(timed_ms([&] { add_change(background, code_change(light, view)); }));
+  }
+  ImageSpeed speed = sized("ours", sensor);
+  speed.membrane_ms = upper_median(membrane);
+  speed.light_ms = upper_median(lit);
+  return speed;
+}
+
+ImageSpeed of_baseline(const std::string& method, const BaselineSimulator& simulator,
+                       const std::vector<Matrix4>& poses) {
+  std::vector<double> object, membrane, lit;
+  for (const std::size_t frame : timed_frames(poses.size() - 1)) {
+    SeenObject seen;
+    object.push_back(timed_ms([&] { seen = simulator.seen(poses[frame]); }));
+    const BaselineFrame made = simulator.frame(std::move(seen));
+    membrane.push_back(1e3 * made.membrane_s);
+    lit.push_back(1e3 * made.light_s);
+  }
+  ImageSpeed speed = sized(method, simulator.sensor());
+  speed.object_ms = upper_median(object);
+  speed.membrane_ms = upper_median(membrane);
+  speed.light_ms = upper_median(lit);
+  return speed;
+}
+
+/// The nearest pixel's value: a map of another size, to time what comes after it.
+FloatImage nearest(const FloatImage& map, int width_px, int height_px) {
+  FloatImage out(width_px, height_px, 1);
+  for (int y = 0; y < height_px; ++y)
+    for (int x = 0; x < width_px; ++x)
+      out.at(x, y, 0) = map.at(x * map.width / width_px, y * map.height / height_px, 0);
+  return out;
+}
+
+ImageSpeed of_mpm(const std::string& method, const std::vector<FloatImage>& maps, const LightField& light,
+                  const Sensor& sensor) {
+  const Camera& camera = sensor.camera;
+  const ByteImage background(camera.width_px, camera.height_px, 3, 128);
+  std::vector<double> membrane, lit;
+  for (const std::size_t frame : timed_frames(maps.size())) {
+    const FloatImage map = nearest(maps[frame - 1], camera.width_px, camera.height_px);
+    MembraneView view;
+    membrane.push_back(timed_ms([&] { view = view_height_map(map, sensor); }));
+    lit.push_back(timed_ms([&] { add_change(background, code_change(light, view)); }));
+  }
+  ImageSpeed speed = sized(method, sensor);
+  speed.membrane_ms = upper_median(membrane);
+  speed.light_ms = upper_median(lit);
+  return speed;
+}
+
+/// Every frame with contact of a folder that mpm wrote.
+std::vector<FloatImage> read_maps(const std::filesystem::path& folder) {
+  std::vector<FloatImage> maps;
+  for (std::size_t frame = 1;; ++frame) {
+    const auto file = folder / fmt::format("frame_{:04}", frame) / "seen_indentation.exr";
+    if (!std::filesystem::exists(file)) break;
+    maps.push_back(read_exr(file, {"Y"}));
+  }
+  if (maps.empty()) throw DataError("{}: has no frame_0001/seen_indentation.exr", folder.string());
+  return maps;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(kBench, argc, argv, [](Stage& stage) {
+    const double load = bench::load_average();
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    keep_to_one_thread();
+    const auto sensor = stage.read_config<Sensor>("--sensor");
+    const auto light = stage.read_config<LightField>("--light");
+    const std::filesystem::path folder = stage.input("--press");
+    const FrontFrames press = read_front_frames(folder, stage.input("--gel"));
+    std::map<std::string, std::filesystem::path> lights;
+    for (const auto& [method, file] : stage.named_inputs("--lights")) lights[method] = file;
+    std::vector<ImageSpeed> speeds;
+    for (const auto [width, height] : kSizes) {
+      const Sensor camera = resized(sensor, width, height);
+      speeds.push_back(of_press(press, light, camera));
+      speeds.back().simulation_ms = simulation_ms(folder / "press.yaml", press.frames.size() - 1);
+      for (const auto& [method, file] : stage.named_inputs("--configs")) {
+        const auto own = lights.find(method);
+        BaselineSimulator simulator(
+            read_config<BaselineConfig>(file), camera, ByteImage(width, height, 3, 128),
+            own == lights.end() ? std::nullopt : std::optional<std::filesystem::path>(own->second));
+        simulator.take_object(stage.input("--object"));
+        speeds.push_back(of_baseline(method, simulator, press.gel_from_object));
+      }
+      for (const auto& [method, simulated] : stage.named_inputs("--mpm")) {
+        const auto maps = read_maps(simulated);
+        speeds.push_back(of_mpm(method, maps, light, camera));
+        speeds.back().simulation_ms = simulation_ms(simulated / "mpm.yaml", maps.size());
+      }
+    }
+    write_file(stage.varying_output("image_speeds.csv"), to_csv(speeds));
+    write_file(stage.varying_output("speeds.md"),
+               bench::rivals_table(speeds, press.frames.size() - 1, bench::processor(), load));
+    stage.summarize({{"methods", speeds.size() / kSizes.size()}});
+  });
+}

@@ -1,0 +1,60 @@
+#include "stages/rival/baseline/simulator.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/mesh/vertex_normals.h"
+
+namespace tacipc {
+namespace {
+
+/// An object's depth counts from this sensor's camera: above another's front, all of the image would be pressed.
+void check_front(double front_depth_m, const Raster& own_front) {
+  constexpr double kFrontToleranceM = 1e-5;
+  for (const double depth_m : own_front.values)
+    if (std::abs(depth_m - front_depth_m) > kFrontToleranceM)
+      throw UsageError(
+          fmt::format("front_depth_mm: {:g} is not this sensor's, {:g}, which --object needs; leave it out",
+                      1e3 * front_depth_m, 1e3 * depth_m));
+}
+
+}  // namespace
+
+BaselineSimulator::BaselineSimulator(const BaselineConfig& config, const Sensor& sensor,
+                                     std::optional<ByteImage> background,
+                                     const std::optional<std::filesystem::path>& light)
+    : config_(config),
+      sensor_(sensor),
+      camera_(sensor, config.rays),
+      front_(camera_.front()),
+      background_(std::move(background)) {
+  const Camera& camera = sensor.camera;
+  config_.deformation = config.deformation.scaled_to(camera.width_px, camera.window_width_m / camera.width_px);
+  if (config.front_depth_m) front_ = Raster(camera.width_px, camera.height_px, *config.front_depth_m);
+  if (config.change)
+    change_.emplace(*config.change, light ? read_light(*light, config.change->model) : RivalLight{}, sensor);
+}
+
+void BaselineSimulator::take_object(const std::filesystem::path& mesh) {
+  if (config_.front_depth_m) check_front(*config_.front_depth_m, camera_.front());
+  object_ = read_triangle_mesh(mesh, 1.0);
+  name_ = mesh.string();
+  if (config_.deformation.method == DeformationConfig::Method::rigid && config_.change &&
+      config_.change->model == ChangeConfig::Model::metallic_roughness)
+    normals_ = vertex_normals(object_->positions, object_->triangles);
+}
+
+SeenObject BaselineSimulator::seen(Matrix4 pose) const {
+  if (config_.force)
+    pose.topRightCorner<3, 1>() += config_.force->way_m(pose.topRightCorner<3, 1>(), sensor_.camera.position_m);
+  return camera_.see(object_.value(), normals_, pose, name_);
+}
+
+BaselineFrame BaselineSimulator::frame(SeenObject object_seen) const {
+  return simulate_depth(std::move(object_seen), front_, config_, background_, change_ ? &*change_ : nullptr);
+}
+
+}  // namespace tacipc
