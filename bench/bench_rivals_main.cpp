@@ -28,9 +28,11 @@ const StageSpec kBench{
     .name = "bench_rivals",
     .summary = "Measure what a tactile image costs, by ours and other simulators.",
     .inputs = {{.flag = "--sensor", .help = "the sensor (YAML); its images get the sizes that are measured"},
-               {.flag = "--press", .help = "folder of a press, from the first frame on with increasing depth"},
-               {.flag = "--gel", .help = "gel.msh of that press"},
-               {.flag = "--object", .help = "its object (object.ply)"},
+               {.flag = "--press",
+                .help = "folders of presses, whose cost counts; the first one's frames are pictured",
+                .many = true},
+               {.flag = "--gel", .help = "gel.msh of these presses"},
+               {.flag = "--object", .help = "object of the first press (object.ply)"},
                {.flag = "--light", .help = "light.yaml of calibrate, for TacIPC's images"},
                {.flag = "--configs", .help = "baseline configurations, by method", .many = true, .named = true},
                {.flag = "--lights",
@@ -68,7 +70,7 @@ ImageSpeed sized(const std::string& method, const Sensor& sensor) {
   return {.method = method, .width_px = sensor.camera.width_px, .height_px = sensor.camera.height_px};
 }
 
-/// Frames 1 … count of a press or a list of poses, as often as it takes.
+/// Frames 1 … count of a press or a list of poses, as often as it takes. \pre count > 0
 std::vector<std::size_t> timed_frames(std::size_t count) {
   std::vector<std::size_t> frames;
   while (frames.size() < kLeastFrames)
@@ -76,23 +78,34 @@ std::vector<std::size_t> timed_frames(std::size_t count) {
   return frames;
 }
 
-double simulation_ms(const std::filesystem::path& record, std::size_t frames) {
-  return 1e3 * read_timings_of(record).processor_s / static_cast<double>(frames);
-}
-
-ImageSpeed of_press(const FrontFrames& press, const LightField& light, const Sensor& sensor) {
+/// Medians over frames: `view(frame)` is a membrane as seen, which is then lit and added to a photograph.
+template <typename View>
+ImageSpeed of_views(const std::string& method, std::size_t frames, const LightField& light, const Sensor& sensor,
+                    View&& view) {
   const ByteImage background(sensor.camera.width_px, sensor.camera.height_px, 3, 128);
   std::vector<double> membrane, lit;
-  for (const std::size_t frame : timed_frames(press.frames.size() - 1)) {
-    MembraneView view;
-    membrane.push_back(timed_ms([&] { view = view_membrane(press.frames[frame], press.triangles, sensor); }));
-    lit.push_back(timed_ms([&] { add_change(background, code_change(light, view)); }));
+  for (const std::size_t frame : timed_frames(frames)) {
+    MembraneView seen;
+    membrane.push_back(timed_ms([&] { seen = view(frame); }));
+    lit.push_back(timed_ms([&] { add_change(background, code_change(light, seen)); }));
   }
-  ImageSpeed speed = sized("ours", sensor);
+  ImageSpeed speed = sized(method, sensor);
   speed.membrane_ms = upper_median(membrane);
   speed.light_ms = upper_median(lit);
   return speed;
 }
+
+/// Folders of simulations: processor time of all over the frames of all.
+struct Simulation {
+  double processor_s = 0.0;
+  std::size_t frames = 0;
+
+  void add(const std::filesystem::path& record, std::size_t count) {
+    processor_s += read_timings_of(record).processor_s;
+    frames += count;
+  }
+  double ms() const { return 1e3 * processor_s / static_cast<double>(frames); }
+};
 
 ImageSpeed of_baseline(const std::string& method, const BaselineSimulator& simulator,
                        const std::vector<Matrix4>& poses) {
@@ -120,23 +133,6 @@ FloatImage nearest(const FloatImage& map, int width_px, int height_px) {
   return out;
 }
 
-ImageSpeed of_mpm(const std::string& method, const std::vector<FloatImage>& maps, const LightField& light,
-                  const Sensor& sensor) {
-  const Camera& camera = sensor.camera;
-  const ByteImage background(camera.width_px, camera.height_px, 3, 128);
-  std::vector<double> membrane, lit;
-  for (const std::size_t frame : timed_frames(maps.size())) {
-    const FloatImage map = nearest(maps[frame - 1], camera.width_px, camera.height_px);
-    MembraneView view;
-    membrane.push_back(timed_ms([&] { view = view_height_map(map, sensor); }));
-    lit.push_back(timed_ms([&] { add_change(background, code_change(light, view)); }));
-  }
-  ImageSpeed speed = sized(method, sensor);
-  speed.membrane_ms = upper_median(membrane);
-  speed.light_ms = upper_median(lit);
-  return speed;
-}
-
 /// Every frame with contact of a folder that mpm wrote.
 std::vector<FloatImage> read_maps(const std::filesystem::path& folder) {
   std::vector<FloatImage> maps;
@@ -158,32 +154,59 @@ int main(int argc, char** argv) {
     keep_to_one_thread();
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const auto light = stage.read_config<LightField>("--light");
-    const std::filesystem::path folder = stage.input("--press");
-    const FrontFrames press = read_front_frames(folder, stage.input("--gel"));
+    std::vector<FrontFrames> presses;
+    Simulation pressed;
+    for (const auto& folder : stage.inputs("--press")) {
+      presses.push_back(read_front_frames(folder, stage.input("--gel")));
+      if (presses.back().frames.size() < 2) throw DataError("{}: has no frame after the first", folder.string());
+      pressed.add(folder / "press.yaml", presses.back().frames.size() - 1);
+    }
+    const FrontFrames& press = presses.front();
+    std::map<std::string, BaselineConfig> configs;
+    for (const auto& [method, file] : stage.named_inputs("--configs"))
+      configs[method] = read_config<BaselineConfig>(file);
     std::map<std::string, std::filesystem::path> lights;
-    for (const auto& [method, file] : stage.named_inputs("--lights")) lights[method] = file;
+    for (const auto& [method, file] : stage.named_inputs("--lights")) {
+      if (!configs.contains(method)) throw UsageError(fmt::format("--lights {}: has no configuration", method));
+      lights[method] = file;
+    }
+    for (const auto& [method, config] : configs)
+      if (!config.change || config.change->needs_light() != lights.contains(method))
+        throw UsageError(fmt::format("--configs {}: needs a shading, and a light if the shading has none", method));
+    std::map<std::string, std::pair<Simulation, std::vector<FloatImage>>> particles;
+    for (const auto& [method, folder] : stage.named_inputs("--mpm")) {
+      const auto maps = read_maps(folder);
+      auto& [simulation, all] = particles[method];
+      simulation.add(folder / "mpm.yaml", maps.size());
+      all.insert(all.end(), maps.begin(), maps.end());
+    }
+
     std::vector<ImageSpeed> speeds;
     for (const auto [width, height] : kSizes) {
       const Sensor camera = resized(sensor, width, height);
-      speeds.push_back(of_press(press, light, camera));
-      speeds.back().simulation_ms = simulation_ms(folder / "press.yaml", press.frames.size() - 1);
-      for (const auto& [method, file] : stage.named_inputs("--configs")) {
+      speeds.push_back(of_views("ours", press.frames.size() - 1, light, camera, [&](std::size_t frame) {
+        return view_membrane(press.frames[frame], press.triangles, camera);
+      }));
+      speeds.back().simulation_ms = pressed.ms();
+      for (const auto& [method, config] : configs) {
         const auto own = lights.find(method);
         BaselineSimulator simulator(
-            read_config<BaselineConfig>(file), camera, ByteImage(width, height, 3, 128),
+            config, camera, ByteImage(width, height, 3, 128),
             own == lights.end() ? std::nullopt : std::optional<std::filesystem::path>(own->second));
         simulator.take_object(stage.input("--object"));
         speeds.push_back(of_baseline(method, simulator, press.gel_from_object));
       }
-      for (const auto& [method, simulated] : stage.named_inputs("--mpm")) {
-        const auto maps = read_maps(simulated);
-        speeds.push_back(of_mpm(method, maps, light, camera));
-        speeds.back().simulation_ms = simulation_ms(simulated / "mpm.yaml", maps.size());
+      for (const auto& [method, simulated] : particles) {
+        const auto& maps = simulated.second;
+        speeds.push_back(of_views(method, maps.size(), light, camera, [&](std::size_t frame) {
+          return view_height_map(nearest(maps[frame - 1], camera.camera.width_px, camera.camera.height_px), camera);
+        }));
+        speeds.back().simulation_ms = simulated.first.ms();
       }
     }
     write_file(stage.varying_output("image_speeds.csv"), to_csv(speeds));
     write_file(stage.varying_output("speeds.md"),
-               bench::rivals_table(speeds, press.frames.size() - 1, bench::processor(), load));
+               bench::rivals_table(speeds, pressed.frames, bench::processor(), load));
     stage.summarize({{"methods", speeds.size() / kSizes.size()}});
   });
 }

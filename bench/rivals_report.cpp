@@ -6,7 +6,7 @@ namespace tacipc::bench {
 
 std::string rivals_table(const std::vector<ImageSpeed>& speeds, std::size_t frames, const std::string& processor,
                          double load) {
-  std::string head = "| CPU ms of a frame |", line = "|---|", text;
+  std::string head = "| CPU ms of a frame |", line = "|---|";
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     if (speeds[i].method != speeds[0].method) continue;
     head += fmt::format(" {} × {}: object | membrane | light | all |", speeds[i].width_px, speeds[i].height_px);
@@ -18,15 +18,15 @@ std::string rivals_table(const std::vector<ImageSpeed>& speeds, std::size_t fram
     rows += fmt::format("| {} |", first.method);
     for (const ImageSpeed& s : speeds)
       if (s.method == first.method)
-        rows += fmt::format(" {} | {:.0f} | {:.0f} | {:.0f}{} |",
-                            s.object_ms > 0.0 ? fmt::format("{:.0f}", s.object_ms) : "", s.membrane_ms, s.light_ms,
-                            s.image_ms(), s.simulation_ms > 0.0 ? fmt::format(" + press {:.0f}", s.simulation_ms) : "");
+        rows += fmt::format(" {} | {:.0f} | {:.0f} | {} |", s.object_ms > 0.0 ? fmt::format("{:.0f}", s.object_ms) : "",
+                            s.membrane_ms, s.light_ms, s.total());
     rows += "\n";
   }
   return fmt::format(
-      "{}\n{}\n{}\nOne thread of: {}; {:.1f} processes were running when it began. Medians over frames of one press in "
-      "images of these sizes, files not counted. *Press*: the whole simulation over its frames ({} of TacIPC's), "
-      "whatever the images' size.\n",
+      "{}\n{}\n{}\nOne thread of: {}; in the minute before, {:.1f} processes wanted a processor. Medians over frames "
+      "of "
+      "one press in images of these sizes, files not counted. *Press*: the simulation before it, all of its presses "
+      "over all of their frames ({} of TacIPC's), whatever the images' size.\n",
       head, line, rows, processor, load, frames);
 }
 

@@ -9,8 +9,8 @@
 
 namespace tacipc::bench {
 
-/// A row per method, columns per size, as measured on `processor` while `load` processes were running. `frames`: of
-/// TacIPC's press. \pre all methods in each size, in one order
+/// A row per method, columns per size, as measured on `processor` after a minute in which `load` processes wanted one.
+/// `frames`: of TacIPC's presses. \pre all methods in each size, in one order
 std::string rivals_table(const std::vector<ImageSpeed>& speeds, std::size_t frames, const std::string& processor,
                          double load);
 

@@ -6,6 +6,10 @@
 
 namespace tacipc {
 
+std::string ImageSpeed::total() const {
+  return fmt::format("{:.0f}", image_ms()) + (simulation_ms > 0.0 ? fmt::format(" + press {:.0f}", simulation_ms) : "");
+}
+
 std::string to_csv(const std::vector<ImageSpeed>& speeds) {
   std::string text =
       csv_line({"method", "width_px", "height_px", "simulation_ms", "object_ms", "membrane_ms", "light_ms"});

@@ -12,12 +12,14 @@ struct ImageSpeed {
   std::string method;
   int width_px = 0;
   int height_px = 0;
-  double simulation_ms = 0.0;  // what it presses first: the press over its frames; 0: nothing
+  double simulation_ms = 0.0;  // the simulation before it, divided by its frames; 0: none
   double object_ms = 0.0;      // the object's depth
   double membrane_ms = 0.0;
   double light_ms = 0.0;
 
   double image_ms() const { return object_ms + membrane_ms + light_ms; }
+  /// `146 + press 1627`, ms
+  std::string total() const;
   bool operator==(const ImageSpeed&) const = default;
 };
 

@@ -107,8 +107,10 @@ DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) :
   for (int d = 0; d < count; ++d) {
     const double azimuth = 2.0 * std::numbers::pi * d / count;
     Direction direction;
-    direction.cosine = std::cos(azimuth);
-    direction.sine = std::sin(azimuth);
+    // Along rows and columns exactly, so that no march leaves the image's outermost line by rounding.
+    const auto exact = [](double value) { return std::abs(value) < 1e-12 ? 0.0 : value; };
+    direction.cosine = exact(std::cos(azimuth));
+    direction.sine = exact(std::sin(azimuth));
     direction.dx = direction.cosine;
     direction.dy = alone ? 0.0 : direction.sine * pixel_m_ / pixel_height(view);
     direction.lowest = lowest_on_the_way(around, wide, high, direction.dx, direction.dy);
@@ -172,17 +174,21 @@ std::vector<double> DomeIrradiance::row_horizons(int y) const {
       const double u = s * direction.dx, v = y + s * direction.dy;
       if (!(v >= 0.0 && v <= height - 1)) break;
       const int u0 = static_cast<int>(std::floor(u)), v0 = std::min(static_cast<int>(v), height - 2);
-      const int first = std::max(0, -u0), last = std::min(width, width - 1 - u0);
+      const double a = u - u0, b = v - v0, inverse = 1.0 / (s * pixel_m_);
+      const bool between = a > 0.0;  // two columns
+      const int first = std::max(0, -u0), last = std::min(width, width - u0 - (between ? 1 : 0));
       if (first >= last) break;
       if (top - direction.lowest_of_row[static_cast<std::size_t>(v0 / kBlockPx)] <= kLeastHorizon * s * pixel_m_) break;
-      const double a = u - u0, b = v - v0, inverse = 1.0 / (s * pixel_m_);
-      const double *above = &z_[view_->index(0, v0)], *below = &z_[view_->index(0, v0 + 1)];
-      for (int x = first; x < last; ++x) {
-        const int i = x + u0;
-        const double there =
-            (1 - b) * ((1 - a) * above[i] + a * above[i + 1]) + b * ((1 - a) * below[i] + a * below[i + 1]);
-        horizon[x] = std::max(horizon[x], (z[x] - there) * inverse);
-      }
+      const double *above = &z_[view_->index(0, v0)] + u0, *below = &z_[view_->index(0, v0 + 1)] + u0;
+      if (between)
+        for (int x = first; x < last; ++x) {
+          const double there =
+              (1 - b) * ((1 - a) * above[x] + a * above[x + 1]) + b * ((1 - a) * below[x] + a * below[x + 1]);
+          horizon[x] = std::max(horizon[x], (z[x] - there) * inverse);
+        }
+      else
+        for (int x = first; x < last; ++x)
+          horizon[x] = std::max(horizon[x], (z[x] - ((1 - b) * above[x] + b * below[x])) * inverse);
     }
   }
   for (double& tangent : out)

@@ -33,8 +33,8 @@ class DomeIrradiance {
   /// Irradiance of a pixel, whose membrane has this normal, by each bin of unit radiance less that of the flat front:
   ///   ∫∫ h_k(α) max(−n · w, 0) cos ε dε dα,  w = (cos ε cos α, cos ε sin α, −sin ε),
   /// over elevations ε of the band above the horizon, in closed form; over α by two directions a bin. Bins by azimuth,
-  /// then band. A horizon less than 0.005 above the plane, which hides 3e-5 of the light at most, is not looked for.
-  /// \pre out has bins.size() entries
+  /// then band. A horizon whose tangent is below 0.005 is not looked for: it hides 3e-5 of the light of a flat pixel,
+  /// and of one that faces it at most 1 % of what comes from that direction. \pre out has bins.size() entries
   void at(int x, int y, const Vector3& normal, double* out) const;
 
   /// The horizons of a row of pixels, by direction, then pixel: for whole images, where marches side by side read the

@@ -91,9 +91,14 @@ $(PAPER_REAL)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
 PAPER_RIVALS := $(filter-out $(PAPER_METHODS) ours depth-based background,$(call rivals_methods,$(PAPER_TABLE),name))
 PAPER_SCORES := $(foreach m,ours depth-based background,$(SIM2REAL)/metrics/$(m)/metrics.yaml) $(foreach m,$(PAPER_METHODS),$(PAPER_REAL)/metrics/$(m)/metrics.yaml) \
   $(foreach m,$(PAPER_RIVALS),$(RIVALS)/metrics/$(m)/metrics.yaml)
-# What an image costs by these rows, Tacchi's with its own press of the same way.
-$(PAPER_REAL)/speed/bench_rivals.yaml: $(rivals_timed) $(foreach t,$(PAPER_TACCHI_LIT),$(PAPER_REAL)/$(t)/objects/$(firstword $(CASES_OBJECTS))/mpm.yaml) | $(PAPER_SCORES) $(if $(and $(RIVALS_TABLE),$(filter paper-real,$(MAKECMDGOALS))),$(RIVALS)/tabulate.yaml) build-bench-rivals
-	$(call rivals_speed,--mpm $(foreach t,$(PAPER_TACCHI_LIT),$(t)=$(PAPER_REAL)/$(t)/objects/$(firstword $(CASES_OBJECTS))))
+# What an image costs by these rows, with Tacchi's own presses of the same objects.
+paper_presses = $(foreach o,$(CASES_OBJECTS),$(PAPER_REAL)/$(1)/objects/$(o))
+$(PAPER_REAL)/speed/bench_rivals.yaml: $(rivals_timed) $(foreach t,$(PAPER_TACCHI_LIT),$(addsuffix /mpm.yaml,$(call paper_presses,$(t)))) | $(PAPER_SCORES) build-bench-rivals
+	$(call rivals_speed,--mpm $(foreach t,$(PAPER_TACCHI_LIT),$(addprefix $(t)=,$(call paper_presses,$(t)))))
+ifneq ($(filter paper-real,$(MAKECMDGOALS)),)
+$(RIVALS)/speed/bench_rivals.yaml: | $(PAPER_SCORES)
+$(if $(RIVALS_TABLE),$(eval $(PAPER_REAL)/speed/bench_rivals.yaml: | $(RIVALS)/tabulate.yaml))
+endif
 $(PAPER_REAL)/tabulate.yaml: $(PAPER_TABLE) $(PAPER_SCORES) $(PAPER_REAL)/speed/bench_rivals.yaml | build
 	$(call run,tabulate,--config $(PAPER_TABLE) --speeds $(PAPER_REAL)/speed/image_speeds.csv --pictures $(addprefix photograph=,$(CASES_REAL)) \
 	  $(foreach m,ours depth-based,$(addprefix $(m)=,$(call sim2real_images,$(m)))) $(foreach m,$(PAPER_METHODS),$(addprefix $(m)=,$(call paper_images,$(m)))) $(foreach m,$(PAPER_RIVALS),$(call rivals_pictures,$(m))) \

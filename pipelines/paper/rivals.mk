@@ -37,18 +37,21 @@ $(RIVALS)/fits/tacto.yaml: $(RIVALS_CONFIGS)/tacto_lamps.yaml
 	{ echo 'model: metallic_roughness'; cat $<; } > $@
 # $(call rivals_fit,fit)
 define rivals_fit
-$(RIVALS)/calibrate/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/baseline.yaml) $(background_record) $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) | build
+$(RIVALS)/calibrate/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/baseline.yaml) $(background_record) $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
 	$$(call run,calibrate,$$(calibration) --rival $(RIVALS)/fits/$(1).yaml $(rivals_balls) \
 	  $(if $(CASES_KNOWN),--shapes $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/frame_$$(call known_frame,$(o),-1)/indentation.exr)))
-$(RIVALS)/calibrate_balls/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml $(CASES_CALIBRATE) | build
-	$$(call run,calibrate,$$(calibration_balls) --rival $(RIVALS)/fits/$(1).yaml)
 endef
 $(foreach f,taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%),$(eval $(call rivals_fit,$(f))))
-# Ours and the depth-based method's from balls alone.
+# From balls alone, where known objects calibrate too; the depth-based method's balls are where the fit with the objects has put them.
+ifneq ($(CASES_KNOWN),)
+$(foreach f,taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%),$(RIVALS)/calibrate_balls/$(f)/calibrate.yaml): \
+  $(RIVALS)/calibrate_balls/%/calibrate.yaml: $(RIVALS)/fits/%.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+	$(call run,calibrate,$(calibration_balls) --rival $<)
 $(RIVALS)/calibrate_balls/ours/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
 	$(call run,calibrate,$(calibration_balls) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh)
-$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(CASES_CALIBRATE) | build
+$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
 	$(call run,calibrate,$(calibration_balls) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr)
+endif
 
 # Our light and that of the depth-based method without their last blur: $(call rival_sharp_light,name,folder of calibrate)
 define rival_sharp_light
@@ -59,13 +62,13 @@ endef
 $(eval $(call rival_sharp_light,ours,$(SIM2REAL)/calibrate))
 $(eval $(call rival_sharp_light,depth-based,$(SIM2REAL)/rival/calibrate))
 
-# $(call rival,method,configuration,changed keys,light's file,its record)
+# $(call rival,method,configuration or its path,changed keys,light's file,its record)
 RIVAL_METHODS :=
 define rival
 RIVAL_METHODS += $(1)
 RIVAL_LIGHT_$(1) := $(addprefix --light ,$(4))
 RIVAL_RECORD_$(1) := $(5)
-$(RIVALS)/configs/$(1).yaml: configs/rivals/baseline/$(2).yaml $(CASES_CALIBRATE) | build
+$(RIVALS)/configs/$(1).yaml: $(if $(findstring /,$(2)),$(2),configs/rivals/baseline/$(2).yaml) $(CASES_CALIBRATE) | build
 	mkdir -p $$(@D)
 	$(BIN)/tacipc set $$< $(3) > $$@
 endef
@@ -88,10 +91,10 @@ $(eval $(call rival,tacto-pure,tacto,$(rival_blurred),$(RIVALS_CONFIGS)/tacto_la
 $(eval $(call rival,tacto-pure-sharp,tacto,,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
 $(eval $(call rival,tacto-noise,tacto,+shading.noise_codes=7,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
 # The depth-based method, whose light is made as ours; sim2real.mk has its first row.
-$(eval $(call rival,depth-based,height_map,+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
-$(eval $(call rival,depth-based-own,height_map,+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
-$(eval $(call rival,depth-based-sharp,height_map,+shading.model=light_field,$(RIVALS)/sharp/depth-based.yaml,$(RIVALS)/sharp/depth-based.yaml))
-$(eval $(call rival,depth-based-balls,height_map,+shading.model=light_field,$(RIVALS)/calibrate_balls/depth-based/light.yaml,$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml))
+$(eval $(call rival,depth-based,$(CASES_BASELINE),+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
+$(eval $(call rival,depth-based-own,$(CASES_BASELINE),+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
+$(eval $(call rival,depth-based-sharp,$(CASES_BASELINE),+shading.model=light_field,$(RIVALS)/sharp/depth-based.yaml,$(RIVALS)/sharp/depth-based.yaml))
+$(eval $(call rival,depth-based-balls,$(CASES_BASELINE),+shading.model=light_field,$(RIVALS)/calibrate_balls/depth-based/light.yaml,$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml))
 # The light of one on the membranes of another: what is light, and what membrane.
 $(foreach m,taxim fots,$(eval $(call rival,ours-on-$(m),$(m),shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml)))
 $(eval $(call rival,ours-on-tacto,rigid,+shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml))
@@ -147,13 +150,13 @@ RIVALS_ROWS := $(if $(RIVALS_TABLE),$(call rivals_methods,$(RIVALS_TABLE),name))
 RIVALS_SHOWN := $(if $(RIVALS_TABLE),$(filter-out photograph,$(call rivals_methods,$(RIVALS_TABLE),heading)))
 RIVALS_METRICS := $(foreach m,$(RIVALS_ROWS),$(addsuffix /metrics.yaml,$(call rivals_runs,$(m))))
 
-# What an image costs, on the first object's way, when all else is made: nothing runs beside it. $(call rivals_speed,what else)
+# What an image costs, on the way of one object, and the presses of all; when all else is made, so that nothing of it runs beside. $(call rivals_speed,what else)
 build-bench-rivals: build
 	@cmake --build $(BUILD) --target bench_rivals -j $(JOBS) -- --quiet
 RIVALS_TIMED := depth-based tacto taxim fots chen
-rivals_timed_press := $(call cases_press,$(firstword $(CASES_OBJECTS)))
-rivals_timed := $(RIVALS_TIMED:%=$(RIVALS)/configs/%.yaml) $(foreach m,$(RIVALS_TIMED),$(RIVAL_RECORD_$(m))) $(rivals_timed_press)/press/press.yaml
-rivals_speed = $(call run,bench_rivals,--sensor $(CASES_SENSOR) --press $(rivals_timed_press)/press --gel $(SIM2REAL)/gel/gel.msh --object $(rivals_timed_press)/indenter/object.ply \
+rivals_presses := $(sort $(foreach o,$(CASES_OBJECTS),$(call cases_press,$(o))/press))
+rivals_timed := $(RIVALS_TIMED:%=$(RIVALS)/configs/%.yaml) $(foreach m,$(RIVALS_TIMED),$(RIVAL_RECORD_$(m))) $(rivals_presses:%=%/press.yaml)
+rivals_speed = $(call run,bench_rivals,--sensor $(CASES_SENSOR) --press $(rivals_presses) --gel $(SIM2REAL)/gel/gel.msh --object $(dir $(firstword $(rivals_presses)))indenter/object.ply \
   --light $(SIM2REAL)/calibrate/light.yaml --configs $(foreach m,$(RIVALS_TIMED),$(m)=$(RIVALS)/configs/$(m).yaml) \
   --lights $(foreach m,$(RIVALS_TIMED),$(if $(RIVAL_LIGHT_$(m)),$(m)=$(lastword $(RIVAL_LIGHT_$(m))))) $(1))
 $(RIVALS)/speed/bench_rivals.yaml: $(rivals_timed) | $(RIVALS_METRICS) build-bench-rivals

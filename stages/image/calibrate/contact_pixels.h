@@ -29,8 +29,9 @@ struct BallDisc {
 std::vector<ContactPixel> disc_pixels(const BallDisc& disc, const ByteImage& photograph, const ByteImage& background,
                                       const std::array<double, 3>& drift);
 
-/// Pixels that are in the gel with their four neighbours, in raster order. `height_m`: of the rigid object, > 0 into
-/// the gel, straight from above over pixels of `pixel_m`; slopes are central differences. \pre equal sizes
+/// Pixels where a rigid object is in the gel with their four neighbours, in raster order; the membrane is taken to
+/// follow it there. `height_m`: of the object, > 0 into the gel, straight from above over pixels of `pixel_m`; slopes
+/// are central differences. \pre equal sizes
 std::vector<ContactPixel> object_pixels(const FloatImage& height_m, double pixel_m, const ByteImage& photograph,
                                         const ByteImage& background, const std::array<double, 3>& drift);
 

@@ -130,8 +130,14 @@ void calibrate_metallic(Stage& stage, const RivalFit& fit, const Shown<MetallicS
 void calibrate_rival(Stage& stage) {
   if (!stage.optional_input("--photographs") || !stage.optional_input("--labels"))
     throw UsageError("--rival: needs --photographs and --labels of balls");
-  if (stage.optional_input("--press") || stage.optional_input("--gel"))
-    throw UsageError("--rival: has membranes of its own; leave out --press and --gel");
+  if (stage.optional_input("--press") || stage.optional_input("--gel") || !stage.named_inputs("--object-press").empty())
+    throw UsageError("--rival: has membranes of its own; leave out --press, --gel and --object-press");
+  const auto& shapes = stage.inputs("--shapes");
+  const auto objects = stage.optional_input("--objects") ? stage.read_config<KnownObjectsConfig>("--objects").objects
+                                                         : std::vector<KnownObjectConfig>{};
+  if (shapes.size() != objects.size())
+    throw UsageError(fmt::format("--rival: --shapes has one map for each known object: {} maps, {} objects",
+                                 shapes.size(), objects.size()));
   const auto config = stage.read_config<CalibrateConfig>("--config");
   const auto fit = stage.read_config<RivalFit>("--rival");
   const auto sensor = stage.read_config<Sensor>("--sensor");
@@ -162,14 +168,10 @@ void calibrate_rival(Stage& stage) {
     lit.contacts.push_back(
         metallic_samples(samples, {center->x(), center->y(), above}, config.ball_radius_m, fit.lamps.lamps, sensor));
   }
-  const auto& shapes = stage.inputs("--shapes");
-  const auto objects = stage.optional_input("--objects") ? stage.read_config<KnownObjectsConfig>("--objects").objects
-                                                         : std::vector<KnownObjectConfig>{};
-  if (shapes.size() != objects.size())
-    throw UsageError(
-        fmt::format("--rival: {} --shapes of rigid objects for {} known objects", shapes.size(), objects.size()));
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const FloatImage height = read_camera_exr(shapes[i], {"Y"}, camera);
+    if (!(*std::max_element(height.pixels.begin(), height.pixels.end()) > 0.0F))
+      throw DataError("{}: {} is not in the gel", shapes[i].string(), objects[i].name);
     const ByteImage photograph =
         read_photograph(*stage.optional_input("--photographs") / objects[i].photograph, camera);
     const Samples samples = object_samples(objects[i], photograph, background, config.fit_stride_px);

@@ -1,12 +1,13 @@
 #include "stages/study/tabulate/image_table.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "common/base/error.h"
 #include "common/format/csv.h"
 #include "stages/study/tabulate/markdown.h"
 
@@ -30,13 +31,11 @@ std::vector<std::array<int, 2>> sizes_of(const std::vector<ImageSpeed>& speeds) 
   return sizes;
 }
 
-/// `38 + press 527`, or nothing where this row was not timed.
+/// What an image of a method costs, or nothing where it was not timed.
 std::string speed_cell(const std::vector<ImageSpeed>& speeds, const std::string& method,
                        const std::array<int, 2>& size) {
   for (const ImageSpeed& speed : speeds)
-    if (speed.method == method && speed.width_px == size[0] && speed.height_px == size[1])
-      return markdown_number(speed.image_ms(), 0) +
-             (speed.simulation_ms > 0.0 ? " + press " + markdown_number(speed.simulation_ms, 0) : "");
+    if (speed.method == method && speed.width_px == size[0] && speed.height_px == size[1]) return speed.total();
   return "";
 }
 
@@ -154,10 +153,13 @@ std::string sentence(const Finding& finding, const std::vector<MethodScores>& ro
 
 /// How many runs the rows have where they have several.
 std::string of_runs(const std::vector<MethodScores>& rows) {
-  std::string text;
-  for (const MethodScores& row : rows)
-    if (row.runs > 1) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", markdown_cell(row.row.name), row.runs);
-  return text.empty() ? "" : "; in rows of several runs, over the runs' means (" + text + ")";
+  std::vector<std::string> named;  // rows of one name in several groups once
+  for (const MethodScores& row : rows) {
+    const std::string name = fmt::format("{} {}", markdown_cell(row.row.name), row.runs);
+    if (row.runs > 1 && std::find(named.begin(), named.end(), name) == named.end()) named.push_back(name);
+  }
+  return named.empty() ? ""
+                       : fmt::format("; in rows of several runs, over the runs' means ({})", fmt::join(named, ", "));
 }
 
 }  // namespace
@@ -165,7 +167,14 @@ std::string of_runs(const std::vector<MethodScores>& rows) {
 std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config,
                         const std::vector<ImageSpeed>& speeds) {
   std::string text;
-  for (const ShownRegion& region : config.regions) text += region_table(region, rows, config, speeds) + "\n";
+  for (const MethodScores& row : rows)
+    if (!speeds.empty() && row.row.timed_as != row.row.method &&
+        std::none_of(speeds.begin(), speeds.end(), [&](const auto& s) { return s.method == row.row.timed_as; }))
+      throw DataError("no speed was measured of {}, as which '{}' is timed", row.row.timed_as, row.row.name);
+  for (const ShownRegion& region : config.regions)  // an image's cost is that of all regions
+    text +=
+        region_table(region, rows, config, &region == &config.regions.front() ? speeds : std::vector<ImageSpeed>{}) +
+        "\n";
   text += fmt::format("{}: mean ± standard deviation over {} images{}.", markdown_cell(config.title),
                       rows.front().counted, of_runs(rows));
   if (config.printed) text += fmt::format(" Printed numbers: {}.", config.printed->source);

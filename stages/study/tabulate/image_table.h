@@ -11,8 +11,8 @@ namespace tacipc {
 
 /// A table per region: a row per method, mean ± standard deviation, or geometric mean ×÷ factor; a line above the first
 /// row of each group; printed means last, in the table of their region alone. `speeds`: of the rows' methods where they
-/// were measured, a last column for each size of image. Then the caption, the findings and the sheets. Characters that
-/// Markdown takes for a cell's end are escaped.
+/// were measured, a last column of the first table for each size of image. Then the caption, the findings and the
+/// sheets. Characters that Markdown takes for a cell's end are escaped.
 std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config,
                         const std::vector<ImageSpeed>& speeds = {});
 

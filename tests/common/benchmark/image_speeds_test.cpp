@@ -21,6 +21,7 @@ TEST(ImageSpeeds, ComeBackAsTheyWereWritten) {
   scratch.file("speeds.csv", to_csv(speeds));
   EXPECT_EQ(read_image_speeds(scratch / "speeds.csv"), speeds);
   EXPECT_EQ(speeds[1].image_ms(), 13.5);
+  EXPECT_EQ(speeds[0].total(), "24 + press 527");
   scratch.file("odd.csv", "method,width_px\ntaxim,640\n");
   EXPECT_THROW(read_image_speeds(scratch / "odd.csv"), DataError);
 }

@@ -136,12 +136,13 @@ TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromTheSameBalls) {
   EXPECT_EQ(run(balls_ + "--balls balls.csv --out a"), 2);
   EXPECT_EQ(said_, "calibrate: error: --balls: is for --rival alone\n");
   EXPECT_EQ(run(balls_ + shapes_ + "--rival table.yaml --out a"), 2);
-  EXPECT_EQ(said_, "calibrate: error: --rival: 4 --shapes of rigid objects for 0 known objects\n");
+  EXPECT_EQ(said_, "calibrate: error: --rival: --shapes has one map for each known object: 4 maps, 0 objects\n");
   EXPECT_EQ(run(balls_ + "--press photos --gel c.yaml --rival table.yaml --out a"), 2);
-  EXPECT_EQ(said_, "calibrate: error: --rival: has membranes of its own; leave out --press and --gel\n");
+  EXPECT_EQ(said_,
+            "calibrate: error: --rival: has membranes of its own; leave out --press, --gel and --object-press\n");
 }
 
-// Steep walls that no ball shows: every light learns from them, and balls alone are left out of folds.
+// Steep walls that no ball shows: every light learns from them.
 TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromKnownObjectsToo) {
   scratch_.file("table.yaml",
                 "{model: table, bins: 21, samples: all, smoothing_bins: 0, ridge: 0.01, flat_is_dark: true}\n");
@@ -179,7 +180,10 @@ TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromKnownObjectsToo) {
   EXPECT_NEAR(table.change(-2.0, 0.0, terms)[0], 40 - 121, 4.0);
   EXPECT_LT(std::abs(SlopeTable::read(scratch_ / "balls_table/light.npy").change(2.0, 0.0, terms)[0]), 40.0);
   EXPECT_EQ(run(balls_ + "--objects objects.yaml --rival table.yaml --out a"), 2);
-  EXPECT_EQ(said_, "calibrate: error: --rival: 0 --shapes of rigid objects for 1 known objects\n");
+  EXPECT_EQ(said_, "calibrate: error: --rival: --shapes has one map for each known object: 0 maps, 1 objects\n");
+  write_exr(scratch_ / "ridge.exr", FloatImage(60, 60, 1), {"Y"});
+  EXPECT_EQ(run(known + "--rival table.yaml --out a"), 1);
+  EXPECT_EQ(said_, "calibrate: error: ridge.exr: ridge is not in the gel\n");
 }
 
 TEST_F(CalibrateProgram, WrongFlagsAndFilesAreSaidOnce) {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "common/base/error.h"
 #include "tests/stages/study/tabulate/small_table.h"
 
 namespace tacipc {
@@ -59,6 +60,14 @@ TEST(ImageTable, SpeedsAreLastColumnsOfTheRowsThatWereTimed) {
                       "| p\\|q | – | 55.92 | | |\n"),
             std::string::npos)
       << text;
+  EXPECT_NE(text.find("| Contact box | SSIM-S | PSNR ln |\n"), std::string::npos) << text;
+  auto renamed = rows;
+  renamed[1].row.timed_as = "a";
+  EXPECT_NE(to_markdown(renamed, config, speeds).find("| second | 0.625 ± 0.125 | 12.0 ± 2.0 | 39 + press 527 | 6 |\n"),
+            std::string::npos);
+  renamed[1].row.timed_as = "d";
+  EXPECT_THROW(to_markdown(renamed, config, speeds), DataError);
+  EXPECT_NO_THROW(to_markdown(renamed, config));
 }
 
 TEST(ImageTable, GeometricMeansHaveAFactor) {
