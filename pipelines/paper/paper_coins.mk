@@ -27,6 +27,21 @@ $(1)/render/render.yaml: $(1)/mpm/mpm.yaml $(COINS_SENSOR) configs/render/defaul
 	$$(call run,render,--shapes $(1)/mpm/$(COINS_LAST)/seen_indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
 endef
 
+# Membranes of methods that know no gel, of each object at its last pose, along the camera's rays: TACTO has none, only the rigid object.
+COINS_BLURRED := depth-based tacto taxim fots chen
+$(eval $(call changed_config,$(PAPER)/objects/depth-based.config.yaml,configs/rivals/baseline/height_map.yaml,))
+$(eval $(call changed_config,$(PAPER)/objects/tacto.config.yaml,configs/rivals/baseline/rigid.yaml,))
+$(foreach m,taxim fots,$(eval $(call changed_config,$(PAPER)/objects/$(m).config.yaml,configs/rivals/baseline/$(m).yaml,-shading rays=refracted)))
+$(eval $(call changed_config,$(PAPER)/objects/chen.config.yaml,configs/rivals/baseline/chen_2022.yaml,-shading))
+# $(call coins_blurred,folder,object,method)
+define coins_blurred
+$(1)/$(3)/heights/baseline.yaml: $(1)/tacipc/press/press.yaml $(PAPER)/objects/$(3).config.yaml | build
+	$$(call run,baseline,--config $(PAPER)/objects/$(3).config.yaml --sensor $(COINS_SENSOR) $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+$(1)/$(3)/render/render.yaml: $(1)/$(3)/heights/baseline.yaml configs/render/default.yaml | build
+	$$(call run,render,--shapes $(1)/$(3)/heights/$(COINS_LAST)/indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
+
+endef
+
 # $(call coins_rules,folder,object)
 define coins_rules
 $(call sample_rules,$(1)/tacipc,$(2),$(OUT)/objects/$(2),configs/objects/embossed.yaml,mctac,$(PAPER_OURS),$(COINS_MOTION),configs/press/frictionless.yaml)
@@ -42,10 +57,7 @@ $(1)/tacchi/legacy/baseline.yaml: $(1)/tacchi/render/render.yaml $(1)/tacipc/ren
 	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacchi/render/frame_0001/depth.exr)
 $(1)/tacipc/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/tacchi.yaml | build
 	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacipc/render/$(COINS_LAST)/depth.exr)
-$(1)/depth-based/heights/baseline.yaml: $(1)/tacipc/press/press.yaml configs/rivals/baseline/height_map.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/height_map.yaml --sensor $(COINS_SENSOR) $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
-$(1)/depth-based/render/render.yaml: $(1)/depth-based/heights/baseline.yaml configs/render/default.yaml | build
-	$$(call run,render,--shapes $(1)/depth-based/heights/$(COINS_LAST)/indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
+$(foreach m,$(COINS_BLURRED),$(call coins_blurred,$(1),$(2),$(m)))
 $(1)/depth-based/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/gomes_2021_own_front.yaml | build
 	$$(call run,baseline,--config configs/rivals/baseline/gomes_2021_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 $(1)/older_kernel/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/exponential_13_own_front.yaml | build
@@ -71,14 +83,14 @@ COINS_FROM_tacchi              := tacchi/render frame_0001/tactile.png
 COINS_FROM_tacchi_deep         := tacchi_deep/render frame_0001/tactile.png
 COINS_FROM_tacchi_60           := tacchi_60/render frame_0001/tactile.png
 COINS_FROM_tacchi_6            := tacchi_6/render frame_0001/tactile.png
-COINS_FROM_depth-based         := depth-based/render frame_0001/tactile.png
+$(foreach m,$(COINS_BLURRED),$(eval COINS_FROM_$(m) := $(m)/render frame_0001/tactile.png))
 COINS_FROM_tacipc_legacy       := tacipc/legacy frame_0000/tactile.png
 COINS_FROM_tacchi_legacy       := tacchi/legacy frame_0000/tactile.png
 COINS_FROM_depth-based_legacy  := depth-based/legacy $(COINS_LAST)/tactile.png
 COINS_FROM_older_kernel_legacy := older_kernel/legacy $(COINS_LAST)/tactile.png
-COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep tacchi_60 tacchi_6 depth-based tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
-COINS_SHAPES  := fine tacipc tacchi tacchi_deep tacchi_60 tacchi_6 depth-based# methods whose depth is compared
-COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep tacchi_60 tacchi_6 depth-based rest# and those compared with the reference's gel in the light that they have themselves
+COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
+COINS_SHAPES  := fine tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED)# methods whose depth is compared
+COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) rest# and those compared with the reference's gel in the light that they have themselves
 
 coins_record = $(firstword $(COINS_FROM_$(1)))/$(if $(filter render,$(notdir $(firstword $(COINS_FROM_$(1))))),render,baseline).yaml
 define coins_images
@@ -105,7 +117,7 @@ $(PAPER)/objects-table/metrics/$(1)_one_light/metrics.yaml: $(COINS_IMAGES)/$(1)
 endef
 $(foreach m,$(COINS_IN_ONE_LIGHT),$(eval $(call coins_in_one_light,$(m))))
 
-COINS_RIVALS := $(filter-out fine tacchi_60 tacchi_6,$(COINS_METHODS)) $(COINS_IN_ONE_LIGHT:%=%_one_light)
+COINS_RIVALS := $(filter-out fine tacchi_60 tacchi_6 tacto taxim fots chen,$(COINS_METHODS)) $(COINS_IN_ONE_LIGHT:%=%_one_light)
 $(PAPER)/objects-table/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/objects.yaml $(COINS_RIVALS:%=$(PAPER)/objects-table/metrics/%/metrics.yaml) | build
 	$(call run,tabulate,--config $< --samples $(foreach m,$(COINS_RIVALS),$(m)=$(PAPER)/objects-table/metrics/$(m)/samples.csv) \
 	  --pictures $(foreach m,$(COINS_METHODS),$(PAPER_OBJECTS:%=$(m)=$(COINS_IMAGES)/$(m)/%.png)))
