@@ -87,7 +87,7 @@ BaselineSimulator make_simulator(Stage& stage) {
 
 /// The poses, or those of the images that --places names, moved to the place given there or found on the photograph.
 std::vector<Matrix4> wanted_poses(Stage& stage, const BaselineSimulator& simulator) {
-  const std::vector<Matrix4> poses = read_poses(*stage.optional_input("--pose"));
+  std::vector<Matrix4> poses = read_poses(*stage.optional_input("--pose"));
   if (!stage.optional_input("--places")) return poses;
   const auto places = stage.read_config<ImagePlaces>("--places");
   if (places.ball_radius_m) throw UsageError("--places: images are told by contacts, which only shade knows");

@@ -112,8 +112,8 @@ TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromTheSameBalls) {
       "model: metallic_roughness\nmetallic_lamps: {change_factor: 0.5, lamps: [{position_mm: [28, 0, -11], rgb: "
       "[1, 0, 0]}, {position_mm: [0, 28, -11], rgb: [0, 0, 1]}]}\n");
   for (const std::string model : {"table", "network", "lamps"}) {
-    ASSERT_EQ(run(balls_ + "--rival " + model + ".yaml --out " + model + " --threads 1"), 0) << said_;
-    ASSERT_EQ(run(balls_ + "--rival " + model + ".yaml --out again_" + model + " --threads 3"), 0) << said_;
+    ASSERT_EQ(run(fmt::format("{}--rival {}.yaml --out {} --threads 1", balls_, model, model)), 0) << said_;
+    ASSERT_EQ(run(fmt::format("{}--rival {}.yaml --out again_{} --threads 3", balls_, model, model)), 0) << said_;
     EXPECT_EQ(content_hash(scratch_ / model), content_hash(scratch_ / ("again_" + model)));
   }
   EXPECT_EQ(SlopeTable::read(scratch_ / "table/light.npy").bins, 21);
@@ -167,10 +167,10 @@ TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromKnownObjectsToo) {
   write_exr(scratch_ / "ridge.exr", map, {"Y"});
   const std::string known = balls_ + "--objects objects.yaml --shapes ridge.exr ";
   for (const std::string model : {"table", "network", "lamps"}) {
-    ASSERT_EQ(run(balls_ + "--rival " + model + ".yaml --out balls_" + model), 0) << said_;
-    ASSERT_EQ(run(known + "--rival " + model + ".yaml --out " + model), 0) << said_;
-    const std::string file = model == "lamps" ? "/light.yaml" : "/light.npy";
-    EXPECT_NE(read_file(scratch_ / (model + file)), read_file(scratch_ / ("balls_" + model + file))) << model;
+    ASSERT_EQ(run(fmt::format("{}--rival {}.yaml --out balls_{}", balls_, model, model)), 0) << said_;
+    ASSERT_EQ(run(fmt::format("{}--rival {}.yaml --out {}", known, model, model)), 0) << said_;
+    const std::string file = fmt::format("{}/light.{}", model, model == "lamps" ? "yaml" : "npy");
+    EXPECT_NE(read_file(scratch_ / file), read_file(scratch_ / ("balls_" + file))) << model;
     EXPECT_THAT(read_file(scratch_ / (model + "/calibrate.yaml")), testing::HasSubstr("objects: 1\n"));
   }
   // x and y from −1 to 1 over the image: this pixel's terms, and the red of the wall beside it.

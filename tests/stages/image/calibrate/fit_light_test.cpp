@@ -81,7 +81,8 @@ TEST(ContactRadius, IsWhereTheGapOpens) {
   const double depth = 0.6e-3;
   Positions front(160 * 160, 3);
   for (int i = 0; i < 160 * 160; ++i) {
-    const double x = 5e-5 * (i % 160 - 79.5), y = 5e-5 * (i / 160 - 79.5);
+    const int row = i / 160;
+    const double x = 5e-5 * (i % 160 - 79.5), y = 5e-5 * (row - 79.5);
     front.row(i) << x, y, -cap(std::hypot(x, y), depth);
   }
   // Gap g beyond the rim by definition; solve for where it is 10 µm.
@@ -98,7 +99,8 @@ TEST(ContactRadius, IsWhereTheGapOpens) {
 TEST(GapAtRadius, IsTheInverseOfTheContactRadius) {
   Positions front(160 * 160, 3);
   for (int i = 0; i < 160 * 160; ++i) {
-    const double x = 5e-5 * (i % 160 - 79.5), y = 5e-5 * (i / 160 - 79.5);
+    const int row = i / 160;
+    const double x = 5e-5 * (i % 160 - 79.5), y = 5e-5 * (row - 79.5);
     front.row(i) << x, y, -cap(std::hypot(x, y), 0.6e-3);
   }
   for (const double gap : {10e-6, 50e-6, 200e-6})
@@ -222,7 +224,8 @@ BallPress cap_press() {
     press.depth_m.push_back(5e-5 * k);
     Positions front(kSide * kSide, 3);
     for (int i = 0; i < kSide * kSide; ++i) {
-      const double x = 5e-5 * (i % kSide - 60), y = 5e-5 * (i / kSide - 60);
+      const int row = i / kSide;
+      const double x = 5e-5 * (i % kSide - 60), y = 5e-5 * (row - 60);
       front.row(i) << x, y, k == 0 ? 0.0 : -cap(std::hypot(x, y), press.depth_m.back());
     }
     press.frames.push_back(front);

@@ -23,8 +23,8 @@ std::vector<std::vector<ContactPixel>> balls_of_known_light() {
   std::vector<std::vector<ContactPixel>> balls;
   const ByteImage grey(kWidth, kHeight, 3, 128);
   for (int i = 0; i < 12; ++i) {
-    const BallDisc disc{
-        .x_px = 20.0 + 27.0 * (i % 4), .y_px = 18.0 + 27.0 * (i / 4), .contact_px = 16, .radius_px = 24};
+    const int row = i / 4;
+    const BallDisc disc{.x_px = 20.0 + 27.0 * (i % 4), .y_px = 18.0 + 27.0 * row, .contact_px = 16, .radius_px = 24};
     balls.push_back(disc_pixels(disc, grey, grey, {}));
     for (ContactPixel& pixel : balls.back()) pixel.target = known(pixel.slope_x, pixel.slope_y, pixel.x, pixel.y);
   }

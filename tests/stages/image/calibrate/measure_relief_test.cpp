@@ -26,7 +26,8 @@ Sensor sensor() {
 Positions block(double depth) {
   Positions front(kSide * kSide, 3);
   for (int i = 0; i < kSide * kSide; ++i) {
-    const double x = 1e-4 * (i % kSide - 60), y = 1e-4 * (i / kSide - 60);
+    const int row = i / kSide;
+    const double x = 1e-4 * (i % kSide - 60), y = 1e-4 * (row - 60);
     const double beside = std::max(std::abs(x), std::abs(y)) - 2e-3;
     front.row(i) << x, y, -std::clamp(depth - beside, 0.0, depth);
   }
