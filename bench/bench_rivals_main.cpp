@@ -4,6 +4,8 @@
 
 #include <array>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "bench/machine.h"
 #include "bench/rivals_report.h"
@@ -12,8 +14,6 @@
 #include "common/base/statistics.h"
 #include "common/optics/seen_membrane.h"
 #include "common/sample/front_frames.h"
-#include "common/sample/pose_file.h"
-#include "common/sensor/camera_image.h"
 #include "common/sensor/light_field.h"
 #include "common/stage/stage.h"
 #include "common/stage/stage_timings.h"
@@ -154,14 +154,15 @@ int main(int argc, char** argv) {
     keep_to_one_thread();
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const auto light = stage.read_config<LightField>("--light");
-    std::vector<FrontFrames> presses;
+    std::optional<FrontFrames> first;
     Simulation pressed;
     for (const auto& folder : stage.inputs("--press")) {
-      presses.push_back(read_front_frames(folder, stage.input("--gel")));
-      if (presses.back().frames.size() < 2) throw DataError("{}: has no frame after the first", folder.string());
-      pressed.add(folder / "press.yaml", presses.back().frames.size() - 1);
+      FrontFrames frames = read_front_frames(folder, stage.input("--gel"));
+      if (frames.frames.size() < 2) throw DataError("{}: has no frame after the first", folder.string());
+      pressed.add(folder / "press.yaml", frames.frames.size() - 1);
+      if (!first) first = std::move(frames);
     }
-    const FrontFrames& press = presses.front();
+    const FrontFrames& press = first.value();
     std::map<std::string, BaselineConfig> configs;
     for (const auto& [method, file] : stage.named_inputs("--configs"))
       configs[method] = read_config<BaselineConfig>(file);
@@ -197,10 +198,10 @@ int main(int argc, char** argv) {
         speeds.push_back(of_baseline(method, simulator, press.gel_from_object));
       }
       for (const auto& [method, simulated] : particles) {
-        const auto& maps = simulated.second;
-        speeds.push_back(of_views(method, maps.size(), light, camera, [&](std::size_t frame) {
-          return view_height_map(nearest(maps[frame - 1], camera.camera.width_px, camera.camera.height_px), camera);
-        }));
+        std::vector<FloatImage> maps;  // of this size before the clock starts
+        for (const FloatImage& map : simulated.second) maps.push_back(nearest(map, width, height));
+        speeds.push_back(of_views(method, maps.size(), light, camera,
+                                  [&](std::size_t frame) { return view_height_map(maps[frame - 1], camera); }));
         speeds.back().simulation_ms = simulated.first.ms();
       }
     }
