@@ -98,6 +98,10 @@ DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) :
   for (const Vector3& point : view.point) z_.push_back(point.z());
   for (const double tangent : bins.elevation_tan) edges_.push_back(Elevation::of(tangent));
   edges_.push_back({0.25 * std::numbers::pi, 0.5});
+  for (std::size_t k = 0; k + 1 < edges_.size(); ++k) {
+    along_.push_back(edges_[k + 1].along - edges_[k].along);
+    across_.push_back(edges_[k + 1].across - edges_[k].across);
+  }
   const bool alone = view.width < 2 || view.height < 2;  // nothing stands beside a pixel
   const int wide = (view.width + kBlockPx - 1) / kBlockPx, high = (view.height + kBlockPx - 1) / kBlockPx;
   const std::vector<double> around = lowest_around(view, wide, high);
@@ -122,30 +126,31 @@ DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) :
 
 template <typename Horizon>
 void DomeIrradiance::integrate(const Vector3& normal, const Horizon& horizon, double* out) const {
-  const int bands = bins_.bands(), count = static_cast<int>(directions_.size());
+  const std::size_t bands = bins_.elevation_tan.size();
+  const int count = static_cast<int>(directions_.size());
   std::fill_n(out, bins_.size(), 0.0);
-  const double nz = normal.z();
+  const double nz = normal.z(), width = 2.0 * std::numbers::pi / count;
+  std::vector<double> lit(bands);
   for (int d = 0; d < count; ++d) {
     const Direction& direction = directions_[static_cast<std::size_t>(d)];
     const double a = normal.x() * direction.cosine + normal.y() * direction.sine;
     // Above the plane's own horizon too, which the march meets only one pixel away.
     const double facing = nz > 0.0 ? a / nz : std::numeric_limits<double>::infinity();
     const double tangent = std::max(facing, horizon(d, std::max(facing, kLeastHorizon)));
+    // The first `hidden` bands begin below the horizon: only the last of them may be seen in part.
+    std::size_t hidden = 0;
+    while (hidden < bands && tangent > bins_.elevation_tan[hidden]) ++hidden;
+    for (std::size_t k = 0; k < bands; ++k) lit[k] = k < hidden ? 0.0 : nz * across_[k] - a * along_[k];
+    if (hidden > 0 && std::isfinite(tangent))
+      lit[hidden - 1] = edges_[hidden].integral(a, nz) - Elevation::of(tangent).integral(a, nz);
     const int bin = d / kDirectionsPerBin, next = (bin + 1) % bins_.azimuths;
     const double share = static_cast<double>(d % kDirectionsPerBin) / kDirectionsPerBin;
-    for (int band = 0; band < bands; ++band) {
-      const auto k = static_cast<std::size_t>(band);
-      const Elevation &bottom = edges_[k], &top = edges_[k + 1];
-      const double high = band + 1 == bands ? std::numeric_limits<double>::infinity() : bins_.elevation_tan[k + 1];
-      double value = bottom.integral(0.0, 1.0) - top.integral(0.0, 1.0);
-      if (tangent <= bins_.elevation_tan[k])
-        value += top.integral(a, nz) - bottom.integral(a, nz);
-      else if (tangent < high)
-        value += top.integral(a, nz) - Elevation::of(tangent).integral(a, nz);
-      value *= 2.0 * std::numbers::pi / count;
-      out[bin * bands + band] += (1.0 - share) * value;
-      out[next * bands + band] += share * value;
-    }
+    const auto add = [&](int to, double part) {
+      double* sum = out + static_cast<std::size_t>(to) * bands;
+      for (std::size_t k = 0; k < bands; ++k) sum[k] += part * (lit[k] - across_[k]);
+    };
+    add(bin, (1.0 - share) * width);
+    if (share > 0.0) add(next, share * width);
   }
 }
 

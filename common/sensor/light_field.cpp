@@ -115,50 +115,53 @@ void LightFeatures::bases(int x, int y, const Vector3& n, const std::vector<doub
   if (geometry.environment_depth) *out++ = (view.rest[i].z() - view.point[i].z()) / kMillimetre;
 }
 
-namespace {
-
-void spread_over_field(const LightGeometry& geometry, const Vector3& rest, const double* bases, double* out) {
-  const double field_x = rest.x() / geometry.field_half_width_m, field_y = rest.y() / geometry.field_half_width_m;
-  for (int basis = 0; basis < geometry.num_bases(); ++basis) {
-    for (int degree = 0; degree <= geometry.field_degree; ++degree) {
-      for (int power_y = 0; power_y <= degree; ++power_y) {
-        double f = bases[basis];
-        for (int k = 0; k < degree; ++k) f *= k < degree - power_y ? field_x : field_y;
-        *out++ = f;
-      }
+void LightGeometry::field_terms(const Vector3& rest, double* out) const {
+  const double field_x = rest.x() / field_half_width_m, field_y = rest.y() / field_half_width_m;
+  for (int degree = 0; degree <= field_degree; ++degree)
+    for (int power_y = 0; power_y <= degree; ++power_y) {
+      double f = 1.0;
+      for (int k = 0; k < degree; ++k) f *= k < degree - power_y ? field_x : field_y;
+      *out++ = f;
     }
-  }
 }
 
-}  // namespace
-
-void LightFeatures::make(int x, int y, const Vector3& normal, const std::vector<double>* row_horizons,
-                         double* out) const {
+void LightFeatures::at(int x, int y, const Vector3& normal, double* out) const {
   std::vector<double> values(static_cast<std::size_t>(geometry_->num_bases()));
-  bases(x, y, normal, row_horizons, values.data());
-  spread_over_field(*geometry_, view_->rest[view_->index(x, y)], values.data(), out);
+  bases(x, y, normal, nullptr, values.data());
+  std::vector<double> terms(static_cast<std::size_t>(geometry_->num_field_terms()));
+  geometry_->field_terms(view_->rest[view_->index(x, y)], terms.data());
+  for (const double value : values)
+    for (const double term : terms) *out++ = value * term;
 }
-
-void LightFeatures::at(int x, int y, const Vector3& normal, double* out) const { make(x, y, normal, nullptr, out); }
 
 void LightFeatures::at(int x, int y, double* out) const { at(x, y, view_->normal[view_->index(x, y)], out); }
 
-void LightFeatures::row(int y, Eigen::MatrixXd& out) const {
-  out.resize(geometry_->num_features(), view_->width);
+void LightFeatures::row_bases(int y, Eigen::MatrixXd& out) const {
+  out.resize(geometry_->num_bases(), view_->width);
   const auto horizons = dome_ ? dome_->row_horizons(y) : std::vector<double>{};
   for (int x = 0; x < view_->width; ++x)
-    make(x, y, view_->normal[view_->index(x, y)], dome_ ? &horizons : nullptr, out.col(x).data());
+    bases(x, y, view_->normal[view_->index(x, y)], dome_ ? &horizons : nullptr, out.col(x).data());
 }
 
 FloatImage code_change(const LightField& light, const MembraneView& view) {
   FloatImage change(view.width, view.height, 3);
   const LightFeatures of(light.geometry, view);
+  // Σ_j f_j (Σ_k w_kj φ_k) spares the products f_j φ_k of every pixel.
+  const Eigen::Index terms = light.geometry.num_field_terms(), bases = light.geometry.num_bases();
+  Eigen::MatrixXd weights(3 * terms, bases);
+  for (Eigen::Index k = 0; k < bases; ++k)
+    for (Eigen::Index j = 0; j < terms; ++j)
+      weights.block<3, 1>(3 * j, k) = light.weights.row(k * terms + j).transpose();
   tbb::parallel_for(0, view.height, [&](int y) {
-    Eigen::MatrixXd features;
-    of.row(y, features);
-    const Eigen::MatrixXd codes = light.weights.transpose() * features;
-    for (int x = 0; x < view.width; ++x)
-      for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes(c, x));
+    Eigen::MatrixXd values;
+    of.row_bases(y, values);
+    const Eigen::MatrixXd by_term = weights * values;
+    Eigen::VectorXd field(terms);
+    for (int x = 0; x < view.width; ++x) {
+      light.geometry.field_terms(view.rest[view.index(x, y)], field.data());
+      const auto codes = by_term.col(x).reshaped(3, terms);
+      for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes.row(c).dot(field));
+    }
   });
   return gaussian_blurred(change, light.blur_px);
 }

@@ -47,6 +47,8 @@ struct LightGeometry {
   int num_monomials() const { return environment_degree * (environment_degree + 3) / 2 + (environment_depth ? 1 : 0); }
   /// 1, x, y, x², xy, y², … up to field_degree
   int num_field_terms() const { return (field_degree + 1) * (field_degree + 2) / 2; }
+  /// Those of a point of the flat front. \pre out has num_field_terms() entries
+  void field_terms(const Vector3& rest, double* out) const;
   /// A lamp's q and its q², a bin of the dome, a monomial: each is one, and has as many features as the field has
   /// terms.
   int num_bases() const { return 2 * static_cast<int>(lamps_m.size()) + dome.size() + num_monomials(); }
@@ -75,12 +77,12 @@ class LightFeatures {
   void at(int x, int y, const Vector3& normal, double* out) const;
   /// The same with the view's own normal.
   void at(int x, int y, double* out) const;
-  /// All pixels of a row with the view's own normals, a column each: faster than one after the other.
-  void row(int y, Eigen::MatrixXd& out) const;
+  /// The bases alone, of all pixels of a row with the view's own normals, a column each: faster than one after the
+  /// other.
+  void row_bases(int y, Eigen::MatrixXd& out) const;
 
  private:
   void bases(int x, int y, const Vector3& normal, const std::vector<double>* row_horizons, double* out) const;
-  void make(int x, int y, const Vector3& normal, const std::vector<double>* row_horizons, double* out) const;
 
   const LightGeometry* geometry_;
   const MembraneView* view_;

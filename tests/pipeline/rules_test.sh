@@ -50,10 +50,10 @@ cp configs/studies/speed/cost_model.yaml out/bench/page
 mkdir docs
 cp "$source_dir/docs/paper-results.md" docs/
 paper=out/paper-quick
-mkdir -p $paper/parts/paper_results $paper/objects-table $paper/mine out/emboss/other out/paper/real
+mkdir -p $paper/parts/paper_results $paper/objects-table $paper/mine out/emboss/other $paper/real/gelsight_sim2real
 echo 'of this run' > $paper/parts/objects.md
 echo picture > $paper/parts/paper_results/objects.png
-echo 'of an earlier run' | tee $paper/objects-table/table.md > out/paper/real/table.md
+echo 'of an earlier run' | tee $paper/objects-table/table.md > $paper/real/gelsight_sim2real/table.md
 echo 'processor_s: 720.04' > $paper/mine/press.timings.yaml
 echo 'processor_s: 36000' > out/emboss/other/emboss.timings.yaml
 printf '%s\n' $paper/mine $paper/not_made > $paper/parts/coins.folders

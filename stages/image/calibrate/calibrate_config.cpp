@@ -16,6 +16,7 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
   config.fit_radius_px = in.number("fit_radius_px", Range::positive());
   config.fit_stride_px = in.integer("fit_stride_px", 1, 100);
   config.drift_radius_px = in.number("drift_radius_px", Range::positive());
+  config.object_margin_px = in.integer_or("object_margin_px", 0, 0, 10000);
   for (ConfigReader& item : in.sections("lamps")) {
     config.lamps.push_back(
         {.azimuth_rad = item.number("azimuth_deg") * kDegree,

@@ -41,6 +41,7 @@ struct CalibrateConfig {
   double fit_radius_px = 0.0;    // pixels this near a ball's centre enter the fit …
   int fit_stride_px = 1;         // … every so many along x and y
   double drift_radius_px = 0.0;  // pixels farther than this determine each channel's drift since the background
+  int object_margin_px = 0;      // pixels this near a known object's box enter its fit too
   std::vector<LampGuess> lamps;
   LampBounds bounds;
   bool fit_lamps = true;  // else they stay where the guess has them

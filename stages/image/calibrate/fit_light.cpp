@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -116,6 +117,41 @@ double left_out_rmse(const std::vector<NormalEquations>& equations, std::size_t 
   return std::sqrt((residual[0] + residual[1] + residual[2]) / (left.count[0] + left.count[1] + left.count[2]));
 }
 
+/// Of blocks of 16 × 16 pixels of an object's photograph, an eighth of them left out of the fit at a time: neighbouring
+/// pixels are alike, and left out one by one they would tell nothing.
+double left_out_blocks_rmse(const KnownObject& object, std::size_t which, const std::vector<NormalEquations>& equations,
+                            const LightField& light, const Part& part, const CalibrateConfig& config) {
+  constexpr int kBlockPx = 16;
+  constexpr std::size_t kFolds = 8;
+  const Samples& samples = object.samples;
+  const Eigen::MatrixXd features = feature_matrix(light.geometry, object.view, samples);
+  const Codes active = active_samples(samples, features * light.weights);
+  std::array<NormalEquations, kFolds> of_fold;
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    Codes own = active;
+    for (std::size_t i = 0; i < samples.pixels.size(); ++i) {
+      const auto [x, y] = samples.pixels[i];
+      if (static_cast<std::size_t>(x / kBlockPx + 3 * (y / kBlockPx)) % kFolds != fold)
+        own.row(static_cast<Eigen::Index>(i)).setZero();
+    }
+    of_fold[fold] = normal_equations(features, samples, own).part(part.first, part.last);
+  }
+  double squares = 0.0, count = 0.0;
+  for (const NormalEquations& left : of_fold) {
+    NormalEquations kept;
+    for (std::size_t b = 0; b < equations.size(); ++b)
+      if (b != which) kept.add(equations[b].part(part.first, part.last));
+    for (const NormalEquations& other : of_fold)
+      if (&other != &left) kept.add(other);
+    const auto residual = left.residual(kept.solve(config.ridge));
+    for (std::size_t c = 0; c < 3; ++c) {
+      squares += residual[c];
+      count += left.count[c];
+    }
+  }
+  return std::sqrt(squares / count);
+}
+
 LightGeometry part_of(const LightGeometry& geometry, ModelKind kind) {
   LightGeometry out = geometry;
   if (kind == ModelKind::lamps) {
@@ -200,8 +236,12 @@ LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, 
     best = fit.held_out.back().rmse_codes;
     chosen = part;
   }
-  for (std::size_t o = 0; o < objects.size(); ++o)
-    objects[o].left_out_rmse_codes = left_out_rmse(equations, balls.size() + o, chosen, config);
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    const std::size_t which = balls.size() + o;
+    objects[o].left_out_rmse_codes = left_out_rmse(equations, which, chosen, config);
+    objects[o].left_out_blocks_rmse_codes =
+        left_out_blocks_rmse(objects[o], which, equations, fit.light, chosen, config);
+  }
   const NormalEquations all = sum_of(equations).part(chosen.first, chosen.last);
   fit.kind = chosen.kind;
   fit.light = {

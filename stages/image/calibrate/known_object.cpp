@@ -25,6 +25,12 @@ KnownObjectsConfig KnownObjectsConfig::read(ConfigReader& in) {
   return config;
 }
 
+KnownObjectConfig KnownObjectConfig::grown(int margin_px) const {
+  KnownObjectConfig out = *this;
+  out.box_px = {box_px[0] - margin_px, box_px[1] - margin_px, box_px[2] + 2 * margin_px, box_px[3] + 2 * margin_px};
+  return out;
+}
+
 Samples object_samples(const KnownObjectConfig& known, const ByteImage& photograph, const ByteImage& background,
                        int stride) {
   return make_samples(

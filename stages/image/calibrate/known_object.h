@@ -26,6 +26,8 @@ struct KnownObjectConfig {
   bool inside(int x, int y) const {
     return x >= box_px[0] && x < box_px[0] + box_px[2] && y >= box_px[1] && y < box_px[1] + box_px[3];
   }
+  /// The same with a box wider by the margin on each side: shadows reach beyond a box about the contact.
+  KnownObjectConfig grown(int margin_px) const;
 };
 
 /// The pixels in its box, less the drift that those outside tell.
@@ -48,8 +50,9 @@ struct KnownObject : Contact {
   double origin_z_before_m = 0.0;
   double x_m = 0.0;
   double y_m = 0.0;
-  double yaw_rad = 0.0;              // about z, from x towards y
-  double left_out_rmse_codes = 0.0;  // under the light of all other photographs
+  double yaw_rad = 0.0;                     // about z, from x towards y
+  double left_out_rmse_codes = 0.0;         // under the light of all other photographs
+  double left_out_blocks_rmse_codes = 0.0;  // of blocks of its pixels under the light of all else, its others included
 };
 
 /// Its membrane where it is.

@@ -100,7 +100,8 @@ Value::Map summary_of(const LightFit& fit, std::size_t balls, const std::vector<
                                {"y_mm", 1e3 * object.y_m},
                                {"yaw_deg", object.yaw_rad / kDegree},
                                {"rmse_codes", object.rmse_codes},
-                               {"left_out_rmse_codes", object.left_out_rmse_codes}});
+                               {"left_out_rmse_codes", object.left_out_rmse_codes},
+                               {"left_out_blocks_rmse_codes", object.left_out_blocks_rmse_codes}});
   if (!known.empty()) summary.emplace_back("objects", std::move(known));
   if (!fit.lamps) return summary;
   Value::List covariance;
@@ -148,14 +149,14 @@ std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background,
   const CameraModel rays(sensor.camera, sensor.stack);
   for (const KnownObjectConfig& known : stage.read_config<KnownObjectsConfig>("--objects").objects) {
     KnownObject object;
-    object.known = known;
+    object.known = known.grown(config.object_margin_px);
     const auto center = rays.on_plane(known.center_px[0] + 0.5, known.center_px[1] + 0.5);
     if (!center) throw DataError("{}: the camera does not see the front face at its centre", known.name);
     object.x_m = center->x();
     object.y_m = center->y();
-    object.samples =
-        object_samples(known, read_photograph(*stage.optional_input("--photographs") / known.photograph, sensor.camera),
-                       background, config.fit_stride_px);
+    object.samples = object_samples(
+        object.known, read_photograph(*stage.optional_input("--photographs") / known.photograph, sensor.camera),
+        background, config.fit_stride_px);
     if (!shapes.empty()) {
       const std::size_t at = balls + objects.size();
       if (at < shapes.size()) object.view = view_height_map(read_camera_exr(shapes[at], {"Y"}, sensor.camera), sensor);

@@ -174,7 +174,9 @@ void calibrate_rival(Stage& stage) {
       throw DataError("{}: {} is not in the gel", shapes[i].string(), objects[i].name);
     const ByteImage photograph =
         read_photograph(*stage.optional_input("--photographs") / objects[i].photograph, camera);
-    const Samples samples = object_samples(objects[i], photograph, background, config.fit_stride_px);
+    // Tables and networks learn from the contact alone: what lies about the box tells their drift.
+    const Samples samples = object_samples(objects[i].grown(lamps ? config.object_margin_px : 0), photograph,
+                                           background, config.fit_stride_px);
     if (lamps)
       lit.contacts.push_back(metallic_samples(samples, height, fit.lamps.lamps, sensor));
     else

@@ -136,6 +136,31 @@ TEST(Features, StandInTheirOrder) {
   }
 }
 
+TEST(CodeChange, IsTheWeightsTimesTheFeaturesOfEveryPixel) {
+  LightField light = example();
+  light.blur_px = 0.0;
+  light.geometry.field_degree = 2;
+  light.geometry.environment_depth = true;
+  light.geometry.dome = {.azimuths = 4, .elevation_tan = {0.0, 0.2, 0.6}};
+  light.weights.resize(light.geometry.num_features(), 3);
+  for (Eigen::Index i = 0; i < light.weights.size(); ++i) light.weights.data()[i] = std::cos(static_cast<double>(i));
+  // A bump that hides light from what lies beside it.
+  const MembraneView view =
+      view_of([](double x, double y) { return 0.6e-3 * std::exp(-(x * x + 2.0 * y * y) / 0.3e-6); }, sensor());
+  const FloatImage change = code_change(light, view);
+  const LightFeatures of(light.geometry, view);
+  Eigen::VectorXd f(light.geometry.num_features());
+  double largest = 0.0;
+  for (int y = 0; y < view.height; ++y)
+    for (int x = 0; x < view.width; ++x) {
+      of.at(x, y, f.data());
+      const Vector3 expected = light.weights.transpose() * f;
+      for (int c = 0; c < 3; ++c) ASSERT_NEAR(change.at(x, y, c), expected[c], 1e-5) << x << ' ' << y << ' ' << c;
+      largest = std::max(largest, expected.cwiseAbs().maxCoeff());
+    }
+  EXPECT_GT(largest, 1.0);
+}
+
 TEST(Features, OfDepthComeLastAndComeBackFromTheirFile) {
   LightField light = example();
   light.geometry.environment_depth = true;

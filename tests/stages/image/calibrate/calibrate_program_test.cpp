@@ -173,6 +173,29 @@ TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromKnownObjectsToo) {
     EXPECT_NE(read_file(scratch_ / file), read_file(scratch_ / ("balls_" + file))) << model;
     EXPECT_THAT(read_file(scratch_ / (model + "/calibrate.yaml")), testing::HasSubstr("objects: 1\n"));
   }
+  // A margin is a wider box for what is fitted about the contact, too; without it this box cuts the ridge.
+  std::string narrow = read_file(scratch_ / "objects.yaml");
+  narrow.replace(narrow.find("[15, 15, 30, 30]"), 16, "[23, 23, 14, 14]");
+  scratch_.file("narrow.yaml", narrow);
+  scratch_.file("margin.yaml", read_file(scratch_ / "c.yaml") + "object_margin_px: 8\n");
+  scratch_.file("everything.yaml", read_file(scratch_ / "c.yaml") + "object_margin_px: 40\n");
+  const std::string cut = "--photographs photos --labels labels.txt --objects narrow.yaml ";
+  const auto light_of = [&](const std::string& flags) {
+    std::filesystem::remove_all(scratch_ / "margin");
+    EXPECT_EQ(run(flags + " --out margin"), 0) << said_;
+    const bool yaml = std::filesystem::exists(scratch_ / "margin/light.yaml");
+    return read_file(scratch_ / (yaml ? "margin/light.yaml" : "margin/light.npy"));
+  };
+  for (const std::string fit :
+       {"--rival lamps.yaml --shapes ridge.exr", "--shapes s0.exr s1.exr s2.exr s3.exr ridge.exr"}) {
+    const std::string wide = light_of(cut + "--config margin.yaml " + fit);
+    EXPECT_EQ(wide, light_of(balls_ + "--objects objects.yaml " + fit)) << fit;
+    EXPECT_NE(wide, light_of(cut + "--config c.yaml " + fit)) << fit;
+    EXPECT_EQ(run(cut + "--config everything.yaml --out a " + fit), 1);
+    EXPECT_EQ(said_, "calibrate: error: ridge.png: no pixel lies far enough from the contact to tell the drift\n");
+  }
+  for (const std::string fit : {"--rival table.yaml --shapes ridge.exr", "--rival network.yaml --shapes ridge.exr"})
+    EXPECT_EQ(light_of(cut + "--config margin.yaml " + fit), light_of(cut + "--config c.yaml " + fit)) << fit;
   // x and y from −1 to 1 over the image: this pixel's terms, and the red of the wall beside it.
   const SlopeTable table = SlopeTable::read(scratch_ / "table/light.npy");
   const auto terms = SlopeTable::terms(25, 30, 60, 60);
