@@ -179,23 +179,26 @@ TEST_F(CalibrateProgram, LightsOfOtherSimulatorsComeFromKnownObjectsToo) {
   scratch_.file("narrow.yaml", narrow);
   scratch_.file("margin.yaml", read_file(scratch_ / "c.yaml") + "object_margin_px: 8\n");
   scratch_.file("everything.yaml", read_file(scratch_ / "c.yaml") + "object_margin_px: 40\n");
-  const std::string cut = "--photographs photos --labels labels.txt --objects narrow.yaml ";
+  const auto with = [](const std::string& config, const std::string& objects, const std::string& fit) {
+    return fmt::format("--photographs photos --labels labels.txt --config {} --objects {} {} ", config, objects, fit);
+  };
   const auto light_of = [&](const std::string& flags) {
     std::filesystem::remove_all(scratch_ / "margin");
-    EXPECT_EQ(run(flags + " --out margin"), 0) << said_;
+    EXPECT_EQ(run(flags + "--out margin"), 0) << said_;
     const bool yaml = std::filesystem::exists(scratch_ / "margin/light.yaml");
     return read_file(scratch_ / (yaml ? "margin/light.yaml" : "margin/light.npy"));
   };
   for (const std::string fit :
        {"--rival lamps.yaml --shapes ridge.exr", "--shapes s0.exr s1.exr s2.exr s3.exr ridge.exr"}) {
-    const std::string wide = light_of(cut + "--config margin.yaml " + fit);
-    EXPECT_EQ(wide, light_of(balls_ + "--objects objects.yaml " + fit)) << fit;
-    EXPECT_NE(wide, light_of(cut + "--config c.yaml " + fit)) << fit;
-    EXPECT_EQ(run(cut + "--config everything.yaml --out a " + fit), 1);
+    const std::string wide = light_of(with("margin.yaml", "narrow.yaml", fit));
+    EXPECT_EQ(wide, light_of(with("c.yaml", "objects.yaml", fit))) << fit;
+    EXPECT_NE(wide, light_of(with("c.yaml", "narrow.yaml", fit))) << fit;
+    EXPECT_EQ(run(with("everything.yaml", "narrow.yaml", fit) + "--out a"), 1);
     EXPECT_EQ(said_, "calibrate: error: ridge.png: no pixel lies far enough from the contact to tell the drift\n");
   }
-  for (const std::string fit : {"--rival table.yaml --shapes ridge.exr", "--rival network.yaml --shapes ridge.exr"})
-    EXPECT_EQ(light_of(cut + "--config margin.yaml " + fit), light_of(cut + "--config c.yaml " + fit)) << fit;
+  for (const std::string fit : {"--rival table.yaml --shapes ridge.exr", "--rival network.yaml --shapes ridge.exr"}) {
+    EXPECT_EQ(light_of(with("margin.yaml", "narrow.yaml", fit)), light_of(with("c.yaml", "narrow.yaml", fit))) << fit;
+  }
   // x and y from −1 to 1 over the image: this pixel's terms, and the red of the wall beside it.
   const SlopeTable table = SlopeTable::read(scratch_ / "table/light.npy");
   const auto terms = SlopeTable::terms(25, 30, 60, 60);
