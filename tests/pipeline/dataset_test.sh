@@ -102,13 +102,13 @@ sed -i 's/^  max_itre/  max_iter/' mine/hopeless.yaml
 
 # Killed in the middle, at any moment, then run again.
 goal again dataset > /dev/null 2>&1
-for delay in 0.6 1.1 1.7; do
+for moment in 1:0.1 3:0.2 6:0.3; do # presses begun, and seconds after that
   rm -rf killed
   setsid make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=killed BUILD="$build_dir" PACKAGES=no REBUILD=no JOBS=2 > /dev/null 2>&1 &
   leader=$!
-  for _ in $(seq 2000); do [ ! -d killed/datasets/set/samples/000 ] || [ -z "$(find killed/datasets/set/samples -name press.log)" ] || break; sleep 0.01; done
-  sleep "$delay"
-  kill -KILL -- "-$leader"
+  for _ in $(seq 2000); do [ "$(find killed -path '*/samples/*' -name press.log 2> /dev/null | wc -l)" -lt "${moment%:*}" ] || break; sleep 0.01; done
+  sleep "${moment#*:}"
+  kill -KILL -- "-$leader" || fail "the dataset was made before it could be killed"
   wait "$leader" 2> /dev/null || :
   goal killed dataset > /dev/null 2>&1 || fail "what was killed cannot be completed"
   diff <(samples again) <(samples killed) || fail "what was killed ends in other bytes"
