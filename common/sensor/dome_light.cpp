@@ -98,10 +98,8 @@ DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) :
   for (const Vector3& point : view.point) z_.push_back(point.z());
   for (const double tangent : bins.elevation_tan) edges_.push_back(Elevation::of(tangent));
   edges_.push_back({0.25 * std::numbers::pi, 0.5});
-  for (std::size_t k = 0; k + 1 < edges_.size(); ++k) {
-    along_.push_back(edges_[k + 1].along - edges_[k].along);
-    across_.push_back(edges_[k + 1].across - edges_[k].across);
-  }
+  for (std::size_t k = 0; k + 1 < edges_.size(); ++k)
+    bands_.push_back({edges_[k + 1].along - edges_[k].along, edges_[k + 1].across - edges_[k].across});
   const bool alone = view.width < 2 || view.height < 2;  // nothing stands beside a pixel
   const int wide = (view.width + kBlockPx - 1) / kBlockPx, high = (view.height + kBlockPx - 1) / kBlockPx;
   const std::vector<double> around = lowest_around(view, wide, high);
@@ -126,7 +124,7 @@ DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) :
 
 template <typename Horizon>
 void DomeIrradiance::integrate(const Vector3& normal, const Horizon& horizon, double* out) const {
-  const std::size_t bands = bins_.elevation_tan.size();
+  const std::size_t bands = bands_.size();
   const int count = static_cast<int>(directions_.size());
   std::fill_n(out, bins_.size(), 0.0);
   const double nz = normal.z(), width = 2.0 * std::numbers::pi / count;
@@ -140,14 +138,14 @@ void DomeIrradiance::integrate(const Vector3& normal, const Horizon& horizon, do
     // The first `hidden` bands begin below the horizon: only the last of them may be seen in part.
     std::size_t hidden = 0;
     while (hidden < bands && tangent > bins_.elevation_tan[hidden]) ++hidden;
-    for (std::size_t k = 0; k < bands; ++k) lit[k] = k < hidden ? 0.0 : nz * across_[k] - a * along_[k];
+    for (std::size_t k = 0; k < bands; ++k) lit[k] = k < hidden ? 0.0 : bands_[k].integral(a, nz);
     if (hidden > 0 && std::isfinite(tangent))
       lit[hidden - 1] = edges_[hidden].integral(a, nz) - Elevation::of(tangent).integral(a, nz);
     const int bin = d / kDirectionsPerBin, next = (bin + 1) % bins_.azimuths;
     const double share = static_cast<double>(d % kDirectionsPerBin) / kDirectionsPerBin;
     const auto add = [&](int to, double part) {
       double* sum = out + static_cast<std::size_t>(to) * bands;
-      for (std::size_t k = 0; k < bands; ++k) sum[k] += part * (lit[k] - across_[k]);
+      for (std::size_t k = 0; k < bands; ++k) sum[k] += part * (lit[k] - bands_[k].across);
     };
     add(bin, (1.0 - share) * width);
     if (share > 0.0) add(next, share * width);

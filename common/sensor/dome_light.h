@@ -66,8 +66,8 @@ class DomeIrradiance {
   std::vector<double> z_;  // of its points
   int blocks_wide_ = 0;
   double pixel_m_ = 0.0;
-  std::vector<Elevation> edges_;        // of the bands, and the zenith
-  std::vector<double> along_, across_;  // of each whole band
+  std::vector<Elevation> edges_;  // of the bands, and the zenith
+  std::vector<Elevation> bands_;  // from edge to edge
   std::vector<Direction> directions_;
 };
 

@@ -86,35 +86,51 @@ std::vector<Part> parts_of(const LightGeometry& geometry) {
   return parts;
 }
 
+/// Error of photographs, or parts of them, under the light of what was kept in the fit.
+class LeftOut {
+ public:
+  void add(const NormalEquations& left, const NormalEquations& kept, double ridge) {
+    const auto residual = left.residual(kept.solve(ridge));
+    for (std::size_t c = 0; c < 3; ++c) {
+      squares_ += residual[c];
+      count_ += left.count[c];
+    }
+  }
+  double rmse() const { return std::sqrt(squares_ / count_); }
+
+ private:
+  double squares_ = 0.0, count_ = 0.0;
+};
+
 /// The balls come first among `equations`; the objects behind them are never left out.
 double held_out_rmse(const std::vector<NormalEquations>& equations, std::size_t balls, const Part& part,
                      const CalibrateConfig& config) {
-  double squares = 0.0, count = 0.0;
+  LeftOut error;
   for (int fold = 0; fold < config.folds; ++fold) {
     NormalEquations kept, left;
     for (std::size_t b = 0; b < equations.size(); ++b) {
       const bool leave = b < balls && static_cast<int>(b) % config.folds == fold;
       (leave ? left : kept).add(equations[b].part(part.first, part.last));
     }
-    if (left.gram[0].size() == 0) continue;
-    const auto residual = left.residual(kept.solve(config.ridge));
-    for (std::size_t c = 0; c < 3; ++c) {
-      squares += residual[c];
-      count += left.count[c];
-    }
+    if (left.gram[0].size() > 0) error.add(left, kept, config.ridge);
   }
-  return std::sqrt(squares / count);
+  return error.rmse();
+}
+
+/// All photographs but one.
+NormalEquations all_but(std::size_t which, const std::vector<NormalEquations>& equations, const Part& part) {
+  NormalEquations others;
+  for (std::size_t b = 0; b < equations.size(); ++b)
+    if (b != which) others.add(equations[b].part(part.first, part.last));
+  return others;
 }
 
 /// Of one photograph under the light of all others.
 double left_out_rmse(const std::vector<NormalEquations>& equations, std::size_t which, const Part& part,
                      const CalibrateConfig& config) {
-  NormalEquations kept;
-  for (std::size_t b = 0; b < equations.size(); ++b)
-    if (b != which) kept.add(equations[b].part(part.first, part.last));
-  const NormalEquations left = equations[which].part(part.first, part.last);
-  const auto residual = left.residual(kept.solve(config.ridge));
-  return std::sqrt((residual[0] + residual[1] + residual[2]) / (left.count[0] + left.count[1] + left.count[2]));
+  LeftOut error;
+  error.add(equations[which].part(part.first, part.last), all_but(which, equations, part), config.ridge);
+  return error.rmse();
 }
 
 /// Of blocks of 16 × 16 pixels of an object's photograph, an eighth of them left out of the fit at a time: neighbouring
@@ -136,20 +152,15 @@ double left_out_blocks_rmse(const KnownObject& object, std::size_t which, const 
     }
     of_fold[fold] = normal_equations(features, samples, own).part(part.first, part.last);
   }
-  double squares = 0.0, count = 0.0;
+  const NormalEquations others = all_but(which, equations, part);
+  LeftOut error;
   for (const NormalEquations& left : of_fold) {
-    NormalEquations kept;
-    for (std::size_t b = 0; b < equations.size(); ++b)
-      if (b != which) kept.add(equations[b].part(part.first, part.last));
+    NormalEquations kept = others;
     for (const NormalEquations& other : of_fold)
       if (&other != &left) kept.add(other);
-    const auto residual = left.residual(kept.solve(config.ridge));
-    for (std::size_t c = 0; c < 3; ++c) {
-      squares += residual[c];
-      count += left.count[c];
-    }
+    error.add(left, kept, config.ridge);
   }
-  return std::sqrt(squares / count);
+  return error.rmse();
 }
 
 LightGeometry part_of(const LightGeometry& geometry, ModelKind kind) {
