@@ -80,6 +80,13 @@ TACIPC_INLINE void store_quad(float* to, const Quad& value) {
   *reinterpret_cast<UnalignedFloatQuad*>(to) = __builtin_convertvector(value, UnalignedFloatQuad);
 }
 
+/// Four floats.
+using FloatQuad = float __attribute__((vector_size(16)));
+TACIPC_INLINE FloatQuad load_floats(const float* from) { return *reinterpret_cast<const UnalignedFloatQuad*>(from); }
+TACIPC_INLINE void store_floats(float* to, const FloatQuad& value) {
+  *reinterpret_cast<UnalignedFloatQuad*>(to) = value;
+}
+
 /// out[l] = (rows[0], rows[1], rows[2], 0) of lane l of the lower (half 0) or upper four lanes.
 TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
   const auto four_of = [&](int r) __attribute__((always_inline)) {
@@ -96,8 +103,7 @@ TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
   out[3] = __builtin_shufflevector(odd01, odd2, 2, 3, 6, 7);
 }
 
-/// Four floats, and what comparing them gives: −1 where true.
-using FloatQuad = float __attribute__((vector_size(16)));
+/// What comparing four floats gives: −1 where true.
 using IntQuad = int __attribute__((vector_size(16)));
 
 TACIPC_INLINE bool all_of(const IntQuad& lanes) {

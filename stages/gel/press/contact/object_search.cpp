@@ -119,15 +119,22 @@ void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m
   object_.rows(moment.start) = object_at_;
 
   const Surface &gel = mesh_.gel, &object = object_.surface;
+  std::vector<ContactPair> near;
   track(
       OneVertex{gel.vertices}, triangles_, moment,
-      [&](int i, int j) { return point_triangle_pair(gel.vertices[i], object.triangles[j]); }, gel_vertices_, out);
+      [&](int i, int j) { return point_triangle_pair(gel.vertices[i], object.triangles[j]); }, gel_vertices_, near);
   track(
       gel.triangles, vertices_, moment,
-      [&](int i, int j) { return point_triangle_pair(object.vertices[j], gel.triangles[i]); }, gel_triangles_, out);
+      [&](int i, int j) { return point_triangle_pair(object.vertices[j], gel.triangles[i]); }, gel_triangles_, near);
   track(
       gel.edges, edges_, moment, [&](int i, int j) { return edge_edge_pair(gel.edges[i], object.edges[j]); },
-      gel_edges_, out);
+      gel_edges_, near);
+  // Each is looked at several times from here on.
+  collect(near.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
+    for_each_coming_near(
+        near, first, last, [&](std::size_t /*pair*/) { return within_m; }, x, p,
+        [&](std::size_t i) { found.push_back(near[i]); });
+  });
 }
 
 void ObjectSearch::around(const std::vector<bool>& moves, const Positions& x, double within_m,

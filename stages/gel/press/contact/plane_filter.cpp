@@ -30,7 +30,9 @@ TACIPC_CLONES unsigned stay_apart(const double* x, const double* p, double until
     }
   }
   constexpr double kRounding = 64 * 1.2e-16;
-  const Pack length_bound = sum(absolute(gap.r));
+  // |r| ≤ (a + |r|²/a) / 2 for any a > 0: from |r|₁ ≤ √3 |r| to at most a hundredth too much.
+  Pack length_bound = sum(absolute(gap.r));
+  for (int k = 0; k < 2; ++k) length_bound = (0.5 + 1e-15) * (length_bound + gap.squared_length / length_bound);
   const Pack wanted = slack * (1.0 + 1e-9) * smaller(gap.squared_length, near_m * length_bound) +
                       (floor_m * (1.0 - slack) + kRounding * size) * length_bound;
   unsigned apart = 0;

@@ -8,6 +8,8 @@
 
 #include "common/base/types.h"
 #include "stages/gel/press/contact/bvh.h"
+#include "stages/gel/press/contact/pair_pack.h"
+#include "stages/gel/press/contact/plane_filter.h"
 
 namespace tacipc {
 
@@ -48,6 +50,23 @@ void collect(std::size_t count, std::vector<Item>& out, Fill&& fill) {
     fill(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), found[chunk]);
   });
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+}
+
+/// Calls keep(i) for pairs first … last − 1 but for those that a plane shows to stay farther apart than within_m(i)
+/// from x to x + p, in order.
+template <typename Within, typename Keep>
+void for_each_coming_near(const std::vector<ContactPair>& pairs, std::size_t first, std::size_t last, Within&& within_m,
+                          const Positions& x, const Positions& p, Keep&& keep) {
+  while (first < last) {
+    const PairPack pack(pairs, first, last);
+    Pack wanted = {};
+    for (int l = 0; l < pack.count; ++l) wanted[l] = within_m(first + static_cast<std::size_t>(l));
+    const unsigned apart = stay_apart(x.data(), p.data(), 1.0, pack.pairs, pack.kind(), 0.0, wanted, Pack{});
+    for (int l = 0; l < pack.count; ++l) {
+      if (!(apart >> l & 1U)) keep(first + static_cast<std::size_t>(l));
+    }
+    first += static_cast<std::size_t>(pack.count);
+  }
 }
 
 }  // namespace tacipc

@@ -5,8 +5,6 @@
 #include <functional>
 
 #include "stages/gel/press/contact/near_pairs.h"
-#include "stages/gel/press/contact/pair_pack.h"
-#include "stages/gel/press/contact/plane_filter.h"
 #include "stages/gel/press/contact/search_tools.h"
 
 namespace tacipc {
@@ -38,22 +36,6 @@ std::vector<Box> boxes_around(const std::vector<int>& some, const Primitives& pr
     }
   });
   return boxes;
-}
-
-/// Calls keep(i) for pairs first … last − 1 that come nearer than within_m[i] from x to x + p, in order.
-template <typename Keep>
-void for_each_coming_near(const std::vector<ContactPair>& pairs, const std::vector<double>& within_m, std::size_t first,
-                          std::size_t last, const Positions& x, const Positions& p, Keep&& keep) {
-  while (first < last) {
-    const PairPack pack(pairs, first, last);
-    Pack wanted = {};
-    for (int l = 0; l < pack.count; ++l) wanted[l] = within_m[first + static_cast<std::size_t>(l)];
-    const unsigned apart = stay_apart(x.data(), p.data(), 1.0, pack.pairs, pack.kind(), 0.0, wanted, Pack{});
-    for (int l = 0; l < pack.count; ++l) {
-      if (!(apart >> l & 1U)) keep(first + static_cast<std::size_t>(l));
-    }
-    first += static_cast<std::size_t>(pack.count);
-  }
 }
 
 }  // namespace
@@ -148,10 +130,12 @@ void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m) 
     // Near during the step, or so near at its end that they could come near within the margin.
     std::vector<double> within = reach;
     for (double& w : within) w += 2.0 * kMargin * d_hat_m;
-    for_each_coming_near(candidates, within, 0, candidates.size(), x, p, [&](std::size_t i) {
-      found[part].pairs.push_back(candidates[i]);
-      found[part].reach_m.push_back(reach[i]);
-    });
+    for_each_coming_near(
+        candidates, 0, candidates.size(), [&](std::size_t i) { return within[i]; }, x, p,
+        [&](std::size_t i) {
+          found[part].pairs.push_back(candidates[i]);
+          found[part].reach_m.push_back(reach[i]);
+        });
   });
   near_.clear();
   reach_m_.clear();
@@ -173,7 +157,9 @@ void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
     search(x, p, d_hat_m);
   }
   collect(near_.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
-    for_each_coming_near(near_, reach_m_, first, last, x, p, [&](std::size_t i) { found.push_back(near_[i]); });
+    for_each_coming_near(
+        near_, first, last, [&](std::size_t i) { return reach_m_[i]; }, x, p,
+        [&](std::size_t i) { found.push_back(near_[i]); });
   });
 }
 

@@ -36,6 +36,8 @@ class Blend {
     }
     return largest;
   }
+  /// Whether the last step took any of the approximation about a vertex.
+  bool approximated(int vertex) const { return last_used_[static_cast<std::size_t>(vertex)] > 0.0; }
   double largest() const { return share_.empty() ? 0.0 : *std::max_element(share_.begin(), share_.end()); }
 
   /// A step was found with these shares: the next one tries smaller ones.
@@ -56,6 +58,14 @@ class Blend {
     if (share == 1.0) return false;
     share = share == 0.0 ? kSmallestShare : std::min(1.0, kRaiseFactor * share);
     return true;
+  }
+  /// Goes on about a vertex where another blend has got to.
+  void take_over(int vertex, const Blend& other) {
+    const auto v = static_cast<std::size_t>(vertex);
+    share_[v] = other.share_[v];
+    last_used_[v] = other.last_used_[v];
+    divisor_[v] = other.divisor_[v];
+    raised_[v] = other.raised_[v];
   }
   /// The line search had to shorten the last step, and `vertex` went far in it.
   void raise_after_shortening(int vertex) {

@@ -85,7 +85,7 @@ CholmodSolver::~CholmodSolver() {
 
 int CholmodSolver::num_analyses() const { return state_->num_analyses; }
 
-bool CholmodSolver::prepare(const BlockMatrix& matrix) {
+bool CholmodSolver::prepare(const BlockMatrix& matrix, const std::vector<char>* /*changed*/) {
   State& s = *state_;
   if (s.pattern != matrix.pattern) {
     s.release();

@@ -17,7 +17,7 @@ class CholmodSolver final : public LinearSolver {
   CholmodSolver& operator=(const CholmodSolver&) = delete;
 
   /// Factorises. \throw SolverError when out of memory or on an internal fault.
-  bool prepare(const BlockMatrix& matrix) override;
+  bool prepare(const BlockMatrix& matrix, const std::vector<char>* changed = nullptr) override;
   /// A⁻¹ b by the last factorisation, never empty.
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
   int num_analyses() const override;

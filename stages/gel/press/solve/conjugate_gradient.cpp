@@ -14,6 +14,8 @@ namespace {
 // Vectors are padded: four numbers per row, the last of them zero, in the order of the sweeps. Blocks of L lie nine
 // numbers apart, so a column loaded as four has a foreign number at its end.
 constexpr std::ptrdiff_t kBlock = 9;
+// Sweeps ask for blocks so many numbers ahead: what the processor fetches by itself ends with a page of memory.
+constexpr std::ptrdiff_t kAhead = 512;
 // L is rounded to floats, so iterations stop at this part of the right-hand side. For more, the residual is computed
 // anew from the matrix and solved for.
 constexpr double kFloatTolerance = 1e-4;
@@ -42,7 +44,7 @@ bool invert_cholesky(const BlockMatrix::ConstBlock& A, BlockMatrix::Block out) {
   return true;
 }
 
-TACIPC_INLINE Quad three_of(const Quad& v) { return Quad{v[0], v[1], v[2], 0.0}; }
+TACIPC_INLINE FloatQuad three_of(const FloatQuad& v) { return FloatQuad{v[0], v[1], v[2], 0.0F}; }
 
 /// SweepOrder as the loops see it.
 struct Blocks {
@@ -54,13 +56,14 @@ struct Blocks {
         source(order.source.data()) {}
 };
 
-/// C_r⁻¹ B C_c⁻ᵀ of the blocks below the diagonal in columns first … last − 1.
+/// C_r⁻¹ B C_c⁻ᵀ of the blocks below the diagonal in columns first … last − 1 that are in a stale row or column.
 TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* values, const double* inverse_cholesky,
-                         float* lower) {
+                         const char* stale, float* lower) {
   constexpr auto kStride = static_cast<std::ptrdiff_t>(BlockMatrix::kStride);
   for (std::ptrdiff_t c = first; c < last; ++c) {
     const double* right = inverse_cholesky + kStride * c;  // columns of C_c⁻¹, zero above the diagonal
     for (std::ptrdiff_t k = L.column_start[c]; k < L.column_start[c + 1]; ++k) {
+      if (!stale[c] && !stale[L.row[k]]) continue;
       const double* left = inverse_cholesky + kStride * L.row[k];
       const bool transposed = L.source[k] < 0;
       const double* block = values + kStride * (transposed ? -1 - L.source[k] : L.source[k]);
@@ -81,41 +84,44 @@ TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* val
 }
 
 /// p = r + β p, t = (I + Lᵀ)⁻¹ p and q = p − t in rows first … last − 1, where t is known in all that come later.
-TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* lower, double beta, const double* r,
-                            double* p, double* t, double* q) {
+TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* lower, float beta, const float* r,
+                            float* p, float* t, float* q) {
   for (std::ptrdiff_t c = last - 1; c >= first; --c) {
-    Quad s0 = {}, s1 = {}, s2 = {};
+    FloatQuad s0 = {}, s1 = {}, s2 = {};
     // Near rows last: they have only just been found.
     for (std::ptrdiff_t k = L.column_start[c + 1] - 1; k >= L.column_start[c]; --k) {
       const float* block = lower + kBlock * k;
-      const Quad tr = load_quad(t + 4 * static_cast<std::ptrdiff_t>(L.row[k]));
-      s0 += load_quad(block) * tr;
-      s1 += load_quad(block + 3) * tr;
-      s2 += load_quad(block + 6) * tr;
+      __builtin_prefetch(block - kAhead);
+      const FloatQuad tr = load_floats(t + 4 * static_cast<std::ptrdiff_t>(L.row[k]));
+      s0 += load_floats(block) * tr;
+      s1 += load_floats(block + 3) * tr;
+      s2 += load_floats(block + 6) * tr;
     }
-    const Quad from_later{(s0[0] + s0[1]) + s0[2], (s1[0] + s1[1]) + s1[2], (s2[0] + s2[1]) + s2[2], 0.0};
-    const Quad pc = load_quad(r + 4 * c) + beta * load_quad(p + 4 * c);
-    store_quad(p + 4 * c, pc);
-    store_quad(t + 4 * c, pc - from_later);
-    store_quad(q + 4 * c, from_later);
+    const FloatQuad from_later{(s0[0] + s0[1]) + s0[2], (s1[0] + s1[1]) + s1[2], (s2[0] + s2[1]) + s2[2], 0.0F};
+    const FloatQuad pc = load_floats(r + 4 * c) + beta * load_floats(p + 4 * c);
+    store_floats(p + 4 * c, pc);
+    store_floats(t + 4 * c, pc - from_later);
+    store_floats(q + 4 * c, from_later);
   }
 }
 
 /// y = (I + L)⁻¹ y in rows first … last − 1, but t + that where there is a t; what it contributes to the separator's
 /// rows is added to `separator`, which begins with row `separator_row`. Returns pᵀy where there is a p.
-TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const float* lower, const double* t,
-                                const double* p, double* y, double* separator, int separator_row) {
+TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const float* lower, const float* t,
+                                const float* p, float* y, float* separator, int separator_row) {
   Quad sum = {};
   for (std::ptrdiff_t c = first; c < last; ++c) {
-    const Quad yc = three_of(load_quad(y + 4 * c));
-    const Quad whole = t ? load_quad(t + 4 * c) + yc : yc;
-    store_quad(y + 4 * c, whole);
-    if (p) sum += load_quad(p + 4 * c) * whole;
-    const double y0 = yc[0], y1 = yc[1], y2 = yc[2];
-    const auto subtract = [&](std::ptrdiff_t k, double* from, int base) __attribute__((always_inline)) {
+    const FloatQuad yc = three_of(load_floats(y + 4 * c));
+    const FloatQuad whole = t ? load_floats(t + 4 * c) + yc : yc;
+    store_floats(y + 4 * c, whole);
+    if (p) sum += load_quad(p + 4 * c) * __builtin_convertvector(whole, Quad);
+    const float y0 = yc[0], y1 = yc[1], y2 = yc[2];
+    const auto subtract = [&](std::ptrdiff_t k, float* from, int base) __attribute__((always_inline)) {
       const float* block = lower + kBlock * k;
-      double* yr = from + 4 * static_cast<std::ptrdiff_t>(L.row[k] - base);
-      store_quad(yr, load_quad(yr) - (load_quad(block) * y0 + load_quad(block + 3) * y1 + load_quad(block + 6) * y2));
+      __builtin_prefetch(block + kAhead);
+      float* yr = from + 4 * static_cast<std::ptrdiff_t>(L.row[k] - base);
+      store_floats(
+          yr, load_floats(yr) - (load_floats(block) * y0 + load_floats(block + 3) * y1 + load_floats(block + 6) * y2));
     };
     const std::ptrdiff_t end = L.column_start[c + 1], own_end = L.separator_start[c];
     for (std::ptrdiff_t k = L.column_start[c]; k < own_end; ++k) subtract(k, y, 0);
@@ -124,27 +130,27 @@ TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const floa
   return total(sum);
 }
 
-TACIPC_CLONES double dot_product(const double* a, const double* b, int first, int last) {
+TACIPC_CLONES double dot_product(const float* a, const float* b, int first, int last) {
   Quad sum = {};
   for (std::ptrdiff_t i = first; i < last; ++i) sum += load_quad(a + 4 * i) * load_quad(b + 4 * i);
   return total(sum);
 }
 
 /// x += α t, r −= α q in rows first … last − 1; returns rᵀr.
-TACIPC_CLONES double advance(double alpha, const double* t, const double* q, double* x, double* r, int first,
-                             int last) {
+TACIPC_CLONES double advance(float alpha, const float* t, const float* q, float* x, float* r, int first, int last) {
   Quad sum = {};
   for (std::ptrdiff_t i = first; i < last; ++i) {
-    store_quad(x + 4 * i, load_quad(x + 4 * i) + alpha * load_quad(t + 4 * i));
-    const Quad ri = load_quad(r + 4 * i) - alpha * load_quad(q + 4 * i);
-    store_quad(r + 4 * i, ri);
-    sum += ri * ri;
+    store_floats(x + 4 * i, load_floats(x + 4 * i) + alpha * load_floats(t + 4 * i));
+    const FloatQuad ri = load_floats(r + 4 * i) - alpha * load_floats(q + 4 * i);
+    store_floats(r + 4 * i, ri);
+    const Quad wide = __builtin_convertvector(ri, Quad);
+    sum += wide * wide;
   }
   return total(sum);
 }
 
 /// x = C⁻¹ x, or C⁻ᵀ x.
-TACIPC_CLONES void unscale(const double* inverse_cholesky, bool transposed, double* x, int n) {
+TACIPC_CLONES void unscale(const double* inverse_cholesky, bool transposed, float* x, int n) {
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const double* block = inverse_cholesky + static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * i;
     const Quad c0 = load_quad(block), c1 = load_quad(block + 4), c2 = load_quad(block + 8), xi = load_quad(x + 4 * i);
@@ -182,13 +188,13 @@ double ConjugateGradient::over_parts(Part&& part) {
 }
 
 /// y = (I + L)⁻¹ y, or t + that and pᵀy of it.
-double ConjugateGradient::forward(const double* t, const double* p, double* y) {
+double ConjugateGradient::forward(const float* t, const float* p, float* y) {
   const Blocks L(order_);
   const int separator = order_.separator(), n = order_.num_rows();
   const std::size_t size = 4 * static_cast<std::size_t>(n - separator);
-  std::array<std::vector<double>, kParts>& apart = to_separator_;
+  std::array<std::vector<float>, kParts>& apart = to_separator_;
   double sum = over_parts([&](int i, int first, int last) {
-    apart[i].assign(size, 0.0);
+    apart[i].assign(size, 0.0F);
     return sweep_down(L, first, last, lower_.data(), t, p, y, apart[i].data(), separator);
   });
   for (int i = 0; i < order_.num_parts(); ++i) {
@@ -197,13 +203,20 @@ double ConjugateGradient::forward(const double* t, const double* p, double* y) {
   return sum + sweep_down(L, separator, n, lower_.data(), t, p, y, y, 0);
 }
 
-bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
+bool ConjugateGradient::prepare(const BlockMatrix& matrix, const std::vector<char>* changed) {
   matrix_ = &matrix;
   const BlockPattern& pattern = *matrix.pattern;
   const int n = pattern.size(), first_body_row = pattern.first_body_row();
   if (pattern_ != matrix.pattern) {
     pattern_ = matrix.pattern;
     order_ = make_sweep_order(pattern, n > kMinRowsForParts ? kParts : 1);
+    changed = nullptr;
+  }
+  // Bodies' rows are coupled to many others.
+  if (!changed || first_body_row < n) {
+    stale_.assign(static_cast<std::size_t>(n), 1);
+  } else {
+    for (int r = 0; r < n; ++r) stale_[order_.row_of[r]] |= (*changed)[r];
   }
   inverse_cholesky_.resize(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);  // stays zero above diagonals
   // At the bodies' rows scale() then leaves zeros.
@@ -211,6 +224,7 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
             inverse_cholesky_.end(), 0.0);
   indefinite_rows_.clear();
   for (int c = 0; c < first_body_row; ++c) {
+    if (!stale_[order_.row_of[c]]) continue;
     if (!invert_cholesky(matrix.block(pattern.column_start[c]),
                          BlockMatrix::Block(inverse_cholesky_.data() +
                                             BlockMatrix::kStride * static_cast<std::size_t>(order_.row_of[c]))))
@@ -223,12 +237,13 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
   lower_.resize(static_cast<std::size_t>(kBlock) * order_.row.size() + 1);
   lower_.back() = 0.0F;
   const auto scale_columns = [&](int /*part*/, int first, int last) {
-    scale(Blocks(order_), first, last, matrix.values.data(), inverse_cholesky_.data(), lower_.data());
+    scale(Blocks(order_), first, last, matrix.values.data(), inverse_cholesky_.data(), stale_.data(), lower_.data());
     if (bodies_.size() > 0) bodies_.scale(matrix, order_, first, last, inverse_cholesky_, lower_);
     return 0.0;
   };
   over_parts(scale_columns);
   scale_columns(0, order_.separator(), n);
+  std::fill(stale_.begin(), stale_.end(), 0);
   return true;
 }
 
@@ -236,18 +251,20 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix) {
 void ConjugateGradient::find_indefinite_rows() {
   indefinite_rows_.clear();
   const int n = order_.num_rows();
-  std::vector<double> product = q_;
+  std::vector<double> product(q_.begin(), q_.end());
   for (int c = 0; c < n; ++c) {
     for (int k = order_.column_start[c]; k < order_.column_start[c + 1]; ++k) {
       const Matrix3 block = Eigen::Map<const Eigen::Matrix3f>(lower_.data() + kBlock * k).cast<double>();
       Eigen::Map<Vector3>(product.data() + 4 * static_cast<std::ptrdiff_t>(order_.row[k])) +=
-          block * Eigen::Map<const Vector3>(q_.data() + 4 * static_cast<std::ptrdiff_t>(c));
+          block * Eigen::Map<const Eigen::Vector3f>(q_.data() + 4 * static_cast<std::ptrdiff_t>(c)).cast<double>();
     }
   }
   std::vector<double> part(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(i);
-    part[i] = Eigen::Map<const Vector3>(t_.data() + at).dot(Eigen::Map<const Vector3>(product.data() + at));
+    part[i] = Eigen::Map<const Eigen::Vector3f>(t_.data() + at)
+                  .cast<double>()
+                  .dot(Eigen::Map<const Vector3>(product.data() + at));
   }
   // Scaling mixes the rows of a body.
   for (int first = matrix_->pattern->first_body_row(); first < n; first += BodyBlocks::kRows) {
@@ -285,9 +302,10 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
   const int n = order_.num_rows(), separator = order_.separator();
   const Blocks L(order_);
   // The fourth numbers of all are zero once and stay so.
-  for (std::vector<double>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0);
-  for (std::vector<double>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
-  for (int i = 0; i < n; ++i) Eigen::Map<Vector3>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i);
+  for (std::vector<float>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0F);
+  for (std::vector<float>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0F);
+  for (int i = 0; i < n; ++i)
+    Eigen::Map<Eigen::Vector3f>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i).cast<float>();
   const int first_body_row = matrix_->pattern->first_body_row();
   unscale(inverse_cholesky_.data(), false, r_.data(), first_body_row);
   bodies_.unscale(false, r_);
@@ -302,7 +320,7 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
   for (int i = 0; rr > target; ++i) {
     if (i == max_products_) return factorize(b);
     const auto up = [&](int /*part*/, int first, int last) {
-      sweep_up(L, first, last, lower_.data(), beta, r_.data(), p_.data(), t_.data(), q_.data());
+      sweep_up(L, first, last, lower_.data(), static_cast<float>(beta), r_.data(), p_.data(), t_.data(), q_.data());
       return 0.0;
     };
     up(0, separator, n);
@@ -314,14 +332,16 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
       return std::nullopt;
     }
     const double last_rr = rr, alpha = rr / curvature;
-    rr = separator_too(
-        [&](int first, int last) { return advance(alpha, t_.data(), q_.data(), x_.data(), r_.data(), first, last); });
+    rr = separator_too([&](int first, int last) {
+      return advance(static_cast<float>(alpha), t_.data(), q_.data(), x_.data(), r_.data(), first, last);
+    });
     beta = rr / last_rr;
   }
   unscale(inverse_cholesky_.data(), true, x_.data(), first_body_row);
   bodies_.unscale(true, x_);
   Eigen::VectorXd out(3 * static_cast<Eigen::Index>(n));
-  for (int i = 0; i < n; ++i) out.segment<3>(3 * i) = Eigen::Map<const Vector3>(x_.data() + 4 * order_.row_of[i]);
+  for (int i = 0; i < n; ++i)
+    out.segment<3>(3 * i) = Eigen::Map<const Eigen::Vector3f>(x_.data() + 4 * order_.row_of[i]).cast<double>();
   return out;
 }
 

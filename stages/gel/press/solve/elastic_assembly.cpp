@@ -123,4 +123,16 @@ void ElasticAssembly::update(const Positions& x, std::span<const double> pressur
   });
 }
 
+void ElasticAssembly::mark_changed(std::vector<char>& rows) const {
+  for (int p = 0; p < packs_.size(); ++p) {
+    if (!changed(p)) continue;
+    const auto& corners = packs_.corners(p);
+    for (const auto& corner : corners.vertices) {
+      for (int l = 0; l < corners.count; ++l) {
+        if (const int i = free_.free_of_vertex[corner[l]]; i >= 0) rows[static_cast<std::size_t>(i)] = 1;
+      }
+    }
+  }
+}
+
 }  // namespace tacipc

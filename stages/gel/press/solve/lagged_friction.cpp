@@ -18,9 +18,13 @@ constexpr int kMostRenewals = 6;
 // so many of these the limit itself will do.
 constexpr double kStrictPart = 0.3;
 constexpr int kStrictRenewals = 8;
-constexpr double kLagSlack = 0.5;        // part of each gap left where friction is lagged once
-constexpr double kLooseness = 10.0;      // factor on the tolerances while friction is still to be renewed
-constexpr double kFarFromSettled = 5.0;  // × the limit of the friction residual, above which tolerances stay loose
+constexpr double kLagSlack = 0.5;  // part of each gap left where friction is lagged once
+// Factor on the tolerances until friction has first been renewed at a minimum, and where that comes to nothing and
+// friction is far from settled: its residual so many times the limit.
+constexpr double kLooseness = 10.0, kFarFromSettled = 5.0;
+// In the strict renewals residual forces are brought to this part of what has just been changed, with tolerances at
+// most so many times as loose: such a minimum is left again.
+constexpr double kInexactPart = 0.5, kMostLooseness = 20.0;
 // Where a residual is more than this part of the last one, renewals converge too slowly: then only half of the new
 // friction is mixed in, a quarter, …, at least the second.
 constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
@@ -83,7 +87,10 @@ void TimeStepper::renew_friction(Step& step, Minimisation& run) {
       step.least_friction_change_n = change;
       step.renewals_left = kMostRenewals;
     }
-    if (--step.renewals_left == 0) return;  // vertices go to and fro: only friction that stays ends that
+    if (--step.renewals_left == 0) {  // vertices go to and fro: only friction that stays ends that
+      step.looseness = kLooseness;
+      return;
+    }
     if (change <= kSettledPart * friction_limit(step)) step.renewals_left = 0;  // this is the last one
   }
   ++step.report.lag_iterations;
@@ -126,9 +133,16 @@ void TimeStepper::settle_friction(Step& step) {
       ++renewed_here;
       if (report.friction_residual_n > kSlowRenewal * last_residual)
         renewal = std::max(0.5 * renewal, kSmallestRenewal);
+      if (strict && renewed_here == kStrictRenewals) renewal = 1.0;  // that minima were left early may have slowed it
       last_residual = report.friction_residual_n;
       step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
-      step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
+      const double exact = std::max(settings_.newton.force_tolerance_n,
+                                    settings_.newton.relative_force_tolerance * report.contact_force_n);
+      if (strict) {
+        step.looseness = std::clamp(kInexactPart * renewal * report.friction_residual_n / exact, 1.0, kMostLooseness);
+      } else {
+        step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
+      }
     }
     minimise_constrained(step);
   }

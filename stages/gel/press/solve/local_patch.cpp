@@ -67,4 +67,11 @@ std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyT
   return std::make_shared<RestrictedTerm>(term, std::move(stencils));
 }
 
+std::vector<ContactPair> with_patch(std::vector<ContactPair> before, const std::vector<bool>& moves,
+                                    const std::vector<ContactPair>& own) {
+  std::erase_if(before, [&](const ContactPair& pair) { return any_moves(moves, pair.vertices); });
+  before.insert(before.end(), own.begin(), own.end());
+  return before;
+}
+
 }  // namespace tacipc

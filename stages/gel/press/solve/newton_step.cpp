@@ -48,6 +48,7 @@ NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::sh
       elasticity_(std::move(elasticity)),
       own_pattern_(mesh_pattern(free_, *elasticity_)),
       pattern_(own_pattern_),
+      changed_(static_cast<std::size_t>(free_.size()), 0),
       solver_(make_linear_solver(solver)) {
   for (const auto& part : parts_of(elasticity_)) {
     const EnergyTerm* term = part.get();
@@ -101,6 +102,11 @@ void NewtonStepper::PackedPart::update(const Positions& x, NewtonSystem& system)
   volumes->update(volume.second, x, packs, system);
 }
 
+void NewtonStepper::PackedPart::mark_changed(std::vector<char>& rows) const {
+  packs.mark_changed(rows);
+  if (averaged) volumes->mark_changed(packs, rows);
+}
+
 NewtonStepper::PackedPart* NewtonStepper::packed(const EnergyTerm* term) {
   const auto found =
       std::find_if(packed_.begin(), packed_.end(), [&](const PackedPart& part) { return part.term == term; });
@@ -116,6 +122,7 @@ bool NewtonStepper::update_packs(const Call& call) {
     return false;
   const Positions& x = call.problem.x;
   clear_gradient(system_, free_);
+  mark_held();
   const double* from = held_values_.data();
   for (const int c : held_columns_) {
     const std::size_t first = BlockMatrix::kStride * static_cast<std::size_t>(pattern_->column_start[c]),
@@ -126,6 +133,7 @@ bool NewtonStepper::update_packs(const Call& call) {
   for (const WeightedTerm& part : terms) {
     if (PackedPart* elastic = packed(part.term.get())) {
       elastic->update(x, system_);
+      elastic->mark_changed(changed_);
     } else {
       add_gradient(part, x, free_, system_);
     }
@@ -164,6 +172,10 @@ void NewtonStepper::hold_columns(const Call& call) {
   }
 }
 
+void NewtonStepper::mark_held() {
+  for (const int c : held_columns_) changed_[static_cast<std::size_t>(c)] = 1;
+}
+
 std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
   const Positions& x = call.problem.x;
   const std::vector<WeightedTerm>& terms = call.problem.potential.terms;
@@ -175,6 +187,7 @@ std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic,
   timed(times_.elastic_s, [&] {
     if (elastic == Order::hessian && update_packs(call)) return;
     held_.clear();
+    all_changed_ = true;
     clear(system_, free_, pattern_);
     bool all_kept = elastic == Order::hessian;
     for (const WeightedTerm& part : terms) {
@@ -188,6 +201,7 @@ std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic,
     if (all_kept) held_ = terms;
   });
   timed(times_.contact_s, [&] { hold_columns(call); });
+  mark_held();
   const Stopwatch watch(times_.contact_s);
   for (const WeightedTerm& part : call.problem.potential.of_bodies)
     assemble(part, x, free_, first_object_vertex_, Order::psd, call.object.of_vertices, system_);
@@ -228,6 +242,7 @@ void NewtonStepper::reblend(const Call& call, const Blend& before, const Blend& 
     reblend_contact(contact.weight, *contact.term, active, call.problem.x, free_, first_object_vertex_, before, after,
                     call.object, system_);
   });
+  mark_held();
   if (along.size() > 0) system_.coupling += system_.hessian.multiply(along);
 }
 
@@ -263,7 +278,10 @@ bool NewtonStepper::solve(const NewtonProblem& problem, NewtonDirection& out) {
 /// Solves [H B; Bᵀ C] [p; q] = [−g − c; −g_q − c_q] for the free vertices and the object's free axes.
 bool NewtonStepper::solve_once(const NewtonProblem& problem, NewtonDirection& out) {
   ++times_.solves;
-  if (!solver_->prepare(system_.hessian)) return false;
+  const bool prepared = solver_->prepare(system_.hessian, all_changed_ ? nullptr : &changed_);
+  all_changed_ = false;
+  std::fill(changed_.begin(), changed_.end(), 0);
+  if (!prepared) return false;
   const auto solved = solver_->solve(-system_.gradient - system_.coupling);
   if (!solved) return false;
   Eigen::VectorXd step = *solved;

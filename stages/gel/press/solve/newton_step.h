@@ -114,6 +114,8 @@ class NewtonStepper {
 
     void add(double weight, const Positions& x, NewtonSystem& system);
     void update(const Positions& x, NewtonSystem& system);
+    /// Marks the rows that it changed.
+    void mark_changed(std::vector<char>& rows) const;
   };
   /// Null for a term that is no such part.
   PackedPart* packed(const EnergyTerm* term);
@@ -122,6 +124,8 @@ class NewtonStepper {
   bool update_packs(const Call& call);
   /// Keeps what the columns of the contacts' vertices hold before contacts are added.
   void hold_columns(const Call& call);
+  /// Marks the columns that contacts have been added to as changed.
+  void mark_held();
   /// Makes the contact Hessians of the system those of another blend.
   void reblend(const Call& call, const Blend& before, const Blend& after);
   int num_gels() const { return free_.gel_of_vertex.empty() ? 1 : free_.gel_of_vertex.back() + 1; }
@@ -156,7 +160,10 @@ class NewtonStepper {
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
   NewtonSystem system_;             // of the last call
   std::vector<WeightedTerm> held_;  // terms in the matrix of the last call; none where it cannot be used again
-  std::vector<int> held_columns_;   // that contacts have been added to, and what these were without
+  /// Rows whose blocks have changed since the solver last prepared them: all, or those marked.
+  bool all_changed_ = true;
+  std::vector<char> changed_;
+  std::vector<int> held_columns_;  // that contacts have been added to, and what these were without
   std::vector<double> held_values_;
   std::vector<int> carried_alone_;  // vertices of bodies in contacts without a gel, ascending
   SolverTimes times_;

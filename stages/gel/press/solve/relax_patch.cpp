@@ -17,6 +17,10 @@ constexpr double kMostSeeds = 0.005;  // largest part of the free vertices that 
 // Where more vertices than that move: the farthest of the seeds goes so many times as far as any other vertex.
 constexpr double kStandOut = 3.0;
 constexpr int kRings = 1;
+// Once no step is longer than the first, × the tolerance, a patch starts from the vertices whose contact Hessian was
+// approximated, if they are at most the second part of the free ones; what makes it indefinite is wider than one ring.
+constexpr double kNearRest = 20.0, kMostApproximated = 0.015;
+constexpr int kRingsAboutApproximated = 3;
 constexpr int kMaxIterations = 20;
 // A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
 // tolerance), so that the whole gel finds it at rest.
@@ -27,15 +31,16 @@ constexpr double kReach = 1.0, kReachOfEdge = 0.4;
 constexpr double kSpareTravel = 1.5;    // pairs are collected for a travel that much longer than needed at once
 constexpr double kSmallestStep = 1e-3;  // part of a Newton step below which a patch is given up
 
-/// Vertices that go farther than all others.
+/// Where a patch starts.
 struct Seeds {
   std::vector<int> vertices;
   double others_m;  // the longest displacement of all others, at least the tolerance
+  int rings = kRings;
 };
 
-/// Of the gel's vertices; none where no displacement is above the tolerance, or too many are and none of them stands
-/// out.
-std::optional<Seeds> seeds(const Positions& p, const FreeVertices& free, int num_gel_vertices, double tolerance_m) {
+/// The gel's vertices that go farther than all others; none where no displacement is above the tolerance, or too many
+/// are and none of them stands out.
+std::optional<Seeds> farthest(const Positions& p, const FreeVertices& free, int num_gel_vertices, double tolerance_m) {
   std::vector<double> lengths;
   std::vector<int> vertices;
   for (const int v : free.vertex_of_free) {
@@ -53,6 +58,20 @@ std::optional<Seeds> seeds(const Positions& p, const FreeVertices& free, int num
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     if (lengths[i] > found.others_m) found.vertices.push_back(vertices[i]);
   }
+  return found;
+}
+
+/// The gel's vertices about which the last direction took the PSD approximation, where it is only these that keep a
+/// gel at rest from being final: they are on the crest of an edge, and go down from it slowly with the approximation.
+std::optional<Seeds> approximated(const Blend& blend, const Positions& p, const FreeVertices& free,
+                                  int num_gel_vertices, double tolerance_m) {
+  if (largest_row(p, p.rows()) > kNearRest * tolerance_m) return std::nullopt;
+  Seeds found{{}, tolerance_m, kRingsAboutApproximated};
+  for (const int v : free.vertex_of_free) {
+    if (v < num_gel_vertices && blend.approximated(v)) found.vertices.push_back(v);
+  }
+  const auto most = static_cast<std::size_t>(kMostApproximated * static_cast<double>(free.size()));
+  if (found.vertices.empty() || found.vertices.size() > most) return std::nullopt;
   return found;
 }
 
@@ -99,14 +118,18 @@ class PairsInReach {
 
 }  // namespace
 
-bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
+bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std::vector<ContactPair>& pairs) {
   if (!settings_.newton.patches || settings_.augmented_lagrangian || !step.goal.free_axes.empty()) return false;
   const double h = step.goal.h_s, tolerance = settings_.newton.velocity_tolerance_m_s * h;
   const Stopwatch watch(times_.patches_s);
-  const std::optional<Seeds> found = seeds(direction.p, newton_->free(), mesh_.num_gel_vertices, tolerance);
+  const FreeVertices& free = newton_->free();
+  std::optional<Seeds> found = farthest(direction.p, free, mesh_.num_gel_vertices, tolerance);
+  const bool may_wait = settings_.newton.adaptive_contact_hessian && step.looseness == 1.0;
+  if (!found && may_wait && direction.largest_share > 0.0)
+    found = approximated(step.blend, direction.p, free, mesh_.num_gel_vertices, tolerance);
   if (!found) return false;
 
-  const LocalPatch patch = grow_patch(found->vertices, kRings, gel_.tets, newton_->free());
+  const LocalPatch patch = grow_patch(found->vertices, found->rings, gel_.tets, free);
   const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
   const Positions start = step.x;
   const PairsInReach in_reach(search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach), start,
@@ -117,14 +140,14 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
     *term = restricted(*term, patch.moves);
   terms.bodies.clear();  // they are held meanwhile
   terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
-  std::vector<ContactPair> pairs;
+  std::vector<ContactPair> own_pairs;
   IncrementalPotential energy;
-  double travel = -1.0;  // of no vertex more than this: up to there `pairs` and the energy hold
+  double travel = -1.0;  // of no vertex more than this: up to there its pairs and the energy hold
   const auto hold_up_to = [&](double farther) {
     if (farther <= travel) return;
     travel = kSpareTravel * farther;
-    pairs = in_reach.within(travel);
-    terms.barrier = barrier(pairs);
+    own_pairs = in_reach.within(travel);
+    terms.barrier = barrier(own_pairs);
     energy = make_incremental_potential(terms, step.weights);
   };
   hold_up_to(0.0);
@@ -143,9 +166,9 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
     within_reach = alpha == 1.0;
     const Positions p = alpha * local.p;
     hold_up_to(std::sqrt((step.x + p - start).rowwise().squaredNorm().maxCoeff()));
-    const double limit =
-        std::min(contact_step_limit(pairs, step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
-                 inversion_step_limit(patch.tets, step.x, p));
+    const double limit = std::min(
+        contact_step_limit(own_pairs, step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
+        inversion_step_limit(patch.tets, step.x, p));
     const double before = energy.value(step.x), rounding = kEnergyRounding * std::abs(before);
     double part = limit;
     int halvings = 0;
@@ -165,7 +188,12 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction) {
   step.report.patch_iterations += iterations;
   ++step.report.patches;
   log_debug("  patch of {} vertices ({} moved): {} iterations", patch.free.size(), found->vertices.size(), iterations);
-  return iterations > 0;
+  if (found->rings == kRingsAboutApproximated) {
+    for (const int v : patch.free.vertex_of_free) step.blend.take_over(v, blend);
+  }
+  if (iterations == 0) return false;
+  pairs = with_patch(std::move(pairs), patch.moves, own_pairs);
+  return true;
 }
 
 }  // namespace tacipc

@@ -23,8 +23,12 @@ class VolumeAssembly {
   /// tetrahedron in one of `changed` packs are renewed.
   void update(const std::vector<double>& second, const Positions& x, const ElasticAssembly& changed,
               NewtonSystem& system);
+  /// Marks the rows of those clusters.
+  void mark_changed(const ElasticAssembly& changed, std::vector<char>& rows) const;
 
  private:
+  /// Whether a tetrahedron of the cluster is in one of `changed` packs.
+  bool in_changed(int cluster, const ElasticAssembly& changed) const;
   void look_up(const BlockPattern& pattern);
 
   struct Cluster {

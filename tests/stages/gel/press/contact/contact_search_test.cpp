@@ -8,6 +8,7 @@
 #include <random>
 #include <tuple>
 
+#include "stages/gel/press/solve/local_patch.h"
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
@@ -230,7 +231,7 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
   Scene scene;
   ContactSearch search(scene.mesh);
   const Positions p = scene.displacement(20e-6);
-  search.pairs(scene.x, p, kRadius);
+  const std::vector<ContactPair> before = search.pairs(scene.x, p, kRadius);
   const Positions start = scene.x + p;  // where the call saw them come by
 
   // The vertices under the tip move, each as far as it may: much farther than the room that searches leave.
@@ -240,6 +241,9 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
     moves[v] = scene.x(v, 2) > -1e-9 && scene.x.row(v).head<2>().norm() < 1.2e-3;
   ASSERT_GT(std::count(moves.begin(), moves.end(), true), 3);
   std::vector<ContactPair> around = search.pairs_around(moves, start, kRadius, far_m);
+  std::vector<ContactPair> with_others = with_patch(before, moves, around);
+  with_others = sorted(std::move(with_others), scene.mesh.num_gel_vertices);
+  EXPECT_TRUE(std::adjacent_find(with_others.begin(), with_others.end(), same) == with_others.end());
   around = sorted(std::move(around), scene.mesh.num_gel_vertices);
   EXPECT_TRUE(std::adjacent_find(around.begin(), around.end(), same) == around.end()) << "a pair counts twice";
   const std::vector<ContactPair> all = all_pairs(scene.mesh);
@@ -252,12 +256,13 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
     }
     for (const ContactPair& pair : all) {
       const auto& v = pair.vertices;
-      if (!(moves[v[0]] || moves[v[1]] || moves[v[2]] || moves[v[3]])) continue;
       const double within = reach(scene.mesh, pair);
       if (closest_feature(pair, gather(moved, pair)).squared_distance >= within * within) continue;
+      const ContactPair as_sorted = sorted({pair}, scene.mesh.num_gel_vertices)[0];
+      EXPECT_TRUE(std::binary_search(with_others.begin(), with_others.end(), as_sorted, less));
+      if (!(moves[v[0]] || moves[v[1]] || moves[v[2]] || moves[v[3]])) continue;
       ++near;
-      EXPECT_TRUE(
-          std::binary_search(around.begin(), around.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less));
+      EXPECT_TRUE(std::binary_search(around.begin(), around.end(), as_sorted, less));
     }
   }
   EXPECT_GT(near, 200);

@@ -57,6 +57,26 @@ TEST(Blend, RisesAfterAShortenedStepAboveWhatItWasFoundWith) {
   EXPECT_EQ(blend.largest(), 0.0);
 }
 
+/// A patch lowers shares on its own; what it found holds for the whole gel.
+TEST(Blend, TakesOverAboutOneVertexWhatAnotherHasFound) {
+  Blend blend(3), patch = blend;
+  while (patch.largest() > 0.0) patch.lower();
+  patch.lower();
+  patch.raise(2);
+  EXPECT_TRUE(blend.approximated(1));
+  blend.take_over(1, patch);
+  blend.take_over(2, patch);
+  EXPECT_EQ(blend.share(0), 1.0);
+  EXPECT_EQ(blend.share(1), 0.0);
+  EXPECT_EQ(blend.share(2), patch.share(2));
+  EXPECT_TRUE(blend.approximated(0));
+  EXPECT_FALSE(blend.approximated(1));
+  blend.lower();
+  patch.lower();
+  EXPECT_EQ(blend.share(2), patch.share(2));
+  EXPECT_TRUE(blend.approximated(2));
+}
+
 TEST(Blend, StaysWithThePsdApproximationUnlessAdaptive) {
   Blend blend(2, false);
   for (int i = 0; i < 5; ++i) blend.lower();
