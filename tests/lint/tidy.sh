@@ -13,9 +13,9 @@ else
   for file in "${changed[@]}"; do
     case $file in
       *.cpp) files+=("$file") ;;
-      *.h) # one source that shows the header to the compiler: its own, else any that includes it
+      *.h) # one source that shows the header to the compiler: its own, else any that includes it itself, if there is one
         own=${file%.h}.cpp
-        if [ -e "$own" ]; then files+=("$own"); else files+=("$(git grep -lF "#include \"$file\"" -- '*.cpp' | sed -n 1p)"); fi ;;
+        if [ -e "$own" ]; then files+=("$own"); else files+=("$( (git grep -lF "#include \"$file\"" -- '*.cpp' || true) | sed -n 1p)"); fi ;;
     esac
   done
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep . | LC_ALL=C sort -u)
