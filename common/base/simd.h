@@ -74,17 +74,10 @@ TACIPC_INLINE void store_quad(double* to, const Quad& value) { *reinterpret_cast
 /// Four floats as a Quad, and back.
 using UnalignedFloatQuad = float __attribute__((vector_size(16), aligned(4), may_alias));
 TACIPC_INLINE Quad load_quad(const float* from) {
-  return __builtin_convertvector(*reinterpret_cast<const UnalignedFloatQuad*>(from), Quad);
+  return Quad{from[0], from[1], from[2], from[3]};  // one instruction; of __builtin_convertvector GCC 12 makes six
 }
 TACIPC_INLINE void store_quad(float* to, const Quad& value) {
   *reinterpret_cast<UnalignedFloatQuad*>(to) = __builtin_convertvector(value, UnalignedFloatQuad);
-}
-
-/// Four floats.
-using FloatQuad = float __attribute__((vector_size(16)));
-TACIPC_INLINE FloatQuad load_floats(const float* from) { return *reinterpret_cast<const UnalignedFloatQuad*>(from); }
-TACIPC_INLINE void store_floats(float* to, const FloatQuad& value) {
-  *reinterpret_cast<UnalignedFloatQuad*>(to) = value;
 }
 
 /// out[l] = (rows[0], rows[1], rows[2], 0) of lane l of the lower (half 0) or upper four lanes.
@@ -103,7 +96,8 @@ TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
   out[3] = __builtin_shufflevector(odd01, odd2, 2, 3, 6, 7);
 }
 
-/// What comparing four floats gives: −1 where true.
+/// Four floats, and what comparing them gives: −1 where true.
+using FloatQuad = float __attribute__((vector_size(16)));
 using IntQuad = int __attribute__((vector_size(16)));
 
 TACIPC_INLINE bool all_of(const IntQuad& lanes) {

@@ -274,10 +274,9 @@ FrameNumbers numbers_of(const Frame& frame) {
 }
 
 SolverLimits limits_of(const PressConfig& config, const NewtonSettings& newton, double contact_force_n) {
-  SolverLimits limits{
-      .velocity_residual_m_s = newton.velocity_tolerance_m_s,
-      .force_residual_n = std::max(newton.force_tolerance_n, newton.relative_force_tolerance * contact_force_n),
-      .friction_residual_n = {}};
+  SolverLimits limits{.velocity_residual_m_s = newton.velocity_tolerance_m_s,
+                      .force_residual_n = newton.force_limit_n(contact_force_n),
+                      .friction_residual_n = {}};
   if (config.friction && config.friction->iterated)
     limits.friction_residual_n =
         std::max(newton.force_tolerance_n, config.friction->relative_lag_tolerance * contact_force_n);

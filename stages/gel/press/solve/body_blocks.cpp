@@ -68,15 +68,15 @@ void BodyBlocks::scale(const BlockMatrix& matrix, const SweepOrder& order, int f
   }
 }
 
-void BodyBlocks::unscale(bool transposed, std::vector<float>& x) const {
+void BodyBlocks::unscale(bool transposed, std::vector<double>& x) const {
   for (int i = 0; i < size(); ++i) {
     // Four numbers per row, the last of them zero.
-    Eigen::Map<Eigen::Matrix<float, 3, kRows>, 0, Eigen::OuterStride<4>> own(x.data() + 4 * (first_row_ + kRows * i));
-    const Eigen::Matrix<double, 3 * kRows, 1> before = own.reshaped().cast<double>();
+    Eigen::Map<Eigen::Matrix<double, 3, kRows>, 0, Eigen::OuterStride<4>> own(x.data() + 4 * (first_row_ + kRows * i));
+    const Eigen::Matrix<double, 3 * kRows, 1> before = own.reshaped();
     if (transposed) {
-      own.reshaped() = (inverse_[i].transpose() * before).cast<float>();
+      own.reshaped() = inverse_[i].transpose() * before;
     } else {
-      own.reshaped() = (inverse_[i] * before).cast<float>();
+      own.reshaped() = inverse_[i] * before;
     }
   }
 }

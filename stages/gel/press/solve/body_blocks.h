@@ -25,7 +25,7 @@ class BodyBlocks {
   void scale(const BlockMatrix& matrix, const SweepOrder& order, int first, int last,
              const std::vector<double>& inverse_cholesky, std::vector<float>& lower) const;
   /// x = E⁻¹ x, or E⁻ᵀ x, in the bodies' rows.
-  void unscale(bool transposed, std::vector<float>& x) const;
+  void unscale(bool transposed, std::vector<double>& x) const;
 
  private:
   using Block = Eigen::Matrix<double, 3 * kRows, 3 * kRows>;

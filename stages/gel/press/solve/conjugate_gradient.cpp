@@ -44,7 +44,7 @@ bool invert_cholesky(const BlockMatrix::ConstBlock& A, BlockMatrix::Block out) {
   return true;
 }
 
-TACIPC_INLINE FloatQuad three_of(const FloatQuad& v) { return FloatQuad{v[0], v[1], v[2], 0.0F}; }
+TACIPC_INLINE Quad three_of(const Quad& v) { return Quad{v[0], v[1], v[2], 0.0}; }
 
 /// SweepOrder as the loops see it.
 struct Blocks {
@@ -84,44 +84,43 @@ TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* val
 }
 
 /// p = r + β p, t = (I + Lᵀ)⁻¹ p and q = p − t in rows first … last − 1, where t is known in all that come later.
-TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* lower, float beta, const float* r,
-                            float* p, float* t, float* q) {
+TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* lower, double beta, const double* r,
+                            double* p, double* t, double* q) {
   for (std::ptrdiff_t c = last - 1; c >= first; --c) {
-    FloatQuad s0 = {}, s1 = {}, s2 = {};
+    Quad s0 = {}, s1 = {}, s2 = {};
     // Near rows last: they have only just been found.
     for (std::ptrdiff_t k = L.column_start[c + 1] - 1; k >= L.column_start[c]; --k) {
       const float* block = lower + kBlock * k;
       __builtin_prefetch(block - kAhead);
-      const FloatQuad tr = load_floats(t + 4 * static_cast<std::ptrdiff_t>(L.row[k]));
-      s0 += load_floats(block) * tr;
-      s1 += load_floats(block + 3) * tr;
-      s2 += load_floats(block + 6) * tr;
+      const Quad tr = load_quad(t + 4 * static_cast<std::ptrdiff_t>(L.row[k]));
+      s0 += load_quad(block) * tr;
+      s1 += load_quad(block + 3) * tr;
+      s2 += load_quad(block + 6) * tr;
     }
-    const FloatQuad from_later{(s0[0] + s0[1]) + s0[2], (s1[0] + s1[1]) + s1[2], (s2[0] + s2[1]) + s2[2], 0.0F};
-    const FloatQuad pc = load_floats(r + 4 * c) + beta * load_floats(p + 4 * c);
-    store_floats(p + 4 * c, pc);
-    store_floats(t + 4 * c, pc - from_later);
-    store_floats(q + 4 * c, from_later);
+    const Quad from_later{(s0[0] + s0[1]) + s0[2], (s1[0] + s1[1]) + s1[2], (s2[0] + s2[1]) + s2[2], 0.0};
+    const Quad pc = load_quad(r + 4 * c) + beta * load_quad(p + 4 * c);
+    store_quad(p + 4 * c, pc);
+    store_quad(t + 4 * c, pc - from_later);
+    store_quad(q + 4 * c, from_later);
   }
 }
 
 /// y = (I + L)⁻¹ y in rows first … last − 1, but t + that where there is a t; what it contributes to the separator's
 /// rows is added to `separator`, which begins with row `separator_row`. Returns pᵀy where there is a p.
-TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const float* lower, const float* t,
-                                const float* p, float* y, float* separator, int separator_row) {
+TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const float* lower, const double* t,
+                                const double* p, double* y, double* separator, int separator_row) {
   Quad sum = {};
   for (std::ptrdiff_t c = first; c < last; ++c) {
-    const FloatQuad yc = three_of(load_floats(y + 4 * c));
-    const FloatQuad whole = t ? load_floats(t + 4 * c) + yc : yc;
-    store_floats(y + 4 * c, whole);
-    if (p) sum += load_quad(p + 4 * c) * __builtin_convertvector(whole, Quad);
-    const float y0 = yc[0], y1 = yc[1], y2 = yc[2];
-    const auto subtract = [&](std::ptrdiff_t k, float* from, int base) __attribute__((always_inline)) {
+    const Quad yc = three_of(load_quad(y + 4 * c));
+    const Quad whole = t ? load_quad(t + 4 * c) + yc : yc;
+    store_quad(y + 4 * c, whole);
+    if (p) sum += load_quad(p + 4 * c) * whole;
+    const double y0 = yc[0], y1 = yc[1], y2 = yc[2];
+    const auto subtract = [&](std::ptrdiff_t k, double* from, int base) __attribute__((always_inline)) {
       const float* block = lower + kBlock * k;
       __builtin_prefetch(block + kAhead);
-      float* yr = from + 4 * static_cast<std::ptrdiff_t>(L.row[k] - base);
-      store_floats(
-          yr, load_floats(yr) - (load_floats(block) * y0 + load_floats(block + 3) * y1 + load_floats(block + 6) * y2));
+      double* yr = from + 4 * static_cast<std::ptrdiff_t>(L.row[k] - base);
+      store_quad(yr, load_quad(yr) - (load_quad(block) * y0 + load_quad(block + 3) * y1 + load_quad(block + 6) * y2));
     };
     const std::ptrdiff_t end = L.column_start[c + 1], own_end = L.separator_start[c];
     for (std::ptrdiff_t k = L.column_start[c]; k < own_end; ++k) subtract(k, y, 0);
@@ -130,27 +129,27 @@ TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const floa
   return total(sum);
 }
 
-TACIPC_CLONES double dot_product(const float* a, const float* b, int first, int last) {
+TACIPC_CLONES double dot_product(const double* a, const double* b, int first, int last) {
   Quad sum = {};
   for (std::ptrdiff_t i = first; i < last; ++i) sum += load_quad(a + 4 * i) * load_quad(b + 4 * i);
   return total(sum);
 }
 
 /// x += α t, r −= α q in rows first … last − 1; returns rᵀr.
-TACIPC_CLONES double advance(float alpha, const float* t, const float* q, float* x, float* r, int first, int last) {
+TACIPC_CLONES double advance(double alpha, const double* t, const double* q, double* x, double* r, int first,
+                             int last) {
   Quad sum = {};
   for (std::ptrdiff_t i = first; i < last; ++i) {
-    store_floats(x + 4 * i, load_floats(x + 4 * i) + alpha * load_floats(t + 4 * i));
-    const FloatQuad ri = load_floats(r + 4 * i) - alpha * load_floats(q + 4 * i);
-    store_floats(r + 4 * i, ri);
-    const Quad wide = __builtin_convertvector(ri, Quad);
-    sum += wide * wide;
+    store_quad(x + 4 * i, load_quad(x + 4 * i) + alpha * load_quad(t + 4 * i));
+    const Quad ri = load_quad(r + 4 * i) - alpha * load_quad(q + 4 * i);
+    store_quad(r + 4 * i, ri);
+    sum += ri * ri;
   }
   return total(sum);
 }
 
 /// x = C⁻¹ x, or C⁻ᵀ x.
-TACIPC_CLONES void unscale(const double* inverse_cholesky, bool transposed, float* x, int n) {
+TACIPC_CLONES void unscale(const double* inverse_cholesky, bool transposed, double* x, int n) {
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const double* block = inverse_cholesky + static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * i;
     const Quad c0 = load_quad(block), c1 = load_quad(block + 4), c2 = load_quad(block + 8), xi = load_quad(x + 4 * i);
@@ -188,13 +187,13 @@ double ConjugateGradient::over_parts(Part&& part) {
 }
 
 /// y = (I + L)⁻¹ y, or t + that and pᵀy of it.
-double ConjugateGradient::forward(const float* t, const float* p, float* y) {
+double ConjugateGradient::forward(const double* t, const double* p, double* y) {
   const Blocks L(order_);
   const int separator = order_.separator(), n = order_.num_rows();
   const std::size_t size = 4 * static_cast<std::size_t>(n - separator);
-  std::array<std::vector<float>, kParts>& apart = to_separator_;
+  std::array<std::vector<double>, kParts>& apart = to_separator_;
   double sum = over_parts([&](int i, int first, int last) {
-    apart[i].assign(size, 0.0F);
+    apart[i].assign(size, 0.0);
     return sweep_down(L, first, last, lower_.data(), t, p, y, apart[i].data(), separator);
   });
   for (int i = 0; i < order_.num_parts(); ++i) {
@@ -251,20 +250,18 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix, const std::vector<cha
 void ConjugateGradient::find_indefinite_rows() {
   indefinite_rows_.clear();
   const int n = order_.num_rows();
-  std::vector<double> product(q_.begin(), q_.end());
+  std::vector<double> product = q_;
   for (int c = 0; c < n; ++c) {
     for (int k = order_.column_start[c]; k < order_.column_start[c + 1]; ++k) {
       const Matrix3 block = Eigen::Map<const Eigen::Matrix3f>(lower_.data() + kBlock * k).cast<double>();
       Eigen::Map<Vector3>(product.data() + 4 * static_cast<std::ptrdiff_t>(order_.row[k])) +=
-          block * Eigen::Map<const Eigen::Vector3f>(q_.data() + 4 * static_cast<std::ptrdiff_t>(c)).cast<double>();
+          block * Eigen::Map<const Vector3>(q_.data() + 4 * static_cast<std::ptrdiff_t>(c));
     }
   }
   std::vector<double> part(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(i);
-    part[i] = Eigen::Map<const Eigen::Vector3f>(t_.data() + at)
-                  .cast<double>()
-                  .dot(Eigen::Map<const Vector3>(product.data() + at));
+    part[i] = Eigen::Map<const Vector3>(t_.data() + at).dot(Eigen::Map<const Vector3>(product.data() + at));
   }
   // Scaling mixes the rows of a body.
   for (int first = matrix_->pattern->first_body_row(); first < n; first += BodyBlocks::kRows) {
@@ -302,10 +299,9 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
   const int n = order_.num_rows(), separator = order_.separator();
   const Blocks L(order_);
   // The fourth numbers of all are zero once and stay so.
-  for (std::vector<float>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0F);
-  for (std::vector<float>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0F);
-  for (int i = 0; i < n; ++i)
-    Eigen::Map<Eigen::Vector3f>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i).cast<float>();
+  for (std::vector<double>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0);
+  for (std::vector<double>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
+  for (int i = 0; i < n; ++i) Eigen::Map<Vector3>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i);
   const int first_body_row = matrix_->pattern->first_body_row();
   unscale(inverse_cholesky_.data(), false, r_.data(), first_body_row);
   bodies_.unscale(false, r_);
@@ -320,7 +316,7 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
   for (int i = 0; rr > target; ++i) {
     if (i == max_products_) return factorize(b);
     const auto up = [&](int /*part*/, int first, int last) {
-      sweep_up(L, first, last, lower_.data(), static_cast<float>(beta), r_.data(), p_.data(), t_.data(), q_.data());
+      sweep_up(L, first, last, lower_.data(), beta, r_.data(), p_.data(), t_.data(), q_.data());
       return 0.0;
     };
     up(0, separator, n);
@@ -332,16 +328,14 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
       return std::nullopt;
     }
     const double last_rr = rr, alpha = rr / curvature;
-    rr = separator_too([&](int first, int last) {
-      return advance(static_cast<float>(alpha), t_.data(), q_.data(), x_.data(), r_.data(), first, last);
-    });
+    rr = separator_too(
+        [&](int first, int last) { return advance(alpha, t_.data(), q_.data(), x_.data(), r_.data(), first, last); });
     beta = rr / last_rr;
   }
   unscale(inverse_cholesky_.data(), true, x_.data(), first_body_row);
   bodies_.unscale(true, x_);
   Eigen::VectorXd out(3 * static_cast<Eigen::Index>(n));
-  for (int i = 0; i < n; ++i)
-    out.segment<3>(3 * i) = Eigen::Map<const Eigen::Vector3f>(x_.data() + 4 * order_.row_of[i]).cast<double>();
+  for (int i = 0; i < n; ++i) out.segment<3>(3 * i) = Eigen::Map<const Vector3>(x_.data() + 4 * order_.row_of[i]);
   return out;
 }
 

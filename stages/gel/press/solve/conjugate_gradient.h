@@ -19,9 +19,9 @@ namespace tacipc {
 /// two sweeps over L with as many operations as a product with A, for less than half of the iterations that D alone as
 /// M takes. In every iteration xᵀAx = xᵀb, so an unfinished solution is a descent direction, too. A gel is thin and
 /// glued at the back: forces reach about a thickness far, and some twenty iterations are enough whatever its size.
-/// L and vectors are kept in single precision: a sweep waits for memory, and Newton steps are asked for to a hundredth
-/// or a thousandth. Where more is asked for, solutions are refined with the matrix itself. Sums are of doubles. Sweeps
-/// and sums run in a fixed order. Where the iterations do not suffice, the system is factorised.
+/// L is kept in single precision: a sweep waits for memory, and Newton steps are asked for to a hundredth or a
+/// thousandth. Where more is asked for, solutions are refined with the matrix itself. Sweeps and sums run in a fixed
+/// order. Where the iterations do not suffice, the system is factorised.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(double tolerance = 1e-3, int max_products = 1000)
@@ -44,7 +44,7 @@ class ConjugateGradient final : public LinearSolver {
 
   template <typename Part>
   double over_parts(Part&& part);
-  double forward(const float* t, const float* p, float* y);
+  double forward(const double* t, const double* p, double* y);
   void find_indefinite_rows();
   std::optional<Eigen::VectorXd> iterate(const Eigen::VectorXd& b, double tolerance);
   std::optional<Eigen::VectorXd> factorize(const Eigen::VectorXd& b);
@@ -58,9 +58,9 @@ class ConjugateGradient final : public LinearSolver {
   std::vector<float> lower_;              // L, scaled, nine numbers a block, as order_ has them
   std::vector<double> inverse_cholesky_;  // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks; not of bodies
   BodyBlocks bodies_;
-  std::vector<float> x_, r_, p_, t_, q_;                 // of the last solve; their storage is used again
-  std::array<std::vector<float>, kParts> to_separator_;  // from each part in a sweep
-  std::optional<CholmodSolver> direct_;                  // once it is needed
+  std::vector<double> x_, r_, p_, t_, q_;                 // of the last solve; their storage is used again
+  std::array<std::vector<double>, kParts> to_separator_;  // from each part in a sweep
+  std::optional<CholmodSolver> direct_;                   // once it is needed
   std::int64_t products_ = 0;
   int factorized_ = 0;
   std::vector<int> indefinite_rows_;

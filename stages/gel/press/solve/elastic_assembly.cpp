@@ -110,7 +110,7 @@ void ElasticAssembly::add(const Positions& x, std::span<const double> pressure, 
 }
 
 void ElasticAssembly::update(const Positions& x, std::span<const double> pressure, double tolerance,
-                             NewtonSystem& system) {
+                             NewtonSystem& system, std::vector<char>& changed_rows) {
   groups_.for_each([&](const std::vector<int>& group) {
     ElasticPacks::Derivatives found;
     for (const int p : group) {
@@ -118,21 +118,16 @@ void ElasticAssembly::update(const Positions& x, std::span<const double> pressur
       const auto place = static_cast<std::size_t>(p);
       changed_[place] = packs_.change(p, x, of_pack, tolerance, states_[place], found);
       add_gradient(p, found, system);
-      if (changed_[place]) add_hessian(p, found, system);
-    }
-  });
-}
-
-void ElasticAssembly::mark_changed(std::vector<char>& rows) const {
-  for (int p = 0; p < packs_.size(); ++p) {
-    if (!changed(p)) continue;
-    const auto& corners = packs_.corners(p);
-    for (const auto& corner : corners.vertices) {
-      for (int l = 0; l < corners.count; ++l) {
-        if (const int i = free_.free_of_vertex[corner[l]]; i >= 0) rows[static_cast<std::size_t>(i)] = 1;
+      if (!changed_[place]) continue;
+      add_hessian(p, found, system);
+      const auto& corners = packs_.corners(p);
+      for (const auto& corner : corners.vertices) {
+        for (int l = 0; l < corners.count; ++l) {
+          if (const int i = free_.free_of_vertex[corner[l]]; i >= 0) changed_rows[static_cast<std::size_t>(i)] = 1;
+        }
       }
     }
-  }
+  });
 }
 
 }  // namespace tacipc

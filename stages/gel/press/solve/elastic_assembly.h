@@ -22,10 +22,10 @@ class ElasticAssembly {
   /// still
   void add(const Positions& x, std::span<const double> pressure, double weight, NewtonSystem& system);
   /// The same to a system whose Hessian still holds what the last add() and update() put there: the Hessians of packs
-  /// are renewed in which one has changed by more than `tolerance` (ElasticPacks::change), the gradient is exact.
-  void update(const Positions& x, std::span<const double> pressure, double tolerance, NewtonSystem& system);
-  /// Marks the rows of packs whose Hessian the last update() changed.
-  void mark_changed(std::vector<char>& rows) const;
+  /// are renewed, and their rows marked, in which one has changed by more than `tolerance` (ElasticPacks::change), the
+  /// gradient is exact.
+  void update(const Positions& x, std::span<const double> pressure, double tolerance, NewtonSystem& system,
+              std::vector<char>& changed_rows);
   /// Whether the last add() or update() changed a pack's Hessian.
   bool changed(int pack) const { return changed_[static_cast<std::size_t>(pack)] != 0; }
 

@@ -19,11 +19,11 @@ constexpr int kMostRenewals = 6;
 constexpr double kStrictPart = 0.3;
 constexpr int kStrictRenewals = 8;
 constexpr double kLagSlack = 0.5;  // part of each gap left where friction is lagged once
-// Factor on the tolerances until friction has first been renewed at a minimum, and where that comes to nothing and
+// Factor on the tolerances until friction has first been renewed at a minimum, and after the strict renewals as long as
 // friction is far from settled: its residual so many times the limit.
 constexpr double kLooseness = 10.0, kFarFromSettled = 5.0;
-// In the strict renewals residual forces are brought to this part of what has just been changed, with tolerances at
-// most so many times as loose: such a minimum is left again.
+// The strict renewals leave minima early: residual forces are brought to this part of what has just been changed, with
+// tolerances at most so many times as loose. Not beside bodies that move freely: their balance says where they are.
 constexpr double kInexactPart = 0.5, kMostLooseness = 20.0;
 // Where a residual is more than this part of the last one, renewals converge too slowly: then only half of the new
 // friction is mixed in, a quarter, …, at least the second.
@@ -88,7 +88,7 @@ void TimeStepper::renew_friction(Step& step, Minimisation& run) {
       step.renewals_left = kMostRenewals;
     }
     if (--step.renewals_left == 0) {  // vertices go to and fro: only friction that stays ends that
-      step.looseness = kLooseness;
+      if (step.bodies.empty()) step.looseness = kLooseness;
       return;
     }
     if (change <= kSettledPart * friction_limit(step)) step.renewals_left = 0;  // this is the last one
@@ -119,6 +119,7 @@ void TimeStepper::settle_friction(Step& step) {
     const bool settled = report.friction_residual_n <= (!renewed_once ? settings_.newton.force_tolerance_n
                                                         : strict      ? kStrictPart * limit
                                                                       : limit);
+    const bool early = strict && step.bodies.empty();
     const bool last = renewed_here + 1 >= friction.max_lag_iterations;
     if ((settled || last) && step.looseness == 1.0) {
       if (settled || friction.max_lag_iterations == 1) return;
@@ -133,13 +134,13 @@ void TimeStepper::settle_friction(Step& step) {
       ++renewed_here;
       if (report.friction_residual_n > kSlowRenewal * last_residual)
         renewal = std::max(0.5 * renewal, kSmallestRenewal);
-      if (strict && renewed_here == kStrictRenewals) renewal = 1.0;  // that minima were left early may have slowed it
+      if (early && renewed_here == kStrictRenewals) renewal = 1.0;  // that minima were left early may have slowed it
       last_residual = report.friction_residual_n;
       step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
-      const double exact = std::max(settings_.newton.force_tolerance_n,
-                                    settings_.newton.relative_force_tolerance * report.contact_force_n);
-      if (strict) {
-        step.looseness = std::clamp(kInexactPart * renewal * report.friction_residual_n / exact, 1.0, kMostLooseness);
+      if (early) {
+        const double changed = renewal * report.friction_residual_n;
+        step.looseness = std::clamp(kInexactPart * changed / settings_.newton.force_limit_n(report.contact_force_n),
+                                    1.0, kMostLooseness);
       } else {
         step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
       }

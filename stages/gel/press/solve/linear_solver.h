@@ -22,7 +22,7 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
 
   /// False if the matrix is seen not to be positive definite. It must outlive the solves with it.
-  /// \param changed null, or a mark for every row: blocks between two rows without one are as at the last call
+  /// \param changed null, or marks for all rows: since the last call only blocks in a marked row or column have changed
   virtual bool prepare(const BlockMatrix& matrix, const std::vector<char>* changed = nullptr) = 0;
   /// Empty if the matrix turns out not to be positive definite. \pre it was prepared.
   virtual std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) = 0;

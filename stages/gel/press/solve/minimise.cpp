@@ -131,10 +131,7 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   report.force_residual_n = direction.gradient_sum / (h * h);
   report.contact_force_n = direction.contact_sum / (h * h);
   if (direction.gels.size() > 1) {
-    const auto limit = [&](double contact_sum) {
-      return std::max(settings_.newton.force_tolerance_n,
-                      settings_.newton.relative_force_tolerance * contact_sum / (h * h));
-    };
+    const auto limit = [&](double contact_sum) { return settings_.newton.force_limit_n(contact_sum / (h * h)); };
     double worst = 0.0;
     for (const NewtonDirection::Gel& gel : direction.gels)
       worst = std::max(worst, gel.gradient_sum / (h * h) / limit(gel.contact_sum));
@@ -149,18 +146,14 @@ bool TimeStepper::within_tolerances(const Step& step, const NewtonDirection& dir
   if (!step.arrived) return false;
   if (step.constraint && !(step.constraint->largest(direction.p) < kConstraintPart * kConstraintTolerance))
     return false;
-  // A few vertices that still go far add little to the forces that friction is renewed by: looser by the square.
-  const double looser = step.looseness * step.looseness;
-  if (!(report.velocity_residual_m_s < looser * settings.velocity_tolerance_m_s)) return false;
+  if (!(report.velocity_residual_m_s < step.looseness * settings.velocity_tolerance_m_s)) return false;
   for (std::size_t b = 0; b < step.bodies.size(); ++b) {
     // The gel's tolerance would leave a light object's weight unnoticed.
     const double h2 = step.goal.h_s * step.goal.h_s,
                  limit = kBodyTolerance * std::max(step.bodies[b].weight_n, kLeastWeight) * step.looseness;
     if (!(direction.bodies[b].force / h2 < limit && direction.bodies[b].torque / h2 < limit * kBodyArm)) return false;
   }
-  return report.force_residual_n <
-         step.looseness *
-             std::max(settings.force_tolerance_n, settings.relative_force_tolerance * report.contact_force_n);
+  return report.force_residual_n < step.looseness * settings.force_limit_n(report.contact_force_n);
 }
 
 // The PSD approximation shortens steps, so that a vertex on the crest of one of the object's edges looks at rest. With

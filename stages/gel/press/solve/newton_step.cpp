@@ -48,7 +48,7 @@ NewtonStepper::NewtonStepper(FreeVertices free, int first_object_vertex, std::sh
       elasticity_(std::move(elasticity)),
       own_pattern_(mesh_pattern(free_, *elasticity_)),
       pattern_(own_pattern_),
-      changed_(static_cast<std::size_t>(free_.size()), 0),
+      changed_(static_cast<std::size_t>(free_.size()), 1),
       solver_(make_linear_solver(solver)) {
   for (const auto& part : parts_of(elasticity_)) {
     const EnergyTerm* term = part.get();
@@ -95,16 +95,11 @@ void NewtonStepper::PackedPart::add(double weight, const Positions& x, NewtonSys
   volumes->add(volume.second, x, weight, system);
 }
 
-void NewtonStepper::PackedPart::update(const Positions& x, NewtonSystem& system) {
-  if (!averaged) return packs.update(x, {}, kKeptHessian, system);
+void NewtonStepper::PackedPart::update(const Positions& x, NewtonSystem& system, std::vector<char>& changed_rows) {
+  if (!averaged) return packs.update(x, {}, kKeptHessian, system, changed_rows);
   const auto volume = averaged->volume_derivatives(x);
-  packs.update(x, volume.pressure, kKeptHessian, system);
-  volumes->update(volume.second, x, packs, system);
-}
-
-void NewtonStepper::PackedPart::mark_changed(std::vector<char>& rows) const {
-  packs.mark_changed(rows);
-  if (averaged) volumes->mark_changed(packs, rows);
+  packs.update(x, volume.pressure, kKeptHessian, system, changed_rows);
+  volumes->update(volume.second, x, packs, system, changed_rows);
 }
 
 NewtonStepper::PackedPart* NewtonStepper::packed(const EnergyTerm* term) {
@@ -132,8 +127,7 @@ bool NewtonStepper::update_packs(const Call& call) {
   }
   for (const WeightedTerm& part : terms) {
     if (PackedPart* elastic = packed(part.term.get())) {
-      elastic->update(x, system_);
-      elastic->mark_changed(changed_);
+      elastic->update(x, system_, changed_);
     } else {
       add_gradient(part, x, free_, system_);
     }
@@ -187,7 +181,7 @@ std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic,
   timed(times_.elastic_s, [&] {
     if (elastic == Order::hessian && update_packs(call)) return;
     held_.clear();
-    all_changed_ = true;
+    std::fill(changed_.begin(), changed_.end(), 1);
     clear(system_, free_, pattern_);
     bool all_kept = elastic == Order::hessian;
     for (const WeightedTerm& part : terms) {
@@ -278,8 +272,7 @@ bool NewtonStepper::solve(const NewtonProblem& problem, NewtonDirection& out) {
 /// Solves [H B; Bᵀ C] [p; q] = [−g − c; −g_q − c_q] for the free vertices and the object's free axes.
 bool NewtonStepper::solve_once(const NewtonProblem& problem, NewtonDirection& out) {
   ++times_.solves;
-  const bool prepared = solver_->prepare(system_.hessian, all_changed_ ? nullptr : &changed_);
-  all_changed_ = false;
+  const bool prepared = solver_->prepare(system_.hessian, &changed_);
   std::fill(changed_.begin(), changed_.end(), 0);
   if (!prepared) return false;
   const auto solved = solver_->solve(-system_.gradient - system_.coupling);

@@ -113,9 +113,8 @@ class NewtonStepper {
     std::optional<VolumeAssembly> volumes = std::nullopt;
 
     void add(double weight, const Positions& x, NewtonSystem& system);
-    void update(const Positions& x, NewtonSystem& system);
-    /// Marks the rows that it changed.
-    void mark_changed(std::vector<char>& rows) const;
+    /// Marks the rows that it changes.
+    void update(const Positions& x, NewtonSystem& system, std::vector<char>& changed_rows);
   };
   /// Null for a term that is no such part.
   PackedPart* packed(const EnergyTerm* term);
@@ -160,10 +159,8 @@ class NewtonStepper {
   std::shared_ptr<const BlockPattern> own_pattern_, pattern_;
   NewtonSystem system_;             // of the last call
   std::vector<WeightedTerm> held_;  // terms in the matrix of the last call; none where it cannot be used again
-  /// Rows whose blocks have changed since the solver last prepared them: all, or those marked.
-  bool all_changed_ = true;
-  std::vector<char> changed_;
-  std::vector<int> held_columns_;  // that contacts have been added to, and what these were without
+  std::vector<char> changed_;       // marks the rows whose blocks have changed since the solver last prepared them
+  std::vector<int> held_columns_;   // that contacts have been added to, and what these were without
   std::vector<double> held_values_;
   std::vector<int> carried_alone_;  // vertices of bodies in contacts without a gel, ascending
   SolverTimes times_;

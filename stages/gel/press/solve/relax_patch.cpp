@@ -16,11 +16,10 @@ namespace {
 constexpr double kMostSeeds = 0.005;  // largest part of the free vertices that a patch starts from
 // Where more vertices than that move: the farthest of the seeds goes so many times as far as any other vertex.
 constexpr double kStandOut = 3.0;
-constexpr int kRings = 1;
 // Once no step is longer than the first, × the tolerance, a patch starts from the vertices whose contact Hessian was
 // approximated, if they are at most the second part of the free ones; what makes it indefinite is wider than one ring.
 constexpr double kNearRest = 20.0, kMostApproximated = 0.015;
-constexpr int kRingsAboutApproximated = 3;
+constexpr int kRings = 1, kRingsAboutApproximated = 3;
 constexpr int kMaxIterations = 20;
 // A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
 // tolerance), so that the whole gel finds it at rest.
@@ -34,8 +33,8 @@ constexpr double kSmallestStep = 1e-3;  // part of a Newton step below which a p
 /// Where a patch starts.
 struct Seeds {
   std::vector<int> vertices;
-  double others_m;  // the longest displacement of all others, at least the tolerance
-  int rings = kRings;
+  double others_m;            // the longest displacement of all others, at least the tolerance
+  bool approximated = false;  // they are those whose contact Hessian was
 };
 
 /// The gel's vertices that go farther than all others; none where no displacement is above the tolerance, or too many
@@ -66,7 +65,7 @@ std::optional<Seeds> farthest(const Positions& p, const FreeVertices& free, int 
 std::optional<Seeds> approximated(const Blend& blend, const Positions& p, const FreeVertices& free,
                                   int num_gel_vertices, double tolerance_m) {
   if (largest_row(p, p.rows()) > kNearRest * tolerance_m) return std::nullopt;
-  Seeds found{{}, tolerance_m, kRingsAboutApproximated};
+  Seeds found{{}, tolerance_m, true};
   for (const int v : free.vertex_of_free) {
     if (v < num_gel_vertices && blend.approximated(v)) found.vertices.push_back(v);
   }
@@ -129,7 +128,8 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
     found = approximated(step.blend, direction.p, free, mesh_.num_gel_vertices, tolerance);
   if (!found) return false;
 
-  const LocalPatch patch = grow_patch(found->vertices, found->rings, gel_.tets, free);
+  const LocalPatch patch =
+      grow_patch(found->vertices, found->approximated ? kRingsAboutApproximated : kRings, gel_.tets, free);
   const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
   const Positions start = step.x;
   const PairsInReach in_reach(search_.pairs_around(patch.moves, start, settings_.d_hat_m, reach), start,
@@ -188,7 +188,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
   step.report.patch_iterations += iterations;
   ++step.report.patches;
   log_debug("  patch of {} vertices ({} moved): {} iterations", patch.free.size(), found->vertices.size(), iterations);
-  if (found->rings == kRingsAboutApproximated) {
+  if (found->approximated) {
     for (const int v : patch.free.vertex_of_free) step.blend.take_over(v, blend);
   }
   if (iterations == 0) return false;

@@ -1,6 +1,7 @@
 // One time step: brings objects to their prescribed poses and all else to the minimum of the incremental potential.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>
@@ -25,6 +26,11 @@ struct NewtonSettings {
   int max_iterations = 200;                // of a time step, renewals of friction included; reaching it is a failure
   bool adaptive_contact_hessian = true;    // blend of the exact one and its PSD approximation, else the latter alone
   bool patches = true;                     // solves for the last few moving vertices alone in between
+
+  /// What residual forces may sum to beside this contact force.
+  double force_limit_n(double contact_force_n) const {
+    return std::max(force_tolerance_n, relative_force_tolerance * contact_force_n);
+  }
 };
 
 struct FrictionSettings {

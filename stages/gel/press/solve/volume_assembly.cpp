@@ -81,30 +81,16 @@ void VolumeAssembly::add(const std::vector<double>& second, const Positions& x, 
   });
 }
 
-bool VolumeAssembly::in_changed(int cluster, const ElasticAssembly& changed) const {
-  const auto [first, last] = elasticity_.packs_of(cluster);
-  for (int p = first; p <= last; ++p) {
-    if (changed.changed(p)) return true;
-  }
-  return false;
-}
-
-void VolumeAssembly::mark_changed(const ElasticAssembly& changed, std::vector<char>& rows) const {
-  for (int c = 0; c < elasticity_.num_stencils(); ++c) {
-    if (!in_changed(c, changed)) continue;
-    for (const int v : elasticity_.stencil(c)) {
-      if (const int i = free_.free_of_vertex[v]; i >= 0) rows[static_cast<std::size_t>(i)] = 1;
-    }
-  }
-}
-
 void VolumeAssembly::update(const std::vector<double>& second, const Positions& x, const ElasticAssembly& changed,
-                            NewtonSystem& system) {
+                            NewtonSystem& system, std::vector<char>& changed_rows) {
   groups_.for_each([&](const std::vector<int>& group) {
     Eigen::Matrix3Xd of_stencil;
     Eigen::Matrix4Xd gradients;
     for (const int c : group) {
-      if (!in_changed(c, changed)) continue;
+      const auto [first, last] = elasticity_.packs_of(c);
+      bool any = false;
+      for (int p = first; p <= last; ++p) any = any || changed.changed(p);
+      if (!any) continue;
       Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
       find_gradients(c, x, of_stencil, gradients);
       const double now = weight_ * second[static_cast<std::size_t>(c)];
@@ -112,6 +98,9 @@ void VolumeAssembly::update(const std::vector<double>& second, const Positions& 
                      static_cast<int>(cluster.members.size()), cluster.places.data(), system.hessian.values.data());
       cluster.gradients.swap(gradients);
       cluster.second = now;
+      for (const int v : elasticity_.stencil(c)) {
+        if (const int i = free_.free_of_vertex[v]; i >= 0) changed_rows[static_cast<std::size_t>(i)] = 1;
+      }
     }
   });
 }

@@ -20,15 +20,11 @@ class VolumeAssembly {
   /// `second`: u″ of each cluster. \pre prescribed vertices of the gel stand still
   void add(const std::vector<double>& second, const Positions& x, double weight, NewtonSystem& system);
   /// The same to a system whose Hessian still holds what the last add() and update() put there: clusters with a
-  /// tetrahedron in one of `changed` packs are renewed.
+  /// tetrahedron in one of `changed` packs are renewed, and their rows marked.
   void update(const std::vector<double>& second, const Positions& x, const ElasticAssembly& changed,
-              NewtonSystem& system);
-  /// Marks the rows of those clusters.
-  void mark_changed(const ElasticAssembly& changed, std::vector<char>& rows) const;
+              NewtonSystem& system, std::vector<char>& changed_rows);
 
  private:
-  /// Whether a tetrahedron of the cluster is in one of `changed` packs.
-  bool in_changed(int cluster, const ElasticAssembly& changed) const;
   void look_up(const BlockPattern& pattern);
 
   struct Cluster {

@@ -119,14 +119,13 @@ TEST(FreeObject, IsLetGoWhereALoadHasMovedIt) {
   PressConfig config = heavy_config(0.5);
   SampleSpec sample;
   sample.density_kg_m3 = 8000.0;
-  sample.motion = {{.kind = PhaseKind::press, .steps = 1, .load_n = Vector3(0, 0, -0.3), .free = {false, false, true}},
+  sample.motion = {{.kind = PhaseKind::press, .steps = 1, .load_n = Vector3(0, 0, -0.5), .free = {false, false, true}},
                    free_phase(1)};
   const Simulation simulation = run(block(0.003, 0.004), config, sample);
   const std::vector<Frame>& frames = simulation.frames;
   const auto place = [&](std::size_t frame) -> Vector3 { return frames[frame].gel_from_object.topRightCorner<3, 1>(); };
   const double h = config.time_step_s;
   ASSERT_LT(place(1).z() - place(0).z(), -10e-6);
-  ASSERT_EQ(frames[1].solver.time_steps, 1);
   EXPECT_LT((frames[1].object_velocity_m_s - (place(1) - place(0)) / h).norm(), 1e-9);
   EXPECT_LT((frames[2].object_velocity_m_s - (place(2) - place(1)) / h).norm(),
             0.01 * frames[2].object_velocity_m_s.norm());

@@ -120,6 +120,7 @@ struct Updated {
   ElasticAssembly tetrahedra{*term->packs(), free};
   VolumeAssembly clusters{*term, free};
   NewtonSystem system;
+  std::vector<char> changed = std::vector<char>(static_cast<std::size_t>(free.size()), 0);  // by update()
 
   Updated() { clear(system, free, mesh_pattern(free, *term)); }
   void add(const Positions& x) {
@@ -130,8 +131,9 @@ struct Updated {
   void update(const Positions& x, double tolerance) {
     clear_gradient(system, free);
     const auto volume = term->volume_derivatives(x);
-    tetrahedra.update(x, volume.pressure, tolerance, system);
-    clusters.update(volume.second, x, tetrahedra, system);
+    std::fill(changed.begin(), changed.end(), 0);
+    tetrahedra.update(x, volume.pressure, tolerance, system, changed);
+    clusters.update(volume.second, x, tetrahedra, system, changed);
   }
   /// Its free vertices moved by up to `far`, those of the first `last` alone.
   Positions moved(double far, int last) const {
@@ -164,6 +166,7 @@ TEST(UpdatedAssembly, KeepsTheHessianWhereLittleChangesAndNeverTheGradient) {
   kept.update(near, 0.05);
   anew.add(near);
   EXPECT_EQ(kept.system.hessian.values, before);
+  EXPECT_EQ(std::count(kept.changed.begin(), kept.changed.end(), 1), 0);
   EXPECT_LT((kept.system.gradient - anew.system.gradient).norm(), 1e-13 * anew.system.gradient.norm());
 }
 
@@ -178,6 +181,15 @@ TEST(UpdatedAssembly, RenewsTheHessianWhereMuchChangesAndSoItsErrorStaysSmall) {
   for (int p = 0; p < kept.term->packs()->size(); ++p) renewed += kept.tetrahedra.changed(p);
   EXPECT_GT(renewed, 0);
   EXPECT_NE(kept.system.hessian.values, before);
+  const BlockPattern& pattern = *kept.system.hessian.pattern;
+  for (int c = 0; c < pattern.size(); ++c) {
+    for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+      const auto first = before.begin() + static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * k;
+      const bool same = std::equal(first, first + BlockMatrix::kStride,
+                                   kept.system.hessian.values.begin() + (first - before.begin()));
+      EXPECT_TRUE(same || (kept.changed[c] && kept.changed[pattern.row[k]])) << pattern.row[k] << " " << c;
+    }
+  }
   anew.add(x);
   const Eigen::Map<const Eigen::VectorXd> is(kept.system.hessian.values.data(),
                                              static_cast<Eigen::Index>(before.size()));
