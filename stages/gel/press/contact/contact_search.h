@@ -50,14 +50,13 @@ class ContactSearch {
     return found;
   }
 
-  /// Every pair with a vertex that `moves` (one flag per vertex) that comes as near while each of those vertices stays
-  /// within `reach_m` of its place in each coordinate, and some more. \pre all are on the paths of the last call of
-  /// pairs(); objects stand still
-  std::vector<ContactPair> pairs_around(const std::vector<bool>& moves, const Positions& x, double d_hat_m,
-                                        double reach_m) const {
+  /// Every pair with a vertex whose `reach_m` (one per vertex) is not zero that comes as near while each vertex stays
+  /// within its reach of its place, and some more. \pre each is on its path of the last call of pairs() or as far off
+  /// it as its reach exceeds how far it goes; objects stand still
+  std::vector<ContactPair> pairs_around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m) const {
     std::vector<ContactPair> found;
-    for (const auto& search : with_object_) search->around(moves, x, d_hat_m + reach_m, found);
-    with_itself_.around(moves, x, d_hat_m, reach_m, found);
+    for (const auto& search : with_object_) search->around(reach_m, x, d_hat_m, found);
+    with_itself_.around(reach_m, x, d_hat_m, found);
     return found;
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/gel/press/contact/search_tools.h"
 #include "stages/gel/press/contact/surface_pairs.h"
 
 namespace tacipc {
@@ -74,22 +75,21 @@ void GelsSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
   across(x, p, d_hat_m, out);
 }
 
-void GelsSearch::around(const std::vector<bool>& moves, const Positions& x, double d_hat_m, double reach_m,
+void GelsSearch::around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
                         std::vector<ContactPair>& out) const {
-  if (mesh_.gels.empty()) return each_[0]->around(moves, x, d_hat_m, reach_m, out);
+  if (mesh_.gels.empty()) return each_[0]->around(reach_m, x, d_hat_m, out);
   for (std::size_t g = 0; g < each_.size(); ++g) {
     const GelPart& part = mesh_.gels[g];
-    const auto first = moves.begin() + part.first_vertex;
-    const std::vector<bool> own(first, first + part.mesh->num_gel_vertices);
+    const auto first = reach_m.begin() + part.first_vertex;
+    const std::vector<double> own(first, first + part.mesh->num_gel_vertices);
     const std::size_t before = out.size();
-    each_[g]->around(own, places(g, x), d_hat_m, reach_m, out);
+    each_[g]->around(own, places(g, x), d_hat_m, out);
     shift(out, before, part.first_vertex);
   }
   std::vector<ContactPair> found;
-  across(x, Positions::Zero(x.rows(), 3), d_hat_m + 2.0 * reach_m, found);
-  std::copy_if(found.begin(), found.end(), std::back_inserter(out), [&](const ContactPair& pair) {
-    return std::any_of(pair.vertices.begin(), pair.vertices.end(), [&](int v) { return moves[v]; });
-  });
+  across(x, Positions::Zero(x.rows(), 3), d_hat_m + 2.0 * *std::max_element(reach_m.begin(), reach_m.end()), found);
+  std::copy_if(found.begin(), found.end(), std::back_inserter(out),
+               [&](const ContactPair& pair) { return farthest_reach(reach_m, pair.vertices) > 0.0; });
 }
 
 void GelsSearch::across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const {

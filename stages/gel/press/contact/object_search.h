@@ -26,9 +26,11 @@ class ObjectSearch {
   /// more; which and in which order depends only on the arguments since forget().
   void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
 
-  /// Appends every pair with a vertex of the gel that `moves` (one flag per vertex) that is within `within_m` at x, and
-  /// some more. \pre the object is on the path of the last call of pairs()
-  void around(const std::vector<bool>& moves, const Positions& x, double within_m, std::vector<ContactPair>& out) const;
+  /// Appends every pair with a vertex of the gel whose `reach_m` (one per vertex) is not zero that comes within
+  /// `within_m` while each vertex stays within its reach of its place, and some more. \pre the object is on the path of
+  /// the last call of pairs()
+  void around(const std::vector<double>& reach_m, const Positions& x, double within_m,
+              std::vector<ContactPair>& out) const;
 
   /// The next call searches for every primitive.
   void forget() { within_m_ = -1.0; }

@@ -28,6 +28,14 @@ Box box_around(const Positions& x, const Vertices& vertices) {
   return box;
 }
 
+/// The farthest reach of some vertices.
+template <typename Vertices>
+double farthest_reach(const std::vector<double>& reach_m, const Vertices& vertices) {
+  double farthest = 0.0;
+  for (const int v : vertices) farthest = std::max(farthest, reach_m[static_cast<std::size_t>(v)]);
+  return farthest;
+}
+
 inline Box grown(Box box, double by) {
   box.min().array() -= by;
   box.max().array() += by;

@@ -163,42 +163,47 @@ void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
   });
 }
 
-void SelfSearch::around(const std::vector<bool>& moves, const Positions& x, double d_hat_m, double reach_m,
+void SelfSearch::around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
                         std::vector<ContactPair>& out) const {
   const Surface& gel = mesh_.gel;
-  const auto moving = [&](const auto& vertices) {
-    return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return moves[v]; });
+  // The trees' boxes are grown by half of d̂. Of two moving parts the one that goes farther finds the other, which may
+  // be or come as far from its own box.
+  const auto box_of = [&](const auto& vertices, double reach) {
+    return grown(box_around(x, vertices), 0.5 * d_hat_m + 2.0 * reach);
   };
-  // The trees' boxes are grown by half of d̂; of two moving parts both may come nearer.
-  const double margin = 0.5 * d_hat_m + 2.0 * reach_m;
   const std::array<const Part*, 2> parts{&face_, &others_};
   for (const int v : gel.vertices) {
-    if (!moves[v]) continue;
-    const Box box = grown(box_around(x, std::array<int, 1>{v}), margin);
+    if (reach_m[v] == 0.0) continue;
+    const Box box = box_of(std::array<int, 1>{v}, reach_m[v]);
     for (const Part* part : parts) {
-      part->triangle_tree.query(box,
-                                [&](int j) { offer(point_triangle_pair(v, gel.triangles[part->triangles[j]]), out); });
+      part->triangle_tree.query(box, [&](int j) {
+        const auto& t = gel.triangles[part->triangles[j]];
+        if (farthest_reach(reach_m, t) <= reach_m[v]) offer(point_triangle_pair(v, t), out);
+      });
     }
   }
   for (const auto& t : gel.triangles) {
-    if (!moving(t)) continue;
-    const Box box = grown(box_around(x, t), margin);
+    const double reach = farthest_reach(reach_m, t);
+    if (reach == 0.0) continue;
+    const Box box = box_of(t, reach);
     for (const Part* part : parts) {
       part->vertex_tree.query(box, [&](int j) {
         const int v = gel.vertices[part->vertices[j]];
-        if (!moves[v]) offer(point_triangle_pair(v, t), out);
+        if (reach_m[v] < reach) offer(point_triangle_pair(v, t), out);
       });
     }
   }
   for (int i = 0; i < static_cast<int>(gel.edges.size()); ++i) {
     const auto& e = gel.edges[i];
-    if (!moving(e)) continue;
-    const Box box = grown(box_around(x, e), margin);
+    const double reach = farthest_reach(reach_m, e);
+    if (reach == 0.0) continue;
+    const Box box = box_of(e, reach);
     for (const Part* part : parts) {
       part->edge_tree.query(box, [&](int k) {
         const int j = part->edges[k];
         const auto& f = gel.edges[j];
-        if (i < j || !moving(f)) offer(edge_edge_pair(e, f), out);
+        const double other = farthest_reach(reach_m, f);
+        if (other < reach || (other == reach && i < j)) offer(edge_edge_pair(e, f), out);
       });
     }
   }

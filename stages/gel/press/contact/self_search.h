@@ -21,10 +21,10 @@ class SelfSearch {
   /// more; which and in which order depends only on the arguments since forget().
   void pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out);
 
-  /// Appends every pair with a vertex that `moves` (one flag per vertex) that comes nearer than that while each of
-  /// those vertices stays within `reach_m` of its place in each coordinate, and some more. \pre all others are on the
-  /// paths of the last call of pairs()
-  void around(const std::vector<bool>& moves, const Positions& x, double d_hat_m, double reach_m,
+  /// Appends every pair with a vertex whose `reach_m` (one per vertex) is not zero that comes nearer than that while
+  /// each vertex stays within its reach of its place, and some more. \pre each is on its path of the last call of
+  /// pairs() or as far off it as its reach exceeds how far it goes
+  void around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
               std::vector<ContactPair>& out) const;
 
   void forget() { d_hat_m_ = -1.0; }

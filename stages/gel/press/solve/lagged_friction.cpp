@@ -14,6 +14,9 @@ namespace {
 // this many in a row have not halved the change: the last of these is not made.
 constexpr double kSettledPart = 0.1;
 constexpr int kMostRenewals = 6;
+// Nor is one made that would change more than so many times as much as the least so far, where that was within the limit:
+// vertices are on their way over an edge, with forces that do not last.
+constexpr double kJump = 3.0;
 // Friction that such renewals left is renewed at minima until its residual is below this part of the limit, too; after
 // so many of these the limit itself will do.
 constexpr double kStrictPart = 0.3;
@@ -87,10 +90,10 @@ void TimeStepper::renew_friction(Step& step, Minimisation& run) {
       step.least_friction_change_n = change;
       step.renewals_left = kMostRenewals;
     }
-    if (--step.renewals_left == 0) {  // vertices go to and fro: only friction that stays ends that
-      if (step.bodies.empty()) step.looseness = kLooseness;
-      return;
-    }
+    const bool last = --step.renewals_left == 0;  // vertices go to and fro: only friction that stays ends that
+    if (last && step.bodies.empty()) step.looseness = kLooseness;
+    const double least = step.least_friction_change_n;
+    if (last || (least <= friction_limit(step) && change > kJump * least)) return;
     if (change <= kSettledPart * friction_limit(step)) step.renewals_left = 0;  // this is the last one
   }
   ++step.report.lag_iterations;

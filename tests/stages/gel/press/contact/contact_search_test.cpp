@@ -232,15 +232,26 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
   ContactSearch search(scene.mesh);
   const Positions p = scene.displacement(20e-6);
   const std::vector<ContactPair> before = search.pairs(scene.x, p, kRadius);
-  const Positions start = scene.x + p;  // where the call saw them come by
+  Positions start = scene.x + p;  // where the call saw them come by
 
-  // The vertices under the tip move, each as far as it may: much farther than the room that searches leave.
-  const double far_m = 0.9e-3;
+  // The vertices under the tip move, each as far as it may: some much farther than the room that searches leave. All of
+  // them have gone half as far before.
   std::vector<bool> moves(static_cast<std::size_t>(scene.x.rows()), false);
-  for (int v = 0; v < scene.mesh.num_gel_vertices; ++v)
+  std::vector<double> far_m(moves.size(), 0.0), reach_m = far_m;
+  for (int v = 0; v < scene.mesh.num_gel_vertices; ++v) {
     moves[v] = scene.x(v, 2) > -1e-9 && scene.x.row(v).head<2>().norm() < 1.2e-3;
+    if (moves[v]) far_m[v] = v % 3 == 0 ? 0.2e-3 : 1.2e-3;
+    reach_m[v] = 1.5 * far_m[v];
+  }
   ASSERT_GT(std::count(moves.begin(), moves.end(), true), 3);
-  std::vector<ContactPair> around = search.pairs_around(moves, start, kRadius, far_m);
+  // In a random direction, but not all as far as they may.
+  const auto go = [&](Positions& x, double part) {
+    const Positions directions = scene.displacement(1.0).cwiseSign() / std::sqrt(3.0);
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+      x.row(v) += part * far_m[static_cast<std::size_t>(v)] * directions.row(v);
+  };
+  go(start, 0.5);
+  std::vector<ContactPair> around = search.pairs_around(reach_m, start, kRadius);
   std::vector<ContactPair> with_others = with_patch(before, moves, around);
   with_others = sorted(std::move(with_others), scene.mesh.num_gel_vertices);
   EXPECT_TRUE(std::adjacent_find(with_others.begin(), with_others.end(), same) == with_others.end());
@@ -250,10 +261,7 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
   int near = 0;
   for (int trial = 0; trial < 20; ++trial) {
     Positions moved = start;
-    const Positions far = far_m * scene.displacement(1.0).cwiseSign();
-    for (Eigen::Index v = 0; v < moved.rows(); ++v) {
-      if (moves[v]) moved.row(v) += far.row(v);
-    }
+    go(moved, 1.0);
     for (const ContactPair& pair : all) {
       const auto& v = pair.vertices;
       const double within = reach(scene.mesh, pair);

@@ -36,6 +36,15 @@ std::vector<ContactPair> sorted(std::vector<ContactPair> pairs) {
   return pairs;
 }
 
+/// This reach for vertices that move.
+std::vector<double> reach_m(const std::vector<bool>& moves, double farthest_m) {
+  std::vector<double> reach(moves.size(), 0.0);
+  for (std::size_t v = 0; v < moves.size(); ++v) {
+    if (moves[v]) reach[v] = farthest_m;
+  }
+  return reach;
+}
+
 std::vector<ContactPair> all_pairs(const Surface& gels) {
   std::vector<ContactPair> all;
   const auto apart = [](const auto& a, const auto& b) {
@@ -199,14 +208,14 @@ TEST_F(TwoGels, AroundMovingVerticesNoNearPairIsMissed) {
   for (Eigen::Index v = 0; v < x_.rows(); ++v)
     moves[static_cast<std::size_t>(v)] = std::abs(x_(v, 0)) < 0.4e-3 && x_.row(v).tail<2>().norm() < 1.2e-3;
   ASSERT_GT(std::count(moves.begin(), moves.end(), true), 6);
-  constexpr double kFar_m = 0.5e-3;
+  constexpr double kFar_m = 0.9e-3;
   std::vector<ContactPair> around;
-  search.around(moves, x_, kRadius, kFar_m, around);
+  search.around(reach_m(moves, kFar_m), x_, kRadius, around);
   around = sorted(std::move(around));
   EXPECT_TRUE(std::adjacent_find(around.begin(), around.end(), same) == around.end()) << "a pair counts twice";
   std::array<int, 2> near{};
   for (int trial = 0; trial < 10; ++trial) {
-    const Positions far = kFar_m * shaken(1.0).cwiseSign();
+    const Positions far = kFar_m / std::sqrt(3.0) * shaken(1.0).cwiseSign();
     Positions moved = x_;
     for (Eigen::Index v = 0; v < moved.rows(); ++v) {
       if (moves[static_cast<std::size_t>(v)]) moved.row(v) += far.row(v);
@@ -239,12 +248,12 @@ TEST_F(TwoGels, OneGelAloneIsWhatSelfSearchFinds) {
     near += expected.size();
     EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same));
     x_ += p;
-    std::vector<bool> moves(static_cast<std::size_t>(x_.rows()), false);
-    moves[alone.gel.vertices[3]] = true;
+    std::vector<double> reach_m(static_cast<std::size_t>(x_.rows()), 0.0);
+    reach_m[static_cast<std::size_t>(alone.gel.vertices[3])] = 1e-4;
     found.clear();
     expected.clear();
-    gels.around(moves, x_, kRadius, 1e-4, found);
-    itself.around(moves, x_, kRadius, 1e-4, expected);
+    gels.around(reach_m, x_, kRadius, found);
+    itself.around(reach_m, x_, kRadius, expected);
     EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same));
     EXPECT_EQ(gels.num_searches(), itself.num_searches());
   }
@@ -358,7 +367,7 @@ TEST_F(BallOverAGel, AroundMovingVerticesNoNearPairIsMissed) {
   ASSERT_GT(std::count(moves.begin(), moves.end(), true), 6);
   constexpr double kFar_m = 0.3e-3;
   std::vector<ContactPair> around;
-  search.around(moves, x_, kRadius, kFar_m, around);
+  search.around(reach_m(moves, kFar_m), x_, kRadius, around);
   around = sorted(std::move(around));
   int near = 0;
   for (int trial = 0; trial < 10; ++trial) {
