@@ -27,7 +27,7 @@ constexpr double kLagSlack = 0.5;  // part of each gap left where friction is la
 constexpr double kLooseness = 10.0, kFarFromSettled = 5.0;
 // The strict renewals leave minima early: residual forces are brought to this part of what has just been changed, with
 // tolerances at most so many times as loose. Not beside bodies that move freely: their balance says where they are.
-constexpr double kInexactPart = 0.5, kMostLooseness = 20.0;
+constexpr double kInexactPart = 1.0, kMostLooseness = 40.0;
 // Where a residual is more than this part of the last one, renewals converge too slowly: then only half of the new
 // friction is mixed in, a quarter, …, at least the second.
 constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;

@@ -11,8 +11,8 @@ namespace tacipc {
 namespace {
 
 // Tolerances of the linear solver. The fine one is for moves, which no line search guards: an error there takes more
-// iterations afterwards than it saves.
-constexpr double kCoarseSolve = 1e-2, kFineSolve = 1e-3;
+// iterations afterwards than it saves. The loose one is for as long as friction will be renewed anyway.
+constexpr double kLooseSolve = 3e-2, kCoarseSolve = 1e-2, kFineSolve = 1e-3;
 // A step this many times as long as the last one is a sign of an almost indefinite Hessian.
 constexpr double kLengthGrowth = 4.0;
 constexpr int kMaxExactHessianWaits = 10;
@@ -113,7 +113,8 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
     motion.topRows(mesh_.num_gel_vertices) = run.part_of_motion * step.gel_way_left * step.goal.gel_motion;
   if (moving) mesh_.object_rows(motion) = run.part_of_motion * mesh_.object_rows(way);
   // One direction differs from the next by more than a coarse solution leaves out of it.
-  newton_->set_tolerance(moving ? kFineSolve : kCoarseSolve);
+  const bool loose = step.looseness > 1.0 && step.bodies.empty() && step.goal.free_axes.empty() && mesh_.gels.empty();
+  newton_->set_tolerance(moving ? kFineSolve : loose ? kLooseSolve : kCoarseSolve);
   const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
   Blend from_psd = full_blend();
   NewtonDirection direction = newton_->direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
