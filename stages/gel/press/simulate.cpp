@@ -112,7 +112,7 @@ class Motion {
       step.mount_shift_m[axis] = progress_.object_shift_m[axis];
     }
     const auto advance_whole = [&] {
-      const StepReport done = stepper_->advance(progress_.state, step, [&](int iteration, double residual) {
+      StepReport done = stepper_->advance(progress_.state, step, [&](int iteration, double residual) {
         observe_(static_cast<int>(out_.frames.size()), num_frames_, iteration, residual);
       });
       progress_.object_shift_m += done.object_shift_m;

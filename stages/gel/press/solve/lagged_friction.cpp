@@ -14,8 +14,8 @@ namespace {
 // this many in a row have not halved the change: the last of these is not made.
 constexpr double kSettledPart = 0.1;
 constexpr int kMostRenewals = 6;
-// Nor is one made that would change more than so many times as much as the least so far, where that was within the limit:
-// vertices are on their way over an edge, with forces that do not last.
+// Nor is one made that would change more than so many times as much as the least so far, where that was within the
+// limit: vertices are on their way over an edge, with forces that do not last.
 constexpr double kJump = 3.0;
 // Friction that such renewals left is renewed at minima until its residual is below this part of the limit, too; after
 // so many of these the limit itself will do.
