@@ -25,9 +25,9 @@ constexpr double kLagSlack = 0.5;  // part of each gap left where friction is la
 // Factor on the tolerances until friction has first been renewed at a minimum, and after the strict renewals as long as
 // friction is far from settled: its residual so many times the limit.
 constexpr double kLooseness = 10.0, kFarFromSettled = 5.0;
-// The strict renewals leave minima early: residual forces are brought to this part of what has just been changed, with
-// tolerances at most so many times as loose. Not beside bodies that move freely: their balance says where they are.
-constexpr double kInexactPart = 1.0, kMostLooseness = 40.0;
+// The strict renewals leave minima early: residual forces are brought to what has just been changed, with tolerances at
+// most so many times as loose. Not beside bodies that move freely: their balance says where they are.
+constexpr double kMostLooseness = 40.0;
 // Where a residual is more than this part of the last one, renewals converge too slowly: then only half of the new
 // friction is mixed in, a quarter, …, at least the second.
 constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
@@ -142,8 +142,8 @@ void TimeStepper::settle_friction(Step& step) {
       step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
       if (early) {
         const double changed = renewal * report.friction_residual_n;
-        step.looseness = std::clamp(kInexactPart * changed / settings_.newton.force_limit_n(report.contact_force_n),
-                                    1.0, kMostLooseness);
+        step.looseness =
+            std::clamp(changed / settings_.newton.force_limit_n(report.contact_force_n), 1.0, kMostLooseness);
       } else {
         step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
       }

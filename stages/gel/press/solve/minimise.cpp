@@ -113,7 +113,8 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
     motion.topRows(mesh_.num_gel_vertices) = run.part_of_motion * step.gel_way_left * step.goal.gel_motion;
   if (moving) mesh_.object_rows(motion) = run.part_of_motion * mesh_.object_rows(way);
   // One direction differs from the next by more than a coarse solution leaves out of it.
-  const bool loose = step.looseness > 1.0 && step.bodies.empty() && step.goal.free_axes.empty() && mesh_.gels.empty();
+  const bool loose =
+      step.looseness > 1.0 && step.bodies.empty() && step.goal.free_axes.empty() && mesh_.gels.size() <= 1;
   newton_->set_tolerance(moving ? kFineSolve : loose ? kLooseSolve : kCoarseSolve);
   const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
   Blend from_psd = full_blend();

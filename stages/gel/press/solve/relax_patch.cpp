@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "common/base/log.h"
-#include "stages/gel/press/contact/near_pairs.h"
-#include "stages/gel/press/contact/search_tools.h"
+#include "stages/gel/press/contact/patch_search.h"
 #include "stages/gel/press/solve/local_patch.h"
 #include "stages/gel/press/solve/step_limit.h"
 #include "stages/gel/press/solve/step_under_way.h"
@@ -75,91 +74,6 @@ std::optional<Seeds> approximated(const Blend& blend, const Positions& p, const 
   return found;
 }
 
-/// The pairs that a patch can come near to. They are searched up to a reach of each vertex, again where one gets out of
-/// it. Of those found only the ones count that come near within a travel of each vertex: most vertices go much less far
-/// than the few that the patch is about.
-class PatchPairs {
- public:
-  /// \pre every vertex of the patch is at x, on its path of the last search
-  PatchPairs(const ContactSearch& search, const FreeVertices& patch, const Positions& x, int num_gel_vertices,
-             double d_hat_m, double longest_reach_m)
-      : search_(search),
-        patch_(patch),
-        num_gel_vertices_(num_gel_vertices),
-        d_hat_m_(d_hat_m),
-        longest_reach_m_(longest_reach_m),
-        start_(x),
-        reach_m_(static_cast<std::size_t>(x.rows()), 0.0),
-        travel_m_(reach_m_) {}
-
-  /// Searches at x for the step p and more.
-  void search(const Positions& x, const Positions& p) {
-    searched_at_ = x;
-    std::vector<double> of_search(reach_m_.size(), 0.0);
-    for (const int v : patch_.vertex_of_free) {
-      const auto i = static_cast<std::size_t>(v);
-      reach_m_[i] = std::clamp(kSpareReach * p.row(v).norm(), kShortestReach * longest_reach_m_, longest_reach_m_);
-      of_search[i] = reach_m_[i] + (x.row(v) - start_.row(v)).norm();
-      travel_m_[i] = 0.0;
-    }
-    pairs_ = search_.pairs_around(of_search, x, d_hat_m_);
-    needed_m_ = coarse_squared_distances(pairs_, x);
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const auto& v = pairs_[i].vertices;
-      const double both = *std::max_element(v.begin(), v.end()) < num_gel_vertices_ ? 2.0 : 1.0;
-      needed_m_[i] = ((1.0 - kRounding) * std::sqrt(needed_m_[i]) - d_hat_m_) / both;
-    }
-  }
-
-  /// Largest part of the step p, at most 1, by which every vertex stays within its reach.
-  double part_within_reach(const Positions& x, const Positions& p) const {
-    double alpha = 1.0;
-    for (const int v : patch_.vertex_of_free) {
-      const double reach = reach_m_[static_cast<std::size_t>(v)];
-      const Eigen::RowVector3d from = x.row(v) - searched_at_.row(v), step = p.row(v);
-      if ((from + alpha * step).squaredNorm() <= reach * reach) continue;
-      // |from + α step|² = reach²
-      const double a = step.squaredNorm(), b = from.dot(step), c = from.squaredNorm() - reach * reach;
-      alpha = std::clamp((std::sqrt(std::max(0.0, b * b - a * c)) - b) / a, 0.0, alpha);
-    }
-    return alpha;
-  }
-
-  /// Lengthens the travel of each vertex that has to go farther to be at x. False where none has to.
-  bool travel_to(const Positions& x) {
-    bool any = false;
-    for (const int v : patch_.vertex_of_free) {
-      double& travel = travel_m_[static_cast<std::size_t>(v)];
-      const double way = (x.row(v) - searched_at_.row(v)).norm();
-      if (way <= travel) continue;
-      travel = kSpareTravel * way;
-      any = true;
-    }
-    return any;
-  }
-  std::vector<ContactPair> within_travel() const {
-    std::vector<ContactPair> found;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (needed_m_[i] <= farthest_reach(travel_m_, pairs_[i].vertices)) found.push_back(pairs_[i]);
-    }
-    return found;
-  }
-
- private:
-  static constexpr double kRounding = 1e-5;
-  static constexpr double kSpareTravel = 1.5;    // × the way to go
-  static constexpr double kSpareReach = 3.0;     // × the step
-  static constexpr double kShortestReach = 0.2;  // × the longest
-  const ContactSearch& search_;
-  const FreeVertices& patch_;
-  int num_gel_vertices_;
-  double d_hat_m_, longest_reach_m_;
-  Positions start_, searched_at_;
-  std::vector<double> reach_m_, travel_m_;  // per vertex, from where pairs were searched
-  std::vector<ContactPair> pairs_;
-  std::vector<double> needed_m_;  // travel from which on each counts
-};
-
 }  // namespace
 
 bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std::vector<ContactPair>& pairs) {
@@ -177,22 +91,20 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
   const LocalPatch patch =
       grow_patch(found->vertices, found->approximated ? kRingsAboutApproximated : kRings, gel_.tets, free);
   const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
-  PatchPairs near(search_, patch.free, step.x, mesh_.num_gel_vertices, settings_.d_hat_m, reach);
-  near.search(step.x, direction.p);
+  PatchSearch near(search_, patch.free.vertex_of_free, mesh_.num_gel_vertices, step.x, direction.p, settings_.d_hat_m,
+                   reach);
   StepTerms terms = step.terms;
   for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity,
                      &terms.viscous_memory, &terms.elasticity})
     *term = restricted(*term, patch.moves);
   terms.bodies.clear();  // they are held meanwhile
   terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
-  std::vector<ContactPair> own_pairs;
   IncrementalPotential energy;
-  const auto collect_pairs = [&] {
-    own_pairs = near.within_travel();
-    terms.barrier = barrier(own_pairs);
+  const auto renew_energy = [&] {
+    terms.barrier = barrier(near.pairs());
     energy = make_incremental_potential(terms, step.weights);
   };
-  collect_pairs();
+  renew_energy();
 
   NewtonStepper newton(patch.free, mesh_.num_gel_vertices, terms.elasticity, settings_.linear_solver);
   const Positions still = Positions::Zero(step.x.rows(), 3);
@@ -203,15 +115,11 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
     const double longest = std::sqrt(local.p.rowwise().squaredNorm().maxCoeff());
     const bool exact = local.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
     if (longest < kPatchTolerance * found->others_m && (exact || found->others_m > tolerance)) break;
-    double alpha = near.part_within_reach(step.x, local.p);
-    if (alpha < 1.0) {
-      near.search(step.x, local.p);
-      alpha = near.part_within_reach(step.x, local.p);
-    }
+    const double alpha = near.part_within_reach(step.x, local.p);
     const Positions p = alpha * local.p;
-    if (near.travel_to(step.x + p)) collect_pairs();
+    if (near.extend_to(step.x + p)) renew_energy();
     const double limit = std::min(
-        contact_step_limit(own_pairs, step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
+        contact_step_limit(near.pairs(), step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
         inversion_step_limit(patch.tets, step.x, p));
     const double before = energy.value(step.x), rounding = kEnergyRounding * std::abs(before);
     double part = limit;
@@ -236,7 +144,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
     for (const int v : patch.free.vertex_of_free) step.blend.take_over(v, blend);
   }
   if (iterations == 0) return false;
-  pairs = with_patch(std::move(pairs), patch.moves, own_pairs);
+  pairs = with_patch(std::move(pairs), patch.moves, near.pairs());
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <tuple>
 
+#include "stages/gel/press/contact/patch_search.h"
 #include "stages/gel/press/solve/local_patch.h"
 #include "tests/stages/gel/press/small_scene.h"
 
@@ -244,7 +245,7 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
     reach_m[v] = 1.5 * far_m[v];
   }
   ASSERT_GT(std::count(moves.begin(), moves.end(), true), 3);
-  // In a random direction, but not all as far as they may.
+  // Each in a direction of its own, by a part of how far it may go.
   const auto go = [&](Positions& x, double part) {
     const Positions directions = scene.displacement(1.0).cwiseSign() / std::sqrt(3.0);
     for (Eigen::Index v = 0; v < x.rows(); ++v)
@@ -274,6 +275,106 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
     }
   }
   EXPECT_GT(near, 200);
+}
+
+TEST(ContactSearch, AroundTwoVerticesThatMeetHalfwayTheirPairsAreFound) {
+  Scene scene;
+  ContactSearch search(scene.mesh);
+  search.pairs(scene.x, Positions::Zero(scene.x.rows(), 3), kRadius);
+  // Neighbours on the front, 1 mm apart: neither could come near the other by itself.
+  const auto vertex_at = [&](double x) {
+    Eigen::Index v = 0;
+    (scene.x.topRows(scene.mesh.num_gel_vertices).rowwise() - Eigen::RowVector3d(x, 0, 0))
+        .rowwise()
+        .norm()
+        .minCoeff(&v);
+    return v;
+  };
+  const Eigen::Index a = vertex_at(0.0), b = vertex_at(1e-3);
+  ASSERT_NEAR((scene.x.row(b) - scene.x.row(a)).norm(), 1e-3, 1e-9);
+  const double far_m = 0.4e-3;
+  std::vector<double> reach_m(static_cast<std::size_t>(scene.x.rows()), 0.0);
+  reach_m[static_cast<std::size_t>(a)] = reach_m[static_cast<std::size_t>(b)] = far_m;
+  const std::vector<ContactPair> around =
+      sorted(search.pairs_around(reach_m, scene.x, kRadius), scene.mesh.num_gel_vertices);
+  Positions moved = scene.x;
+  moved(a, 0) += far_m;
+  moved(b, 0) -= far_m;
+  int met = 0;
+  for (const ContactPair& pair : all_pairs(scene.mesh)) {
+    const auto& v = pair.vertices;
+    const auto has = [&](Eigen::Index vertex) { return std::find(v.begin(), v.end(), vertex) != v.end(); };
+    const double within = reach(scene.mesh, pair);
+    if (!has(a) || !has(b) || closest_feature(pair, gather(moved, pair)).squared_distance >= within * within) continue;
+    ++met;
+    EXPECT_TRUE(std::binary_search(around.begin(), around.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less));
+  }
+  EXPECT_GT(met, 5);
+}
+
+/// Vertices crowd together step by step, on ways much longer than any one search is for.
+TEST(PatchSearch, HasEveryNearPairOnItsWays) {
+  Scene scene;
+  ContactSearch search(scene.mesh);
+  const Positions p = scene.displacement(20e-6);
+  search.pairs(scene.x, p, kRadius);
+  Positions x = scene.x + p;
+  std::vector<int> vertices;
+  std::vector<bool> moves(static_cast<std::size_t>(x.rows()), false);
+  for (int v = 0; v < scene.mesh.num_gel_vertices; ++v) {
+    if (x(v, 2) > -1.1e-3 && x.row(v).head<2>().norm() < 2.3e-3) vertices.push_back(v);
+  }
+  ASSERT_GT(vertices.size(), 20u);
+  Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
+  for (const int v : vertices) {
+    moves[v] = true;
+    middle += x.row(v) / static_cast<double>(vertices.size());
+  }
+  const auto step_from = [&](const Positions& at) {
+    Positions step = Positions::Zero(at.rows(), 3);
+    const Positions aside = scene.displacement(0.05e-3);
+    for (const int v : vertices) {
+      step.row(v) = aside.row(v);
+      if (v % 3 == 0) {
+        step.row(v) *= 0.02;  // hardly moves
+      } else {
+        step.row(v) += 0.4 * (middle - at.row(v));
+      }
+    }
+    return step;
+  };
+  const std::vector<ContactPair> all = all_pairs(scene.mesh);
+  const auto with_vertices =
+      static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const ContactPair& pair) {
+        return std::any_of(pair.vertices.begin(), pair.vertices.end(), [&](int v) { return moves[v]; });
+      }));
+  Positions step = step_from(x);
+  PatchSearch patch(search, vertices, scene.mesh.num_gel_vertices, x, step, kRadius, 0.1e-3);
+  int of_gel = 0, of_object = 0, cut = 0;
+  std::size_t most = 0;
+  for (int k = 0; k < 40; ++k, step = step_from(x)) {
+    const double part = patch.part_within_reach(x, step);
+    ASSERT_GT(part, 0.0);
+    cut += part < 1.0;
+    step *= part;
+    patch.extend_to(x + step);
+    const std::vector<ContactPair> found = sorted(patch.pairs(), scene.mesh.num_gel_vertices);
+    EXPECT_TRUE(std::adjacent_find(found.begin(), found.end(), same) == found.end()) << "a pair counts twice";
+    most = std::max(most, found.size());
+    for (const ContactPair& pair : all) {
+      const auto& v = pair.vertices;
+      if (!(moves[v[0]] || moves[v[1]] || moves[v[2]] || moves[v[3]])) continue;
+      if (nearest_on_the_way(pair, x, step) >= reach(scene.mesh, pair)) continue;
+      ++(*std::max_element(v.begin(), v.end()) < scene.mesh.num_gel_vertices ? of_gel : of_object);
+      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less));
+    }
+    x += step;
+    EXPECT_FALSE(patch.extend_to(x)) << "it has just been there";
+  }
+  EXPECT_GT(of_gel, 500);
+  EXPECT_GT(of_object, 200);
+  EXPECT_GT(cut, 5);
+  EXPECT_LT(most, with_vertices / 2) << "not all that there is";
 }
 
 }  // namespace

@@ -135,6 +135,23 @@ TEST_F(NewtonStepTest, IsThatOfDenseAlgebraHoweverTheObjectYields) {
   }
 }
 
+TEST_F(NewtonStepTest, SharesRaisedWithinACallAreInTheStepThatComesOfIt) {
+  const auto limited = [&](LinearSolverKind kind, double longest_m) {
+    NewtonStepper stepper(free_, mesh_.num_gel_vertices, elasticity_, kind);
+    stepper.set_tolerance(1e-12);
+    Blend blend(std::vector<double>(static_cast<std::size_t>(mesh_.num_gel_vertices), 0.0));
+    return stepper.direction({.potential = potential_, .x = x_, .motion = motion_, .longest_m = longest_m}, blend);
+  };
+  const NewtonDirection exact = limited(LinearSolverKind::direct, 1.0),
+                        raised = limited(LinearSolverKind::direct, 1e-6);
+  ASSERT_EQ(exact.largest_share, 0.0);
+  ASSERT_GT(raised.largest_share, 0.0);
+  ASSERT_GT((raised.p - exact.p).norm(), 1e-3 * exact.p.norm());
+  const NewtonDirection found = limited(LinearSolverKind::conjugate_gradient, 1e-6);
+  EXPECT_EQ(found.largest_share, raised.largest_share);
+  EXPECT_LT((found.p - raised.p).norm(), 1e-9 * raised.p.norm());
+}
+
 /// Whichever place it was last asked about.
 TEST_F(NewtonStepTest, ABarrierKnowsItsActivePairsAtEveryPlace) {
   Positions away = x_;

@@ -1,0 +1,87 @@
+#include "stages/gel/press/contact/patch_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stages/gel/press/contact/near_pairs.h"
+#include "stages/gel/press/contact/search_tools.h"
+
+namespace tacipc {
+namespace {
+
+constexpr double kRounding = 1e-5;
+constexpr double kSpareTravel = 1.5;                       // × the way to go
+constexpr double kSpareReach = 3.0, kShortestReach = 0.2;  // × the step; × the longest reach
+
+}  // namespace
+
+PatchSearch::PatchSearch(const ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices,
+                         const Positions& x, const Positions& p, double d_hat_m, double longest_reach_m)
+    : search_(search),
+      vertices_(vertices),
+      num_gel_vertices_(num_gel_vertices),
+      d_hat_m_(d_hat_m),
+      longest_reach_m_(longest_reach_m),
+      start_(x),
+      reach_m_(static_cast<std::size_t>(x.rows()), 0.0),
+      travel_m_(reach_m_) {
+  search_at(x, p);
+  extend_to(x);
+}
+
+void PatchSearch::search_at(const Positions& x, const Positions& p) {
+  searched_at_ = x;
+  std::vector<double> of_search(reach_m_.size(), 0.0);
+  for (const int v : vertices_) {
+    const auto i = static_cast<std::size_t>(v);
+    reach_m_[i] = std::clamp(kSpareReach * p.row(v).norm(), kShortestReach * longest_reach_m_, longest_reach_m_);
+    of_search[i] = reach_m_[i] + (x.row(v) - start_.row(v)).norm();
+    travel_m_[i] = -1.0;
+  }
+  in_reach_ = search_.pairs_around(of_search, x, d_hat_m_);
+  needed_m_ = coarse_squared_distances(in_reach_, x);
+  for (std::size_t i = 0; i < in_reach_.size(); ++i) {
+    const auto& v = in_reach_[i].vertices;
+    const double both = *std::max_element(v.begin(), v.end()) < num_gel_vertices_ ? 2.0 : 1.0;
+    needed_m_[i] = ((1.0 - kRounding) * std::sqrt(needed_m_[i]) - d_hat_m_) / both;
+  }
+}
+
+double PatchSearch::part_within_known_reach(const Positions& x, const Positions& p) const {
+  double alpha = 1.0;
+  for (const int v : vertices_) {
+    const double reach = reach_m_[static_cast<std::size_t>(v)];
+    const Eigen::RowVector3d from = x.row(v) - searched_at_.row(v), step = p.row(v);
+    if ((from + alpha * step).squaredNorm() <= reach * reach) continue;
+    // |from + α step|² = reach²
+    const double a = step.squaredNorm(), b = from.dot(step), c = from.squaredNorm() - reach * reach;
+    alpha = std::clamp((std::sqrt(std::max(0.0, b * b - a * c)) - b) / a, 0.0, alpha);
+  }
+  return alpha;
+}
+
+double PatchSearch::part_within_reach(const Positions& x, const Positions& p) {
+  const double part = part_within_known_reach(x, p);
+  if (part == 1.0) return part;
+  search_at(x, p);
+  return part_within_known_reach(x, p);
+}
+
+bool PatchSearch::extend_to(const Positions& x) {
+  bool any = false;
+  for (const int v : vertices_) {
+    double& travel = travel_m_[static_cast<std::size_t>(v)];
+    const double way = (x.row(v) - searched_at_.row(v)).norm();
+    if (way <= travel) continue;
+    travel = kSpareTravel * way;
+    any = true;
+  }
+  if (!any) return false;
+  pairs_.clear();
+  for (std::size_t i = 0; i < in_reach_.size(); ++i) {
+    if (needed_m_[i] <= farthest_reach(travel_m_, in_reach_[i].vertices)) pairs_.push_back(in_reach_[i]);
+  }
+  return true;
+}
+
+}  // namespace tacipc
