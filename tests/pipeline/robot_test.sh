@@ -28,7 +28,7 @@ cat > mine/slide.xml <<'END'
   <worldbody>
     <body name="point"><geom type="box" size="0.003 0.003 0.001" pos="0 0 -0.001"/></body>
     <body name="weight" pos="0 0 0.0105">
-      <joint name="z" type="slide" axis="0 0 1" damping="10"/>
+      <joint name="z" type="slide" axis="0 0 1" damping="6"/>
       <geom name="pad" type="cylinder" size="0.015 0.01" mass="0.06"/>
       <site name="tip"/>
     </body>
