@@ -132,6 +132,10 @@ void TimeStepper::settle_friction(Step& step) {
     }
     if (settled || last) {
       step.looseness = 1.0;
+      if (settled && renewed_once) {  // the last minimum is sought anyway: with the newest friction
+        ++report.lag_iterations;
+        step.friction = renewed;
+      }
     } else {
       ++report.lag_iterations;
       ++renewed_here;

@@ -22,6 +22,8 @@ constexpr double kStandOut = 3.0;
 constexpr double kNearRest = 20.0, kMostApproximated = 0.015;
 constexpr int kRings = 1, kRingsAboutApproximated = 3;
 constexpr int kMaxIterations = 20;
+// Iterations × vertices of a patch, × all free vertices: a wide patch that does not settle soon is left to steps of all.
+constexpr double kMostWork = 2.0;
 // A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
 // tolerance), so that the whole gel finds it at rest.
 constexpr double kPatchTolerance = 0.2;
@@ -109,8 +111,9 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
   NewtonStepper newton(patch.free, mesh_.num_gel_vertices, terms.elasticity, settings_.linear_solver);
   const Positions still = Positions::Zero(step.x.rows(), 3);
   Blend blend = step.blend;
+  const int most = std::min(kMaxIterations, static_cast<int>(kMostWork * free.size() / patch.free.size()));
   int iterations = 0;
-  for (; iterations < kMaxIterations; ++iterations) {
+  for (; iterations < most; ++iterations) {
     const NewtonDirection local = newton.direction({energy, step.x, still}, blend);
     const double longest = std::sqrt(local.p.rowwise().squaredNorm().maxCoeff());
     const bool exact = local.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
