@@ -22,7 +22,7 @@ constexpr double kStandOut = 3.0;
 constexpr double kNearRest = 20.0, kMostApproximated = 0.015;
 constexpr int kRings = 1, kRingsAboutApproximated = 3;
 constexpr int kMaxIterations = 20;
-// Iterations × vertices of a patch, × all free vertices: a wide patch that does not settle soon is left to steps of all.
+// Iterations × vertices of a patch, × all that are free: a wide one that does not settle soon is left to steps of all.
 constexpr double kMostWork = 2.0;
 // A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
 // tolerance), so that the whole gel finds it at rest.
