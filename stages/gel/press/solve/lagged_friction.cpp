@@ -130,27 +130,25 @@ void TimeStepper::settle_friction(Step& step) {
           "friction did not settle: residual {:.2e} N after it was renewed {} times at minima (limit {:.2e})",
           report.friction_residual_n, friction.max_lag_iterations, limit);
     }
-    if (settled || last) {
-      step.looseness = 1.0;
-      if (settled && renewed_once) {  // the last minimum is sought anyway: with the newest friction
-        ++report.lag_iterations;
-        step.friction = renewed;
-      }
-    } else {
-      ++report.lag_iterations;
+    if (!settled && !last) {
       ++renewed_here;
       if (report.friction_residual_n > kSlowRenewal * last_residual)
         renewal = std::max(0.5 * renewal, kSmallestRenewal);
       if (early && renewed_here == kStrictRenewals) renewal = 1.0;  // that minima were left early may have slowed it
       last_residual = report.friction_residual_n;
+    }
+    if (renewed_once || !settled) {  // before the last minimum, too, which is sought in full anyway
+      ++report.lag_iterations;
       step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
-      if (early) {
-        const double changed = renewal * report.friction_residual_n;
-        step.looseness =
-            std::clamp(changed / settings_.newton.force_limit_n(report.contact_force_n), 1.0, kMostLooseness);
-      } else {
-        step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
-      }
+    }
+    if (settled || last) {
+      step.looseness = 1.0;
+    } else if (early) {
+      const double changed = renewal * report.friction_residual_n;
+      step.looseness =
+          std::clamp(changed / settings_.newton.force_limit_n(report.contact_force_n), 1.0, kMostLooseness);
+    } else {
+      step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
     }
     minimise_constrained(step);
   }
