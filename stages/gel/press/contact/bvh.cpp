@@ -50,13 +50,14 @@ void Bvh::build(std::span<const Box> boxes, int first, int last) {
   nodes_[self].next = static_cast<int>(nodes_.size());
 }
 
-std::vector<std::array<int, 2>> Bvh::split(const Bvh& other) const {
-  constexpr std::size_t kMinTasks = 16 * kParts;
-  std::vector<std::array<int, 2>> tasks{{0, 0}};
-  for (bool divided = true; divided && tasks.size() < kMinTasks;) {
+Bvh::NodePairs Bvh::split(const Bvh& other) const {
+  constexpr std::size_t kMinPairs = 256;
+  if (nodes_.empty() || other.nodes_.empty()) return {};
+  NodePairs pairs{{0, 0}};
+  for (bool divided = true; divided && pairs.size() < kMinPairs;) {
     divided = false;
-    std::vector<std::array<int, 2>> finer;
-    for (const auto& [a, b] : tasks) {
+    NodePairs finer;
+    for (const auto& [a, b] : pairs) {
       if (!touches(nodes_[a].box, other.nodes_[b].box)) continue;
       if (is_leaf(a) && other.is_leaf(b)) {
         finer.push_back({a, b});
@@ -65,9 +66,9 @@ std::vector<std::array<int, 2>> Bvh::split(const Bvh& other) const {
       divided = true;
       divide(other, a, b, [&](int c, int d) { finer.push_back({c, d}); });
     }
-    tasks = std::move(finer);
+    pairs = std::move(finer);
   }
-  return tasks;
+  return pairs;
 }
 
 void Bvh::refit(std::span<const Box> boxes) {

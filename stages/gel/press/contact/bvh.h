@@ -43,17 +43,17 @@ class Bvh {
     }
   }
 
-  /// Calls visit(i, j) once for each box i of this tree that touches box j of the other, in an order fixed by the
-  /// trees, for part `part` of kParts; the parts together find all. For a tree with itself each two boxes are found
-  /// once, either first, and none with itself.
+  /// Pairs of nodes, of this tree and of another or of this tree twice, below which all overlaps are: work that can be
+  /// done in parts. In an order fixed by the trees.
+  using NodePairs = std::vector<std::array<int, 2>>;
+  NodePairs split(const Bvh& other) const;
+  /// Calls visit(i, j) once for each box i of this tree that touches box j of the other below pairs first … last − 1 of
+  /// split(other), in an order fixed by the trees. For a tree with itself each two boxes are found once, either first,
+  /// and none with itself.
   template <typename Visit>
-  void overlaps(const Bvh& other, int part, Visit&& visit) const {
-    if (nodes_.empty() || other.nodes_.empty()) return;
-    const std::vector<std::array<int, 2>> tasks = split(other);
-    for (std::size_t i = tasks.size() * part / kParts; i < tasks.size() * (part + 1) / kParts; ++i)
-      descend(other, tasks[i][0], tasks[i][1], visit);
+  void overlaps(const Bvh& other, const NodePairs& pairs, std::size_t first, std::size_t last, Visit&& visit) const {
+    for (std::size_t i = first; i < last; ++i) descend(other, pairs[i][0], pairs[i][1], visit);
   }
-  static constexpr int kParts = 16;
 
  private:
   static constexpr int kLeafSize = 4;
@@ -98,8 +98,6 @@ class Bvh {
     }
   }
 
-  /// Pairs of nodes whose boxes touch and that together have all that descend() would find from the roots.
-  std::vector<std::array<int, 2>> split(const Bvh& other) const;
   /// Children of a pair of nodes: those of the larger one, or of both for a node of this tree with itself.
   template <typename Step>
   void divide(const Bvh& other, int a, int b, Step&& step) const {

@@ -51,9 +51,8 @@ class ContactSearch {
   }
 
   /// Every pair with a vertex whose `reach_m` (one per vertex) is not zero that comes as near while each vertex stays
-  /// within its reach of its place, and some more. \pre each is on its path of the last call of pairs() or as far off
-  /// it as its reach exceeds how far it goes; objects stand still
-  std::vector<ContactPair> pairs_around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m) const {
+  /// within its reach of its place, and some more. \pre objects are where the last call of pairs() had them
+  std::vector<ContactPair> pairs_around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m) {
     std::vector<ContactPair> found;
     for (const auto& search : with_object_) search->around(reach_m, x, d_hat_m, found);
     with_itself_.around(reach_m, x, d_hat_m, found);

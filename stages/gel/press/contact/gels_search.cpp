@@ -76,7 +76,7 @@ void GelsSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
 }
 
 void GelsSearch::around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
-                        std::vector<ContactPair>& out) const {
+                        std::vector<ContactPair>& out) {
   if (mesh_.gels.empty()) return each_[0]->around(reach_m, x, d_hat_m, out);
   for (std::size_t g = 0; g < each_.size(); ++g) {
     const GelPart& part = mesh_.gels[g];

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -12,6 +13,7 @@ namespace {
 constexpr double kFlat = 1e-9;         // of the face's size
 constexpr double kLeast = 0.5 + 1e-6;  // c, with room for rounding and for an outline that is convex but for rounding
 constexpr double kAngleError = 1e-6, kRounding = 1e-6;
+constexpr double kMuchNearer = 0.95;
 
 using Point = Eigen::Vector2d;
 
@@ -74,7 +76,7 @@ OpenFace::OpenFace(const ContactMesh& mesh)
       triangles_.clear();
       return;
     }
-    triangles_.push_back({t, edges.inverse()});
+    triangles_.push_back({t, edges.inverse(), {}});
   }
   for (const auto& t : face) {
     for (const int v : t) on_face_[static_cast<std::size_t>(v)] = true;
@@ -84,19 +86,70 @@ OpenFace::OpenFace(const ContactMesh& mesh)
     vertices_.push_back(v);
     outline_.extend(Point(rest.row(v).head<2>()));
   }
+  for (Triangle& triangle : triangles_) triangle.squares = squares_around(triangle.vertices);
 }
 
-std::array<int, 4> OpenFace::squares(const Eigen::AlignedBox2d& box) const {
-  std::array<int, 4> out;
-  for (int c = 0; c < 2; ++c) {
-    const double scale = kSquares / outline_.sizes()[c];
-    const auto square = [&](double at) {
-      return static_cast<int>(std::clamp((at - outline_.min()[c]) * scale, 0.0, kSquares - 1.0));
-    };
-    out[2 * c] = square(box.min()[c]);
-    out[2 * c + 1] = square(box.max()[c]);
+/// How places of the face have gone sideways from where they are at rest, by squares and by larger ones.
+class OpenFace::Ways {
+ public:
+  Ways(const OpenFace& face, const Positions& x) {
+    std::vector<Range>& finest = levels_[0];
+    finest.resize(kSide * kSide, kNone);
+    const Positions& rest = face.mesh_.rest_positions;
+    for (const Triangle& triangle : face.triangles_) {
+      Range range = kNone;
+      for (const int v : triangle.vertices) {
+        const double right = x(v, 0) - rest(v, 0), up = x(v, 1) - rest(v, 1);
+        join(range, {right, up, -right, -up});
+      }
+      const Squares& at = triangle.squares;
+      for (int j = at.low / 2; j <= at.high / 2; ++j) {
+        for (int i = at.left / 2; i <= at.right / 2; ++i) join(finest[static_cast<std::size_t>(j * kSide + i)], range);
+      }
+    }
+    for (int level = 1; level < kLevels; ++level) {
+      const int side = kSide >> level;
+      levels_[level].resize(static_cast<std::size_t>(side * side), kNone);
+      for (int j = 0; j < 2 * side; ++j) {
+        for (int i = 0; i < 2 * side; ++i)
+          join(levels_[level][static_cast<std::size_t>(j / 2 * side + i / 2)],
+               levels_[level - 1][static_cast<std::size_t>(j * 2 * side + i)]);
+      }
+    }
   }
-  return out;
+
+  /// At least the longest difference of the ways of two places in these squares, m.
+  double difference(const Squares& at) const {
+    int level = 0;
+    while (std::max(at.right - at.left, at.high - at.low) >> (level + 1) > kMostAcross && level + 1 < kLevels) ++level;
+    const int shift = level + 1, side = kSide >> level;
+    Range range = kNone;
+    for (int j = at.low >> shift; j <= at.high >> shift; ++j) {
+      for (int i = at.left >> shift; i <= at.right >> shift; ++i)
+        join(range, levels_[level][static_cast<std::size_t>(j * side + i)]);
+    }
+    return std::hypot(-range[2] - range[0], -range[3] - range[1]);
+  }
+
+ private:
+  // The least way to the right and up, and the least to the left and down.
+  using Range = std::array<double, 4>;
+  static constexpr int kSide = kSquares / 2, kLevels = 7, kMostAcross = 3;
+  static constexpr double kBeyond = std::numeric_limits<double>::infinity();
+  static constexpr Range kNone{kBeyond, kBeyond, kBeyond, kBeyond};
+  static void join(Range& a, const Range& b) {
+    for (std::size_t k = 0; k < 4; ++k) a[k] = b[k] < a[k] ? b[k] : a[k];
+  }
+
+  std::array<std::vector<Range>, kLevels> levels_;
+};
+
+OpenFace::Squares OpenFace::squares(const Eigen::AlignedBox2d& box) const {
+  const auto square = [&](double at, int axis) {
+    const double scale = kSquares / outline_.sizes()[axis];
+    return static_cast<std::uint8_t>(std::clamp((at - outline_.min()[axis]) * scale, 0.0, kSquares - 1.0));
+  };
+  return {square(box.min().x(), 0), square(box.max().x(), 0), square(box.min().y(), 1), square(box.max().y(), 1)};
 }
 
 bool OpenFace::Places::within(const Places& other) const {
@@ -114,8 +167,7 @@ OpenFace::Places OpenFace::at_risk(const Positions& x, const Positions& p, doubl
     return mean >= 0.0 && mean * mean >= difference * difference + mixed * mixed;
   };
   Places out;
-  out.face_ = this;
-  double reach = 0.0;
+  std::vector<const Triangle*> failing;
   for (const Triangle& triangle : triangles_) {
     const auto& v = triangle.vertices;
     Eigen::Matrix2d start, change;
@@ -124,26 +176,25 @@ OpenFace::Places OpenFace::at_risk(const Positions& x, const Positions& p, doubl
       change.col(k) = (p.row(v[k + 1]) - p.row(v[0])).head<2>();
     }
     if (open(start * triangle.inverse_edges) && open((start + change) * triangle.inverse_edges)) continue;
-    if (out.none()) {
-      out.in_.assign(kSquares * kSquares, 0);
-      reach = (1.0 + kRounding) * (d_hat_m + 2.0 * farthest_sideways(x, p));
-    }
+    failing.push_back(&triangle);
+  }
+  if (failing.empty()) return out;
+  out.in_.assign(kSquares * kSquares, 0);
+  const Ways at_start(*this, x), at_end(*this, x + p);
+  for (const Triangle* triangle : failing) {
     Eigen::AlignedBox2d box;
-    for (const int i : v) box.extend(Point(mesh_.rest_positions.row(i).head<2>()));
-    const auto [left, right, low, high] = squares({box.min().array() - reach, box.max().array() + reach});
-    for (int j = low; j <= high; ++j)
-      std::fill_n(&out.in_[static_cast<std::size_t>(j * kSquares + left)], right - left + 1, 1);
+    for (const int v : triangle->vertices) box.extend(Point(mesh_.rest_positions.row(v).head<2>()));
+    Squares at{0, kSquares - 1, 0, kSquares - 1};
+    for (double reach = std::numeric_limits<double>::infinity();;) {
+      const double nearer = (1.0 + kRounding) * (d_hat_m + std::max(at_start.difference(at), at_end.difference(at)));
+      if (!(nearer < kMuchNearer * reach)) break;
+      reach = nearer;
+      at = squares({box.min().array() - reach, box.max().array() + reach});
+    }
+    for (int j = at.low; j <= at.high; ++j)
+      std::fill_n(&out.in_[static_cast<std::size_t>(j * kSquares + at.left)], at.right - at.left + 1, 1);
   }
   return out;
-}
-
-double OpenFace::farthest_sideways(const Positions& x, const Positions& p) const {
-  double squared = 0.0;
-  for (const int v : vertices_) {
-    const Point from_rest = (x.row(v) - mesh_.rest_positions.row(v)).head<2>();
-    squared = std::max({squared, from_rest.squaredNorm(), (from_rest + Point(p.row(v).head<2>())).squaredNorm()});
-  }
-  return std::sqrt(squared);
 }
 
 }  // namespace tacipc

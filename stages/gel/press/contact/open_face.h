@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "stages/gel/press/contact/contact_mesh.h"
@@ -20,7 +21,9 @@ namespace tacipc {
 ///
 /// Where it fails in some triangles, two places can only come nearer than c times their distance at rest if the line
 /// between them at rest crosses one of those; and nearer than d only if they are no farther apart at rest than d and
-/// both their ways sideways together. So both are that near to one of those triangles: at risk.
+/// the difference u of their ways sideways. So both are that near to one of those triangles: at risk. u is at most what
+/// two ways on the face differ by; so they are that near, and u is at most what two ways within that differ by, and so
+/// on.
 class OpenFace {
  public:
   explicit OpenFace(const ContactMesh& mesh);
@@ -31,19 +34,29 @@ class OpenFace {
   /// Whether from x to x + p no two parts of the face come as near as half of their distance at rest.
   bool stays_open(const Positions& x, const Positions& p) const { return at_risk(x, p, 0.0).none(); }
 
+  /// Squares that a box on the face touches: the first and the last along x, and along y.
+  struct Squares {
+    std::uint8_t left, right, low, high;
+  };
+  /// Those of the box around some vertices at rest.
+  template <std::size_t Vertices>
+  Squares squares_around(const std::array<int, Vertices>& vertices) const {
+    Eigen::AlignedBox2d box;
+    for (const int v : vertices) box.extend(Eigen::Vector2d(mesh_.rest_positions.row(v).head<2>()));
+    return squares(box);
+  }
+
   /// A set of places on the face at rest, by squares.
   class Places {
    public:
     bool none() const { return in_.empty(); }
-    /// Whether any of them is in a square that the box around these vertices at rest touches.
-    template <std::size_t Vertices>
-    bool near(const std::array<int, Vertices>& vertices) const;
+    /// Whether any of them is in one of these squares.
+    bool near(const Squares& squares) const;
     /// Whether the other set has all of them.
     bool within(const Places& other) const;
 
    private:
     friend class OpenFace;
-    const OpenFace* face_ = nullptr;
     std::vector<char> in_;  // square by square, row by row; empty if there is none
   };
   /// A set with every place of the face that may come nearer than `d_hat_m` to another, or than half of their distance
@@ -52,14 +65,13 @@ class OpenFace {
 
  private:
   static constexpr int kSquares = 256;  // along each side
-  /// First and last square along x, and along y, that a box touches.
-  std::array<int, 4> squares(const Eigen::AlignedBox2d& box) const;
-  /// Longest horizontal way of a vertex of the face from its place at rest, at x and at x + p, m.
-  double farthest_sideways(const Positions& x, const Positions& p) const;
+  Squares squares(const Eigen::AlignedBox2d& box) const;
   struct Triangle {
     std::array<int, 3> vertices;
     Eigen::Matrix2d inverse_edges;  // of the edges from vertex 0 at rest
+    Squares squares;                // at rest
   };
+  class Ways;
   const ContactMesh& mesh_;
   std::vector<bool> on_face_;
   std::vector<int> vertices_;  // of the face
@@ -67,14 +79,10 @@ class OpenFace {
   Eigen::AlignedBox2d outline_;
 };
 
-template <std::size_t Vertices>
-bool OpenFace::Places::near(const std::array<int, Vertices>& vertices) const {
+inline bool OpenFace::Places::near(const Squares& squares) const {
   if (none()) return false;
-  Eigen::AlignedBox2d box;
-  for (const int v : vertices) box.extend(Eigen::Vector2d(face_->mesh_.rest_positions.row(v).head<2>()));
-  const auto [left, right, low, high] = face_->squares(box);
-  for (int j = low; j <= high; ++j) {
-    for (int i = left; i <= right; ++i)
+  for (int j = squares.low; j <= squares.high; ++j) {
+    for (int i = squares.left; i <= squares.right; ++i)
       if (in_[static_cast<std::size_t>(j * kSquares + i)]) return true;
   }
   return false;

@@ -15,14 +15,13 @@ constexpr double kSpareReach = 3.0, kShortestReach = 0.2;  // × the step; × th
 
 }  // namespace
 
-PatchSearch::PatchSearch(const ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices,
+PatchSearch::PatchSearch(ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices,
                          const Positions& x, const Positions& p, double d_hat_m, double longest_reach_m)
     : search_(search),
       vertices_(vertices),
       num_gel_vertices_(num_gel_vertices),
       d_hat_m_(d_hat_m),
       longest_reach_m_(longest_reach_m),
-      start_(x),
       reach_m_(static_cast<std::size_t>(x.rows()), 0.0),
       travel_m_(reach_m_) {
   search_at(x, p);
@@ -31,14 +30,12 @@ PatchSearch::PatchSearch(const ContactSearch& search, const std::vector<int>& ve
 
 void PatchSearch::search_at(const Positions& x, const Positions& p) {
   searched_at_ = x;
-  std::vector<double> of_search(reach_m_.size(), 0.0);
   for (const int v : vertices_) {
     const auto i = static_cast<std::size_t>(v);
     reach_m_[i] = std::clamp(kSpareReach * p.row(v).norm(), kShortestReach * longest_reach_m_, longest_reach_m_);
-    of_search[i] = reach_m_[i] + (x.row(v) - start_.row(v)).norm();
     travel_m_[i] = -1.0;
   }
-  in_reach_ = search_.pairs_around(of_search, x, d_hat_m_);
+  in_reach_ = search_.pairs_around(reach_m_, x, d_hat_m_);
   needed_m_ = coarse_squared_distances(in_reach_, x);
   for (std::size_t i = 0; i < in_reach_.size(); ++i) {
     const auto& v = in_reach_[i].vertices;

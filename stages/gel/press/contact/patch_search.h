@@ -13,7 +13,7 @@ class PatchSearch {
  public:
   /// For the step p from x and more. \pre the vertices, of the gel, are at x, on their paths of the last
   /// ContactSearch::pairs()
-  PatchSearch(const ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices, const Positions& x,
+  PatchSearch(ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices, const Positions& x,
               const Positions& p, double d_hat_m, double longest_reach_m);
 
   /// Largest part of the step p from x, at most 1, by which every vertex stays within its reach. Where that is not 1 it
@@ -32,11 +32,11 @@ class PatchSearch {
   void search_at(const Positions& x, const Positions& p);
   double part_within_known_reach(const Positions& x, const Positions& p) const;
 
-  const ContactSearch& search_;
+  ContactSearch& search_;
   const std::vector<int>& vertices_;
   int num_gel_vertices_;
   double d_hat_m_, longest_reach_m_;
-  Positions start_, searched_at_;
+  Positions searched_at_;
   std::vector<double> reach_m_, travel_m_;  // per vertex of all, from where pairs were searched
   std::vector<ContactPair> in_reach_, pairs_;
   std::vector<double> needed_m_;  // travel from which on each in reach counts

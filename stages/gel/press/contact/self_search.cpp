@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "stages/gel/press/contact/near_pairs.h"
 #include "stages/gel/press/contact/search_tools.h"
@@ -10,7 +9,10 @@
 namespace tacipc {
 namespace {
 
-constexpr double kMargin = 0.25;  // × d̂, around the end of the step that was searched
+// Margins around the places that were searched: × d̂ around those of the face with itself; × the mean edge around all
+// others, and on the face also × the distance from them at rest.
+constexpr double kMargin = 0.25, kMarginOfEdge = 0.05, kMarginOfDistance = 0.25;
+constexpr std::size_t kParts = 16;  // of a query
 
 /// Adds the pair unless its two sides share a vertex.
 void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
@@ -21,16 +23,14 @@ void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
   if (apart) out.push_back(pair);
 }
 
-/// Boxes around some of the primitives, given those around the vertices, grown by `margin`; empty ones around those
-/// that touch none of the places `within`.
+/// Boxes around some of the primitives, given those around the vertices, grown by `margin`.
 template <typename Primitives>
 std::vector<Box> boxes_around(const std::vector<int>& some, const Primitives& primitives, const std::vector<Box>& all,
-                              double margin, const OpenFace::Places* within) {
+                              double margin) {
   std::vector<Box> boxes(some.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), 2048), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       Box box;
-      if (within && !within->near(primitives[static_cast<std::size_t>(some[i])])) continue;
       for (const int v : primitives[static_cast<std::size_t>(some[i])]) box.extend(all[v]);
       boxes[i] = grown(box, margin);
     }
@@ -38,10 +38,46 @@ std::vector<Box> boxes_around(const std::vector<int>& some, const Primitives& pr
   return boxes;
 }
 
+/// Calls visit(i, j) for overlaps of two trees, part `part` of kParts.
+template <typename Visit>
+void visit_part(const Bvh& a, const Bvh& b, const Bvh::NodePairs& nodes, std::size_t part, Visit&& visit) {
+  a.overlaps(b, nodes, nodes.size() * part / kParts, nodes.size() * (part + 1) / kParts, visit);
+}
+
 }  // namespace
 
 SelfSearch::SelfSearch(const ContactMesh& mesh)
-    : mesh_(mesh), open_face_(mesh), face_(part_of(true)), others_(part_of(false)), face_at_risk_(face_) {}
+    : mesh_(mesh), open_face_(mesh), face_(part_of(true)), others_(part_of(false)) {
+  const Surface& gel = mesh.gel;
+  const OneVertex points{gel.vertices};
+  for (const int i : face_.vertices)
+    squares_of_vertex_.push_back(open_face_.squares_around(points[static_cast<std::size_t>(i)]));
+  for (const int i : face_.edges)
+    squares_of_edge_.push_back(open_face_.squares_around(gel.edges[static_cast<std::size_t>(i)]));
+  for (const int i : face_.triangles)
+    squares_of_triangle_.push_back(open_face_.squares_around(gel.triangles[static_cast<std::size_t>(i)]));
+
+  const Positions& rest = mesh.rest_positions;
+  double edges_m = 0.0;
+  for (const auto& e : gel.edges) edges_m += (rest.row(e[1]) - rest.row(e[0])).norm();
+  margin_m_ = kMarginOfEdge * edges_m / static_cast<double>(std::max<std::size_t>(1, gel.edges.size()));
+  margin_of_others_m_.assign(static_cast<std::size_t>(mesh.num_gel_vertices), margin_m_);
+  // Other surfaces are beyond the rim, or below by the gel's thickness.
+  std::vector<bool> on_rim(static_cast<std::size_t>(mesh.num_gel_vertices), false);
+  for (const int i : others_.triangles) {
+    for (const int v : gel.triangles[static_cast<std::size_t>(i)]) on_rim[v] = open_face_.has(v);
+  }
+  const auto heights = rest.topRows(mesh.num_gel_vertices).col(2);
+  const double thickness = heights.maxCoeff() - heights.minCoeff();
+  for (const int i : face_.vertices) {
+    const int v = gel.vertices[i];
+    double squared = thickness * thickness;
+    for (const int r : gel.vertices) {
+      if (on_rim[r]) squared = std::min(squared, (rest.row(v) - rest.row(r)).squaredNorm());
+    }
+    margin_of_others_m_[v] += kMarginOfDistance * std::sqrt(squared);
+  }
+}
 
 SelfSearch::Part SelfSearch::part_of(bool face) const {
   const Surface& gel = mesh_.gel;
@@ -54,82 +90,111 @@ SelfSearch::Part SelfSearch::part_of(bool face) const {
     }
     return some;
   };
-  const auto tree = [&](const std::vector<int>& some, const auto& primitives) {
-    std::vector<Box> boxes;
-    for (const int i : some) boxes.push_back(box_around(mesh_.rest_positions, primitives[static_cast<std::size_t>(i)]));
-    return Bvh(boxes);
-  };
-  const OneVertex points{gel.vertices};
-  std::vector<int> vertices = select(points), edges = select(gel.edges), triangles = select(gel.triangles);
-  Bvh vertex_tree = tree(vertices, points), edge_tree = tree(edges, gel.edges),
-      triangle_tree = tree(triangles, gel.triangles);
+  const Positions& rest = mesh_.rest_positions;
+  return make_part(select(OneVertex{gel.vertices}), select(gel.edges), select(gel.triangles),
+                   boxes_of(gel.vertices, rest, Positions::Zero(rest.rows(), 3), {}), 0.0);
+}
+
+SelfSearch::Part SelfSearch::make_part(std::vector<int> vertices, std::vector<int> edges, std::vector<int> triangles,
+                                       const std::vector<Box>& boxes, double margin) const {
+  Bvh vertex_tree(boxes_around(vertices, OneVertex{mesh_.gel.vertices}, boxes, margin)),
+      edge_tree(boxes_around(edges, mesh_.gel.edges, boxes, margin)),
+      triangle_tree(boxes_around(triangles, mesh_.gel.triangles, boxes, margin));
   return {std::move(vertices),    std::move(edges),     std::move(triangles),
           std::move(vertex_tree), std::move(edge_tree), std::move(triangle_tree)};
 }
 
-void SelfSearch::fit(Part& part, const std::vector<Box>& boxes, double margin, const OpenFace::Places* within) const {
-  part.vertex_tree.refit(boxes_around(part.vertices, OneVertex{mesh_.gel.vertices}, boxes, margin, within));
-  part.edge_tree.refit(boxes_around(part.edges, mesh_.gel.edges, boxes, margin, within));
-  part.triangle_tree.refit(boxes_around(part.triangles, mesh_.gel.triangles, boxes, margin, within));
+void SelfSearch::fit(Part& part, const std::vector<Box>& boxes, double margin) const {
+  part.vertex_tree.refit(boxes_around(part.vertices, OneVertex{mesh_.gel.vertices}, boxes, margin));
+  part.edge_tree.refit(boxes_around(part.edges, mesh_.gel.edges, boxes, margin));
+  part.triangle_tree.refit(boxes_around(part.triangles, mesh_.gel.triangles, boxes, margin));
 }
 
-void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m) {
-  ++num_searches_;
-  d_hat_m_ = d_hat_m;
-  end_ = x + p;
+std::vector<Box> SelfSearch::boxes_of(const std::vector<int>& vertices, const Positions& x, const Positions& p,
+                                      const std::vector<double>& margin_m) const {
   std::vector<Box> boxes(static_cast<std::size_t>(mesh_.num_gel_vertices));
-  for (const int v : mesh_.gel.vertices) {
+  for (const int v : vertices) {
     boxes[v].extend(Vector3(x.row(v)));
-    boxes[v].extend(grown(Box(Vector3(end_.row(v))), kMargin * d_hat_m));
+    boxes[v].extend(grown(Box(Vector3(x.row(v) + p.row(v))), margin_m.empty() ? 0.0 : margin_m[v]));
+  }
+  return boxes;
+}
+
+SelfSearch::Query SelfSearch::vertices_and_triangles(const Part& a, const Part& b) const {
+  return [&, this, nodes = a.vertex_tree.split(b.triangle_tree)](std::size_t part, std::vector<ContactPair>& found) {
+    const Surface& gel = mesh_.gel;
+    visit_part(a.vertex_tree, b.triangle_tree, nodes, part, [&](int i, int j) {
+      offer(point_triangle_pair(gel.vertices[a.vertices[i]], gel.triangles[b.triangles[j]]), found);
+    });
+  };
+}
+
+SelfSearch::Query SelfSearch::edges(const Part& a, const Part& b) const {
+  return [&, this, nodes = a.edge_tree.split(b.edge_tree)](std::size_t part, std::vector<ContactPair>& found) {
+    const Surface& gel = mesh_.gel;
+    visit_part(a.edge_tree, b.edge_tree, nodes, part, [&](int i, int j) {
+      const auto [first, second] = std::minmax(a.edges[i], b.edges[j]);
+      offer(edge_edge_pair(gel.edges[first], gel.edges[second]), found);
+    });
+  };
+}
+
+void SelfSearch::search_face(const Positions& x, const Positions& p) {
+  of_face_.margin_m.assign(static_cast<std::size_t>(mesh_.num_gel_vertices), kMargin * d_hat_m_);
+  of_face_.vertices.clear();
+  if (searched_.none()) return find({}, x, p, of_face_);
+  const auto at_risk = [&](const std::vector<int>& all, const std::vector<OpenFace::Squares>& squares) {
+    std::vector<int> some;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (searched_.near(squares[i])) some.push_back(all[i]);
+    }
+    return some;
+  };
+  std::vector<int> triangles = at_risk(face_.triangles, squares_of_triangle_);
+  // Vertices and edges are parts of triangles, whose boxes are no smaller.
+  std::vector<bool> has(static_cast<std::size_t>(mesh_.num_gel_vertices), false);
+  for (const int i : triangles) {
+    for (const int v : mesh_.gel.triangles[static_cast<std::size_t>(i)]) has[v] = true;
+  }
+  for (const int v : mesh_.gel.vertices) {
+    if (has[v]) of_face_.vertices.push_back(v);
   }
   // Half of d̂ on each side.
-  fit(face_, boxes, 0.5 * d_hat_m);
-  fit(others_, boxes, 0.5 * d_hat_m);
-  if (!searched_.none()) fit(face_at_risk_, boxes, 0.5 * d_hat_m, &searched_);
+  const Part part =
+      make_part(at_risk(face_.vertices, squares_of_vertex_), at_risk(face_.edges, squares_of_edge_),
+                std::move(triangles), boxes_of(of_face_.vertices, x, p, of_face_.margin_m), 0.5 * d_hat_m_);
+  find({vertices_and_triangles(part, part), edges(part, part)}, x, p, of_face_);
+}
 
-  const Surface& gel = mesh_.gel;
-  // The queries, each in parts that can run at the same time.
-  using Query = std::function<void(int part, std::vector<ContactPair>& candidates)>;
-  std::vector<Query> queries;
-  const auto vertices_and_triangles = [&](const Part& a, const Part& b) {
-    queries.push_back([&](int part, std::vector<ContactPair>& candidates) {
-      a.vertex_tree.overlaps(b.triangle_tree, part, [&](int i, int j) {
-        offer(point_triangle_pair(gel.vertices[a.vertices[i]], gel.triangles[b.triangles[j]]), candidates);
-      });
-    });
-  };
-  const auto edges = [&](const Part& a, const Part& b) {
-    queries.push_back([&](int part, std::vector<ContactPair>& candidates) {
-      a.edge_tree.overlaps(b.edge_tree, part, [&](int i, int j) {
-        const auto [first, second] = std::minmax(a.edges[i], b.edges[j]);
-        offer(edge_edge_pair(gel.edges[first], gel.edges[second]), candidates);
-      });
-    });
-  };
-  if (!searched_.none()) {
-    vertices_and_triangles(face_at_risk_, face_at_risk_);
-    edges(face_at_risk_, face_at_risk_);
-  }
-  vertices_and_triangles(face_, others_);
-  vertices_and_triangles(others_, face_);
-  vertices_and_triangles(others_, others_);
-  edges(face_, others_);
-  edges(others_, others_);
+void SelfSearch::search_others(const Positions& x, const Positions& p) {
+  of_others_.vertices = mesh_.gel.vertices;
+  of_others_.margin_m = margin_of_others_m_;
+  for (double& margin : of_others_.margin_m) margin += kMargin * d_hat_m_;
+  fitted_.resize(0, 3);
+  const std::vector<Box> boxes = boxes_of(mesh_.gel.vertices, x, p, of_others_.margin_m);
+  fit(face_, boxes, 0.5 * d_hat_m_);
+  fit(others_, boxes, 0.5 * d_hat_m_);
+  find({vertices_and_triangles(face_, others_), vertices_and_triangles(others_, face_),
+        vertices_and_triangles(others_, others_), edges(face_, others_), edges(others_, others_)},
+       x, p, of_others_);
+}
 
-  struct Found {
+void SelfSearch::find(const std::vector<Query>& queries, const Positions& x, const Positions& p, Found& out) const {
+  struct OfPart {
     std::vector<ContactPair> pairs;
     std::vector<double> reach_m;
   };
-  std::vector<Found> found(queries.size() * Bvh::kParts);
+  std::vector<OfPart> found(queries.size() * kParts);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t part) {
     std::vector<ContactPair> candidates;
-    queries[part / Bvh::kParts](static_cast<int>(part % Bvh::kParts), candidates);
+    queries[part / kParts](part % kParts, candidates);
     std::vector<double> reach = coarse_squared_distances(candidates, mesh_.rest_positions);
     // Zero: edges too parallel to tell.
-    for (double& r : reach) r = r > 0.0 ? std::min(d_hat_m, 0.5 * std::sqrt(r)) : d_hat_m;
-    // Near during the step, or so near at its end that they could come near within the margin.
+    for (double& r : reach) r = r > 0.0 ? std::min(d_hat_m_, 0.5 * std::sqrt(r)) : d_hat_m_;
+    // Near during the step, or so near at its end that they could come near within the margins.
     std::vector<double> within = reach;
-    for (double& w : within) w += 2.0 * kMargin * d_hat_m;
+    for (std::size_t i = 0; i < within.size(); ++i)
+      within[i] += 2.0 * farthest_reach(out.margin_m, candidates[i].vertices);
     for_each_coming_near(
         candidates, 0, candidates.size(), [&](std::size_t i) { return within[i]; }, x, p,
         [&](std::size_t i) {
@@ -137,72 +202,96 @@ void SelfSearch::search(const Positions& x, const Positions& p, double d_hat_m) 
           found[part].reach_m.push_back(reach[i]);
         });
   });
-  near_.clear();
-  reach_m_.clear();
-  for (const Found& part : found) {
-    near_.insert(near_.end(), part.pairs.begin(), part.pairs.end());
-    reach_m_.insert(reach_m_.end(), part.reach_m.begin(), part.reach_m.end());
+  out.end = x + p;
+  out.pairs.clear();
+  out.reach_m.clear();
+  for (const OfPart& part : found) {
+    out.pairs.insert(out.pairs.end(), part.pairs.begin(), part.pairs.end());
+    out.reach_m.insert(out.reach_m.end(), part.reach_m.begin(), part.reach_m.end());
   }
+}
+
+bool SelfSearch::Found::holds(const Positions& x, const Positions& p) const {
+  return std::all_of(vertices.begin(), vertices.end(), [&](int v) {
+    const Eigen::RowVector3d from_end = x.row(v) - end.row(v);
+    const double margin = margin_m[static_cast<std::size_t>(v)];
+    return std::max(from_end.squaredNorm(), (from_end + p.row(v)).squaredNorm()) <= margin * margin;
+  });
 }
 
 void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out) {
   OpenFace::Places at_risk = open_face_.at_risk(x, p, d_hat_m);
-  bool known = d_hat_m == d_hat_m_ && at_risk.within(searched_);
-  for (auto v = mesh_.gel.vertices.begin(); known && v != mesh_.gel.vertices.end(); ++v) {
-    const Vector3 from_end = x.row(*v) - end_.row(*v);
-    known = std::max(from_end.norm(), (from_end + p.row(*v).transpose()).norm()) <= kMargin * d_hat_m;
-  }
-  if (!known) {
+  const bool anew = d_hat_m != d_hat_m_;
+  const bool face = anew || !at_risk.within(searched_) || !of_face_.holds(x, p);
+  const bool others = anew || !of_others_.holds(x, p);
+  d_hat_m_ = d_hat_m;
+  if (face) {
     searched_ = std::move(at_risk);
-    search(x, p, d_hat_m);
+    search_face(x, p);
   }
-  collect(near_.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
-    for_each_coming_near(
-        near_, first, last, [&](std::size_t i) { return reach_m_[i]; }, x, p,
-        [&](std::size_t i) { found.push_back(near_[i]); });
-  });
+  if (others) search_others(x, p);
+  if (face || others) ++num_searches_;
+  for (const Found* found : {&of_face_, &of_others_}) {
+    collect(found->pairs.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& some) {
+      for_each_coming_near(
+          found->pairs, first, last, [&](std::size_t i) { return found->reach_m[i]; }, x, p,
+          [&](std::size_t i) { some.push_back(found->pairs[i]); });
+    });
+  }
 }
 
 void SelfSearch::around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
-                        std::vector<ContactPair>& out) const {
+                        std::vector<ContactPair>& out) {
   const Surface& gel = mesh_.gel;
-  // The trees' boxes are grown by half of d̂. Of two moving parts the one that goes farther finds the other, which may
-  // be or come as far from its own box.
+  const bool fits = fitted_.rows() > 0 && std::all_of(gel.vertices.begin(), gel.vertices.end(), [&](int v) {
+                      return reach_m[v] > 0.0 || (x.row(v) - fitted_.row(v)).squaredNorm() <= margin_m_ * margin_m_;
+                    });
+  if (!fits) {
+    fitted_ = x;
+    const std::vector<Box> boxes = boxes_of(gel.vertices, x, Positions::Zero(x.rows(), 3), {});
+    fit(face_, boxes, 0.0);
+    fit(others_, boxes, 0.0);
+  }
+  std::vector<double> from_box = reach_m;  // how far each may be from its place in the trees, but for the margin
+  for (const int v : gel.vertices) {
+    if (reach_m[v] > 0.0) from_box[v] += (x.row(v) - fitted_.row(v)).norm();
+  }
+  // Of two moving parts the one that goes farther finds the other, which may come as far from its own box.
   const auto box_of = [&](const auto& vertices, double reach) {
-    return grown(box_around(x, vertices), 0.5 * d_hat_m + 2.0 * reach);
+    return grown(box_around(x, vertices), d_hat_m + margin_m_ + 2.0 * reach);
   };
   const std::array<const Part*, 2> parts{&face_, &others_};
   for (const int v : gel.vertices) {
-    if (reach_m[v] == 0.0) continue;
-    const Box box = box_of(std::array<int, 1>{v}, reach_m[v]);
+    if (from_box[v] == 0.0) continue;
+    const Box box = box_of(std::array<int, 1>{v}, from_box[v]);
     for (const Part* part : parts) {
       part->triangle_tree.query(box, [&](int j) {
         const auto& t = gel.triangles[part->triangles[j]];
-        if (farthest_reach(reach_m, t) <= reach_m[v]) offer(point_triangle_pair(v, t), out);
+        if (farthest_reach(from_box, t) <= from_box[v]) offer(point_triangle_pair(v, t), out);
       });
     }
   }
   for (const auto& t : gel.triangles) {
-    const double reach = farthest_reach(reach_m, t);
+    const double reach = farthest_reach(from_box, t);
     if (reach == 0.0) continue;
     const Box box = box_of(t, reach);
     for (const Part* part : parts) {
       part->vertex_tree.query(box, [&](int j) {
         const int v = gel.vertices[part->vertices[j]];
-        if (reach_m[v] < reach) offer(point_triangle_pair(v, t), out);
+        if (from_box[v] < reach) offer(point_triangle_pair(v, t), out);
       });
     }
   }
   for (int i = 0; i < static_cast<int>(gel.edges.size()); ++i) {
     const auto& e = gel.edges[i];
-    const double reach = farthest_reach(reach_m, e);
+    const double reach = farthest_reach(from_box, e);
     if (reach == 0.0) continue;
     const Box box = box_of(e, reach);
     for (const Part* part : parts) {
       part->edge_tree.query(box, [&](int k) {
         const int j = part->edges[k];
         const auto& f = gel.edges[j];
-        const double other = farthest_reach(reach_m, f);
+        const double other = farthest_reach(from_box, f);
         if (other < reach || (other == reach && i < j)) offer(edge_edge_pair(e, f), out);
       });
     }

@@ -68,7 +68,11 @@ TEST(Bvh, FindsWhatBruteForceFindsAfterRefit) {
 
 std::vector<std::array<int, 2>> overlaps(const Bvh& a, const Bvh& b) {
   std::vector<std::array<int, 2>> found;
-  for (int part = 0; part < Bvh::kParts; ++part) a.overlaps(b, part, [&](int i, int j) { found.push_back({i, j}); });
+  const Bvh::NodePairs nodes = a.split(b);
+  const std::size_t middle = nodes.size() / 3;
+  const auto add = [&](int i, int j) { found.push_back({i, j}); };
+  a.overlaps(b, nodes, middle, nodes.size(), add);
+  a.overlaps(b, nodes, 0, middle, add);
   std::sort(found.begin(), found.end());
   return found;
 }

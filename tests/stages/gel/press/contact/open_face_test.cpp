@@ -98,7 +98,7 @@ TEST(OpenFace, BothSidesOfEveryPairThatComesNearAreAtRisk) {
   const OpenFace face(mesh);
   constexpr double kDHat = 0.3e-3;
   int near_pairs = 0, spared = 0;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < 60; ++trial) {
     // A pinch: what is within 1.5 mm of a place is drawn together, some of it beyond.
     const Eigen::RowVector2d centre = 2e-3 * random_vector(random).head<2>().transpose();
     const double strength = 0.3 + 0.02 * trial;
@@ -108,16 +108,32 @@ TEST(OpenFace, BothSidesOfEveryPairThatComesNearAreAtRisk) {
       const double weight = std::max(0.0, 1.0 - from.squaredNorm() / (1.5e-3 * 1.5e-3));
       (trial % 2 == 0 ? p : x).row(v).head<2>() -=
           strength * weight * Eigen::RowVector2d(2.0 * from.x(), 0.5 * from.y());
+      // Most are dragged along as well, all but the rim as far.
+      if (trial % 3 > 0)
+        x.row(v).head<2>() += std::clamp(4e-3 - mesh.rest_positions.row(v).head<2>().cwiseAbs().maxCoeff(), 0.0, 1e-3) *
+                              Eigen::RowVector2d(0.9, 0.3);
+    }
+    if (trial >= 40) {  // instead: a vertex goes across the face
+      const Eigen::RowVector3d near_it(2.0 * centre.x(), 2.0 * centre.y(), 0.0);
+      Eigen::Index v = 0;
+      (mesh.rest_positions.rowwise() - near_it).rowwise().norm().minCoeff(&v);
+      x = mesh.rest_positions;
+      p.setZero();
+      p.row(v).head<2>() = -1.2 * mesh.rest_positions.row(v).head<2>();
+      if (trial % 2 == 0) {  // it comes back from there
+        x += p;
+        p = -p;
+      }
     }
     const OpenFace::Places at_risk = face.at_risk(x, p, kDHat);
     for (const double t : {0.0, 0.5, 1.0}) {
       for_each_pair(mesh, face, x + t * p, [&](const ContactPair& pair, double now, double rest) {
         const auto& v = pair.vertices;
         const bool near = now < std::min(kDHat, 0.5 * rest);
-        const bool first = at_risk.near(std::array{v[0]}) ||
-                           (pair.kind == ContactPair::Kind::edge_edge && at_risk.near(std::array{v[0], v[1]})),
-                   second = pair.kind == ContactPair::Kind::edge_edge ? at_risk.near(std::array{v[2], v[3]})
-                                                                      : at_risk.near(std::array{v[1], v[2], v[3]});
+        const auto at = [&](const auto& vertices) { return at_risk.near(face.squares_around(vertices)); };
+        const bool of_edges = pair.kind == ContactPair::Kind::edge_edge;
+        const bool first = at(std::array{v[0]}) || (of_edges && at(std::array{v[0], v[1]}));
+        const bool second = of_edges ? at(std::array{v[2], v[3]}) : at(std::array{v[1], v[2], v[3]});
         spared += !first || !second;
         near_pairs += near;
         if (near) {
@@ -128,6 +144,33 @@ TEST(OpenFace, BothSidesOfEveryPairThatComesNearAreAtRisk) {
   }
   EXPECT_GT(near_pairs, 100);
   EXPECT_GT(spared, 100000);
+}
+
+TEST(OpenFace, DraggedFarOnlyPlacesAroundAFoldAreAtRisk) {
+  const TetMesh gel = block_gel(24, 0.012, 0.002);
+  const ContactMesh mesh = gel_alone(gel);
+  const OpenFace face(mesh);
+  // The middle is 1 mm to the right of where it was, which goes down to zero at the rim; in it a vertex is beyond the
+  // next one, 0.5 mm away.
+  Positions x = mesh.rest_positions;
+  int folded = -1;
+  for (int v = 0; v < gel.num_vertices(); ++v) {
+    const double from_middle = gel.positions.row(v).head<2>().cwiseAbs().maxCoeff();
+    x(v, 0) += 0.2 * std::min(6e-3 - from_middle, 5e-3);
+    if (face.has(v) && from_middle < 1e-9) folded = v;
+  }
+  const Positions still = Positions::Zero(x.rows(), 3);
+  ASSERT_TRUE(face.stays_open(x, still));
+  ASSERT_GE(folded, 0);
+  x(folded, 0) += 0.6e-3;
+  const OpenFace::Places at_risk = face.at_risk(x, still, 0.1e-3);
+  for (int v = 0; v < gel.num_vertices(); ++v) {
+    if (!face.has(v)) continue;
+    const double away = gel.positions.row(v).head<2>().norm();
+    if (away < 0.6e-3 || away > 2.5e-3) {
+      EXPECT_EQ(at_risk.near(face.squares_around(std::array{v})), away < 0.6e-3) << away;
+    }
+  }
 }
 
 TEST(OpenFace, APlaceSetIsWithinAnotherOnlyIfThatHasAllOfIt) {
