@@ -50,12 +50,14 @@ class ContactSearch {
     return found;
   }
 
-  /// Every pair with a vertex whose `reach_m` (one per vertex) is not zero that comes as near while each vertex stays
-  /// within its reach of its place, and some more. \pre objects are where the last call of pairs() had them
-  std::vector<ContactPair> pairs_around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m) {
+  /// Every pair with a `wanted` vertex of the gel that comes as near while each vertex of the gel stays within its
+  /// `reach_m` of its place, and some more. (One number of each per vertex.) \pre wanted vertices have a reach above
+  /// zero; objects are where the last call of pairs() had them
+  std::vector<ContactPair> pairs_around(const std::vector<char>& wanted, const std::vector<double>& reach_m,
+                                        const Positions& x, double d_hat_m) {
     std::vector<ContactPair> found;
-    for (const auto& search : with_object_) search->around(reach_m, x, d_hat_m, found);
-    with_itself_.around(reach_m, x, d_hat_m, found);
+    for (const auto& search : with_object_) search->around(wanted, reach_m, x, d_hat_m, found);
+    with_itself_.around(wanted, reach_m, x, d_hat_m, found);
     return found;
   }
 

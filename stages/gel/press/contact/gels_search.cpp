@@ -75,21 +75,23 @@ void GelsSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
   across(x, p, d_hat_m, out);
 }
 
-void GelsSearch::around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
-                        std::vector<ContactPair>& out) {
-  if (mesh_.gels.empty()) return each_[0]->around(reach_m, x, d_hat_m, out);
+void GelsSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,
+                        double d_hat_m, std::vector<ContactPair>& out) {
+  if (mesh_.gels.empty()) return each_[0]->around(wanted, reach_m, x, d_hat_m, out);
   for (std::size_t g = 0; g < each_.size(); ++g) {
     const GelPart& part = mesh_.gels[g];
     const auto first = reach_m.begin() + part.first_vertex;
     const std::vector<double> own(first, first + part.mesh->num_gel_vertices);
     const std::size_t before = out.size();
-    each_[g]->around(own, places(g, x), d_hat_m, out);
+    const auto first_wanted = wanted.begin() + part.first_vertex;
+    const std::vector<char> own_wanted(first_wanted, first_wanted + part.mesh->num_gel_vertices);
+    each_[g]->around(own_wanted, own, places(g, x), d_hat_m, out);
     shift(out, before, part.first_vertex);
   }
   std::vector<ContactPair> found;
   across(x, Positions::Zero(x.rows(), 3), d_hat_m + 2.0 * *std::max_element(reach_m.begin(), reach_m.end()), found);
   std::copy_if(found.begin(), found.end(), std::back_inserter(out),
-               [&](const ContactPair& pair) { return farthest_reach(reach_m, pair.vertices) > 0.0; });
+               [&](const ContactPair& pair) { return has_one(wanted, pair.vertices); });
 }
 
 void GelsSearch::across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const {

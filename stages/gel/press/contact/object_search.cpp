@@ -137,14 +137,14 @@ void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m
   });
 }
 
-void ObjectSearch::around(const std::vector<double>& reach_m, const Positions& x, double within_m,
-                          std::vector<ContactPair>& out) const {
+void ObjectSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,
+                          double within_m, std::vector<ContactPair>& out) const {
   const Vector3 origin = x.row(object_.first_vertex);
   const auto all_of = [&](const auto& primitives, const Bvh& tree, auto&& pair_of) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const auto& vertices = primitives[i];
+      if (!has_one(wanted, vertices)) continue;
       const double reach = farthest_reach(reach_m, vertices);
-      if (reach == 0.0) continue;
       const Box box = grown(box_around(x, vertices), within_m + object_moved_m_ + reach).translate(-origin);
       tree.query(box, [&](int j) { out.push_back(pair_of(i, j)); });
     }

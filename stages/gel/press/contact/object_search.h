@@ -26,10 +26,10 @@ class ObjectSearch {
   /// more; which and in which order depends only on the arguments since forget().
   void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
 
-  /// Appends every pair with a vertex of the gel whose `reach_m` (one per vertex) is not zero that comes within
-  /// `within_m` while each vertex stays within its reach of its place, and some more. \pre the object is on the path of
-  /// the last call of pairs()
-  void around(const std::vector<double>& reach_m, const Positions& x, double within_m,
+  /// Appends every pair with a `wanted` vertex of the gel that comes within `within_m` while each vertex of the gel
+  /// stays within its `reach_m` of its place, and some more. (One number of each per vertex.) \pre the object is on the
+  /// path of the last call of pairs()
+  void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double within_m,
               std::vector<ContactPair>& out) const;
 
   /// The next call searches for every primitive.

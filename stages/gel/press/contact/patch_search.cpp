@@ -12,6 +12,7 @@ namespace {
 constexpr double kRounding = 1e-5;
 constexpr double kSpareTravel = 1.5;                       // × the way to go
 constexpr double kSpareReach = 3.0, kShortestReach = 0.2;  // × the step; × the longest reach
+constexpr double kUsedUp = 0.5;  // part of the reach: where one vertex gets out of its own, these are searched, too
 
 }  // namespace
 
@@ -22,25 +23,37 @@ PatchSearch::PatchSearch(ContactSearch& search, const std::vector<int>& vertices
       num_gel_vertices_(num_gel_vertices),
       d_hat_m_(d_hat_m),
       longest_reach_m_(longest_reach_m),
+      searched_at_(x),
       reach_m_(static_cast<std::size_t>(x.rows()), 0.0),
       travel_m_(reach_m_) {
-  search_at(x, p);
+  search_around(vertices, x, p);
   extend_to(x);
 }
 
-void PatchSearch::search_at(const Positions& x, const Positions& p) {
-  searched_at_ = x;
-  for (const int v : vertices_) {
+void PatchSearch::search_around(const std::vector<int>& some, const Positions& x, const Positions& p) {
+  std::vector<char> wanted(reach_m_.size(), 0);
+  for (const int v : some) {
     const auto i = static_cast<std::size_t>(v);
+    wanted[i] = 1;
+    searched_at_.row(v) = x.row(v);
     reach_m_[i] = std::clamp(kSpareReach * p.row(v).norm(), kShortestReach * longest_reach_m_, longest_reach_m_);
     travel_m_[i] = -1.0;
   }
-  in_reach_ = search_.pairs_around(reach_m_, x, d_hat_m_);
-  needed_m_ = coarse_squared_distances(in_reach_, x);
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < in_reach_.size(); ++i) {
-    const auto& v = in_reach_[i].vertices;
+    if (has_one(wanted, in_reach_[i].vertices)) continue;
+    in_reach_[kept] = in_reach_[i];
+    needed_m_[kept++] = needed_m_[i];
+  }
+  in_reach_.resize(kept);
+  needed_m_.resize(kept);
+  const std::vector<ContactPair> found = search_.pairs_around(wanted, reach_m_, searched_at_, d_hat_m_);
+  const std::vector<double> squared = coarse_squared_distances(found, searched_at_);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& v = found[i].vertices;
     const double both = *std::max_element(v.begin(), v.end()) < num_gel_vertices_ ? 2.0 : 1.0;
-    needed_m_[i] = ((1.0 - kRounding) * std::sqrt(needed_m_[i]) - d_hat_m_) / both;
+    in_reach_.push_back(found[i]);
+    needed_m_.push_back(((1.0 - kRounding) * std::sqrt(squared[i]) - d_hat_m_) / both);
   }
 }
 
@@ -60,7 +73,12 @@ double PatchSearch::part_within_known_reach(const Positions& x, const Positions&
 double PatchSearch::part_within_reach(const Positions& x, const Positions& p) {
   const double part = part_within_known_reach(x, p);
   if (part == 1.0) return part;
-  search_at(x, p);
+  std::vector<int> far;
+  for (const int v : vertices_) {
+    if ((x.row(v) + p.row(v) - searched_at_.row(v)).norm() > kUsedUp * reach_m_[static_cast<std::size_t>(v)])
+      far.push_back(v);
+  }
+  search_around(far, x, p);
   return part_within_known_reach(x, p);
 }
 

@@ -7,12 +7,13 @@
 
 namespace tacipc {
 
-/// Pairs are searched up to a reach of each vertex, again where one gets out of it. Of those found only the ones count
-/// that come near within a travel of each vertex: most vertices go much less far than a few that snap over an edge.
+/// Pairs are searched up to a reach of each vertex, again for those that get out of it. Of those found only the ones
+/// count that come near within a travel of each vertex: most vertices go much less far than a few that snap over an
+/// edge.
 class PatchSearch {
  public:
-  /// For the step p from x and more. \pre the vertices, of the gel, are at x, on their paths of the last
-  /// ContactSearch::pairs()
+  /// For the step p from x and more. \pre the vertices are of the gel; objects are where the last call of
+  /// ContactSearch::pairs() had them
   PatchSearch(ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices, const Positions& x,
               const Positions& p, double d_hat_m, double longest_reach_m);
 
@@ -25,19 +26,20 @@ class PatchSearch {
   bool extend_to(const Positions& x);
 
   /// Every pair with one of the vertices that comes within d̂ (of the gel with itself within half its distance at rest
-  /// at most) on the ways so far since the last search, and some more.
+  /// at most) on its way since its vertices were searched, and some more.
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 
  private:
-  void search_at(const Positions& x, const Positions& p);
+  /// Searches anew from x for the pairs of some vertices, for the step p and more.
+  void search_around(const std::vector<int>& some, const Positions& x, const Positions& p);
   double part_within_known_reach(const Positions& x, const Positions& p) const;
 
   ContactSearch& search_;
   const std::vector<int>& vertices_;
   int num_gel_vertices_;
   double d_hat_m_, longest_reach_m_;
-  Positions searched_at_;
-  std::vector<double> reach_m_, travel_m_;  // per vertex of all, from where pairs were searched
+  Positions searched_at_;                   // where the pairs of each vertex were searched
+  std::vector<double> reach_m_, travel_m_;  // per vertex of all, from there
   std::vector<ContactPair> in_reach_, pairs_;
   std::vector<double> needed_m_;  // travel from which on each in reach counts
 };

@@ -36,6 +36,12 @@ double farthest_reach(const std::vector<double>& reach_m, const Vertices& vertic
   return farthest;
 }
 
+/// Whether some vertices have one of those that are marked.
+template <typename Vertices>
+bool has_one(const std::vector<char>& marked, const Vertices& vertices) {
+  return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return marked[static_cast<std::size_t>(v)] != 0; });
+}
+
 inline Box grown(Box box, double by) {
   box.min().array() -= by;
   box.max().array() += by;

@@ -240,8 +240,8 @@ void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
   }
 }
 
-void SelfSearch::around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
-                        std::vector<ContactPair>& out) {
+void SelfSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,
+                        double d_hat_m, std::vector<ContactPair>& out) {
   const Surface& gel = mesh_.gel;
   const bool fits = fitted_.rows() > 0 && std::all_of(gel.vertices.begin(), gel.vertices.end(), [&](int v) {
                       return reach_m[v] > 0.0 || (x.row(v) - fitted_.row(v)).squaredNorm() <= margin_m_ * margin_m_;
@@ -252,47 +252,51 @@ void SelfSearch::around(const std::vector<double>& reach_m, const Positions& x, 
     fit(face_, boxes, 0.0);
     fit(others_, boxes, 0.0);
   }
-  std::vector<double> from_box = reach_m;  // how far each may be from its place in the trees, but for the margin
+  // How far each may be from its place in the trees, but for the margin.
+  std::vector<double> from_box = reach_m;
+  double of_others = 0.0;
   for (const int v : gel.vertices) {
-    if (reach_m[v] > 0.0) from_box[v] += (x.row(v) - fitted_.row(v)).norm();
+    if (reach_m[v] == 0.0) continue;
+    from_box[v] += (x.row(v) - fitted_.row(v)).norm();
+    if (!wanted[v]) of_others = std::max(of_others, from_box[v]);
   }
-  // Of two moving parts the one that goes farther finds the other, which may come as far from its own box.
+  // Of two wanted parts the one that goes farther finds the other, which may come as far from its own box.
   const auto box_of = [&](const auto& vertices, double reach) {
-    return grown(box_around(x, vertices), d_hat_m + margin_m_ + 2.0 * reach);
+    return grown(box_around(x, vertices), d_hat_m + margin_m_ + reach + std::max(reach, of_others));
   };
   const std::array<const Part*, 2> parts{&face_, &others_};
   for (const int v : gel.vertices) {
-    if (from_box[v] == 0.0) continue;
+    if (!wanted[v]) continue;
     const Box box = box_of(std::array<int, 1>{v}, from_box[v]);
     for (const Part* part : parts) {
       part->triangle_tree.query(box, [&](int j) {
         const auto& t = gel.triangles[part->triangles[j]];
-        if (farthest_reach(from_box, t) <= from_box[v]) offer(point_triangle_pair(v, t), out);
+        if (!has_one(wanted, t) || farthest_reach(from_box, t) <= from_box[v]) offer(point_triangle_pair(v, t), out);
       });
     }
   }
   for (const auto& t : gel.triangles) {
+    if (!has_one(wanted, t)) continue;
     const double reach = farthest_reach(from_box, t);
-    if (reach == 0.0) continue;
     const Box box = box_of(t, reach);
     for (const Part* part : parts) {
       part->vertex_tree.query(box, [&](int j) {
         const int v = gel.vertices[part->vertices[j]];
-        if (from_box[v] < reach) offer(point_triangle_pair(v, t), out);
+        if (!wanted[v] || from_box[v] < reach) offer(point_triangle_pair(v, t), out);
       });
     }
   }
   for (int i = 0; i < static_cast<int>(gel.edges.size()); ++i) {
     const auto& e = gel.edges[i];
+    if (!has_one(wanted, e)) continue;
     const double reach = farthest_reach(from_box, e);
-    if (reach == 0.0) continue;
     const Box box = box_of(e, reach);
     for (const Part* part : parts) {
       part->edge_tree.query(box, [&](int k) {
         const int j = part->edges[k];
         const auto& f = gel.edges[j];
         const double other = farthest_reach(from_box, f);
-        if (other < reach || (other == reach && i < j)) offer(edge_edge_pair(e, f), out);
+        if (!has_one(wanted, f) || other < reach || (other == reach && i < j)) offer(edge_edge_pair(e, f), out);
       });
     }
   }

@@ -23,9 +23,10 @@ class SelfSearch {
   /// more; which and in which order depends only on the arguments since forget().
   void pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out);
 
-  /// Appends every pair with a vertex whose `reach_m` (one per vertex) is not zero that comes nearer than that while
-  /// each vertex stays within its reach of its place in `x`, and some more.
-  void around(const std::vector<double>& reach_m, const Positions& x, double d_hat_m, std::vector<ContactPair>& out);
+  /// Appends every pair with a `wanted` vertex that comes nearer than that while each vertex stays within its `reach_m`
+  /// of its place in `x`, and some more. (One number of each per vertex.) \pre wanted vertices have a reach above zero
+  void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
+              std::vector<ContactPair>& out);
 
   void forget() {
     d_hat_m_ = -1.0;

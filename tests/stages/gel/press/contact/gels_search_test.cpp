@@ -210,7 +210,7 @@ TEST_F(TwoGels, AroundMovingVerticesNoNearPairIsMissed) {
   ASSERT_GT(std::count(moves.begin(), moves.end(), true), 6);
   constexpr double kFar_m = 0.9e-3;
   std::vector<ContactPair> around;
-  search.around(reach_m(moves, kFar_m), x_, kRadius, around);
+  search.around({moves.begin(), moves.end()}, reach_m(moves, kFar_m), x_, kRadius, around);
   around = sorted(std::move(around));
   EXPECT_TRUE(std::adjacent_find(around.begin(), around.end(), same) == around.end()) << "a pair counts twice";
   std::array<int, 2> near{};
@@ -249,11 +249,13 @@ TEST_F(TwoGels, OneGelAloneIsWhatSelfSearchFinds) {
     EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same));
     x_ += p;
     std::vector<double> reach_m(static_cast<std::size_t>(x_.rows()), 0.0);
+    std::vector<char> wanted(reach_m.size(), 0);
     reach_m[static_cast<std::size_t>(alone.gel.vertices[3])] = 1e-4;
+    wanted[static_cast<std::size_t>(alone.gel.vertices[3])] = 1;
     found.clear();
     expected.clear();
-    gels.around(reach_m, x_, kRadius, found);
-    itself.around(reach_m, x_, kRadius, expected);
+    gels.around(wanted, reach_m, x_, kRadius, found);
+    itself.around(wanted, reach_m, x_, kRadius, expected);
     EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same));
     EXPECT_EQ(gels.num_searches(), itself.num_searches());
   }
@@ -367,7 +369,7 @@ TEST_F(BallOverAGel, AroundMovingVerticesNoNearPairIsMissed) {
   ASSERT_GT(std::count(moves.begin(), moves.end(), true), 6);
   constexpr double kFar_m = 0.3e-3;
   std::vector<ContactPair> around;
-  search.around(reach_m(moves, kFar_m), x_, kRadius, around);
+  search.around({moves.begin(), moves.end()}, reach_m(moves, kFar_m), x_, kRadius, around);
   around = sorted(std::move(around));
   int near = 0;
   for (int trial = 0; trial < 10; ++trial) {
