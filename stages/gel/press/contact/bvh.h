@@ -23,7 +23,7 @@ class Bvh {
 
   int num_boxes() const { return static_cast<int>(box_of_item_.size()); }
 
-  /// Moves the boxes but keeps the tree; a box may be empty: it touches nothing. \pre boxes.size() == num_boxes()
+  /// Moves the boxes but keeps the tree. \pre boxes.size() == num_boxes(), and as above
   void refit(std::span<const Box> boxes);
 
   /// Calls visit(i) once for each box i that touches `box` (shared faces count), in an order fixed by the tree.

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFlat = 1e-9;         // of the face's size
 constexpr double kLeast = 0.5 + 1e-6;  // c, with room for rounding and for an outline that is convex but for rounding
 constexpr double kAngleError = 1e-6, kRounding = 1e-6;
-constexpr double kMuchNearer = 0.95;
+constexpr double kMuchNearer = 0.95;  // a bound is worked out again as long as that leaves less than this part of it
 
 using Point = Eigen::Vector2d;
 

@@ -9,8 +9,8 @@
 namespace tacipc {
 namespace {
 
-// Margins around the places that were searched: × d̂ around those of the face with itself; × the mean edge around all
-// others, and on the face also × the distance from them at rest.
+// Margins around the places that were searched: × d̂, × the mean edge and, on the face, × the distance from its rim at
+// rest. Pairs of the face with itself have the first alone, boxes of around() the second, all other pairs all three.
 constexpr double kMargin = 0.25, kMarginOfEdge = 0.05, kMarginOfDistance = 0.25;
 constexpr std::size_t kParts = 16;  // of a query
 
@@ -243,6 +243,7 @@ void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
 void SelfSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,
                         double d_hat_m, std::vector<ContactPair>& out) {
   const Surface& gel = mesh_.gel;
+  // Until a vertex that stays has left its place in the trees by the margin.
   const bool fits = fitted_.rows() > 0 && std::all_of(gel.vertices.begin(), gel.vertices.end(), [&](int v) {
                       return reach_m[v] > 0.0 || (x.row(v) - fitted_.row(v)).squaredNorm() <= margin_m_ * margin_m_;
                     });

@@ -72,7 +72,7 @@ class SelfSearch {
   OpenFace open_face_;
   Part face_, others_;  // primitives all of whose vertices are on the face, and all others
   std::vector<OpenFace::Squares> squares_of_vertex_, squares_of_edge_, squares_of_triangle_;  // of the face's, in order
-  double margin_m_ = 0.0;
+  double margin_m_ = 0.0;                   // that goes with the mean edge
   std::vector<double> margin_of_others_m_;  // but for the part that goes with d̂
 
   double d_hat_m_ = -1.0;      // of the last search
