@@ -82,14 +82,12 @@ OpenFace::OpenFace(const ContactMesh& mesh)
     for (const int v : t) on_face_[static_cast<std::size_t>(v)] = true;
   }
   for (const int v : mesh.gel.vertices) {
-    if (!has(v)) continue;
-    vertices_.push_back(v);
-    outline_.extend(Point(rest.row(v).head<2>()));
+    if (has(v)) outline_.extend(Point(rest.row(v).head<2>()));
   }
   for (Triangle& triangle : triangles_) triangle.squares = squares_around(triangle.vertices);
 }
 
-/// How places of the face have gone sideways from where they are at rest, by squares and by larger ones.
+/// How places of the face have gone sideways from where they are at rest, by 2 × 2 squares, 4 × 4, and so on.
 class OpenFace::Ways {
  public:
   Ways(const OpenFace& face, const Positions& x) {

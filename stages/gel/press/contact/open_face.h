@@ -74,7 +74,6 @@ class OpenFace {
   class Ways;
   const ContactMesh& mesh_;
   std::vector<bool> on_face_;
-  std::vector<int> vertices_;  // of the face
   std::vector<Triangle> triangles_;
   Eigen::AlignedBox2d outline_;
 };

@@ -8,104 +8,17 @@
 #include <random>
 #include <tuple>
 
-#include "stages/gel/press/contact/patch_search.h"
 #include "stages/gel/press/solve/local_patch.h"
-#include "tests/stages/gel/press/small_scene.h"
+#include "tests/stages/gel/press/contact/search_scene.h"
 
 namespace tacipc {
 namespace {
 
 constexpr double kRadius = 0.3e-3;
 
-bool same(const ContactPair& a, const ContactPair& b) { return a.kind == b.kind && a.vertices == b.vertices; }
-
-/// A block of gel under a pyramid whose tip is in reach.
-struct Scene {
-  TetMesh gel = block_gel(6, 0.006, 0.002);
-  TriangleMesh object = pyramid(0.003, 0.002);
-  ContactMesh mesh;
-  Positions x;
-  std::mt19937 random{7};
-
-  Scene() {
-    object.positions.col(2).array() += 0.1e-3 - object.positions.col(2).minCoeff();
-    mesh = make_contact_mesh(gel.positions, boundary_triangles(gel.tets, gel.positions.rows()), object.positions,
-                             object.triangles);
-    x = mesh.rest_positions;
-  }
-  Positions displacement(double largest) {
-    std::uniform_real_distribution<double> uniform(-largest, largest);
-    Positions p(x.rows(), 3);
-    for (double& c : p.reshaped()) c = uniform(random);
-    return p;
-  }
-};
-
-bool less(const ContactPair& a, const ContactPair& b) {
-  return a.kind != b.kind ? a.kind < b.kind : a.vertices < b.vertices;
-}
-
-/// In any order, the two edges of a pair of gel edges either first.
-std::vector<ContactPair> sorted(std::vector<ContactPair> pairs, int num_gel) {
-  for (ContactPair& pair : pairs) {
-    auto& v = pair.vertices;
-    if (pair.kind == ContactPair::Kind::edge_edge && v[0] < num_gel && v[2] < num_gel &&
-        std::pair(v[2], v[3]) < std::pair(v[0], v[1])) {
-      std::swap(v[0], v[2]);
-      std::swap(v[1], v[3]);
-    }
-  }
-  std::sort(pairs.begin(), pairs.end(), less);
-  return pairs;
-}
-
-/// All pairs of primitives, gel–object and gel–gel without a common vertex.
-std::vector<ContactPair> all_pairs(const ContactMesh& mesh) {
-  std::vector<ContactPair> all;
-  const auto& [gel, object] = std::tie(mesh.gel, mesh.object);
-  const auto apart = [](const auto& a, const auto& b) {
-    return std::none_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
-  };
-  for (const int v : gel.vertices) {
-    for (const auto& t : object.triangles) all.push_back(point_triangle_pair(v, t));
-    for (const auto& t : gel.triangles) {
-      if (apart(std::array{v}, t)) all.push_back(point_triangle_pair(v, t));
-    }
-  }
-  for (const int v : object.vertices) {
-    for (const auto& t : gel.triangles) all.push_back(point_triangle_pair(v, t));
-  }
-  for (std::size_t i = 0; i < gel.edges.size(); ++i) {
-    for (const auto& e : object.edges) all.push_back(edge_edge_pair(gel.edges[i], e));
-    for (std::size_t j = i + 1; j < gel.edges.size(); ++j) {
-      if (apart(gel.edges[i], gel.edges[j])) all.push_back(edge_edge_pair(gel.edges[i], gel.edges[j]));
-    }
-  }
-  return all;
-}
-
-/// How near a pair counts.
-double reach(const ContactMesh& mesh, const ContactPair& pair, double radius = kRadius) {
-  const auto& v = pair.vertices;
-  if (std::max({v[0], v[1], v[2], v[3]}) >= mesh.num_gel_vertices) return radius;
-  const double at_rest = closest_feature(pair, gather(mesh.rest_positions, pair)).squared_distance;
-  return std::min(radius, 0.5 * std::sqrt(at_rest));
-}
-
-double nearest_on_the_way(const ContactPair& pair, const Positions& x, const Positions& p) {
-  double nearest = 1.0;
-  for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    FourPoints at = gather(x, pair);
-    const FourPoints d = gather(p, pair);
-    for (int k = 0; k < 4; ++k) at[k] += t * d[k];
-    nearest = std::min(nearest, std::sqrt(closest_feature(pair, at).squared_distance));
-  }
-  return nearest;
-}
-
 /// Moves object and gel about, in steps small and large, and counts pairs that come near in between; all of them must
 /// have been found.
-int expect_finds_all(Scene& scene, ContactSearch& search, const auto& way_of_call) {
+int expect_finds_all(SearchScene& scene, ContactSearch& search, const auto& way_of_call) {
   const std::vector<ContactPair> all = all_pairs(scene.mesh);
   int near = 0;
   for (int call = 0; call < 24; ++call) {
@@ -114,7 +27,7 @@ int expect_finds_all(Scene& scene, ContactSearch& search, const auto& way_of_cal
     EXPECT_TRUE(std::adjacent_find(found.begin(), found.end(), same) == found.end()) << "a pair counts twice";
     EXPECT_LT(found.size(), all.size() / 2);
     for (const ContactPair& pair : all) {
-      if (nearest_on_the_way(pair, scene.x, p) >= reach(scene.mesh, pair)) continue;
+      if (nearest_on_the_way(pair, scene.x, p) >= reach(scene.mesh, pair, kRadius)) continue;
       ++near;
       EXPECT_TRUE(std::binary_search(found.begin(), found.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less))
           << "call " << call;
@@ -127,7 +40,7 @@ int expect_finds_all(Scene& scene, ContactSearch& search, const auto& way_of_cal
 /// Where d̂ is large, pairs of the gel count within half of their distance at rest, which differs from each to the next.
 TEST(ContactSearch, FindsEveryPairOfTheGelWithinAReachOfItsOwn) {
   constexpr double kLarge = 3e-3;
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   const std::vector<ContactPair> all = all_pairs(scene.mesh);
   int near = 0;
@@ -146,7 +59,7 @@ TEST(ContactSearch, FindsEveryPairOfTheGelWithinAReachOfItsOwn) {
 }
 
 TEST(ContactSearch, FindsEveryPairThatComesNearOnTheWay) {
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   // Mostly small steps, now and then one beyond the room.
   const int near =
@@ -157,7 +70,7 @@ TEST(ContactSearch, FindsEveryPairThatComesNearOnTheWay) {
 
 /// The face is farther from the sides than it goes from call to call, until some of it comes near one of them.
 TEST(ContactSearch, FindsEveryPairOfTheFaceWithASideThatItMovesTo) {
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   const Positions rest = scene.x;
   const int near = expect_finds_all(scene, search, [&](int call) {
@@ -172,7 +85,7 @@ TEST(ContactSearch, FindsEveryPairOfTheFaceWithASideThatItMovesTo) {
 }
 
 TEST(ContactSearch, FindsThemWhileTheObjectMovesAndTurnsAndDragsTheGelAlong) {
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   const int near = expect_finds_all(scene, search, [&](int call) {
     Positions p = scene.displacement(1e-6);
@@ -188,7 +101,7 @@ TEST(ContactSearch, FindsThemWhileTheObjectMovesAndTurnsAndDragsTheGelAlong) {
 }
 
 TEST(ContactSearch, LooksAgainOnlyAtWhatMovesRelativeToTheObject) {
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   const Positions still = Positions::Zero(scene.x.rows(), 3);
   const auto looks = [&](const Positions& p) {
@@ -235,7 +148,7 @@ TEST(ContactSearch, FindsWhatComesNearOnTheWayBack) {
   x += p;
   int near = 0;
   for (const ContactPair& pair : all_pairs(mesh)) {
-    if (std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance) >= reach(mesh, pair)) continue;
+    if (std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance) >= reach(mesh, pair, kRadius)) continue;
     ++near;
     EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const ContactPair& other) {
       return same(sorted({pair}, 8)[0], sorted({other}, 8)[0]);
@@ -252,7 +165,7 @@ std::vector<char> marked(const std::vector<double>& reach_m) {
 }
 
 TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   const Positions p = scene.displacement(20e-6);
   Positions start = scene.x + p;
@@ -297,7 +210,7 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
       go(moved, 1.0);
       for (const ContactPair& pair : all) {
         const auto& v = pair.vertices;
-        const double within = reach(scene.mesh, pair);
+        const double within = reach(scene.mesh, pair, kRadius);
         if (closest_feature(pair, gather(moved, pair)).squared_distance >= within * within) continue;
         const ContactPair as_sorted = sorted({pair}, scene.mesh.num_gel_vertices)[0];
         const auto one_of = [&](const auto& marked) {
@@ -316,7 +229,7 @@ TEST(ContactSearch, AroundMovingVerticesNoNearPairIsMissed) {
 }
 
 TEST(ContactSearch, AroundAVertexOfAGelThatHasBeenDraggedItsPairsAreFound) {
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   Eigen::Index a = 0;
   scene.x.topRows(scene.mesh.num_gel_vertices).rowwise().norm().minCoeff(&a);
@@ -352,7 +265,7 @@ TEST(ContactSearch, AroundAVertexOfAGelThatHasBeenDraggedItsPairsAreFound) {
 }
 
 TEST(ContactSearch, AroundTwoVerticesThatMeetHalfwayTheirPairsAreFound) {
-  Scene scene;
+  SearchScene scene;
   ContactSearch search(scene.mesh);
   search.pairs(scene.x, Positions::Zero(scene.x.rows(), 3), kRadius);
   // Neighbours on the front, 1 mm apart: neither could come near the other by itself.
@@ -378,99 +291,12 @@ TEST(ContactSearch, AroundTwoVerticesThatMeetHalfwayTheirPairsAreFound) {
   for (const ContactPair& pair : all_pairs(scene.mesh)) {
     const auto& v = pair.vertices;
     const auto has = [&](Eigen::Index vertex) { return std::find(v.begin(), v.end(), vertex) != v.end(); };
-    const double within = reach(scene.mesh, pair);
+    const double within = reach(scene.mesh, pair, kRadius);
     if (!has(a) || !has(b) || closest_feature(pair, gather(moved, pair)).squared_distance >= within * within) continue;
     ++met;
     EXPECT_TRUE(std::binary_search(around.begin(), around.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less));
   }
   EXPECT_GT(met, 5);
-}
-
-TEST(PatchSearch, AVertexSearchedAgainHasItsNewPairsHoweverShortItsNextWay) {
-  Scene scene;
-  ContactSearch search(scene.mesh);
-  const Positions still = Positions::Zero(scene.x.rows(), 3);
-  search.pairs(scene.x, still, kRadius);
-  Eigen::Index a = 0;
-  scene.x.topRows(scene.mesh.num_gel_vertices).rowwise().norm().minCoeff(&a);
-  const auto by = [&](double way_m) {
-    Positions step = still;
-    step(a, 0) = way_m;
-    return step;
-  };
-  const std::vector<int> vertices{static_cast<int>(a)};
-  PatchSearch patch(search, vertices, scene.mesh.num_gel_vertices, scene.x, by(0.05e-3), kRadius, 0.4e-3);
-  Positions x = scene.x + by(0.1e-3);
-  ASSERT_EQ(patch.part_within_reach(scene.x, by(0.1e-3)), 1.0);
-  EXPECT_TRUE(patch.extend_to(x));
-  EXPECT_FALSE(patch.extend_to(x + by(0.02e-3)));          // no farther than what was spared
-  ASSERT_EQ(patch.part_within_reach(x, by(0.1e-3)), 1.0);  // beyond three times the first step: searched again
-  EXPECT_TRUE(patch.extend_to(x + by(0.02e-3)));
-}
-
-/// Vertices crowd together step by step, on ways much longer than any one search is for.
-TEST(PatchSearch, HasEveryNearPairOnItsWays) {
-  Scene scene;
-  ContactSearch search(scene.mesh);
-  const Positions p = scene.displacement(20e-6);
-  search.pairs(scene.x, p, kRadius);
-  Positions x = scene.x + p;
-  std::vector<int> vertices;
-  std::vector<bool> moves(static_cast<std::size_t>(x.rows()), false);
-  for (int v = 0; v < scene.mesh.num_gel_vertices; ++v) {
-    if (x(v, 2) > -1.1e-3 && x.row(v).head<2>().norm() < 2.3e-3) vertices.push_back(v);
-  }
-  ASSERT_GT(vertices.size(), 20u);
-  Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
-  for (const int v : vertices) {
-    moves[v] = true;
-    middle += x.row(v) / static_cast<double>(vertices.size());
-  }
-  const auto step_from = [&](const Positions& at) {
-    Positions step = Positions::Zero(at.rows(), 3);
-    const Positions aside = scene.displacement(0.05e-3);
-    for (const int v : vertices) {
-      step.row(v) = aside.row(v);
-      if (v % 3 == 0) {
-        step.row(v) *= 0.02;  // hardly moves
-      } else {
-        step.row(v) += 0.4 * (middle - at.row(v));
-      }
-    }
-    return step;
-  };
-  const std::vector<ContactPair> all = all_pairs(scene.mesh);
-  const auto with_vertices =
-      static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const ContactPair& pair) {
-        return std::any_of(pair.vertices.begin(), pair.vertices.end(), [&](int v) { return moves[v]; });
-      }));
-  Positions step = step_from(x);
-  PatchSearch patch(search, vertices, scene.mesh.num_gel_vertices, x, step, kRadius, 0.1e-3);
-  int of_gel = 0, of_object = 0, cut = 0;
-  std::size_t most = 0;
-  for (int k = 0; k < 40; ++k, step = step_from(x)) {
-    const double part = patch.part_within_reach(x, step);
-    ASSERT_GT(part, 0.0);
-    cut += part < 1.0;
-    step *= part;
-    patch.extend_to(x + step);
-    const std::vector<ContactPair> found = sorted(patch.pairs(), scene.mesh.num_gel_vertices);
-    EXPECT_TRUE(std::adjacent_find(found.begin(), found.end(), same) == found.end()) << "a pair counts twice";
-    most = std::max(most, found.size());
-    for (const ContactPair& pair : all) {
-      const auto& v = pair.vertices;
-      if (!(moves[v[0]] || moves[v[1]] || moves[v[2]] || moves[v[3]])) continue;
-      if (nearest_on_the_way(pair, x, step) >= reach(scene.mesh, pair)) continue;
-      ++(*std::max_element(v.begin(), v.end()) < scene.mesh.num_gel_vertices ? of_gel : of_object);
-      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), sorted({pair}, scene.mesh.num_gel_vertices)[0], less));
-    }
-    x += step;
-    EXPECT_FALSE(patch.extend_to(x)) << "it has just been there";
-  }
-  EXPECT_GT(of_gel, 500);
-  EXPECT_GT(of_object, 200);
-  EXPECT_GT(cut, 5);
-  EXPECT_LT(most, with_vertices / 2) << "not all that there is";
 }
 
 }  // namespace

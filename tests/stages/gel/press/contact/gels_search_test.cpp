@@ -11,30 +11,12 @@
 
 #include "stages/gel/press/contact/distance.h"
 #include "tests/make_mesh.h"
-#include "tests/stages/gel/press/small_scene.h"
+#include "tests/stages/gel/press/contact/search_scene.h"
 
 namespace tacipc {
 namespace {
 
 constexpr double kRadius = 0.2e-3;
-
-bool same(const ContactPair& a, const ContactPair& b) { return a.kind == b.kind && a.vertices == b.vertices; }
-bool less(const ContactPair& a, const ContactPair& b) {
-  return a.kind != b.kind ? a.kind < b.kind : a.vertices < b.vertices;
-}
-
-/// In one order, the two edges of a pair either first.
-std::vector<ContactPair> sorted(std::vector<ContactPair> pairs) {
-  for (ContactPair& pair : pairs) {
-    auto& v = pair.vertices;
-    if (pair.kind == ContactPair::Kind::edge_edge && std::pair(v[2], v[3]) < std::pair(v[0], v[1])) {
-      std::swap(v[0], v[2]);
-      std::swap(v[1], v[3]);
-    }
-  }
-  std::sort(pairs.begin(), pairs.end(), less);
-  return pairs;
-}
 
 /// This reach for vertices that move.
 std::vector<double> reach_m(const std::vector<bool>& moves, double farthest_m) {
@@ -43,24 +25,6 @@ std::vector<double> reach_m(const std::vector<bool>& moves, double farthest_m) {
     if (moves[v]) reach[v] = farthest_m;
   }
   return reach;
-}
-
-std::vector<ContactPair> all_pairs(const Surface& gels) {
-  std::vector<ContactPair> all;
-  const auto apart = [](const auto& a, const auto& b) {
-    return std::none_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
-  };
-  for (const int v : gels.vertices) {
-    for (const auto& t : gels.triangles) {
-      if (apart(std::array{v}, t)) all.push_back(point_triangle_pair(v, t));
-    }
-  }
-  for (std::size_t i = 0; i < gels.edges.size(); ++i) {
-    for (std::size_t j = i + 1; j < gels.edges.size(); ++j) {
-      if (apart(gels.edges[i], gels.edges[j])) all.push_back(edge_edge_pair(gels.edges[i], gels.edges[j]));
-    }
-  }
-  return sorted(std::move(all));
 }
 
 /// Two blocks of gel that face each other along x, as fingers do: z of the left one's frame is x of the world, z of the
@@ -84,7 +48,7 @@ class TwoGels : public ::testing::Test {
         make_contact_mesh(gel_.positions, gel_.boundary, Positions(0, 3), Triangles(0, 3)));
     const int anchor = gel_.vertices(BoundaryTag::glued).front();
     mesh_.gels = {{0, anchor, alone}, {n, anchor, alone}};
-    all_ = all_pairs(mesh_.gel);
+    all_ = sorted(all_pairs(mesh_.gel));
     x_ = mesh_.rest_positions;
   }
 
@@ -95,17 +59,7 @@ class TwoGels : public ::testing::Test {
   }
   /// How near a pair counts.
   double reach(const ContactPair& pair) const {
-    if (!of_one_gel(pair)) return kRadius;
-    const double at_rest = closest_feature(pair, gather(mesh_.rest_positions, pair)).squared_distance;
-    return std::min(kRadius, 0.5 * std::sqrt(at_rest));
-  }
-  static double nearest_on_the_way(const ContactPair& pair, const Positions& x, const Positions& p) {
-    double nearest = 1.0;
-    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      const Positions at = x + t * p;
-      nearest = std::min(nearest, std::sqrt(closest_feature(pair, gather(at, pair)).squared_distance));
-    }
-    return nearest;
+    return of_one_gel(pair) ? tacipc::reach(mesh_, pair, kRadius) : kRadius;
   }
   /// The way of everything in which the left gel goes along x by `way_m` and the right one against it.
   Positions closing(double way_m) const {
@@ -277,7 +231,7 @@ class BallOverAGel : public ::testing::Test {
     };
     mesh_.gels = {{0, gel_.vertices(BoundaryTag::glued).front(), alone(gel_.positions, gel_.boundary)},
                   {n, -1, alone(ball_.positions, ball_.triangles)}};
-    all_ = all_pairs(mesh_.gel);
+    all_ = sorted(all_pairs(mesh_.gel));
     x_ = mesh_.rest_positions;
   }
 
