@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 
 namespace tacipc {
@@ -50,6 +52,37 @@ TACIPC_INLINE bool all_of(const PackMask& lanes) {
       __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3) & __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
   const auto two = __builtin_shufflevector(four, four, 0, 1) & __builtin_shufflevector(four, four, 2, 3);
   return (two[0] & two[1]) == -1;
+}
+TACIPC_INLINE bool any_negative(const PackMask& lanes) {
+  const auto four =
+      __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3) | __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
+  const auto two = __builtin_shufflevector(four, four, 0, 1) | __builtin_shufflevector(four, four, 2, 3);
+  return (two[0] | two[1]) < 0;
+}
+
+/// Natural logarithm to within 2 units in the last place; of what is no normal positive number as std::log.
+TACIPC_INLINE Pack logarithm(const Pack& x) {
+  using Bits = unsigned long long __attribute__((vector_size(64)));
+  constexpr unsigned long long kMantissa = 52, kOne = 1ULL << kMantissa;
+  constexpr unsigned long long kRootOfHalf = 0x3fe6a09e667f3bcdULL;
+  constexpr double kAnInteger = 0x1.8p52;  // its last place is 1
+  constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
+  // x = 2^(exponent − 1024) m, √½ ≤ m < √2.
+  const Bits bits = std::bit_cast<Bits>(x);
+  const Bits exponent = (bits - kRootOfHalf + 1024 * kOne) >> kMantissa;
+  const Pack m = std::bit_cast<Pack>(bits - (exponent << kMantissa) + 1024 * kOne);
+  const Pack e = std::bit_cast<Pack>(exponent + std::bit_cast<unsigned long long>(kAnInteger)) - (kAnInteger + 1024.0);
+  // ln m = 2 artanh s = 2 s (1 + s²/3 + s⁴/5 + …), s = f / (2 + f) and |s| < 0.172; 2 s = f − s f.
+  const Pack f = m - 1.0, s = f / (2.0 + f), z = s * s;
+  Pack series = 2.0 / 21.0 + z * (2.0 / 23.0);
+  for (int k = 19; k >= 3; k -= 2) series = 2.0 / k + z * series;
+  Pack out = e * kLn2High + (f - (s * (f - z * series) - e * kLn2Low));
+  // Negative numbers have the sign bit, and smaller and larger ones than the normal have it then.
+  if (!any_negative(std::bit_cast<PackMask>(bits | (bits - kOne) | (bits + kOne)))) return out;
+  for (int l = 0; l < kLanes; ++l) {
+    if (!(x[l] >= 0x1p-1022 && x[l] <= 0x1.fffffffffffffp1023)) out[l] = std::log(x[l]);
+  }
+  return out;
 }
 
 /// Rows of a table of three columns, a lane each.

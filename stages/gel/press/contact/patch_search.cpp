@@ -52,8 +52,10 @@ void PatchSearch::search_around(const std::vector<int>& some, const Positions& x
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto& v = found[i].vertices;
     const double both = *std::max_element(v.begin(), v.end()) < num_gel_vertices_ ? 2.0 : 1.0;
+    const double needed = ((1.0 - kRounding) * std::sqrt(squared[i]) - d_hat_m_) / both;
+    if (needed > farthest_reach(reach_m_, v)) continue;
     in_reach_.push_back(found[i]);
-    needed_m_.push_back(((1.0 - kRounding) * std::sqrt(squared[i]) - d_hat_m_) / both);
+    needed_m_.push_back(needed);
   }
 }
 

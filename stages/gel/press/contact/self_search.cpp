@@ -64,17 +64,19 @@ SelfSearch::SelfSearch(const ContactMesh& mesh)
   margin_of_others_m_.assign(static_cast<std::size_t>(mesh.num_gel_vertices), margin_m_);
   // Other surfaces are beyond the rim, or below by the gel's thickness.
   std::vector<bool> on_rim(static_cast<std::size_t>(mesh.num_gel_vertices), false);
+  std::vector<int> rim;
   for (const int i : others_.triangles) {
-    for (const int v : gel.triangles[static_cast<std::size_t>(i)]) on_rim[v] = open_face_.has(v);
+    for (const int v : gel.triangles[static_cast<std::size_t>(i)]) {
+      if (open_face_.has(v) && !on_rim[v]) rim.push_back(v);
+      on_rim[v] = open_face_.has(v);
+    }
   }
   const auto heights = rest.topRows(mesh.num_gel_vertices).col(2);
   const double thickness = heights.maxCoeff() - heights.minCoeff();
   for (const int i : face_.vertices) {
     const int v = gel.vertices[i];
     double squared = thickness * thickness;
-    for (const int r : gel.vertices) {
-      if (on_rim[r]) squared = std::min(squared, (rest.row(v) - rest.row(r)).squaredNorm());
-    }
+    for (const int r : rim) squared = std::min(squared, (rest.row(v) - rest.row(r)).squaredNorm());
     margin_of_others_m_[v] += kMarginOfDistance * std::sqrt(squared);
   }
 }

@@ -43,13 +43,10 @@ TACIPC_INLINE unsigned evaluate_lanes(const double* x, const double* rest, const
   const PackedPoints p = load_points(x, pairs);
   const PackedFeature f = point_triangle ? point_triangle_feature(p) : edge_edge_feature(p);
   const Pack s = f.squared_distance, none = {}, one = none + 1.0;
-  Pack log_ratio, weight;
-  for (int l = 0; l < kLanes; ++l) {
-    log_ratio[l] = s[l] < s_hat ? std::log(s[l] / s_hat) : 0.0;
-    weight[l] = pairs[l]->weight;
-  }
+  Pack weight;
+  for (int l = 0; l < kLanes; ++l) weight[l] = pairs[l]->weight;
   // barrier.h
-  const Pack gap = s_hat - s, inverse_s = one / s;
+  const Pack gap = s_hat - s, inverse_s = one / s, log_ratio = logarithm(s / s_hat);
   const Pack b1 = choose(gap, weight * (gap * (2.0 * log_ratio - gap * inverse_s)), none);
   const Pack b2 = choose(gap, weight * (-2.0 * log_ratio + gap * (3.0 * s + s_hat) * inverse_s * inverse_s), none);
   // A pair of negative weight has no PSD part: of it, the exact Hessian's share alone.

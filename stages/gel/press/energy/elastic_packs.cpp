@@ -34,12 +34,6 @@ TACIPC_INLINE Deformation deformation(const double* x, const std::array<std::arr
   return d;
 }
 
-TACIPC_INLINE Pack logarithm(const Pack& of) {
-  Pack out;
-  for (int l = 0; l < kLanes; ++l) out[l] = std::log(of[l]);
-  return out;
-}
-
 TACIPC_CLONES void deformed_volumes(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
                                     const Pack3* b, const Pack& volume, double* out) {
   const Pack deformed = volume * deformation(x, vertices, b).J;

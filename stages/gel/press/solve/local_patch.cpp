@@ -1,6 +1,7 @@
 #include "stages/gel/press/solve/local_patch.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "stages/gel/press/energy/averaged_elasticity.h"
 #include "stages/gel/press/energy/elasticity.h"
@@ -18,22 +19,46 @@ bool any_moves(const std::vector<bool>& moves, const auto& vertices) {
 
 }  // namespace
 
-LocalPatch grow_patch(const std::vector<int>& seeds, int rings, const Tetrahedra& tets, const FreeVertices& all_free) {
-  std::vector<bool> moves(all_free.free_of_vertex.size(), false);
-  for (const int v : seeds) moves[v] = true;
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<bool> grown = moves;
-    for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-      if (any_moves(moves, tets.row(t)))
-        for (int k = 0; k < 4; ++k) grown[tets(t, k)] = true;
-    }
-    moves = std::move(grown);
-  }
-  for (std::size_t v = 0; v < moves.size(); ++v) moves[v] = moves[v] && all_free.free_of_vertex[v] >= 0;
-
-  std::vector<int> inside;
+TetsOfVertices::TetsOfVertices(const Tetrahedra& tets, Eigen::Index num_vertices)
+    : start_(static_cast<std::size_t>(num_vertices) + 1, 0), tets_(static_cast<std::size_t>(tets.size())) {
+  for (const int v : tets.reshaped()) ++start_[static_cast<std::size_t>(v) + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  std::vector<std::size_t> next = start_;
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    if (any_moves(moves, tets.row(t))) inside.push_back(static_cast<int>(t));
+    for (const int v : tets.row(t)) tets_[next[static_cast<std::size_t>(v)]++] = static_cast<int>(t);
+  }
+}
+
+LocalPatch grow_patch(const std::vector<int>& seeds, const PatchSize& size, const Tetrahedra& tets,
+                      const TetsOfVertices& tets_of, const FreeVertices& all_free) {
+  std::vector<bool> moves(all_free.free_of_vertex.size(), false);
+  std::vector<int> reached;
+  int num_free = 0;
+  const auto reach = [&](int v) {
+    if (moves[v]) return;
+    moves[v] = true;
+    reached.push_back(v);
+    num_free += all_free.free_of_vertex[v] >= 0;
+  };
+  for (const int v : seeds) reach(v);
+  std::size_t ring_start = 0;
+  for (int ring = 0; ring < size.rings || (ring < size.most_rings && num_free < size.fewest_vertices); ++ring) {
+    const std::size_t ring_end = reached.size();
+    for (; ring_start < ring_end; ++ring_start) {
+      for (const int t : tets_of[reached[ring_start]]) {
+        for (int k = 0; k < 4; ++k) reach(tets(t, k));
+      }
+    }
+  }
+  std::vector<char> is_inside(static_cast<std::size_t>(tets.rows()), 0);
+  for (const int v : reached) {
+    moves[v] = all_free.free_of_vertex[v] >= 0;
+    if (!moves[v]) continue;
+    for (const int t : tets_of[v]) is_inside[static_cast<std::size_t>(t)] = 1;
+  }
+  std::vector<int> inside;
+  for (std::size_t t = 0; t < is_inside.size(); ++t) {
+    if (is_inside[t]) inside.push_back(static_cast<int>(t));
   }
   Tetrahedra own(static_cast<Eigen::Index>(inside.size()), 4);
   for (std::size_t i = 0; i < inside.size(); ++i) own.row(static_cast<Eigen::Index>(i)) = tets.row(inside[i]);

@@ -21,12 +21,17 @@ constexpr double kStandOut = 3.0;
 // approximated, if they are at most the second part of the free ones; what makes it indefinite is wider than one ring.
 constexpr double kNearRest = 20.0, kMostApproximated = 0.015;
 constexpr int kRings = 1, kRingsAboutApproximated = 3;
+// Without friction, what snaps drags the gel around it along: patches of at least this part of the free vertices, at
+// most so many rings wide, leave a fifth fewer steps of all.
+constexpr double kLeastWithoutFriction = 0.09;
+constexpr int kMostRingsWithoutFriction = 4;
 constexpr int kMaxIterations = 20;
 // Iterations × vertices of a patch, × all that are free: a wide one that does not settle soon is left to steps of all.
 constexpr double kMostWork = 2.0;
 // A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
-// tolerance), so that the whole gel finds it at rest.
-constexpr double kPatchTolerance = 0.2;
+// tolerance), so that the whole gel finds it at rest. Without friction the gel seldom does.
+constexpr double kPatchTolerance = 0.2, kPatchToleranceWithoutFriction = 1.0;
+constexpr double kSolveWithoutFriction = 1e-2;  // tolerance of the linear solver there
 constexpr int kMaxHalvings = 20;
 // How far a vertex of a patch may go until pairs are searched again: × d̂, or × the median edge of the front, whichever
 // is more.
@@ -90,8 +95,12 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
     found = approximated(step.blend, direction.p, free, mesh_.num_gel_vertices, tolerance);
   if (!found) return false;
 
-  const LocalPatch patch =
-      grow_patch(found->vertices, found->approximated ? kRingsAboutApproximated : kRings, gel_.tets, free);
+  PatchSize size{found->approximated ? kRingsAboutApproximated : kRings};
+  if (!step.friction) {
+    size.fewest_vertices = static_cast<int>(kLeastWithoutFriction * free.size());
+    size.most_rings = kMostRingsWithoutFriction;
+  }
+  const LocalPatch patch = grow_patch(found->vertices, size, gel_.tets, tets_of_, free);
   const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
   PatchSearch near(search_, patch.free.vertex_of_free, mesh_.num_gel_vertices, step.x, direction.p, settings_.d_hat_m,
                    reach);
@@ -109,33 +118,47 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
   renew_energy();
 
   NewtonStepper newton(patch.free, mesh_.num_gel_vertices, terms.elasticity, settings_.linear_solver);
+  if (!step.friction) newton.set_tolerance(kSolveWithoutFriction);
+  const double shortest = (step.friction ? kPatchTolerance : kPatchToleranceWithoutFriction) * found->others_m;
   const Positions still = Positions::Zero(step.x.rows(), 3);
   Blend blend = step.blend;
   const int most = std::min(kMaxIterations, static_cast<int>(kMostWork * free.size() / patch.free.size()));
+  // Vertices outside have no way, and are where they are, in all of these.
+  const std::vector<int>& inside = patch.free.vertex_of_free;
+  Positions p = still, trial = step.x;
+  const auto go = [&](double part) {
+    for (const int v : inside) trial.row(v) = step.x.row(v) + part * p.row(v);
+  };
+  std::optional<double> value;  // of the energy at x, where it is known
   int iterations = 0;
   for (; iterations < most; ++iterations) {
     const NewtonDirection local = newton.direction({energy, step.x, still}, blend);
-    const double longest = std::sqrt(local.p.rowwise().squaredNorm().maxCoeff());
+    double squared = 0.0;
+    for (const int v : inside) squared = std::max(squared, local.p.row(v).squaredNorm());
+    const double longest = std::sqrt(squared);
     const bool exact = local.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
-    if (longest < kPatchTolerance * found->others_m && (exact || found->others_m > tolerance)) break;
+    if (longest < shortest && (exact || found->others_m > tolerance)) break;
     const double alpha = near.part_within_reach(step.x, local.p);
-    const Positions p = alpha * local.p;
-    if (near.extend_to(step.x + p)) renew_energy();
+    for (const int v : inside) p.row(v) = alpha * local.p.row(v);
+    go(1.0);
+    if (near.extend_to(trial)) {
+      renew_energy();
+      value.reset();
+    }
     const double limit = std::min(
         contact_step_limit(near.pairs(), step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
         inversion_step_limit(patch.tets, step.x, p));
-    const double before = energy.value(step.x), rounding = kEnergyRounding * std::abs(before);
+    const double before = value ? *value : energy.value(step.x), rounding = kEnergyRounding * std::abs(before);
     double part = limit;
+    const auto decreases = [&] {
+      go(part);
+      value = energy.value(trial);
+      return *value <= before + kSufficientDecrease * part * alpha * local.slope + rounding;
+    };
     int halvings = 0;
-    Positions trial = step.x + part * p;
-    while (!(energy.value(trial) <= before + kSufficientDecrease * part * alpha * local.slope + rounding) &&
-           halvings < kMaxHalvings) {
-      ++halvings;
-      part *= 0.5;
-      trial = step.x + part * p;
-    }
+    for (; !decreases() && halvings < kMaxHalvings; ++halvings) part *= 0.5;
     if (halvings == kMaxHalvings) break;
-    step.x = trial;
+    for (const int v : inside) step.x.row(v) = trial.row(v);
     if (halvings > 0) raise_shares_of_farthest(local.p.topRows(blend.size()), blend);
     log_debug("    patch {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s blend {:.3g}", iterations + 1, part * alpha,
               limit, longest / h, local.largest_share);

@@ -65,7 +65,12 @@ void StepReport::add_earlier(const StepReport& before) {
 
 TimeStepper::TimeStepper(const ContactMesh& mesh, GelModel gel, const StepSettings& settings,
                          std::vector<AffineBody> bodies)
-    : mesh_(mesh), gel_(std::move(gel)), settings_(settings), search_(mesh), bodies_(std::move(bodies)) {
+    : mesh_(mesh),
+      gel_(std::move(gel)),
+      tets_of_(gel_.tets, mesh.num_gel_vertices),
+      settings_(settings),
+      search_(mesh),
+      bodies_(std::move(bodies)) {
   std::vector<bool> held(static_cast<std::size_t>(mesh.num_vertices()), false);
   for (const int v : gel_.glued) held[v] = true;
   elasticity_at_mount_ = restricted(gel_.elasticity, held);

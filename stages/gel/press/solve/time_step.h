@@ -13,6 +13,7 @@
 #include "stages/gel/press/energy/affine_body.h"
 #include "stages/gel/press/energy/friction.h"
 #include "stages/gel/press/energy/viscoelasticity.h"
+#include "stages/gel/press/solve/local_patch.h"
 #include "stages/gel/press/solve/newton_step.h"
 #include "stages/gel/press/solve/rigid_motion.h"
 
@@ -275,6 +276,7 @@ class TimeStepper {
 
   const ContactMesh& mesh_;
   GelModel gel_;
+  TetsOfVertices tets_of_;                                 // of the gel
   std::shared_ptr<const EnergyTerm> elasticity_at_mount_;  // stencils with a glued vertex
   StepSettings settings_;
   ContactSearch search_;

@@ -217,7 +217,7 @@ TEST(LocalPatch, ItsTermsChangeAsTheWholeDoes) {
                                      std::pair(ElasticLaw(NeoHookean{2.0, 7.0}), Element::averaged_volume)}) {
     const std::shared_ptr<const EnergyTerm> whole = make_elasticity(c.block.rest, c.block.tets, law, element);
     const int seed = c.free().vertex_of_free[3];
-    const LocalPatch patch = grow_patch({seed}, 0, c.block.tets, c.free());
+    const LocalPatch patch = grow_patch({seed}, {.rings = 0}, c.block.tets, {c.block.tets, c.x.rows()}, c.free());
     EXPECT_EQ(patch.free.vertex_of_free, std::vector<int>{seed});
     const auto part = restricted(whole, patch.moves);
     if (element == Element::linear) {
@@ -237,7 +237,7 @@ TEST(LocalPatch, RemembersAsTheWholeDoes) {
   const TetStress stress = make_tet_stress(c.block.rest, c.block.tets, NeoHookean{2.0, 7.0}, Element::linear);
   const auto whole = std::make_shared<const ViscousMemory>(stress.body(), stress(c.x));
   const int seed = c.free().vertex_of_free[3];
-  const LocalPatch patch = grow_patch({seed}, 0, c.block.tets, c.free());
+  const LocalPatch patch = grow_patch({seed}, {.rings = 0}, c.block.tets, {c.block.tets, c.x.rows()}, c.free());
   const auto part = restricted(whole, patch.moves), part_of_part = restricted(part, patch.moves);
   EXPECT_EQ(part->num_stencils(), patch.tets.rows());
   for (const auto& term : {part, part_of_part})
@@ -247,12 +247,46 @@ TEST(LocalPatch, RemembersAsTheWholeDoes) {
 TEST(LocalPatch, GrowsByTetrahedraAndLeavesWhatIsPrescribed) {
   const Crumpled c;
   const FreeVertices free = c.free();
-  const LocalPatch one = grow_patch({free.vertex_of_free[0]}, 1, c.block.tets, free);
-  const LocalPatch all = grow_patch({free.vertex_of_free[0]}, 9, c.block.tets, free);
+  const LocalPatch one =
+      grow_patch({free.vertex_of_free[0]}, {.rings = 1}, c.block.tets, {c.block.tets, c.x.rows()}, free);
+  const LocalPatch all =
+      grow_patch({free.vertex_of_free[0]}, {.rings = 9}, c.block.tets, {c.block.tets, c.x.rows()}, free);
   EXPECT_GT(one.free.size(), 1);
   EXPECT_LT(one.free.size(), free.size());
   EXPECT_EQ(all.free.vertex_of_free, free.vertex_of_free);  // in the same order
   EXPECT_EQ(all.tets.rows(), c.block.tets.rows());
+}
+
+TEST(LocalPatch, GrowsOnUntilItHasEnoughVertices) {
+  const Crumpled c;
+  const FreeVertices free = c.free();
+  const TetsOfVertices tets_of(c.block.tets, c.x.rows());
+  const auto grown = [&](const PatchSize& size) {
+    return grow_patch({free.vertex_of_free[0]}, size, c.block.tets, tets_of, free).free.vertex_of_free;
+  };
+  const std::vector<int> one = grown({.rings = 1}), two = grown({.rings = 2}), three = grown({.rings = 3});
+  ASSERT_LT(one.size(), two.size());
+  ASSERT_LT(two.size(), three.size());
+  const int enough = static_cast<int>(one.size());
+  EXPECT_EQ(grown({.rings = 1, .fewest_vertices = enough, .most_rings = 3}), one);
+  EXPECT_EQ(grown({.rings = 1, .fewest_vertices = enough + 1, .most_rings = 3}), two);
+  EXPECT_EQ(grown({.rings = 1, .fewest_vertices = free.size() + 1, .most_rings = 3}), three);
+}
+
+TEST(LocalPatch, HasEveryTetrahedronWithAVertexThatMoves) {
+  const Crumpled c;
+  const FreeVertices free = c.free();
+  const LocalPatch patch =
+      grow_patch({free.vertex_of_free[5]}, {.rings = 1}, c.block.tets, {c.block.tets, c.x.rows()}, free);
+  std::vector<std::array<int, 4>> expected, found;
+  for (Eigen::Index t = 0; t < c.block.tets.rows(); ++t) {
+    const Eigen::RowVector4i v = c.block.tets.row(t);
+    if (std::any_of(v.begin(), v.end(), [&](int i) { return patch.moves[static_cast<std::size_t>(i)]; }))
+      expected.push_back({v[0], v[1], v[2], v[3]});
+  }
+  for (Eigen::Index t = 0; t < patch.tets.rows(); ++t)
+    found.push_back({patch.tets(t, 0), patch.tets(t, 1), patch.tets(t, 2), patch.tets(t, 3)});
+  EXPECT_EQ(found, expected);
 }
 
 /// Random pairs of a gel of 40 vertices with an object of 40, some weighted, some with edges nearly parallel.
