@@ -150,8 +150,8 @@ TACIPC_CLONES bool differentiate_change(const double* x, const std::array<std::a
   Pack squared = {};
   for (int r = 0; r < 3; ++r) {
     const Pack3 change = d.row[r] - known.row[r];
-    for (int c = 0; c < 3; ++c) {
-      const Pack part = dot(change, d.cofactor[c]);
+    for (const Pack3& cofactor : d.cofactor) {
+      const Pack part = dot(change, cofactor);
       squared += part * part;
     }
   }
