@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace tacipc {
 
@@ -53,19 +54,14 @@ TACIPC_INLINE bool all_of(const PackMask& lanes) {
   const auto two = __builtin_shufflevector(four, four, 0, 1) & __builtin_shufflevector(four, four, 2, 3);
   return (two[0] & two[1]) == -1;
 }
-TACIPC_INLINE bool any_negative(const PackMask& lanes) {
-  const auto four =
-      __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3) | __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
-  const auto two = __builtin_shufflevector(four, four, 0, 1) | __builtin_shufflevector(four, four, 2, 3);
-  return (two[0] | two[1]) < 0;
-}
 
 /// Natural logarithm to within 2 units in the last place; of what is no normal positive number as std::log.
 TACIPC_INLINE Pack logarithm(const Pack& x) {
   using Bits = unsigned long long __attribute__((vector_size(64)));
   constexpr unsigned long long kMantissa = 52, kOne = 1ULL << kMantissa;
-  constexpr unsigned long long kRootOfHalf = 0x3fe6a09e667f3bcdULL;
+  constexpr auto kRootOfHalf = std::bit_cast<unsigned long long>(0.5 * std::numbers::sqrt2);
   constexpr double kAnInteger = 0x1.8p52;  // its last place is 1
+  // ln 2 in two parts; the high one has few enough digits for its product with an exponent to be exact.
   constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
   // x = 2^(exponent − 1024) m, √½ ≤ m < √2.
   const Bits bits = std::bit_cast<Bits>(x);
@@ -77,8 +73,8 @@ TACIPC_INLINE Pack logarithm(const Pack& x) {
   Pack series = 2.0 / 21.0 + z * (2.0 / 23.0);
   for (int k = 19; k >= 3; k -= 2) series = 2.0 / k + z * series;
   Pack out = e * kLn2High + (f - (s * (f - z * series) - e * kLn2Low));
-  // Negative numbers have the sign bit, and smaller and larger ones than the normal have it then.
-  if (!any_negative(std::bit_cast<PackMask>(bits | (bits - kOne) | (bits + kOne)))) return out;
+  // The first has the sign bit of negative numbers, the second of those below the normal, the third of those above.
+  if (all_of(std::bit_cast<PackMask>(bits | (bits - kOne) | (bits + kOne)) >= 0)) return out;
   for (int l = 0; l < kLanes; ++l) {
     if (!(x[l] >= 0x1p-1022 && x[l] <= 0x1.fffffffffffffp1023)) out[l] = std::log(x[l]);
   }

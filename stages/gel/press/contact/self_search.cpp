@@ -67,8 +67,9 @@ SelfSearch::SelfSearch(const ContactMesh& mesh)
   std::vector<int> rim;
   for (const int i : others_.triangles) {
     for (const int v : gel.triangles[static_cast<std::size_t>(i)]) {
-      if (open_face_.has(v) && !on_rim[v]) rim.push_back(v);
-      on_rim[v] = open_face_.has(v);
+      if (!open_face_.has(v) || on_rim[v]) continue;
+      on_rim[v] = true;
+      rim.push_back(v);
     }
   }
   const auto heights = rest.topRows(mesh.num_gel_vertices).col(2);

@@ -1,6 +1,4 @@
 // ContactBarrier's value and derivatives for eight pairs at a time.
-#include <cmath>
-
 #include "stages/gel/press/contact/edge_edge_mollifier.h"
 #include "stages/gel/press/contact/packed_feature.h"
 #include "stages/gel/press/energy/barrier.h"

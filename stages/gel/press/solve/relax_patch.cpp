@@ -1,7 +1,6 @@
 // Within a time step: Newton's method for the few vertices that still move.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "common/base/log.h"
@@ -133,9 +132,7 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
   int iterations = 0;
   for (; iterations < most; ++iterations) {
     const NewtonDirection local = newton.direction({energy, step.x, still}, blend);
-    double squared = 0.0;
-    for (const int v : inside) squared = std::max(squared, local.p.row(v).squaredNorm());
-    const double longest = std::sqrt(squared);
+    const double longest = largest_row(local.p, local.p.rows());
     const bool exact = local.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
     if (longest < shortest && (exact || found->others_m > tolerance)) break;
     const double alpha = near.part_within_reach(step.x, local.p);
