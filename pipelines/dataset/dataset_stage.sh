@@ -39,21 +39,26 @@ state_of_inputs() { stat -L -c '%n %i %s %.Y' $prerequisites 2> /dev/null || tru
 
 stop_if_many() {
   [ ! -e "$run" ] || [ "$(wc -l < "$run")" -lt "$STOP_AFTER" ] ||
-    { echo "$STOP_AFTER failures in a row, see $dataset/failures.csv; stopped" >&2; exit 1; }
+    { echo "$STOP_AFTER failures in a row, see $ledger; stopped" >&2; exit 1; }
 }
 
 # One row per failed try, for people and for pack: one line each, whatever the message holds, and whole or not at all.
-row() { # row REASON; with the lock
-  local ledger=$dataset/failures.csv reason=${1//[$'\n\r']/ } heading='' text size
-  [ -s "$ledger" ] || heading=$'id,stage,reason,log,time,host\n'
-  printf -v text '%s%s,%s,"%s",%s,%s,%s' "$heading" "$sample" "$stage" "${reason//\"/\"\"}" "${folder#"$dataset"/}/$stage.log" "$(date -u +%FT%TZ)" "$(hostname)"
+ledger=$dataset/failures.csv
+row() { # row REASON
+  local reason=${1//[$'\n\r']/ }
+  [ -s "$ledger" ] || echo 'id,stage,reason,log,time,host'
+  printf '%s,%s,"%s",%s,%s,%s\n' "$sample" "$stage" "${reason//\"/\"\"}" "${folder#"$dataset"/}/$stage.log" "$(date -u +%FT%TZ)" "$(hostname)"
+}
+add_row() { # add_row REASON; with the lock
+  local text size
+  text=$(row "$1")
   size=$(stat -c %s "$ledger" 2> /dev/null || echo 0)
   { echo "$text" >> "$ledger"; } 2> /dev/null || { truncate -c -s "$size" "$ledger"; return 1; }
 }
 # The lock is made early, while there is room.
 lock=$dataset/.ledger-lock
 note_failure() { # note_failure REASON
-  { flock 8 && row "$1"; } 8<> "$lock" || no_room "$dataset/failures.csv cannot be written"
+  { flock 8 && add_row "$1"; } 8<> "$lock" || no_room "$ledger cannot be written"
   write "$run" 'echo "$sample" >> "$run"'
   echo "$sample: $stage failed: $1" >&2
 }
@@ -61,14 +66,21 @@ note_failure() { # note_failure REASON
 # The disk takes nothing more: no other sample would fare better. The first to meet it says so; nothing is left that makes its sample count as failed.
 full='nothing more can be written'
 reserve=$dataset/.reserve  # room for a row at that time
+reserved=16384
+# The reserve becomes the ledger. Were it removed first, another stage that still writes could take its room.
+row_in_reserve() { # row_in_reserve REASON; with the lock
+  local text
+  text=$({ [ ! -e "$ledger" ] || cat "$ledger"; } && row "$1")
+  [ ${#text} -lt $reserved ] && [ -e "$reserve" ] || return 1
+  { echo "$text" 1<> "$reserve" && truncate -s $((${#text} + 1)) "$reserve" && mv "$reserve" "$ledger"; } 2> /dev/null
+}
 disk_is_full() { [ -e "$run.full" ]; }
 no_room() { # no_room REASON
   rm -f "$failed"
   [ -e "$lock" ] || lock=/dev/null  # full from the beginning
   {
     flock 8
-    rm -f "$reserve"
-    row "$1" || disk_is_full || echo "$dataset/failures.csv cannot be extended" >&2
+    add_row "$1" || row_in_reserve "$1" || { rm -f "$reserve" && add_row "$1"; } || disk_is_full || echo "$ledger cannot be extended" >&2
     if ! disk_is_full; then
       { ln -f "$lock" "$run.full" || : > "$run.full"; } 2> /dev/null || true  # another name takes no room
       echo "$sample: $stage: $1" >&2
@@ -89,7 +101,7 @@ stop_if_many
 if disk_is_full; then exit 1; fi
 if [ ! -e "$lock" ] || [ ! -d "${run%/*}" ]; then write "$lock" 'mkdir -p "${run%/*}" && : >> "$lock"'; fi
 write "$folder/.making" 'mkdir -p "$folder" && : > "$folder/.making"'
-[ -e "$reserve" ] || write "$reserve" 'mine=$reserve-$(hostname)-$$; { head -c 16384 /dev/urandom > "$mine" && mv "$mine" "$reserve"; } || { rm -f "$mine"; false; }'
+[ -e "$reserve" ] || write "$reserve" 'mine=$reserve-$(hostname)-$$; { head -c $reserved /dev/urandom > "$mine" && mv "$mine" "$reserve"; } || { rm -f "$mine"; false; }'
 # Two runs that were given the same sample: one makes it, the other waits and finds it made. A stage that outlives its make keeps the lock.
 exec 9> "$folder/.making"
 if ! flock -n 9; then
