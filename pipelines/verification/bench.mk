@@ -75,8 +75,10 @@ bench-page: $(BENCH)/page/bench_table.yaml
 	@cat $(DOCS)/performance.md
 	@echo; echo "estimate reads $(COST_MODEL_MEASURED) from now on"
 
-# One after the other, whatever JOBS says: what runs beside a press is measured with it.
+# One after the other, whatever JOBS says: what runs beside a press is measured with it. The table is always made again, for other runs may be asked for:
+# with .SECONDARY a table that is newer than what the runs are made of would not miss them.
 bench-press: | build build-bench ## development: Cost of a press by route, size, object and motion (a quarter of an hour; BENCH_GELS= and others); writes OUT/docs/performance.md and the cost model that estimate reads
+	@rm -f $(BENCH)/page/bench_table.yaml
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1
 
 # What the shipped settings cost, and with one of them changed; docs/performance.md has a place for the table.
@@ -115,4 +117,5 @@ bench-default-page: $(DEFAULTS)/table/defaults_table.yaml
 	@cat $(DEFAULTS)/table/table.md
 
 bench-default: | build build-bench ## development: Cost of a press with the shipped settings, and with one of them changed (a quarter of an hour); writes the table in OUT/docs/performance.md
+	@rm -f $(DEFAULTS)/table/defaults_table.yaml
 	@$(MAKE) -f Makefile.data --no-print-directory bench-default-page JOBS=1
