@@ -78,4 +78,20 @@ touch configs/objects/decimate/default.yaml
 emboss_star
 changed=$(comm -13 <(echo "$before") <(find e -name '*.yaml' -not -name '*.timings.yaml' -printf '%f %T@\n' | sort) | cut -d' ' -f1 | tr '\n' ' ')
 [ "$changed" = "decimate.yaml " ] || fail "touching the decimation's configuration redid: $changed"
+# A press asks for huge pages (VmFlags hg), whoever starts it, unless its environment says otherwise.
+asks() { # asks [VARIABLE=value]: while the press of `two` is made again
+  rm -rf again
+  env "$@" "$build_dir"/bin/press --out again --gel two/gels/mctac-tiny/gel.msh --object two/sample/pyramid/object/object.ply --sensor configs/sensors/mctac.yaml \
+    --config configs/press/default.yaml --sample two/sample/pyramid/sample.yaml > /dev/null 2>&1 &
+  local asked=no
+  while kill -0 $! 2> /dev/null; do
+    if grep -q '^VmFlags:.* hg' "/proc/$!/smaps" 2> /dev/null; then asked=yes; fi
+  done
+  wait $! || fail "the press failed"
+  [ $asked = yes ]
+}
+if [ -e /sys/kernel/mm/transparent_hugepage ]; then
+  asks || fail "a press does not ask for huge pages"
+  if asks GLIBC_TUNABLES=glibc.malloc.hugetlb=0; then fail "a press asks for huge pages against its environment"; fi
+fi
 echo "1 passed, 0 failed"

@@ -1,7 +1,11 @@
 #include <fmt/core.h>
 #include <malloc.h>
+#include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "common/base/checked_file.h"
 #include "common/base/error.h"
@@ -95,6 +99,17 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
   mallopt(M_TOP_PAD, 64 << 20);
+}
+
+/// The solver goes through tens of megabytes again and again: on huge pages a press takes a tenth less time. glibc asks
+/// for them only if the environment says so when a program starts, so this one starts once more.
+void ask_for_huge_pages(char** argv) {
+  constexpr const char* kVariable = "GLIBC_TUNABLES";
+  if (std::getenv(kVariable) != nullptr) return;
+  setenv(kVariable, "glibc.malloc.hugetlb=1", 1);
+  std::error_code unreadable;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
+  if (!unreadable) execv(program.c_str(), argv);  // where that fails this one goes on
 }
 
 /// The file of tetrahedra of a soft body: its mesh, or what `tetmesh --object` made of its surface.
@@ -206,6 +221,7 @@ void press_scene(tacipc::Stage& stage, const tacipc::Sensor& sensor, const tacip
 
 int main(int argc, char** argv) {
   using namespace tacipc;
+  ask_for_huge_pages(argv);
   keep_freed_memory();
   return run_stage(kPress, argc, argv, [](Stage& stage) {
     const auto file = stage.read_config<PressConfig>("--config");
