@@ -61,7 +61,7 @@ for case in "${cases[@]}"; do
     take_all &
     another=$!
   fi
-  limited goal disk dataset JOBS=$jobs > said.txt 2>&1 && fail "a full disk went unseen"
+  limited goal disk dataset JOBS="$jobs" > said.txt 2>&1 && fail "a full disk went unseen"
   before=$(made)
   [ "$(grep -c '^stopped: nothing more can be written in disk/datasets/set ([0-9]* MB free); make room and give the same line again$' said.txt)" = 1 ] || fail "not one message: $(cat said.txt)"
   [ "$(grep -c "$reason" said.txt)" = 1 ] || fail "the reason is not said once: $(cat said.txt)"
@@ -69,7 +69,7 @@ for case in "${cases[@]}"; do
   [ "$before" -lt 8 ] || fail "the disk did not fill"
   [ "${MOUNTED:-}" != yes ] || [ "$before" -ge 1 ] || fail "the disk was full from the beginning"
   tries=$(tail -n +2 disk/datasets/set/failures.csv | wc -l)
-  [ "$tries" -ge 1 ] && [ "$tries" -le $jobs ] || fail "samples failed one after another: $(cat disk/datasets/set/failures.csv)"
+  [ "$tries" -ge 1 ] && [ "$tries" -le "$jobs" ] || fail "samples failed one after another: $(cat disk/datasets/set/failures.csv)"
   grep -qv -e '^id,stage,reason,log,time,host$' -e "^mctac__pyramid__down__[0-9]*,[a-z]*,\".*$reason\",samples/000/.*$" disk/datasets/set/failures.csv && fail "the ledger is damaged: $(cat disk/datasets/set/failures.csv)"
   goal disk status > status.txt
   grep -q "^set: 8 samples: $before made, 0 failed, 0 running, $((8 - before)) left$" status.txt || fail "half a sample counts, or a failed one: $(cat status.txt)"
@@ -79,7 +79,7 @@ for case in "${cases[@]}"; do
   done
   [ "$another" = "" ] || { touch whole/enough && wait "$another" && another=''; }
   more
-  goal disk dataset JOBS=$jobs > said.txt 2>&1 || fail "with room again it cannot be completed: $(cat said.txt)"
+  goal disk dataset JOBS="$jobs" > said.txt 2>&1 || fail "with room again it cannot be completed: $(cat said.txt)"
   [ "$(samples whole)" = "$(samples disk)" ] || fail "it ends in other bytes"
   if [ "${MOUNTED:-}" = yes ]; then umount disk; else rm -rf disk; mkdir disk; fi
 done
