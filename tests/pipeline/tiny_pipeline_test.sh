@@ -86,6 +86,7 @@ asks() { # asks [VARIABLE=value]: while the press of `two` is made again
   local asked=no
   while kill -0 $! 2> /dev/null; do
     if grep -q '^VmFlags:.* hg' "/proc/$!/smaps" 2> /dev/null; then asked=yes; fi
+    sleep 0.01
   done
   wait $! || fail "the press failed"
   [ $asked = yes ]
