@@ -1,4 +1,4 @@
-# Warnings and floating-point rules for our own targets only; third-party headers come in as SYSTEM.
+# Warnings, floating-point rules and the compiler's memory for our own targets only; third-party headers come in as SYSTEM.
 add_library(tacipc_warnings INTERFACE)
 add_library(tacipc::warnings ALIAS tacipc_warnings)
 target_compile_options(tacipc_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
@@ -12,3 +12,7 @@ target_compile_options(tacipc_warnings INTERFACE -ffp-contract=off -march=${TACI
 target_compile_options(tacipc_warnings INTERFACE -Wno-psabi)
 # GCC 12 suspects its own std::string of these; in headers compiled in advance it no longer knows that they are not ours.
 target_compile_options(tacipc_warnings INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+# GCC looks for garbage from 128 MB on, a seventh of its time, though it goes on to several times that all the same.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(tacipc_warnings INTERFACE --param=ggc-min-heapsize=400000)
+endif()
