@@ -103,8 +103,8 @@ TEST(Png, NoiseIsNotSearchedForStringsButDrawingsAre) {
     write_png(scratch / "a.png", image);
     EXPECT_EQ(read_png(scratch / "a.png", 3).pixels, image.pixels);
   }
-  // Eight values are three bits, and a difference of two of them a little more.
-  EXPECT_LT(png_bytes(noisy, "noisy").size(), noisy.pixels.size() * 4 / 8);
+  // Eight values are 3 bits, their differences from the mean of two neighbours 3.6, from one of them 3.8.
+  EXPECT_LT(png_bytes(noisy, "noisy").size(), noisy.pixels.size() * 37 / 80);
   EXPECT_LT(png_bytes(flat, "flat").size(), 2000u);
 }
 
