@@ -24,5 +24,6 @@ fi
 mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -v '/image/depthnet/' | grep . || true)
 echo "clang-tidy: ${#files[@]} of ${#known[@]} sources"
 # Some of the compiler's options are GCC's alone.
-[ "${#files[@]}" = 0 ] || printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option 2>&1 |
+[ "${#files[@]}" = 0 ] || printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" clang-tidy -p "$build" --quiet \
+  --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unused-command-line-argument 2>&1 |
   { grep -vE '^[0-9]+ warnings? generated|^Suppressed|^Use -header-filter' || true; }
