@@ -97,22 +97,24 @@ TACIPC_INLINE unsigned evaluate_lanes(const double* x, const double* rest, const
   return doubtful_lanes<point_triangle>(p, rest, pairs);
 }
 
-/// Squared distances; returns doubtful_lanes().
+/// Energies; returns doubtful_lanes().
 template <bool point_triangle>
-TACIPC_INLINE unsigned distance_lanes(const double* x, const double* rest, const ContactPair* const* pairs,
-                                      double* out) {
+TACIPC_INLINE unsigned energy_lanes(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
+                                    double* out) {
   const PackedPoints p = load_points(x, pairs);
   const Pack s = (point_triangle ? point_triangle_feature(p) : edge_edge_feature(p)).squared_distance;
-  for (int l = 0; l < kLanes; ++l) out[l] = s[l];
+  // barrier.h
+  const Pack gap = s_hat - s, none = {}, energy = choose(gap, -gap * gap * logarithm(s / s_hat), none);
+  for (int l = 0; l < kLanes; ++l) out[l] = pairs[l]->weight * energy[l];
   return doubtful_lanes<point_triangle>(p, rest, pairs);
 }
-TACIPC_CLONES unsigned point_triangle_distances(const double* x, const double* rest, const ContactPair* const* pairs,
-                                                double* out) {
-  return distance_lanes<true>(x, rest, pairs, out);
+TACIPC_CLONES unsigned point_triangle_energies(const double* x, const double* rest, const ContactPair* const* pairs,
+                                               double s_hat, double* out) {
+  return energy_lanes<true>(x, rest, pairs, s_hat, out);
 }
-TACIPC_CLONES unsigned edge_edge_distances(const double* x, const double* rest, const ContactPair* const* pairs,
-                                           double* out) {
-  return distance_lanes<false>(x, rest, pairs, out);
+TACIPC_CLONES unsigned edge_edge_energies(const double* x, const double* rest, const ContactPair* const* pairs,
+                                          double s_hat, double* out) {
+  return energy_lanes<false>(x, rest, pairs, s_hat, out);
 }
 
 using Lanes = unsigned(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
@@ -145,16 +147,14 @@ double ContactBarrier::value(const Positions& x) const {
         if (pairs[count]->kind != pairs[0]->kind) break;
       }
       std::fill(pairs.begin() + count, pairs.end(), pairs[0]);
-      double s[kLanes];
-      const auto distances =
-          pairs[0]->kind == ContactPair::Kind::point_triangle ? point_triangle_distances : edge_edge_distances;
-      const unsigned doubtful = distances(x.data(), mesh_->rest_positions.data(), pairs.data(), s);
+      double energies[kLanes];
+      const auto find =
+          pairs[0]->kind == ContactPair::Kind::point_triangle ? point_triangle_energies : edge_edge_energies;
+      const unsigned doubtful = find(x.data(), mesh_->rest_positions.data(), pairs.data(), s_hat_, energies);
       for (int l = 0; l < count; ++l) {
-        if (const int i = near[first + l]; (doubtful >> l & 1U) || !is_plain(i)) {
-          sum += value_of(i, gather(x, *pairs[l]));
-        } else {
-          sum += pairs[l]->weight * barrier(s[l], s_hat_);
-        }
+        const int i = near[first + l];
+        const bool alone = (doubtful >> l & 1U) || !is_plain(i);
+        sum += alone ? value_of(i, gather(x, *pairs[l])) : energies[l];
       }
       first += count;
     }

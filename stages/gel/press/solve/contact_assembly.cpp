@@ -179,7 +179,7 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
 
 void reblend_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
                      const FreeVertices& free, int first_object_vertex, const Blend& before, const Blend& after,
-                     const ObjectMotion& motion, NewtonSystem& system) {
+                     const ObjectMotion& motion, NewtonSystem& system, std::vector<char>& changed_rows) {
   PairLocal old, local;
   for (const int stencil : active) {
     const std::span<const int> v = term.stencil(stencil);
@@ -193,6 +193,9 @@ void reblend_contact(double weight, const ContactTerm& term, const std::vector<i
     local.hessian -= old.hessian;
     local.gradient.setZero();
     scatter_pair(v, wanted, local, weight, free, first_object_vertex, motion.of_vertices, system);
+    for (const int k : v) {
+      if (const int row = free.free_of_vertex[k]; row >= 0) changed_rows[static_cast<std::size_t>(row)] = 1;
+    }
   }
 }
 

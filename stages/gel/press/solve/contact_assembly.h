@@ -24,9 +24,10 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
                       const FreeVertices& free, int first_object_vertex, const Blend& blend, const ObjectMotion& motion,
                       NewtonSystem& system);
 
-/// Turns the Hessian of a system assembled with the blend `before` into that of `after`; gradients stay.
+/// Turns the Hessian of a system assembled with the blend `before` into that of `after`; gradients stay. Marks the rows
+/// of the vertices it changes; not those of bodies.
 void reblend_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
                      const FreeVertices& free, int first_object_vertex, const Blend& before, const Blend& after,
-                     const ObjectMotion& motion, NewtonSystem& system);
+                     const ObjectMotion& motion, NewtonSystem& system, std::vector<char>& changed_rows);
 
 }  // namespace tacipc

@@ -92,10 +92,10 @@ void TimeStepper::minimise(Step& step) {
       alpha = *found;
       run.relax_next = false;
       if (!step.bodies.empty()) stretch_next(run, direction, alpha);
-      if (step.arrived && relax_patch(step, direction, pairs)) {
+      if (const auto change = step.arrived ? relax_patch(step, direction, pairs) : std::nullopt) {
         run.barrier = barrier(std::move(pairs));
         run.energy = potential(step, run.barrier);
-        run.value.reset();
+        *run.value += *change;
       }
     }
     log_debug("  {} {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s residual {:.3e} N blend {:.3g}", kind,

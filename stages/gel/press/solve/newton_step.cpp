@@ -234,9 +234,8 @@ void NewtonStepper::reblend(const Call& call, const Blend& before, const Blend& 
   if (along.size() > 0) system_.coupling -= system_.hessian.multiply(along);
   call.for_each_contact([&](const WeightedContact& contact, const std::vector<int>& active) {
     reblend_contact(contact.weight, *contact.term, active, call.problem.x, free_, first_object_vertex_, before, after,
-                    call.object, system_);
+                    call.object, system_, changed_);
   });
-  mark_held();
   if (along.size() > 0) system_.coupling += system_.hessian.multiply(along);
 }
 

@@ -82,17 +82,18 @@ std::optional<Seeds> approximated(const Blend& blend, const Positions& p, const 
 
 }  // namespace
 
-bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std::vector<ContactPair>& pairs) {
-  if (!settings_.newton.patches || settings_.augmented_lagrangian || !step.goal.free_axes.empty()) return false;
+std::optional<double> TimeStepper::relax_patch(Step& step, const NewtonDirection& direction,
+                                               std::vector<ContactPair>& pairs) {
+  if (!settings_.newton.patches || settings_.augmented_lagrangian || !step.goal.free_axes.empty()) return std::nullopt;
   const double h = step.goal.h_s, tolerance = settings_.newton.velocity_tolerance_m_s * h;
   const Stopwatch watch(times_.patches_s);
   const FreeVertices& free = newton_->free();
-  if (free.size() < kFewestVertices) return false;
+  if (free.size() < kFewestVertices) return std::nullopt;
   std::optional<Seeds> found = farthest(direction.p, free, mesh_.num_gel_vertices, tolerance);
   const bool may_wait = settings_.newton.adaptive_contact_hessian && step.looseness == 1.0;
   if (!found && may_wait && direction.largest_share > 0.0)
     found = approximated(step.blend, direction.p, free, mesh_.num_gel_vertices, tolerance);
-  if (!found) return false;
+  if (!found) return std::nullopt;
 
   PatchSize size{found->approximated ? kRingsAboutApproximated : kRings};
   if (!step.friction) {
@@ -128,7 +129,9 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
   const auto go = [&](double part) {
     for (const int v : inside) trial.row(v) = step.x.row(v) + part * p.row(v);
   };
-  std::optional<double> value;  // of the energy at x, where it is known
+  // Pairs that are added later are too far away to change it.
+  double value = energy.value(step.x);
+  const double value_before = value;
   int iterations = 0;
   for (; iterations < most; ++iterations) {
     const NewtonDirection local = newton.direction({energy, step.x, still}, blend);
@@ -138,23 +141,21 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
     const double alpha = near.part_within_reach(step.x, local.p);
     for (const int v : inside) p.row(v) = alpha * local.p.row(v);
     go(1.0);
-    if (near.extend_to(trial)) {
-      renew_energy();
-      value.reset();
-    }
+    if (near.extend_to(trial)) renew_energy();
     const double limit = std::min(
         contact_step_limit(near.pairs(), step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
         inversion_step_limit(patch.tets, step.x, p));
-    const double before = value ? *value : energy.value(step.x), rounding = kEnergyRounding * std::abs(before);
-    double part = limit;
+    const double rounding = kEnergyRounding * std::abs(value);
+    double part = limit, after = value;
     const auto decreases = [&] {
       go(part);
-      value = energy.value(trial);
-      return *value <= before + kSufficientDecrease * part * alpha * local.slope + rounding;
+      after = energy.value(trial);
+      return after <= value + kSufficientDecrease * part * alpha * local.slope + rounding;
     };
     int halvings = 0;
     for (; !decreases() && halvings < kMaxHalvings; ++halvings) part *= 0.5;
     if (halvings == kMaxHalvings) break;
+    value = after;
     for (const int v : inside) step.x.row(v) = trial.row(v);
     if (halvings > 0) raise_shares_of_farthest(local.p.topRows(blend.size()), blend);
     log_debug("    patch {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s blend {:.3g}", iterations + 1, part * alpha,
@@ -166,9 +167,9 @@ bool TimeStepper::relax_patch(Step& step, const NewtonDirection& direction, std:
   if (found->approximated) {
     for (const int v : patch.free.vertex_of_free) step.blend.take_over(v, blend);
   }
-  if (iterations == 0) return false;
+  if (iterations == 0) return std::nullopt;
   pairs = with_patch(std::move(pairs), patch.moves, near.pairs());
-  return true;
+  return value - value_before;
 }
 
 }  // namespace tacipc

@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,31 +18,47 @@ namespace {
 constexpr std::size_t kChunk = 512, kChunksPerRound = 16;
 constexpr double kSmallestStep = 1e-12;
 
-/// min over i < count of limit(i), at most 1; a minimum does not depend on order.
-template <typename Limit>
-double parallel_min(std::size_t count, Limit&& limit) {
-  std::vector<double> partial((count + kChunk - 1) / kChunk, 1.0);
-  tbb::parallel_for(std::size_t{0}, partial.size(), [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i)
-      partial[chunk] = std::min(partial[chunk], limit(i));
-  });
-  double smallest = 1.0;
-  for (const double part : partial) smallest = std::min(smallest, part);
-  return smallest;
-}
+/// det[A + t B] = Σ c_k tᵏ of eight tetrahedra, for the edge vectors A and their change B.
+struct VolumeCubics {
+  Pack c[4];
 
-/// det[A + t B] = Σ c_k tᵏ for the edge vectors A and their change B.
-std::array<double, 4> volume_cubic(const Positions& x, const Positions& p, const auto& tet) {
-  Matrix3 A, B;
-  for (int k = 0; k < 3; ++k) {
-    A.col(k) = x.row(tet[k + 1]) - x.row(tet[0]);
-    B.col(k) = p.row(tet[k + 1]) - p.row(tet[0]);
+  TACIPC_INLINE VolumeCubics(const double* x, const double* p, const std::array<std::array<int, kLanes>, 4>& corners) {
+    const Pack3 x0 = load_rows(x, corners[0]), p0 = load_rows(p, corners[0]);
+    Pack3 A[3], B[3];
+    for (int k = 0; k < 3; ++k) {
+      A[k] = load_rows(x, corners[k + 1]) - x0;
+      B[k] = load_rows(p, corners[k + 1]) - p0;
+    }
+    const Pack3 AA = cross(A[1], A[2]), BB = cross(B[1], B[2]), AB = cross(A[1], B[2]) + cross(B[1], A[2]);
+    c[0] = dot(A[0], AA);
+    c[1] = dot(B[0], AA) + dot(A[0], AB);
+    c[2] = dot(A[0], BB) + dot(B[0], AB);
+    c[3] = dot(B[0], BB);
   }
-  const auto det = [](const Vector3& u, const Vector3& v, const Vector3& w) { return u.dot(v.cross(w)); };
-  return {det(A.col(0), A.col(1), A.col(2)),
-          det(B.col(0), A.col(1), A.col(2)) + det(A.col(0), B.col(1), A.col(2)) + det(A.col(0), A.col(1), B.col(2)),
-          det(A.col(0), B.col(1), B.col(2)) + det(B.col(0), A.col(1), B.col(2)) + det(B.col(0), B.col(1), A.col(2)),
-          det(B.col(0), B.col(1), B.col(2))};
+};
+
+constexpr double kVolumeFloor = 0.1, kShorter = 0.75;
+
+/// min over some tetrahedra, up to eight, of the first t = `until`, kShorter `until`, … that leaves kVolumeFloor of the
+/// volume.
+TACIPC_CLONES double volume_limit(const double* x, const double* p, const int* tets, int count, double until) {
+  std::array<std::array<int, kLanes>, 4> corners;
+  for (int k = 0; k < 4; ++k) {
+    for (int l = 0; l < kLanes; ++l) corners[k][l] = tets[4 * (l < count ? l : 0) + k];
+  }
+  const VolumeCubics cubics(x, p, corners);
+  const Pack* c = cubics.c;
+  // As cubic_stays_above has it. The last value is the one that is no number if any coefficient is none.
+  const Pack b1 = c[0] + until * c[1] / 3.0, b2 = c[0] + until * (2.0 * c[1] + until * c[2]) / 3.0,
+             b3 = c[0] + until * (c[1] + until * (c[2] + until * c[3]));
+  const Pack least = smaller(b3, smaller(b2, smaller(b1, c[0]))) - kVolumeFloor * c[0];
+  if (all_of(least > Pack{})) return until;
+  double t = until;
+  for (int l = 0; l < count; ++l) {
+    const double of_one[4] = {c[0][l], c[1][l], c[2][l], c[3][l]};
+    while (t > kSmallestStep && !cubic_stays_above(of_one, t, kVolumeFloor * of_one[0])) t *= kShorter;
+  }
+  return t;
 }
 
 /// The part of p, at most `until`, that one pair allows.
@@ -119,16 +134,20 @@ bool cubic_stays_above(const double c[4], double t, double floor) {
   const double b1 = c[0] + t * c[1] / 3.0;
   const double b2 = c[0] + t * (2.0 * c[1] + t * c[2]) / 3.0;
   const double b3 = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-  return std::min({c[0], b1, b2, b3}) > floor;
+  return c[0] > floor && b1 > floor && b2 > floor && b3 > floor;  // no when any is no number
 }
 
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p) {
-  const double limit = parallel_min(static_cast<std::size_t>(tets.rows()), [&](std::size_t i) {
-    const auto c = volume_cubic(x, p, tets.row(static_cast<Eigen::Index>(i)));
-    double t = 1.0;
-    while (t > kSmallestStep && !cubic_stays_above(c.data(), t, 0.1 * c[0])) t *= 0.75;
-    return t;
+  const auto count = static_cast<std::size_t>(tets.rows());
+  // What passes at a step passes at all shorter ones, so that neither order nor chunks matter.
+  std::vector<double> limits((count + kChunk - 1) / kChunk, 1.0);
+  tbb::parallel_for(std::size_t{0}, limits.size(), [&](std::size_t chunk) {
+    const std::size_t last = std::min(count, (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < last; i += kLanes)
+      limits[chunk] = volume_limit(x.data(), p.data(), tets.data() + 4 * i,
+                                   static_cast<int>(std::min<std::size_t>(kLanes, last - i)), limits[chunk]);
   });
+  const double limit = limits.empty() ? 1.0 : *std::min_element(limits.begin(), limits.end());
   if (limit <= kSmallestStep) throw SolverError("a tetrahedron is too flat to certify any step");
   return limit;
 }

@@ -379,7 +379,18 @@ TEST(AssembleContact, EveryVertexHasItsOwnBlend) {
       }
       assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, blend, object, blended);
       assemble_contact(2.0, *term, active, t.x, free, Touching::kGel, uniform, object, reblended);
-      reblend_contact(2.0, *term, active, t.x, free, Touching::kGel, uniform, blend, object, reblended);
+      const NewtonSystem before = reblended;
+      std::vector<char> changed(static_cast<std::size_t>(free.size()), 0);
+      reblend_contact(2.0, *term, active, t.x, free, Touching::kGel, uniform, blend, object, reblended, changed);
+      for (int c = 0; c < free.size(); ++c) {
+        for (int k = pattern->column_start[c]; k < pattern->column_start[c + 1]; ++k) {
+          if (reblended.hessian.block(k) != before.hessian.block(k)) {
+            EXPECT_TRUE(changed[c]) << term->name() << " moves " << moves;
+            EXPECT_TRUE(changed[pattern->row[k]]) << term->name() << " moves " << moves;
+          }
+        }
+      }
+      EXPECT_GT(std::count(changed.begin(), changed.end(), 1), 0);
       for (NewtonSystem* system : {&blended, &reblended, &expected}) {
         if (moves) continue;
         system->object_gradient.setZero();  // what nobody asks for

@@ -1,8 +1,12 @@
 // Steps that invert no tetrahedron.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <random>
+#include <vector>
 
+#include "common/base/error.h"
 #include "stages/gel/press/solve/step_limit.h"
 
 namespace tacipc {
@@ -37,6 +41,34 @@ TEST(InversionStepLimit, StopsBeforeAVertexPassesThroughItsFace) {
   EXPECT_GT(t, 0.75 * 0.225);
   p(3, 2) = 4.0;
   EXPECT_EQ(inversion_step_limit(Tetrahedra{{0, 1, 2, 3}}, x, p), 1.0);
+}
+
+TEST(InversionStepLimit, IsTheLeastOfAllWhereverInTheListTheyAre) {
+  // Eight are looked at together: numbers that eight does not divide, each tetrahedron alone against all of them.
+  constexpr int kTets = 1029;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Positions x(4 * kTets, 3), p(4 * kTets, 3);
+  Tetrahedra tets(kTets, 4);
+  for (int t = 0; t < kTets; ++t) {
+    tets.row(t) << 4 * t, 4 * t + 1, 4 * t + 2, 4 * t + 3;
+    x.middleRows<4>(4 * t) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+    for (int k = 0; k < 4; ++k) p.row(4 * t + k) << 0.6 * uniform(random), 0.6 * uniform(random), 0.6 * uniform(random);
+  }
+  std::vector<double> alone;
+  for (int t = 0; t < kTets; ++t) alone.push_back(inversion_step_limit(tets.row(t), x, p));
+  EXPECT_EQ(*std::max_element(alone.begin(), alone.end()), 1.0);
+  EXPECT_LT(*std::min_element(alone.begin(), alone.end()), 1.0);
+  for (const int count : {1, 7, 8, 9, 513, kTets})
+    EXPECT_EQ(inversion_step_limit(tets.topRows(count), x, p), *std::min_element(alone.begin(), alone.begin() + count))
+        << count;
+}
+
+TEST(InversionStepLimit, RefusesAStepThatIsNoNumber) {
+  const Positions x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  Positions p = Positions::Zero(5, 3);
+  p(4, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(inversion_step_limit(Tetrahedra{{0, 1, 2, 3}, {1, 2, 3, 4}}, x, p), SolverError);
 }
 
 TEST(InversionStepLimit, SeesATurnThatEndsUprightAgain) {
