@@ -18,24 +18,12 @@ namespace {
 constexpr std::size_t kChunk = 512, kChunksPerRound = 16;
 constexpr double kSmallestStep = 1e-12;
 
-/// det[A + t B] = Σ c_k tᵏ of eight tetrahedra, for the edge vectors A and their change B.
-struct VolumeCubics {
-  Pack c[4];
-
-  TACIPC_INLINE VolumeCubics(const double* x, const double* p, const std::array<std::array<int, kLanes>, 4>& corners) {
-    const Pack3 x0 = load_rows(x, corners[0]), p0 = load_rows(p, corners[0]);
-    Pack3 A[3], B[3];
-    for (int k = 0; k < 3; ++k) {
-      A[k] = load_rows(x, corners[k + 1]) - x0;
-      B[k] = load_rows(p, corners[k + 1]) - p0;
-    }
-    const Pack3 AA = cross(A[1], A[2]), BB = cross(B[1], B[2]), AB = cross(A[1], B[2]) + cross(B[1], A[2]);
-    c[0] = dot(A[0], AA);
-    c[1] = dot(B[0], AA) + dot(A[0], AB);
-    c[2] = dot(A[0], BB) + dot(B[0], AB);
-    c[3] = dot(B[0], BB);
-  }
-};
+/// The Bernstein coefficients but the first, which is c₀, of Σ c_k tᵏ on [0, t].
+TACIPC_INLINE void find_bernstein(const auto* c, double t, auto* out) {
+  out[0] = c[0] + t * c[1] / 3.0;
+  out[1] = c[0] + t * (2.0 * c[1] + t * c[2]) / 3.0;
+  out[2] = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+}
 
 constexpr double kVolumeFloor = 0.1, kShorter = 0.75;
 
@@ -46,12 +34,19 @@ TACIPC_CLONES double volume_limit(const double* x, const double* p, const int* t
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l < kLanes; ++l) corners[k][l] = tets[4 * (l < count ? l : 0) + k];
   }
-  const VolumeCubics cubics(x, p, corners);
-  const Pack* c = cubics.c;
-  // As cubic_stays_above has it. The last value is the one that is no number if any coefficient is none.
-  const Pack b1 = c[0] + until * c[1] / 3.0, b2 = c[0] + until * (2.0 * c[1] + until * c[2]) / 3.0,
-             b3 = c[0] + until * (c[1] + until * (c[2] + until * c[3]));
-  const Pack least = smaller(b3, smaller(b2, smaller(b1, c[0]))) - kVolumeFloor * c[0];
+  // det[A + t B] = Σ c_k tᵏ for the edge vectors A and their change B.
+  const Pack3 x0 = load_rows(x, corners[0]), p0 = load_rows(p, corners[0]);
+  Pack3 A[3], B[3];
+  for (int k = 0; k < 3; ++k) {
+    A[k] = load_rows(x, corners[k + 1]) - x0;
+    B[k] = load_rows(p, corners[k + 1]) - p0;
+  }
+  const Pack3 AA = cross(A[1], A[2]), BB = cross(B[1], B[2]), AB = cross(A[1], B[2]) + cross(B[1], A[2]);
+  const Pack c[4] = {dot(A[0], AA), dot(B[0], AA) + dot(A[0], AB), dot(A[0], BB) + dot(B[0], AB), dot(B[0], BB)};
+  // As cubic_stays_above has it. The last coefficient is the one that is no number if any is none.
+  Pack b[3];
+  find_bernstein(c, until, b);
+  const Pack least = smaller(b[2], smaller(b[1], smaller(b[0], c[0]))) - kVolumeFloor * c[0];
   if (all_of(least > Pack{})) return until;
   double t = until;
   for (int l = 0; l < count; ++l) {
@@ -131,10 +126,9 @@ std::vector<ContactPair> limiting_pairs(const std::vector<ContactPair>& pairs, c
 }
 
 bool cubic_stays_above(const double c[4], double t, double floor) {
-  const double b1 = c[0] + t * c[1] / 3.0;
-  const double b2 = c[0] + t * (2.0 * c[1] + t * c[2]) / 3.0;
-  const double b3 = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-  return c[0] > floor && b1 > floor && b2 > floor && b3 > floor;  // no when any is no number
+  double b[3];
+  find_bernstein(c, t, b);
+  return c[0] > floor && b[0] > floor && b[1] > floor && b[2] > floor;  // no when any is no number
 }
 
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p) {

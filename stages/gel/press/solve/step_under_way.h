@@ -46,7 +46,7 @@ struct TimeStepper::Step {
 struct TimeStepper::Minimisation {
   std::shared_ptr<const ContactBarrier> barrier;
   IncrementalPotential energy;
-  std::optional<double> value = std::nullopt;  // of the energy at x, where the line search has found it
+  std::optional<double> value = std::nullopt;  // of the energy at x, where line search and patch have told it
   double residual_m_s = std::numeric_limits<double>::infinity();  // max |p| / h of the last direction
   int exact_hessian_waits = 0;  // iterations within the tolerances that went on for want of the exact Hessian
   /// The part of the rest of its motion that the next move takes the object by, and whether the gel is relaxed at a

@@ -250,8 +250,8 @@ class TimeStepper {
   void minimise_constrained(Step& step);
 
   /// Where only a few vertices are not yet at rest: Newton's method for the patch of those and their neighbours, all
-  /// others held. If anything moved, how much the energy has changed: `pairs`, within d̂ where the step was, are those
-  /// within d̂ where it is then, and some more.
+  /// others held. Returns how much the energy has changed, nothing if nothing moved. `pairs`, those within d̂ where the
+  /// step was, are then those within d̂ where it is, and some more.
   std::optional<double> relax_patch(Step& step, const NewtonDirection& direction, std::vector<ContactPair>& pairs);
 
   /// Friction of this step with normal forces and tangent planes of `lagged`. \pre there is friction
