@@ -30,16 +30,31 @@ struct Chunk {
   std::vector<Single> singles;
 };
 
-/// The gel's primitive of a pair of gel and object, if all of its vertices are free.
-std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVertices& free, int first_object_vertex) {
-  const auto is_free = [&](int k) { return free.free_of_vertex[v[k]] >= 0; };
+/// The gel's primitive of a pair of gel and object, if some of its vertices are free and the others stand still.
+std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVertices& free, int first_object_vertex,
+                                            const ObjectMotion& motion) {
+  if (motion.in_full) return std::nullopt;
   const auto is_object = [&](int k) {
-    return v[k] >= first_object_vertex && !is_free(k) && (free.carried.empty() || !free.carrier(v[k]));
+    return v[k] >= first_object_vertex && free.free_of_vertex[v[k]] < 0 &&
+           (free.carried.empty() || !free.carrier(v[k]));
   };
-  if (is_free(0) && is_object(1) && is_object(2) && is_object(3)) return kPoint;
-  if (is_object(0) && is_free(1) && is_free(2) && is_free(3)) return kTriangle;
-  if (is_free(0) && is_free(1) && is_object(2) && is_object(3)) return kFirstEdge;
-  return std::nullopt;
+  WantedVertices own = kPoint;
+  if (!is_object(3)) {
+    own = kTriangle;
+  } else if (!is_object(1)) {
+    own = kFirstEdge;
+  }
+  bool any_free = false;
+  for (int k = 0; k < 4; ++k) {
+    if (k < own.first || k >= own.first + own.count) {
+      if (!is_object(k)) return std::nullopt;
+      continue;
+    }
+    const bool is_free = free.free_of_vertex[v[k]] >= 0;
+    if (v[k] >= first_object_vertex || !(is_free || motion.of_vertices.row(v[k]).isZero(0.0))) return std::nullopt;
+    any_free = any_free || is_free;
+  }
+  return any_free ? std::optional(own) : std::nullopt;
 }
 
 PairVertices wanted_vertices(std::span<const int> v, const FreeVertices& free, int first_object_vertex,
@@ -81,23 +96,34 @@ TACIPC_CLONES void add_lanes(const PackedBlocks& from, int lanes, int vertices, 
   }
 }
 
+/// Leaves the change of the blocks in `out`, and no gradient.
+TACIPC_CLONES void subtract_blocks(int vertices, const PackedBlocks& old, PackedBlocks& out) {
+  for (int b = 0; b < vertices; ++b) {
+    for (Pack& g : out.gradient[b]) g = Pack{};
+    for (int a = b; a < vertices; ++a) {
+      for (int c = 0; c < 9; ++c) out.blocks[block_index(a, b)][c] -= old.blocks[block_index(a, b)][c];
+    }
+  }
+}
+
 void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vector3& translation,
              NewtonSystem& system) {
   const bool moves = translation != Vector3::Zero();
   for (int b = 0; b < sum.count; ++b) {
     const int j = free.free_of_vertex[sum.vertices[b]];
-    for (int c = 0; c < 3; ++c) system.gradient[3 * j + c] += weight * sum.gradient[b][c];
+    for (int c = 0; j >= 0 && c < 3; ++c) system.gradient[3 * j + c] += weight * sum.gradient[b][c];
     for (int a = b; a < sum.count; ++a) {
       const int i = free.free_of_vertex[sum.vertices[a]];
       const auto& columns = sum.blocks[block_index(a, b)];
       if (moves) {
         for (int r = 0; r < 3; ++r) {
           for (int c = 0; c < 3; ++c) {
-            system.coupling[3 * i + r] -= weight * columns[c][r] * translation[c];
-            if (a != b) system.coupling[3 * j + c] -= weight * columns[c][r] * translation[r];
+            if (i >= 0) system.coupling[3 * i + r] -= weight * columns[c][r] * translation[c];
+            if (j >= 0 && a != b) system.coupling[3 * j + c] -= weight * columns[c][r] * translation[r];
           }
         }
       }
+      if (i < 0 || j < 0) continue;
       if (i >= j) {
         double* block = system.hessian.block(i, j).data();
         for (int c = 0; c < 3; ++c) store_quad(block + 4 * c, load_quad(block + 4 * c) + weight * columns[c]);
@@ -111,40 +137,38 @@ void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vect
   }
 }
 
-}  // namespace
-
-void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
-                      const FreeVertices& free, int first_object_vertex, const Blend& blend, const ObjectMotion& motion,
-                      NewtonSystem& system) {
-  const auto evaluate_single = [&](int stencil, std::vector<Single>& out) {
-    const std::span<const int> v = term.stencil(stencil);
-    const PairVertices wanted = wanted_vertices(v, free, first_object_vertex, motion);
-    if (wanted == 0) return;
-    Single& one = out.emplace_back();
-    one.stencil = stencil;
-    one.wanted = wanted;
-    if (!term.evaluate_blended(stencil, points_of(v, x), blend.share(v), wanted, one.local)) out.pop_back();
+/// Adds weight × these stencils in a fixed order: those that push on a primitive of the gel eight at a time,
+/// evaluate_pack(which, count, primitive, blocks), the others by themselves, evaluate_single(stencil, wanted, local).
+template <typename EvaluatePack, typename EvaluateSingle>
+void add_stencils(double weight, const ContactTerm& term, const std::vector<int>& stencils, const FreeVertices& free,
+                  int first_object_vertex, const ObjectMotion& motion, NewtonSystem& system,
+                  EvaluatePack&& evaluate_pack, EvaluateSingle&& evaluate_single) {
+  const auto primitive_of = [&](int stencil) {
+    return gel_primitive(term.stencil(stencil), free, first_object_vertex, motion);
   };
   const auto evaluate = [&](std::size_t first, std::size_t last, Chunk& out) {
     while (first < last) {
-      const auto primitive =
-          motion.in_full ? std::nullopt : gel_primitive(term.stencil(active[first]), free, first_object_vertex);
+      const auto primitive = primitive_of(stencils[first]);
       if (!primitive) {
-        evaluate_single(active[first++], out.singles);
+        const int stencil = stencils[first++];
+        const PairVertices wanted = wanted_vertices(term.stencil(stencil), free, first_object_vertex, motion);
+        if (wanted == 0) continue;
+        Single& one = out.singles.emplace_back();
+        one.stencil = stencil;
+        one.wanted = wanted;
+        if (!evaluate_single(stencil, wanted, one.local)) out.singles.pop_back();
         continue;
       }
       StencilPack pack;
-      Pack shares = {};
       int count = 0;
       for (; count < kLanes && first + count < last; ++count) {
-        const auto next = gel_primitive(term.stencil(active[first + count]), free, first_object_vertex);
+        const auto next = primitive_of(stencils[first + count]);
         if (!next || next->first != primitive->first || next->count != primitive->count) break;
-        pack[count] = active[first + count];
-        shares[count] = blend.share(term.stencil(pack[count]).subspan(primitive->first, primitive->count));
+        pack[count] = stencils[first + count];
       }
       std::fill(pack.begin() + count, pack.end(), pack[0]);
       PackedBlocks found;
-      term.evaluate_pack(pack, count, x, shares, *primitive, found);
+      evaluate_pack(pack, count, *primitive, found);
       // Pointers to sums below: none may be moved by growth.
       if (out.sums.capacity() < out.sums.size() + kLanes) out.sums.reserve(2 * out.sums.size() + 8 * kLanes);
       std::array<Sum*, kLanes> sums;
@@ -162,11 +186,11 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
       first += static_cast<std::size_t>(count);
     }
   };
-  for (std::size_t first = 0; first < active.size(); first += kChunk * kChunksAtATime) {
-    std::vector<Chunk> chunks(std::min(kChunksAtATime, (active.size() - first + kChunk - 1) / kChunk));
+  for (std::size_t first = 0; first < stencils.size(); first += kChunk * kChunksAtATime) {
+    std::vector<Chunk> chunks(std::min(kChunksAtATime, (stencils.size() - first + kChunk - 1) / kChunk));
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) {
       const std::size_t begin = first + k * kChunk;
-      evaluate(begin, std::min(active.size(), begin + kChunk), chunks[k]);
+      evaluate(begin, std::min(stencils.size(), begin + kChunk), chunks[k]);
     });
     for (const Chunk& chunk : chunks) {
       for (const Sum& sum : chunk.sums) scatter(sum, weight, free, motion.translation, system);
@@ -177,26 +201,59 @@ void assemble_contact(double weight, const ContactTerm& term, const std::vector<
   }
 }
 
+/// The shares of eight stencils.
+Pack shares_of(const ContactTerm& term, const StencilPack& which, const Blend& blend) {
+  Pack shares;
+  for (int l = 0; l < kLanes; ++l) shares[l] = blend.share(term.stencil(which[l]));
+  return shares;
+}
+
+}  // namespace
+
+void assemble_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
+                      const FreeVertices& free, int first_object_vertex, const Blend& blend, const ObjectMotion& motion,
+                      NewtonSystem& system) {
+  add_stencils(
+      weight, term, active, free, first_object_vertex, motion, system,
+      [&](const StencilPack& which, int count, WantedVertices wanted, PackedBlocks& out) {
+        term.evaluate_pack(which, count, x, shares_of(term, which, blend), wanted, out);
+      },
+      [&](int stencil, PairVertices wanted, PairLocal& out) {
+        const std::span<const int> v = term.stencil(stencil);
+        return term.evaluate_blended(stencil, points_of(v, x), blend.share(v), wanted, out);
+      });
+}
+
 void reblend_contact(double weight, const ContactTerm& term, const std::vector<int>& active, const Positions& x,
                      const FreeVertices& free, int first_object_vertex, const Blend& before, const Blend& after,
                      const ObjectMotion& motion, NewtonSystem& system, std::vector<char>& changed_rows) {
-  PairLocal old, local;
-  for (const int stencil : active) {
-    const std::span<const int> v = term.stencil(stencil);
-    const double was = before.share(v), is = after.share(v);
-    if (was == is) continue;
-    const PairVertices wanted = wanted_vertices(v, free, first_object_vertex, motion);
-    if (wanted == 0) continue;
-    const FourPoints points = points_of(v, x);
-    if (!term.evaluate_blended(stencil, points, was, wanted, old)) continue;
-    term.evaluate_blended(stencil, points, is, wanted, local);
-    local.hessian -= old.hessian;
-    local.gradient.setZero();
-    scatter_pair(v, wanted, local, weight, free, first_object_vertex, motion.of_vertices, system);
+  std::vector<int> stencils;
+  for (const int i : active) {
+    const std::span<const int> v = term.stencil(i);
+    if (before.share(v) == after.share(v)) continue;
+    stencils.push_back(i);
     for (const int k : v) {
       if (const int row = free.free_of_vertex[k]; row >= 0) changed_rows[static_cast<std::size_t>(row)] = 1;
     }
   }
+  add_stencils(
+      weight, term, stencils, free, first_object_vertex, motion, system,
+      [&](const StencilPack& which, int count, WantedVertices wanted, PackedBlocks& out) {
+        PackedBlocks old;
+        term.evaluate_pack(which, count, x, shares_of(term, which, before), wanted, old);
+        term.evaluate_pack(which, count, x, shares_of(term, which, after), wanted, out);
+        subtract_blocks(wanted.count, old, out);
+      },
+      [&](int stencil, PairVertices wanted, PairLocal& out) {
+        const std::span<const int> v = term.stencil(stencil);
+        const FourPoints points = points_of(v, x);
+        PairLocal old;
+        if (!term.evaluate_blended(stencil, points, before.share(v), wanted, old)) return false;
+        term.evaluate_blended(stencil, points, after.share(v), wanted, out);
+        out.hessian -= old.hessian;
+        out.gradient.setZero();
+        return true;
+      });
 }
 
 }  // namespace tacipc
