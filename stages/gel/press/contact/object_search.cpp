@@ -63,7 +63,7 @@ template <int Vertices, typename Primitives, typename PairOf>
 void ObjectSearch::track(const Primitives& gel, const Bvh& object, const Moment& moment, PairOf&& pair_of,
                          Tracked<Vertices>& all, std::vector<ContactPair>& out) {
   collect(gel.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
-    std::vector<ContactPair> candidates;
+    std::vector<ContactPair> candidates, in_reach;
     std::vector<int> others;
     for (std::size_t i = first; i < last; ++i) {
       const std::array<int, Vertices> v = gel[i];
@@ -94,17 +94,25 @@ void ObjectSearch::track(const Primitives& gel, const Bvh& object, const Moment&
       }
       const double within = (1.0 + kFloatRounding) * (moment.within_m + travel);
       for (const Near& near : all.near[i]) {
-        if (near.distance_m <= within) found.push_back(pair_of(static_cast<int>(i), near.other));
+        if (near.distance_m <= within) in_reach.push_back(pair_of(static_cast<int>(i), near.other));
       }
     }
+    // Each is looked at several times from here on.
+    for_each_coming_near(
+        in_reach, 0, in_reach.size(), [&](std::size_t /*pair*/) { return moment.within_m; }, moment.x, moment.p,
+        [&](std::size_t i) { found.push_back(in_reach[i]); });
   });
 }
 
 void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) {
   const int n = object_.first_vertex;
   const Eigen::RowVector3d origin = x.row(n), shifted = origin + p.row(n);
-  Moment moment{
-      .start = x.rowwise() - origin, .end = (x + p).rowwise() - shifted, .within_m = within_m, .object_moved_m = 0};
+  Moment moment{.x = x,
+                .p = p,
+                .start = x.rowwise() - origin,
+                .end = (x + p).rowwise() - shifted,
+                .within_m = within_m,
+                .object_moved_m = 0};
   const auto object_moved = [&] {
     return std::max(largest_row_norm(object_.rows(moment.start) - object_at_),
                     largest_row_norm(object_.rows(moment.end) - object_at_));
@@ -119,22 +127,15 @@ void ObjectSearch::pairs(const Positions& x, const Positions& p, double within_m
   object_.rows(moment.start) = object_at_;
 
   const Surface &gel = mesh_.gel, &object = object_.surface;
-  std::vector<ContactPair> near;
   track(
       OneVertex{gel.vertices}, triangles_, moment,
-      [&](int i, int j) { return point_triangle_pair(gel.vertices[i], object.triangles[j]); }, gel_vertices_, near);
+      [&](int i, int j) { return point_triangle_pair(gel.vertices[i], object.triangles[j]); }, gel_vertices_, out);
   track(
       gel.triangles, vertices_, moment,
-      [&](int i, int j) { return point_triangle_pair(object.vertices[j], gel.triangles[i]); }, gel_triangles_, near);
+      [&](int i, int j) { return point_triangle_pair(object.vertices[j], gel.triangles[i]); }, gel_triangles_, out);
   track(
       gel.edges, edges_, moment, [&](int i, int j) { return edge_edge_pair(gel.edges[i], object.edges[j]); },
-      gel_edges_, near);
-  // Each is looked at several times from here on.
-  collect(near.size(), out, [&](std::size_t first, std::size_t last, std::vector<ContactPair>& found) {
-    for_each_coming_near(
-        near, first, last, [&](std::size_t /*pair*/) { return within_m; }, x, p,
-        [&](std::size_t i) { found.push_back(near[i]); });
-  });
+      gel_edges_, out);
 }
 
 void ObjectSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,

@@ -53,9 +53,10 @@ class ObjectSearch {
     void resize(std::size_t count);
     void forget();
   };
-  /// Positions in one call, relative to the object's first vertex.
+  /// What one call is about.
   struct Moment {
-    Positions start, end;  // the gel's rows at x and at x + p, the object's where the trees have it
+    const Positions &x, &p;
+    Positions start, end;  // relative to the object's first vertex: the gel at x and at x + p, the object as in trees
     double within_m;
     double object_moved_m;  // largest distance of one of the object's vertices from there
   };

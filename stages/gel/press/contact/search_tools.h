@@ -63,6 +63,9 @@ void collect(std::size_t count, std::vector<Item>& out, Fill&& fill) {
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
     fill(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), found[chunk]);
   });
+  std::size_t size = out.size();
+  for (const auto& part : found) size += part.size();
+  out.reserve(size);
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
 }
 
