@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <numbers>
+#include <vector>
 
 namespace tacipc {
 
@@ -92,6 +94,22 @@ TACIPC_INLINE Pack3 load_rows(const double* table, const std::array<int, kLanes>
   }
   return out;
 }
+
+/// Starts what it allocates at a cache line, so that no Pack and no Quad that is counted from there lies across two: a
+/// processor passes on what it has just stored across lines late, or not at all.
+template <typename T>
+struct AlignedAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kCacheLine{64};
+  AlignedAllocator() = default;
+  template <typename U>
+  AlignedAllocator(const AlignedAllocator<U>& /*other*/) {}  // NOLINT(google-explicit-constructor): as in std::allocator
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kCacheLine)); }
+  void deallocate(T* p, std::size_t /*n*/) { ::operator delete(p, kCacheLine); }
+  bool operator==(const AlignedAllocator& /*other*/) const { return true; }
+};
+template <typename T>
+using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
 /// Four doubles: a vector of three and a zero.
 using Quad = double __attribute__((vector_size(32), aligned(32)));

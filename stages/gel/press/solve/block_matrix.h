@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/base/simd.h"
 #include "common/base/types.h"
 
 namespace tacipc {
@@ -74,7 +75,7 @@ struct BlockMatrix {
   using ConstBlock = Eigen::Map<const Matrix3, 0, Eigen::OuterStride<4>>;
 
   std::shared_ptr<const BlockPattern> pattern;
-  std::vector<double> values;
+  AlignedVector<double> values;
 
   BlockMatrix() = default;
   explicit BlockMatrix(std::shared_ptr<const BlockPattern> p) { clear(std::move(p)); }

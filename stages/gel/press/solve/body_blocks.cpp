@@ -30,7 +30,7 @@ std::vector<int> BodyBlocks::factorise(const BlockMatrix& matrix) {
 }
 
 void BodyBlocks::scale(const BlockMatrix& matrix, const SweepOrder& order, int first, int last,
-                       const std::vector<double>& inverse_cholesky, std::vector<float>& lower) const {
+                       const AlignedVector<double>& inverse_cholesky, std::vector<float>& lower) const {
   const auto write = [&](int at, const Matrix3& block) {
     Eigen::Map<Eigen::Matrix3f>(lower.data() + 9 * static_cast<std::ptrdiff_t>(at)) = block.cast<float>();
   };
@@ -68,7 +68,7 @@ void BodyBlocks::scale(const BlockMatrix& matrix, const SweepOrder& order, int f
   }
 }
 
-void BodyBlocks::unscale(bool transposed, std::vector<double>& x) const {
+void BodyBlocks::unscale(bool transposed, AlignedVector<double>& x) const {
   for (int i = 0; i < size(); ++i) {
     // Four numbers per row, the last of them zero.
     Eigen::Map<Eigen::Matrix<double, 3, kRows>, 0, Eigen::OuterStride<4>> own(x.data() + 4 * (first_row_ + kRows * i));

@@ -23,9 +23,9 @@ class BodyBlocks {
   /// Writes the scaled blocks of the bodies' rows in columns first … last − 1 of the sweeps: E⁻¹ B C⁻ᵀ, or E⁻¹ B E⁻ᵀ
   /// between two bodies. Blocks that are zero, and those within a body, are left as they are.
   void scale(const BlockMatrix& matrix, const SweepOrder& order, int first, int last,
-             const std::vector<double>& inverse_cholesky, std::vector<float>& lower) const;
+             const AlignedVector<double>& inverse_cholesky, std::vector<float>& lower) const;
   /// x = E⁻¹ x, or E⁻ᵀ x, in the bodies' rows.
-  void unscale(bool transposed, std::vector<double>& x) const;
+  void unscale(bool transposed, AlignedVector<double>& x) const;
 
  private:
   using Block = Eigen::Matrix<double, 3 * kRows, 3 * kRows>;

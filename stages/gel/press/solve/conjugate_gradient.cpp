@@ -191,7 +191,7 @@ double ConjugateGradient::forward(const double* t, const double* p, double* y) {
   const Blocks L(order_);
   const int separator = order_.separator(), n = order_.num_rows();
   const std::size_t size = 4 * static_cast<std::size_t>(n - separator);
-  std::array<std::vector<double>, kParts>& apart = to_separator_;
+  std::array<AlignedVector<double>, kParts>& apart = to_separator_;
   double sum = over_parts([&](int i, int first, int last) {
     apart[i].assign(size, 0.0);
     return sweep_down(L, first, last, lower_.data(), t, p, y, apart[i].data(), separator);
@@ -250,7 +250,7 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix, const std::vector<cha
 void ConjugateGradient::find_indefinite_rows() {
   indefinite_rows_.clear();
   const int n = order_.num_rows();
-  std::vector<double> product = q_;
+  AlignedVector<double> product = q_;
   for (int c = 0; c < n; ++c) {
     for (int k = order_.column_start[c]; k < order_.column_start[c + 1]; ++k) {
       const Matrix3 block = Eigen::Map<const Eigen::Matrix3f>(lower_.data() + kBlock * k).cast<double>();
@@ -299,8 +299,8 @@ std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd&
   const int n = order_.num_rows(), separator = order_.separator();
   const Blocks L(order_);
   // The fourth numbers of all are zero once and stay so.
-  for (std::vector<double>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0);
-  for (std::vector<double>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
+  for (AlignedVector<double>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0);
+  for (AlignedVector<double>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
   for (int i = 0; i < n; ++i) Eigen::Map<Vector3>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i);
   const int first_body_row = matrix_->pattern->first_body_row();
   unscale(inverse_cholesky_.data(), false, r_.data(), first_body_row);

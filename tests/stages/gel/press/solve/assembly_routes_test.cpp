@@ -25,7 +25,7 @@ double difference(const NewtonSystem& a, const NewtonSystem& b) {
     most = std::max(most, (x - y).cwiseAbs().maxCoeff());
     size = std::max(size, y.cwiseAbs().maxCoeff());
   };
-  const auto flat = [](const std::vector<double>& v) {
+  const auto flat = [](const auto& v) {
     return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
   };
   compare(flat(a.hessian.values), flat(b.hessian.values));
@@ -161,7 +161,7 @@ TEST(UpdatedAssembly, WithoutToleranceIsThatOfTheNewPlace) {
 TEST(UpdatedAssembly, KeepsTheHessianWhereLittleChangesAndNeverTheGradient) {
   Updated kept, anew;
   kept.add(kept.crumpled.x);
-  const std::vector<double> before = kept.system.hessian.values;
+  const AlignedVector<double> before = kept.system.hessian.values;
   const Positions near = kept.moved(1e-4, 1000);
   kept.update(near, 0.05);
   anew.add(near);
@@ -173,7 +173,7 @@ TEST(UpdatedAssembly, KeepsTheHessianWhereLittleChangesAndNeverTheGradient) {
 TEST(UpdatedAssembly, RenewsTheHessianWhereMuchChangesAndSoItsErrorStaysSmall) {
   Updated kept, anew;
   kept.add(kept.crumpled.x);
-  const std::vector<double> before = kept.system.hessian.values;
+  const AlignedVector<double> before = kept.system.hessian.values;
   // Far enough for some of the elements: those at one end of the numbering.
   const Positions x = kept.moved(0.05, 4);
   kept.update(x, 0.05);
