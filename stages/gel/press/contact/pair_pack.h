@@ -18,12 +18,9 @@ using PackedPoints = std::array<Pack3, 4>;
 TACIPC_INLINE PackedPoints load_points(const double* x, const ContactPair* const* pairs) {
   PackedPoints out;
   for (int k = 0; k < 4; ++k) {
-    for (int l = 0; l < kLanes; ++l) {
-      const double* row = x + 3 * static_cast<std::ptrdiff_t>(pairs[l]->vertices[k]);
-      out[k].x[l] = row[0];
-      out[k].y[l] = row[1];
-      out[k].z[l] = row[2];
-    }
+    out[k] = load_rows([&](int lane) __attribute__((always_inline)) {
+      return x + 3 * static_cast<std::ptrdiff_t>(pairs[lane]->vertices[k]);
+    });
   }
   return out;
 }
