@@ -83,7 +83,8 @@ TACIPC_INLINE Pack logarithm(const Pack& x) {
   return out;
 }
 
-/// Three doubles from each of eight places row(0) … row(7), a lane each. (Two at a time: one by one takes twice as long.)
+/// Three doubles from each of eight places row(0) … row(7), a lane each. (Two at a time: one by one takes twice as
+/// long.)
 template <typename RowOf>
 TACIPC_INLINE Pack3 load_rows(RowOf&& row) {
   using Two = double __attribute__((vector_size(16)));
@@ -123,7 +124,8 @@ struct AlignedAllocator {
   static constexpr std::align_val_t kCacheLine{64};
   AlignedAllocator() = default;
   template <typename U>
-  AlignedAllocator(const AlignedAllocator<U>& /*other*/) {}  // NOLINT(google-explicit-constructor): as in std::allocator
+  // NOLINTNEXTLINE(google-explicit-constructor): as std::allocator
+  AlignedAllocator(const AlignedAllocator<U>& /*other*/) {}
   T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kCacheLine)); }
   void deallocate(T* p, std::size_t /*n*/) { ::operator delete(p, kCacheLine); }
   bool operator==(const AlignedAllocator& /*other*/) const { return true; }

@@ -56,7 +56,8 @@ class ObjectSearch {
   /// What one call is about.
   struct Moment {
     const Positions &x, &p;
-    Positions start, end;  // relative to the object's first vertex: the gel at x and at x + p, the object as in trees
+    /// Relative to the object's first vertex: the gel's rows at x and at x + p, the object's where the trees have it.
+    Positions start, end;
     double within_m;
     double object_moved_m;  // largest distance of one of the object's vertices from there
   };

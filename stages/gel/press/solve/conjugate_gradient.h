@@ -54,13 +54,13 @@ class ConjugateGradient final : public LinearSolver {
   const BlockMatrix* matrix_ = nullptr;
   std::shared_ptr<const BlockPattern> pattern_;  // that order_ belongs to
   SweepOrder order_;
-  std::vector<char> stale_;               // rows, in this order, whose blocks have changed since they were scaled
-  std::vector<float> lower_;              // L, scaled, nine numbers a block, as order_ has them
+  std::vector<char> stale_;                 // rows, in this order, whose blocks have changed since they were scaled
+  std::vector<float> lower_;                // L, scaled, nine numbers a block, as order_ has them
   AlignedVector<double> inverse_cholesky_;  // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks; not of bodies
   BodyBlocks bodies_;
   AlignedVector<double> x_, r_, p_, t_, q_;                 // of the last solve; their storage is used again
   std::array<AlignedVector<double>, kParts> to_separator_;  // from each part in a sweep
-  std::optional<CholmodSolver> direct_;                   // once it is needed
+  std::optional<CholmodSolver> direct_;                     // once it is needed
   std::int64_t products_ = 0;
   int factorized_ = 0;
   std::vector<int> indefinite_rows_;

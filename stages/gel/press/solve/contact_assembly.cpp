@@ -137,8 +137,9 @@ void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vect
   }
 }
 
-/// Adds weight × these stencils in a fixed order: those that push on a primitive of the gel eight at a time,
-/// evaluate_pack(which, count, primitive, blocks), the others by themselves, evaluate_single(stencil, wanted, local).
+/// Adds weight × these stencils in a fixed order. Those of gel and object are evaluated eight at a time by
+/// evaluate_pack(which, count, primitive, blocks), all others one by one by evaluate_single(stencil, wanted, local),
+/// which is false for one that vanishes.
 template <typename EvaluatePack, typename EvaluateSingle>
 void add_stencils(double weight, const ContactTerm& term, const std::vector<int>& stencils, const FreeVertices& free,
                   int first_object_vertex, const ObjectMotion& motion, NewtonSystem& system,
