@@ -120,7 +120,7 @@ TACIPC_INLINE Pack3 load_rows(const double* table, const std::array<int, kLanes>
 /// processor passes on what it has just stored across lines late, or not at all.
 template <typename T>
 struct AlignedAllocator {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): as std::allocator
   static constexpr std::align_val_t kCacheLine{64};
   AlignedAllocator() = default;
   template <typename U>
