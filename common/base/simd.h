@@ -83,30 +83,17 @@ TACIPC_INLINE Pack logarithm(const Pack& x) {
   return out;
 }
 
-/// Three doubles from each of eight places row(0) … row(7), a lane each. (Two at a time: one by one takes twice as
-/// long.)
+/// Three doubles from each of eight places row(0) … row(7), a lane each.
 template <typename RowOf>
 TACIPC_INLINE Pack3 load_rows(RowOf&& row) {
-  using Two = double __attribute__((vector_size(16)));
-  using UnalignedTwo = double __attribute__((vector_size(16), aligned(8), may_alias));
-  using Four = double __attribute__((vector_size(32)));
-  const auto two = [&](int lane) __attribute__((always_inline))->Two {
-    return *reinterpret_cast<const UnalignedTwo*>(row(lane));
-  };
-  struct Half {
-    Four x, y, z;
-  };
-  const auto half_from = [&](int l) __attribute__((always_inline))->Half {
-    const Four even = __builtin_shufflevector(two(l), two(l + 2), 0, 1, 2, 3),
-               odd = __builtin_shufflevector(two(l + 1), two(l + 3), 0, 1, 2, 3);
-    return {__builtin_shufflevector(even, odd, 0, 4, 2, 6), __builtin_shufflevector(even, odd, 1, 5, 3, 7),
-            Four{row(l)[2], row(l + 1)[2], row(l + 2)[2], row(l + 3)[2]}};
-  };
-  const auto both = [](const Four& low, const Four& high) __attribute__((always_inline))->Pack {
-    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-  };
-  const Half low = half_from(0), high = half_from(4);
-  return {both(low.x, high.x), both(low.y, high.y), both(low.z, high.z)};
+  Pack3 out;
+  for (int l = 0; l < kLanes; ++l) {
+    const double* from = row(l);
+    out.x[l] = from[0];
+    out.y[l] = from[1];
+    out.z[l] = from[2];
+  }
+  return out;
 }
 
 /// Rows of a table of three columns, a lane each.
@@ -116,8 +103,8 @@ TACIPC_INLINE Pack3 load_rows(const double* table, const std::array<int, kLanes>
   });
 }
 
-/// Starts what it allocates at a cache line, so that no Pack and no Quad that is counted from there lies across two: a
-/// processor passes on what it has just stored across lines late, or not at all.
+/// Starts what it allocates at a cache line, so that no Pack and no Quad that is counted from there lies across two:
+/// those are loaded and stored more slowly.
 template <typename T>
 struct AlignedAllocator {
   using value_type = T;  // NOLINT(readability-identifier-naming): as std::allocator

@@ -25,14 +25,9 @@ FreeVertices::FreeVertices(const std::vector<int>& order, const std::vector<bool
 }
 
 int BlockPattern::find(int r, int column) const {
-  int first = column_start[column], length = column_start[column + 1] - first;
-  if (length == 0) return -1;
-  // Halved without a branch, which would be taken wrongly every other time.
-  for (int half = length / 2; half > 0; half = length / 2) {
-    first += row[first + half] <= r ? half : 0;
-    length -= half;
-  }
-  return row[first] == r ? first : -1;
+  const auto first = row.begin() + column_start[column], last = row.begin() + column_start[column + 1];
+  const auto found = std::lower_bound(first, last, r);
+  return found != last && *found == r ? static_cast<int>(found - row.begin()) : -1;
 }
 
 BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs, int num_bodies) {

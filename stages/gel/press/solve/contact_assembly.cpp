@@ -38,12 +38,7 @@ std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVe
     return v[k] >= first_object_vertex && free.free_of_vertex[v[k]] < 0 &&
            (free.carried.empty() || !free.carrier(v[k]));
   };
-  WantedVertices own = kPoint;
-  if (!is_object(3)) {
-    own = kTriangle;
-  } else if (!is_object(1)) {
-    own = kFirstEdge;
-  }
+  const WantedVertices own = !is_object(3) ? kTriangle : !is_object(1) ? kFirstEdge : kPoint;
   bool any_free = false;
   for (int k = 0; k < 4; ++k) {
     if (k < own.first || k >= own.first + own.count) {

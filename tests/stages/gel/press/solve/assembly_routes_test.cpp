@@ -354,13 +354,17 @@ std::shared_ptr<const BlockPattern> pattern_of(const Touching& t, const FreeVert
   return std::make_shared<BlockPattern>(make_block_pattern(free.size(), blocks));
 }
 
-TEST(AssembleContact, EveryVertexHasItsOwnBlend) {
+class BlendedContact : public testing::TestWithParam<int> {};
+
+TEST_P(BlendedContact, EveryVertexHasItsOwnShare) {
+  const int with_shares = GetParam();
   const Touching t;
   const FreeVertices free(Touching::kAll, some_fixed());
   const auto pattern = pattern_of(t, free);
+  // Where objects touch each other their vertices have shares, too.
   std::vector<double> shares;
-  for (int v = 0; v < Touching::kGel; ++v) shares.push_back(v % 3 == 0 ? 0.0 : v % 3 == 1 ? 0.4 : 1.0);
-  const Blend blend(shares), uniform(std::vector<double>(Touching::kGel, 0.4));
+  for (int v = 0; v < with_shares; ++v) shares.push_back(v % 3 == 0 ? 0.0 : v % 3 == 1 ? 0.4 : 1.0);
+  const Blend blend(shares), uniform(std::vector<double>(static_cast<std::size_t>(with_shares), 0.4));
   for (const std::shared_ptr<const ContactTerm>& term :
        {std::shared_ptr<const ContactTerm>(t.barrier), std::shared_ptr<const ContactTerm>(t.friction)}) {
     for (const bool moves : {false, true}) {
@@ -372,7 +376,7 @@ TEST(AssembleContact, EveryVertexHasItsOwnBlend) {
       const std::vector<int> active = term->active(t.x);
       for (const int i : active) {
         double share = 0.0;
-        for (const int v : term->stencil(i)) share = std::max(share, v < Touching::kGel ? shares[v] : 0.0);
+        for (const int v : term->stencil(i)) share = std::max(share, v < with_shares ? shares[v] : 0.0);
         const auto one = std::make_shared<RestrictedTerm>(term, std::vector<int>{i});
         assemble({2.0 * (1.0 - share), one}, t.x, free, Touching::kGel, Order::hessian, motion, expected);
         assemble({2.0 * share, one}, t.x, free, Touching::kGel, Order::psd, motion, expected);
@@ -402,6 +406,8 @@ TEST(AssembleContact, EveryVertexHasItsOwnBlend) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(OfTheGelAndOfAll, BlendedContact, testing::Values(Touching::kGel, Touching::kAll));
 
 TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
   const Touching t;
