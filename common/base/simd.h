@@ -83,6 +83,23 @@ TACIPC_INLINE Pack logarithm(const Pack& x) {
   return out;
 }
 
+/// e^x to within 2 units in the last place; beyond ±700 that of ±700.
+TACIPC_INLINE Pack exponential(const Pack& of) {
+  constexpr double kMost = 700.0;
+  constexpr double kAnInteger = 0x1.8p52;  // its last place is 1
+  // ln 2 in two parts; the high one has few enough digits for its product with an exponent to be exact.
+  constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
+  // x = k ln 2 + r, |r| < 0.347.
+  const Pack x = larger(smaller(of, Pack{} + kMost), Pack{} - kMost);
+  const Pack shifted = x * std::numbers::log2e + kAnInteger, k = shifted - kAnInteger;
+  const Pack r = (x - k * kLn2High) - k * kLn2Low;
+  // e^r = 1 + r (1 + r/2 (1 + r/3 (…)))
+  Pack series = Pack{} + 1.0;
+  for (int n = 13; n >= 2; --n) series = 1.0 + r * (1.0 / n) * series;
+  const PackMask exponent = std::bit_cast<PackMask>(shifted) << 52;
+  return std::bit_cast<Pack>(std::bit_cast<PackMask>(1.0 + r * series) + exponent);
+}
+
 /// Three doubles from each of eight places row(0) … row(7), a lane each.
 template <typename RowOf>
 TACIPC_INLINE Pack3 load_rows(RowOf&& row) {

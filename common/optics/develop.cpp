@@ -5,28 +5,84 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/base/rng.h"
+#include "common/base/simd.h"
 #include "common/sensor/camera_model.h"
 
 namespace tacipc {
 namespace {
 
-/// Sum over an image, row by row, so that the threads leave no trace in the rounding.
-template <typename Function>
-double sum_rows(int height, std::size_t row_length, const Function& value) {
-  std::vector<double> rows(static_cast<std::size_t>(height), 0.0);
-  tbb::parallel_for(0, height, [&](int y) {
-    const auto row = static_cast<std::size_t>(y);
-    for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) rows[row] += value(i);
-  });
-  double sum = 0.0;
-  for (const double row : rows) sum += row;
-  return sum;
+/// The response curve f: slope × v up to the toe, from there on scale × v^(1/gamma) − offset.
+struct Curve {
+  double toe = 0.0, slope = 1.0, scale = 1.0, gamma = 1.0, offset = 0.0;
+  explicit Curve(const Response& response) {
+    if (response.curve == "linear") {
+      toe = std::numeric_limits<double>::infinity();
+    } else if (response.curve == "gamma") {
+      gamma = response.gamma;
+    } else {
+      toe = 0.0031308;
+      slope = 12.92;
+      scale = 1.055;
+      gamma = 2.4;
+      offset = 0.055;
+    }
+  }
+};
+
+/// code_of eight values.
+TACIPC_INLINE Pack codes_of(const Pack& v, const Curve& f) {
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  const Pack power = exponential(logarithm(larger(v, Pack{} + kLeast)) * (1.0 / f.gamma));
+  return choose(v, 255.0 * choose(v - f.toe, f.scale * power - f.offset, f.slope * v), Pack{});
+}
+
+/// exposure × signals i … i + 7 of `count`, the last one again where there are fewer.
+TACIPC_INLINE Pack exposed(const float* signal, std::size_t i, std::size_t count, double exposure) {
+  Pack v;
+  if (i + kLanes <= count) {
+    for (std::size_t l = 0; l < kLanes; ++l) v[l] = signal[i + l];
+  } else {
+    for (std::size_t l = 0; l < kLanes; ++l) v[l] = signal[std::min(i + l, count - 1)];
+  }
+  return exposure * v;
+}
+
+/// Codes of a row of signals. Where these are those of `known`, codes are those there.
+TACIPC_CLONES void encode_row(const float* signal, std::size_t count, double exposure, const Curve& f,
+                              const float* known, const float* known_codes, float* codes) {
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t some = std::min<std::size_t>(kLanes, count - i);
+    if (known && std::equal(signal + i, signal + i + some, known + i)) {
+      std::copy_n(known_codes + i, some, codes + i);
+      continue;
+    }
+    const Pack found = codes_of(exposed(signal, i, count, exposure), f);
+    for (std::size_t l = 0; l < some; ++l) codes[i + l] = static_cast<float>(found[l]);
+  }
+}
+
+/// Σ min(code, 255) over a row of signals.
+TACIPC_CLONES double sum_of_codes(const float* signal, std::size_t count, double exposure, const Curve& f) {
+  Pack sum = {};
+  double rest = 0.0;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Pack found = smaller(codes_of(exposed(signal, i, count, exposure), f), Pack{} + 255.0);
+    if (i + kLanes <= count) {
+      sum += found;
+    } else {
+      for (std::size_t l = 0; i + l < count; ++l) rest += found[l];
+    }
+  }
+  for (int l = 0; l < kLanes; ++l) rest += sum[l];
+  return rest;
 }
 
 std::size_t row_length(const FloatImage& image) {
@@ -36,17 +92,15 @@ std::size_t row_length(const FloatImage& image) {
 }  // namespace
 
 double code_of(double v, const Response& response) {
+  const Curve f(response);
   if (v <= 0.0) return 0.0;
-  if (response.curve == "linear") return 255.0 * v;
-  if (response.curve == "gamma") return 255.0 * std::pow(v, 1.0 / response.gamma);
-  return 255.0 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055);
+  return 255.0 * (v <= f.toe ? f.slope * v : f.scale * std::pow(v, 1.0 / f.gamma) - f.offset);
 }
 
 double value_of(double code, const Response& response) {
-  const double f = code / 255.0;
-  if (response.curve == "linear") return f;
-  if (response.curve == "gamma") return std::pow(f, response.gamma);
-  return f <= 12.92 * 0.0031308 ? f / 12.92 : std::pow((f + 0.055) / 1.055, 2.4);
+  const Curve f(response);
+  const double of_full = code / 255.0;
+  return of_full <= f.slope * f.toe ? of_full / f.slope : std::pow((of_full + f.offset) / f.scale, f.gamma);
 }
 
 FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const Response& response) {
@@ -137,10 +191,17 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
       step = 1e-3;
     }
   }
+  const Curve curve(response);
+  const std::size_t length = row_length(linear);
   const double wanted = response.mean_level * 255.0 * static_cast<double>(linear.pixels.size());
   const auto excess = [&](double log_exposure) {
     const double exposure = std::exp(log_exposure);
-    return sum_rows(linear.height, row_length(linear), [&](std::size_t i) { return code(exposure, i); }) - wanted;
+    // Row by row, so that the threads leave no trace in the rounding.
+    std::vector<double> rows(static_cast<std::size_t>(linear.height));
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+      rows[y] = sum_of_codes(&linear.pixels[y * length], length, exposure, curve);
+    });
+    return std::accumulate(rows.begin(), rows.end(), 0.0) - wanted;
   };
   const auto found = solve_increasing(excess, guess, step, kExposureTolerance * wanted);
   if (!found)
@@ -148,29 +209,20 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
   return std::exp(*found);
 }
 
-FloatImage encode(const FloatImage& linear, double exposure, const Response& response) {
-  FloatImage codes(linear.width, linear.height, linear.channels);
-  const std::size_t length = row_length(linear);
-  tbb::parallel_for(0, linear.height, [&](int y) {
-    const auto row = static_cast<std::size_t>(y);
-    for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
-      codes.pixels[i] = static_cast<float>(code_of(exposure * linear.pixels[i], response));
-    }
-  });
-  return codes;
+FloatImage encode(const FloatImage& signal, double exposure, const Response& response) {
+  return encode(signal, exposure, response, {});
 }
 
 FloatImage encode(const FloatImage& signal, double exposure, const Response& response, const Encoded& known) {
-  if (known.signal.pixels.size() != signal.pixels.size()) return encode(signal, exposure, response);
   FloatImage codes(signal.width, signal.height, signal.channels);
   const std::size_t length = row_length(signal);
+  const Curve curve(response);
+  const bool knows = known.signal.pixels.size() == signal.pixels.size();
   tbb::parallel_for(0, signal.height, [&](int y) {
-    const auto row = static_cast<std::size_t>(y);
-    for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
-      const float value = signal.pixels[i];
-      codes.pixels[i] = value == known.signal.pixels[i] ? known.codes.pixels[i]
-                                                        : static_cast<float>(code_of(exposure * value, response));
-    }
+    const std::size_t first = static_cast<std::size_t>(y) * length;
+    encode_row(signal.pixels.data() + first, length, exposure, curve,
+               knows ? known.signal.pixels.data() + first : nullptr,
+               knows ? known.codes.pixels.data() + first : nullptr, codes.pixels.data() + first);
   });
   return codes;
 }

@@ -12,9 +12,10 @@ namespace {
 /// Compiled as what production calls is: for each kind of processor.
 TACIPC_CLONES void logarithms(const Pack& of, Pack& out) { out = logarithm(of); }
 
-/// Difference from the exact logarithm, in units in the last place of that.
-double error_of(double x, double found) {
-  const long double exact = std::log(static_cast<long double>(x));
+TACIPC_CLONES void exponentials(const Pack& of, Pack& out) { out = exponential(of); }
+
+/// Difference from the exact result, in units in the last place of that.
+double error_of(long double exact, double found) {
   const double size = std::abs(static_cast<double>(exact));
   const double unit = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
   return static_cast<double>(std::abs(found - exact)) / unit;
@@ -33,7 +34,7 @@ TEST(PackLogarithm, IsWithinTwoUnitsInTheLastPlace) {
     logarithms(x, found);
     for (int l = 0; l < kLanes; ++l) {
       if (x[l] == 1.0 || x[l] <= 0.0) continue;
-      ASSERT_LE(error_of(x[l], found[l]), 2.0) << x[l];
+      ASSERT_LE(error_of(std::log(static_cast<long double>(x[l])), found[l]), 2.0) << x[l];
     }
   }
 }
@@ -50,6 +51,28 @@ TEST(PackLogarithm, IsExactAtOneAndGoesUpThroughTheSeamsOfItsRange) {
   }
 }
 
+TEST(PackExponential, IsWithinTwoUnitsInTheLastPlace) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> from_minus_one_to_one(-1.0, 1.0);
+  for (int i = 0; i < 20000; ++i) {
+    Pack x, found;
+    for (int l = 0; l < kLanes; ++l) x[l] = from_minus_one_to_one(random) * (l % 2 == 0 ? 1.0 : 700.0);
+    exponentials(x, found);
+    for (int l = 0; l < kLanes; ++l)
+      ASSERT_LE(error_of(std::exp(static_cast<long double>(x[l])), found[l]), 2.0) << x[l];
+  }
+}
+
+TEST(PackExponential, IsOneAtZeroAndStaysAtTheEndsOfItsRange) {
+  const Pack x = {0.0, -0.0, 700.0, 701.0, 1e300, -700.0, -701.0, -1e300};
+  Pack found;
+  exponentials(x, found);
+  EXPECT_EQ(found[0], 1.0);
+  EXPECT_EQ(found[1], 1.0);
+  for (const int l : {3, 4}) EXPECT_EQ(found[l], found[2]);
+  for (const int l : {6, 7}) EXPECT_EQ(found[l], found[5]);
+}
+
 TEST(PackLogarithm, OfWhatIsNoNormalPositiveNumberIsThatOfTheLibrary) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Pack x = {0.0,    -0.0,
@@ -64,7 +87,7 @@ TEST(PackLogarithm, OfWhatIsNoNormalPositiveNumberIsThatOfTheLibrary) {
   EXPECT_EQ(found[3], kInfinity);
   EXPECT_EQ(found[4], std::log(1e-310));
   EXPECT_EQ(found[5], std::log(std::numeric_limits<double>::denorm_min()));
-  EXPECT_LE(error_of(3.0, found[6]), 2.0);
+  EXPECT_LE(error_of(std::log(3.0L), found[6]), 2.0);
   EXPECT_TRUE(std::isnan(found[7]));
 }
 

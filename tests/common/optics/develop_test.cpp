@@ -79,6 +79,29 @@ TEST(CodeOf, HasAnInverseForEveryCurve) {
   EXPECT_EQ(code_of(-0.1, kSrgb), 0.0);
 }
 
+TEST(Encode, GivesEveryPixelItsCode) {
+  constexpr double kExposure = 0.7;
+  FloatImage signal(7, 3, 3);  // rows that are no multiple of eight
+  for (std::size_t i = 0; i < signal.pixels.size(); ++i)
+    signal.pixels[i] = static_cast<float>(1e-6 * std::pow(1.3, static_cast<double>(i)));
+  signal.pixels[5] = 0.0f;
+  signal.pixels[6] = -0.2f;
+  signal.pixels[8] = 1e-30f;
+  FloatImage other = signal;
+  other.pixels[4] = other.pixels[20] = other.pixels[62] = 0.5f;
+  for (const Response& response :
+       {kSrgb, kLinear, Response{.curve = "gamma", .gamma = 1.8}, Response{.curve = "gamma", .gamma = 0.2}}) {
+    const auto expect_codes = [&](const FloatImage& of, const FloatImage& codes) {
+      ASSERT_EQ(codes.pixels.size(), of.pixels.size());
+      for (std::size_t i = 0; i < of.pixels.size(); ++i)
+        EXPECT_FLOAT_EQ(codes.pixels[i], static_cast<float>(code_of(kExposure * of.pixels[i], response))) << i;
+    };
+    const FloatImage codes = encode(signal, kExposure, response);
+    expect_codes(signal, codes);
+    expect_codes(other, encode(other, kExposure, response, {signal, codes}));
+  }
+}
+
 TEST(CameraSignal, VignettesBalancesAndMixes) {
   FloatImage image(5, 3, 3);
   for (int y = 0; y < 3; ++y) {
