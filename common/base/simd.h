@@ -57,14 +57,15 @@ TACIPC_INLINE bool all_of(const PackMask& lanes) {
   return (two[0] & two[1]) == -1;
 }
 
+inline constexpr double kAnInteger = 0x1.8p52;  // its last place is 1
+// ln 2 in two parts; the high one has few enough digits for its product with an exponent to be exact.
+inline constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
+
 /// Natural logarithm to within 2 units in the last place; of what is no normal positive number as std::log.
 TACIPC_INLINE Pack logarithm(const Pack& x) {
   using Bits = unsigned long long __attribute__((vector_size(64)));
   constexpr unsigned long long kMantissa = 52, kOne = 1ULL << kMantissa;
   constexpr auto kRootOfHalf = std::bit_cast<unsigned long long>(0.5 * std::numbers::sqrt2);
-  constexpr double kAnInteger = 0x1.8p52;  // its last place is 1
-  // ln 2 in two parts; the high one has few enough digits for its product with an exponent to be exact.
-  constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
   // x = 2^(exponent − 1024) m, √½ ≤ m < √2.
   const Bits bits = std::bit_cast<Bits>(x);
   const Bits exponent = (bits - kRootOfHalf + 1024 * kOne) >> kMantissa;
@@ -86,9 +87,6 @@ TACIPC_INLINE Pack logarithm(const Pack& x) {
 /// e^x to within 2 units in the last place; beyond ±700 that of ±700.
 TACIPC_INLINE Pack exponential(const Pack& of) {
   constexpr double kMost = 700.0;
-  constexpr double kAnInteger = 0x1.8p52;  // its last place is 1
-  // ln 2 in two parts; the high one has few enough digits for its product with an exponent to be exact.
-  constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
   // x = k ln 2 + r, |r| < 0.347.
   const Pack x = larger(smaller(of, Pack{} + kMost), Pack{} - kMost);
   const Pack shifted = x * std::numbers::log2e + kAnInteger, k = shifted - kAnInteger;

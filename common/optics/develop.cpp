@@ -44,14 +44,10 @@ TACIPC_INLINE Pack codes_of(const Pack& v, const Curve& f) {
   return choose(v, 255.0 * choose(v - f.toe, f.scale * power - f.offset, f.slope * v), Pack{});
 }
 
-/// exposure × signals i … i + 7 of `count`, the last one again where there are fewer.
+/// exposure × signals i … i + 7 of `count`; 0, whose code is 0, where there are fewer.
 TACIPC_INLINE Pack exposed(const float* signal, std::size_t i, std::size_t count, double exposure) {
   Pack v;
-  if (i + kLanes <= count) {
-    for (std::size_t l = 0; l < kLanes; ++l) v[l] = signal[i + l];
-  } else {
-    for (std::size_t l = 0; l < kLanes; ++l) v[l] = signal[std::min(i + l, count - 1)];
-  }
+  for (std::size_t l = 0; l < kLanes; ++l) v[l] = i + l < count ? signal[i + l] : 0.0F;
   return exposure * v;
 }
 
@@ -72,17 +68,11 @@ TACIPC_CLONES void encode_row(const float* signal, std::size_t count, double exp
 /// Σ min(code, 255) over a row of signals.
 TACIPC_CLONES double sum_of_codes(const float* signal, std::size_t count, double exposure, const Curve& f) {
   Pack sum = {};
-  double rest = 0.0;
-  for (std::size_t i = 0; i < count; i += kLanes) {
-    const Pack found = smaller(codes_of(exposed(signal, i, count, exposure), f), Pack{} + 255.0);
-    if (i + kLanes <= count) {
-      sum += found;
-    } else {
-      for (std::size_t l = 0; i + l < count; ++l) rest += found[l];
-    }
-  }
-  for (int l = 0; l < kLanes; ++l) rest += sum[l];
-  return rest;
+  for (std::size_t i = 0; i < count; i += kLanes)
+    sum += smaller(codes_of(exposed(signal, i, count, exposure), f), Pack{} + 255.0);
+  double total = 0.0;
+  for (int l = 0; l < kLanes; ++l) total += sum[l];
+  return total;
 }
 
 std::size_t row_length(const FloatImage& image) {
@@ -171,17 +161,15 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
   if (response.exposure) return *response.exposure;
   const float brightest = *std::max_element(linear.pixels.begin(), linear.pixels.end());
   if (!(brightest > 0.0f)) throw DataError("no light reaches the front face: check the positions of the LEDs");
-  const auto code = [&](double exposure, std::size_t i) {
-    return std::min(code_of(exposure * linear.pixels[i], response), 255.0);
-  };
   // A few of the pixels say nearly what all of them say, in a thirtieth of the time.
   constexpr std::size_t kStride = 31;
   double guess = std::log(1.0 / brightest), step = std::numbers::ln2;
   if (linear.pixels.size() > 1000 * kStride) {
     const auto excess = [&](double log_exposure) {
+      const double exposure = std::exp(log_exposure);
       double sum = 0.0;
       for (std::size_t i = 0; i < linear.pixels.size(); i += kStride)
-        sum += code(std::exp(log_exposure), i) - response.mean_level * 255.0;
+        sum += std::min(code_of(exposure * linear.pixels[i], response), 255.0) - response.mean_level * 255.0;
       return sum;
     };
     constexpr double kEnough = 1e-3;  // codes
