@@ -9,7 +9,7 @@
 #include "common/config/config.h"
 #include "common/sample/sample_spec.h"
 #include "common/sensor/sensor.h"
-#include "stages/gel/press/press_config.h"
+#include "stages/gel/press/world/press_config.h"
 #include "verification/gel_shapes.h"
 #include "verification/object_shapes.h"
 

@@ -6,7 +6,7 @@
 
 #include "common/mesh/tet_mesh.h"
 #include "common/mesh/triangle_mesh.h"
-#include "stages/gel/press/simulate.h"
+#include "stages/gel/press/drive/simulate.h"
 #include "verification/case_spec.h"
 
 namespace tacipc::verify {

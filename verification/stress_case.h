@@ -5,8 +5,8 @@
 #include <string>
 
 #include "common/base/value.h"
-#include "stages/gel/press/grasp.h"
-#include "stages/gel/press/simulate.h"
+#include "stages/gel/press/drive/grasp.h"
+#include "stages/gel/press/drive/simulate.h"
 #include "verification/stress_gel.h"
 #include "verification/stress_object.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/config/config.h"
-#include "stages/gel/press/press_config.h"
+#include "stages/gel/press/world/press_config.h"
 
 namespace tacipc::verify {
 

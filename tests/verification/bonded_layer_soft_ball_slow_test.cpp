@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "stages/gel/press/contact/distance.h"
+#include "stages/gel/press/drive/scene.h"
 #include "stages/gel/press/energy/elasticity.h"
-#include "stages/gel/press/scene.h"
 #include "stages/gel/tetmesh/delaunay.h"
 #include "stages/gel/tetmesh/tet_fill.h"
 #include "verification/bonded_layer.h"

@@ -16,8 +16,8 @@
 #include "common/sample/scene_folder.h"
 #include "common/stage/record.h"
 #include "common/stage/stage.h"
-#include "stages/gel/press/checkpoint.h"
-#include "stages/gel/press/outputs.h"
+#include "stages/gel/press/drive/checkpoint.h"
+#include "stages/gel/press/files/outputs.h"
 
 namespace {
 

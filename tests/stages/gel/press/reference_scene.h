@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/format/npy.h"
-#include "stages/gel/press/simulate.h"
+#include "stages/gel/press/drive/simulate.h"
 
 namespace tacipc {
 

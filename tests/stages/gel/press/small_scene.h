@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "stages/gel/press/simulate.h"
+#include "stages/gel/press/drive/simulate.h"
 
 namespace tacipc {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "stages/gel/press/setup.h"
+#include "stages/gel/press/world/setup.h"
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "stages/gel/press/setup.h"
+#include "stages/gel/press/world/setup.h"
 #include "tests/make_mesh.h"
 #include "tests/stages/gel/press/small_scene.h"
 

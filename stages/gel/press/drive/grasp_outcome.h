@@ -1,0 +1,33 @@
+// What became of a gripped object: by its motion in the hand and by contact alone; docs/grasp.md.
+#pragma once
+
+#include "stages/gel/press/drive/grasp.h"
+
+namespace tacipc {
+
+Matrix4 hand_from_object(const GraspFrame& frame);
+
+/// Whether both fingers touch the object (or each other).
+bool both_touch(const GraspFrame& frame);
+
+/// Whether they do, and the object has neither slipped nor turned by as much as an outcome wants.
+bool is_held(const GraspFrame& frame);
+
+/// How the object has moved in the hand from one frame to another.
+struct InHand {
+  double slip_m = 0.0;    // of its point at the grip
+  double turn_rad = 0.0;  // of it
+};
+/// \param grip_m that point, in the object's axes
+InHand motion_in_hand(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m);
+
+/// By how much the object's point at the grip has come up, and the hand.
+struct Rise {
+  double object_m = 0.0, hand_m = 0.0;
+};
+Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m);
+
+/// \param begin when it was freed \param end the last frame before the fingers release it
+GraspOutcome outcome_of(const GraspFrame& begin, const GraspFrame& end, const Vector3& grip_m);
+
+}  // namespace tacipc

@@ -1,0 +1,439 @@
+#include "stages/gel/press/files/outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "common/base/files.h"
+#include "common/format/npy.h"
+#include "common/format/npy_pose.h"
+#include "common/sample/press_folder.h"
+#include "common/sensor/markers.h"
+#include "stages/gel/press/drive/grasp_outcome.h"
+#include "stages/gel/press/measure/contact_summary.h"
+#include "stages/gel/press/measure/traction_grid.h"
+#include "stages/gel/press/measure/verdict.h"
+
+namespace tacipc {
+namespace {
+
+void write_markers(Stage& stage, const std::string& folder, const PressWriter& writer,
+                   const std::vector<Marker>& markers, const std::vector<Frame>& frames,
+                   const std::optional<std::size_t>& end) {
+  std::vector<Positions> positions;
+  for (const Frame& frame : frames) positions.push_back(marker_positions(markers, frame.positions));
+  writer.write(PressArray::markers, positions, std::identity());
+  writer.write(PressArray::marker_displacement, marker_displacements(positions, end));
+  write_file(stage.output(folder + kMarkersCsv), markers_csv(markers));
+}
+
+/// Time at which each front vertex first slips, +∞ where it never does.
+std::vector<double> first_slip_s(const Simulation& simulation) {
+  std::vector<double> first(simulation.front.vertices.size(), std::numeric_limits<double>::infinity());
+  for (const Frame& frame : simulation.frames) {
+    for (std::size_t v = 0; v < first.size(); ++v) {
+      if (frame.contact_state[v] == ContactState::slip) first[v] = std::min(first[v], frame.time_s);
+    }
+  }
+  return first;
+}
+
+void write_contact(const PressWriter& writer, const Sensor& sensor, const Simulation& simulation) {
+  const auto& frames = simulation.frames;
+  const FrontSurface& front = simulation.front;
+  writer.write(PressArray::front_vertices, {front.vertices.begin(), front.vertices.end()});
+  writer.write(PressArray::contact_force, frames, [](const Frame& f) {
+    return ContactParts{f.normal_force_n, f.friction_force_n};
+  });
+  writer.write(PressArray::contact_state, frames, [](const Frame& f) { return f.contact_state; });
+  writer.write(PressArray::first_slip, first_slip_s(simulation));
+  const TractionGrid grid = TractionGrid::over_window(sensor.camera);
+  writer.write(PressArray::traction, frames, [&](const Frame& f) {
+    return spread_traction(grid, front, on_front(front, f.positions), f.normal_force_n, f.friction_force_n).pascal;
+  });
+}
+
+/// One frame's lines of the record.
+Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
+  const ContactSummary contact =
+      measure_contact(simulation.front, on_front(simulation.front, f.positions), f.normal_force_n, f.contact_state);
+  Value::Map lines{{"time_s", f.time_s},
+                   {"phase", name_of(f.phase)},
+                   {"press_force_n", 0.0 - f.force_n.z()},
+                   {"tangential_force_n", f.force_n.head<2>().norm()},
+                   {"balance_n", f.balance.force_n},
+                   {"balance_relative", f.balance.relative},
+                   {"inertia_n", f.balance.inertia_n.norm()},
+                   {"mount_force_n", f.balance.mount_n.norm()},
+                   {"contact_area_mm2", 1e6 * contact.area_m2},
+                   {"mean_pressure_pa", contact.mean_pressure_pa},
+                   {"peak_pressure_pa", contact.peak_pressure_pa},
+                   {"sticking", contact.sticking},
+                   {"slipping", contact.slipping},
+                   {"substeps", f.solver.time_steps},
+                   {"newton_iterations", f.solver.newton_iterations},
+                   {"patch_iterations", f.solver.patch_iterations},
+                   {"lag_iterations", f.solver.lag_iterations},
+                   {"exact_hessian_waits", f.solver.exact_hessian_waits},
+                   {"approximated_share", f.solver.approximated_share},
+                   {"friction_residual_n", f.solver.friction_residual_n},
+                   {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
+                   {"force_residual_n", f.solver.force_residual_n},
+                   {"barrier_stiffness", f.solver.barrier_factor * simulation.barrier_stiffness},
+                   {"min_gap_m", f.min_gap_m},
+                   {"stand_off_m", f.stand_off_m},
+                   {"min_volume_ratio", f.min_volume_ratio},
+                   {"intersections", f.intersections},
+                   {"inverted_tets", f.inverted_tets},
+                   {"gel_in_object", f.gel_in_object},
+                   {"pose_error_m", f.pose_error_m}};
+  if (f.phase == PhaseKind::free) {
+    lines.emplace_back("body_strain", f.body_strain);
+    lines.emplace_back("body_load_n", f.solver.body_load_n);
+    lines.emplace_back("body_residual_n", f.solver.body_residual_n);
+    lines.emplace_back("body_residual_n_m", f.solver.body_residual_n_m);
+  }
+  return lines;
+}
+
+/// What every frame was held to, for whoever judges the numbers of the record again.
+Value::Map limits() {
+  return {{"smallest_distance_m", kVerdictLimits.smallest_distance_m},
+          {"intersections", kVerdictLimits.intersections},
+          {"gel_in_object", kVerdictLimits.gel_in_object},
+          {"inverted_tets", kVerdictLimits.inverted_tets},
+          {"volume_ratio", kVerdictLimits.volume_ratio},
+          {"balance_relative", kVerdictLimits.balance_relative},
+          {"smallest_contact_n", kSmallestContactN},
+          {"pose_error_m", kVerdictLimits.pose_error_m},
+          {"body_strain", kVerdictLimits.body_strain},
+          {"body_balance_relative", kVerdictLimits.body_balance_relative},
+          {"smallest_body_load_n", kSmallestBodyLoadN}};
+}
+
+/// Every array of one gel, in a folder below --out ("" or with a slash at its end). \return the summary of its record
+/// \param friction coefficient \param end last frame of the first press
+Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel, double friction,
+                     const std::optional<std::size_t>& end, const Simulation& simulation) {
+  const auto& frames = simulation.frames;
+  const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
+  const std::vector<Marker> markers = bind_markers(sensor.markers, gel.positions, gel.faces(BoundaryTag::front));
+  const PressWriter writer(stage,
+                           {{kFrames, frames.size()},
+                            {kVertices, vertices},
+                            {kFrontVertices, simulation.front.vertices.size()},
+                            {kMarkers, markers.size()}},
+                           folder);
+  writer.write(PressArray::positions, frames, [](const Frame& f) { return f.positions; });
+  writer.write(PressArray::object_pose, frames, [](const Frame& f) { return f.gel_from_object; });
+  writer.write(PressArray::time, frames, [](const Frame& f) { return f.time_s; });
+  writer.write(PressArray::phase, frames, [](const Frame& f) { return f.phase; });
+  writer.write(PressArray::wrench, frames, [](const Frame& f) { return Wrench{f.force_n, f.torque_n_m}; });
+  if (simulation.object_may_be_free) {
+    writer.write(PressArray::object_twist, frames, [](const Frame& f) {
+      return Twist{f.object_velocity_m_s, f.object_spin_rad_s};
+    });
+  }
+  if (simulation.mount_gives_way)
+    writer.write(PressArray::holder_pose, frames, [](const Frame& f) { return f.holder_pose; });
+  write_contact(writer, sensor, simulation);
+  write_markers(stage, folder, writer, markers, frames, end);
+
+  int iterations = 0, intersections = 0, inverted = 0;
+  double min_gap_m = simulation.gap_horizon_m, min_ratio = 1.0, balance = 0.0, pose_error_m = 0.0;
+  std::optional<double> first_slip, gross_slip;
+  Value::List per_frame, approximated;
+  for (const Frame& f : frames) {
+    iterations += f.solver.newton_iterations;
+    if (f.solver.approximated_share > 0.0) approximated.emplace_back(static_cast<int>(&f - frames.data()));
+    intersections += f.intersections;
+    inverted += f.inverted_tets;
+    min_gap_m = std::min(min_gap_m, f.min_gap_m);
+    min_ratio = std::min(min_ratio, f.min_volume_ratio);
+    balance = std::max(balance, f.balance.relative);
+    pose_error_m = std::max(pose_error_m, f.pose_error_m);
+    const auto slipping = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::slip);
+    const auto sticking = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::stick);
+    if (slipping > 0 && !first_slip) first_slip = f.time_s;
+    if (slipping > 0 && sticking == 0 && !gross_slip) gross_slip = f.time_s;
+    per_frame.emplace_back(frame_lines(simulation, f));
+  }
+  Value::Map summary{{"frames", frames.size()},
+                     {"gel_vertices", vertices},
+                     {"d_hat_m", simulation.d_hat_m},
+                     {"barrier_stiffness", frames.back().solver.barrier_factor * simulation.barrier_stiffness},
+                     {"element", simulation.element},
+                     {"friction_coefficient", friction},
+                     {"newton_iterations", iterations},
+                     {"press_force_n", 0.0 - frames.back().force_n.z()},
+                     {"tangential_force_n", frames.back().force_n.head<2>().norm()},
+                     {"min_distance_m", min_gap_m},
+                     {"stand_off_m", frames.back().stand_off_m},
+                     {"min_volume_ratio", min_ratio},
+                     {"intersections", intersections},
+                     {"inverted_tets", inverted},
+                     {"max_balance_relative", balance},
+                     {"max_pose_error_m", pose_error_m}};
+  if (!simulation.face.empty()) summary.emplace(summary.begin() + 2, "face", simulation.face);
+  if (simulation.object_mass_kg > 0.0) summary.emplace_back("object_mass_kg", simulation.object_mass_kg);
+  if (first_slip) summary.emplace_back("first_slip_time_s", *first_slip);
+  if (gross_slip) summary.emplace_back("gross_slip_time_s", *gross_slip);
+  if (end) summary.emplace_back("press_end_frame", *end);
+  // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
+  summary.emplace_back("converged", true);
+  summary.emplace_back("verdict", "pass");
+  if (!approximated.empty()) summary.emplace_back("approximated_frames", std::move(approximated));
+  summary.emplace_back("limits", limits());
+  summary.emplace_back("per_frame", std::move(per_frame));
+  return summary;
+}
+
+void add_cost(Stage& stage, const SolverTimes& t) {
+  stage.cost({{"search_s", t.search_s},
+              {"step_limits_s", t.limits_s},
+              {"line_search_s", t.line_search_s},
+              {"elastic_s", t.elastic_s},
+              {"contact_s", t.contact_s},
+              {"linear_s", t.linear_s},
+              {"patches_s", t.patches_s},
+              {"linear_systems", t.solves},
+              {"factorised_systems", t.factorised},
+              {"products", t.products}});
+}
+
+void write_array(Stage& stage, const std::string& name, const std::vector<std::size_t>& shape,
+                 const std::vector<double>& values) {
+  write_npy(stage.output(name), shape, values.data());
+}
+
+/// Energy and momentum of the whole over the frames, as files.
+struct WholeArrays {
+  std::vector<double> energy, momentum;
+  double momentum_residual_n = 0.0;
+
+  void add(const WholeAccount& whole) {
+    energy.insert(energy.end(), {whole.kinetic_j, whole.elastic_j, whole.contact_j, whole.gravitational_j, whole.work_j,
+                                 whole.friction_loss_j, whole.damping_loss_j, whole.method_loss_j});
+    for (const Vector3* row : {&whole.momentum_kg_m_s, &whole.angular_momentum_kg_m2_s, &whole.impulse_n_s,
+                               &whole.angular_impulse_n_m_s, &whole.method_angular_n_m_s})
+      momentum.insert(momentum.end(), row->begin(), row->end());
+    momentum_residual_n = std::max(momentum_residual_n, whole.momentum_residual_n);
+  }
+  void write(Stage& stage) const {
+    write_array(stage, "energy.npy", {energy.size() / 8, 8}, energy);
+    write_array(stage, "momentum.npy", {momentum.size() / 15, 5, 3}, momentum);
+  }
+};
+
+/// One frame's lines of a grasp's record.
+Value::Map grasp_lines(const Grasp& grasp, std::size_t frame) {
+  const GraspFrame& f = grasp.frames[frame];
+  const auto& [left, right] = grasp.contacts[frame];
+  const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
+  Value::Map lines{{"time_s", f.time_s},
+                   {"phase", name_of(f.phase)},
+                   {"grip_left_n", f.grip_n(0)},
+                   {"grip_right_n", f.grip_n(1)},
+                   {"carried_n", 0.0 - carried.z()},
+                   {"height_m", f.world_from_object(2, 3)},
+                   {"hand_height_m", f.world_from_hand(2, 3)},
+                   {"slip_m", f.slip_m},
+                   {"turn_rad", f.turn_rad},
+                   {"slip_share_left", left.slip_share},
+                   {"slip_share_right", right.slip_share},
+                   {"friction_radius_left_m", left.friction_radius_m},
+                   {"friction_radius_right_m", right.friction_radius_m},
+                   {"body_strain", grasp.fingers[0].frames[frame].body_strain},
+                   {"body_load_n", f.body_load_n},
+                   {"body_residual_n", f.body_residual_n},
+                   {"momentum_residual_n", f.whole.momentum_residual_n},
+                   {"angular_residual_n_m", f.whole.angular_residual_n_m}};
+  if (const std::size_t since = frame - grasp.freed_frame;
+      frame >= grasp.freed_frame && since < grasp.friction_use.size() && std::isfinite(grasp.friction_use[since]))
+    lines.emplace_back("friction_use", grasp.friction_use[since]);
+  return lines;
+}
+
+/// Of one finger; a time that there is not is left out.
+Value::Map slip_lines(const SlipTimes& times) {
+  Value::Map lines;
+  if (times.first_s) lines.emplace_back("first_slip_s", *times.first_s);
+  if (times.gross_s) lines.emplace_back("gross_slip_s", *times.gross_s);
+  return lines;
+}
+
+Value::List list_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// How the object is held.
+Value::Map pose_lines(const GraspPose& pose) {
+  Eigen::Quaterniond q(pose.world_from_object);
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  // Without a minus before a zero.
+  Value::Map lines{{"rotation_xyzw", Value::List{q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w()}},
+                   {"grip_m", Value::List{pose.grip_m.x(), pose.grip_m.y(), pose.grip_m.z()}},
+                   {"lever_m", pose.lever_m()}};
+  if (pose.width_m) lines.emplace_back("width_m", *pose.width_m);
+  if (pose.patch_m) lines.emplace_back("patch_m", *pose.patch_m);
+  return lines;
+}
+
+}  // namespace
+
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
+                   const SampleSpec& sample, const Simulation& simulation) {
+  std::vector<int> phases;
+  for (const Frame& f : simulation.frames) phases.push_back(f.phase_index);
+  stage.summarize(
+      write_gel(stage, "", sensor, gel, config.coefficient_of_friction(), press_end_frame(sample, phases), simulation));
+  add_cost(stage, simulation.times);
+}
+
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const Grasp& grasp) {
+  const auto& frames = grasp.frames;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::string folder = std::string(side == 0 ? "left" : "right") + "/press";
+    stage.finish_part(
+        folder, write_gel(stage, folder + "/", sensor, gel, grasp.friction, grasp.freed_frame, grasp.fingers[side]));
+  }
+  std::vector<double> time, object, twist, hand, fingers, forces, drives;
+  WholeArrays whole;
+  Value::List per_frame;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const GraspFrame& f = frames[i];
+    time.push_back(f.time_s);
+    append_pose(object, f.world_from_object);
+    twist.insert(twist.end(), f.velocity_m_s.begin(), f.velocity_m_s.end());
+    twist.insert(twist.end(), f.spin_rad_s.begin(), f.spin_rad_s.end());
+    append_pose(hand, f.world_from_hand);
+    for (std::size_t side = 0; side < 2; ++side) {
+      append_pose(fingers, f.world_from_finger[side]);
+      forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
+      const FingerDrive& drive = f.drives[side];
+      drives.insert(drives.end(), {drive.force_n, drive.closed_m, drive.velocity_m_s});
+    }
+    whole.add(f.whole);
+    per_frame.emplace_back(grasp_lines(grasp, i));
+  }
+  const std::size_t n = frames.size();
+  write_array(stage, "time.npy", {n}, time);
+  write_array(stage, "object_pose.npy", {n, 4, 4}, object);
+  write_array(stage, "object_twist.npy", {n, 6}, twist);
+  write_array(stage, "hand_pose.npy", {n, 4, 4}, hand);
+  write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
+  write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
+  write_array(stage, "finger_drive.npy", {n, 2, 3}, drives);
+  whole.write(stage);
+  const GraspFrame& judged = frames[grasp.judged_frame];
+  const Rise rise = rise_of(frames[grasp.freed_frame], judged, grasp.grip_point());
+  Value::Map summary{{"frames", n},
+                     {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
+                     {"freed_frame", grasp.freed_frame},
+                     {"judged_frame", grasp.judged_frame},
+                     {"object_mass_kg", grasp.mass_kg},
+                     {"friction_coefficient", grasp.friction},
+                     {"gravity_m_s2", list_of(grasp.gravity_m_s2)},
+                     {"center_of_mass_m", list_of(grasp.center_of_mass_m)},
+                     {"center_of_mass_shift_m", list_of(grasp.center_shift_m)},
+                     {"pose", pose_lines(grasp.pose)},
+                     {"grip_n", grasp.grip_n},
+                     {"slip_m", judged.slip_m},
+                     {"turn_rad", judged.turn_rad},
+                     {"rise_m", rise.object_m},
+                     {"hand_rise_m", rise.hand_m},
+                     {"max_momentum_residual_n", whole.momentum_residual_n}};
+  if (grasp.reason)
+    summary.emplace(summary.begin() + 2, "reason", kGraspReasons[static_cast<std::size_t>(*grasp.reason)]);
+  for (const std::size_t side : {0, 1})
+    if (const Value::Map lines = slip_lines(grasp.slips[side]); !lines.empty())
+      summary.emplace_back(side == 0 ? "slip_left" : "slip_right", lines);
+  // Friction that both fingers can give over the weight.
+  if (grasp.weight_n > 0.0)
+    summary.emplace_back("friction_margin", 2.0 * grasp.friction * grasp.grip_n / grasp.weight_n);
+  summary.emplace_back("converged", true);
+  summary.emplace_back("verdict", "pass");
+  summary.emplace_back("per_frame", std::move(per_frame));
+  stage.summarize(summary);
+  add_cost(stage, grasp.fingers[0].times);
+}
+
+void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
+                   const SceneSpec& spec, const Scene& scene) {
+  for (std::size_t g = 0; g < scene.gels.size(); ++g) {
+    const std::string folder = "gels/" + spec.bodies[g].name + "/press";
+    stage.finish_part(
+        folder, write_gel(stage, folder + "/", sensor, bodies[g].tets,
+                          config.with_friction_of(sensor).coefficient_of_friction(), std::nullopt, scene.gels[g]));
+  }
+  const std::vector<SceneFrame>& frames = scene.frames;
+  const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),
+                    deformable = scene.gels.size() + frames[0].soft_m.size();
+  WholeArrays whole;
+  std::vector<double> time, poses, twists, wrenches;
+  std::vector<std::vector<double>> soft(frames[0].soft_m.size());
+  Value::List per_frame;
+  int intersections = 0;
+  double min_gap_m = frames[0].min_gap_m, strain = 0.0, balance = 0.0;
+  const auto add = [](std::vector<double>& all, const auto& numbers) {
+    for (Eigen::Index r = 0; r < numbers.rows(); ++r) {
+      for (Eigen::Index c = 0; c < numbers.cols(); ++c) all.push_back(numbers(r, c));
+    }
+  };
+  for (const SceneFrame& f : frames) {
+    time.push_back(f.time_s);
+    for (const Matrix4& pose : f.world_from_body) append_pose(poses, pose);
+    for (std::size_t i = 0; i < rigid; ++i) {
+      add(twists, f.velocity_m_s[i]);
+      add(twists, f.spin_rad_s[i]);
+      strain = std::max(strain, f.strain[i]);
+    }
+    for (const Wrench& wrench : f.between) {
+      add(wrenches, wrench.force_n);
+      add(wrenches, wrench.torque_n_m);
+    }
+    for (std::size_t i = 0; i < soft.size(); ++i) add(soft[i], f.soft_m[i]);
+    whole.add(f.whole);
+    intersections += f.intersections;
+    min_gap_m = std::min(min_gap_m, f.min_gap_m);
+    if (f.solver.body_load_n > 0.0)
+      balance = std::max(balance, f.solver.body_residual_n / std::max(f.solver.body_load_n, kSmallestBodyLoadN));
+    per_frame.emplace_back(Value::Map{{"time_s", f.time_s},
+                                      {"phase", f.phase_index},
+                                      {"time_steps", f.solver.time_steps},
+                                      {"newton_iterations", f.solver.newton_iterations},
+                                      {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
+                                      {"force_residual_n", f.solver.force_residual_n},
+                                      {"body_residual_n", f.solver.body_residual_n},
+                                      {"body_load_n", f.solver.body_load_n},
+                                      {"min_gap_m", f.min_gap_m},
+                                      {"intersections", f.intersections}});
+  }
+  write_array(stage, "time.npy", {n}, time);
+  write_array(stage, "body_pose.npy", {n, count, 4, 4}, poses);
+  if (rigid > 0) write_array(stage, "body_twist.npy", {n, rigid, 6}, twists);
+  write_array(stage, "wrench.npy", {n, count, count, 6}, wrenches);
+  whole.write(stage);
+  for (std::size_t i = 0; i < soft.size(); ++i)
+    write_array(stage, "soft/" + spec.bodies[scene.gels.size() + i].name + "/positions.npy",
+                {n, static_cast<std::size_t>(frames[0].soft_m[i].rows()), 3}, soft[i]);
+  Value::List names;
+  for (std::size_t b = 0; b < count; ++b) {
+    Value::Map body{{"name", spec.bodies[b].name}, {"kind", kBodyKinds[static_cast<std::size_t>(spec.bodies[b].kind)]}};
+    if (b >= deformable) body.emplace_back("metres_per_unit", spec.bodies[b].metres_per_unit);
+    if (spec.bodies[b].kind == BodyKind::rigid) body.emplace_back("mass_kg", scene.mass_kg[b - deformable]);
+    names.emplace_back(std::move(body));
+  }
+  stage.summarize({{"frames", n},
+                   {"bodies", std::move(names)},
+                   {"min_distance_m", min_gap_m},
+                   {"intersections", intersections},
+                   {"body_strain", strain},
+                   {"max_body_balance_relative", balance},
+                   {"max_momentum_residual_n", whole.momentum_residual_n},
+                   {"converged", true},
+                   {"verdict", "pass"},
+                   {"per_frame", std::move(per_frame)}});
+  add_cost(stage, scene.times);
+}
+
+}  // namespace tacipc

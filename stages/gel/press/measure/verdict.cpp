@@ -1,0 +1,51 @@
+#include "stages/gel/press/measure/verdict.h"
+
+#include <cmath>
+
+namespace tacipc {
+
+void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits) {
+  const auto miss = [frame](const char* check, double value, double limit, const std::string& reason) {
+    throw VerdictError({.frame = frame, .check = check, .value = value, .limit = limit},
+                       fmt::format("frame {}: {}", frame, reason));
+  };
+  // Each condition is what must hold, so that nan never passes.
+  const auto exceeds = [&](const char* check, const char* what, double value, double limit, const char* unit) {
+    if (!(value > limit))
+      miss(check, value, limit, fmt::format("{} {:.3g}{} does not exceed {:g}", what, value, unit, limit));
+  };
+  const auto within = [&](const char* check, const char* what, double value, double limit, const char* unit) {
+    if (!(value <= limit))
+      miss(check, value, limit, fmt::format("{} {:.3g}{} exceeds {:.3g}{}", what, value, unit, limit, unit));
+  };
+
+  if (numbers.intersections > kVerdictLimits.intersections) {
+    miss("intersections", numbers.intersections, kVerdictLimits.intersections,
+         fmt::format("{} pairs of triangles intersect", numbers.intersections));
+  }
+  if (!(std::abs(numbers.gel_in_object) < kVerdictLimits.gel_in_object)) {
+    miss("containment", numbers.gel_in_object, kVerdictLimits.gel_in_object,
+         fmt::format("the gel is inside the object (its surface winds {:.2g} times around it)", numbers.gel_in_object));
+  }
+  if (numbers.inverted_tets > kVerdictLimits.inverted_tets) {
+    miss("inverted_tets", numbers.inverted_tets, kVerdictLimits.inverted_tets,
+         fmt::format("{} tetrahedra are inverted", numbers.inverted_tets));
+  }
+  exceeds("smallest_distance", "smallest distance", numbers.min_gap_m, kVerdictLimits.smallest_distance_m, " m");
+  exceeds("volume_ratio", "smallest volume ratio", numbers.min_volume_ratio, kVerdictLimits.volume_ratio, "");
+  within("velocity_residual", "velocity residual", numbers.velocity_residual_m_s, limits.velocity_residual_m_s, " m/s");
+  within("force_residual", "force residual", numbers.force_residual_n, limits.force_residual_n, " N");
+  if (limits.friction_residual_n)
+    within("friction_residual", "friction residual", numbers.friction_residual_n, *limits.friction_residual_n, " N");
+  if (!(numbers.balance_relative <= kVerdictLimits.balance_relative)) {
+    miss("balance", numbers.balance_relative, kVerdictLimits.balance_relative,
+         fmt::format("forces do not balance: residual {:.3g} N, {:.3g} of the contact force (limit {:g})",
+                     numbers.balance_n, numbers.balance_relative, kVerdictLimits.balance_relative));
+  }
+  within("pose_error", "pose error", numbers.pose_error_m, kVerdictLimits.pose_error_m, " m");
+  within("body_strain", "strain of the free object", numbers.body_strain, kVerdictLimits.body_strain, "");
+  within("body_balance", "part of the free object's load that is not balanced,", numbers.body_balance_relative,
+         kVerdictLimits.body_balance_relative, "");
+}
+
+}  // namespace tacipc

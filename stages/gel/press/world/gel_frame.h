@@ -1,0 +1,42 @@
+// The frame of one gel out of several that are solved as one body.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "stages/gel/press/drive/simulate.h"
+
+namespace tacipc {
+
+/// An undeformed gel and where it is put: S in the world.
+struct PlacedGel {
+  const TetMesh& gel;
+  Matrix4 world_from_gel;
+};
+
+/// All of them as one mesh in the world, rows in their order.
+TetMesh joined(std::span<const PlacedGel> gels);
+
+/// What of one gel does not change.
+struct SolvedGel {
+  const TetMesh& gel;  // undeformed, in its own frame S
+  const FrontSurface& front;
+  const std::vector<RestTet>& rest_tets;
+  Eigen::Index first_row = 0;  // of the whole's positions and forces
+};
+
+/// Σ contact forces on it, normal and friction, in the world; zero where there is no force yet.
+Vector3 contact_force_on(const SolvedGel& part, const StepForces& forces);
+
+/// Its vertices of `x`, positions in the world, in its own frame.
+Positions positions_in_gel(const SolvedGel& part, const Matrix4& world_from_gel, const Positions& x);
+
+/// Forces, their balance and volumes, in its own frame; what is told of object, time and solver is left as it is.
+/// \param positions_m of its vertices in its own frame
+Frame gel_frame(const SolvedGel& part, const Matrix4& world_from_gel, Positions positions_m, const StepForces& forces);
+
+/// Adds an object's pose and motion, given in the world, as the gel sees them: velocities in the world, along its axes.
+void add_object(Frame& frame, const Matrix4& world_from_gel, const Matrix4& world_from_object,
+                const Vector3& velocity_m_s, const Vector3& spin_rad_s);
+
+}  // namespace tacipc
