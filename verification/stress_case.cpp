@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/placement.h"
+#include "stages/gel/press/drive/checkpoint.h"
 
 namespace tacipc::verify {
 namespace {
@@ -120,7 +121,7 @@ GraspSpec draw_grasp(const StressConfig::Grasp& ranges, double size_m, Draws& dr
 }
 
 /// Counts the frames of a grasp.
-class Count final : public ByteStore {
+class Count final : public FrameStore {
  public:
   explicit Count(StressResult& result) : result_(result) {}
   void save(const std::string&) override { result_.frames = saved_++; }
@@ -136,7 +137,15 @@ class Tally final : public FrameStore {
  public:
   explicit Tally(StressResult& result) : result_(result) {}
 
-  void save(const Frame& frame, const Progress&) override {
+  void save(const std::string& bytes) override {
+    Frame frame;
+    PressProgress progress;
+    unpack_frame(bytes, frame, progress);
+    add(frame);
+  }
+  std::optional<std::string> load() override { return std::nullopt; }
+
+  void add(const Frame& frame) {
     result_.min_distance_m = first_ ? frame.min_gap_m : std::min(result_.min_distance_m, frame.min_gap_m);
     result_.min_volume_ratio = std::min(result_.min_volume_ratio, frame.min_volume_ratio);
     result_.press_force_n = std::max(result_.press_force_n, -frame.force_n.z());
@@ -147,7 +156,6 @@ class Tally final : public FrameStore {
     result_.lag_iterations += frame.solver.lag_iterations;
     first_ = false;
   }
-  bool load(Frame&, Progress&) override { return false; }
 
  private:
   StressResult& result_;
@@ -282,7 +290,7 @@ StressResult run_stress_case(const StressCase& stress, const ProgressObserver& o
       const Grasp done =
           grasp(stress.sensor, stress.gel.mesh, stress.object.mesh, stress.press, *stress.grasp, observe, &count);
       for (const Simulation& finger : done.fingers) {
-        for (const Frame& frame : finger.frames) tally.save(frame, {});
+        for (const Frame& frame : finger.frames) tally.add(frame);
       }
       // Both fingers have the same frames, and the solver's numbers stand in each.
       result.frames = result.frames_asked;

@@ -78,7 +78,7 @@ code=0; "$bin/press" --config configs/press/small_gap.yaml --sensor configs/sens
 soft=(--soft one/scene/soft_ball/tets --name soft_ball)
 "${of_all[@]}" --out killed --sample configs/scenes/soft_ball.yaml "${soft[@]}" --threads 2 > said.txt 2>&1 &
 killed=$!
-for _ in $(seq 4000); do [ ! -e killed/.partial-press/.scratch/bodies_00012 ] || break; sleep 0.005; done
+for _ in $(seq 4000); do [ ! -e killed/.partial-press/.scratch/frame_00012 ] || break; sleep 0.005; done
 kill -KILL $killed 2> /dev/null || fail "the press was over before it could be killed"
 wait $killed 2> /dev/null || :
 press killed configs/scenes/soft_ball.yaml "${soft[@]}" --threads 1 > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the run after a kill failed"; }

@@ -138,7 +138,8 @@ void keep_first(std::vector<TrianglePair>& pairs, std::size_t count) {
 
 }  // namespace
 
-IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples) {
+IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples,
+                                      bool gel_with_itself) {
   check_cells("gel triangle", gel.positions, gel.triangles);
   check_cells("object triangle", object.positions, object.triangles);
   std::vector<Bounds> bounds = bounds_of(gel);
@@ -156,7 +157,7 @@ IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView&
   IntersectionReport report;
   // Gel triangles come first in the joint numbering, so i < j leaves only pairs of two object triangles to skip.
   sweep(
-      bounds, [&](int i, int) { return i < num_gel; },
+      bounds, [&](int i, int j) { return i < num_gel && (gel_with_itself || j >= num_gel); },
       [&](int i, int j) {
         if (j < num_gel) {
           if (mesh_triangles_intersect(vertices(gel, i), corners(gel, i), vertices(gel, j), corners(gel, j)))

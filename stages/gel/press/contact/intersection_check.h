@@ -31,8 +31,10 @@ struct IntersectionReport {
 
 /// Every pair of triangles that share a point, decided exactly; touching counts. Gel triangles with common vertices
 /// intersect only where they share more than those vertices or the common edge.
-/// \throw DataError where a vertex is not finite or an index is out of range.
-IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples = 8);
+/// \param gel_with_itself false: pairs of two gel triangles are left out
+/// \throw DataError if a vertex is not finite or an index is out of range.
+IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples = 8,
+                                      bool gel_with_itself = true);
 
 /// How many times a closed surface winds around a point [Van Oosterom and Strackee 1983: solid angles of triangles]: 1
 /// inside a surface that looks outwards, 0 outside, to rounding.

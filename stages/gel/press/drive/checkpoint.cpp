@@ -1,7 +1,5 @@
 #include "stages/gel/press/drive/checkpoint.h"
 
-#include <fmt/core.h>
-
 #include <cstring>
 #include <type_traits>
 
@@ -91,6 +89,22 @@ void each(auto& io, auto& matrix) {
   for (Eigen::Index i = 0; i < matrix.size(); ++i) io.plain(matrix.data()[i]);
 }
 
+void all(auto& io, auto& items, const auto& fields_of) {
+  io.sized(items);
+  for (auto& item : items) fields_of(item);
+}
+
+void matrices(auto& io, auto& items) {
+  all(io, items, [&](auto& item) { each(io, item); });
+}
+
+void wrenches(auto& io, auto& items) {
+  all(io, items, [&](auto& wrench) {
+    each(io, wrench.force_n);
+    each(io, wrench.torque_n_m);
+  });
+}
+
 void solver(auto& io, auto& report) {
   io.plain(report.time_steps);
   io.plain(report.newton_iterations);
@@ -111,12 +125,13 @@ void solver(auto& io, auto& report) {
   io.plain(report.body_load_n);
 }
 
-void contents(auto& io, auto& frame) {
+void gel_frame_fields(auto& io, auto& frame) {
   io.plain(frame.time_s);
   io.plain(frame.phase);
   io.plain(frame.phase_index);
   io.rows(frame.positions);
   each(io, frame.gel_from_object);
+  each(io, frame.holder_pose);
   io.rows(frame.normal_force_n);
   io.rows(frame.friction_force_n);
   io.states(frame.contact_state);
@@ -159,27 +174,33 @@ void account(auto& io, auto& whole) {
   io.plain(whole.angular_residual_n_m);
 }
 
-void state_of(auto& io, auto& state) {
-  io.rows(state.x);
-  io.rows(state.velocity_m_s);
-  each(io, state.object_velocity_m_s);
-  io.sized(state.object_motion);
-  for (auto& motion : state.object_motion) {
-    each(io, motion.velocity_m_s);
-    each(io, motion.angular_momentum_kg_m2_s);
-  }
-  io.plain(state.barrier_factor);
-  io.history(state.viscous_pa);
+void state_fields(auto& io, auto& state) {
+  auto& motion = state.motion;
+  io.rows(motion.x);
+  io.rows(motion.velocity_m_s);
+  each(io, motion.object_velocity_m_s);
+  all(io, motion.object_motion, [&](auto& of_object) {
+    each(io, of_object.velocity_m_s);
+    each(io, of_object.angular_momentum_kg_m2_s);
+  });
+  io.plain(motion.barrier_factor);
+  io.history(motion.viscous_pa);
+  matrices(io, state.world_from_body);
+  io.rows(state.mount_n);
+  all(io, state.held, [&](auto& body) { io.plain(body); });
+  wrenches(io, state.on_others);
+  account(io, state.account);
+  io.plain(state.time_s);
 }
 
-void contents(auto& io, auto& frame, auto& progress) {
-  contents(io, frame);
-  each(io, frame.holder_pose);
-  state_of(io, progress.state);
+void fields(auto& io, auto& frame, auto& progress) {
+  gel_frame_fields(io, frame);
+  state_fields(io, progress.world);
+  each(io, progress.holder_pose);
   each(io, progress.object_shift_m);
 }
 
-void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
+void grasp_fields(auto& io, auto& frame, auto& progress) {
   io.plain(frame.time_s);
   io.plain(frame.phase);
   each(io, frame.world_from_hand);
@@ -198,10 +219,8 @@ void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
   io.plain(frame.slip_m);
   io.plain(frame.turn_rad);
   account(io, frame.whole);
-  for (auto& of_finger : fingers) contents(io, of_finger);
-  state_of(io, progress.state);
-  io.rows(progress.mount_n);
-  for (auto& drive : progress.drives) {
+  state_fields(io, progress.world);
+  for (auto& drive : progress.hand.drives) {
     io.plain(drive.wanted_n);
     io.plain(drive.closed_m);
     io.plain(drive.velocity_m_s);
@@ -212,91 +231,69 @@ void contents(auto& io, auto& frame, auto& fingers, auto& progress) {
     io.plain(drive.by_way);
     io.plain(drive.wanted_closed_m);
   }
-  each(io, progress.world_from_hand);
-  io.plain(progress.grip_n);
+  each(io, progress.hand.world_from_hand);
+  io.plain(progress.hand.grip_n);
 }
 
-void scene_contents(auto& io, auto& frame, auto& gels, auto& progress) {
+void scene_fields(auto& io, auto& frame, auto& state) {
   io.plain(frame.time_s);
   io.plain(frame.phase_index);
-  const auto all = [&](auto& items, const auto& each_of) {
-    io.sized(items);
-    for (auto& item : items) each_of(item);
-  };
-  const auto numbers = [&](auto& item) { each(io, item); };
-  all(frame.world_from_body, numbers);
-  all(frame.velocity_m_s, numbers);
-  all(frame.spin_rad_s, numbers);
-  all(frame.strain, [&](auto& strain) { io.plain(strain); });
-  all(frame.soft_m, [&](auto& positions) { io.rows(positions); });
-  all(frame.between, [&](auto& wrench) {
-    each(io, wrench.force_n);
-    each(io, wrench.torque_n_m);
-  });
+  matrices(io, frame.world_from_body);
+  matrices(io, frame.velocity_m_s);
+  matrices(io, frame.spin_rad_s);
+  all(io, frame.strain, [&](auto& strain) { io.plain(strain); });
+  all(io, frame.soft_m, [&](auto& positions) { io.rows(positions); });
+  wrenches(io, frame.between);
   io.plain(frame.min_gap_m);
   io.plain(frame.intersections);
   account(io, frame.whole);
   solver(io, frame.solver);
-  io.rows(progress.mount_n);
-  all(progress.held_bodies, [&](auto& body) { io.plain(body); });
-  all(progress.others, [&](auto& wrench) {
-    each(io, wrench.force_n);
-    each(io, wrench.torque_n_m);
-  });
-  all(gels, [&](auto& of_gel) { contents(io, of_gel); });
-  state_of(io, progress.state);
+  state_fields(io, state);
+}
+
+void fields(auto& io, auto& frame, auto& gels, auto& progress) {
+  all(io, gels, [&](auto& of_gel) { gel_frame_fields(io, of_gel); });
+  if constexpr (requires { frame.world_from_hand; }) {
+    grasp_fields(io, frame, progress);
+  } else {
+    scene_fields(io, frame, progress);
+  }
 }
 
 template <typename... Parts>
-std::string packed(const Parts&... parts) {
+std::string pack(const Parts&... parts) {
   Writer writer;
-  contents(writer, parts...);
+  fields(writer, parts...);
   return writer.take();
 }
 
 template <typename... Parts>
 void unpack(std::string_view bytes, Parts&... parts) {
   Reader reader(bytes);
-  contents(reader, parts...);
+  fields(reader, parts...);
   if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");
 }
 
 }  // namespace
 
-std::string pack_frame(const Frame& frame, const Progress& progress) { return packed(frame, progress); }
+std::string pack_frame(const Frame& frame, const PressProgress& progress) { return pack(frame, progress); }
 
-void unpack_frame(std::string_view bytes, Frame& frame, Progress& progress) { unpack(bytes, frame, progress); }
+void unpack_frame(std::string_view bytes, Frame& frame, PressProgress& progress) { unpack(bytes, frame, progress); }
 
-std::string pack_frame(const GraspFrame& frame, const std::array<Frame, 2>& fingers, const GraspProgress& progress) {
-  return packed(frame, fingers, progress);
+std::string pack_frame(const GraspFrame& frame, const std::vector<Frame>& fingers, const GraspProgress& progress) {
+  return pack(frame, fingers, progress);
 }
 
-void unpack_frame(std::string_view bytes, GraspFrame& frame, std::array<Frame, 2>& fingers, GraspProgress& progress) {
+void unpack_frame(std::string_view bytes, GraspFrame& frame, std::vector<Frame>& fingers, GraspProgress& progress) {
   unpack(bytes, frame, fingers, progress);
 }
 
-std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const SceneProgress& progress) {
-  Writer writer;
-  scene_contents(writer, frame, gels, progress);
-  return writer.take();
+std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const WorldState& state) {
+  return pack(frame, gels, state);
 }
 
-void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, SceneProgress& progress) {
-  Reader reader(bytes);
-  scene_contents(reader, frame, gels, progress);
-  if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");
-}
-
-void ScratchFrames::save(const Frame& frame, const Progress& progress) {
-  stage_.save_scratch(fmt::format("frame_{:05d}", next_++), pack_frame(frame, progress));
-}
-
-bool ScratchFrames::load(Frame& frame, Progress& progress) {
-  const auto bytes = stage_.load_scratch(fmt::format("frame_{:05d}", next_));
-  if (!bytes) return false;
-  unpack_frame(*bytes, frame, progress);
-  ++next_;
-  return true;
+void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, WorldState& state) {
+  unpack(bytes, frame, gels, state);
 }
 
 }  // namespace tacipc

@@ -1,5 +1,6 @@
 #include "stages/gel/press/drive/grasp_labels.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "stages/gel/press/drive/grasp_outcome.h"
@@ -107,6 +108,15 @@ void add_labels(Grasp& grasp) {
   const bool uneven = std::abs(left - right) > kUneven * (left + right);
   grasp.reason = both_touch(freed) ? first.value_or(uneven ? GraspReason::uneven_grip : GraspReason::other)
                                    : GraspReason::no_contact;
+}
+
+void judge_outcome(Grasp& grasp) {
+  // Fingers that open lose the object in any case.
+  const auto released = std::find_if(grasp.frames.begin(), grasp.frames.end(),
+                                     [](const GraspFrame& frame) { return frame.phase == PhaseKind::release; });
+  grasp.judged_frame = static_cast<std::size_t>(released - grasp.frames.begin()) - 1;
+  grasp.outcome = outcome_of(grasp.frames[grasp.freed_frame], grasp.frames[grasp.judged_frame], grasp.grip_point());
+  add_labels(grasp);
 }
 
 }  // namespace tacipc

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "stages/gel/press/drive/grasp.h"
+#include "stages/gel/press/drive/grasp_frame.h"
 
 namespace tacipc {
 
@@ -24,5 +24,8 @@ FingerContact finger_contact(const FrontSurface& front, const Frame& frame);
 
 /// Fills contacts, friction_use, slips and reason. \pre all else is there
 void add_labels(Grasp& grasp);
+
+/// Fills judged_frame and outcome, then the labels. \pre frames and fingers are complete, freed_frame is known
+void judge_outcome(Grasp& grasp);
 
 }  // namespace tacipc

@@ -1,7 +1,7 @@
 // What became of a gripped object: by its motion in the hand and by contact alone; docs/grasp.md.
 #pragma once
 
-#include "stages/gel/press/drive/grasp.h"
+#include "stages/gel/press/drive/grasp_frame.h"
 
 namespace tacipc {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 
 namespace tacipc {
@@ -48,55 +47,10 @@ struct GripControl {
   bool arrived(const DriveInertia& inertia = {}) const;
 };
 
-/// The ways that are tried in one time step of a drive, each from the state before it, until the grip that the step
-/// ends with balances the drive: m/h (Δs/h − v) + c Δs/h + grip = wanted.
-class WaySearch {
- public:
-  /// \param most_m of the way, in either direction
-  /// \param reach_m how near counts as touching
-  WaySearch(const GripControl& drive, const DriveInertia& inertia, double h_s, double most_m, double reach_m,
-            const GripControl::Gap& gap);
-
-  /// The way to be tried.
-  double way_m() const { return way_m_; }
-  /// Takes note of the grip that a step by way_m() ended with. \param object_m how far the object has gone ahead of the
-  /// finger meanwhile
-  void note(double grip_n, double object_m = 0.0);
-  /// Whether that way stands: it is in balance, or as far as the drive may go towards it.
-  bool stands() const;
-  /// The next way to be tried, towards the balance, if the object is to go ahead by so much more than it did. Where it
-  /// stays, ways between two known ones are between them: the more a finger closes, the harder it presses.
-  void correct(double object_ahead_m = 0.0);
-
-  /// The same for the first one: the object was not taken to move.
-  void expect(double object_ahead_m);
-  /// A step by a way Δ is expected to change |m a + c v + grip − wanted|, which is off_n() now, by Δ × (inertia_n_m() +
-  /// stiffness_n_m()).
-  double off_n() const { return off_n_; }
-  double inertia_n_m() const { return inertia_n_m_; }
-  /// Of the grip: 0 where nothing is touched.
-  double stiffness_n_m() const { return stiffness_n_m_; }
-  /// The stiffness that ways of this step have told, or without inertia that has predicted its grip well.
-  std::optional<double> found_n_m() const;
-
- private:
-  double scale_n() const;
-  bool balanced() const;
-
-  double wanted_n_, inertia_n_m_, push_n_;  // push: m/h v + wanted
-  double way_m_ = 0.0, off_n_ = 0.0, grip_n_;
-  double stiffness_n_m_;
-  bool measured_ = false, touches_, object_moves_ = false;
-  double least_m_, most_m_;
-  /// Ways that were too short and too long, nearest to the balance.
-  struct Known {
-    double way_m, off_n;
-  };
-  Known low_{-std::numeric_limits<double>::infinity(), 0.0}, high_{std::numeric_limits<double>::infinity(), 0.0};
-  double noted_m_ = 0.0;  // of finger into object, by the last try
-  int tries_ = 0;
-};
-
-inline constexpr double kTouches_n = 1e-6;  // a smaller force on a finger is none
+inline constexpr double kTouches_n = 1e-6;      // N: with a smaller force a finger counts as not touching
+inline constexpr double kGripTolerance = 0.02;  // fraction of the force that may be missing to a drive's balance
+inline constexpr double kFirstTouch_m = 2e-5;   // displacement of a finger in the step after its first touch
+// A smaller change of force within a step, as a fraction of the force, may be the solver's tolerance.
+inline constexpr double kMeasurablePart = 2e-3;
 
 }  // namespace tacipc

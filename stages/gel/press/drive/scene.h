@@ -1,50 +1,15 @@
 // A scene: gels on mounts, soft, rigid and fixed bodies, all in contact with each other.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "stages/gel/press/drive/grasp.h"
-#include "stages/gel/press/drive/scene_spec.h"
-#include "stages/gel/press/drive/simulate.h"
-#include "stages/gel/press/measure/conservation.h"
+#include "stages/gel/press/drive/frame_run.h"
+#include "stages/gel/press/drive/scene_bodies.h"
+#include "stages/gel/press/drive/scene_frame.h"
 
 namespace tacipc {
-
-/// What the files of one body hold.
-struct SceneBody {
-  TetMesh tets = {};          // gel, soft
-  Material material = {};     // gel, soft
-  TriangleMesh surface = {};  // rigid, fixed
-  std::vector<Matrix4> path =
-      {};  // gel, rigid: world_from_body at the start and after each time step, where it has one
-};
-
-/// One instant of a scene, in the world.
-struct SceneFrame {
-  double time_s = 0.0;
-  int phase_index = -1;                                     // into the motion; −1 for frame 0
-  std::vector<Matrix4> world_from_body = {};                // of gels their mounts, of soft bodies where they began
-  std::vector<Vector3> velocity_m_s = {}, spin_rad_s = {};  // of rigid bodies: of their centres of mass, and about them
-  std::vector<double> strain = {};                          // of rigid bodies: max |AᵀA − I|
-  std::vector<Positions> soft_m = {};                       // of soft bodies
-  std::vector<Wrench> between = {};  // on body a by body b, about the world's origin, at a × number of bodies + b
-  double min_gap_m = 0.0;            // between two bodies, at most Simulation::gap_horizon_m
-  int intersections = 0;             // pairs of triangles, by an exact test
-  WholeAccount whole = {};  // of all but what is fixed or held; the residuals are those of the frame's time steps
-  StepReport solver = {};
-};
-
-struct Scene {
-  std::vector<Simulation> gels;  // each as a press of its own, in its own frame S
-  std::vector<SceneFrame> frames;
-  std::vector<double> mass_kg;  // of rigid bodies
-  SolverTimes times;
-};
 
 /// \param bodies of spec.bodies, in that order
 /// \throw as simulate()
 Scene run_scene(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
-                const SceneSpec& spec, const ProgressObserver& observe, ByteStore* store = nullptr);
+                const SceneSpec& spec, const ProgressObserver& observe, FrameStore* store = nullptr);
 
 }  // namespace tacipc

@@ -10,6 +10,7 @@
 #include "common/config/config.h"
 #include "common/sample/body_keys.h"
 #include "common/sample/rigid_way.h"
+#include "stages/gel/press/world/pair_laws.h"
 
 namespace tacipc {
 
@@ -35,12 +36,6 @@ struct BodySpec {
   std::filesystem::path path = {};
   BodyMass mass = {};                                                    // rigid
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();  // rigid: how it starts
-};
-
-/// How two bodies touch, where that differs from the press file.
-struct ContactSpec {
-  std::array<int, 2> between{};  // numbers of bodies
-  std::optional<double> friction = std::nullopt, d_hat_m = std::nullopt;
 };
 
 /// The way of one body in a phase, from where it is at its start.

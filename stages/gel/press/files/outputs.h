@@ -1,10 +1,10 @@
-// What a press or a grasp leaves behind: arrays per frame and the numbers of its record.
+// Outputs of a press, a grasp or a scene: arrays per frame and the numbers of its record.
 #pragma once
 
 #include "common/stage/stage.h"
-#include "stages/gel/press/drive/grasp.h"
-#include "stages/gel/press/drive/scene.h"
-#include "stages/gel/press/drive/simulate.h"
+#include "stages/gel/press/drive/grasp_frame.h"
+#include "stages/gel/press/drive/scene_bodies.h"
+#include "stages/gel/press/drive/scene_frame.h"
 
 namespace tacipc {
 

@@ -28,16 +28,20 @@ Vector3 contact_force_on(const SolvedGel& part, const StepForces& forces) {
   return (forces.normal.middleRows(first, n) + forces.friction.middleRows(first, n)).colwise().sum();
 }
 
-Positions positions_in_gel(const SolvedGel& part, const Matrix4& world_from_gel, const Positions& x) {
-  const Vector3 origin = world_from_gel.topRightCorner<3, 1>();
-  return rotated(x.middleRows(part.first_row, part.gel.num_vertices()).rowwise() - origin.transpose(),
-                 axes_to_gel(world_from_gel));
+Positions positions_in_gel(const SolvedGel& part, const std::optional<Matrix4>& world_from_gel, const Positions& x) {
+  const auto own = x.middleRows(part.first_row, part.gel.num_vertices());
+  if (!world_from_gel) return own;
+  const Vector3 origin = world_from_gel->topRightCorner<3, 1>();
+  return rotated(own.rowwise() - origin.transpose(), axes_to_gel(*world_from_gel));
 }
 
-Frame gel_frame(const SolvedGel& part, const Matrix4& world_from_gel, Positions positions_m, const StepForces& forces) {
+Frame gel_frame(const SolvedGel& part, const std::optional<Matrix4>& world_from_gel, Positions positions_m,
+                const StepForces& forces) {
   const Eigen::Index n = part.gel.num_vertices();
-  const Matrix3 to_gel = axes_to_gel(world_from_gel);
-  const auto own = [&](const Positions& rows) { return rotated(rows.middleRows(part.first_row, n), to_gel); };
+  const auto own = [&](const Positions& rows) -> Positions {
+    if (!world_from_gel) return rows.middleRows(part.first_row, n);
+    return rotated(rows.middleRows(part.first_row, n), axes_to_gel(*world_from_gel));
+  };
   Frame frame;
   frame.positions = std::move(positions_m);
   const Positions normal = own(forces.normal), friction = own(forces.friction), contact = normal + friction;
@@ -58,10 +62,16 @@ Frame gel_frame(const SolvedGel& part, const Matrix4& world_from_gel, Positions 
   return frame;
 }
 
-void add_object(Frame& frame, const Matrix4& world_from_gel, const Matrix4& world_from_object,
+void add_object(Frame& frame, const std::optional<Matrix4>& world_from_gel, const Matrix4& world_from_object,
                 const Vector3& velocity_m_s, const Vector3& spin_rad_s) {
-  const Matrix3 to_gel = axes_to_gel(world_from_gel);
-  frame.gel_from_object = world_from_gel.inverse() * world_from_object;
+  if (!world_from_gel) {
+    frame.gel_from_object = world_from_object;
+    frame.object_velocity_m_s = velocity_m_s;
+    frame.object_spin_rad_s = spin_rad_s;
+    return;
+  }
+  const Matrix3 to_gel = axes_to_gel(*world_from_gel);
+  frame.gel_from_object = world_from_gel->inverse() * world_from_object;
   frame.object_velocity_m_s = to_gel * velocity_m_s;
   frame.object_spin_rad_s = to_gel * spin_rad_s;
 }

@@ -178,11 +178,11 @@ TEST(GraspDrive, GoesOnFromAnyFrameToTheSameBytes) {
                                        release_phase(1, 5e-4)});
   spec.drive_each = true;
   spec.mount = {.mass_kg = 0.1, .damping_n_s_m = 50.0};
-  MemoryBytes whole;
+  MemoryStore whole;
   run_grasp(box_with_knob(), grasp_config(0.8), spec, &whole);
   ASSERT_EQ(whole.saved.size(), 13u);
   for (const std::size_t known : {2, 4, 5, 7, 9, 10, 11}) {
-    MemoryBytes rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
+    MemoryStore rest({whole.saved.begin(), whole.saved.begin() + static_cast<std::ptrdiff_t>(known)});
     run_grasp(box_with_knob(), grasp_config(0.8), spec, &rest);
     EXPECT_TRUE(rest.saved == whole.saved) << "from " << known << " frames";
   }

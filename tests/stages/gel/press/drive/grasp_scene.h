@@ -7,6 +7,7 @@
 
 #include "stages/gel/press/drive/grasp.h"
 #include "tests/make_mesh.h"
+#include "tests/stages/gel/press/drive/memory_store.h"
 #include "tests/stages/gel/press/reference_scene.h"
 #include "tests/stages/gel/press/small_scene.h"
 
@@ -43,22 +44,6 @@ inline GraspPhase release_phase(int steps, double distance_m) {
   return {.kind = PhaseKind::release, .steps = steps, .distance_m = distance_m};
 }
 
-/// Keeps frames in memory; hands out the first ones it is given.
-class MemoryBytes final : public ByteStore {
- public:
-  explicit MemoryBytes(std::vector<std::string> known = {}) : known_(std::move(known)) {}
-  void save(const std::string& bytes) override { saved.push_back(bytes); }
-  std::optional<std::string> load() override {
-    if (saved.size() >= known_.size()) return std::nullopt;
-    saved.push_back(known_[saved.size()]);
-    return saved.back();
-  }
-  std::vector<std::string> saved;
-
- private:
-  std::vector<std::string> known_;
-};
-
 inline GraspSpec grasp_of(double mass_kg, std::vector<GraspPhase> motion) {
   GraspSpec spec;
   spec.mass_kg = mass_kg;
@@ -67,7 +52,7 @@ inline GraspSpec grasp_of(double mass_kg, std::vector<GraspPhase> motion) {
 }
 
 inline Grasp run_grasp(const TriangleMesh& object, const PressConfig& config, const GraspSpec& spec,
-                       ByteStore* store = nullptr, const TetMesh& gel = block_gel(6, 0.02, 0.002)) {
+                       FrameStore* store = nullptr, const TetMesh& gel = block_gel(6, 0.02, 0.002)) {
   return grasp(paper_sensor(), gel, object, config, spec, ignore_progress, store);
 }
 

@@ -1,23 +1,22 @@
-// Frames of a motion in memory, for tests that interrupt it.
+// Frames of a run in memory, for tests that interrupt it.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "stages/gel/press/drive/checkpoint.h"
+#include "stages/gel/press/drive/frame_run.h"
 
 namespace tacipc {
 
-/// Keeps packed frames; hands out the first `known` of them.
+/// Keeps frames; hands out the first ones that it is given.
 class MemoryStore final : public FrameStore {
  public:
   explicit MemoryStore(std::vector<std::string> known = {}) : known_(std::move(known)) {}
-  void save(const Frame& frame, const Progress& progress) override { saved.push_back(pack_frame(frame, progress)); }
-  bool load(Frame& frame, Progress& progress) override {
-    if (saved.size() >= known_.size()) return false;
-    unpack_frame(known_[saved.size()], frame, progress);
+  void save(const std::string& bytes) override { saved.push_back(bytes); }
+  std::optional<std::string> load() override {
+    if (saved.size() >= known_.size()) return std::nullopt;
     saved.push_back(known_[saved.size()]);
-    return true;
+    return saved.back();
   }
   std::vector<std::string> saved;
 

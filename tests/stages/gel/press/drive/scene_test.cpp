@@ -43,7 +43,7 @@ class SceneOf : public ::testing::Test {
     spec_.bodies.push_back(body);
     bodies_.push_back({.surface = centered_box(half)});
   }
-  Scene run(ByteStore* store = nullptr) {
+  Scene run(FrameStore* store = nullptr) {
     return run_scene(paper_sensor(), bodies_, config_, spec_, ignore_progress, store);
   }
   const Wrench& on(const SceneFrame& frame, std::size_t a, std::size_t b) const {
@@ -85,13 +85,13 @@ TEST_F(SceneOf, FramesOfAnotherPathOrTimeStepAreRefused) {
     spec_.motion = {{.steps = steps}};
   };
   rise_by(1e-5, 2);
-  MemoryBytes first;
+  MemoryStore first;
   run(&first);
   rise_by(1e-5, 3);
-  MemoryBytes same(first.saved);
+  MemoryStore same(first.saved);
   EXPECT_EQ(run(&same).frames.size(), 4u);
   rise_by(2e-4, 3);
-  MemoryBytes other(first.saved);
+  MemoryStore other(first.saved);
   EXPECT_THAT(message_of<DataError>([&] { run(&other); }),
               HasSubstr("frame 1: body gel was solved 0.19 mm from where its path has it"));
   spec_.time_step_s = 0.5 * config_.time_step_s;
@@ -223,11 +223,11 @@ TEST_F(SceneOf, ResumesToTheSameBitsWithAnyNumberOfThreads) {
   add_box("box", BodyKind::rigid, {0, 0, 3.1e-3});
   add_box("wall", BodyKind::fixed, {7e-3, 0, 5e-3});
   spec_.motion = {{.steps = 4}, {.steps = 4, .load_n = {{1, {0.1, 0, 0}}}}};
-  MemoryBytes whole;
+  MemoryStore whole;
   const Scene once = run(&whole);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 1);
   for (const std::size_t known : {1u, 6u}) {
-    MemoryBytes part(std::vector<std::string>(whole.saved.begin(), whole.saved.begin() + static_cast<long>(known)));
+    MemoryStore part(std::vector<std::string>(whole.saved.begin(), whole.saved.begin() + static_cast<long>(known)));
     const Scene again = run(&part);
     EXPECT_EQ(part.saved, whole.saved) << known;
     EXPECT_EQ(again.frames.back().world_from_body, once.frames.back().world_from_body);

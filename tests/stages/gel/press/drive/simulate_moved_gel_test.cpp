@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/placement.h"
+#include "stages/gel/press/drive/checkpoint.h"
 #include "tests/make_mesh.h"
 #include "tests/stages/gel/press/drive/memory_store.h"
 #include "tests/stages/gel/press/reference_scene.h"
@@ -95,7 +96,7 @@ TEST(MovedGel, DamagedFramesAreRefused) {
   MemoryStore whole;
   run(pyramid(0.003, 0.002), paper_config(), press(0.1e-3, 1), &whole);
   Frame frame;
-  Progress progress;
+  PressProgress progress;
   EXPECT_THROW(unpack_frame(std::string_view(whole.saved[1]).substr(0, 1000), frame, progress), DataError);
   EXPECT_THROW(unpack_frame(whole.saved[1] + "x", frame, progress), DataError);
   EXPECT_NO_THROW(unpack_frame(whole.saved[1], frame, progress));

@@ -137,10 +137,10 @@ TEST(Relaxation, GoesOnFromAnyFrameToTheSameBytes) {
     EXPECT_TRUE(rest.saved == whole.saved) << "from " << known << " frames";
   }
   Frame frame;
-  Progress progress;
+  PressProgress progress;
   unpack_frame(whole.saved[3], frame, progress);
-  ASSERT_EQ(progress.state.viscous_pa.size(), 2u);
-  EXPECT_GT(progress.state.viscous_pa[0].norm(), 0.0);
+  ASSERT_EQ(progress.world.motion.viscous_pa.size(), 2u);
+  EXPECT_GT(progress.world.motion.viscous_pa[0].norm(), 0.0);
   EXPECT_EQ(pack_frame(frame, progress), whole.saved[3]);
 }
 

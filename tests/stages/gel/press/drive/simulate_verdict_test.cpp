@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "common/base/error.h"
+#include "stages/gel/press/contact/intersection_check.h"
 #include "tests/make_mesh.h"
 #include "tests/stages/gel/press/reference_scene.h"
 #include "tests/stages/gel/press/small_scene.h"

@@ -1,4 +1,5 @@
-// What must hold between the bodies of a scene, by code that shares nothing with the solver.
+// Checks between bodies: exact intersections, containment and initial gaps, by code that shares nothing with the
+// solver.
 #pragma once
 
 #include <functional>
@@ -15,15 +16,16 @@ struct BodyShape {
   Positions positions;
   const Triangles& triangles;
   bool deformable = false, fixed = false;
+  bool closed = true;  // encloses a volume in which another body may lie
 };
 
 /// \throw DataError if a body's path has not a pose for the start and for the end of each time step, or turns too far
 /// in one
 void check_path(const std::string& name, const std::vector<Matrix4>& path, int time_steps);
 
-/// Exact intersections between bodies, and of each deformable one with itself, and whether one is inside another.
-/// \return pairs of triangles that intersect, which are none \throw VerdictError naming the bodies
-int judge_bodies(int frame, const std::vector<BodyShape>& bodies);
+/// Tests exactly for intersections between bodies and of each deformable one with itself, and whether one is inside
+/// another that is closed. \throw VerdictError naming the bodies
+void judge_bodies(int frame, const std::vector<BodyShape>& bodies);
 
 /// \param d_hat_m of two bodies, by their numbers
 /// \throw DataError naming two bodies that intersect where they begin, or are as near as contact reaches

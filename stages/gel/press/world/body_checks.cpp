@@ -1,4 +1,4 @@
-#include "stages/gel/press/world/scene_checks.h"
+#include "stages/gel/press/world/body_checks.h"
 
 #include <fmt/core.h>
 
@@ -42,25 +42,25 @@ void check_path(const std::string& name, const std::vector<Matrix4>& path, int t
   }
 }
 
-int judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
-  std::int64_t sum = 0;
+void judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
   const auto miss = [&](const char* check, double value, double limit, const std::string& reason) {
     throw VerdictError({.frame = frame, .check = check, .value = value, .limit = limit},
                        fmt::format("frame {}: {}", frame, reason));
   };
   const auto count = [&](std::int64_t found, const std::string& whose) {
-    sum += found;
     if (found > kVerdictLimits.intersections)
       miss("intersections", static_cast<double>(found), kVerdictLimits.intersections,
            fmt::format("{} pairs of triangles of {} intersect", found, whose));
   };
   for (const BodyShape& body : bodies) {
-    if (body.deformable) count(find_intersections(view(body), {Positions(0, 3), Triangles(0, 3)}).gel_gel, body.name);
+    if (body.deformable)
+      count(find_intersections(view(body), {Positions(0, 3), Triangles(0, 3)}, 0).gel_gel, body.name);
   }
   for_each_two(bodies, [&](std::size_t i, std::size_t j) {
-    count(find_intersections(view(bodies[i]), view(bodies[j])).gel_object,
+    count(find_intersections(view(bodies[i]), view(bodies[j]), 0, false).gel_object,
           fmt::format("{} and {}", bodies[i].name, bodies[j].name));
     for (const auto& [inner, outer] : {std::pair(i, j), std::pair(j, i)}) {
+      if (!bodies[outer].closed) continue;
       const Vector3 point = bodies[inner].positions.row(bodies[inner].triangles(0, 0));
       const double winds = winding_number(point, view(bodies[outer]));
       if (!(std::abs(winds) < kVerdictLimits.gel_in_object))
@@ -68,14 +68,13 @@ int judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
              fmt::format("{} is inside {}", bodies[inner].name, bodies[outer].name));
     }
   });
-  return static_cast<int>(sum);
 }
 
 void require_apart(const std::vector<BodyShape>& bodies,
                    const std::function<double(std::size_t, std::size_t)>& d_hat_m) {
   for_each_two(bodies, [&](std::size_t i, std::size_t j) {
     const BodyShape &a = bodies[i], &b = bodies[j];
-    if (find_intersections(view(a), view(b)).gel_object > 0)
+    if (find_intersections(view(a), view(b), 0, false).gel_object > 0)
       throw DataError("bodies {} and {} intersect where they begin", a.name, b.name);
     Positions both(a.positions.rows() + b.positions.rows(), 3);
     both << a.positions, b.positions;

@@ -1,4 +1,4 @@
-#include "stages/gel/press/drive/grip_control.h"
+#include "stages/gel/press/drive/way_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,90 @@
+// Frames of a run in their order: those that an interrupted run has left, then new ones.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "stages/gel/press/world/frame.h"
+
+namespace tacipc {
+
+/// Keeps frames as bytes, in order, so that an interrupted run resumes.
+class FrameStore {
+ public:
+  virtual ~FrameStore() = default;
+  /// Called after each frame, in order, with all bits of it and of the state that the next one starts from.
+  virtual void save(const std::string& bytes) = 0;
+  /// The next saved frame in order, if there is one.
+  virtual std::optional<std::string> load() = 0;
+};
+
+class FrameRun {
+ public:
+  FrameRun(int num_frames, const ProgressObserver& observe, FrameStore* store)
+      : num_frames_(num_frames), observe_(observe), store_(store) {}
+
+  /// Number of the next frame.
+  int next() const { return next_; }
+  int num_frames() const { return num_frames_; }
+
+  /// The next frame of an interrupted run; nothing from the first frame on that has to be solved.
+  std::optional<std::string> restored() {
+    if (!store_ || !restoring_) return std::nullopt;
+    std::optional<std::string> bytes = store_->load();
+    restoring_ = bytes.has_value();
+    if (restoring_) log_info("frame {}/{} resumed from an interrupted run", next_++, num_frames_);
+    return bytes;
+  }
+
+  /// Ends a frame that was solved. \param bytes called only if there is a store
+  template <typename Bytes>
+  void save(Bytes&& bytes) {
+    if (store_) store_->save(bytes());
+    ++next_;
+  }
+
+  /// Solves the time steps of the next frame. \throw SolverError naming the frame
+  template <typename Steps>
+  StepReport solve(Steps&& steps) const {
+    StepReport report;
+    try {
+      steps(report);
+    } catch (const SolverError& error) {
+      throw SolverError("frame {}: {}", next_, error.what());
+    }
+    return report;
+  }
+
+  /// Adds to `report` the StepReport that advance() returns for a step that has been accepted. If it throws a
+  /// SolverError, divide(halvings + 1) takes both halves of the step instead.
+  /// \throw SolverError after `most_halvings`
+  template <typename Advance, typename Divide>
+  void advance_or_divide(int halvings, int most_halvings, StepReport& report, Advance&& advance,
+                         Divide&& divide) const {
+    try {
+      StepReport done = advance();
+      done.add_earlier(report);
+      report = done;
+    } catch (const SolverError& error) {
+      if (halvings >= most_halvings) throw;
+      log_info("frame {}: {}; dividing the time step", next_, error.what());
+      divide(halvings + 1);
+    }
+  }
+
+  /// Passes iterations of a time step on to whoever shows progress.
+  IterationObserver observer() const {
+    return [this](int iteration, double residual) { observe_(next_, num_frames_, iteration, residual); };
+  }
+
+ private:
+  const int num_frames_;
+  const ProgressObserver& observe_;
+  FrameStore* store_;
+  int next_ = 0;
+  bool restoring_ = true;
+};
+
+}  // namespace tacipc

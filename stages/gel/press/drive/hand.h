@@ -1,0 +1,64 @@
+// The hand of a grasp: two fingers on their drives, moved in time steps that leave the drives in balance.
+#pragma once
+
+#include <vector>
+
+#include "common/sample/rigid_way.h"
+#include "stages/gel/press/drive/checkpoint.h"
+#include "stages/gel/press/drive/frame_run.h"
+#include "stages/gel/press/drive/grip.h"
+#include "stages/gel/press/drive/way_search.h"
+
+namespace tacipc {
+
+/// Moves the gels of a world, the bodies 0 and 1, around the object, body 2. Each time step takes the motion of the
+/// hand in it, and adds what it took to a report.
+class Hand {
+ public:
+  /// \param grasp mass and centre of the object \pre all outlive the hand
+  Hand(const GraspSpec& spec, const PressConfig& config, const Grip& grip, const Grasp& grasp, World& world,
+       const FrameRun& run)
+      : spec_(spec), config_(config), grip_(grip), grasp_(grasp), world_(world), run_(run) {}
+
+  HandState& state() { return state_; }
+
+  /// Contact force on a finger in the world, N.
+  Vector3 force_on(std::size_t side) const { return contact_force_on(world_.deformable(side), world_.forces()); }
+  /// Mean force by which the fingers press.
+  double grip_n() const;
+  bool is_free() const { return state_.drives[0].let_go; }
+  /// Whether the object is free and neither finger touches it: fingers then move no further, except in a release.
+  bool lost() const { return state_.drives[0].lost() && state_.drives[1].lost(); }
+  /// Whether the drives have reached the force or the displacement that they should.
+  bool arrived() const;
+  /// Frees the object. \return the forces by which the fingers press, N
+  Ways let_go();
+
+  /// A time step in which each finger opens by `way_m`; the grip that is left is kept from there on.
+  void open_by(double way_m, double h_s, const RigidWay& motion, StepReport& report);
+  /// A time step in which fingers with a displacement to reach go on towards it.
+  void go_on(double h_s, const RigidWay& motion, StepReport& report);
+  /// A time step that ends with each drive in balance: tried with several displacements, each from the same state.
+  /// \param enough_n while the object is held, a grip up to this needs no second try
+  void balance(double h_s, const RigidWay& motion, double enough_n, StepReport& report);
+
+ private:
+  const Matrix4& object_pose() const { return world_.state().world_from_body[2]; }
+  Ways pressing_n() const;
+  Ways grips_n() const;
+  std::vector<Matrix4> poses(const Matrix4& world_from_hand, const Ways& closed_m) const;
+  void step(double h_s, const Ways& closing_m, const RigidWay& motion, int halvings, StepReport& report);
+  void measured_step(double h_s, const Ways& closing_m, const RigidWay& motion, StepReport& report);
+  PairSearch start_search(double h_s, const Matrix4& motion);
+  double along_axis(const Matrix4& from, const Matrix4& to, const Matrix4& motion, const Matrix4& hand) const;
+
+  const GraspSpec& spec_;
+  const PressConfig& config_;
+  const Grip& grip_;
+  const Grasp& grasp_;
+  World& world_;
+  const FrameRun& run_;
+  HandState state_;
+};
+
+}  // namespace tacipc

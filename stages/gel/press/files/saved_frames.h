@@ -1,0 +1,55 @@
+// Frames of an interrupted run in the scratch files of a stage, and frames that another run of a scene has left.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/stage/stage.h"
+#include "stages/gel/press/drive/frame_run.h"
+
+namespace tacipc {
+
+/// Frames as scratch files of the stage.
+class ScratchFrames : public FrameStore {
+ public:
+  explicit ScratchFrames(Stage& stage) : stage_(stage) {}
+  void save(const std::string& bytes) override { stage_.save_scratch(name(), bytes), ++next_; }
+  std::optional<std::string> load() override {
+    auto bytes = stage_.load_scratch(name());
+    if (bytes) ++next_;
+    return bytes;
+  }
+
+ protected:
+  std::string name() const { return fmt::format("frame_{:05d}", next_); }
+  Stage& stage_;
+  std::size_t next_ = 0;
+};
+
+/// Frames of a scene that is solved piece by piece: the first ones are those of a folder, and all others are left in
+/// solved/ of the stage's outputs.
+class SolvedFrames final : public ScratchFrames {
+ public:
+  /// \param identity text of all that a frame depends on, but its motion \param motion_by_frame text of the motion of
+  /// each frame, from frame 0 on
+  SolvedFrames(Stage& stage, std::filesystem::path folder, std::string identity,
+               std::vector<std::string> motion_by_frame)
+      : ScratchFrames(stage),
+        folder_(std::move(folder)),
+        identity_(std::move(identity)),
+        motion_(std::move(motion_by_frame)) {}
+  void save(const std::string& bytes) override;
+  std::optional<std::string> load() override;
+
+ private:
+  void keep(const std::string& bytes);
+  std::filesystem::path folder_;
+  std::string identity_;
+  std::vector<std::string> motion_;
+};
+
+}  // namespace tacipc
