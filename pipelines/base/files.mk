@@ -7,6 +7,9 @@ define newline
 
 endef
 
+# $(call fields,prefix,keys,key=value …): sets <prefix>_<key> for every key: to its values, or to nothing if there is none.
+fields = $(foreach k,$(2),$(eval $(1)_$(k) := $(patsubst $(k)=%,%,$(filter $(k)=%,$(3)))))
+
 # $(call check_choices,SENSOR:sensors MESH:gels …): each variable is the name of a file in that folder of configs/.
 check_choices = $(foreach v,$(1),$(if $(wildcard configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml),,$(error \
   $(firstword $(subst :, ,$(v))): there is no configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml)))

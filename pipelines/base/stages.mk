@@ -32,13 +32,17 @@ $(OUT)/objects/%/decimate.yaml: $(OUT)/emboss/%/emboss.yaml configs/objects/embo
 
 REFERENCES := $(wildcard configs/sensors/*.png)# photographs that sensors name
 
-# One sample: $(call sample_rules,folder,name,object folder,object yaml,sensor,mesh,motion yaml,press yaml[,further prerequisites[,try]])
+# One sample: $(call sample_rules,folder,key=value …) with the keys name, object (a folder), object_yaml, sensor, mesh, motion (a file) and press
+# (a file); `after` for every further prerequisite; by=try if its failure does not stop make.
 define sample_rules
-$(1)/press/press.yaml: $(3)/decimate.yaml $(4) $$(OUT)/gels/$(5)-$(6)/tetmesh.yaml configs/sensors/$(5).yaml $(8) $(7) $(9) | build
-	$$(call $(or $(10),run),press,--name $(2) --object $(3)/object.ply --object-config $(4) --gel $$(OUT)/gels/$(5)-$(6)/gel.msh \
-	  --sensor configs/sensors/$(5).yaml --config $(8) --sample $(7))
-$(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(5).yaml configs/render/default.yaml $$(REFERENCES) | build
-	$$(call run,render,--press $(1)/press --gel $$(OUT)/gels/$(5)-$(6)/gel.msh --sensor configs/sensors/$(5).yaml --config configs/render/default.yaml)
+$(call fields,sample,name object object_yaml sensor mesh motion press after by,$(2))
+$(1)/press/press.yaml: $(sample_object)/decimate.yaml $(sample_object_yaml) $$(OUT)/gels/$(sample_sensor)-$(sample_mesh)/tetmesh.yaml \
+    configs/sensors/$(sample_sensor).yaml $(sample_press) $(sample_motion) $(sample_after) | build
+	$$(call $(or $(sample_by),run),press,--name $(sample_name) --object $(sample_object)/object.ply --object-config $(sample_object_yaml) \
+	  --gel $$(OUT)/gels/$(sample_sensor)-$(sample_mesh)/gel.msh --sensor configs/sensors/$(sample_sensor).yaml --config $(sample_press) --sample $(sample_motion))
+$(1)/render/render.yaml: $(1)/press/press.yaml configs/sensors/$(sample_sensor).yaml configs/render/default.yaml $$(REFERENCES) | build
+	$$(call run,render,--press $(1)/press --gel $$(OUT)/gels/$(sample_sensor)-$(sample_mesh)/gel.msh \
+	  --sensor configs/sensors/$(sample_sensor).yaml --config configs/render/default.yaml)
 endef
 
 # A page over samples: $(call report_rules,folder,title,sample folders)

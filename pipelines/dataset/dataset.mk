@@ -82,30 +82,41 @@ dataset_stage = @TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(o
   OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(patsubst %/,%,$(dir $(2))) --threads $(THREADS) $(4) --log-level warning
 dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5) $(call dataset_choice,motion-$(7))
 dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_MAPS) $(DATASET_RENDERED_$(3)) $(call dataset_choice,render-$(3))
+# $(call dataset_rendering,place,record of its press,gel,seed)
+dataset_rendering = $$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(2) $(dataset_render_inputs),\
+  --press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) \
+  $(if $(DATASET_MAPS),--maps $(DATASET_MAPS)) --seed $(4))
+# Flags of a press: $(call dataset_pressing,place,object,gel,press,name); a grasp reads no YAML of its object.
+dataset_gripping = --name $(5) --object $(DATASET_DIR)/objects/$(2)/object.ply $(6) --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) \
+  --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml
+dataset_pressing = $(call dataset_gripping,$(1),$(2),$(3),$(4),$(5),--object-config $(DATASET_DIR)/objects/$(2)/object.yaml)
 define dataset_sample
 $(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
-	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
-	$$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) $(if $(DATASET_MAPS),--maps $(DATASET_MAPS)) --seed $(6))
+	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press/press.yaml,$(dataset_press_inputs),$(call dataset_pressing,$(1),$(2),$(3),$(4),$(notdir $(1))))
+	$(call dataset_rendering,$(1),$(1)/press/press.yaml,$(3),$(6))
 $(foreach m,$(DATASET_ENSEMBLE_$(3)),$(call dataset_member,$(1),$(2),$(word 1,$(subst :, ,$(m))),$(word 2,$(subst :, ,$(m))),$(4),$(5),$(7)))
 endef
 
-# The press of a sample by a member of an ensemble, after the sample and only where that was pressed. $(call dataset_member,place,object,member,its gel,press,paths,motion)
+# The press of a sample by a member of an ensemble, after the sample and only if that was pressed.
+# $(call dataset_member,place,object,member,its gel,press,paths,motion)
+dataset_member_inputs = $(call dataset_press_inputs,$(1),$(2),$(4),$(5),$(6),,$(7))
+dataset_member_record = $(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml
 define dataset_member
-DATASET_MEMBERS_$(1) += $(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml
-$(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml: $(sort $(call dataset_press_inputs,$(1),$(2),$(4),$(5),$(6),,$(7))) | $(DATASET_DIR)/samples/$(1)/render/render.yaml
-	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml,$(DATASET_DIR)/samples/$(1)/press/press.yaml $(call dataset_press_inputs,$(1),$(2),$(4),$(5),$(6),,$(7)),--name $(notdir $(1))-$(3) --object $(DATASET_DIR)/objects/$(2)/object.ply --object-config $(DATASET_DIR)/objects/$(2)/object.yaml --gel $(DATASET_DIR)/gels/$(4)/gel.msh --sensor $(DATASET_SENSOR_$(4)) --config $(5) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
+DATASET_MEMBERS_$(1) += $(dataset_member_record)
+$(dataset_member_record): $(sort $(dataset_member_inputs)) | $(DATASET_DIR)/samples/$(1)/render/render.yaml
+	$$(call dataset_stage,press,$(dataset_member_record),$(DATASET_DIR)/samples/$(1)/press/press.yaml $(dataset_member_inputs),\
+	  $(call dataset_pressing,$(1),$(2),$(4),$(5),$(notdir $(1))-$(3)))
 
 endef
 
 # A grasp is pressed once, in its own folder; each of its fingers, left/ and right/ there, is a sample with press/ and render/. Both have a rule
 # together, which the plan gives twice where they belong to two blocks.
-dataset_finger = $$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/$(8)/render/render.yaml,$(DATASET_DIR)/samples/$(1)/press.yaml $(dataset_render_inputs),--press $(DATASET_DIR)/samples/$(1)/$(8)/press --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(DATASET_RENDER) $(if $(DATASET_MAPS),--maps $(DATASET_MAPS)) --seed $(9))
 define dataset_grasp_rule
 DATASET_GRASP_$(1) := known
 $(DATASET_DIR)/samples/$(1)/left/render/render.yaml $(DATASET_DIR)/samples/$(1)/right/render/render.yaml &: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
-	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press.yaml,$(dataset_press_inputs),--name $(notdir $(1)) --object $(DATASET_DIR)/objects/$(2)/object.ply --gel $(DATASET_DIR)/gels/$(3)/gel.msh --sensor $(DATASET_SENSOR_$(3)) --config $(4) --sample $(DATASET_DIR)/samples/$(1)/sample.yaml)
-	$(call dataset_finger,$(1),$(2),$(3),$(4),$(5),$(6),$(7),left,$(word 1,$(6)))
-	$(call dataset_finger,$(1),$(2),$(3),$(4),$(5),$(6),$(7),right,$(word 2,$(6)))
+	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press.yaml,$(dataset_press_inputs),$(call dataset_gripping,$(1),$(2),$(3),$(4),$(notdir $(1))))
+	$(call dataset_rendering,$(1)/left,$(1)/press.yaml,$(3),$(word 1,$(6)))
+	$(call dataset_rendering,$(1)/right,$(1)/press.yaml,$(3),$(word 2,$(6)))
 endef
 dataset_grasp = $(if $(DATASET_GRASP_$(1)),,$(dataset_grasp_rule))
 

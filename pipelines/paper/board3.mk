@@ -35,7 +35,10 @@ $(BOARD3)/object/decimate.yaml: $(BOARD3_OBJECT) configs/objects/printed_indente
 $(OUT)/gels/mctac_3mm-import_paper_3mm/tetmesh.yaml: $(PAPER_GEL) configs/gels/import_paper_3mm.yaml configs/sensors/mctac_3mm.yaml | build
 	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac_3mm.yaml --config configs/gels/import_paper_3mm.yaml)
 
-$(foreach s,$(BOARD3_SAMPLES),$(eval $(call sample_rules,$(BOARD3_RUN)/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(BOARD3_MESH),configs/studies/board3/$(s).yaml,configs/press/$(BOARD3_PRESS).yaml,,try)))
+# $(call board3_rules,folder,name,mesh,motion below configs/studies/board3,press)
+board3_rules = $(call sample_rules,$(1),name=$(2) object=$(BOARD3)/object object_yaml=configs/objects/printed_indenter.yaml sensor=mctac_3mm \
+  mesh=$(3) motion=configs/studies/board3/$(4).yaml press=$(5) by=try)
+$(foreach s,$(BOARD3_SAMPLES),$(eval $(call board3_rules,$(BOARD3_RUN)/$(s),$(s),$(BOARD3_MESH),$(s),configs/press/$(BOARD3_PRESS).yaml)))
 
 $(BOARD3_RECORD): configs/studies/board3/marker_curve.yaml $(BOARD3_SAMPLES:%=$(BOARD3_RUN)/%/press/press.yaml) $(if $(filter board3,$(MAKECMDGOALS)),$(wildcard $(ALSO:%=%/*.npy))) | build-verification
 	$(call try,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3_RUN)/%/press) $(if $(filter board3,$(MAKECMDGOALS)),$(ALSO:%=--other %)))

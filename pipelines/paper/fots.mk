@@ -99,7 +99,12 @@ FOTS_KEYS_tacchi_legacy_grid_and_density := $(FOTS_KEYS_tacchi_legacy_grid_0400u
 FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
 FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
 FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths at which what is checked at half the speed is
-$(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call tacchi_run,$(FOTS)/runs/$(t)/$(d),$(t)_$(d),$(FOTS_NUMERICS_$(t)),$(FOTS_KEYS_$(t)) $(if $(filter tacchi_physical,$(t)),$(if $(filter $(d),$(FOTS_CHECKED)),,-half_speed)),$(FOTS)/runs/base/settings/sensor.yaml,$(FOTS)/cases/motion_$(d).yaml,$(FOTS)/runs/base/indenter/indenter.yaml,$(FOTS)/runs/base/indenter/object.ply,configs/objects/embossed.yaml))))
+fots_unchecked = $(and $(filter tacchi_physical,$(1)),$(filter-out $(FOTS_CHECKED),$(2)),-half_speed)
+# $(call fots_tacchi_run,row,depth)
+fots_tacchi_run = $(call tacchi_run,$(FOTS)/runs/$(1)/$(2),name=$(1)_$(2) numerics=$(FOTS_NUMERICS_$(1)) \
+  sensor=$(FOTS)/runs/base/settings/sensor.yaml motion=$(FOTS)/cases/motion_$(2).yaml object=$(FOTS)/runs/base/indenter/indenter.yaml \
+  object_yaml=configs/objects/embossed.yaml,$(FOTS_KEYS_$(1)) $(fots_unchecked))
+$(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_tacchi_run,$(t),$(d)))))
 
 $(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
     $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(t)/$(d)/mpm.yaml)) $(FOTS_RIVAL_RECORDS) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) | build
@@ -110,16 +115,28 @@ $(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$
 fots-tacchi-folders:
 	$(call paper_folders,fots,$(FOTS)/cases $(foreach v,$(MARKERS_VARIANTS),$(FOTS)/runs/$(v)/indenter $(FOTS)/runs/$(v)/gel) \
 	  $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),$(MARKERS_DEPTHS:%=$(FOTS)/runs/$(v)/%)) $(FOTS)/unit $(FOTS)/rivals $(FOTS)/fit_tacchi)
+define fots_legend
+`tacchi_legacy`: numerics and material of Tacchi as published.
+`tacchi_legacy_sensor_material`: those numerics with the material of the gel.
+`tacchi_legacy_tenth_density`: as published, but a tenth as heavy.
+`tacchi_legacy_grid_0400um`: as published, but on cells that hold eight particles.
+`tacchi_legacy_grid_and_density`: on those and a hundredth as heavy.
+`tacchi_physical`: the material and density of the gel, and a coarse grid.
+`fots_published`, `fots_fitted`: FOTS with its published factors, and with factors fitted to these very vectors, the most its formulas can do.
+`taxim_superposition`: Taxim with unit responses of this gel.
+endef
 fots-tacchi: $(FOTS)/fit_tacchi/marker_fit.yaml fots-tacchi-folders
 	@mkdir -p $(RIVALS_MARKERS)/paper_results
 	@cp $(<D)/vectors.csv $(RIVALS_MARKERS)/fots_vectors.csv
 	@for picture in $(<D)/*.svg; do cp "$$picture" $(RIVALS_MARKERS)/paper_results/fots_$$(basename "$$picture"); done
 	@{ cat $(<D)/others.md; echo; \
-	  echo '`tacchi_legacy`: numerics and material of Tacchi as published. `tacchi_legacy_sensor_material`: those numerics with the material of the gel. `tacchi_legacy_tenth_density`: as published, but a tenth as heavy. `tacchi_legacy_grid_0400um`: as published, but on cells that hold eight particles. `tacchi_legacy_grid_and_density`: on those and a hundredth as heavy. `tacchi_physical`: the material and density of the gel, and a coarse grid. `fots_published`, `fots_fitted`: FOTS with its published factors, and with factors fitted to these very vectors, the most its formulas can do. `taxim_superposition`: Taxim with unit responses of this gel.'; \
+	  echo '$(subst $(newline), ,$(fots_legend))'; \
 	  echo; cat $(<D)/table.md; for field in shear press; do printf '\n|'; for row in TacIPC $(FOTS_TACCHI) $(FOTS_RIVALS); do printf ' %s |' $$row; done; \
 	  printf '\n|'; for row in TacIPC $(FOTS_TACCHI) $(FOTS_RIVALS); do printf -- '---|'; done; printf '\n|'; \
 	  printf ' ![TacIPC: %s](paper_results/fots_%s.svg) |' $$field $$field; \
-	  for row in $(FOTS_TACCHI) $(FOTS_RIVALS); do [ ! -e $(<D)/$${row}_$$field.svg ] && printf ' no fit |' || printf ' ![%s: %s](paper_results/fots_%s_%s.svg) |' $$row $$field $$row $$field; done; echo; done; } > $(RIVALS_MARKERS)/fots.md
+	  for row in $(FOTS_TACCHI) $(FOTS_RIVALS); do \
+	    [ ! -e $(<D)/$${row}_$$field.svg ] && printf ' no fit |' || printf ' ![%s: %s](paper_results/fots_%s_%s.svg) |' $$row $$field $$row $$field; \
+	  done; echo; done; } > $(RIVALS_MARKERS)/fots.md
 	@cat $(RIVALS_MARKERS)/fots.md
 
 # docs/fots.md has a place for the table of the shipped benchmark.

@@ -8,6 +8,10 @@ COINS_LAST   := frame_0005# the end of that motion
 coins_mesh   = --object $(OUT)/objects/$(1)/object.ply
 coins_object = $(coins_mesh) --object-config configs/objects/embossed.yaml
 
+# $(call coins_sample,folder,object,mesh)
+coins_sample = $(call sample_rules,$(1),name=$(2) object=$(OUT)/objects/$(2) object_yaml=configs/objects/embossed.yaml sensor=mctac mesh=$(3) \
+  motion=$(COINS_MOTION) press=configs/press/frictionless.yaml)
+
 # $(call coins_render,folder,press,mesh,configuration): another rendering of a press
 define coins_render
 $(1)/render.yaml: $(2)/press.yaml $(COINS_SENSOR) configs/render/$(4).yaml $$(REFERENCES) | build
@@ -44,7 +48,7 @@ endef
 
 # $(call coins_rules,folder,object)
 define coins_rules
-$(call sample_rules,$(1)/tacipc,$(2),$(OUT)/objects/$(2),configs/objects/embossed.yaml,mctac,$(PAPER_OURS),$(COINS_MOTION),configs/press/frictionless.yaml)
+$(call coins_sample,$(1)/tacipc,$(2),$(PAPER_OURS))
 $(1)/fine/press/press.yaml: $(OUT)/objects/$(2)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/press/frictionless.yaml | build
 	$$(call run,press,--name $(2) $(call coins_object,$(2)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/frictionless.yaml --sample $(COINS_MOTION))
 $(call coins_render,$(1)/fine/render,$(1)/fine/press,$(PAPER_FINE),$(PAPER_LIGHT))
@@ -129,7 +133,7 @@ $(PAPER)/objects-near/table/tabulate.yaml: configs/studies/paper/tables/near_dep
 
 # The ablation: some of the objects on other meshes, against the finest, all with the same barrier, light and noise.
 define coins_mesh
-$(foreach o,$(PAPER_ABLATED),$(call sample_rules,$(PAPER)/ablation/$(1)/$(o),$(o),$(OUT)/objects/$(o),configs/objects/embossed.yaml,mctac,$(1),$(COINS_MOTION),configs/press/frictionless.yaml)
+$(foreach o,$(PAPER_ABLATED),$(call coins_sample,$(PAPER)/ablation/$(1)/$(o),$(o),$(1))
 )
 endef
 # Where a press on a mesh was rendered, $(call coins_seen,mesh,object): of the finest it is one of those above.

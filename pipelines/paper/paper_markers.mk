@@ -6,12 +6,15 @@ $(call uses,paper/paper paper/board3)
 RIVALS_MARKERS := $(PAPER)/markers
 RIVALS_RUNS := $(OUT)/paper/marker_runs
 
-# $(call tacchi_run,folder,name,configuration of mpm,changed keys,sensor,sample,record of the object,object.ply,its YAML). Only markers are
-# looked at: no height maps. A run that its half-speed check refuses is a row that says so.
+# $(call tacchi_run,folder,key=value …,changed keys of the numerics) with the keys name, numerics (of configs/rivals/mpm), sensor, motion, object
+# (the record beside its object.ply) and object_yaml. Only markers are looked at: no height maps. A run that its half-speed check refuses is a row
+# that says so.
 define tacchi_run
-$(call changed_config,$(1).config.yaml,configs/rivals/mpm/$(3).yaml,pixels=none $(4))
-$(1)/mpm.yaml: $(1).config.yaml $(5) $(6) $(7) $(9) | build
-	$$(call try,mpm,--name $(2) --config $(1).config.yaml --sensor $(5) --sample $(6) --object $(8) --object-config $(9))
+$(call fields,tacchi,name numerics sensor motion object object_yaml,$(2))
+$(call changed_config,$(1).config.yaml,configs/rivals/mpm/$(tacchi_numerics).yaml,pixels=none $(3))
+$(1)/mpm.yaml: $(1).config.yaml $(tacchi_sensor) $(tacchi_motion) $(tacchi_object) $(tacchi_object_yaml) | build
+	$$(call try,mpm,--name $(tacchi_name) --config $(1).config.yaml --sensor $(tacchi_sensor) --sample $(tacchi_motion) \
+	  --object $(dir $(tacchi_object))object.ply --object-config $(tacchi_object_yaml))
 endef
 
 # How Tacchi runs: its numerics on the gel of the sensor, and with the true density on a coarse grid, checked at half the speed. Nodes at the
@@ -27,10 +30,11 @@ RIVALS_BOARD3 := $(RIVALS_RUNS)/board3
 RIVALS_MESHES := focused_0200um import_paper_3mm
 rivals_press = $(BOARD3)/$(1)-friction_viscous/board3_$(2)/press
 $(foreach m,$(filter-out $(if $(filter friction_viscous,$(BOARD3_PRESS)),$(BOARD3_MESH)),$(RIVALS_MESHES)),$(foreach s,$(BOARD3_SAMPLES), \
-  $(eval $(call sample_rules,$(BOARD3)/$(m)-friction_viscous/$(s),$(s),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,$(m),configs/studies/board3/$(s).yaml,configs/press/friction_viscous.yaml,,try))))
+  $(eval $(call board3_rules,$(BOARD3)/$(m)-friction_viscous/$(s),$(s),$(m),$(s),configs/press/friction_viscous.yaml))))
 
-# $(call board3_tacchi,name,motion,configuration,keys)
-board3_tacchi = $(call tacchi_run,$(RIVALS_BOARD3)/$(1)/$(2),$(1),$(3),$(4),configs/sensors/mctac_3mm.yaml,configs/studies/board3/board3_$(2).yaml,$(BOARD3)/object/decimate.yaml,$(BOARD3)/object/object.ply,configs/objects/printed_indenter.yaml)
+# $(call board3_tacchi,name,motion,numerics,keys)
+board3_tacchi = $(call tacchi_run,$(RIVALS_BOARD3)/$(1)/$(2),name=$(1) numerics=$(3) sensor=configs/sensors/mctac_3mm.yaml \
+  motion=configs/studies/board3/board3_$(2).yaml object=$(BOARD3)/object/decimate.yaml object_yaml=configs/objects/printed_indenter.yaml,$(4))
 $(foreach m,shear twist,$(eval $(call board3_tacchi,tacchi_legacy,$(m),$(RIVALS_LEGACY)))$(eval $(call board3_tacchi,tacchi_physical,$(m),$(RIVALS_PHYSICAL),$(RIVALS_PHYSICAL_KEYS_$(m)))))
 
 # One value changed at a time, in the shear. Of Tacchi's, as published: name and keys. The true density takes the time step that keeps the
@@ -49,8 +53,9 @@ RIVALS_KEYS_published_material := +material.youngs_modulus_pa=1.45e+5 +material.
 $(foreach f,$(RIVALS_FACTORS),$(eval $(call board3_tacchi,$(f),shear,$(RIVALS_LEGACY),$(RIVALS_KEYS_$(f)))))
 # Of TacIPC's: so much friction that nothing slips.
 RIVALS_FRICTIONS := 5
-$(foreach f,$(RIVALS_FRICTIONS),$(eval $(call changed_config,$(RIVALS_BOARD3)/friction_$(f).config.yaml,configs/press/friction_viscous.yaml,friction.coefficient=$(f))) \
-  $(eval $(call sample_rules,$(RIVALS_BOARD3)/friction_$(f),friction_$(f),$(BOARD3)/object,configs/objects/printed_indenter.yaml,mctac_3mm,focused_0200um,configs/studies/board3/board3_shear.yaml,$(RIVALS_BOARD3)/friction_$(f).config.yaml,,try)))
+$(foreach f,$(RIVALS_FRICTIONS),\
+  $(eval $(call changed_config,$(RIVALS_BOARD3)/friction_$(f).config.yaml,configs/press/friction_viscous.yaml,friction.coefficient=$(f))) \
+  $(eval $(call board3_rules,$(RIVALS_BOARD3)/friction_$(f),friction_$(f),focused_0200um,board3_shear,$(RIVALS_BOARD3)/friction_$(f).config.yaml)))
 
 RIVALS_BOARD3_RUNS := $(foreach m,$(RIVALS_MESHES),$(foreach s,shear twist,$(call rivals_press,$(m),$(s)))) \
   $(foreach t,tacchi_legacy tacchi_physical,$(foreach s,shear twist,$(RIVALS_BOARD3)/$(t)/$(s)))
@@ -62,9 +67,11 @@ $(RIVALS_QUICK)/ball/indenter.yaml: configs/studies/paper/markers/quick_ball.yam
 	$(call run,indenter,--config $<)
 $(RIVALS_QUICK)/object/decimate.yaml: $(RIVALS_QUICK)/ball/indenter.yaml configs/objects/embossed.yaml configs/objects/decimate/default.yaml | build
 	$(call run,decimate,--mesh $(RIVALS_QUICK)/ball/object.ply --object configs/objects/embossed.yaml --config configs/objects/decimate/default.yaml)
-$(eval $(call sample_rules,$(RIVALS_QUICK)/tacipc,tacipc,$(RIVALS_QUICK)/object,configs/objects/embossed.yaml,mctac_3mm,adaptive_0400um,configs/studies/paper/markers/quick_shear.yaml,configs/press/friction_viscous.yaml,,try))
-# $(call quick_tacchi,name,configuration,keys)
-quick_tacchi = $(call tacchi_run,$(RIVALS_QUICK)/$(1),$(1),$(2),$(3),configs/sensors/mctac_3mm.yaml,configs/studies/paper/markers/quick_shear.yaml,$(RIVALS_QUICK)/object/decimate.yaml,$(RIVALS_QUICK)/object/object.ply,configs/objects/embossed.yaml)
+$(eval $(call sample_rules,$(RIVALS_QUICK)/tacipc,name=tacipc object=$(RIVALS_QUICK)/object object_yaml=configs/objects/embossed.yaml sensor=mctac_3mm \
+  mesh=adaptive_0400um motion=configs/studies/paper/markers/quick_shear.yaml press=configs/press/friction_viscous.yaml by=try))
+# $(call quick_tacchi,name,numerics,keys)
+quick_tacchi = $(call tacchi_run,$(RIVALS_QUICK)/$(1),name=$(1) numerics=$(2) object=$(RIVALS_QUICK)/object/decimate.yaml \
+  object_yaml=configs/objects/embossed.yaml sensor=configs/sensors/mctac_3mm.yaml motion=configs/studies/paper/markers/quick_shear.yaml,$(3))
 RIVALS_QUICK_PHYSICAL := gel.spacing_mm=0.5 grid.spacing_mm=1 object.press_speed_mm_s=200 object.move_speed_mm_s=200 half_speed.largest_change=0.2
 $(eval $(call quick_tacchi,tacchi_legacy,$(RIVALS_LEGACY),object.samples_per_mm2=60))
 $(eval $(call quick_tacchi,tacchi_physical,$(RIVALS_PHYSICAL),$(RIVALS_QUICK_PHYSICAL)))

@@ -7,12 +7,13 @@ DEMO_MOVED  := dots_shear star_twist
 DEMO_SENSORS := gelsight_mini digit gelsight_lab
 DEMO_ELSEWHERE := $(foreach s,$(DEMO_SENSORS),star_$(s) rings_$(s))
 
-# $(call demo_rules,folder,sample,object,mesh,motion)
-demo_rules = $(call sample_rules,$(1)/$(2),$(2),$(OUT)/objects/$(3),configs/objects/embossed.yaml,mctac,$(4),configs/motions/$(5).yaml,configs/press/default.yaml)
+# $(call demo_rules,folder,sample,object,mesh,motion[,sensor])
+demo_rules = $(call sample_rules,$(1)/$(2),name=$(2) object=$(OUT)/objects/$(3) object_yaml=configs/objects/embossed.yaml \
+  sensor=$(or $(6),mctac) mesh=$(4) motion=configs/motions/$(5).yaml press=configs/press/default.yaml)
 
 $(foreach o,$(DEMO_FINE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0100um,press_0500um)))
 $(foreach o,$(DEMO_COARSE),$(eval $(call demo_rules,$(OUT)/demo,$(o),$(o),adaptive_0250um,press_0500um)))
-$(foreach s,$(DEMO_SENSORS),$(foreach o,star rings,$(eval $(call sample_rules,$(OUT)/demo/$(o)_$(s),$(o)_$(s),$(OUT)/objects/$(o),configs/objects/embossed.yaml,$(s),adaptive_0250um,configs/motions/press_0500um.yaml,configs/press/default.yaml))))
+$(foreach s,$(DEMO_SENSORS),$(foreach o,star rings,$(eval $(call demo_rules,$(OUT)/demo,$(o)_$(s),$(o),adaptive_0250um,press_0500um,$(s)))))
 $(eval $(call demo_rules,$(OUT)/demo,dots_shear,dots,adaptive_0400um,shear_0500um))
 $(eval $(call demo_rules,$(OUT)/demo,star_twist,star,adaptive_0400um,twist_10deg))
 $(eval $(call report_rules,$(OUT)/demo,TacIPC demo,$(addprefix $(OUT)/demo/,$(DEMO_FINE) $(DEMO_COARSE) $(DEMO_MOVED) $(DEMO_ELSEWHERE))))

@@ -16,11 +16,15 @@ endif
 
 name_of = $(basename $(notdir $(1)))
 
+# $(call table_rules,folder,object,mesh,press)
+table_rules = $(call sample_rules,$(TABLE)/$(1)/$(2),name=$(2) object=$(TABLE)/objects/$(2) object_yaml=configs/objects/printed_indenter.yaml \
+  sensor=mctac mesh=$(3) motion=configs/motions/press_0500um.yaml press=configs/press/$(4).yaml)
+
 # $(call table_object,file): decimated as every object is, the relief side pressing.
 define table_object
 $(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml | build
 	$$(call run,decimate,--mesh $(1) --object configs/objects/printed_indenter.yaml --config configs/objects/decimate/default.yaml)
-$(call sample_rules,$(TABLE)/own/$(call name_of,$(1)),$(call name_of,$(1)),$(TABLE)/objects/$(call name_of,$(1)),configs/objects/printed_indenter.yaml,mctac,adaptive_0250um,configs/motions/press_0500um.yaml,configs/press/frictionless.yaml)
+$(call table_rules,own,$(call name_of,$(1)),adaptive_0250um,frictionless)
 endef
 $(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
 
@@ -28,7 +32,7 @@ $(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
 PAPER_GEL := $(SHARED)/data/tacipc_release/gel/gelslim-gel-l_0.1.msh
 $(OUT)/gels/mctac-import_paper/tetmesh.yaml: $(PAPER_GEL) configs/gels/import_paper.yaml configs/sensors/mctac.yaml | build
 	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac.yaml --config configs/gels/import_paper.yaml)
-$(foreach o,$(PAPER_GEL_OBJECTS),$(eval $(call sample_rules,$(TABLE)/paper/$(o),$(o),$(TABLE)/objects/$(o),configs/objects/printed_indenter.yaml,mctac,import_paper,configs/motions/press_0500um.yaml,configs/press/paper.yaml)))
+$(foreach o,$(PAPER_GEL_OBJECTS),$(eval $(call table_rules,paper,$(o),import_paper,paper)))
 
 TABLE_SAMPLES := $(foreach f,$(TABLE_FILES),$(TABLE)/own/$(call name_of,$(f))) $(foreach o,$(PAPER_GEL_OBJECTS),$(TABLE)/paper/$(o))
 $(eval $(call report_rules,$(TABLE),TacIPC: real objects,$(TABLE_SAMPLES)))

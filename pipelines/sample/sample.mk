@@ -139,7 +139,10 @@ side := $(BIN)/tacipc get $(SAMPLE)/object/decimate.yaml summary.sides
 $(SAMPLE)/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
 	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+placement.face=$$($(side).pressed)" $(if $(filter CENTER ROTATE,$(given)),,"placement.center_mm=[$$($(side).center_mm[0]), $$($(side).center_mm[1])]"))
 endif
-$(eval $(call sample_rules,$(SAMPLE),$(NAME),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(sample_spec),$(press_config),$(SAMPLE)/choice.txt $(motion_paths)))
+# $(call chosen_rules,folder,name,motion): a sample of this object
+chosen_rules = $(call sample_rules,$(1),name=$(2) object=$(SAMPLE)/object object_yaml=$(SAMPLE)/object.yaml sensor=$(SENSOR) mesh=$(MESH) \
+  motion=$(3) press=$(press_config) $(addprefix after=,$(SAMPLE)/choice.txt $(motion_paths)))
+$(eval $(call chosen_rules,$(SAMPLE),$(NAME),$(sample_spec)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
 # Every frame rendered, and the printed markers found in the images.
@@ -167,7 +170,7 @@ GALLERY_SIDES := +x -x +y -y +z -z# in the order of the record
 GALLERY_POSES := $(foreach s,$(GALLERY_SIDES),$(foreach t,$(TURNS),$(s)_$(t)))
 $(SAMPLE)/gallery/%/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
 	$(call replace_if_changed_by,bash pipelines/sample/pose.sh $(BIN)/tacipc $^ $(subst _, ,$*))
-$(foreach p,$(if $(choose_side),$(GALLERY_POSES)),$(eval $(call sample_rules,$(SAMPLE)/gallery/$(p),$(NAME)_$(p),$(SAMPLE)/object,$(SAMPLE)/object.yaml,$(SENSOR),$(MESH),$(SAMPLE)/gallery/$(p)/sample.yaml,$(press_config),$(SAMPLE)/choice.txt)))
+$(foreach p,$(if $(choose_side),$(GALLERY_POSES)),$(eval $(call chosen_rules,$(SAMPLE)/gallery/$(p),$(NAME)_$(p),$(SAMPLE)/gallery/$(p)/sample.yaml)))
 $(eval $(call report_rules,$(SAMPLE)/gallery,$(NAME) from all sides,$(addprefix $(SAMPLE)/gallery/,$(GALLERY_POSES))))
 
 gallery: $(SAMPLE)/gallery/report/report.yaml ## own: One sheet of all sides of an object: OBJECT=path.stl [TURNS="0 90 180 270"; as of sample]
