@@ -42,9 +42,11 @@ dataset_packages := $(if $(shell grep '^[^\#]*\<wrap:' '$(CONFIG)'),wrap)# where
 $(foreach g,$(DATASET_GOALS),$(eval packages_for_$(g) := $(dataset_packages)))
 
 dataset_variables := CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) PACKAGES=$(PACKAGES) REBUILD=$(REBUILD)
-submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter command environment,$(firstword $(origin $(v)))),$(v)=$(strip $($(v)))))# where they are given
+submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter command environment,$(firstword $(origin $(v)))),\
+  $(v)=$(strip $($(v)))))# if they are given
 
-# A file that changes when another file was chosen for a gel, an object, a motion or a rendering, however old that one is. (A plan made by an earlier version has none.)
+# A file that changes if another file was chosen for a gel, an object, a motion or a rendering, however old that one is.
+# (A plan made by an earlier version has none.)
 dataset_choice = $(if $(DATASET_CHOICES),$(DATASET_CHOICES)/$(1))
 # Of runs that miss a gel or an object together one makes it, and the others take that one. $(call dataset_shared,stage,what it is made of,flags)
 dataset_shared = bash pipelines/dataset/dataset_shared.sh '$@' '$(2)' $(call run,$(1),$(3))
@@ -57,8 +59,10 @@ $(DATASET_DIR)/gels/$(1)/tetmesh.yaml: $(2) $(3) $(4) $(call dataset_choice,gel-
 DATASET_SHARED += $(DATASET_DIR)/gels/$(1)/tetmesh.yaml
 endef
 define dataset_mesh
-$(DATASET_DIR)/objects/$(1)/decimate.yaml: $(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)) | build
-	$$(call dataset_shared,decimate,$(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)),--mesh $(2) --object $$(@D)/$(4)object.yaml --config $(DATASET_DECIMATE))
+$(DATASET_DIR)/objects/$(1)/decimate.yaml: $(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) \
+    $(call dataset_choice,object-$(1)) | build
+	$$(call dataset_shared,decimate,$(or $(3),$(2)) $(DATASET_DIR)/objects/$(1)/object.yaml $(DATASET_DECIMATE) $(call dataset_choice,object-$(1)),\
+	  --mesh $(2) --object $$(@D)/$(4)object.yaml --config $(DATASET_DECIMATE))
 DATASET_SHARED += $(DATASET_DIR)/objects/$(1)/decimate.yaml
 endef
 define dataset_embossed
@@ -70,7 +74,8 @@ endef
 define dataset_wrapped
 $(DATASET_DIR)/objects/$(1)/wrap/wrap.yaml: $(2) $(DATASET_DIR)/objects/$(1)/object.yaml $(call dataset_choice,object-$(1)) | build
 	$$(wrap_is_built)
-	$$(call dataset_shared,wrap,$(2) $(DATASET_DIR)/objects/$(1)/object.yaml $(call dataset_choice,object-$(1)),--mesh $(2) --object $(DATASET_DIR)/objects/$(1)/object.yaml)
+	$$(call dataset_shared,wrap,$(2) $(DATASET_DIR)/objects/$(1)/object.yaml $(call dataset_choice,object-$(1)),\
+	  --mesh $(2) --object $(DATASET_DIR)/objects/$(1)/object.yaml)
 $(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/wrap/object.ply,$(DATASET_DIR)/objects/$(1)/wrap/wrap.yaml,wrap/)
 endef
 
@@ -80,7 +85,8 @@ DATASET_RUN := $(DATASET_DIR)/.runs/$(shell hostname)-$(shell echo $$PPID)-$(she
 dataset_stage = @TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
   bash pipelines/dataset/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) '$(2)' '$(3)' \
   OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(patsubst %/,%,$(dir $(2))) --threads $(THREADS) $(4) --log-level warning
-dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml $(DATASET_SENSOR_$(3)) $(4) $(5) $(call dataset_choice,motion-$(7))
+dataset_press_inputs = $(DATASET_DIR)/samples/$(1)/sample.yaml $(DATASET_DIR)/objects/$(2)/decimate.yaml $(DATASET_DIR)/gels/$(3)/tetmesh.yaml \
+  $(DATASET_SENSOR_$(3)) $(4) $(5) $(call dataset_choice,motion-$(7))
 dataset_render_inputs = $(DATASET_SENSOR_$(3)) $(DATASET_RENDER) $(DATASET_MAPS) $(DATASET_RENDERED_$(3)) $(call dataset_choice,render-$(3))
 # $(call dataset_rendering,place,record of its press,gel,seed)
 dataset_rendering = $$(call dataset_stage,render,$(DATASET_DIR)/samples/$(1)/render/render.yaml,$(DATASET_DIR)/samples/$(2) $(dataset_render_inputs),\
@@ -113,7 +119,8 @@ endef
 # together, which the plan gives twice where they belong to two blocks.
 define dataset_grasp_rule
 DATASET_GRASP_$(1) := known
-$(DATASET_DIR)/samples/$(1)/left/render/render.yaml $(DATASET_DIR)/samples/$(1)/right/render/render.yaml &: $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
+$(DATASET_DIR)/samples/$(1)/left/render/render.yaml $(DATASET_DIR)/samples/$(1)/right/render/render.yaml &: \
+    $(sort $(dataset_press_inputs) $(dataset_render_inputs)) | build
 	$$(call dataset_stage,press,$(DATASET_DIR)/samples/$(1)/press.yaml,$(dataset_press_inputs),$(call dataset_gripping,$(1),$(2),$(3),$(4),$(notdir $(1))))
 	$(call dataset_rendering,$(1)/left,$(1)/press.yaml,$(3),$(word 1,$(6)))
 	$(call dataset_rendering,$(1)/right,$(1)/press.yaml,$(3),$(word 2,$(6)))
@@ -150,7 +157,8 @@ hash := \#
 ifdef DATASET_SAMPLES
 DATASET_FIRST := $(if $(PART),$(shell echo $$(($(DATASET_SAMPLES) * $(PART) / $(PARTS)))),0)
 DATASET_END := $(if $(PART),$(shell echo $$(($(DATASET_SAMPLES) * ($(PART) + 1) / $(PARTS)))),$(DATASET_SAMPLES))
-DATASET_TAKEN := $(if $(PART),$(shell for b in $(DATASET_BLOCKS); do f=$$((10$(hash)$$b * 1000)); [ $$f -ge $(DATASET_END) ] || [ $$((f + 1000)) -le $(DATASET_FIRST) ] || echo $$b; done),$(DATASET_BLOCKS))
+DATASET_TAKEN := $(if $(PART),$(shell for b in $(DATASET_BLOCKS); do f=$$((10$(hash)$$b * 1000)); \
+  [ $$f -ge $(DATASET_END) ] || [ $$((f + 1000)) -le $(DATASET_FIRST) ] || echo $$b; done),$(DATASET_BLOCKS))
 include $(DATASET_TAKEN:%=$(DATASET_DIR)/plan/blocks/%.mk)
 DATASET_LIST := $(foreach b,$(DATASET_TAKEN),$(DATASET_BLOCK_$(b)))
 ifneq ($(PART),)
@@ -186,8 +194,10 @@ dataset-part: dataset-samples
 	@rm -f $(DATASET_RUN) $(DATASET_RUN).full
 	@$(BIN)/survey status --all-made '$(DATASET_DIR)' --first $(DATASET_FIRST) --end $(DATASET_END)
 
-DATASET_PILOT := $(if $(and $(filter estimate,$(MAKECMDGOALS)),$(DATASET_SAMPLES)),$(if $(filter-out 0,$(PILOT)),$(shell $(BIN)/survey pilot '$(DATASET_DIR)' '$(PILOT)')))
-estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(DATASET_PILOT)) ## datasets: Core-hours and disk of a dataset in advance: CONFIG= [PILOT=20: measured on 20 samples]
+DATASET_PILOT := $(if $(and $(filter estimate,$(MAKECMDGOALS)),$(DATASET_SAMPLES),$(filter-out 0,$(PILOT))),\
+  $(shell $(BIN)/survey pilot '$(DATASET_DIR)' '$(PILOT)'))
+estimate: ## datasets: Core-hours and disk of a dataset in advance: CONFIG= [PILOT=20: measured on 20 samples]
+estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(DATASET_PILOT))
 	@$(BIN)/survey estimate '$(DATASET_DIR)' --model $(COST_MODEL)
 	@echo "  cost model: $(COST_MODEL)$(if $(filter $(COST_MODEL_SHIPPED),$(COST_MODEL)),$(comma) as shipped: bench-press measures this machine)"
 
@@ -196,8 +206,10 @@ dataset-last:
 	$(dataset_end)
 drop: ## datasets: Remove files of packed samples that outputs.keep does not name: CONFIG=
 	@$(call dataset_alone,$@) && $(BIN)/survey drop '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)
-submit: $(DATASET_DIR)/plan/plan.yaml ## datasets: A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/datasets/slurm/default.sh RETRY=yes]
-	@bash pipelines/dataset/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(submit_variables) $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
+submit: ## datasets: A dataset on a cluster, as a Slurm job array: CONFIG= SHARDS=8 [SITE=configs/datasets/slurm/default.sh RETRY=yes]
+submit: $(DATASET_DIR)/plan/plan.yaml
+	@bash pipelines/dataset/dataset_submit.sh '$(DATASET_DIR)' '$(SITE)' '$(SHARDS)' $(dataset_variables) $(submit_variables) \
+	  $(if $(RETRY),RETRY=$(RETRY)) $(if $(STOP_AFTER),STOP_AFTER=$(STOP_AFTER))
 endif
 
 status: | $(if $(wildcard $(BIN)/survey),,build) ## datasets: How many samples of a dataset are made, failed, running, and how fast: CONFIG=

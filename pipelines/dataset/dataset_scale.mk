@@ -5,7 +5,8 @@ override SCALE_SAMPLES := $(strip $(SCALE_SAMPLES))
 BENCH_SCALE := $(OUT)/scale-bench
 .PHONY: bench-scale
 $(eval $(call changed_config,$(BENCH_SCALE)/sensor.yaml,configs/sensors/mctac.yaml,camera.width_px=16 camera.height_px=12))
-$(eval $(call changed_config,$(BENCH_SCALE)/gel.yaml,configs/gels/tiny.yaml,sizing.centre_mm=4 sizing.inner_mm=5 sizing.rim_mm=7 sizing.back_mm=5 tetrahedra.min_dihedral_deg=8))
+$(eval $(call changed_config,$(BENCH_SCALE)/gel.yaml,configs/gels/tiny.yaml,\
+  sizing.centre_mm=4 sizing.inner_mm=5 sizing.rim_mm=7 sizing.back_mm=5 tetrahedra.min_dihedral_deg=8))
 $(eval $(call changed_config,$(BENCH_SCALE)/decimate.yaml,configs/objects/decimate/default.yaml,target_vertices=300))
 define bench_scale_yaml
 seed: 1
@@ -24,7 +25,8 @@ outputs: {shard_mb: 100, pack: slim}
 endef
 $(BENCH_SCALE)/scale.yaml: FORCE
 	$(call replace_if_changed,$(bench_scale_yaml))
-bench-scale: $(BENCH_SCALE)/scale.yaml $(BENCH_SCALE)/sensor.yaml $(BENCH_SCALE)/gel.yaml $(BENCH_SCALE)/decimate.yaml | build ## development: 100,000 tiny samples from nothing to packed pages: files, memory and time of each step (hours; resumes) [SCALE_SAMPLES=]
+bench-scale: ## development: 100,000 tiny samples from nothing to packed pages: files, memory and time of each step (hours; resumes) [SCALE_SAMPLES=]
+bench-scale: $(addprefix $(BENCH_SCALE)/,scale.yaml sensor.yaml gel.yaml decimate.yaml) | build
 	@# Some presses of so coarse a gel fail; the others are packed all the same.
 	$(MAKE) -f Makefile.data --no-print-directory dataset CONFIG=$< OUT=$(BENCH_SCALE) REBUILD=no || [ -e $(BENCH_SCALE)/datasets/scale/pack/card.yaml ]
 	$(MAKE) -f Makefile.data --no-print-directory dataset-report CONFIG=$< OUT=$(BENCH_SCALE) REBUILD=no

@@ -38,14 +38,16 @@ $(DEPTHNET)/test/depthnet.yaml: $(DEPTHNET)/depthnet.yaml $(DEPTHNET_SHARDS)
 # On all cores: nothing else is to be done meanwhile.
 depthnet_run = OPENBLAS_NUM_THREADS=1 $(BIN)/depthnet --out $(@D) --threads $(JOBS) $(1) --shards $(DEPTHNET_LIST)
 
-depthnet: $(DEPTHNET)/$(if $(filter depth,$(DEPTHNET_TASK)),test/)depthnet.yaml ## datasets: A network that reads depth, trained on a packed dataset and judged on its test objects; of grasps NET=outcome: CONFIG= [NET=default]
+depthnet: ## datasets: A network that reads depth, trained on a packed dataset and judged on its test objects; of grasps NET=outcome: CONFIG= [NET=default]
+depthnet: $(DEPTHNET)/$(if $(filter depth,$(DEPTHNET_TASK)),test/)depthnet.yaml
 	$(depthnet_says_$(DEPTHNET_TASK))
 define depthnet_says_depth
 @echo; $(BIN)/tacipc get $< summary.pressed.mae_mm.mean | sed 's/$$/ mm: mean error in contact on the test objects/'
 @echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model.pt, and model_*.onnx for predict"
 endef
 define depthnet_says_outcome
-@echo; for who in network shuffled; do $(BIN)/tacipc get $< summary.$$who.accuracy.mean | sed "s/$$/: accuracy on the test objects, $$who, mean of the seeds/"; done
+@echo; for who in network shuffled; do $(BIN)/tacipc get $< summary.$$who.accuracy.mean | \
+  sed "s/$$/: accuracy on the test objects, $$who, mean of the seeds/"; done
 @$(BIN)/tacipc get $< summary.grip_only.accuracy | sed 's/$$/: of the force of the grip alone/'
 @echo "Look at $(DEPTHNET)/outcome.md; the first seed's network is $(DEPTHNET)/model.pt"
 endef

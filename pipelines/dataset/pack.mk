@@ -6,7 +6,8 @@ CARD   ?= default#     a file of configs/datasets/card
 FORMAT ?= webdataset#  of repack: a file of configs/datasets/repack
 CONFIG ?=#             the dataset's configuration, by which its folder is named; or instead
 DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the folder
-PACK   ?= $(or $(filter-out none,$(shell $(BIN)/tacipc get '$(strip $(DATASET_DIR))/plan/dataset.yaml' outputs.pack --default full 2> /dev/null)),full)# a file of configs/datasets/pack; as the dataset says
+pack_planned = $(filter-out none,$(shell $(BIN)/tacipc get '$(strip $(DATASET_DIR))/plan/dataset.yaml' outputs.pack --default full 2> /dev/null))
+PACK   ?= $(or $(pack_planned),full)# a file of configs/datasets/pack; as the dataset says
 $(foreach v,CARD FORMAT DATASET_DIR PACK,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
 
 .PHONY: pack repack dataset-pack dataset-repack
@@ -14,7 +15,8 @@ SHARDS_DIR := $(DATASET_DIR)/shards
 
 # Who packs or drops does it alone: to be said in the shell of a recipe, which holds the lock until it and what it started end. Only then make
 # looks at what there is to do.
-dataset_alone = { [ ! -d '$(DATASET_DIR)' ] || { exec 9> '$(DATASET_DIR)/.packing'; flock -n 9 || { echo "$(1): waiting for another run that packs or drops" >&2; flock 9; }; }; }
+dataset_alone = { [ ! -d '$(DATASET_DIR)' ] || { exec 9> '$(DATASET_DIR)/.packing'; \
+  flock -n 9 || { echo "$(1): waiting for another run that packs or drops" >&2; flock 9; }; }; }
 make_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) $(if $(findstring s,$(firstword -$(MAKEFLAGS))),-s) -f Makefile.data $(MAKEOVERRIDES) $(1)
 
 ifeq ($(and $(DATASET_DIR),$(filter pack repack dataset-pack dataset-repack,$(MAKECMDGOALS))),)
@@ -45,9 +47,11 @@ $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml): $(SHARDS_DIR)/%/pack.yaml: $(SHARDS_
 	@cp $< $(@D)/packed.inputs || rm -f $(@D)/packed.inputs
 
 SHARD_RECORDS := $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml)
-$(DATASET_DIR)/pack/card.yaml: configs/datasets/card/$(CARD).yaml configs/datasets/card/loader.py configs/datasets/card/check_labels.py $(SHARDS_DIR)/card.choice $(SHARDS_DIR)/shards.txt $(SHARD_RECORDS) | build
+$(DATASET_DIR)/pack/card.yaml: configs/datasets/card/$(CARD).yaml configs/datasets/card/loader.py configs/datasets/card/check_labels.py \
+    $(SHARDS_DIR)/card.choice $(SHARDS_DIR)/shards.txt $(SHARD_RECORDS) | build
 	$(call run,card,--name $(notdir $(DATASET_DIR)) --config $< --plan $(DATASET_DIR)/plan/samples.csv --dataset $(SHARDS_DIR)/dataset.yaml \
-	  --shards $(SHARDS_DIR)/shards.txt --loader configs/datasets/card/loader.py --check-labels configs/datasets/card/check_labels.py $(if $(wildcard CITATION.cff),--citation CITATION.cff))
+	  --shards $(SHARDS_DIR)/shards.txt --loader configs/datasets/card/loader.py --check-labels configs/datasets/card/check_labels.py \
+	  $(if $(wildcard CITATION.cff),--citation CITATION.cff))
 
 $(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/datasets/repack/$(FORMAT).yaml $(SHARDS_DIR)/%/pack.yaml | build
 	$(call run,repack,--config $< --shard $(SHARDS_DIR)/$*/$*.h5)

@@ -40,7 +40,8 @@ board3_rules = $(call sample_rules,$(1),name=$(2) object=$(BOARD3)/object object
   mesh=$(3) motion=configs/studies/board3/$(4).yaml press=$(5) by=try)
 $(foreach s,$(BOARD3_SAMPLES),$(eval $(call board3_rules,$(BOARD3_RUN)/$(s),$(s),$(BOARD3_MESH),$(s),configs/press/$(BOARD3_PRESS).yaml)))
 
-$(BOARD3_RECORD): configs/studies/board3/marker_curve.yaml $(BOARD3_SAMPLES:%=$(BOARD3_RUN)/%/press/press.yaml) $(if $(filter board3,$(MAKECMDGOALS)),$(wildcard $(ALSO:%=%/*.npy))) | build-verification
+$(BOARD3_RECORD): configs/studies/board3/marker_curve.yaml $(BOARD3_SAMPLES:%=$(BOARD3_RUN)/%/press/press.yaml) \
+    $(if $(filter board3,$(MAKECMDGOALS)),$(wildcard $(ALSO:%=%/*.npy))) | build-verification
 	$(call try,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3_RUN)/%/press) $(if $(filter board3,$(MAKECMDGOALS)),$(ALSO:%=--other %)))
 
 .PHONY: board3 board3-page

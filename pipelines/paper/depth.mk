@@ -20,20 +20,23 @@ DEPTH_DATA   := $(DEPTH)/datasets/depth
 packages_for_depth-benchmark := depthnet predict
 packages_for_depth-quick     := depthnet predict loaders
 
-# What cannot work is refused before hours of simulation; samples that fail are left out, if they are few (depth_lists.sh).
+# What cannot work is refused before hours of simulation; samples that fail are left out, if they are few.
+depth_lists = bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc
 .PHONY: depth-benchmark depth-objects depth-rivals depth-networks depth-quick
-depth-benchmark: | build ## studies: Networks trained on three simulators read depth from photographs [CASES=] (needs SHARED; hours, resumes); writes OUT/docs/depth-results.md
+depth-benchmark: ## studies: Networks trained on three simulators read depth from photographs [CASES=] (needs SHARED; hours); writes OUT/docs/depth-results.md
+depth-benchmark: | build
 	$(depthnet_is_built)
 	@[ -z "$$($(BIN)/tacipc get '$(CASES)' circles --default '')" ] || { echo "depth-benchmark: $(CASES) tells no depths" >&2; exit 2; }
 	$(call make_again,REBUILD=no sim2real-page)
 	$(if $(filter $(DEPTH_CASES),$(CASES)),,$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) sim2real-page))
 	$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) paper-real)
 	$(call make_again,REBUILD=no depth-objects)
-	$(call make_again,REBUILD=no dataset CONFIG=$(DEPTH)/depth.yaml OUT=$(DEPTH)) || bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc pressed tacipc
-	$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) -k depth-rivals) || bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc lists $(DEPTH_METHODS)
+	$(call make_again,REBUILD=no dataset CONFIG=$(DEPTH)/depth.yaml OUT=$(DEPTH)) || $(depth_lists) pressed tacipc
+	$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) -k depth-rivals) || $(depth_lists) lists $(DEPTH_METHODS)
 	$(call make_again,REBUILD=no depth-networks JOBS=1 THREADS=$(JOBS))
 
-depth-quick: | build ## development: A small network on 48 images and on shuffled ones, judged on 16 of other objects (two minutes; the test pipeline.depthnet_test)
+depth-quick: ## development: A small network on 48 images and on shuffled ones, judged on 16 of other objects (two minutes; the test pipeline.depthnet_test)
+depth-quick: | build
 	bash tests/pipeline/depthnet_test.sh '$(CURDIR)' '$(abspath $(BUILD))'
 
 # The objects in one folder, prints with the rounded edges that those of the photographs have, and the dataset's file.
@@ -44,15 +47,16 @@ $(DEPTH)/indenters/ball_$(1)/indenter.yaml: $(DEPTH)/indenters/ball_$(1).yaml | 
 	$$(call run,indenter,--config $$<)
 endef
 $(foreach r,$(DEPTH_BALLS),$(eval $(call depth_ball,$(r))))
-$(DEPTH_PRINTED:%=$(DEPTH)/indenters/%/indenter.yaml): $(DEPTH)/indenters/%/indenter.yaml: $(SHARED)/data/printed_indenters/%.stl configs/studies/depth/printed.yaml | build
+$(DEPTH_PRINTED:%=$(DEPTH)/indenters/%/indenter.yaml): $(DEPTH)/indenters/%/indenter.yaml: $(SHARED)/data/printed_indenters/%.stl \
+    configs/studies/depth/printed.yaml | build
 	$(call run,indenter,--config configs/studies/depth/printed.yaml --mesh $<)
 $(DEPTH_MADE:%=$(DEPTH)/meshes/%.ply): $(DEPTH)/meshes/%.ply: $(DEPTH)/indenters/%/indenter.yaml
 	@mkdir -p $(@D)
 	cp $(<D)/object.ply $@.new && mv $@.new $@
 $(eval $(call changed_config,$(DEPTH)/render.yaml,configs/render/many_frames.yaml,frames=last))
 $(eval $(call changed_config,$(DEPTH)/depth.yaml,configs/studies/depth/dataset.yaml,sensors.sensor=$(abspath $(DEPTH_SENSOR)) \
-  sensors.mesh=$(abspath configs/studies/depth/gel.yaml) objects[0].meshes=$(abspath $(DEPTH))/meshes objects[1].meshes=$(abspath $(SHARED))/data/tacipc_release/objects \
-  render=$(abspath $(DEPTH))/render.yaml motions[0].samples=$(DEPTH_POSES)))
+  sensors.mesh=$(abspath configs/studies/depth/gel.yaml) objects[0].meshes=$(abspath $(DEPTH))/meshes \
+  objects[1].meshes=$(abspath $(SHARED))/data/tacipc_release/objects render=$(abspath $(DEPTH))/render.yaml motions[0].samples=$(DEPTH_POSES)))
 depth-objects: $(DEPTH_MADE:%=$(DEPTH)/meshes/%.ply) $(DEPTH)/depth.yaml $(DEPTH)/render.yaml
 
 ifneq ($(filter depth-rivals,$(MAKECMDGOALS)),)
@@ -87,18 +91,20 @@ endif
 ifneq ($(filter depth-networks,$(MAKECMDGOALS)),)
 # Folders of render by simulator and split, of the samples that every simulator has made.
 $(DEPTH)/lists/made.txt: FORCE
-	@bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc lists $(DEPTH_METHODS)
+	@$(depth_lists) lists $(DEPTH_METHODS)
 # $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml[,4: only the first quarter of the training's list])
 define depth_network
 $(call changed_config,$(1)/network.yaml,configs/depthnet/default.yaml,$(3))
 $(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt | build
-	mapfile -t train < $(DEPTH)/lists/$(2)-train.txt; train=("$$$${train[@]:0:($$$${#train[@]} + $(or $(4),1) - 1) / $(or $(4),1)}"); mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
+	mapfile -t train < $(DEPTH)/lists/$(2)-train.txt; \
+	  train=("$$$${train[@]:0:($$$${#train[@]} + $(or $(4),1) - 1) / $(or $(4),1)}"); mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
 	$$(call run,depthnet,--config $$< --renders "$$$${train[@]}" --validation "$$$${val[@]}")
 endef
 # The networks of a method: its seeds; one of a quarter of the poses, seen four times as often, and of the control, whose pairs are shuffled.
 DEPTH_BESIDE := quarter shuffled
-depth_seeds = $(if $(filter $(DEPTH_BESIDE),$(1)),1,$(DEPTH_SEEDS))
-$(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),$(eval $(call depth_network,$(DEPTH)/networks/$(m)/$(s),$(m),seed=$(s) schedule.epochs=$(DEPTH_EPOCHS)))))
+depth_seeds = $(if $(filter $(DEPTH_BESIDE) nothing,$(1)),1,$(DEPTH_SEEDS))
+$(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),\
+  $(eval $(call depth_network,$(DEPTH)/networks/$(m)/$(s),$(m),seed=$(s) schedule.epochs=$(DEPTH_EPOCHS)))))
 $(eval $(call depth_network,$(DEPTH)/networks/shuffled/1,tacipc,seed=1 schedule.epochs=$(DEPTH_EPOCHS) +shuffle_pairs=true))
 $(eval $(call depth_network,$(DEPTH)/networks/quarter/1,tacipc,seed=1 schedule.epochs=$(shell echo $$((4 * $(DEPTH_EPOCHS)))) schedule.warmup_epochs=4,4))
 
@@ -125,8 +131,10 @@ depth_images_simulated   := $(call sim2real_images,ours)
 # $(call depth_read,images,network)
 define depth_read
 $(DEPTH_READ)/$(1)/$(2)/predict.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt | build
-	@compgen -G '$(DEPTH)/networks/$(2)/model_*.onnx' > /dev/null || { echo "$(DEPTH)/networks/$(2): has no model_*.onnx: remove the folder, it was trained by an earlier version" >&2; exit 1; }
-	$$(call run,predict,--model $(DEPTH)/networks/$(2)/model_*.onnx --background $(cases_background) --images $(depth_images_$(1)) --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
+	@compgen -G '$(DEPTH)/networks/$(2)/model_*.onnx' > /dev/null \
+	  || { echo "$(DEPTH)/networks/$(2): has no model_*.onnx: remove the folder, it was trained by an earlier version" >&2; exit 1; }
+	$$(call run,predict,--model $(DEPTH)/networks/$(2)/model_*.onnx --background $(cases_background) --images $(depth_images_$(1)) \
+	  --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
 endef
 $(foreach i,photographs simulated,$(foreach m,$(DEPTH_METHODS) $(DEPTH_BESIDE),$(foreach s,$(call depth_seeds,$(m)),$(eval $(call depth_read,$(i),$(m)/$(s))))))
 # Who says that nothing is touched, anywhere.
@@ -137,16 +145,18 @@ $(DEPTH_READ)/%/nothing/1/predict.yaml: $(DEPTH)/rest.exr $(depth_truths)
 # $(call depth_judge,truth)
 define depth_judge
 $(DEPTH_READ)/%/$(1)/metrics.yaml: $(DEPTH_READ)/%/predict.yaml configs/studies/depth/metrics.yaml | build
-	$$(call run,metrics,--config configs/studies/depth/metrics.yaml --images $(CASES_ALL:%=$$(<D)/depth/%.exr) --reference $(depth_truth_$(1)) --rest $(DEPTH)/rest.exr --surface $(depth_truth_surface))
+	$$(call run,metrics,--config configs/studies/depth/metrics.yaml --images $(CASES_ALL:%=$$(<D)/depth/%.exr) --reference $(depth_truth_$(1)) \
+	  --rest $(DEPTH)/rest.exr --surface $(depth_truth_surface))
 endef
 $(foreach t,membrane surface,$(eval $(call depth_judge,$(t))))
 
 # $(call depth_table,images,truth,title)
-depth_scores = $(foreach m,$(DEPTH_METHODS) $(DEPTH_BESIDE) nothing,$(foreach s,$(if $(filter nothing,$(m)),1,$(call depth_seeds,$(m))),$(m)=$(DEPTH_READ)/$(1)/$(m)/$(s)/$(2)))
+depth_scores = $(foreach m,$(DEPTH_METHODS) $(DEPTH_BESIDE) nothing,$(foreach s,$(call depth_seeds,$(m)),$(m)=$(DEPTH_READ)/$(1)/$(m)/$(s)/$(2)))
 define depth_table
 $(DEPTH_READ)/tables/$(1)_$(2).yaml: configs/studies/depth/table.yaml FORCE | build
 	$$(call replace_if_changed_by,$(BIN)/tacipc set $$< 'title="$(3)"')
-$(DEPTH_READ)/tables/$(1)_$(2)/tabulate.yaml: $(DEPTH_READ)/tables/$(1)_$(2).yaml $(foreach s,$(call depth_scores,$(1),$(2)/metrics.yaml),$(lastword $(subst =, ,$(s)))) | build
+$(DEPTH_READ)/tables/$(1)_$(2)/tabulate.yaml: $(DEPTH_READ)/tables/$(1)_$(2).yaml \
+    $(foreach s,$(call depth_scores,$(1),$(2)/metrics.yaml),$(lastword $(subst =, ,$(s)))) | build
 	$$(call run,tabulate,--config $$< --samples $(call depth_scores,$(1),$(2)/samples.csv))
 DEPTH_TABLES += $(1)_$(2)
 endef

@@ -40,8 +40,9 @@ $(FOTS)/runs/$(1)/gel/tetmesh.yaml: $(FOTS)/runs/$(1)/settings/sensor.yaml $(MAR
 endef
 define fots_run
 $(FOTS)/runs/$(1)/$(2)/press.yaml: $(FOTS)/runs/$(1)/indenter/indenter.yaml $(FOTS)/runs/$(1)/gel/tetmesh.yaml $(FOTS)/runs/$(1)/settings/press.yaml | build
-	$$(call run,press,--name $(1)_$(2) --object $(FOTS)/runs/$(1)/indenter/object.ply --object-config configs/objects/embossed.yaml --gel $(FOTS)/runs/$(1)/gel/gel.msh \
-	  --sensor $(FOTS)/runs/$(1)/settings/sensor.yaml --config $(FOTS)/runs/$(1)/settings/press.yaml --sample $(FOTS)/cases/motion_$(2).yaml)
+	$$(call run,press,--name $(1)_$(2) --object $(FOTS)/runs/$(1)/indenter/object.ply --object-config configs/objects/embossed.yaml \
+	  --gel $(FOTS)/runs/$(1)/gel/gel.msh --sensor $(FOTS)/runs/$(1)/settings/sensor.yaml \
+	  --config $(FOTS)/runs/$(1)/settings/press.yaml --sample $(FOTS)/cases/motion_$(2).yaml)
 endef
 $(foreach v,$(MARKERS_VARIANTS),$(eval $(call fots_variant,$(v)))$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_run,$(v),$(d)))))
 
@@ -55,7 +56,8 @@ $(FOTS)/unit/indenter/indenter.yaml: configs/studies/fots/unit_response/indenter
 $(FOTS)/unit/settings.yaml: $(MARKERS_PRESS) configs/studies/fots/unit_response/friction.yaml
 	mkdir -p $(@D)
 	cat $^ > $@
-$(FOTS)/unit/press/press.yaml: $(FOTS)/unit/indenter/indenter.yaml $(FOTS)/unit/settings.yaml configs/studies/fots/unit_response/motion.yaml $(FOTS)/runs/base/gel/tetmesh.yaml | build
+$(FOTS)/unit/press/press.yaml: $(FOTS)/unit/indenter/indenter.yaml $(FOTS)/unit/settings.yaml configs/studies/fots/unit_response/motion.yaml \
+    $(FOTS)/runs/base/gel/tetmesh.yaml | build
 	$(call run,press,--name unit --object $(FOTS)/unit/indenter/object.ply --object-config configs/objects/embossed.yaml --gel $(FOTS)/runs/base/gel/gel.msh \
 	  --sensor $(FOTS)/runs/base/settings/sensor.yaml --config $(FOTS)/unit/settings.yaml --sample configs/studies/fots/unit_response/motion.yaml)
 $(FOTS)/rivals/fots_published.yaml: configs/rivals/baseline/fots_markers.yaml
@@ -81,8 +83,9 @@ $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreac
 
 # The same with rows of Tacchi, for pipelines/paper/paper_markers.mk. As published: its particles in a block as large as the gel, and its material,
 # for with the sensor's, which is stiffer, the published step is too long; then that material with a shorter step; a tenth of the density,
-# with the time step that keeps the Courant number; cells with eight particles instead of one for four cells; both, with a hundredth of the density. With the true
-# density: checked at half the speed in the shallowest press. Presses end when the front is as deep as asked; the ball is then less deep. Keys given with FOTS_TACCHI_KEYS go last.
+# with the time step that keeps the Courant number; cells with eight particles instead of one for four cells; both, with a hundredth of the
+# density. With the true density: checked at half the speed in the shallowest press. Presses end when the front is as deep as asked; the ball
+# is then less deep. Keys given with FOTS_TACCHI_KEYS go last.
 FOTS_TACCHI_KEYS ?=
 FOTS_TACCHI ?= tacchi_legacy tacchi_legacy_sensor_material tacchi_legacy_tenth_density tacchi_legacy_grid_0400um tacchi_legacy_grid_and_density tacchi_physical
 FOTS_BLOCK := gel.lattice=block +gel.counts=[127,105,22]
@@ -97,7 +100,8 @@ FOTS_KEYS_tacchi_legacy_grid_0400um := $(FOTS_KEYS_tacchi_legacy) grid.spacing_m
 FOTS_NUMERICS_tacchi_legacy_grid_and_density := $(RIVALS_LEGACY)
 FOTS_KEYS_tacchi_legacy_grid_and_density := $(FOTS_KEYS_tacchi_legacy_grid_0400um) material.density_kg_m3=1.0e+4 time.step_s=3.1e-5 motion.check_every=3
 FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
-FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
+FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 \
+  object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
 FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths at which what is checked at half the speed is
 fots_unchecked = $(and $(filter tacchi_physical,$(1)),$(filter-out $(FOTS_CHECKED),$(2)),-half_speed)
 # $(call fots_tacchi_run,row,depth)
@@ -107,7 +111,8 @@ fots_tacchi_run = $(call tacchi_run,$(FOTS)/runs/$(1)/$(2),name=$(1)_$(2) numeri
 $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_tacchi_run,$(t),$(d)))))
 
 $(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
-    $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(t)/$(d)/mpm.yaml)) $(FOTS_RIVAL_RECORDS) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) | build
+    $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(t)/$(d)/mpm.yaml)) $(FOTS_RIVAL_RECORDS) \
+    $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) | build
 	$(call run,marker_fit,--name TacIPC --config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
 	  --runs $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(fots_rival_runs))
 

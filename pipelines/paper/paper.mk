@@ -41,11 +41,13 @@ paper_part = $(call make_again,--no-print-directory PAPER_KIND=$(PAPER_KIND) $(1
 paper-parts: | build
 	@rm -rf $(PAPER)/parts $(PAPER)/markers; status=0; \
 	$(call paper_part,-k paper-coins) || status=$$?; \
-	if [ -e '$(SHARED)/data/gelsight_sim2real' ]; then $(call paper_part,paper-fragment-real) || status=$$?; else echo 'paper: there is no data/gelsight_sim2real below SHARED; Table I (a) is omitted'; fi; \
+	if [ -e '$(SHARED)/data/gelsight_sim2real' ]; then $(call paper_part,paper-fragment-real) || status=$$?; \
+	else echo 'paper: there is no data/gelsight_sim2real below SHARED; Table I (a) is omitted'; fi; \
 	$(call paper_part,$(if $(filter quick,$(PAPER_KIND)),paper-quick-markers,paper-markers)) || status=$$?; \
 	exit $$status
 
-PAPER_PARTS := $(foreach n,real objects depth near meshes mesh_images,$(n)=$(PAPER)/parts/$(n).md) $(foreach n,board3 fots,$(n)=$(PAPER)/markers/$(n).md) cost=$(PAPER)/cost/total.md
+PAPER_PARTS := $(foreach n,real objects depth near meshes mesh_images,$(n)=$(PAPER)/parts/$(n).md) \
+  $(foreach n,board3 fots,$(n)=$(PAPER)/markers/$(n).md) cost=$(PAPER)/cost/total.md
 paper-page:
 	rm -rf $(PAPER)/paper_results
 	mkdir -p $(PAPER)/paper_results $(PAPER)/cost

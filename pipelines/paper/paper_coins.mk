@@ -49,8 +49,10 @@ endef
 # $(call coins_rules,folder,object)
 define coins_rules
 $(call coins_sample,$(1)/tacipc,$(2),$(PAPER_OURS))
-$(1)/fine/press/press.yaml: $(OUT)/objects/$(2)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/press/frictionless.yaml | build
-	$$(call run,press,--name $(2) $(call coins_object,$(2)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/frictionless.yaml --sample $(COINS_MOTION))
+$(1)/fine/press/press.yaml: $(OUT)/objects/$(2)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) \
+    configs/press/frictionless.yaml | build
+	$$(call run,press,--name $(2) $(call coins_object,$(2)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) \
+	  --config configs/press/frictionless.yaml --sample $(COINS_MOTION))
 $(call coins_render,$(1)/fine/render,$(1)/fine/press,$(PAPER_FINE),$(PAPER_LIGHT))
 $(call coins_render,$(1)/noise/render,$(1)/fine/press,$(PAPER_FINE),default)
 $(call coins_tacchi,$(1)/tacchi,$(2),configs/rivals/mpm/legacy_mctac.yaml)
@@ -58,26 +60,33 @@ $(call coins_tacchi,$(1)/tacchi_deep,$(2),$(COINS_DEEP))
 $(call coins_tacchi,$(1)/tacchi_60,$(2),$(PAPER)/objects/tacchi_60.config.yaml)
 $(call coins_tacchi,$(1)/tacchi_6,$(2),$(PAPER)/objects/tacchi_6.config.yaml)
 $(1)/tacchi/legacy/baseline.yaml: $(1)/tacchi/render/render.yaml $(1)/tacipc/render/render.yaml configs/rivals/baseline/tacchi.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacchi/render/frame_0001/depth.exr)
+	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png \
+	  --depth $(1)/tacchi/render/frame_0001/depth.exr)
 $(1)/tacipc/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/tacchi.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png --depth $(1)/tacipc/render/$(COINS_LAST)/depth.exr)
+	$$(call run,baseline,--config configs/rivals/baseline/tacchi.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png \
+	  --depth $(1)/tacipc/render/$(COINS_LAST)/depth.exr)
 $(foreach m,$(COINS_BLURRED),$(call coins_blurred,$(1),$(2),$(m)))
 $(1)/depth-based/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/gomes_2021_own_front.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/gomes_2021_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+	$$(call run,baseline,--config configs/rivals/baseline/gomes_2021_own_front.yaml --sensor $(COINS_SENSOR) \
+	  --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 $(1)/older_kernel/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/rivals/baseline/exponential_13_own_front.yaml | build
-	$$(call run,baseline,--config configs/rivals/baseline/exponential_13_own_front.yaml --sensor $(COINS_SENSOR) --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
+	$$(call run,baseline,--config configs/rivals/baseline/exponential_13_own_front.yaml --sensor $(COINS_SENSOR) \
+	  --background $(1)/tacipc/render/frame_0000/tactile.png $(call coins_mesh,$(2)) --pose $(1)/tacipc/press/object_pose.npy)
 endef
 $(foreach o,$(PAPER_OBJECTS),$(eval $(call coins_rules,$(PAPER)/objects/$(o),$(o))))
 
 # Of the ablation's objects also with a fifth of the barrier's width: the barrier holds the reference's gel off the object, which deepens it by that much.
 define coins_near
-$(PAPER)/objects/$(1)/near/press/press.yaml: $(OUT)/objects/$(1)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) $(COINS_MOTION) configs/press/small_gap.yaml | build
-	$$(call run,press,--name $(1) $(call coins_object,$(1)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) --config configs/press/small_gap.yaml --sample $(COINS_MOTION))
+$(PAPER)/objects/$(1)/near/press/press.yaml: $(OUT)/objects/$(1)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) \
+    $(COINS_MOTION) configs/press/small_gap.yaml | build
+	$$(call run,press,--name $(1) $(call coins_object,$(1)) --gel $(OUT)/gels/mctac-$(PAPER_FINE)/gel.msh --sensor $(COINS_SENSOR) \
+	  --config configs/press/small_gap.yaml --sample $(COINS_MOTION))
 $(call coins_render,$(PAPER)/objects/$(1)/near/render,$(PAPER)/objects/$(1)/near/press,$(PAPER_FINE),default)
 endef
 $(foreach o,$(PAPER_ABLATED),$(eval $(call coins_near,$(o))))
 
-# What each method makes of each object under the object's name, so that all are compared alike: the folder of a method below that of its object, and its picture.
+# The picture that each method makes of each object, under the object's name, so that all are compared alike: the method's folder below that
+# of the object, and its picture.
 COINS_IMAGES := $(PAPER)/objects-table/images
 COINS_FROM_fine                := fine/render $(COINS_LAST)/tactile.png
 COINS_FROM_noise               := noise/render $(COINS_LAST)/tactile.png
@@ -92,9 +101,11 @@ COINS_FROM_tacipc_legacy       := tacipc/legacy frame_0000/tactile.png
 COINS_FROM_tacchi_legacy       := tacchi/legacy frame_0000/tactile.png
 COINS_FROM_depth-based_legacy  := depth-based/legacy $(COINS_LAST)/tactile.png
 COINS_FROM_older_kernel_legacy := older_kernel/legacy $(COINS_LAST)/tactile.png
-COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
+COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) \
+  tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
 COINS_SHAPES  := fine tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED)# methods whose depth is compared
-COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) rest# and those compared with the reference's gel in the light that they have themselves
+# Methods compared with the reference's gel in the light that they have themselves.
+COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) rest
 
 coins_record = $(firstword $(COINS_FROM_$(1)))/$(if $(filter render,$(notdir $(firstword $(COINS_FROM_$(1))))),render,baseline).yaml
 define coins_images
@@ -104,19 +115,23 @@ $(COINS_IMAGES)/$(1)/collected: $(foreach o,$(PAPER_OBJECTS),$(PAPER)/objects/$(
 	for o in $(PAPER_OBJECTS); do from=$(PAPER)/objects/$$$$o/$(firstword $(COINS_FROM_$(1))); cp $$$$from/$(lastword $(COINS_FROM_$(1))) $$(@D)/$$$$o.png; \
 	  $(if $(filter $(1),$(COINS_SHAPES)),cp $$$$from/$(patsubst %tactile.png,%depth.exr,$(lastword $(COINS_FROM_$(1)))) $$(@D)/$$$$o.exr;) done
 	touch $$@
-$(PAPER)/objects-table/metrics/$(1)/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(COINS_IMAGES)/fine/collected configs/studies/paper/metrics_objects.yaml | build
+$(PAPER)/objects-table/metrics/$(1)/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(COINS_IMAGES)/fine/collected \
+    configs/studies/paper/metrics_objects.yaml | build
 	$$(call run,metrics,--config configs/studies/paper/metrics_objects.yaml --images $(COINS_IMAGES)/$(1) --reference $(COINS_IMAGES)/fine)
 $(PAPER)/objects-table/depth/$(1)/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(COINS_IMAGES)/fine/collected configs/metrics/depth.yaml | build
 	$$(call run,metrics,--config configs/metrics/depth.yaml --images $(PAPER_OBJECTS:%=$(COINS_IMAGES)/$(1)/%.exr) \
 	  --reference $(PAPER_OBJECTS:%=$(COINS_IMAGES)/fine/%.exr) --rest $(PAPER)/objects/$(firstword $(PAPER_OBJECTS))/fine/render/frame_0000/depth.exr)
-$(PAPER)/objects-near/depth/$(1)/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(PAPER_ABLATED:%=$(PAPER)/objects/%/near/render/render.yaml) configs/metrics/depth.yaml | build
+$(PAPER)/objects-near/depth/$(1)/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(PAPER_ABLATED:%=$(PAPER)/objects/%/near/render/render.yaml) \
+    configs/metrics/depth.yaml | build
 	$$(call run,metrics,--config configs/metrics/depth.yaml --images $(PAPER_ABLATED:%=$(COINS_IMAGES)/$(1)/%.exr) \
-	  --reference $(PAPER_ABLATED:%=$(PAPER)/objects/%/near/render/$(COINS_LAST)/depth.exr) --rest $(PAPER)/objects/$(firstword $(PAPER_ABLATED))/near/render/frame_0000/depth.exr)
+	  --reference $(PAPER_ABLATED:%=$(PAPER)/objects/%/near/render/$(COINS_LAST)/depth.exr) \
+	  --rest $(PAPER)/objects/$(firstword $(PAPER_ABLATED))/near/render/frame_0000/depth.exr)
 endef
 $(foreach m,$(COINS_METHODS),$(eval $(call coins_images,$(m))))
 
 define coins_in_one_light
-$(PAPER)/objects-table/metrics/$(1)_one_light/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(COINS_IMAGES)/noise/collected configs/studies/paper/metrics_objects.yaml | build
+$(PAPER)/objects-table/metrics/$(1)_one_light/metrics.yaml: $(COINS_IMAGES)/$(1)/collected $(COINS_IMAGES)/noise/collected \
+    configs/studies/paper/metrics_objects.yaml | build
 	$$(call run,metrics,--config configs/studies/paper/metrics_objects.yaml --images $(COINS_IMAGES)/$(1) --reference $(COINS_IMAGES)/noise)
 endef
 $(foreach m,$(COINS_IN_ONE_LIGHT),$(eval $(call coins_in_one_light,$(m))))
@@ -125,7 +140,8 @@ COINS_RIVALS := $(filter-out fine tacchi_60 tacchi_6 tacto taxim fots chen,$(COI
 $(PAPER)/objects-table/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/objects.yaml $(COINS_RIVALS:%=$(PAPER)/objects-table/metrics/%/metrics.yaml) | build
 	$(call run,tabulate,--config $< --samples $(foreach m,$(COINS_RIVALS),$(m)=$(PAPER)/objects-table/metrics/$(m)/samples.csv) \
 	  --pictures $(foreach m,$(COINS_METHODS),$(PAPER_OBJECTS:%=$(m)=$(COINS_IMAGES)/$(m)/%.png)))
-$(PAPER)/objects-depth/tabulate.yaml: configs/studies/paper/tables/objects_depth.yaml $(foreach m,$(filter-out fine,$(COINS_SHAPES)),$(PAPER)/objects-table/depth/$(m)/metrics.yaml) | build
+$(PAPER)/objects-depth/tabulate.yaml: configs/studies/paper/tables/objects_depth.yaml \
+    $(foreach m,$(filter-out fine,$(COINS_SHAPES)),$(PAPER)/objects-table/depth/$(m)/metrics.yaml) | build
 	$(call run,tabulate,--config $< --samples $(foreach m,$(filter-out fine,$(COINS_SHAPES)),$(m)=$(PAPER)/objects-table/depth/$(m)/samples.csv))
 
 $(PAPER)/objects-near/table/tabulate.yaml: configs/studies/paper/tables/near_depth.yaml $(COINS_SHAPES:%=$(PAPER)/objects-near/depth/%/metrics.yaml) | build
@@ -147,8 +163,10 @@ $(PAPER)/ablation/$(1)/images/collected: $(foreach o,$(PAPER_ABLATED),$(call coi
 	touch $$@
 endef
 define coins_compared_mesh
-$(PAPER)/ablation/metrics/$(1)/metrics.yaml: $(PAPER)/ablation/$(1)/images/collected $(PAPER)/ablation/$(PAPER_FINE)/images/collected configs/studies/paper/metrics_objects.yaml | build
-	$$(call run,metrics,--config configs/studies/paper/metrics_objects.yaml --images $(PAPER)/ablation/$(1)/images --reference $(PAPER)/ablation/$(PAPER_FINE)/images)
+$(PAPER)/ablation/metrics/$(1)/metrics.yaml: $(PAPER)/ablation/$(1)/images/collected $(PAPER)/ablation/$(PAPER_FINE)/images/collected \
+    configs/studies/paper/metrics_objects.yaml | build
+	$$(call run,metrics,--config configs/studies/paper/metrics_objects.yaml --images $(PAPER)/ablation/$(1)/images \
+	  --reference $(PAPER)/ablation/$(PAPER_FINE)/images)
 $(PAPER)/ablation/$(1)/depth/metrics.yaml: $(foreach m,$(1) $(PAPER_FINE),$(PAPER)/ablation/$(m)/images/collected) configs/metrics/depth.yaml | build
 	$$(call run,metrics,--config configs/metrics/depth.yaml --images $(call coins_depths,$(1)) \
 	  --reference $(call coins_depths,$(PAPER_FINE)) --rest $(call coins_seen,$(PAPER_FINE),$(firstword $(PAPER_ABLATED)))/frame_0000/depth.exr)
@@ -157,15 +175,18 @@ $(foreach m,$(PAPER_MESHES),$(eval $(call coins_mesh,$(m)))$(eval $(call coins_c
 $(foreach m,$(PAPER_MESHES) $(PAPER_FINE),$(eval $(call coins_mesh_images,$(m))))
 
 $(PAPER)/ablation/table/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/meshes.yaml $(PAPER_MESHES:%=$(PAPER)/ablation/%/depth/metrics.yaml) | build
-	$(call run,tabulate,--config $< --records $(foreach m,$(PAPER_MESHES),$(addprefix $(m)=,$(OUT)/gels/mctac-$(m)/tetmesh.yaml $(PAPER)/ablation/$(m)/depth/metrics.yaml \
+	$(call run,tabulate,--config $< --records $(foreach m,$(PAPER_MESHES),$(addprefix $(m)=,\
+	  $(OUT)/gels/mctac-$(m)/tetmesh.yaml $(PAPER)/ablation/$(m)/depth/metrics.yaml \
 	  $(foreach o,$(PAPER_ABLATED),$(PAPER)/ablation/$(m)/$(o)/press/press.yaml $(PAPER)/ablation/$(m)/$(o)/render/render.yaml))))
-$(PAPER)/ablation/images/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/mesh_images.yaml $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/metrics.yaml) | build
+$(PAPER)/ablation/images/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/mesh_images.yaml \
+    $(PAPER_MESHES:%=$(PAPER)/ablation/metrics/%/metrics.yaml) | build
 	$(call run,tabulate,--config $< --samples $(foreach m,$(PAPER_MESHES),$(m)=$(PAPER)/ablation/metrics/$(m)/samples.csv) \
 	  --pictures $(foreach m,$(PAPER_FINE) $(PAPER_MESHES),$(PAPER_ABLATED:%=$(m)=$(PAPER)/ablation/$(m)/images/%.png)))
 
 # What the image table cost.
 coins_costs = $(foreach o,$(PAPER_OBJECTS),$(OUT)/emboss/$(o)/emboss.timings.yaml $(OUT)/objects/$(o)/decimate.timings.yaml \
-  $(addprefix $(PAPER)/objects/$(o)/,tacipc/press/press.timings.yaml tacipc/render/render.timings.yaml tacchi/mpm/mpm.timings.yaml tacchi/render/render.timings.yaml \
+  $(addprefix $(PAPER)/objects/$(o)/,tacipc/press/press.timings.yaml tacipc/render/render.timings.yaml \
+  tacchi/mpm/mpm.timings.yaml tacchi/render/render.timings.yaml \
   depth-based/legacy/baseline.timings.yaml fine/press/press.timings.yaml fine/render/render.timings.yaml)) $(OUT)/gels/mctac-$(PAPER_OURS)/tetmesh.timings.yaml
 $(PAPER)/cost/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/costs.yaml $(PAPER)/objects-table/tabulate.yaml | build
 	$(call run,tabulate,--config $< --timings $(coins_costs))
@@ -179,7 +200,8 @@ $(eval $(call paper_fragment,cost,$(PAPER)/cost/tabulate.yaml))
 .PHONY: paper-coins paper-coins-folders
 paper-coins: paper-coins-folders $(addprefix paper-fragment-,objects depth near meshes mesh_images cost)
 paper-coins-folders:
-	$(call paper_folders,coins,$(foreach o,$(PAPER_OBJECTS),$(OUT)/emboss/$(o) $(OUT)/objects/$(o) $(PAPER)/objects/$(o)) $(foreach m,$(PAPER_OURS) $(PAPER_FINE) $(PAPER_MESHES),$(OUT)/gels/mctac-$(m)) \
+	$(call paper_folders,coins,$(foreach o,$(PAPER_OBJECTS),$(OUT)/emboss/$(o) $(OUT)/objects/$(o) $(PAPER)/objects/$(o)) \
+	  $(foreach m,$(PAPER_OURS) $(PAPER_FINE) $(PAPER_MESHES),$(OUT)/gels/mctac-$(m)) \
 	  $(COINS_RIVALS:%=$(PAPER)/objects-table/metrics/%) $(foreach m,$(COINS_SHAPES),$(PAPER)/objects-table/depth/$(m) $(PAPER)/objects-near/depth/$(m)) \
 	  $(foreach m,$(PAPER_MESHES),$(PAPER)/ablation/metrics/$(m) $(PAPER)/ablation/$(m)/depth $(PAPER_ABLATED:%=$(PAPER)/ablation/$(m)/%)) \
 	  $(addprefix $(PAPER)/,objects-depth objects-near/table ablation/table ablation/images cost))

@@ -1,6 +1,6 @@
 # The marker part of the paper's benchmark: where TacIPC and Tacchi take the markers, under board3 dragged and turned, and against
-# vectors measured in photographs (FOTS). Leaves fragments of a page and their pictures in $(OUT)/paper/markers (of paper-quick in $(OUT)/paper-quick/markers): board3.md, fots.md,
-# paper_results/*.svg. Needs SHARED (data/tacipc_release, data/fots_markers); without it the fragments say so.
+# vectors measured in photographs (FOTS). Leaves fragments of a page and their pictures in $(OUT)/paper/markers (of paper-quick in
+# $(OUT)/paper-quick/markers): board3.md, fots.md, paper_results/*.svg. Needs SHARED (data/tacipc_release, data/fots_markers); without it the fragments say so.
 $(call uses,paper/paper paper/board3)
 
 RIVALS_MARKERS := $(PAPER)/markers
@@ -35,7 +35,8 @@ $(foreach m,$(filter-out $(if $(filter friction_viscous,$(BOARD3_PRESS)),$(BOARD
 # $(call board3_tacchi,name,motion,numerics,keys)
 board3_tacchi = $(call tacchi_run,$(RIVALS_BOARD3)/$(1)/$(2),name=$(1) numerics=$(3) sensor=configs/sensors/mctac_3mm.yaml \
   motion=configs/studies/board3/board3_$(2).yaml object=$(BOARD3)/object/decimate.yaml object_yaml=configs/objects/printed_indenter.yaml,$(4))
-$(foreach m,shear twist,$(eval $(call board3_tacchi,tacchi_legacy,$(m),$(RIVALS_LEGACY)))$(eval $(call board3_tacchi,tacchi_physical,$(m),$(RIVALS_PHYSICAL),$(RIVALS_PHYSICAL_KEYS_$(m)))))
+$(foreach m,shear twist,$(eval $(call board3_tacchi,tacchi_legacy,$(m),$(RIVALS_LEGACY)))\
+  $(eval $(call board3_tacchi,tacchi_physical,$(m),$(RIVALS_PHYSICAL),$(RIVALS_PHYSICAL_KEYS_$(m)))))
 
 # One value changed at a time, in the shear. Of Tacchi's, as published: name and keys. The true density takes the time step that keeps the
 # Courant number (0.1 ms / sqrt(1e6 / 1010)).
@@ -79,7 +80,8 @@ $(eval $(call quick_tacchi,points_6,$(RIVALS_LEGACY),object.samples_per_mm2=6))
 
 # $(call comparison_rule,title,runs,factors): $(RIVALS_RUNS)/pages/<title>
 define comparison_rule
-$(RIVALS_RUNS)/pages/$(1)/compare_simulators.yaml: configs/studies/paper/markers/$(1).yaml $(foreach r,$(2) $(3),$(r)/$(if $(filter %/press,$(r)),press,mpm).yaml) | build-verification
+$(RIVALS_RUNS)/pages/$(1)/compare_simulators.yaml: configs/studies/paper/markers/$(1).yaml \
+    $(foreach r,$(2) $(3),$(r)/$(if $(filter %/press,$(r)),press,mpm).yaml) | build-verification
 	$$(call run,compare_simulators,--config configs/studies/paper/markers/$(1).yaml $(2:%=--run %) $(3:%=--factor %))
 endef
 $(eval $(call comparison_rule,board3,$(RIVALS_BOARD3_RUNS),$(RIVALS_BOARD3_FACTORS)))
@@ -87,7 +89,8 @@ $(eval $(call comparison_rule,quick,$(RIVALS_QUICK)/tacipc/press $(RIVALS_QUICK)
 
 .PHONY: paper-markers paper-quick-markers paper-board3-fragment paper-quick-fragment paper-board3-folders paper-quick-folders
 paper-board3-folders:
-	$(call paper_folders,board3,$(RIVALS_BOARD3_RUNS) $(RIVALS_BOARD3_FACTORS) $(BOARD3)/object $(RIVALS_MESHES:%=$(OUT)/gels/mctac_3mm-%) $(RIVALS_RUNS)/pages/board3)
+	$(call paper_folders,board3,$(RIVALS_BOARD3_RUNS) $(RIVALS_BOARD3_FACTORS) $(BOARD3)/object $(RIVALS_MESHES:%=$(OUT)/gels/mctac_3mm-%) \
+	  $(RIVALS_RUNS)/pages/board3)
 paper-quick-folders:
 	$(call paper_folders,quick,$(RIVALS_QUICK) $(OUT)/gels/mctac_3mm-adaptive_0400um $(RIVALS_RUNS)/pages/quick)
 paper-board3-fragment: paper-board3-folders
@@ -96,7 +99,8 @@ paper-board3-fragment: $(if $(wildcard $(BOARD3_OBJECT)),$(RIVALS_RUNS)/pages/bo
 paper-quick-fragment: $(RIVALS_RUNS)/pages/quick/compare_simulators.yaml
 # $(call put_fragment,page,here if there is such a file): the fragment and its pictures, or why there are none
 put_fragment = @mkdir -p $(RIVALS_MARKERS)/paper_results; \
-  if [ -e $(2) ]; then cp $(RIVALS_RUNS)/pages/$(1)/$(1).md $(RIVALS_MARKERS)/board3.md && cp $(RIVALS_RUNS)/pages/$(1)/*.csv $(RIVALS_MARKERS)/ && cp $(RIVALS_RUNS)/pages/$(1)/paper_results/*.svg $(RIVALS_MARKERS)/paper_results/; \
+  if [ -e $(2) ]; then cp $(RIVALS_RUNS)/pages/$(1)/$(1).md $(RIVALS_MARKERS)/board3.md && cp $(RIVALS_RUNS)/pages/$(1)/*.csv $(RIVALS_MARKERS)/ && \
+    cp $(RIVALS_RUNS)/pages/$(1)/paper_results/*.svg $(RIVALS_MARKERS)/paper_results/; \
   else echo "Not run: there is no $(notdir $(2)) below SHARED." > $(RIVALS_MARKERS)/board3.md; fi
 paper-board3-fragment:
 	$(call put_fragment,board3,$(BOARD3_OBJECT))
@@ -113,7 +117,8 @@ paper-quick-fots-fragment: | build
 	$(call rivals_fots,configs/studies/paper/markers/quick_fots.yaml,FOTS_TACCHI='tacchi_legacy tacchi_physical' \
 	  FOTS_TACCHI_KEYS='gel.spacing_mm=0.425 grid.spacing_mm=0.85 object.press_speed_mm_s=400 object.move_speed_mm_s=400' FOTS_CHECKED=)
 
-paper-markers: paper-board3-fragment paper-fots-fragment ## studies: Marker displacement by TacIPC and Tacchi (needs SHARED; an hour and a half): fragments in OUT/paper/markers
+paper-markers: ## studies: Marker displacement by TacIPC and Tacchi (needs SHARED; an hour and a half): fragments in OUT/paper/markers
+paper-markers: paper-board3-fragment paper-fots-fragment
 	@echo; echo "Look at $(RIVALS_MARKERS)/board3.md and fots.md"
 paper-quick-markers: paper-quick-fragment paper-quick-fots-fragment ## studies: paper-markers in a minute, coarse and short
 	@echo; echo "Look at $(RIVALS_MARKERS)/board3.md and fots.md"

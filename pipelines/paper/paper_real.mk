@@ -23,7 +23,8 @@ PAPER_TACCHI_KEYS_tacchi-6     := object.samples_per_mm2=6
 PAPER_TACCHI_KEYS_tacchi-100um := motion.frame_criterion=within_100um
 PAPER_TACCHI_KEYS_tacchi-image := object.samples_per_mm2=6 motion.frame_criterion=within_100um
 PAPER_TACCHI_KEYS_quick := gel.spacing_mm=0.4 grid.spacing_mm=0.4 time.step_s=1.0e-4#  of paper-quick: a tenth of the time
-$(foreach t,$(PAPER_TACCHI),$(eval $(call changed_config,$(PAPER_REAL)/$(t)/numerics.yaml,$(PAPER_CONFIGS)/mpm.yaml,$(PAPER_TACCHI_KEYS_$(t)) $(PAPER_TACCHI_KEYS_$(PAPER_KIND)))))
+$(foreach t,$(PAPER_TACCHI),$(eval $(call changed_config,$(PAPER_REAL)/$(t)/numerics.yaml,$(PAPER_CONFIGS)/mpm.yaml,\
+  $(PAPER_TACCHI_KEYS_$(t)) $(PAPER_TACCHI_KEYS_$(PAPER_KIND)))))
 
 # Its gel under the balls that calibrate, each at the place and depth that our calibration found, and under the objects
 # at ours. $(call paper_mpm,which Tacchi,balls/ball_0000 or objects/name,indenter folder)
@@ -38,7 +39,8 @@ $(PAPER_REAL)/motions/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.
 	mapfile -t balls < <($(BIN)/tacipc table $(<D)/balls.csv --columns x_mm,y_mm,depth_mm); read -r x y depth <<< "$${balls[10#$*]}"; \
 	printf 'placement: {center_mm: [%s, %s]}\nmotion: {kind: press, depth_mm: %s, steps: 1}\n' "$$x" "$$y" "$$depth" > $@
 define paper_light
-$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/mpm.yaml) $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/mpm.yaml) $(CASES_CALIBRATE) | build
+$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/mpm.yaml) \
+    $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/mpm.yaml) $(CASES_CALIBRATE) | build
 	$$(call run,calibrate,$$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/frame_0001/seen_indentation.exr) \
 	  $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/frame_$(call known_frame,$(o),0)/seen_indentation.exr))
 endef
@@ -60,12 +62,16 @@ $(PAPER_REAL)/simulated/$(1)/$(2)/shade.yaml: $(PAPER_REAL)/legacy/$(1)/$(2)/bas
 	touch $$@
 endef
 # $(call paper_tacchi,which Tacchi,object)
+paper_tacchi_run = $(PAPER_REAL)/$(1)/objects/$(2)
+# $(call paper_tacchi_shade,which Tacchi,object,method,light's record)
+paper_tacchi_shade = $(call paper_shade,$(3),$(2),$(4),$(paper_tacchi_run)/mpm.yaml,$(call cases_frames,$(2),$(paper_tacchi_run),1,seen_indentation.exr))
 define paper_tacchi
 $(call paper_mpm,$(1),objects/$(2),$(SIM2REAL)/objects/$(2)/indenter)
-$(if $(filter $(1),$(PAPER_TACCHI_LIT)),$(call paper_shade,$(1),$(2),$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml,$(PAPER_REAL)/$(1)/objects/$(2)/mpm.yaml,$(call cases_frames,$(2),$(PAPER_REAL)/$(1)/objects/$(2),1,seen_indentation.exr)))
-$(call paper_shade,$(1)-our-light,$(2),$(SIM2REAL)/calibrate/calibrate.yaml,$(PAPER_REAL)/$(1)/objects/$(2)/mpm.yaml,$(call cases_frames,$(2),$(PAPER_REAL)/$(1)/objects/$(2),1,seen_indentation.exr))
+$(if $(filter $(1),$(PAPER_TACCHI_LIT)),$(call paper_tacchi_shade,$(1),$(2),$(1),$(PAPER_REAL)/$(1)/calibrate/calibrate.yaml))
+$(call paper_tacchi_shade,$(1),$(2),$(1)-our-light,$(SIM2REAL)/calibrate/calibrate.yaml)
 
 endef
+paper_depths = --depth $(foreach i,$(CASES_IMAGES_$(1)),$(2)/$(1)/depth/$(i).exr)
 define paper_objects
 $(PAPER_REAL)/motions/objects/$(1)/motion.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(SIM2REAL)/cases/cases.yaml
 	mkdir -p $$(@D)
@@ -73,9 +79,10 @@ $(PAPER_REAL)/motions/objects/$(1)/motion.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml
 	echo "placement: {center_mm: [$$$$x, $$$$y], rotate_deg: $$$$yaw}" > $$@
 	cat $(SIM2REAL)/cases/objects/$(1)/motion.yaml >> $$@
 $(foreach t,$(PAPER_TACCHI),$(call paper_tacchi,$(t),$(1)))
-$(call paper_shade,depth-based-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(SIM2REAL)/rival/objects/$(1)/baseline.yaml,$(call cases_frames,$(1),$(SIM2REAL)/rival/objects/$(1),0,indentation.exr))
-$(call paper_legacy,legacy-ours,$(1),tacchi,$(SIM2REAL)/ours/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(SIM2REAL)/ours/$(1)/depth/$(i).exr))
-$(call paper_legacy,legacy-tacchi,$(1),tacchi,$(PAPER_REAL)/simulated/tacchi/$(1)/shade.yaml,--depth $(foreach i,$(CASES_IMAGES_$(1)),$(PAPER_REAL)/simulated/tacchi/$(1)/depth/$(i).exr))
+$(call paper_shade,depth-based-our-light,$(1),$(SIM2REAL)/calibrate/calibrate.yaml,$(SIM2REAL)/rival/objects/$(1)/baseline.yaml,\
+  $(call cases_frames,$(1),$(SIM2REAL)/rival/objects/$(1),0,indentation.exr))
+$(call paper_legacy,legacy-ours,$(1),tacchi,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call paper_depths,$(1),$(SIM2REAL)/ours))
+$(call paper_legacy,legacy-tacchi,$(1),tacchi,$(PAPER_REAL)/simulated/tacchi/$(1)/shade.yaml,$(call paper_depths,$(1),$(PAPER_REAL)/simulated/tacchi))
 $(call paper_legacy,legacy-depth-based,$(1),gomes_2021,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call cases_posed,$(1)))
 $(call paper_legacy,legacy-exponential,$(1),exponential_13,$(SIM2REAL)/ours/$(1)/shade.yaml,$(call cases_posed,$(1)))
 endef
@@ -90,11 +97,13 @@ $(PAPER_REAL)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
 
 # Rows of the table that rivals.mk makes.
 PAPER_RIVALS := $(filter-out $(PAPER_METHODS) ours depth-based background,$(call rivals_methods,$(PAPER_TABLE),name))
-PAPER_SCORES := $(foreach m,ours depth-based background,$(SIM2REAL)/metrics/$(m)/metrics.yaml) $(foreach m,$(PAPER_METHODS),$(PAPER_REAL)/metrics/$(m)/metrics.yaml) \
+PAPER_SCORES := $(foreach m,ours depth-based background,$(SIM2REAL)/metrics/$(m)/metrics.yaml) \
+  $(foreach m,$(PAPER_METHODS),$(PAPER_REAL)/metrics/$(m)/metrics.yaml) \
   $(foreach m,$(PAPER_RIVALS),$(RIVALS)/metrics/$(m)/metrics.yaml)
 # What an image costs by these rows, with Tacchi's own presses of the same objects.
 paper_presses = $(foreach o,$(CASES_OBJECTS),$(PAPER_REAL)/$(1)/objects/$(o))
-$(PAPER_REAL)/speed/bench_rivals.yaml: $(rivals_timed) $(foreach t,$(PAPER_TACCHI_LIT),$(addsuffix /mpm.yaml,$(call paper_presses,$(t)))) | $(PAPER_SCORES) build-bench-rivals
+$(PAPER_REAL)/speed/bench_rivals.yaml: $(rivals_timed) $(foreach t,$(PAPER_TACCHI_LIT),$(addsuffix /mpm.yaml,$(call paper_presses,$(t)))) \
+    | $(PAPER_SCORES) build-bench-rivals
 	$(call rivals_speed,--mpm $(foreach t,$(PAPER_TACCHI_LIT),$(addprefix $(t)=,$(call paper_presses,$(t)))))
 ifneq ($(filter paper-real,$(MAKECMDGOALS)),)
 $(RIVALS)/speed/bench_rivals.yaml: | $(PAPER_SCORES)
@@ -102,11 +111,14 @@ $(if $(RIVALS_TABLE),$(eval $(PAPER_REAL)/speed/bench_rivals.yaml: | $(RIVALS)/t
 endif
 $(PAPER_REAL)/tabulate.yaml: $(PAPER_TABLE) $(PAPER_SCORES) $(PAPER_REAL)/speed/bench_rivals.yaml | build
 	$(call run,tabulate,--config $(PAPER_TABLE) --speeds $(PAPER_REAL)/speed/image_speeds.csv --pictures $(addprefix photograph=,$(CASES_REAL)) \
-	  $(foreach m,ours depth-based,$(addprefix $(m)=,$(call sim2real_images,$(m)))) $(foreach m,$(PAPER_METHODS),$(addprefix $(m)=,$(call paper_images,$(m)))) $(foreach m,$(PAPER_RIVALS),$(call rivals_pictures,$(m))) \
-	  --samples $(foreach m,ours depth-based background,$(m)=$(SIM2REAL)/metrics/$(m)/samples.csv) $(foreach m,$(PAPER_METHODS),$(m)=$(PAPER_REAL)/metrics/$(m)/samples.csv) \
-  $(foreach m,$(PAPER_RIVALS),$(m)=$(RIVALS)/metrics/$(m)/samples.csv))
+	  $(foreach m,ours depth-based,$(addprefix $(m)=,$(call sim2real_images,$(m)))) \
+	  $(foreach m,$(PAPER_METHODS),$(addprefix $(m)=,$(call paper_images,$(m)))) $(foreach m,$(PAPER_RIVALS),$(call rivals_pictures,$(m))) \
+	  --samples $(foreach m,ours depth-based background,$(m)=$(SIM2REAL)/metrics/$(m)/samples.csv) \
+	  $(foreach m,$(PAPER_METHODS),$(m)=$(PAPER_REAL)/metrics/$(m)/samples.csv) \
+	  $(foreach m,$(PAPER_RIVALS),$(m)=$(RIVALS)/metrics/$(m)/samples.csv))
 
-paper-real: $(PAPER_REAL)/tabulate.yaml $(if $(RIVALS_TABLE),rivals) ## studies: Table I (a) of the paper on the photographs of sim2real: six simulators, fitted light and published optics (needs SHARED)
+paper-real: ## studies: Table I (a) of the paper on the photographs of sim2real: six simulators, fitted light and published optics (needs SHARED)
+paper-real: $(PAPER_REAL)/tabulate.yaml $(if $(RIVALS_TABLE),rivals)
 	@$(if $(PAPER_MORE),$(call make_again,REBUILD=no CASES=$(PAPER_MORE) rivals))
 	@echo; echo "Look at $(PAPER_REAL)/table.md and $(PAPER_REAL)/paper_results"
 

@@ -37,7 +37,9 @@ $(RIVALS)/fits/tacto.yaml: $(RIVALS_CONFIGS)/tacto_lamps.yaml
 	{ echo 'model: metallic_roughness'; cat $<; } > $@
 # $(call rivals_fit,fit)
 define rivals_fit
-$(RIVALS)/calibrate/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/baseline.yaml) $(background_record) $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+$(RIVALS)/calibrate/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml \
+    $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/baseline.yaml) $(background_record) \
+    $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
 	$$(call run,calibrate,$$(calibration) --rival $(RIVALS)/fits/$(1).yaml $(rivals_balls) \
 	  $(if $(CASES_KNOWN),--shapes $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/frame_$$(call known_frame,$(o),-1)/indentation.exr)))
 endef
@@ -92,25 +94,32 @@ $(eval $(call rival,tacto-pure-sharp,tacto,,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$
 $(eval $(call rival,tacto-noise,tacto,+shading.noise_codes=7,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
 # The depth-based method, whose light is made as ours; sim2real.mk has its first row.
 $(eval $(call rival,depth-based,$(CASES_BASELINE),+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
-$(eval $(call rival,depth-based-own,$(CASES_BASELINE),+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
+$(eval $(call rival,depth-based-own,$(CASES_BASELINE),+shading.model=light_field,\
+  $(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
 $(eval $(call rival,depth-based-sharp,$(CASES_BASELINE),+shading.model=light_field,$(RIVALS)/sharp/depth-based.yaml,$(RIVALS)/sharp/depth-based.yaml))
-$(eval $(call rival,depth-based-balls,$(CASES_BASELINE),+shading.model=light_field,$(RIVALS)/calibrate_balls/depth-based/light.yaml,$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml))
+$(eval $(call rival,depth-based-balls,$(CASES_BASELINE),+shading.model=light_field,\
+  $(RIVALS)/calibrate_balls/depth-based/light.yaml,$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml))
 # The light of one on the membranes of another: what is light, and what membrane.
 $(foreach m,taxim fots,$(eval $(call rival,ours-on-$(m),$(m),shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml)))
 $(eval $(call rival,ours-on-tacto,rigid,+shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml))
 $(eval $(call rival,fots-on-taxim,taxim,shading.model=network $(rival_blurred),$(RIVALS)/calibrate/fots_1/light.npy,$(RIVALS)/calibrate/fots_1/calibrate.yaml))
 $(eval $(call rival,fots-on-ours,given,shading.model=network $(rival_blurred),$(RIVALS)/calibrate/fots_1/light.npy,$(RIVALS)/calibrate/fots_1/calibrate.yaml))
-$(eval $(call rival,taxim-on-ours,given,shading.model=table $(rival_blurred),$(RIVALS)/calibrate/taxim_pooled/light.npy,$(RIVALS)/calibrate/taxim_pooled/calibrate.yaml))
+$(eval $(call rival,taxim-on-ours,given,shading.model=table $(rival_blurred),\
+  $(RIVALS)/calibrate/taxim_pooled/light.npy,$(RIVALS)/calibrate/taxim_pooled/calibrate.yaml))
 
 # What an object's images are made of: it where our fit has put it, or where a fit with this method puts it, or our membranes of it.
 rival_shape_ours = $(foreach i,$(CASES_IMAGES_$(1)),$(SIM2REAL)/ours/$(1)/depth/$(i).exr)
-rival_shape = $(if $(filter %-on-ours,$(1)),--depth $(call rival_shape_ours,$(2)),$(if $(filter %-own,$(1)),--object $(call cases_press,$(2))/indenter/object.ply \
-  --pose $(call cases_press,$(2))/press/object_pose.npy --places $(SIM2REAL)/cases/objects/$(2)/shade.yaml --photograph $(call cases_photograph,$(CASES_FIT_$(2))),$(call cases_posed,$(2))))
+rival_shape_own = --object $(call cases_press,$(1))/indenter/object.ply --pose $(call cases_press,$(1))/press/object_pose.npy \
+  --places $(SIM2REAL)/cases/objects/$(1)/shade.yaml --photograph $(call cases_photograph,$(CASES_FIT_$(1)))
+rival_shape = $(if $(filter %-on-ours,$(1)),--depth $(call rival_shape_ours,$(2)),\
+  $(if $(filter %-own,$(1)),$(call rival_shape_own,$(2)),$(call cases_posed,$(2))))
 # Frames under the photographs' names: $(call rival_named,object,folder of the frames)
-rival_named = frames=($(call cases_frames,$(1),$(2),0,tactile.png)); i=0; for image in $(CASES_IMAGES_$(1)); do cp "$${frames[i]}" $(@D)/$$image.png; i=$$((i + 1)); done; touch $@
+rival_named = frames=($(call cases_frames,$(1),$(2),0,tactile.png)); i=0; \
+  for image in $(CASES_IMAGES_$(1)); do cp "$${frames[i]}" $(@D)/$$image.png; i=$$((i + 1)); done; touch $@
 define rival_images
 $(RIVALS)/runs/$(1)/$(2)/baseline.yaml: $(SIM2REAL)/ours/$(2)/shade.yaml $(RIVALS)/configs/$(1).yaml $(RIVAL_RECORD_$(1)) | build
-	$$(call run,baseline,--config $(RIVALS)/configs/$(1).yaml --sensor $(CASES_SENSOR) --background $(cases_background) $(RIVAL_LIGHT_$(1)) $(call rival_shape,$(1),$(2)))
+	$$(call run,baseline,--config $(RIVALS)/configs/$(1).yaml --sensor $(CASES_SENSOR) --background $(cases_background) $(RIVAL_LIGHT_$(1)) \
+	  $(call rival_shape,$(1),$(2)))
 $(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(RIVALS)/runs/$(1)/$(2)/baseline.yaml
 	mkdir -p $$(@D)
 	$$(call rival_named,$(2),$(RIVALS)/runs/$(1)/$(2))
@@ -127,7 +136,8 @@ endef
 define rival_object
 $(RIVALS)/places/$(1).yaml: $(SIM2REAL)/ours/$(1)/shade.yaml | build
 	mkdir -p $$(@D)
-	$(if $(CASES_TABLE),cp $(SIM2REAL)/cases/objects/$(1)/shade.yaml $$@,{ read -r x; read -r y; read -r yaw; } < <($(BIN)/tacipc get $$< summary.center_px summary.yaw_deg); \
+	$(if $(CASES_TABLE),cp $(SIM2REAL)/cases/objects/$(1)/shade.yaml $$@,\
+	{ read -r x; read -r y; read -r yaw; } < <($(BIN)/tacipc get $$< summary.center_px summary.yaw_deg); \
 	$(BIN)/tacipc set $(SIM2REAL)/cases/objects/$(1)/shade.yaml -fit "place.center_px=[$$$$x, $$$$y]" "+place.yaw_deg=$$$$yaw" > $$@)
 $(call rival_shaded,ours-light,$(1),$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml)
 $(call rival_shaded,ours-sharp,$(1),$(RIVALS)/sharp/ours.yaml,$(RIVALS)/sharp/ours.yaml)
@@ -137,27 +147,31 @@ $(foreach o,$(CASES_OBJECTS),$(eval $(call rival_object,$(o))))
 
 # Scored as ours are; of FOTS' network every seed is a run of its row.
 rivals_images = $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(RIVALS)/simulated/$(1)/$(o)/$(i).png))
-$(foreach m,$(RIVAL_METHODS) ours-light ours-sharp ours-balls,$(eval $(RIVALS)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(RIVALS)/simulated/$(m)/$(o)/shade.yaml)))
+$(foreach m,$(RIVAL_METHODS) ours-light ours-sharp ours-balls,\
+  $(eval $(RIVALS)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(RIVALS)/simulated/$(m)/$(o)/shade.yaml)))
 $(RIVALS)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
 	$(call run,metrics,--config $(SIM2REAL)/cases/metrics.yaml --images $(call rivals_images,$*) --reference $(CASES_REAL))
 rivals_from = $(if $(filter ours depth-based background,$(1)),$(SIM2REAL),$(RIVALS))/metrics/$(1)
 rivals_pictures = $(addprefix $(1)=,$(if $(filter ours depth-based,$(1)),$(call sim2real_images,$(1)),$(call rivals_images,$(1))))
 # $(call rivals_runs,method): the folders of metrics that its row is made of
-rivals_runs = $(if $(filter fots-seeds%,$(1)),$(foreach s,$(RIVALS_SEEDS),$(call rivals_from,fots$(filter-out 1,$(s))$(1:fots-seeds%=%))),$(call rivals_from,$(1)))
+rivals_runs = $(if $(filter fots-seeds%,$(1)),$(foreach s,$(RIVALS_SEEDS),$(call rivals_from,fots$(filter-out 1,$(s))$(1:fots-seeds%=%))),\
+  $(call rivals_from,$(1)))
 # $(call rivals_methods,table,heading of a list): methods that it names
 rivals_methods = $(sort $(shell sed -nE 's/.*[{ ]$(2): .*method: ([a-z0-9-]+)[,}].*/\1/p' $(1)))
 RIVALS_ROWS := $(if $(RIVALS_TABLE),$(call rivals_methods,$(RIVALS_TABLE),name))
 RIVALS_SHOWN := $(if $(RIVALS_TABLE),$(filter-out photograph,$(call rivals_methods,$(RIVALS_TABLE),heading)))
 RIVALS_METRICS := $(foreach m,$(RIVALS_ROWS),$(addsuffix /metrics.yaml,$(call rivals_runs,$(m))))
 
-# What an image costs, on the way of one object, and the presses of all; when all else is made, so that nothing of it runs beside. $(call rivals_speed,what else)
+# Cost of an image, on the way of one object, and of all presses; measured when everything else is made, so that nothing runs beside it.
+# $(call rivals_speed,further flags)
 build-bench-rivals: build
 	@cmake --build $(BUILD) --target bench_rivals -j $(JOBS) -- --quiet
 RIVALS_TIMED := depth-based tacto taxim fots chen
 rivals_presses := $(sort $(foreach o,$(CASES_OBJECTS),$(call cases_press,$(o))/press))
 rivals_timed := $(RIVALS_TIMED:%=$(RIVALS)/configs/%.yaml) $(foreach m,$(RIVALS_TIMED),$(RIVAL_RECORD_$(m))) $(rivals_presses:%=%/press.yaml)
-rivals_speed = $(call run,bench_rivals,--sensor $(CASES_SENSOR) --press $(rivals_presses) --gel $(SIM2REAL)/gel/gel.msh --object $(dir $(firstword $(rivals_presses)))indenter/object.ply \
-  --light $(SIM2REAL)/calibrate/light.yaml --configs $(foreach m,$(RIVALS_TIMED),$(m)=$(RIVALS)/configs/$(m).yaml) \
+rivals_speed = $(call run,bench_rivals,--sensor $(CASES_SENSOR) --press $(rivals_presses) --gel $(SIM2REAL)/gel/gel.msh \
+  --object $(dir $(firstword $(rivals_presses)))indenter/object.ply --light $(SIM2REAL)/calibrate/light.yaml \
+  --configs $(foreach m,$(RIVALS_TIMED),$(m)=$(RIVALS)/configs/$(m).yaml) \
   --lights $(foreach m,$(RIVALS_TIMED),$(if $(RIVAL_LIGHT_$(m)),$(m)=$(lastword $(RIVAL_LIGHT_$(m))))) $(1))
 $(RIVALS)/speed/bench_rivals.yaml: $(rivals_timed) | $(RIVALS_METRICS) build-bench-rivals
 	$(call rivals_speed)

@@ -34,7 +34,8 @@ cases_background := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.png,$(call c
 cases_labels := $(if $(CASES_TABLE),$(SIM2REAL)/cases/labels.txt,$(call cases_data,$(CASES_LABELS)))
 # Contacts of the ball that calibrates need no press of their own.
 cases_press = $(SIM2REAL)/$(if $(CASES_TABLE),ball,objects/$(1))
-# An object where our fit has put it, frame after frame; and a file of each of these frames: $(call cases_frames,object,folder,first frame,file), one per photograph.
+# An object where our fit has put it, frame after frame; and a file of each of these frames, one per photograph:
+# $(call cases_frames,object,folder,first frame,file)
 cases_posed  = --object $(call cases_press,$(1))/indenter/object.ply --pose $(SIM2REAL)/ours/$(1)/object_pose.npy
 cases_frames = $(foreach k,$(shell seq -f %04.0f $(3) $$(($(3) + $(words $(CASES_IMAGES_$(1))) - 1))),$(2)/frame_$(k)/$(4))
 CASES_ALL = $(foreach o,$(CASES_OBJECTS),$(CASES_IMAGES_$(o)))
@@ -52,7 +53,8 @@ $(1)/press/press.yaml: $(1)/indenter/indenter.yaml $(2)/motion.yaml $(SIM2REAL)/
 $(2)/indenter.yaml $(2)/motion.yaml: $(SIM2REAL)/cases/cases.yaml ;
 endef
 $(eval $(call sim2real_press,$(SIM2REAL)/ball,$(SIM2REAL)/cases/ball,))
-$(if $(CASES_TABLE),,$(foreach o,$(CASES_OBJECTS),$(eval $(call sim2real_press,$(SIM2REAL)/objects/$(o),$(SIM2REAL)/cases/objects/$(o),$(addprefix $(SHARED)/,$(CASES_MESH_$(o)))))))
+$(if $(CASES_TABLE),,$(foreach o,$(CASES_OBJECTS),$(eval $(call sim2real_press,$(SIM2REAL)/objects/$(o),$(SIM2REAL)/cases/objects/$(o),\
+  $(addprefix $(SHARED)/,$(CASES_MESH_$(o)))))))
 
 # Without a photograph without contact: the median of those that calibrate, away from their contacts.
 $(SIM2REAL)/rest/background.yaml: $(SIM2REAL)/cases/cases.yaml | build
@@ -64,13 +66,15 @@ calibration_balls = --config $(CASES_CALIBRATE) --sensor $(CASES_SENSOR) --backg
   --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(cases_labels)
 calibration = $(calibration_balls) $(if $(CASES_KNOWN),--objects $(SIM2REAL)/cases/known_objects.yaml)
 known_frame = $(shell printf '%04d' $$(($(CASES_KNOWN_FRAME_$(1)) + $(2))))
-$(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/objects/$(o)/press/press.yaml) $(background_record) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+$(SIM2REAL)/calibrate/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/objects/$(o)/press/press.yaml) \
+    $(background_record) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
 	$(call run,calibrate,$(calibration) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh \
 	  $(foreach o,$(CASES_KNOWN),--object-press $(o)=$(SIM2REAL)/objects/$(o)/press))
 $(SIM2REAL)/rival/balls/baseline.yaml: $(SIM2REAL)/calibrate/calibrate.yaml $(CASES_BASELINE) | build
 	$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) --object $(SIM2REAL)/ball/indenter/object.ply \
 	  --pose $(SIM2REAL)/calibrate/ball_poses.npy)
-$(SIM2REAL)/rival/calibrate/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/rival/objects/$(o)/baseline.yaml) $(CASES_CALIBRATE) | build
+$(SIM2REAL)/rival/calibrate/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml \
+    $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/rival/objects/$(o)/baseline.yaml) $(CASES_CALIBRATE) | build
 	$(call run,calibrate,$(calibration) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr \
 	  $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/rival/objects/$(o)/frame_$(call known_frame,$(o),-1)/indentation.exr))
 
@@ -81,7 +85,8 @@ placing = $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml,--pho
 define sim2real_object
 $(SIM2REAL)/ours/$(1)/shade.yaml: $(call cases_press,$(1))/press/press.yaml $(SIM2REAL)/calibrate/calibrate.yaml | build
 	$$(call run,shade,$$(call shading,$(1)) --light $(SIM2REAL)/calibrate/light.yaml --press $(call cases_press,$(1))/press \
-	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)) $(if $(filter $(1),$(CASES_KNOWN)),$$$$(find $(SIM2REAL)/calibrate -path '*/relief/$(1).exr' -printf '--relief %p')))
+	  --gel $(SIM2REAL)/gel/gel.msh $$(call placing,$(1)) \
+	  $(if $(filter $(1),$(CASES_KNOWN)),$$$$(find $(SIM2REAL)/calibrate -path '*/relief/$(1).exr' -printf '--relief %p')))
 $(SIM2REAL)/rival/objects/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml $(CASES_BASELINE) | build
 	$$(call run,baseline,--config $(CASES_BASELINE) --sensor $(CASES_SENSOR) $(call cases_posed,$(1)))
 $(SIM2REAL)/depth-based/$(1)/shade.yaml: $(SIM2REAL)/rival/objects/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml | build

@@ -33,7 +33,8 @@ CALIBRATED := $(OUT)/calibrate/$(basename $(notdir $(SENSOR_FILE)))
 calibrate_photographs := $(if $(PHOTOGRAPHS),$(wildcard $(PHOTOGRAPHS)/*.png))
 
 # As the LEDs of the sensor stand, unless FIT says otherwise.
-calibrate_fit = $(or $(FIT),configs/sensors/calibrate/$$(if $(BIN)/tacipc get $(SENSOR_FILE) leds.ring > /dev/null 2>&1; then echo ring; else echo list; fi).yaml)
+calibrate_fit = $(or $(FIT),configs/sensors/calibrate/$$(if $(BIN)/tacipc get $(SENSOR_FILE) leds.ring > /dev/null 2>&1; \
+  then echo ring; else echo list; fi).yaml)
 calibrate_balls = {radius_mm: $(BALL_MM)$(comma) contact_gap_mm: $(GAP_MM)$(comma) label_sigma_px: $(LABEL_PX)}
 define ball_motion_yaml
 motion: {kind: press, depth_mm: $(DEEPEST_MM), steps: 20}
@@ -48,16 +49,20 @@ $(CALIBRATED)/gel/tetmesh.yaml: $(SENSOR_FILE) configs/gels/$(MESH).yaml | build
 	$(call run,tetmesh,--sensor $(SENSOR_FILE) --config configs/gels/$(MESH).yaml)
 $(CALIBRATED)/indenter/indenter.yaml: $(CALIBRATED)/indenter.yaml | build
 	$(call run,indenter,--config $<)
-$(CALIBRATED)/press/press.yaml: $(CALIBRATED)/indenter/indenter.yaml $(CALIBRATED)/gel/tetmesh.yaml $(CALIBRATED)/motion.yaml $(SENSOR_FILE) $(BALL_PRESS) | build
+$(CALIBRATED)/press/press.yaml: $(CALIBRATED)/indenter/indenter.yaml $(CALIBRATED)/gel/tetmesh.yaml $(CALIBRATED)/motion.yaml $(SENSOR_FILE) \
+    $(BALL_PRESS) | build
 	$(call run,press,--name ball --object $(CALIBRATED)/indenter/object.ply --object-config configs/objects/embossed.yaml \
 	  --gel $(CALIBRATED)/gel/gel.msh --sensor $(SENSOR_FILE) --config $(BALL_PRESS) --sample $(CALIBRATED)/motion.yaml)
-$(CALIBRATED)/fit/calibrate.yaml: $(SENSOR_FILE) $(BACKGROUND) $(calibrate_photographs) $(LABELS) $(CALIBRATED)/fit.yaml $(if $(LABELS),$(CALIBRATED)/press/press.yaml) | build
+$(CALIBRATED)/fit/calibrate.yaml: $(SENSOR_FILE) $(BACKGROUND) $(calibrate_photographs) $(LABELS) $(CALIBRATED)/fit.yaml \
+    $(if $(LABELS),$(CALIBRATED)/press/press.yaml) | build
 	$(call run,calibrate,--config $(CALIBRATED)/fit.yaml --sensor $(SENSOR_FILE) --background $(BACKGROUND) $(if $(LABELS), \
 	  --photographs $(PHOTOGRAPHS) --labels $(LABELS) --press $(CALIBRATED)/press --gel $(CALIBRATED)/gel/gel.msh))
 
-calibrate-sensor: $(CALIBRATED)/fit/calibrate.yaml ## own: A sensor file from your photographs: SENSOR_FILE=my.yaml BACKGROUND=no_contact.png [PHOTOGRAPHS= LABELS= BALL_MM=]
+calibrate-sensor: ## own: A sensor file from your photographs: SENSOR_FILE=my.yaml BACKGROUND=no_contact.png [PHOTOGRAPHS= LABELS= BALL_MM=]
+calibrate-sensor: $(CALIBRATED)/fit/calibrate.yaml
 	@echo; $(BIN)/tacipc get $< summary.parameters --fields name$(comma)value$(comma)sigma$(comma)told_by | \
-	  while IFS=$$'\t' read -r name value sigma told_by; do LC_ALL=C printf '%-24s %10.4g ± %-8.2g determined by the %s\n' "$$name" "$$value" "$$sigma" "$$told_by"; done
+	  while IFS=$$'\t' read -r name value sigma told_by; do \
+	  LC_ALL=C printf '%-24s %10.4g ± %-8.2g determined by the %s\n' "$$name" "$$value" "$$sigma" "$$told_by"; done
 	@echo; echo "Look at $(CALIBRATED)/fit/residuals/*.png (128 grey: explained; eight times the residual). The sensor is $(CALIBRATED)/fit/sensor.yaml"
 else
 calibrate-sensor:

@@ -12,7 +12,8 @@ exported := $(SAMPLE)$(if $(wildcard $(SAMPLE)/press.yaml),,/press)
 press_input = $(exported)/$$($(BIN)/tacipc get $(exported)/press.yaml inputs.$(1).path)
 
 $(SAMPLE)/export/export.yaml: $(exported)/press.yaml | build
-	$(call run,export,--press $(exported) --gel $(call press_input,gel) $$($(BIN)/tacipc get $(exported)/press.yaml inputs.object.path --default '' | sed -n 's#^.#--object $(exported)/&#p'))
+	$(call run,export,--press $(exported) --gel $(call press_input,gel) $$($(BIN)/tacipc get $(exported)/press.yaml inputs.object.path --default '' \
+	  | sed -n 's#^.#--object $(exported)/&#p'))
 
 export: $(SAMPLE)/export/export.yaml ## own: One sample, grasp or scene for ParaView (VTK) and Blender (glTF): SAMPLE=out/demo/star, SAMPLE=out/grasp/part
 	@echo; echo "Open $(SAMPLE)/export/surface.pvd, volume.pvd and object.pvd in ParaView, sample.glb in Blender"

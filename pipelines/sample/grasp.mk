@@ -9,7 +9,8 @@ SEED ?= 1#    another number, another grasp
 LIFT_MM ?= 10#      how far it is lifted
 LIFT_STEPS ?= 20#   frames of that: 0.2 s with time steps of 10 ms
 GRASP   ?=#         or a file of your own (docs/grasp.md) in place of all these and FORCE_N
-grasp_given := $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))# on the command line
+# Given on the command line.
+grasp_given := $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))
 $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS GRASP,$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: grasp
@@ -32,9 +33,11 @@ endif
 ifneq ($(and $(TURN)$(GRIP),$(filter SEED,$(grasp_given))),)
   $(error SEED: has no effect where TURN or GRIP say how the object is gripped)
 endif
-# Of a hundred drawn grasps the one nearest to the centre of mass.
+# The grasp that the variables say, or of a hundred drawn grasps the one nearest to the centre of mass.
+grasp_chosen = turn_deg: $(or $(TURN),0), grip_mm: [$(or $(GRIP),0$(comma)0$(comma)0)]
+grasp_drawn  = draw: {seed: $(SEED), best_of: 100, upright: true}
 define grasp_yaml
-fingers: {$(if $(TURN)$(GRIP),turn_deg: $(or $(TURN),0)$(comma) grip_mm: [$(or $(GRIP),0$(comma)0$(comma)0)],draw: {seed: $(SEED)$(comma) best_of: 100$(comma) upright: true})}
+fingers: {$(if $(TURN)$(GRIP),$(grasp_chosen),$(grasp_drawn))}
 object: {mass_g: $(MASS_G)}
 motion:
   - {kind: close, force_n: $(or $(FORCE_N),5), steps: 10}
@@ -51,27 +54,34 @@ grasp_spec   := $(or $(GRASP),$(GRASPED)/grasp.yaml)
 grasp_config := $(if $(FRICTION),$(GRASPED)/press_config.yaml,configs/press/$(PRESS).yaml)
 grasp_gel    := $(OUT)/gels/$(SENSOR)-$(MESH)
 grasp_made    = $(if $(filter-out no,$(WRAP)),$(GRASPED)/wrap/$(1),$(2))
+grasp_choice  = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), grasp: $(abspath $(GRASP))}
 $(GRASPED)/grasp.yaml: FORCE
 	$(call replace_if_changed,$(grasp_yaml))
 $(GRASPED)/object.yaml: FORCE
 	$(call replace_if_changed,$(grasped_yaml))
 $(GRASPED)/choice.txt: FORCE
-	$(call replace_if_changed,{object: $(abspath $(OBJECT))$(comma) sensor: $(SENSOR)$(comma) mesh: $(MESH)$(comma) press: $(PRESS)$(comma) grasp: $(abspath $(GRASP))})
+	$(call replace_if_changed,$(grasp_choice))
 $(GRASPED)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
 	$(call replace_if_changed_by,$(BIN)/tacipc set $< 'friction.coefficient=$(FRICTION)')
 $(GRASPED)/wrap/wrap.yaml: $(OBJECT) $(GRASPED)/object.yaml $(GRASPED)/choice.txt | build
 	$(wrap_is_built)
 	$(call run,wrap,--mesh $(OBJECT) --object $(GRASPED)/object.yaml)
-$(GRASPED)/object/decimate.yaml: $(OBJECT) $(GRASPED)/object.yaml $(call grasp_made,wrap.yaml) $(GRASPED)/choice.txt configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml | build
-	$(call run,decimate,--mesh $(call grasp_made,object.ply,$(OBJECT)) --object $(call grasp_made,object.yaml,$(GRASPED)/object.yaml) --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
-$(GRASPED)/press.yaml: $(GRASPED)/object/decimate.yaml $(grasp_gel)/tetmesh.yaml configs/sensors/$(SENSOR).yaml $(grasp_config) $(grasp_spec) $(GRASPED)/choice.txt | build
-	$(call run,press,--name $(NAME) --object $(GRASPED)/object/object.ply --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config $(grasp_config) --sample $(grasp_spec))
-$(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml: $(GRASPED)/%/render/render.yaml: $(GRASPED)/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
+$(GRASPED)/object/decimate.yaml: $(OBJECT) $(GRASPED)/object.yaml $(call grasp_made,wrap.yaml) $(GRASPED)/choice.txt \
+    configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml | build
+	$(call run,decimate,--mesh $(call grasp_made,object.ply,$(OBJECT)) --object $(call grasp_made,object.yaml,$(GRASPED)/object.yaml) \
+	  --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
+$(GRASPED)/press.yaml: $(GRASPED)/object/decimate.yaml $(grasp_gel)/tetmesh.yaml configs/sensors/$(SENSOR).yaml $(grasp_config) $(grasp_spec) \
+    $(GRASPED)/choice.txt | build
+	$(call run,press,--name $(NAME) --object $(GRASPED)/object/object.ply --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml \
+	  --config $(grasp_config) --sample $(grasp_spec))
+$(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml: $(GRASPED)/%/render/render.yaml: $(GRASPED)/press.yaml \
+    configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
 	$(call run,render,--press $(GRASPED)/$*/press --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
 $(GRASPED)/report/report.yaml: $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml | build
 	$(call run,report,--title "$(NAME)" --grasp $(GRASPED))
 
-grasp: $(GRASPED)/report/report.yaml ## own: Two sensors grip, hold and lift an object of your own: OBJECT=path.stl [MASS_G=80 FORCE_N=5 FRICTION=0.7 LIFT_MM=10 SEED=1; TURN= GRIP=; GRASP=your.yaml]
+grasp: ## own: Two sensors grip, hold and lift an object: OBJECT=path.stl [MASS_G=80 FORCE_N=5 FRICTION=0.7 LIFT_MM=10 SEED=1; TURN= GRIP=; GRASP=your.yaml]
+grasp: $(GRASPED)/report/report.yaml
 	@$(BIN)/tacipc get $(GRASPED)/press.yaml summary.outcome
 	@echo; echo "Look at $(GRASPED)/report/index.html, $(GRASPED)/report/grasp_strip.png and $(GRASPED)/left/render/frame_*/tactile.png"
 else

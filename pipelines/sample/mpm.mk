@@ -10,11 +10,13 @@ ifeq ($(wildcard configs/rivals/mpm/$(MPM).yaml),)
   $(error MPM: there is no configs/rivals/mpm/$(MPM).yaml (there are: $(basename $(notdir $(wildcard configs/rivals/mpm/*.yaml)))))
 endif
 MPM_SAMPLE := $(SAMPLE)/mpm-$(MPM)
-$(MPM_SAMPLE)/mpm.yaml: $(SAMPLE)/object/decimate.yaml $(SAMPLE)/object.yaml $(sample_spec) $(motion_paths) configs/sensors/$(SENSOR).yaml configs/rivals/mpm/$(MPM).yaml $(SAMPLE)/choice.txt | build
+$(MPM_SAMPLE)/mpm.yaml: $(SAMPLE)/object/decimate.yaml $(SAMPLE)/object.yaml $(sample_spec) $(motion_paths) configs/sensors/$(SENSOR).yaml \
+    configs/rivals/mpm/$(MPM).yaml $(SAMPLE)/choice.txt | build
 	$(call run,mpm,--name $(NAME) --object $(SAMPLE)/object/object.ply --object-config $(SAMPLE)/object.yaml --sensor configs/sensors/$(SENSOR).yaml \
 	  --config configs/rivals/mpm/$(MPM).yaml --sample $(sample_spec))
 
-mpm-sample: $(MPM_SAMPLE)/mpm.yaml ## own: One object of your own with Tacchi's material points instead of press: OBJECT=path.stl [MPM=legacy|legacy_mctac|physical and the variables of sample]
+mpm-sample: ## own: An object with Tacchi's material points instead of press: OBJECT=path.stl [MPM=legacy|legacy_mctac|physical and the variables of sample]
+mpm-sample: $(MPM_SAMPLE)/mpm.yaml
 	@echo; echo "Look at $(MPM_SAMPLE)/frame_*/indentation.png"
 else
 mpm-sample:

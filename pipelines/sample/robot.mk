@@ -13,21 +13,25 @@ robot_is_built = @[ -x $(BIN)/robot ] || { echo "robot: not built for want of li
 
 # $(call robot_rules,folder,name,task,sensor,mesh,press,seed): the robot in folder/robot, what its gels do in folder, the page in folder/report.
 # Files that a task names are not make's to know: what depends on them is what the task's own folders hold.
+robot_pads = { $(BIN)/tacipc get $(1) pads --fields name 2> /dev/null || $(BIN)/tacipc get $(1) pads.name; }# lists the pads of a task
 define robot_rules
 $(1)/choice.txt: FORCE
-	$$(call replace_if_changed,{task: $$(abspath $(3))$$(comma) sensor: $(4)$$(comma) mesh: $(5)$$(comma) press: $(6)$$(comma) seed: $(7)$$(comma) alone: $$(ALONE)})
-$(1)/robot/robot.yaml: $(3) $$(wildcard $$(dir $(3))*.xml configs/robots/*.xml) $$(OUT)/gels/$(4)-$(5)/tetmesh.yaml configs/sensors/$(4).yaml configs/press/$(6).yaml $(1)/choice.txt | build
+	$$(call replace_if_changed,{task: $$(abspath $(3))$$(comma) sensor: $(4)$$(comma) mesh: $(5)$$(comma) press: $(6)$$(comma) seed: $(7)$$(comma) \
+	  alone: $$(ALONE)})
+$(1)/robot/robot.yaml: $(3) $$(wildcard $$(dir $(3))*.xml configs/robots/*.xml) $$(OUT)/gels/$(4)-$(5)/tetmesh.yaml configs/sensors/$(4).yaml \
+    configs/press/$(6).yaml $(1)/choice.txt | build
 	$$(robot_is_built)
 	$(if $(filter yes,$(ALONE)),rm -f $(1)/residuals.csv; $$(call run,robot,--name $(2) --task $(3) --seed $(7)),\
 	  OPENBLAS_NUM_THREADS=1 bash pipelines/sample/couple.sh $$(BIN) $(1) $(3) --name $(2) --task $(3) --seed $(7) -- \
 	    --name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --threads $$(THREADS))
 $(1)/press.yaml: $(1)/robot/robot.yaml | build
-	$$(call run,press,--name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --sample $(1)/robot/scene.yaml $(if $(filter yes,$(ALONE)),,--solved $(1)/solved))
+	$$(call run,press,--name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml \
+	  --sample $(1)/robot/scene.yaml $(if $(filter yes,$(ALONE)),,--solved $(1)/solved))
 $(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) | build
 	$$(call run,render,--press $(1)/gels/$$*/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml)
 # Which gels there are.
 $(1)/pads.mk: $(3) FORCE | build
-	$$(call replace_if_changed_by,echo "robot_pads_$(2) := $$$$({ $$(BIN)/tacipc get $(3) pads --fields name 2> /dev/null || $$(BIN)/tacipc get $(3) pads.name; } | paste -s -d ' ')")
+	$$(call replace_if_changed_by,echo "robot_pads_$(2) := $$$$($$(call robot_pads,$(3)) | paste -s -d ' ')")
 include $(1)/pads.mk
 $(1)/report/report.yaml: $$(foreach p,$$(robot_pads_$(2)),$(1)/gels/$$(p)/render/render.yaml) | build
 	$$(call run,report,--title "$(2)" --scene $(1))
@@ -51,7 +55,8 @@ endif
 ROBOTED := $(OUT)/robot/$(robot_name)
 $(eval $(call robot_rules,$(ROBOTED),$(robot_name),$(TASK),$(SENSOR),$(MESH),$(PRESS),$(SEED)))
 
-robot: $(ROBOTED)/report/report.yaml ## own: A robot of MuJoCo with gels on its fingers: TASK=configs/tasks/lift_and_shake.yaml [SEED=1 SENSOR= MESH= PRESS=; ALONE=yes: the gels only follow]
+robot: ## own: A robot of MuJoCo with gels on its fingers: TASK=configs/tasks/lift_and_shake.yaml [SEED=1 SENSOR= MESH= PRESS=; ALONE=yes: the gels only follow]
+robot: $(ROBOTED)/report/report.yaml
 	@echo; echo "Look at $(ROBOTED)/report/index.html and $(ROBOTED)/gels/*/render/frame_*/tactile.png"
 else
 robot:

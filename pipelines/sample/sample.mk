@@ -17,14 +17,16 @@ MOVE_STEPS ?= 20#             frames of each motion after the press
 UNIT     ?= auto#             of the object's file: m, cm, mm, um, in (default: as its format or name says, part_cm.stl, else mm)
 SCALE    ?= 1#                of the object; fit: the side that presses fills nine tenths of the sensor's window
 SHEET_MM ?=#                  thickness of a plate made of each open surface (default: one side of it is pressed)
-WRAP     ?=#                  yes, or a radius in mm: press a closed surface wrapped around the mesh: it keeps undercuts, and bridges gaps that a ball of that radius does not get into
+WRAP     ?=#                  yes, or a radius in mm: press a closed surface wrapped around the mesh: it keeps undercuts,
+                            # and bridges gaps that a ball of that radius does not get into
 UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
 FACE     ?=#                  side that presses (default: opposite of UP, else that of most relief in the window)
 ROTATE   ?= 0#                degrees about the sensor's z axis
 CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands (default: most relief in the middle, if no side is named)
 TURNS    ?= 0 90#             gallery: degrees about the sensor's z axis that each side is pressed at: 0 90 180 270
 NAME     ?= $(basename $(notdir $(OBJECT)))# of the sample
-SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS UNIT SCALE SHEET_MM WRAP UP FACE ROTATE CENTER TURNS NAME
+SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS \
+  UNIT SCALE SHEET_MM WRAP UP FACE ROTATE CENTER TURNS NAME
 given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# on the command line
 $(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 
@@ -108,7 +110,8 @@ height_field:
 endef
 # Which side presses: that of most relief in the sensor's window, unless a variable or the motion's file says one. A mesh
 # that no repair closes is pressed as what that side shows.
-pressed_side = $(if $(choose_side),most_relief,$(if $(motion_file),$$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)"),$(side_given)))
+pressed_side = $(if $(choose_side),most_relief,$(if $(motion_file),$(side_of_motion),$(side_given)))
+side_of_motion = $$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)")
 # Which files a motion follows; what is wrong with them or with FRICTION is said before anything is made.
 ifneq ($(motion_file)$(FRICTION),)
 $(SAMPLE)/paths.mk: $(motion_file) $(if $(FRICTION),$(SAMPLE)/press_config.yaml) FORCE | build
@@ -116,7 +119,8 @@ $(SAMPLE)/paths.mk: $(motion_file) $(if $(FRICTION),$(SAMPLE)/press_config.yaml)
 include $(SAMPLE)/paths.mk
 endif
 # Which files are meant: another object, sensor, mesh, press or motion under the same name must redo the sample however old its files are.
-choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), motion: $(or $(abspath $(motion_file)),as said)}
+choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), \
+  motion: $(or $(abspath $(motion_file)),as said)}
 $(SAMPLE)/$(if $(choose_side),asked,sample).yaml: FORCE
 	$(call replace_if_changed,$(sample_yaml))
 $(SAMPLE)/object.yaml: $(motion_file) FORCE | build
@@ -131,13 +135,16 @@ $(SAMPLE)/wrap/wrap.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt |
 	$(call run,wrap,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml)
 # What decimate takes: the mesh, or the wrap with an object file of its own.
 wrap_made = $(if $(filter-out no,$(WRAP)),$(SAMPLE)/wrap/$(1),$(2))
-$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(call wrap_made,wrap.yaml) $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml | build
-	$(call run,decimate,--mesh $(call wrap_made,object.ply,$(OBJECT)) --object $(call wrap_made,object.yaml,$(SAMPLE)/object.yaml) --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
+$(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(call wrap_made,wrap.yaml) $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml \
+    configs/sensors/$(SENSOR).yaml | build
+	$(call run,decimate,--mesh $(call wrap_made,object.ply,$(OBJECT)) --object $(call wrap_made,object.yaml,$(SAMPLE)/object.yaml) \
+	  --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
 ifdef choose_side
 # The place of most relief too, where the object is neither turned nor placed.
 side := $(BIN)/tacipc get $(SAMPLE)/object/decimate.yaml summary.sides
 $(SAMPLE)/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
-	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+placement.face=$$($(side).pressed)" $(if $(filter CENTER ROTATE,$(given)),,"placement.center_mm=[$$($(side).center_mm[0]), $$($(side).center_mm[1])]"))
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+placement.face=$$($(side).pressed)" \
+	  $(if $(filter CENTER ROTATE,$(given)),,"placement.center_mm=[$$($(side).center_mm[0]), $$($(side).center_mm[1])]"))
 endif
 # $(call chosen_rules,folder,name,motion): a sample of this object
 chosen_rules = $(call sample_rules,$(1),name=$(2) object=$(SAMPLE)/object object_yaml=$(SAMPLE)/object.yaml sensor=$(SENSOR) mesh=$(MESH) \
@@ -147,7 +154,8 @@ $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
 # Every frame rendered, and the printed markers found in the images.
 $(SAMPLE)/frames/render.yaml: $(SAMPLE)/press/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
-	$(call run,render,--press $(SAMPLE)/press --gel $(OUT)/gels/$(SENSOR)-$(MESH)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
+	$(call run,render,--press $(SAMPLE)/press --gel $(OUT)/gels/$(SENSOR)-$(MESH)/gel.msh --sensor configs/sensors/$(SENSOR).yaml \
+	  --config configs/render/all_frames.yaml)
 $(SAMPLE)/track/track.yaml: $(SAMPLE)/frames/render.yaml configs/render/track/default.yaml | build
 	$(call run,track,--render $(SAMPLE)/frames --config configs/render/track/default.yaml)
 

@@ -36,14 +36,17 @@ $(SCENED)/tets/$(1)/tetmesh.yaml: $(scene_surface_$(1)) configs/gels/$(SOFT).yam
 	$$(call run,tetmesh,--object $(scene_surface_$(1)) --config configs/gels/$(SOFT).yaml)
 endef
 $(foreach b,$(scene_soft),$(eval $(call scene_soft_rule,$(b))))
-$(SCENED)/press.yaml: $(SCENE) $(scene_files) $(foreach b,$(scene_soft),$(SCENED)/tets/$(b)/tetmesh.yaml) $(scene_gel)/tetmesh.yaml configs/sensors/$(SENSOR).yaml $(scene_config) $(SCENED)/choice.txt | build
-	$(call run,press,--name $(scene_name) --gel $(scene_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config $(scene_config) --sample $(SCENE) $(if $(scene_soft),--soft $(SCENED)/tets))
+$(SCENED)/press.yaml: $(SCENE) $(scene_files) $(foreach b,$(scene_soft),$(SCENED)/tets/$(b)/tetmesh.yaml) $(scene_gel)/tetmesh.yaml \
+    configs/sensors/$(SENSOR).yaml $(scene_config) $(SCENED)/choice.txt | build
+	$(call run,press,--name $(scene_name) --gel $(scene_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config $(scene_config) \
+	  --sample $(SCENE) $(if $(scene_soft),--soft $(SCENED)/tets))
 $(SCENED)/gels/%/render/render.yaml: $(SCENED)/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
 	$(call run,render,--press $(SCENED)/gels/$*/press --gel $(scene_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
 $(SCENED)/report/report.yaml: $(foreach g,$(scene_gels),$(SCENED)/gels/$(g)/render/render.yaml) | build
 	$(call run,report,--title "$(scene_name)" --scene $(SCENED))
 
-scene: $(SCENED)/report/report.yaml ## own: Gels, soft, rigid and fixed bodies that touch: SCENE=configs/scenes/lift_block.yaml [SENSOR= MESH= PRESS= FRICTION= SOFT=uniform_0500um]
+scene: ## own: Gels, soft, rigid and fixed bodies that touch: SCENE=configs/scenes/lift_block.yaml [SENSOR= MESH= PRESS= FRICTION= SOFT=uniform_0500um]
+scene: $(SCENED)/report/report.yaml
 	@echo; echo "Look at $(SCENED)/report/index.html, $(SCENED)/report/scene_strip.png and $(SCENED)/gels/*/render/frame_*/tactile.png"
 else
 scene:

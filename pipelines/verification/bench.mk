@@ -27,16 +27,20 @@ $(BENCH)/emboss/coin/emboss.yaml: configs/studies/speed/coin.yaml | build
 	$(call run,emboss,--config $<)
 $(BENCH)/emboss/weave/emboss.yaml: configs/objects/patterns/weave.yaml | build
 	$(call run,emboss,--config $<)
-$(BENCH)/objects/coin/decimate.yaml $(BENCH)/objects/weave/decimate.yaml: $(BENCH)/objects/%/decimate.yaml: $(BENCH)/emboss/%/emboss.yaml configs/objects/embossed.yaml configs/objects/decimate/default.yaml | build
+$(BENCH)/objects/coin/decimate.yaml $(BENCH)/objects/weave/decimate.yaml: $(BENCH)/objects/%/decimate.yaml: $(BENCH)/emboss/%/emboss.yaml \
+    configs/objects/embossed.yaml configs/objects/decimate/default.yaml | build
 	$(call run,decimate,--mesh $(BENCH)/emboss/$*/object.ply --object configs/objects/embossed.yaml --config configs/objects/decimate/default.yaml)
-$(BENCH)/objects/coin_5002/decimate.yaml: $(SHARED)/data/tacipc_release/objects/coin_5002.obj configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml | build
+$(BENCH)/objects/coin_5002/decimate.yaml: $(SHARED)/data/tacipc_release/objects/coin_5002.obj configs/objects/printed_indenter.yaml \
+    configs/objects/decimate/default.yaml | build
 	$(call run,decimate,--mesh $< --object configs/objects/printed_indenter.yaml --config configs/objects/decimate/default.yaml)
 bench_object_record = $(BENCH)/objects/$(1)/$(if $(filter sphere,$(1)),bench_object,decimate).yaml
 
 # $(call bench_press,gel,object,motion,route): flags of one press.
-bench_press = --gel $(BENCH)/gels/$(1)/gel.msh --object $(BENCH)/objects/$(2)/object.ply $(if $(filter-out sphere,$(2)),--object-config $(call bench_object_config,$(2))) \
+bench_press = --gel $(BENCH)/gels/$(1)/gel.msh --object $(BENCH)/objects/$(2)/object.ply \
+  $(if $(filter-out sphere,$(2)),--object-config $(call bench_object_config,$(2))) \
   --sensor configs/sensors/mctac.yaml --config $(call bench_config,$(3),$(4)) --sample $(call bench_sample,$(3))
-bench_needs = $(BENCH)/gels/$(1)/tetmesh.yaml $(call bench_object_record,$(2)) $(call bench_config,$(3),$(4)) $(call bench_sample,$(3)) configs/sensors/mctac.yaml
+bench_needs = $(BENCH)/gels/$(1)/tetmesh.yaml $(call bench_object_record,$(2)) $(call bench_config,$(3),$(4)) $(call bench_sample,$(3)) \
+  configs/sensors/mctac.yaml
 
 # One thread, one process.
 define bench_rule
@@ -51,7 +55,8 @@ $(foreach g,$(BENCH_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call benc
 $(if $(filter 12k,$(BENCH_SHEAR_GELS)),$(eval $(call bench_rule,12k,coin,shear,averaged)))
 $(foreach g,$(BENCH_SHEAR_GELS),$(foreach o,$(BENCH_SHEAR_OBJECTS),$(eval $(call bench_rule,$(g),$(o),shear,fast))))
 $(foreach g,$(BENCH_DIRECT_GELS),$(foreach o,$(BENCH_DIRECT_OBJECTS),$(eval $(call bench_rule,$(g),$(o),press,direct))))
-$(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach r,press-plain settled-fast tight-fast tight-direct thin-fast,$(eval $(call bench_rule,24k,$(o),$(word 1,$(subst -, ,$(r))),$(word 2,$(subst -, ,$(r)))))))
+$(foreach o,$(BENCH_DIRECT_OBJECTS),$(foreach r,press-plain settled-fast tight-fast tight-direct thin-fast,\
+  $(eval $(call bench_rule,24k,$(o),$(word 1,$(subst -, ,$(r))),$(word 2,$(subst -, ,$(r)))))))
 # One press of 50k vertices by factorisation.
 $(if $(filter 50k,$(BENCH_GELS)),$(eval $(call bench_rule,50k,sphere,press,direct)))
 
@@ -77,7 +82,8 @@ bench-page: $(BENCH)/page/bench_table.yaml
 
 # One after the other, whatever JOBS says: what runs beside a press is measured with it. The table is always made again, for other runs may be asked for:
 # with .SECONDARY a table that is newer than what the runs are made of would not miss them.
-bench-press: | build build-bench ## development: Cost of a press by route, size, object and motion (a quarter of an hour; BENCH_GELS= and others); writes OUT/docs/performance.md and the cost model that estimate reads
+bench-press: ## development: Cost of a press by route, size, object and motion (a quarter of an hour; BENCH_GELS=); writes OUT/docs/performance.md, cost model
+bench-press: | build build-bench
 	@rm -f $(BENCH)/page/bench_table.yaml
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1
 
@@ -99,13 +105,16 @@ $(DEFAULTS)/configs/once.yaml $(DEFAULTS)/configs/wide.yaml $(DEFAULTS)/configs/
 
 # $(call defaults_rule,object,motion,configuration)
 define defaults_rule
-$(DEFAULTS)/runs/$(1)-$(2)-$(3)/press.yaml: $(OUT)/gels/mctac-$(DEFAULTS_GEL)/tetmesh.yaml $(call defaults_object,$(1))/decimate.yaml $(call defaults_config,$(3)) $(call defaults_motion,$(2)) configs/sensors/mctac.yaml | build
-	OPENBLAS_NUM_THREADS=1 $(BIN)/press --out $$(@D) --threads 1 --name gel-$(1)-$(2)-$(3) --gel $(OUT)/gels/mctac-$(DEFAULTS_GEL)/gel.msh --object $(call defaults_object,$(1))/object.ply \
-	  --object-config configs/objects/embossed.yaml --sensor configs/sensors/mctac.yaml --config $(call defaults_config,$(3)) --sample $(call defaults_motion,$(2))
+$(DEFAULTS)/runs/$(1)-$(2)-$(3)/press.yaml: $(OUT)/gels/mctac-$(DEFAULTS_GEL)/tetmesh.yaml $(call defaults_object,$(1))/decimate.yaml \
+    $(call defaults_config,$(3)) $(call defaults_motion,$(2)) configs/sensors/mctac.yaml | build
+	OPENBLAS_NUM_THREADS=1 $(BIN)/press --out $$(@D) --threads 1 --name gel-$(1)-$(2)-$(3) --gel $(OUT)/gels/mctac-$(DEFAULTS_GEL)/gel.msh \
+	  --object $(call defaults_object,$(1))/object.ply --object-config configs/objects/embossed.yaml --sensor configs/sensors/mctac.yaml \
+	  --config $(call defaults_config,$(3)) --sample $(call defaults_motion,$(2))
 DEFAULTS_RUNS += $(DEFAULTS)/runs/$(1)-$(2)-$(3)
 endef
 DEFAULTS_RUNS :=
-$(foreach o,$(DEFAULTS_OBJECTS),$(foreach c,default once frictionless wide $(if $(filter $(o),$(DEFAULTS_NEAR)),near),$(eval $(call defaults_rule,$(o),press,$(c)))))
+$(foreach o,$(DEFAULTS_OBJECTS),$(foreach c,default once frictionless wide $(if $(filter $(o),$(DEFAULTS_NEAR)),near),\
+  $(eval $(call defaults_rule,$(o),press,$(c)))))
 $(foreach o,$(filter $(DEFAULTS_OBJECTS),$(DEFAULTS_SHEARED)),$(eval $(call defaults_rule,$(o),shear,default)))
 
 $(DEFAULTS)/table/defaults_table.yaml: $(addsuffix /press.yaml,$(DEFAULTS_RUNS)) | build-bench
@@ -116,6 +125,7 @@ bench-default-page: $(DEFAULTS)/table/defaults_table.yaml
 	@$(call fill_docs,performance.md,defaults=$(DEFAULTS)/table/table.md)
 	@cat $(DEFAULTS)/table/table.md
 
-bench-default: | build build-bench ## development: Cost of a press with the shipped settings, and with one of them changed (a quarter of an hour); writes the table in OUT/docs/performance.md
+bench-default: ## development: Cost of a press as shipped, and with one setting changed (a quarter of an hour); writes the table in OUT/docs/performance.md
+bench-default: | build build-bench
 	@rm -f $(DEFAULTS)/table/defaults_table.yaml
 	@$(MAKE) -f Makefile.data --no-print-directory bench-default-page JOBS=1

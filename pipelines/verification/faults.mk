@@ -2,7 +2,8 @@
 
 $(call uses,verification/stress)# for SEED
 
-FAULTS ?= tiny_pipeline_test export_test track_test mpm_test pack_test layouts_test sim2real_test sensor_fit_test fots_test paper_markers_test dataset_test clock_test# faults: tests whose stages are struck
+FAULTS ?= tiny_pipeline_test export_test track_test mpm_test pack_test layouts_test sim2real_test sensor_fit_test fots_test paper_markers_test \
+  dataset_test clock_test# faults: tests whose stages are struck
 override FAULTS := $(strip $(FAULTS))
 
 FAULT_FOLDER  := $(OUT)/faults/$(SEED)
@@ -12,5 +13,6 @@ packages_for_faults := tests
 $(FAULT_FOLDER)/%/faults.yaml: | build
 	bash pipelines/verification/faults.sh $* $(BIN) $(SEED) $(@D)
 
-faults: $(FAULT_RECORDS) ## development: Every stage killed, out of room and given damaged files, at random times and places (SEED=1; finished tests are not run again)
+faults: ## development: Every stage killed, out of room and given damaged files, at random times and places (SEED=1; finished tests are not run again)
+faults: $(FAULT_RECORDS)
 	@bash pipelines/verification/faults_table.sh $(FAULT_RECORDS)

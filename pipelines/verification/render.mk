@@ -6,11 +6,13 @@ build-bench-render: build
 
 # Measured again at every call; the press is made once.
 bench-render-page: $(OUT)/demo/letter_a/press/press.yaml | build-bench-render
-	$(BIN)/bench_render --out $(OUT)/bench_render --threads 2 --sensor configs/sensors/mctac.yaml --gel $(OUT)/gels/mctac-adaptive_0100um/gel.msh --press $(OUT)/demo/letter_a/press
+	$(BIN)/bench_render --out $(OUT)/bench_render --threads 2 --sensor configs/sensors/mctac.yaml --gel $(OUT)/gels/mctac-adaptive_0100um/gel.msh \
+	  --press $(OUT)/demo/letter_a/press
 	$(call to_docs,$(OUT)/bench_render/render_performance.md)
 	@cat $(DOCS)/render_performance.md
 
-bench-render: | build ## development: Cost of rendering a frame, against Embree's own rate (a minute after the demo's press); writes OUT/docs/render_performance.md
+bench-render: ## development: Cost of rendering a frame, against Embree's own rate (a minute after the demo's press); writes OUT/docs/render_performance.md
+bench-render: | build
 	@$(MAKE) -f Makefile.data --no-print-directory bench-render-page JOBS=1
 
 # Straight light from point lights against POV-Ray's (Debian package povray, which nothing else needs).
@@ -28,5 +30,6 @@ render-check-page: $(OUT)/render_check/render_check.yaml
 	$(call fill_docs,render.md,render_check=$(OUT)/render_check/render_check.md)
 	@cat $(OUT)/render_check/render_check.md
 
-render-check: render-check-page ## studies: Our straight rendering against POV-Ray's (needs povray; seconds after the demo's press); writes the figure in OUT/docs/render.md
+render-check: ## studies: Our straight rendering against POV-Ray's (needs povray; seconds after the demo's press); writes the figure in OUT/docs/render.md
+render-check: render-check-page
 	$(call holds,$(OUT)/render_check/render_check.yaml)

@@ -44,7 +44,8 @@ stress-page: $(STRESS_CASE_RECORDS) $(STRESS_RECORD) # the cases too: make would
 	@grep -E 'cases of seed|^[|]' $(dir $(STRESS_RECORD))summary.md
 	$(if $(filter stress-1-300,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && cp $(dir $(STRESS_RECORD))summary.md $(DOCS)/stress.md)
 	$(if $(filter grasp-1-300,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && cp $(dir $(STRESS_RECORD))summary.md $(DOCS)/grasp_campaign.md)
-	$(if $(filter small-1-10000,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && bash pipelines/verification/campaign_page.sh $(STRESS) $(dir $(STRESS_RECORD))summary.md > $(DOCS)/campaign.md)
+	$(if $(filter small-1-10000,$(STRESS_RANGES)-$(SEED)-$(N)),@mkdir -p $(DOCS) && bash pipelines/verification/campaign_page.sh $(STRESS) \
+	  $(dir $(STRESS_RECORD))summary.md > $(DOCS)/campaign.md)
 
 stress: stress-page ## studies: Random objects, gels and extreme motions: SEED=1 N=300 (minutes; resumes)
 	$(call holds,$(STRESS_RECORD))

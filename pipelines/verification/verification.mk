@@ -6,13 +6,15 @@ VERIFICATION_CASES := $(sort $(basename $(notdir $(wildcard configs/studies/veri
 VERIFICATION_RESULTS := $(VERIFICATION_CASES:%=$(VERIFICATION)/%)
 
 # The long rows that this call makes; the page waits for them. Without SHARED board3 is skipped, as cases are.
-LONG_ROWS := $(filter closed-forms free-object refinement stress board3,$(MAKECMDGOALS) $(if $(filter verification,$(MAKECMDGOALS)),closed-forms free-object refinement stress $(if $(wildcard $(SHARED)),board3)))
+LONG_ROWS := $(filter closed-forms free-object refinement stress board3,$(MAKECMDGOALS) \
+  $(if $(filter verification,$(MAKECMDGOALS)),closed-forms free-object refinement stress $(if $(wildcard $(SHARED)),board3)))
 LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(FREE_OBJECT_RECORD) $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
 
 # Never built beside another build in the same folder.
 .PHONY: build-verification build-closed-forms build-free-object
 build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
-	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verify verify_table stress_case stress_table refinement refinement_table marker_curve compare_simulators -j $(JOBS) -- --quiet
+	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verify verify_table stress_case stress_table refinement refinement_table marker_curve \
+	  compare_simulators -j $(JOBS) -- --quiet
 build-closed-forms: build-verification with-tests # the closed forms are tests
 	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verification_test -j $(JOBS) -- --quiet
 build-free-object: build-closed-forms
@@ -47,15 +49,17 @@ closed-forms-page: | build-closed-forms
 	$(call record_tests,$(CLOSED_FORMS_RECORD),verification/verification_test=*PatchTest*:*WideLayerTest*)
 # time_step_free_object_test.cpp, rigid_motion_test.cpp, simulate_free_test.cpp; time_step_bodies_test.cpp, time_step_soft_body_test.cpp,
 # time_step_mirrored_gels_test.cpp; time_step_mounts_test.cpp, grasp_test.cpp, grasp_onset_test.cpp; bonded_layer_soft_ball_slow_test.cpp
-FREE_OBJECT_TESTS := stages/gel/press/press_test=CarriedPairs.*:FlyingBox.*:FreeBox.*:TallBox.*:RollingBall.*:DroppedBall.*:FlatFace.*:RigidMotion.*:FreeObject.*:Bodies.*:*JammingPeg.*:WedgedPeg.*:SoftBody.*:*MirroredGels.*:MovingMount.*:TwoFingers.*:SlipperyFingers.*:Grasp.*:GraspOnset.* \
-                     verification/verification_slow_test=SoftBall.*
+FREE_OBJECT_SUITES := CarriedPairs.* FlyingBox.* FreeBox.* TallBox.* RollingBall.* DroppedBall.* FlatFace.* RigidMotion.* FreeObject.* Bodies.* \
+  *JammingPeg.* WedgedPeg.* SoftBody.* *MirroredGels.* MovingMount.* TwoFingers.* SlipperyFingers.* Grasp.* GraspOnset.*
+FREE_OBJECT_TESTS := stages/gel/press/press_test=$(subst $(space),:,$(FREE_OBJECT_SUITES)) verification/verification_slow_test=SoftBall.*
 free-object-page: | build-free-object
 	$(call record_tests,$(FREE_OBJECT_RECORD),$(FREE_OBJECT_TESTS))
 
 closed-forms: closed-forms-page ## studies: Patch test, compression, simple shear, momentum and energy against closed forms (a second)
 	$(call holds,$(CLOSED_FORMS_RECORD))
 
-free-object: free-object-page ## studies: Bodies against closed forms: flight, sliding, tipping, rolling, a drop, stacks, pegs, grasps, a soft ball, mirrored gels (two minutes)
+free-object: ## studies: Bodies against closed forms: flight, sliding, tipping, rolling, a drop, stacks, pegs, grasps, a soft ball, mirrored gels (two minutes)
+free-object: free-object-page
 	$(call holds,$(FREE_OBJECT_RECORD))
 
 # $(call verification_table,folder,results,flags). A case that missed, failed or was skipped is run again next time: its record goes.
@@ -84,7 +88,8 @@ verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuff
 	$(call to_docs,$(VERIFICATION)/page/verification/*.svg,verification)
 	@echo; echo "Look at $(VERIFICATION)/page/verification.md"
 
-verification: verification-page ## studies: Every case of configs/studies/verification, then closed-forms, free-object, refinement, stress and board3; writes OUT/docs/verification.md with its plots (a quarter of an hour)
+verification: ## studies: All verification cases and long rows (closed-forms … board3); writes OUT/docs/verification.md with its plots (a quarter of an hour)
+verification: verification-page
 	$(call none_missed,$(VERIFICATION)/page/verify_table.yaml,summary.missed summary.long_missed)
 
 verification-cases: verification-page ## studies: The cases of verification only; the long rows of the page stay unchanged
