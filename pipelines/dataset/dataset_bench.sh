@@ -18,17 +18,23 @@ root() { awk -v mse="$("$tacipc" table "$1/samples.csv" --columns mse)" 'BEGIN {
   echo '| the first sample | press, processor s | press force, N |'
   echo '|---|---|---|'
   printf '| `configs/press/default.yaml`, friction iterated | %.1f | %.3f |\n' "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
-  printf '| the same with `friction.lag: once`, as the IPC code does | %.1f | %.3f |\n' "$(seconds_of "$choices/once/press")" "$(force_of "$choices/once/press")"
+  printf '| the same with `friction.lag: once`, as the IPC code does | %.1f | %.3f |\n' \
+    "$(seconds_of "$choices/once/press")" "$(force_of "$choices/once/press")"
   echo
-  echo '| its last frame against 4 × 4 camera rays a pixel and 8 × 8 points of each lamp | rays a pixel | processor s a frame | mean difference, codes | root mean square, codes |'
+  printf '| %s ' 'its last frame against 4 × 4 camera rays a pixel and 8 × 8 points of each lamp' 'rays a pixel' 'processor s a frame' \
+    'mean difference, codes' 'root mean square, codes'
+  echo '|'
   echo '|---|---|---|---|---|'
-  echo "| \`configs/render/many_frames.yaml\` | 1 | $(a_frame "$choices/many_frames") | $(codes "$choices/metrics_many_frames") | $(root "$choices/metrics_many_frames") |"
-  echo "| \`configs/render/default.yaml\` | 4 | $(a_frame "$choices/default") | $(codes "$choices/metrics_default") | $(root "$choices/metrics_default") |"
+  compared() { echo "| \`configs/render/$1.yaml\` | $2 | $(a_frame "$choices/$1") | $(codes "$choices/metrics_$1") | $(root "$choices/metrics_$1") |"; }
+  compared many_frames 1
+  compared default 4
 } > "$folder/choices.md"
+per_core_hour() { awk -v n="$1" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.0f", n * 3600 / (s * j) }'; }
 cat <<PAGE
 # Cost of a dataset of presses
 
-Made by \`make -f Makefile.data bench-dataset\` on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1): \`configs/datasets/press_64.yaml\`, from nothing to packed shards and the card, objects and gel
+Made by \`make -f Makefile.data bench-dataset\` on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1): \`configs/datasets/press_64.yaml\`, \
+from nothing to packed shards and the card, objects and gel
 included, $jobs stages at a time, one thread each. When it began, $(cat "$folder/load") processes were running.
 
 | | |
@@ -37,8 +43,8 @@ included, $jobs stages at a time, one thread each. When it began, $(cat "$folder
 | frames in contact | $frames |
 | minutes | $(awk -v s="$seconds" 'BEGIN { printf "%.1f", s / 60 }') (at most 15 on two cores) |
 | processor seconds of all stages | $processor |
-| samples per core-hour, by $jobs cores' wall time | $(awk -v n="$made" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.0f", n * 3600 / (s * j) }') (at least 200) |
-| frames per core-hour | $(awk -v n="$frames" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.0f", n * 3600 / (s * j) }') (at least 1000) |
+| samples per core-hour, by $jobs cores' wall time | $(per_core_hour "$made") (at least 200) |
+| frames per core-hour | $(per_core_hour "$frames") (at least 1000) |
 | packed, GB | $(du -sb "$dataset/pack" | awk '{ printf "%.2f", $1 / 1e9 }') |
 
 $(cat "$folder/cost/table.md")

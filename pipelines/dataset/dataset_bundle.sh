@@ -54,7 +54,8 @@ done < "$work/all"
     echo
     out=$(realpath --relative-to="$root" "${ran[$stage]}")
     echo "for record in $stage.yaml $stage.failed.yaml; do"
-    echo "  [ ! -e ../expected/\$record ] || if cmp -s ../expected/\$record $out/\$record; then echo \"\$record is as it was\"; else echo \"\$record differs: diff expected/\$record files/$out/\$record\"; fi"
+    echo "  [ ! -e ../expected/\$record ] || if cmp -s ../expected/\$record $out/\$record; then echo \"\$record is as it was\";" \
+      "else echo \"\$record differs: diff expected/\$record files/$out/\$record\"; fi"
     echo 'done'
   done
 } > "$work/replay.sh"

@@ -13,7 +13,8 @@ trap 'rm -f "$now"' EXIT
 named() { echo "$config"; cat "$dataset/plan/inputs.txt" 2> /dev/null || true; }
 of_named() { named | xargs -r bash -c 'tests=$1; shift; find -L "$@" -prune $tests' bash "$1" 2> /dev/null || true; }
 of_dataset() { # files that products of the dataset are compared with, times as in of_named
-  find "$dataset" -mindepth 1 -maxdepth 5 -name '.*' -prune -o \( -name '*.yaml' ! -name '*.timings.yaml' -o -path "$dataset/choices/*" -o -path "$dataset/shards/*.inputs" \) \
+  find "$dataset" -mindepth 1 -maxdepth 5 -name '.*' -prune -o \
+    \( -name '*.yaml' ! -name '*.timings.yaml' -o -path "$dataset/choices/*" -o -path "$dataset/shards/*.inputs" \) \
     -newer "$now" -printf '%p, of %t\n' 2> /dev/null || true
 }
 for try in 1 2 3; do  # clocks of two machines differ a little

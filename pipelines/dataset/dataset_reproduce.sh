@@ -7,7 +7,8 @@ dataset=$1 count=$2
 shift 2
 scratch=$(dirname "$dataset")/.reproduce-$$
 trap 'rm -rf "$scratch"' EXIT
-mapfile -t picked < <(find "$dataset/samples" -mindepth 4 -maxdepth 5 -name render.yaml -printf '%P\n' | sed 's|/render/render.yaml$||' | sort | shuf -n "$count")
+mapfile -t picked < <(find "$dataset/samples" -mindepth 4 -maxdepth 5 -name render.yaml -printf '%P\n' |
+  sed 's|/render/render.yaml$||' | sort | shuf -n "$count")
 [ "${#picked[@]}" -gt 0 ] || { echo "reproduce: no sample of $dataset is made" >&2; exit 1; }
 make -s -f Makefile.data dataset-some "$@" DATASET_DIR="$scratch" SAMPLES="${picked[*]}" > "$dataset/.reproduce.log" 2>&1 ||
   { cat "$dataset/.reproduce.log" >&2; exit 1; }

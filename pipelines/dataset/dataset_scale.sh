@@ -15,7 +15,8 @@ echo "| plan | $(cost "$dataset/plan/plan.timings.yaml")"
 # Of samples the table that the card made has seconds and memory.
 for stage in press render; do
   "$bin/tacipc" table "$dataset/pack/timings.csv" --columns "${stage}_processor_s,${stage}_wall_s,${stage}_peak_memory_mb" |
-    awk -v stage="$stage" '{ processor += $1; wall += $2; if ($3 > memory) memory = $3 } END { printf "| %s | %d | %.0f | %.0f | %.0f |\n", stage, NR, processor, wall, memory }'
+    awk -v stage="$stage" '{ processor += $1; wall += $2; if ($3 > memory) memory = $3 }
+      END { printf "| %s | %d | %.0f | %.0f | %.0f |\n", stage, NR, processor, wall, memory }'
 done
 mapfile -t packs < <(all 3 pack)
 echo "| pack | $(cost "${packs[@]}")"

@@ -101,7 +101,8 @@ stop_if_many
 if disk_is_full; then exit 1; fi
 if [ ! -e "$lock" ] || [ ! -d "${run%/*}" ]; then write "$lock" 'mkdir -p "${run%/*}" && : >> "$lock"'; fi
 write "$folder/.making" 'mkdir -p "$folder" && : > "$folder/.making"'
-[ -e "$reserve" ] || write "$reserve" 'mine=$reserve-$(hostname)-$$; { head -c $reserved /dev/urandom > "$mine" && mv "$mine" "$reserve"; } || { rm -f "$mine"; false; }'
+[ -e "$reserve" ] || write "$reserve" 'mine=$reserve-$(hostname)-$$
+  { head -c $reserved /dev/urandom > "$mine" && mv "$mine" "$reserve"; } || { rm -f "$mine"; false; }'
 # Two runs that were given the same sample: one makes it, the other waits and finds it made. A stage that outlives its make keeps the lock.
 exec 9> "$folder/.making"
 if ! flock -n 9; then

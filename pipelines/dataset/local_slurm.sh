@@ -52,7 +52,8 @@ SlurmctldTimeout=10
 KillWait=3
 MinJobAge=600
 SlurmdParameters=config_overrides
-NodeName=$host NodeAddr=127.0.0.1 CPUs=${CPUS:-$(nproc)} RealMemory=${MEMORY_MB:-$(awk '/^MemTotal/ { print int($2 / 1024 * 0.9) }' /proc/meminfo)} State=UNKNOWN
+NodeName=$host NodeAddr=127.0.0.1 CPUs=${CPUS:-$(nproc)} \
+RealMemory=${MEMORY_MB:-$(awk '/^MemTotal/ { print int($2 / 1024 * 0.9) }' /proc/meminfo)} State=UNKNOWN
 PartitionName=local Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 END
 }

@@ -18,8 +18,10 @@ picture() { echo "$dataset/report/pictures/${1##*/}/$2.jpg"; }
   cat << PAGE
 # Twenty objects in four sensors
 
-Each object is pressed 0.5 mm into the middle of each gel, with the shipped settings and the gel \`adaptive_0250um\`; below the picture the force, in the last column the indentation in \`${sensors[0]}\`.
-Nineteen objects are embossed coins; the nut is a mesh, \`configs/objects/meshes/hex_nut.obj\`. Which values of a sensor are known and which are guesses: [sensors](sensors.md). Made by
+Each object is pressed 0.5 mm into the middle of each gel, with the shipped settings and the gel \`adaptive_0250um\`; \
+below the picture the force, in the last column the indentation in \`${sensors[0]}\`.
+Nineteen objects are embossed coins; the nut is a mesh, \`configs/objects/meshes/hex_nut.obj\`. \
+Which values of a sensor are known and which are guesses: [sensors](sensors.md). Made by
 \`make -f Makefile.data showcase\` from \`configs/datasets/showcase.yaml\`.
 
 PAGE

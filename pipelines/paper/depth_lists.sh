@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# depth_lists.sh DEPTH DATASET TACIPC NAME SIMULATOR…: which samples all of these simulators have made. DEPTH/NAME/<simulator>-<split>.txt are their folders of
-# render; DEPTH/NAME/made.txt, written last and only when they or their records have changed, says which they are.
+# depth_lists.sh DEPTH DATASET TACIPC NAME SIMULATOR…: lists the samples that all of these simulators have made.
+# DEPTH/NAME/<simulator>-<split>.txt are their folders of render; DEPTH/NAME/made.txt, written last and only if they or their records have changed,
+# names the samples.
 set -euo pipefail
 depth=$1 dataset=$2 tacipc=$3 lists=$1/$4
 shift 4

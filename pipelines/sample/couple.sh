@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Robot and press in turn, window by window, until they agree: couple.sh BIN OUT TASK ROBOT_ARGUMENTS -- PRESS_ARGUMENTS
-# The whole motion is OUT/robot in the end, its scene robot/scene.yaml. OUT/windows/0007/5/02/{robot,press} is the second try of the seventh window, of five frames; OUT/windows/0007/accepted names the try
-# that both agree on. OUT/solved has the frames of accepted windows, OUT/residuals.csv a line per try.
+# The whole motion is OUT/robot in the end, its scene robot/scene.yaml. OUT/windows/0007/5/02/{robot,press} is the second try of the seventh
+# window, of five frames; OUT/windows/0007/accepted names the try that both agree on. OUT/solved has the frames of accepted windows,
+# OUT/residuals.csv a line per try.
 # What is there of the same inputs is taken as it is, so an interrupted run goes on. A window that does not converge is halved; where one of a single frame
 # does not, the run ends: exit 1. What robot refuses, or press for its input, ends it at once, with their exit code.
 set -euo pipefail
@@ -43,7 +44,9 @@ try_window() {
         rm -rf "$folder/agreed"
         if (robot_try "$folder/agreed/robot" "$frames" "$before" "$last" --exact yes); then apart=$(summary "$folder/agreed/robot" position_residual_m); fi
       fi
-      echo "$number,$frames,$(summary "$now/robot" window_first_frame),$((k - 1)),$(summary "$now/robot" residual_n),$(summary "$now/robot" residual_relative),$(summary "$now/robot" stiffness_n_m),$apart" >> "$folder/residuals.csv"
+      printf '%s,' "$number" "$frames" "$(summary "$now/robot" window_first_frame)" $((k - 1)) "$(summary "$now/robot" residual_n)" \
+        "$(summary "$now/robot" residual_relative)" "$(summary "$now/robot" stiffness_n_m)" >> "$folder/residuals.csv"
+      echo "$apart" >> "$folder/residuals.csv"
       if [ "$(summary "$now/robot" converged)" = true ]; then
         accepted=$last
         return 0
@@ -57,7 +60,8 @@ try_window() {
       [ "$k" -le "$most" ] || return 1
     fi
     if [ ! -f "$now/press/press.yaml" ]; then
-      "$bin/press" "${press[@]}" --sample "$now/robot/scene.yaml" --solved "$out/solved" --out "$now/press" 9>&- || { code=$?; [ "$code" -eq 1 ] && return 1; exit "$code"; }
+      "$bin/press" "${press[@]}" --sample "$now/robot/scene.yaml" --solved "$out/solved" --out "$now/press" 9>&- ||
+        { code=$?; [ "$code" -eq 1 ] && return 1; exit "$code"; }
     fi
     last=$now k=$((k + 1))
   done
@@ -95,7 +99,8 @@ for ((w = 1;; ++w)); do
     mv "$folder/accepted.new" "$folder/accepted"
     # Of the tries their records, poses and wrenches stay.
     rm -rf "$folder"/*/*/press/{gels,soft,solved}
-    echo "couple: window $w: $(tail -n 1 "$folder/$length/residuals.csv" | awk -F, '{ printf "frames %d to %d agree after %d tries, residual %.2g", $3 + 1, $3 + $2, $4, $6 }')"
+    tail -n 1 "$folder/$length/residuals.csv" |
+      awk -F, -v w="$w" '{ printf "couple: window %d: frames %d to %d agree after %d tries, residual %.2g\n", w, $3 + 1, $3 + $2, $4, $6 }'
   fi
   prior=$before
   accepted=$(cat "$folder/accepted")

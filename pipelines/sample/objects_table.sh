@@ -18,7 +18,9 @@ row() { # row SAMPLE PRESS-FOLDER
 for gel in own paper; do
   if [ "$gel" = own ]; then echo "## Into our own gel (\`adaptive_0250um\`)"; else echo "## Into the gel published with the paper (23,661 vertices)"; fi
   echo
-  echo "| object | vertices | Newton iterations | press force, N | smallest distance, µm | smallest volume ratio | intersections | CPU seconds | peak memory, MiB |"
+  printf '| %s ' object vertices 'Newton iterations' 'press force, N' 'smallest distance, µm' 'smallest volume ratio' intersections 'CPU seconds' \
+    'peak memory, MiB'
+  echo '|'
   echo "|---|---|---|---|---|---|---|---|---|"
   for record in "$folder/$gel"/*/press/press.yaml; do
     press=$(dirname "$record")

@@ -15,4 +15,5 @@ awk -F, '
   }' "${tables[@]}"
 echo
 echo 'Struck of injected: a call that ends before the blow falls, and damage that the stage does not read, are not struck.'
-! grep -h '^  finds: [1-9]' "$@" > /dev/null || { echo "faults: there are finds, in finds/ beside the records; after mending remove their faults.yaml" >&2; exit 1; }
+! grep -h '^  finds: [1-9]' "$@" > /dev/null ||
+  { echo "faults: there are finds, in finds/ beside the records; after mending remove their faults.yaml" >&2; exit 1; }

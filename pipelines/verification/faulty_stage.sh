@@ -116,8 +116,8 @@ if [ "$status" = 0 ]; then
       [ "$status" = 0 ] || { note damaged missed; return; } # its inputs cannot be moved
       rm -rf "$aside/moved"
       mv "$place" "$aside/moved"
-      mapfile -t files < <(find "$aside/input" -type f -size +0 -not -name '.*' -not -name '*.log' -not -name '*timings*' -not -path '*/shards/*' -not -path '*/pack/*' \
-        -not -path '*/report/*' -printf '%P\n' | LC_ALL=C sort)
+      mapfile -t files < <(find "$aside/input" -type f -size +0 -not -name '.*' -not -name '*.log' -not -name '*timings*' \
+        -not -path '*/shards/*' -not -path '*/pack/*' -not -path '*/report/*' -printf '%P\n' | LC_ALL=C sort)
       draw "${#files[@]}"
       victim=$aside/input/${files[drawn]} size=$(stat -c %s "$aside/input/${files[drawn]}")
       touch -r "$victim" "$aside/time"
@@ -135,7 +135,8 @@ if [ "$status" = 0 ]; then
         # The record tells of all that is in a folder, read or not.
         if same --exclude="$stage.yaml" "$place" "$aside/moved" >> "$said"; then note damaged missed; else bad damaged "it takes a damaged file"; fi
       elif [ "$status" -gt 2 ]; then bad damaged "it does not end with a message"
-      elif ! head -n -1 "$said" | grep -qF -e "$(basename "$victim")" -e "$(basename "$(dirname "$victim")")" -e "$aside/input"; then bad damaged "it does not name the file"
+      elif ! head -n -1 "$said" | grep -qF -e "$(basename "$victim")" -e "$(basename "$(dirname "$victim")")" -e "$aside/input"; then
+        bad damaged "it does not name the file"
       elif [ -e "$place/$stage.yaml" ] && ! same "$place" "$before" > /dev/null; then bad damaged "a record stands over it"
       else note damaged held; fi
     }

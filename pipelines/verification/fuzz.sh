@@ -12,7 +12,8 @@ mkdir -p "$folder/corpus" "$folder/finds"
 # Each input goes through a file: in memory, where the system has such a folder.
 scratch=$(mktemp -d -p "$([ -w /dev/shm ] && echo /dev/shm || echo "${TMPDIR:-/tmp}")")
 trap 'rm -rf "$scratch"' EXIT
-# Freed memory that the sanitizer holds back counts as used. Short traces of allocations: with long ones yaml is tried 220 times a second instead of 370, and the command of a find prints them.
+# Freed memory that the sanitizer holds back counts as used. Traces of allocations are short: with long ones yaml is tried 220 times a second
+# instead of 370, and the command of a find prints them.
 export TMPDIR=$scratch ASAN_OPTIONS=quarantine_size_mb=32:allocator_may_return_null=0:malloc_context_size=3
 
 left=$runs finds=0 begin=$SECONDS

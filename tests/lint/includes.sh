@@ -25,7 +25,8 @@ for folder in common/*/; do [[ "|$later|" = *"|$(basename "$folder")|"* ]] || { 
 complain 'stages/gel/press/(energy|solve|simulate|outputs)' stages/gel/press/contact 'contact is geometry only'
 complain 'stages/gel/press/(solve|simulate|outputs)' stages/gel/press/energy 'energies know no solver'
 complain 'stages/gel/press/(simulate|outputs|press_config)' stages/gel/press/solve 'the solver knows no motion'
-for header in tetgen.h embree3/ OpenMesh/ assimp/ cholmod.h CGAL/ opencv2/ yaml-cpp/ hdf5.h libdeflate.h archive.h openssl/ Imath/ zlib.h png.h turbojpeg.h onnx/ ceres/ Imf; do
+for header in tetgen.h embree3/ OpenMesh/ assimp/ cholmod.h CGAL/ opencv2/ yaml-cpp/ hdf5.h libdeflate.h archive.h openssl/ Imath/ zlib.h png.h \
+  turbojpeg.h onnx/ ceres/ Imf; do
   files=$(grep -rlE "#include <$header" common stages --include=*.cpp --include=*.h || true)
   # What derives from a class of OpenMesh shows it.
   bad=$(grep -E '\.h$' <<<"$files" | grep -vx stages/object/decimate/collapse_mesh.h || true)
