@@ -9,7 +9,8 @@ try = $(call run,$(1),$(2)) || { [ $$? != 2 ] && echo "$@: not made" >&2; }
 holds = @[ "$$($(BIN)/tacipc get $(1) summary.holds --default false)" = true ] || { echo "$(1): does not hold or is missing" >&2; exit 1; }
 
 # Said before stages are run that are built only where their packages are.
-depthnet_is_built = @[ -x $(BIN)/depthnet ] && [ -x $(BIN)/predict ] || { echo "depthnet, predict: not built for want of packages: make -f Makefile.data packages build GROUPS='depthnet predict'" >&2; exit 2; }
+depthnet_is_built = @[ -x $(BIN)/depthnet ] && [ -x $(BIN)/predict ] || \
+  { echo "depthnet, predict: not built for want of packages: make -f Makefile.data packages build GROUPS='depthnet predict'" >&2; exit 2; }
 wrap_is_built = @[ -x $(BIN)/wrap ] || { echo "wrap: not built for want of libcgal-dev: make -f Makefile.data packages build GROUPS=wrap" >&2; exit 2; }
 
 SENSORS := $(basename $(notdir $(wildcard configs/sensors/*.yaml)))
