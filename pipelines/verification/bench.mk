@@ -3,14 +3,14 @@
 # The coin of the paper's release is measured too where SHARED has it.
 
 BENCH := $(OUT)/bench
-BENCH_GELS ?= 3k 12k 24k 50k 100k#     of configs/studies/speed/gel_*.yaml, pressed;
+BENCH_GELS ?= 3k 12k 24k 50k 100k#     pressed;
 BENCH_SHEAR_GELS ?= 3k 12k 24k#        sheared,
 BENCH_DIRECT_GELS ?= 3k 12k 24k#       pressed with every system factorised
 BENCH_OBJECTS := sphere coin weave
 BENCH_RELEASED := $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)#  pressed with the paper's stiffness
 BENCH_SHEAR_OBJECTS ?= $(BENCH_OBJECTS)#  sheared,
 BENCH_DIRECT_OBJECTS ?= sphere coin#      compared with other routes and in other scenes
-bench_config = configs/studies/speed/$(if $(filter shear,$(1)),press,$(1))_$(2).yaml
+bench_config = $(BENCH)/configs/$(if $(filter shear,$(1)),press,$(1))_$(2).yaml
 bench_sample = configs/$(if $(filter shear,$(1)),studies/speed/shear,motions/press_0500um).yaml
 bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_indenter.yaml,configs/objects/embossed.yaml)
 
@@ -18,8 +18,34 @@ bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_inde
 build-bench: build
 	@cmake --build $(BUILD) --target bench_object bench_table routes_table defaults_table -j $(JOBS) -- --quiet
 
-$(BENCH)/gels/%/tetmesh.yaml: configs/studies/speed/gel_%.yaml configs/sensors/mctac.yaml | build
+# Gels: the paper's mesh with its lengths scaled.
+BENCH_SCALE_3k   := 2.2
+BENCH_SCALE_12k  := 1.3
+BENCH_SCALE_24k  := 1
+BENCH_SCALE_50k  := 0.74
+BENCH_SCALE_100k := 0.56
+bench_lengths := sizing.centre_mm sizing.inner_mm sizing.rim_mm sizing.back_mm
+bench_scaled = paste <(printf '%s\n' $(bench_lengths)) <($(BIN)/tacipc get $(1) $(bench_lengths)) | LC_ALL=C awk '{ printf "%s=%g\n", $$1, $$2 * $(2) }'
+$(BENCH)/configs/gel_%.yaml: configs/gels/adaptive_0100um.yaml FORCE | build
+	$(if $(BENCH_SCALE_$*),,$(error BENCH_GELS: there is no BENCH_SCALE_$*))
+	$(call replace_if_changed_by,$(BIN)/tacipc set $< $$($(call bench_scaled,$<,$(BENCH_SCALE_$*))))
+$(BENCH)/gels/%/tetmesh.yaml: $(BENCH)/configs/gel_%.yaml configs/sensors/mctac.yaml | build
 	$(call run,tetmesh,--sensor configs/sensors/mctac.yaml --config $<)
+
+# Settings: changes of configs/studies/speed/press.yaml by scene and by route of the solver.
+BENCH_SCENE_press   :=
+BENCH_SCENE_settled := friction.lag=iterated# until friction is consistent with its own contact forces
+BENCH_SCENE_stiff   := barrier.stiffness=1.0e6# [paper] the coin of its release has walls too sharp for a tenth of it
+BENCH_SCENE_thin    := barrier.relative_d_hat=2.0e-4 barrier.stiffness=1.25e7# a fifth of d_hat; the same force at half of it (kappa ~ d_hat^-3)
+BENCH_SCENE_tight   := newton.relative_velocity_tolerance=1.0e-4 newton.relative_force_tolerance=5.0e-5 newton.force_tolerance_n=1.0e-6
+BENCH_SCENE_sweep   := $(BENCH_SCENE_stiff) $(BENCH_SCENE_tight)
+BENCH_ROUTE_fast     :=
+BENCH_ROUTE_averaged := element=averaged_volume
+BENCH_ROUTE_direct   := +newton.linear_solver=direct
+BENCH_ROUTE_plain    := $(BENCH_ROUTE_direct) +newton.patches=false +newton.contact_hessian=positive# textbook projected Newton
+bench_changes = $(BENCH_SCENE_$(1)) $(BENCH_ROUTE_$(2))
+$(foreach s,press settled stiff thin tight sweep,$(foreach r,fast averaged direct plain,\
+  $(eval $(call changed_config,$(BENCH)/configs/$(s)_$(r).yaml,configs/studies/speed/press.yaml,$(call bench_changes,$(s),$(r))))))
 
 $(BENCH)/objects/sphere/bench_object.yaml: configs/studies/speed/sphere.yaml | build-bench
 	$(call run,bench_object,--config $<)

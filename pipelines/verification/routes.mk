@@ -8,11 +8,11 @@ ROUTES_RECORD := $(ROUTES)/table/routes_table.yaml
 
 # $(call route_rule,object,pose,route)
 define route_rule
-$(ROUTES)/runs/12k-$(1)-$(2)-$(3)/press.yaml: $(BENCH)/gels/12k/tetmesh.yaml $(TABLE)/objects/$(1)/decimate.yaml configs/studies/speed/sweep_$(3).yaml \
+$(ROUTES)/runs/12k-$(1)-$(2)-$(3)/press.yaml: $(BENCH)/gels/12k/tetmesh.yaml $(TABLE)/objects/$(1)/decimate.yaml $(BENCH)/configs/sweep_$(3).yaml \
     configs/studies/speed/poses/$(2).yaml | build
 	@mkdir -p $$(@D)
 	$$(call try,press,--name 12k-$(1)-$(2)-$(3) --gel $(BENCH)/gels/12k/gel.msh --object $(TABLE)/objects/$(1)/object.ply \
-	  --object-config configs/objects/printed_indenter.yaml --sensor configs/sensors/mctac.yaml --config configs/studies/speed/sweep_$(3).yaml \
+	  --object-config configs/objects/printed_indenter.yaml --sensor configs/sensors/mctac.yaml --config $(BENCH)/configs/sweep_$(3).yaml \
 	  --sample configs/studies/speed/poses/$(2).yaml)
 ROUTE_RUNS += $(ROUTES)/runs/12k-$(1)-$(2)-$(3)
 endef
