@@ -8,13 +8,14 @@ PRINTED_OBJECTS := $(wildcard $(SHARED)/data/printed_indenters/*.stl)
 TABLE_FILES := $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)
 PAPER_GEL_OBJECTS := Bear_8028 Wave_8134 board3 coin_5002 dragon_01 sphere cone dots triangle parallel_lines
 
-ifneq ($(filter objects-table routes,$(MAKECMDGOALS)),)
-ifneq ($(words $(RELEASE_OBJECTS) $(PRINTED_OBJECTS)),22)
-  $(error SHARED: $(SHARED) lacks some of the 22 meshes of data/tacipc_release/objects and data/printed_indenters)
-endif
-endif
-
 name_of = $(basename $(notdir $(1)))
+
+ifneq ($(filter objects-table routes,$(MAKECMDGOALS)),)
+table_missing := $(filter-out $(foreach f,$(TABLE_FILES),$(call name_of,$(f))),$(PAPER_GEL_OBJECTS))
+ifneq ($(table_missing),)
+  $(error SHARED: $(SHARED) has no $(table_missing) in data/tacipc_release/objects and data/printed_indenters)
+endif
+endif
 
 # $(call table_rules,folder,object,mesh,press)
 table_rules = $(call sample_rules,$(TABLE)/$(1)/$(2),name=$(2) object=$(TABLE)/objects/$(2) object_yaml=configs/objects/printed_indenter.yaml \
