@@ -108,7 +108,7 @@ bench-page: $(BENCH)/page/bench_table.yaml
 
 # One after the other, whatever JOBS says: what runs beside a press is measured with it. The table is always made again, for other runs may be asked for:
 # with .SECONDARY a table that is newer than what the runs are made of would not miss them.
-bench-press: ## development: Cost of a press by route, size, object and motion (a quarter of an hour; BENCH_GELS=); writes OUT/docs/performance.md, cost model
+bench-press: ## development: Cost of a press by route, size, object and motion (15 minutes; BENCH_GELS=); writes OUT/docs/performance.md and a cost model
 bench-press: | build build-bench
 	@rm -f $(BENCH)/page/bench_table.yaml
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1

@@ -88,7 +88,7 @@ verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuff
 	$(call to_docs,$(VERIFICATION)/page/verification/*.svg,verification)
 	@echo; echo "Look at $(VERIFICATION)/page/verification.md"
 
-verification: ## studies: All verification cases and long rows (closed-forms … board3); writes OUT/docs/verification.md with its plots (a quarter of an hour)
+verification: ## studies: All cases, then closed-forms, free-object, refinement, stress, board3; writes OUT/docs/verification.md (a quarter of an hour)
 verification: verification-page
 	$(call none_missed,$(VERIFICATION)/page/verify_table.yaml,summary.missed summary.long_missed)
 
