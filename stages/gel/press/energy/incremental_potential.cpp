@@ -15,7 +15,7 @@ double IncrementalPotential::value(const Positions& x) const {
 }
 
 IncrementalPotential make_incremental_potential(const StepTerms& terms, const StepWeights& w) {
-  const double h = w.h_s, kappa = h * h * w.barrier_stiffness_j_m4;
+  const double h = w.h_s;
   IncrementalPotential out;
   const auto add = [&](double weight, std::shared_ptr<const EnergyTerm> term) {
     if (term) out.terms.push_back({weight, std::move(term)});
@@ -34,8 +34,8 @@ IncrementalPotential make_incremental_potential(const StepTerms& terms, const St
   const auto elastic = parts_of(terms.elasticity);
   for (std::size_t k = 0; k < elastic.size(); ++k)
     add(h * h * (w.elastic_factors.empty() ? 1.0 : w.elastic_factors[k]), elastic[k]);
-  out.friction = {kappa * w.friction_coefficient, terms.friction};
-  out.barrier = {kappa, terms.barrier};
+  out.friction = {w.of_friction(h * h), terms.friction};
+  out.barrier = {w.of_barrier(h * h), terms.barrier};
   return out;
 }
 

@@ -48,6 +48,10 @@ struct StepWeights {
   double stiffness_damping_s = 0.0;
   /// On each part of the elasticity, more than 1 where stress relaxes; empty: 1 on all.
   std::vector<double> elastic_factors = {};
+
+  /// κ and μκ over h², J/m⁴, times `scale`: forces of contact and friction, or with h² their weights in Ê.
+  double of_barrier(double scale) const { return scale * barrier_stiffness_j_m4; }
+  double of_friction(double scale) const { return of_barrier(scale) * friction_coefficient; }
 };
 
 /// Ê(x) in kg m².   [Eq. 3, 5, 9]

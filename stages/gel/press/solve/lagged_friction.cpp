@@ -72,7 +72,7 @@ double TimeStepper::friction_change(const Friction& renewed, const Step& step) c
   for (const int v : newton_->free().vertex_of_free) sum += change.row(v).norm();
   for (const CarriedBody& body : newton_->free().carried)
     sum += change.middleRows(body.first_vertex, body.weights.rows()).colwise().sum().norm();
-  return settings_.friction->coefficient * step.weights.barrier_stiffness_j_m4 * sum;
+  return step.weights.of_friction(1.0) * sum;
 }
 
 double TimeStepper::friction_limit(const Step& step) const {

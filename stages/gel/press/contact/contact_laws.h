@@ -1,0 +1,57 @@
+// Laws of contact: friction and barrier of each pair of bodies, resolved once before the first step.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace tacipc {
+
+/// How the surfaces of two bodies act on each other.
+struct ContactLaw {
+  double friction = 0.0;   // coefficient μ
+  double d_hat_m = 0.0;    // d̂: the barrier acts at smaller gaps
+  double stiffness = 1.0;  // factor on the barrier's stiffness κ
+};
+
+/// Departure of one pair of bodies from the usual law; absent values are the usual ones.
+struct LawOverride {
+  std::array<int, 2> between{};  // numbers of the bodies (ContactMesh::body_of()), which may be equal
+  std::optional<double> friction = std::nullopt;
+  std::optional<double> d_hat_m = std::nullopt;
+  std::optional<double> force = std::nullopt;  // factor on the usual force at the same gap over d̂
+};
+
+/// The law of each pair of bodies: the only source of μ and d̂ for searches, energies and step limits.
+class ContactLaws {
+ public:
+  /// All pairs share one law.
+  explicit ContactLaws(const ContactLaw& shared = {})
+      : laws_{shared}, reach_m_(shared.d_hat_m), largest_friction_(shared.friction) {}
+
+  /// Resolves the laws of bodies 0 … num_bodies − 1; of several overrides of a value of one pair the last one counts.
+  /// A pair that comes nearer pushes with the usual force at the same gap over d̂: κ grows with 1/d̂³.
+  static ContactLaws resolved(const ContactLaw& usual, int num_bodies, const std::vector<LawOverride>& overrides);
+
+  bool all_alike() const { return laws_.size() == 1; }
+  const ContactLaw& of(int body, int other) const { return laws_[index(body, other)]; }
+
+  /// Position of a pair's law in all(); both orders of a pair have equal laws.
+  std::size_t index(int body, int other) const {
+    return all_alike() ? 0 : static_cast<std::size_t>(body * num_bodies_ + other);
+  }
+  const std::vector<ContactLaw>& all() const { return laws_; }
+
+  /// The largest d̂ of all pairs: nothing pushes from farther away.
+  double reach_m() const { return reach_m_; }
+  /// The largest μ of all pairs; zero: no friction anywhere.
+  double largest_friction() const { return largest_friction_; }
+
+ private:
+  std::vector<ContactLaw> laws_;  // the shared one, or by body × number of bodies + other body
+  int num_bodies_ = 1;
+  double reach_m_, largest_friction_;
+};
+
+}  // namespace tacipc
