@@ -6,6 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "stages/gel/press/contact/contact_mesh.h"
+#include "stages/gel/press/contact/contact_pair.h"
+
 namespace tacipc {
 
 /// How the surfaces of two bodies act on each other.
@@ -37,9 +40,9 @@ class ContactLaws {
   bool all_alike() const { return laws_.size() == 1; }
   const ContactLaw& of(int body, int other) const { return laws_[index(body, other)]; }
 
-  /// Position of a pair's law in all(); both orders of a pair have equal laws.
-  std::size_t index(int body, int other) const {
-    return all_alike() ? 0 : static_cast<std::size_t>(body * num_bodies_ + other);
+  /// Index of the law of the bodies of a contact pair in all().
+  std::size_t index(const ContactMesh& mesh, const ContactPair& pair) const {
+    return all_alike() ? 0 : index(mesh.body_of(pair.vertices[0]), mesh.body_of(pair.vertices[3]));
   }
   const std::vector<ContactLaw>& all() const { return laws_; }
 
@@ -47,8 +50,14 @@ class ContactLaws {
   double reach_m() const { return reach_m_; }
   /// The largest μ of all pairs; zero: no friction anywhere.
   double largest_friction() const { return largest_friction_; }
+  /// μ of a law as part of the largest μ.
+  double relative_friction(const ContactLaw& law) const { return all_alike() ? 1.0 : law.friction / largest_friction_; }
 
  private:
+  std::size_t index(int body, int other) const {
+    return all_alike() ? 0 : static_cast<std::size_t>(body * num_bodies_ + other);
+  }
+
   std::vector<ContactLaw> laws_;  // the shared one, or by body × number of bodies + other body
   int num_bodies_ = 1;
   double reach_m_, largest_friction_;

@@ -38,13 +38,6 @@ struct ObjectPart {
   bool has(int vertex) const { return vertex >= first_vertex && vertex < first_vertex + num_vertices; }
 };
 
-/// How two bodies touch, as multiples of what holds for all others.
-struct PairLaw {
-  double friction = 1.0;   // of the friction coefficient
-  double d_hat = 1.0;      // of d̂, at most 1
-  double stiffness = 1.0;  // of κ
-};
-
 /// What contact needs to know of gels and objects. Positions are passed beside it: rows of the gels, of the objects,
 /// and of points that carry those that may move freely (energy/affine_body.h).
 struct ContactMesh {
@@ -59,8 +52,6 @@ struct ContactMesh {
   std::vector<GelPart> gels;                  // where there are several; else all of the gel is one
   /// Those that may move freely come first, in the order of their control points.
   std::vector<ObjectPart> objects;
-  /// Of any two bodies a and b (body_of()) at a × num_bodies() + b; empty where all touch alike.
-  std::vector<PairLaw> laws;
 
   int num_vertices() const { return num_gel_vertices + num_object_vertices; }
   int num_rows() const { return num_vertices() + num_control_points; }
@@ -76,10 +67,6 @@ struct ContactMesh {
   int num_bodies() const { return num_gels() + static_cast<int>(objects.size()); }
   /// The body of a vertex: gels in their order, then objects.
   int body_of(int vertex) const;
-  /// \pre laws has some
-  const PairLaw& law(int vertex, int other) const {
-    return laws[static_cast<std::size_t>(body_of(vertex) * num_bodies() + body_of(other))];
-  }
 };
 
 /// Of a gel, or several whose rows follow one another, and any number of objects.

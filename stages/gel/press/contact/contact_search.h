@@ -21,12 +21,12 @@ class ContactSearch {
     for (const ObjectPart& object : mesh.objects) with_object_.push_back(std::make_unique<ObjectSearch>(mesh, object));
   }
 
-  /// Every pair that comes within d̂ while the vertices move straight from `x` to `x + p`, of the gel with itself within
-  /// min(d̂, half the distance at rest), and some more; which and in which order depends only on the arguments since
-  /// forget().
-  std::vector<ContactPair> pairs(const Positions& x, const Positions& p, double d_hat_m) {
-    std::vector<ContactPair> found = object_pairs(x, p, d_hat_m);
-    with_itself_.pairs(x, p, d_hat_m, found);
+  /// Every pair that comes within `within_m` while the vertices move straight from `x` to `x + p`, of the gel with
+  /// itself within half the distance at rest at most, and some more; which and in which order depends only on the
+  /// arguments since forget().
+  std::vector<ContactPair> pairs(const Positions& x, const Positions& p, double within_m) {
+    std::vector<ContactPair> found = object_pairs(x, p, within_m);
+    with_itself_.pairs(x, p, within_m, found);
     return found;
   }
 
@@ -54,10 +54,10 @@ class ContactSearch {
   /// `reach_m` of its place, and some more. (One number of each per vertex.) \pre wanted vertices have a reach above
   /// zero; objects are where the last call of pairs() had them
   std::vector<ContactPair> pairs_around(const std::vector<char>& wanted, const std::vector<double>& reach_m,
-                                        const Positions& x, double d_hat_m) {
+                                        const Positions& x, double within_m) {
     std::vector<ContactPair> found;
-    for (const auto& search : with_object_) search->around(wanted, reach_m, x, d_hat_m, found);
-    with_itself_.around(wanted, reach_m, x, d_hat_m, found);
+    for (const auto& search : with_object_) search->around(wanted, reach_m, x, within_m, found);
+    with_itself_.around(wanted, reach_m, x, within_m, found);
     return found;
   }
 

@@ -63,21 +63,21 @@ Positions GelsSearch::displacements(std::size_t gel, const Positions& p) const {
   return (own.rowwise() - own.row(part.anchor)) * turns_[gel];
 }
 
-void GelsSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out) {
-  if (mesh_.gels.empty()) return each_[0]->pairs(x, p, d_hat_m, out);
+void GelsSearch::pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) {
+  if (mesh_.gels.empty()) return each_[0]->pairs(x, p, within_m, out);
   for (std::size_t g = 0; g < each_.size(); ++g) {
     const GelPart& part = mesh_.gels[g];
     const std::size_t before = out.size();
     if (part.anchor < 0) frames_[g] = body_frame(part.mesh->rest_positions, own_rows(part, x) + own_rows(part, p));
-    each_[g]->pairs(places(g, x), displacements(g, p), d_hat_m, out);
+    each_[g]->pairs(places(g, x), displacements(g, p), within_m, out);
     shift(out, before, part.first_vertex);
   }
-  across(x, p, d_hat_m, out);
+  across(x, p, within_m, out);
 }
 
 void GelsSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,
-                        double d_hat_m, std::vector<ContactPair>& out) {
-  if (mesh_.gels.empty()) return each_[0]->around(wanted, reach_m, x, d_hat_m, out);
+                        double within_m, std::vector<ContactPair>& out) {
+  if (mesh_.gels.empty()) return each_[0]->around(wanted, reach_m, x, within_m, out);
   for (std::size_t g = 0; g < each_.size(); ++g) {
     const GelPart& part = mesh_.gels[g];
     const auto first = reach_m.begin() + part.first_vertex;
@@ -85,11 +85,11 @@ void GelsSearch::around(const std::vector<char>& wanted, const std::vector<doubl
     const std::size_t before = out.size();
     const auto first_wanted = wanted.begin() + part.first_vertex;
     const std::vector<char> own_wanted(first_wanted, first_wanted + part.mesh->num_gel_vertices);
-    each_[g]->around(own_wanted, own, places(g, x), d_hat_m, out);
+    each_[g]->around(own_wanted, own, places(g, x), within_m, out);
     shift(out, before, part.first_vertex);
   }
   std::vector<ContactPair> found;
-  across(x, Positions::Zero(x.rows(), 3), d_hat_m + 2.0 * *std::max_element(reach_m.begin(), reach_m.end()), found);
+  across(x, Positions::Zero(x.rows(), 3), within_m + 2.0 * *std::max_element(reach_m.begin(), reach_m.end()), found);
   std::copy_if(found.begin(), found.end(), std::back_inserter(out),
                [&](const ContactPair& pair) { return has_one(wanted, pair.vertices); });
 }

@@ -18,9 +18,9 @@ class GelsSearch {
  public:
   explicit GelsSearch(const ContactMesh& mesh);
 
-  /// As SelfSearch has them; of two gels every pair that comes within d̂.
-  void pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out);
-  void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
+  /// As for SelfSearch; of two gels every pair that comes within `within_m`.
+  void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
+  void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double within_m,
               std::vector<ContactPair>& out);
 
   /// Pairs of different gels within a distance of each other from x to x + p, and some more.

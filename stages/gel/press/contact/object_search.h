@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <optional>
 #include <vector>
 
 #include "stages/gel/press/contact/bvh.h"
@@ -33,7 +34,7 @@ class ObjectSearch {
               std::vector<ContactPair>& out) const;
 
   /// The next call searches for every primitive.
-  void forget() { within_m_ = -1.0; }
+  void forget() { within_m_.reset(); }
 
   /// Searches for a single primitive so far.
   std::int64_t num_searches() const { return num_searches_; }
@@ -73,7 +74,8 @@ class ObjectSearch {
   Tracked<1> gel_vertices_;
   Tracked<2> gel_edges_;
   Tracked<3> gel_triangles_;
-  double within_m_ = -1.0, object_moved_m_ = 0.0;
+  std::optional<double> within_m_;  // of the last call; absent: the next one searches for every primitive
+  double object_moved_m_ = 0.0;
   std::atomic<std::int64_t> num_searches_ = 0;
 };
 

@@ -157,7 +157,7 @@ bool OpenFace::Places::within(const Places& other) const {
   return true;
 }
 
-OpenFace::Places OpenFace::at_risk(const Positions& x, const Positions& p, double d_hat_m) const {
+OpenFace::Places OpenFace::at_risk(const Positions& x, const Positions& p, double within_m) const {
   const auto open = [](const Eigen::Matrix2d& gradient) {
     const double mean = 0.5 * (gradient(0, 0) + gradient(1, 1)) - kLeast;
     const double difference = 0.5 * (gradient(0, 0) - gradient(1, 1));
@@ -184,7 +184,7 @@ OpenFace::Places OpenFace::at_risk(const Positions& x, const Positions& p, doubl
     for (const int v : triangle->vertices) box.extend(Point(mesh_.rest_positions.row(v).head<2>()));
     Squares at{0, kSquares - 1, 0, kSquares - 1};
     for (double reach = std::numeric_limits<double>::infinity();;) {
-      const double nearer = (1.0 + kRounding) * (d_hat_m + std::max(at_start.difference(at), at_end.difference(at)));
+      const double nearer = (1.0 + kRounding) * (within_m + std::max(at_start.difference(at), at_end.difference(at)));
       if (!(nearer < kMuchNearer * reach)) break;
       reach = nearer;
       at = squares({box.min().array() - reach, box.max().array() + reach});

@@ -59,9 +59,9 @@ class OpenFace {
     friend class OpenFace;
     std::vector<char> in_;  // square by square, row by row; empty if there is none
   };
-  /// A set with every place of the face that may come nearer than `d_hat_m` to another, or than half of their distance
+  /// A set with every place of the face that may come nearer than `within_m` to another, or than half of their distance
   /// at rest, from x to x + p.
-  Places at_risk(const Positions& x, const Positions& p, double d_hat_m) const;
+  Places at_risk(const Positions& x, const Positions& p, double within_m) const;
 
  private:
   static constexpr int kSquares = 256;  // along each side

@@ -42,12 +42,11 @@ class Cells {
 
 }  // namespace
 
-std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh,
+std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh, const ContactLaws& laws,
                                   const PairCounting& counting) {
   const auto with_laws = [&](std::vector<ContactPair> all) {
-    if (!mesh.laws.empty()) {
-      for (ContactPair& pair : all) pair.weight *= mesh.law(pair.vertices[0], pair.vertices[3]).stiffness;
-    }
+    if (laws.all_alike() && laws.all()[0].stiffness == 1.0) return all;
+    for (ContactPair& pair : all) pair.weight *= laws.all()[laws.index(mesh, pair)].stiffness;
     return all;
   };
   if (!counting.once) return with_laws(std::move(pairs));

@@ -1,6 +1,7 @@
 // How often a piece of the other surface pushes: once, or once for each primitive whose closest point it is.
 #pragma once
 
+#include "stages/gel/press/contact/contact_laws.h"
 #include "stages/gel/press/contact/contact_search.h"
 
 namespace tacipc {
@@ -26,10 +27,10 @@ struct PairCounting {
 /// feature always counts +1, so the sum still grows without bound at contact.
 ///
 /// Edges and corners come as pairs point–triangle that repeat their last vertex: (p, e₀, e₁, e₁) and (p, v, v, v).
-/// Pairs within one gel are left as they are: the reach of theirs differs from pair to pair. Where bodies touch by laws
-/// of their own (ContactMesh::laws), all are multiplied by the law's stiffness. \pre triangles around every edge within
+/// Pairs within one gel are left as they are: the reach of theirs differs from pair to pair. All are
+/// multiplied by the stiffness of their bodies' law. \pre triangles around every edge within
 /// reach of a vertex are in `pairs`, as ContactSearch finds them; none has been weighted yet.
-std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh,
+std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh, const ContactLaws& laws,
                                   const PairCounting& counting);
 
 }  // namespace tacipc

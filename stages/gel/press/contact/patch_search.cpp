@@ -17,11 +17,11 @@ constexpr double kUsedUp = 0.5;  // part of the reach: where one vertex gets out
 }  // namespace
 
 PatchSearch::PatchSearch(ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices,
-                         const Positions& x, const Positions& p, double d_hat_m, double longest_reach_m)
+                         const Positions& x, const Positions& p, double within_m, double longest_reach_m)
     : search_(search),
       vertices_(vertices),
       num_gel_vertices_(num_gel_vertices),
-      d_hat_m_(d_hat_m),
+      within_m_(within_m),
       longest_reach_m_(longest_reach_m),
       searched_at_(x),
       reach_m_(static_cast<std::size_t>(x.rows()), 0.0),
@@ -47,12 +47,12 @@ void PatchSearch::search_around(const std::vector<int>& some, const Positions& x
   }
   in_reach_.resize(kept);
   needed_m_.resize(kept);
-  const std::vector<ContactPair> found = search_.pairs_around(wanted, reach_m_, searched_at_, d_hat_m_);
+  const std::vector<ContactPair> found = search_.pairs_around(wanted, reach_m_, searched_at_, within_m_);
   const std::vector<double> squared = coarse_squared_distances(found, searched_at_);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto& v = found[i].vertices;
     const double both = *std::max_element(v.begin(), v.end()) < num_gel_vertices_ ? 2.0 : 1.0;
-    const double needed = ((1.0 - kRounding) * std::sqrt(squared[i]) - d_hat_m_) / both;
+    const double needed = ((1.0 - kRounding) * std::sqrt(squared[i]) - within_m_) / both;
     if (needed > farthest_reach(reach_m_, v)) continue;
     in_reach_.push_back(found[i]);
     needed_m_.push_back(needed);

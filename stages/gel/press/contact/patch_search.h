@@ -15,7 +15,7 @@ class PatchSearch {
   /// For the step p from x and more. \pre the vertices are of the gel; objects are where the last call of
   /// ContactSearch::pairs() had them
   PatchSearch(ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices, const Positions& x,
-              const Positions& p, double d_hat_m, double longest_reach_m);
+              const Positions& p, double within_m, double longest_reach_m);
 
   /// Largest part of the step p from x, at most 1, by which every vertex stays within its reach. Where that is not 1 it
   /// is after another search.
@@ -25,8 +25,8 @@ class PatchSearch {
   /// \pre every vertex is within its reach
   bool extend_to(const Positions& x);
 
-  /// Every pair with one of the vertices that comes within d̂ (of the gel with itself within half its distance at rest
-  /// at most) on its way since its vertices were searched, and some more.
+  /// Every pair with one of the vertices that comes within `within_m` (of the gel with itself within half its distance
+  /// at rest at most) on its way since its vertices were searched, and some more.
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 
  private:
@@ -37,7 +37,7 @@ class PatchSearch {
   ContactSearch& search_;
   const std::vector<int>& vertices_;
   int num_gel_vertices_;
-  double d_hat_m_, longest_reach_m_;
+  double within_m_, longest_reach_m_;
   Positions searched_at_;                   // where the pairs of each vertex were searched
   std::vector<double> reach_m_, travel_m_;  // per vertex of all, from there
   std::vector<ContactPair> in_reach_, pairs_;

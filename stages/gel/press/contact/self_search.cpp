@@ -9,8 +9,9 @@
 namespace tacipc {
 namespace {
 
-// Margins around the places that were searched: × d̂, × the mean edge and, on the face, × the distance from its rim at
-// rest. Pairs of the face with itself have the first alone, boxes of around() the second, all other pairs all three.
+// Margins around the places that were searched: × the search distance, × the mean edge and, on the face, × the distance
+// from its rim at rest. Pairs of the face with itself have the first alone, boxes of around() the second, all other
+// pairs all three.
 constexpr double kMargin = 0.25, kMarginOfEdge = 0.05, kMarginOfDistance = 0.25;
 constexpr std::size_t kParts = 16;  // of a query
 
@@ -143,7 +144,7 @@ SelfSearch::Query SelfSearch::edges(const Part& a, const Part& b) const {
 }
 
 void SelfSearch::search_face(const Positions& x, const Positions& p) {
-  of_face_.margin_m.assign(static_cast<std::size_t>(mesh_.num_gel_vertices), kMargin * d_hat_m_);
+  of_face_.margin_m.assign(static_cast<std::size_t>(mesh_.num_gel_vertices), kMargin * *within_m_);
   of_face_.vertices.clear();
   if (searched_.none()) return find({}, x, p, of_face_);
   const auto at_risk = [&](const std::vector<int>& all, const std::vector<OpenFace::Squares>& squares) {
@@ -162,21 +163,21 @@ void SelfSearch::search_face(const Positions& x, const Positions& p) {
   for (const int v : mesh_.gel.vertices) {
     if (has[v]) of_face_.vertices.push_back(v);
   }
-  // Half of d̂ on each side.
+  // Half of the search distance on each side.
   const Part part =
       make_part(at_risk(face_.vertices, squares_of_vertex_), at_risk(face_.edges, squares_of_edge_),
-                std::move(triangles), boxes_of(of_face_.vertices, x, p, of_face_.margin_m), 0.5 * d_hat_m_);
+                std::move(triangles), boxes_of(of_face_.vertices, x, p, of_face_.margin_m), 0.5 * *within_m_);
   find({vertices_and_triangles(part, part), edges(part, part)}, x, p, of_face_);
 }
 
 void SelfSearch::search_others(const Positions& x, const Positions& p) {
   of_others_.vertices = mesh_.gel.vertices;
   of_others_.margin_m = margin_of_others_m_;
-  for (double& margin : of_others_.margin_m) margin += kMargin * d_hat_m_;
+  for (double& margin : of_others_.margin_m) margin += kMargin * *within_m_;
   fitted_.resize(0, 3);
   const std::vector<Box> boxes = boxes_of(mesh_.gel.vertices, x, p, of_others_.margin_m);
-  fit(face_, boxes, 0.5 * d_hat_m_);
-  fit(others_, boxes, 0.5 * d_hat_m_);
+  fit(face_, boxes, 0.5 * *within_m_);
+  fit(others_, boxes, 0.5 * *within_m_);
   find({vertices_and_triangles(face_, others_), vertices_and_triangles(others_, face_),
         vertices_and_triangles(others_, others_), edges(face_, others_), edges(others_, others_)},
        x, p, of_others_);
@@ -188,12 +189,13 @@ void SelfSearch::find(const std::vector<Query>& queries, const Positions& x, con
     std::vector<double> reach_m;
   };
   std::vector<OfPart> found(queries.size() * kParts);
+  const double within_m = *within_m_;
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t part) {
     std::vector<ContactPair> candidates;
     queries[part / kParts](part % kParts, candidates);
     std::vector<double> reach = coarse_squared_distances(candidates, mesh_.rest_positions);
     // Zero: edges too parallel to tell.
-    for (double& r : reach) r = r > 0.0 ? std::min(d_hat_m_, 0.5 * std::sqrt(r)) : d_hat_m_;
+    for (double& r : reach) r = r > 0.0 ? std::min(within_m, 0.5 * std::sqrt(r)) : within_m;
     // Near during the step, or so near at its end that they could come near within the margins.
     std::vector<double> within = reach;
     for (std::size_t i = 0; i < within.size(); ++i)
@@ -222,12 +224,12 @@ bool SelfSearch::Found::holds(const Positions& x, const Positions& p) const {
   });
 }
 
-void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out) {
-  OpenFace::Places at_risk = open_face_.at_risk(x, p, d_hat_m);
-  const bool anew = d_hat_m != d_hat_m_;
+void SelfSearch::pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) {
+  OpenFace::Places at_risk = open_face_.at_risk(x, p, within_m);
+  const bool anew = within_m != within_m_;
   const bool face = anew || !at_risk.within(searched_) || !of_face_.holds(x, p);
   const bool others = anew || !of_others_.holds(x, p);
-  d_hat_m_ = d_hat_m;
+  within_m_ = within_m;
   if (face) {
     searched_ = std::move(at_risk);
     search_face(x, p);
@@ -244,7 +246,7 @@ void SelfSearch::pairs(const Positions& x, const Positions& p, double d_hat_m, s
 }
 
 void SelfSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,
-                        double d_hat_m, std::vector<ContactPair>& out) {
+                        double within_m, std::vector<ContactPair>& out) {
   const Surface& gel = mesh_.gel;
   // Until a vertex that stays has left its place in the trees by the margin.
   const bool fits = fitted_.rows() > 0 && std::all_of(gel.vertices.begin(), gel.vertices.end(), [&](int v) {
@@ -266,7 +268,7 @@ void SelfSearch::around(const std::vector<char>& wanted, const std::vector<doubl
   }
   // Of two wanted parts the one that goes farther finds the other, which may come as far from its own box.
   const auto box_of = [&](const auto& vertices, double reach) {
-    return grown(box_around(x, vertices), d_hat_m + margin_m_ + reach + std::max(reach, of_others));
+    return grown(box_around(x, vertices), within_m + margin_m_ + reach + std::max(reach, of_others));
   };
   const std::array<const Part*, 2> parts{&face_, &others_};
   for (const int v : gel.vertices) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "stages/gel/press/contact/bvh.h"
@@ -12,24 +13,24 @@
 namespace tacipc {
 
 /// Finds pairs of two primitives of the gel that share no vertex. Neighbours are always near each other, so a pair
-/// counts only from min(d̂, half its distance at rest) on. Pairs of the face with itself are searched where it is at
-/// risk, and apart from those with the gel's other surfaces. A search finds some more pairs than needed, and its result
-/// is kept while the vertices in question stay within a margin of the end of the step that was searched.
+/// counts only from min(`within_m`, half its distance at rest) on. Pairs of the face with itself are searched where it
+/// is at risk, and apart from those with the gel's other surfaces. A search finds some more pairs than needed, and its
+/// result is kept while the vertices in question stay within a margin of the end of the step that was searched.
 class SelfSearch {
  public:
   explicit SelfSearch(const ContactMesh& mesh);
 
   /// Appends every pair that comes nearer than that while the vertices move straight from `x` to `x + p`, and some
   /// more; which and in which order depends only on the arguments since forget().
-  void pairs(const Positions& x, const Positions& p, double d_hat_m, std::vector<ContactPair>& out);
+  void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
 
   /// Appends every pair with a `wanted` vertex that comes nearer than that while each vertex stays within its `reach_m`
   /// of its place in `x`, and some more. (One number of each per vertex.) \pre wanted vertices have a reach above zero
-  void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double d_hat_m,
+  void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double within_m,
               std::vector<ContactPair>& out);
 
   void forget() {
-    d_hat_m_ = -1.0;
+    within_m_.reset();
     fitted_.resize(0, 3);
   }
   /// Calls of pairs() that had to search.
@@ -73,12 +74,12 @@ class SelfSearch {
   Part face_, others_;  // primitives all of whose vertices are on the face, and all others
   std::vector<OpenFace::Squares> squares_of_vertex_, squares_of_edge_, squares_of_triangle_;  // of the face's, in order
   double margin_m_ = 0.0;                   // that goes with the mean edge
-  std::vector<double> margin_of_others_m_;  // but for the part that goes with d̂
+  std::vector<double> margin_of_others_m_;  // but for the part that goes with the search distance
 
-  double d_hat_m_ = -1.0;      // of the last search
-  Found of_face_, of_others_;  // pairs of the face with itself, and all others
-  OpenFace::Places searched_;  // of the face with itself
-  Positions fitted_;           // places that the trees fit, if around() fitted them last
+  std::optional<double> within_m_;  // of the last search; absent: the next one starts anew
+  Found of_face_, of_others_;       // pairs of the face with itself, and all others
+  OpenFace::Places searched_;       // of the face with itself
+  Positions fitted_;                // places that the trees fit, if around() fitted them last
   int num_searches_ = 0;
 };
 

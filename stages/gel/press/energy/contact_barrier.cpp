@@ -66,12 +66,11 @@ void mollified_derivatives(const ClosestFeature& feature, double b, double b1, d
 
 }  // namespace
 
-ContactBarrier::ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m)
-    : mesh_(&mesh), pairs_(std::move(pairs)), s_hat_(d_hat_m * d_hat_m) {
-  if (mesh.laws.empty()) return;
-  laws_.reserve(pairs_.size());
-  for (const ContactPair& pair : pairs_)
-    laws_.push_back(static_cast<std::uint16_t>(&mesh.law(pair.vertices[0], pair.vertices[3]) - mesh.laws.data()));
+ContactBarrier::ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, ContactLaws laws)
+    : mesh_(&mesh), pairs_(std::move(pairs)), laws_(std::move(laws)), s_hat_(laws_.reach_m() * laws_.reach_m()) {
+  if (laws_.all_alike()) return;
+  law_of_.reserve(pairs_.size());
+  for (const ContactPair& pair : pairs_) law_of_.push_back(static_cast<std::uint16_t>(laws_.index(mesh, pair)));
 }
 
 bool ContactBarrier::of_objects_alone(int i) const {
@@ -86,7 +85,7 @@ bool ContactBarrier::of_gel_alone(int i) const {
 
 double ContactBarrier::s_hat_of(int i) const {
   const ContactPair& pair = pairs_[i];
-  const double s_hat = s_hat_ * law(i).d_hat * law(i).d_hat;
+  const double s_hat = law(i).d_hat_m * law(i).d_hat_m;
   if (!of_gel_alone(i) || mesh_->body_of(pair.vertices[0]) != mesh_->body_of(pair.vertices[3])) return s_hat;
   const FourPoints rest = gather(mesh_->rest_positions, pair);
   return std::min(s_hat, 0.25 * closest_feature(pair, rest).squared_distance);

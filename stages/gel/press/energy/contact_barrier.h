@@ -5,19 +5,19 @@
 #include <utility>
 #include <vector>
 
-#include "stages/gel/press/contact/contact_search.h"
+#include "stages/gel/press/contact/contact_laws.h"
 #include "stages/gel/press/energy/contact_term.h"
 
 namespace tacipc {
 
 /// B(x) = Σ_k c_k m_k(x) b(s_k(x), ŝ_k), in m⁴: c_k the weight of pair k (pair_counting.h), s_k its squared distance, b
 /// of barrier.h, m_k the mollifier of nearly parallel edges (1 for point–triangle pairs).   [Eq. 5; Li et al. 2020] ŝ_k
-/// = d̂², of bodies with a law of their own its part of that, and for pairs within one gel at most a quarter of the
-/// squared distance at rest: neighbours on the undeformed gel must not push each other however fine the mesh is.
+/// = d̂², d̂ of the law of the two bodies, and for pairs within one gel at most a quarter of the squared distance at
+/// rest: neighbours on the undeformed gel must not push each other however fine the mesh is.
 class ContactBarrier final : public ContactTerm {
  public:
   /// \pre the mesh stays where it is
-  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, double d_hat_m);
+  ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, ContactLaws laws);
 
   std::string_view name() const override { return "barrier"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
@@ -36,10 +36,9 @@ class ContactBarrier final : public ContactTerm {
   bool of_gel_alone(int i) const;
   /// Whether pair i is one of an object with another one.
   bool of_objects_alone(int i) const;
-  /// How the two sides of pair i touch.
-  const PairLaw& law(int i) const {
-    return laws_.empty() ? kOrdinary : mesh_->laws[laws_[static_cast<std::size_t>(i)]];
-  }
+  /// Law of the two bodies of pair i.
+  const ContactLaw& law(int i) const { return laws_.all()[law_of_.empty() ? 0 : law_of_[static_cast<std::size_t>(i)]]; }
+  const ContactLaws& laws() const { return laws_; }
 
   /// How one pair pushes: its closest feature and 2 d c m |b′(d²)| in m³, zero from d̂ on. Times κ it is the force
   /// between the two sides along the line that joins their closest points; negative where the weight c is.
@@ -57,19 +56,19 @@ class ContactBarrier final : public ContactTerm {
   double value_of(int i, const FourPoints& points) const;
   bool mollified(int i, const FourPoints& x) const;
 
-  /// Whether ŝ of pair i is d̂² and nothing needs to be looked at besides.
-  bool is_plain(int i) const { return !of_gel_alone(i) && law(i).d_hat == 1.0; }
+  /// Whether d̂ of the law of pair i is the largest of all, as the packed evaluation assumes.
+  bool has_largest_d_hat(int i) const { return law(i).d_hat_m == laws_.reach_m(); }
 
-  static constexpr PairLaw kOrdinary = {};
   const ContactMesh* mesh_;
   std::vector<ContactPair> pairs_;
-  std::vector<std::uint16_t> laws_;  // of each pair, where bodies have some
+  ContactLaws laws_;
+  std::vector<std::uint16_t> law_of_;  // index of each pair's law; empty if all are alike
   /// What active() found last: energy, friction and derivatives ask at the same place. One thread at a time.
   mutable struct {
     Positions x;
     std::vector<int> near;
   } last_;
-  double s_hat_;  // d̂²: ŝ of all pairs but some of gel and gel, and of bodies with another law
+  double s_hat_;  // square of the largest d̂: the largest ŝ of all pairs
 };
 
 }  // namespace tacipc

@@ -23,7 +23,7 @@ Friction::Friction(const ContactBarrier& barrier, const Positions& lagged, const
   for (const int i : near) {
     const ContactPair& contact = barrier.pairs()[i];
     const ContactBarrier::Push push = barrier.push(i, gather(lagged, contact));
-    const double normal_force = push.force * barrier.law(i).friction;
+    const double normal_force = push.force * barrier.laws().relative_friction(barrier.law(i));
     if (normal_force == 0.0) continue;
     Pair pair;
     pair.vertices = contact.vertices;

@@ -16,8 +16,8 @@ double friction_integral(double y, double epsilon);
 
 /// D(x) = Σ_k λ_k f₀(‖u_k‖), u_k = T_kᵀ Σ wᵢ (xᵢ − xᵢᵗ), in m⁴: the pairs of a barrier at a lagged position, with
 /// normal force λ_k = 2 d c m |b′(d²)| (times κ it is the force the barrier has between the two sides), weights w and
-/// tangent plane T held from there; xᵗ is the start of the time step. Times μκ, −∂D/∂x is Coulomb's friction. Where
-/// bodies touch by laws of their own (ContactMesh::laws), λ_k includes the law's factor on μ.   [Eq. 6–9]
+/// tangent plane T held from there; xᵗ is the start of the time step. Times μκ, −∂D/∂x is Coulomb's friction, μ the
+/// largest of all pairs of bodies; λ_k includes μ_k/μ, μ_k of the law of the pair.   [Eq. 6–9]
 class Friction final : public ContactTerm {
  public:
   /// \param epsilon_m ε_v h: how far a side slides in one step at the speed where friction is fully reached

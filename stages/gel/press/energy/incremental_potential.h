@@ -43,7 +43,7 @@ struct StepTerms {
 struct StepWeights {
   double h_s = 0.0;
   double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step
-  double friction_coefficient = 0.0;
+  double friction_coefficient = 0.0;    // the largest of all pairs of bodies
   double mass_damping_per_s = 0.0;
   double stiffness_damping_s = 0.0;
   /// On each part of the elasticity, more than 1 where stress relaxes; empty: 1 on all.

@@ -21,7 +21,7 @@ void TimeStepper::add_constraint(Step& step) const {
     targets.row(static_cast<Eigen::Index>(i)) = mesh_.rest_positions.row(gel_.glued[i]);
   targets.bottomRows(mesh_.num_object_vertices) = step.goal.object_target;
   const double stiffness =
-      kConstraintStiffness * step.weights.barrier_stiffness_j_m4 * settings_.d_hat_m * settings_.d_hat_m;
+      kConstraintStiffness * step.weights.barrier_stiffness_j_m4 * settings_.laws.reach_m() * settings_.laws.reach_m();
   const Positions no_multipliers = Positions::Zero(targets.rows(), 3);
   step.constraint = std::make_shared<Dirichlet>(std::move(vertices), std::move(targets), no_multipliers, stiffness);
   step.terms.constraint = step.constraint;

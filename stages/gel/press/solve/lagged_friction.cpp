@@ -59,7 +59,7 @@ void TimeStepper::start_friction(Step& step) {
   }
   for (const CarriedBody& body : newton_->free().carried) body.carry(motion);
   // Pairs that are near already mostly stop the object soon; only up to there the others need be searched.
-  const GapRule rule{kLagSlack, kGapFloor * settings_.d_hat_m};
+  const GapRule rule{kLagSlack, kGapFloor * settings_.laws.reach_m()};
   const double part = contact_step_limit(pairs_at(step.start), step.start, motion, rule);
   motion *= part;
   motion *= contact_step_limit(pairs_along(step.start, motion), step.start, motion, rule);

@@ -52,7 +52,7 @@ void TimeStepper::minimise(Step& step) {
           "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N "
           "of {:.3e} N, smallest gap {:.2e} m)",
           settings_.newton.max_iterations, report.velocity_residual_m_s, settings_.newton.velocity_tolerance_m_s,
-          report.force_residual_n, report.contact_force_n, smallest_gap(step.x, settings_.d_hat_m));
+          report.force_residual_n, report.contact_force_n, smallest_gap(step.x, settings_.laws.reach_m()));
     }
     const bool moving = !step.arrived && !run.relax_next;
     // Before the first iteration it is that of x already.
@@ -87,7 +87,7 @@ void TimeStepper::minimise(Step& step) {
       if (!found && converged) return;  // what the exact Hessian could still change is below rounding
       if (!found) {
         throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
-                          run.residual_m_s, direction.slope, smallest_gap(step.x, settings_.d_hat_m));
+                          run.residual_m_s, direction.slope, smallest_gap(step.x, settings_.laws.reach_m()));
       }
       alpha = *found;
       run.relax_next = false;
@@ -171,7 +171,7 @@ bool TimeStepper::is_final(Step& step, Minimisation& run, const NewtonDirection&
 double TimeStepper::step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p,
                                double slack) {
   const Stopwatch watch(times_.limits_s);
-  const GapRule rule{slack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m};
+  const GapRule rule = gap_rule(slack);
   return std::min(contact_step_limit(pairs, step.x, p, rule), inversion_step_limit(gel_.tets, step.x, p));
 }
 

@@ -42,8 +42,8 @@ struct Given {
 
 double TimeStepper::bend_at_contacts(const Step& step, Minimisation& run, NewtonDirection& direction,
                                      std::vector<ContactPair>& pairs) {
-  const double d_hat = settings_.d_hat_m;
-  const GapRule rule{kMovingSlack, kGapFloor * d_hat, d_hat};
+  const double touching_m = settings_.laws.reach_m();
+  const GapRule rule = gap_rule(kMovingSlack);
   const auto approach = [&](const ContactPair& pair) {
     Approach a{.feature = closest_feature(pair, gather(step.x, pair)), .normal = {}, .gap_m = 0.0, .change_m = 0.0};
     a.gap_m = std::sqrt(a.feature.squared_distance);
@@ -67,7 +67,7 @@ double TimeStepper::bend_at_contacts(const Step& step, Minimisation& run, Newton
   for (const ContactPair& pair : found) {
     const Approach a = approach(pair);
     if (!(a.change_m < 0.0)) continue;
-    const double kept = kKeptGap * std::min(a.gap_m, d_hat), most = a.give > 0.0 ? d_hat : 0.0;
+    const double kept = kKeptGap * std::min(a.gap_m, touching_m), most = a.give > 0.0 ? touching_m : 0.0;
     part = std::min(part, (a.gap_m + kLargestCorrection * most - kept) / -a.change_m);
     parts.push_back((a.gap_m + kCorrection * most - kept) / -a.change_m);
   }
@@ -80,14 +80,14 @@ double TimeStepper::bend_at_contacts(const Step& step, Minimisation& run, Newton
   direction.object_shift *= part;
   // Where a stiff contact has the gap d and a linear step changes it by −r d, its force is to grow by 1 + r: so it does
   // at d / (1 + r).
-  const double most = (1.0 + kSpare) * kLargestCorrection * d_hat;
+  const double most = (1.0 + kSpare) * kLargestCorrection * touching_m;
   // All are found before any is made, and a vertex takes the mean of those that it is given: the order of the pairs
   // tells nothing.
   const auto correct = [&] {
     std::map<int, Given> given;
     for (const ContactPair& pair : found) {
       const Approach a = approach(pair);
-      const double gap = std::min(a.gap_m, d_hat), after = a.gap_m + a.change_m;
+      const double gap = std::min(a.gap_m, touching_m), after = a.gap_m + a.change_m;
       const double wanted = std::max(kKeptGap * gap, gap * gap / std::max(gap, 2.0 * gap - after));
       if (!(a.give > 0.0) || wanted <= after || wanted - after > most) continue;
       for (int k = 0; k < 4; ++k) {

@@ -101,9 +101,9 @@ std::optional<double> TimeStepper::relax_patch(Step& step, const NewtonDirection
     size.most_rings = kMostRingsWithoutFriction;
   }
   const LocalPatch patch = grow_patch(found->vertices, size, gel_.tets, tets_of_, free);
-  const double reach = std::max(kReach * settings_.d_hat_m, kReachOfEdge * settings_.front_edge_m);
-  PatchSearch near(search_, patch.free.vertex_of_free, mesh_.num_gel_vertices, step.x, direction.p, settings_.d_hat_m,
-                   reach);
+  const double reach = std::max(kReach * settings_.laws.reach_m(), kReachOfEdge * settings_.front_edge_m);
+  PatchSearch near(search_, patch.free.vertex_of_free, mesh_.num_gel_vertices, step.x, direction.p,
+                   settings_.laws.reach_m(), reach);
   StepTerms terms = step.terms;
   for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity,
                      &terms.viscous_memory, &terms.elasticity})
@@ -142,9 +142,8 @@ std::optional<double> TimeStepper::relax_patch(Step& step, const NewtonDirection
     for (const int v : inside) p.row(v) = alpha * local.p.row(v);
     go(1.0);
     if (near.extend_to(trial)) renew_energy();
-    const double limit = std::min(
-        contact_step_limit(near.pairs(), step.x, p, {kNewtonSlack, kGapFloor * settings_.d_hat_m, settings_.d_hat_m}),
-        inversion_step_limit(patch.tets, step.x, p));
+    const double limit = std::min(contact_step_limit(near.pairs(), step.x, p, gap_rule(kNewtonSlack)),
+                                  inversion_step_limit(patch.tets, step.x, p));
     const double rounding = kEnergyRounding * std::abs(value);
     double part = limit, after = value;
     const auto decreases = [&] {

@@ -83,8 +83,8 @@ std::optional<Positions> TimeStepper::way_with_gels(const Step& step, const Obje
     if (other >= mesh_.num_gel_vertices) continue;
     const auto gel = static_cast<std::size_t>(mesh_.body_of(other));
     if (touched[gel] || (goal.gel_motion.row(other).array() == 0.0).all()) continue;
-    touched[gel] =
-        closest_feature(pair, gather(step.start, pair)).squared_distance < settings_.d_hat_m * settings_.d_hat_m;
+    touched[gel] = closest_feature(pair, gather(step.start, pair)).squared_distance <
+                   settings_.laws.reach_m() * settings_.laws.reach_m();
   }
   Positions sum = Positions::Zero(points.rows(), 3);
   int count = 0;

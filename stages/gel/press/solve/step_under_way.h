@@ -70,7 +70,6 @@ Positions way_of(const Matrix4& motion, const Positions& from);
 double largest_row(const Positions& p, Eigen::Index rows);
 
 inline constexpr double kLeastWeight = 0.01;           // N: a lighter body's balance is measured as if it weighed this
-inline constexpr double kGapFloor = 1e-4;              // × d̂: no step leaves a smaller gap
 inline constexpr double kMovingSlack = 0.3;            // part of each gap that a move leaves: no line search guards it
 inline constexpr double kNewtonSlack = 0.1;            // part of each gap that a step leaves
 inline constexpr double kSufficientDecrease = 1e-4;    // Armijo: part of the decrease that the slope promises

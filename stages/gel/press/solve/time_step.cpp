@@ -93,8 +93,8 @@ IncrementalPotential TimeStepper::potential(const Step& step, std::shared_ptr<co
 }
 
 std::shared_ptr<const ContactBarrier> TimeStepper::barrier(std::vector<ContactPair> pairs) const {
-  return std::make_shared<ContactBarrier>(mesh_, weighted(std::move(pairs), mesh_, settings_.pair_counting),
-                                          settings_.d_hat_m);
+  return std::make_shared<ContactBarrier>(
+      mesh_, weighted(std::move(pairs), mesh_, settings_.laws, settings_.pair_counting), settings_.laws);
 }
 
 std::vector<ContactPair> TimeStepper::pairs_at(const Positions& x) {
@@ -105,7 +105,7 @@ std::vector<ContactPair> TimeStepper::pairs_at(const Positions& x) {
 
 std::vector<ContactPair> TimeStepper::pairs_along(const Positions& x, const Positions& p) {
   const Stopwatch watch(times_.search_s);
-  return search_.pairs(x, p, settings_.d_hat_m);
+  return search_.pairs(x, p, settings_.laws.reach_m());
 }
 
 SolverTimes TimeStepper::times() const {
@@ -176,7 +176,7 @@ TimeStepper::Step TimeStepper::start_step(const State& state, const StepGoal& go
   step.arrived = goal.gel_motion.size() == 0 && objects_arrived(step);
   step.weights = {.h_s = goal.h_s,
                   .barrier_stiffness_j_m4 = state.barrier_factor * settings_.barrier_stiffness_j_m4,
-                  .friction_coefficient = settings_.friction ? settings_.friction->coefficient : 0.0,
+                  .friction_coefficient = settings_.friction ? settings_.laws.largest_friction() : 0.0,
                   .mass_damping_per_s = settings_.mass_damping_per_s,
                   .stiffness_damping_s = settings_.stiffness_damping_s};
   if (!goal.hand_motion.topLeftCorner<3, 3>().isIdentity(0.0))
@@ -256,7 +256,7 @@ double TimeStepper::relative_way(const Positions& p) const {
 }
 
 double TimeStepper::longest_way() const {
-  return std::max(kLongestWay * settings_.d_hat_m, kLongestWayOfEdge * settings_.front_edge_m);
+  return std::max(kLongestWay * settings_.laws.reach_m(), kLongestWayOfEdge * settings_.front_edge_m);
 }
 
 void TimeStepper::arrive_at_mounts(Step& step) const {
@@ -293,17 +293,18 @@ double TimeStepper::smallest_gap(const Positions& x, double none) {
   std::vector<ContactPair> pairs = pairs_at(x);
   std::erase_if(pairs, within_one);
   const double near = smallest_distance(pairs, x, none);
-  if (near < std::min(settings_.d_hat_m, none)) return near;
+  if (near < std::min(settings_.laws.reach_m(), none)) return near;
   return smallest_distance(search_.pairs_of_bodies(x, Positions::Zero(x.rows(), 3), none), x, none);
 }
 
 double TimeStepper::smallest_relative_gap(const Positions& x) {
-  const double d_hat = settings_.d_hat_m;
-  if (mesh_.laws.empty()) return smallest_gap(x, d_hat) / d_hat;
+  const ContactLaws& laws = settings_.laws;
+  const std::vector<ContactPair> pairs = pairs_at(x);
   double smallest = 1.0;
-  for (const ContactPair& pair : pairs_at(x)) {
+  for (const int i : near_pairs(pairs, x, laws.reach_m() * laws.reach_m())) {
+    const ContactPair& pair = pairs[static_cast<std::size_t>(i)];
     if (mesh_.body_of(pair.vertices[0]) == mesh_.body_of(pair.vertices[3])) continue;
-    const double own = d_hat * mesh_.law(pair.vertices[0], pair.vertices[3]).d_hat;
+    const double own = laws.all()[laws.index(mesh_, pair)].d_hat_m;
     smallest = std::min(smallest, std::sqrt(closest_feature(pair, gather(x, pair)).squared_distance) / own);
   }
   return smallest;

@@ -16,6 +16,7 @@
 #include "stages/gel/press/solve/local_patch.h"
 #include "stages/gel/press/solve/newton_step.h"
 #include "stages/gel/press/solve/rigid_motion.h"
+#include "stages/gel/press/solve/step_limit.h"
 
 namespace tacipc {
 
@@ -35,7 +36,6 @@ struct NewtonSettings {
 };
 
 struct FrictionSettings {
-  double coefficient = 0.0;
   double speed_threshold_m_s = 0.0;     // ε_v
   int max_lag_iterations = 1;           // 1: normal forces and tangent planes of the start of the step
   bool renewed_only_at_minima = false;  // else before each iteration of Newton's method, too
@@ -44,7 +44,7 @@ struct FrictionSettings {
 
 /// What holds during a whole simulation.
 struct StepSettings {
-  double d_hat_m = 0.0;
+  ContactLaws laws = ContactLaws();     // of each two bodies
   double front_edge_m = 0.0;            // median edge of the gel's front
   double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step, which a divided step keeps
   bool adaptive_barrier = false;        // State::barrier_factor grows where gaps get small
@@ -232,6 +232,10 @@ class TimeStepper {
   bool within_tolerances(const Step& step, const NewtonDirection& direction) const;
   /// Whether a direction within the tolerances ends the minimisation, or the exact Hessian is waited for.
   bool is_final(Step& step, Minimisation& run, const NewtonDirection& direction) const;
+  /// What a step must leave of gaps: this part, but never less than a little.
+  GapRule gap_rule(double slack) const {
+    return {slack, kGapFloor * settings_.laws.reach_m(), settings_.laws.reach_m()};
+  }
   /// Part of the step p that leaves enough of every gap and every volume.
   double step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p, double slack);
   /// Where single contacts would end a move early: shortens the direction to what a few small corrections allow, and

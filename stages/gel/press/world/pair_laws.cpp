@@ -17,46 +17,31 @@ constexpr double kForceAtHalf = 4.3, kCorners = 4.0;
 }  // namespace
 
 void set_pair_laws(const PairContact& contact, const PressConfig& config, const Scales& scales,
-                   const std::vector<std::string>& names, std::size_t num_gels, std::size_t num_deformable,
-                   double weight_n, ContactMesh& mesh, StepSettings& settings) {
-  const auto count = names.size();
-  std::vector<double> friction(count * count, config.coefficient_of_friction()), d_hat(count * count, scales.d_hat_m);
-  for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = 0; b < count; ++b) {
-      if (std::min(a, b) < num_gels) friction[a * count + b] = contact.gel_friction;
-    }
+                   const std::vector<std::string>& names, int num_gels, int num_deformable, double weight_n,
+                   StepSettings& settings) {
+  const int count = static_cast<int>(names.size());
+  std::vector<LawOverride> overrides;
+  for (int gel = 0; gel < num_gels; ++gel) {
+    for (int b = 0; b < count; ++b) overrides.push_back({.between = {gel, b}, .friction = contact.gel_friction});
   }
   for (const ContactSpec& pair : contact.pairs) {
-    const auto a = static_cast<std::size_t>(pair.between[0]), b = static_cast<std::size_t>(pair.between[1]);
-    for (const std::size_t at : {a * count + b, b * count + a}) {
-      if (pair.friction) friction[at] = *pair.friction;
-      if (pair.d_hat_m) d_hat[at] = *pair.d_hat_m;
-    }
     if (pair.d_hat_m && *pair.d_hat_m > scales.d_hat_m)
-      throw UsageError(fmt::format("contact of {} and {}: d_hat_mm is more than that of the gels, {:.4g} mm", names[a],
-                                   names[b], 1e3 * scales.d_hat_m));
-  }
-  const double most = *std::max_element(friction.begin(), friction.end());
-  if (most > 0.0 && !config.friction)
-    throw UsageError("the press file has no section friction, which says how friction between bodies is solved");
-  if (most > 0.0) {
-    // The press file's own coefficient may be zero.
-    PressConfig with = config;
-    with.friction->coefficient = most;
-    settings.friction = step_settings(with, scales).friction;
+      throw UsageError(fmt::format("contact of {} and {}: d_hat_mm is more than that of the gels, {:.4g} mm",
+                                   names[static_cast<std::size_t>(pair.between[0])],
+                                   names[static_cast<std::size_t>(pair.between[1])], 1e3 * scales.d_hat_m));
+    overrides.push_back({.between = pair.between, .friction = pair.friction, .d_hat_m = pair.d_hat_m});
   }
   const double own_n = settings.barrier_stiffness_j_m4 * std::pow(scales.d_hat_m, 3);
-  mesh.laws.resize(count * count);
-  for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = 0; b < count; ++b) {
-      PairLaw& law = mesh.laws[a * count + b];
-      law.friction = most > 0.0 ? friction[a * count + b] / most : 1.0;
-      law.d_hat = d_hat[a * count + b] / scales.d_hat_m;
-      const bool hard = a >= num_deformable && b >= num_deformable;
-      const double wanted_n = hard ? std::max(own_n, (weight_n + contact.load_n) / (kCorners * kForceAtHalf)) : own_n;
-      law.stiffness = wanted_n / own_n / std::pow(law.d_hat, 3);
-    }
+  const double hard_force = std::max(own_n, (weight_n + contact.load_n) / (kCorners * kForceAtHalf)) / own_n;
+  for (int a = num_deformable; a < count; ++a) {
+    for (int b = a; b < count; ++b) overrides.push_back({.between = {a, b}, .force = hard_force});
   }
+  settings.laws = ContactLaws::resolved({config.coefficient_of_friction(), scales.d_hat_m}, count, overrides);
+  const bool has_friction = settings.laws.largest_friction() > 0.0;
+  if (has_friction && !config.friction)
+    throw UsageError("the press file has no section friction, which says how friction between bodies is solved");
+  settings.friction.reset();
+  if (has_friction) settings.friction = friction_settings(*config.friction, scales);
 }
 
 }  // namespace tacipc

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "stages/gel/press/contact/contact_mesh.h"
 #include "stages/gel/press/world/setup.h"
 
 namespace tacipc {
@@ -24,12 +23,12 @@ struct PairContact {
   double load_n = 0.0;  // the largest load on a body, besides its weight
 };
 
-/// Laws of the bodies of `mesh`, and the settings that go with them: friction of the pair with the largest coefficient.
+/// Resolves the laws of all pairs of bodies, in metres and coefficients, and how friction is solved, into `settings`.
 /// Pairs of bodies of which none deforms get a barrier stiff enough for the weight and load of all free bodies.
-/// \param num_gels gels come first \param num_deformable then soft bodies \param weight_n of all free bodies
+/// \param names of the bodies: gels, then other deformable ones, then objects \param weight_n of all free bodies
 /// \throw UsageError if a pair reaches farther than the gels do, or has friction and the press file has no such section
 void set_pair_laws(const PairContact& contact, const PressConfig& config, const Scales& scales,
-                   const std::vector<std::string>& names, std::size_t num_gels, std::size_t num_deformable,
-                   double weight_n, ContactMesh& mesh, StepSettings& settings);
+                   const std::vector<std::string>& names, int num_gels, int num_deformable, double weight_n,
+                   StepSettings& settings);
 
 }  // namespace tacipc

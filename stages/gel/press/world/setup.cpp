@@ -71,7 +71,7 @@ GelModel make_gel_model(const std::vector<DeformableBody>& bodies) {
 }
 
 StepSettings step_settings(const PressConfig& config, const Scales& scales) {
-  StepSettings settings{.d_hat_m = scales.d_hat_m,
+  StepSettings settings{.laws = ContactLaws({config.coefficient_of_friction(), scales.d_hat_m}),
                         .front_edge_m = scales.front_edge_m,
                         .barrier_stiffness_j_m4 = scales.barrier_stiffness / (config.time_step_s * config.time_step_s),
                         .adaptive_barrier = config.adaptive_barrier_stiffness,
@@ -88,15 +88,15 @@ StepSettings step_settings(const PressConfig& config, const Scales& scales) {
                                    .max_iterations = config.max_newton_iterations,
                                    .adaptive_contact_hessian = config.adaptive_contact_hessian,
                                    .patches = config.patches}};
-  if (config.friction && config.friction->coefficient > 0.0) {
-    const FrictionConfig& friction = *config.friction;
-    settings.friction = {.coefficient = friction.coefficient,
-                         .speed_threshold_m_s = friction.relative_speed_threshold * scales.diagonal_m,
-                         .max_lag_iterations = friction.iterated ? friction.max_lag_iterations : 1,
-                         .renewed_only_at_minima = friction.only_at_minima,
-                         .relative_lag_tolerance = friction.relative_lag_tolerance};
-  }
+  if (config.coefficient_of_friction() > 0.0) settings.friction = friction_settings(*config.friction, scales);
   return settings;
+}
+
+FrictionSettings friction_settings(const FrictionConfig& friction, const Scales& scales) {
+  return {.speed_threshold_m_s = friction.relative_speed_threshold * scales.diagonal_m,
+          .max_lag_iterations = friction.iterated ? friction.max_lag_iterations : 1,
+          .renewed_only_at_minima = friction.only_at_minima,
+          .relative_lag_tolerance = friction.relative_lag_tolerance};
 }
 
 bool check_object(const TriangleMesh& object, const PressConfig& config) {

@@ -39,7 +39,10 @@ struct DeformableBody {
 /// has no mount. \throw DataError naming the first tetrahedron of a body that is not positively oriented
 GelModel make_gel_model(const std::vector<DeformableBody>& bodies);
 
+/// Settings with one law for all pairs of bodies.
 StepSettings step_settings(const PressConfig& config, const Scales& scales);
+/// How friction is solved.
+FrictionSettings friction_settings(const FrictionConfig& friction, const Scales& scales);
 
 /// Whether the object's surface is closed. \throw DataError if it is not, or looks inwards, but `pairs: once` counts on
 /// it: which pieces of surface are near a vertex is told by what their edges and corners have in common

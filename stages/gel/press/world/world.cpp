@@ -73,7 +73,8 @@ ContactMesh World::make_mesh() {
     for (const Body& body : bodies_) names.push_back(body.name);
     double weight_n = 0.0;
     for (const AffineBody& body : affine_) weight_n += body.mass_kg * world_.gravity_m_s2.norm();
-    set_pair_laws(*world_.pairs, config_, scales_, names, num_gels_, parts_.size(), weight_n, mesh, settings_);
+    set_pair_laws(*world_.pairs, config_, scales_, names, static_cast<int>(num_gels_), static_cast<int>(parts_.size()),
+                  weight_n, settings_);
   }
   return mesh;
 }
@@ -118,8 +119,8 @@ void World::start() {
   if (!world_.mounts_move) return;
   state_.mount_n = Positions::Zero(mesh_.num_gel_vertices, 3);
   state_.on_others.assign(bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
-  state_.account = open_account(model_.mass_kg, instant(goal(0.0)), world_.gravity_m_s2,
-                                model_.elasticity->value(motion.x));
+  state_.account =
+      open_account(model_.mass_kg, instant(goal(0.0)), world_.gravity_m_s2, model_.elasticity->value(motion.x));
 }
 
 SolvedGel World::deformable(std::size_t b) const {
@@ -363,7 +364,7 @@ void World::judge(int number, const std::vector<Frame>& frames) const {
 
 void World::require_apart() const {
   tacipc::require_apart(shapes(), [&](std::size_t a, std::size_t b) {
-    return mesh_.laws.empty() ? scales_.d_hat_m : scales_.d_hat_m * mesh_.laws[a * bodies_.size() + b].d_hat;
+    return settings_.laws.of(static_cast<int>(a), static_cast<int>(b)).d_hat_m;
   });
 }
 

@@ -48,6 +48,7 @@ struct OnePoint {
   ContactMesh mesh;
   std::vector<ContactPair> pairs;
   Positions x;
+  ContactLaws laws{{.d_hat_m = kDHat}};
 
   OnePoint(const TriangleMesh& object, const Vector3& point) {
     mesh = make_contact_mesh(Positions{{point.x(), point.y(), point.z()}}, Triangles(0, 3), object.positions,
@@ -58,7 +59,7 @@ struct OnePoint {
     }
     x = mesh.rest_positions;
   }
-  ContactBarrier barrier(bool once) const { return {mesh, weighted(pairs, mesh, {.once = once}), kDHat}; }
+  ContactBarrier barrier(bool once) const { return {mesh, weighted(pairs, mesh, laws, {.once = once}), laws}; }
   double energy(bool once) const {
     const ContactBarrier term = barrier(once);
     double sum = 0.0;
@@ -128,7 +129,7 @@ TEST(PairCounting, TwoSheetsPushTwiceAndAFoldStaysRepulsive) {
 
 TEST(PairCounting, EveryPairIsLeftAlone) {
   const OnePoint scene(sheet([](double, double) { return 0.0; }), {0, 0, 0.1});
-  const auto same = weighted(scene.pairs, scene.mesh, {});
+  const auto same = weighted(scene.pairs, scene.mesh, scene.laws, {});
   ASSERT_EQ(same.size(), scene.pairs.size());
   for (std::size_t i = 0; i < same.size(); ++i) EXPECT_EQ(same[i].weight, 1.0);
 }
@@ -144,7 +145,7 @@ TEST(PairCounting, EdgesCountAsMuchAsTheyAreSharpAndGelPairsStay) {
                                        {Kind::edge_edge, {0, 1, 2, 3}},
                                        {Kind::point_triangle, {0, 1, 2, 3}},
                                        {Kind::point_triangle, {12, 1, 2, 3}}};
-  const auto counted = weighted(pairs, mesh, {.once = true, .edge_weight = 0.1});
+  const auto counted = weighted(pairs, mesh, ContactLaws(), {.once = true, .edge_weight = 0.1});
   ASSERT_EQ(counted.size(), 4u + 3u + 3u);
   EXPECT_NEAR(counted[0].weight, 1.0, 1e-12);
   EXPECT_EQ(counted[1].weight, 1.0);
@@ -155,7 +156,7 @@ TEST(PairCounting, EdgesCountAsMuchAsTheyAreSharpAndGelPairsStay) {
   Positions flat = roof;
   flat.col(2).tail(2).setConstant(-0.1);
   const ContactMesh smooth = make_contact_mesh(gel, Triangles{{0, 1, 2}, {1, 3, 2}}, flat, two);
-  EXPECT_EQ(weighted(pairs, smooth, {.once = true, .edge_weight = 0.1})[0].weight, 0.1);
+  EXPECT_EQ(weighted(pairs, smooth, ContactLaws(), {.once = true, .edge_weight = 0.1})[0].weight, 0.1);
 }
 
 /// Without friction a flat plate must not drag the gel, however its triangles are cut.

@@ -98,7 +98,8 @@ Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& 
   held->mesh.rest_positions = rows(x);
   // Edges much longer at rest than now make the mollifier's threshold large enough to matter for the case that says so.
   if (name == "edge_edge_mollified") held->mesh.rest_positions *= 6.0;
-  held->barrier.emplace(held->mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}, weight}}, 0.5);
+  held->barrier.emplace(held->mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}, weight}},
+                        ContactLaws({.d_hat_m = 0.5}));
   return {name, std::shared_ptr<EnergyTerm>(held, &*held->barrier), x, 1e-3, true, true};
 }
 
@@ -157,7 +158,7 @@ std::vector<Case> cases() {
     ContactMesh mesh;
     mesh.num_object_vertices = 4;
     mesh.rest_positions = start;
-    const ContactBarrier barrier(mesh, {{Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+    const ContactBarrier barrier(mesh, {{Kind::point_triangle, {0, 1, 2, 3}}}, ContactLaws({.d_hat_m = 0.5}));
     Vector12 moved = x;
     moved[0] += 0.1;
     moved[4] -= 0.15;
@@ -309,7 +310,7 @@ TEST(ContactBarrier, NeighboursCloserThanDHatAtRestDoNotPush) {
   ContactMesh mesh;
   mesh.num_gel_vertices = 4;
   mesh.rest_positions = Positions{{0.2, 0.2, 0.1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  const ContactBarrier term(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+  const ContactBarrier term(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}}, ContactLaws({.d_hat_m = 0.5}));
   Local local;
   Eigen::VectorXd x = mesh.rest_positions.reshaped<Eigen::RowMajor>();
   term.evaluate(0, x, Order::value, local);
@@ -343,7 +344,8 @@ TEST(Friction, IsTheNormalForceTimesItsPartAgainstTheMotion) {
   ContactMesh mesh;
   mesh.num_object_vertices = 4;
   mesh.rest_positions = Positions{{0.2, 0.2, 0.3}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}},
+                               ContactLaws({.d_hat_m = 0.5}));
   Local normal, friction;
   Eigen::VectorXd x = mesh.rest_positions.reshaped<Eigen::RowMajor>();
   barrier.evaluate(0, x, Order::gradient, normal);
@@ -363,7 +365,8 @@ TEST(Friction, MixtureIsTheWeightedSumAndForgetsWhatHasFaded) {
   ContactMesh mesh;
   mesh.num_object_vertices = 4;
   mesh.rest_positions = Positions{{0.2, 0.2, 0.3}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}}, 0.5);
+  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {0, 1, 2, 3}}},
+                               ContactLaws({.d_hat_m = 0.5}));
   Positions nearer = mesh.rest_positions, x = mesh.rest_positions;
   nearer(0, 2) = 0.1;
   x(0, 0) += 0.03;

@@ -333,7 +333,7 @@ struct Touching {
     mesh.num_gel_vertices = kGel;
     mesh.num_object_vertices = kAll - kGel;
     mesh.rest_positions = x;
-    barrier = std::make_shared<ContactBarrier>(mesh, pairs, 0.4);
+    barrier = std::make_shared<ContactBarrier>(mesh, pairs, ContactLaws({.d_hat_m = 0.4}));
     friction = std::make_shared<Friction>(*barrier, x, x + 0.3 * motion, 0.01);
   }
 };

@@ -63,7 +63,8 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   ContactMesh mesh;
   mesh.num_gel_vertices = 8;
   mesh.rest_positions = rest;
-  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {4, 0, 1, 2}}}, 0.4);
+  const ContactBarrier barrier(mesh, {{ContactPair::Kind::point_triangle, {4, 0, 1, 2}}},
+                               ContactLaws({.d_hat_m = 0.4}));
   const auto pattern = mesh_pattern(free, Elasticity(rest, tets, NeoHookean{2.0, 3.0}));
   EXPECT_EQ(pattern->find(4, 0), -1);
   EXPECT_EQ(cover_contacts(pattern, free, 8, barrier, barrier.active(rest), rest), pattern);

@@ -31,7 +31,7 @@ class NewtonStepTest : public ::testing::Test {
     // Turned a little, and down: no mere translation.
     for (int v = n; v < mesh_.num_vertices(); ++v) motion_.row(v) << 0.01 * x_(v, 1), -0.01 * x_(v, 0), -0.02;
     std::vector<ContactPair> pairs = ContactSearch(mesh_).pairs(x_, Positions::Zero(x_.rows(), 3), kDHat);
-    barrier_ = std::make_shared<ContactBarrier>(mesh_, std::move(pairs), kDHat);
+    barrier_ = std::make_shared<ContactBarrier>(mesh_, std::move(pairs), ContactLaws({.d_hat_m = kDHat}));
     const Eigen::VectorXd mass = Eigen::VectorXd::LinSpaced(n, 50.0, 80.0);
     StepTerms terms;
     terms.elasticity = elasticity_;
@@ -156,7 +156,7 @@ TEST_F(NewtonStepTest, SharesRaisedWithinACallAreInTheStepThatComesOfIt) {
 TEST_F(NewtonStepTest, ABarrierKnowsItsActivePairsAtEveryPlace) {
   Positions away = x_;
   away.bottomRows(5).rowwise() += Eigen::RowVector3d(0.0, 0.0, kDHat);
-  const ContactBarrier anew(mesh_, barrier_->pairs(), kDHat);
+  const ContactBarrier anew(mesh_, barrier_->pairs(), ContactLaws({.d_hat_m = kDHat}));
   const std::vector<int> near = barrier_->active(x_);
   const double energy = barrier_->value(x_);
   EXPECT_LT(barrier_->active(away).size(), near.size());
@@ -172,7 +172,7 @@ void NewtonStepTest::keeps_all_but_contacts(StepTerms terms) {
                                             Positions(x_.topRows(mesh_.num_gel_vertices)));
   const auto at = [&](const Positions& x) {
     terms.barrier = std::make_shared<ContactBarrier>(
-        mesh_, ContactSearch(mesh_).pairs(x, Positions::Zero(x.rows(), 3), kDHat), kDHat);
+        mesh_, ContactSearch(mesh_).pairs(x, Positions::Zero(x.rows(), 3), kDHat), ContactLaws({.d_hat_m = kDHat}));
     terms.friction = std::make_shared<Friction>(*terms.barrier, x, start_, 0.05);
     return make_incremental_potential(terms, {.h_s = 0.5, .barrier_stiffness_j_m4 = 20.0, .friction_coefficient = 0.6});
   };
@@ -269,7 +269,8 @@ TEST(NewtonStep, PlacesThatYieldAreFoundTogether) {
   terms.elasticity = std::make_shared<Elasticity>(gel.positions, gel.tets, NeoHookean{2.0, 7.0});
   const Positions x = mesh.rest_positions, still = Positions::Zero(x.rows(), 3);
   constexpr double kDHat = 0.1;
-  terms.barrier = std::make_shared<ContactBarrier>(mesh, ContactSearch(mesh).pairs(x, still, kDHat), kDHat);
+  terms.barrier = std::make_shared<ContactBarrier>(mesh, ContactSearch(mesh).pairs(x, still, kDHat),
+                                                   ContactLaws({.d_hat_m = kDHat}));
   const IncrementalPotential potential =
       make_incremental_potential(terms, {.h_s = 1.0, .barrier_stiffness_j_m4 = 3e4, .friction_coefficient = 0.0});
   NewtonStepper stepper(free, mesh.num_gel_vertices, terms.elasticity, LinearSolverKind::conjugate_gradient);

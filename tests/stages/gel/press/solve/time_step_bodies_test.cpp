@@ -34,12 +34,12 @@ class Bodies : public ::testing::Test {
     state_.velocity_m_s = Positions::Zero(gel_.num_vertices(), 3);
     state_.object_motion.assign(bodies_.size(), {});
   }
-  /// What two bodies have in common that differs from the others, both numbered as objects.
-  void set_law(int a, int b, const PairLaw& law) {
-    const int count = mesh_.num_bodies();
-    if (mesh_.laws.empty()) mesh_.laws.resize(static_cast<std::size_t>(count * count));
-    mesh_.laws[static_cast<std::size_t>((1 + a) * count + 1 + b)] = law;
-    mesh_.laws[static_cast<std::size_t>((1 + b) * count + 1 + a)] = law;
+  /// Gives pairs of bodies laws of their own, numbered as objects.
+  void override_laws(std::vector<LawOverride> overrides) {
+    for (LawOverride& own : overrides) {
+      for (int& body : own.between) ++body;
+    }
+    settings_.laws = ContactLaws::resolved(settings_.laws.all()[0], mesh_.num_bodies(), overrides);
   }
   GelModel gel() const {
     return {.elasticity = make_elasticity(gel_.positions, gel_.tets, NeoHookean{4.3e4, 2.6e5}, Element::linear),
@@ -76,17 +76,16 @@ class Bodies : public ::testing::Test {
   std::vector<AffineBody> bodies_;
   ContactMesh mesh_;
   State state_;
-  StepSettings settings_{.d_hat_m = kDHat,
-                         .front_edge_m = 1e-3,
-                         .barrier_stiffness_j_m4 = 2e12,
-                         .adaptive_barrier = true,
-                         .pair_counting = {.once = true},
-                         .friction = FrictionSettings{.coefficient = kMu,
-                                                      .speed_threshold_m_s = kSpeed,
-                                                      .max_lag_iterations = 50,
-                                                      .relative_lag_tolerance = 1e-3},
-                         .linear_solver = LinearSolverKind::conjugate_gradient,
-                         .newton = {.velocity_tolerance_m_s = 1e-7, .force_tolerance_n = 1e-6}};
+  StepSettings settings_{
+      .laws = ContactLaws({.friction = kMu, .d_hat_m = kDHat}),
+      .front_edge_m = 1e-3,
+      .barrier_stiffness_j_m4 = 2e12,
+      .adaptive_barrier = true,
+      .pair_counting = {.once = true},
+      .friction =
+          FrictionSettings{.speed_threshold_m_s = kSpeed, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-3},
+      .linear_solver = LinearSolverKind::conjugate_gradient,
+      .newton = {.velocity_tolerance_m_s = 1e-7, .force_tolerance_n = 1e-6}};
   std::vector<Vector3> load_n_;  // on each; none where there are none
   StepForces forces_;
   double h_s_ = kH;
@@ -145,8 +144,7 @@ TEST_F(Bodies, FrictionIsThatOfEachPair) {
   add(box_at(0.010, kAbove), true);
   add(table(), false);
   build();
-  set_law(0, 2, {.friction = 0.7 / kMu});
-  set_law(1, 2, {.friction = 0.25 / kMu});
+  override_laws({{.between = {0, 2}, .friction = 0.7}, {.between = {1, 2}, .friction = 0.25}});
   go(20, {0, 0, -kG});
   const double angle = std::atan(0.5);
   const Vector3 slope(kG * std::sin(angle), 0, -kG * std::cos(angle));
@@ -163,7 +161,7 @@ TEST_F(Bodies, APairMayTouchFromNearer) {
   add(box_at(0.0, kTable + 0.6 * kPart * kDHat), true);
   add(table(), false);
   build();
-  set_law(0, 1, {.d_hat = kPart, .stiffness = 1.0 / (kPart * kPart * kPart)});
+  override_laws({{.between = {0, 1}, .d_hat_m = kPart * kDHat}});
   go(60, {0, 0, -kG});
   EXPECT_NEAR(on(0, 1).force_n.z(), weight_n(0), 1e-3 * weight_n(0));
   const double gap = state_.x.middleRows(mesh_.objects[0].first_vertex, 8).col(2).minCoeff() - kTable;
@@ -242,12 +240,12 @@ TriangleMesh turned(const std::vector<std::pair<double, double>>& radius_and_z, 
 /// A round peg in a hole, both far above the gel. The hole's mouth is at z = kMouth, the peg's tip a depth below it.
 class PegInHole : public Bodies {
  protected:
-  static constexpr double kMouth = 0.05, kHole = 5e-3, kPeg = 4.975e-3, kLength = 20e-3;
+  static constexpr double kMouth = 0.05, kHole = 5e-3, kPeg = 4.975e-3, kLength = 20e-3, kPegDHat = 2e-6;
   void add_peg(double depth_m) {
     const double tip = kMouth - depth_m;
     add(turned({{kPeg, tip}, {kPeg, tip + kLength}}, false), true);
-    settings_.d_hat_m = 2e-6;
-    settings_.barrier_stiffness_j_m4 = 0.5 / std::pow(settings_.d_hat_m, 3);
+    settings_.laws = ContactLaws({.friction = kMu, .d_hat_m = kPegDHat});
+    settings_.barrier_stiffness_j_m4 = 0.5 / std::pow(kPegDHat, 3);
     settings_.friction->speed_threshold_m_s = 1e-5;
   }
   /// Part of the hole between two heights: around its wall, its upper rim, the outside and the back.
@@ -266,7 +264,7 @@ TEST_P(JammingPeg, JamsWhereWhitneySays) {
   const double mu = GetParam(), limit = kDepth / (mu * (2.0 * kArm - 2.0 * mu * kPeg - kDepth));  // F_x/F_z
   add_peg(kDepth);
   add_hole(kMouth, kMouth - 12e-3);
-  settings_.friction->coefficient = mu;
+  settings_.laws = ContactLaws({.friction = mu, .d_hat_m = kPegDHat});
   build();
   const State start = state_;
   const auto sunk_under = [&](double ratio) {
@@ -300,11 +298,11 @@ class WedgedPeg : public PegInHole {
     add_hole(kMouth, middle + 0.1e-3);
     add_hole(middle - 0.1e-3, kMouth - 12e-3);
     // A force so small that it moves the peg by less than d̂ in a step.
-    settings_.barrier_stiffness_j_m4 = 1e-3 / std::pow(settings_.d_hat_m, 3);
+    settings_.barrier_stiffness_j_m4 = 1e-3 / std::pow(kPegDHat, 3);
     settings_.friction->speed_threshold_m_s = kCreep;
     h_s_ = kStep;
     build();
-    tilt(depth, kPressed * settings_.d_hat_m);
+    tilt(depth, kPressed * kPegDHat);
     Looks looks;
     for (int i = 0; i < 9; ++i) {
       go(i == 0 ? 1 : kPart, Vector3::Zero());

@@ -75,7 +75,7 @@ class CarriedPairs : public ::testing::Test {
 };
 
 TEST_F(CarriedPairs, GradientAndHessianAreDerivativesByTheControlPoints) {
-  const ContactBarrier barrier(mesh_, pairs(), kDHat);
+  const ContactBarrier barrier(mesh_, pairs(), ContactLaws({.d_hat_m = kDHat}));
   const Friction friction(barrier, start(), start(), 0.05);
   for (const ContactTerm* term : std::initializer_list<const ContactTerm*>{&barrier, &friction}) {
     const auto at = [&](const Positions& y) {
@@ -103,7 +103,7 @@ TEST_F(CarriedPairs, GradientAndHessianAreDerivativesByTheControlPoints) {
 }
 
 TEST_F(CarriedPairs, ContactActsOnTheBodyAsOnTheGelTheOtherWay) {
-  const ContactBarrier barrier(mesh_, pairs(), kDHat);
+  const ContactBarrier barrier(mesh_, pairs(), ContactLaws({.d_hat_m = kDHat}));
   const Positions x = start();
   NewtonSystem system;
   const std::vector<int> active = barrier.active(x);
@@ -187,13 +187,12 @@ class FreeBody : public ::testing::Test {
   AffineBody body_;
   ContactMesh mesh_;
   State state_;
-  StepSettings settings_{.d_hat_m = kDHat,
-                         .barrier_stiffness_j_m4 = 7e13,
-                         .friction = FrictionSettings{.coefficient = kMu,
-                                                      .speed_threshold_m_s = kSpeed,
-                                                      .max_lag_iterations = 50,
-                                                      .relative_lag_tolerance = 1e-6},
-                         .newton = {.velocity_tolerance_m_s = 1e-8, .force_tolerance_n = 1e-6}};
+  StepSettings settings_{
+      .laws = ContactLaws({.friction = kMu, .d_hat_m = kDHat}),
+      .barrier_stiffness_j_m4 = 7e13,
+      .friction =
+          FrictionSettings{.speed_threshold_m_s = kSpeed, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-6},
+      .newton = {.velocity_tolerance_m_s = 1e-8, .force_tolerance_n = 1e-6}};
   StepReport report_;
   StepForces forces_;
   double largest_residual_n_ = 0.0;
@@ -321,7 +320,7 @@ TEST_F(TallBox, StandsJustBelowTheSlopeWhereItTips) {
 /// The same with less friction than its slope needs to tip it: it slides, upright.
 TEST_F(TallBox, SlidesBeforeItTipsWhereFrictionIsLow) {
   constexpr double kLow = 0.25;
-  settings_.friction->coefficient = kLow;
+  settings_.laws = ContactLaws({.friction = kLow, .d_hat_m = kDHat});
   go(60, {0, 0, -kG});
   const Vector3 g = gravity_on(0.3);
   go(20, g);
@@ -424,8 +423,9 @@ class DroppedBall : public FreeBody {
     const GelModel gel = soft_gel();
     ContactSearch search(mesh_);
     const Positions still = Positions::Zero(state_.x.rows(), 3);
-    const ContactBarrier barrier(mesh_, weighted(search.pairs(state_.x, still, kDHat), mesh_, settings_.pair_counting),
-                                 kDHat);
+    const ContactBarrier barrier(
+        mesh_, weighted(search.pairs(state_.x, still, kDHat), mesh_, settings_.laws, settings_.pair_counting),
+        settings_.laws);
     const Eigen::VectorXd squares = state_.velocity_m_s.rowwise().squaredNorm();
     return 0.5 * gel.mass_kg.dot(squares) - gel.mass_kg.dot(state_.x.topRows(n) * settings_.gravity_m_s2) +
            gel.elasticity->value(state_.x) + kinetic_energy(body_, points(), state_.object_motion[0]) -

@@ -82,7 +82,7 @@ class MirroredGels : public ::testing::TestWithParam<bool> {
   }
   void expect_mirror_images(int steps, std::optional<FrictionSettings> friction, double least_force_n) {
     const StepSettings settings{
-        .d_hat_m = kDHat,
+        .laws = ContactLaws({.friction = 0.5, .d_hat_m = kDHat}),
         .front_edge_m = 1e-3,
         .barrier_stiffness_j_m4 = 1e9,
         .pair_counting = {.once = GetParam()},
@@ -116,10 +116,7 @@ class MirroredGels : public ::testing::TestWithParam<bool> {
 /// Neither slides on the other, so friction does nothing but keep vertices that face each other where they are.
 TEST_P(MirroredGels, StayMirrorImages) {
   expect_mirror_images(
-      6,
-      FrictionSettings{
-          .coefficient = 0.5, .speed_threshold_m_s = 2e-5, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-3},
-      0.19);
+      6, FrictionSettings{.speed_threshold_m_s = 2e-5, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-3}, 0.19);
 }
 
 /// Without it two vertices that press on each other head on stay there only as long as their force over their distance

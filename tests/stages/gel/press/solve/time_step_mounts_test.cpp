@@ -23,16 +23,14 @@ GelModel model_of(const TetMesh& gel, Element element) {
 }
 
 StepSettings settings(double mu) {
-  return {
-      .d_hat_m = kDHat,
-      .front_edge_m = 1e-3,
-      .barrier_stiffness_j_m4 = 1e13,
-      .pair_counting = {.once = true},
-      .friction =
-          FrictionSettings{
-              .coefficient = mu, .speed_threshold_m_s = 2e-5, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-3},
-      .linear_solver = LinearSolverKind::conjugate_gradient,
-      .newton = {.velocity_tolerance_m_s = 1e-6, .relative_force_tolerance = 1e-6, .force_tolerance_n = 1e-6}};
+  return {.laws = ContactLaws({.friction = mu, .d_hat_m = kDHat}),
+          .front_edge_m = 1e-3,
+          .barrier_stiffness_j_m4 = 1e13,
+          .pair_counting = {.once = true},
+          .friction =
+              FrictionSettings{.speed_threshold_m_s = 2e-5, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-3},
+          .linear_solver = LinearSolverKind::conjugate_gradient,
+          .newton = {.velocity_tolerance_m_s = 1e-6, .relative_force_tolerance = 1e-6, .force_tolerance_n = 1e-6}};
 }
 
 Positions glued_rows(const GelModel& gel, const Positions& at) { return at(gel.glued, Eigen::all); }

@@ -38,14 +38,12 @@ class SoftBody : public ::testing::Test {
   }
   /// Under a weight that leans by `slope`.
   StepSettings settings(double mu, double slope) const {
-    return {.d_hat_m = kDHat,
+    return {.laws = ContactLaws({.friction = mu, .d_hat_m = kDHat}),
             .front_edge_m = 1e-3,
             .barrier_stiffness_j_m4 = 1e11,
             .pair_counting = {.once = true},
-            .friction = FrictionSettings{.coefficient = mu,
-                                         .speed_threshold_m_s = 2e-5,
-                                         .max_lag_iterations = 50,
-                                         .relative_lag_tolerance = 1e-3},
+            .friction =
+                FrictionSettings{.speed_threshold_m_s = 2e-5, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-3},
             .gravity_m_s2 = kGravity * Vector3(slope, 0.0, -1.0).normalized(),
             .linear_solver = LinearSolverKind::conjugate_gradient,
             .newton = {.velocity_tolerance_m_s = 1e-6, .relative_force_tolerance = 1e-5, .force_tolerance_n = 1e-8}};

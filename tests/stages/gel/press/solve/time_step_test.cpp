@@ -57,12 +57,10 @@ class BlockOnAPlate : public ::testing::Test {
        .tets = gel_.tets,
        .mass_kg = Eigen::VectorXd::Constant(gel_.num_vertices(), 1e-4),
        .glued = held()},
-      {.d_hat_m = kDHat,
+      {.laws = ContactLaws({.friction = kMu, .d_hat_m = kDHat}),
        .barrier_stiffness_j_m4 = 7e13,
-       .friction = FrictionSettings{.coefficient = kMu,
-                                    .speed_threshold_m_s = kSpeed,
-                                    .max_lag_iterations = 50,
-                                    .relative_lag_tolerance = 1e-6},
+       .friction =
+           FrictionSettings{.speed_threshold_m_s = kSpeed, .max_lag_iterations = 50, .relative_lag_tolerance = 1e-6},
        .newton = {.velocity_tolerance_m_s = 1e-11, .force_tolerance_n = 1e-9}}};
   State state_{.x = mesh_.rest_positions, .velocity_m_s = Positions::Zero(gel_.num_vertices(), 3)};
 
@@ -162,7 +160,7 @@ TEST(TimeStepper, AFreeGelSwingsAsDenseAlgebraSaysWithDampingOfEitherKind) {
 
   for (const auto& [alpha, beta] : {std::pair{0.0, 0.0}, {2e3, 0.0}, {0.0, 2e-4}, {1e3, 1e-4}}) {
     TimeStepper stepper(mesh, {.elasticity = elasticity, .tets = gel.tets, .mass_kg = mass_kg, .glued = glued},
-                        {.d_hat_m = 1e-5,
+                        {.laws = ContactLaws({.d_hat_m = 1e-5}),
                          .barrier_stiffness_j_m4 = 1e10,
                          .mass_damping_per_s = alpha,
                          .stiffness_damping_s = beta,

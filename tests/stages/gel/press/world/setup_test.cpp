@@ -69,7 +69,7 @@ class Swinging : public ::testing::TestWithParam<LinearSolverKind> {
     object.positions.col(2).array() += 0.1;
     const ContactMesh mesh = make_contact_mesh(all.positions, all.boundary, object.positions, object.triangles);
     TimeStepper stepper(mesh, make_gel_model(bodies),
-                        {.d_hat_m = 2e-5,
+                        {.laws = ContactLaws({.d_hat_m = 2e-5}),
                          .front_edge_m = 1e-3,
                          .barrier_stiffness_j_m4 = 1e13,
                          .gravity_m_s2 = {400.0, 0.0, -900.0},
