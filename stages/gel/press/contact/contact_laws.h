@@ -48,6 +48,8 @@ class ContactLaws {
 
   /// The largest d̂ of all pairs: nothing pushes from farther away.
   double reach_m() const { return reach_m_; }
+  /// d̂ of the bodies of a contact pair.
+  double reach_m(const ContactMesh& mesh, const ContactPair& pair) const { return laws_[index(mesh, pair)].d_hat_m; }
   /// The largest μ of all pairs; zero: no friction anywhere.
   double largest_friction() const { return largest_friction_; }
   /// μ of a law as part of the largest μ.

@@ -57,7 +57,7 @@ class ContactBarrier final : public ContactTerm {
   bool mollified(int i, const FourPoints& x) const;
 
   /// Whether d̂ of the law of pair i is the largest of all, as the packed evaluation assumes.
-  bool has_largest_d_hat(int i) const { return law(i).d_hat_m == laws_.reach_m(); }
+  bool has_largest_reach(int i) const { return law(i).d_hat_m == laws_.reach_m(); }
 
   const ContactMesh* mesh_;
   std::vector<ContactPair> pairs_;

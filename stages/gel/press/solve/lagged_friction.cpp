@@ -1,11 +1,12 @@
-// Friction within a time step: where its normal forces and tangent planes are taken, and how often they are renewed.
+#include "stages/gel/press/solve/lagged_friction.h"
+
 #include <algorithm>
 #include <limits>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "stages/gel/press/solve/step_limit.h"
-#include "stages/gel/press/solve/step_under_way.h"
+#include "stages/gel/press/solve/assembly.h"
+#include "stages/gel/press/solve/held_objects.h"
 
 namespace tacipc {
 namespace {
@@ -34,16 +35,21 @@ constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
 
 }  // namespace
 
-std::shared_ptr<const Friction> TimeStepper::friction_at(const Positions& lagged, const Step& step) {
-  return std::make_shared<const Friction>(*barrier(pairs_at(lagged)), lagged, step.compared_start(),
-                                          settings_.friction->speed_threshold_m_s * step.goal.h_s);
+std::shared_ptr<const Friction> LaggedFriction::lagged_at(const Positions& x, const ContactBarrier& barrier,
+                                                          const Step& step) const {
+  return std::make_shared<const Friction>(barrier, x, step.compared_start(),
+                                          model_.settings.friction->speed_threshold_m_s * step.goal.h_s);
 }
 
-void TimeStepper::start_friction(Step& step) {
-  if (!settings_.friction) return;
-  if (settings_.friction->max_lag_iterations > 1) {
-    step.friction = friction_at(step.start, step);
-    if (settings_.friction->renewed_only_at_minima || settings_.augmented_lagrangian) {
+std::shared_ptr<const Friction> LaggedFriction::lagged_at(const Positions& x, const Step& step) {
+  return lagged_at(x, *model_.barrier(detector_.pairs_at(x)), step);
+}
+
+void LaggedFriction::start(Step& step) {
+  if (!model_.settings.friction) return;
+  if (model_.settings.friction->max_lag_iterations > 1) {
+    step.friction = lagged_at(step.start, step);
+    if (model_.settings.friction->renewed_only_at_minima || model_.settings.augmented_lagrangian) {
       step.looseness = kLooseness;
     } else {
       step.renewals_left = kMostRenewals;
@@ -52,83 +58,83 @@ void TimeStepper::start_friction(Step& step) {
   }
   // Normal forces and tangent planes are those after the object alone has moved as far as half of every gap allows, so
   // that contacts of this step have friction, too. [where the IPC authors' code lags friction]
-  Positions motion = way_of_held_objects(step, step.start);
+  Positions motion = way_of_held_objects(model_.mesh, step, step.start);
   for (const Step::Body& body : step.bodies) {
-    const int first = mesh_.control_row(body.body);
+    const int first = model_.mesh.control_row(body.body);
     motion.middleRows<4>(first) = body.predicted - step.start.middleRows<4>(first);
   }
-  for (const CarriedBody& body : newton_->free().carried) body.carry(motion);
+  for (const CarriedBody& body : step.newton.free().carried) body.carry(motion);
   // Pairs that are near already mostly stop the object soon; only up to there the others need be searched.
-  const GapRule rule{kLagSlack, kGapFloor * settings_.laws.reach_m()};
-  const double part = contact_step_limit(pairs_at(step.start), step.start, motion, rule);
+  GapRule rule = detector_.gap_rule(kLagSlack);
+  rule.near_m = std::numeric_limits<double>::infinity();
+  const double part = contact_step_limit(detector_.pairs_at(step.start), step.start, motion, rule);
   motion *= part;
-  motion *= contact_step_limit(pairs_along(step.start, motion), step.start, motion, rule);
-  step.friction = friction_at(step.start + motion, step);
+  motion *= contact_step_limit(detector_.pairs_along(step.start, motion), step.start, motion, rule);
+  step.friction = lagged_at(step.start + motion, step);
 }
 
-double TimeStepper::friction_change(const Friction& renewed, const Step& step) const {
-  const Positions change = gradient_of(renewed, step.x) - gradient_of(*step.friction, step.x);
+double LaggedFriction::change(const Friction& renewed, const Step& step) const {
+  const Positions difference = gradient_of(renewed, step.x) - gradient_of(*step.friction, step.x);
   double sum = 0.0;
-  for (const int v : newton_->free().vertex_of_free) sum += change.row(v).norm();
-  for (const CarriedBody& body : newton_->free().carried)
-    sum += change.middleRows(body.first_vertex, body.weights.rows()).colwise().sum().norm();
+  for (const int v : step.newton.free().vertex_of_free) sum += difference.row(v).norm();
+  for (const CarriedBody& body : step.newton.free().carried)
+    sum += difference.middleRows(body.first_vertex, body.weights.rows()).colwise().sum().norm();
   return step.weights.of_friction(1.0) * sum;
 }
 
-double TimeStepper::friction_limit(const Step& step) const {
-  return std::max(settings_.newton.force_tolerance_n,
-                  settings_.friction->relative_lag_tolerance * step.report.contact_force_n);
+double LaggedFriction::limit(const Step& step) const {
+  return std::max(model_.settings.newton.force_tolerance_n,
+                  model_.settings.friction->relative_lag_tolerance * step.report.contact_force_n);
 }
 
-void TimeStepper::renew_friction(Step& step, Minimisation& run) {
-  auto renewed = std::make_shared<const Friction>(*run.barrier, step.x, step.compared_start(),
-                                                  settings_.friction->speed_threshold_m_s * step.goal.h_s);
+void LaggedFriction::renew(Step& step, Minimisation& run) const {
+  auto renewed = lagged_at(step.x, *run.barrier, step);
   if (step.arrived) {
-    const double change = friction_change(*renewed, step);
-    log_debug("  renewal {}: {:.3e} N", step.report.lag_iterations + 1, change);
-    if (change < 0.5 * step.least_friction_change_n) {
-      step.least_friction_change_n = change;
+    const double changed = change(*renewed, step);
+    log_debug("  renewal {}: {:.3e} N", step.report.lag_iterations + 1, changed);
+    if (changed < 0.5 * step.least_friction_change_n) {
+      step.least_friction_change_n = changed;
       step.renewals_left = kMostRenewals;
     }
     const bool last = --step.renewals_left == 0;  // vertices go to and fro: only friction that stays ends that
     if (last && step.bodies.empty()) step.looseness = kLooseness;
     const double least = step.least_friction_change_n;
-    if (last || (least <= friction_limit(step) && change > kJump * least)) return;
-    if (change <= kSettledPart * friction_limit(step)) step.renewals_left = 0;  // this is the last one
+    if (last || (least <= limit(step) && changed > kJump * least)) return;
+    if (changed <= kSettledPart * limit(step)) step.renewals_left = 0;  // this is the last one
   }
   ++step.report.lag_iterations;
   step.friction = std::move(renewed);
-  run.energy = potential(step, run.barrier);
+  run.energy = step.potential(run.barrier);
   run.value.reset();
 }
 
-void TimeStepper::settle_friction(Step& step) {
-  if (!settings_.friction) return;
-  const FrictionSettings& friction = *settings_.friction;
+void LaggedFriction::settle(Step& step, const std::function<void()>& minimise) {
+  if (!model_.settings.friction) return;
+  const FrictionSettings& friction = *model_.settings.friction;
   StepReport& report = step.report;
   double renewal = 1.0, last_residual = std::numeric_limits<double>::infinity();
   int renewed_here = 0;
   while (true) {
     // The residual force if normal forces and tangent planes were renewed now.
-    const auto renewed = friction_at(step.x, step);
-    report.friction_residual_n = friction_change(*renewed, step);
+    const auto renewed = lagged_at(step.x, step);
+    report.friction_residual_n = change(*renewed, step);
     log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", report.lag_iterations, report.friction_residual_n,
               report.contact_force_n);
-    const double limit = friction_limit(step);
+    const double allowed = limit(step);
     // Renewed once at least: else some steps would keep older friction than others, and forces would jump between them
     // by as much as the tolerance allows.
     const bool renewed_once = report.lag_iterations > 0 || friction.max_lag_iterations == 1;
     const bool strict = !friction.renewed_only_at_minima && renewed_here < kStrictRenewals;
-    const bool settled = report.friction_residual_n <= (!renewed_once ? settings_.newton.force_tolerance_n
-                                                        : strict      ? kStrictPart * limit
-                                                                      : limit);
+    const bool settled = report.friction_residual_n <= (!renewed_once ? model_.settings.newton.force_tolerance_n
+                                                        : strict      ? kStrictPart * allowed
+                                                                      : allowed);
     const bool early = strict && step.bodies.empty();
     const bool last = renewed_here + 1 >= friction.max_lag_iterations;
     if ((settled || last) && step.looseness == 1.0) {
       if (settled || friction.max_lag_iterations == 1) return;
       throw SolverError(
           "friction did not settle: residual {:.2e} N after it was renewed {} times at minima (limit {:.2e})",
-          report.friction_residual_n, friction.max_lag_iterations, limit);
+          report.friction_residual_n, friction.max_lag_iterations, allowed);
     }
     if (!settled && !last) {
       ++renewed_here;
@@ -146,11 +152,11 @@ void TimeStepper::settle_friction(Step& step) {
     } else if (early) {
       const double changed = renewal * report.friction_residual_n;
       step.looseness =
-          std::clamp(changed / settings_.newton.force_limit_n(report.contact_force_n), 1.0, kMostLooseness);
+          std::clamp(changed / model_.settings.newton.force_limit_n(report.contact_force_n), 1.0, kMostLooseness);
     } else {
-      step.looseness = report.friction_residual_n > kFarFromSettled * limit ? kLooseness : 1.0;
+      step.looseness = report.friction_residual_n > kFarFromSettled * allowed ? kLooseness : 1.0;
     }
-    minimise_constrained(step);
+    minimise();
   }
 }
 

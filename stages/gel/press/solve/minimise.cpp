@@ -1,11 +1,13 @@
-// Within a time step: Newton's method to the minimum of the incremental potential.
+#include "stages/gel/press/solve/minimise.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "stages/gel/press/solve/step_limit.h"
-#include "stages/gel/press/solve/step_under_way.h"
+#include "stages/gel/press/solve/head_start.h"
+#include "stages/gel/press/solve/held_objects.h"
+#include "stages/gel/press/solve/line_search.h"
 
 namespace tacipc {
 namespace {
@@ -16,55 +18,55 @@ constexpr double kLooseSolve = 3e-2, kCoarseSolve = 1e-2, kFineSolve = 1e-3;
 // A step this many times as long as the last one is a sign of an almost indefinite Hessian.
 constexpr double kLengthGrowth = 4.0;
 constexpr int kMaxExactHessianWaits = 10;
-constexpr int kMaxHalvings = 40;
 // What is left of the balance of a free object: this part of its weight and load, at least of kLeastWeight; of torques
 // on an arm of so many metres.
 constexpr double kBodyTolerance = 5e-4, kBodyArm = 0.01;
-constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
 // From so many whole steps in a row with an approximated Hessian on, each goes twice as far as the one before.
 constexpr int kCreeping = 6;
 constexpr double kMostStretch = 1e3;
 // Multipliers are renewed at minima known to this part of the constraint's tolerance.
 constexpr double kConstraintPart = 0.3;
 
+/// Lets the next step go farther if those before it crept.
+void stretch_next(Minimisation& run, const NewtonDirection& direction, double alpha) {
+  // Where a body could fall over, its energy has no minimum nearby; the approximation is one with such a minimum, and
+  // step after step goes just a little way.
+  if (alpha < 1.0) {
+    run.stretch = std::max(1.0, 0.5 * run.stretch);
+  } else if (direction.largest_share > 0.0) {
+    if (++run.crept >= kCreeping) run.stretch = std::min(2.0 * run.stretch, kMostStretch);
+    return;
+  }
+  if (direction.largest_share == 0.0) run.stretch = 1.0;
+  run.crept = 0;
+}
+
 }  // namespace
 
-double largest_row(const Positions& p, Eigen::Index rows) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < rows; ++i) largest = std::max(largest, p.row(i).squaredNorm());
-  return std::sqrt(largest);
-}
-
-void raise_shares_of_farthest(const Positions& p, Blend& blend) {
-  const double far = kFarthest * largest_row(p, p.rows());
-  for (Eigen::Index v = 0; v < p.rows(); ++v) {
-    if (p.row(v).norm() >= far) blend.raise_after_shortening(static_cast<int>(v));
-  }
-}
-
-void TimeStepper::minimise(Step& step) {
+void Minimiser::minimise(Step& step) {
   const StepReport& report = step.report;
-  Minimisation run{.barrier = barrier(pairs_at(step.x)), .energy = {}};
-  run.energy = potential(step, run.barrier);
+  Minimisation run{.barrier = model_.barrier(detector_.pairs_at(step.x)), .energy = {}};
+  run.energy = step.potential(run.barrier);
   while (true) {
-    if (report.newton_iterations >= settings_.newton.max_iterations) {
+    if (report.newton_iterations >= model_.settings.newton.max_iterations) {
       throw SolverError(
           "Newton did not converge within {} iterations (step {:.2e} m/s, limit {:.2e}, residual force {:.2e} N "
           "of {:.3e} N, smallest gap {:.2e} m)",
-          settings_.newton.max_iterations, report.velocity_residual_m_s, settings_.newton.velocity_tolerance_m_s,
-          report.force_residual_n, report.contact_force_n, smallest_gap(step.x, settings_.laws.reach_m()));
+          model_.settings.newton.max_iterations, report.velocity_residual_m_s,
+          model_.settings.newton.velocity_tolerance_m_s, report.force_residual_n, report.contact_force_n,
+          detector_.smallest_gap(step.x, model_.settings.laws.reach_m()));
     }
     const bool moving = !step.arrived && !run.relax_next;
     // Before the first iteration it is that of x already.
-    if (step.renewals_left > 0 && report.newton_iterations > 0) renew_friction(step, run);
+    if (step.renewals_left > 0 && report.newton_iterations > 0) friction_.renew(step, run);
     NewtonDirection direction = find_direction(step, run, moving);
     const bool converged = within_tolerances(step, direction);
     step.report.approximated_share = direction.largest_share;
     if (converged && is_final(step, run, direction)) return;
 
-    if ((step.goal.free_object || mesh_.gels.size() > 1) && !moving) {
+    if ((step.goal.free_object || model_.mesh.gels.size() > 1) && !moving) {
       // A light object may be asked to go far before it touches anything.
-      if (const double way = relative_way(direction.p), most = longest_way(); way > most) {
+      if (const double way = relative_way(model_.mesh, direction.p), most = longest_way(model_.settings); way > most) {
         direction.p *= most / way;
         direction.slope *= most / way;
       }
@@ -73,28 +75,29 @@ void TimeStepper::minimise(Step& step) {
       direction.p *= run.stretch;
       direction.slope *= run.stretch;
     }
-    std::vector<ContactPair> pairs = pairs_along(step.x, direction.p);
-    const double limit =
-        moving ? bend_at_contacts(step, run, direction, pairs) : step_limit(pairs, step, direction.p, kNewtonSlack);
-    run.barrier = barrier(pairs);
-    run.energy = potential(step, run.barrier);
+    std::vector<ContactPair> pairs = detector_.pairs_along(step.x, direction.p);
+    const double limit = moving ? mover_.bend_at_contacts(step, run, direction, pairs)
+                                : detector_.step_limit(pairs, step.x, direction.p, kNewtonSlack);
+    run.barrier = model_.barrier(pairs);
+    run.energy = step.potential(run.barrier);
     double alpha = limit;
     const char* const kind = moving ? "move" : step.arrived ? "newton" : "relax";
     if (moving) {
-      move_object(step, run, direction, alpha);
+      mover_.move(step, run, direction, alpha);
     } else {
-      const std::optional<double> found = line_search(step, run, direction, limit);
+      const std::optional<double> found = line_search(direction, limit, step, run, times_);
       if (!found && converged) return;  // what the exact Hessian could still change is below rounding
       if (!found) {
         throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
-                          run.residual_m_s, direction.slope, smallest_gap(step.x, settings_.laws.reach_m()));
+                          run.residual_m_s, direction.slope,
+                          detector_.smallest_gap(step.x, model_.settings.laws.reach_m()));
       }
       alpha = *found;
       run.relax_next = false;
       if (!step.bodies.empty()) stretch_next(run, direction, alpha);
-      if (const auto change = step.arrived ? relax_patch(step, direction, pairs) : std::nullopt) {
-        run.barrier = barrier(std::move(pairs));
-        run.energy = potential(step, run.barrier);
+      if (const auto change = step.arrived ? patches_.relax(step, direction, pairs) : std::nullopt) {
+        run.barrier = model_.barrier(std::move(pairs));
+        run.energy = step.potential(run.barrier);
         *run.value += *change;
       }
     }
@@ -105,25 +108,25 @@ void TimeStepper::minimise(Step& step) {
   }
 }
 
-NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool moving) {
+NewtonDirection Minimiser::find_direction(Step& step, Minimisation& run, bool moving) const {
   const double h = step.goal.h_s;
-  const Positions way = moving ? way_of_held_objects(step, step.x) : Positions();
+  const Positions way = moving ? way_of_held_objects(model_.mesh, step, step.x) : Positions();
   Positions motion = Positions::Zero(step.x.rows(), 3);
   if (moving && step.goal.gel_motion.size() > 0)
-    motion.topRows(mesh_.num_gel_vertices) = run.part_of_motion * step.gel_way_left * step.goal.gel_motion;
-  if (moving) mesh_.object_rows(motion) = run.part_of_motion * mesh_.object_rows(way);
+    motion.topRows(model_.mesh.num_gel_vertices) = run.part_of_motion * step.gel_way_left * step.goal.gel_motion;
+  if (moving) model_.mesh.object_rows(motion) = run.part_of_motion * model_.mesh.object_rows(way);
   // One direction differs from the next by more than a coarse solution leaves out of it.
   const bool loose =
-      step.looseness > 1.0 && step.bodies.empty() && step.goal.free_axes.empty() && mesh_.gels.size() <= 1;
-  newton_->set_tolerance(moving ? kFineSolve : loose ? kLooseSolve : kCoarseSolve);
+      step.looseness > 1.0 && step.bodies.empty() && step.goal.free_axes.empty() && model_.mesh.gels.size() <= 1;
+  step.newton.set_tolerance(moving ? kFineSolve : loose ? kLooseSolve : kCoarseSolve);
   const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
-  Blend from_psd = full_blend();
-  NewtonDirection direction = newton_->direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
-                                                 step.arrived ? step.blend : from_psd);
-  const Eigen::Index rows = settings_.augmented_lagrangian ? step.x.rows() : mesh_.num_gel_vertices;
+  Blend from_psd = model_.full_blend();
+  NewtonDirection direction = step.newton.direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
+                                                    step.arrived ? step.blend : from_psd);
+  const Eigen::Index rows = model_.settings.augmented_lagrangian ? step.x.rows() : model_.mesh.num_gel_vertices;
   run.residual_m_s = std::max(largest_row(direction.p, rows), direction.object_shift.norm());
   for (const Step::Body& body : step.bodies) {
-    const auto points = direction.p.middleRows<4>(mesh_.control_row(body.body));
+    const auto points = direction.p.middleRows<4>(model_.mesh.control_row(body.body));
     run.residual_m_s = std::max(run.residual_m_s, std::sqrt(points.rowwise().squaredNorm().sum()));
   }
   run.residual_m_s /= h;
@@ -133,7 +136,7 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   report.force_residual_n = direction.gradient_sum / (h * h);
   report.contact_force_n = direction.contact_sum / (h * h);
   if (direction.gels.size() > 1) {
-    const auto limit = [&](double contact_sum) { return settings_.newton.force_limit_n(contact_sum / (h * h)); };
+    const auto limit = [&](double contact_sum) { return model_.settings.newton.force_limit_n(contact_sum / (h * h)); };
     double worst = 0.0;
     for (const NewtonDirection::Gel& gel : direction.gels)
       worst = std::max(worst, gel.gradient_sum / (h * h) / limit(gel.contact_sum));
@@ -142,8 +145,8 @@ NewtonDirection TimeStepper::find_direction(Step& step, Minimisation& run, bool 
   return direction;
 }
 
-bool TimeStepper::within_tolerances(const Step& step, const NewtonDirection& direction) const {
-  const NewtonSettings& settings = settings_.newton;
+bool Minimiser::within_tolerances(const Step& step, const NewtonDirection& direction) const {
+  const NewtonSettings& settings = model_.settings.newton;
   const StepReport& report = step.report;
   if (!step.arrived) return false;
   if (step.constraint && !(step.constraint->largest(direction.p) < kConstraintPart * kConstraintTolerance))
@@ -160,54 +163,12 @@ bool TimeStepper::within_tolerances(const Step& step, const NewtonDirection& dir
 
 // The PSD approximation shortens steps, so that a vertex on the crest of one of the object's edges looks at rest. With
 // the exact Hessian it would not: a limited number of iterations is spent on waiting for it.
-bool TimeStepper::is_final(Step& step, Minimisation& run, const NewtonDirection& direction) const {
-  const bool exact = direction.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
+bool Minimiser::is_final(Step& step, Minimisation& run, const NewtonDirection& direction) const {
+  const bool exact = direction.largest_share == 0.0 || !model_.settings.newton.adaptive_contact_hessian;
   if (exact || step.looseness > 1.0 || run.exact_hessian_waits == kMaxExactHessianWaits) return true;
   ++run.exact_hessian_waits;
   ++step.report.exact_hessian_waits;
   return false;
-}
-
-double TimeStepper::step_limit(const std::vector<ContactPair>& pairs, const Step& step, const Positions& p,
-                               double slack) {
-  const Stopwatch watch(times_.limits_s);
-  const GapRule rule = gap_rule(slack);
-  return std::min(contact_step_limit(pairs, step.x, p, rule), inversion_step_limit(gel_.tets, step.x, p));
-}
-
-void TimeStepper::stretch_next(Minimisation& run, const NewtonDirection& direction, double alpha) {
-  // Where a body could fall over, its energy has no minimum nearby; the approximation is one with such a minimum, and
-  // step after step goes just a little way.
-  if (alpha < 1.0) {
-    run.stretch = std::max(1.0, 0.5 * run.stretch);
-  } else if (direction.largest_share > 0.0) {
-    if (++run.crept >= kCreeping) run.stretch = std::min(2.0 * run.stretch, kMostStretch);
-    return;
-  }
-  if (direction.largest_share == 0.0) run.stretch = 1.0;
-  run.crept = 0;
-}
-
-std::optional<double> TimeStepper::line_search(Step& step, Minimisation& run, const NewtonDirection& direction,
-                                               double limit) {
-  const auto value = [&](const Positions& at) {
-    return timed(times_.line_search_s, [&] { return run.energy.value(at); });
-  };
-  const double before = run.value ? *run.value : value(step.x);
-  // Near the minimum the decrease drowns in rounding; a step that changes nothing measurable is accepted, too.
-  const double rounding = kEnergyRounding * std::abs(before);
-  double alpha = limit;
-  for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, alpha *= 0.5) {
-    const Positions trial = step.x + alpha * direction.p;
-    const double after = value(trial);
-    if (!(after <= before + kSufficientDecrease * alpha * direction.slope + rounding)) continue;
-    if (step.arrived && halvings > 0) raise_shares_of_farthest(direction.p.topRows(step.blend.size()), step.blend);
-    step.x = trial;
-    step.object_shift += alpha * direction.object_shift;
-    run.value = after;
-    return alpha;
-  }
-  return std::nullopt;
 }
 
 }  // namespace tacipc

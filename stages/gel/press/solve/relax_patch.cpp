@@ -1,13 +1,11 @@
-// Within a time step: Newton's method for the few vertices that still move.
+#include "stages/gel/press/solve/relax_patch.h"
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "common/base/log.h"
 #include "stages/gel/press/contact/patch_search.h"
-#include "stages/gel/press/solve/local_patch.h"
-#include "stages/gel/press/solve/step_limit.h"
-#include "stages/gel/press/solve/step_under_way.h"
+#include "stages/gel/press/solve/line_search.h"
 
 namespace tacipc {
 namespace {
@@ -80,95 +78,156 @@ std::optional<Seeds> approximated(const Blend& blend, const Positions& p, const 
   return found;
 }
 
-}  // namespace
-
-std::optional<double> TimeStepper::relax_patch(Step& step, const NewtonDirection& direction,
-                                               std::vector<ContactPair>& pairs) {
-  if (!settings_.newton.patches || settings_.augmented_lagrangian || !step.goal.free_axes.empty()) return std::nullopt;
-  const double h = step.goal.h_s, tolerance = settings_.newton.velocity_tolerance_m_s * h;
-  const Stopwatch watch(times_.patches_s);
-  const FreeVertices& free = newton_->free();
+/// Seeds of a patch after this direction, if there is reason for one.
+std::optional<Seeds> seeds_of(const SolverModel& model, const Step& step, const NewtonDirection& direction) {
+  const NewtonSettings& settings = model.settings.newton;
+  if (!settings.patches || model.settings.augmented_lagrangian || !step.goal.free_axes.empty()) return std::nullopt;
+  const FreeVertices& free = step.newton.free();
   if (free.size() < kFewestVertices) return std::nullopt;
-  std::optional<Seeds> found = farthest(direction.p, free, mesh_.num_gel_vertices, tolerance);
-  const bool may_wait = settings_.newton.adaptive_contact_hessian && step.looseness == 1.0;
-  if (!found && may_wait && direction.largest_share > 0.0)
-    found = approximated(step.blend, direction.p, free, mesh_.num_gel_vertices, tolerance);
-  if (!found) return std::nullopt;
+  const double tolerance_m = settings.velocity_tolerance_m_s * step.goal.h_s;
+  const int num_gel_vertices = model.mesh.num_gel_vertices;
+  if (auto found = farthest(direction.p, free, num_gel_vertices, tolerance_m)) return found;
+  if (!settings.adaptive_contact_hessian || step.looseness != 1.0 || direction.largest_share == 0.0)
+    return std::nullopt;
+  return approximated(step.blend, direction.p, free, num_gel_vertices, tolerance_m);
+}
 
-  PatchSize size{found->approximated ? kRingsAboutApproximated : kRings};
+PatchSize size_of(const Seeds& seeds, const Step& step) {
+  PatchSize size{seeds.approximated ? kRingsAboutApproximated : kRings};
   if (!step.friction) {
-    size.fewest_vertices = static_cast<int>(kLeastWithoutFriction * free.size());
+    size.fewest_vertices = static_cast<int>(kLeastWithoutFriction * step.newton.free().size());
     size.most_rings = kMostRingsWithoutFriction;
   }
-  const LocalPatch patch = grow_patch(found->vertices, size, gel_.tets, tets_of_, free);
-  const double reach = std::max(kReach * settings_.laws.reach_m(), kReachOfEdge * settings_.front_edge_m);
-  PatchSearch near(search_, patch.free.vertex_of_free, mesh_.num_gel_vertices, step.x, direction.p,
-                   settings_.laws.reach_m(), reach);
-  StepTerms terms = step.terms;
-  for (auto* term : {&terms.inertia, &terms.mass_damping, &terms.stiffness_damping, &terms.gravity,
-                     &terms.viscous_memory, &terms.elasticity})
-    *term = restricted(*term, patch.moves);
-  terms.bodies.clear();  // they are held meanwhile
-  terms.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
-  IncrementalPotential energy;
-  const auto renew_energy = [&] {
-    terms.barrier = barrier(near.pairs());
-    energy = make_incremental_potential(terms, step.weights);
-  };
-  renew_energy();
+  return size;
+}
 
-  NewtonStepper newton(patch.free, mesh_.num_gel_vertices, terms.elasticity, settings_.linear_solver);
-  if (!step.friction) newton.set_tolerance(kSolveWithoutFriction);
-  const double shortest = (step.friction ? kPatchTolerance : kPatchToleranceWithoutFriction) * found->others_m;
-  const Positions still = Positions::Zero(step.x.rows(), 3);
-  Blend blend = step.blend;
-  const int most = std::min(kMaxIterations, static_cast<int>(kMostWork * free.size() / patch.free.size()));
-  // Vertices outside have no way, and are where they are, in all of these.
-  const std::vector<int>& inside = patch.free.vertex_of_free;
-  Positions p = still, trial = step.x;
-  const auto go = [&](double part) {
-    for (const int v : inside) trial.row(v) = step.x.row(v) + part * p.row(v);
+/// Newton's method for one patch; moves the patch's vertices in the step's x.
+class PatchRun {
+ public:
+  PatchRun(const SolverModel& model, CollisionDetector& detector, const LocalPatch& patch, const Positions& p,
+           Step& step)
+      : model_(model),
+        detector_(detector),
+        patch_(patch),
+        step_(step),
+        near_(detector.search(), patch.free.vertex_of_free, model.mesh.num_gel_vertices, step.x, p,
+              model.settings.laws.reach_m(),
+              std::max(kReach * model.settings.laws.reach_m(), kReachOfEdge * model.settings.front_edge_m)),
+        terms_(step.terms),
+        blend_(step.blend),
+        p_(Positions::Zero(step.x.rows(), 3)),
+        trial_(step.x) {
+    for (auto* term : {&terms_.inertia, &terms_.mass_damping, &terms_.stiffness_damping, &terms_.gravity,
+                       &terms_.viscous_memory, &terms_.elasticity})
+      *term = restricted(*term, patch.moves);
+    terms_.bodies.clear();  // they are held meanwhile
+    terms_.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
+    renew_energy();
+    newton_.emplace(patch.free, model.mesh.num_gel_vertices, terms_.elasticity, model.settings.linear_solver);
+    if (!step.friction) newton_->set_tolerance(kSolveWithoutFriction);
+    // Pairs that are added later are too far away to change it.
+    value_ = value_before_ = energy_.value(step.x);
+  }
+
+  /// Iterates until a Newton step is shorter than `shortest_m`, with the exact Hessian unless `approximated` will do.
+  /// \return iterations that moved the patch
+  int minimise(double shortest_m, bool approximated) {
+    const Positions still = Positions::Zero(step_.x.rows(), 3);
+    const int most =
+        std::min(kMaxIterations, static_cast<int>(kMostWork * step_.newton.free().size() / patch_.free.size()));
+    int iterations = 0;
+    for (; iterations < most; ++iterations) {
+      const NewtonDirection local = newton_->direction({energy_, step_.x, still}, blend_);
+      const double longest = largest_row(local.p, local.p.rows());
+      const bool exact = local.largest_share == 0.0 || !model_.settings.newton.adaptive_contact_hessian;
+      if (longest < shortest_m && (exact || approximated)) break;
+      const std::optional<Taken> taken = take(local);
+      if (!taken) break;
+      log_debug("    patch {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s blend {:.3g}", iterations + 1,
+                taken->alpha, taken->limit, longest / step_.goal.h_s, local.largest_share);
+    }
+    return iterations;
+  }
+
+  double change() const { return value_ - value_before_; }
+  const Blend& blend() const { return blend_; }
+  const std::vector<ContactPair>& pairs() const { return near_.pairs(); }
+
+ private:
+  struct Taken {
+    double alpha, limit;  // part of the direction taken, and of its part within reach that contact allows
   };
-  // Pairs that are added later are too far away to change it.
-  double value = energy.value(step.x);
-  const double value_before = value;
-  int iterations = 0;
-  for (; iterations < most; ++iterations) {
-    const NewtonDirection local = newton.direction({energy, step.x, still}, blend);
-    const double longest = largest_row(local.p, local.p.rows());
-    const bool exact = local.largest_share == 0.0 || !settings_.newton.adaptive_contact_hessian;
-    if (longest < shortest && (exact || found->others_m > tolerance)) break;
-    const double alpha = near.part_within_reach(step.x, local.p);
-    for (const int v : inside) p.row(v) = alpha * local.p.row(v);
+
+  void renew_energy() {
+    terms_.barrier = model_.barrier(near_.pairs());
+    energy_ = make_incremental_potential(terms_, step_.weights);
+  }
+
+  /// Puts the patch of `trial_` at this part of `p_`: vertices outside are where they are in all of these.
+  void go(double part) {
+    for (const int v : patch_.free.vertex_of_free) trial_.row(v) = step_.x.row(v) + part * p_.row(v);
+  }
+
+  /// Moves the patch along a direction as far as the energy decreases; absent, and nothing moved, if it does not.
+  std::optional<Taken> take(const NewtonDirection& local) {
+    const std::vector<int>& inside = patch_.free.vertex_of_free;
+    const double alpha = near_.part_within_reach(step_.x, local.p);
+    for (const int v : inside) p_.row(v) = alpha * local.p.row(v);
     go(1.0);
-    if (near.extend_to(trial)) renew_energy();
-    const double limit = std::min(contact_step_limit(near.pairs(), step.x, p, gap_rule(kNewtonSlack)),
-                                  inversion_step_limit(patch.tets, step.x, p));
-    const double rounding = kEnergyRounding * std::abs(value);
-    double part = limit, after = value;
+    if (near_.extend_to(trial_)) renew_energy();
+    const double limit = std::min(contact_step_limit(near_.pairs(), step_.x, p_, detector_.gap_rule(kNewtonSlack)),
+                                  inversion_step_limit(patch_.tets, step_.x, p_));
+    const double rounding = kEnergyRounding * std::abs(value_);
+    double part = limit, after = value_;
     const auto decreases = [&] {
       go(part);
-      after = energy.value(trial);
-      return after <= value + kSufficientDecrease * part * alpha * local.slope + rounding;
+      after = energy_.value(trial_);
+      return after <= value_ + kSufficientDecrease * part * alpha * local.slope + rounding;
     };
     int halvings = 0;
     for (; !decreases() && halvings < kMaxHalvings; ++halvings) part *= 0.5;
-    if (halvings == kMaxHalvings) break;
-    value = after;
-    for (const int v : inside) step.x.row(v) = trial.row(v);
-    if (halvings > 0) raise_shares_of_farthest(local.p.topRows(blend.size()), blend);
-    log_debug("    patch {:3d}: alpha {:.3g} (limit {:.3g}) step {:.3e} m/s blend {:.3g}", iterations + 1, part * alpha,
-              limit, longest / h, local.largest_share);
+    if (halvings == kMaxHalvings) return std::nullopt;
+    value_ = after;
+    for (const int v : inside) step_.x.row(v) = trial_.row(v);
+    if (halvings > 0) raise_shares_of_farthest(local.p.topRows(blend_.size()), blend_);
+    return Taken{part * alpha, limit};
   }
+
+  const SolverModel& model_;
+  CollisionDetector& detector_;
+  const LocalPatch& patch_;
+  Step& step_;
+  PatchSearch near_;
+  StepTerms terms_;
+  IncrementalPotential energy_;
+  std::optional<NewtonStepper> newton_;
+  Blend blend_;
+  Positions p_, trial_;
+  double value_ = 0.0, value_before_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<double> PatchSolver::relax(Step& step, const NewtonDirection& direction,
+                                         std::vector<ContactPair>& pairs) {
+  const Stopwatch watch(times_.patches_s);
+  const std::optional<Seeds> seeds = seeds_of(model_, step, direction);
+  if (!seeds) return std::nullopt;
+  const LocalPatch patch =
+      grow_patch(seeds->vertices, size_of(*seeds, step), model_.gel.tets, tets_of_, step.newton.free());
+  PatchRun run(model_, detector_, patch, direction.p, step);
+  const double tolerance_m = model_.settings.newton.velocity_tolerance_m_s * step.goal.h_s;
+  const double shortest_m = (step.friction ? kPatchTolerance : kPatchToleranceWithoutFriction) * seeds->others_m;
+  const int iterations = run.minimise(shortest_m, seeds->others_m > tolerance_m);
   step.report.patch_iterations += iterations;
   ++step.report.patches;
-  log_debug("  patch of {} vertices ({} moved): {} iterations", patch.free.size(), found->vertices.size(), iterations);
-  if (found->approximated) {
-    for (const int v : patch.free.vertex_of_free) step.blend.take_over(v, blend);
+  log_debug("  patch of {} vertices ({} moved): {} iterations", patch.free.size(), seeds->vertices.size(), iterations);
+  if (seeds->approximated) {
+    for (const int v : patch.free.vertex_of_free) step.blend.take_over(v, run.blend());
   }
   if (iterations == 0) return std::nullopt;
-  pairs = with_patch(std::move(pairs), patch.moves, near.pairs());
-  return value - value_before;
+  pairs = with_patch(std::move(pairs), patch.moves, run.pairs());
+  return run.change();
 }
 
 }  // namespace tacipc

@@ -8,8 +8,6 @@
 
 namespace tacipc {
 
-inline constexpr double kGapFloor = 1e-4;  // × d̂: no step leaves a smaller gap
-
 /// The part of every gap that a step must leave.
 struct GapRule {
   double slack = 0.1;  // part of the present gap beyond the floor

@@ -1,73 +1,79 @@
-// One time step while it is solved: what the files that solve it share.
+// Data of a time step while it is solved.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "stages/gel/press/energy/dirichlet.h"
-#include "stages/gel/press/solve/time_step.h"
+#include "stages/gel/press/energy/friction.h"
+#include "stages/gel/press/energy/incremental_potential.h"
+#include "stages/gel/press/solve/newton_step.h"
+#include "stages/gel/press/solve/solver_model.h"
+#include "stages/gel/press/solve/step_goal.h"
+#include "stages/gel/press/solve/step_report.h"
 
 namespace tacipc {
 
-struct TimeStepper::Step {
+/// Called after each Newton iteration, for progress lines.
+using IterationObserver = std::function<void(int iteration, double velocity_residual_m_s)>;
+
+struct Step {
   const StepGoal& goal;
   const IterationObserver& observe;
+  NewtonStepper& newton;   // for the bodies that are free in this step
   const Positions& start;  // of gel and object
   Positions x;
-  Positions turned_start = {};  // the start moved with the hand, where that turns
+  Positions turned_start = {};  // the start moved with the hand, if that turns
   StepTerms terms = {};         // all but contact
   StepWeights weights = {};
-  SymmetricRows start_stress_pa = {};      // elastic, where stress relaxes
+  SymmetricRows start_stress_pa = {};      // elastic, of a viscoelastic gel
   bool arrived = false;                    // objects are at their targets, and gels are where their mounts end
   double gel_way_left = 0.0;               // part of StepGoal::gel_motion that is still to be made
   Vector3 object_shift = Vector3::Zero();  // along its free axes, so far
+  /// A body that is free in this step.
   struct Body {
     int body = 0;                                     // its number
     ControlPoints predicted = ControlPoints::Zero();  // without contact
-    Vector3 acceleration_m_s2 = Vector3::Zero();      // of its weight and load
+    Vector3 acceleration_m_s2 = Vector3::Zero();      // by its weight and load
     double weight_n = 0.0;                            // the larger of the two
   };
-  std::vector<Body> bodies = {};  // those that are free, ascending
+  std::vector<Body> bodies = {};  // ascending
   StepReport report = {};
   std::shared_ptr<const Friction> friction = nullptr;
   std::shared_ptr<const Dirichlet> constraint = nullptr;
   Blend blend;             // of the contact Hessian, once the object has arrived
-  double looseness = 1.0;  // factor on the tolerances, while friction is still to be renewed
-  /// How often friction may still be renewed before an iteration of Newton's method, instead of at its minima.
-  int renewals_left = 0;
-  double least_friction_change_n = std::numeric_limits<double>::infinity();  // of those renewals since arrival
+  double looseness = 1.0;  // factor on the tolerances, while friction is still to be updated
+  int renewals_left = 0;   // friction updates left before iterations of Newton's method, instead of at its minima
+  double least_friction_change_n = std::numeric_limits<double>::infinity();  // of these updates since arrival
 
-  /// What slides and strain rates are measured from.
+  /// Positions from which slides and strain rates are measured.
   const Positions& compared_start() const { return turned_start.rows() > 0 ? turned_start : start; }
+
+  /// The incremental potential with the step's friction and this barrier.
+  IncrementalPotential potential(std::shared_ptr<const ContactBarrier> barrier) const {
+    StepTerms all = terms;
+    all.friction = friction;
+    all.barrier = std::move(barrier);
+    return make_incremental_potential(all, weights);
+  }
 };
 
-/// Newton's method at work on one minimum: what an iteration leaves for the next.
-struct TimeStepper::Minimisation {
+/// Newton's method at work on one minimum: data that an iteration leaves for the next.
+struct Minimisation {
   std::shared_ptr<const ContactBarrier> barrier;
   IncrementalPotential energy;
-  std::optional<double> value = std::nullopt;  // of the energy at x, where line search and patch have told it
+  std::optional<double> value = std::nullopt;  // of the energy at x, if line search or patch have computed it
   double residual_m_s = std::numeric_limits<double>::infinity();  // max |p| / h of the last direction
   int exact_hessian_waits = 0;  // iterations within the tolerances that went on for want of the exact Hessian
-  /// The part of the rest of its motion that the next move takes the object by, and whether the gel is relaxed at a
-  /// fixed object first.
-  double part_of_motion = 1.0;
-  double bent = 1.0;  // the part of the direction found that this move takes
-  /// Whole steps in a row that had to do with an approximated Hessian, and how many times as far the next one goes.
-  int crept = 0;
-  double stretch = 1.0;
-  bool relax_next = false;
+  double part_of_motion = 1.0;  // part of the rest of its motion that the next move takes the object by
+  double bent = 1.0;            // part of the direction found that this move takes
+  int crept = 0;                // whole steps in a row with an approximated Hessian
+  double stretch = 1.0;         // factor on the length of the next step
+  bool relax_next = false;      // the gel is relaxed at a fixed object before the next move
 };
-
-/// The line search had to shorten the step p: raises the PSD shares of the vertices that go farthest in it, the likely
-/// cause.
-void raise_shares_of_farthest(const Positions& p, Blend& blend);
-
-/// How far a rigid motion takes each point.
-Positions way_of(const Matrix4& motion, const Positions& from);
-
-/// √(max |row i|²) over the first `rows` rows.
-double largest_row(const Positions& p, Eigen::Index rows);
 
 inline constexpr double kLeastWeight = 0.01;           // N: a lighter body's balance is measured as if it weighed this
 inline constexpr double kMovingSlack = 0.3;            // part of each gap that a move leaves: no line search guards it

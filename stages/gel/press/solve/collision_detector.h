@@ -1,0 +1,57 @@
+// Contact pairs near a position or a step, the smallest gap, and the part of a step that leaves enough of each gap.
+#pragma once
+
+#include <vector>
+
+#include "stages/gel/press/contact/contact_search.h"
+#include "stages/gel/press/solve/solver_model.h"
+#include "stages/gel/press/solve/solver_times.h"
+#include "stages/gel/press/solve/step_limit.h"
+
+namespace tacipc {
+
+/// Call start_step() before the first search of each time step: results depend on calls since then alone.
+class CollisionDetector {
+ public:
+  /// \param times sums of all steps, to which searches and limits are added
+  CollisionDetector(const SolverModel& model, SolverTimes& times);
+
+  /// Forgets earlier searches.
+  /// \param held per object: not free in this step
+  /// \param world_from_gel rotations of several gels; empty: as before
+  void start_step(std::vector<bool> held, const std::vector<Matrix3>& world_from_gel);
+
+  /// Pairs within the largest d̂ at x, and some more. The last result is kept: friction, forces and the gap of a solved
+  /// step are computed at the same x.
+  std::vector<ContactPair> pairs_at(const Positions& x);
+  /// Pairs within the largest d̂ anywhere between x and x + p, and some more.
+  std::vector<ContactPair> pairs_along(const Positions& x, const Positions& p);
+
+  /// Part `slack` of each gap, but never less than a small part of d̂.
+  GapRule gap_rule(double slack) const;
+  /// Largest part of the step p from x, at most 1, that keeps to the gap rule and leaves enough of every volume.
+  double step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p, double slack);
+  /// The pairs that allow less than all of p.
+  std::vector<ContactPair> limiting_pairs(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
+                                          double slack);
+
+  /// Smallest gap between two bodies, one of which can move by itself (not counting a gel with itself), at most `none`.
+  double smallest_gap(const Positions& x, double none);
+  /// Smallest gap over the d̂ of its two bodies, at most 1.
+  double smallest_relative_gap(const Positions& x);
+
+  ContactSearch& search() { return search_; }
+
+ private:
+  bool within_one_body(const ContactPair& pair) const;
+
+  const SolverModel& model_;
+  SolverTimes& times_;
+  ContactSearch search_;
+  struct {
+    Positions x;
+    std::vector<ContactPair> pairs;
+  } last_search_;  // of pairs_at() in this time step
+};
+
+}  // namespace tacipc

@@ -1,0 +1,23 @@
+// Line search of Newton's method.
+#pragma once
+
+#include <optional>
+
+#include "stages/gel/press/solve/solver_times.h"
+#include "stages/gel/press/solve/step_under_way.h"
+
+namespace tacipc {
+
+/// Takes the longest of the steps limit, limit/2, … that decreases the energy.
+/// \return that step; absent, and nothing moved, if there is none
+std::optional<double> line_search(const NewtonDirection& direction, double limit, Step& step, Minimisation& run,
+                                  SolverTimes& times);
+
+/// After a line search that had to shorten the step p: raises the PSD shares of the vertices that go farthest in it,
+/// the likely cause.
+void raise_shares_of_farthest(const Positions& p, Blend& blend);
+
+/// √(max |row i|²) over the first `rows` rows.
+double largest_row(const Positions& p, Eigen::Index rows);
+
+}  // namespace tacipc
