@@ -124,16 +124,11 @@ std::string figure_row(const std::string& figures) {
 
 std::string pictures(const SampleReport& sample, const fs::path& folder, Loading loading) {
   std::string curves, markers;
-  if (has_press_curve(sample)) {
-    curves = "<figure>" + press_curve_svg(sample.frames) +
-             "<figcaption><b>Press curve</b>: force over depth</figcaption></figure>\n";
-  }
+  if (has_press_curve(sample)) curves = figure(press_curve_svg(sample.frames), "<b>Press curve</b>: force over depth");
   curves += frame_curves(sample);
   const View view = view_of(sample.marker_pictures);
-  for (const MarkerPicture& picture : sample.marker_pictures) {
-    markers += "<figure>" + quiver_svg(picture, view) + "<figcaption>" + marker_caption(picture, sample.phases) +
-               "</figcaption></figure>\n";
-  }
+  for (const MarkerPicture& picture : sample.marker_pictures)
+    markers += figure(quiver_svg(picture, view), marker_caption(picture, sample.phases));
   return figure_row(image_figures(sample, folder, loading)) + figure_row(curves) + figure_row(markers);
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/format/html_text.h"
 #include "stages/dataset/report/drawing.h"
+#include "stages/dataset/report/html.h"
 
 namespace tacipc {
 namespace {
@@ -118,6 +119,8 @@ std::string chart_svg(const Chart& chart) {
   }
   return svg + "</svg>\n";
 }
+
+std::string figure(const Chart& chart, const std::string& caption) { return figure(chart_svg(chart), caption); }
 
 std::string curve_key(int color, bool broad) {
   return fmt::format("<i class=\"key color-{}{}\"></i>", color, broad ? " broad" : "");

@@ -45,6 +45,9 @@ struct Chart {
 /// Both scales hold zero unless logarithmic. \pre x and curves are of one length, not zero; x is finite
 std::string chart_svg(const Chart& chart);
 
+/// The drawing above a caption (HTML).
+std::string figure(const Chart& chart, const std::string& caption);
+
 /// A short line in the colour of a curve, to stand before its name in a caption (HTML).
 std::string curve_key(int color, bool broad = false);
 

@@ -34,8 +34,8 @@ std::string force_figure(const std::vector<GraspMoment>& moments) {
   chart.left_label = "force (N)";
   for (const auto number : {&GraspMoment::grip_left_n, &GraspMoment::grip_right_n, &GraspMoment::carried_n})
     chart.left.push_back(curve_of(moments, number, 1.0));
-  return "<figure>" + chart_svg(chart) + "<figcaption><b>Forces</b>: grip of the " + curve_key(1) + "left and the " +
-         curve_key(2) + "right finger, " + curve_key(3) + "carried by both, upwards</figcaption></figure>\n";
+  return figure(chart, "<b>Forces</b>: grip of the " + curve_key(1) + "left and the " + curve_key(2) +
+                           "right finger, " + curve_key(3) + "carried by both, upwards");
 }
 
 /// Up to the frame that is judged: what comes after is the object let go.
@@ -49,8 +49,8 @@ std::string slip_figure(const GraspReport& grasp) {
   for (auto* curves : {&chart.left, &chart.right}) {
     for (std::size_t i = grasp.judged_frame + 1; i < moments.size(); ++i) curves->front().values[i].reset();
   }
-  return "<figure>" + chart_svg(chart) + "<figcaption><b>In the hand</b>: " + curve_key(1) + "slip and " +
-         curve_key(2) + "turn of the object from when it was freed to when it is judged</figcaption></figure>\n";
+  return figure(chart, "<b>In the hand</b>: " + curve_key(1) + "slip and " + curve_key(2) +
+                           "turn of the object from when it was freed to when it is judged");
 }
 
 /// Of the fingers: how much of the normal force is on vertices that slip, up to the frame that is judged.
@@ -62,8 +62,8 @@ std::string share_figure(const GraspReport& grasp) {
     for (std::size_t i = 0; i < grasp.moments.size(); ++i)
       curve.values.push_back(i <= grasp.judged_frame ? grasp.moments[i].slip_share[side] : std::nullopt);
   }
-  return "<figure>" + chart_svg(chart) + "<figcaption><b>Slip</b>: part of the normal force of the " + curve_key(1) +
-         "left and the " + curve_key(2) + "right finger on vertices that slip</figcaption></figure>\n";
+  return figure(chart, "<b>Slip</b>: part of the normal force of the " + curve_key(1) + "left and the " + curve_key(2) +
+                           "right finger on vertices that slip");
 }
 
 /// "dropped (weight)".

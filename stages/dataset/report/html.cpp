@@ -21,6 +21,10 @@ std::string html_link(const fs::path& file, const fs::path& folder) {
   return link;
 }
 
+std::string figure(const std::string& svg, const std::string& caption) {
+  return "<figure>" + svg + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
 std::string number_text(std::optional<double> value, double scale, int digits) {
   if (!value) return "–";
   const double scaled = *value * scale;

@@ -11,6 +11,9 @@ namespace tacipc {
 /// Both are taken as they are written, without following links, as a browser does.
 std::string html_link(const std::filesystem::path& file, const std::filesystem::path& folder);
 
+/// A drawing (SVG) above its caption (HTML).
+std::string figure(const std::string& svg, const std::string& caption);
+
 /// `value` × `scale` with `digits` significant digits and no exponent between 1e-3 and 1e6; "–" if there is none.
 std::string number_text(std::optional<double> value, double scale = 1.0, int digits = 3);
 /// Whole numbers with a narrow gap between thousands; "–" if there is none.

@@ -61,10 +61,6 @@ void add_slip(Chart& chart, const SampleReport& sample) {
   }
 }
 
-std::string figure(const Chart& chart, const std::string& caption) {
-  return "<figure>" + chart_svg(chart) + "<figcaption>" + caption + "</figcaption></figure>\n";
-}
-
 /// A twist shows in the torque, not in the forces.
 bool turns(const SampleReport& sample) {
   return std::any_of(sample.phases.begin(), sample.phases.end(),

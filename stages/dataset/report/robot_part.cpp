@@ -22,10 +22,6 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kContact_n = 1e-3;  // what pushes less does not touch
 
-std::string figure(const Chart& chart, const std::string& caption) {
-  return "<figure>" + chart_svg(chart) + "<figcaption>" + caption + "</figcaption></figure>\n";
-}
-
 std::string header(const RobotReport& robot) {
   std::string html = fmt::format("<section id=\"robot\">\n<h2>Task: {}</h2>\n", html_text(robot.task));
   if (robot.variables.empty()) return html;

@@ -57,10 +57,6 @@ std::vector<PushingPair> strongest_pairs(const SceneBodies& scene) {
   return strongest;
 }
 
-std::string figure(const Chart& chart, const std::string& caption) {
-  return "<figure>" + chart_svg(chart) + "<figcaption>" + caption + "</figcaption></figure>\n";
-}
-
 /// Names of curves with the lines that stand for them, from a colour on.
 std::string keys(const std::vector<std::string>& names, int first) {
   std::string text;

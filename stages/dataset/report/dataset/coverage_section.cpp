@@ -16,10 +16,6 @@ constexpr int kBins = 24, kColumns = 60, kRows = 42;
 /// More rows than these are in the table only.
 constexpr std::size_t kDrawnRows = 24;
 
-std::string figure(const std::string& svg, const std::string& caption) {
-  return "<figure>" + svg + "<figcaption>" + caption + "</figcaption></figure>\n";
-}
-
 constexpr const char* kHowToRead =
     "<p>A line from the smallest to the largest value, a bar from the 5th to the 95th percentile, a mark at the "
     "median.</p>\n";
