@@ -9,6 +9,7 @@
 #include "common/format/npy.h"
 #include "common/format/npy_pose.h"
 #include "common/sample/press_folder.h"
+#include "common/sample/press_record.h"
 #include "common/sensor/markers.h"
 #include "stages/gel/press/drive/grasp_outcome.h"
 #include "stages/gel/press/measure/contact_summary.h"
@@ -54,62 +55,72 @@ void write_contact(const PressWriter& writer, const Sensor& sensor, const Simula
   });
 }
 
-/// One frame's lines of the record.
-Value::Map frame_lines(const Simulation& simulation, const Frame& f) {
+PressFrameLines frame_lines(const Simulation& simulation, const Frame& f) {
   const ContactSummary contact =
       measure_contact(simulation.front, on_front(simulation.front, f.positions), f.normal_force_n, f.contact_state);
-  Value::Map lines{{"time_s", f.time_s},
-                   {"phase", name_of(f.phase)},
-                   {"press_force_n", 0.0 - f.force_n.z()},
-                   {"tangential_force_n", f.force_n.head<2>().norm()},
-                   {"balance_n", f.balance.force_n},
-                   {"balance_relative", f.balance.relative},
-                   {"inertia_n", f.balance.inertia_n.norm()},
-                   {"mount_force_n", f.balance.mount_n.norm()},
-                   {"contact_area_mm2", 1e6 * contact.area_m2},
-                   {"mean_pressure_pa", contact.mean_pressure_pa},
-                   {"peak_pressure_pa", contact.peak_pressure_pa},
-                   {"sticking", contact.sticking},
-                   {"slipping", contact.slipping},
-                   {"substeps", f.solver.time_steps},
-                   {"newton_iterations", f.solver.newton_iterations},
-                   {"patch_iterations", f.solver.patch_iterations},
-                   {"lag_iterations", f.solver.lag_iterations},
-                   {"exact_hessian_waits", f.solver.exact_hessian_waits},
-                   {"approximated_share", f.solver.approximated_share},
-                   {"friction_residual_n", f.solver.friction_residual_n},
-                   {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
-                   {"force_residual_n", f.solver.force_residual_n},
-                   {"barrier_stiffness", f.solver.barrier_factor * simulation.barrier_stiffness},
-                   {"min_gap_m", f.min_gap_m},
-                   {"stand_off_m", f.stand_off_m},
-                   {"min_volume_ratio", f.min_volume_ratio},
-                   {"intersections", f.intersections},
-                   {"inverted_tets", f.inverted_tets},
-                   {"gel_in_object", f.gel_in_object},
-                   {"pose_error_m", f.pose_error_m}};
+  PressFrameLines lines{.time_s = f.time_s,
+                        .phase = name_of(f.phase),
+                        .press_force_n = 0.0 - f.force_n.z(),
+                        .tangential_force_n = f.force_n.head<2>().norm(),
+                        .balance_n = f.balance.force_n,
+                        .balance_relative = f.balance.relative,
+                        .inertia_n = f.balance.inertia_n.norm(),
+                        .mount_force_n = f.balance.mount_n.norm(),
+                        .contact_area_mm2 = 1e6 * contact.area_m2,
+                        .mean_pressure_pa = contact.mean_pressure_pa,
+                        .peak_pressure_pa = contact.peak_pressure_pa,
+                        .sticking = contact.sticking,
+                        .slipping = contact.slipping,
+                        .substeps = f.solver.time_steps,
+                        .newton_iterations = f.solver.newton_iterations,
+                        .patch_iterations = f.solver.patch_iterations,
+                        .lag_iterations = f.solver.lag_iterations,
+                        .exact_hessian_waits = f.solver.exact_hessian_waits,
+                        .approximated_share = f.solver.approximated_share,
+                        .friction_residual_n = f.solver.friction_residual_n,
+                        .velocity_residual_m_s = f.solver.velocity_residual_m_s,
+                        .force_residual_n = f.solver.force_residual_n,
+                        .barrier_stiffness = f.solver.barrier_factor * simulation.barrier_stiffness,
+                        .min_gap_m = f.min_gap_m,
+                        .stand_off_m = f.stand_off_m,
+                        .min_volume_ratio = f.min_volume_ratio,
+                        .intersections = f.intersections,
+                        .inverted_tets = f.inverted_tets,
+                        .gel_in_object = f.gel_in_object,
+                        .pose_error_m = f.pose_error_m};
   if (f.phase == PhaseKind::free) {
-    lines.emplace_back("body_strain", f.body_strain);
-    lines.emplace_back("body_load_n", f.solver.body_load_n);
-    lines.emplace_back("body_residual_n", f.solver.body_residual_n);
-    lines.emplace_back("body_residual_n_m", f.solver.body_residual_n_m);
+    lines.body_strain = f.body_strain;
+    lines.body_load_n = f.solver.body_load_n;
+    lines.body_residual_n = f.solver.body_residual_n;
+    lines.body_residual_n_m = f.solver.body_residual_n_m;
   }
   return lines;
 }
 
-/// What every frame was held to, for whoever judges the numbers of the record again.
-Value::Map limits() {
-  return {{"smallest_distance_m", kVerdictLimits.smallest_distance_m},
-          {"intersections", kVerdictLimits.intersections},
-          {"gel_in_object", kVerdictLimits.gel_in_object},
-          {"inverted_tets", kVerdictLimits.inverted_tets},
-          {"volume_ratio", kVerdictLimits.volume_ratio},
-          {"balance_relative", kVerdictLimits.balance_relative},
-          {"smallest_contact_n", kSmallestContactN},
-          {"pose_error_m", kVerdictLimits.pose_error_m},
-          {"body_strain", kVerdictLimits.body_strain},
-          {"body_balance_relative", kVerdictLimits.body_balance_relative},
-          {"smallest_body_load_n", kSmallestBodyLoadN}};
+/// Adds the frames, the numbers over all of them and those of the last one.
+void add_frames(PressSummary& summary, const Simulation& simulation) {
+  std::vector<int> approximated;
+  for (const Frame& f : simulation.frames) {
+    const PressFrameLines& lines = summary.per_frame.emplace_back(frame_lines(simulation, f));
+    summary.newton_iterations += lines.newton_iterations;
+    if (lines.approximated_share > 0.0) approximated.push_back(static_cast<int>(&f - simulation.frames.data()));
+    summary.intersections += lines.intersections;
+    summary.inverted_tets += lines.inverted_tets;
+    summary.min_distance_m = std::min(summary.min_distance_m, lines.min_gap_m);
+    summary.min_volume_ratio = std::min(summary.min_volume_ratio, lines.min_volume_ratio);
+    summary.max_balance_relative = std::max(summary.max_balance_relative, lines.balance_relative);
+    summary.max_pose_error_m = std::max(summary.max_pose_error_m, lines.pose_error_m);
+    const auto slipping = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::slip);
+    const auto sticking = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::stick);
+    if (slipping > 0 && !summary.first_slip_time_s) summary.first_slip_time_s = f.time_s;
+    if (slipping > 0 && sticking == 0 && !summary.gross_slip_time_s) summary.gross_slip_time_s = f.time_s;
+  }
+  if (!approximated.empty()) summary.approximated_frames = std::move(approximated);
+  const PressFrameLines& last = summary.per_frame.back();
+  summary.barrier_stiffness = last.barrier_stiffness;
+  summary.press_force_n = last.press_force_n;
+  summary.tangential_force_n = last.tangential_force_n;
+  summary.stand_off_m = last.stand_off_m;
 }
 
 /// Every array of one gel, in a folder below --out ("" or with a slash at its end). \return the summary of its record
@@ -140,53 +151,23 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
   write_contact(writer, sensor, simulation);
   write_markers(stage, folder, writer, markers, frames, end);
 
-  int iterations = 0, intersections = 0, inverted = 0;
-  double min_gap_m = simulation.gap_horizon_m, min_ratio = 1.0, balance = 0.0, pose_error_m = 0.0;
-  std::optional<double> first_slip, gross_slip;
-  Value::List per_frame, approximated;
-  for (const Frame& f : frames) {
-    iterations += f.solver.newton_iterations;
-    if (f.solver.approximated_share > 0.0) approximated.emplace_back(static_cast<int>(&f - frames.data()));
-    intersections += f.intersections;
-    inverted += f.inverted_tets;
-    min_gap_m = std::min(min_gap_m, f.min_gap_m);
-    min_ratio = std::min(min_ratio, f.min_volume_ratio);
-    balance = std::max(balance, f.balance.relative);
-    pose_error_m = std::max(pose_error_m, f.pose_error_m);
-    const auto slipping = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::slip);
-    const auto sticking = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::stick);
-    if (slipping > 0 && !first_slip) first_slip = f.time_s;
-    if (slipping > 0 && sticking == 0 && !gross_slip) gross_slip = f.time_s;
-    per_frame.emplace_back(frame_lines(simulation, f));
-  }
-  Value::Map summary{{"frames", frames.size()},
-                     {"gel_vertices", vertices},
-                     {"d_hat_m", simulation.d_hat_m},
-                     {"barrier_stiffness", frames.back().solver.barrier_factor * simulation.barrier_stiffness},
-                     {"element", simulation.element},
-                     {"friction_coefficient", friction},
-                     {"newton_iterations", iterations},
-                     {"press_force_n", 0.0 - frames.back().force_n.z()},
-                     {"tangential_force_n", frames.back().force_n.head<2>().norm()},
-                     {"min_distance_m", min_gap_m},
-                     {"stand_off_m", frames.back().stand_off_m},
-                     {"min_volume_ratio", min_ratio},
-                     {"intersections", intersections},
-                     {"inverted_tets", inverted},
-                     {"max_balance_relative", balance},
-                     {"max_pose_error_m", pose_error_m}};
-  if (!simulation.face.empty()) summary.emplace(summary.begin() + 2, "face", simulation.face);
-  if (simulation.object_mass_kg > 0.0) summary.emplace_back("object_mass_kg", simulation.object_mass_kg);
-  if (first_slip) summary.emplace_back("first_slip_time_s", *first_slip);
-  if (gross_slip) summary.emplace_back("gross_slip_time_s", *gross_slip);
-  if (end) summary.emplace_back("press_end_frame", *end);
-  // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
-  summary.emplace_back("converged", true);
-  summary.emplace_back("verdict", "pass");
-  if (!approximated.empty()) summary.emplace_back("approximated_frames", std::move(approximated));
-  summary.emplace_back("limits", limits());
-  summary.emplace_back("per_frame", std::move(per_frame));
-  return summary;
+  PressSummary summary{
+      .frames = frames.size(),
+      .gel_vertices = vertices,
+      .d_hat_m = simulation.d_hat_m,
+      .element = simulation.element,
+      .friction_coefficient = friction,
+      .min_distance_m = simulation.gap_horizon_m,
+      .min_volume_ratio = 1.0,
+      .press_end_frame = end,
+      // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
+      .converged = true,
+      .verdict = kPassed,
+      .limits = kVerdictLimits};
+  if (!simulation.face.empty()) summary.face = simulation.face;
+  if (simulation.object_mass_kg > 0.0) summary.object_mass_kg = simulation.object_mass_kg;
+  add_frames(summary, simulation);
+  return record_lines(summary);
 }
 
 void add_cost(Stage& stage, const SolverTimes& t) {
@@ -226,56 +207,49 @@ struct WholeArrays {
   }
 };
 
-/// One frame's lines of a grasp's record.
-Value::Map grasp_lines(const Grasp& grasp, std::size_t frame) {
+GraspFrameLines grasp_lines(const Grasp& grasp, std::size_t frame) {
   const GraspFrame& f = grasp.frames[frame];
   const auto& [left, right] = grasp.contacts[frame];
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
-  Value::Map lines{{"time_s", f.time_s},
-                   {"phase", name_of(f.phase)},
-                   {"grip_left_n", f.grip_n(0)},
-                   {"grip_right_n", f.grip_n(1)},
-                   {"carried_n", 0.0 - carried.z()},
-                   {"height_m", f.world_from_object(2, 3)},
-                   {"hand_height_m", f.world_from_hand(2, 3)},
-                   {"slip_m", f.slip_m},
-                   {"turn_rad", f.turn_rad},
-                   {"slip_share_left", left.slip_share},
-                   {"slip_share_right", right.slip_share},
-                   {"friction_radius_left_m", left.friction_radius_m},
-                   {"friction_radius_right_m", right.friction_radius_m},
-                   {"body_strain", grasp.fingers[0].frames[frame].body_strain},
-                   {"body_load_n", f.body_load_n},
-                   {"body_residual_n", f.body_residual_n},
-                   {"momentum_residual_n", f.whole.momentum_residual_n},
-                   {"angular_residual_n_m", f.whole.angular_residual_n_m}};
+  GraspFrameLines lines{.time_s = f.time_s,
+                        .phase = name_of(f.phase),
+                        .grip_left_n = f.grip_n(0),
+                        .grip_right_n = f.grip_n(1),
+                        .carried_n = 0.0 - carried.z(),
+                        .height_m = f.world_from_object(2, 3),
+                        .hand_height_m = f.world_from_hand(2, 3),
+                        .slip_m = f.slip_m,
+                        .turn_rad = f.turn_rad,
+                        .slip_share_left = left.slip_share,
+                        .slip_share_right = right.slip_share,
+                        .friction_radius_left_m = left.friction_radius_m,
+                        .friction_radius_right_m = right.friction_radius_m,
+                        .body_strain = grasp.fingers[0].frames[frame].body_strain,
+                        .body_load_n = f.body_load_n,
+                        .body_residual_n = f.body_residual_n,
+                        .momentum_residual_n = f.whole.momentum_residual_n,
+                        .angular_residual_n_m = f.whole.angular_residual_n_m};
   if (const std::size_t since = frame - grasp.freed_frame;
       frame >= grasp.freed_frame && since < grasp.friction_use.size() && std::isfinite(grasp.friction_use[since]))
-    lines.emplace_back("friction_use", grasp.friction_use[since]);
+    lines.friction_use = grasp.friction_use[since];
   return lines;
 }
 
-/// Of one finger; a time that there is not is left out.
-Value::Map slip_lines(const SlipTimes& times) {
-  Value::Map lines;
-  if (times.first_s) lines.emplace_back("first_slip_s", *times.first_s);
-  if (times.gross_s) lines.emplace_back("gross_slip_s", *times.gross_s);
-  return lines;
+/// Slip times of one finger; nothing if it never slips.
+std::optional<SlipLines> slip_lines(const SlipTimes& times) {
+  if (!times.first_s && !times.gross_s) return std::nullopt;
+  return SlipLines{.first_slip_s = times.first_s, .gross_slip_s = times.gross_s};
 }
 
-Value::List list_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-/// How the object is held.
-Value::Map pose_lines(const GraspPose& pose) {
+HeldPoseLines pose_lines(const GraspPose& pose) {
   Eigen::Quaterniond q(pose.world_from_object);
   if (q.w() < 0.0) q.coeffs() *= -1.0;
   // Without a minus before a zero.
-  Value::Map lines{{"rotation_xyzw", Value::List{q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w()}},
-                   {"grip_m", Value::List{pose.grip_m.x(), pose.grip_m.y(), pose.grip_m.z()}},
-                   {"lever_m", pose.lever_m()}};
-  if (pose.width_m) lines.emplace_back("width_m", *pose.width_m);
-  if (pose.patch_m) lines.emplace_back("patch_m", *pose.patch_m);
-  return lines;
+  return {.rotation_xyzw = {q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w()},
+          .grip_m = pose.grip_m,
+          .lever_m = pose.lever_m(),
+          .width_m = pose.width_m,
+          .patch_m = pose.patch_m};
 }
 
 }  // namespace
@@ -298,7 +272,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   }
   std::vector<double> time, object, twist, hand, fingers, forces, drives;
   WholeArrays whole;
-  Value::List per_frame;
+  std::vector<GraspFrameLines> per_frame;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const GraspFrame& f = frames[i];
     time.push_back(f.time_s);
@@ -313,7 +287,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
       drives.insert(drives.end(), {drive.force_n, drive.closed_m, drive.velocity_m_s});
     }
     whole.add(f.whole);
-    per_frame.emplace_back(grasp_lines(grasp, i));
+    per_frame.push_back(grasp_lines(grasp, i));
   }
   const std::size_t n = frames.size();
   write_array(stage, "time.npy", {n}, time);
@@ -326,34 +300,30 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   whole.write(stage);
   const GraspFrame& judged = frames[grasp.judged_frame];
   const Rise rise = rise_of(frames[grasp.freed_frame], judged, grasp.grip_point());
-  Value::Map summary{{"frames", n},
-                     {"outcome", kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)]},
-                     {"freed_frame", grasp.freed_frame},
-                     {"judged_frame", grasp.judged_frame},
-                     {"object_mass_kg", grasp.mass_kg},
-                     {"friction_coefficient", grasp.friction},
-                     {"gravity_m_s2", list_of(grasp.gravity_m_s2)},
-                     {"center_of_mass_m", list_of(grasp.center_of_mass_m)},
-                     {"center_of_mass_shift_m", list_of(grasp.center_shift_m)},
-                     {"pose", pose_lines(grasp.pose)},
-                     {"grip_n", grasp.grip_n},
-                     {"slip_m", judged.slip_m},
-                     {"turn_rad", judged.turn_rad},
-                     {"rise_m", rise.object_m},
-                     {"hand_rise_m", rise.hand_m},
-                     {"max_momentum_residual_n", whole.momentum_residual_n}};
-  if (grasp.reason)
-    summary.emplace(summary.begin() + 2, "reason", kGraspReasons[static_cast<std::size_t>(*grasp.reason)]);
-  for (const std::size_t side : {0, 1})
-    if (const Value::Map lines = slip_lines(grasp.slips[side]); !lines.empty())
-      summary.emplace_back(side == 0 ? "slip_left" : "slip_right", lines);
-  // Friction that both fingers can give over the weight.
-  if (grasp.weight_n > 0.0)
-    summary.emplace_back("friction_margin", 2.0 * grasp.friction * grasp.grip_n / grasp.weight_n);
-  summary.emplace_back("converged", true);
-  summary.emplace_back("verdict", "pass");
-  summary.emplace_back("per_frame", std::move(per_frame));
-  stage.summarize(summary);
+  GraspSummary summary{.frames = n,
+                       .outcome = kGraspOutcomes[static_cast<std::size_t>(grasp.outcome)],
+                       .freed_frame = grasp.freed_frame,
+                       .judged_frame = grasp.judged_frame,
+                       .object_mass_kg = grasp.mass_kg,
+                       .friction_coefficient = grasp.friction,
+                       .gravity_m_s2 = grasp.gravity_m_s2,
+                       .center_of_mass_m = grasp.center_of_mass_m,
+                       .center_of_mass_shift_m = grasp.center_shift_m,
+                       .pose = pose_lines(grasp.pose),
+                       .grip_n = grasp.grip_n,
+                       .slip_m = judged.slip_m,
+                       .turn_rad = judged.turn_rad,
+                       .rise_m = rise.object_m,
+                       .hand_rise_m = rise.hand_m,
+                       .max_momentum_residual_n = whole.momentum_residual_n,
+                       .slip_left = slip_lines(grasp.slips[0]),
+                       .slip_right = slip_lines(grasp.slips[1]),
+                       .converged = true,
+                       .verdict = kPassed,
+                       .per_frame = std::move(per_frame)};
+  if (grasp.reason) summary.reason = kGraspReasons[static_cast<std::size_t>(*grasp.reason)];
+  if (grasp.weight_n > 0.0) summary.friction_margin = 2.0 * grasp.friction * grasp.grip_n / grasp.weight_n;
+  stage.summarize(record_lines(summary));
   add_cost(stage, grasp.fingers[0].times);
 }
 
@@ -371,9 +341,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   WholeArrays whole;
   std::vector<double> time, poses, twists, wrenches;
   std::vector<std::vector<double>> soft(frames[0].soft_m.size());
-  Value::List per_frame;
-  int intersections = 0;
-  double min_gap_m = frames[0].min_gap_m, strain = 0.0, balance = 0.0;
+  SceneSummary summary{.frames = n, .min_distance_m = frames[0].min_gap_m, .converged = true, .verdict = kPassed};
   const auto add = [](std::vector<double>& all, const auto& numbers) {
     for (Eigen::Index r = 0; r < numbers.rows(); ++r) {
       for (Eigen::Index c = 0; c < numbers.cols(); ++c) all.push_back(numbers(r, c));
@@ -385,7 +353,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
     for (std::size_t i = 0; i < rigid; ++i) {
       add(twists, f.velocity_m_s[i]);
       add(twists, f.spin_rad_s[i]);
-      strain = std::max(strain, f.strain[i]);
+      summary.body_strain = std::max(summary.body_strain, f.strain[i]);
     }
     for (const Wrench& wrench : f.between) {
       add(wrenches, wrench.force_n);
@@ -393,21 +361,24 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
     }
     for (std::size_t i = 0; i < soft.size(); ++i) add(soft[i], f.soft_m[i]);
     whole.add(f.whole);
-    intersections += f.intersections;
-    min_gap_m = std::min(min_gap_m, f.min_gap_m);
+    summary.intersections += f.intersections;
+    summary.min_distance_m = std::min(summary.min_distance_m, f.min_gap_m);
     if (f.solver.body_load_n > 0.0)
-      balance = std::max(balance, f.solver.body_residual_n / std::max(f.solver.body_load_n, kSmallestBodyLoadN));
-    per_frame.emplace_back(Value::Map{{"time_s", f.time_s},
-                                      {"phase", f.phase_index},
-                                      {"time_steps", f.solver.time_steps},
-                                      {"newton_iterations", f.solver.newton_iterations},
-                                      {"velocity_residual_m_s", f.solver.velocity_residual_m_s},
-                                      {"force_residual_n", f.solver.force_residual_n},
-                                      {"body_residual_n", f.solver.body_residual_n},
-                                      {"body_load_n", f.solver.body_load_n},
-                                      {"min_gap_m", f.min_gap_m},
-                                      {"intersections", f.intersections}});
+      summary.max_body_balance_relative =
+          std::max(summary.max_body_balance_relative,
+                   f.solver.body_residual_n / std::max(f.solver.body_load_n, kSmallestBodyLoadN));
+    summary.per_frame.push_back({.time_s = f.time_s,
+                                 .phase = f.phase_index,
+                                 .time_steps = f.solver.time_steps,
+                                 .newton_iterations = f.solver.newton_iterations,
+                                 .velocity_residual_m_s = f.solver.velocity_residual_m_s,
+                                 .force_residual_n = f.solver.force_residual_n,
+                                 .body_residual_n = f.solver.body_residual_n,
+                                 .body_load_n = f.solver.body_load_n,
+                                 .min_gap_m = f.min_gap_m,
+                                 .intersections = f.intersections});
   }
+  summary.max_momentum_residual_n = whole.momentum_residual_n;
   write_array(stage, "time.npy", {n}, time);
   write_array(stage, "body_pose.npy", {n, count, 4, 4}, poses);
   if (rigid > 0) write_array(stage, "body_twist.npy", {n, rigid, 6}, twists);
@@ -416,23 +387,14 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   for (std::size_t i = 0; i < soft.size(); ++i)
     write_array(stage, "soft/" + spec.bodies[scene.gels.size() + i].name + "/positions.npy",
                 {n, static_cast<std::size_t>(frames[0].soft_m[i].rows()), 3}, soft[i]);
-  Value::List names;
   for (std::size_t b = 0; b < count; ++b) {
-    Value::Map body{{"name", spec.bodies[b].name}, {"kind", kBodyKinds[static_cast<std::size_t>(spec.bodies[b].kind)]}};
-    if (b >= deformable) body.emplace_back("metres_per_unit", spec.bodies[b].metres_per_unit);
-    if (spec.bodies[b].kind == BodyKind::rigid) body.emplace_back("mass_kg", scene.mass_kg[b - deformable]);
-    names.emplace_back(std::move(body));
+    const BodyKind kind = spec.bodies[b].kind;
+    SceneBodyLines& body = summary.bodies.emplace_back(
+        SceneBodyLines{.name = spec.bodies[b].name, .kind = kBodyKinds[static_cast<std::size_t>(kind)]});
+    if (b >= deformable) body.metres_per_unit = spec.bodies[b].metres_per_unit;
+    if (kind == BodyKind::rigid) body.mass_kg = scene.mass_kg[b - deformable];
   }
-  stage.summarize({{"frames", n},
-                   {"bodies", std::move(names)},
-                   {"min_distance_m", min_gap_m},
-                   {"intersections", intersections},
-                   {"body_strain", strain},
-                   {"max_body_balance_relative", balance},
-                   {"max_momentum_residual_n", whole.momentum_residual_n},
-                   {"converged", true},
-                   {"verdict", "pass"},
-                   {"per_frame", std::move(per_frame)}});
+  stage.summarize(record_lines(summary));
   add_cost(stage, scene.times);
 }
 

@@ -4,25 +4,25 @@
 #include <optional>
 
 #include "common/base/error.h"
+#include "common/sample/press_record.h"
+#include "stages/gel/press/measure/balance.h"
 
 namespace tacipc {
 
-/// The limits that no configuration can move, as the record repeats them; docs/verdict.md says what each is for.
-struct VerdictLimits {
-  double smallest_distance_m = 0.0;  // between gel and object, must be exceeded
-  int intersections = 0;             // pairs of triangles that share a point, decided exactly
-  double gel_in_object = 0.5;        // how many times the object's surface winds around the gel: 0 or 1, to rounding
-  int inverted_tets = 0;             // tetrahedra whose exact volume is not positive
-  double volume_ratio = 0.0;         // smallest deformed over undeformed volume, must be exceeded
-  double balance_relative = 1e-3;    // of the contact force, which counts as at least kSmallestContactN
-  double pose_error_m = 1e-9;        // of the object's vertices from where the motion prescribes them
-  // Of an object that moves freely: max |AᵀA − I|, and what is missing to the balance of its momentum, as part of its
-  // weight or load, whichever is larger, at least of kSmallestBodyLoadN.
-  double body_strain = 1e-3;
-  double body_balance_relative = 1e-3;
-};
-inline constexpr VerdictLimits kVerdictLimits;
 inline constexpr double kSmallestBodyLoadN = 0.01;
+
+/// The limits that no configuration can change. The record repeats them.
+inline constexpr PressLimits kVerdictLimits{.smallest_distance_m = 0.0,
+                                            .intersections = 0,
+                                            .gel_in_object = 0.5,  // winding numbers are 0 or 1, to rounding
+                                            .inverted_tets = 0,
+                                            .volume_ratio = 0.0,
+                                            .balance_relative = 1e-3,
+                                            .smallest_contact_n = kSmallestContactN,
+                                            .pose_error_m = 1e-9,
+                                            .body_strain = 1e-3,
+                                            .body_balance_relative = 1e-3,
+                                            .smallest_body_load_n = kSmallestBodyLoadN};
 
 /// The limits that follow from the configuration and the frame's contact force: what the solver promised to reach.
 struct SolverLimits {
