@@ -7,7 +7,7 @@
 #include "common/format/npy_field.h"
 #include "common/format/npy_pose.h"
 #include "common/sample/press_folder.h"
-#include "common/stage/record.h"
+#include "common/sample/press_record.h"
 
 namespace tacipc {
 namespace {
@@ -44,8 +44,8 @@ std::vector<double> read_times(const fs::path& folder, Extents& known) {
 }
 
 /// The bodies that the record of a scene lists, in the order of its arrays.
-std::vector<Record> listed_bodies(const fs::path& folder, Extents& known) {
-  std::vector<Record> bodies = Record::from_file(folder / "press.yaml").section("summary").sections("bodies");
+std::vector<RecordLines<SceneBodyLines>> listed_bodies(const fs::path& folder, Extents& known) {
+  auto bodies = summary_of<SceneSummary>(Record::from_file(folder / "press.yaml")).sections(&SceneSummary::bodies);
   known.emplace(kBodies, bodies.size());
   return bodies;
 }
@@ -70,18 +70,19 @@ SceneFolder read_grasp(const fs::path& folder) {
 SceneFolder read_bodies(const fs::path& folder) {
   Extents known;
   SceneFolder scene{.times_s = read_times(folder, known), .gels = {}, .objects = {}};
-  const std::vector<Record> bodies = listed_bodies(folder, known);
+  const auto bodies = listed_bodies(folder, known);
   const std::vector<double> values = values_of(folder, kBodyPoses, known);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const std::string name = bodies[b].required_text("name"), kind = bodies[b].required_text("kind");
+    const std::string name = bodies[b].required(&SceneBodyLines::name),
+                      kind = bodies[b].required(&SceneBodyLines::kind);
     std::vector<Matrix4> poses = poses_of(values, b, bodies.size());
     if (kind == "gel") {
       scene.gels.push_back({name, folder / "gels" / name, std::move(poses)});
     } else if (kind == "soft") {
       scene.soft.push_back({name, body_input(name), folder / "soft" / name / kSoftPositions.file});
     } else {
-      scene.objects.push_back(
-          {name, std::move(poses), body_input(name), bodies[b].required_number("metres_per_unit"), kind == "fixed"});
+      scene.objects.push_back({name, std::move(poses), body_input(name),
+                               bodies[b].required(&SceneBodyLines::metres_per_unit), kind == "fixed"});
     }
   }
   return scene;
@@ -113,9 +114,9 @@ SceneBodies read_scene_bodies(const fs::path& folder) {
   Extents known;
   SceneBodies scene;
   const std::size_t frames = read_times(folder, known).size();
-  for (const Record& body : listed_bodies(folder, known)) {
-    scene.bodies.push_back(body.required_text("name"));
-    scene.kinds.push_back(body.required_text("kind"));
+  for (const auto& body : listed_bodies(folder, known)) {
+    scene.bodies.push_back(body.required(&SceneBodyLines::name));
+    scene.kinds.push_back(body.required(&SceneBodyLines::kind));
   }
   const std::vector<double> poses = values_of(folder, kBodyPoses, known),
                             wrenches = values_of(folder, kWrenches, known),

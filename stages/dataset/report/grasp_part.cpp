@@ -6,7 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/format/html_text.h"
-#include "common/stage/record.h"
+#include "common/sample/press_record.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/timeline.h"
@@ -83,36 +83,37 @@ std::string times_text(const FingerSlip& slip) {
 GraspReport read_grasp(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "press.yaml";
   if (!std::filesystem::is_regular_file(file)) throw DataError("{}: has no press.yaml", folder.string());
-  const Record summary = Record::from_file(file).section("summary");
-  if (!summary.has("outcome")) throw DataError("{}: is the record of a press, not of a grasp", file.string());
-  const Record pose = summary.section("pose");
-  const auto grip = pose.numbers("grip_m", 3);
-  if (!grip) throw DataError("{}: summary.pose.grip_m is missing", file.string());
-  GraspReport grasp{.outcome = summary.required_text("outcome"),
-                    .mass_kg = summary.required_number("object_mass_kg"),
-                    .grip_n = summary.required_number("grip_n"),
-                    .friction_margin = summary.number("friction_margin"),
-                    .judged_frame = static_cast<std::size_t>(summary.required_count("judged_frame")),
-                    .grip_m = Eigen::Map<const Vector3>(grip->data()),
-                    .lever_m = pose.required_number("lever_m"),
-                    .width_m = pose.number("width_m"),
+  using Lines = GraspSummary;
+  const auto summary = summary_of<Lines>(Record::from_file(file));
+  if (!summary.has(&Lines::outcome)) throw DataError("{}: is the record of a press, not of a grasp", file.string());
+  const auto pose = summary.section(&Lines::pose);
+  GraspReport grasp{.outcome = summary.required(&Lines::outcome),
+                    .mass_kg = summary.required(&Lines::object_mass_kg),
+                    .grip_n = summary.required(&Lines::grip_n),
+                    .friction_margin = summary.find(&Lines::friction_margin),
+                    .judged_frame = static_cast<std::size_t>(summary.required(&Lines::judged_frame)),
+                    .grip_m = pose.required(&HeldPoseLines::grip_m),
+                    .lever_m = pose.required(&HeldPoseLines::lever_m),
+                    .width_m = pose.find(&HeldPoseLines::width_m),
                     .moments = {}};
-  grasp.reason = summary.text("reason");
-  grasp.friction = summary.number("friction_coefficient");
-  grasp.center_shift_m = summary.numbers("center_of_mass_shift_m", 3);
+  grasp.reason = summary.find(&Lines::reason);
+  grasp.friction = summary.find(&Lines::friction_coefficient);
+  grasp.center_shift_m = summary.find(&Lines::center_of_mass_shift_m);
   for (const std::size_t side : {0, 1}) {
-    const Record slip = summary.section(side == 0 ? "slip_left" : "slip_right");
-    grasp.slips[side] = {.first_s = slip.number("first_slip_s"), .gross_s = slip.number("gross_slip_s")};
+    const auto slip = summary.section(side == 0 ? &Lines::slip_left : &Lines::slip_right);
+    grasp.slips[side] = {.first_s = slip.find(&SlipLines::first_slip_s),
+                         .gross_s = slip.find(&SlipLines::gross_slip_s)};
   }
-  for (const Record& frame : summary.sections("per_frame")) {
-    grasp.moments.push_back({.time_s = frame.required_number("time_s"),
-                             .phase = frame.required_text("phase"),
-                             .grip_left_n = frame.required_number("grip_left_n"),
-                             .grip_right_n = frame.required_number("grip_right_n"),
-                             .carried_n = frame.required_number("carried_n"),
-                             .slip_m = frame.required_number("slip_m"),
-                             .turn_rad = frame.required_number("turn_rad"),
-                             .slip_share = {frame.number("slip_share_left"), frame.number("slip_share_right")}});
+  for (const auto& frame : summary.sections(&Lines::per_frame)) {
+    using F = GraspFrameLines;
+    grasp.moments.push_back({.time_s = frame.required(&F::time_s),
+                             .phase = frame.required(&F::phase),
+                             .grip_left_n = frame.required(&F::grip_left_n),
+                             .grip_right_n = frame.required(&F::grip_right_n),
+                             .carried_n = frame.required(&F::carried_n),
+                             .slip_m = frame.required(&F::slip_m),
+                             .turn_rad = frame.required(&F::turn_rad),
+                             .slip_share = {frame.find(&F::slip_share_left), frame.find(&F::slip_share_right)}});
   }
   if (grasp.judged_frame >= grasp.moments.size()) throw DataError("{}: has no frame that was judged", file.string());
   return grasp;

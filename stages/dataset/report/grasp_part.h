@@ -34,7 +34,7 @@ struct GraspReport {
   std::optional<std::string> reason = std::nullopt;  // of any outcome but lifted
   std::array<FingerSlip, 2> slips = {};              // of left and right finger
   std::optional<double> friction = std::nullopt;     // coefficient
-  std::optional<std::vector<double>> center_shift_m = std::nullopt;
+  std::optional<Vector3> center_shift_m = std::nullopt;
   double mass_kg = 0.0, grip_n = 0.0;
   std::optional<double> friction_margin;  // nothing where the object has no weight
   std::size_t judged_frame = 0;           // that the outcome is of

@@ -9,6 +9,7 @@
 #include "common/base/files.h"
 #include "common/mesh/triangle_mesh.h"
 #include "common/sample/press_folder.h"
+#include "common/sample/press_record.h"
 #include "common/sample/sample_status.h"
 #include "common/stage/record.h"
 
@@ -27,7 +28,7 @@ PlacementReport read_placement(const Record& press) {
   const Record chosen = press.section("config").section("sample").section("placement");
   const auto up = press.section("config").section("object-config").text("up");
   PlacementReport placement;
-  placement.face = press.section("summary").text("face").value_or("unknown");
+  placement.face = summary_of<PressSummary>(press).find(&PressSummary::face).value_or("unknown");
   placement.chosen = chosen.has("face") ? "named by the sample"
                      : up               ? "opposite of the object's up side " + *up
                                         : "default";
@@ -44,29 +45,30 @@ double depth_at(const Matrix4& gel_from_object, const Positions& object) {
   return 0.0 - ((object * up).minCoeff() + gel_from_object(2, 3));
 }
 
-std::vector<FrameReport> read_frames(const Record& summary) {
+std::vector<FrameReport> read_frames(const RecordLines<PressSummary>& summary) {
+  using Lines = PressFrameLines;
   std::vector<FrameReport> frames;
-  for (const Record& record : summary.sections("per_frame")) {
+  for (const RecordLines<Lines>& lines : summary.sections(&PressSummary::per_frame)) {
     frames.push_back({.depth_m = std::nullopt,
-                      .press_force_n = record.required_number("press_force_n"),
-                      .newton_iterations = record.required_count("newton_iterations"),
-                      .min_gap_m = record.required_number("min_gap_m"),
-                      .min_volume_ratio = record.required_number("min_volume_ratio"),
-                      .time_s = record.number("time_s"),
-                      .phase = record.text("phase").value_or(""),
-                      .tangential_force_n = record.number("tangential_force_n"),
+                      .press_force_n = lines.required(&Lines::press_force_n),
+                      .newton_iterations = lines.required(&Lines::newton_iterations),
+                      .min_gap_m = lines.required(&Lines::min_gap_m),
+                      .min_volume_ratio = lines.required(&Lines::min_volume_ratio),
+                      .time_s = lines.find(&Lines::time_s),
+                      .phase = lines.find(&Lines::phase).value_or(""),
+                      .tangential_force_n = lines.find(&Lines::tangential_force_n),
                       .torque_z_n_m = std::nullopt,
-                      .balance_n = record.number("balance_n"),
-                      .balance_relative = record.number("balance_relative"),
-                      .contact_area_mm2 = record.number("contact_area_mm2"),
-                      .mean_pressure_pa = record.number("mean_pressure_pa"),
-                      .peak_pressure_pa = record.number("peak_pressure_pa"),
-                      .pose_error_m = record.number("pose_error_m"),
-                      .sticking = record.count("sticking"),
-                      .slipping = record.count("slipping"),
-                      .substeps = record.count("substeps")});
+                      .balance_n = lines.find(&Lines::balance_n),
+                      .balance_relative = lines.find(&Lines::balance_relative),
+                      .contact_area_mm2 = lines.find(&Lines::contact_area_mm2),
+                      .mean_pressure_pa = lines.find(&Lines::mean_pressure_pa),
+                      .peak_pressure_pa = lines.find(&Lines::peak_pressure_pa),
+                      .pose_error_m = lines.find(&Lines::pose_error_m),
+                      .sticking = lines.find(&Lines::sticking),
+                      .slipping = lines.find(&Lines::slipping),
+                      .substeps = lines.find(&Lines::substeps)});
   }
-  if (frames.empty()) throw DataError("press.yaml: summary.per_frame: has no frames");
+  if (frames.empty()) throw DataError("press.yaml: summary.{}: has no frames", key_of(&PressSummary::per_frame));
   return frames;
 }
 
@@ -198,20 +200,21 @@ void read_object(const fs::path& press_folder, const Record& press, SampleReport
       1e3 * taken.required_number("max_error_mm")));
 }
 
-void read_summary(const Record& summary, SampleReport& sample) {
-  sample.press_force_n = summary.required_number("press_force_n");
-  sample.tangential_force_n = summary.number("tangential_force_n");
-  sample.min_distance_m = summary.required_number("min_distance_m");
-  sample.min_volume_ratio = summary.required_number("min_volume_ratio");
-  sample.newton_iterations = summary.required_count("newton_iterations");
-  sample.gel_vertices = summary.required_count("gel_vertices");
-  sample.friction_coefficient = summary.number("friction_coefficient");
-  sample.first_slip_time_s = summary.number("first_slip_time_s");
-  sample.gross_slip_time_s = summary.number("gross_slip_time_s");
-  sample.element = summary.text("element").value_or("");
+void read_summary(const RecordLines<PressSummary>& summary, SampleReport& sample) {
+  using Lines = PressSummary;
+  sample.press_force_n = summary.required(&Lines::press_force_n);
+  sample.tangential_force_n = summary.find(&Lines::tangential_force_n);
+  sample.min_distance_m = summary.required(&Lines::min_distance_m);
+  sample.min_volume_ratio = summary.required(&Lines::min_volume_ratio);
+  sample.newton_iterations = summary.required(&Lines::newton_iterations);
+  sample.gel_vertices = summary.required(&Lines::gel_vertices);
+  sample.friction_coefficient = summary.find(&Lines::friction_coefficient);
+  sample.first_slip_time_s = summary.find(&Lines::first_slip_time_s);
+  sample.gross_slip_time_s = summary.find(&Lines::gross_slip_time_s);
+  sample.element = summary.find(&Lines::element).value_or("");
   sample.frames = read_frames(summary);
-  sample.press_end_frame = summary.count("press_end_frame");
-  sample.balance_limit = summary.section("limits").number("balance_relative");
+  sample.press_end_frame = summary.find(&Lines::press_end_frame);
+  sample.balance_limit = summary.section(&Lines::limits).find(&PressLimits::balance_relative);
 }
 
 /// What the arrays tell; nothing where they were dropped after packing.
@@ -254,7 +257,7 @@ std::vector<int> pictured_frames(const SampleReport& sample) {
 }
 
 void read_press_record(const Record& press, SampleReport& sample) {
-  const Record summary = press.section("summary");
+  const auto summary = summary_of<PressSummary>(press);
   sample.name = press.text("name").value_or(sample.name);
   read_summary(summary, sample);
   const Record asked = press.section("config").section("sample");
@@ -268,19 +271,19 @@ void read_press_record(const Record& press, SampleReport& sample) {
 }
 
 void judge_press(const Record& press, const SampleReport& sample) {
-  const Record summary = press.section("summary");
-  if (!summary.required_flag("converged")) throw SolverError("press: Newton did not converge");
+  const auto summary = summary_of<PressSummary>(press);
+  if (!summary.required(&PressSummary::converged)) throw SolverError("press: Newton did not converge");
   const CountLimits limits = count_limits(summary);
-  if (const int count = summary.required_count("intersections"); count > limits.intersections)
+  if (const int count = summary.required(&PressSummary::intersections); count > limits.intersections)
     throw SolverError("press: {} triangle pairs intersect", count);
-  if (const int count = summary.required_count("inverted_tets"); count > limits.inverted_tets)
+  if (const int count = summary.required(&PressSummary::inverted_tets); count > limits.inverted_tets)
     throw SolverError("press: {} tetrahedra are inverted", count);
   for (const CheckReport& check : sample.checks) {
     if (check.held) continue;
     const std::string where = check.frame ? fmt::format(" in frame {}", *check.frame) : "";
     throw SolverError("press: {} is {}{}, the limit is {}", check.name, check.value, where, check.limit);
   }
-  if (const auto verdict = summary.text("verdict"); verdict.value_or("pass") != "pass")
+  if (const auto verdict = summary.find(&PressSummary::verdict); verdict.value_or(kPassed) != kPassed)
     throw SolverError("press: its verdict is {}", *verdict);
 }
 
@@ -288,8 +291,8 @@ void read_press(const fs::path& folder, SampleReport& sample) {
   const Record press = Record::from_file(folder / "press.yaml");
   read_press_record(press, sample);
   if (sample.press_end_frame.value_or(0) >= static_cast<int>(sample.frames.size())) {
-    throw DataError("{}: summary.press_end_frame: {} is not one of the {} frames", (folder / "press.yaml").string(),
-                    *sample.press_end_frame, sample.frames.size());
+    throw DataError("{}: summary.{}: {} is not one of the {} frames", (folder / "press.yaml").string(),
+                    key_of(&PressSummary::press_end_frame), *sample.press_end_frame, sample.frames.size());
   }
   read_object(folder, press, sample);
   add_arrays(folder, press, sample);

@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/format/html_text.h"
-#include "common/stage/record.h"
+#include "common/sample/press_record.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/view/view_page.h"
@@ -188,13 +188,13 @@ std::string body_list(const SceneBodies& scene) {
 SceneReport read_scene(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "press.yaml";
   if (!std::filesystem::is_regular_file(file)) throw DataError("{}: has no press.yaml", folder.string());
-  const Record summary = Record::from_file(file).section("summary");
-  if (!summary.has("bodies")) throw DataError("{}: is not the record of a scene", file.string());
+  const auto summary = summary_of<SceneSummary>(Record::from_file(file));
+  if (!summary.has(&SceneSummary::bodies)) throw DataError("{}: is not the record of a scene", file.string());
   SceneReport scene{.frames = {}, .bodies = read_scene_bodies(folder)};
-  for (const Record& frame : summary.sections("per_frame")) {
-    const double phase = frame.required_number("phase");
-    scene.frames.push_back(
-        {frame.required_number("time_s"), phase < 0.0 ? "reference" : fmt::format("phase {:.0f}", phase + 1.0)});
+  for (const auto& frame : summary.sections(&SceneSummary::per_frame)) {
+    const double phase = frame.number(&SceneFrameLines::phase);
+    scene.frames.push_back({frame.required(&SceneFrameLines::time_s),
+                            phase < 0.0 ? "reference" : fmt::format("phase {:.0f}", phase + 1.0)});
   }
   if (scene.frames.size() != scene.bodies.per_frame.size())
     throw DataError("{}: has {} frames, its arrays {}", file.string(), scene.frames.size(),

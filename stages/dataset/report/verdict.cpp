@@ -30,8 +30,7 @@ std::optional<Extreme> extreme(std::optional<double> in_summary, const std::vect
 
 std::string with_unit(double value, double scale, const char* unit) { return number_text(value, scale) + unit; }
 
-CheckReport at_most(const Record& summary, const char* key, const char* name, int limit) {
-  const int count = summary.required_count(key);
+CheckReport at_most(int count, const char* name, int limit) {
   return {name, count_text(count), count_text(limit), std::nullopt, count <= limit};
 }
 
@@ -42,43 +41,48 @@ CheckReport above(const char* name, const Extreme& smallest, double limit, doubl
 
 }  // namespace
 
-CountLimits count_limits(const Record& summary) {
-  const Record limits = summary.section("limits");
-  return {.intersections = limits.count("intersections").value_or(0),
-          .inverted_tets = limits.count("inverted_tets").value_or(0)};
+CountLimits count_limits(const RecordLines<PressSummary>& summary) {
+  const auto limits = summary.section(&PressSummary::limits);
+  return {.intersections = limits.find(&PressLimits::intersections).value_or(0),
+          .inverted_tets = limits.find(&PressLimits::inverted_tets).value_or(0)};
 }
 
-std::vector<CheckReport> checks_of(const Record& summary, const std::vector<FrameReport>& frames) {
-  const bool converged = summary.required_flag("converged");
+std::vector<CheckReport> checks_of(const RecordLines<PressSummary>& summary, const std::vector<FrameReport>& frames) {
+  using Lines = PressSummary;
+  const bool converged = summary.required(&Lines::converged);
   std::vector<CheckReport> checks;
   checks.push_back({"Newton's method", converged ? "converged" : "did not converge", "converged in every frame",
                     std::nullopt, converged});
-  const Record limits = summary.section("limits");
+  const auto limits = summary.section(&Lines::limits);
   const CountLimits counts = count_limits(summary);
-  checks.push_back(at_most(summary, "intersections", "triangle pairs that intersect", counts.intersections));
-  checks.push_back(at_most(summary, "inverted_tets", "tetrahedra that are inverted", counts.inverted_tets));
+  checks.push_back(
+      at_most(summary.required(&Lines::intersections), "triangle pairs that intersect", counts.intersections));
+  checks.push_back(
+      at_most(summary.required(&Lines::inverted_tets), "tetrahedra that are inverted", counts.inverted_tets));
   const auto gap = extreme(
-      summary.required_number("min_distance_m"), frames,
-      [](const FrameReport& f) { return std::optional(f.min_gap_m); }, std::less<>());
-  checks.push_back(above("smallest distance", *gap, limits.number("smallest_distance_m").value_or(0.0), 1e6, " µm"));
+      summary.required(&Lines::min_distance_m), frames, [](const FrameReport& f) { return std::optional(f.min_gap_m); },
+      std::less<>());
+  checks.push_back(
+      above("smallest distance", *gap, limits.find(&PressLimits::smallest_distance_m).value_or(0.0), 1e6, " µm"));
   const auto ratio = extreme(
-      summary.required_number("min_volume_ratio"), frames,
+      summary.required(&Lines::min_volume_ratio), frames,
       [](const FrameReport& f) { return std::optional(f.min_volume_ratio); }, std::less<>());
-  checks.push_back(above("smallest volume ratio", *ratio, limits.number("volume_ratio").value_or(0.0), 1, ""));
+  checks.push_back(
+      above("smallest volume ratio", *ratio, limits.find(&PressLimits::volume_ratio).value_or(0.0), 1, ""));
   const auto balance = extreme(
-      summary.number("max_balance_relative"), frames, [](const FrameReport& f) { return f.balance_relative; },
+      summary.find(&Lines::max_balance_relative), frames, [](const FrameReport& f) { return f.balance_relative; },
       std::greater<>());
-  if (const auto limit = limits.number("balance_relative"); balance && limit) {
+  if (const auto limit = limits.find(&PressLimits::balance_relative); balance && limit) {
     std::string text = with_unit(*limit, 100, " %");
-    if (const auto smallest_n = limits.number("smallest_contact_n"))
+    if (const auto smallest_n = limits.find(&PressLimits::smallest_contact_n))
       text += ", or " + with_unit(*limit * *smallest_n, 1e6, " µN");
     checks.push_back({"force imbalance", with_unit(balance->value, 100, " % of the contact force"), text,
                       balance->frame, balance->value <= *limit});
   }
   const auto pose = extreme(
-      summary.number("max_pose_error_m"), frames, [](const FrameReport& f) { return f.pose_error_m; },
+      summary.find(&Lines::max_pose_error_m), frames, [](const FrameReport& f) { return f.pose_error_m; },
       std::greater<>());
-  if (const auto limit = limits.number("pose_error_m"); pose && limit) {
+  if (const auto limit = limits.find(&PressLimits::pose_error_m); pose && limit) {
     checks.push_back({"distance from the asked pose", with_unit(pose->value, 1e9, " nm"), with_unit(*limit, 1e9, " nm"),
                       pose->frame, pose->value <= *limit});
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/stage/record.h"
+#include "common/sample/press_record.h"
 
 namespace tacipc {
 
@@ -16,7 +16,7 @@ struct CountLimits {
   int intersections = 0;
   int inverted_tets = 0;
 };
-CountLimits count_limits(const Record& summary);
+CountLimits count_limits(const RecordLines<PressSummary>& summary);
 
 struct CheckReport {
   std::string name;
@@ -30,7 +30,7 @@ struct CheckReport {
 /// them. Older records tell none; those of their limits that have always been zero are taken as that. Numbers over all
 /// frames are taken from the summary, and once more from the frames where these are worse.
 /// \throw DataError if the summary lacks one that every press has.
-std::vector<CheckReport> checks_of(const Record& summary, const std::vector<FrameReport>& frames);
+std::vector<CheckReport> checks_of(const RecordLines<PressSummary>& summary, const std::vector<FrameReport>& frames);
 
 /// The check that ended a press, from the file of its failure. \throw DataError if it is malformed.
 struct FailedCheck {

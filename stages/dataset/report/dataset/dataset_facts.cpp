@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "common/sample/press_record.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/motion.h"
 #include "stages/dataset/report/press_report.h"
@@ -62,9 +63,9 @@ GelFacts read_gel_facts(const fs::path& sample_folder) {
     relaxation += fmt::format("{}{:g} % in {:g} s", relaxation.empty() ? "" : ", ",
                               100.0 * member.required_number("part"), member.required_number("time_s"));
   if (!relaxation.empty()) add("gel relaxation, of the instantaneous stiffness", relaxation);
-  if (const auto vertices = press.section("summary").count("gel_vertices"))
-    add("mesh", count_text(*vertices) + " vertices");
-  if (const auto friction = press.section("summary").number("friction_coefficient"))
+  const auto summary = summary_of<PressSummary>(press);
+  if (const auto vertices = summary.find(&PressSummary::gel_vertices)) add("mesh", count_text(*vertices) + " vertices");
+  if (const auto friction = summary.find(&PressSummary::friction_coefficient))
     add("friction coefficient", fmt::format("{:g}", *friction));
   const Record markers = sensor.section("markers");
   if (const auto rows = markers.count("rows"), columns = markers.count("columns"); rows && columns) {

@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/press_folder.h"
+#include "common/sample/press_record.h"
 #include "stages/dataset/report/press_report.h"
 
 namespace tacipc {
@@ -64,9 +65,9 @@ void read_numbers(const fs::path& folder, SampleRow& row) {
   const Record render = Record::from_file(folder / "render/render.yaml");
   numbers.depth_mm = render.section("summary").required_number("max_indentation_mm");
   if (!is_finger(folder)) return;
-  const Record grasp = Record::from_file(stage_file(folder, "press", ".yaml")).section("summary");
-  row.outcome = grasp.required_text("outcome");
-  row.reason = grasp.text("reason").value_or("");
+  const auto grasp = summary_of<GraspSummary>(Record::from_file(stage_file(folder, "press", ".yaml")));
+  row.outcome = grasp.required(&GraspSummary::outcome);
+  row.reason = grasp.find(&GraspSummary::reason).value_or("");
 }
 
 }  // namespace
