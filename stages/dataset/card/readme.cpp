@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/sample/press_record.h"
+
 namespace tacipc {
 namespace {
 
@@ -123,16 +125,18 @@ std::string limits_text(const CardContent& c) {
       "Every frame of every sample has passed these checks; a sample of which one frame misses one is not in the data "
       "(`failures.csv` has it). The numbers of each frame are in the group `check`.\n\n"
       "| Limit | value | means |\n|---|---|---|\n";
+  using L = PressLimits;
   const std::map<std::string, std::string> kMeanings{
-      {"intersections", "pairs of triangles that may intersect, object with gel or gel with itself, by an exact test"},
-      {"inverted_tets", "tetrahedra of the gel that may be inverted, by an exact test"},
-      {"smallest_distance_m", "m; the gap between gel and object must be larger"},
-      {"volume_ratio", "the smallest deformed over undeformed volume of a tetrahedron must be larger"},
-      {"balance_relative",
+      {key_of(&L::intersections),
+       "pairs of triangles that may intersect, object with gel or gel with itself, by an exact test"},
+      {key_of(&L::inverted_tets), "tetrahedra of the gel that may be inverted, by an exact test"},
+      {key_of(&L::smallest_distance_m), "m; the gap between gel and object must be larger"},
+      {key_of(&L::volume_ratio), "the smallest deformed over undeformed volume of a tetrahedron must be larger"},
+      {key_of(&L::balance_relative),
        "contact, inertia, damping, gravity and mount forces must sum to zero within this fraction of the contact "
        "force"},
-      {"smallest_contact_n", "N; lower bound of the contact force in that check"},
-      {"pose_error_m", "m; largest distance of the object from its prescribed pose"}};
+      {key_of(&L::smallest_contact_n), "N; lower bound of the contact force in that check"},
+      {key_of(&L::pose_error_m), "m; largest distance of the object from its prescribed pose"}};
   for (const Record& limits : c.shards.limits) {
     for (const std::string& name : limits.keys()) {
       const auto meaning = kMeanings.find(name);

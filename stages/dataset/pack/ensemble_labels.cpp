@@ -17,25 +17,25 @@ constexpr const char* kRecord = "press.yaml";
 }  // namespace
 
 LabelledPress::LabelledPress(fs::path folder, const Positions& object_m)
-    : per_frame_(Record::from_file(folder / kRecord).section("summary").sections("per_frame")),
+    : per_frame_(summary_of<PressSummary>(Record::from_file(folder / kRecord)).sections(&PressSummary::per_frame)),
       arrays_(PressFolder::finished(folder, {{kFrames, per_frame_.size()}})),
       object_m_(object_m),
       front_(arrays_.front_vertices()),
       rest_m_(arrays_.positions(0)) {}
 
 std::vector<double> LabelledPress::label(EnsembleLabel label, std::size_t frame) const {
-  const Record& record = per_frame_[frame];
+  const auto& lines = per_frame_[frame];
   switch (label) {
     case EnsembleLabel::press_force:
-      return {record.required_number("press_force_n")};
+      return {lines.required(&PressFrameLines::press_force_n)};
     case EnsembleLabel::tangential_force:
-      return {record.required_number("tangential_force_n")};
+      return {lines.required(&PressFrameLines::tangential_force_n)};
     case EnsembleLabel::torque: {
       const Vector3 torque = arrays_.wrenches()[frame].torque_n_m;
       return {torque.begin(), torque.end()};
     }
     case EnsembleLabel::contact_area:
-      return {record.required_number("contact_area_mm2")};
+      return {lines.required(&PressFrameLines::contact_area_mm2)};
     case EnsembleLabel::deepest_indentation: {
       const Positions x = arrays_.positions(frame);
       double deepest = 0.0;

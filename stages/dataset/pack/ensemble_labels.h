@@ -9,7 +9,7 @@
 #include "common/base/types.h"
 #include "common/sample/ensemble.h"
 #include "common/sample/press_folder.h"
-#include "common/stage/record.h"
+#include "common/sample/press_record.h"
 
 namespace tacipc {
 
@@ -27,7 +27,7 @@ class LabelledPress {
   std::vector<double> label(EnsembleLabel label, std::size_t frame) const;
 
  private:
-  std::vector<Record> per_frame_;
+  std::vector<RecordLines<PressFrameLines>> per_frame_;
   PressFolder arrays_;
   const Positions& object_m_;
   std::vector<int> front_;

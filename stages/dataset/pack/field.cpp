@@ -150,9 +150,9 @@ FieldData twist(SampleFrames& sample, std::size_t frame, Vector3 Twist::*part) {
   return numbers_of(sample.arrays().twists()[frame].*part);
 }
 
-FieldData of_grasp(SampleFrames& sample, std::size_t frame, const char* key) {
+FieldData of_grasp(SampleFrames& sample, std::size_t frame, double GraspFrameLines::*number) {
   if (!sample.grasp()) return Absent{"no grasp"};
-  return scalar(sample.grasp_number(frame, key));
+  return scalar(sample.grasp_number(frame, number));
 }
 
 Numbers front_positions(SampleFrames& sample, std::size_t frame) {
@@ -201,8 +201,9 @@ double segment(double code) {
 }
 
 /// A line of the press record's `per_frame`.
-auto judged(const char* key) {
-  return [key](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.press_number(f, key)); };
+template <typename T>
+auto judged(T PressFrameLines::*number) {
+  return [number](SampleFrames& s, std::size_t f) -> FieldData { return scalar(s.press_number(f, number)); };
 }
 
 std::string source_of(FrameFile file) { return "render: " + field_of(file).file; }
@@ -400,7 +401,7 @@ std::vector<Field> observations() {
        "sum of the friction forces on the gel's front", source_of(PressArray::contact_force), kNewton,
        [](SampleFrames& s, std::size_t f) -> FieldData { return summed_force(s, f, kFriction); }},
       {kObs, "press_force_N", f32, "(T)", "N", kS, "positive when the object pushes into the gel",
-       "-z component of force_N", "press: record", kNewton, judged("press_force_n")},
+       "-z component of force_N", "press: record", kNewton, judged(&PressFrameLines::press_force_n)},
       {kObs, "marker_px", f32, "(T,2,N,2)", "px", kImage, "x right, y down; pixel (0, 0) spans 0 to 1",
        "column and row of each marker in frame 0 [0] and now [1]; NaN where the image does not show it",
        "render: " + marker_px_field().file, kSame, marker_px, true},
@@ -445,16 +446,17 @@ std::vector<Field> observations() {
       {kObs, "slip_mm", f32, "(T)", "mm", kNone, kNone,
        "displacement of the object's point at the grip, relative to the hand, since the fingers have closed",
        "press: record of the grasp", kMmPerM,
-       [](SampleFrames& s, std::size_t f) -> FieldData { return of_grasp(s, f, "slip_m"); }},
+       [](SampleFrames& s, std::size_t f) -> FieldData { return of_grasp(s, f, &GraspFrameLines::slip_m); }},
       {kObs, "turn_deg", f32, "(T)", "deg", kNone, kNone,
        "angle by which the object has turned relative to the hand since the fingers have closed",
        "press: record of the grasp", kDegPerRad,
-       [](SampleFrames& s, std::size_t f) -> FieldData { return of_grasp(s, f, "turn_rad"); }},
+       [](SampleFrames& s, std::size_t f) -> FieldData { return of_grasp(s, f, &GraspFrameLines::turn_rad); }},
       {kObs, "slip_share", f32, "(T)", "1", kNone, kNone,
        "part of the finger's normal force that is on vertices that slip; 0 where it does not touch",
        "press: record of the grasp", kSame,
        [](SampleFrames& s, std::size_t f) -> FieldData {
-         return of_grasp(s, f, s.is_right_finger() ? "slip_share_right" : "slip_share_left");
+         return of_grasp(s, f,
+                         s.is_right_finger() ? &GraspFrameLines::slip_share_right : &GraspFrameLines::slip_share_left);
        }},
       time_field(kObs, "(T)"),
       phase_field(kObs, "(T)"),
@@ -498,38 +500,39 @@ std::vector<Field> simulated() {
 }
 
 std::vector<Field> checks() {
+  using L = PressFrameLines;
   const auto line = [](const char* name, NumberType type, const char* unit, const char* sign, const char* meaning,
-                       double scale, const char* key) {
-    return Field{Section::check, name, type, "(T)", unit, kNone, sign, meaning, "press: record", scale, judged(key)};
+                       double scale, auto number) {
+    return Field{Section::check, name, type, "(T)", unit, kNone, sign, meaning, "press: record", scale, judged(number)};
   };
   return {line("min_distance_mm", f32, "mm", "positive: apart", "smallest gap between gel and object", kMmPerM,
-               "min_gap_m"),
+               &L::min_gap_m),
           line("stand_off_mm", f32, "mm", "positive: apart",
                "mean gap of what touches, weighted by force: how far the contact barrier keeps the surfaces apart",
-               kMmPerM, "stand_off_m"),
+               kMmPerM, &L::stand_off_m),
           line("min_volume_ratio", f32, "1", "positive: not inverted",
-               "smallest deformed over undeformed volume of a tetrahedron", kSame, "min_volume_ratio"),
+               "smallest deformed over undeformed volume of a tetrahedron", kSame, &L::min_volume_ratio),
           line("intersections", i32, "count", kNone, "pairs of triangles that intersect, by exact test", kSame,
-               "intersections"),
-          line("inverted_tets", i32, "count", kNone, "inverted tetrahedra, by exact test", kSame, "inverted_tets"),
+               &L::intersections),
+          line("inverted_tets", i32, "count", kNone, "inverted tetrahedra, by exact test", kSame, &L::inverted_tets),
           line("newton_iterations", i32, "count", kNone, "Newton iterations since the frame before", kSame,
-               "newton_iterations"),
+               &L::newton_iterations),
           line("velocity_residual_mm_s", f32, "mm/s", kNone, "last Newton step over the time step", kMmPerM,
-               "velocity_residual_m_s"),
+               &L::velocity_residual_m_s),
           line("force_residual_N", f32, "N", kNone, "forces left out of balance, summed as lengths", kNewton,
-               "force_residual_n"),
+               &L::force_residual_n),
           line("friction_residual_N", f32, "N", kNone, "how far friction is from that of its own contact forces",
-               kNewton, "friction_residual_n"),
+               kNewton, &L::friction_residual_n),
           line("force_balance_rel", f32, "1", kNone,
                "contact, inertia, damping, gravity and mount summed, over the contact force (at least 0.01 N)", kSame,
-               "balance_relative"),
-          line("force_balance_N", f32, "N", kNone, "the same sum", kNewton, "balance_n"),
+               &L::balance_relative),
+          line("force_balance_N", f32, "N", kNone, "the same sum", kNewton, &L::balance_n),
           line("pose_error_mm", f32, "mm", kNone, "largest distance of the object from where its motion puts it",
-               kMmPerM, "pose_error_m"),
+               kMmPerM, &L::pose_error_m),
           line("contact_area_mm2", f32, "mm^2", kNone, "area of the front that carries contact force", kSame,
-               "contact_area_mm2"),
-          line("sticking", i32, "count", kNone, "front vertices that stick", kSame, "sticking"),
-          line("slipping", i32, "count", kNone, "front vertices that slip", kSame, "slipping")};
+               &L::contact_area_mm2),
+          line("sticking", i32, "count", kNone, "front vertices that stick", kSame, &L::sticking),
+          line("slipping", i32, "count", kNone, "front vertices that slip", kSame, &L::slipping)};
 }
 
 /// Of a grasp, in every frame of the press: what its labels follow from.

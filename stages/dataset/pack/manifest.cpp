@@ -50,21 +50,22 @@ constexpr const char* kGraspColumns[] = {"outcome",
                                          "center_of_mass_shift_z_mm"};
 
 std::vector<std::string> grasp_fields(const SampleFrames& sample) {
-  const Record grasp = sample.grasp()->section("summary"),
-               slip = grasp.section(sample.is_right_finger() ? "slip_right" : "slip_left");
+  using Lines = GraspSummary;
+  const auto grasp = sample.grasp_summary();
+  const auto slip = sample.slip();
   const auto or_nothing = [](std::optional<double> value) { return value ? number(*value) : std::string(); };
-  std::vector<std::string> fields{grasp.required_text("outcome"),
-                                  grasp.text("reason").value_or(""),
-                                  or_nothing(slip.number("first_slip_s")),
-                                  or_nothing(slip.number("gross_slip_s")),
-                                  number(kMmPerM * grasp.required_number("slip_m")),
-                                  number(kDegPerRad * grasp.required_number("turn_rad")),
-                                  number(grasp.required_number("friction_coefficient")),
-                                  number(1e3 * grasp.required_number("object_mass_kg")),
-                                  number(grasp.required_number("grip_n")),
-                                  or_nothing(grasp.number("friction_margin")),
-                                  number(kMmPerM * grasp.section("pose").required_number("lever_m"))};
-  for (const double shift_m : grasp.required_numbers("center_of_mass_shift_m", 3))
+  std::vector<std::string> fields{grasp.required(&Lines::outcome),
+                                  grasp.find(&Lines::reason).value_or(""),
+                                  or_nothing(slip.find(&SlipLines::first_slip_s)),
+                                  or_nothing(slip.find(&SlipLines::gross_slip_s)),
+                                  number(kMmPerM * grasp.required(&Lines::slip_m)),
+                                  number(kDegPerRad * grasp.required(&Lines::turn_rad)),
+                                  number(grasp.required(&Lines::friction_coefficient)),
+                                  number(1e3 * grasp.required(&Lines::object_mass_kg)),
+                                  number(grasp.required(&Lines::grip_n)),
+                                  or_nothing(grasp.find(&Lines::friction_margin)),
+                                  number(kMmPerM * grasp.section(&Lines::pose).required(&HeldPoseLines::lever_m))};
+  for (const double shift_m : grasp.required(&Lines::center_of_mass_shift_m))
     fields.push_back(number(kMmPerM * shift_m));
   return fields;
 }
@@ -85,14 +86,16 @@ std::vector<std::string> manifest_columns() {
 
 std::vector<std::string> manifest_row(const PlannedRow& plan, const std::string& sensor_id, std::size_t offset,
                                       const SampleFrames& sample) {
-  const Record press = sample.press().section("summary"), render = sample.render().section("summary");
+  using Lines = PressSummary;
+  const auto press = sample.press_summary();
+  const Record render = sample.render().section("summary");
   std::vector<std::string> row = planned(plan);
   for (const std::string& field :
        {fmt::format("{}", offset), std::string("made"), sensor_id, fmt::format("{}", sample.frames().size()),
-        fmt::format("{}", sample.press_frames()), number(press.required_number("press_force_n")),
-        number(press.required_number("tangential_force_n")), number(render.required_number("max_indentation_mm")),
-        number(kMmPerM * press.required_number("min_distance_m")), number(press.required_number("min_volume_ratio")),
-        number(press.required_number("max_balance_relative")), number(press.required_number("newton_iterations")),
+        fmt::format("{}", sample.press_frames()), number(press.required(&Lines::press_force_n)),
+        number(press.required(&Lines::tangential_force_n)), number(render.required_number("max_indentation_mm")),
+        number(kMmPerM * press.required(&Lines::min_distance_m)), number(press.required(&Lines::min_volume_ratio)),
+        number(press.required(&Lines::max_balance_relative)), number(press.number(&Lines::newton_iterations)),
         number(render.required_number("clipped_fraction")), sha256_of_file(sample.folder() / "press/press.yaml"),
         sha256_of_file(sample.folder() / "render/render.yaml")})
     row.push_back(field);

@@ -41,7 +41,7 @@ void Origins::add(const PlannedRow& plan, const std::string& sensor_id, const Sa
   if (fs::exists(report)) add_file(objects_, plan.object, "decimate", {report, content_hash(report)});
   versions_.insert("press " + sample.press().required_text("version"));
   versions_.insert("render " + sample.render().required_text("version"));
-  const Record limits = sample.press().section("summary").section("limits");
+  const Record limits = sample.press_summary().section(&PressSummary::limits).record();
   Value::Map numbers;
   for (const std::string& name : limits.keys()) numbers.emplace_back(name, limits.required_number(name));
   limits_[to_yaml(numbers)] = numbers;

@@ -34,11 +34,11 @@ SampleFrames::SampleFrames(fs::path folder)
     : folder_(refuse_dropped(std::move(folder))),
       press_(Record::from_file(folder_ / "press/press.yaml")),
       render_(Record::from_file(folder_ / "render/render.yaml")),
-      per_frame_(press_.section("summary").sections("per_frame")),
+      per_frame_(press_summary().sections(&PressSummary::per_frame)),
       arrays_(folder_ / "press", {{kFrames, per_frame_.size()}}) {
   if (is_finger(folder_)) {
     grasp_ = Record::from_file(stage_file(folder_, "press", ".yaml"));
-    grasp_per_frame_ = grasp_->section("summary").sections("per_frame");
+    grasp_per_frame_ = grasp_summary().sections(&GraspSummary::per_frame);
     if (grasp_per_frame_.size() != per_frame_.size())
       throw DataError("{}: the grasp has {} frames, its finger {}", folder_.string(), grasp_per_frame_.size(),
                       per_frame_.size());
@@ -130,14 +130,6 @@ FingerFront SampleFrames::finger_front(std::size_t side, std::size_t frame) cons
   return {.positions = finger.positions(frame)(finger.front_vertices(), Eigen::all),
           .normal_n = finger.contact_forces(frame).normal.rowwise().norm(),
           .states = finger.contact_states(frame)};
-}
-
-double SampleFrames::grasp_number(std::size_t frame, const std::string& key) const {
-  return grasp_per_frame_[frame].required_number(key);
-}
-
-double SampleFrames::press_number(std::size_t frame, const std::string& key) const {
-  return per_frame_[frame].required_number(key);
 }
 
 void SampleFrames::add_ensemble(const DatasetEnsemble& ensemble) {

@@ -12,6 +12,7 @@
 #include "common/format/npy.h"
 #include "common/image/image.h"
 #include "common/sample/press_folder.h"
+#include "common/sample/press_record.h"
 #include "common/sample/render_folder.h"
 #include "common/sensor/sensor.h"
 #include "common/stage/record.h"
@@ -69,10 +70,20 @@ class SampleFrames {
   FieldData marker_px(std::size_t frame, const std::string& reason);
   /// The arrays of the press.
   const PressFolder& arrays() const { return arrays_; }
+  RecordLines<PressSummary> press_summary() const { return summary_of<PressSummary>(press_); }
   /// The record of the grasp that the sample is a finger of.
   const std::optional<Record>& grasp() const { return grasp_; }
+  /// \pre grasp()
+  RecordLines<GraspSummary> grasp_summary() const { return summary_of<GraspSummary>(*grasp_); }
+  /// Slip times of this finger. \pre grasp()
+  RecordLines<SlipLines> slip() const {
+    return grasp_summary().section(is_right_finger() ? &GraspSummary::slip_right : &GraspSummary::slip_left);
+  }
   /// A number of the frame in that record. \pre grasp()
-  double grasp_number(std::size_t frame, const std::string& key) const;
+  template <typename T>
+  double grasp_number(std::size_t frame, T GraspFrameLines::*number) const {
+    return grasp_per_frame_[frame].number(number);
+  }
   bool is_right_finger() const { return folder_.filename() == "right"; }
   /// A frame of an array in the grasp's folder, each frame of this shape. \pre grasp() \throw DataError if the file is
   /// not the one of its record
@@ -81,7 +92,10 @@ class SampleFrames {
   /// Of the left (0) or right (1) finger of the grasp. \pre grasp()
   FingerFront finger_front(std::size_t side, std::size_t frame) const;
   /// A number of the frame in the press's record.
-  double press_number(std::size_t frame, const std::string& key) const;
+  template <typename T>
+  double press_number(std::size_t frame, T PressFrameLines::*number) const {
+    return per_frame_[frame].number(number);
+  }
   /// Adds what an ensemble has pressed beside the sample. \throw DataError as EnsembleLabels
   void add_ensemble(const DatasetEnsemble& ensemble);
   /// \pre add_ensemble
@@ -97,9 +111,9 @@ class SampleFrames {
   Record press_;
   Record render_;
   std::map<std::string, std::string> picture_hashes_;
-  std::vector<Record> per_frame_;
+  std::vector<RecordLines<PressFrameLines>> per_frame_;
   std::optional<Record> grasp_;
-  std::vector<Record> grasp_per_frame_;
+  std::vector<RecordLines<GraspFrameLines>> grasp_per_frame_;
   std::map<std::string, NpyArray> grasp_arrays_;
   std::optional<PressFolder> other_finger_;
   PressFolder arrays_;

@@ -42,7 +42,8 @@ std::int64_t whole_number(const std::string& text) {
 }  // namespace
 
 Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample) {
-  const Record summary = sample.press().section("summary"), limits = summary.section("limits");
+  const auto summary = sample.press_summary();
+  const Record limits = summary.section(&PressSummary::limits).record();
   const Sensor& sensor = sample.sensor();
   Value::Map lines{
       {"id", plan.id},
@@ -58,15 +59,15 @@ Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_i
       {"n_frames", sample.frames().size()},
       {"num_samples", sample.frames().size()},  // robomimic's name
       {"press_frames", sample.press_frames()},
-      {"mu", summary.required_number("friction_coefficient")},
+      {"mu", summary.required(&PressSummary::friction_coefficient)},
       {"material_law", sensor.material.law},
       {"E_Pa", sensor.material.youngs_modulus_pa},
       {"nu", sensor.material.poissons_ratio},
       {"density_kg_m3", sensor.material.density_kg_m3},
       {"gel_thickness_mm", kMmPerM * sensor.gel.thickness_m},
-      {"element", summary.required_text("element")},
-      {"d_hat_mm", kMmPerM * summary.required_number("d_hat_m")},
-      {"verdict", summary.required_text("verdict")},
+      {"element", summary.required(&PressSummary::element)},
+      {"d_hat_mm", kMmPerM * summary.required(&PressSummary::d_hat_m)},
+      {"verdict", summary.required(&PressSummary::verdict)},
       {"image_reference", sample.render().text("reference").value_or("") == "synthetic" ? "synthetic" : "photograph"},
       {"clipped_fraction", sample.render().section("summary").required_number("clipped_fraction")},
       {"press_version", sample.press().required_text("version")},
@@ -78,35 +79,34 @@ Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_i
       {"render_yaml", sample.config_text("render", "config")}};
   if (sample.press().section("inputs").has("path")) lines.emplace_back("path_csv", sample.config_text("press", "path"));
   if (sample.grasp()) {
-    const Record grasp = sample.grasp()->section("summary"), pose = grasp.section("pose"),
-                 slip = grasp.section(sample.is_right_finger() ? "slip_right" : "slip_left");
-    const auto vector = [](const Record& of, const char* key, double unit) {
-      Value::List list;
-      for (const double number : of.required_numbers(key, 3)) list.emplace_back(unit * number);
-      return list;
-    };
+    using Lines = GraspSummary;
+    const auto grasp = sample.grasp_summary();
+    const auto pose = grasp.section(&Lines::pose);
+    const auto slip = sample.slip();
+    const auto list = [](const Vector3& v) { return Value::List(v.begin(), v.end()); };
     const std::filesystem::path folder = plan.folder;
-    lines.insert(lines.end(), {{"grasp", folder.parent_path().filename().string()},
-                               {"finger", folder.filename().string()},
-                               {"outcome", grasp.required_text("outcome")},
-                               {"freed_frame", grasp.required_count("freed_frame")},
-                               {"judged_frame", grasp.required_count("judged_frame")},
-                               {"end_slip_mm", kMmPerM * grasp.required_number("slip_m")},
-                               {"end_turn_deg", grasp.required_number("turn_rad") * kDegPerRad},
-                               {"rise_mm", kMmPerM * grasp.required_number("rise_m")},
-                               {"hand_rise_mm", kMmPerM * grasp.required_number("hand_rise_m")},
-                               {"object_mass_g", 1e3 * grasp.required_number("object_mass_kg")},
-                               {"grip_N", grasp.required_number("grip_n")},
-                               {"lever_mm", kMmPerM * pose.required_number("lever_m")},
-                               {"grip_mm", vector(pose, "grip_m", kMmPerM)},
-                               {"center_of_mass_mm", vector(grasp, "center_of_mass_m", kMmPerM)},
-                               {"center_of_mass_shift_mm", vector(grasp, "center_of_mass_shift_m", kMmPerM)},
-                               {"gravity_m_s2", vector(grasp, "gravity_m_s2", 1.0)}});
-    if (const auto reason = grasp.text("reason")) lines.emplace_back("reason", *reason);
-    for (const char* key : {"first_slip_s", "gross_slip_s"})
-      if (const auto time = slip.number(key)) lines.emplace_back(key, *time);
-    if (const auto margin = grasp.number("friction_margin")) lines.emplace_back("friction_margin", *margin);
-    if (const auto width = pose.number("width_m")) lines.emplace_back("width_mm", kMmPerM * *width);
+    lines.insert(lines.end(),
+                 {{"grasp", folder.parent_path().filename().string()},
+                  {"finger", folder.filename().string()},
+                  {"outcome", grasp.required(&Lines::outcome)},
+                  {"freed_frame", grasp.required(&Lines::freed_frame)},
+                  {"judged_frame", grasp.required(&Lines::judged_frame)},
+                  {"end_slip_mm", kMmPerM * grasp.required(&Lines::slip_m)},
+                  {"end_turn_deg", grasp.required(&Lines::turn_rad) * kDegPerRad},
+                  {"rise_mm", kMmPerM * grasp.required(&Lines::rise_m)},
+                  {"hand_rise_mm", kMmPerM * grasp.required(&Lines::hand_rise_m)},
+                  {"object_mass_g", 1e3 * grasp.required(&Lines::object_mass_kg)},
+                  {"grip_N", grasp.required(&Lines::grip_n)},
+                  {"lever_mm", kMmPerM * pose.required(&HeldPoseLines::lever_m)},
+                  {"grip_mm", list(kMmPerM * pose.required(&HeldPoseLines::grip_m))},
+                  {"center_of_mass_mm", list(kMmPerM * grasp.required(&Lines::center_of_mass_m))},
+                  {"center_of_mass_shift_mm", list(kMmPerM * grasp.required(&Lines::center_of_mass_shift_m))},
+                  {"gravity_m_s2", list(grasp.required(&Lines::gravity_m_s2))}});
+    if (const auto reason = grasp.find(&Lines::reason)) lines.emplace_back("reason", *reason);
+    for (const auto time : {&SlipLines::first_slip_s, &SlipLines::gross_slip_s})
+      if (const auto time_s = slip.find(time)) lines.emplace_back(key_of(time), *time_s);
+    if (const auto margin = grasp.find(&Lines::friction_margin)) lines.emplace_back("friction_margin", *margin);
+    if (const auto width = pose.find(&HeldPoseLines::width_m)) lines.emplace_back("width_mm", kMmPerM * *width);
   }
   for (const std::string& name : limits.keys()) lines.emplace_back("limit_" + name, limits.required_number(name));
   return lines;
