@@ -3,6 +3,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/sample/rendered_frames.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/plan/plan_checks.h"
 #include "stages/dataset/plan/plan_files.h"
@@ -32,15 +33,16 @@ std::vector<Sensor> read_sensors(Stage& stage, const DatasetConfig& config) {
 std::vector<std::vector<double>> packed_bytes(Stage& stage, const DatasetConfig& config,
                                               const std::vector<Sensor>& sensors) {
   stage.add_input("render", config.render);
-  // The rest of the file is the business of render.
-  ConfigReader render = ConfigReader::from_file(config.render);
-  const bool all = render.choice_or("frames", "last", {"last", "all"}) == "all";
+  const RenderedFrames frames = read_rendered_frames(config.render);
   std::vector<std::vector<double>> bytes;
   for (const Sensor& sensor : sensors) {
     bytes.emplace_back();
-    for (const MotionChoice& motion : config.motions)
+    for (const MotionChoice& motion : config.motions) {
+      std::vector<std::string> kinds;
+      for (const PhaseTemplate& phase : motion.motion.phases) kinds.push_back(phase.kind);
       bytes.back().push_back(kPackedBytesPerPixel * sensor.camera.width_px * sensor.camera.height_px *
-                             (all ? motion.motion.frames() + 1 : 2));
+                             count_rendered(frames, motion.motion.frames(), kinds));
+    }
   }
   return bytes;
 }

@@ -48,25 +48,24 @@ MotionLength length_of(const fs::path& sample_folder) {
   MotionLength length;
   if (is_finger(sample_folder)) {
     ConfigReader grasp = ConfigReader::from_file(file);
-    length.phases = 0;
     for (ConfigReader& phase : grasp.sections("motion")) {
       length.other_frames += phase.integer("steps", 1);
-      ++length.phases;
+      length.kinds.push_back(phase.text("kind"));
     }
     return length;
   }
   const auto sample = read_config<SampleSpec>(file);
-  length.phases = static_cast<int>(sample.motion.size());
-  for (const Phase& phase : sample.motion)
+  for (const Phase& phase : sample.motion) {
     (phase.kind == PhaseKind::press ? length.press_frames : length.other_frames) += phase.steps;
+    length.kinds.emplace_back(name_of(phase.kind));
+  }
   return length;
 }
 
-/// Which frames of the samples are rendered. Of the configuration of render nothing else matters here.
-std::string frames_of_render(const fs::path& dataset) {
+RenderedFrames frames_of_render(const fs::path& dataset) {
   const Record plan = Record::from_file(dataset / "plan/plan.yaml");
   const fs::path path = plan.section("inputs").section("render").required_text("path");
-  return Record::from_file(dataset / "plan" / path).text("frames").value_or("last");
+  return read_rendered_frames(dataset / "plan" / path);
 }
 
 /// \param presses of an ensemble, beside the sample
@@ -109,12 +108,7 @@ CostModel CostModel::read(ConfigReader& in) {
           .averaged_volume_factor = in.number("averaged_volume_factor", Range::positive())};
 }
 
-int rendered_frames(const MotionLength& motion, const std::string& frames) {
-  return 1 + (frames == "all" ? motion.press_frames + motion.other_frames : frames == "phases" ? motion.phases : 1);
-}
-
-double modelled_seconds(const CostModel& model, const GelSize& gel, const MotionLength& motion,
-                        const std::string& frames) {
+double modelled_seconds(const CostModel& model, const GelSize& gel, const MotionLength& motion, RenderedFrames frames) {
   // On average over a press half of a third of the front touches.
   const double touching = gel.front_vertices / 6.0;
   const double frame = std::pow(gel.vertices / 1000.0, model.vertices_exponent) *
@@ -122,21 +116,21 @@ double modelled_seconds(const CostModel& model, const GelSize& gel, const Motion
                        (gel.poissons_ratio >= kAveragedVolumeFrom ? model.averaged_volume_factor : 1.0);
   constexpr double kStart_s = 0.1, kPixel_s = 5e-6;  // of both stages; of render, for a frame
   return frame * (model.press_frame_s * motion.press_frames + model.motion_frame_s * motion.other_frames) + kStart_s +
-         kPixel_s * gel.pixels * rendered_frames(motion, frames);
+         kPixel_s * gel.pixels * count_rendered(frames, motion.press_frames + motion.other_frames, motion.kinds);
 }
 
-double modelled_bytes(const GelSize& gel, const MotionLength& motion, const std::string& frames) {
+double modelled_bytes(const GelSize& gel, const MotionLength& motion, RenderedFrames frames) {
   // Of a frame of press: a position of each vertex; two forces and a state of each one of the front; the rest, most of
   // it tractions and markers. Of a pixel that render makes: its pictures, with the usual maps.
   constexpr double kVertex = 24.0, kFrontVertex = 49.0, kFrame = 63000.0, kPixel = 8.0;
   const int all = motion.press_frames + motion.other_frames + 1;
   return all * (kVertex * gel.vertices + kFrontVertex * gel.front_vertices + kFrame) +
-         kPixel * gel.pixels * rendered_frames(motion, frames);
+         kPixel * gel.pixels * count_rendered(frames, motion.press_frames + motion.other_frames, motion.kinds);
 }
 
 CostEstimate estimate_cost(const fs::path& dataset, const CostModel& model) {
   const fs::path table = samples_table(dataset);
-  const std::string frames = frames_of_render(dataset);
+  const RenderedFrames frames = frames_of_render(dataset);
   const auto is_made = [&](const PlannedRow& row) { return fs::exists(dataset / row.folder / "render/render.yaml"); };
   std::size_t made = 0;
   for_each_planned(table, std::nullopt, [&](const PlannedRow& row) { made += is_made(row) ? 1 : 0; });

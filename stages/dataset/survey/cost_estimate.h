@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/sample/rendered_frames.h"
 
 namespace tacipc {
 
@@ -32,17 +33,13 @@ struct GelSize {
 struct MotionLength {
   int press_frames = 0;
   int other_frames = 0;
-  int phases = 1;
+  std::vector<std::string> kinds = {};  // of the phases
 };
 
-/// Frames that render makes of a motion where its `frames` is "last", "phases" or "all".
-int rendered_frames(const MotionLength& motion, const std::string& frames);
-
 /// Processor seconds of a sample by the model.
-double modelled_seconds(const CostModel& model, const GelSize& gel, const MotionLength& motion,
-                        const std::string& frames);
+double modelled_seconds(const CostModel& model, const GelSize& gel, const MotionLength& motion, RenderedFrames frames);
 /// Its bytes on disk.
-double modelled_bytes(const GelSize& gel, const MotionLength& motion, const std::string& frames);
+double modelled_bytes(const GelSize& gel, const MotionLength& motion, RenderedFrames frames);
 
 struct CostEstimate {
   std::size_t samples = 0;

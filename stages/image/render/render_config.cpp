@@ -59,10 +59,7 @@ Variant Variant::read(ConfigReader& in) {
 
 RenderConfig RenderConfig::read(ConfigReader& in) {
   RenderConfig config;
-  const std::string frames = in.choice_or("frames", "last", {"last", "phases", "all"});
-  config.frames = frames == "all"      ? RenderedFrames::all
-                  : frames == "phases" ? RenderedFrames::phases
-                                       : RenderedFrames::last;
+  config.frames = read_rendered_frames(in);
   config.trace.subpixels = in.integer_or("subpixels", config.trace.subpixels, 1, 16);
   config.trace.led_samples = in.integer_or("led_samples", config.trace.led_samples, 1, 16);
   config.trace.refract = in.choice_or("refraction", "layered", {"layered", "straight"}) == "layered";

@@ -9,6 +9,7 @@
 
 #include "common/config/config.h"
 #include "common/optics/trace.h"
+#include "common/sample/rendered_frames.h"
 #include "common/sensor/sensor.h"
 
 namespace tacipc {
@@ -45,9 +46,6 @@ struct Variant {
 
 /// How the noise of the reference gets into the image: on codes, as a factor in linear light, or not at all.
 enum class Transfer { encoded, linear, none };
-
-/// Beside frame 0, the reference: the last one, the last of each phase of the motion, or all.
-enum class RenderedFrames { last, phases, all };
 
 struct RenderConfig {
   RenderedFrames frames = RenderedFrames::last;

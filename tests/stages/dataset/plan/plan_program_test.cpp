@@ -58,6 +58,37 @@ motions:
   EXPECT_THAT(said_, ::testing::HasSubstr("d.yaml:6:17: maps[1]: 'deep' is not one of "));
 }
 
+/// Of 640 × 480 pixels a packed frame takes 2.2 MB.
+TEST_F(PlanProgram, ShardsAreSizedByTheFramesThatAreRendered) {
+  const auto shards = [&](const std::string& frames) {
+    scratch_.file("render.yaml", "frames: " + frames + "\nnoise: {seed: 1}\n");
+    const fs::path config = scratch_.file("d.yaml", fmt::format(R"(seed: 1
+sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/gels/tiny.yaml}}
+objects: {{emboss: {0}/configs/objects/patterns/star.yaml}}
+render: render.yaml
+motions:
+  - name: a
+    samples: 4
+    motion:
+      - {{kind: press, depth_mm: 0.3, steps: 5}}
+      - {{kind: shear, distance_mm: 0.1, steps: 2}}
+      - {{kind: shear, distance_mm: 0.1, steps: 2}}
+      - {{kind: twist, angle_deg: 1, steps: 1}}
+outputs: {{shard_mb: 9}}
+)",
+                                                                TACIPC_SOURCE_DIR));
+    EXPECT_EQ(plan(config), 0) << said_;
+    const std::string csv = read_file(scratch_ / "set/plan/samples.csv");
+    return csv.substr(csv.find("-of-") + 4, 5);
+  };
+  EXPECT_EQ(shards("last"), "00002");    // 2 frames
+  EXPECT_EQ(shards("phases"), "00004");  // 4: neighbouring phases of one kind count as one
+  EXPECT_EQ(shards("all"), "00004");     // 11, but a sample is not divided
+  scratch_.file("render.yaml", "frames: every\n");
+  EXPECT_EQ(plan(scratch_ / "d.yaml"), 2);
+  EXPECT_THAT(said_, ::testing::HasSubstr("frames: 'every' is not one of"));
+}
+
 TEST_F(PlanProgram, OnlyChangedSamplesAreWrittenAgain) {
   const auto write = [&](const std::string& depth) {
     return scratch_.file("d.yaml", fmt::format(R"(seed: 1

@@ -26,31 +26,44 @@ void write_gel(const PlannedDataset& data, const char* nu) {
 
 TEST(CostEstimate, ModelAsWritten) {
   // Two thousand vertices, three hundred of the front touching: 2 · √4 a frame.
-  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, "last"), 4 * 5 * 0.02 + 0.1 + 1.0,
-              1e-12);
-  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 10}, "all"),
+  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, RenderedFrames::last),
+              4 * 5 * 0.02 + 0.1 + 1.0, 1e-12);
+  EXPECT_NEAR(modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 10}, RenderedFrames::all),
               4 * (5 * 0.02 + 10 * 0.04) + 0.1 + 16 * 0.5, 1e-12);
   GelSize stiff = kGel;
   stiff.poissons_ratio = 0.4;
-  EXPECT_NEAR(modelled_seconds(kModel, stiff, {.press_frames = 5, .other_frames = 0}, "last"), 6 * 5 * 0.02 + 0.1 + 1.0,
-              1e-12);
-  EXPECT_EQ(modelled_bytes(kGel, {.press_frames = 5, .other_frames = 0}, "last"),
+  EXPECT_NEAR(modelled_seconds(kModel, stiff, {.press_frames = 5, .other_frames = 0}, RenderedFrames::last),
+              6 * 5 * 0.02 + 0.1 + 1.0, 1e-12);
+  EXPECT_EQ(modelled_bytes(kGel, {.press_frames = 5, .other_frames = 0}, RenderedFrames::last),
             6 * (24 * 2000 + 49 * 1800 + 63000) + 8 * 1e5 * 2);
 }
 
 TEST(CostEstimate, RenderedFramesAreThoseThatItsConfigurationAsksFor) {
-  const MotionLength motion{.press_frames = 5, .other_frames = 10, .phases = 3};
-  EXPECT_EQ(rendered_frames(motion, "last"), 2);
-  EXPECT_EQ(rendered_frames(motion, "phases"), 4);
-  EXPECT_EQ(rendered_frames(motion, "all"), 16);
+  const MotionLength motion{.press_frames = 5, .other_frames = 10, .kinds = {"press", "shear", "shear", "twist"}};
+  const auto pixels = [&](RenderedFrames frames) {
+    return (modelled_bytes(kGel, motion, frames) -
+            modelled_bytes({.vertices = 2000, .front_vertices = 1800}, motion, frames)) /
+           (8 * kGel.pixels);
+  };
+  EXPECT_EQ(pixels(RenderedFrames::last), 2);
+  EXPECT_EQ(pixels(RenderedFrames::phases), 4);
+  EXPECT_EQ(pixels(RenderedFrames::all), 16);
+}
+
+TEST(CostEstimate, AnUnknownWordForTheFramesIsRefused) {
+  const PlannedDataset data(1);
+  write_gel(data, "0.3");
+  data.render_frames("every");
+  EXPECT_NE(message_of<ConfigError>([&] { estimate_cost(data.path(), kModel); }).find("frames: 'every' is not one of"),
+            std::string::npos);
 }
 
 TEST(CostEstimate, WithoutMadeSamplesItIsTheModel) {
   const PlannedDataset data(3);
   write_gel(data, "0.3");
   const CostEstimate cost = estimate_cost(data.path(), kModel);
-  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, "last");
-  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, "last");
+  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, RenderedFrames::last);
+  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, RenderedFrames::last);
   EXPECT_EQ(cost.samples, 3u);
   EXPECT_EQ(cost.made, 0u);
   EXPECT_NEAR(cost.seconds, 2 * down + along, 1e-9);
@@ -60,7 +73,7 @@ TEST(CostEstimate, WithoutMadeSamplesItIsTheModel) {
                         "  by the cost model alone, within a factor of three or so; PILOT=20 makes twenty samples "
                         "first and measures\n",
                         (2 * down + along) / 3600, (2 * down + along) / 3, cost.bytes / 1e9));
-  data.render_all_frames();
+  data.render_frames("all");
   EXPECT_GT(estimate_cost(data.path(), kModel).seconds, cost.seconds + 1.0);
 }
 
@@ -70,8 +83,8 @@ TEST(CostEstimate, MadeSamplesScaleTheModelOfTheOthers) {
   data.make(0, 9.0);   // ten seconds with render …
   data.make(1, 11.0);  // … and twelve
   const CostEstimate cost = estimate_cost(data.path(), kModel);
-  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, "last");
-  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, "last");
+  const double down = modelled_seconds(kModel, kGel, {.press_frames = 5, .other_frames = 0}, RenderedFrames::last);
+  const double along = modelled_seconds(kModel, kGel, {.press_frames = 4, .other_frames = 6}, RenderedFrames::last);
   EXPECT_EQ(cost.made, 2u);
   EXPECT_EQ(cost.unmeasured, 2u);
   EXPECT_NEAR(cost.seconds_spent, 22.0, 1e-12);

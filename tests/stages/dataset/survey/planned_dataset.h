@@ -37,7 +37,7 @@ class PlannedDataset {
   std::filesystem::path operator/(const std::string& name) const { return path() / name; }
   std::filesystem::path sample(int i) const { return path() / "samples/000" / id(i); }
   std::filesystem::path profile() const { return scratch_ / "profile.yaml"; }
-  void render_all_frames() const { scratch_.file("render.yaml", "frames: all\n"); }
+  void render_frames(const std::string& which) const { scratch_.file("render.yaml", "frames: " + which + "\n"); }
   void file(int i, const std::string& name, const std::string& text) const { write_file(sample(i) / name, text); }
 
   void make(int i, double press_s = 3.0) const {
