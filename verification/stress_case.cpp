@@ -132,10 +132,18 @@ class Count final : public FrameStore {
   int saved_ = 0;
 };
 
+/// Time steps per frame of each phase.
+template <typename Phases>
+std::vector<int> substeps_of(const Phases& phases) {
+  std::vector<int> substeps;
+  for (const auto& phase : phases) substeps.push_back(phase.substeps);
+  return substeps;
+}
+
 /// Sums up frames as they are judged; keeps none.
 class Tally final : public FrameStore {
  public:
-  explicit Tally(StressResult& result) : result_(result) {}
+  Tally(StressResult& result, std::vector<int> substeps) : result_(result), substeps_(std::move(substeps)) {}
 
   void save(const std::string& bytes) override {
     Frame frame;
@@ -146,21 +154,28 @@ class Tally final : public FrameStore {
   std::optional<std::string> load() override { return std::nullopt; }
 
   void add(const Frame& frame) {
-    result_.min_distance_m = first_ ? frame.min_gap_m : std::min(result_.min_distance_m, frame.min_gap_m);
-    result_.min_volume_ratio = std::min(result_.min_volume_ratio, frame.min_volume_ratio);
-    result_.press_force_n = std::max(result_.press_force_n, -frame.force_n.z());
-    result_.frames += first_ ? 0 : 1;
-    result_.time_steps += frame.solver.time_steps;
-    result_.newton_iterations += frame.solver.newton_iterations;
-    result_.moving_iterations += frame.solver.moving_iterations;
-    result_.lag_iterations += frame.solver.lag_iterations;
-    first_ = false;
+    if (!result_.totals)
+      result_.totals = StressTotals{.min_distance_m = frame.min_gap_m};
+    else
+      ++result_.frames;
+    StressTotals& totals = *result_.totals;
+    totals.min_distance_m = std::min(totals.min_distance_m, frame.min_gap_m);
+    totals.min_volume_ratio = std::min(totals.min_volume_ratio, frame.min_volume_ratio);
+    totals.press_force_n = std::max(totals.press_force_n, -frame.force_n.z());
+    totals.time_steps += frame.solver.time_steps;
+    if (frame.phase_index >= 0) totals.planned_steps += substeps_.at(static_cast<std::size_t>(frame.phase_index));
+    totals.newton_iterations += frame.solver.newton_iterations;
+    totals.moving_iterations += frame.solver.moving_iterations;
+    totals.lag_iterations += frame.solver.lag_iterations;
   }
 
  private:
   StressResult& result_;
-  bool first_ = true;
+  std::vector<int> substeps_;  // of the phases
 };
+
+constexpr StressOutcome kOutcomes[] = {StressOutcome::converged, StressOutcome::not_converged,
+                                       StressOutcome::intersected, StressOutcome::inverted};
 
 StressOutcome outcome_of(const Miss& miss) {
   if (miss.check == "intersections" || miss.check == "smallest_distance") return StressOutcome::intersected;
@@ -261,20 +276,27 @@ Value StressCase::description() const {
   return out;
 }
 
-Value StressResult::to_value() const {
+Value::Map StressResult::lines() const {
   Value::Map out{{"outcome", name_of(outcome)}};
   if (outcome != StressOutcome::converged) out.emplace_back("reason", reason);
-  const Value::Map rest{{"frames_asked", frames_asked},
-                        {"frames", frames},
-                        {"time_steps", time_steps},
-                        {"newton_iterations", newton_iterations},
-                        {"moving_iterations", moving_iterations},
-                        {"lag_iterations", lag_iterations},
-                        {"min_distance_m", min_distance_m},
-                        {"min_volume_ratio", min_volume_ratio},
-                        {"press_force_n", press_force_n}};
-  out.insert(out.end(), rest.begin(), rest.end());
+  out.emplace_back("frames_asked", frames_asked);
+  out.emplace_back("frames", frames);
+  if (totals) std::ranges::move(record_lines(*totals), std::back_inserter(out));
   return out;
+}
+
+StressResult StressResult::read(const Record& summary) {
+  StressResult result;
+  const std::string name = summary.required_text("outcome");
+  const auto* outcome =
+      std::ranges::find_if(kOutcomes, [&](const StressOutcome known) { return name == name_of(known); });
+  if (outcome == std::end(kOutcomes)) throw DataError("summary.outcome: '{}' is no outcome of stress_case", name);
+  result.outcome = *outcome;
+  result.reason = summary.text("reason").value_or("");
+  result.frames_asked = summary.required_count("frames_asked");
+  result.frames = summary.required_count("frames");
+  if (summary.has(key_of(&StressTotals::time_steps))) result.totals = RecordLines<StressTotals>(summary).all();
+  return result;
 }
 
 StressResult run_stress_case(const StressCase& stress, const ProgressObserver& observe) {
@@ -283,7 +305,7 @@ StressResult run_stress_case(const StressCase& stress, const ProgressObserver& o
   if (stress.grasp) {
     for (const GraspPhase& phase : stress.grasp->motion) result.frames_asked += phase.steps;
   }
-  Tally tally(result);
+  Tally tally(result, stress.grasp ? substeps_of(stress.grasp->motion) : substeps_of(stress.sample.motion));
   Count count(result);
   try {
     if (stress.grasp) {
@@ -294,8 +316,9 @@ StressResult run_stress_case(const StressCase& stress, const ProgressObserver& o
       }
       // Both fingers have the same frames, and the solver's numbers stand in each.
       result.frames = result.frames_asked;
-      for (int* of_both :
-           {&result.time_steps, &result.newton_iterations, &result.moving_iterations, &result.lag_iterations})
+      StressTotals& totals = *result.totals;
+      for (int* of_both : {&totals.time_steps, &totals.planned_steps, &totals.newton_iterations,
+                           &totals.moving_iterations, &totals.lag_iterations})
         *of_both /= 2;
       return result;
     }

@@ -40,6 +40,6 @@ int main(int argc, char** argv) {
     log_info("{} {}: {}{}{}", stress.object.kind, index, name_of(result.outcome), result.reason.empty() ? "" : ": ",
              result.reason);
     stage.note("case", stress.description());
-    stage.summarize(result.to_value().map());
+    stage.summarize(result.lines());
   });
 }

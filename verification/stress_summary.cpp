@@ -13,15 +13,6 @@
 namespace tacipc::verify {
 namespace {
 
-constexpr StressOutcome kOutcomes[] = {StressOutcome::converged, StressOutcome::not_converged,
-                                       StressOutcome::intersected, StressOutcome::inverted};
-
-StressOutcome outcome_named(const std::string& name) {
-  for (const StressOutcome outcome : kOutcomes)
-    if (name == name_of(outcome)) return outcome;
-  return StressOutcome::not_converged;
-}
-
 void add(StressSummary& sum, const StressLine& line) {
   ++sum.cases;
   if (line.crashed) {
@@ -59,33 +50,11 @@ StressLine read_stress_line(const std::filesystem::path& folder) {
     line.result.reason = *failure;
     return line;
   }
-  ConfigReader in = ConfigReader::from_file(folder / "stress_case.yaml");
-  for (const std::string& key : in.keys())
-    if (key != "case" && key != "summary") in.ignore(key);
-  ConfigReader drawn = in.section("case");
-  line.object = drawn.text("object");
-  for (ConfigReader& phase : drawn.sections("motion")) {
-    if (!line.motion.empty()) line.motion += ", ";
-    line.motion += phase.text("kind");
-    for (const std::string& key : phase.keys()) phase.ignore(key);
-  }
-  for (const std::string& key : drawn.keys()) drawn.ignore(key);
-  ConfigReader summary = in.section("summary");
-  std::vector<std::string> names;
-  for (const StressOutcome outcome : kOutcomes) names.emplace_back(name_of(outcome));
-  StressResult& result = line.result;
-  result.outcome = outcome_named(summary.choice("outcome", names));
-  result.reason = summary.text_or("reason", "");
-  result.frames_asked = summary.integer("frames_asked", 0);
-  result.frames = summary.integer("frames", 0);
-  result.time_steps = summary.integer("time_steps", 0);
-  result.newton_iterations = summary.integer("newton_iterations", 0);
-  result.moving_iterations = summary.integer("moving_iterations", 0);
-  result.lag_iterations = summary.integer("lag_iterations", 0);
-  result.min_distance_m = summary.number("min_distance_m");
-  result.min_volume_ratio = summary.number("min_volume_ratio");
-  result.press_force_n = summary.number("press_force_n");
-  in.finish();
+  const Record record = Record::from_file(folder / "stress_case.yaml"), drawn = record.section("case");
+  line.object = drawn.required_text("object");
+  for (const Record& phase : drawn.sections("motion"))
+    line.motion += (line.motion.empty() ? "" : ", ") + phase.required_text("kind");
+  line.result = StressResult::read(record.section("summary"));
   return line;
 }
 
@@ -103,21 +72,22 @@ std::string found(const StressSummary& sum, const std::string& seed) {
 std::string to_markdown(const std::vector<StressLine>& lines, const std::string& seed, const std::string& ranges) {
   StressSummary all;
   std::map<std::string, StressSummary> by_kind;
-  int frames = 0, time_steps = 0, newton = 0, moving = 0, lags = 0, finished = 0;
-  double volume = std::numeric_limits<double>::infinity();
+  int frames = 0;
+  StressTotals sum;
   std::vector<double> distances;
   for (const StressLine& line : lines) {
     add(all, line);
     add(by_kind[line.crashed ? "(crashed)" : line.object], line);
-    if (line.crashed) continue;
-    ++finished;
+    if (!line.result.totals) continue;
+    const StressTotals& totals = *line.result.totals;
     frames += line.result.frames;
-    time_steps += line.result.time_steps;
-    newton += line.result.newton_iterations;
-    moving += line.result.moving_iterations;
-    lags += line.result.lag_iterations;
-    distances.push_back(line.result.min_distance_m);
-    volume = std::min(volume, line.result.min_volume_ratio);
+    sum.time_steps += totals.time_steps;
+    sum.planned_steps += totals.planned_steps;
+    sum.newton_iterations += totals.newton_iterations;
+    sum.moving_iterations += totals.moving_iterations;
+    sum.lag_iterations += totals.lag_iterations;
+    sum.min_volume_ratio = std::min(sum.min_volume_ratio, totals.min_volume_ratio);
+    distances.push_back(totals.min_distance_m);
   }
   const std::string config = fmt::format("configs/studies/stress/{}.yaml", ranges);
   const bool grasps = ranges == "grasp", presses = ranges == kStressRanges;
@@ -142,16 +112,24 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
       : grasps ? "grasp-campaign"
                : "campaign",
       seed, lines.size(), config, all.holds() ? "Holds" : "**Does not hold**", found(all, seed), what);
-  for (const auto& [kind, sum] : by_kind) out += row(kind, sum);
+  for (const auto& [kind, counts] : by_kind) out += row(kind, counts);
   out += row("all", all);
-  if (finished > 0) {
+  if (!distances.empty()) {
+    const bool whole = distances.size() == lines.size();
     out += fmt::format(
-        "\n| total | |\n|---|---|\n| frames | {} |\n| time steps | {} |\n| of these by halving | {} |\n"
+        "\n| total{} | |\n|---|---|\n| frames | {} |\n| time steps | {} |\n| of these by halving | {} |\n"
         "| Newton iterations | {} |\n| of these moving the object | {} |\n| renewals of friction | {} |\n"
         "| smallest distance | {:.3g} µm |\n| smallest distance of half of the cases | {:.3g} µm |\n"
         "| smallest volume ratio | {:.3g} |\n",
-        frames, time_steps, time_steps - frames, newton, moving, lags, 1e6 * lower_quantile(distances, 0.0),
-        1e6 * lower_quantile(distances, 0.5), volume);
+        whole ? "" : fmt::format(" of {} cases", distances.size()), frames, sum.time_steps,
+        sum.time_steps - sum.planned_steps, sum.newton_iterations, sum.moving_iterations, sum.lag_iterations,
+        1e6 * lower_quantile(distances, 0.0), 1e6 * lower_quantile(distances, 0.5), sum.min_volume_ratio);
+    if (!whole)
+      out += fmt::format(
+          "\nThe other {} cases left no numbers: {} crashed, {} ended early, of whose frames only the "
+          "count is known.\n",
+          lines.size() - distances.size(), all.crashed,
+          lines.size() - distances.size() - static_cast<std::size_t>(all.crashed));
   }
   if (all.converged == all.cases) return out;
   out += "\n| case | object | motion | frames | outcome | reason |\n|---|---|---|---|---|---|\n";

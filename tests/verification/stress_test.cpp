@@ -130,8 +130,10 @@ TEST(Stress, AFewCasesConverge) {
     const StressResult result = run_stress_case(stress, [](int, int, int, double) {});
     EXPECT_EQ(result.outcome, StressOutcome::converged) << result.reason;
     EXPECT_EQ(result.frames, result.frames_asked);
-    EXPECT_GT(result.min_distance_m, 0.0);
-    EXPECT_GT(result.min_volume_ratio, 0.0);
+    ASSERT_TRUE(result.totals);
+    EXPECT_GT(result.totals->min_distance_m, 0.0);
+    EXPECT_GT(result.totals->min_volume_ratio, 0.0);
+    EXPECT_EQ(result.totals->planned_steps, result.frames);
   }
 }
 
@@ -170,6 +172,22 @@ TEST(StressSummary, CountsAndJudges) {
             "199 of 200 cases of seed 9 converged, 0 did not, 0 intersected, 0 inverted, 1 crashed");
 }
 
+TEST(StressSummary, CasesWithoutFramesAddNoNumbers) {
+  std::vector<StressLine> lines(3);
+  lines[0].result.frames = 4;
+  lines[0].result.totals = StressTotals{.time_steps = 11, .planned_steps = 8, .min_distance_m = 3e-6};
+  lines[1].result.frames = 9;
+  lines[1].result.outcome = StressOutcome::not_converged;
+  lines[2].crashed = true;
+  const std::string page = to_markdown(lines, "1", "grasp");
+  EXPECT_NE(
+      page.find("| total of 1 cases | |\n|---|---|\n| frames | 4 |\n| time steps | 11 |\n| of these by halving | 3 |"),
+      std::string::npos)
+      << page;
+  EXPECT_NE(page.find("| smallest distance | 3 µm |"), std::string::npos) << page;
+  EXPECT_NE(page.find("The other 2 cases left no numbers: 1 crashed, 1 ended early"), std::string::npos) << page;
+}
+
 TEST(StressSummary, ReadsRecordsAndMissesThem) {
   const ScratchFolder scratch;
   const StressCase stress = draw_case(ranges(), 1, 7);
@@ -178,16 +196,19 @@ TEST(StressSummary, ReadsRecordsAndMissesThem) {
   result.reason = "frame 2: 1 tetrahedra are inverted";
   result.frames = 1;
   result.frames_asked = 9;
-  result.min_distance_m = 2e-6;
+  result.totals = StressTotals{.time_steps = 3, .planned_steps = 2, .min_distance_m = 2e-6};
   write_file(
       scratch / "case_0007/stress_case.yaml",
-      to_yaml(Value::Map{{"stage", "stress_case"}, {"case", stress.description()}, {"summary", result.to_value()}}));
+      to_yaml(Value::Map{{"stage", "stress_case"}, {"case", stress.description()}, {"summary", result.lines()}}));
   const StressLine line = read_stress_line(scratch / "case_0007");
   EXPECT_FALSE(line.crashed);
   EXPECT_EQ(line.object, stress.object.kind);
   EXPECT_EQ(line.result.outcome, StressOutcome::inverted);
   EXPECT_EQ(line.result.reason, "frame 2: 1 tetrahedra are inverted");
-  EXPECT_EQ(line.result.min_distance_m, 2e-6);
+  ASSERT_TRUE(line.result.totals);
+  EXPECT_EQ(line.result.totals->time_steps, 3);
+  EXPECT_EQ(line.result.totals->planned_steps, 2);
+  EXPECT_EQ(line.result.totals->min_distance_m, 2e-6);
   write_file(scratch / "case_0008/stress_case.failed.yaml", "message: out of memory\n");
   EXPECT_TRUE(read_stress_line(scratch / "case_0008").crashed);
   EXPECT_EQ(read_stress_line(scratch / "case_0008").result.reason, "out of memory");
