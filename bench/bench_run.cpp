@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/config/config.h"
 #include "common/sample/press_folder.h"
+#include "common/sample/press_record.h"
 
 namespace tacipc::bench {
 
@@ -32,19 +33,20 @@ int Run::patch() const {
 
 Run read_run(const std::filesystem::path& folder) {
   Run run;
-  ConfigReader record = ConfigReader::from_file(folder / "press.yaml");
-  run.text = record.text("name");
+  const Record record = Record::from_file(folder / "press.yaml");
+  run.text = record.required_text("name");
   run.name = parse_run_name(run.text);
-  ConfigReader summary = record.section("summary");
-  run.gel_vertices = summary.integer("gel_vertices", 1);
-  run.press_force_n = summary.number("press_force_n");
-  for (ConfigReader& line : summary.sections("per_frame")) {
-    const std::string phase = line.text("phase");
+  const auto summary = summary_of<PressSummary>(record);
+  run.gel_vertices = summary.required(&PressSummary::gel_vertices);
+  run.press_force_n = summary.required(&PressSummary::press_force_n);
+  using Lines = PressFrameLines;
+  for (const auto& line : summary.sections(&PressSummary::per_frame)) {
+    const std::string phase = line.required(&Lines::phase);
     if (phase == name_of(PhaseKind::reference)) continue;
     run.frames.push_back({.press = phase == name_of(PhaseKind::press),
-                          .contacts = line.integer("sticking", 0) + line.integer("slipping", 0),
-                          .newton = line.integer("newton_iterations", 0),
-                          .patch = line.integer("patch_iterations", 0)});
+                          .contacts = line.required(&Lines::sticking) + line.required(&Lines::slipping),
+                          .newton = line.required(&Lines::newton_iterations),
+                          .patch = line.required(&Lines::patch_iterations)});
   }
   ConfigReader timings = ConfigReader::from_file(folder / "press.timings.yaml");
   run.threads = timings.integer("threads", 1);

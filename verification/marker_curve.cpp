@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/press_folder.h"
+#include "common/sample/press_record.h"
 #include "verification/stage_record.h"
 
 namespace tacipc::verify {
@@ -23,17 +24,17 @@ SlidingRun read_sliding_run(const std::filesystem::path& press) {
   if (const auto failure = why_no_record(press, "press"))
     throw DataError("{}: the press failed: {}", press.lexically_normal().parent_path().filename().string(), *failure);
   SlidingRun run;
-  ConfigReader record = ConfigReader::from_file(press / "press.yaml");
-  run.name = record.text("name");
-  ConfigReader summary = record.section("summary");
-  run.verdict = summary.text("verdict");
-  run.gel_vertices = summary.integer("gel_vertices", 1);
-  const int press_end = summary.integer("press_end_frame", 1);
-  run.max_balance_relative = summary.number("max_balance_relative");
-  run.min_distance_m = summary.number("min_distance_m");
-  run.min_volume_ratio = summary.number("min_volume_ratio");
-  std::vector<ConfigReader> lines = summary.sections("per_frame");
-  const std::size_t frames = lines.size(), end = static_cast<std::size_t>(press_end);
+  const Record record = Record::from_file(press / "press.yaml");
+  run.name = record.required_text("name");
+  const auto summary = summary_of<PressSummary>(record);
+  run.verdict = summary.required(&PressSummary::verdict);
+  run.gel_vertices = summary.required(&PressSummary::gel_vertices);
+  run.max_balance_relative = summary.required(&PressSummary::max_balance_relative);
+  run.min_distance_m = summary.required(&PressSummary::min_distance_m);
+  run.min_volume_ratio = summary.required(&PressSummary::min_volume_ratio);
+  const auto lines = summary.sections(&PressSummary::per_frame);
+  const std::size_t frames = lines.size(),
+                    end = static_cast<std::size_t>(summary.required(&PressSummary::press_end_frame));
   if (frames < end + 2) throw DataError("{}: nothing follows the press, which ends at frame {}", press.string(), end);
 
   const PressFolder arrays(press, {{kFrames, frames}});
@@ -46,7 +47,8 @@ SlidingRun read_sliding_run(const std::filesystem::path& press) {
     const double x = poses[f](0, 3), y = poses[f](1, 3);  // of the object's axis
     run.load.push_back(run.turns ? std::abs(torque.z() - (x * force.y() - y * force.x()))
                                  : std::hypot(force.x(), force.y()));
-    const double sticking = lines[f].number("sticking"), slipping = lines[f].number("slipping");
+    const double sticking = lines[f].number(&PressFrameLines::sticking),
+                 slipping = lines[f].number(&PressFrameLines::slipping);
     run.sticking.push_back(sticking + slipping > 0.0 ? sticking / (sticking + slipping) : 0.0);
     if (f > end && !run.gross_slip_way && slipping > 0.0 && sticking == 0.0) run.gross_slip_way = run.way[f - end];
   }

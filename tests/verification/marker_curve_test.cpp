@@ -82,6 +82,16 @@ TEST(MarkerCurve, MeansTheChosenMarkersOnly) {
   EXPECT_NEAR(curve.largest_second_ever_m, 2e-6, 1e-15);
 }
 
+TEST(MarkerCurve, ARecordWithoutANumberIsRefused) {
+  const ScratchFolder folder;
+  const auto press = write_press(folder, slide(0.0));
+  std::string record = read_file(press / "press.yaml");
+  record.replace(record.find("min_distance_m"), 14, "min_distance_x");
+  write_file(press / "press.yaml", record);
+  EXPECT_NE(message_of<DataError>([&] { read_sliding_run(press); }).find("summary.min_distance_m: missing"),
+            std::string::npos);
+}
+
 TEST(MarkerCurve, SeesAHitchOfTheSettledPart) {
   const ScratchFolder folder;
   const MarkerCurve curve = marker_curve(read_sliding_run(write_press(folder, slide(0.2))), kConfig);
