@@ -34,7 +34,6 @@ class ByteReader {
     at_ += count;
   }
   void seek(std::size_t at) { at_ = std::min(at, bytes_.size()); }
-  void set_order(std::endian order) { swap_ = order != std::endian::native; }
 
   std::size_t at() const { return at_; }
   std::size_t left() const { return bytes_.size() - at_; }

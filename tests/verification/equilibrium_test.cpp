@@ -6,8 +6,8 @@
 
 #include "stages/gel/press/energy/element.h"
 #include "stages/gel/press/measure/front_surface.h"
+#include "tests/verification/equilibrium.h"
 #include "verification/closed_forms.h"
-#include "verification/equilibrium.h"
 #include "verification/gel_shapes.h"
 
 namespace tacipc::verify {

@@ -12,9 +12,4 @@ Matrix3 nearest_rotation(const Matrix3& F) {
   return svd.matrixU() * signs * svd.matrixV().transpose();
 }
 
-Matrix3 kirchhoff_stress(const Matrix3& F, double mu, double lambda) {
-  const double J = F.determinant();
-  return 2.0 * mu * (F - nearest_rotation(F)) * F.transpose() + lambda * J * (J - 1.0) * Matrix3::Identity();
-}
-
 }  // namespace tacipc

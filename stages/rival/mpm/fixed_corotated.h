@@ -6,11 +6,8 @@
 
 namespace tacipc {
 
-/// τ = P Fᵀ = 2 μ (F − R) Fᵀ + λ J (J − 1) I: Kirchhoff stress. R = U Vᵀ of F = U Σ Vᵀ with rotations U and V, so that
-/// an inverted F has one negative singular value; J = det F.
-Matrix3 kirchhoff_stress(const Matrix3& F, double mu, double lambda);
-
-/// R of the above. \throw nothing; defined for every finite F.
+/// R = U Vᵀ of F = U Σ Vᵀ with rotations U and V, so that an inverted F has one negative singular value. \throw
+/// nothing; defined for every finite F.
 Matrix3 nearest_rotation(const Matrix3& F);
 
 /// Cofactors of a 3 × 3 matrix, row-major, and its determinant: F⁻ᵀ = cof F / det F.

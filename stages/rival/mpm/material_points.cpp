@@ -224,22 +224,6 @@ Vector3 MaterialPoints::momentum() const {
   return setup_.particle_mass_kg() * metres_per_cell() / setup_.step_s * sum;
 }
 
-Vector3 MaterialPoints::angular_momentum() const {
-  // Within a particle velocity varies as C (x − x_p), and the B-spline's second moment is a quarter of a cell squared.
-  Vector3 sum = Vector3::Zero();
-  const Vector3 origin = setup_.grid_origin_m / metres_per_cell();
-  for_each_particle([&](const ParticlePack& pack, int l) {
-    Vector3 x, v;
-    for (int axis = 0; axis < 3; ++axis) {
-      x[axis] = static_cast<double>(pack.rest[axis][l]) + static_cast<double>(pack.shift[axis][l]) + origin[axis];
-      v[axis] = static_cast<double>(pack.velocity[axis][l]);
-    }
-    const auto C = [&](int r, int c) { return static_cast<double>(pack.affine[3 * r + c][l]); };
-    sum += x.cross(v) + 0.25 * Vector3(C(2, 1) - C(1, 2), C(0, 2) - C(2, 0), C(1, 0) - C(0, 1));
-  });
-  return setup_.particle_mass_kg() * metres_per_cell() * metres_per_cell() / setup_.step_s * sum;
-}
-
 double MaterialPoints::kinetic_energy_j() const {
   double sum = 0.0;
   for_each_particle([&](const ParticlePack& pack, int l) {

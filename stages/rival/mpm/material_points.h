@@ -59,10 +59,8 @@ class MaterialPoints {
   std::vector<ParticleState> states() const;
   void set_states(const std::vector<ParticleState>& states);
 
-  /// Σ m v of the gel, kg m/s; Σ x × m v with the part that turns within particles, about the origin, kg m²/s;
-  /// Σ ½ m v², J.
+  /// Σ m v of the gel, kg m/s; Σ ½ m v², J.
   Vector3 momentum() const;
-  Vector3 angular_momentum() const;
   double kinetic_energy_j() const;
 
   int num_particles() const { return num_particles_; }

@@ -21,9 +21,7 @@ class Bvh {
   /// \pre no box is empty (min ≤ max in each coordinate) and all corners are finite.
   explicit Bvh(std::span<const Box> boxes);
 
-  int num_boxes() const { return static_cast<int>(box_of_item_.size()); }
-
-  /// Moves the boxes but keeps the tree. \pre boxes.size() == num_boxes(), and as above
+  /// Moves the boxes but keeps the tree. \pre as many boxes as before, and as above
   void refit(std::span<const Box> boxes);
 
   /// Calls visit(i) once for each box i that touches `box` (shared faces count), in an order fixed by the tree.

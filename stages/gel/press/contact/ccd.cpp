@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "stages/gel/press/contact/pair_motion.h"
-#include "stages/gel/press/contact/precise_separation.h"
 
 namespace tacipc {
 namespace {
@@ -56,13 +55,6 @@ double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& disp
   return t;
 }
 
-bool may_collide(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
-  FourPoints displacement;
-  for (int i = 0; i < 4; ++i) displacement[i] = x_end[i] - x_start[i];
-  const double apart_until = time_of_impact(kind, x_start, displacement, {.slack = 0});
-  return apart_until < 1 && !provably_apart(kind, x_start, x_end, apart_until);
-}
-
 }  // namespace
 
 double time_of_impact_point_triangle(const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
@@ -71,14 +63,6 @@ double time_of_impact_point_triangle(const FourPoints& x, const FourPoints& disp
 
 double time_of_impact_edge_edge(const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
   return time_of_impact(PairKind::edge_edge, x, displacement, options);
-}
-
-bool may_collide_point_triangle(const FourPoints& x_start, const FourPoints& x_end) {
-  return may_collide(PairKind::point_triangle, x_start, x_end);
-}
-
-bool may_collide_edge_edge(const FourPoints& x_start, const FourPoints& x_end) {
-  return may_collide(PairKind::edge_edge, x_start, x_end);
 }
 
 }  // namespace tacipc

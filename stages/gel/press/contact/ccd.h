@@ -25,10 +25,4 @@ double time_of_impact_point_triangle(const FourPoints& x, const FourPoints& disp
 /// The same for edges x0x1 and x2x3.
 double time_of_impact_edge_edge(const FourPoints& x, const FourPoints& displacement, const CcdOptions& options = {});
 
-/// False only if the pair provably stays apart on the whole straight path from x_start to x_end, however near it
-/// passes: what time of impact 1 without slack cannot show within double rounding is tried again with 113 bits
-/// (precise_separation.h).
-bool may_collide_point_triangle(const FourPoints& x_start, const FourPoints& x_end);
-bool may_collide_edge_edge(const FourPoints& x_start, const FourPoints& x_end);
-
 }  // namespace tacipc

@@ -31,9 +31,6 @@ class OpenFace {
   /// Whether a vertex belongs to the face; none does if there is no such face.
   bool has(int vertex) const { return on_face_[static_cast<std::size_t>(vertex)]; }
 
-  /// Whether from x to x + p no two parts of the face come as near as half of their distance at rest.
-  bool stays_open(const Positions& x, const Positions& p) const { return at_risk(x, p, 0.0).none(); }
-
   /// Squares that a box on the face touches: the first and the last along x, and along y.
   struct Squares {
     std::uint8_t left, right, low, high;

@@ -52,8 +52,6 @@ ControlPoints weight_gradients(const AffineBody& body) {
   return gradients;
 }
 
-Positions affine_positions(const AffineBody& body, const ControlPoints& control) { return body.weights * control; }
-
 Matrix3 deformation_of(const AffineBody& body, const ControlPoints& control) {
   // Relative to one of the points, so that a place far from the origin costs no digits.
   return (control.rowwise() - control.row(0)).transpose() * weight_gradients(body);

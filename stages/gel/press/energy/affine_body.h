@@ -35,9 +35,6 @@ inline Vector3 center_of(const ControlPoints& control) { return control.colwise(
 /// Gradients of the weights, 1/m: row k is gₖ = ∇βₖ = ¼ Q Λ^−½ tₖ, so that A = Σₖ pₖ gₖᵀ. The rows sum to zero.
 ControlPoints weight_gradients(const AffineBody& body);
 
-/// Vertices where the control points put them.
-Positions affine_positions(const AffineBody& body, const ControlPoints& control);
-
 /// A of x = c + A (X − X_c), with c the mean of the control points.
 Matrix3 deformation_of(const AffineBody& body, const ControlPoints& control);
 

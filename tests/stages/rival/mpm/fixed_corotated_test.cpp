@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "common/base/rng.h"
+#include "tests/stages/rival/mpm/kirchhoff_stress.h"
 
 namespace tacipc {
 namespace {

@@ -14,6 +14,7 @@
 #include "stages/gel/press/solve/step_limit.h"
 #include "tests/shared_data.h"
 #include "tests/stages/gel/press/contact/exact_collision.h"
+#include "tests/stages/gel/press/contact/precise_separation.h"
 
 namespace tacipc {
 namespace {
@@ -101,14 +102,13 @@ bool filter_passes(const Query& query) {
 void run(const Query& query, Counts& counts) {
   ++counts.queries;
   counts.hits += query.collides;
-  const bool reported = query.edge_edge ? may_collide_edge_edge(query.start, query.end)
-                                        : may_collide_point_triangle(query.start, query.end);
+  const PairKind kind = query.edge_edge ? PairKind::edge_edge : PairKind::point_triangle;
+  const bool reported = may_collide(kind, query.start, query.end);
   counts.false_negatives += query.collides && !reported;
   counts.false_positives += !query.collides && reported;
 
   // In each lane of packs of each size.
   const int lane = counts.queries % kLanes, count = lane + 1 + counts.queries / kLanes % (kLanes - lane);
-  const PairKind kind = query.edge_edge ? PairKind::edge_edge : PairKind::point_triangle;
   FourPoints displacement;
   for (int k = 0; k < 4; ++k) displacement[k] = query.end[k] - query.start[k];
   bool stopped = true, room = false;

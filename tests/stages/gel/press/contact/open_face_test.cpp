@@ -80,7 +80,7 @@ TEST(OpenFace, WhatItCallsOpenKeepsHalfOfEveryDistanceAtRest) {
     }
     x.col(0) *= 0.8;
     x.col(2).array() += 0.3 * x.col(0).array().abs();
-    if (!face.stays_open(x, p)) {
+    if (!face.at_risk(x, p, 0.0).none()) {
       ++closed;
       continue;
     }
@@ -160,7 +160,7 @@ TEST(OpenFace, DraggedFarOnlyPlacesAroundAFoldAreAtRisk) {
     if (face.has(v) && from_middle < 1e-9) folded = v;
   }
   const Positions still = Positions::Zero(x.rows(), 3);
-  ASSERT_TRUE(face.stays_open(x, still));
+  ASSERT_TRUE(face.at_risk(x, still, 0.0).none());
   ASSERT_GE(folded, 0);
   x(folded, 0) += 0.6e-3;
   const OpenFace::Places at_risk = face.at_risk(x, still, 0.1e-3);
@@ -202,10 +202,10 @@ TEST(OpenFace, AFoldOnTheWayIsSeen) {
   const OpenFace face(mesh);
   const Positions& x = mesh.rest_positions;
   Positions p = Positions::Zero(x.rows(), 3);
-  EXPECT_TRUE(face.stays_open(x, p));
+  EXPECT_TRUE(face.at_risk(x, p, 0.0).none());
   p.col(0) = -1.8 * x.col(0);  // turns over, and is as wide as before at the end but for the sign
-  EXPECT_FALSE(face.stays_open(x, p));
-  EXPECT_FALSE(face.stays_open(x + p, p));
+  EXPECT_FALSE(face.at_risk(x, p, 0.0).none());
+  EXPECT_FALSE(face.at_risk(x + p, p, 0.0).none());
 }
 
 }  // namespace

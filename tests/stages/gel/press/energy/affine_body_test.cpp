@@ -81,7 +81,7 @@ TEST(AffineBody, ItsCenterOfMassMayLieBesideThatOfTheSolid) {
   EXPECT_EQ(body.mass_kg, solid.mass_kg);
   EXPECT_EQ(body.rest_inertia_kg_m2, solid.rest_inertia_kg_m2);
   EXPECT_LT((center_of(body.rest_m) - center_of(solid.rest_m) - shift).norm(), 1e-15);
-  EXPECT_LT((affine_positions(body, body.rest_m) - box.positions).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((body.weights * body.rest_m - box.positions).cwiseAbs().maxCoeff(), 1e-15);
   // A turn about the new centre leaves it where it is.
   const Matrix3 turn = some_rotation();
   const ControlPoints turned = rigid_points(body, center_of(body.rest_m), turn);
@@ -95,11 +95,11 @@ TEST(AffineBody, WeightsReproduceVerticesAndLinearFunctions) {
   const AffineBody body = make_affine_body(shape.positions, shape.triangles, kDensity);
   ASSERT_EQ(body.weights.rows(), shape.positions.rows());
   EXPECT_LT((body.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-15);
-  EXPECT_LT((affine_positions(body, body.rest_m) - shape.positions).cwiseAbs().maxCoeff(), 1e-16);
+  EXPECT_LT((body.weights * body.rest_m - shape.positions).cwiseAbs().maxCoeff(), 1e-16);
   const Matrix3 A = random_matrix3(1);
   const Vector3 shift(0.01, -0.02, 0.03);
   const Positions expected = (shape.positions * A.transpose()).rowwise() + shift.transpose();
-  EXPECT_LT((affine_positions(body, mapped(body, A, shift)) - expected).cwiseAbs().maxCoeff(), 2e-16);
+  EXPECT_LT((body.weights * mapped(body, A, shift) - expected).cwiseAbs().maxCoeff(), 2e-16);
 }
 
 /// Corners of a box: X = ½ sides, Λ = sides²/12, so β = ¼ (1 ± √3 (±1 ± 1 ± 1)), whatever the sides.
@@ -166,7 +166,7 @@ TEST(AffineBody, StrainByHand) {
 TEST(AffineBody, WrenchIsThatOfTheForcesOnItsVertices) {
   const AffineBody body = turned_box_body();
   const ControlPoints control = mapped(body, random_matrix3(5), {0.1, 0.2, -0.3});
-  const Positions x = affine_positions(body, control);
+  const Positions x = body.weights * control;
   const Positions forces = random_matrix<Positions>(7, x.rows(), 3);
   const Wrench wrench = wrench_of(control, body.weights.transpose() * forces);
   const Vector3 center = control.colwise().mean().transpose();

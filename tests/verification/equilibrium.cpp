@@ -1,4 +1,4 @@
-#include "verification/equilibrium.h"
+#include "tests/verification/equilibrium.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "stages/gel/press/contact/precise_separation.h"
+#include "tests/stages/gel/press/contact/precise_separation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,6 +204,16 @@ bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& 
     }
   }
   return false;
+}
+
+bool may_collide(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
+  FourPoints displacement;
+  for (int i = 0; i < 4; ++i) displacement[i] = x_end[i] - x_start[i];
+  const CcdOptions touch{.slack = 0};
+  const double apart_until = kind == PairKind::point_triangle
+                                 ? time_of_impact_point_triangle(x_start, displacement, touch)
+                                 : time_of_impact_edge_edge(x_start, displacement, touch);
+  return apart_until < 1 && !provably_apart(kind, x_start, x_end, apart_until);
 }
 
 }  // namespace tacipc

@@ -2,6 +2,7 @@
 // bits.
 #pragma once
 
+#include "stages/gel/press/contact/ccd.h"
 #include "stages/gel/press/contact/pair_motion.h"
 
 namespace tacipc {
@@ -10,5 +11,9 @@ namespace tacipc {
 /// about 1e-30 of the size of the pair; slow (up to milliseconds), and about exact paths, not about
 /// positions rounded in between.
 bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& x_end, double known_apart_until = 0);
+
+/// False only if the pair provably stays apart on the whole straight path from x_start to x_end, however near it
+/// passes: a pair that time of impact 1 without slack cannot clear within double rounding is tried again with 113 bits.
+bool may_collide(PairKind kind, const FourPoints& x_start, const FourPoints& x_end);
 
 }  // namespace tacipc
