@@ -13,12 +13,9 @@ using std::numbers::pi;
 /// q(t) of the header.
 double profile_transform(const LayerProblem& problem, double t) {
   switch (problem.shape) {
-    case LayerProblem::Shape::sphere:
-      return t * std::atanh(t / problem.radius_m);
-    case LayerProblem::Shape::paraboloid:
-      return t * t / problem.radius_m;
-    case LayerProblem::Shape::flat:
-      break;
+    case LayerProblem::Shape::sphere: return t * std::atanh(t / problem.radius_m);
+    case LayerProblem::Shape::paraboloid: return t * t / problem.radius_m;
+    case LayerProblem::Shape::flat: break;
   }
   return 0.0;
 }

@@ -164,9 +164,7 @@ ObjectShape ObjectShape::read(ConfigReader& in) {
         s.edge_m = length("edge_mm");
         s.length_m = length("length_mm");
         break;
-      case Kind::plate:
-        s.half_width_m = length("half_width_mm");
-        break;
+      case Kind::plate: s.half_width_m = length("half_width_mm"); break;
       case Kind::block:
         s.half_width_m = length("half_width_mm");
         s.half_depth_m = length("half_depth_mm");
@@ -191,26 +189,19 @@ TriangleMesh make_object(const ObjectShape& s, const std::filesystem::path& shar
   using Kind = ObjectShape::Kind;
   const double w = s.half_width_m;
   switch (s.kind) {
-    case Kind::sphere:
-      return sphere(s);
-    case Kind::punch:
-      return punch(s);
-    case Kind::cone:
-      return cone(s);
-    case Kind::cylinder:
-      return cylinder(s);
+    case Kind::sphere: return sphere(s);
+    case Kind::punch: return punch(s);
+    case Kind::cone: return cone(s);
+    case Kind::cylinder: return cylinder(s);
     case Kind::plate: {
       // The circle of radius w inside the lower face has the centre of the bounding box: the tip leans out for that.
       const double side = std::numbers::sqrt3 * w;
       return make_mesh({{-side, -w, 0}, {side, -w, 0}, {0, 2 * w, 0}, {0, -2 * w, w}},
                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
     }
-    case Kind::block:
-      return extrude({{-w, 0}, {w, 0}, {w, s.height_m}, {-w, s.height_m}}, 2 * s.half_depth_m, 1);
-    case Kind::wedge:
-      return extrude({{0, 0}, {w, s.height_m}, {-w, s.height_m}}, s.length_m, 1);
-    case Kind::file:
-      break;
+    case Kind::block: return extrude({{-w, 0}, {w, 0}, {w, s.height_m}, {-w, s.height_m}}, 2 * s.half_depth_m, 1);
+    case Kind::wedge: return extrude({{0, 0}, {w, s.height_m}, {-w, s.height_m}}, s.length_m, 1);
+    case Kind::file: break;
   }
   return read_triangle_mesh(resolve(s.path, shared), s.unit_m);
 }

@@ -51,8 +51,7 @@ class MotionDrawer {
     const double tilt_rad = draws_.in(ranges_.tilt_rad);
     const double twist_step = draws_.in(ranges_.twist_step_rad), tilt_step = draws_.in(ranges_.tilt_step_rad);
     switch (draws_.below(4)) {
-      case 0:
-        break;
+      case 0: break;
       case 1:
         add({.kind = PhaseKind::twist, .steps = steps_for(std::abs(twist_rad), twist_step), .angle_rad = twist_rad});
         return;
@@ -65,9 +64,7 @@ class MotionDrawer {
         add(tilt);
         return;
       }
-      default:
-        add({.kind = PhaseKind::release, .steps = steps_for(start_z_m() - lowest_z_m(pose_), step_m_)});
-        return;
+      default: add({.kind = PhaseKind::release, .steps = steps_for(start_z_m() - lowest_z_m(pose_), step_m_)}); return;
     }
     add({.kind = PhaseKind::shear,
          .steps = steps_for(shear_m, step_m_),

@@ -20,18 +20,10 @@ void add(StressSummary& sum, const StressLine& line) {
     return;
   }
   switch (line.result.outcome) {
-    case StressOutcome::converged:
-      ++sum.converged;
-      return;
-    case StressOutcome::not_converged:
-      ++sum.not_converged;
-      return;
-    case StressOutcome::intersected:
-      ++sum.intersected;
-      return;
-    case StressOutcome::inverted:
-      ++sum.inverted;
-      return;
+    case StressOutcome::converged: ++sum.converged; return;
+    case StressOutcome::not_converged: ++sum.not_converged; return;
+    case StressOutcome::intersected: ++sum.intersected; return;
+    case StressOutcome::inverted: ++sum.inverted; return;
   }
 }
 

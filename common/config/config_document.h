@@ -74,14 +74,10 @@ struct ConfigReader::Node {
   }
   const char* kind_name() const {
     switch (kind) {
-      case Kind::empty:
-        return "nothing";
-      case Kind::scalar:
-        return "a single value";
-      case Kind::list:
-        return "a list";
-      case Kind::map:
-        return "a map";
+      case Kind::empty: return "nothing";
+      case Kind::scalar: return "a single value";
+      case Kind::list: return "a list";
+      case Kind::map: return "a map";
     }
     return "";
   }

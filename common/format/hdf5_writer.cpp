@@ -87,15 +87,11 @@ void hdf5::begin() {
 
 std::size_t size_of(NumberType type) {
   switch (type) {
-    case NumberType::u8:
-      return 1;
-    case NumberType::f16:
-      return 2;
+    case NumberType::u8: return 1;
+    case NumberType::f16: return 2;
     case NumberType::i32:
-    case NumberType::f32:
-      return 4;
-    case NumberType::f64:
-      return 8;
+    case NumberType::f32: return 4;
+    case NumberType::f64: return 8;
   }
   return 0;
 }
@@ -112,16 +108,11 @@ const char* npy_type_of(NumberType type) {
 
 std::string to_bytes(NumberType type, const std::vector<double>& values) {
   switch (type) {
-    case NumberType::u8:
-      return packed<std::uint8_t>(values, [](double v) { return static_cast<std::uint8_t>(v); });
-    case NumberType::i32:
-      return packed<std::int32_t>(values, [](double v) { return static_cast<std::int32_t>(v); });
-    case NumberType::f16:
-      return packed<half>(values, [](double v) { return half(static_cast<float>(v)); });
-    case NumberType::f32:
-      return packed<float>(values, [](double v) { return static_cast<float>(v); });
-    case NumberType::f64:
-      return packed<double>(values, [](double v) { return v; });
+    case NumberType::u8: return packed<std::uint8_t>(values, [](double v) { return static_cast<std::uint8_t>(v); });
+    case NumberType::i32: return packed<std::int32_t>(values, [](double v) { return static_cast<std::int32_t>(v); });
+    case NumberType::f16: return packed<half>(values, [](double v) { return half(static_cast<float>(v)); });
+    case NumberType::f32: return packed<float>(values, [](double v) { return static_cast<float>(v); });
+    case NumberType::f64: return packed<double>(values, [](double v) { return v; });
   }
   return {};
 }
@@ -129,16 +120,12 @@ std::string to_bytes(NumberType type, const std::vector<double>& values) {
 std::vector<double> from_bytes(NumberType type, std::string_view bytes) {
   const auto as_is = [](auto v) { return static_cast<double>(v); };
   switch (type) {
-    case NumberType::u8:
-      return unpacked<std::uint8_t>(bytes, as_is);
-    case NumberType::i32:
-      return unpacked<std::int32_t>(bytes, as_is);
+    case NumberType::u8: return unpacked<std::uint8_t>(bytes, as_is);
+    case NumberType::i32: return unpacked<std::int32_t>(bytes, as_is);
     case NumberType::f16:
       return unpacked<half>(bytes, [](half v) { return static_cast<double>(static_cast<float>(v)); });
-    case NumberType::f32:
-      return unpacked<float>(bytes, as_is);
-    case NumberType::f64:
-      return unpacked<double>(bytes, as_is);
+    case NumberType::f32: return unpacked<float>(bytes, as_is);
+    case NumberType::f64: return unpacked<double>(bytes, as_is);
   }
   return {};
 }
@@ -188,16 +175,11 @@ struct Hdf5Writer::File {
 
   Id file_type(NumberType type) const {
     switch (type) {
-      case NumberType::u8:
-        return H5T_STD_U8LE;
-      case NumberType::i32:
-        return H5T_STD_I32LE;
-      case NumberType::f16:
-        return half;
-      case NumberType::f32:
-        return H5T_IEEE_F32LE;
-      case NumberType::f64:
-        return H5T_IEEE_F64LE;
+      case NumberType::u8: return H5T_STD_U8LE;
+      case NumberType::i32: return H5T_STD_I32LE;
+      case NumberType::f16: return half;
+      case NumberType::f32: return H5T_IEEE_F32LE;
+      case NumberType::f64: return H5T_IEEE_F64LE;
     }
     return -1;
   }

@@ -34,12 +34,9 @@ std::string index_text(std::size_t at, const Shape& shape) {
 
 const char* name_of(NpyType type) {
   switch (type) {
-    case NpyType::f8:
-      return "f8";
-    case NpyType::i4:
-      return "i4";
-    case NpyType::u1:
-      return "u1";
+    case NpyType::f8: return "f8";
+    case NpyType::i4: return "i4";
+    case NpyType::u1: return "u1";
   }
   return "";
 }
@@ -94,12 +91,9 @@ void write_field(const NpyField& field, const std::filesystem::path& path, const
   if (values.size() != count)
     throw DataError("{}: {} values for the shape {}", path.string(), values.size(), shape_text(field, known));
   switch (field.type) {
-    case NpyType::f8:
-      return write_npy(path, shape, values.data());
-    case NpyType::i4:
-      return write_npy(path, shape, std::vector<std::int32_t>(values.begin(), values.end()).data());
-    case NpyType::u1:
-      return write_npy(path, shape, std::vector<std::uint8_t>(values.begin(), values.end()).data());
+    case NpyType::f8: return write_npy(path, shape, values.data());
+    case NpyType::i4: return write_npy(path, shape, std::vector<std::int32_t>(values.begin(), values.end()).data());
+    case NpyType::u1: return write_npy(path, shape, std::vector<std::uint8_t>(values.begin(), values.end()).data());
   }
 }
 

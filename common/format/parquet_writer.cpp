@@ -93,12 +93,9 @@ struct Leaf {
 
 int physical_type(ParquetType type) {
   switch (type) {
-    case ParquetType::i64:
-      return kInt64;
-    case ParquetType::f32:
-      return kFloat;
-    default:
-      return kByteArray;
+    case ParquetType::i64: return kInt64;
+    case ParquetType::f32: return kFloat;
+    default: return kByteArray;
   }
 }
 

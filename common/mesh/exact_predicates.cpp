@@ -189,15 +189,11 @@ bool mesh_triangles_intersect(std::array<int, 3> first, TrianglePoints p, std::a
         break;
       }
   switch (shared) {
-    case 0:
-      return triangles_intersect(p, q);
+    case 0: return triangles_intersect(p, q);
     // Whatever two triangles share beyond a common vertex reaches the edge opposite to it in one of them.
-    case 1:
-      return segment_intersects_triangle(p[1], p[2], q) || segment_intersects_triangle(q[1], q[2], p);
-    case 2:
-      return hinge_is_folded_flat(p[0], p[1], p[2], q[2]);
-    default:
-      return true;
+    case 1: return segment_intersects_triangle(p[1], p[2], q) || segment_intersects_triangle(q[1], q[2], p);
+    case 2: return hinge_is_folded_flat(p[0], p[1], p[2], q[2]);
+    default: return true;
   }
 }
 

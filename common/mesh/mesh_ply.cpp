@@ -131,22 +131,14 @@ class Body {
   double number(Scalar type, const std::string& what) {
     if (ascii_) return text_.number_anywhere(what);
     switch (type) {
-      case Scalar::int8:
-        return binary_.read<std::int8_t>(what);
-      case Scalar::uint8:
-        return binary_.read<std::uint8_t>(what);
-      case Scalar::int16:
-        return binary_.read<std::int16_t>(what);
-      case Scalar::uint16:
-        return binary_.read<std::uint16_t>(what);
-      case Scalar::int32:
-        return binary_.read<std::int32_t>(what);
-      case Scalar::uint32:
-        return binary_.read<std::uint32_t>(what);
-      case Scalar::float32:
-        return binary_.read<float>(what);
-      case Scalar::float64:
-        return binary_.read<double>(what);
+      case Scalar::int8: return binary_.read<std::int8_t>(what);
+      case Scalar::uint8: return binary_.read<std::uint8_t>(what);
+      case Scalar::int16: return binary_.read<std::int16_t>(what);
+      case Scalar::uint16: return binary_.read<std::uint16_t>(what);
+      case Scalar::int32: return binary_.read<std::int32_t>(what);
+      case Scalar::uint32: return binary_.read<std::uint32_t>(what);
+      case Scalar::float32: return binary_.read<float>(what);
+      case Scalar::float64: return binary_.read<double>(what);
     }
     return 0.0;
   }

@@ -23,32 +23,19 @@ struct ElementType {
 /// Gmsh's element numbers that occur in meshes of tetrahedra, and those that must be refused by name.
 std::optional<ElementType> element_type(int number) {
   switch (number) {
-    case 1:
-      return ElementType{2, Keep::nothing, "line"};
-    case 2:
-      return ElementType{3, Keep::triangle, "triangle"};
-    case 3:
-      return ElementType{4, Keep::refuse, "quadrangle"};
-    case 4:
-      return ElementType{4, Keep::tet, "tetrahedron"};
-    case 5:
-      return ElementType{8, Keep::refuse, "hexahedron"};
-    case 6:
-      return ElementType{6, Keep::refuse, "prism"};
-    case 7:
-      return ElementType{5, Keep::refuse, "pyramid"};
-    case 8:
-      return ElementType{3, Keep::refuse, "3-node line"};
-    case 9:
-      return ElementType{6, Keep::refuse, "6-node triangle"};
-    case 11:
-      return ElementType{10, Keep::refuse, "10-node tetrahedron"};
-    case 15:
-      return ElementType{1, Keep::nothing, "point"};
-    case 29:
-      return ElementType{20, Keep::refuse, "20-node tetrahedron"};
-    default:
-      return std::nullopt;
+    case 1: return ElementType{2, Keep::nothing, "line"};
+    case 2: return ElementType{3, Keep::triangle, "triangle"};
+    case 3: return ElementType{4, Keep::refuse, "quadrangle"};
+    case 4: return ElementType{4, Keep::tet, "tetrahedron"};
+    case 5: return ElementType{8, Keep::refuse, "hexahedron"};
+    case 6: return ElementType{6, Keep::refuse, "prism"};
+    case 7: return ElementType{5, Keep::refuse, "pyramid"};
+    case 8: return ElementType{3, Keep::refuse, "3-node line"};
+    case 9: return ElementType{6, Keep::refuse, "6-node triangle"};
+    case 11: return ElementType{10, Keep::refuse, "10-node tetrahedron"};
+    case 15: return ElementType{1, Keep::nothing, "point"};
+    case 29: return ElementType{20, Keep::refuse, "20-node tetrahedron"};
+    default: return std::nullopt;
   }
 }
 

@@ -37,25 +37,16 @@ void yielding(const Phase& phase, const PhaseStart& start, double part, Goal& go
   goal.free = start.free;
   goal.load_n = start.load_n;
   switch (phase.kind) {
-    case PhaseKind::release:
-      goal.free = {};
-      break;
-    case PhaseKind::press:
-      goal.free = {false, false, phase.load_n.has_value()};
-      break;
-    case PhaseKind::load:
-      goal.free = phase.free;
-      break;
+    case PhaseKind::release: goal.free = {}; break;
+    case PhaseKind::press: goal.free = {false, false, phase.load_n.has_value()}; break;
+    case PhaseKind::load: goal.free = phase.free; break;
     case PhaseKind::free:  // the force is not that of an axis, and not gradual: what is let go is let go at once
       goal.free = {};
       goal.load_n = *phase.load_n;
       return;
     case PhaseKind::shear:
-    case PhaseKind::path:
-      goal.free[0] = goal.free[1] = false;
-      break;
-    default:
-      break;
+    case PhaseKind::path: goal.free[0] = goal.free[1] = false; break;
+    default: break;
   }
   if (phase.load_n) goal.load_n = start.load_n + part * (*phase.load_n - start.load_n);
   for (int axis = 0; axis < 3; ++axis) {
@@ -128,9 +119,7 @@ Phase Phase::read(ConfigReader& in) {
       phase.shift_m = {distance_m * std::cos(direction), distance_m * std::sin(direction), 0.0};
       break;
     }
-    case PhaseKind::twist:
-      phase.angle_rad = radians(in.number("angle_deg", kAnyTurn));
-      break;
+    case PhaseKind::twist: phase.angle_rad = radians(in.number("angle_deg", kAnyTurn)); break;
     case PhaseKind::tilt:
       phase.angle_rad = radians(in.number("angle_deg", Range::between(-89.0, 89.0)));
       phase.direction_rad = radians(in.number_or("direction_deg", 0.0, kAnyTurn));
@@ -150,9 +139,7 @@ Phase Phase::read(ConfigReader& in) {
       }
       break;
     }
-    case PhaseKind::free:
-      phase.load_n = in.has("force_n") ? in.vector3("force_n") : Vector3::Zero();
-      break;
+    case PhaseKind::free: phase.load_n = in.has("force_n") ? in.vector3("force_n") : Vector3::Zero(); break;
     case PhaseKind::path: {
       phase.file = std::filesystem::path(in.source()).parent_path() / in.text("file");
       phase.absolute = in.choice_or("relative_to", "placement", {"placement", "sensor"}) == "sensor";
@@ -163,8 +150,7 @@ Phase Phase::read(ConfigReader& in) {
       phase.substeps = in.integer_or("substeps", 1, 1, 1000);
       return phase;
     }
-    default:
-      break;
+    default: break;
   }
   steps();
   return phase;
@@ -187,12 +173,8 @@ Goal goal_of(const Phase& phase, double step, const PhaseStart& start, double ti
     case PhaseKind::press:
       if (!phase.load_n) raise_to(-phase.depth_m);
       break;
-    case PhaseKind::release:
-      raise_to(phase.height_m.value_or(start.start_z_m));
-      break;
-    case PhaseKind::shear:
-      goal.gel_from_object = shifted(start.gel_from_object, part * phase.shift_m);
-      break;
+    case PhaseKind::release: raise_to(phase.height_m.value_or(start.start_z_m)); break;
+    case PhaseKind::shear: goal.gel_from_object = shifted(start.gel_from_object, part * phase.shift_m); break;
     case PhaseKind::twist:
       goal.gel_from_object =
           turned(start.gel_from_object, Eigen::AngleAxisd(part * phase.angle_rad, Vector3::UnitZ()).toRotationMatrix(),
@@ -223,8 +205,7 @@ Goal goal_of(const Phase& phase, double step, const PhaseStart& start, double ti
       }
       break;
     }
-    default:
-      break;
+    default: break;
   }
   return goal;
 }

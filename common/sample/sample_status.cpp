@@ -21,14 +21,10 @@ bool is_locked(const fs::path& lock) {
 
 const char* status_word(SampleStatus status) {
   switch (status) {
-    case SampleStatus::made:
-      return "made";
-    case SampleStatus::failed:
-      return "failed";
-    case SampleStatus::running:
-      return "running";
-    case SampleStatus::unmade:
-      return "not made";
+    case SampleStatus::made: return "made";
+    case SampleStatus::failed: return "failed";
+    case SampleStatus::running: return "running";
+    case SampleStatus::unmade: return "not made";
   }
   return "";
 }

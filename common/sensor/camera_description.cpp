@@ -9,12 +9,9 @@ namespace {
 
 const char* name_of(Camera::Model model) {
   switch (model) {
-    case Camera::Model::pinhole:
-      return "pinhole";
-    case Camera::Model::fisheye:
-      return "fisheye";
-    case Camera::Model::rectified:
-      return "rectified";
+    case Camera::Model::pinhole: return "pinhole";
+    case Camera::Model::fisheye: return "fisheye";
+    case Camera::Model::rectified: return "rectified";
   }
   return "";
 }

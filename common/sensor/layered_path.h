@@ -186,12 +186,9 @@ template <typename T>
 TACIPC_INLINE LayeredPath<T> layered_path(const LayerStack& stack, const T& last_thickness, const T& squared_lateral,
                                           const T& stretch = T{} + 1.0) {
   switch (stack.count) {  // numbers of layers that sensors have; known, they stay in registers
-    case 2:
-      return path_through<2>(stack, last_thickness, squared_lateral, stretch);
-    case 3:
-      return path_through<3>(stack, last_thickness, squared_lateral, stretch);
-    default:
-      return path_through<0>(stack, last_thickness, squared_lateral, stretch);
+    case 2: return path_through<2>(stack, last_thickness, squared_lateral, stretch);
+    case 3: return path_through<3>(stack, last_thickness, squared_lateral, stretch);
+    default: return path_through<0>(stack, last_thickness, squared_lateral, stretch);
   }
 }
 

@@ -37,27 +37,13 @@ void read_keys(ConfigReader& in, int way) {
   for (const std::string& key : in.keys()) {
     require(in.has(key), "a key that is not there");
     switch (way++ % 9) {
-      case 0:
-        in.number(key, Range::positive());
-        break;
-      case 1:
-        in.integer_or(key, 3, -5, 7);
-        break;
-      case 2:
-        in.flag(key);
-        break;
-      case 3:
-        in.choice(key, {"press", "shear", "+x"});
-        break;
-      case 4:
-        in.numbers(key, 3, Range::between(-1, 1));
-        break;
-      case 5:
-        in.choices_or(key, {}, {"depth", "normal", "contact"});
-        break;
-      case 6:
-        in.texts(key);
-        break;
+      case 0: in.number(key, Range::positive()); break;
+      case 1: in.integer_or(key, 3, -5, 7); break;
+      case 2: in.flag(key); break;
+      case 3: in.choice(key, {"press", "shear", "+x"}); break;
+      case 4: in.numbers(key, 3, Range::between(-1, 1)); break;
+      case 5: in.choices_or(key, {}, {"depth", "normal", "contact"}); break;
+      case 6: in.texts(key); break;
       case 7:
         if (auto section = in.optional_section(key)) read_keys(*section, way);
         break;

@@ -37,22 +37,15 @@ class Mutation {
         bytes.replace(at, std::min<std::size_t>(count, 8), std::min<std::size_t>(count, 8),
                       "\x00\x7f\x80\xff"[below(4)]);
         break;
-      case 2:
-        bytes.erase(at, count);
-        break;
-      case 3:
-        bytes.insert(at, bytes.substr(at, count));
-        break;
+      case 2: bytes.erase(at, count); break;
+      case 3: bytes.insert(at, bytes.substr(at, count)); break;
       case 4: {  // a part of another file
         const std::string& other = seeds_[below(seeds_.size())];
         bytes.insert(at, other.substr(below(other.size()), 1 + below(64)));
         break;
       }
-      case 5:
-        replace_number(bytes, at);
-        break;
-      default:
-        bytes.insert(at, 1, "\n \t,:#-[]{}\"'&*\\/\0\r"[below(19)]);
+      case 5: replace_number(bytes, at); break;
+      default: bytes.insert(at, 1, "\n \t,:#-[]{}\"'&*\\/\0\r"[below(19)]);
     }
   }
 

@@ -26,24 +26,20 @@ LabelledPress::LabelledPress(fs::path folder, const Positions& object_m)
 std::vector<double> LabelledPress::label(EnsembleLabel label, std::size_t frame) const {
   const auto& lines = per_frame_[frame];
   switch (label) {
-    case EnsembleLabel::press_force:
-      return {lines.required(&PressFrameLines::press_force_n)};
-    case EnsembleLabel::tangential_force:
-      return {lines.required(&PressFrameLines::tangential_force_n)};
+    case EnsembleLabel::press_force: return {lines.required(&PressFrameLines::press_force_n)};
+    case EnsembleLabel::tangential_force: return {lines.required(&PressFrameLines::tangential_force_n)};
     case EnsembleLabel::torque: {
       const Vector3 torque = arrays_.wrenches()[frame].torque_n_m;
       return {torque.begin(), torque.end()};
     }
-    case EnsembleLabel::contact_area:
-      return {lines.required(&PressFrameLines::contact_area_mm2)};
+    case EnsembleLabel::contact_area: return {lines.required(&PressFrameLines::contact_area_mm2)};
     case EnsembleLabel::deepest_indentation: {
       const Positions x = arrays_.positions(frame);
       double deepest = 0.0;
       for (const int v : front_) deepest = std::max(deepest, rest_m_(v, 2) - x(v, 2));
       return {deepest};
     }
-    case EnsembleLabel::object_depth:
-      return {0.0 - transformed(arrays_.poses()[frame], object_m_).col(2).minCoeff()};
+    case EnsembleLabel::object_depth: return {0.0 - transformed(arrays_.poses()[frame], object_m_).col(2).minCoeff()};
   }
   return {};
 }

@@ -652,16 +652,11 @@ std::vector<Field> ensemble() {
 
 const char* name_of(Section section) {
   switch (section) {
-    case Section::obs:
-      return "obs";
-    case Section::sim:
-      return "sim";
-    case Section::check:
-      return "check";
-    case Section::series:
-      return "series";
-    case Section::ensemble:
-      return "ensemble";
+    case Section::obs: return "obs";
+    case Section::sim: return "sim";
+    case Section::check: return "check";
+    case Section::series: return "series";
+    case Section::ensemble: return "ensemble";
   }
   return "";
 }

@@ -64,14 +64,9 @@ DatasetStatus dataset_status(const fs::path& dataset, const IndexRange& range, s
         }
         break;
       }
-      case SampleStatus::failed:
-        ++status.failed;
-        break;
-      case SampleStatus::running:
-        ++status.running;
-        break;
-      case SampleStatus::unmade:
-        break;
+      case SampleStatus::failed: ++status.failed; break;
+      case SampleStatus::running: ++status.running; break;
+      case SampleStatus::unmade: break;
     }
   });
   const std::size_t expected = range.end ? *range.end - range.first : std::max<std::size_t>(status.samples, 1);

@@ -40,20 +40,13 @@ bool is_too_large(REAL* pa, REAL* pb, REAL* pc, REAL* pd, REAL*, REAL) {
 
 const char* reason(int code) {
   switch (code) {
-    case 1:
-      return "out of memory";
-    case 2:
-      return "internal error";
-    case 3:
-      return "the surface intersects itself";
-    case 4:
-      return "a feature of the surface is too small";
-    case 5:
-      return "two facets of the surface are too close";
-    case 10:
-      return "the surface was not accepted";
-    default:
-      return "unknown reason";
+    case 1: return "out of memory";
+    case 2: return "internal error";
+    case 3: return "the surface intersects itself";
+    case 4: return "a feature of the surface is too small";
+    case 5: return "two facets of the surface are too close";
+    case 10: return "the surface was not accepted";
+    default: return "unknown reason";
   }
 }
 

@@ -184,12 +184,9 @@ void calibrate_rival(Stage& stage) {
   }
   stage.summarize({{"photographs", labels.size()}, {"objects", objects.size()}});
   switch (fit.model) {
-    case RivalFit::Model::table:
-      return calibrate_table(stage, fit, unlit, camera, config.folds);
-    case RivalFit::Model::network:
-      return calibrate_network(stage, fit, unlit.contacts, camera);
-    case RivalFit::Model::metallic_roughness:
-      return calibrate_metallic(stage, fit, lit, config.folds);
+    case RivalFit::Model::table: return calibrate_table(stage, fit, unlit, camera, config.folds);
+    case RivalFit::Model::network: return calibrate_network(stage, fit, unlit.contacts, camera);
+    case RivalFit::Model::metallic_roughness: return calibrate_metallic(stage, fit, lit, config.folds);
   }
 }
 

@@ -36,16 +36,11 @@ std::array<int, 3> lambert_codes(const std::vector<PhongLight>& lights, const st
 
 RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model) {
   switch (model) {
-    case ChangeConfig::Model::lambert_sum:
-      break;
-    case ChangeConfig::Model::metallic_roughness:
-      return read_config<MetallicLamps>(file);
-    case ChangeConfig::Model::table:
-      return SlopeTable::read(file);
-    case ChangeConfig::Model::network:
-      return LightNetwork::read(file);
-    case ChangeConfig::Model::light_field:
-      return read_config<LightField>(file);
+    case ChangeConfig::Model::lambert_sum: break;
+    case ChangeConfig::Model::metallic_roughness: return read_config<MetallicLamps>(file);
+    case ChangeConfig::Model::table: return SlopeTable::read(file);
+    case ChangeConfig::Model::network: return LightNetwork::read(file);
+    case ChangeConfig::Model::light_field: return read_config<LightField>(file);
   }
   return {};
 }
@@ -79,18 +74,10 @@ ChangeOfCodes::ChangeOfCodes(const ChangeConfig& config, const RivalLight& light
 FloatImage ChangeOfCodes::operator()(const Raster& indentation_m, const std::vector<Vector3>& object_normal) const {
   FloatImage change;
   switch (config_.model) {
-    case ChangeConfig::Model::lambert_sum:
-      change = lambert(indentation_m);
-      break;
-    case ChangeConfig::Model::metallic_roughness:
-      change = metallic(indentation_m, object_normal);
-      break;
-    case ChangeConfig::Model::table:
-      change = table(indentation_m);
-      break;
-    case ChangeConfig::Model::network:
-      change = network(indentation_m);
-      break;
+    case ChangeConfig::Model::lambert_sum: change = lambert(indentation_m); break;
+    case ChangeConfig::Model::metallic_roughness: change = metallic(indentation_m, object_normal); break;
+    case ChangeConfig::Model::table: change = table(indentation_m); break;
+    case ChangeConfig::Model::network: change = network(indentation_m); break;
     case ChangeConfig::Model::light_field:
       change = code_change(std::get<LightField>(light_), view_height_map(to_image(indentation_m), sensor_));
       break;

@@ -76,18 +76,14 @@ Raster protrusion(const Raster& depth_m, const Raster& front_depth_m) {
 
 Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config) {
   switch (config.method) {
-    case DeformationConfig::Method::difference_of_gaussians:
-      return difference_of_gaussians(protrusion_m, config);
+    case DeformationConfig::Method::difference_of_gaussians: return difference_of_gaussians(protrusion_m, config);
     case DeformationConfig::Method::exponential_kernel:
       // The kernel's sum is 1, so padding the depth with the front's depth is padding the protrusion with zero.
       return correlate(protrusion_m, exponential_kernel(config.exponential_factor), Border::constant, 0.0);
-    case DeformationConfig::Method::two_gaussians:
-      return two_gaussians(protrusion_m, config);
-    case DeformationConfig::Method::pyramid:
-      return pyramid(protrusion_m, config);
+    case DeformationConfig::Method::two_gaussians: return two_gaussians(protrusion_m, config);
+    case DeformationConfig::Method::pyramid: return pyramid(protrusion_m, config);
     case DeformationConfig::Method::rigid:
-    case DeformationConfig::Method::none:
-      return protrusion_m;
+    case DeformationConfig::Method::none: return protrusion_m;
   }
   return protrusion_m;
 }

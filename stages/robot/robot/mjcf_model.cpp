@@ -22,31 +22,21 @@ using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 const char* kind_name(mjtObj kind) {
   switch (kind) {
-    case mjOBJ_GEOM:
-      return "geom";
-    case mjOBJ_SITE:
-      return "site";
-    case mjOBJ_ACTUATOR:
-      return "actuator";
-    case mjOBJ_JOINT:
-      return "joint";
-    default:
-      return "body";
+    case mjOBJ_GEOM: return "geom";
+    case mjOBJ_SITE: return "site";
+    case mjOBJ_ACTUATOR: return "actuator";
+    case mjOBJ_JOINT: return "joint";
+    default: return "body";
   }
 }
 
 int count_of(const mjModel& m, mjtObj kind) {
   switch (kind) {
-    case mjOBJ_GEOM:
-      return m.ngeom;
-    case mjOBJ_SITE:
-      return m.nsite;
-    case mjOBJ_ACTUATOR:
-      return m.nu;
-    case mjOBJ_JOINT:
-      return m.njnt;
-    default:
-      return m.nbody;
+    case mjOBJ_GEOM: return m.ngeom;
+    case mjOBJ_SITE: return m.nsite;
+    case mjOBJ_ACTUATOR: return m.nu;
+    case mjOBJ_JOINT: return m.njnt;
+    default: return m.nbody;
   }
 }
 

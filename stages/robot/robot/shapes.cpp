@@ -60,14 +60,10 @@ Facets capsule(double radius, double half_length) {
 Facets of_geom(const mjModel& m, int g) {
   const mjtNum* size = m.geom_size + 3 * g;
   switch (m.geom_type[g]) {
-    case mjGEOM_BOX:
-      return box({size[0], size[1], size[2]});
-    case mjGEOM_SPHERE:
-      return capsule(size[0], 0.0);
-    case mjGEOM_CAPSULE:
-      return capsule(size[0], size[1]);
-    case mjGEOM_CYLINDER:
-      return turned({{0.0, -size[1]}, {size[0], -size[1]}, {size[0], size[1]}, {0.0, size[1]}});
+    case mjGEOM_BOX: return box({size[0], size[1], size[2]});
+    case mjGEOM_SPHERE: return capsule(size[0], 0.0);
+    case mjGEOM_CAPSULE: return capsule(size[0], size[1]);
+    case mjGEOM_CYLINDER: return turned({{0.0, -size[1]}, {size[0], -size[1]}, {size[0], size[1]}, {0.0, size[1]}});
     case mjGEOM_ELLIPSOID: {
       Facets all = capsule(1.0, 0.0);
       for (Vector3& p : all.points) p = p.cwiseProduct(Vector3(size[0], size[1], size[2]));
@@ -86,8 +82,7 @@ Facets of_geom(const mjModel& m, int g) {
       }
       return all;
     }
-    default:
-      return {};
+    default: return {};
   }
 }
 

@@ -442,30 +442,19 @@ TEST(MeshDoctor, HealsOrRefusesWhateverIsDoneToAMesh) {
     for (int wound = 1 + below(4); wound > 0; --wound) {
       const int face = below(mesh.num_triangles()), vertex = below(mesh.num_vertices());
       switch (below(8)) {
-        case 0:
-          mesh = without_faces(mesh, {face});
-          break;
-        case 1:
-          mesh = with_face_turned(mesh, face);
-          break;
+        case 0: mesh = without_faces(mesh, {face}); break;
+        case 1: mesh = with_face_turned(mesh, face); break;
         case 2:
           mesh = with_face(mesh, {mesh.triangles(face, 2), mesh.triangles(face, below(2)), mesh.triangles(face, 1)});
           break;
-        case 3:
-          mesh.triangles(face, below(3)) = vertex;
-          break;
-        case 4:
-          mesh.positions.row(mesh.triangles(face, 0)) = mesh.positions.row(mesh.triangles(face, 1));
-          break;
+        case 3: mesh.triangles(face, below(3)) = vertex; break;
+        case 4: mesh.positions.row(mesh.triangles(face, 0)) = mesh.positions.row(mesh.triangles(face, 1)); break;
         case 5:
           mesh.positions.row(mesh.triangles(face, 0)) =
               0.5 * (mesh.positions.row(mesh.triangles(face, 1)) + mesh.positions.row(mesh.triangles(face, 2)));
           break;
-        case 6:
-          mesh = with_face(mesh, {vertex, mesh.triangles(face, 0), mesh.triangles(face, 1)});
-          break;
-        default:
-          mesh = soup(mesh);
+        case 6: mesh = with_face(mesh, {vertex, mesh.triangles(face, 0), mesh.triangles(face, 1)}); break;
+        default: mesh = soup(mesh);
       }
     }
     DoctorReport report;
