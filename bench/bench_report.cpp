@@ -95,31 +95,27 @@ std::string runs_table(const std::vector<Run>& runs) {
 
 std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor) {
   return "# Cost of a press\n\nMade by `make -f Makefile.data bench-press` on " + processor +
-         ", one process and one thread unless noted. *press*: 0.5 mm in five frames into the MC-Tac gel, "
-         "friction 0.5 with one lag per step, d̂ 10⁻³, κ 10⁵; *shear*: then 1 mm sideways in twenty frames; *settled*: "
-         "friction renewed until it is consistent with its own contact forces; *tight*: a tenth of the tolerances; "
-         "*thin*: a fifth of "
-         "d̂, κ × 125; *stiff*: κ × 10, that of the paper. Gels are the paper's mesh with its lengths scaled, the "
-         "scenes are `configs/studies/speed/*.yaml`; "
-         "`BENCH_GELS=` and the other variables of `pipelines/verification/bench.mk` select what is measured.\n\n## "
-         "Shipped settings\n\n<!-- defaults -->\nNot made in this run.\n<!-- end of defaults -->\n\n## Routes\n\n" +
+         ", one process and one thread unless noted. *press*: 0.5 mm in five frames into the MC-Tac gel, friction 0.5 "
+         "with one lag per step, d̂ 10⁻³, κ 10⁵; *shear*: then 1 mm sideways in twenty frames; *settled*: friction "
+         "renewed until it is consistent with its own contact forces; *tight*: a tenth of the tolerances; *thin*: a "
+         "fifth of d̂, κ × 125; *stiff*: κ × 10, that of the paper. Gels are the paper's mesh with its lengths scaled, "
+         "the scenes are `configs/studies/speed/*.yaml`; `BENCH_GELS=` and the other variables of "
+         "`pipelines/verification/bench.mk` select what is measured.\n\n## Shipped settings\n\n<!-- defaults -->\nNot "
+         "made in this run.\n<!-- end of defaults -->\n\n## Routes\n\n" +
          routes_table(runs) +
          "\n*fast* is the default solver with the paper's linear tetrahedra. *direct* factorises every linear system "
-         "instead (CHOLMOD, METIS, one symbolic "
-         "analysis) and is otherwise the same. *plain* is textbook projected Newton: factorised, for the whole gel in "
-         "every iteration, with the projected Hessian of contact (`newton.contact_hessian: positive`). *averaged* is "
-         "*fast* "
-         "with volumes averaged over clusters, the default element of this gel. *Difference*: of gel vertices in the "
-         "last frame, and of the press force, from *direct*. *Products each*: iterations of conjugate gradients per "
-         "linear system. *Speed-up*: 2 × *direct* is half its CPU seconds.\n\n![CPU seconds over "
-         "vertices](performance/bench_press.svg)\n"
+         "instead (CHOLMOD, METIS, one symbolic analysis) and is otherwise the same. *plain* is textbook projected "
+         "Newton: factorised, for the whole gel in every iteration, with the projected Hessian of contact "
+         "(`newton.contact_hessian: positive`). *averaged* is *fast* with volumes averaged over clusters, the default "
+         "element of this gel. *Difference*: of gel vertices in the last frame, and of the press force, from *direct*. "
+         "*Products each*: iterations of conjugate gradients per linear system. *Speed-up*: 2 × *direct* is half its "
+         "CPU seconds.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
          "\n## Time by part\n\nShares of the wall time.\n\n" +
          parts_table(runs) + element_section(runs) + "\n## Threads and processes\n\n" + runs_table(runs) +
          fmt::format(
              "\n## Cost model\n\n`configs/studies/speed/cost_model.yaml`: seconds of a frame = c (vertices / "
-             "1000)^{:.2f} (1 + "
-             "touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging, {:.2f} times that with "
-             "averaged volumes; fitted to {} presses, largest error a factor of {:.2f}.\n",
+             "1000)^{:.2f} (1 + touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging, "
+             "{:.2f} times that with averaged volumes; fitted to {} presses, largest error a factor of {:.2f}.\n",
              model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s, model.averaged_factor,
              model.runs, model.largest_ratio);
 }

@@ -61,10 +61,9 @@ std::string element_section(const std::vector<Run>& runs) {
   if (!limit) return "";
   std::string out = fmt::format(
       "\n## Elements\n\nThe sphere's press force with linear tetrahedra (*fast*) and with volumes averaged over "
-      "clusters "
-      "([elements](elements.md)), against the limit of the latter's three finest meshes, {:.4f} N (order {:.1f} in the "
-      "edge length){}.\n\n| Gel vertices | Linear: force, N | off | CPU s | Averaged: force, N | off | CPU s "
-      "|\n|---|---|---|---|---|---|---|\n",
+      "clusters ([elements](elements.md)), against the limit of the latter's three finest meshes, {:.4f} N (order "
+      "{:.1f} in the edge length){}.\n\n| Gel vertices | Linear: force, N | off | CPU s | Averaged: force, N | off | "
+      "CPU s |\n|---|---|---|---|---|---|---|\n",
       limit->value, limit->order,
       of_linear ? fmt::format("; the linear element's three finest extrapolate to {:.4f} N", of_linear->value) : "");
   for (const Run* b : averaged) {

@@ -23,10 +23,9 @@ std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate&
   }
   out +=
       "\n## Tracing\n\nAll rays of one frame (with area lights of one of 160 × 120 pixels) are logged and traced again "
-      "on one thread: "
-      "through our packets (`common/optics/ray_scene.h`), and by bare loops over `rtcIntersect8` and `rtcOccluded8` on "
-      "prepared arrays, with the same scene flags. *Share* is the share of our tracing in the whole frame on one "
-      "thread.\n\n"
+      "on one thread: through our packets (`common/optics/ray_scene.h`), and by bare loops over `rtcIntersect8` and "
+      "`rtcOccluded8` on prepared arrays, with the same scene flags. *Share* is the share of our tracing in the whole "
+      "frame on one thread.\n\n"
       "| Rendering | Camera rays | Shadow rays | Ours, Mrays/s | Embree, Mrays/s | of Embree | Share of the frame |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const RenderCost& cost : costs) {
@@ -37,8 +36,7 @@ std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate&
   }
   out += fmt::format(
       "\n## Scene update\n\n{} triangles: vertices and normals {:.1f} ms, Embree's tree {:.1f} ms on one thread (the "
-      "same "
-      "tree at any number of threads); together {:.1f} ms (at most 10).\n",
+      "same tree at any number of threads); together {:.1f} ms (at most 10).\n",
       update.triangles, update.membrane_ms, update.tree_ms, update.membrane_ms + update.tree_ms);
   return out;
 }

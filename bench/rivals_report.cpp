@@ -24,10 +24,9 @@ std::string rivals_table(const std::vector<ImageSpeed>& speeds, std::size_t fram
   }
   return fmt::format("{}\n{}\n{}\n", head, line, rows) +
          fmt::format(
-             "One thread of: {}; in the minute before, {:.1f} processes wanted a processor. "
-             "Medians over frames of one press in images of these sizes, files not counted. "
-             "*Press*: the simulation before it, all of its presses over all of their frames "
-             "({} of TacIPC's), whatever the images' size.\n",
+             "One thread of: {}; in the minute before, {:.1f} processes wanted a processor. Medians over frames of one "
+             "press in images of these sizes, files not counted. *Press*: the simulation before it, all of its presses "
+             "over all of their frames ({} of TacIPC's), whatever the images' size.\n",
              processor, load, frames);
 }
 

@@ -102,17 +102,13 @@ std::string routes_page(const std::vector<RoutePair>& pairs, const RouteLimits& 
   std::string out = fmt::format(
       "# Default solver against factorisation\n\n"
       "Every mesh of the shared data in five poses (`configs/studies/speed/poses/*.yaml`: pressed, aside, dragged, "
-      "turned, "
-      "tilted) on a gel of 12k vertices, friction 0.5 with one lag per step, the paper's stiffness, a tenth of the "
-      "usual "
-      "tolerances: by the default route, and with every linear system factorised. Made by "
-      "`make -f Makefile.data routes SHARED=…`.\n\n"
+      "turned, tilted) on a gel of 12k vertices, friction 0.5 with one lag per step, the paper's stiffness, a tenth of "
+      "the usual tolerances: by the default route, and with every linear system factorised. Made by `make -f "
+      "Makefile.data routes SHARED=…`.\n\n"
       "{} samples: {} converged by the default route, {} by factorisation; in {} the results agree in the last frame "
-      "within "
-      "{:g} µm rms over the gel's vertices and {:g} % of the press force, in {} of these no vertex differs by more "
-      "than "
-      "{:g} µm. Median differences: {:.2g} µm rms, {:.2g} µm largest, {:.2g} % of the force. CPU seconds in total: "
-      "{:.0f} against {:.0f}.\n\n"
+      "within {:g} µm rms over the gel's vertices and {:g} % of the press force, in {} of these no vertex differs by "
+      "more than {:g} µm. Median differences: {:.2g} µm rms, {:.2g} µm largest, {:.2g} % of the force. CPU seconds in "
+      "total: {:.0f} against {:.0f}.\n\n"
       "| Object | Converged | by factorisation | Agree | Largest, µm | rms, µm | Force, % | Newton iterations | CPU s "
       "|\n|---|---|---|---|---|---|---|---|---|\n",
       sum.samples, sum.fast_converged, sum.direct_converged, sum.agree, 1e6 * limits.rms_m, 100.0 * limits.force,

@@ -87,9 +87,8 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
                               const std::vector<MarkerMotion>& others, const MarkerCurveConfig& config) {
   std::string out = fmt::format(
       "# Markers under a dragged or turned object\n\nWritten by `make -f Makefile.data board3`; discussion: "
-      "[board3](../board3.md). Markers of rows {} to {} and columns {} to {}, "
-      "mean length of their displacement in x and y since the end of the press. "
-      "Settled: the friction load stays above {:g} % of its largest.\n\n"
+      "[board3](../board3.md). Markers of rows {} to {} and columns {} to {}, mean length of their displacement in x "
+      "and y since the end of the press. Settled: the friction load stays above {:g} % of its largest.\n\n"
       "| Sample | Gel vertices | Frames after the press | Largest first difference | Settled from | Largest second "
       "difference from there | Limit | | Over the whole motion |\n|---|---|---|---|---|---|---|---|---|\n",
       config.chosen.first_row, config.chosen.last_row, config.chosen.first_column, config.chosen.last_column,
@@ -106,8 +105,7 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
   }
   out +=
       "\n| Sample | Verdict | Markers at the end | Press force | Friction load: largest, at the end | All slip from | "
-      "Balance | "
-      "Smallest gap | Smallest volume ratio |\n|---|---|---|---|---|---|---|---|---|\n";
+      "Balance | Smallest gap | Smallest volume ratio |\n|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SlidingRun& run = runs[i];
     const auto [low, high] = std::minmax_element(run.press_force_n.begin(), run.press_force_n.end());
@@ -122,9 +120,7 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
   if (!others.empty())
     out +=
         "\nThe same markers by another simulator, at the end of the travel:\n\n| Sample | Simulator | Markers at the "
-        "end "
-        "| Of "
-        "ours | Difference of the vectors, mean | largest |\n|---|---|---|---|---|---|\n";
+        "end | Of ours | Difference of the vectors, mean | largest |\n|---|---|---|---|---|---|\n";
   for (const SlidingRun& run : runs)
     for (const MarkerMotion& other : of_kind(others, run)) {
       const MotionComparison c = compare(run, other, config.chosen);

@@ -163,8 +163,7 @@ std::string marker_quiver_svg(const MarkerMotion& motion, const MarkerChoice& ch
   out += dots_svg(at(Eigen::all, counted), dots + "=\"#2c8a3c\" stroke-width=\"4.8\"");
   out += fmt::format(
       "<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"middle\">{2}: mean of the green markers {3:.0f} um, longest "
-      "{4:.0f} um"
-      "<tspan x=\"{0:.1f}\" dy=\"14\">arrows drawn {5:.1f} times as long</tspan></text>\n</svg>\n",
+      "{4:.0f} um<tspan x=\"{0:.1f}\" dy=\"14\">arrows drawn {5:.1f} times as long</tspan></text>\n</svg>\n",
       kSide / 2, kSide + 12.0, html_text(motion.name), mean_displacements(motion, chosen).back() / kMicrometre,
       largest / kMicrometre, scale);
   return out;

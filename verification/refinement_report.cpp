@@ -121,8 +121,7 @@ std::string refinement_tables(const std::vector<RefinementResult>& results, cons
     if (title.empty()) title = result.title;
   std::string out = fmt::format(
       "# Refinement\n\nWritten by `make -f Makefile.data refinement`; discussion: "
-      "[refinement](../refinement.md).\n\n{}: the "
-      "last frame with one number refined, all others held.\n\n",
+      "[refinement](../refinement.md).\n\n{}: the last frame with one number refined, all others held.\n\n",
       title);
   for (const RefinementResult& result : results) {
     if (result.failed) {

@@ -195,8 +195,7 @@ std::string comparison_page(const ComparedRuns& all, const std::string& pictures
     const std::string name = config.title + "_" + config.motions[m];
     out += fmt::format(
         "\n| {}, {} | Mean at the end, µm | of the travel | of {}'s | Difference, µm: mean | largest | All markers, µm "
-        "| "
-        "Change at half speed |\n"
+        "| Change at half speed |\n"
         "|---|---|---|---|---|---|---|---|\n",
         config.title, config.motions[m], config.simulators[0].label);
     for (std::size_t s = 0; s < config.simulators.size(); ++s) out += row_of(all, s, m);

@@ -34,8 +34,8 @@ std::string to_markdown(const std::vector<ResultFile>& results, const std::vecto
                         const std::string& plots) {
   std::string out =
       "# Verification of the press\n\n"
-      "Made by `make -f Makefile.data verification`; each case is a file of `configs/studies/verification/` "
-      "(see [the format](verification_cases.md)).\n\n"
+      "Made by `make -f Makefile.data verification`; each case is a file of `configs/studies/verification/` (see [the "
+      "format](verification_cases.md)).\n\n"
       "| Case | Vertices | Quantity | Measured | Expected | Deviation | Limit | |\n|---|---|---|---|---|---|---|---|\n";
   for (const ResultFile& file : results) {
     if (file.reason) {

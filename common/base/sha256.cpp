@@ -57,8 +57,7 @@ std::string checked_sha256(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) throw DataError("{}: does not exist", path.string());
   if (!std::filesystem::exists(beside))
     throw DataError(
-        "{}: there is no {} beside it to tell whether it is whole; if you trust it: (cd '{}' && sha256sum '{}' > "
-        "'{}')",
+        "{}: there is no {} beside it to tell whether it is whole; if you trust it: (cd '{}' && sha256sum '{}' > '{}')",
         path.string(), beside.filename().string(), path.has_parent_path() ? path.parent_path().string() : ".", name,
         beside.filename().string());
   const std::string told = read_file(beside), digest = sha256_of_file(path);

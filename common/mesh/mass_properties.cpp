@@ -26,8 +26,7 @@ MassProperties mass_properties(const Positions& positions, const Triangles& tria
   if (!(volume > 0.0))
     throw DataError(
         "the surface encloses {:.3g} m³, expected a positive volume: it must be closed and its triangles "
-        "counter-clockwise "
-        "seen from outside",
+        "counter-clockwise seen from outside",
         volume);
   const Vector3 center = first / volume;
   return {volume, middle + center, second / volume - center * center.transpose()};
@@ -48,8 +47,7 @@ void require_solid(const Matrix3& second_moment_m2) {
   const Vector3 inertia = moments.sum() - moments.array();
   throw DataError(
       "no body has the principal moments of inertia {:.6g}, {:.6g} and {:.6g} m² per unit of mass: each must be less "
-      "than "
-      "the sum of the two others",
+      "than the sum of the two others",
       inertia[0], inertia[1], inertia[2]);
 }
 

@@ -79,13 +79,13 @@ std::string fault_of_named_path(const std::string& text) {
 
 /// Behind the flags on a stage's manual page.
 std::vector<ManSection> manual_sections(const std::string& stage) {
-  return {{.title = "FILES",
-           .paragraphs = {fmt::format("{0}.yaml in the folder of --out is the record, written last: inputs with "
-                                      "hashes, the configuration with every value used, outputs, summary. Work that "
-                                      "failed leaves {0}.failed.yaml with the reason. What the run cost is in "
-                                      "{0}.timings.yaml.",
-                                      stage)}},
-          {.title = "EXIT STATUS", .paragraphs = {"0 done, 1 the work failed, 2 flags or configuration are wrong."}}};
+  return {
+      {.title = "FILES",
+       .paragraphs = {fmt::format("{0}.yaml in the folder of --out is the record, written last: inputs with hashes, "
+                                  "the configuration with every value used, outputs, summary. Work that failed leaves "
+                                  "{0}.failed.yaml with the reason. What the run cost is in {0}.timings.yaml.",
+                                  stage)}},
+      {.title = "EXIT STATUS", .paragraphs = {"0 done, 1 the work failed, 2 flags or configuration are wrong."}}};
 }
 
 }  // namespace

@@ -165,15 +165,13 @@ std::string outcome_page(const OutcomeStudy& study, int frames) {
   const double accuracy = mean_and_deviation(network.accuracy).mean;
   std::string text = fmt::format(
       "# Outcomes of grasps, foretold from touch\n\nFrom the first {} images of both fingers after they have closed: "
-      "will "
-      "the object be held? Trained on {} grasps of {} objects ({} held), judged by {} of {} others ({} held).\n\n",
+      "will the object be held? Trained on {} grasps of {} objects ({} held), judged by {} of {} others ({} held).\n\n",
       frames, study.train.size(), objects_in(study.train), held_in(study.train), study.test.size(),
       objects_in(study.test), held_in(study.test));
   const Seen seen = seen_in(study.test);
   text += fmt::format(
       "The last of these images is of {:.3g} s after closing (median of the test; at most {:.3g} s). By then the "
-      "objects "
-      "had slipped by {:.3g} mm (at most {:.3g} mm).\n\n",
+      "objects had slipped by {:.3g} mm (at most {:.3g} mm).\n\n",
       seen.median_s, seen.largest_s, seen.median_slip_mm, seen.largest_slip_mm);
   text += "| | accuracy | balanced accuracy | area under the ROC curve |\n|---|---|---|---|\n";
   text += score_row("network", network);

@@ -6,14 +6,13 @@
 namespace tacipc {
 
 inline const NpyField& marker_track_field() {
-  static const NpyField kField{.file = "marker_track.npy",
-                               .type = NpyType::f8,
-                               .shape = {"frames", "#M", 2},
-                               .unit = "px",
-                               .meaning =
-                                   "column and row of each marker found in the images; pixel (0, 0) spans 0 … "
-                                   "1; NaN where it is lost",
-                               .finite = false};
+  static const NpyField kField{
+      .file = "marker_track.npy",
+      .type = NpyType::f8,
+      .shape = {"frames", "#M", 2},
+      .unit = "px",
+      .meaning = "column and row of each marker found in the images; pixel (0, 0) spans 0 … 1; NaN where it is lost",
+      .finite = false};
   return kField;
 }
 

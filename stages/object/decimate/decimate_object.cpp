@@ -81,8 +81,8 @@ void say(const SideSurvey& survey, const std::string& hint) {
                 side.side, 1e3 * survey.window_m[0], 1e3 * survey.window_m[1]);
   } else if (survey.wider_than_window()) {
     log_warning(
-        "the object is wider ({:.3g} x {:.3g} mm) than the sensor's window ({:.3g} x {:.3g} mm): the image "
-        "shows a part of it",
+        "the object is wider ({:.3g} x {:.3g} mm) than the sensor's window ({:.3g} x {:.3g} mm): the image shows a "
+        "part of it",
         1e3 * side.extent_m[0], 1e3 * side.extent_m[1], 1e3 * survey.window_m[0], 1e3 * survey.window_m[1]);
   }
 }

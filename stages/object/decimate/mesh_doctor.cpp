@@ -75,8 +75,8 @@ TriangleMesh close_or_take_side(TriangleMesh mesh, const DoctorConfig& config, D
     if (taken.side == SideConfig::kMostRelief) taken.side = survey_sides(mesh, config.window.value(), "").side().side;
     TriangleMesh solid = solid_of_side(mesh, taken.side, config.height_field->spacing_m, taken.error);
     log_warning(
-        "the surface cannot be closed ({}): pressed is what its side {} shows, on a grid of {:.3g} mm, "
-        "{:.2g} mm beside it in the mean and {:.2g} mm at most",
+        "the surface cannot be closed ({}): pressed is what its side {} shows, on a grid of {:.3g} mm, {:.2g} mm "
+        "beside it in the mean and {:.2g} mm at most",
         taken.reason, taken.side, 1e3 * taken.error.spacing_m, 1e3 * taken.error.mean_m, 1e3 * taken.error.max_m);
     solid = close_surface(std::move(solid), config, report);
     report.height_field = std::move(taken);

@@ -35,8 +35,8 @@ double offset_for(double alpha_m, double diagonal_m, const WrapConfig& config) {
   const double least = kLeastOffsetPerAlpha * alpha_m, most = WrapConfig::kCoarsest * diagonal_m;
   if (offset_m < least || offset_m > most)
     throw DataError(
-        "wrap.offset_mm: {:.4g} mm for a ball of {:.4g} mm and a mesh of {:.4g} mm from corner to corner, "
-        "expected {:.4g} mm to {:.4g} mm",
+        "wrap.offset_mm: {:.4g} mm for a ball of {:.4g} mm and a mesh of {:.4g} mm from corner to corner, expected "
+        "{:.4g} mm to {:.4g} mm",
         1e3 * offset_m, 1e3 * alpha_m, 1e3 * diagonal_m, 1e3 * least, 1e3 * most);
   return offset_m;
 }

@@ -152,8 +152,7 @@ void MaterialPoints::step(const Matrix4& gel_from_object) {
   if (!(largest_speed_ <= kLargestMove))
     throw SolverError(
         "step {}: particles move {:.3g} cells of the grid in one step (at most {}): the step of {:.3g} s is too long "
-        "for "
-        "this grid and material",
+        "for this grid and material",
         num_steps_, largest_speed_, kLargestMove, setup_.step_s);
 }
 

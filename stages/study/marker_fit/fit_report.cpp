@@ -22,8 +22,7 @@ std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShe
   };
   std::string out = fmt::format(
       "| {} | Depth, mm | Travel, mm | Press, {} vectors: error, px: mean | median | largest | angle | length | Shear, "
-      "{} "
-      "vectors: error, px: mean | median | largest | angle | length |\n"
+      "{} vectors: error, px: mean | median | largest | angle | length |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       benchmark.title, first.press.markers, first.shear.markers);
   for (const FitRow& row : rows) {
@@ -49,12 +48,9 @@ std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShe
   const MarkerAssumptions& held = benchmark.assumed;
   out += fmt::format(
       "\nHeld in the first row: ball of {:g} mm, friction {:g}, {:g} px/mm, contact at ({:g}, {:g}) px. Fitted: the "
-      "depth to all vectors "
-      "of the press, the travel to the vector of the marker at ({:g}, {:g}) px, which the shear's columns omit. Error: "
-      "length of simulated minus "
-      "measured. Angle: mean over measured vectors of {:g} px or more ({} of the press, {} of the shear). Length: "
-      "sum of simulated over sum "
-      "of measured lengths.\n",
+      "depth to all vectors of the press, the travel to the vector of the marker at ({:g}, {:g}) px, which the shear's "
+      "columns omit. Error: length of simulated minus measured. Angle: mean over measured vectors of {:g} px or more "
+      "({} of the press, {} of the shear). Length: sum of simulated over sum of measured lengths.\n",
       1e3 * held.ball_radius_m, held.friction, 1e-3 * held.px_per_m, held.contact_px.x(), held.contact_px.y(),
       benchmark.shear_marker_px.x(), benchmark.shear_marker_px.y(), benchmark.least_length_px, first.press.directions,
       first.shear.directions);

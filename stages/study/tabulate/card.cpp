@@ -101,8 +101,7 @@ Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mecha
   if (!config.about.empty()) out.page += config.about + "\n\n";
   out.page +=
       "*Fitted* rows were seen by the fit, *predicted* ones were not. ± and intervals of 95 % are the model's own: of "
-      "its "
-      "parameters, of its mesh, gap and material law where the file checks them, and, of an interval, of the "
+      "its parameters, of its mesh, gap and material law where the file checks them, and, of an interval, of the "
       "measurement.\n";
   Value::Map fits, compared;
   for (const CardMechanics& m : mechanics) {
@@ -123,8 +122,8 @@ Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mecha
   for (const CardImages& i : images) {
     out.page += fmt::format(
         "\n## Images: {}\n\nLight fitted on {} photographs of balls{}; the contacts of balls left out of the fit "
-        "(cross-validation) have an error of "
-        "{:.1f} codes, which is what to expect of photographs that were not fitted. Errors are in the contact box.\n\n"
+        "(cross-validation) have an error of {:.1f} codes, which is what to expect of photographs that were not "
+        "fitted. Errors are in the contact box.\n\n"
         "| photograph | | expected, codes | error, codes | SSIM-S | MAE | PSNR, dB |\n|---|---|---|---|---|---|---|\n",
         i.name, i.calibrated_on,
         std::any_of(i.photographs.begin(), i.photographs.end(), [](const CardPhotograph& p) { return p.fitted; })
