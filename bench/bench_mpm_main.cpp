@@ -3,7 +3,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <thread>
 
 #include "bench/machine.h"

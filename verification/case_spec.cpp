@@ -1,7 +1,5 @@
 #include "verification/case_spec.h"
 
-#include <algorithm>
-
 #include "common/base/units.h"
 #include "verification/judge.h"
 #include "verification/measure.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/base/error.h"
 #include "common/base/units.h"
 #include "common/mesh/triangle_mesh.h"
 #include "stages/gel/tetmesh/generate.h"

@@ -1,7 +1,5 @@
 #include "verification/marker_curve.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

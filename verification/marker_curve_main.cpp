@@ -1,5 +1,4 @@
 // Judges the evenness of the markers' motion under a dragged or turned object: tables, curves, arrows.
-#include <fmt/format.h>
 
 #include "common/base/files.h"
 #include "common/base/log.h"

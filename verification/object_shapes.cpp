@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/base/error.h"
 #include "common/base/units.h"
 #include "tests/make_mesh.h"
 #include "verification/shared_files.h"

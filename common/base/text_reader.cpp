@@ -1,7 +1,6 @@
 #include "common/base/text_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 #include "common/base/error.h"

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "common/base/error.h"
-#include "common/format/npy.h"
 #include "common/sample/front_frames.h"
 
 namespace tacipc {

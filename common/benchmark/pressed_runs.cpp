@@ -1,7 +1,6 @@
 #include "common/benchmark/pressed_runs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "common/base/error.h"

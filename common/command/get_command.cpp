@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "common/base/error.h"
-#include "common/base/files.h"
 #include "common/command/file_commands.h"
 #include "common/config/config.h"
 #include "common/config/key_path.h"

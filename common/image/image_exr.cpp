@@ -8,7 +8,6 @@
 #include <ImfOutputFile.h>
 #include <ImfVersion.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 
 #include "common/base/error.h"

@@ -1,8 +1,6 @@
 #include "common/mesh/triangle_mesh.h"
 
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "common/base/error.h"

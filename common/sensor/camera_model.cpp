@@ -1,7 +1,6 @@
 #include "common/sensor/camera_model.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 namespace tacipc {

@@ -1,6 +1,5 @@
 #include "common/sensor/markers.h"
 
-#include <algorithm>
 #include <cassert>
 #include <charconv>
 

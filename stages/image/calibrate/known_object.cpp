@@ -1,6 +1,5 @@
 #include "stages/image/calibrate/known_object.h"
 
-#include <cmath>
 #include <tuple>
 
 #include "common/base/units.h"

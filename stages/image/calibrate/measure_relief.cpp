@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/optics/seen_membrane.h"
-
 namespace tacipc {
 namespace {
 

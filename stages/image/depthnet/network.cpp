@@ -5,7 +5,6 @@
 #include <torch/csrc/jit/runtime/graph_executor.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "common/base/error.h"

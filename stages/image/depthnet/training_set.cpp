@@ -1,7 +1,5 @@
 #include "stages/image/depthnet/training_set.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "common/base/error.h"

@@ -1,15 +1,12 @@
 #include "stages/image/render/render.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/image/picture.h"
 #include "common/optics/membrane.h"
 #include "common/sensor/camera_model.h"
 

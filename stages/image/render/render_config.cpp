@@ -1,7 +1,5 @@
 #include "stages/image/render/render_config.h"
 
-#include <fmt/core.h>
-
 #include <numbers>
 #include <set>
 

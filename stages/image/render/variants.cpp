@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/error.h"
 #include "common/base/rng.h"

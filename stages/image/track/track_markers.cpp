@@ -1,7 +1,6 @@
 #include "stages/image/track/track_markers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "common/base/error.h"

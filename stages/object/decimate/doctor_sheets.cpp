@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
-#include "common/base/error.h"
 #include "stages/object/decimate/doctor_steps.h"
 
 namespace tacipc {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 
 #include "common/base/error.h"
 

@@ -1,4 +1,3 @@
-#include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/stage/stage.h"

@@ -1,7 +1,6 @@
 #include "stages/rival/baseline/change.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/rng.h"
 #include "stages/rival/baseline/kernel.h"

@@ -1,6 +1,5 @@
 #include "stages/rival/mpm/mpm_config.h"
 
-#include <cmath>
 #include <map>
 
 #include "common/base/units.h"

@@ -1,6 +1,5 @@
 #include "stages/rival/mpm/transfer.h"
 
-#include <cmath>
 #include <limits>
 
 #include "stages/rival/mpm/fixed_corotated.h"

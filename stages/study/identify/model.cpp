@@ -1,7 +1,6 @@
 #include "stages/study/identify/model.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/error.h"
 

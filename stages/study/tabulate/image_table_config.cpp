@@ -1,7 +1,6 @@
 #include "stages/study/tabulate/image_table_config.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tacipc {
 namespace {

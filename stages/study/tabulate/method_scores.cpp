@@ -1,7 +1,5 @@
 #include "stages/study/tabulate/method_scores.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
