@@ -17,7 +17,7 @@ constexpr const char* kPlain = "plain";
 constexpr const char* kAveraged = "averaged";
 
 const Run* find(const std::vector<Run>& runs, const std::string& text) {
-  const auto found = std::find_if(runs.begin(), runs.end(), [&](const Run& run) { return run.text == text; });
+  const auto found = std::ranges::find_if(runs, [&](const Run& run) { return run.text == text; });
   return found == runs.end() ? nullptr : &*found;
 }
 
@@ -132,7 +132,7 @@ std::string bench_svg(const std::vector<Run>& runs) {
   }
   Plot plot{.title = "One press of 0.5 mm", .x_label = "gel vertices", .y_label = "CPU seconds", .logarithmic = true};
   for (auto& [label, curve] : curves) {
-    std::sort(curve.points.begin(), curve.points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+    std::ranges::sort(curve.points, [](const auto& a, const auto& b) { return a.x() < b.x(); });
     plot.curves.push_back(std::move(curve));
   }
   return to_svg(plot);

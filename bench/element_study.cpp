@@ -21,7 +21,7 @@ std::vector<const Run*> presses(const std::vector<Run>& runs, const std::string&
     if (name.object == kObject && name.motion == "press" && name.route == route && name.how.empty())
       found.push_back(&run);
   }
-  std::sort(found.begin(), found.end(), [](const Run* a, const Run* b) { return a->gel_vertices < b->gel_vertices; });
+  std::ranges::sort(found, [](const Run* a, const Run* b) { return a->gel_vertices < b->gel_vertices; });
   return found;
 }
 
@@ -67,8 +67,7 @@ std::string element_section(const std::vector<Run>& runs) {
       limit->value, limit->order,
       of_linear ? fmt::format("; the linear element's three finest extrapolate to {:.4f} N", of_linear->value) : "");
   for (const Run* b : averaged) {
-    const auto a =
-        std::find_if(linear.begin(), linear.end(), [&](const Run* run) { return run->name.gel == b->name.gel; });
+    const auto a = std::ranges::find_if(linear, [&](const Run* run) { return run->name.gel == b->name.gel; });
     const auto side = [&](const Run& run) {
       return fmt::format(" {:.4f} | {:+.1f} % | {:.1f} |", run.press_force_n,
                          100.0 * (run.press_force_n / limit->value - 1.0), run.processor_s);

@@ -26,7 +26,7 @@ Eigen::MatrixXd weighted_cosines(const LayerProblem& problem, const std::vector<
   constexpr double kEnd = 24.0;
   constexpr int kPerPanel = 8;
   const double share = problem.combined_modulus_pa() / problem.gel.plane_modulus_pa();
-  const double fastest = *std::max_element(t.begin(), t.end()) / problem.thickness_m;
+  const double fastest = *std::ranges::max_element(t) / problem.thickness_m;
   const int panels = 24 + static_cast<int>(std::ceil(kEnd * fastest / (pi / 2.0)));
   Eigen::MatrixXd c(panels * kPerPanel, static_cast<Eigen::Index>(t.size()));
   for (int panel = 0; panel < panels; ++panel) {

@@ -90,7 +90,7 @@ std::vector<Row> compare_positions(const ReferenceSpec& spec, const Outcome& out
       difference.push_back((moved - Vector3(d[0], d[1], d[2])).norm());
       squares += difference.back() * difference.back();
     }
-    std::sort(difference.begin(), difference.end());
+    std::ranges::sort(difference);
     const auto last = static_cast<double>(difference.size() - 1);
     const double at_share = difference[static_cast<std::size_t>(spec.share_percent / 100.0 * last)];
     if (at_share > worst_share_m) worst_frame = ours;
@@ -167,7 +167,7 @@ double evaluate(const std::string& formula, const Outcome& outcome, int frame, b
 }
 
 bool Judgement::pass() const {
-  return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.pass; });
+  return std::ranges::all_of(rows, [](const Row& row) { return row.pass; });
 }
 
 Judgement judge(const Outcome& outcome, const std::filesystem::path& shared) {

@@ -40,7 +40,7 @@ TetMesh fill_lattice(const Lattice& lattice) {
   for (const auto& tet : tets)
     for (const int v : tet) number[v] = 0;
   TetMesh gel;
-  gel.positions.resize(std::count(number.begin(), number.end(), 0), 3);
+  gel.positions.resize(std::ranges::count(number, 0), 3);
   int used = 0;
   for (int k = 0; k <= nz; ++k) {
     for (int j = 0; j <= ny; ++j) {

@@ -26,7 +26,7 @@ LongRows LongRows::read(ConfigReader& in) {
 
 LongRowResult read_long_row(const LongRow& row, const std::vector<std::filesystem::path>& files,
                             const std::filesystem::path& shared) {
-  const auto file = std::find_if(files.begin(), files.end(), [&](const std::filesystem::path& f) {
+  const auto file = std::ranges::find_if(files, [&](const std::filesystem::path& f) {
     return f.filename() == row.stage + ".yaml" || f.filename() == row.stage + ".failed.yaml";
   });
   if (file == files.end()) {

@@ -57,7 +57,7 @@ MarkerCurve marker_curve(const SlidingRun& run, const MarkerCurveConfig& config)
   MarkerCurve curve;
   curve.mean_m = mean_displacements(run, config.chosen);
   const int frames = static_cast<int>(curve.mean_m.size());
-  const double enough = config.settled_load * *std::max_element(run.load.begin(), run.load.end());
+  const double enough = config.settled_load * *std::ranges::max_element(run.load);
   for (int f = 0; f < frames; ++f)
     if (run.load[static_cast<std::size_t>(f)] < enough) curve.settled = f + 1;
   if (frames - curve.settled < 3)

@@ -49,7 +49,7 @@ std::string marker_difference_svg(const SlidingRun& run, const MarkerCurve& curv
   PlotCurve first{.label = "first difference"}, second{.label = "second difference"},
       load{.label = "friction load, of its largest"};
   const std::vector<double>& l = curve.mean_m;
-  const double largest_load = *std::max_element(run.load.begin(), run.load.end());
+  const double largest_load = *std::ranges::max_element(run.load);
   for (std::size_t f = 1; f < l.size(); ++f) {
     const double x = shown_way(run, run.way[f]);
     first.points.emplace_back(x, 100.0 * (l[f] - l[f - 1]) / curve.largest_first_m);
@@ -107,12 +107,12 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
       "Balance | Smallest gap | Smallest volume ratio |\n|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SlidingRun& run = runs[i];
-    const auto [low, high] = std::minmax_element(run.press_force_n.begin(), run.press_force_n.end());
+    const auto [low, high] = std::ranges::minmax_element(run.press_force_n);
     const char* unit = run.turns ? "N mm" : "N";
     out += fmt::format(
         "| {} | {} | {:.1f} µm | {:.4f} … {:.4f} N | {:.4g}, {:.4g} {} | {} | {:.1e} | {:.1f} µm | {:.2f} |\n",
         run.name, run.verdict, curves[i].mean_m.back() / kMicrometre, *low, *high,
-        shown_load(run, *std::max_element(run.load.begin(), run.load.end())), shown_load(run, run.load.back()), unit,
+        shown_load(run, *std::ranges::max_element(run.load)), shown_load(run, run.load.back()), unit,
         run.gross_slip_way ? fmt::format("{:.3g}{}", shown_way(run, *run.gross_slip_way), way_unit(run)) : "never",
         run.max_balance_relative, run.min_distance_m / kMicrometre, run.min_volume_ratio);
   }

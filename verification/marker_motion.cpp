@@ -116,8 +116,7 @@ double longest_displacement(const MarkerMotion& motion) { return motion.markers.
 MotionComparison compare(const MarkerMotion& ours, const MarkerMotion& other, const MarkerChoice& choice) {
   const double way = ours.way.back();
   constexpr double kRounding = 1e-9;
-  const auto next =
-      std::find_if(other.way.begin(), other.way.end(), [&](double w) { return w >= way * (1.0 - kRounding); });
+  const auto next = std::ranges::find_if(other.way, [&](double w) { return w >= way * (1.0 - kRounding); });
   if (next == other.way.end() || next == other.way.begin())
     throw DataError("{}: goes {:g}, {} goes {:g}", other.name, other.way.back(), ours.name, way);
   const auto after = static_cast<std::size_t>(next - other.way.begin());

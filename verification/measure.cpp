@@ -192,7 +192,7 @@ double measure(const Outcome& outcome, const std::string& quantity, int index) {
   if (quantity == "force_y_n") return frame.force_n.y();
   if (quantity == "sticking" || quantity == "slipping") {
     const ContactState state = quantity == "sticking" ? ContactState::stick : ContactState::slip;
-    return static_cast<double>(std::count(frame.contact_state.begin(), frame.contact_state.end(), state));
+    return static_cast<double>(std::ranges::count(frame.contact_state, state));
   }
   if (quantity == "coulomb_ratio") {
     const double normal = frame.normal_force_n.rowwise().norm().sum();

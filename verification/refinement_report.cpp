@@ -92,8 +92,7 @@ std::vector<std::string> not_converging(const RefinementResult& result) {
 }
 
 bool holds(const std::vector<RefinementResult>& results) {
-  return std::all_of(results.begin(), results.end(),
-                     [](const RefinementResult& r) { return !r.failed && not_converging(r).empty(); });
+  return std::ranges::all_of(results, [](const RefinementResult& r) { return !r.failed && not_converging(r).empty(); });
 }
 
 std::string found(const std::vector<RefinementResult>& results) {

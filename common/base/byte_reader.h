@@ -25,7 +25,7 @@ class ByteReader {
     std::array<char, sizeof(T)> raw;
     std::memcpy(raw.data(), bytes_.data() + at_, sizeof(T));
     at_ += sizeof(T);
-    if (swap_) std::reverse(raw.begin(), raw.end());
+    if (swap_) std::ranges::reverse(raw);
     return std::bit_cast<T>(raw);
   }
 

@@ -39,7 +39,7 @@ T ranked(std::vector<T> values, std::size_t rank) {
 template <typename T>
 double median(std::vector<T> values) {
   assert(!values.empty());
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 

@@ -12,7 +12,7 @@ namespace tacipc {
 Positions BallPress::at_depth(double depth) const {
   if (depth > depth_m.back())
     throw DataError("a ball is {:.3f} mm deep, the press ends at {:.3f} mm", 1e3 * depth, 1e3 * depth_m.back());
-  const auto above = std::lower_bound(depth_m.begin(), depth_m.end(), depth);
+  const auto above = std::ranges::lower_bound(depth_m, depth);
   const auto k = static_cast<std::size_t>(above - depth_m.begin());
   if (k == 0) return frames.front();
   const double t = (depth - depth_m[k - 1]) / (depth_m[k] - depth_m[k - 1]);

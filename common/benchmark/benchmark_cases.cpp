@@ -15,7 +15,7 @@ std::array<int, 4> read_box(ConfigReader& in) {
   const auto values = in.numbers("box_px", 4, Range::between(0.0, 1e6));
   std::array<int, 4> box{};
   for (std::size_t i = 0; i < 4; ++i) box[i] = static_cast<int>(values[i]);
-  const bool whole = std::all_of(values.begin(), values.end(), [](double v) { return v == std::round(v); });
+  const bool whole = std::ranges::all_of(values, [](double v) { return v == std::round(v); });
   if (!whole || box[2] < 1 || box[3] < 1) in.fault("box_px", "expected whole pixels, at least one wide and high");
   return box;
 }
@@ -46,13 +46,12 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
     if (object.images.size() > 1 && !(object.images.back().depth_m > object.images[object.images.size() - 2].depth_m))
       item.fault("depth_mm", "must be deeper than the image before");
   }
-  if (std::none_of(object.images.begin(), object.images.end(),
-                   [&](const PhotographCase& image) { return image.name == object.fit_image; }))
+  if (std::ranges::none_of(object.images, [&](const PhotographCase& image) { return image.name == object.fit_image; }))
     fit.fault("image", "is not one of the images");
   if (in.has("calibrates")) {
     object.calibrates = in.text("calibrates");
-    if (std::none_of(object.images.begin(), object.images.end(),
-                     [&](const PhotographCase& image) { return image.name == object.calibrates; }))
+    if (std::ranges::none_of(object.images,
+                             [&](const PhotographCase& image) { return image.name == object.calibrates; }))
       in.fault("calibrates", "is not one of the images");
     if (object.images.size() == 1) in.fault("calibrates", "leaves no image of the object to test");
   }
@@ -63,7 +62,7 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
 
 std::string plain(ConfigReader& in, const std::string& key) {
   const std::string text = in.text(key);
-  const bool fine = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+  const bool fine = !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
     return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
   });
   if (!fine) in.fault(key, "has characters other than letters, digits and . _ / + -");
@@ -122,7 +121,7 @@ void add_circles(BenchmarkCases& cases, const std::optional<std::filesystem::pat
       continue;
     }
     PhotographCase image{.name = circle.image, .photograph = circle.image + cases.ending, .circle = circle};
-    std::replace(image.name.begin(), image.name.end(), '/', '_');
+    std::ranges::replace(image.name, '/', '_');
     const double half = table.box_radii * circle.radius_px;
     const auto low = [&](double middle) { return std::max(0, static_cast<int>(std::lround(middle - half))); };
     const auto high = [&](double middle, int size) {

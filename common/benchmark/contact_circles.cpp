@@ -45,7 +45,7 @@ std::vector<ContactCircle> read_contact_circles(const std::filesystem::path& pat
   std::getline(text, line);
   const std::vector<std::string> header = fields_of(line);
   const auto column = [&](const std::string& name) {
-    const auto place = std::find(header.begin(), header.end(), name);
+    const auto place = std::ranges::find(header, name);
     if (place == header.end()) throw DataError("{}: has no column {}", path.string(), name);
     return static_cast<std::size_t>(place - header.begin());
   };
@@ -69,7 +69,7 @@ std::vector<ContactCircle> read_contact_circles(const std::filesystem::path& pat
     constexpr double kSameBall = 1e-6;
     if (value(leave_out) != 0.0 || std::abs(0.5e-3 * value(diameter) - ball_radius_m) > kSameBall) continue;
     const std::string& name = fields[image];
-    const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    const bool plain = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
       return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
     });
     if (!plain)

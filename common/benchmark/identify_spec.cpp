@@ -19,7 +19,7 @@ Eigen::Vector2d pair_of(ConfigReader& in, const std::string& key, std::vector<do
 std::vector<double> ascending(ConfigReader& in, const std::string& key, std::size_t least, const Range& range) {
   std::vector<double> values = in.any_numbers(key, range);
   if (values.size() < least) in.fault(key, fmt::format("needs at least {} values", least));
-  if (!std::is_sorted(values.begin(), values.end(), std::less_equal<>())) in.fault(key, "must ascend");
+  if (!std::ranges::is_sorted(values, std::less_equal<>())) in.fault(key, "must ascend");
   return values;
 }
 
@@ -97,7 +97,7 @@ Measurement read_measurement(ConfigReader& in) {
   out.name = plain(in, "name");
   const std::vector<std::string> kinds{"press", "shear", "relaxation", "markers"};
   const std::string kind = in.choice("kind", kinds);
-  out.kind = static_cast<MeasurementKind>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin());
+  out.kind = static_cast<MeasurementKind>(std::ranges::find(kinds, kind) - kinds.begin());
   if (auto ball = in.optional_section("ball")) {
     out.ball_radius_mm = ball->number("radius_mm", Range::positive());
     out.edge_mm = ball->number("edge_mm", Range::positive());
@@ -197,7 +197,7 @@ Prior Prior::read(ConfigReader& in, const Range& natural) {
 }
 
 const std::string& MeasuredColumns::column(const std::string& quantity) const {
-  return std::find_if(column_of.begin(), column_of.end(), [&](const auto& c) { return c.first == quantity; })->second;
+  return std::ranges::find_if(column_of, [&](const auto& c) { return c.first == quantity; })->second;
 }
 
 double MeasuredColumns::factor(const std::string& quantity) const {
@@ -222,8 +222,7 @@ IdentifySpec IdentifySpec::read(ConfigReader& in) {
   read_relaxation(parameters, out);
   for (ConfigReader& item : in.one_or_more_sections("measurements")) {
     Measurement measurement = read_measurement(item);
-    if (std::any_of(out.measurements.begin(), out.measurements.end(),
-                    [&](const Measurement& m) { return m.name == measurement.name; }))
+    if (std::ranges::any_of(out.measurements, [&](const Measurement& m) { return m.name == measurement.name; }))
       item.fault("name", "is given twice");
     if (measurement.kind == MeasurementKind::relaxation && out.relaxation.empty())
       item.fault("kind", "parameters.relaxation has no term to fit to it");
@@ -238,8 +237,8 @@ IdentifySpec IdentifySpec::read(ConfigReader& in) {
       item.fault("name", "needs a mesh, a press or changes");
     out.checks.push_back(std::move(check));
   }
-  if (!out.checks.empty() && std::none_of(out.measurements.begin(), out.measurements.end(),
-                                          [](const Measurement& m) { return m.kind == MeasurementKind::press; }))
+  if (!out.checks.empty() &&
+      std::ranges::none_of(out.measurements, [](const Measurement& m) { return m.kind == MeasurementKind::press; }))
     in.fault("checks", "need a measurement of kind press");
   refuse_same_names(in, out);
   if (out.parameters.empty() && out.relaxation.empty()) in.fault("parameters", "names nothing to identify");

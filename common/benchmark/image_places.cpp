@@ -55,7 +55,7 @@ ImagePlaces ImagePlaces::read(ConfigReader& in) {
     }
     config.images.push_back(image);
     const auto same = [&](const NamedFrame& other) { return other.name == config.images.back().name; };
-    if (std::count_if(config.images.begin(), config.images.end(), same) > 1) item.fault("name", "is given twice");
+    if (std::ranges::count_if(config.images, same) > 1) item.fault("name", "is given twice");
   }
   if (config.ball_radius_m) return config;
   ConfigReader place = in.section("place");
@@ -72,8 +72,7 @@ ImagePlaces ImagePlaces::read(ConfigReader& in) {
         break;
       }
     }
-    if (std::none_of(config.images.begin(), config.images.end(),
-                     [&](const NamedFrame& image) { return image.name == wanted.image; }))
+    if (std::ranges::none_of(config.images, [&](const NamedFrame& image) { return image.name == wanted.image; }))
       fit->fault("image", "is not one of the images");
     config.fit = wanted;
   }

@@ -58,8 +58,8 @@ MarkerBenchmark MarkerBenchmark::read(ConfigReader& in) {
   out.direction_deg = runs.number("direction_deg");
   for (ConfigReader& item : in.sections("variants")) {
     const MarkerVariant variant = read_variant(item, out.assumed);
-    if (variant.name == "base" || std::any_of(out.variants.begin(), out.variants.end(),
-                                              [&](const MarkerVariant& v) { return v.name == variant.name; }))
+    if (variant.name == "base" ||
+        std::ranges::any_of(out.variants, [&](const MarkerVariant& v) { return v.name == variant.name; }))
       item.fault("name", "is given twice");
     out.variants.push_back(variant);
   }

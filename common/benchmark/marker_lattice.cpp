@@ -13,7 +13,7 @@ constexpr double kTolerance = 1e-3;  // of the spacing
 
 /// Distinct values among ascending ones.
 std::vector<double> distinct(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double tolerance = kTolerance * (values.back() - values.front()) / static_cast<double>(values.size());
   std::vector<double> out;
   for (const double v : values)

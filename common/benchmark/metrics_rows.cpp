@@ -15,8 +15,7 @@ namespace tacipc {
 double psnr_db(double mse) { return -10.0 * std::log10(mse); }
 
 double MetricsRow::operator[](std::string_view column) const {
-  const auto found =
-      std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.first == column; });
+  const auto found = std::ranges::find_if(values, [&](const auto& value) { return value.first == column; });
   assert(found != values.end());
   return found->second;
 }

@@ -31,7 +31,7 @@ PressedRun read_run(const std::filesystem::path& folder, double ball_radius_m) {
   const Vector3 end = place(run.press_frame.back());
   run.place_m = end.head<2>();
   for (const std::size_t f : run.shear_frame) run.way_m.push_back((place(f) - end).head<2>().norm());
-  if (!std::is_sorted(run.depth_m.begin(), run.depth_m.end()) || !std::is_sorted(run.way_m.begin(), run.way_m.end()))
+  if (!std::ranges::is_sorted(run.depth_m) || !std::ranges::is_sorted(run.way_m))
     throw DataError("{}: the ball reverses its motion", folder.string());
   return run;
 }
@@ -65,10 +65,10 @@ PressedRuns::PressedRuns(const std::vector<std::filesystem::path>& folders, doub
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
       if (entry.path().filename() == field_of(PressArray::marker_displacement).file)
         found.push_back(entry.path().parent_path());
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   for (const auto& run : found) runs_.push_back(read_run(run, ball_radius_m));
-  std::stable_sort(runs_.begin(), runs_.end(),
-                   [](const PressedRun& a, const PressedRun& b) { return a.final_depth_m() < b.final_depth_m(); });
+  std::ranges::stable_sort(
+      runs_, [](const PressedRun& a, const PressedRun& b) { return a.final_depth_m() < b.final_depth_m(); });
   for (std::size_t i = 1; i < runs_.size(); ++i)
     if (!(runs_[i].final_depth_m() > runs_[i - 1].final_depth_m()))
       throw DataError("{}: is pressed as deep as {}", runs_[i].source, runs_[i - 1].source);

@@ -14,7 +14,7 @@ namespace {
 /// Index of a column. \throw DataError with the columns there are
 std::size_t column(const CsvReader& table, const std::string& file, const std::string& name) {
   const auto& names = table.columns();
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found == names.end())
     throw DataError("{}: there is no column '{}'; it has {}", file, name, fmt::join(names, ", "));
   return static_cast<std::size_t>(found - names.begin());
@@ -42,7 +42,7 @@ void print_table(const TableRequest& request) {
   std::string line;
   while (table.next()) {
     const auto& row = table.row();
-    if (!std::all_of(wanted.begin(), wanted.end(), [&](const auto& w) { return row[w.first] == w.second; })) continue;
+    if (!std::ranges::all_of(wanted, [&](const auto& w) { return row[w.first] == w.second; })) continue;
     ++count;
     if (request.only_count) continue;
     line.clear();

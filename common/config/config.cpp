@@ -217,7 +217,7 @@ std::string ConfigReader::choice_or(const std::string& key, const std::string& f
 std::optional<std::string> ConfigReader::to_choice(const Node& node, const std::string& key,
                                                    const std::vector<std::string>& options) {
   const auto scalar = to_scalar(node, key);
-  if (!scalar || std::find(options.begin(), options.end(), *scalar) != options.end()) return scalar;
+  if (!scalar || std::ranges::find(options, *scalar) != options.end()) return scalar;
   const auto near = nearest_word(*scalar, options);
   add_fault(node, path_of(key),
             fmt::format("'{}' is not one of {}{}", excerpt(*scalar), fmt::join(options, ", "),
@@ -236,7 +236,7 @@ std::vector<std::string> ConfigReader::choices_or(const std::string& key, std::v
       const std::string item = fmt::format("{}[{}]", key, i);
       const auto word = to_choice(*node->items[i], item, options);
       if (!word) continue;
-      if (std::find(words.begin(), words.end(), *word) != words.end())
+      if (std::ranges::find(words, *word) != words.end())
         add_fault(*node->items[i], path_of(item), *word + " is given twice");
       words.push_back(*word);
     }

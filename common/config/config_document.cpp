@@ -70,7 +70,7 @@ struct ConfigReader::Convert final : YAML::EventHandler {
   /// yaml-cpp knows no alias before its anchor, but one inside the map or list that the anchor stands at.
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const Node* original = anchors_.at(anchor);
-    if (std::any_of(open_.begin(), open_.end(), [&](const Open& o) { return o.node == original; }))
+    if (std::ranges::any_of(open_, [&](const Open& o) { return o.node == original; }))
       refuse(mark, "an alias inside its own anchor");
     attach(copy(*original, mark, open_.size()), mark);
   }
@@ -246,9 +246,8 @@ void ConfigReader::Document::add(int line, int column, const std::string& path, 
 }
 
 void ConfigReader::Document::raise() {
-  std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
-    return a.line != b.line ? a.line < b.line : a.column < b.column;
-  });
+  std::ranges::stable_sort(
+      faults, [](const Fault& a, const Fault& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
   std::vector<std::string> texts;
   for (const Fault& fault : std::span(faults).first(std::min(faults.size(), kMaxFaults))) texts.push_back(fault.text);
   if (faults.size() > kMaxFaults)
@@ -285,7 +284,7 @@ bool ConfigReader::Document::is_source(const Node& node, const Node::Entry& entr
   if (!there) {
     add(entry.line, entry.column, joined_path(node.path(), entry.key),
         fmt::format("there is no {} whose source this could be", of));
-  } else if (std::find(kSourceWords.begin(), kSourceWords.end(), entry.value->scalar) == kSourceWords.end()) {
+  } else if (std::ranges::find(kSourceWords, entry.value->scalar) == kSourceWords.end()) {
     add(entry.value->line, entry.value->column, joined_path(node.path(), entry.key),
         fmt::format("'{}' is not one of {}", excerpt(entry.value->scalar), fmt::join(kSourceWords, ", ")));
   }
@@ -299,8 +298,8 @@ void ConfigReader::Document::collect_sources(const Node& node, const std::string
     const Node::Entry* said = node.find(entry.key + std::string(kSourceSuffix));
     const std::string source = said ? said->value->scalar : inherited;
     const Node& value = *entry.value;
-    const bool maps_inside = std::any_of(value.items.begin(), value.items.end(),
-                                         [](const auto& item) { return item->kind == Node::Kind::map; });
+    const bool maps_inside =
+        std::ranges::any_of(value.items, [](const auto& item) { return item->kind == Node::Kind::map; });
     if (value.kind == Node::Kind::map) {
       collect_sources(value, source, out);
     } else if (maps_inside) {

@@ -203,9 +203,7 @@ Value& at_steps(Value& root, std::span<const KeyStep> steps) {
       at = &std::get<Value::List>(at->data())[*index];
     } else {
       auto& map = at->map();
-      at = &std::find_if(map.begin(), map.end(), [&](const auto& e) {
-              return e.first == std::get<std::string>(step);
-            })->second;
+      at = &std::ranges::find_if(map, [&](const auto& e) { return e.first == std::get<std::string>(step); })->second;
     }
   }
   return *at;
@@ -339,7 +337,7 @@ void ConfigText::remove(std::string_view path) {
   const std::span<const KeyStep> to_holder = std::span(found.steps).first(found.steps.size() - 1);
   Value wanted = content_;
   Value::Map& map = at_steps(wanted, to_holder).map();
-  const auto entry = std::find_if(map.begin(), map.end(), [&](const auto& e) { return e.first == *key; });
+  const auto entry = std::ranges::find_if(map, [&](const auto& e) { return e.first == *key; });
   const auto place_beside = [&](const auto& beside) {
     std::vector<KeyStep> steps(to_holder.begin(), to_holder.end());
     steps.emplace_back(beside->first);

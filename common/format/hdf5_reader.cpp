@@ -117,7 +117,7 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
   std::vector<std::string> names;
   if (H5Literate(open, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &names) < 0)
     throw DataError("{}: {}: cannot be listed", file_->name, group);
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 
@@ -134,7 +134,7 @@ Value::Map Hdf5Reader::attributes(const std::string& object) const {
   hsize_t from = 0;
   if (H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, &from, add_attribute_name, &names) < 0)
     throw DataError("{}: {}: attributes cannot be listed", file_->name, object);
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   Value::Map map;
   for (const std::string& name : names) map.emplace_back(name, file_->read_attribute(owner, object, name));
   return map;

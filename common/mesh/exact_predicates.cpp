@@ -152,7 +152,7 @@ bool segment_intersects_triangle(const Vector3& p, const Vector3& q, const Trian
   // The line meets the plane in one point of the segment; it is in the triangle if the line passes all edges on one
   // side.
   const std::array<int, 3> turns{orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0])};
-  const auto [low, high] = std::minmax_element(turns.begin(), turns.end());
+  const auto [low, high] = std::ranges::minmax_element(turns);
   return *low * *high >= 0;
 }
 

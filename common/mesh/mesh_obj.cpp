@@ -53,7 +53,7 @@ PolygonSoup read_obj(std::string_view bytes, const std::string& name) {
       for (std::string_view corner = in.word(); !corner.empty(); corner = in.word())
         polygon.push_back(vertex_index(in, corner, soup.vertices.size()));
       soup.add_polygon(polygon, in.line());
-    } else if (std::find(kIgnored.begin(), kIgnored.end(), statement) == kIgnored.end()) {
+    } else if (std::ranges::find(kIgnored, statement) == kIgnored.end()) {
       in.fail(fmt::format("'{}' is not an OBJ statement", shown(statement)));
     }
   }

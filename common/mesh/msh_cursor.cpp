@@ -17,7 +17,7 @@ std::string_view up_to_end(std::string_view file, std::string_view section) {
 int first_line(std::string_view file, std::string_view section, bool text) {
   if (!text) return 1;
   const std::string_view before = file.substr(0, offset_of(file, section));
-  return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+  return 1 + static_cast<int>(std::ranges::count(before, '\n'));
 }
 
 }  // namespace

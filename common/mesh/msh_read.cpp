@@ -65,7 +65,7 @@ class Reader {
       content.positions.row(static_cast<Eigen::Index>(i)) = points_[i].transpose();
     content.tets = Eigen::Map<const Tetrahedra>(tets_.data(), static_cast<Eigen::Index>(tets_.size() / 4), 4);
     content.triangles.resize(static_cast<Eigen::Index>(triangles_.size() / 3), 3);
-    std::copy(triangles_.begin(), triangles_.end(), content.triangles.data());
+    std::ranges::copy(triangles_, content.triangles.data());
     content.triangle_tags = std::move(triangle_tags_);
     return content;
   }

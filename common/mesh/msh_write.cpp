@@ -40,9 +40,9 @@ std::vector<std::array<int, 3>> canonical(const Triangles& triangles) {
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     std::array<int, 3>& row = rows[static_cast<std::size_t>(f)];
     row = {triangles(f, 0), triangles(f, 1), triangles(f, 2)};
-    std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
+    std::rotate(row.begin(), std::ranges::min_element(row), row.end());
   }
-  std::sort(rows.begin(), rows.end());
+  std::ranges::sort(rows);
   return rows;
 }
 
@@ -66,7 +66,7 @@ void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
   };
   if (mesh.num_tets() == 0) throw DataError("{}: a mesh without tetrahedra is not written", path.string());
 
-  const bool is_object = std::find(mesh.tags.begin(), mesh.tags.end(), BoundaryTag::free) != mesh.tags.end();
+  const bool is_object = std::ranges::find(mesh.tags, BoundaryTag::free) != mesh.tags.end();
   const Kind& kind = is_object ? kObject : kGel;
   fmt::format_to(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", kind.tags.size() + 1);
   for (const NamedTag& named : kind.tags) fmt::format_to(out, "2 {} \"{}\"\n", static_cast<int>(named.tag), named.name);
@@ -131,12 +131,10 @@ TetMesh read_kind(const std::filesystem::path& path, const Kind& kind, const Kin
       throw DataError("{}: tet {} has volume {:.3g} m^3, must be positive", name, t, edges.determinant() / 6.0);
   }
   const auto named = [](const Kind& in, int tag) {
-    return std::find_if(in.tags.begin(), in.tags.end(),
-                        [&](const NamedTag& one) { return static_cast<int>(one.tag) == tag; });
+    return std::ranges::find_if(in.tags, [&](const NamedTag& one) { return static_cast<int>(one.tag) == tag; });
   };
   const std::vector<int>& tags = content.triangle_tags;
-  if (!tags.empty() &&
-      std::all_of(tags.begin(), tags.end(), [&](int t) { return named(other, t) != other.tags.end(); }))
+  if (!tags.empty() && std::ranges::all_of(tags, [&](int t) { return named(other, t) != other.tags.end(); }))
     throw DataError("{}: is the mesh of {}, expected that of {}", name, other.said, kind.said);
   for (std::size_t f = 0; f < content.triangle_tags.size(); ++f) {
     const int tag = tags[f];
@@ -149,7 +147,7 @@ TetMesh read_kind(const std::filesystem::path& path, const Kind& kind, const Kin
     mesh.tags.push_back(static_cast<BoundaryTag>(tag));
   }
   for (const NamedTag& one : kind.tags) {
-    if (one.required && std::find(mesh.tags.begin(), mesh.tags.end(), one.tag) == mesh.tags.end())
+    if (one.required && std::ranges::find(mesh.tags, one.tag) == mesh.tags.end())
       throw DataError("{}: no boundary triangle is tagged {}", name, one.name);
   }
   const auto expected = canonical(boundary_triangles(mesh.tets, mesh.num_vertices()));

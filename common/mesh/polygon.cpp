@@ -70,7 +70,7 @@ void triangulate_polygon(std::span<const int> polygon, const std::vector<Vector3
     const auto is_ear = [&](std::size_t k) {
       const std::size_t before = ring[(k + m - 1) % m], tip = ring[k], after = ring[(k + 1) % m];
       if (turn(flat[before], flat[tip], flat[after]) <= 0) return false;
-      return std::none_of(ring.begin(), ring.end(), [&](std::size_t other) {
+      return std::ranges::none_of(ring, [&](std::size_t other) {
         if (other == before || other == tip || other == after) return false;
         const Vector2& p = flat[other];
         if (p == flat[before] || p == flat[tip] || p == flat[after]) return false;

@@ -31,7 +31,7 @@ std::vector<int> spatial_order(const Positions& points) {
     code[i] = spread(static_cast<std::uint64_t>(at.x())) | spread(static_cast<std::uint64_t>(at.y())) << 1 |
               spread(static_cast<std::uint64_t>(at.z())) << 2;
   }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return code[a] < code[b]; });
+  std::ranges::stable_sort(order, [&](int a, int b) { return code[a] < code[b]; });
   return order;
 }
 

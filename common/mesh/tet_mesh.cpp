@@ -34,7 +34,7 @@ Triangles TetMesh::faces(BoundaryTag tag) const {
 std::vector<int> TetMesh::vertices(BoundaryTag tag) const {
   const Triangles of_tag = faces(tag);
   std::vector<int> found(of_tag.data(), of_tag.data() + of_tag.size());
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
@@ -72,11 +72,11 @@ Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices) 
         if (key[i] < 0 || key[i] >= num_vertices)
           throw DataError("tet {} refers to vertex {}, but there are {} vertices", t, key[i], num_vertices);
       }
-      std::sort(key.begin(), key.end());
+      std::ranges::sort(key);
       faces.push_back({static_cast<std::uint64_t>(key[0]) << 32U | static_cast<std::uint64_t>(key[1]), key[2],
                        static_cast<int>(4 * t + f)});
     }
-  std::sort(faces.begin(), faces.end(), [](const KeyedFace& a, const KeyedFace& b) {
+  std::ranges::sort(faces, [](const KeyedFace& a, const KeyedFace& b) {
     if (a.first_two != b.first_two) return a.first_two < b.first_two;
     return a.third != b.third ? a.third < b.third : a.place < b.place;
   });
@@ -90,7 +90,7 @@ Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices) 
     if (last - first == 1) single.push_back(faces[first].place);
     first = last;
   }
-  std::sort(single.begin(), single.end());
+  std::ranges::sort(single);
   Triangles boundary(static_cast<Eigen::Index>(single.size()), 3);
   for (std::size_t b = 0; b < single.size(); ++b)
     for (int i = 0; i < 3; ++i)

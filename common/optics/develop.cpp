@@ -159,7 +159,7 @@ std::optional<double> solve_increasing(const Excess& excess, double guess, doubl
 
 double solve_exposure(const FloatImage& linear, const Response& response) {
   if (response.exposure) return *response.exposure;
-  const float brightest = *std::max_element(linear.pixels.begin(), linear.pixels.end());
+  const float brightest = *std::ranges::max_element(linear.pixels);
   if (!(brightest > 0.0f)) throw DataError("no light reaches the front face: check the positions of the LEDs");
   // A few of the pixels say nearly what all of them say, in a thirtieth of the time.
   constexpr std::size_t kStride = 31;

@@ -142,7 +142,7 @@ class RowTracer {
   /// Adds up what reaches the hits from every light and is reflected to the camera. `starts`: of the pack before.
   void gather_light(const Hits& hits, const CameraRays& rays, std::vector<PathStart>& starts,
                     std::vector<CoatingResponse>& light) const {
-    std::fill(light.begin(), light.end(), CoatingResponse{});
+    std::ranges::fill(light, CoatingResponse{});
     LitPack places{};
     SurfacePack& surface = places.surface;
     bool lit = false;

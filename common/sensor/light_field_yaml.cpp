@@ -47,7 +47,7 @@ DomeBins read_dome_bins(ConfigReader& in) {
   const auto bands = static_cast<std::size_t>(in.integer("bands", 1, 90));
   bins.elevation_tan = in.numbers("elevation_tan", bands, Range::non_negative());
   const auto& edges = bins.elevation_tan;
-  if (std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<>{}) != edges.end())
+  if (std::ranges::adjacent_find(edges, std::greater_equal<>{}) != edges.end())
     in.fault("elevation_tan", "expected the bands' lower edges, ascending");
   return bins;
 }

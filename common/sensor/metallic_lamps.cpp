@@ -13,7 +13,7 @@ MetallicLamps MetallicLamps::read(ConfigReader& in) {
   for (ConfigReader& item : section.one_or_more_sections("lamps")) {
     MetallicLamp lamp{.position_m = 1e-3 * item.vector3("position_mm")};
     const auto rgb = item.numbers("rgb", 3, Range::non_negative());
-    std::copy(rgb.begin(), rgb.end(), lamp.rgb.begin());
+    std::ranges::copy(rgb, lamp.rgb.begin());
     out.lamps.push_back(lamp);
   }
   return out;

@@ -31,7 +31,7 @@ std::array<double, 2> emitter_size(ConfigReader& in, const std::array<double, 2>
 Led emitter(ConfigReader& in, Led led) {
   const std::vector<std::string> names = {"lambertian", "isotropic", "cosine_power"};
   const std::string emission = in.choice_or("emission", names[static_cast<std::size_t>(led.emission)], names);
-  led.emission = static_cast<Emission>(std::find(names.begin(), names.end(), emission) - names.begin());
+  led.emission = static_cast<Emission>(std::ranges::find(names, emission) - names.begin());
   led.size_m = emitter_size(in, led.size_m);
   if (in.has("emission_exponent")) {
     led.emission_exponent = in.number("emission_exponent", Range::non_negative());
@@ -167,8 +167,8 @@ std::vector<Led> Led::read_all(ConfigReader& in, const GelShape& gel, const Opti
 std::vector<LightGroup> light_groups(const std::vector<Led>& leds) {
   std::vector<LightGroup> groups;
   for (std::size_t i = 0; i < leds.size(); ++i) {
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const LightGroup& g) { return !g.name.empty() && g.name == leds[i].group; });
+    auto group =
+        std::ranges::find_if(groups, [&](const LightGroup& g) { return !g.name.empty() && g.name == leds[i].group; });
     if (group == groups.end()) {
       groups.push_back({.name = leds[i].group, .rgb = leds[i].rgb});
       group = groups.end() - 1;
@@ -278,7 +278,7 @@ Response Response::read(ConfigReader& in) {
   if (response.curve == "gamma") response.gamma = in.number("gamma", Range::between(0.2, 5.0));
   response.white_balance = triple(in.numbers_or("white_balance", {1.0, 1.0, 1.0}, Range::positive()));
   const auto matrix = in.numbers_or("color_matrix", {1, 0, 0, 0, 1, 0, 0, 0, 1});
-  std::copy(matrix.begin(), matrix.end(), response.color_matrix.begin());
+  std::ranges::copy(matrix, response.color_matrix.begin());
   return response;
 }
 

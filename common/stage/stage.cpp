@@ -350,9 +350,7 @@ void Stage::publish() {
     retire_old_record();
     leftovers = old_outputs();
   }
-  const auto is_part = [&](const std::string& name) {
-    return std::find(parts_.begin(), parts_.end(), name) != parts_.end();
-  };
+  const auto is_part = [&](const std::string& name) { return std::ranges::find(parts_, name) != parts_.end(); };
   for (const Output& output : outputs_) {
     if (!is_part(output.name)) fs::rename(partial_ / output.name, out_ / output.name);
     leftovers.erase(output.name);

@@ -137,7 +137,7 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
   Stage stage(spec, fs::path(out).lexically_normal(), threads);
   stage.inputs_ = std::move(inputs);
   for (const auto& [flag, texts] : named)
-    std::transform(texts.begin(), texts.end(), std::back_inserter(stage.named_inputs_[flag]), split_named_path);
+    std::ranges::transform(texts, std::back_inserter(stage.named_inputs_[flag]), split_named_path);
   stage.options_ = std::move(options);
   int code = 1;
   try {

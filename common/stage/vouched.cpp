@@ -27,7 +27,7 @@ std::vector<fs::path> records_in(const fs::path& folder) {
   std::error_code error;  // of a folder above, which need not be readable
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (is_record(entry.path())) records.push_back(entry.path());
-  std::sort(records.begin(), records.end());  // the same message in every run
+  std::ranges::sort(records);  // the same message in every run
   return records;
 }
 

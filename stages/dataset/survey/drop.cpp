@@ -50,7 +50,7 @@ std::map<std::string, Packed> packed_samples(const fs::path& manifest, std::set<
     throw DataError("{} is not packed; nothing is removed", manifest.parent_path().parent_path().string());
   CsvReader rows(manifest);
   for (const std::string column : {"press_sha256", "render_sha256"})
-    if (std::find(rows.columns().begin(), rows.columns().end(), column) == rows.columns().end())
+    if (std::ranges::find(rows.columns(), column) == rows.columns().end())
       throw DataError("{} has no {}; pack it again; nothing is removed", manifest.string(), column);
   std::map<std::string, Packed> packed;
   while (rows.next()) {
@@ -99,7 +99,7 @@ Dropped drop_packed(const fs::path& dataset, const std::vector<std::string>& sta
     const fs::path folder = dataset / row.folder;
     const fs::path press = folder / "press/press.yaml", render = folder / "render/render.yaml";
     const auto is_open = [&](const std::string& stage) { return !was_dropped(folder / stage); };
-    if (std::none_of(stages.begin(), stages.end(), is_open) || !fs::exists(press) || !fs::exists(render)) return;
+    if (std::ranges::none_of(stages, is_open) || !fs::exists(press) || !fs::exists(render)) return;
     const MakingLock press_lock(stage_folder(folder, "press")), render_lock(folder / "render");
     if (!press_lock.held() || !render_lock.held() || !fs::exists(press) || !fs::exists(render) ||
         sha256_of_file(press) != found->second.press_sha256 || sha256_of_file(render) != found->second.render_sha256) {

@@ -13,7 +13,7 @@ namespace tacipc {
 FloatImage block_codes(const ByteImage& image, int block) {
   assert(image.width % block == 0 && image.height % block == 0);
   return reduced_blocks(image, block, [](std::vector<std::uint8_t>& codes) {
-    std::sort(codes.begin(), codes.end());
+    std::ranges::sort(codes);
     const std::size_t cut = codes.size() / 4;
     const auto first = codes.begin() + static_cast<std::ptrdiff_t>(cut),
                last = codes.end() - static_cast<std::ptrdiff_t>(cut);

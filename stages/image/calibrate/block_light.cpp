@@ -65,8 +65,7 @@ TraceResult BlockTracer::trace_blocks(const Sensor& sensor, const Eigen::Vector3
 const BlockLight& BlockTracer::light(const Eigen::VectorXd& key, const Sensor& sensor,
                                      const Eigen::Vector3d& offsets_px) {
   constexpr std::size_t kRemembered = 2;  // where the fit stands, and one step beside
-  const auto known =
-      std::find_if(remembered_.begin(), remembered_.end(), [&](const auto& one) { return one.first == key; });
+  const auto known = std::ranges::find_if(remembered_, [&](const auto& one) { return one.first == key; });
   if (known != remembered_.end()) {
     std::rotate(known, known + 1, remembered_.end());
     return remembered_.back().second;

@@ -45,7 +45,7 @@ std::vector<ContactPixel> object_pixels(const FloatImage& height_m, double pixel
     for (int x = 1; x + 1 < height_m.width; ++x) {
       const std::array<double, 5> h{height_m.at(x, y, 0), height_m.at(x - 1, y, 0), height_m.at(x + 1, y, 0),
                                     height_m.at(x, y - 1, 0), height_m.at(x, y + 1, 0)};
-      if (!(*std::min_element(h.begin(), h.end()) > 0.0)) continue;
+      if (!(*std::ranges::min_element(h) > 0.0)) continue;
       ContactPixel& pixel = pixels.emplace_back(contact_pixel(x, y, photograph, background, drift));
       pixel.slope_x = (h[2] - h[1]) / (2.0 * pixel_m);
       pixel.slope_y = (h[4] - h[3]) / (2.0 * pixel_m);

@@ -94,7 +94,7 @@ Weights best_weights(const std::vector<const Contact*>& contacts, const std::vec
       }
       if (changed[b]) best.equations[b] = normal_equations(features[b], contacts[b]->samples, active[b]);
     });
-    if (std::none_of(changed.begin(), changed.end(), [](char c) { return c != 0; })) break;
+    if (std::ranges::none_of(changed, [](char c) { return c != 0; })) break;
     best.codes = sum_of(best.equations).solve(ridge);
   }
   return best;

@@ -46,7 +46,7 @@ BallTable table_of_ball(const std::vector<ContactPixel>& pixels, const SlopeTabl
   const auto place = nearest_marked(has_place, table.bins, false);
   for (std::size_t i = 0; i < size; ++i) out.terms[i] = terms[place[i]];
   for (std::size_t c = 0; c < 3; ++c) {
-    if (std::find(has_value[c].begin(), has_value[c].end(), true) == has_value[c].end()) continue;  // all are 0
+    if (std::ranges::find(has_value[c], true) == has_value[c].end()) continue;  // all are 0
     const auto from = nearest_marked(has_value[c], table.bins, false);
     for (std::size_t i = 0; i < size; ++i) out.value[i][c] = value[from[i]][c];
   }
@@ -57,7 +57,7 @@ SlopeTable released_table(const std::vector<std::vector<ContactPixel>>& balls, i
   SlopeTable table(bins);
   std::vector<BallTable> tables;
   for (const auto& pixels : balls)
-    if (std::any_of(pixels.begin(), pixels.end(), [](const ContactPixel& p) { return p.all_used(); }))
+    if (std::ranges::any_of(pixels, [](const ContactPixel& p) { return p.all_used(); }))
       tables.push_back(table_of_ball(pixels, table, width, height));
   if (tables.empty()) throw DataError("no ball has a pixel in its contact that is not clipped");
   const auto rows = static_cast<Eigen::Index>(tables.size());
@@ -149,7 +149,7 @@ SlopeTable pooled_table(const std::vector<std::vector<ContactPixel>>& balls, int
       solved[i] = true;
       for (int k = 0; k < kTerms; ++k) table.weights[(i * kTerms + static_cast<std::size_t>(k)) * 3 + c] = weights[k];
     }
-    if (std::find(solved.begin(), solved.end(), true) == solved.end())
+    if (std::ranges::find(solved, true) == solved.end())
       throw DataError("no ball has a pixel in its contact that is not clipped");
     const auto from = nearest_marked(solved, bins, true);
     for (std::size_t i = 0; i < equations.size(); ++i)

@@ -58,7 +58,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
     const Eigen::VectorXd slope = moment - gram * x;
     Eigen::Index enter = -1;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (std::find(free.begin(), free.end(), i) != free.end() || slope[i] <= tolerance) continue;
+      if (std::ranges::find(free, i) != free.end() || slope[i] <= tolerance) continue;
       if (enter < 0 || slope[i] > slope[enter]) enter = i;
     }
     if (enter < 0) return x;
@@ -73,7 +73,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
       x += share * (wanted - x);
       std::erase_if(free, [&](Eigen::Index i) { return wanted[i] <= 0.0 && x[i] <= 1e-15 * x.cwiseAbs().maxCoeff(); });
       for (Eigen::Index i = 0; i < n; ++i)
-        if (std::find(free.begin(), free.end(), i) == free.end()) x[i] = 0.0;
+        if (std::ranges::find(free, i) == free.end()) x[i] = 0.0;
       wanted = free.empty() ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : solve_free();
     }
     x = wanted;

@@ -48,7 +48,7 @@ void calibrate_leds(Stage& stage) {
   const FloatImage even = through_lens(FloatImage(camera.width_px, camera.height_px, 1, 1.0f), camera);
   for (FloatImage& image : basis) image = through_lens(image, camera);
   FloatImage codes(background.width, background.height, 3);
-  std::copy(background.pixels.begin(), background.pixels.end(), codes.pixels.begin());
+  std::ranges::copy(background.pixels, codes.pixels.begin());
   const IntensityFit fit = fit_intensities(basis, even, codes, config);
   Value::List leds, deviations;
   for (Eigen::Index l = 0; l <= fit.rgb.rows(); ++l) {

@@ -160,8 +160,7 @@ std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background,
       const std::size_t at = balls + objects.size();
       if (at < shapes.size()) object.view = view_height_map(read_camera_exr(shapes[at], {"Y"}, sensor.camera), sensor);
     } else {
-      const auto press =
-          std::find_if(presses.begin(), presses.end(), [&](const NamedPath& one) { return one.name == known.name; });
+      const auto press = std::ranges::find_if(presses, [&](const NamedPath& one) { return one.name == known.name; });
       if (press == presses.end()) throw UsageError(fmt::format("--object-press {}=… is missing", known.name));
       FrontFrames frames = read_front_frames(press->path, *stage.optional_input("--gel"));
       if (static_cast<std::size_t>(known.frame) >= frames.frames.size())

@@ -170,7 +170,7 @@ void calibrate_rival(Stage& stage) {
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const FloatImage height = read_camera_exr(shapes[i], {"Y"}, camera);
-    if (!(*std::max_element(height.pixels.begin(), height.pixels.end()) > 0.0F))
+    if (!(*std::ranges::max_element(height.pixels) > 0.0F))
       throw DataError("{}: {} is not in the gel", shapes[i].string(), objects[i].name);
     const ByteImage photograph =
         read_photograph(*stage.optional_input("--photographs") / objects[i].photograph, camera);

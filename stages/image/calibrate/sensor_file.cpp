@@ -14,7 +14,7 @@ namespace {
 using Entries = Value::Map;
 
 Entries::iterator find_key(Entries& map, std::string_view key) {
-  return std::find_if(map.begin(), map.end(), [&](const auto& entry) { return entry.first == key; });
+  return std::ranges::find_if(map, [&](const auto& entry) { return entry.first == key; });
 }
 
 void put(Entries& map, const std::string& key, const SensorChange& change) {

@@ -117,7 +117,7 @@ Value::Map summary_of(const SensorParameters& parameters, const SensorFit& fit) 
 
 void warn_of_misfit(const SensorParameters& parameters, const SensorFitConfig& config, const SensorFit& fit) {
   for (const PhotographFit& one : fit.photographs) {
-    const double most = *std::max_element(one.rmse_codes.begin(), one.rmse_codes.end());
+    const double most = *std::ranges::max_element(one.rmse_codes);
     if (most > 4.0 * config.sigma_codes)
       log_warning("{}: {:.1f} codes of residual, sigma_codes is {:g}: the model lacks something, see residuals/",
                   one.name, most, config.sigma_codes);

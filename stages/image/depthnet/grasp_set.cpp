@@ -26,8 +26,7 @@ struct Found {
 };
 
 const Value* attribute(const Value::Map& attributes, const std::string& name) {
-  const auto found =
-      std::find_if(attributes.begin(), attributes.end(), [&](const auto& line) { return line.first == name; });
+  const auto found = std::ranges::find_if(attributes, [&](const auto& line) { return line.first == name; });
   return found == attributes.end() ? nullptr : &found->second;
 }
 
@@ -57,7 +56,7 @@ std::vector<double> per_frame(const Hdf5Reader& shard, const std::string& field,
 /// The last frame of the first `close`; none if there is no such frame.
 std::optional<std::size_t> closed_at(const std::vector<double>& phases) {
   const auto closes = [](double phase) { return phase == static_cast<double>(PhaseKind::close); };
-  const auto closing = std::find_if(phases.begin(), phases.end(), closes);
+  const auto closing = std::ranges::find_if(phases, closes);
   if (closing == phases.end()) return std::nullopt;
   return static_cast<std::size_t>(std::find_if_not(closing, phases.end(), closes) - phases.begin()) - 1;
 }

@@ -54,7 +54,7 @@ void Judge::answer() {
 
 void Judge::take(const DepthImage& image, const FloatImage& depth_mm) {
   const auto touches = [](float depth) { return depth > static_cast<float>(kContactMm); };
-  if (std::none_of(image.depth_mm.pixels.begin(), image.depth_mm.pixels.end(), touches)) {
+  if (std::ranges::none_of(image.depth_mm.pixels, touches)) {
     double sum = 0.0;
     for (const float depth : depth_mm.pixels) sum += std::abs(depth);
     seen_untouched_mm_ += sum / static_cast<double>(depth_mm.pixels.size());

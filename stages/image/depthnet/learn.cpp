@@ -83,8 +83,7 @@ std::vector<std::size_t> random_order(std::size_t count, std::uint64_t seed, std
   const auto key = [&](std::size_t i) {
     return random_bits(seed, mix_bits(hash_of("order") + stream) + static_cast<std::uint64_t>(epoch), i);
   };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return std::pair(key(a), a) < std::pair(key(b), b); });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return std::pair(key(a), a) < std::pair(key(b), b); });
   return order;
 }
 

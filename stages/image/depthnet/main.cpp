@@ -57,7 +57,7 @@ class Items {
     if (!items_.empty() && items_.back().reference.equal(item.reference)) item.reference = items_.back().reference;
     items_.push_back(std::move(item));
     const ImageSize size(image.image.height, image.image.width);
-    if (std::find(sizes_.begin(), sizes_.end(), size) == sizes_.end()) sizes_.push_back(size);
+    if (std::ranges::find(sizes_, size) == sizes_.end()) sizes_.push_back(size);
     show_progress(0.0, fmt::format("reading: {} images", items_.size()));
   }
   std::vector<DepthItem>& items() { return items_; }
@@ -127,7 +127,7 @@ void foretell_outcomes(Stage& stage, const OutcomeConfig& config) {
   std::vector<GraspItem> items = read_grasps(shards, config.frames, make_outcome_network(config, config.seed));
   std::vector<ImageSize> sizes;
   for (const GraspItem& item : items)
-    if (std::find(sizes.begin(), sizes.end(), item.size) == sizes.end()) sizes.push_back(item.size);
+    if (std::ranges::find(sizes, item.size) == sizes.end()) sizes.push_back(item.size);
   const auto checkpoints = [&](const std::string& name) {
     Checkpoints those = checkpoints_of(stage, "checkpoint_" + name);
     those.at_end = true;

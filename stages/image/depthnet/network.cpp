@@ -38,7 +38,7 @@ std::vector<torch::Tensor> weights_of(const torch::jit::Module& network) {
 
 torch::Tensor tensor_of(const ByteImage& image) {
   torch::Tensor tensor = torch::empty({1, image.height, image.width, 3}, torch::kU8);
-  std::copy(image.pixels.begin(), image.pixels.end(), tensor.data_ptr<std::uint8_t>());
+  std::ranges::copy(image.pixels, tensor.data_ptr<std::uint8_t>());
   return tensor;
 }
 
@@ -46,7 +46,7 @@ FloatImage TrainedNetwork::depth_mm(const std::string& name, const ByteImage& im
   if (image.width != reference.width || image.height != reference.height)
     throw DataError("{}: has {} x {} pixels, its reference {} x {}", name, image.width, image.height, reference.width,
                     reference.height);
-  if (std::find(sizes.begin(), sizes.end(), ImageSize(image.height, image.width)) == sizes.end())
+  if (std::ranges::find(sizes, ImageSize(image.height, image.width)) == sizes.end())
     throw DataError("{}: has {} x {} pixels; the network was trained on images of {} x {}", name, image.width,
                     image.height, sizes.front().second, sizes.front().first);
   const torch::NoGradGuard no_gradients;

@@ -35,7 +35,7 @@ SeedScores scores_of_kind(const OutcomeStudy& study, bool shuffled) {
 /// Always the outcome that is more frequent in the training.
 Scores scores_of_constant(const OutcomeStudy& study) {
   const std::vector<bool> trained = held_of(study.train);
-  const bool more_held = 2 * std::count(trained.begin(), trained.end(), true) >= static_cast<long>(trained.size());
+  const bool more_held = 2 * std::ranges::count(trained, true) >= static_cast<long>(trained.size());
   return scores_of(std::vector<double>(study.test.size(), more_held ? 1.0 : 0.0), held_of(study.test));
 }
 
@@ -47,7 +47,7 @@ std::size_t objects_in(const std::vector<GraspItem>& items) {
 
 std::size_t held_in(const std::vector<GraspItem>& items) {
   const std::vector<bool> held = held_of(items);
-  return static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
+  return static_cast<std::size_t>(std::ranges::count(held, true));
 }
 
 /// How late the test's last images are, and how far its objects had slipped by then.
@@ -61,9 +61,7 @@ Seen seen_in(const std::vector<GraspItem>& items) {
     times_s.push_back(item.seen_s);
     slips_mm.push_back(item.slip_mm);
   }
-  const auto largest = [](const std::vector<double>& values) {
-    return *std::max_element(values.begin(), values.end());
-  };
+  const auto largest = [](const std::vector<double>& values) { return *std::ranges::max_element(values); };
   return {.median_s = median(times_s),
           .largest_s = largest(times_s),
           .median_slip_mm = median(slips_mm),

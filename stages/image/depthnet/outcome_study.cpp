@@ -87,7 +87,7 @@ std::set<std::string> objects_of(const std::vector<GraspItem>& items) {
 
 void check(const std::vector<GraspItem>& items, const std::string& split) {
   const std::vector<bool> held = held_of(items);
-  const auto lifted = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
+  const auto lifted = static_cast<std::size_t>(std::ranges::count(held, true));
   if (items.empty())
     throw DataError("the split {} has no grasps: the dataset needs grasps of more objects, and `splits`", split);
   if (lifted == 0 || lifted == items.size())

@@ -12,9 +12,8 @@ std::vector<std::pair<double, double>> roc_of(const std::vector<double>& probabi
   assert(probabilities.size() == truth.size());
   std::vector<std::size_t> order(truth.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return probabilities[a] > probabilities[b]; });
-  const auto all_yes = static_cast<double>(std::count(truth.begin(), truth.end(), true));
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return probabilities[a] > probabilities[b]; });
+  const auto all_yes = static_cast<double>(std::ranges::count(truth, true));
   const double all_no = static_cast<double>(truth.size()) - all_yes;
   std::vector<std::pair<double, double>> roc{{0.0, 0.0}};
   double yes = 0.0, no = 0.0;
@@ -28,7 +27,7 @@ std::vector<std::pair<double, double>> roc_of(const std::vector<double>& probabi
 
 double height_of(const std::vector<std::pair<double, double>>& roc, double share) {
   const auto right =
-      std::find_if(roc.begin(), roc.end(), [&](const std::pair<double, double>& point) { return point.first > share; });
+      std::ranges::find_if(roc, [&](const std::pair<double, double>& point) { return point.first > share; });
   if (right == roc.end()) return roc.back().second;
   const auto left = std::prev(right);
   return left->second + (right->second - left->second) * (share - left->first) / (right->first - left->first);

@@ -29,7 +29,7 @@ void read_packed(const std::filesystem::path& path, const std::vector<std::strin
   try {
     for (const std::string& id : shard.names("/data")) {
       DepthImage one{.split = shard.text_attribute("/data/" + id, "split")};
-      if (std::find(splits.begin(), splits.end(), one.split) == splits.end()) continue;
+      if (std::ranges::find(splits, one.split) == splits.end()) continue;
       const std::string rgb = "/data/" + id + "/obs/rgb", depth = "/data/" + id + "/obs/indentation_mm";
       for (const std::string& field : {rgb, depth})
         if (!shard.has(field)) throw DataError("has no {}: packed without", field);
@@ -72,7 +72,7 @@ DepthItem item_of(const DepthImage& image, const torch::jit::Module& network, in
   const torch::Tensor both =
       network.get_method("reduced")({tensor_of(image.image), tensor_of(image.reference)}).toTensor().squeeze(0);
   torch::Tensor depth_mm = torch::empty({1, image.depth_mm.height, image.depth_mm.width});
-  std::copy(image.depth_mm.pixels.begin(), image.depth_mm.pixels.end(), depth_mm.data_ptr<float>());
+  std::ranges::copy(image.depth_mm.pixels, depth_mm.data_ptr<float>());
   depth_mm = torch::avg_pool2d(depth_mm, {reduction, reduction}, {reduction, reduction}, {0, 0}, true, false);
   if (!depth_mm.isfinite().any().item<bool>()) throw DataError("{}: no pixel has a depth", image.name);
   return {.name = image.name,

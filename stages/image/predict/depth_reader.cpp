@@ -47,7 +47,7 @@ bool is(const onnx::ValueInfoProto& value, const char* name, const std::vector<s
 cv::Mat tensor_of(const ByteImage& image) {
   const int shape[] = {1, image.height, image.width, 3};
   cv::Mat tensor(4, shape, CV_32F);
-  std::copy(image.pixels.begin(), image.pixels.end(), tensor.ptr<float>());
+  std::ranges::copy(image.pixels, tensor.ptr<float>());
   return tensor;
 }
 
@@ -69,7 +69,7 @@ DepthReader::DepthReader(const std::filesystem::path& file) : network_(std::make
       !is(graph.input(0), DepthModel::kImage, {1, rows, columns, 3}) ||
       !is(graph.input(1), DepthModel::kReference, {1, rows, columns, 3}) ||
       !is(graph.output(0), DepthModel::kIndentation, {1, 1, rows, columns}) ||
-      !std::all_of(graph.initializer().begin(), graph.initializer().end(), whole))
+      !std::ranges::all_of(graph.initializer(), whole))
     throw refused;
   network_->rows = static_cast<int>(rows);
   network_->columns = static_cast<int>(columns);

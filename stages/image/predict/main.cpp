@@ -72,7 +72,7 @@ void predict(Stage& stage) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     FloatImage map = answers[i];
     const std::string name = files[i].stem().string();
-    deepest.emplace_back(name, double{*std::max_element(map.pixels.begin(), map.pixels.end())});
+    deepest.emplace_back(name, double{*std::ranges::max_element(map.pixels)});
     for (float& depth : map.pixels) depth *= 1e-3F;
     write_png(stage.output("indentation/" + name + ".png"), picture_of_height(map));
     write_exr(stage.output("indentation/" + name + ".exr"), map, {"Y"});

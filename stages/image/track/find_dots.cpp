@@ -43,7 +43,7 @@ std::vector<Spot> spots(const FloatImage& light, const TrackConfig& config) {
 void sort_for_reading(std::vector<DotCenter>& dots, double spacing_px) {
   const auto by_row = [](const DotCenter& a, const DotCenter& b) { return a.px.y() < b.px.y(); };
   const auto by_column = [](const DotCenter& a, const DotCenter& b) { return a.px.x() < b.px.x(); };
-  std::sort(dots.begin(), dots.end(), by_row);
+  std::ranges::sort(dots, by_row);
   for (auto row = dots.begin(); row != dots.end();) {
     auto end = row;
     double sum = 0.0;

@@ -33,7 +33,7 @@ std::vector<Marker> markers_of(const std::vector<DotCenter>& dots) {
     for (std::size_t j = 0; j < dots.size(); ++j)
       if (j != i) others.push_back(j);
     const auto distance = [&](std::size_t j) { return (places[j] - places[i]).squaredNorm(); };
-    std::stable_sort(others.begin(), others.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+    std::ranges::stable_sort(others, [&](auto a, auto b) { return distance(a) < distance(b); });
     others.resize(std::min(kNeighbours, others.size()));
   }
   return markers;

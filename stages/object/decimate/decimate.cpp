@@ -134,7 +134,7 @@ class CollapsePasses : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
       const double cost = ModPlaneDistance<Mesh>::cost(mesh_, v, mesh_.to_vertex_handle(*h));
       if (cost <= dearest) choices_.push_back({cost, *h});
     }
-    std::sort(choices_.begin(), choices_.end(), [](const Choice& a, const Choice& b) {
+    std::ranges::sort(choices_, [](const Choice& a, const Choice& b) {
       return a.cost != b.cost ? a.cost < b.cost : a.edge.idx() < b.edge.idx();
     });
     for (const Choice& choice : choices_) {

@@ -47,7 +47,7 @@ std::vector<int> open_vertices(const Triangles& triangles) {
     while (last < uses.size() && uses[last].low == uses[first].low && uses[last].high == uses[first].high) ++last;
     if (last - first == 1) open.insert(open.end(), {uses[first].low, uses[first].high});
   }
-  std::sort(open.begin(), open.end());
+  std::ranges::sort(open);
   open.erase(std::unique(open.begin(), open.end()), open.end());
   return open;
 }
@@ -153,7 +153,7 @@ void weld_open_vertices(TriangleMesh& mesh, double distance_m, DoctorReport& rep
         if (mesh.positions(u, i) != mesh.positions(v, i)) return mesh.positions(u, i) < mesh.positions(v, i);
       return u < v;
     };
-    std::sort(order.begin(), order.end(), before);
+    std::ranges::sort(order, before);
     std::vector<int> parent = identity(mesh);
     for (std::size_t i = 0; i < order.size(); ++i)
       for (std::size_t j = i + 1;
@@ -182,9 +182,9 @@ void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report) {
   std::vector<Keyed> faces(static_cast<std::size_t>(num_faces));
   for (int f = 0; f < num_faces; ++f) {
     faces[f] = {{mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2)}, f};
-    std::sort(faces[f].vertices.begin(), faces[f].vertices.end());
+    std::ranges::sort(faces[f].vertices);
   }
-  std::sort(faces.begin(), faces.end(), [](const Keyed& a, const Keyed& b) {
+  std::ranges::sort(faces, [](const Keyed& a, const Keyed& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.face < b.face;
   });
   std::map<std::pair<int, int>, int> uses;  // built only if there is a duplicate

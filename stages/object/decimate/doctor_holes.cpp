@@ -28,7 +28,7 @@ std::vector<Loop> boundary_loops(const TriangleMesh& mesh, const std::vector<int
       open_from[v] = kNone;
       v = target_of(mesh.triangles, h);
     }
-    std::reverse(loop.begin(), loop.end());
+    std::ranges::reverse(loop);
     loops.push_back(std::move(loop));
   }
   return loops;
@@ -112,7 +112,7 @@ void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& re
   std::vector<char> open(static_cast<std::size_t>(components.count), 0);
   for (std::size_t h = 0; h < opposite.size(); ++h)
     if (opposite[h] == kOpen) open[components.of_face[h / 3]] = 1;
-  report.thickened_sheets = std::count(open.begin(), open.end(), 1);
+  report.thickened_sheets = std::ranges::count(open, 1);
   if (report.thickened_sheets == 0) return;
 
   Positions normals = Positions::Zero(mesh.num_vertices(), 3);

@@ -38,7 +38,7 @@ std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Uses::const_iterator f
         {use->half_edge, std::atan2(v.dot(away), u.dot(away)), origin_of(mesh.triangles, use->half_edge) == use->low});
   }
   // Of two faces in one place the one with matter below comes first: they are two solids that touch, not a sheet.
-  std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+  std::ranges::sort(leaves, [](const Leaf& a, const Leaf& b) {
     if (a.angle != b.angle) return a.angle < b.angle;
     return a.forwards != b.forwards ? a.forwards : a.half_edge < b.half_edge;
   });

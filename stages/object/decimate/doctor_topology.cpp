@@ -49,7 +49,7 @@ void remove_debris(TriangleMesh& mesh, double area_fraction, DoctorReport& repor
   if (components.count == 1) return;
   const Sizes sizes = sizes_of(mesh, components);
   const double all = std::accumulate(sizes.area.begin(), sizes.area.end(), 0.0);
-  const auto largest = std::max_element(sizes.area.begin(), sizes.area.end()) - sizes.area.begin();
+  const auto largest = std::ranges::max_element(sizes.area) - sizes.area.begin();
   std::vector<char> debris(static_cast<std::size_t>(components.count), 0);
   for (int part = 0; part < components.count; ++part)
     if (part != largest && (sizes.faces[part] < kMinFaces || sizes.area[part] < area_fraction * all)) {

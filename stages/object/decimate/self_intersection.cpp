@@ -44,7 +44,7 @@ std::vector<int> lowest_at_place(const Positions& positions) {
   std::vector<int> order(static_cast<std::size_t>(positions.rows()));
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int v) { return std::array{positions(v, 0), positions(v, 1), positions(v, 2)}; };
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
+  std::ranges::sort(order, [&](int a, int b) {
     const auto ka = key(a), kb = key(b);
     return ka != kb ? ka < kb : a < b;
   });
@@ -85,7 +85,7 @@ std::vector<FacePair> self_intersections(const TriangleMesh& mesh) {
   });
   std::vector<FacePair> pairs;
   for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-  std::sort(pairs.begin(), pairs.end(), [](const FacePair& a, const FacePair& b) {
+  std::ranges::sort(pairs, [](const FacePair& a, const FacePair& b) {
     return a.first != b.first ? a.first < b.first : a.second < b.second;
   });
   return pairs;

@@ -24,12 +24,12 @@ Triangles faces_between(const HeightField& field, const std::vector<int>& point)
       const int at = j * field.columns + i;
       const std::array<int, 4> around{point[at], point[at + 1], point[at + field.columns + 1],
                                       point[at + field.columns]};
-      const auto missing = std::count(around.begin(), around.end(), -1);
+      const auto missing = std::ranges::count(around, -1);
       if (missing == 0) {
         faces.push_back({around[0], around[1], around[2]});
         faces.push_back({around[0], around[2], around[3]});
       } else if (missing == 1) {
-        const auto gap = static_cast<std::size_t>(std::find(around.begin(), around.end(), -1) - around.begin());
+        const auto gap = static_cast<std::size_t>(std::ranges::find(around, -1) - around.begin());
         faces.push_back({around[(gap + 1) % 4], around[(gap + 2) % 4], around[(gap + 3) % 4]});
       }
     }

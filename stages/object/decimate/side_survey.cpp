@@ -19,7 +19,7 @@ constexpr double kGrid = 300.0;  // points along the longer side
 class ReliefSums {
  public:
   explicit ReliefSums(const HeightField& field) : columns_(field.columns), sums_(0) {
-    const double highest = *std::max_element(field.z.begin(), field.z.end());
+    const double highest = *std::ranges::max_element(field.z);
     const auto felt = [&](int i, int j) { return std::max(0.0, field.at(i, j) - highest + SideSurvey::kPressDepth); };
     const auto there = [&](int i, int j) { return field.at(i, j) != HeightField::kNothing; };
     sums_.assign(static_cast<std::size_t>((field.columns + 1) * (field.rows + 1)), 0.0);
@@ -52,7 +52,7 @@ class ReliefSums {
 
 /// Share of the outline's points that lie in the upper fifth of what a press reaches.
 double rim_touching(const HeightField& field) {
-  const double highest = *std::max_element(field.z.begin(), field.z.end());
+  const double highest = *std::ranges::max_element(field.z);
   const auto there = [&](int i, int j) {
     return i >= 0 && j >= 0 && i < field.columns && j < field.rows && field.at(i, j) != HeightField::kNothing;
   };
@@ -69,7 +69,7 @@ double rim_touching(const HeightField& field) {
 
 FloatImage height_image(const HeightField& field) {
   FloatImage image(field.columns, field.rows, 1, std::numeric_limits<float>::quiet_NaN());
-  const double highest = *std::max_element(field.z.begin(), field.z.end());
+  const double highest = *std::ranges::max_element(field.z);
   for (int j = 0; j < field.rows; ++j) {
     for (int i = 0; i < field.columns; ++i) {
       if (field.at(i, j) == HeightField::kNothing) continue;
@@ -88,8 +88,8 @@ SideView look_at(const TriangleMesh& mesh, const std::string& side, const std::a
   SideView view{.side = side, .extent_m = {extent.x(), extent.y()}};
   const double spacing_m = std::max(extent.head<2>().maxCoeff() / kGrid, 1e-9);
   const HeightField field = highest_points(seen, spacing_m, 0.0);
-  if (*std::max_element(field.z.begin(), field.z.end()) == HeightField::kNothing) return view;
-  const auto shown = std::count_if(field.z.begin(), field.z.end(), [](double z) { return z != HeightField::kNothing; });
+  if (*std::ranges::max_element(field.z) == HeightField::kNothing) return view;
+  const auto shown = std::ranges::count_if(field.z, [](double z) { return z != HeightField::kNothing; });
   view.shown_m2 = static_cast<double>(shown) * spacing_m * spacing_m;
   view.rim_touching = rim_touching(field);
   const ReliefSums sums(field);
@@ -139,13 +139,13 @@ SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, co
   tbb::parallel_for(std::size_t{0}, survey.views.size(),
                     [&](std::size_t i) { survey.views[i] = look_at(mesh, face_names()[i], window.size_m); });
   const auto index_of = [&](const std::string& side) {
-    return static_cast<std::size_t>(std::find(face_names().begin(), face_names().end(), side) - face_names().begin());
+    return static_cast<std::size_t>(std::ranges::find(face_names(), side) - face_names().begin());
   };
   survey.given = index_of(wanted) < survey.views.size();
   survey.pressed = index_of(survey.given ? wanted : window.usual);
   if (survey.given) return survey;
-  const auto widest = std::max_element(survey.views.begin(), survey.views.end(),
-                                       [](const SideView& a, const SideView& b) { return a.shown_m2 < b.shown_m2; });
+  const auto widest = std::ranges::max_element(
+      survey.views, [](const SideView& a, const SideView& b) { return a.shown_m2 < b.shown_m2; });
   constexpr double kEdge = 0.05;  // a side that shows less is an edge
   if (survey.side().shown_m2 < kEdge * widest->shown_m2)
     survey.pressed = static_cast<std::size_t>(widest - survey.views.begin());
@@ -154,7 +154,7 @@ SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, co
   const auto has_tip = [&](const SideView& view) {
     return view.rim_touching < 0.5 && view.relief_m > kStandsOut && view.shown_m2 > kBroad * widest->shown_m2;
   };
-  const bool some_tip = std::any_of(survey.views.begin(), survey.views.end(), has_tip);
+  const bool some_tip = std::ranges::any_of(survey.views, has_tip);
   constexpr double kBetter = 1.25;
   double least_wanted = some_tip && !has_tip(survey.side()) ? 0.0 : kBetter * survey.side().relief_m;
   for (std::size_t i = 0; i < survey.views.size(); ++i) {

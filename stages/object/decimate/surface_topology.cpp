@@ -13,7 +13,7 @@ std::vector<EdgeUse> edge_uses(const Triangles& triangles) {
     const auto [low, high] = std::minmax({origin_of(triangles, h), target_of(triangles, h)});
     uses[h] = {low, high, h};
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+  std::ranges::sort(uses, [](const EdgeUse& a, const EdgeUse& b) {
     if (a.low != b.low) return a.low < b.low;
     return a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
   });
@@ -62,7 +62,7 @@ Components connected_components(const Triangles& triangles, const std::vector<in
 }
 
 Triangles select_faces(const Triangles& triangles, const std::vector<char>& keep) {
-  Triangles kept(std::count(keep.begin(), keep.end(), 1), 3);
+  Triangles kept(std::ranges::count(keep, 1), 3);
   Eigen::Index next = 0;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
     if (keep[static_cast<std::size_t>(f)] != 0) kept.row(next++) = triangles.row(f);

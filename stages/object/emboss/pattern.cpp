@@ -183,7 +183,7 @@ Pattern read_pattern(ConfigReader& in, double free_radius_m) {
   std::vector<std::string> names;
   for (const Kind& kind : kKinds) names.emplace_back(kind.name);
   const std::string name = in.choice("kind", names);
-  const auto* kind = std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& k) { return k.name == name; });
+  const auto* kind = std::ranges::find_if(kKinds, [&](const Kind& k) { return k.name == name; });
   return kind->read(in, free_radius_m);
 }
 

@@ -49,7 +49,7 @@ Raster blurred_rows_transposed(const Raster& in, const std::vector<double>& weig
 }  // namespace
 
 Height picture_height(const ByteImage& grey, const PictureRelief& relief, const std::string& name) {
-  const auto [low, high] = std::minmax_element(grey.pixels.begin(), grey.pixels.end());
+  const auto [low, high] = std::ranges::minmax_element(grey.pixels);
   if (*low == *high) throw DataError("{}: every pixel has the grey {}, so there is no relief", name, int{*low});
 
   const double pixel_m = relief.width_m / grey.width;

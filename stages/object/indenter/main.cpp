@@ -39,8 +39,8 @@ TriangleMesh rounded(Stage& stage, const RoundedMesh& wanted) {
                     1e3 * wanted.spacing_m, kMaxPoints);
   const HeightField round =
       rounded(tip, wanted.edge_radius_m, wanted.spacing_m, wanted.edge_radius_m + wanted.spacing_m);
-  const double before = *std::max_element(field.z.begin(), field.z.end());
-  const double after = *std::max_element(round.z.begin(), round.z.end());
+  const double before = *std::ranges::max_element(field.z);
+  const double after = *std::ranges::max_element(round.z);
   if (!(after > cut))
     throw DataError("{}: opened with a ball of {} mm, nothing of it remains", stage.input("--mesh").string(),
                     1e3 * wanted.edge_radius_m);

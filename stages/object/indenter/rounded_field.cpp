@@ -81,7 +81,7 @@ HeightField opened(const HeightField& field, double radius_m) {
 
 TriangleMesh solid(const HeightField& field, double relief_m) {
   assert(field.columns >= 2 && field.rows >= 2);
-  const double floor_z = *std::max_element(field.z.begin(), field.z.end()) - relief_m;
+  const double floor_z = *std::ranges::max_element(field.z) - relief_m;
   const int n = field.columns * field.rows;
   TriangleMesh mesh;
   mesh.positions.resize(2 * n, 3);

@@ -29,8 +29,8 @@ GaussianWindow read_window(ConfigReader& in) {
 PhongLight read_light(ConfigReader& in) {
   PhongLight light;
   const auto direction = in.numbers("direction", 3), rgb = in.numbers("rgb", 3, Range::between(0.0, 255.0));
-  std::copy(direction.begin(), direction.end(), light.direction.begin());
-  std::copy(rgb.begin(), rgb.end(), light.rgb.begin());
+  std::ranges::copy(direction, light.direction.begin());
+  std::ranges::copy(rgb, light.rgb.begin());
   light.diffuse = in.number("diffuse", Range::non_negative());
   return light;
 }

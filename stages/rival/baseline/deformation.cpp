@@ -9,7 +9,7 @@
 namespace tacipc {
 namespace {
 
-double maximum(const Raster& raster) { return *std::max_element(raster.values.begin(), raster.values.end()); }
+double maximum(const Raster& raster) { return *std::ranges::max_element(raster.values); }
 
 /// S(f, k) of the header: blur, rescale to the full depth, and take the maximum with the object.
 Raster smeared(const Raster& f, const Raster& kernel, const Raster& h) {

@@ -102,8 +102,8 @@ std::vector<Matrix4> wanted_poses(Stage& stage, const BaselineSimulator& simulat
     if (!file) throw UsageError("--photograph: needed where a place is to be fitted to it");
     if (!simulator.config().shades()) throw UsageError("--places: no place can be fitted without shading");
     const ByteImage photograph = read_photograph(*file, simulator.sensor().camera);
-    const NamedFrame& image = *std::find_if(places.images.begin(), places.images.end(),
-                                            [&](const NamedFrame& one) { return one.name == places.fit->image; });
+    const NamedFrame& image =
+        *std::ranges::find_if(places.images, [&](const NamedFrame& one) { return one.name == places.fit->image; });
     const FittedPlace fitted = search_place(place, *places.fit, photograph, [&](const ImagePlace& at) {
       return *simulator.frame(simulator.seen(moved(at, image))).tactile;
     });
@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
       const std::string folder = frame_folder(i);
       write_frame(stage, folder, FrameFile::indentation, frame.indentation);
       write_frame(stage, folder, FrameFile::depth, frame.depth);
-      const double top = *std::max_element(frame.indentation.pixels.begin(), frame.indentation.pixels.end());
+      const double top = *std::ranges::max_element(frame.indentation.pixels);
       write_frame(stage, folder, FrameFile::indentation_picture, picture_of_height(frame.indentation));
       if (frame.tactile) write_frame(stage, folder, FrameFile::tactile, *frame.tactile);
       deepest_m = std::max(deepest_m, top);

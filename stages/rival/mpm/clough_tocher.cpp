@@ -19,7 +19,7 @@ std::vector<std::vector<int>> neighbors_of_points(Eigen::Index num_points, const
     }
   }
   for (auto& list : neighbors) {
-    std::sort(list.begin(), list.end());
+    std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
   return neighbors;

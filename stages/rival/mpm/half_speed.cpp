@@ -16,7 +16,7 @@ SpeedEffect speed_effect(const std::vector<Positions>& markers, const std::vecto
     all_difference += difference.back();
     all_displacement += displacement.back();
   }
-  const double farthest = *std::max_element(displacement.begin(), displacement.end());
+  const double farthest = *std::ranges::max_element(displacement);
   SpeedEffect effect{.change = std::sqrt(all_difference / all_displacement),
                      .last_frame = std::sqrt(difference.back() / displacement.back())};
   for (std::size_t f = 0; f < markers.size(); ++f) {

@@ -147,7 +147,7 @@ void MaterialPoints::step(const Matrix4& gel_from_object) {
     speeds[t] = gather(sorted_.packs.data() + tile.first, tile.count, slab, setup_.num_fixed).largest_speed_squared;
   });
   ++num_steps_;
-  largest_speed_ = std::sqrt(static_cast<double>(*std::max_element(speeds.begin(), speeds.end())));
+  largest_speed_ = std::sqrt(static_cast<double>(*std::ranges::max_element(speeds)));
   drift_ += std::max(object_move, largest_speed_);
   if (!(largest_speed_ <= kLargestMove))
     throw SolverError(

@@ -43,8 +43,8 @@ FloatImage seen_along_rays(const FloatImage& from_above, const Sensor& sensor, P
   assert(from_above.width == sensor.camera.width_px && from_above.height == sensor.camera.height_px);
   const Surface surface(from_above, sensor.camera, places);
   const CameraModel rays(sensor.camera, sensor.stack);
-  const double deepest = std::max(0.0, double{*std::max_element(from_above.pixels.begin(), from_above.pixels.end())});
-  const double highest = std::min(0.0, double{*std::min_element(from_above.pixels.begin(), from_above.pixels.end())});
+  const double deepest = std::max(0.0, double{*std::ranges::max_element(from_above.pixels)});
+  const double highest = std::min(0.0, double{*std::ranges::min_element(from_above.pixels)});
   FloatImage seen(from_above.width, from_above.height, 1);
   for (int y = 0; y < seen.height; ++y) {
     for (int x = 0; x < seen.width; ++x) {

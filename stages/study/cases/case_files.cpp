@@ -114,8 +114,8 @@ std::string variables(const BenchmarkCases& cases, const std::string& folder) {
     set("FIT_" + object.name, object.fit_image);
     if (!object.calibrates.empty()) {
       known += (known.empty() ? "" : " ") + object.name;
-      const auto at = std::find_if(object.images.begin(), object.images.end(),
-                                   [&](const PhotographCase& image) { return image.name == object.calibrates; });
+      const auto at = std::ranges::find_if(
+          object.images, [&](const PhotographCase& image) { return image.name == object.calibrates; });
       set("KNOWN_FRAME_" + object.name, fmt::format("{}", at - object.images.begin() + 1));
     }
     set("MESH_" + object.name, object.mesh.empty() ? "" : cases.data + "/" + object.mesh);

@@ -71,8 +71,7 @@ std::vector<std::pair<std::string, std::string>> identify_files(const IdentifySp
       if (axes[k]->name == kFriction) set("FRICTION_" + node.name, value);
       if (axes[k]->name != kThickness) continue;
       add(sensor, "gel.thickness_mm=" + value);
-      gel = fmt::format(
-          "gel{}", std::find(axes[k]->nodes.begin(), axes[k]->nodes.end(), node.values[k]) - axes[k]->nodes.begin());
+      gel = fmt::format("gel{}", std::ranges::find(axes[k]->nodes, node.values[k]) - axes[k]->nodes.begin());
     }
     set("SET_" + node.name, sensor);
     set("GEL_" + node.name, gel);

@@ -62,7 +62,7 @@ class ScaledCost final : public ceres::CostFunction {
     const Eigen::VectorXd u = u_of(model_.unknowns(), parameters[0]);
     const auto r = possible_residuals(model_, u);
     if (!r) return false;
-    std::copy(r->begin(), r->end(), residuals);
+    std::ranges::copy(*r, residuals);
     if (!jacobians || !jacobians[0]) return true;
     Eigen::MatrixXd j;
     try {
@@ -183,7 +183,7 @@ double Posterior::deviation(const Eigen::VectorXd& values) const {
 double Posterior::quantile(const Eigen::VectorXd& values, double share) const {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  std::ranges::stable_sort(order, [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
   double below = 0.0;
   for (const Eigen::Index i : order) {
     below += weight[i];

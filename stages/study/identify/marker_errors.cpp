@@ -55,8 +55,8 @@ std::map<std::size_t, std::vector<MarkerErrors>> all_marker_errors(MechanicsMode
     const Posterior half = draw_posterior(model, fit, model.spec().draws, model.spec().seed);
     for (auto& [m, errors] : out)
       for (const MarkerErrors& e : marker_errors(model, m, half, false)) {
-        auto same = std::find_if(errors.begin(), errors.end(),
-                                 [&](const MarkerErrors& o) { return !o.fitted && o.photograph == e.photograph; });
+        auto same = std::ranges::find_if(
+            errors, [&](const MarkerErrors& o) { return !o.fitted && o.photograph == e.photograph; });
         if (same == errors.end()) {
           errors.push_back(e);
           continue;

@@ -136,7 +136,7 @@ Eigen::VectorXd MechanicsModel::predicted(std::size_t measurement, const Eigen::
     std::vector<double> times;
     for (const MeasuredForce& row : data.fitted) times.push_back(row.at);
     const auto forces = relaxing_force_n(press, mount, terms, m.depth_mm + zero, m.ramp_s, times);
-    std::copy(forces.begin(), forces.end(), out.begin());
+    std::ranges::copy(forces, out.begin());
   }
   return out;
 }

@@ -56,7 +56,7 @@ FieldErrors field_errors(const Eigen::Matrix2Xd& simulated, const Eigen::Matrix2
     errors.angle_deg += std::abs(std::atan2(m.x() * u.y() - m.y() * u.x(), m.dot(u))) * 180.0 / std::numbers::pi;
   }
   if (errors.directions > 0) errors.angle_deg /= errors.directions;
-  std::sort(distances.begin(), distances.end());
+  std::ranges::sort(distances);
   const std::size_t n = distances.size();
   errors.markers = static_cast<int>(n);
   if (n == 0) return errors;

@@ -39,7 +39,7 @@ struct Presses {
 std::vector<Presses> presses_of(const std::vector<NamedPath>& runs) {
   std::vector<Presses> presses;
   for (const auto& [name, folder] : runs) {
-    auto same = std::find_if(presses.begin(), presses.end(), [&](const Presses& p) { return p.name == name; });
+    auto same = std::ranges::find_if(presses, [&](const Presses& p) { return p.name == name; });
     if (same == presses.end()) same = presses.insert(same, {.name = name, .folders = {}});
     same->folders.push_back(folder);
   }
@@ -97,8 +97,8 @@ int main(int argc, char** argv) {
     std::map<std::string, std::vector<std::filesystem::path>> of_variant;
     std::vector<Presses> others;
     for (std::size_t i = 1; i < presses.size(); ++i) {
-      const bool variant = std::any_of(benchmark.variants.begin(), benchmark.variants.end(),
-                                       [&](const auto& v) { return v.own_runs && v.name == presses[i].name; });
+      const bool variant = std::ranges::any_of(benchmark.variants,
+                                               [&](const auto& v) { return v.own_runs && v.name == presses[i].name; });
       if (variant)
         of_variant[presses[i].name] = presses[i].folders;
       else

@@ -15,8 +15,7 @@ namespace {
 using Names = std::set<std::string>;
 
 bool hidden(const fs::path& relative) {
-  return std::any_of(relative.begin(), relative.end(),
-                     [](const fs::path& part) { return part.string().front() == '.'; });
+  return std::ranges::any_of(relative, [](const fs::path& part) { return part.string().front() == '.'; });
 }
 
 Names names_in(const fs::path& folder, const std::string& ends_with) {

@@ -82,13 +82,13 @@ CardImages read_card_images(const std::string& name, const std::filesystem::path
   while (table.next()) {
     if (table["region"] != "box") continue;
     const std::string image = table["name"];
-    out.photographs.push_back({.name = image,
-                               .fitted = std::any_of(calibrating.begin(), calibrating.end(),
-                                                     [&](const std::string& file) { return is_of(image, file); }),
-                               .rmse_codes = kCodes * std::sqrt(table.number("mse")),
-                               .ssim = table.number("ssim_s"),
-                               .mae = table.number("mae"),
-                               .psnr_db = table.number("psnr_db")});
+    out.photographs.push_back(
+        {.name = image,
+         .fitted = std::ranges::any_of(calibrating, [&](const std::string& file) { return is_of(image, file); }),
+         .rmse_codes = kCodes * std::sqrt(table.number("mse")),
+         .ssim = table.number("ssim_s"),
+         .mae = table.number("mae"),
+         .psnr_db = table.number("psnr_db")});
   }
   if (out.photographs.empty()) throw DataError("{}: has no photograph with a contact box", samples.string());
   return out;
@@ -111,7 +111,7 @@ Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mecha
     std::vector<std::filesystem::path> plots;
     for (const auto& entry : std::filesystem::directory_iterator(m.folder))
       if (entry.path().extension() == ".svg") plots.push_back(entry.path());
-    std::sort(plots.begin(), plots.end());
+    std::ranges::sort(plots);
     out.page += '\n';
     for (const auto& plot : plots) {
       const std::string picture = m.name + "_" + plot.filename().string();
@@ -126,7 +126,7 @@ Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mecha
         "fitted. Errors are in the contact box.\n\n"
         "| photograph | | expected, codes | error, codes | SSIM-S | MAE | PSNR, dB |\n|---|---|---|---|---|---|---|\n",
         i.name, i.calibrated_on,
-        std::any_of(i.photographs.begin(), i.photographs.end(), [](const CardPhotograph& p) { return p.fitted; })
+        std::ranges::any_of(i.photographs, [](const CardPhotograph& p) { return p.fitted; })
             ? " and those marked as fitted"
             : "",
         i.predicted_rmse_codes);

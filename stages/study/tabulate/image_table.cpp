@@ -26,7 +26,7 @@ std::vector<std::array<int, 2>> sizes_of(const std::vector<ImageSpeed>& speeds) 
   std::vector<std::array<int, 2>> sizes;
   for (const ImageSpeed& speed : speeds) {
     const std::array<int, 2> size{speed.width_px, speed.height_px};
-    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+    if (std::ranges::find(sizes, size) == sizes.end()) sizes.push_back(size);
   }
   return sizes;
 }
@@ -70,12 +70,12 @@ std::string region_table(const ShownRegion& region, const std::vector<MethodScor
 }
 
 const MethodScores& row_in(const std::vector<MethodScores>& rows, const std::string& method) {
-  return *std::find_if(rows.begin(), rows.end(), [&](const MethodScores& row) { return row.row.method == method; });
+  return *std::ranges::find_if(rows, [&](const MethodScores& row) { return row.row.method == method; });
 }
 
 template <typename Item>
 const std::string& heading_of(const std::vector<Item>& items, std::string Item::*member, const std::string& value) {
-  return std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.*member == value; })->heading;
+  return std::ranges::find_if(items, [&](const Item& item) { return item.*member == value; })->heading;
 }
 
 std::string named(const MeasuredRow& row) {
@@ -84,8 +84,8 @@ std::string named(const MeasuredRow& row) {
 
 /// Number of a column as its differences count: the logarithm where its mean is geometric.
 double value_of(double number, const Finding& finding, const ImageTableConfig& config) {
-  const auto column = std::find_if(config.columns.begin(), config.columns.end(),
-                                   [&](const ShownColumn& shown) { return shown.column == finding.column; });
+  const auto column =
+      std::ranges::find_if(config.columns, [&](const ShownColumn& shown) { return shown.column == finding.column; });
   return column->geometric ? std::log(number) : number;
 }
 
@@ -156,7 +156,7 @@ std::string of_runs(const std::vector<MethodScores>& rows) {
   std::vector<std::string> named;  // rows of one name in several groups once
   for (const MethodScores& row : rows) {
     const std::string name = fmt::format("{} {}", markdown_cell(row.row.name), row.runs);
-    if (row.runs > 1 && std::find(named.begin(), named.end(), name) == named.end()) named.push_back(name);
+    if (row.runs > 1 && std::ranges::find(named, name) == named.end()) named.push_back(name);
   }
   return named.empty() ? ""
                        : fmt::format("; in rows of several runs, over the runs' means ({})", fmt::join(named, ", "));
@@ -169,7 +169,7 @@ std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableC
   std::string text;
   for (const MethodScores& row : rows)
     if (!speeds.empty() && row.row.timed_as != row.row.method &&
-        std::none_of(speeds.begin(), speeds.end(), [&](const auto& s) { return s.method == row.row.timed_as; }))
+        std::ranges::none_of(speeds, [&](const auto& s) { return s.method == row.row.timed_as; }))
       throw DataError("no speed was measured of {}, as which '{}' is timed", row.row.timed_as, row.row.name);
   for (const ShownRegion& region : config.regions)  // an image's cost is that of all regions
     text +=

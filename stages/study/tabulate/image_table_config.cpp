@@ -10,13 +10,13 @@ template <typename Item>
 void refuse_repeats(ConfigReader& in, const std::string& key, const std::vector<Item>& items,
                     std::string Item::*member) {
   const auto same = [&](const Item& other) { return other.*member == items.back().*member; };
-  if (std::count_if(items.begin(), items.end(), same) > 1) in.fault(key, "is given twice");
+  if (std::ranges::count_if(items, same) > 1) in.fault(key, "is given twice");
 }
 
 template <typename Item>
 void must_be_one_of(ConfigReader& in, const std::string& key, const std::string& value, const std::vector<Item>& items,
                     std::string Item::*member, const std::string& what) {
-  if (std::none_of(items.begin(), items.end(), [&](const Item& item) { return item.*member == value; }))
+  if (std::ranges::none_of(items, [&](const Item& item) { return item.*member == value; }))
     in.fault(key, "is not one of the " + what);
 }
 

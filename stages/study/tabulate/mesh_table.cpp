@@ -25,9 +25,8 @@ std::string comparison(const FamilyCost& family, const FamilyCost& other) {
                                   markdown_count(*vertices), times(mesh.vertices / *vertices));
       continue;
     }
-    const auto better = std::find_if(other.meshes.begin(), other.meshes.end(), [&](const MeshCost& candidate) {
-      return candidate.depth_error_mm < mesh.depth_error_mm;
-    });
+    const auto better = std::ranges::find_if(
+        other.meshes, [&](const MeshCost& candidate) { return candidate.depth_error_mm < mesh.depth_error_mm; });
     if (better != other.meshes.end())
       text += start + fmt::format("{} is nearer ({:.4f} mm) with {} vertices, {}\n", better->name,
                                   better->depth_error_mm, markdown_count(better->vertices),

@@ -20,7 +20,7 @@ MeanDeviation mean_of(std::vector<double> values, bool geometric) {
 }
 
 std::vector<std::string> sorted(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 
@@ -38,7 +38,7 @@ MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::
   for (const auto& [region, heading] : regions) {
     const auto names = sorted(images[region]);
     if (names.empty()) throw DataError("{}: has no row of region {}", table.string(), region);
-    const auto twice = std::adjacent_find(names.begin(), names.end());
+    const auto twice = std::ranges::adjacent_find(names);
     if (twice != names.end()) throw DataError("{}: {} is there twice in region {}", table.string(), *twice, region);
     if (scores.images.empty()) scores.images = images[region];
     if (images[region] != scores.images)
@@ -104,8 +104,7 @@ std::vector<MethodScores> read_methods(const std::vector<NamedPath>& tables, con
   for (const NamedPath& table : tables) {
     auto& runs = by_method[table.name];
     const auto same = [&](const fs::path& run) { return run.lexically_normal() == table.path.lexically_normal(); };
-    if (std::any_of(runs.begin(), runs.end(), same))
-      throw DataError("{}: is given twice for {}", table.path.string(), table.name);
+    if (std::ranges::any_of(runs, same)) throw DataError("{}: is given twice for {}", table.path.string(), table.name);
     runs.push_back(table.path);
   }
   std::vector<MethodScores> methods;

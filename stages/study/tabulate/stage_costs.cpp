@@ -21,7 +21,7 @@ StageCostsConfig StageCostsConfig::read(ConfigReader& in) {
   for (ConfigReader& item : in.sections("sums")) {
     StageCostsConfig::Sum sum{.name = item.text("name"), .per = item.text("per"), .of = item.texts("of")};
     for (const std::string& name : sum.of)
-      if (std::none_of(config.rows.begin(), config.rows.end(), [&](const auto& row) { return row.name == name; }))
+      if (std::ranges::none_of(config.rows, [&](const auto& row) { return row.name == name; }))
         item.fault("of", "'" + name + "' is not one of the rows");
     config.sums.push_back(std::move(sum));
   }
@@ -63,7 +63,7 @@ std::string to_markdown(const std::vector<Cost>& costs, const StageCostsConfig& 
   for (const StageCostsConfig::Sum& sum : config.sums) {
     double seconds = 0.0, peak_mb = 0.0;
     for (const Cost& cost : costs) {
-      if (std::find(sum.of.begin(), sum.of.end(), cost.name) == sum.of.end()) continue;
+      if (std::ranges::find(sum.of, cost.name) == sum.of.end()) continue;
       seconds += cost.processor_s.mean;
       peak_mb = std::max(peak_mb, cost.peak_memory_mb);
     }
