@@ -92,7 +92,7 @@ double depth_error_m(const Positions& x, const Positions& near, const std::vecto
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = 0; i < front.size(); ++i) {
-    if (normal_n.row(static_cast<Eigen::Index>(i)).isZero(0.0)) continue;
+    if (normal_n.row(i).isZero(0.0)) continue;
     sum += std::abs(x(front[i], 2) - near(front[i], 2));
     ++count;
   }

@@ -26,15 +26,14 @@ struct alignas(64) ShadowQuery {
 void fill(const RayPacket& from, int* valid, RTCRay8& to) {
   std::memset(&to, 0, sizeof to);
   for (int i = 0; i < RayPacket::kSize; ++i) {
-    const auto k = static_cast<std::size_t>(i);
     valid[i] = (from.valid >> i & 1u) != 0 ? -1 : 0;
-    to.org_x[i] = from.origin_x[k];
-    to.org_y[i] = from.origin_y[k];
-    to.org_z[i] = from.origin_z[k];
-    to.dir_x[i] = from.direction_x[k];
-    to.dir_y[i] = from.direction_y[k];
-    to.dir_z[i] = from.direction_z[k];
-    to.tfar[i] = from.far[k];
+    to.org_x[i] = from.origin_x[i];
+    to.org_y[i] = from.origin_y[i];
+    to.org_z[i] = from.origin_z[i];
+    to.dir_x[i] = from.direction_x[i];
+    to.dir_y[i] = from.direction_y[i];
+    to.dir_z[i] = from.direction_z[i];
+    to.tfar[i] = from.far[i];
     to.mask[i] = ~0u;
   }
 }

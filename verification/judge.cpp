@@ -156,7 +156,7 @@ double evaluate(const std::string& formula, const Outcome& outcome, int frame, b
   if (formula == "uniform_compression") return compression();
   if (formula == "relaxing_compression") {
     const auto& frames = outcome.simulation.frames;
-    const double time_s = frames[static_cast<std::size_t>(frame)].time_s;
+    const double time_s = frames[frame].time_s;
     double ramp_s = 0.0;  // the first phase is the press
     for (const Frame& f : frames) ramp_s = f.phase_index == 0 ? std::min(f.time_s, time_s) : ramp_s;
     return compression() * relaxing_force_factor(outcome.spec.material.relaxation, ramp_s, time_s - ramp_s);

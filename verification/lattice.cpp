@@ -36,7 +36,7 @@ TetMesh fill_lattice(const Lattice& lattice) {
       }
     }
   }
-  std::vector<int> number(static_cast<std::size_t>((nx + 1) * (ny + 1) * (nz + 1)), -1);
+  std::vector<int> number((nx + 1) * (ny + 1) * (nz + 1), -1);
   for (const auto& tet : tets)
     for (const int v : tet) number[v] = 0;
   TetMesh gel;
@@ -52,7 +52,7 @@ TetMesh fill_lattice(const Lattice& lattice) {
       }
     }
   }
-  gel.tets.resize(static_cast<Eigen::Index>(tets.size()), 4);
+  gel.tets.resize(tets.size(), 4);
   for (std::size_t t = 0; t < tets.size(); ++t) {
     const auto row = static_cast<Eigen::Index>(t);
     for (int c = 0; c < 4; ++c) gel.tets(row, c) = number[tets[t][c]];

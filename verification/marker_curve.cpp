@@ -59,7 +59,7 @@ MarkerCurve marker_curve(const SlidingRun& run, const MarkerCurveConfig& config)
   const int frames = static_cast<int>(curve.mean_m.size());
   const double enough = config.settled_load * *std::ranges::max_element(run.load);
   for (int f = 0; f < frames; ++f)
-    if (run.load[static_cast<std::size_t>(f)] < enough) curve.settled = f + 1;
+    if (run.load[f] < enough) curve.settled = f + 1;
   if (frames - curve.settled < 3)
     throw DataError("{}: sliding becomes steady at frame {} of {} after the press: too late to judge", run.name,
                     curve.settled, frames - 1);

@@ -37,7 +37,7 @@ std::string marker_curve_svg(const SlidingRun& run, const MarkerCurve& curve, co
   };
   PlotCurve mean{.label = "mean displacement of the markers", .points = points(run.way, curve.mean_m)};
   PlotCurve settled{.label = "settled from here", .dots = true};
-  settled.points.push_back(mean.points[static_cast<std::size_t>(curve.settled)]);
+  settled.points.push_back(mean.points[curve.settled]);
   std::vector<PlotCurve> curves{mean, settled};
   for (const MarkerMotion& other : of_kind(others, run))
     curves.push_back(
@@ -97,8 +97,8 @@ std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::ve
     const MarkerCurve& c = curves[i];
     out += fmt::format("| {} | {} | {} | {:.3f} µm | {:.3g}{} | {:.4f} µm = {:.2f} % | {:g} % | {} | {:.2f} % |\n",
                        run.name, run.gel_vertices, c.mean_m.size() - 1, c.largest_first_m / kMicrometre,
-                       shown_way(run, run.way[static_cast<std::size_t>(c.settled)]), way_unit(run),
-                       c.largest_second_m / kMicrometre, 100.0 * c.ratio(), 100.0 * config.second_difference_limit,
+                       shown_way(run, run.way[c.settled]), way_unit(run), c.largest_second_m / kMicrometre,
+                       100.0 * c.ratio(), 100.0 * config.second_difference_limit,
                        c.ratio() < config.second_difference_limit ? "holds" : "**missed**",
                        100.0 * c.largest_second_ever_m / c.largest_first_m);
   }

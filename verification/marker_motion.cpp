@@ -35,7 +35,7 @@ std::vector<double> mean_lengths(const std::vector<Eigen::Matrix2Xd>& frames, co
   std::vector<double> means;
   for (const Eigen::Matrix2Xd& displacement : frames) {
     double sum = 0.0;
-    for (const std::size_t m : chosen) sum += displacement.col(static_cast<Eigen::Index>(m)).norm();
+    for (const std::size_t m : chosen) sum += displacement.col(m).norm();
     means.push_back(sum / static_cast<double>(chosen.size()));
   }
   return means;
@@ -132,8 +132,8 @@ MotionComparison compare(const MarkerMotion& ours, const MarkerMotion& other, co
       ++same;
     if (same == other.rows.size())
       throw DataError("{}: has no marker in row {}, column {}", other.name, ours.rows[m], ours.columns[m]);
-    const Eigen::Vector2d our = ours.markers.back().col(static_cast<Eigen::Index>(m));
-    const Eigen::Vector2d their = theirs.col(static_cast<Eigen::Index>(same));
+    const Eigen::Vector2d our = ours.markers.back().col(m);
+    const Eigen::Vector2d their = theirs.col(same);
     our_sum += our.norm();
     their_sum += their.norm();
     out.error_m += (their - our).norm() / static_cast<double>(chosen.size());

@@ -14,9 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-const Frame& frame_of(const Outcome& outcome, int frame) {
-  return outcome.simulation.frames[static_cast<std::size_t>(frame)];
-}
+const Frame& frame_of(const Outcome& outcome, int frame) { return outcome.simulation.frames[frame]; }
 
 Vector3 box_centre(const TriangleMesh& object) {
   return 0.5 * (object.positions.colwise().minCoeff() + object.positions.colwise().maxCoeff()).transpose();

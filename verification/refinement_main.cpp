@@ -34,14 +34,14 @@ int main(int argc, char** argv) {
       const auto saved = stage.load_scratch(name);
       auto level = saved ? verify::RefinementLevel::unpack(*saved) : std::nullopt;
       if (!level) {
-        level = verify::run_level(spec, scenes[static_cast<std::size_t>(k)], verify::shared_folder());
+        level = verify::run_level(spec, scenes[k], verify::shared_folder());
         stage.save_scratch(name, level->pack());
       }
       levels.push_back(std::move(*level));
       result.gel_vertices.push_back(levels.back().gel_vertices);
       log_info("{} {:g} {}: {} vertices, press {:.5g} N, tangential {:.5g} N", result.parameter,
-               result.parameter_values[static_cast<std::size_t>(k)], result.unit, levels.back().gel_vertices,
-               levels.back().press_force_n, levels.back().tangential_force_n);
+               result.parameter_values[k], result.unit, levels.back().gel_vertices, levels.back().press_force_n,
+               levels.back().tangential_force_n);
     }
     result.curves = verify::compare_levels(levels, study.factor);
     const Value value = verify::to_value(result);

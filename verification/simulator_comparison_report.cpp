@@ -89,7 +89,7 @@ std::vector<const SimulatorRun*> first_motion(const ComparedRuns& all) {
 /// \pre a run of the first motion
 const std::string& label_of(const ComparedRuns& all, const SimulatorRun& run) {
   const std::vector<const SimulatorRun*> runs = first_motion(all);
-  return all.config.simulators[static_cast<std::size_t>(std::ranges::find(runs, &run) - runs.begin())].label;
+  return all.config.simulators[std::ranges::find(runs, &run) - runs.begin()].label;
 }
 
 std::string factor_table(const ComparedRuns& all) {

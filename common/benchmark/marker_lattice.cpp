@@ -65,7 +65,7 @@ Vector3 MarkerLattice::at(const Eigen::Vector2d& point_m, const Positions& vecto
       throw DataError("{}: a measured marker at ({:.3f}, {:.3f}) mm lies outside the simulated ones", source_,
                       1e3 * point_m.x(), 1e3 * point_m.y());
     cell[k] = std::min(static_cast<int>(place[k]), count_[k] - 2);
-    auto& w = weight[static_cast<std::size_t>(k)] = catmull_rom(place[k] - cell[k]);
+    auto& w = weight[k] = catmull_rom(place[k] - cell[k]);
     // Beyond the edge the field is extrapolated linearly: v(−1) = 2 v(0) − v(1).
     if (cell[k] == 0) {
       w[1] += 2.0 * w[0];
@@ -81,7 +81,7 @@ Vector3 MarkerLattice::at(const Eigen::Vector2d& point_m, const Positions& vecto
   Vector3 sum = Vector3::Zero();
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
-      const double w = weight[0][static_cast<std::size_t>(i)] * weight[1][static_cast<std::size_t>(j)];
+      const double w = weight[0][i] * weight[1][j];
       if (w == 0.0) continue;
       sum += w * vectors.row(marker_(cell.y() + j - 1, cell.x() + i - 1)).transpose();
     }

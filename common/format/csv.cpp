@@ -75,7 +75,7 @@ bool CsvReader::next() {
 const std::string& CsvReader::operator[](std::string_view column) const {
   const auto found = std::ranges::find(columns_, column);
   if (found == columns_.end()) throw DataError("{}: has no column '{}'", name_, column);
-  return row_[static_cast<std::size_t>(found - columns_.begin())];
+  return row_[found - columns_.begin()];
 }
 
 double CsvReader::number(std::string_view column) const {

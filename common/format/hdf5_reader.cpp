@@ -26,7 +26,7 @@ hdf5::Id open_file(const std::filesystem::path& path) {
 }
 
 std::vector<hsize_t> extents_of(const Space& space) {
-  std::vector<hsize_t> extents(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  std::vector<hsize_t> extents(H5Sget_simple_extent_ndims(space));
   H5Sget_simple_extent_dims(space, extents.data(), nullptr);
   return extents;
 }

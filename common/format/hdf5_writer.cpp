@@ -286,7 +286,7 @@ void Hdf5Writer::write_frame(const std::string& path, std::size_t frame, std::st
   const Type type(H5Dget_type(set), file_->name, path, "has no type");
   const int dimensions = H5Sget_simple_extent_ndims(all);
   if (dimensions < 1) throw DataError("{}: {}: has no frames", file_->name, path);
-  std::vector<hsize_t> count(static_cast<std::size_t>(dimensions));
+  std::vector<hsize_t> count(dimensions);
   H5Sget_simple_extent_dims(all, count.data(), nullptr);
   std::vector<hsize_t> start(count.size(), 0);
   start[0] = frame;

@@ -199,7 +199,7 @@ NpyFrames::NpyFrames(const std::filesystem::path& path) : name_(path.string()), 
   if (!file_ || std::filesystem::is_directory(path)) throw DataError("{}: cannot be read", name_);
   std::string begin(kLongestHeader, '\0');
   file_.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(file_.gcount()));
+  begin.resize(file_.gcount());
   const Header header = parse_header(begin, std::filesystem::file_size(path), name_);
   if (header.fortran || header.shape.empty())
     throw DataError("{}: cannot be read by its first axis: {}", name_,

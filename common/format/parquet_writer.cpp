@@ -164,7 +164,7 @@ std::string levels_of(const std::vector<std::size_t>& shape, std::size_t rows) {
     int level = depth - 1;
     std::size_t block = shape.back();
     for (; level > 0; --level) {
-      block *= shape[static_cast<std::size_t>(level - 1)];
+      block *= shape[level - 1];
       if (v % block != 0) break;
     }
     repetition.add(1, level);

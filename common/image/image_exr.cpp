@@ -95,8 +95,8 @@ std::string exr_bytes(const Image<T>& image, const std::vector<std::string>& cha
     Imf::FrameBuffer frame;
     for (int c = 0; c < image.channels; ++c) {
       const Imf::Slice part = slice(image, c, 0, 0);
-      header.channels().insert(channel_names[static_cast<std::size_t>(c)], Imf::Channel(part.type));
-      frame.insert(channel_names[static_cast<std::size_t>(c)], part);
+      header.channels().insert(channel_names[c], Imf::Channel(part.type));
+      frame.insert(channel_names[c], part);
     }
     Imf::OutputFile file(memory, header, kThreads);
     file.setFrameBuffer(frame);
@@ -153,7 +153,7 @@ FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::st
     FloatImage image(static_cast<int>(width), static_cast<int>(height), static_cast<int>(channel_names.size()));
     Imf::FrameBuffer frame;
     for (int c = 0; c < image.channels; ++c)
-      frame.insert(channel_names[static_cast<std::size_t>(c)], slice(image, c, window.min.x, window.min.y));
+      frame.insert(channel_names[c], slice(image, c, window.min.x, window.min.y));
     file.setFrameBuffer(frame);
     file.readPixels(window.min.y, window.max.y);
     return image;

@@ -46,7 +46,7 @@ ByteImage picture_of_scalar(const FloatImage& image, double low, double high) {
       const double value = image.at(x, y, 0);
       if (std::isnan(value)) continue;
       const auto color = perceptual_color((value - low) / (high - low));
-      for (int c = 0; c < 3; ++c) picture.at(x, y, c) = color[static_cast<std::size_t>(c)];
+      for (int c = 0; c < 3; ++c) picture.at(x, y, c) = color[c];
     }
   }
   return picture;

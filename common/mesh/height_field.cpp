@@ -19,7 +19,7 @@ HeightField highest_points(const TriangleMesh& mesh, double spacing_m, double ma
   constexpr double kEdgeSlack = 1e-6;
   for (Eigen::Index t = 0; t < mesh.num_triangles(); ++t) {
     std::array<Vector3, 3> p;
-    for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = mesh.positions.row(mesh.triangles(t, k));
+    for (int k = 0; k < 3; ++k) p[k] = mesh.positions.row(mesh.triangles(t, k));
     const double area = (p[1] - p[0]).cross(p[2] - p[0]).z();
     const double longest =
         std::max({(p[1] - p[0]).head<2>().norm(), (p[2] - p[1]).head<2>().norm(), (p[0] - p[2]).head<2>().norm()});

@@ -60,11 +60,10 @@ class Reader {
     if (points_.empty()) throw DataError("{}: has no nodes", name_);
     if (tets_.empty()) throw DataError("{}: has no tetrahedra", name_);
     MshContent content;
-    content.positions.resize(static_cast<Eigen::Index>(points_.size()), 3);
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      content.positions.row(static_cast<Eigen::Index>(i)) = points_[i].transpose();
+    content.positions.resize(points_.size(), 3);
+    for (std::size_t i = 0; i < points_.size(); ++i) content.positions.row(i) = points_[i].transpose();
     content.tets = Eigen::Map<const Tetrahedra>(tets_.data(), static_cast<Eigen::Index>(tets_.size() / 4), 4);
-    content.triangles.resize(static_cast<Eigen::Index>(triangles_.size() / 3), 3);
+    content.triangles.resize(triangles_.size() / 3, 3);
     std::ranges::copy(triangles_, content.triangles.data());
     content.triangle_tags = std::move(triangle_tags_);
     return content;

@@ -36,9 +36,9 @@ const Kind kObject{{{BoundaryTag::free, "free", true}}, "object", "a soft object
 
 /// Rows in an order that tells which triangles are there, each turned to begin with its smallest index.
 std::vector<std::array<int, 3>> canonical(const Triangles& triangles) {
-  std::vector<std::array<int, 3>> rows(static_cast<std::size_t>(triangles.rows()));
+  std::vector<std::array<int, 3>> rows(triangles.rows());
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    std::array<int, 3>& row = rows[static_cast<std::size_t>(f)];
+    std::array<int, 3>& row = rows[f];
     row = {triangles(f, 0), triangles(f, 1), triangles(f, 2)};
     std::rotate(row.begin(), std::ranges::min_element(row), row.end());
   }
@@ -139,8 +139,7 @@ TetMesh read_kind(const std::filesystem::path& path, const Kind& kind, const Kin
   for (std::size_t f = 0; f < content.triangle_tags.size(); ++f) {
     const int tag = tags[f];
     if (named(kind, tag) == kind.tags.end()) {
-      const Eigen::RowVector3d centre =
-          corner_sum(mesh.positions, mesh.boundary.row(static_cast<Eigen::Index>(f))) / 3.0;
+      const Eigen::RowVector3d centre = corner_sum(mesh.positions, mesh.boundary.row(f)) / 3.0;
       throw DataError("{}: boundary triangle {} near ({:.4g}, {:.4g}, {:.4g}) m has physical tag {}, expected {}", name,
                       f, centre[0], centre[1], centre[2], tag, kind.tags_said);
     }

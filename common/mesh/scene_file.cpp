@@ -30,7 +30,7 @@ std::string head_of_model(const std::string& bytes, const std::string& name) {
     std::string head(1 << 14, '\0');
     const auto size = archive_read_data(zip.get(), head.data(), head.size());
     if (size < 0) throw DataError("{}: not a 3MF file ({})", name, shown(archive_error_string(zip.get())));
-    head.resize(static_cast<std::size_t>(size));
+    head.resize(size);
     return head;
   }
   throw DataError("{}: not a 3MF file (there is no model in it)", name);

@@ -19,7 +19,7 @@ std::uint64_t spread(std::uint64_t bits) {
 }  // namespace
 
 std::vector<int> spatial_order(const Positions& points) {
-  std::vector<int> order(static_cast<std::size_t>(points.rows()));
+  std::vector<int> order(points.rows());
   std::iota(order.begin(), order.end(), 0);
   if (order.empty()) return order;
   const Eigen::RowVector3d low = points.colwise().minCoeff();
@@ -27,7 +27,7 @@ std::vector<int> spatial_order(const Positions& points) {
   constexpr double kCells = (1 << 21) - 1;
   std::vector<std::uint64_t> code(order.size());
   for (std::size_t i = 0; i < code.size(); ++i) {
-    const Eigen::RowVector3d at = (points.row(static_cast<Eigen::Index>(i)) - low) * (extent > 0 ? kCells / extent : 0);
+    const Eigen::RowVector3d at = (points.row(i) - low) * (extent > 0 ? kCells / extent : 0);
     code[i] = spread(static_cast<std::uint64_t>(at.x())) | spread(static_cast<std::uint64_t>(at.y())) << 1 |
               spread(static_cast<std::uint64_t>(at.z())) << 2;
   }
@@ -36,9 +36,9 @@ std::vector<int> spatial_order(const Positions& points) {
 }
 
 std::vector<int> spatial_rank(const Positions& points) {
-  std::vector<int> rank(static_cast<std::size_t>(points.rows()));
+  std::vector<int> rank(points.rows());
   int next = 0;
-  for (const int i : spatial_order(points)) rank[static_cast<std::size_t>(i)] = next++;
+  for (const int i : spatial_order(points)) rank[i] = next++;
   return rank;
 }
 

@@ -26,7 +26,7 @@ Triangles TetMesh::faces(BoundaryTag tag) const {
   Triangles found(boundary.rows(), 3);
   Eigen::Index count = 0;
   for (Eigen::Index f = 0; f < boundary.rows(); ++f)
-    if (tags[static_cast<std::size_t>(f)] == tag) found.row(count++) = boundary.row(f);
+    if (tags[f] == tag) found.row(count++) = boundary.row(f);
   found.conservativeResize(count, 3);
   return found;
 }
@@ -63,7 +63,7 @@ TetMesh joined(const std::vector<TetMesh>& meshes) {
 
 Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices) {
   std::vector<KeyedFace> faces;
-  faces.reserve(static_cast<std::size_t>(4 * tets.rows()));
+  faces.reserve(4 * tets.rows());
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     for (int f = 0; f < 4; ++f) {
       std::array<int, 3> key;
@@ -91,7 +91,7 @@ Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices) 
     first = last;
   }
   std::ranges::sort(single);
-  Triangles boundary(static_cast<Eigen::Index>(single.size()), 3);
+  Triangles boundary(single.size(), 3);
   for (std::size_t b = 0; b < single.size(); ++b)
     for (int i = 0; i < 3; ++i)
       boundary(static_cast<Eigen::Index>(b), i) = tets(single[b] / 4, kFaces[single[b] % 4][i]);

@@ -75,9 +75,8 @@ TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres
   if (triangle_corners.empty()) throw DataError("{}: has no triangles", name);
 
   TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(num_vertices), 3);
-  for (std::size_t i = 0; i < num_vertices; ++i)
-    mesh.positions.row(static_cast<Eigen::Index>(i)) = soup.vertices[i].transpose();
+  mesh.positions.resize(num_vertices, 3);
+  for (std::size_t i = 0; i < num_vertices; ++i) mesh.positions.row(i) = soup.vertices[i].transpose();
   mesh.triangles =
       Eigen::Map<const Triangles>(triangle_corners.data(), static_cast<Eigen::Index>(triangle_corners.size() / 3), 3);
   return mesh;
@@ -94,7 +93,7 @@ double signed_volume(const TriangleMesh& mesh) {
 }
 
 void remove_unreferenced_vertices(TriangleMesh& mesh) {
-  std::vector<int> new_index(static_cast<std::size_t>(mesh.num_vertices()), -1);
+  std::vector<int> new_index(mesh.num_vertices(), -1);
   for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) new_index[mesh.triangles.data()[i]] = 0;
   int kept = 0;
   for (int v = 0; v < static_cast<int>(new_index.size()); ++v)

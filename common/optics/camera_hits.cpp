@@ -17,9 +17,8 @@ void nudge(const RayScene& scene, const CameraRays& rays, std::uint32_t missed, 
     beside.valid = missed;
     const auto found = scene.first_hits(beside);
     for (int l = 0; l < kRays; ++l) {
-      const auto k = static_cast<std::size_t>(l);
-      if (found[k] < 0) continue;
-      triangles[k] = found[k];
+      if (found[l] < 0) continue;
+      triangles[l] = found[l];
       missed &= ~(1u << l);
       ++counts.nudged;
     }
@@ -44,16 +43,16 @@ CameraHits find_hits(const RayScene& scene, const Membrane& membrane, const Came
   auto triangles = scene.first_hits(packet);
   std::uint32_t missed = 0;
   for (int l = 0; l < kRays; ++l) {
-    if ((packet.valid >> l & 1u) != 0 && triangles[static_cast<std::size_t>(l)] < 0) missed |= 1u << l;
+    if ((packet.valid >> l & 1u) != 0 && triangles[l] < 0) missed |= 1u << l;
   }
   if (missed != 0) nudge(scene, rays, missed, triangles, counts);
   CameraHits out;
   for (int l = 0; l < count; ++l) {
     if ((packet.valid >> l & 1u) == 0) continue;
     const Ray ray{.origin = lane_of(rays.origin, l), .direction = lane_of(rays.direction, l)};
-    const int triangle = triangles[static_cast<std::size_t>(l)];
+    const int triangle = triangles[l];
     if (triangle >= 0) {
-      out.hits[static_cast<std::size_t>(l)] = surface_hit(membrane, triangle, ray);
+      out.hits[l] = surface_hit(membrane, triangle, ray);
     } else if (inside_outline(membrane, ray)) {
       if (!out.fallen) out.fallen = l;
     } else {

@@ -44,7 +44,7 @@ FloatImage group_image(const TraceResult& result, const Sensor& sensor, std::siz
   alone.ambient_rgb = {};
   for (Led& led : alone.leds) led.rgb = {};
   const std::vector<LightGroup> groups = light_groups(sensor.leds);
-  for (const int led : groups[group].leds) alone.leds[static_cast<std::size_t>(led)].rgb = {1.0, 1.0, 1.0};
+  for (const int led : groups[group].leds) alone.leds[led].rgb = {1.0, 1.0, 1.0};
   return color_image(result, alone, false);
 }
 

@@ -185,7 +185,7 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
   const auto excess = [&](double log_exposure) {
     const double exposure = std::exp(log_exposure);
     // Row by row, so that the threads leave no trace in the rounding.
-    std::vector<double> rows(static_cast<std::size_t>(linear.height));
+    std::vector<double> rows(linear.height);
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
       rows[y] = sum_of_codes(&linear.pixels[y * length], length, exposure, curve);
     });

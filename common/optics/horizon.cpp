@@ -75,7 +75,7 @@ int Horizon::cell(double at, double low, int count) const {
 double Horizon::steepness(double x, double y) const {
   const double u = (x - low_x_) / width_, v = (y - low_y_) / width_;
   if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return kInfinity;
-  return bound_[static_cast<std::size_t>(static_cast<int>(v) * columns_ + static_cast<int>(u))];
+  return bound_[static_cast<int>(v) * columns_ + static_cast<int>(u)];
 }
 
 }  // namespace tacipc

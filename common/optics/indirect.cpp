@@ -127,30 +127,28 @@ VertexLight gather_indirect(const RayScene& scene, const Membrane& membrane, con
         const auto index = static_cast<std::uint32_t>(start + l);
         const double u = std::fmod(sobol(index, 0) + shift_x, 1.0), w = std::fmod(sobol(index, 1) + shift_y, 1.0);
         const double sine = std::sqrt(u), azimuth = 2.0 * std::numbers::pi * w;
-        directions[static_cast<std::size_t>(l)] =
+        directions[l] =
             sine * std::cos(azimuth) * first + sine * std::sin(azimuth) * second + std::sqrt(1.0 - u) * normal;
-        packet.set(l, origin, directions[static_cast<std::size_t>(l)], 0.0);
+        packet.set(l, origin, directions[l], 0.0);
       }
       const auto met = scene.first_hits(packet);
       RayPacket returning = packet;
       returning.valid = 0;
       std::array<double, kLanes> weights{};
       for (int l = 0; l < kLanes; ++l) {
-        const auto k = static_cast<std::size_t>(l);
-        if (met[k] >= 0) {
-          add(met[k], 1.0);
+        if (met[l] >= 0) {
+          add(met[l], 1.0);
         } else if (mirrors) {
-          const auto back = mirrored(origin, directions[k], sensor);
+          const auto back = mirrored(origin, directions[l], sensor);
           if (!back) continue;
           returning.set(l, back->origin, back->direction, 0.0);
-          weights[k] = back->reflectance;
+          weights[l] = back->reflectance;
         }
       }
       if (returning.valid == 0) continue;
       const auto reached = scene.first_hits(returning);
       for (int l = 0; l < kLanes; ++l) {
-        const auto k = static_cast<std::size_t>(l);
-        if ((returning.valid >> l & 1u) != 0 && reached[k] >= 0) add(reached[k], weights[k]);
+        if ((returning.valid >> l & 1u) != 0 && reached[l] >= 0) add(reached[l], weights[l]);
       }
     }
     out.row(v) /= (rays + kLanes - 1) / kLanes * kLanes;

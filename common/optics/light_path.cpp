@@ -49,7 +49,7 @@ TACIPC_INLINE void layered(const Pack3& point, const LightSample& sample, PathSt
   const Pack at_light = path.sine_over_lateral * (1.0 / stack.ior[0]);
   const Pack3 leaving = {at_light * dx, at_light * dy, path.cosine_first};
   const Pack cosine = leaving.x * sample.normal.x() + leaving.y * sample.normal.y() + leaving.z * sample.normal.z();
-  const Pack in_gel = path.sine_over_lateral * (-1.0 / stack.ior[static_cast<std::size_t>(stack.count - 1)]);
+  const Pack in_gel = path.sine_over_lateral * (-1.0 / stack.ior[stack.count - 1]);
   out.direction = {in_gel * dx, in_gel * dy, -path.cosine_last};
   out.length = thickness * path.secant_last;
   out.irradiance = sample.weight * emitted(sample, cosine) * path.transmittance * path.spread * path.secant_last;
@@ -228,7 +228,7 @@ std::vector<LightSource> light_sources(const Sensor& sensor, int edge_samples, b
   const std::vector<LightGroup> groups = light_groups(sensor.leds);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const int index : groups[g].leds) {
-      const Led& led = sensor.leds[static_cast<std::size_t>(index)];
+      const Led& led = sensor.leds[index];
       const bool point = led.size_m[0] == 0.0 && led.size_m[1] == 0.0;
       LightSample sample{.normal = led.normal,
                          .emission = led.emission,

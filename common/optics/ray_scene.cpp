@@ -103,7 +103,7 @@ std::array<int, RayPacket::kSize> RayScene::first_hits(const RayPacket& rays) co
   std::array<int, RayPacket::kSize> triangles{};
   for (int i = 0; i < RayPacket::kSize; ++i) {
     const bool hit = valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    triangles[static_cast<std::size_t>(i)] = hit ? static_cast<int>(query.hit.primID[i]) : -1;
+    triangles[i] = hit ? static_cast<int>(query.hit.primID[i]) : -1;
   }
   return triangles;
 }

@@ -20,14 +20,13 @@ struct alignas(32) RayPacket {
   std::uint32_t valid = 0;  // bit i: ray i counts
 
   void set(int lane, const Vector3& origin, const Vector3& direction, double length) {
-    const auto l = static_cast<std::size_t>(lane);
-    origin_x[l] = static_cast<float>(origin.x());
-    origin_y[l] = static_cast<float>(origin.y());
-    origin_z[l] = static_cast<float>(origin.z());
-    direction_x[l] = static_cast<float>(direction.x());
-    direction_y[l] = static_cast<float>(direction.y());
-    direction_z[l] = static_cast<float>(direction.z());
-    far[l] = static_cast<float>(length);
+    origin_x[lane] = static_cast<float>(origin.x());
+    origin_y[lane] = static_cast<float>(origin.y());
+    origin_z[lane] = static_cast<float>(origin.z());
+    direction_x[lane] = static_cast<float>(direction.x());
+    direction_y[lane] = static_cast<float>(direction.y());
+    direction_z[lane] = static_cast<float>(direction.z());
+    far[lane] = static_cast<float>(length);
     valid |= 1u << lane;
   }
 };

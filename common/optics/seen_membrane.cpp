@@ -16,7 +16,7 @@ MembraneView view_membrane(const Positions& positions, const Triangles& triangle
   MembraneView view = flat_view(camera, sensor.camera);
   const Membrane membrane = make_membrane(positions, positions, triangles);
   const RayScene scene(membrane.positions, membrane.triangles);
-  std::vector<std::optional<int>> fallen(static_cast<std::size_t>(view.height));
+  std::vector<std::optional<int>> fallen(view.height);
   tbb::parallel_for(0, view.height, [&](int y) {
     const FlushDenormals flush;
     HitCounts counts;
@@ -26,9 +26,9 @@ MembraneView view_membrane(const Positions& positions, const Triangles& triangle
       for (int l = 0; l < kLanes; ++l) columns[l] = first + l + 0.5;
       const CameraRays rays = camera.rays(columns, y + 0.5);
       const auto found = find_hits(scene, membrane, rays, std::min(kLanes, view.width - first), packet, counts);
-      if (found.fallen) fallen[static_cast<std::size_t>(y)] = first + *found.fallen;
+      if (found.fallen) fallen[y] = first + *found.fallen;
       for (int l = 0; l < kLanes && first + l < view.width; ++l) {
-        const auto& hit = found.hits[static_cast<std::size_t>(l)];
+        const auto& hit = found.hits[l];
         if (!hit) continue;
         const std::size_t i = view.index(first + l, y);
         view.point[i] = hit->point;
@@ -37,7 +37,7 @@ MembraneView view_membrane(const Positions& positions, const Triangles& triangle
     }
   });
   for (int y = 0; y < view.height; ++y) {
-    if (const auto& x = fallen[static_cast<std::size_t>(y)])
+    if (const auto& x = fallen[y])
       throw DataError("a camera ray slips through the front face at pixel ({}, {}), even after a retry", *x, y);
   }
   bound_depth(view);

@@ -29,10 +29,9 @@ SurfaceHit surface_hit(const Membrane& membrane, int triangle, const Ray& ray) {
   std::array<double, 3> lowering{};
   for (int k = 0; k < 3; ++k) {
     const int row = membrane.triangles(triangle, k);
-    const auto i = static_cast<std::size_t>(k);
-    v[i] = membrane.positions.row(row).transpose();
-    n[i] = -membrane.normals.row(row).transpose();
-    lowering[i] = membrane.rest(row, 2) - membrane.positions(row, 2);
+    v[k] = membrane.positions.row(row).transpose();
+    n[k] = -membrane.normals.row(row).transpose();
+    lowering[k] = membrane.rest(row, 2) - membrane.positions(row, 2);
   }
   const Vector3 b = barycentric(v, ray);
   const Vector3 face_normal = -(v[1] - v[0]).cross(v[2] - v[0]).normalized();
@@ -46,7 +45,7 @@ SurfaceHit surface_hit(const Membrane& membrane, int triangle, const Ray& ray) {
   hit.shadow_origin = hit.point + kOffset * face_normal;
   for (std::size_t k = 0; k < 3; ++k) {
     const double below = std::min(0.0, n[k].dot(hit.point - v[k]));
-    hit.shadow_origin -= b[static_cast<Eigen::Index>(k)] * below * n[k];
+    hit.shadow_origin -= b[k] * below * n[k];
   }
   return hit;
 }

@@ -80,7 +80,7 @@ class RowTracer {
     const FlushDenormals flush;
     RowCounts counts;
     const int width = sensor_.camera.width_px;
-    std::vector<PixelSums> pixels(static_cast<std::size_t>(width));
+    std::vector<PixelSums> pixels(width);
     const std::size_t channels = static_cast<std::size_t>(width) * groups_;
     std::vector<double> diffuse(channels), gloss(channels), marked(channels), marked_gloss(channels),
         indirect(channels);
@@ -99,9 +99,9 @@ class RowTracer {
         gather_light(hits, rays, starts, light);
         for (int l = 0; l < kLanes && first + l < width * subpixels_; ++l) {
           const auto pixel = static_cast<std::size_t>((first + l) / subpixels_);
-          const auto& hit = hits[static_cast<std::size_t>(l)];
+          const auto& hit = hits[l];
           if (!hit) {
-            ++pixels[pixel].segments[static_cast<std::size_t>(Segment::beside)];
+            ++pixels[pixel].segments[Segment::beside];
             continue;
           }
           const bool on_marker = add_geometry(*hit, pixels[pixel]);
@@ -128,11 +128,10 @@ class RowTracer {
     write(marked_gloss, out.marked_gloss);
     write(indirect, out.indirect);
     for (int column = 0; column < width && out.coverage.channels == 1; ++column) {
-      const double share = pixels[static_cast<std::size_t>(column)].on_marker / rays_per_pixel;
+      const double share = pixels[column].on_marker / rays_per_pixel;
       out.coverage.at(column, row, 0) = static_cast<float>(share);
     }
-    for (int column = 0; column < width; ++column)
-      write_geometry(pixels[static_cast<std::size_t>(column)], column, row, out);
+    for (int column = 0; column < width; ++column) write_geometry(pixels[column], column, row, out);
     return counts;
   }
 
@@ -148,7 +147,7 @@ class RowTracer {
     bool lit = false;
     for (int l = 0; l < kLanes; ++l) {
       // Empty lanes do as a point of the flat face.
-      const SurfaceHit* hit = hits[static_cast<std::size_t>(l)] ? &*hits[static_cast<std::size_t>(l)] : nullptr;
+      const SurfaceHit* hit = hits[l] ? &*hits[l] : nullptr;
       if (hit && hit->from_inside) {
         lit = true;
         places.transmittance[l] = rays.transmittance[l];
@@ -184,7 +183,7 @@ class RowTracer {
   void add_samples(const LitPack& places, const std::vector<LightSample>& samples, PathStart* start,
                    std::vector<CoatingResponse>& light) const {
     for (const LightSample& sample : samples) {
-      CoatingResponse& sum = light[static_cast<std::size_t>(sample.group)];
+      CoatingResponse& sum = light[sample.group];
       DoubtfulLight doubtful;
       const std::uint32_t lanes = add_light(places, sample, sensor_.coating, *start++, sum, doubtful);
       if (lanes == 0) continue;
@@ -202,14 +201,13 @@ class RowTracer {
   static RayPacket shadow_rays(const SurfacePack& surface, const DoubtfulLight& light, std::uint32_t valid) {
     RayPacket packet;
     for (int l = 0; l < kLanes; ++l) {
-      const auto k = static_cast<std::size_t>(l);
-      packet.origin_x[k] = static_cast<float>(surface.shadow_origin.x[l]);
-      packet.origin_y[k] = static_cast<float>(surface.shadow_origin.y[l]);
-      packet.origin_z[k] = static_cast<float>(surface.shadow_origin.z[l]);
-      packet.direction_x[k] = static_cast<float>(light.direction.x[l]);
-      packet.direction_y[k] = static_cast<float>(light.direction.y[l]);
-      packet.direction_z[k] = static_cast<float>(light.direction.z[l]);
-      packet.far[k] = static_cast<float>(light.length[l]);
+      packet.origin_x[l] = static_cast<float>(surface.shadow_origin.x[l]);
+      packet.origin_y[l] = static_cast<float>(surface.shadow_origin.y[l]);
+      packet.origin_z[l] = static_cast<float>(surface.shadow_origin.z[l]);
+      packet.direction_x[l] = static_cast<float>(light.direction.x[l]);
+      packet.direction_y[l] = static_cast<float>(light.direction.y[l]);
+      packet.direction_z[l] = static_cast<float>(light.direction.z[l]);
+      packet.far[l] = static_cast<float>(light.length[l]);
     }
     packet.valid = valid;
     return packet;
@@ -231,8 +229,7 @@ class RowTracer {
     int nearest = 0;
     hit.weights.maxCoeff(&nearest);
     ContactState contact = ContactState::none;
-    if (!fields_.contact.empty())
-      contact = fields_.contact[static_cast<std::size_t>(membrane_.triangles(hit.triangle, nearest))];
+    if (!fields_.contact.empty()) contact = fields_.contact[membrane_.triangles(hit.triangle, nearest)];
     bool on_marker = false;
     Vector3 rest = Vector3::Zero();
     for (int k = 0; k < 3; ++k) {
@@ -243,11 +240,11 @@ class RowTracer {
     }
     if (sensor_.markers.radius_m) on_marker = sensor_.markers.covers(rest.x(), rest.y());
     pixel.on_marker += on_marker;
-    ++pixel.contacts[static_cast<std::size_t>(contact)];
+    ++pixel.contacts[contact];
     const bool touched = contact != ContactState::none;
     const Segment segment = on_marker ? (touched ? Segment::marker_in_contact : Segment::marker)
                                       : (touched ? Segment::contact : Segment::gel);
-    ++pixel.segments[static_cast<std::size_t>(segment)];
+    ++pixel.segments[segment];
     return on_marker;
   }
 
@@ -301,8 +298,8 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
                   .contact = ByteImage(width, height, 1),
                   .segment = ByteImage(width, height, 1)};
   const RowTracer tracer(scene, membrane, sensor, settings, fields);
-  std::vector<RowCounts> rows(static_cast<std::size_t>(height));
-  const auto trace_row = [&](int row) { rows[static_cast<std::size_t>(row)] = tracer.trace_row(row, out); };
+  std::vector<RowCounts> rows(height);
+  const auto trace_row = [&](int row) { rows[row] = tracer.trace_row(row, out); };
   if (settings.log) {
     for (int row = 0; row < height; ++row) trace_row(row);
   } else {

@@ -150,7 +150,7 @@ std::optional<CameraRay> CameraModel::enter(const Vector3& direction) const {
     if (i + 1 < stack_.count) reach += stack_.thickness_m[k] / n_cosine;
     before = n_cosine;
   }
-  const double n = stack_.ior[static_cast<std::size_t>(stack_.count - 1)], scale = stack_.ior[0];
+  const double n = stack_.ior[stack_.count - 1], scale = stack_.ior[0];
   CameraRay ray;
   ray.direction = Vector3(scale * direction.x() / n, scale * direction.y() / n, before / n);
   ray.origin = Vector3(camera_.position_m.x() + reach * scale * direction.x(),
@@ -183,7 +183,7 @@ TACIPC_CLONES void refract_to_plane(const LayerStack& stack, double gel_thicknes
                                     const double* camera, CameraRays& out) {
   const Pack dx = px - camera[0], dy = py - camera[1];
   const auto path = layered_path<Pack>(stack, Pack{} + gel_thickness_m, dx * dx + dy * dy);
-  const Pack scale = path.sine_over_lateral / stack.ior[static_cast<std::size_t>(stack.count - 1)];
+  const Pack scale = path.sine_over_lateral / stack.ior[stack.count - 1];
   out.direction = {scale * dx, scale * dy, path.cosine_last};
   const Pack back = gel_thickness_m / path.cosine_last;
   out.origin = {px - back * out.direction.x, py - back * out.direction.y, Pack{} - gel_thickness_m};
@@ -239,8 +239,7 @@ std::optional<Eigen::Vector2d> CameraModel::project(const Vector3& point) const 
   if (refract_) {
     const Vector3 offset = point - camera_.position_m;
     const auto path = layered_path<double>(stack_, gel_thickness_m_ + point.z(), offset.head<2>().squaredNorm());
-    slope = offset.head<2>() * path.sine_over_lateral /
-            (stack_.ior[static_cast<std::size_t>(stack_.count - 1)] * path.cosine_last);
+    slope = offset.head<2>() * path.sine_over_lateral / (stack_.ior[stack_.count - 1] * path.cosine_last);
   }
   const Eigen::Vector2d at_plane = point.head<2>() - point.z() * slope;
   const Eigen::Vector2d from_center =

@@ -17,9 +17,7 @@ constexpr double kLeastHorizon = 0.005;
 
 /// One pixel of the undeformed front: parallax within a shadow's length is neglected.
 double pixel_width(const MembraneView& view) { return view.rest[1].x() - view.rest[0].x(); }
-double pixel_height(const MembraneView& view) {
-  return view.rest[static_cast<std::size_t>(view.width)].y() - view.rest[0].y();
-}
+double pixel_height(const MembraneView& view) { return view.rest[view.width].y() - view.rest[0].y(); }
 
 /// The highest tangent on the way by (dx, dy) pixels a step over heights `z_of(i)` by pixel, if it exceeds `highest`,
 /// else that. `lowest_z(u, v)`: no point of the way from pixel (u, v) on lies deeper.
@@ -72,9 +70,9 @@ std::vector<double> lowest_on_the_way(const std::vector<double>& around, int wid
         if (!(u > -1.0 && v > -1.0 && u < wide + 1.0 && v < high + 1.0)) break;
         const int k = std::clamp(static_cast<int>(std::floor(u)), 0, wide - 1),
                   l = std::clamp(static_cast<int>(std::floor(v)), 0, high - 1);
-        lowest = std::min(lowest, around[static_cast<std::size_t>(l * wide + k)]);
+        lowest = std::min(lowest, around[l * wide + k]);
       }
-      out[static_cast<std::size_t>(j * wide + i)] = lowest;
+      out[j * wide + i] = lowest;
     }
   return out;
 }
@@ -130,7 +128,7 @@ void DomeIrradiance::integrate(const Vector3& normal, const Horizon& horizon, do
   const double nz = normal.z(), width = 2.0 * std::numbers::pi / count;
   std::vector<double> lit(bands);
   for (int d = 0; d < count; ++d) {
-    const Direction& direction = directions_[static_cast<std::size_t>(d)];
+    const Direction& direction = directions_[d];
     const double a = normal.x() * direction.cosine + normal.y() * direction.sine;
     // Above the plane's own horizon too, which the march meets only one pixel away.
     const double facing = nz > 0.0 ? a / nz : std::numeric_limits<double>::infinity();
@@ -154,12 +152,10 @@ void DomeIrradiance::integrate(const Vector3& normal, const Horizon& horizon, do
 
 void DomeIrradiance::at(int x, int y, const Vector3& normal, double* out) const {
   const auto marched = [&](int d, double least) {
-    const Direction& direction = directions_[static_cast<std::size_t>(d)];
+    const Direction& direction = directions_[d];
     const double highest = march(
         *view_, [&](std::size_t i) { return z_[i]; }, x, y, direction.dx, direction.dy, pixel_m_, least,
-        [&](int u, int v) {
-          return direction.lowest[static_cast<std::size_t>(v / kBlockPx * blocks_wide_ + u / kBlockPx)];
-        });
+        [&](int u, int v) { return direction.lowest[v / kBlockPx * blocks_wide_ + u / kBlockPx]; });
     return highest > least ? highest : kNoHorizon;
   };
   integrate(normal, marched, out);
@@ -181,7 +177,7 @@ std::vector<double> DomeIrradiance::row_horizons(int y) const {
       const bool between = a > 0.0;  // two columns
       const int first = std::max(0, -u0), last = std::min(width, width - u0 - (between ? 1 : 0));
       if (first >= last) break;
-      if (top - direction.lowest_of_row[static_cast<std::size_t>(v0 / kBlockPx)] <= kLeastHorizon * s * pixel_m_) break;
+      if (top - direction.lowest_of_row[v0 / kBlockPx] <= kLeastHorizon * s * pixel_m_) break;
       const double *above = &z_[view_->index(0, v0)] + u0, *below = &z_[view_->index(0, v0 + 1)] + u0;
       if (between)
         for (int x = first; x < last; ++x) {

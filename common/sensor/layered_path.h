@@ -20,11 +20,10 @@ struct LayerStack {
 
   void add(double thickness, double index) {
     assert(count < kMaxLayers);
-    if (count > 0)
-      reduced_m += thickness_m[static_cast<std::size_t>(count - 1)] / ior[static_cast<std::size_t>(count - 1)];
+    if (count > 0) reduced_m += thickness_m[count - 1] / ior[count - 1];
     lowest_ior = count == 0 || index < lowest_ior ? index : lowest_ior;
-    thickness_m[static_cast<std::size_t>(count)] = thickness;
-    ior[static_cast<std::size_t>(count++)] = index;
+    thickness_m[count] = thickness;
+    ior[count++] = index;
   }
   double lowest_ior = 1.0;
   double reduced_m = 0.0;  // Σ h_i / n_i but for the last layer
@@ -67,7 +66,7 @@ struct LayerSums {
 
 /// n_i² − n_m²; 0 for layers of the lowest index, whose s_i is n_i.
 TACIPC_INLINE double over_lowest(const LayerStack& stack, int i) {
-  const double n = stack.ior[static_cast<std::size_t>(i)];
+  const double n = stack.ior[i];
   return n * n - stack.lowest_ior * stack.lowest_ior;
 }
 
@@ -77,7 +76,7 @@ TACIPC_INLINE void solve_layers(const LayerStack& stack, int count, const T& qq,
   T product = T{} + 1.0;
   T before[LayerSums<kCount, T>::kRoom];
   for (int i = 0; i < count; ++i) {
-    const double n = stack.ior[static_cast<std::size_t>(i)], over = over_lowest(stack, i);
+    const double n = stack.ior[i], over = over_lowest(stack, i);
     out.s[i] = over == 0.0 ? T(T{} + n) : root(n * n + over * qq);
     before[i] = product;
     product *= out.s[i];
@@ -106,10 +105,9 @@ template <int kCount, typename T>
 TACIPC_INLINE void sum_layers(const LayerStack& stack, int count, const T& last_thickness, LayerSums<kCount, T>& out) {
   out.sum = out.slope = out.bend = T{};
   for (int i = 0; i < count; ++i) {
-    const double n = stack.ior[static_cast<std::size_t>(i)];
+    const double n = stack.ior[i];
     const T& inverse = out.inverse[i];
-    const T part =
-        i + 1 == count ? T(last_thickness * inverse) : T(stack.thickness_m[static_cast<std::size_t>(i)] * inverse);
+    const T part = i + 1 == count ? T(last_thickness * inverse) : T(stack.thickness_m[i] * inverse);
     const T squared = inverse * inverse, steep = n * n * part * squared;
     out.sum += part;
     out.slope += steep;
@@ -125,7 +123,7 @@ TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last
   // The cube of a step that small is below what is promised, so the step itself ends the search.
   constexpr double kLastStep = 5e-5, kAtRoot = 1e-11;
   const int count = kCount > 0 ? kCount : stack.count;
-  const double nm = stack.lowest_ior, n0 = stack.ior[0], nl = stack.ior[static_cast<std::size_t>(count - 1)];
+  const double nm = stack.lowest_ior, n0 = stack.ior[0], nl = stack.ior[count - 1];
   const T& rr = squared_lateral;
   const T height = nm * (stack.reduced_m + last_thickness * (1.0 / nl));  // r / q of rays along z
   T k = stretch / height;                                                 // q / r
@@ -149,7 +147,7 @@ TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last
 
   T passed = T{} + 1.0, of = T{} + 1.0;
   for (int i = 0; i + 1 < count; ++i) {
-    const double a = stack.ior[static_cast<std::size_t>(i)], b = stack.ior[static_cast<std::size_t>(i + 1)];
+    const double a = stack.ior[i], b = stack.ior[i + 1];
     if (a == b) continue;
     // 1 − (rs² + rp²)/2 = 2 s s' (1/x² + a² b²/y²) with x, y the denominators of rs and rp
     const T x = at.s[i] + at.s[i + 1], y = a * a * at.s[i + 1] + b * b * at.s[i];

@@ -42,7 +42,7 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
   const double fall = way.z() / distance;  // < 0: towards the lamp the path goes into the gel
   // One pixel of the undeformed front: parallax within a shadow's length is neglected.
   const double pixel_x = view.rest[1].x() - view.rest[0].x();
-  const double pixel_y = view.rest[static_cast<std::size_t>(view.width)].y() - view.rest[0].y();
+  const double pixel_y = view.rest[view.width].y() - view.rest[0].y();
   const double step = kStepPx * pixel_x;
   const double dx = way.x() / distance * step / pixel_x, dy = way.y() / distance * step / pixel_y;
   double clearance = -fall;
@@ -126,9 +126,9 @@ void LightGeometry::field_terms(const Vector3& rest, double* out) const {
 }
 
 void LightFeatures::at(int x, int y, const Vector3& normal, double* out) const {
-  std::vector<double> values(static_cast<std::size_t>(geometry_->num_bases()));
+  std::vector<double> values(geometry_->num_bases());
   bases(x, y, normal, nullptr, values.data());
-  std::vector<double> terms(static_cast<std::size_t>(geometry_->num_field_terms()));
+  std::vector<double> terms(geometry_->num_field_terms());
   geometry_->field_terms(view_->rest[view_->index(x, y)], terms.data());
   for (const double value : values)
     for (const double term : terms) *out++ = value * term;
@@ -193,7 +193,7 @@ FloatImage gaussian_blurred(const FloatImage& image, double sigma_px) {
         for (int c = 0; c < in.channels; ++c) {
           double total = 0.0;
           for (int i = -radius; i <= radius; ++i)
-            total += weights[static_cast<std::size_t>(i + radius)] *
+            total += weights[i + radius] *
                      (along_x ? in.at(mirrored(x + i, in.width), y, c) : in.at(x, mirrored(y + i, in.height), c));
           out.at(x, y, c) = static_cast<float>(total / sum);
         }

@@ -16,7 +16,7 @@ Value rows_to_value(const LightField& light, int first) {
   for (int c = 0; c < 3; ++c) {
     Value::List codes;
     for (int f = 0; f < light.geometry.num_field_terms(); ++f) codes.push_back(light.weights(first + f, c));
-    map.emplace_back(kChannels[static_cast<std::size_t>(c)], std::move(codes));
+    map.emplace_back(kChannels[c], std::move(codes));
   }
   return map;
 }
@@ -83,7 +83,7 @@ LightField LightField::read(ConfigReader& file) {
     if (geometry.environment_depth) read_rows(environment->section("depth"), geometry, rows);
   }
   if (rows.empty()) in.fault("lamps", "give lamps, an environment or both");
-  light.weights.resize(static_cast<Eigen::Index>(rows.size()), 3);
+  light.weights.resize(rows.size(), 3);
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       light.weights(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = rows[i][c];

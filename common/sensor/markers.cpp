@@ -58,10 +58,9 @@ std::vector<Marker> bind_markers(const MarkerGrid& grid, const Positions& rest, 
 }
 
 Positions marker_positions(const std::vector<Marker>& markers, const Positions& gel) {
-  Positions positions = Positions::Zero(static_cast<Eigen::Index>(markers.size()), 3);
+  Positions positions = Positions::Zero(markers.size(), 3);
   for (std::size_t m = 0; m < markers.size(); ++m) {
-    for (int c = 0; c < 3; ++c)
-      positions.row(static_cast<Eigen::Index>(m)) += markers[m].weights[c] * gel.row(markers[m].vertices[c]);
+    for (int c = 0; c < 3; ++c) positions.row(m) += markers[m].weights[c] * gel.row(markers[m].vertices[c]);
   }
   return positions;
 }

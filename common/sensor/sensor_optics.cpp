@@ -134,11 +134,11 @@ std::vector<Led> Led::read_all(ConfigReader& in, const GelShape& gel, const Opti
     const int count = ring->integer("count", 1, 1024);
     const double first_rad = kDegree * ring->number_or("first_azimuth_deg", 0.0);
     const double tilt_rad = kDegree * ring->number_or("tilt_deg", 0.0, Range::between(0.0, 180.0));
-    std::vector<bool> lit(static_cast<std::size_t>(count), false);
+    std::vector<bool> lit(count, false);
     for (ConfigReader& item : ring->sections("lit")) {
       const int index = item.integer("index", 0, count - 1);
-      if (lit[static_cast<std::size_t>(index)]) item.fault("index", fmt::format("LED {} is given twice", index));
-      lit[static_cast<std::size_t>(index)] = true;
+      if (lit[index]) item.fault("index", fmt::format("LED {} is given twice", index));
+      lit[index] = true;
       const double azimuth = first_rad + 2.0 * std::numbers::pi * index / count;
       Led led = emitter(item, common);
       led.position_m = {radius_m * std::cos(azimuth), radius_m * std::sin(azimuth), z_m};

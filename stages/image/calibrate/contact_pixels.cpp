@@ -10,10 +10,9 @@ ContactPixel contact_pixel(int x, int y, const ByteImage& photograph, const Byte
                            const std::array<double, 3>& drift) {
   ContactPixel pixel{.x = x, .y = y};
   for (int c = 0; c < 3; ++c) {
-    const auto k = static_cast<std::size_t>(c);
     const int code = photograph.at(x, y, c), before = background.at(x, y, c);
-    pixel.target[k] = code - before - drift[k];
-    pixel.used[k] = code > 0 && code < 255 && before > 0 && before < 255;
+    pixel.target[c] = code - before - drift[c];
+    pixel.used[c] = code > 0 && code < 255 && before > 0 && before < 255;
   }
   return pixel;
 }

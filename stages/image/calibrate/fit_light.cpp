@@ -147,8 +147,7 @@ double left_out_blocks_rmse(const KnownObject& object, std::size_t which, const 
     Codes own = active;
     for (std::size_t i = 0; i < samples.pixels.size(); ++i) {
       const auto [x, y] = samples.pixels[i];
-      if (static_cast<std::size_t>(x / kBlockPx + 3 * (y / kBlockPx)) % kFolds != fold)
-        own.row(static_cast<Eigen::Index>(i)).setZero();
+      if (static_cast<std::size_t>(x / kBlockPx + 3 * (y / kBlockPx)) % kFolds != fold) own.row(i).setZero();
     }
     of_fold[fold] = normal_equations(features, samples, own).part(part.first, part.last);
   }

@@ -14,7 +14,7 @@ namespace {
 MetallicLamps lamps_at(MetallicLamps lamps, const Eigen::VectorXd& u) {
   lamps.change_factor = u[0];
   for (std::size_t l = 0; l < lamps.lamps.size(); ++l)
-    for (std::size_t c = 0; c < 3; ++c) lamps.lamps[l].rgb[c] = u[static_cast<Eigen::Index>(1 + 3 * l + c)];
+    for (std::size_t c = 0; c < 3; ++c) lamps.lamps[l].rgb[c] = u[1 + 3 * l + c];
   return lamps;
 }
 
@@ -33,12 +33,12 @@ MetallicSamples lit_samples(const Samples& samples, const std::vector<MetallicLa
   MetallicSamples out{.samples = samples, .object = Eigen::MatrixXd(rows, columns), .empty = {}};
   out.empty = out.object;
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
+    const auto [x, y] = samples.pixels[i];
     const CameraRay ray = camera.ray(x + 0.5, y + 0.5).value();
     const Vector3 rest = ray.origin - ray.origin.z() / ray.direction.z() * ray.direction;
     const std::optional<Meeting> met = object(x, y, ray);
     for (Eigen::Index l = 0; l < columns; ++l) {
-      const Vector3& lamp = lamps[static_cast<std::size_t>(l)].position_m;
+      const Vector3& lamp = lamps[l].position_m;
       out.empty(i, l) = metallic_light(rest, -Vector3::UnitZ(), sensor.camera.position_m, lamp);
       out.object(i, l) =
           met ? metallic_light(met->point, met->normal, sensor.camera.position_m, lamp) : out.empty(i, l);
@@ -101,7 +101,7 @@ MetallicLamps fit_metallic(const std::vector<MetallicSamples>& balls, const Meta
   Eigen::VectorXd u(n);
   u[0] = start.change_factor;
   for (std::size_t l = 0; l < start.lamps.size(); ++l)
-    for (std::size_t c = 0; c < 3; ++c) u[static_cast<Eigen::Index>(1 + 3 * l + c)] = start.lamps[l].rgb[c];
+    for (std::size_t c = 0; c < 3; ++c) u[1 + 3 * l + c] = start.lamps[l].rgb[c];
   constexpr double kLargest = 1e3;  // far beyond white in all channels
   GaussNewtonSettings settings{.step = Eigen::VectorXd::Constant(n, 1e-4),
                                .lower = Eigen::VectorXd::Zero(n),

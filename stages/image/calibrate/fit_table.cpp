@@ -64,11 +64,9 @@ SlopeTable released_table(const std::vector<std::vector<ContactPixel>>& balls, i
   Eigen::MatrixXd places(rows, kTerms), values(rows, 3);
   for (int i = 0; i < bins * bins; ++i) {
     for (Eigen::Index b = 0; b < rows; ++b) {
-      const BallTable& ball = tables[static_cast<std::size_t>(b)];
-      for (Eigen::Index k = 0; k < kTerms; ++k)
-        places(b, k) = ball.terms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
-      for (Eigen::Index c = 0; c < 3; ++c)
-        values(b, c) = ball.value[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+      const BallTable& ball = tables[b];
+      for (Eigen::Index k = 0; k < kTerms; ++k) places(b, k) = ball.terms[i][k];
+      for (Eigen::Index c = 0; c < 3; ++c) values(b, c) = ball.value[i][c];
     }
     const Eigen::MatrixXd weights = places.completeOrthogonalDecomposition().solve(values);
     double* out = table.at(i / bins, i % bins);

@@ -99,8 +99,8 @@ IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatIm
     Eigen::MatrixXd a(rows, unknowns);
     Eigen::VectorXd y(rows), weight(rows);
     for (Eigen::Index i = 0; i < rows; ++i) {
-      const auto [u, v] = used[static_cast<std::size_t>(i)];
-      for (Eigen::Index l = 0; l < leds; ++l) a(i, l) = blocks[static_cast<std::size_t>(l)].at(u, v, c);
+      const auto [u, v] = used[i];
+      for (Eigen::Index l = 0; l < leds; ++l) a(i, l) = blocks[l].at(u, v, c);
       a(i, leds) = uniform.at(u, v, 0);
       y[i] = linear_of_code(seen.at(u, v, c), config.curve);
       weight[i] = 1.0 / std::sqrt(config.shot_gain * y[i] + config.read_noise * config.read_noise);
@@ -114,13 +114,11 @@ IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatIm
     fit.veil[c] = x[leds];
     const Eigen::MatrixXd gram = weighted.transpose() * weighted;
     const Eigen::VectorXd left = a * x - y;
-    fit.rmse[static_cast<std::size_t>(c)] = std::sqrt(left.squaredNorm() / static_cast<double>(rows));
+    fit.rmse[c] = std::sqrt(left.squaredNorm() / static_cast<double>(rows));
     fit.condition = std::max(fit.condition, condition_of(gram.topLeftCorner(leds, leds)));
     fit.condition_with_veil = std::max(fit.condition_with_veil, condition_of(gram));
-    fit.covariance[static_cast<std::size_t>(c)] = gram.ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
-    for (Eigen::Index i = 0; i < rows; ++i)
-      fit.residual.at(used[static_cast<std::size_t>(i)][0], used[static_cast<std::size_t>(i)][1], c) =
-          static_cast<float>(left[i]);
+    fit.covariance[c] = gram.ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+    for (Eigen::Index i = 0; i < rows; ++i) fit.residual.at(used[i][0], used[i][1], c) = static_cast<float>(left[i]);
   }
   return fit;
 }

@@ -166,8 +166,8 @@ std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background,
       if (static_cast<std::size_t>(known.frame) >= frames.frames.size())
         throw DataError("{}: has no frame {}", press->path.string(), known.frame);
       object.triangles = std::move(frames.triangles);
-      object.front = std::move(frames.frames[static_cast<std::size_t>(known.frame)]);
-      object.origin_z_m = frames.gel_from_object[static_cast<std::size_t>(known.frame)](2, 3);
+      object.front = std::move(frames.frames[known.frame]);
+      object.origin_z_m = frames.gel_from_object[known.frame](2, 3);
       if (known.frame > 1) {
         object.front_before = std::move(frames.frames[static_cast<std::size_t>(known.frame) - 1]);
         object.origin_z_before_m = frames.gel_from_object[static_cast<std::size_t>(known.frame) - 1](2, 3);

@@ -77,9 +77,7 @@ PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograp
     for (int x = 0; x < view.width; ++x)
       if (!object.known.inside(x, y))
         for (int c = 0; c < 3; ++c, count += 1.0)
-          squares += std::pow(int{photograph.at(x, y, c)} - int{background.at(x, y, c)} -
-                                  object.samples.drift[static_cast<std::size_t>(c)],
-                              2);
+          squares += std::pow(int{photograph.at(x, y, c)} - int{background.at(x, y, c)} - object.samples.drift[c], 2);
   const double variance = std::max(squares / std::max(count, 1.0), 1.0);
 
   const FloatImage change = code_change(light, view);
@@ -103,7 +101,7 @@ PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograp
       Vector3 residual;
       for (int c = 0; c < 3; ++c) {
         const int code = photograph.at(x, y, c), rest = background.at(x, y, c);
-        residual[c] = code - rest - object.samples.drift[static_cast<std::size_t>(c)] - double{change.at(x, y, c)};
+        residual[c] = code - rest - object.samples.drift[c] - double{change.at(x, y, c)};
         if (code > 0 && code < 255 && rest > 0 && rest < 255) continue;
         jacobian.row(c).setZero();
       }

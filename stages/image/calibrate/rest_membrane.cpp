@@ -53,14 +53,14 @@ Membrane rest_membrane(const GelShape& shape) {
     add_disc(shape.radius_m, points, faces);
   else
     add_rectangle(shape.width_m, shape.height_m, points, faces);
-  Positions front(static_cast<Eigen::Index>(points.size()), 3);
+  Positions front(points.size(), 3);
   for (Eigen::Index i = 0; i < front.rows(); ++i) {
-    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d& p = points[i];
     front.row(i) << p.x(), p.y(), shape.front_z(p.x(), p.y());
   }
-  Triangles triangles(static_cast<Eigen::Index>(faces.size()), 3);
+  Triangles triangles(faces.size(), 3);
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-    for (int k = 0; k < 3; ++k) triangles(f, k) = faces[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)];
+    for (int k = 0; k < 3; ++k) triangles(f, k) = faces[f][k];
   Positions rest = front;
   return make_membrane(std::move(front), std::move(rest), std::move(triangles));
 }

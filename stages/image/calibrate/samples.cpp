@@ -18,8 +18,7 @@ Samples make_samples(const ByteImage& photograph, const ByteImage& background, c
   for (int y = 0; y < photograph.height; ++y) {
     for (int x = 0; x < photograph.width; ++x) {
       if (far(x, y)) {
-        for (int c = 0; c < 3; ++c)
-          sum[static_cast<std::size_t>(c)] += int{photograph.at(x, y, c)} - int{background.at(x, y, c)};
+        for (int c = 0; c < 3; ++c) sum[c] += int{photograph.at(x, y, c)} - int{background.at(x, y, c)};
         count += 1.0;
       }
       if (x % stride == 0 && y % stride == 0 && inside(x, y)) samples.pixels.push_back({x, y});
@@ -31,9 +30,9 @@ Samples make_samples(const ByteImage& photograph, const ByteImage& background, c
   samples.used.resize(rows, 3);
   samples.clipped.resize(rows, 3);
   for (int c = 0; c < 3; ++c) {
-    const double drift = samples.drift[static_cast<std::size_t>(c)] = sum[static_cast<std::size_t>(c)] / count;
+    const double drift = samples.drift[c] = sum[c] / count;
     for (Eigen::Index i = 0; i < rows; ++i) {
-      const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
+      const auto [x, y] = samples.pixels[i];
       const int code = photograph.at(x, y, c), before = background.at(x, y, c);
       const bool known = before > 0 && before < 255;
       samples.target(i, c) = code - before - drift;
@@ -57,7 +56,7 @@ Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> out(rows, geometry.num_features());
   const LightFeatures of(geometry, view);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const auto [x, y] = samples.pixels[static_cast<std::size_t>(i)];
+    const auto [x, y] = samples.pixels[i];
     of.at(x, y, out.row(i).data());
   }
   return out;
@@ -77,8 +76,8 @@ Eigen::VectorXd residuals_of(const Samples& samples, const Eigen::MatrixXd& feat
 namespace {
 
 Eigen::MatrixXd rows_of(const Eigen::MatrixXd& features, const std::vector<Eigen::Index>& rows) {
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), features.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = features.row(rows[i]);
+  Eigen::MatrixXd out(rows.size(), features.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) out.row(i) = features.row(rows[i]);
   return out;
 }
 
@@ -100,17 +99,16 @@ NormalEquations normal_equations(const Eigen::MatrixXd& features, const Samples&
       common.push_back(i);
     else
       for (Eigen::Index c = 0; c < 3; ++c)
-        if (active(i, c) > 0.0) own[static_cast<std::size_t>(c)].push_back(i);
+        if (active(i, c) > 0.0) own[c].push_back(i);
   }
   const Eigen::MatrixXd shared = gram_of(rows_of(features, common));
   NormalEquations out;
   for (Eigen::Index c = 0; c < 3; ++c) {
-    const auto k = static_cast<std::size_t>(c);
     const Eigen::VectorXd target = samples.target.col(c).cwiseProduct(active.col(c));
-    out.gram[k] = shared + gram_of(rows_of(features, own[k]));
-    out.moment[k] = features.transpose() * target;
-    out.square[k] = target.squaredNorm();
-    out.count[k] = active.col(c).sum();
+    out.gram[c] = shared + gram_of(rows_of(features, own[c]));
+    out.moment[c] = features.transpose() * target;
+    out.square[c] = target.squaredNorm();
+    out.count[c] = active.col(c).sum();
   }
   return out;
 }
@@ -148,7 +146,7 @@ Codes NormalEquations::solve(double ridge) const {
     if (factor.info() != Eigen::Success || !solved.allFinite() || factor.vectorD().minCoeff() <= 0.0)
       throw SolverError(
           "the photographs do not determine all weights of the light: give more of them or a larger ridge");
-    weights.col(static_cast<Eigen::Index>(c)) = solved;
+    weights.col(c) = solved;
   }
   return weights;
 }
@@ -156,7 +154,7 @@ Codes NormalEquations::solve(double ridge) const {
 std::array<double, 3> NormalEquations::residual(const Codes& weights) const {
   std::array<double, 3> out{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto w = weights.col(static_cast<Eigen::Index>(c));
+    const auto w = weights.col(c);
     out[c] = std::max(0.0, square[c] - 2.0 * w.dot(moment[c]) + w.dot(gram[c] * w));
   }
   return out;

@@ -222,7 +222,7 @@ Colors Problem::solve_colors(const std::vector<const BlockLight*>& light, const 
     const Eigen::VectorXd norms = a.colwise().norm();
     for (Eigen::Index g = 0; g + 1 < columns; ++g) {
       if (norms[g] > 0.0) continue;
-      const LightGroup group = light_groups(parameters_.nominal().leds)[static_cast<std::size_t>(g)];
+      const LightGroup group = light_groups(parameters_.nominal().leds)[g];
       throw DataError("{} lights nothing in channel {} that counts, so its colour cannot be determined",
                       group.name.empty() ? fmt::format("LED {}", group.leds.front()) : "light group " + group.name, c);
     }
@@ -242,8 +242,8 @@ void Problem::describe(const Eigen::VectorXd& p, const Eigen::MatrixXd& covarian
   fit.u = p.head(parameters_.count());
   fit.rgb.resize(groups, 3);
   for (std::size_t c = 0; c < 3; ++c) {
-    fit.rgb.col(static_cast<Eigen::Index>(c)) = found.value[c].head(groups);
-    fit.veil[static_cast<Eigen::Index>(c)] = found.value[c][groups];
+    fit.rgb.col(c) = found.value[c].head(groups);
+    fit.veil[c] = found.value[c][groups];
     fit.condition_leds = std::max(fit.condition_leds, condition_of(found.gram[c].topLeftCorner(groups, groups)));
     fit.condition_with_veil = std::max(fit.condition_with_veil, condition_of(found.gram[c]));
   }
@@ -296,7 +296,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> color_deviations(Problem& problem, cons
     const Eigen::VectorXd own =
         unit.ldlt().solve(Eigen::MatrixXd::Identity(colors, colors)).diagonal().cwiseProduct(scale.cwiseAbs2());
     const Eigen::VectorXd moved = (slope[c] * covariance * slope[c].transpose()).diagonal();
-    out.col(static_cast<Eigen::Index>(c)) = (own + moved).cwiseMax(0.0).cwiseSqrt();
+    out.col(c) = (own + moved).cwiseMax(0.0).cwiseSqrt();
   }
   return out;
 }
@@ -347,9 +347,9 @@ std::vector<SensorChange> fitted_changes(const SensorParameters& parameters, con
   const auto groups = light_groups(parameters.nominal().leds);
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const int led : groups[g].leds) {
-      const std::string& at = parameters.led_paths()[static_cast<std::size_t>(led)];
+      const std::string& at = parameters.led_paths()[led];
       for (const char* key : {".cct_k", ".wavelength_nm", ".fwhm_nm"}) out.push_back({at + key});
-      out.push_back({at + ".rgb_linear", rgb(fit.rgb.row(static_cast<Eigen::Index>(g)))});
+      out.push_back({at + ".rgb_linear", rgb(fit.rgb.row(g))});
     }
   out.push_back({"ambient.rgb", rgb(fit.veil)});
   for (const char* key : {"response.mean_level", "response.white_balance", "response.color_matrix"})

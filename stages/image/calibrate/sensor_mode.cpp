@@ -47,7 +47,7 @@ Value::List parameter_lines(const SensorParameters& parameters, const SensorFit&
                                {"prior_sigma", parameters.sigma(i)},
                                {"sigma_over_prior", deviation},
                                {"told_by", share > 0.5 ? "prior" : "photographs"},
-                               {"at_bound", static_cast<bool>(fit.at_bound[static_cast<std::size_t>(i)])}});
+                               {"at_bound", static_cast<bool>(fit.at_bound[i])}});
   }
   return lines;
 }
@@ -123,8 +123,7 @@ void warn_of_misfit(const SensorParameters& parameters, const SensorFitConfig& c
                   one.name, most, config.sigma_codes);
   }
   for (Eigen::Index i = 0; i < parameters.count(); ++i)
-    if (fit.at_bound[static_cast<std::size_t>(i)])
-      log_warning("{} ends at its bound, {:.6g}", parameters.name(i), parameters.value(i, fit.u[i]));
+    if (fit.at_bound[i]) log_warning("{} ends at its bound, {:.6g}", parameters.name(i), parameters.value(i, fit.u[i]));
   if (!fit.converged) log_warning("the fit did not converge");
 }
 

@@ -71,7 +71,7 @@ SensorParameters::SensorParameters(const std::filesystem::path& sensor, std::vec
   lower_.resize(count());
   upper_.resize(count());
   for (Eigen::Index i = 0; i < count(); ++i) {
-    FreeParameter& p = free_[static_cast<std::size_t>(i)];
+    FreeParameter& p = free_[i];
     const auto nominal = have.find(p.name);
     if (nominal == have.end()) {
       std::vector<std::string> names;

@@ -22,9 +22,9 @@ class SensorParameters {
   SensorParameters(const std::filesystem::path& sensor, std::vector<FreeParameter> free);
 
   Eigen::Index count() const { return static_cast<Eigen::Index>(free_.size()); }
-  const std::string& name(Eigen::Index i) const { return free_[static_cast<std::size_t>(i)].name; }
-  double mean(Eigen::Index i) const { return *free_[static_cast<std::size_t>(i)].mean; }
-  double sigma(Eigen::Index i) const { return free_[static_cast<std::size_t>(i)].sigma; }
+  const std::string& name(Eigen::Index i) const { return free_[i].name; }
+  double mean(Eigen::Index i) const { return *free_[i].mean; }
+  double sigma(Eigen::Index i) const { return free_[i].sigma; }
   double value(Eigen::Index i, double u) const { return mean(i) + sigma(i) * u; }
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }

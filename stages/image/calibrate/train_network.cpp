@@ -60,11 +60,10 @@ NetworkSamples network_samples(const std::vector<std::vector<ContactPixel>>& bal
   samples.inputs.resize(5, static_cast<Eigen::Index>(wanted.size()));
   samples.targets.resize(3, samples.inputs.cols());
   for (Eigen::Index i = 0; i < samples.inputs.cols(); ++i) {
-    const ContactPixel& pixel = *wanted[static_cast<std::size_t>(i)];
+    const ContactPixel& pixel = *wanted[i];
     const auto input = LightNetwork::input(pixel.x, pixel.y, width_px, height_px, pixel.slope_x, pixel.slope_y);
     samples.inputs.col(i) = Eigen::Map<const Eigen::Matrix<float, 5, 1>>(input.data());
-    for (Eigen::Index c = 0; c < 3; ++c)
-      samples.targets(c, i) = static_cast<float>(pixel.target[static_cast<std::size_t>(c)] / 255.0);
+    for (Eigen::Index c = 0; c < 3; ++c) samples.targets(c, i) = static_cast<float>(pixel.target[c] / 255.0);
   }
   return samples;
 }
@@ -113,7 +112,7 @@ LightNetwork train_network(const NetworkSamples& samples, const NetworkFit& sett
   if (count == 0) throw DataError("no ball has a slanted pixel in its contact that is not clipped");
   LightNetwork network = initial_network(settings.seed), gradient;
   std::array<std::array<Moments, 2>, LightNetwork::kLayers> moments;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(count));
+  std::vector<Eigen::Index> order(count);
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::uint64_t shuffled = 0, dropped = 0;
   int steps = 0;
@@ -125,8 +124,8 @@ LightNetwork train_network(const NetworkSamples& samples, const NetworkFit& sett
       const Eigen::Index size = std::min<Eigen::Index>(settings.batch, count - first);
       NetworkSamples batch{.inputs = Eigen::MatrixXf(5, size), .targets = Eigen::MatrixXf(3, size)};
       for (Eigen::Index i = 0; i < size; ++i) {
-        batch.inputs.col(i) = samples.inputs.col(order[static_cast<std::size_t>(first + i)]);
-        batch.targets.col(i) = samples.targets.col(order[static_cast<std::size_t>(first + i)]);
+        batch.inputs.col(i) = samples.inputs.col(order[first + i]);
+        batch.targets.col(i) = samples.targets.col(order[first + i]);
       }
       DropoutMasks masks;
       if (settings.dropout > 0.0)

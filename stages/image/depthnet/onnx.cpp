@@ -72,7 +72,7 @@ class OnnxWriter : public NetworkWriter {
   }
   void enlarge_and_join(int level) override {
     enlarge(2);
-    step("Concat", {kept_[static_cast<std::size_t>(level)], x_});
+    step("Concat", {kept_[level], x_});
     attribute("axis", 1);
   }
   void end() override {

@@ -33,11 +33,11 @@ std::string curves_of(const OutcomeStudy& study, bool shuffled, const char* colo
     if (training.shuffled != shuffled) continue;
     const Roc roc = roc_of(training.probabilities, held);
     svg += curve(roc, color, "stroke-opacity=\"0.3\"");
-    for (int k = 0; k <= kShares; ++k) mean[static_cast<std::size_t>(k)].second += height_of(roc, 1.0 * k / kShares);
+    for (int k = 0; k <= kShares; ++k) mean[k].second += height_of(roc, 1.0 * k / kShares);
     ++seeds;
   }
   for (int k = 0; k <= kShares; ++k) {
-    auto& [x, y] = mean[static_cast<std::size_t>(k)];
+    auto& [x, y] = mean[k];
     x = 1.0 * k / kShares;
     y /= seeds;
   }

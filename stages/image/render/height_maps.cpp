@@ -69,7 +69,7 @@ Membrane HeightMaps::at_rest() const {
   }
   Triangles triangles = grid_triangles(width, height);
   // Images may be mirrored views of S; triangles look out of the gel all the same.
-  const Vector3 across = rest_[1] - rest_[0], down = rest_[static_cast<std::size_t>(width)] - rest_[0];
+  const Vector3 across = rest_[1] - rest_[0], down = rest_[width] - rest_[0];
   if (across.cross(down).z() < 0.0) triangles.col(1).swap(triangles.col(2));
   return make_membrane(rest, rest, std::move(triangles));
 }

@@ -11,11 +11,10 @@ Positions at_place(const Positions& front, const ImagePlace& place, const Sensor
 
 MembraneView view_at(const FrontFrames& press, int frame, const ImagePlace& place, const PrintRelief* relief,
                      const Sensor& sensor) {
-  const auto at = static_cast<std::size_t>(frame);
-  MembraneView view = view_membrane(at_place(press.frames[at], place, sensor), press.triangles, sensor);
+  MembraneView view = view_membrane(at_place(press.frames[frame], place, sensor), press.triangles, sensor);
   if (!relief) return view;
   const Matrix4 pose = place_pose(place, sensor);
-  apply_relief(*relief, {pose(0, 3), pose(1, 3), place.yaw_rad, press.gel_from_object[at](2, 3)}, view);
+  apply_relief(*relief, {pose(0, 3), pose(1, 3), place.yaw_rad, press.gel_from_object[frame](2, 3)}, view);
   return view;
 }
 

@@ -58,8 +58,7 @@ void deliver(Stage& stage, const std::string& name, const MembraneView& view, co
             Times::timed(times.light_s, [&] { return add_change(background, code_change(light, view)); }));
   FloatImage normals(view.width, view.height, 3);
   for (std::size_t i = 0; i < view.normal.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      normals.pixels[3 * i + k] = static_cast<float>(view.normal[i][static_cast<Eigen::Index>(k)]);
+    for (std::size_t k = 0; k < 3; ++k) normals.pixels[3 * i + k] = static_cast<float>(view.normal[i][k]);
   write_png(stage.output("normals/" + name + ".png"), picture_of_normals(normals));
   FloatImage depth(view.width, view.height, 1);
   for (std::size_t i = 0; i < view.point.size(); ++i)

@@ -84,8 +84,7 @@ int main(int argc, char** argv) {
     if (const auto file = stage.optional_input("--start")) start = read_places(*file);
 
     const MarkerTracks tracks = track_markers(
-        static_cast<int>(series.images.size()),
-        [&](int f) { return read_png(series.images[static_cast<std::size_t>(f)], 3); }, config, start);
+        static_cast<int>(series.images.size()), [&](int f) { return read_png(series.images[f], 3); }, config, start);
     write_tracks(stage, tracks, series.frames);
 
     int lost = 0, by_flow = 0;

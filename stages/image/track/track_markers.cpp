@@ -183,7 +183,7 @@ MarkerTracks track_markers(int count, const std::function<ByteImage(int)>& image
     tracks.rest_diameter_px += dot.diameter_px() / static_cast<double>(dots.size());
   }
   const auto keep = [&] {
-    std::vector<Eigen::Vector2d> px(static_cast<std::size_t>(tracks.num_markers), kLost);
+    std::vector<Eigen::Vector2d> px(tracks.num_markers, kLost);
     std::vector<TrackQuality> quality(px.size(), TrackQuality::lost);
     for (std::size_t k = 0; k < row_of.size(); ++k) {
       px[row_of[k]] = found.px[k];

@@ -39,9 +39,9 @@ void CollapseMesh::build(const std::vector<OpenMesh::Vec3d>& points, const Trian
     const FaceHandle face = new_face();
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
-      sides[static_cast<std::size_t>(k)] = halfedge_between(a, b, f);
-      set_face_handle(sides[static_cast<std::size_t>(k)], face);
-      set_halfedge_handle(VertexHandle(a), sides[static_cast<std::size_t>(k)]);
+      sides[k] = halfedge_between(a, b, f);
+      set_face_handle(sides[k], face);
+      set_halfedge_handle(VertexHandle(a), sides[k]);
     }
     for (std::size_t k = 0; k < 3; ++k) set_next_halfedge_handle(sides[k], sides[(k + 1) % 3]);
     set_halfedge_handle(face, sides[2]);  // the last: corners are then read from the first
@@ -57,9 +57,9 @@ void CollapseMesh::build(const std::vector<OpenMesh::Vec3d>& points, const Trian
 
 void CollapseMesh::check_fans(const Triangles& triangles) const {
   std::vector<unsigned> corners(n_vertices(), 0);
-  for (Eigen::Index i = 0; i < triangles.size(); ++i) ++corners[static_cast<std::size_t>(triangles.data()[i])];
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) ++corners[triangles.data()[i]];
   for (const auto v : vertices()) {
-    if (valence(v) != corners[static_cast<std::size_t>(v.idx())])
+    if (valence(v) != corners[v.idx()])
       throw DataError("several sheets meet in vertex {}: the mesh is not manifold there", v.idx());
   }
 }
@@ -74,9 +74,9 @@ bool CollapseMesh::is_collapse_ok(HalfedgeHandle h) {
   if (left == right) return false;
   seen_.resize(n_vertices(), 0);
   ++question_;
-  for (auto v = cvv_iter(kept); v.is_valid(); ++v) seen_[static_cast<std::size_t>(v->idx())] = question_;
+  for (auto v = cvv_iter(kept); v.is_valid(); ++v) seen_[v->idx()] = question_;
   for (auto v = cvv_iter(gone); v.is_valid(); ++v) {
-    if (seen_[static_cast<std::size_t>(v->idx())] == question_ && *v != left && *v != right) return false;
+    if (seen_[v->idx()] == question_ && *v != left && *v != right) return false;
   }
   return true;
 }

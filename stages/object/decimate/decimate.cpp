@@ -170,7 +170,7 @@ Mesh to_openmesh(const TriangleMesh& mesh) {
 
 /// What is left, with the coordinates of the input bit by bit.
 TriangleMesh remaining(const Mesh& collapsed, const TriangleMesh& input) {
-  std::vector<int> new_index(static_cast<std::size_t>(input.num_vertices()), -1);
+  std::vector<int> new_index(input.num_vertices(), -1);
   std::vector<int> old_index;
   for (int v = 0; v < static_cast<int>(input.num_vertices()); ++v) {
     if (collapsed.status(collapsed.vertex_handle(static_cast<unsigned>(v))).deleted()) continue;
@@ -186,8 +186,7 @@ TriangleMesh remaining(const Mesh& collapsed, const TriangleMesh& input) {
   }
   TriangleMesh out;
   out.positions.resize(std::ssize(old_index), 3);
-  for (std::size_t v = 0; v < old_index.size(); ++v)
-    out.positions.row(static_cast<Eigen::Index>(v)) = input.positions.row(old_index[v]);
+  for (std::size_t v = 0; v < old_index.size(); ++v) out.positions.row(v) = input.positions.row(old_index[v]);
   out.triangles = Eigen::Map<const Triangles>(corners.data(), std::ssize(corners) / 3, 3);
   return out;
 }

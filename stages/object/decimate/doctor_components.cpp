@@ -56,7 +56,7 @@ void examine_components(TriangleMesh& mesh, DoctorReport& report) {
       if (winding_number(mesh, faces[outer], corner(mesh, faces[inner].front(), 0)) > 0.5) hidden[inner] = 1;
     }
   });
-  std::vector<char> keep(static_cast<std::size_t>(mesh.num_triangles()), 1);
+  std::vector<char> keep(mesh.num_triangles(), 1);
   for (std::size_t part = 0; part < count; ++part) {
     if (hidden[part] == 0) continue;
     ++report.hidden_components;

@@ -34,7 +34,7 @@ std::int64_t apply(std::vector<int>& parent, Triangles& triangles) {
 }
 
 std::vector<int> identity(const TriangleMesh& mesh) {
-  std::vector<int> parent(static_cast<std::size_t>(mesh.num_vertices()));
+  std::vector<int> parent(mesh.num_vertices());
   std::iota(parent.begin(), parent.end(), 0);
   return parent;
 }
@@ -76,10 +76,10 @@ bool names_a_vertex_twice(const Triangles& triangles, Eigen::Index f) {
 }
 
 std::int64_t drop_collapsed_faces(TriangleMesh& mesh) {
-  std::vector<char> keep(static_cast<std::size_t>(mesh.num_triangles()), 1);
+  std::vector<char> keep(mesh.num_triangles(), 1);
   std::int64_t dropped = 0;
   for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f)
-    if (names_a_vertex_twice(mesh.triangles, f)) keep[static_cast<std::size_t>(f)] = 0, ++dropped;
+    if (names_a_vertex_twice(mesh.triangles, f)) keep[f] = 0, ++dropped;
   if (dropped > 0) mesh.triangles = select_faces(mesh.triangles, keep);
   return dropped;
 }
@@ -96,7 +96,7 @@ bool treat_flat_faces(TriangleMesh& mesh, DoctorReport& report) {
   }
   if (flat.empty()) return false;
   std::vector<int> parent = identity(mesh);
-  std::vector<char> keep(static_cast<std::size_t>(mesh.num_triangles()), 1);
+  std::vector<char> keep(mesh.num_triangles(), 1);
   std::vector<char> touched(keep.size(), 0);
   const std::vector<EdgeUse> uses = edge_uses(mesh.triangles);
   const auto same_edge = [&](int a, int b) {
@@ -179,7 +179,7 @@ void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report) {
     std::array<int, 3> vertices;
     int face;
   };
-  std::vector<Keyed> faces(static_cast<std::size_t>(num_faces));
+  std::vector<Keyed> faces(num_faces);
   for (int f = 0; f < num_faces; ++f) {
     faces[f] = {{mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2)}, f};
     std::ranges::sort(faces[f].vertices);
@@ -188,7 +188,7 @@ void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.face < b.face;
   });
   std::map<std::pair<int, int>, int> uses;  // built only if there is a duplicate
-  std::vector<char> keep(static_cast<std::size_t>(num_faces), 1);
+  std::vector<char> keep(num_faces, 1);
   std::int64_t removed = 0;
   for (std::size_t first = 0, last = 0; first < faces.size(); first = last) {
     while (last < faces.size() && faces[last].vertices == faces[first].vertices) ++last;

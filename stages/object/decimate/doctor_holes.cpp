@@ -15,7 +15,7 @@ using Loop = std::vector<int>;
 /// Vertices of each boundary loop, in the direction a face that fills it must take.
 std::vector<Loop> boundary_loops(const TriangleMesh& mesh, const std::vector<int>& opposite) {
   constexpr int kNone = -1;
-  std::vector<int> open_from(static_cast<std::size_t>(mesh.num_vertices()), kNone);
+  std::vector<int> open_from(mesh.num_vertices(), kNone);
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
     if (opposite[h] == kOpen) open_from[origin_of(mesh.triangles, h)] = h;
   std::vector<Loop> loops;
@@ -40,7 +40,7 @@ std::vector<std::array<int, 3>> least_area_triangulation(const TriangleMesh& mes
                                                          const std::set<std::pair<int, int>>& edges) {
   const int n = static_cast<int>(loop.size());
   constexpr double kNotFillable = std::numeric_limits<double>::infinity();
-  std::vector<double> best(static_cast<std::size_t>(n * n), 0.0);
+  std::vector<double> best(n * n, 0.0);
   std::vector<int> choice(best.size(), 0);
   const auto allowed = [&](int i, int j) {
     return j - i == 1 || (i == 0 && j == n - 1) || !edges.contains(std::minmax({loop[i], loop[j]}));
@@ -109,14 +109,14 @@ void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& repo
 void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& report) {
   const std::vector<int> opposite = opposite_half_edges(mesh);
   const Components components = connected_components(mesh.triangles, opposite);
-  std::vector<char> open(static_cast<std::size_t>(components.count), 0);
+  std::vector<char> open(components.count, 0);
   for (std::size_t h = 0; h < opposite.size(); ++h)
     if (opposite[h] == kOpen) open[components.of_face[h / 3]] = 1;
   report.thickened_sheets = std::ranges::count(open, 1);
   if (report.thickened_sheets == 0) return;
 
   Positions normals = Positions::Zero(mesh.num_vertices(), 3);
-  std::vector<Eigen::Index> behind(static_cast<std::size_t>(mesh.num_vertices()), 0);
+  std::vector<Eigen::Index> behind(mesh.num_vertices(), 0);
   const auto is_open = [&](int f) { return open[components.of_face[f]] != 0; };
   const int num_faces = static_cast<int>(mesh.num_triangles());
   for (int f = 0; f < num_faces; ++f)

@@ -88,7 +88,7 @@ std::vector<int> paired_half_edges(const TriangleMesh& mesh, const Uses& uses) {
 /// Where sheets share both ends of an edge, gives each pair of faces a vertex of its own in the middle. A face is cut
 /// once; edges whose faces are cut already wait for the next round.
 void halve_edges(TriangleMesh& mesh, const Uses& uses, const std::vector<int>& opposite) {
-  std::vector<char> cut(static_cast<std::size_t>(mesh.num_triangles()), 0);
+  std::vector<char> cut(mesh.num_triangles(), 0);
   std::vector<Eigen::RowVector3d> middles;
   std::vector<std::array<int, 3>> added;
   const int before = static_cast<int>(mesh.num_vertices());
@@ -105,7 +105,7 @@ void halve_edges(TriangleMesh& mesh, const Uses& uses, const std::vector<int>& o
         const int face = half_edge / 3, k = half_edge % 3;
         cut[face] = 1;
         std::array<int, 3> rest{mesh.triangles(face, 0), mesh.triangles(face, 1), mesh.triangles(face, 2)};
-        rest[static_cast<std::size_t>(k)] = m;
+        rest[k] = m;
         mesh.triangles(face, (k + 1) % 3) = m;
         added.push_back(rest);
       }

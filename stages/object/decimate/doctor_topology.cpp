@@ -50,14 +50,14 @@ void remove_debris(TriangleMesh& mesh, double area_fraction, DoctorReport& repor
   const Sizes sizes = sizes_of(mesh, components);
   const double all = std::accumulate(sizes.area.begin(), sizes.area.end(), 0.0);
   const auto largest = std::ranges::max_element(sizes.area) - sizes.area.begin();
-  std::vector<char> debris(static_cast<std::size_t>(components.count), 0);
+  std::vector<char> debris(components.count, 0);
   for (int part = 0; part < components.count; ++part)
     if (part != largest && (sizes.faces[part] < kMinFaces || sizes.area[part] < area_fraction * all)) {
       debris[part] = 1;
       ++report.debris_components;
     }
   if (report.debris_components == 0) return;
-  std::vector<char> keep(static_cast<std::size_t>(mesh.num_triangles()));
+  std::vector<char> keep(mesh.num_triangles());
   for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = debris[components.of_face[f]] != 0 ? 0 : 1;
   mesh.triangles = select_faces(mesh.triangles, keep);
 }
@@ -65,7 +65,7 @@ void remove_debris(TriangleMesh& mesh, double area_fraction, DoctorReport& repor
 void orient_consistently(TriangleMesh& mesh, DoctorReport& report) {
   const std::vector<int> opposite = opposite_half_edges(mesh);
   const int num_faces = static_cast<int>(mesh.num_triangles());
-  std::vector<char> turned(static_cast<std::size_t>(num_faces), 0);
+  std::vector<char> turned(num_faces, 0);
   std::vector<char> seen(turned.size(), 0);
   std::vector<int> queue;
   for (int seed = 0; seed < num_faces; ++seed) {
@@ -121,7 +121,7 @@ void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorRepo
     join(next_in_face(h), opposite[h]);
   }
   constexpr int kNone = -1;
-  std::vector<int> fan_of_vertex(static_cast<std::size_t>(mesh.num_vertices()), kNone);
+  std::vector<int> fan_of_vertex(mesh.num_vertices(), kNone);
   std::vector<int> vertex_of_fan(opposite.size(), kNone);
   std::vector<int> copied;
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
@@ -159,7 +159,7 @@ void remove_flat_parts(TriangleMesh& mesh, DoctorReport& report) {
   if (count == components.count)
     throw DataError("a closed part of {} faces near {} encloses no volume ({:.3g} mm^3)", sizes.faces[0],
                     place_mm(corner(mesh, sizes.first_face[0], 0).transpose()), 1e9 * sizes.volume[0]);
-  std::vector<char> keep(static_cast<std::size_t>(mesh.num_triangles()));
+  std::vector<char> keep(mesh.num_triangles());
   for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = is_flat(components.of_face[f]) ? 0 : 1;
   mesh.triangles = select_faces(mesh.triangles, keep);
   report.flat_components = count;

@@ -41,7 +41,7 @@ class ChunkProgress {
 
 /// The lowest vertex at the place of each vertex.
 std::vector<int> lowest_at_place(const Positions& positions) {
-  std::vector<int> order(static_cast<std::size_t>(positions.rows()));
+  std::vector<int> order(positions.rows());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int v) { return std::array{positions(v, 0), positions(v, 1), positions(v, 2)}; };
   std::ranges::sort(order, [&](int a, int b) {
@@ -74,7 +74,7 @@ std::vector<FacePair> self_intersections(const TriangleMesh& mesh) {
   const TriangleTree tree(mesh);
   const std::vector<int> place = lowest_at_place(mesh.positions);
   const int num_chunks = (num_faces + kChunk - 1) / kChunk;
-  std::vector<std::vector<FacePair>> found(static_cast<std::size_t>(num_chunks));
+  std::vector<std::vector<FacePair>> found(num_chunks);
   ChunkProgress progress(num_chunks);
   tbb::parallel_for(0, num_chunks, [&](int chunk) {
     for (int f = chunk * kChunk; f < std::min(num_faces, (chunk + 1) * kChunk); ++f)

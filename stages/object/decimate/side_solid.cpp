@@ -34,9 +34,8 @@ Triangles faces_between(const HeightField& field, const std::vector<int>& point)
       }
     }
   }
-  Triangles triangles(static_cast<Eigen::Index>(faces.size()), 3);
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    triangles.row(static_cast<Eigen::Index>(f)) << faces[f][0], faces[f][1], faces[f][2];
+  Triangles triangles(faces.size(), 3);
+  for (std::size_t f = 0; f < faces.size(); ++f) triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
   return triangles;
 }
 

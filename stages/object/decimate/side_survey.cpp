@@ -43,8 +43,8 @@ class ReliefSums {
   }
 
  private:
-  double& at(int i, int j) { return sums_[static_cast<std::size_t>(j * (columns_ + 1) + i)]; }
-  double at(int i, int j) const { return sums_[static_cast<std::size_t>(j * (columns_ + 1) + i)]; }
+  double& at(int i, int j) { return sums_[j * (columns_ + 1) + i]; }
+  double at(int i, int j) const { return sums_[j * (columns_ + 1) + i]; }
 
   int columns_;
   std::vector<double> sums_;
@@ -115,7 +115,7 @@ SideView look_at(const TriangleMesh& mesh, const std::string& side, const std::a
 void draw_frame(ByteImage& image, int left, int top, int right, int bottom, const std::array<std::uint8_t, 3>& color) {
   const auto put = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
-    for (int c = 0; c < 3; ++c) image.at(x, y, c) = color[static_cast<std::size_t>(c)];
+    for (int c = 0; c < 3; ++c) image.at(x, y, c) = color[c];
   };
   for (int width = 0; width < 2; ++width) {
     for (int x = left; x <= right; ++x) put(x, top + width), put(x, bottom - width);

@@ -8,7 +8,7 @@
 namespace tacipc {
 
 std::vector<EdgeUse> edge_uses(const Triangles& triangles) {
-  std::vector<EdgeUse> uses(static_cast<std::size_t>(3 * triangles.rows()));
+  std::vector<EdgeUse> uses(3 * triangles.rows());
   for (int h = 0; h < static_cast<int>(uses.size()); ++h) {
     const auto [low, high] = std::minmax({origin_of(triangles, h), target_of(triangles, h)});
     uses[h] = {low, high, h};
@@ -65,7 +65,7 @@ Triangles select_faces(const Triangles& triangles, const std::vector<char>& keep
   Triangles kept(std::ranges::count(keep, 1), 3);
   Eigen::Index next = 0;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-    if (keep[static_cast<std::size_t>(f)] != 0) kept.row(next++) = triangles.row(f);
+    if (keep[f] != 0) kept.row(next++) = triangles.row(f);
   return kept;
 }
 

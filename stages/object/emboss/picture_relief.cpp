@@ -22,10 +22,9 @@ struct Raster {
 };
 
 std::vector<double> gaussian_weights(double sigma_px, int radius) {
-  std::vector<double> weights(static_cast<std::size_t>(2 * radius + 1));
+  std::vector<double> weights(2 * radius + 1);
   double sum = 0.0;
-  for (int i = -radius; i <= radius; ++i)
-    sum += weights[static_cast<std::size_t>(i + radius)] = std::exp(-0.5 * (i / sigma_px) * (i / sigma_px));
+  for (int i = -radius; i <= radius; ++i) sum += weights[i + radius] = std::exp(-0.5 * (i / sigma_px) * (i / sigma_px));
   for (double& weight : weights) weight /= sum;
   return weights;
 }
@@ -39,7 +38,7 @@ Raster blurred_rows_transposed(const Raster& in, const std::vector<double>& weig
     for (int x = 0; x < in.width; ++x) {
       double sum = 0.0;
       for (int i = std::max(-radius, -x); i <= std::min(radius, in.width - 1 - x); ++i)
-        sum += weights[static_cast<std::size_t>(i + radius)] * in.at(x + i, y);
+        sum += weights[i + radius] * in.at(x + i, y);
       out.at(y, x) = sum;
     }
   }

@@ -25,16 +25,12 @@ void icosahedron(std::vector<Vector3>& vertices, std::vector<Corners>& faces) {
         v[(axis + 2) % 3] = b;
         vertices.push_back(v);
       }
-  const auto adjacent = [&](int i, int j) {
-    return std::abs((vertices[static_cast<std::size_t>(i)] - vertices[static_cast<std::size_t>(j)]).norm() - 2.0) <
-           1e-9;
-  };
+  const auto adjacent = [&](int i, int j) { return std::abs((vertices[i] - vertices[j]).norm() - 2.0) < 1e-9; };
   for (int i = 0; i < 12; ++i)
     for (int j = i + 1; j < 12; ++j)
       for (int k = j + 1; k < 12; ++k) {
         if (!adjacent(i, j) || !adjacent(j, k) || !adjacent(i, k)) continue;
-        const auto& [a, b, c] = std::tie(vertices[static_cast<std::size_t>(i)], vertices[static_cast<std::size_t>(j)],
-                                         vertices[static_cast<std::size_t>(k)]);
+        const auto& [a, b, c] = std::tie(vertices[i], vertices[j], vertices[k]);
         if (a.dot(b.cross(c)) > 0.0)
           faces.push_back({i, j, k});
         else
@@ -48,8 +44,7 @@ void split(std::vector<Vector3>& vertices, std::vector<Corners>& faces) {
   const auto middle = [&](int i, int j) {
     const auto [place, fresh] =
         middle_of.try_emplace({std::min(i, j), std::max(i, j)}, static_cast<int>(vertices.size()));
-    if (fresh)
-      vertices.push_back((vertices[static_cast<std::size_t>(i)] + vertices[static_cast<std::size_t>(j)]).normalized());
+    if (fresh) vertices.push_back((vertices[i] + vertices[j]).normalized());
     return place->second;
   };
   std::vector<Corners> finer;
@@ -70,10 +65,7 @@ TriangleMesh ball_mesh(double radius_m, double edge_m) {
   const auto longest = [&] {
     double length = 0.0;
     for (const Corners& f : faces)
-      for (std::size_t i = 0; i < 3; ++i)
-        length = std::max(
-            length,
-            (vertices[static_cast<std::size_t>(f[i])] - vertices[static_cast<std::size_t>(f[(i + 1) % 3])]).norm());
+      for (std::size_t i = 0; i < 3; ++i) length = std::max(length, (vertices[f[i]] - vertices[f[(i + 1) % 3]]).norm());
     return radius_m * length;
   };
   for (int splits = 0; longest() > edge_m; ++splits) {
@@ -82,13 +74,11 @@ TriangleMesh ball_mesh(double radius_m, double edge_m) {
     split(vertices, faces);
   }
   TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(vertices.size()), 3);
-  mesh.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    mesh.positions.row(static_cast<Eigen::Index>(i)) = radius_m * vertices[i].transpose();
+  mesh.positions.resize(vertices.size(), 3);
+  mesh.triangles.resize(faces.size(), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.positions.row(i) = radius_m * vertices[i].transpose();
   for (std::size_t i = 0; i < faces.size(); ++i)
-    for (Eigen::Index k = 0; k < 3; ++k)
-      mesh.triangles(static_cast<Eigen::Index>(i), k) = faces[i][static_cast<std::size_t>(k)];
+    for (Eigen::Index k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(i), k) = faces[i][k];
   return mesh;
 }
 

@@ -24,7 +24,7 @@ struct Soup {
 /// Without faces that have no area: there is nothing to keep away from but their edges, which belong to others.
 Soup soup_of(const TriangleMesh& mesh) {
   Soup soup;
-  soup.points.reserve(static_cast<std::size_t>(mesh.num_vertices()));
+  soup.points.reserve(mesh.num_vertices());
   for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v)
     soup.points.emplace_back(mesh.positions(v, 0), mesh.positions(v, 1), mesh.positions(v, 2));
   for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
@@ -38,8 +38,8 @@ Soup soup_of(const TriangleMesh& mesh) {
 
 TriangleMesh mesh_of(const Surface& surface) {
   TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(surface.number_of_vertices()), 3);
-  mesh.triangles.resize(static_cast<Eigen::Index>(surface.number_of_faces()), 3);
+  mesh.positions.resize(surface.number_of_vertices(), 3);
+  mesh.triangles.resize(surface.number_of_faces(), 3);
   for (const auto vertex : surface.vertices()) {
     const Point& point = surface.point(vertex);
     mesh.positions.row(vertex.idx()) << point.x(), point.y(), point.z();

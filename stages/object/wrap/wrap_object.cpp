@@ -43,7 +43,7 @@ double offset_for(double alpha_m, double diagonal_m, const WrapConfig& config) {
 
 std::vector<Vector3> vertices_and_centres(const TriangleMesh& mesh) {
   std::vector<Vector3> points;
-  points.reserve(static_cast<std::size_t>(mesh.num_vertices() + mesh.num_triangles()));
+  points.reserve(mesh.num_vertices() + mesh.num_triangles());
   for (Eigen::Index v = 0; v < mesh.num_vertices(); ++v) points.emplace_back(mesh.positions.row(v));
   for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f)
     points.emplace_back((mesh.positions.row(mesh.triangles(f, 0)) + mesh.positions.row(mesh.triangles(f, 1)) +

@@ -65,7 +65,7 @@ ChangeOfCodes::ChangeOfCodes(const ChangeConfig& config, const RivalLight& light
     for (const Vector3& point : flat.rest) empty_.push_back(metallic_codes(point, -Vector3::UnitZ()));
   }
   if (std::holds_alternative<LightNetwork>(light_)) {
-    const std::vector<double> level(static_cast<std::size_t>(camera.width_px), 0.0);
+    const std::vector<double> level(camera.width_px, 0.0);
     for (int y = 0; y < camera.height_px; ++y) flat_.push_back(network_row(y, level.data(), level.data()));
   }
 }
@@ -93,8 +93,7 @@ FloatImage ChangeOfCodes::lambert(const Raster& indentation_m) const {
     for (int x = 0; x < depth.width; ++x) {
       const auto codes = lambert_codes(config_.lights, phong_normal(depth, config_.metres_per_pixel, x, y));
       for (int c = 0; c < 3; ++c) {
-        const auto k = static_cast<std::size_t>(c);
-        change.at(x, y, c) = static_cast<float>(codes[k] - flat[k]);
+        change.at(x, y, c) = static_cast<float>(codes[c] - flat[c]);
       }
     }
   }
@@ -137,7 +136,7 @@ FloatImage ChangeOfCodes::table(const Raster& indentation_m) const {
     for (int x = 0; x < change.width; ++x) {
       const auto codes =
           table.change(slopes.x.at(x, y), slopes.y.at(x, y), SlopeTable::terms(x, y, change.width, change.height));
-      for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes[static_cast<std::size_t>(c)]);
+      for (int c = 0; c < 3; ++c) change.at(x, y, c) = static_cast<float>(codes[c]);
     }
   }
   return change;
@@ -158,8 +157,7 @@ FloatImage ChangeOfCodes::network(const Raster& indentation_m) const {
   FloatImage change(indentation_m.width, indentation_m.height, 3);
   for (int y = 0; y < change.height; ++y) {
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(change.width);
-    const Eigen::MatrixXf codes =
-        255.0F * (network_row(y, &slopes.x.values[row], &slopes.y.values[row]) - flat_[static_cast<std::size_t>(y)]);
+    const Eigen::MatrixXf codes = 255.0F * (network_row(y, &slopes.x.values[row], &slopes.y.values[row]) - flat_[y]);
     std::copy(codes.data(), codes.data() + codes.size(), &change.pixels[3 * row]);
   }
   return change;

@@ -22,11 +22,10 @@ std::vector<double> folded_gaussian_profile(int size, double sigma) {
   double sum = 0.0;
   for (int i = -radius; i <= radius; ++i) sum += std::exp(-0.5 * i * i / (sigma * sigma));
   // Each tap carries the impulse to one place; places outside the window fold back into it.
-  std::vector<double> profile(static_cast<std::size_t>(size), 0.0);
+  std::vector<double> profile(size, 0.0);
   for (int to = 0; to < size; ++to)
     for (int i = -radius; i <= radius; ++i)
-      if (mirrored(to + i, size) == size / 2)
-        profile[static_cast<std::size_t>(to)] += std::exp(-0.5 * i * i / (sigma * sigma)) / sum;
+      if (mirrored(to + i, size) == size / 2) profile[to] += std::exp(-0.5 * i * i / (sigma * sigma)) / sum;
   return profile;
 }
 
@@ -34,8 +33,7 @@ Raster folded_gaussian(int size, double sigma) {
   const std::vector<double> profile = folded_gaussian_profile(size, sigma);
   Raster kernel(size, size);
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x)
-      kernel.at(x, y) = profile[static_cast<std::size_t>(x)] * profile[static_cast<std::size_t>(y)];
+    for (int x = 0; x < size; ++x) kernel.at(x, y) = profile[x] * profile[y];
   return kernel;
 }
 

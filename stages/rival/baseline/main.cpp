@@ -94,7 +94,7 @@ std::vector<Matrix4> wanted_poses(Stage& stage, const BaselineSimulator& simulat
       throw DataError("{}: {} is to be frame {}, there are poses up to {}", stage.optional_input("--pose")->string(),
                       image.name, image.frame, poses.size() - 1);
   const auto moved = [&](const ImagePlace& place, const NamedFrame& image) -> Matrix4 {
-    return place_pose(place, simulator.sensor()) * poses[static_cast<std::size_t>(image.frame)];
+    return place_pose(place, simulator.sensor()) * poses[image.frame];
   };
   ImagePlace place = places.place;
   if (places.fit) {

@@ -111,9 +111,7 @@ void move_markers(Stage& stage) {
 
   DepthAt depth(sensor, read_triangle_mesh(*mesh, 1.0), mesh->string());
   const std::vector<Eigen::Vector2d> own = own_markers(config.fots, sensor.camera);
-  const auto rest_of = [&](std::size_t m) -> Eigen::Vector2d {
-    return rest.row(static_cast<Eigen::Index>(m)).head<2>().transpose();
-  };
+  const auto rest_of = [&](std::size_t m) -> Eigen::Vector2d { return rest.row(m).head<2>().transpose(); };
   // How markers are moved by an object that was pressed as in a frame, for each motion since.
   const auto pressed = [&](const Matrix4& pose) -> std::function<MarkerField(const ObjectMotion&)> {
     depth.place(pose);

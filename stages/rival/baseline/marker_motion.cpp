@@ -107,7 +107,7 @@ Superposition::Superposition(const UnitResponse& response, const MarkerGrid& gri
   Eigen::MatrixXd normal(size, size), along_x(size, size), along_y(size, size);
   for (Eigen::Index q = 0; q < size; ++q) {
     for (Eigen::Index k = 0; k < size; ++k) {
-      const Node &at = touched[static_cast<std::size_t>(q)], &from = touched[static_cast<std::size_t>(k)];
+      const Node &at = touched[q], &from = touched[k];
       const int dx = at.column - from.column, dy = at.row - from.row;
       normal(q, k) = response.press(dx, dy).z();
       along_x(q, k) = response.shear_x(dx, dy).x();
@@ -127,7 +127,7 @@ Superposition::Superposition(const UnitResponse& response, const MarkerGrid& gri
   const Eigen::VectorXd sx = loads(along_x), sy = loads(along_y);
   for (std::size_t q = 0; q < nodes.size(); ++q) {
     for (Eigen::Index k = 0; k < size; ++k) {
-      const Node& from = touched[static_cast<std::size_t>(k)];
+      const Node& from = touched[k];
       const int dx = nodes[q].column - from.column, dy = nodes[q].row - from.row;
       press_[q] += f[k] * response.press(dx, dy).head<2>();
       along_x_[q] += sx[k] * response.shear_x(dx, dy).head<2>();

@@ -53,8 +53,7 @@ ByteImage phong_image(const ByteImage& background, const Raster& depth_m, const 
       for (int c = 0; c < 3; ++c) out.at(x, y, c) = overlaid(config.ambient * background.at(x, y, c), shade, 0.0);
       for (const PhongLight& light : config.lights) {
         const double opacity = phong_opacity(light, normal, config.shininess);
-        for (int c = 0; c < 3; ++c)
-          out.at(x, y, c) = overlaid(out.at(x, y, c), opacity, light.rgb[static_cast<std::size_t>(c)]);
+        for (int c = 0; c < 3; ++c) out.at(x, y, c) = overlaid(out.at(x, y, c), opacity, light.rgb[c]);
       }
     }
   }

@@ -10,12 +10,12 @@ namespace {
 
 /// Every point's neighbours along edges, ascending.
 std::vector<std::vector<int>> neighbors_of_points(Eigen::Index num_points, const Triangles& triangles) {
-  std::vector<std::vector<int>> neighbors(static_cast<std::size_t>(num_points));
+  std::vector<std::vector<int>> neighbors(num_points);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(t, k), b = triangles(t, (k + 1) % 3);
-      neighbors[static_cast<std::size_t>(a)].push_back(b);
-      neighbors[static_cast<std::size_t>(b)].push_back(a);
+      neighbors[a].push_back(b);
+      neighbors[b].push_back(a);
     }
   }
   for (auto& list : neighbors) {
@@ -30,11 +30,11 @@ std::vector<Eigen::Index> triangles_across(const Triangles& triangles) {
   std::map<std::pair<int, int>, Eigen::Index> triangle_of;  // by edge, in the triangle's sense
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) triangle_of[{triangles(t, (k + 1) % 3), triangles(t, (k + 2) % 3)}] = t;
-  std::vector<Eigen::Index> across(static_cast<std::size_t>(3 * triangles.rows()), -1);
+  std::vector<Eigen::Index> across(3 * triangles.rows(), -1);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const auto found = triangle_of.find({triangles(t, (k + 2) % 3), triangles(t, (k + 1) % 3)});
-      if (found != triangle_of.end()) across[static_cast<std::size_t>(3 * t + k)] = found->second;
+      if (found != triangle_of.end()) across[3 * t + k] = found->second;
     }
   }
   return across;
@@ -50,12 +50,12 @@ Points2 least_bending_gradients(const Points2& points, const Eigen::VectorXd& va
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     double largest = 0.0;
     for (Eigen::Index p = 0; p < points.rows(); ++p) {
-      if (neighbors[static_cast<std::size_t>(p)].empty()) continue;
+      if (neighbors[p].empty()) continue;
       // With e along an edge, Δ the step in value and s₂ = g₂ · e at its far end, ∫ w″² = 4 (s₁² + s₁ s₂ + s₂² − 3 Δ
       // (s₁ + s₂) + 3 Δ²) for s₁ = g · e. Its derivative by g vanishes where Σ 2 e eᵀ / L³ g = Σ (3 Δ − s₂) e / L³.
       Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
       Eigen::Vector2d right = Eigen::Vector2d::Zero();
-      for (const int other : neighbors[static_cast<std::size_t>(p)]) {
+      for (const int other : neighbors[p]) {
         const Eigen::Vector2d e = (points.row(other) - points.row(p)).transpose();
         const double cubed = std::pow(e.norm(), 3);
         matrix += 2.0 / cubed * e * e.transpose();
@@ -79,7 +79,7 @@ CloughTocher::CloughTocher(const Points2& points, const Eigen::VectorXd& values,
     return (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0;
   };
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    Part* const parts = &parts_[static_cast<std::size_t>(3 * t)];
+    Part* const parts = &parts_[3 * t];
     const Eigen::Vector2d center = centroid(t);
     // A third of the edge from a corner the control value is that of the corner's tangent plane.
     const auto towards = [&](int from, const Eigen::Vector2d& to) {
@@ -99,7 +99,7 @@ CloughTocher::CloughTocher(const Points2& points, const Eigen::VectorXd& values,
       // through their centroids (at the rim: from the edge's middle to the centroid), so that the gradient does not
       // jump. The direction is d_i V_i + d_j V_j + d_c V_c, sum 0; V_k = 3 V_c − V_i − V_j.
       double d_i = -0.5, d_j = -0.5, d_c = 1.0;
-      if (const Eigen::Index other = across[static_cast<std::size_t>(3 * t + k)]; other >= 0) {
+      if (const Eigen::Index other = across[3 * t + k]; other >= 0) {
         const Vector3 at = barycentric(t, centroid(other));
         d_i = at[i] - at[k];
         d_j = at[j] - at[k];
@@ -134,7 +134,7 @@ Vector3 CloughTocher::barycentric(Eigen::Index triangle, const Eigen::Vector2d& 
 double CloughTocher::value(Eigen::Index triangle, const Vector3& barycentric) const {
   int k = 0;
   barycentric.minCoeff(&k);
-  const Part& part = parts_[static_cast<std::size_t>(3 * triangle + k)];
+  const Part& part = parts_[3 * triangle + k];
   const double i = barycentric[(k + 1) % 3] - barycentric[k], j = barycentric[(k + 2) % 3] - barycentric[k],
                c = 3.0 * barycentric[k];
   return i * i * (i * part.iii + 3.0 * (j * part.iij + c * part.iic)) +

@@ -62,7 +62,7 @@ GelLattice make_gel_lattice(const LatticeConfig& config, const GelShape& gel) {
     for (int j = 0; j < lattice.sides[1]; ++j) {
       const double inside = 1.0 - kRounding;
       if (!config.counts && !gel.contains(inside * place(i, 0), inside * place(j, 1))) continue;
-      lattice.column_at[static_cast<std::size_t>(i * lattice.sides[1] + j)] = lattice.num_columns();
+      lattice.column_at[i * lattice.sides[1] + j] = lattice.num_columns();
       lattice.columns.push_back({i, j});
     }
   }
@@ -91,14 +91,11 @@ Triangles triangulate(const GelLattice& lattice, const Positions& positions) {
                                       lattice.at(i, j + 1)};
       int missing = 0, without = 0;
       for (int k = 0; k < 4; ++k) {
-        if (corner[static_cast<std::size_t>(k)] >= 0) continue;
+        if (corner[k] >= 0) continue;
         ++missing;
         without = k;
       }
-      const auto add = [&](int a, int b, int c) {
-        all.push_back({corner[static_cast<std::size_t>(a % 4)], corner[static_cast<std::size_t>(b % 4)],
-                       corner[static_cast<std::size_t>(c % 4)]});
-      };
+      const auto add = [&](int a, int b, int c) { all.push_back({corner[a % 4], corner[b % 4], corner[c % 4]}); };
       if (missing > 1) continue;
       if (missing == 1) {
         add(without + 1, without + 2, without + 3);
@@ -112,9 +109,8 @@ Triangles triangulate(const GelLattice& lattice, const Positions& positions) {
       add(from, from + 2, from + 3);
     }
   }
-  Triangles triangles(static_cast<Eigen::Index>(all.size()), 3);
-  for (std::size_t t = 0; t < all.size(); ++t)
-    triangles.row(static_cast<Eigen::Index>(t)) << all[t][0], all[t][1], all[t][2];
+  Triangles triangles(all.size(), 3);
+  for (std::size_t t = 0; t < all.size(); ++t) triangles.row(t) << all[t][0], all[t][1], all[t][2];
   return triangles;
 }
 

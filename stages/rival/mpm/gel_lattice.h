@@ -25,7 +25,7 @@ struct GelLattice {
   /// Column at (i, j); −1 beside the gel.
   int at(int i, int j) const {
     if (i < 0 || j < 0 || i >= sides[0] || j >= sides[1]) return -1;
-    return column_at[static_cast<std::size_t>(i * sides[1] + j)];
+    return column_at[i * sides[1] + j];
   }
 };
 

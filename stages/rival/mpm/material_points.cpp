@@ -44,7 +44,7 @@ MaterialPoints::MaterialPoints(const Positions& rest_m, const MpmSetup& setup)
   material_ = {static_cast<float>(scale * setup.mu_pa), static_cast<float>(scale * setup.lambda_pa)};
   sorted_.packs.resize((static_cast<std::size_t>(num_particles_) + kParticleLanes - 1) / kParticleLanes);
   for (int i = 0; i < static_cast<int>(sorted_.packs.size()) * kParticleLanes; ++i) {
-    ParticlePack& pack = sorted_.packs[static_cast<std::size_t>(i / kParticleLanes)];
+    ParticlePack& pack = sorted_.packs[i / kParticleLanes];
     const int l = i % kParticleLanes;
     if (l == 0) pack = ParticlePack{};
     pack.id[l] = i < num_particles_ ? i : -1;
@@ -63,13 +63,13 @@ void MaterialPoints::place_object(const Positions& points_m, const Matrix4& gel_
 }
 
 void MaterialPoints::object_points(const Matrix4& gel_from_object, std::vector<std::array<double, 3>>& points) const {
-  points.resize(static_cast<std::size_t>(object_m_.rows()));
+  points.resize(object_m_.rows());
   const Matrix3 rotation = gel_from_object.topLeftCorner<3, 3>() / setup_.grid_spacing_m;
   const Vector3 shift = (gel_from_object.topRightCorner<3, 1>() - setup_.grid_origin_m) / setup_.grid_spacing_m;
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, object_m_.rows(), 4096), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
       const Vector3 at = rotation * object_m_.row(i).transpose() + shift;
-      points[static_cast<std::size_t>(i)] = {at.x(), at.y(), at.z()};
+      points[i] = {at.x(), at.y(), at.z()};
     }
   });
 }
@@ -87,11 +87,10 @@ void MaterialPoints::sort() {
     if (tile_of[i] >= 0) ++first_near_point_[static_cast<std::size_t>(tile_of[i]) + 1];
   }
   for (std::size_t t = 1; t < first_near_point_.size(); ++t) first_near_point_[t] += first_near_point_[t - 1];
-  near_points_.resize(static_cast<std::size_t>(first_near_point_.back()));
+  near_points_.resize(first_near_point_.back());
   std::vector<int> next(first_near_point_.begin(), first_near_point_.end() - 1);
   for (std::size_t i = 0; i < tile_of.size(); ++i)
-    if (tile_of[i] >= 0)
-      near_points_[static_cast<std::size_t>(next[static_cast<std::size_t>(tile_of[i])]++)] = static_cast<int>(i);
+    if (tile_of[i] >= 0) near_points_[next[tile_of[i]]++] = static_cast<int>(i);
 }
 
 double MaterialPoints::move_object(const Matrix4& gel_from_object) {
@@ -105,8 +104,8 @@ double MaterialPoints::move_object(const Matrix4& gel_from_object) {
   if (drift_ > kDriftBeforeSorting) sort();
   moving_.resize(near_points_.size());
   for (std::size_t i = 0; i < near_points_.size(); ++i) {
-    const auto& now = object_now_[static_cast<std::size_t>(near_points_[i])];
-    const auto& next = object_next_[static_cast<std::size_t>(near_points_[i])];
+    const auto& now = object_now_[near_points_[i]];
+    const auto& next = object_next_[near_points_[i]];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       moving_[i].position[axis] = static_cast<float>(now[axis] - sorted_.slab.origin[axis]);
       moving_[i].velocity[axis] = static_cast<float>(next[axis] - now[axis]);
@@ -129,9 +128,8 @@ void MaterialPoints::step(const Matrix4& gel_from_object) {
   });
   const auto object_mass = static_cast<float>(setup_.object_mass_ratio);
   for_each_tile_by_color(slab, [&](int t) {
-    const TilePacks& tile = sorted_.tiles[static_cast<std::size_t>(t)];
-    const int first = first_near_point_[static_cast<std::size_t>(t)],
-              last = first_near_point_[static_cast<std::size_t>(t) + 1];
+    const TilePacks& tile = sorted_.tiles[t];
+    const int first = first_near_point_[t], last = first_near_point_[static_cast<std::size_t>(t) + 1];
     scatter(sorted_.packs.data() + tile.first, tile.count, material_, slab);
     scatter(moving_.data() + first, last - first, object_mass, slab);
   });
@@ -182,9 +180,9 @@ double MaterialPoints::deepest_m(int first) const {
 }
 
 std::vector<ParticleState> MaterialPoints::states() const {
-  std::vector<ParticleState> states(static_cast<std::size_t>(num_particles_));
+  std::vector<ParticleState> states(num_particles_);
   for_each_particle([&](const ParticlePack& pack, int l) {
-    ParticleState& state = states[static_cast<std::size_t>(pack.id[l])];
+    ParticleState& state = states[pack.id[l]];
     for (int r = 0; r < 3; ++r) {
       state.shift_m[r] = metres_per_cell() * static_cast<double>(pack.shift[r][l]);
       state.velocity_m_s[r] = metres_per_cell() / setup_.step_s * static_cast<double>(pack.velocity[r][l]);
@@ -201,7 +199,7 @@ void MaterialPoints::set_states(const std::vector<ParticleState>& states) {
   assert(states.size() == static_cast<std::size_t>(num_particles_));
   for (ParticlePack& pack : sorted_.packs) {
     for (int l = 0; l < kParticleLanes && pack.id[l] >= 0; ++l) {
-      const ParticleState& state = states[static_cast<std::size_t>(pack.id[l])];
+      const ParticleState& state = states[pack.id[l]];
       for (int r = 0; r < 3; ++r) {
         pack.shift[r][l] = static_cast<float>(state.shift_m[r] / metres_per_cell());
         pack.velocity[r][l] = static_cast<float>(state.velocity_m_s[r] * setup_.step_s / metres_per_cell());

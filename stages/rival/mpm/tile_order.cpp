@@ -112,19 +112,18 @@ SortedParticles sort_particles(const std::vector<ParticlePack>& packs, double he
     next = (next + kParticleLanes - 1) / kParticleLanes * kParticleLanes;
     out.tiles.push_back({first / kParticleLanes, (next - first) / kParticleLanes});
   }
-  std::vector<int> source(static_cast<std::size_t>(next), -1);
-  for (std::size_t s = 0; s < slots.size(); ++s)
-    source[static_cast<std::size_t>(place[key_of(slots[s])]++)] = static_cast<int>(s);
+  std::vector<int> source(next, -1);
+  for (std::size_t s = 0; s < slots.size(); ++s) source[place[key_of(slots[s])]++] = static_cast<int>(s);
 
-  out.packs.resize(static_cast<std::size_t>(next / kParticleLanes));
+  out.packs.resize(next / kParticleLanes);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.packs.size()), [&](const auto& range) {
     for (std::size_t p = range.begin(); p < range.end(); ++p) {
       ParticlePack pack = empty_pack();
       for (int l = 0; l < kParticleLanes; ++l) {
         const int from = source[p * kParticleLanes + static_cast<std::size_t>(l)];
         if (from < 0) break;
-        const Slot& slot = slots[static_cast<std::size_t>(from)];
-        copy_particle(packs[static_cast<std::size_t>(slot.pack)], slot.lane, pack, l);
+        const Slot& slot = slots[from];
+        copy_particle(packs[slot.pack], slot.lane, pack, l);
       }
       out.packs[p] = pack;
     }

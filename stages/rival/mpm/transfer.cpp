@@ -104,13 +104,13 @@ TACIPC_CLONES void scatter(const MovingPoint* points, int num_points, float mass
     float weight[3][3];
     std::ptrdiff_t node = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const float x = point->position[static_cast<std::size_t>(axis)];
+      const float x = point->position[axis];
       const int cell = static_cast<int>(x - 0.5f);
       const float f = x - static_cast<float>(cell);
       weight[axis][0] = 0.5f * (1.5f - f) * (1.5f - f);
       weight[axis][1] = 0.75f - (f - 1.0f) * (f - 1.0f);
       weight[axis][2] = 0.5f * (f - 0.5f) * (f - 0.5f);
-      node = node * slab.nodes[static_cast<std::size_t>(axis)] + cell;
+      node = node * slab.nodes[axis] + cell;
     }
     const FloatQuad moving = {mass * point->velocity[0], mass * point->velocity[1], mass * point->velocity[2], mass};
     const FloatQuad wz = {weight[2][0], weight[2][1], weight[2][2], 0.0f};

@@ -91,8 +91,8 @@ class ScaledCost final : public ceres::CostFunction {
 std::pair<Eigen::VectorXd, int> minimise(const MechanicsModel& model, const Eigen::VectorXd& start, Eigen::Index held) {
   const Unknowns& unknowns = model.unknowns();
   const int n = static_cast<int>(unknowns.size());
-  std::vector<double> s(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) s[static_cast<std::size_t>(i)] = scaled(unknowns[i], start[i]);
+  std::vector<double> s(n);
+  for (Eigen::Index i = 0; i < n; ++i) s[i] = scaled(unknowns[i], start[i]);
   ceres::Problem problem;
   problem.AddResidualBlock(new ScaledCost(model), nullptr, s.data());
   if (held >= 0) problem.SetManifold(s.data(), new ceres::SubsetManifold(n, {static_cast<int>(held)}));
@@ -181,7 +181,7 @@ double Posterior::deviation(const Eigen::VectorXd& values) const {
 }
 
 double Posterior::quantile(const Eigen::VectorXd& values, double share) const {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::vector<Eigen::Index> order(values.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
   double below = 0.0;

@@ -200,7 +200,7 @@ std::map<std::string, std::string> result_plots(const IdentifyResult& result) {
     const Eigen::VectorXd predicted = model.predicted(m, result.u);
     for (std::size_t i = 0; i < data.fitted.size(); ++i) {
       seen.points.emplace_back(data.fitted[i].at, data.fitted[i].force_n);
-      off.points.emplace_back(data.fitted[i].at, predicted[static_cast<Eigen::Index>(i)] - data.fitted[i].force_n);
+      off.points.emplace_back(data.fitted[i].at, predicted[i] - data.fitted[i].force_n);
     }
     PlotCurve line{.label = "model"}, low{.label = "95 %"}, high{.label = "95 %"};
     if (press) {
@@ -221,8 +221,7 @@ std::map<std::string, std::string> result_plots(const IdentifyResult& result) {
           high.points.emplace_back(p.depth_mm, p.high_n);
         }
     } else {
-      for (std::size_t i = 0; i < data.fitted.size(); ++i)
-        line.points.emplace_back(data.fitted[i].at, predicted[static_cast<Eigen::Index>(i)]);
+      for (std::size_t i = 0; i < data.fitted.size(); ++i) line.points.emplace_back(data.fitted[i].at, predicted[i]);
     }
     curve.curves = {line, seen};
     residual.curves = {off};

@@ -76,8 +76,7 @@ std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd> MechanicsModel::marker_px(std::siz
     Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, rest_m.cols());
     for (std::size_t n = 0; n < data.runs.size(); ++n) {
       const PressedRuns& runs = data.runs[n];
-      moved += weights[static_cast<Eigen::Index>(n)] *
-               (dragged ? runs.sheared(from_axis, depth_m, travel_m) : runs.pressed(from_axis, depth_m));
+      moved += weights[n] * (dragged ? runs.sheared(from_axis, depth_m, travel_m) : runs.pressed(from_axis, depth_m));
     }
     const Eigen::Vector2d shift(own(name + "_shift_x_px"), own(name + "_shift_y_px"));
     const Eigen::Vector2d middle = 0.5 * camera_px();
@@ -108,9 +107,9 @@ Eigen::VectorXd MechanicsModel::predicted(std::size_t measurement, const Eigen::
     return fitted_coordinates(press, shear);
   }
   const ForceData& data = *data_[measurement].force;
-  Eigen::VectorXd out(static_cast<Eigen::Index>(data.fitted.size()));
+  Eigen::VectorXd out(data.fitted.size());
   const auto each = [&](auto&& force) {
-    for (std::size_t i = 0; i < data.fitted.size(); ++i) out[static_cast<Eigen::Index>(i)] = force(data.fitted[i].at);
+    for (std::size_t i = 0; i < data.fitted.size(); ++i) out[i] = force(data.fitted[i].at);
   };
   const Mounting mount = mounting(u);
   const Eigen::VectorXd weights = node_weights(u);
@@ -124,8 +123,7 @@ Eigen::VectorXd MechanicsModel::predicted(std::size_t measurement, const Eigen::
     const Eigen::VectorXd of_depth = NodeGrid({m.depths_mm}).weights({reached});
     CurveTable table = data.shears.front();
     table.y.setZero();
-    for (std::size_t k = 0; k < data.shears.size(); ++k)
-      table.y += of_depth[static_cast<Eigen::Index>(k)] * data.shears[k].y;
+    for (std::size_t k = 0; k < data.shears.size(); ++k) table.y += of_depth[k] * data.shears[k].y;
     const Curve shear = table.blend(weights);
     each([&](double travel) { return sheared_force_n(shear, mount, travel); });
   } else {
@@ -144,8 +142,8 @@ Eigen::VectorXd MechanicsModel::predicted(std::size_t measurement, const Eigen::
 Eigen::VectorXd MechanicsModel::measured(std::size_t measurement) const {
   const MeasurementData& data = data_[measurement];
   if (data.markers) return fitted_coordinates(data.markers->press.moved_px, data.markers->shear.moved_px);
-  Eigen::VectorXd out(static_cast<Eigen::Index>(data.force->fitted.size()));
-  for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = data.force->fitted[static_cast<std::size_t>(i)].force_n;
+  Eigen::VectorXd out(data.force->fitted.size());
+  for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = data.force->fitted[i].force_n;
   return out;
 }
 
@@ -156,9 +154,8 @@ Eigen::VectorXd MechanicsModel::sigma(std::size_t measurement) const {
     return Eigen::VectorXd::Constant(measured(measurement).size(),
                                      factor * spec_.measurements[measurement].markers->sigma_px);
   }
-  Eigen::VectorXd out(static_cast<Eigen::Index>(data.force->fitted.size()));
-  for (Eigen::Index i = 0; i < out.size(); ++i)
-    out[i] = factor * data.force->fitted[static_cast<std::size_t>(i)].sigma_n;
+  Eigen::VectorXd out(data.force->fitted.size());
+  for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = factor * data.force->fitted[i].sigma_n;
   return out;
 }
 

@@ -35,9 +35,7 @@ Eigen::VectorXd NodeGrid::weights(const std::vector<double>& at) const {
     for (Eigen::Index i = 0; i < n; ++i) {
       double weight = 1.0;
       for (Eigen::Index j = 0; j < n; ++j)
-        if (j != i)
-          weight *= (at[k] - axis[static_cast<std::size_t>(j)]) /
-                    (axis[static_cast<std::size_t>(i)] - axis[static_cast<std::size_t>(j)]);
+        if (j != i) weight *= (at[k] - axis[j]) / (axis[i] - axis[j]);
       for (Eigen::Index o = 0; o < out.size(); ++o) longer[o * n + i] = weight * out[o];
     }
     out = std::move(longer);

@@ -29,7 +29,7 @@ class Unknowns {
   explicit Unknowns(const IdentifySpec& spec);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(all_.size()); }
-  const Unknown& operator[](Eigen::Index i) const { return all_[static_cast<std::size_t>(i)]; }
+  const Unknown& operator[](Eigen::Index i) const { return all_[i]; }
   const std::vector<Unknown>& all() const { return all_; }
   std::optional<Eigen::Index> find(const std::string& name, const std::string& measurement = {}) const;
   /// Value of an unknown at u, or what holds where it is not fitted.

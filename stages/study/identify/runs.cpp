@@ -51,13 +51,13 @@ CurveTable table_of(const std::vector<std::filesystem::path>& folders, const std
                     const std::vector<std::vector<double>>& y, double modulus_pa, double exponent) {
   CurveTable table{.x = {0.0}, .y = {}, .exponent = exponent};
   table.x.insert(table.x.end(), x.front().begin(), x.front().end());
-  table.y = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(x.size()), static_cast<Eigen::Index>(table.x.size()));
+  table.y = Eigen::MatrixXd::Zero(x.size(), static_cast<Eigen::Index>(table.x.size()));
   for (std::size_t n = 0; n < x.size(); ++n) {
     if (x[n].size() < 2) throw DataError("{}: has fewer than two frames in contact", folders[n].string());
     std::vector<double> places{0.0};
     places.insert(places.end(), x[n].begin(), x[n].end());
-    Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places.size()));
-    for (std::size_t i = 0; i < y[n].size(); ++i) forces[static_cast<Eigen::Index>(i + 1)] = y[n][i] / modulus_pa;
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(places.size());
+    for (std::size_t i = 0; i < y[n].size(); ++i) forces[i + 1] = y[n][i] / modulus_pa;
     const Curve curve(places, forces, exponent);
     for (std::size_t i = 1; i < table.x.size(); ++i)
       table.y(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(i)) = curve.at(table.x[i]);

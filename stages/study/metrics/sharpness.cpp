@@ -49,7 +49,7 @@ Grey blurred(const Grey& image, const std::vector<double>& weights) {
       for (int x = 0; x < from.width; ++x) {
         double sum = 0.0;
         for (int i = -radius; i <= radius; ++i)
-          sum += weights[static_cast<std::size_t>(i + radius)] *
+          sum += weights[i + radius] *
                  from.at(mirrored(x + i * step_x, from.width), mirrored(y + i * step_y, from.height));
         out.values.push_back(sum);
       }

@@ -24,7 +24,7 @@ std::vector<Moments> sums_along_rows(const ByteImage& a, const ByteImage& b, int
       Moments& sum =
           sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)];
       for (int i = 0; i < n; ++i) {
-        const double w = weights[static_cast<std::size_t>(i)], u = a.at(x + i, y, channel), v = b.at(x + i, y, channel);
+        const double w = weights[i], u = a.at(x + i, y, channel), v = b.at(x + i, y, channel);
         const Moments here{u, v, u * u, v * v, u * v};
         for (std::size_t m = 0; m < here.size(); ++m) sum[m] += w * here[m];
       }
@@ -72,7 +72,7 @@ SsimMap ssim_map(const ByteImage& a, const ByteImage& b, int channel, const Ssim
       for (int i = 0; i < window.size(); ++i) {
         const Moments& row = along_rows[static_cast<std::size_t>(y + i) * static_cast<std::size_t>(map.width) +
                                         static_cast<std::size_t>(x)];
-        for (std::size_t m = 0; m < mean.size(); ++m) mean[m] += window.weights[static_cast<std::size_t>(i)] * row[m];
+        for (std::size_t m = 0; m < mean.size(); ++m) mean[m] += window.weights[i] * row[m];
       }
       map.values.push_back(similarity(mean, window.covariance_factor));
     }
