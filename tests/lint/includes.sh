@@ -17,7 +17,7 @@ for stage in stages/*/*/; do
 done
 # Each room of common/ may include those before it in this list.
 later=""
-for room in command optics benchmark sample sensor mesh image format stage config base; do
+for room in command optics benchmark sample rival sensor mesh image format stage config base; do
   [ -z "$later" ] || complain "common/($later)/" "common/$room" "$room comes before these in common/ (docs/design.md)"
   later="${later:+$later|}$room"
 done

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "common/sensor/metallic_lamps.h"
+#include "common/rival/metallic_lamps.h"
 #include "common/sensor/sensor.h"
 #include "stages/image/calibrate/samples.h"
 

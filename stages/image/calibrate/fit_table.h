@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/sensor/slope_table.h"
+#include "common/rival/slope_table.h"
 #include "stages/image/calibrate/contact_pixels.h"
 #include "stages/image/calibrate/rival_config.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "common/config/config.h"
-#include "common/sensor/metallic_lamps.h"
+#include "common/rival/metallic_lamps.h"
 
 namespace tacipc {
 

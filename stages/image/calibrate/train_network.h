@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/sensor/light_network.h"
+#include "common/rival/light_network.h"
 #include "stages/image/calibrate/contact_pixels.h"
 #include "stages/image/calibrate/rival_config.h"
 

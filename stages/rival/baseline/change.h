@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "common/rival/light_network.h"
+#include "common/rival/metallic_lamps.h"
+#include "common/rival/slope_table.h"
 #include "common/sensor/light_field.h"
-#include "common/sensor/light_network.h"
 #include "common/sensor/membrane_view.h"
-#include "common/sensor/metallic_lamps.h"
 #include "common/sensor/sensor.h"
-#include "common/sensor/slope_table.h"
 #include "stages/rival/baseline/baseline_config.h"
 #include "stages/rival/baseline/raster.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "common/image/image.h"
+#include "common/rival/light_network.h"
+#include "common/rival/metallic_lamps.h"
+#include "common/rival/slope_table.h"
 #include "common/sensor/light_field.h"
-#include "common/sensor/light_network.h"
-#include "common/sensor/metallic_lamps.h"
 #include "common/sensor/sensor.h"
-#include "common/sensor/slope_table.h"
 #include "tests/config_text.h"
 #include "tests/program_test.h"
 

@@ -1,4 +1,4 @@
-#include "common/sensor/slope_table.h"
+#include "common/rival/slope_table.h"
 
 #include <algorithm>
 #include <cmath>

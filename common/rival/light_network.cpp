@@ -1,4 +1,4 @@
-#include "common/sensor/light_network.h"
+#include "common/rival/light_network.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "common/sensor/metallic_lamps.h"
+#include "common/rival/metallic_lamps.h"
 
 #include <gtest/gtest.h>
 
