@@ -3,11 +3,13 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "bench/machine.h"
-#include "bench/memory_rate.h"
-#include "bench/mpm_report.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/sample/placement.h"
@@ -26,6 +28,65 @@ const StageSpec kBench{.name = "bench_mpm",
 
 using bench::processor_s;
 using bench::wall_s;
+
+/// One way to run the gel, measured while an object presses into it.
+struct MpmCost {
+  std::string name;
+  std::size_t particles = 0;
+  std::size_t nodes = 0;
+  double step_s = 0.0;           // of the simulation
+  double press_steps = 0.0;      // for 1 mm at the configured speed
+  double bytes = 0.0;            // memory traffic per particle and step
+  double processor_rate = 0.0;   // particles · steps per second of processor time, one thread
+  double one_thread_rate = 0.0;  // … of wall time
+  double two_threads_rate = 0.0;
+};
+
+/// Bytes per second of processor time of a = b + s c on one thread, over arrays far larger than any cache: the
+/// yardstick for work that only streams through memory. Written bytes count twice, as they are first fetched. Best of
+/// `repeats`.
+double memory_bytes_per_s(int repeats) {
+  constexpr std::size_t kFloats = std::size_t{1} << 25;  // 128 MiB each
+  std::vector<float> a(kFloats, 0.0f), b(kFloats, 1.0f), c(kFloats, 2.0f);
+  double least_s = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const auto factor = static_cast<float>(repeat);
+    const double start = processor_s();
+    for (std::size_t i = 0; i < kFloats; ++i) a[i] = b[i] + factor * c[i];
+    least_s = std::min(least_s, processor_s() - start);
+    if (a[kFloats / 3] != 1.0f + 2.0f * factor) throw DataError("memory holds something else than was written");
+  }
+  return 4.0 * sizeof(float) * static_cast<double>(kFloats) / least_s;
+}
+
+/// `load` is the number of runnable processes of the last minute on `cores` cores.
+std::string mpm_page(const std::vector<MpmCost>& costs, double memory_bytes_per_s, const std::string& processor,
+                     double load, unsigned cores) {
+  std::string out = fmt::format(
+      "# Cost of material points\n\nMade by `make -f Makefile.data bench-mpm` on {}: steps of the gel of "
+      "`configs/sensors/mctac.yaml` while a star presses into it, with sorting, without files. Best of several runs, "
+      "in millions of particles · steps per second; *CPU* is per processor second on one thread. When it began, {:.1f} "
+      "processes were running on {} cores. With more processes than cores wall times are unreliable, and processor "
+      "times include the sharing of caches and memory.\n\n"
+      "One thread streams {:.1f} GB per second of processor time (a = b + s c over 128 MiB each, in the same run). "
+      "*Limit* is that rate over the bytes that a particle moves in a step without caching: its own data, scattered, "
+      "gathered and written, and its share of the grid's nodes, zeroed, added to, updated, read. A gel that fits in a "
+      "cache can be faster.\n\n"
+      "| Configuration | Particles | Nodes | Bytes per particle and step | Limit | CPU | of the limit | 1 thread | 2 "
+      "threads | Cost of 1 mm |\n|---|---|---|---|---|---|---|---|---|---|\n",
+      processor, load, cores, 1e-9 * memory_bytes_per_s);
+  for (const MpmCost& cost : costs) {
+    const double limit = memory_bytes_per_s / cost.bytes;
+    out += fmt::format(
+        "| {} | {} | {} | {:.0f} | {:.1f} | {:.1f} | {:.0f} % | {:.1f} | {:.1f} | {:.0f} steps of {:.3g} µs, {:.0f} s "
+        "CPU |\n",
+        cost.name, cost.particles, cost.nodes, cost.bytes, 1e-6 * limit, 1e-6 * cost.processor_rate,
+        100.0 * cost.processor_rate / limit, 1e-6 * cost.one_thread_rate, 1e-6 * cost.two_threads_rate,
+        cost.press_steps, 1e6 * cost.step_s,
+        static_cast<double>(cost.particles) * cost.press_steps / cost.processor_rate);
+  }
+  return out;
+}
 
 /// Bytes of one node in one step: zeroed, added to and updated (fetched and written back each), read.
 constexpr double kBytesPerNodeStep = 16.0 * (2 + 2 + 2 + 1);
@@ -53,16 +114,16 @@ class Press {
   Matrix4 pose_;
 };
 
-bench::MpmCost measure(const std::filesystem::path& file, const Sensor& sensor, const TriangleMesh& object) {
+MpmCost measure(const std::filesystem::path& file, const Sensor& sensor, const TriangleMesh& object) {
   constexpr int kRepeats = 5;
   const auto config = read_config<MpmConfig>(file);
   const MpmScene scene = make_scene(config, sensor, {}, object, "+z");
   // About a tenth of a second each, at rates of this decade.
   const int count = std::max(4, static_cast<int>(5e6 / static_cast<double>(scene.lattice.rest_m.rows())));
-  bench::MpmCost cost{.name = fmt::format("`{}`", file.stem().string()),
-                      .particles = static_cast<std::size_t>(scene.lattice.rest_m.rows()),
-                      .step_s = scene.setup.step_s,
-                      .press_steps = 1e-3 / (config.object.press_speed_m_s * scene.setup.step_s)};
+  MpmCost cost{.name = fmt::format("`{}`", file.stem().string()),
+               .particles = static_cast<std::size_t>(scene.lattice.rest_m.rows()),
+               .step_s = scene.setup.step_s,
+               .press_steps = 1e-3 / (config.object.press_speed_m_s * scene.setup.step_s)};
   const double work = static_cast<double>(cost.particles) * count;
   for (const std::size_t threads : {std::size_t{1}, std::size_t{2}}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -89,13 +150,13 @@ int main(int argc, char** argv) {
     const double load = bench::load_average();
     const auto sensor = stage.read_config<Sensor>("--sensor");
     const TriangleMesh object = read_triangle_mesh(stage.input("--object"), 1.0);
-    std::vector<bench::MpmCost> costs;
+    std::vector<MpmCost> costs;
     for (const auto& file : stage.inputs("--config")) costs.push_back(measure(file, sensor, object));
-    const double memory = bench::memory_bytes_per_s(5);
+    const double memory = memory_bytes_per_s(5);
     write_file(stage.output("mpm_performance.md"),
-               bench::mpm_page(costs, memory, bench::processor(), load, std::thread::hardware_concurrency()));
+               mpm_page(costs, memory, bench::processor(), load, std::thread::hardware_concurrency()));
     Value::Map rates;
-    for (const bench::MpmCost& cost : costs) rates.emplace_back(cost.name, cost.processor_rate);
+    for (const MpmCost& cost : costs) rates.emplace_back(cost.name, cost.processor_rate);
     stage.summarize({{"particle_steps_per_processor_s", rates}, {"memory_bytes_per_s", memory}});
   });
 }

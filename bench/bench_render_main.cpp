@@ -1,4 +1,5 @@
 // Measures what rendering costs: frames on one and two threads, tracing beside Embree's own rate, scene updates.
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -6,11 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "bench/embree_rate.h"
 #include "bench/machine.h"
-#include "bench/render_report.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/stage/stage.h"
@@ -29,6 +31,71 @@ const StageSpec kBench{.name = "bench_render",
 
 using bench::processor_s;
 using bench::wall_s;
+
+/// One way to render, measured.
+struct RenderCost {
+  std::string name;
+  std::size_t lights = 0;
+  int subpixels = 1;
+  int led_samples = 1;
+  double processor_ms = 0.0;   // of a frame on one thread, whatever else runs on the machine
+  double one_thread_ms = 0.0;  // a frame: rays, light, colours, codes; no files, no scene update
+  double two_threads_ms = 0.0;
+  double must_ms = 0.0;      // on two threads
+  double camera_rays = 0.0;  // of the logged picture
+  double shadow_rays = 0.0;
+  double traced_s = 0.0;        // our way to Embree for those rays, one thread
+  double embree_s = 0.0;        // Embree's own time for them
+  double logged_frame_s = 0.0;  // the picture the rays were logged from, one thread
+
+  double tracing_share() const { return traced_s / logged_frame_s; }
+  double of_embree() const { return embree_s / traced_s; }
+};
+
+struct SceneUpdate {
+  std::size_t triangles = 0;
+  double membrane_ms = 0.0;  // vertices and normals of the next frame
+  double tree_ms = 0.0;      // Embree's
+};
+
+/// `load` is the number of runnable processes of the last minute on `cores` cores: the more of them, the less wall
+/// times say.
+std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate& update, const std::string& processor,
+                        double load, unsigned cores) {
+  std::string out = fmt::format(
+      "# Cost of rendering\n\nMade by `make -f Makefile.data bench-render` on {}: the last frame of a press of "
+      "`letter_a` into the MC-Tac gel, 640 × 480 pixels, eight LEDs on the ring of `configs/sensors/mctac.yaml`, light "
+      "and camera rays refracted, with shadows, the coating's lobe, all maps and codes, without the files. Minimum of "
+      "several runs; *CPU* is processor time on one thread. When it began, {:.1f} processes were running on {} cores. "
+      "With more processes than cores wall times are unreliable.\n\n"
+      "| Rendering | Rays per pixel | Light samples | CPU, ms | 1 thread, ms | 2 threads, ms | limit, ms "
+      "|\n|---|---|---|---|---|---|---|\n",
+      processor, load, cores);
+  for (const RenderCost& cost : costs) {
+    out += fmt::format("| {} | {} | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", cost.name,
+                       cost.subpixels * cost.subpixels,
+                       cost.lights * static_cast<std::size_t>(cost.led_samples * cost.led_samples), cost.processor_ms,
+                       cost.one_thread_ms, cost.two_threads_ms, cost.must_ms);
+  }
+  out +=
+      "\n## Tracing\n\nAll rays of one frame (with area lights of one of 160 × 120 pixels) are logged and traced again "
+      "on one thread: through our packets (`common/optics/ray_scene.h`), and by bare loops over `rtcIntersect8` and "
+      "`rtcOccluded8` on prepared arrays, with the same scene flags. *Share* is the share of our tracing in the whole "
+      "frame on one thread.\n\n"
+      "| Rendering | Camera rays | Shadow rays | Ours, Mrays/s | Embree, Mrays/s | of Embree | Share of the frame |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const RenderCost& cost : costs) {
+    const double rays = cost.camera_rays + cost.shadow_rays;
+    out += fmt::format("| {} | {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.0f} % (at least 60) | {:.0f} % |\n", cost.name,
+                       cost.camera_rays, cost.shadow_rays, 1e-6 * rays / cost.traced_s, 1e-6 * rays / cost.embree_s,
+                       100.0 * cost.of_embree(), 100.0 * cost.tracing_share());
+  }
+  out += fmt::format(
+      "\n## Scene update\n\n{} triangles: vertices and normals {:.1f} ms, Embree's tree {:.1f} ms on one thread (the "
+      "same tree at any number of threads); together {:.1f} ms (at most 10).\n",
+      update.triangles, update.membrane_ms, update.tree_ms, update.membrane_ms + update.tree_ms);
+  return out;
+}
 
 /// Least seconds of several runs, by a clock.
 template <typename Work>
@@ -78,14 +145,13 @@ double count(const std::vector<RayPacket>& packets) {
   return rays;
 }
 
-bench::RenderCost measure(const std::string& name, const RayScene& scene, const Membrane& membrane,
-                          const Sensor& sensor, TraceSettings settings, const SurfaceFields& fields, int repeats,
-                          double must_ms, int log_scale) {
-  bench::RenderCost cost{.name = name,
-                         .lights = sensor.leds.size(),
-                         .subpixels = settings.subpixels,
-                         .led_samples = sensor.leds.front().size_m[0] > 0.0 ? settings.led_samples : 1,
-                         .must_ms = must_ms};
+RenderCost measure(const std::string& name, const RayScene& scene, const Membrane& membrane, const Sensor& sensor,
+                   TraceSettings settings, const SurfaceFields& fields, int repeats, double must_ms, int log_scale) {
+  RenderCost cost{.name = name,
+                  .lights = sensor.leds.size(),
+                  .subpixels = settings.subpixels,
+                  .led_samples = sensor.leds.front().size_m[0] > 0.0 ? settings.led_samples : 1,
+                  .must_ms = must_ms};
   // The exposure belongs to the sensor and is found once, from its reference.
   const FloatImage once = color_image(trace(scene, membrane, sensor, settings, fields), sensor, false);
   const double exposure = solve_exposure(camera_signal(once, sensor.camera, sensor.response), sensor.response);
@@ -134,16 +200,16 @@ int main(int argc, char** argv) {
     Membrane membrane = make_membrane(gel, gel.positions);
     RayScene scene(membrane.positions, membrane.triangles);
     const Positions pressed = press.positions(last);
-    const bench::SceneUpdate update{.triangles = static_cast<std::size_t>(membrane.triangles.rows()),
-                                    .membrane_ms = 1e3 * least_s(20, [&] { move_membrane(membrane, pressed); }),
-                                    .tree_ms = 1e3 * least_s(20, [&] { scene.move(membrane.positions); })};
+    const SceneUpdate update{.triangles = static_cast<std::size_t>(membrane.triangles.rows()),
+                             .membrane_ms = 1e3 * least_s(20, [&] { move_membrane(membrane, pressed); }),
+                             .tree_ms = 1e3 * least_s(20, [&] { scene.move(membrane.positions); })};
     const SurfaceFields fields = press.fields(last, membrane);
-    const std::vector<bench::RenderCost> costs = {
+    const std::vector<RenderCost> costs = {
         measure("point lights", scene, membrane, with_eight(sensor, 0.0), {.subpixels = 1}, fields, 7, 200.0, 1),
         measure("area lights", scene, membrane, with_eight(sensor, 5e-3), {.subpixels = 2, .led_samples = 3}, fields, 3,
                 3000.0, 4)};
     write_file(stage.output("render_performance.md"),
-               bench::render_page(costs, update, bench::processor(), load, std::thread::hardware_concurrency()));
+               render_page(costs, update, bench::processor(), load, std::thread::hardware_concurrency()));
     stage.summarize({{"point_lights_2_threads_ms", costs[0].two_threads_ms},
                      {"area_lights_2_threads_ms", costs[1].two_threads_ms},
                      {"of_embree", std::min(costs[0].of_embree(), costs[1].of_embree())},
