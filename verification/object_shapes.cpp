@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "common/base/units.h"
 #include "tests/make_mesh.h"
@@ -127,57 +129,34 @@ TriangleMesh extrude(const std::vector<Vector2d>& polygon, double length_m, int 
 }
 
 ObjectShape ObjectShape::read(ConfigReader& in) {
+  using Lengths = std::vector<std::pair<const char*, double ObjectShape::*>>;
+  const std::pair<const char*, double ObjectShape::*> radius{"radius_mm", &ObjectShape::radius_m},
+      edge{"edge_mm", &ObjectShape::edge_m}, height{"height_mm", &ObjectShape::height_m},
+      length{"length_mm", &ObjectShape::length_m}, half_width{"half_width_mm", &ObjectShape::half_width_m};
+  const std::vector<std::tuple<const char*, Kind, Lengths>> kinds{
+      {"sphere", Kind::sphere, {radius, edge, {"fine_radius_mm", &ObjectShape::fine_radius_m}}},
+      {"punch", Kind::punch, {radius, edge, height}},
+      {"cone", Kind::cone, {radius, edge, height}},
+      {"cylinder", Kind::cylinder, {radius, edge, length}},
+      {"plate", Kind::plate, {half_width}},
+      {"block", Kind::block, {half_width, {"half_depth_mm", &ObjectShape::half_depth_m}, height}},
+      {"wedge", Kind::wedge, {half_width, length, height}},
+      {"file", Kind::file, {}}};
   ObjectShape s;
-  const std::vector<std::pair<std::string, Kind>> kinds{
-      {"sphere", Kind::sphere}, {"punch", Kind::punch}, {"cone", Kind::cone},   {"cylinder", Kind::cylinder},
-      {"plate", Kind::plate},   {"block", Kind::block}, {"wedge", Kind::wedge}, {"file", Kind::file}};
   int given = 0;
-  for (const auto& [name, kind] : kinds) {
-    auto found = in.optional_section(name);
-    if (!found) continue;
+  for (const auto& [name, kind, lengths] : kinds) {
+    auto part = in.optional_section(name);
+    if (!part) continue;
     ++given;
-    ConfigReader& part = *found;
     s.kind = kind;
-    const auto length = [&](const char* key) { return kMillimetre * part.number(key, Range::positive()); };
-    switch (kind) {
-      case Kind::sphere:
-        s.radius_m = length("radius_mm");
-        s.edge_m = length("edge_mm");
-        s.fine_radius_m = length("fine_radius_mm");
-        break;
-      case Kind::punch:
-        s.radius_m = length("radius_mm");
-        s.edge_m = length("edge_mm");
-        s.height_m = length("height_mm");
-        s.fillet_m = kMillimetre * part.number_or("fillet_mm", 0.0, Range::non_negative());
-        if (s.fillet_m >= std::min(s.radius_m, s.height_m))
-          part.fault("fillet_mm", "must be less than radius and height");
-        break;
-      case Kind::cone:
-        s.radius_m = length("radius_mm");
-        s.edge_m = length("edge_mm");
-        s.height_m = length("height_mm");
-        break;
-      case Kind::cylinder:
-        s.radius_m = length("radius_mm");
-        s.edge_m = length("edge_mm");
-        s.length_m = length("length_mm");
-        break;
-      case Kind::plate: s.half_width_m = length("half_width_mm"); break;
-      case Kind::block:
-        s.half_width_m = length("half_width_mm");
-        s.half_depth_m = length("half_depth_mm");
-        s.height_m = length("height_mm");
-        break;
-      case Kind::wedge:
-        s.half_width_m = length("half_width_mm");
-        s.length_m = length("length_mm");
-        s.height_m = length("height_mm");
-        break;
-      case Kind::file:
-        s.path = part.text("path");
-        s.unit_m = metres_per_unit(part.choice("unit", {"m", "cm", "mm", "um", "in"}));
-        break;
+    for (const auto& [key, member] : lengths) s.*member = kMillimetre * part->number(key, Range::positive());
+    if (kind == Kind::punch) {
+      s.fillet_m = kMillimetre * part->number_or("fillet_mm", 0.0, Range::non_negative());
+      if (s.fillet_m >= std::min(s.radius_m, s.height_m))
+        part->fault("fillet_mm", "must be less than radius and height");
+    } else if (kind == Kind::file) {
+      s.path = part->text("path");
+      s.unit_m = metres_per_unit(part->choice("unit", {"m", "cm", "mm", "um", "in"}));
     }
   }
   if (given != 1) in.fault("sphere", "give one of sphere, punch, cone, cylinder, plate, block, wedge, file");
