@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <numbers>
 
 #include "common/base/error.h"
@@ -40,13 +39,6 @@ int count_of(const mjModel& m, mjtObj kind) {
   }
 }
 
-[[noreturn]] void give_up(const char* text) {
-  log_error(fmt::format("MuJoCo: {}", text));
-  std::exit(1);
-}
-
-void warn(const char* text) { log_warning("MuJoCo: {}", text); }
-
 }  // namespace
 
 Matrix4 pose_from(const mjtNum* position, const mjtNum* rotation) {
@@ -73,8 +65,8 @@ bool is_servo(const mjModel& m, int a) {
 }
 
 RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& objects, bool coupled) : task_(task) {
-  mju_user_error = [](const char* text) { give_up(text); };
-  mju_user_warning = [](const char* text) { warn(text); };
+  mju_user_error = [](const char* text) { throw SolverError("MuJoCo: {}", text); };
+  mju_user_warning = [](const char* text) { log_warning("MuJoCo: {}", text); };
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(task.model.c_str(), nullptr, reason.data(), static_cast<int>(reason.size())));
   if (!model_) throw DataError("{}: {}", task.model.string(), reason.data());

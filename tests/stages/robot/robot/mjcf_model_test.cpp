@@ -172,6 +172,19 @@ TEST(RobotModel, WhatTheModelLacksOrHasInAnotherWayIsSaid) {
               testing::StartsWith(file + ": "));
 }
 
+TEST(RobotModel, AnErrorInsideMuJoCoIsThrown) {
+  const ScratchFolder folder;
+  const TaskSpec task =
+      written_task(folder, mjcf(kPadBody + free_body(), R"(<size nstack="1"/>)"), kPadLooksDown + cup() + kOneStep);
+  try {
+    RobotModel robot(task, {{make_box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}), 0.06}}, false);
+    mj_step(&robot.model(), &robot.data());
+    FAIL() << "a stack of one number is enough";
+  } catch (const SolverError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("MuJoCo: "));
+  }
+}
+
 TEST(RobotModel, PoseOfAPadIsThatOfItsGeomAndMount) {
   const ScratchFolder folder;
   const TaskSpec task =
