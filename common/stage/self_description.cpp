@@ -6,10 +6,17 @@
 #include <functional>
 #include <utility>
 
+#include "common/base/printable.h"
 #include "common/stage/stage.h"
 
 namespace tacipc {
 namespace {
+
+/// Thrown while flags are parsed: a question that needs none of the program's other flags. The text goes to standard
+/// output, and the program ends with 0.
+struct Answer {
+  std::string text;
+};
 
 /// The kind of argument, without what CLI11 adds on how it is checked; the words of a choice stay.
 std::string argument_of(const CLI::Option& option) {
@@ -63,9 +70,18 @@ void add_answers(CLI::App& app, std::vector<ManSection> sections) {
   ask("--help-man", [&app, sections = std::move(sections)] { return to_roff(man_page(app, sections)); });
 }
 
-int print_answer(const Answer& answer) {
-  fmt::print("{}", answer.text);
-  return std::fflush(stdout) == 0 ? 0 : 1;
+std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, const std::string& help) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const Answer& answer) {
+    fmt::print("{}", answer.text);
+    return std::fflush(stdout) == 0 ? 0 : 1;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    fmt::print(stderr, "{}: error: {} (see {})\n", app.get_name(), printable(error.what()), help);
+    return 2;
+  }
 }
 
 }  // namespace tacipc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,17 +10,12 @@
 
 namespace tacipc {
 
-/// Thrown while flags are parsed: a question that needs none of the program's other flags. The text goes to standard
-/// output, and the program ends with 0.
-struct Answer {
-  std::string text;
-};
-
 /// Hidden flags: `--summary` answers with the program's description, `--help-man` with its manual page, which ends with
 /// `sections`. \pre all options and subcommands are there when flags are parsed; `app` outlives that
 void add_answers(CLI::App& app, std::vector<ManSection> sections);
 
-/// Prints an answer. Returns the exit code.
-int print_answer(const Answer& answer);
+/// Parses the flags. Returns an exit code if the program ends here: its answer is printed, or a flag is wrong; the
+/// message then points to `help`.
+std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, const std::string& help);
 
 }  // namespace tacipc

@@ -19,7 +19,6 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/printable.h"
 #include "common/stage/self_description.h"
 #include "common/stage/stage.h"
 
@@ -119,15 +118,7 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
       ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}));
   app.set_version_flag("--version", spec.name + " " + program_version());
   add_answers(app, manual_sections(spec.name));
-  try {
-    app.parse(argc, argv);
-  } catch (const Answer& answer) {
-    return print_answer(answer);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "{}: error: {} (see tacipc {} --help)\n", spec.name, printable(error.what()), spec.name);
-    return 2;
-  }
+  if (const auto code = parse_flags(app, argc, argv, fmt::format("tacipc {} --help", spec.name))) return *code;
 
   // A file-size limit must end in a message like a full disk does, not in a signal.
   std::signal(SIGXFSZ, SIG_IGN);

@@ -46,6 +46,58 @@ int run(const char* what, const std::function<int()>& body) {
   }
 }
 
+/// Flags of all commands.
+struct Flags {
+  fs::path dataset, model, profile;
+  IndexRange range;
+  std::size_t count = 0;
+  bool all_made = false, whole_shards = false;
+  std::vector<std::string> stages;
+};
+
+int print_status(const Flags& flags) {
+  const DatasetStatus found = dataset_status(flags.dataset, flags.range, std::time(nullptr));
+  fmt::print("{}", to_text(found, flags.dataset));
+  if (!flags.all_made || found.made == found.samples) return 0;
+  std::fflush(stdout);
+  fmt::print(stderr, "{}: {} of {} samples are not made\n", name_of_dataset(flags.dataset), found.samples - found.made,
+             found.samples);
+  return 1;
+}
+
+int print_cost(const Flags& flags) {
+  const CostEstimate cost = estimate_cost(flags.dataset, read_config<CostModel>(flags.model));
+  fmt::print("{}", to_text(cost, flags.dataset));
+  std::fflush(stdout);
+  const double free = free_bytes(flags.dataset);
+  if (cost.bytes_left > free)
+    throw DataError("{:.3g} GB are still needed, but the disk has {:.3g} GB left", cost.bytes_left / 1e9, free / 1e9);
+  return 0;
+}
+
+int print_pilot(const Flags& flags) {
+  fmt::print("{}\n", fmt::join(pilot_samples(flags.dataset, flags.count), "\n"));
+  return 0;
+}
+
+int update_pack_inputs(const Flags& flags) {
+  write_pack_inputs(flags.dataset, flags.profile);
+  return 0;
+}
+
+int drop(const Flags& flags) {
+  if (flags.stages.empty()) return 0;
+  const Dropped dropped = drop_packed(flags.dataset, flags.stages, flags.whole_shards);
+  const std::string name = name_of_dataset(flags.dataset);
+  if (dropped.stages > 0)
+    fmt::print("{}: files of {} stages dropped ({})\n", name, dropped.stages, fmt::join(flags.stages, " "));
+  std::fflush(stdout);
+  if (dropped.samples > 0)
+    fmt::print(stderr, "{}: {} samples are not as they were packed, or are being made, and keep their files\n", name,
+               dropped.samples);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -54,95 +106,41 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "survey " + program_version());
   add_answers(app, {});
-  fs::path dataset, model, profile;
+  Flags flags;
   int code = 0;
-  const auto command = [&](const char* name, const char* summary) {
+  const auto command = [&](const char* name, const char* summary, const char* what, int (*body)(const Flags&)) {
     CLI::App* sub = app.add_subcommand(name, summary);
-    sub->add_option("dataset", dataset, "folder of the dataset")->required()->type_name("DATASET");
+    sub->add_option("dataset", flags.dataset, "folder of the dataset")->required()->type_name("DATASET");
+    sub->callback([&flags, &code, what, body] { code = run(what, [&] { return body(flags); }); });
     return sub;
   };
 
-  CLI::App* status = command("status", "How many samples are made, failed, running, and how fast");
-  bool all_made = false;
-  IndexRange range;
-  status->add_flag("--all-made", all_made, "exit code 1 unless every sample is made");
-  auto* end = status->add_option("--end", range.end, "only samples with an index below")->type_name("INDEX");
-  status->add_option("--first", range.first, "only samples from this index on")->type_name("INDEX")->needs(end);
-  status->callback([&] {
-    code = run("status", [&] {
-      const DatasetStatus found = dataset_status(dataset, range, std::time(nullptr));
-      fmt::print("{}", to_text(found, dataset));
-      if (!all_made || found.made == found.samples) return 0;
-      std::fflush(stdout);
-      fmt::print(stderr, "{}: {} of {} samples are not made\n", name_of_dataset(dataset), found.samples - found.made,
-                 found.samples);
-      return 1;
-    });
-  });
+  CLI::App* status =
+      command("status", "How many samples are made, failed, running, and how fast", "status", print_status);
+  status->add_flag("--all-made", flags.all_made, "exit code 1 unless every sample is made");
+  auto* end = status->add_option("--end", flags.range.end, "only samples with an index below")->type_name("INDEX");
+  status->add_option("--first", flags.range.first, "only samples from this index on")->type_name("INDEX")->needs(end);
 
   CLI::App* estimate =
-      command("estimate", "Core-hours and disk of the whole dataset; exit code 1 if the disk has no room");
-  estimate->add_option("--model", model, "what a press costs (YAML, of bench-press)")->required()->type_name("FILE");
-  estimate->callback([&] {
-    code = run("estimate", [&] {
-      const CostEstimate cost = estimate_cost(dataset, read_config<CostModel>(model));
-      fmt::print("{}", to_text(cost, dataset));
-      std::fflush(stdout);
-      const double free = free_bytes(dataset);
-      if (cost.bytes_left > free)
-        throw DataError("{:.3g} GB are still needed, but the disk has {:.3g} GB left", cost.bytes_left / 1e9,
-                        free / 1e9);
-      return 0;
-    });
-  });
+      command("estimate", "Core-hours and disk of the whole dataset; exit code 1 if the disk has no room", "estimate",
+              print_cost);
+  estimate->add_option("--model", flags.model, "what a press costs (YAML, of bench-press)")
+      ->required()
+      ->type_name("FILE");
 
-  CLI::App* pilot = command("pilot", "Samples to measure on before an estimate, spread over the plan");
-  std::size_t count = 0;
-  pilot->add_option("count", count, "how many")->required();
-  pilot->callback([&] {
-    code = run("estimate", [&] {
-      fmt::print("{}\n", fmt::join(pilot_samples(dataset, count), "\n"));
-      return 0;
-    });
-  });
+  CLI::App* pilot =
+      command("pilot", "Samples to measure on before an estimate, spread over the plan", "estimate", print_pilot);
+  pilot->add_option("count", flags.count, "how many")->required();
 
-  CLI::App* pack_inputs = command("pack-inputs", "Files in shards/ that change when what is packed into a shard does");
-  pack_inputs->add_option("profile", profile, "what is packed (YAML)")->required()->type_name("PROFILE");
-  pack_inputs->callback([&] {
-    code = run("pack", [&] {
-      write_pack_inputs(dataset, profile);
-      return 0;
-    });
-  });
+  CLI::App* pack_inputs = command("pack-inputs", "Files in shards/ that change when what is packed into a shard does",
+                                  "pack", update_pack_inputs);
+  pack_inputs->add_option("profile", flags.profile, "what is packed (YAML)")->required()->type_name("PROFILE");
 
-  CLI::App* drop = command("drop", "Remove what stages wrote for packed samples, but records, times and logs");
-  bool whole_shards = false;
-  std::vector<std::string> stages;
-  drop->add_flag("--whole-shards", whole_shards, "only of shards in which no sample failed");
-  drop->add_option("stages", stages, "of which the files go (none: nothing is done)")->type_name("STAGE");
-  drop->callback([&] {
-    if (stages.empty()) return;
-    code = run("drop", [&] {
-      const Dropped dropped = drop_packed(dataset, stages, whole_shards);
-      const std::string name = name_of_dataset(dataset);
-      if (dropped.stages > 0)
-        fmt::print("{}: files of {} stages dropped ({})\n", name, dropped.stages, fmt::join(stages, " "));
-      std::fflush(stdout);
-      if (dropped.samples > 0)
-        fmt::print(stderr, "{}: {} samples are not as they were packed, or are being made, and keep their files\n",
-                   name, dropped.samples);
-      return 0;
-    });
-  });
+  CLI::App* drops =
+      command("drop", "Remove what stages wrote for packed samples, but records, times and logs", "drop", drop);
+  drops->add_flag("--whole-shards", flags.whole_shards, "only of shards in which no sample failed");
+  drops->add_option("stages", flags.stages, "of which the files go (none: nothing is done)")->type_name("STAGE");
 
-  try {
-    app.parse(argc, argv);
-  } catch (const Answer& answer) {
-    return print_answer(answer);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "survey: error: {} (see survey --help)\n", printable(error.what()));
-    return 2;
-  }
+  if (const auto answered = parse_flags(app, argc, argv, "survey --help")) return *answered;
   return code;
 }
