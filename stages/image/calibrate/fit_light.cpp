@@ -41,6 +41,19 @@ double fitted_gap(const std::vector<Ball>& balls, const BallPress& press, const 
   return std::max(upper_median(std::move(gaps)), 1e-6);  // nearer than the barrier lets them come, there is no rim
 }
 
+/// Sets each contact's residual under some weights. Returns that of all samples, codes.
+double measure_misfit(const std::vector<Contact*>& contacts, const std::vector<Eigen::MatrixXd>& features,
+                      const Codes& weights) {
+  double squares = 0.0, count = 0.0;
+  for (std::size_t b = 0; b < contacts.size(); ++b) {
+    const Eigen::VectorXd r = residuals_of(contacts[b]->samples, features[b], weights);
+    contacts[b]->rmse_codes = std::sqrt(r.squaredNorm() / std::max(contacts[b]->samples.used.sum(), 1.0));
+    squares += r.squaredNorm();
+    count += contacts[b]->samples.used.sum();
+  }
+  return std::sqrt(squares / count);
+}
+
 /// Fits centre and depth of one ball to its photograph under the light as it is, held by its label.
 void fit_ball(Ball& ball, const BallPress& press, const Sensor& sensor, const LightField& light, double sigma_px,
               const CalibrateConfig& config) {
@@ -209,14 +222,8 @@ LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, 
     Weights best = best_weights(seen, features, config.ridge);
     equations = std::move(best.equations);
     fit.light = {.geometry = geometry, .weights = std::move(best.codes), .blur_px = config.blur_px};
-    double squares = 0.0, count = 0.0;
-    for (std::size_t b = 0; b < contacts.size(); ++b) {
-      const Eigen::VectorXd r = residuals_of(contacts[b]->samples, features[b], fit.light.weights);
-      contacts[b]->rmse_codes = std::sqrt(r.squaredNorm() / std::max(contacts[b]->samples.used.sum(), 1.0));
-      squares += r.squaredNorm();
-      count += contacts[b]->samples.used.sum();
-    }
-    log_info("round {}: residual {:.3f} codes over {} photographs", round + 1, std::sqrt(squares / count), seen.size());
+    log_info("round {}: residual {:.3f} codes over {} photographs", round + 1,
+             measure_misfit(contacts, features, fit.light.weights), seen.size());
     if (round + 1 == rounds) break;
     tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t b) {
       if (b >= balls.size()) {

@@ -30,48 +30,13 @@ Eigen::Vector2d pixel_over(const MembraneView& view, double x, double y, double 
   return pixel;
 }
 
-}  // namespace
-
-PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograph, const ByteImage& background,
-                           const LightField& light, const Sensor& sensor, double slope_sigma) {
-  constexpr double kTouching = 12e-6, kStep = 0.03;
-  const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
+/// Slopes by which the print deepens the membrane at the pixels that touch: one Gauss–Newton step for each, held by a
+/// prior of deviation slope_sigma. Zero elsewhere.
+std::vector<Eigen::Vector2d> measure_slopes(const KnownObject& object, const ByteImage& photograph,
+                                            const ByteImage& background, const LightField& light,
+                                            const std::vector<char>& touched, double slope_sigma) {
+  constexpr double kStep = 0.03;
   const MembraneView& view = object.view;
-  PrintRelief relief{.map = FloatImage(view.width, view.height, 3), .pixel_m = pixel};
-  for (int y = 0; y < view.height; ++y)
-    for (int x = 0; x < view.width; ++x) relief.map.at(x, y, 0) = 1.0f;
-  if (object.front_before.rows() == 0) return relief;
-  KnownObject earlier = object;
-  earlier.front = object.front_before;
-  const MembraneView before = view_object(earlier, sensor);
-
-  // Where the object touches, as a map over the object.
-  std::vector<char> touched(view.point.size(), 0);
-  const double cosine = std::cos(object.yaw_rad), sine = std::sin(object.yaw_rad);
-  const auto height = [](const MembraneView& in, const Eigen::Vector2d& at) {
-    return between(in, at, [&](std::size_t i) -> const Vector3& { return in.point[i]; }).z();
-  };
-  FloatImage where(view.width, view.height, 2);
-  for (int y = 0; y < view.height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
-      const double dx = (x - 0.5 * (view.width - 1)) * pixel, dy = (y - 0.5 * (view.height - 1)) * pixel;
-      const double px = object.x_m + cosine * dx - sine * dy, py = object.y_m + sine * dx + cosine * dy;
-      if (std::abs(px) > 0.5 * sensor.camera.window_width_m || std::abs(py) > 0.5 * sensor.camera.window_height_m)
-        continue;
-      const Eigen::Vector2d now = pixel_over(view, px, py, pixel);
-      const double z = height(view, now);
-      const double z_before = height(before, pixel_over(before, px, py, pixel));
-      if (!(std::abs(z - object.origin_z_m - (z_before - object.origin_z_before_m)) < kTouching)) continue;
-      relief.map.at(x, y, 0) = static_cast<float>(z - object.origin_z_m);
-      where.at(x, y, 0) = static_cast<float>(now.x());
-      where.at(x, y, 1) = static_cast<float>(now.y());
-      for (const int u : {0, 1})
-        for (const int v : {0, 1})
-          touched[view.index(std::clamp(static_cast<int>(now.x()) + u, 0, view.width - 1),
-                             std::clamp(static_cast<int>(now.y()) + v, 0, view.height - 1))] = 1;
-    }
-  }
-
   double squares = 0.0, count = 0.0;
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x)
@@ -111,6 +76,53 @@ PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograp
       slopes[i] = (system.inverse() * (jacobian.transpose() * residual)).cwiseMax(-most).cwiseMin(most);
     }
   });
+  return slopes;
+}
+
+}  // namespace
+
+PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograph, const ByteImage& background,
+                           const LightField& light, const Sensor& sensor, double slope_sigma) {
+  constexpr double kTouching = 12e-6;
+  const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
+  const MembraneView& view = object.view;
+  PrintRelief relief{.map = FloatImage(view.width, view.height, 3), .pixel_m = pixel};
+  for (int y = 0; y < view.height; ++y)
+    for (int x = 0; x < view.width; ++x) relief.map.at(x, y, 0) = 1.0f;
+  if (object.front_before.rows() == 0) return relief;
+  KnownObject earlier = object;
+  earlier.front = object.front_before;
+  const MembraneView before = view_object(earlier, sensor);
+
+  // Where the object touches, as a map over the object.
+  std::vector<char> touched(view.point.size(), 0);
+  const double cosine = std::cos(object.yaw_rad), sine = std::sin(object.yaw_rad);
+  const auto height = [](const MembraneView& in, const Eigen::Vector2d& at) {
+    return between(in, at, [&](std::size_t i) -> const Vector3& { return in.point[i]; }).z();
+  };
+  FloatImage where(view.width, view.height, 2);
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const double dx = (x - 0.5 * (view.width - 1)) * pixel, dy = (y - 0.5 * (view.height - 1)) * pixel;
+      const double px = object.x_m + cosine * dx - sine * dy, py = object.y_m + sine * dx + cosine * dy;
+      if (std::abs(px) > 0.5 * sensor.camera.window_width_m || std::abs(py) > 0.5 * sensor.camera.window_height_m)
+        continue;
+      const Eigen::Vector2d now = pixel_over(view, px, py, pixel);
+      const double z = height(view, now);
+      const double z_before = height(before, pixel_over(before, px, py, pixel));
+      if (!(std::abs(z - object.origin_z_m - (z_before - object.origin_z_before_m)) < kTouching)) continue;
+      relief.map.at(x, y, 0) = static_cast<float>(z - object.origin_z_m);
+      where.at(x, y, 0) = static_cast<float>(now.x());
+      where.at(x, y, 1) = static_cast<float>(now.y());
+      for (const int u : {0, 1})
+        for (const int v : {0, 1})
+          touched[view.index(std::clamp(static_cast<int>(now.x()) + u, 0, view.width - 1),
+                             std::clamp(static_cast<int>(now.y()) + v, 0, view.height - 1))] = 1;
+    }
+  }
+
+  const std::vector<Eigen::Vector2d> slopes =
+      measure_slopes(object, photograph, background, light, touched, slope_sigma);
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x) {
       if (relief.map.at(x, y, 0) == 1.0f) continue;

@@ -1,9 +1,12 @@
-// What `calibrate` does beside unknown lamps, which are in main.cpp.
+// Modes of `calibrate`: functions that read their flags and write their results.
 #pragma once
 
 #include "common/stage/stage.h"
 
 namespace tacipc {
+
+/// Light of unknown lamps from photographs of balls and known objects (fit_light.h).
+void calibrate_balls(Stage& stage);
 
 /// A whole sensor file from photographs (sensor_fit.h).
 void calibrate_sensor(Stage& stage);

@@ -27,6 +27,13 @@ SensorParameters::SensorParameters(const std::filesystem::path& sensor, std::vec
   in.finish();
   if (nominal_.leds.empty())
     throw UsageError(fmt::format("{} has no leds, whose colours sensor_fit could fit", sensor.string()));
+  read_nominal_values(in);
+  lower_.resize(count());
+  upper_.resize(count());
+  for (Eigen::Index i = 0; i < count(); ++i) set_bounds(i, sensor.string());
+}
+
+void SensorParameters::read_nominal_values(ConfigReader& in) {
   Values& have = nominal_values_;
   ConfigReader leds = in.section("leds"), camera = in.section("camera");
   if (auto ring = leds.optional_section("ring")) {
@@ -68,44 +75,43 @@ SensorParameters::SensorParameters(const std::filesystem::path& sensor, std::vec
     have["specular_f0"] = nominal_.coating.specular_f0;
     have["ggx_alpha"] = nominal_.coating.ggx_alpha;
   }
-  lower_.resize(count());
-  upper_.resize(count());
-  for (Eigen::Index i = 0; i < count(); ++i) {
-    FreeParameter& p = free_[i];
-    const auto nominal = have.find(p.name);
-    if (nominal == have.end()) {
-      std::vector<std::string> names;
-      for (const std::string& name : parameter_names())
-        if (have.contains(name)) names.push_back(name);
-      throw UsageError(fmt::format("sensor_fit.parameters.{}: {} has none; it has {}", p.name, sensor.string(),
-                                   fmt::join(names, ", ")));
+}
+
+void SensorParameters::set_bounds(Eigen::Index i, const std::string& sensor) {
+  FreeParameter& p = free_[i];
+  const auto nominal = nominal_values_.find(p.name);
+  if (nominal == nominal_values_.end()) {
+    std::vector<std::string> names;
+    for (const std::string& name : parameter_names())
+      if (nominal_values_.contains(name)) names.push_back(name);
+    throw UsageError(
+        fmt::format("sensor_fit.parameters.{}: {} has none; it has {}", p.name, sensor, fmt::join(names, ", ")));
+  }
+  if (!p.mean) p.mean = nominal->second;
+  // What is wrong with the sensor at a value; empty: nothing.
+  const auto fault_at = [&](double value) {
+    try {
+      changed_sensor(content_, changes_of({{p.name, value}}));
+      return std::string();
+    } catch (const DataError& error) {
+      return std::string(error.what());
     }
-    if (!p.mean) p.mean = nominal->second;
-    // What is wrong with the sensor at a value; empty: nothing.
-    const auto fault_at = [&](double value) {
-      try {
-        changed_sensor(content_, changes_of({{p.name, value}}));
-        return std::string();
-      } catch (const DataError& error) {
-        return std::string(error.what());
-      }
-    };
-    std::array<double, 2> bounds = p.bounds.value_or(std::array{*p.mean - 4 * p.sigma, *p.mean + 4 * p.sigma});
-    if (!p.bounds && fault_at(*p.mean).empty())
-      for (double& bound : bounds)
-        for (int tries = 50; !fault_at(bound).empty(); --tries)
-          bound = tries > 0 ? *p.mean + 0.9 * (bound - *p.mean) : *p.mean;  // which may be an end itself
-    if (*p.mean < bounds[0] || *p.mean > bounds[1])
-      throw UsageError(fmt::format("sensor_fit.parameters.{}: its mean, {:g}, is outside its bounds, {:g} … {:g}",
-                                   p.name, *p.mean, bounds[0], bounds[1]));
-    lower_[i] = (bounds[0] - *p.mean) / p.sigma;
-    upper_[i] = (bounds[1] - *p.mean) / p.sigma;
-    for (const double value : {*p.mean, bounds[0], bounds[1]}) {
-      const std::string fault = fault_at(value);
-      if (fault.empty()) continue;
-      throw UsageError(fmt::format("sensor_fit.parameters.{}: {:g} makes no valid sensor; give other bounds{}", p.name,
-                                   value, fault.substr(fault.find('\n'))));
-    }
+  };
+  std::array<double, 2> bounds = p.bounds.value_or(std::array{*p.mean - 4 * p.sigma, *p.mean + 4 * p.sigma});
+  if (!p.bounds && fault_at(*p.mean).empty())
+    for (double& bound : bounds)
+      for (int tries = 50; !fault_at(bound).empty(); --tries)
+        bound = tries > 0 ? *p.mean + 0.9 * (bound - *p.mean) : *p.mean;  // which may be an end itself
+  if (*p.mean < bounds[0] || *p.mean > bounds[1])
+    throw UsageError(fmt::format("sensor_fit.parameters.{}: its mean, {:g}, is outside its bounds, {:g} … {:g}", p.name,
+                                 *p.mean, bounds[0], bounds[1]));
+  lower_[i] = (bounds[0] - *p.mean) / p.sigma;
+  upper_[i] = (bounds[1] - *p.mean) / p.sigma;
+  for (const double value : {*p.mean, bounds[0], bounds[1]}) {
+    const std::string fault = fault_at(value);
+    if (fault.empty()) continue;
+    throw UsageError(fmt::format("sensor_fit.parameters.{}: {:g} makes no valid sensor; give other bounds{}", p.name,
+                                 value, fault.substr(fault.find('\n'))));
   }
 }
 

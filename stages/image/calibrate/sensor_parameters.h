@@ -40,6 +40,9 @@ class SensorParameters {
 
  private:
   using Values = std::map<std::string, double>;
+  void read_nominal_values(ConfigReader& in);
+  /// Of parameter i in prior deviations; its mean too, if the configuration has none. `sensor` names the file.
+  void set_bounds(Eigen::Index i, const std::string& sensor);
   std::vector<SensorChange> changes_of(const Values& values) const;
 
   Value content_;
