@@ -62,7 +62,7 @@ class Reader {
     MshContent content;
     content.positions.resize(points_.size(), 3);
     for (std::size_t i = 0; i < points_.size(); ++i) content.positions.row(i) = points_[i].transpose();
-    content.tets = Eigen::Map<const Tetrahedra>(tets_.data(), static_cast<Eigen::Index>(tets_.size() / 4), 4);
+    content.tets = Eigen::Map<const Tetrahedra>(tets_.data(), tets_.size() / 4, 4);
     content.triangles.resize(triangles_.size() / 3, 3);
     std::ranges::copy(triangles_, content.triangles.data());
     content.triangle_tags = std::move(triangle_tags_);

@@ -93,8 +93,7 @@ Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices) 
   std::ranges::sort(single);
   Triangles boundary(single.size(), 3);
   for (std::size_t b = 0; b < single.size(); ++b)
-    for (int i = 0; i < 3; ++i)
-      boundary(static_cast<Eigen::Index>(b), i) = tets(single[b] / 4, kFaces[single[b] % 4][i]);
+    for (int i = 0; i < 3; ++i) boundary(b, i) = tets(single[b] / 4, kFaces[single[b] % 4][i]);
   return boundary;
 }
 

@@ -77,8 +77,7 @@ TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres
   TriangleMesh mesh;
   mesh.positions.resize(num_vertices, 3);
   for (std::size_t i = 0; i < num_vertices; ++i) mesh.positions.row(i) = soup.vertices[i].transpose();
-  mesh.triangles =
-      Eigen::Map<const Triangles>(triangle_corners.data(), static_cast<Eigen::Index>(triangle_corners.size() / 3), 3);
+  mesh.triangles = Eigen::Map<const Triangles>(triangle_corners.data(), triangle_corners.size() / 3, 3);
   return mesh;
 }
 

@@ -85,8 +85,7 @@ LightField LightField::read(ConfigReader& file) {
   if (rows.empty()) in.fault("lamps", "give lamps, an environment or both");
   light.weights.resize(rows.size(), 3);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      light.weights(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = rows[i][c];
+    for (std::size_t c = 0; c < 3; ++c) light.weights(i, c) = rows[i][c];
   return light;
 }
 

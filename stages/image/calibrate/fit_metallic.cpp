@@ -28,8 +28,8 @@ template <typename Object>
 MetallicSamples lit_samples(const Samples& samples, const std::vector<MetallicLamp>& lamps, const Sensor& sensor,
                             Object&& object) {
   const CameraModel camera(sensor.camera, sensor.stack);
-  const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
-  const auto columns = static_cast<Eigen::Index>(lamps.size());
+  const Eigen::Index rows = std::ssize(samples.pixels);
+  const Eigen::Index columns = std::ssize(lamps);
   MetallicSamples out{.samples = samples, .object = Eigen::MatrixXd(rows, columns), .empty = {}};
   out.empty = out.object;
   for (Eigen::Index i = 0; i < rows; ++i) {

@@ -60,7 +60,7 @@ SlopeTable released_table(const std::vector<std::vector<ContactPixel>>& balls, i
     if (std::ranges::any_of(pixels, [](const ContactPixel& p) { return p.all_used(); }))
       tables.push_back(table_of_ball(pixels, table, width, height));
   if (tables.empty()) throw DataError("no ball has a pixel in its contact that is not clipped");
-  const auto rows = static_cast<Eigen::Index>(tables.size());
+  const Eigen::Index rows = std::ssize(tables);
   Eigen::MatrixXd places(rows, kTerms), values(rows, 3);
   for (int i = 0; i < bins * bins; ++i) {
     for (Eigen::Index b = 0; b < rows; ++b) {

@@ -94,7 +94,7 @@ IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatIm
     for (int y = 0; y < seen.height; ++y)
       for (int x = 0; x < seen.width; ++x)
         if (seen.at(x, y, c) > 0.0f && seen.at(x, y, c) < 255.0f) used.push_back({x, y});
-    const auto rows = static_cast<Eigen::Index>(used.size());
+    const Eigen::Index rows = std::ssize(used);
     if (rows <= unknowns) throw DataError("channel {}: {} usable blocks for {} unknowns", c, rows, unknowns);
     Eigen::MatrixXd a(rows, unknowns);
     Eigen::VectorXd y(rows), weight(rows);

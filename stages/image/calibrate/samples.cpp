@@ -25,7 +25,7 @@ Samples make_samples(const ByteImage& photograph, const ByteImage& background, c
     }
   }
   if (count == 0.0) throw DataError("{}: no pixel lies far enough from the contact to tell the drift", image);
-  const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
+  const Eigen::Index rows = std::ssize(samples.pixels);
   samples.target.resize(rows, 3);
   samples.used.resize(rows, 3);
   samples.clipped.resize(rows, 3);
@@ -52,7 +52,7 @@ Samples make_samples(const ByteImage& photograph, const ByteImage& background, c
 }
 
 Eigen::MatrixXd feature_matrix(const LightGeometry& geometry, const MembraneView& view, const Samples& samples) {
-  const auto rows = static_cast<Eigen::Index>(samples.pixels.size());
+  const Eigen::Index rows = std::ssize(samples.pixels);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> out(rows, geometry.num_features());
   const LightFeatures of(geometry, view);
   for (Eigen::Index i = 0; i < rows; ++i) {

@@ -21,7 +21,7 @@ class SensorParameters {
   /// sensor.
   SensorParameters(const std::filesystem::path& sensor, std::vector<FreeParameter> free);
 
-  Eigen::Index count() const { return static_cast<Eigen::Index>(free_.size()); }
+  Eigen::Index count() const { return std::ssize(free_); }
   const std::string& name(Eigen::Index i) const { return free_[i].name; }
   double mean(Eigen::Index i) const { return *free_[i].mean; }
   double sigma(Eigen::Index i) const { return free_[i].sigma; }

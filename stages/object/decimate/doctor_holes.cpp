@@ -102,7 +102,7 @@ void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& repo
   const Eigen::Index before = mesh.num_triangles();
   mesh.triangles.conservativeResize(before + std::ssize(patch), 3);
   for (std::size_t i = 0; i < patch.size(); ++i)
-    mesh.triangles.row(before + static_cast<Eigen::Index>(i)) << patch[i][0], patch[i][1], patch[i][2];
+    mesh.triangles.row(before + i) << patch[i][0], patch[i][1], patch[i][2];
   report.hole_faces += std::ssize(patch);
 }
 
@@ -146,8 +146,7 @@ void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& re
   }
   mesh.triangles.conservativeResize(num_faces + std::ssize(added), 3);
   for (std::size_t i = 0; i < added.size(); ++i)
-    for (int k = 0; k < 3; ++k)
-      mesh.triangles(num_faces + static_cast<Eigen::Index>(i), k) = static_cast<int>(added[i][k]);
+    for (int k = 0; k < 3; ++k) mesh.triangles(num_faces + i, k) = static_cast<int>(added[i][k]);
 }
 
 }  // namespace tacipc

@@ -112,12 +112,10 @@ void halve_edges(TriangleMesh& mesh, const Uses& uses, const std::vector<int>& o
     }
   });
   mesh.positions.conservativeResize(before + std::ssize(middles), 3);
-  for (std::size_t i = 0; i < middles.size(); ++i)
-    mesh.positions.row(before + static_cast<Eigen::Index>(i)) = middles[i];
+  for (std::size_t i = 0; i < middles.size(); ++i) mesh.positions.row(before + i) = middles[i];
   const Eigen::Index faces = mesh.num_triangles();
   mesh.triangles.conservativeResize(faces + std::ssize(added), 3);
-  for (std::size_t i = 0; i < added.size(); ++i)
-    mesh.triangles.row(faces + static_cast<Eigen::Index>(i)) << added[i][0], added[i][1], added[i][2];
+  for (std::size_t i = 0; i < added.size(); ++i) mesh.triangles.row(faces + i) << added[i][0], added[i][1], added[i][2];
 }
 
 }  // namespace

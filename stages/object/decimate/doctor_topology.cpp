@@ -140,8 +140,7 @@ void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorRepo
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h) mesh.triangles.data()[h] = vertex_of_fan[root(h)];
   const Eigen::Index before = mesh.num_vertices();
   mesh.positions.conservativeResize(before + std::ssize(copied), 3);
-  for (std::size_t i = 0; i < copied.size(); ++i)
-    mesh.positions.row(before + static_cast<Eigen::Index>(i)) = mesh.positions.row(copied[i]);
+  for (std::size_t i = 0; i < copied.size(); ++i) mesh.positions.row(before + i) = mesh.positions.row(copied[i]);
   report.split_vertices += std::ssize(copied);
 }
 

@@ -78,7 +78,7 @@ TriangleMesh ball_mesh(double radius_m, double edge_m) {
   mesh.triangles.resize(faces.size(), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) mesh.positions.row(i) = radius_m * vertices[i].transpose();
   for (std::size_t i = 0; i < faces.size(); ++i)
-    for (Eigen::Index k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(i), k) = faces[i][k];
+    for (Eigen::Index k = 0; k < 3; ++k) mesh.triangles(i, k) = faces[i][k];
   return mesh;
 }
 

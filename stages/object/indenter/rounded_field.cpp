@@ -110,8 +110,7 @@ TriangleMesh solid(const HeightField& field, double relief_m) {
   }
   mesh.triangles.resize(faces.size(), 3);
   for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k)
-      mesh.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = faces[f][k];
+    for (std::size_t k = 0; k < 3; ++k) mesh.triangles(f, k) = faces[f][k];
   return mesh;
 }
 

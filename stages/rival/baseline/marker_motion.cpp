@@ -103,7 +103,7 @@ Superposition::Superposition(const UnitResponse& response, const MarkerGrid& gri
   press_.assign(nodes.size(), Eigen::Vector2d::Zero());
   along_x_ = along_y_ = press_;
   if (touched.empty()) return;
-  const auto size = static_cast<Eigen::Index>(touched.size());
+  const Eigen::Index size = std::ssize(touched);
   Eigen::MatrixXd normal(size, size), along_x(size, size), along_y(size, size);
   for (Eigen::Index q = 0; q < size; ++q) {
     for (Eigen::Index k = 0; k < size; ++k) {

@@ -97,7 +97,7 @@ Eigen::VectorXd MechanicsModel::fitted_coordinates(const Eigen::Matrix2Xd& press
   for (const Eigen::Matrix2Xd* vectors : {&press, &shear})
     for (Eigen::Index i = 0; i < vectors->cols(); ++i)
       if (fits_marker(i)) out.insert(out.end(), {(*vectors)(0, i), (*vectors)(1, i)});
-  return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
+  return Eigen::Map<const Eigen::VectorXd>(out.data(), out.size());
 }
 
 Eigen::VectorXd MechanicsModel::predicted(std::size_t measurement, const Eigen::VectorXd& u) const {

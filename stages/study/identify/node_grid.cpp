@@ -30,7 +30,7 @@ Eigen::VectorXd NodeGrid::weights(const std::vector<double>& at) const {
   Eigen::VectorXd out = Eigen::VectorXd::Ones(1);
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const auto& axis = axes_[k];
-    const auto n = static_cast<Eigen::Index>(axis.size());
+    const Eigen::Index n = std::ssize(axis);
     Eigen::VectorXd longer(out.size() * n);
     for (Eigen::Index i = 0; i < n; ++i) {
       double weight = 1.0;

@@ -28,7 +28,7 @@ class Unknowns {
  public:
   explicit Unknowns(const IdentifySpec& spec);
 
-  Eigen::Index size() const { return static_cast<Eigen::Index>(all_.size()); }
+  Eigen::Index size() const { return std::ssize(all_); }
   const Unknown& operator[](Eigen::Index i) const { return all_[i]; }
   const std::vector<Unknown>& all() const { return all_; }
   std::optional<Eigen::Index> find(const std::string& name, const std::string& measurement = {}) const;
