@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Who includes whom: the rooms of common/ in their order, stages nothing but common/, and the parts of press only inwards.
+# Who includes whom: the rooms of common/ in their order, stages nothing but common/, and the parts of press only inwards; and no source
+# above 450 lines.
 set -euo pipefail
 cd "$1"
 faults=0
@@ -43,4 +44,7 @@ bad=$(grep -rlE '#include <(torch|ATen|c10)/' common stages --include=*.cpp --in
 # MuJoCo likewise.
 bad=$(grep -rlE '#include <mujoco/' common stages --include=*.cpp --include=*.h | grep -v '^stages/robot/robot/' || true)
 [ -z "$bad" ] || { echo "$bad: includes MuJoCo; only robot may"; faults=1; }
+while read -r lines file; do
+  [ "$file" = total ] || [ "$lines" -le 450 ] || { echo "$file: $lines lines, at most 450: cut it where it changes the subject"; faults=1; }
+done < <(find common stages verification bench \( -name '*.h' -o -name '*.cpp' \) -exec wc -l {} +)
 exit $faults
