@@ -248,41 +248,27 @@ void Stage::retire_old_record() {
   if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
 }
 
-std::string Stage::record() const {
-  // A record must name what was really read.
-  if (inputs_changed()) throw DataError(kInputChanged);
+std::string Stage::record_of(const Value& inputs, const std::string& prefix, const Value::Map& summary) const {
   Value::Map outputs;
   for (const Output& output : outputs_)
-    outputs.emplace_back(output.name, output.hash ? *output.hash : content_hash(partial_ / output.name));
+    if (output.name.starts_with(prefix))
+      outputs.emplace_back(output.name.substr(prefix.size()),
+                           output.hash ? *output.hash : content_hash(partial_ / output.name));
   Value::Map record{{"stage", spec_.name},
                     {"version", program_version()},
                     {"instruction_set", instruction_set()},
-                    {"inputs", inputs_at_start_.value()},
-                    {"outputs", std::move(outputs)}};
-  add_notes(record);
-  record.emplace_back("config", configs_);
-  record.emplace_back("summary", summary_);
-  return to_yaml(record);
-}
-
-void Stage::finish_part(const std::string& folder, const Value::Map& summary) {
-  const std::string prefix = folder + "/";
-  Value::Map outputs;
-  for (const Output& output : outputs_) {
-    if (!output.name.starts_with(prefix)) continue;
-    outputs.emplace_back(output.name.substr(prefix.size()),
-                         output.hash ? *output.hash : content_hash(partial_ / output.name));
-  }
-  Value::Map record{{"stage", spec_.name},
-                    {"version", program_version()},
-                    {"instruction_set", instruction_set()},
-                    {"inputs", input_hashes(out_ / folder)},
+                    {"inputs", inputs},
                     {"outputs", std::move(outputs)}};
   add_notes(record);
   record.emplace_back("config", configs_);
   record.emplace_back("summary", summary);
+  return to_yaml(record);
+}
+
+void Stage::finish_part(const std::string& folder, const Value::Map& summary) {
+  const std::string prefix = folder + "/", text = record_of(input_hashes(out_ / folder), prefix, summary);
   parts_.push_back(prefix + spec_.name + ".yaml");
-  write_file(output(parts_.back()), to_yaml(record));
+  write_file(output(parts_.back()), text);
 }
 
 std::string Stage::timings() const {
@@ -331,7 +317,8 @@ void Stage::open_scratch() const {
 
 void Stage::publish() {
   // All that needs room on the disk comes first: what follows removes and renames.
-  const std::string text = record();
+  if (inputs_changed()) throw DataError(kInputChanged);  // a record must name what was really read
+  const std::string text = record_of(inputs_at_start_.value(), "", summary_);
   const fs::path record_name = spec_.name + ".yaml", timings_name = spec_.name + ".timings.yaml";
   write_file(partial_path(record_name), text);
   write_file(partial_path(timings_name), timings());

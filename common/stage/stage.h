@@ -136,7 +136,8 @@ class Stage {
   std::string resume_key() const;
   /// Notes and options, as record and failure file repeat them.
   void add_notes(Value::Map& record) const;
-  std::string record() const;
+  /// The record of the outputs in a folder: their names begin with `prefix`.
+  std::string record_of(const Value& inputs, const std::string& prefix, const Value::Map& summary) const;
   /// Text of `<stage>.timings.yaml`: wall and processor time, peak memory and the stage's own lines. Not part of the
   /// record, as no two runs agree in it.
   std::string timings() const;
