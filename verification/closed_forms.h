@@ -18,8 +18,6 @@ struct Elastic {
   double plane_modulus_pa() const { return youngs_modulus_pa / (1.0 - poissons_ratio * poissons_ratio); }
   /// λ = E ν / ((1 + ν)(1 − 2ν))
   double lame_lambda_pa() const;
-  /// λ + 2μ: stress over strain where nothing can move sideways.
-  double confined_modulus_pa() const { return lame_lambda_pa() + 2.0 * shear_modulus_pa(); }
 };
 
 /// Force and contact radius of a rigid indenter at a depth.

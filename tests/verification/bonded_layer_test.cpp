@@ -83,7 +83,7 @@ TEST(BondedLayer, ThinCompressibleLayerIsABedOfSprings) {
   double before = 1.0;
   for (const double thickness : {0.02, 0.01, 0.005}) {
     const double R = 1.0, depth = 0.02, a = std::sqrt(2 * R * depth);
-    const double springs = pi * R * depth * depth * gel.confined_modulus_pa() / thickness;
+    const double springs = pi * R * depth * depth * (gel.lame_lambda_pa() + 2.0 * gel.shear_modulus_pa()) / thickness;
     const LayerSolution found = press_bonded_layer({gel, thickness, Shape::paraboloid, R}, depth, 96);
     const double excess = found.force_n / springs - 1.0;
     EXPECT_LT(std::abs(excess), 3.0 * thickness / a) << thickness;

@@ -27,10 +27,8 @@ class PairMotion {
   /// overflow.
   std::optional<Vector3> direction(const ClosestFeature& feature) const;
 
-  /// Bound on the error of a projected gap n·(first − second) for a unit vector n, m.
-  double gap_error() const { return gap_error_; }
   /// Smallest computed n·(first − second) over all vertex pairs at time t: a lower bound of the distance, up to
-  /// gap_error().
+  /// gap_error_.
   double gap(double t, const Vector3& n) const;
   /// Time up to which the gap along n stays above `separation` by twice the error; `from` if there is none.
   double gap_exit(double from, const Vector3& n, double separation) const;
