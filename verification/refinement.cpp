@@ -128,7 +128,7 @@ std::optional<RefinementLevel> RefinementLevel::unpack(std::string_view bytes) {
                         .markers_m = Positions(head[3], 3),
                         .front_m = Positions(head[4], 3)};
   for (Positions* field : {&level.markers_m, &level.front_m}) {
-    const std::size_t count = sizeof(double) * static_cast<std::size_t>(field->size());
+    const std::size_t count = sizeof(double) * field->size();
     if (count > 0) std::memcpy(field->data(), bytes.data(), count);
     bytes.remove_prefix(count);
   }

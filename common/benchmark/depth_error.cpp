@@ -102,8 +102,7 @@ DepthErrors depth_errors(const FloatImage& map, const FloatImage& reference, con
     for (int x = 0; x < map.width; ++x) {
       const double a = map.at(x, y, 0), b = reference.at(x, y, 0), r = rest.at(x, y, 0);
       if (!std::isfinite(a) || !std::isfinite(b) || !std::isfinite(r)) continue;
-      const auto pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x);
+      const auto pixel = static_cast<std::size_t>(y) * map.width + x;
       const bool seems_pressed = r - a > regions.pressed_m;
       both += is_pressed[pixel] && seems_pressed;
       either += is_pressed[pixel] || seems_pressed;

@@ -18,15 +18,8 @@ struct Image {
 
   Image() = default;
   Image(int w, int h, int c, T value = T{})
-      : width(w),
-        height(h),
-        channels(c),
-        pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c), value) {}
-  T& at(int x, int y, int c) {
-    return pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-                      static_cast<std::size_t>(channels) +
-                  static_cast<std::size_t>(c)];
-  }
+      : width(w), height(h), channels(c), pixels(static_cast<std::size_t>(w) * h * c, value) {}
+  T& at(int x, int y, int c) { return pixels[(static_cast<std::size_t>(y) * width + x) * channels + c]; }
   const T& at(int x, int y, int c) const { return const_cast<Image*>(this)->at(x, y, c); }
 };
 using FloatImage = Image<float>;

@@ -67,7 +67,7 @@ class MemoryIn final : public Imf::IStream {
 /// Imf addresses pixels from (0, 0) of the image plane, which need not lie in the data window.
 template <typename T>
 Imf::Slice slice(const Image<T>& image, int channel, int x_min, int y_min) {
-  const auto x_stride = sizeof(T) * static_cast<std::size_t>(image.channels);
+  const auto x_stride = sizeof(T) * image.channels;
   const auto y_stride = x_stride * static_cast<std::size_t>(image.width);
   auto* first = reinterpret_cast<char*>(const_cast<T*>(image.pixels.data() + channel));
   char* origin = first - static_cast<std::ptrdiff_t>(x_stride) * x_min - static_cast<std::ptrdiff_t>(y_stride) * y_min;

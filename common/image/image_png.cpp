@@ -106,7 +106,7 @@ bool encode(PngFile& file, const ByteImage& image) {
                image.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
-  const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+  const std::size_t row = static_cast<std::size_t>(image.width) * image.channels;
   for (std::size_t at = 0; at < image.pixels.size(); at += row) png_write_row(png, image.pixels.data() + at);
   png_write_end(png, info);
   png_destroy_write_struct(&png, &info);
@@ -136,7 +136,7 @@ bool decode(PngFile& file, ByteImage& image) {
   png_read_update_info(png, info);
   image = ByteImage(static_cast<int>(png_get_image_width(png, info)), static_cast<int>(png_get_image_height(png, info)),
                     image.channels);
-  const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+  const std::size_t row = static_cast<std::size_t>(image.width) * image.channels;
   if (png_get_rowbytes(png, info) != row) png_error(png, "its pixels are of an unknown kind");
   for (int pass = 0, passes = png_set_interlace_handling(png); pass < passes; ++pass) {
     for (std::size_t at = 0; at < image.pixels.size(); at += row) png_read_row(png, image.pixels.data() + at, nullptr);

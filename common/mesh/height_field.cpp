@@ -15,7 +15,7 @@ HeightField highest_points(const TriangleMesh& mesh, double spacing_m, double ma
   HeightField field{.columns = count(0), .rows = count(1), .spacing = spacing_m, .z = {}};
   field.x0 = 0.5 * (low[0] + high[0]) - 0.5 * (field.columns - 1) * spacing_m;
   field.y0 = 0.5 * (low[1] + high[1]) - 0.5 * (field.rows - 1) * spacing_m;
-  field.z.assign(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows), HeightField::kNothing);
+  field.z.assign(static_cast<std::size_t>(field.columns) * field.rows, HeightField::kNothing);
   constexpr double kEdgeSlack = 1e-6;
   for (Eigen::Index t = 0; t < mesh.num_triangles(); ++t) {
     std::array<Vector3, 3> p;

@@ -19,9 +19,7 @@ struct HeightField {
   double spacing = 0.0;
   std::vector<double> z;
 
-  double& at(int i, int j) {
-    return z[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)];
-  }
+  double& at(int i, int j) { return z[static_cast<std::size_t>(j) * columns + i]; }
   double at(int i, int j) const { return const_cast<HeightField*>(this)->at(i, j); }
 };
 

@@ -113,7 +113,7 @@ void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
       mesh.num_vertices(), mesh.num_triangles());
   bytes.reserve(bytes.size() + static_cast<std::size_t>(24 * mesh.num_vertices() + 13 * mesh.num_triangles()));
-  append(bytes, mesh.positions.data(), sizeof(double) * static_cast<std::size_t>(mesh.positions.size()));
+  append(bytes, mesh.positions.data(), sizeof(double) * mesh.positions.size());
   for (Eigen::Index f = 0; f < mesh.num_triangles(); ++f) {
     bytes.push_back(3);
     append(bytes, &mesh.triangles(f, 0), 3 * sizeof(int));

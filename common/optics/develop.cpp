@@ -75,9 +75,7 @@ TACIPC_CLONES double sum_of_codes(const float* signal, std::size_t count, double
   return total;
 }
 
-std::size_t row_length(const FloatImage& image) {
-  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
-}
+std::size_t row_length(const FloatImage& image) { return static_cast<std::size_t>(image.width) * image.channels; }
 
 }  // namespace
 

@@ -24,7 +24,7 @@ Horizon::Horizon(const Membrane& membrane) {
   width_ = std::max({size.x() / kMaxCells, size.y() / kMaxCells, deepest / kFloor / kSearchRadiusCells, 1e-9});
   columns_ = static_cast<int>(size.x() / width_) + 1;
   rows_ = static_cast<int>(size.y() / width_) + 1;
-  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  const auto cells = static_cast<std::size_t>(columns_) * rows_;
   std::vector<double> front(cells, kInfinity), back(cells, -kInfinity), slope(cells, 0.0);  // least and most z
   const auto at = [&](int i, int j) { return static_cast<std::size_t>(j * columns_ + i); };
   for (Eigen::Index f = 0; f < membrane.triangles.rows(); ++f) {

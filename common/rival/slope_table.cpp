@@ -9,8 +9,7 @@
 
 namespace tacipc {
 
-SlopeTable::SlopeTable(int count)
-    : bins(count), weights(static_cast<std::size_t>(count) * static_cast<std::size_t>(count) * kTerms * 3, 0.0) {}
+SlopeTable::SlopeTable(int count) : bins(count), weights(static_cast<std::size_t>(count) * count * kTerms * 3, 0.0) {}
 
 SlopeTable SlopeTable::read(const std::filesystem::path& path) {
   NpyArray array = read_npy(path);

@@ -40,10 +40,8 @@ double march(const MembraneView& view, const Height& z_of, int x, int y, double 
 
 /// Deepest z of each block of pixels, then of each block and its eight neighbours.
 std::vector<double> lowest_around(const MembraneView& view, int wide, int high) {
-  std::vector<double> own(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high), 0.0);
-  const auto at = [&](int i, int j) {
-    return static_cast<std::size_t>(j) * static_cast<std::size_t>(wide) + static_cast<std::size_t>(i);
-  };
+  std::vector<double> own(static_cast<std::size_t>(wide) * high, 0.0);
+  const auto at = [&](int i, int j) { return static_cast<std::size_t>(j) * wide + i; };
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x) {
       double& z = own[at(x / kBlockPx, y / kBlockPx)];
@@ -198,9 +196,7 @@ std::vector<double> DomeIrradiance::row_horizons(int y) const {
 void DomeIrradiance::at(int x, const std::vector<double>& row_horizons, const Vector3& normal, double* out) const {
   const auto width = static_cast<std::size_t>(view_->width);
   integrate(
-      normal,
-      [&](int d, double) { return row_horizons[static_cast<std::size_t>(d) * width + static_cast<std::size_t>(x)]; },
-      out);
+      normal, [&](int d, double) { return row_horizons[static_cast<std::size_t>(d) * width + x]; }, out);
 }
 
 }  // namespace tacipc

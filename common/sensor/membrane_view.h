@@ -19,9 +19,7 @@ struct MembraneView {
   std::vector<Vector3> rest;    // the point of the plane z = 0 on the same ray
   double lowest_z = -3e-3;      // m; no point lies deeper. A bound that every press keeps until the view is complete
 
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
 /// Sets lowest_z to the deepest point.

@@ -26,7 +26,7 @@ struct BallTable {
 };
 
 BallTable table_of_ball(const std::vector<ContactPixel>& pixels, const SlopeTable& table, int width, int height) {
-  const auto size = static_cast<std::size_t>(table.bins) * static_cast<std::size_t>(table.bins);
+  const auto size = static_cast<std::size_t>(table.bins) * table.bins;
   std::array<std::vector<bool>, 3> has_value;
   for (auto& one : has_value) one.assign(size, false);
   std::vector<bool> has_place(size, false);
@@ -118,7 +118,7 @@ SlopeTable pooled_table(const std::vector<std::vector<ContactPixel>>& balls, int
                         const TableFit& settings) {
   SlopeTable table(settings.bins);
   const int bins = settings.bins;
-  std::vector<BinEquations> equations(static_cast<std::size_t>(bins) * static_cast<std::size_t>(bins));
+  std::vector<BinEquations> equations(static_cast<std::size_t>(bins) * bins);
   for (const auto& pixels : balls) {
     for (const ContactPixel& pixel : pixels) {
       auto bin = static_cast<std::size_t>(bin_of(table, pixel));

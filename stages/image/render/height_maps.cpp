@@ -61,8 +61,7 @@ Membrane HeightMaps::at_rest() const {
   for (int y = -1; y <= height; ++y) {
     for (int x = -1; x <= width; ++x) {
       const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
-      const Vector3& point =
-          rest_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)];
+      const Vector3& point = rest_[static_cast<std::size_t>(v) * width + u];
       rest.row(vertex_of(x, y, width)) =
           (u == x && v == y ? point : Vector3(middle + kRing * (point - middle))).transpose();
     }
@@ -81,8 +80,7 @@ void HeightMaps::move(Membrane& membrane, std::size_t frame) const {
     for (int y = -1; y <= height; ++y) {
       for (int x = -1; x <= width; ++x) {
         const int u = std::clamp(x, 0, width - 1), v = std::clamp(y, 0, height - 1);
-        const std::size_t pixel =
-            static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
+        const std::size_t pixel = static_cast<std::size_t>(v) * width + u;
         membrane.positions.row(vertex_of(x, y, width)) -=
             double{maps_[frame - 1].at(u, v, 0)} * shift_[pixel].transpose();
       }

@@ -17,7 +17,7 @@ struct Raster {
   int border = 0;
   std::vector<double> values;
 
-  double& at(int x, int y) { return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x]; }
+  double& at(int x, int y) { return values[static_cast<std::size_t>(y) * width + x]; }
   double at(int x, int y) const { return const_cast<Raster*>(this)->at(x, y); }
 };
 
@@ -32,8 +32,7 @@ std::vector<double> gaussian_weights(double sigma_px, int radius) {
 /// One pass along rows, result transposed: two passes blur the plane.
 Raster blurred_rows_transposed(const Raster& in, const std::vector<double>& weights) {
   const int radius = static_cast<int>(weights.size() / 2);
-  Raster out{in.height, in.width, in.border,
-             std::vector<double>(static_cast<std::size_t>(in.width) * static_cast<std::size_t>(in.height))};
+  Raster out{in.height, in.width, in.border, std::vector<double>(static_cast<std::size_t>(in.width) * in.height)};
   for (int y = 0; y < in.height; ++y) {
     for (int x = 0; x < in.width; ++x) {
       double sum = 0.0;
@@ -58,7 +57,7 @@ Height picture_height(const ByteImage& grey, const PictureRelief& relief, const 
   raster.border = radius + 1;
   raster.width = grey.width + 2 * raster.border;
   raster.height = grey.height + 2 * raster.border;
-  raster.values.assign(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height), 0.0);
+  raster.values.assign(static_cast<std::size_t>(raster.width) * raster.height, 0.0);
   for (int y = 0; y < grey.height; ++y) {
     for (int x = 0; x < grey.width; ++x) {
       const double value = grey.at(x, y, 0) / 255.0;

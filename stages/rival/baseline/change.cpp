@@ -156,7 +156,7 @@ FloatImage ChangeOfCodes::network(const Raster& indentation_m) const {
   const Slopes slopes = slopes_of(indentation_m, pixel_m_);
   FloatImage change(indentation_m.width, indentation_m.height, 3);
   for (int y = 0; y < change.height; ++y) {
-    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(change.width);
+    const auto row = static_cast<std::size_t>(y) * change.width;
     const Eigen::MatrixXf codes = 255.0F * (network_row(y, &slopes.x.values[row], &slopes.y.values[row]) - flat_[y]);
     std::copy(codes.data(), codes.data() + codes.size(), &change.pixels[3 * row]);
   }

@@ -69,8 +69,7 @@ SeenObject ObjectCamera::see(const TriangleMesh& object, const Positions& vertex
         Vector3 normal = Vector3::Zero();
         for (std::size_t k = 0; k < 3; ++k)
           normal += hit->barycentric[k] * vertex_normals.row(object.triangles(t, static_cast<Eigen::Index>(k)));
-        seen.normal[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
-                    static_cast<std::size_t>(x)] = turn * normal.normalized();
+        seen.normal[static_cast<std::size_t>(y) * camera_.width_px + x] = turn * normal.normalized();
       }
     }
   }

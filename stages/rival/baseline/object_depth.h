@@ -40,10 +40,7 @@ class ObjectCamera {
   struct Line {
     Vector3 origin, direction;
   };
-  const Line& line(int x, int y) const {
-    return lines_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
-                  static_cast<std::size_t>(x)];
-  }
+  const Line& line(int x, int y) const { return lines_[static_cast<std::size_t>(y) * camera_.width_px + x]; }
 
   Camera camera_;
   GelShape gel_;

@@ -14,11 +14,8 @@ struct Raster {
   std::vector<double> values;
 
   Raster() = default;
-  Raster(int w, int h, double value = 0.0)
-      : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
-  double& at(int x, int y) {
-    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
+  Raster(int w, int h, double value = 0.0) : width(w), height(h), values(static_cast<std::size_t>(w) * h, value) {}
+  double& at(int x, int y) { return values[static_cast<std::size_t>(y) * width + x]; }
   double at(int x, int y) const { return const_cast<Raster*>(this)->at(x, y); }
 };
 

@@ -41,8 +41,7 @@ FloatImage indentation_map(const GelLattice& lattice, const Positions& front_m, 
     const Eigen::RowVector2d low = corners.colwise().minCoeff(), high = corners.colwise().maxCoeff();
     for (int y = rows.from(low.y()); y <= rows.to(high.y()); ++y) {
       for (int x = columns.from(low.x()); x <= columns.to(high.x()); ++x) {
-        const std::size_t pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x);
+        const std::size_t pixel = static_cast<std::size_t>(y) * map.width + x;
         if (done[pixel]) continue;
         const Vector3 at = heights.barycentric(t, {columns.place(x), rows.place(y)});
         if (!(at.minCoeff() >= -kBarycentricSlack)) continue;

@@ -119,7 +119,7 @@ double MaterialPoints::move_object(const Matrix4& gel_from_object) {
 void MaterialPoints::step(const Matrix4& gel_from_object) {
   const double object_move = move_object(gel_from_object);
   Slab& slab = sorted_.slab;
-  const auto columns = static_cast<std::size_t>(slab.nodes[0]) * static_cast<std::size_t>(slab.nodes[1]);
+  const auto columns = static_cast<std::size_t>(slab.nodes[0]) * slab.nodes[1];
   const tbb::blocked_range<std::size_t> all_columns(0, columns, 256);
   const auto column = 4 * static_cast<std::size_t>(slab.nodes[2]);
   tbb::parallel_for(all_columns, [&](const auto& range) {

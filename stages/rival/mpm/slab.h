@@ -24,9 +24,7 @@ struct Slab {
   int held_nodes = 0;         // the lowest nodes of each column, which do not move
   std::vector<float> values;  // 4 per node
 
-  std::size_t num_nodes() const {
-    return static_cast<std::size_t>(nodes[0]) * static_cast<std::size_t>(nodes[1]) * static_cast<std::size_t>(nodes[2]);
-  }
+  std::size_t num_nodes() const { return static_cast<std::size_t>(nodes[0]) * nodes[1] * nodes[2]; }
   int num_tiles() const { return tiles[0] * tiles[1]; }
 };
 

@@ -13,9 +13,7 @@ struct Grey {
   int width, height;
   std::vector<double> values;
 
-  double at(int x, int y) const {
-    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
+  double at(int x, int y) const { return values[static_cast<std::size_t>(y) * width + x]; }
 };
 
 Grey mean_of_channels(const ByteImage& image) {

@@ -18,11 +18,10 @@ using Moments = std::array<double, 5>;
 std::vector<Moments> sums_along_rows(const ByteImage& a, const ByteImage& b, int channel,
                                      const std::vector<double>& weights) {
   const int n = static_cast<int>(weights.size()), columns = a.width - n + 1;
-  std::vector<Moments> sums(static_cast<std::size_t>(columns) * static_cast<std::size_t>(a.height));
+  std::vector<Moments> sums(static_cast<std::size_t>(columns) * a.height);
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < columns; ++x) {
-      Moments& sum =
-          sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)];
+      Moments& sum = sums[static_cast<std::size_t>(y) * columns + x];
       for (int i = 0; i < n; ++i) {
         const double w = weights[i], u = a.at(x + i, y, channel), v = b.at(x + i, y, channel);
         const Moments here{u, v, u * u, v * v, u * v};
@@ -92,9 +91,7 @@ double ssim_in_box(const ByteImage& a, const ByteImage& b, const SsimWindow& win
     const int top = std::max(box.y - map.margin, 0), bottom = std::min(box.y + box.height - map.margin, map.height);
     double sum = 0.0;
     for (int y = top; y < bottom; ++y)
-      for (int x = left; x < right; ++x)
-        sum +=
-            map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)];
+      for (int x = left; x < right; ++x) sum += map.values[static_cast<std::size_t>(y) * map.width + x];
     const bool some = right > left && bottom > top;
     total += some ? sum / (static_cast<double>(right - left) * (bottom - top)) : std::nan("");
   }
