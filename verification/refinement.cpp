@@ -125,8 +125,8 @@ std::optional<RefinementLevel> RefinementLevel::unpack(std::string_view bytes) {
   RefinementLevel level{.gel_vertices = static_cast<int>(head[0]),
                         .press_force_n = head[1],
                         .tangential_force_n = head[2],
-                        .markers_m = Positions(head[3], 3),
-                        .front_m = Positions(head[4], 3)};
+                        .markers_m = Positions(static_cast<Eigen::Index>(head[3]), 3),
+                        .front_m = Positions(static_cast<Eigen::Index>(head[4]), 3)};
   for (Positions* field : {&level.markers_m, &level.front_m}) {
     const std::size_t count = sizeof(double) * field->size();
     if (count > 0) std::memcpy(field->data(), bytes.data(), count);
