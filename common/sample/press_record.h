@@ -25,6 +25,8 @@ struct PressLimits {
   double pose_error_m = 0.0;           // of the object's vertices from their prescribed positions
   double body_strain = 0.0;            // of a free object: max |AᵀA − I|
   double body_balance_relative = 0.0;  // residual of its momentum balance over its weight or load, whichever is larger
+  double body_torque_relative = 0.0;   // residual of its angular momentum balance over that load on an arm
+  double body_torque_arm_m = 0.0;      // length of this arm
   double smallest_body_load_n = 0.0;   // lower bound of that weight or load
 
   static constexpr auto keys() {
@@ -32,7 +34,8 @@ struct PressLimits {
     return std::tuple(RECORD_KEY(smallest_distance_m), RECORD_KEY(intersections), RECORD_KEY(gel_in_object),
                       RECORD_KEY(inverted_tets), RECORD_KEY(volume_ratio), RECORD_KEY(balance_relative),
                       RECORD_KEY(smallest_contact_n), RECORD_KEY(pose_error_m), RECORD_KEY(body_strain),
-                      RECORD_KEY(body_balance_relative), RECORD_KEY(smallest_body_load_n));
+                      RECORD_KEY(body_balance_relative), RECORD_KEY(body_torque_relative),
+                      RECORD_KEY(body_torque_arm_m), RECORD_KEY(smallest_body_load_n));
   }
 };
 
@@ -133,6 +136,7 @@ struct GraspFrameLines {
   double slip_share_left = 0.0, slip_share_right = 0.0, friction_radius_left_m = 0.0, friction_radius_right_m = 0.0;
   double body_strain = 0.0, body_load_n = 0.0, body_residual_n = 0.0;
   double momentum_residual_n = 0.0, angular_residual_n_m = 0.0;
+  double grip_imbalance = 0.0;  // largest fraction of the force missing to the balance of a drive after a time step
   std::optional<double> friction_use = {};
 
   static constexpr auto keys() {
@@ -142,7 +146,7 @@ struct GraspFrameLines {
                       RECORD_KEY(turn_rad), RECORD_KEY(slip_share_left), RECORD_KEY(slip_share_right),
                       RECORD_KEY(friction_radius_left_m), RECORD_KEY(friction_radius_right_m), RECORD_KEY(body_strain),
                       RECORD_KEY(body_load_n), RECORD_KEY(body_residual_n), RECORD_KEY(momentum_residual_n),
-                      RECORD_KEY(angular_residual_n_m), RECORD_KEY(friction_use));
+                      RECORD_KEY(angular_residual_n_m), RECORD_KEY(grip_imbalance), RECORD_KEY(friction_use));
   }
 };
 
@@ -174,6 +178,17 @@ struct GraspSummary {
                       RECORD_KEY(rise_m), RECORD_KEY(hand_rise_m), RECORD_KEY(max_momentum_residual_n),
                       RECORD_KEY(slip_left), RECORD_KEY(slip_right), RECORD_KEY(friction_margin), RECORD_KEY(converged),
                       RECORD_KEY(verdict), RECORD_KEY(per_frame));
+  }
+};
+
+/// Contact of two bodies of a scene that its file names.
+struct ContactLines {
+  std::array<std::string, 2> between{};
+  double friction = 0.0, d_hat_m = 0.0;
+
+  static constexpr auto keys() {
+    using Lines = ContactLines;
+    return std::tuple(RECORD_KEY(between), RECORD_KEY(friction), RECORD_KEY(d_hat_m));
   }
 };
 
@@ -209,6 +224,7 @@ struct SceneFrameLines {
 struct SceneSummary {
   std::size_t frames = 0;
   std::vector<SceneBodyLines> bodies = {};  // in the order of the arrays
+  std::vector<ContactLines> contact = {};
   double min_distance_m = 0.0;
   int intersections = 0;
   double body_strain = 0.0, max_body_balance_relative = 0.0, max_momentum_residual_n = 0.0;
@@ -218,8 +234,8 @@ struct SceneSummary {
 
   static constexpr auto keys() {
     using Lines = SceneSummary;
-    return std::tuple(RECORD_KEY(frames), RECORD_KEY(bodies), RECORD_KEY(min_distance_m), RECORD_KEY(intersections),
-                      RECORD_KEY(body_strain), RECORD_KEY(max_body_balance_relative),
+    return std::tuple(RECORD_KEY(frames), RECORD_KEY(bodies), RECORD_KEY(contact), RECORD_KEY(min_distance_m),
+                      RECORD_KEY(intersections), RECORD_KEY(body_strain), RECORD_KEY(max_body_balance_relative),
                       RECORD_KEY(max_momentum_residual_n), RECORD_KEY(converged), RECORD_KEY(verdict),
                       RECORD_KEY(per_frame));
   }

@@ -74,6 +74,16 @@ done
 code=0; "$bin/press" --config configs/press/small_gap.yaml --sensor configs/sensors/mctac.yaml --gel one/gels/mctac-tiny/gel.msh --sample whole/scene.yaml --solved first/solved --out other > said.txt 2>&1 || code=$?
 [ $code = 1 ] && grep -q 'of another gel, sensor, press file, body or contact' said.txt || fail "frames of another press file were taken"
 
+# Frames of another motion, which no path tells.
+for name in rise far; do
+  mkdir "$name"
+  sed "s#path: gel.npy#at_mm: [0, 0, 0]#; s#^motion:.*#motion: [{steps: 3, move: [{body: gel, by_mm: [0, 0, $([ $name = rise ] && echo 0.15 || echo 0.3)]}]}]#" piece/scene.yaml > "$name/scene.yaml"
+done
+press risen rise/scene.yaml --solved none > said.txt 2>&1 || { tail -5 said.txt >&2; fail "a scene that moves a gel failed"; }
+press again rise/scene.yaml --solved risen/solved > said.txt 2>&1 || fail "frames of the same motion were refused"
+code=0; press other far/scene.yaml --solved risen/solved > said.txt 2>&1 || code=$?
+[ $code = 1 ] && grep -q 'is of another motion than frame 1 of the scene' said.txt || fail "frames of another motion were taken"
+
 # Killed once some frames are there, on another number of threads.
 soft=(--soft one/scene/soft_ball/tets --name soft_ball)
 "${of_all[@]}" --out killed --sample configs/scenes/soft_ball.yaml "${soft[@]}" --threads 2 > said.txt 2>&1 &

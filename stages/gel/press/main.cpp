@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     if (what.has("bodies")) {
       tell_friction();
       const SceneFiles scene = read_scene(stage, sensor);
-      write_outputs(stage, sensor, scene.bodies, file, scene.spec,
+      write_outputs(stage, sensor, scene.bodies, scene.spec,
                     run_scene(sensor, scene.bodies, file, scene.spec, progress, scene.frames.get()));
       return;
     }
@@ -108,6 +108,6 @@ int main(int argc, char** argv) {
     ScratchFrames frames(stage);
     const Simulation simulation =
         simulate(sensor, gel, inputs.object, config, inputs.sample, inputs.face, progress, &frames);
-    write_outputs(stage, sensor, gel, config, inputs.sample, simulation);
+    write_outputs(stage, sensor, gel, inputs.sample, simulation);
   });
 }

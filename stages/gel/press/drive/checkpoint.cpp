@@ -216,6 +216,7 @@ void grasp_fields(auto& io, auto& frame, auto& progress) {
   each(io, frame.spin_rad_s);
   io.plain(frame.body_residual_n);
   io.plain(frame.body_load_n);
+  io.plain(frame.grip_imbalance);
   io.plain(frame.slip_m);
   io.plain(frame.turn_rad);
   account(io, frame.whole);

@@ -176,6 +176,7 @@ class GraspDrive {
                      .spin_rad_s = world_.spin_rad_s(0),
                      .body_residual_n = report.body_residual_n,
                      .body_load_n = report.body_load_n,
+                     .grip_imbalance = hand_.take_imbalance(),
                      .whole = state.account};
     const Positions object_at = world_.mesh().object_rows(state.motion.x);
     for (const std::size_t side : {0, 1}) {
@@ -187,6 +188,7 @@ class GraspDrive {
       if (phase_index >= 0) frame.force_on_finger_n[side] = hand_.force_on(side);
     }
     world_.judge(run_.next(), fingers);
+    judge_grip(run_.next(), frame.grip_imbalance);
     if (freed_frame_) {
       const InHand since = motion_in_hand(out_.frames[*freed_frame_], frame, out_.grip_point());
       frame.slip_m = since.slip_m;

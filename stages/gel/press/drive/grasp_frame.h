@@ -35,9 +35,10 @@ struct GraspFrame {
   Matrix4 world_from_object;
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();
   double body_residual_n = 0.0, body_load_n = 0.0;
-  double slip_m = 0.0;    // of the object's point at the grip, in the hand, since the fingers closed
-  double turn_rad = 0.0;  // of the object in the hand since then
-  WholeAccount whole;     // of gels and object; the residuals are those of the frame's time steps
+  double grip_imbalance = 0.0;  // largest fraction of the force missing to a drive's balance in the frame's time steps
+  double slip_m = 0.0;          // of the object's point at the grip, in the hand, since the fingers closed
+  double turn_rad = 0.0;        // of the object in the hand since then
+  WholeAccount whole;           // of gels and object; the residuals are those of the frame's time steps
 
   /// Force by which a finger presses.
   double grip_n(std::size_t side) const { return pressing_n(force_on_finger_n[side], world_from_finger[side]); }

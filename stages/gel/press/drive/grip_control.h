@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "stages/gel/press/measure/verdict.h"
+
 namespace tacipc {
 
 /// What a drive moves and what holds it back, along its way: m a + c v = wanted force − grip. Without either the grip
@@ -47,9 +49,8 @@ struct GripControl {
   bool arrived(const DriveInertia& inertia = {}) const;
 };
 
-inline constexpr double kTouches_n = 1e-6;      // N: with a smaller force a finger counts as not touching
-inline constexpr double kGripTolerance = 0.02;  // fraction of the force that may be missing to a drive's balance
-inline constexpr double kFirstTouch_m = 2e-5;   // displacement of a finger in the step after its first touch
+inline constexpr double kTouches_n = 1e-6;     // N: with a smaller force a finger counts as not touching
+inline constexpr double kFirstTouch_m = 2e-5;  // displacement of a finger in the step after its first touch
 // A smaller change of force within a step, as a fraction of the force, may be the solver's tolerance.
 inline constexpr double kMeasurablePart = 2e-3;
 

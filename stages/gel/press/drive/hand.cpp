@@ -135,7 +135,7 @@ PairSearch Hand::start_search(double h_s, const Matrix4& motion) {
   return search;
 }
 
-void Hand::balance(double h_s, const RigidWay& hand, double enough_n, StepReport& report) {
+void Hand::balance(double h_s, const RigidWay& hand, double enough_n, StepReport& report, int halvings) {
   const WorldState before = world_.state();
   const HandState hand_before = state_;
   const Matrix4 motion = motion_of_world(state_.world_from_hand, hand);
@@ -167,11 +167,23 @@ void Hand::balance(double h_s, const RigidWay& hand, double enough_n, StepReport
     // On the way to a grip, with the object still held, nothing depends on how fast the grip grows.
     const bool enough = !is_free() && spec_.mount.none() && std::max(grips[0], grips[1]) <= enough_n;
     if (gives_up || enough || search.stands()) {
+      const double imbalance = enough ? 0.0 : search.imbalance();
+      if (imbalance > kGripTolerance && halvings < config_.max_halvings) {
+        log_info("frame {}: {:.3g} of the force is missing to the balance of a drive; dividing the time step",
+                 run_.next(), imbalance);
+        done.time_steps = 0;
+        report.add_earlier(done);
+        report.add_earlier(spent);
+        start_again();
+        for (int half = 0; half < 2; ++half) balance(0.5 * h_s, hand * 0.5, enough_n, report, halvings + 1);
+        return;
+      }
       done.add_earlier(spent);
       done.add_earlier(report);
       report = done;
       for (const std::size_t side : {0, 1})
         state_.drives[side].measure(h_s, ways[side], grips[side], search.found_n_m(side));
+      imbalance_ = std::max(imbalance_, imbalance);
       return;
     }
     done.time_steps = 0;  // it is the same step

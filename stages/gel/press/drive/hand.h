@@ -1,6 +1,7 @@
 // The hand of a grasp: two fingers on their drives, moved in time steps that leave the drives in balance.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "common/sample/rigid_way.h"
@@ -31,6 +32,8 @@ class Hand {
   bool lost() const { return state_.drives[0].lost() && state_.drives[1].lost(); }
   /// Whether the drives have reached the force or the displacement that they should.
   bool arrived() const;
+  /// Largest fraction of the force that was missing to the balance of a drive after a time step, since the last call.
+  double take_imbalance() { return std::exchange(imbalance_, 0.0); }
   /// Frees the object. \return the forces by which the fingers press, N
   Ways let_go();
 
@@ -38,9 +41,10 @@ class Hand {
   void open_by(double way_m, double h_s, const RigidWay& motion, StepReport& report);
   /// A time step in which fingers with a displacement to reach go on towards it.
   void go_on(double h_s, const RigidWay& motion, StepReport& report);
-  /// A time step that ends with each drive in balance: tried with several displacements, each from the same state.
+  /// A time step that ends with each drive in balance: tried with several displacements, each from the same state, and
+  /// divided if none of them is in balance.
   /// \param enough_n while the object is held, a grip up to this needs no second try
-  void balance(double h_s, const RigidWay& motion, double enough_n, StepReport& report);
+  void balance(double h_s, const RigidWay& motion, double enough_n, StepReport& report, int halvings = 0);
 
  private:
   const Matrix4& object_pose() const { return world_.state().world_from_body[2]; }
@@ -59,6 +63,7 @@ class Hand {
   World& world_;
   const FrameRun& run_;
   HandState state_;
+  double imbalance_ = 0.0;
 };
 
 }  // namespace tacipc

@@ -26,7 +26,8 @@ struct SceneFrame {
 struct Scene {
   std::vector<Simulation> gels;  // each as a press of its own, in its own frame S
   std::vector<SceneFrame> frames;
-  std::vector<double> mass_kg;  // of rigid bodies
+  std::vector<double> mass_kg;      // of rigid bodies
+  std::vector<ContactLaw> contact;  // of the pairs that the scene's file names
   SolverTimes times;
 };
 

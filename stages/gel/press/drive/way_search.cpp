@@ -62,6 +62,7 @@ void WaySearch::note(double grip_n, double object_m) {
   }
   ++tries_;
   noted_m_ = into_m;
+  noted_way_m_ = way_m_;
   grip_n_ = grip_n;
   off_n_ = inertia_n_m_ * way_m_ + grip_n - push_n_;
   if (off_n_ < 0.0 && way_m_ > low_.way_m) low_ = {way_m_, off_n_};
@@ -75,10 +76,9 @@ std::optional<double> WaySearch::found_n_m() const {
   return std::nullopt;
 }
 
-bool WaySearch::stands() const {
-  return balanced() || (off_n_ < 0.0 && way_m_ >= most_m_) || (off_n_ > 0.0 && way_m_ <= least_m_) ||
-         tries_ >= kMostTries;
-}
+bool WaySearch::stands() const { return balanced() || at_its_limit() || tries_ >= kMostTries; }
+
+double WaySearch::imbalance() const { return balanced() || at_its_limit() ? 0.0 : std::abs(off_n_) / scale_n(); }
 
 void WaySearch::correct(double object_ahead_m) {
   const double total = inertia_n_m_ + stiffness_n_m_;

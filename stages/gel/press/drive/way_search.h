@@ -1,6 +1,7 @@
 // The search for the displacements of two fingers in one time step that leave their drives in balance.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -25,6 +26,9 @@ class WaySearch {
   void note(double grip_n, double object_m = 0.0);
   /// Whether that way stands: it is in balance, or as far as the drive may go towards it.
   bool stands() const;
+  /// Fraction of the force that is missing to the balance after the last way; 0 within the tolerance, or if the drive
+  /// may not go farther towards it.
+  double imbalance() const;
   /// The next way to be tried, towards the balance, if the object is to go ahead by so much more than it did. Where it
   /// stays, ways between two known ones are between them: the more a finger closes, the harder it presses.
   void correct(double object_ahead_m = 0.0);
@@ -43,6 +47,9 @@ class WaySearch {
  private:
   double scale_n() const;
   bool balanced() const;
+  bool at_its_limit() const {
+    return (off_n_ < 0.0 && noted_way_m_ >= most_m_) || (off_n_ > 0.0 && noted_way_m_ <= least_m_);
+  }
 
   double wanted_n_, inertia_n_m_, push_n_;  // push: m/h v + wanted
   double way_m_ = 0.0, off_n_ = 0.0, grip_n_;
@@ -54,7 +61,8 @@ class WaySearch {
     double way_m, off_n;
   };
   Known low_{-std::numeric_limits<double>::infinity(), 0.0}, high_{std::numeric_limits<double>::infinity(), 0.0};
-  double noted_m_ = 0.0;  // of finger into object, by the last try
+  double noted_m_ = 0.0;      // of finger into object, by the last try
+  double noted_way_m_ = 0.0;  // of the finger, by the last try
   int tries_ = 0;
 };
 
@@ -75,6 +83,7 @@ class PairSearch {
   /// \param object_m displacement of the object from left to right in the try
   void note(const Ways& grips_n, double object_m);
   bool stands() const { return sides_[0].stands() && sides_[1].stands(); }
+  double imbalance() const { return std::max(sides_[0].imbalance(), sides_[1].imbalance()); }
   void correct();
   std::optional<double> found_n_m(std::size_t side) const { return sides_[side].found_n_m(); }
 

@@ -124,8 +124,8 @@ void add_frames(PressSummary& summary, const Simulation& simulation) {
 }
 
 /// Every array of one gel, in a folder below --out ("" or with a slash at its end). \return the summary of its record
-/// \param friction coefficient \param end last frame of the first press
-Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel, double friction,
+/// \param end last frame of the first press
+Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel,
                      const std::optional<std::size_t>& end, const Simulation& simulation) {
   const auto& frames = simulation.frames;
   const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
@@ -156,7 +156,7 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
       .gel_vertices = vertices,
       .d_hat_m = simulation.d_hat_m,
       .element = simulation.element,
-      .friction_coefficient = friction,
+      .friction_coefficient = simulation.friction,
       .min_distance_m = simulation.gap_horizon_m,
       .min_volume_ratio = 1.0,
       .press_end_frame = end,
@@ -228,7 +228,8 @@ GraspFrameLines grasp_lines(const Grasp& grasp, std::size_t frame) {
                         .body_load_n = f.body_load_n,
                         .body_residual_n = f.body_residual_n,
                         .momentum_residual_n = f.whole.momentum_residual_n,
-                        .angular_residual_n_m = f.whole.angular_residual_n_m};
+                        .angular_residual_n_m = f.whole.angular_residual_n_m,
+                        .grip_imbalance = f.grip_imbalance};
   if (const std::size_t since = frame - grasp.freed_frame;
       frame >= grasp.freed_frame && since < grasp.friction_use.size() && std::isfinite(grasp.friction_use[since]))
     lines.friction_use = grasp.friction_use[since];
@@ -254,12 +255,11 @@ HeldPoseLines pose_lines(const GraspPose& pose) {
 
 }  // namespace
 
-void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
-                   const SampleSpec& sample, const Simulation& simulation) {
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const SampleSpec& sample,
+                   const Simulation& simulation) {
   std::vector<int> phases;
   for (const Frame& f : simulation.frames) phases.push_back(f.phase_index);
-  stage.summarize(
-      write_gel(stage, "", sensor, gel, config.coefficient_of_friction(), press_end_frame(sample, phases), simulation));
+  stage.summarize(write_gel(stage, "", sensor, gel, press_end_frame(sample, phases), simulation));
   add_cost(stage, simulation.times);
 }
 
@@ -267,8 +267,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   const auto& frames = grasp.frames;
   for (std::size_t side = 0; side < 2; ++side) {
     const std::string folder = std::string(side == 0 ? "left" : "right") + "/press";
-    stage.finish_part(
-        folder, write_gel(stage, folder + "/", sensor, gel, grasp.friction, grasp.freed_frame, grasp.fingers[side]));
+    stage.finish_part(folder, write_gel(stage, folder + "/", sensor, gel, grasp.freed_frame, grasp.fingers[side]));
   }
   std::vector<double> time, object, twist, hand, fingers, forces, drives;
   WholeArrays whole;
@@ -327,13 +326,11 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   add_cost(stage, grasp.fingers[0].times);
 }
 
-void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
-                   const SceneSpec& spec, const Scene& scene) {
+void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const SceneSpec& spec,
+                   const Scene& scene) {
   for (std::size_t g = 0; g < scene.gels.size(); ++g) {
     const std::string folder = "gels/" + spec.bodies[g].name + "/press";
-    stage.finish_part(
-        folder, write_gel(stage, folder + "/", sensor, bodies[g].tets,
-                          config.with_friction_of(sensor).coefficient_of_friction(), std::nullopt, scene.gels[g]));
+    stage.finish_part(folder, write_gel(stage, folder + "/", sensor, bodies[g].tets, std::nullopt, scene.gels[g]));
   }
   const std::vector<SceneFrame>& frames = scene.frames;
   const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),
@@ -393,6 +390,12 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
         SceneBodyLines{.name = spec.bodies[b].name, .kind = kBodyKinds[static_cast<std::size_t>(kind)]});
     if (b >= deformable) body.metres_per_unit = spec.bodies[b].metres_per_unit;
     if (kind == BodyKind::rigid) body.mass_kg = scene.mass_kg[b - deformable];
+  }
+  for (std::size_t i = 0; i < spec.contact.size(); ++i) {
+    const auto name = [&](int side) {
+      return spec.bodies[static_cast<std::size_t>(spec.contact[i].between[side])].name;
+    };
+    summary.contact.push_back({{name(0), name(1)}, scene.contact[i].friction, scene.contact[i].d_hat_m});
   }
   stage.summarize(record_lines(summary));
   add_cost(stage, scene.times);

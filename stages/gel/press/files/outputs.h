@@ -9,8 +9,8 @@
 namespace tacipc {
 
 /// Every array of the press folder, and the summary of the record.
-void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const PressConfig& config,
-                   const SampleSpec& sample, const Simulation& simulation);
+void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const SampleSpec& sample,
+                   const Simulation& simulation);
 
 /// A press folder of each finger in left/press and right/press, the motion of object and fingers in the world beside
 /// them, and the summary of the record.
@@ -18,7 +18,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
 
 /// A press folder of each gel in gels/<name>/press, the motion of all bodies in the world and the wrenches between them
 /// beside these, and the summary of the record.
-void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
-                   const SceneSpec& spec, const Scene& scene);
+void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const SceneSpec& spec,
+                   const Scene& scene);
 
 }  // namespace tacipc

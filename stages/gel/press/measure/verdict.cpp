@@ -46,6 +46,16 @@ void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& lim
   within("body_strain", "strain of the free object", numbers.body_strain, kVerdictLimits.body_strain, "");
   within("body_balance", "part of the free object's load that is not balanced,", numbers.body_balance_relative,
          kVerdictLimits.body_balance_relative, "");
+  within("body_torque", "torque on the free object that is not balanced, as a fraction of its load on 10 mm,",
+         numbers.body_torque_relative, kVerdictLimits.body_torque_relative, "");
+}
+
+void judge_grip(int frame, double imbalance) {
+  if (imbalance <= kGripTolerance) return;
+  throw VerdictError({.frame = frame, .check = "grip_balance", .value = imbalance, .limit = kGripTolerance},
+                     fmt::format("frame {}: {:.3g} of the force is missing to the balance of a finger's drive (limit "
+                                 "{:g}): give the phase more substeps, or the drive damping",
+                                 frame, imbalance, kGripTolerance));
 }
 
 }  // namespace tacipc

@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/sample/press_record.h"
 #include "stages/gel/press/measure/balance.h"
+#include "stages/gel/press/solve/step_report.h"
 
 namespace tacipc {
 
@@ -22,6 +23,8 @@ inline constexpr PressLimits kVerdictLimits{.smallest_distance_m = 0.0,
                                             .pose_error_m = 1e-9,
                                             .body_strain = 1e-3,
                                             .body_balance_relative = 1e-3,
+                                            .body_torque_relative = 1e-3,
+                                            .body_torque_arm_m = kBodyTorqueArm_m,
                                             .smallest_body_load_n = kSmallestBodyLoadN};
 
 /// The limits that follow from the configuration and the frame's contact force: what the solver promised to reach.
@@ -46,11 +49,18 @@ struct FrameNumbers {
   double pose_error_m = 0.0;
   double body_strain = 0.0;
   double body_balance_relative = 0.0;
+  double body_torque_relative = 0.0;
 };
 
 /// Checks in this order: exact test, containment, inverted tetrahedra, smallest distance, volume ratio, velocity, force
-/// and friction residual, balance, pose, strain and balance of a free object. A number that is not a number misses its
-/// limit. \throw VerdictError for the first miss.
+/// and friction residual, balance, pose, strain and balances of force and torque of a free object. NaN misses every
+/// limit. \throw VerdictError for the first miss
 void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits);
+
+/// Fraction of the force that may be missing to the balance of a finger's drive after a time step.
+inline constexpr double kGripTolerance = 0.02;
+/// Checks the drives of a grasp. \param imbalance largest such fraction in the frame's time steps
+/// \throw VerdictError if it exceeds kGripTolerance
+void judge_grip(int frame, double imbalance);
 
 }  // namespace tacipc

@@ -53,7 +53,8 @@ void finish_bodies(const SolverModel& model, const std::vector<Wrench>& between,
       force += of_contact.force_n;
       torque += of_contact.torque_n_m - center.cross(of_contact.force_n);
     }
-    const double part = force.norm() / std::max(free.weight_n, kLeastWeight);
+    const double part =
+        std::max(force.norm(), torque.norm() / kBodyTorqueArm_m) / std::max(free.weight_n, kLeastWeight);
     if (part <= worst) continue;
     worst = part;
     step.report.body_residual_n = force.norm();

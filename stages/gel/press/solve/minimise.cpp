@@ -18,9 +18,9 @@ constexpr double kLooseSolve = 3e-2, kCoarseSolve = 1e-2, kFineSolve = 1e-3;
 // A step this many times as long as the last one is a sign of an almost indefinite Hessian.
 constexpr double kLengthGrowth = 4.0;
 constexpr int kMaxExactHessianWaits = 10;
-// What is left of the balance of a free object: this part of its weight and load, at least of kLeastWeight; of torques
-// on an arm of so many metres.
-constexpr double kBodyTolerance = 5e-4, kBodyArm = 0.01;
+// Residual of the balance of a free object: this fraction of its weight or load, at least of kLeastWeight; of torques
+// on an arm of kBodyTorqueArm_m.
+constexpr double kBodyTolerance = 5e-4;
 // From so many whole steps in a row with an approximated Hessian on, each goes twice as far as the one before.
 constexpr int kCreeping = 6;
 constexpr double kMostStretch = 1e3;
@@ -156,7 +156,8 @@ bool Minimiser::within_tolerances(const Step& step, const NewtonDirection& direc
     // The gel's tolerance would leave a light object's weight unnoticed.
     const double h2 = step.goal.h_s * step.goal.h_s,
                  limit = kBodyTolerance * std::max(step.bodies[b].weight_n, kLeastWeight) * step.looseness;
-    if (!(direction.bodies[b].force / h2 < limit && direction.bodies[b].torque / h2 < limit * kBodyArm)) return false;
+    if (!(direction.bodies[b].force / h2 < limit && direction.bodies[b].torque / h2 < limit * kBodyTorqueArm_m))
+      return false;
   }
   return report.force_residual_n < step.looseness * settings.force_limit_n(report.contact_force_n);
 }

@@ -10,6 +10,9 @@
 
 namespace tacipc {
 
+/// Torque on a free object counts like a force on an arm of this length, m.
+inline constexpr double kBodyTorqueArm_m = 0.01;
+
 /// What a step took and where it ended.
 struct StepReport {
   int time_steps = 0;           // more than asked for where a step had to be divided
@@ -31,7 +34,7 @@ struct StepReport {
   double contact_force_n = 0.0;
   Vector3 object_shift_m = Vector3::Zero();  // displacement of the object along its free axes
   /// Of a free object, |change of momentum / h − the forces on it| and the same of angular momentum about its centre;
-  /// of several, of the one where the former is the largest part of the load.
+  /// of several, of the one where either, the latter over kBodyTorqueArm_m, is the largest fraction of the load.
   double body_residual_n = 0.0, body_residual_n_m = 0.0;
   double body_load_n = 0.0;  // its weight or the load on it, whichever is larger
 

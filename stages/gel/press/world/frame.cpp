@@ -18,7 +18,9 @@ FrameNumbers numbers_of(const Frame& frame) {
       .balance_relative = frame.balance.relative,
       .pose_error_m = frame.pose_error_m,
       .body_strain = frame.body_strain,
-      .body_balance_relative = frame.solver.body_residual_n / std::max(frame.solver.body_load_n, kSmallestBodyLoadN)};
+      .body_balance_relative = frame.solver.body_residual_n / std::max(frame.solver.body_load_n, kSmallestBodyLoadN),
+      .body_torque_relative =
+          frame.solver.body_residual_n_m / (kBodyTorqueArm_m * std::max(frame.solver.body_load_n, kSmallestBodyLoadN))};
 }
 
 SolverLimits limits_of(const PressConfig& config, const NewtonSettings& newton, double contact_force_n) {

@@ -44,10 +44,10 @@ struct Frame {
 
 /// All frames of one gel, and what holds for each of them.
 struct Simulation {
-  double d_hat_m = 0.0;
-  double barrier_stiffness = 0.0;  // κ, kg m⁻², before it grows (StepReport::barrier_factor)
-  double gap_horizon_m = 0.0;      // gaps are measured up to this distance
-  double object_mass_kg = 0.0;     // 0 if the sample gives no density
+  double friction = 0.0, d_hat_m = 0.0;  // of the gel with the object
+  double barrier_stiffness = 0.0;        // κ, kg m⁻², before it grows (StepReport::barrier_factor)
+  double gap_horizon_m = 0.0;            // gaps are measured up to this distance
+  double object_mass_kg = 0.0;           // 0 if the sample gives no density
   bool object_may_be_free = false;
   bool mount_gives_way = false;
   std::string face;

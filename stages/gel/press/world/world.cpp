@@ -129,7 +129,9 @@ SolvedGel World::deformable(std::size_t b) const {
 
 Simulation World::simulation_of(std::size_t gel) const {
   Simulation simulation;
-  simulation.d_hat_m = scales_.d_hat_m;
+  const ContactLaw& law = law_of(gel, std::min(object(0), bodies_.size() - 1));
+  simulation.friction = law.friction;
+  simulation.d_hat_m = law.d_hat_m;
   simulation.barrier_stiffness = scales_.barrier_stiffness;
   simulation.gap_horizon_m = scales_.gap_horizon_m;
   simulation.object_mass_kg = affine_.empty() ? 0.0 : affine_[0].mass_kg;
@@ -363,9 +365,7 @@ void World::judge(int number, const std::vector<Frame>& frames) const {
 }
 
 void World::require_apart() const {
-  tacipc::require_apart(shapes(), [&](std::size_t a, std::size_t b) {
-    return settings_.laws.of(static_cast<int>(a), static_cast<int>(b)).d_hat_m;
-  });
+  tacipc::require_apart(shapes(), [&](std::size_t a, std::size_t b) { return law_of(a, b).d_hat_m; });
 }
 
 std::vector<BodyShape> World::shapes() const {

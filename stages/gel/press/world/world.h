@@ -77,7 +77,11 @@ class World {
   TimeStepper& stepper() { return stepper_; }
   const StepForces& forces() const { return stepper_.forces(); }
 
-  /// A simulation of one gel without frames.
+  /// Friction and reach of contact between two bodies.
+  const ContactLaw& law_of(std::size_t a, std::size_t b) const {
+    return settings_.laws.of(static_cast<int>(a), static_cast<int>(b));
+  }
+  /// A simulation of one gel without frames; friction and d̂ are those with the first object.
   Simulation simulation_of(std::size_t gel) const;
 
   /// Number of the i-th object among all bodies; objects that may move freely come first.

@@ -51,6 +51,11 @@ TEST(SimulateVerdict, EveryNumberOfAFrameReachesItsCheck) {
          f.solver.body_residual_n = 0.125;
          f.solver.body_load_n = 0.5;
        }},
+      {"body_torque", 0.25,
+       [](Frame& f) {
+         f.solver.body_residual_n_m = 0.00125;
+         f.solver.body_load_n = 0.5;
+       }},
   };
   for (const Fault& fault : faults) {
     Frame frame = good;

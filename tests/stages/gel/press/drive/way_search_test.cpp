@@ -67,6 +67,32 @@ TEST(GripControl, RecoversFromAWrongGuessWithinAStep) {
   }
 }
 
+/// A grip that jumps from far below the force to far above it has no balance.
+TEST(WaySearch, SaysHowFarFromBalanceItGaveUp) {
+  GripControl drive;
+  drive.grip(1.0);
+  drive.last_grip_n = 0.5;
+  drive.stiffness_n_m = 3e3;
+  drive.last_step_m = 1e-4;
+  const auto gap = [](double none) { return none; };
+  WaySearch search(drive, {}, kStep_s, kMost_m, kReach_m, gap);
+  EXPECT_GT(search.imbalance(), 0.02);
+  int tries = 0;
+  for (;; ++tries, search.correct()) {
+    search.note(search.way_m() < 1.23e-4 ? 0.5 : 1.5);
+    if (search.stands()) break;
+  }
+  EXPECT_EQ(tries, 7);
+  EXPECT_NEAR(search.imbalance(), search.way_m() < 1.23e-4 ? 0.5 : 0.5 / 1.5, 1e-12);
+  // One that may not go farther is on its way, and one that has found the balance is not off it.
+  WaySearch bound(drive, {}, kStep_s, 1e-5, kReach_m, gap), found(drive, {}, kStep_s, kMost_m, kReach_m, gap);
+  bound.note(0.5);
+  EXPECT_TRUE(bound.stands());
+  EXPECT_EQ(bound.imbalance(), 0.0);
+  found.note(1.01);
+  EXPECT_EQ(found.imbalance(), 0.0);
+}
+
 TEST(GripControl, OpensToASmallerForce) {
   Spring spring{3e3, 1e-4};
   spring.drive.grip(1.0);

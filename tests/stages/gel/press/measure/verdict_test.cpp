@@ -22,7 +22,8 @@ FrameNumbers barely_good() {
           .balance_relative = 1e-3,
           .pose_error_m = 1e-9,
           .body_strain = 1e-3,
-          .body_balance_relative = 1e-3};
+          .body_balance_relative = 1e-3,
+          .body_torque_relative = 1e-3};
 }
 
 struct Told {
@@ -131,6 +132,30 @@ TEST(Verdict, FreeObject) {
   numbers.body_balance_relative = 4e-3;
   expect_miss(judged(numbers), "body_balance", 4e-3, 1e-3,
               "frame 7: part of the free object's load that is not balanced, 0.004 exceeds 0.001");
+  numbers = good();
+  numbers.body_torque_relative = 5e-3;
+  expect_miss(judged(numbers), "body_torque", 5e-3, 1e-3,
+              "frame 7: torque on the free object that is not balanced, as a fraction of its load on 10 mm, 0.005 "
+              "exceeds 0.001");
+}
+
+TEST(Verdict, DrivesOfAGrasp) {
+  EXPECT_NO_THROW(judge_grip(4, 0.02));
+  const auto miss = [](double imbalance) {
+    try {
+      judge_grip(4, imbalance);
+    } catch (const VerdictError& error) {
+      EXPECT_EQ(error.miss().check, "grip_balance");
+      EXPECT_EQ(error.miss().frame, 4);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(
+      miss(0.35),
+      "frame 4: 0.35 of the force is missing to the balance of a finger's drive (limit 0.02): give the phase more "
+      "substeps, or the drive damping");
+  EXPECT_NE(miss(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
 TEST(Verdict, WhatIsNoNumberMissesItsLimit) {
@@ -140,7 +165,8 @@ TEST(Verdict, WhatIsNoNumberMissesItsLimit) {
       {&FrameNumbers::min_volume_ratio, "volume_ratio"},   {&FrameNumbers::velocity_residual_m_s, "velocity_residual"},
       {&FrameNumbers::force_residual_n, "force_residual"}, {&FrameNumbers::friction_residual_n, "friction_residual"},
       {&FrameNumbers::balance_relative, "balance"},        {&FrameNumbers::pose_error_m, "pose_error"},
-      {&FrameNumbers::body_strain, "body_strain"},         {&FrameNumbers::body_balance_relative, "body_balance"}};
+      {&FrameNumbers::body_strain, "body_strain"},         {&FrameNumbers::body_balance_relative, "body_balance"},
+      {&FrameNumbers::body_torque_relative, "body_torque"}};
   for (const auto& [member, check] : members) {
     auto numbers = good();
     numbers.*member = nan;
