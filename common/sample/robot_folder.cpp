@@ -2,82 +2,84 @@
 
 #include <cctype>
 
-#include "common/base/error.h"
-#include "common/format/npy_field.h"
-#include "common/format/npy_pose.h"
+#include "common/sample/press_folder.h"
 #include "common/stage/record.h"
 
 namespace tacipc {
 namespace {
 
 namespace fs = std::filesystem;
+using enum NpyType;
 
-constexpr std::string_view kBodies = "bodies", kPads = "pads", kActuators = "actuators", kPositions = "positions",
-                           kVelocities = "velocities";
+constexpr std::string_view kModelBodies = "bodies", kActuators = "actuators", kPositions = "nq", kVelocities = "nv";
 
-const NpyField kTimes{.file = "time.npy", .shape = {kFrames}, .unit = "s"};
-const NpyField kSteps{.file = "step.npy", .type = NpyType::i4, .shape = {kFrames}};
-const NpyField kQpos{.file = "qpos.npy", .shape = {kFrames, kPositions}, .unit = "m, rad"};
-const NpyField kQvel{.file = "qvel.npy", .shape = {kFrames, kVelocities}, .unit = "m/s, rad/s"};
-const NpyField kControl{.file = "control.npy", .shape = {kFrames, kActuators}};
-const NpyField kActuatorForce{.file = "actuator_force.npy", .shape = {kFrames, kActuators}, .unit = "N, N m"};
-const NpyField kBodyPose{.file = "body_pose.npy", .shape = {kFrames, kBodies, 4, 4}, .unit = "m"};
-const NpyField kBodyTwist{.file = "body_twist.npy", .shape = {kFrames, kBodies, 6}, .unit = "m/s, rad/s"};
-const NpyField kPadPose{.file = "pad_pose.npy", .shape = {kFrames, kPads, 4, 4}, .unit = "m"};
-const NpyField kPadWrench{.file = "pad_wrench.npy", .shape = {kFrames, kPads, 6}, .unit = "N, N m"};
+const std::array<NpyField, 13>& all_fields() {
+  static const std::array<NpyField, 13> kFields{{
+      field_of(PressArray::time),
+      {"step.npy", i4, {kFrames}, "", "step of the task, from 0"},
+      {"qpos.npy", f8, {kFrames, kPositions}, "m, rad", "MuJoCo's own positions; quaternions are w, x, y, z"},
+      {"qvel.npy", f8, {kFrames, kVelocities}, "m/s, rad/s", "MuJoCo's own velocities"},
+      {"control.npy", f8, {kFrames, kActuators}, "", "commands of the actuators in the time step before"},
+      {"actuator_force.npy", f8, {kFrames, kActuators}, "N, N m", "forces of the actuators in the time step before"},
+      {"body_pose.npy",
+       f8,
+       {kFrames, kModelBodies, 4, 4},
+       "m",
+       "`world_from_body` of all bodies of the model but the world. Of a coupled run's rigid objects take pose and "
+       "twist from the scene's arrays: here they are put, at rest, where an earlier try had them"},
+      {"body_twist.npy",
+       f8,
+       {kFrames, kModelBodies, 6},
+       "m/s, rad/s",
+       "velocity of the origin of its frame, angular velocity, axes of the world"},
+      {"pad_pose.npy", f8, {kFrames, kPads, 4, 4}, "m", "`world_from_gel`"},
+      {"pad_wrench.npy",
+       f8,
+       {kFrames, kPads, 6},
+       "N, N m",
+       "on each pad as the robot felt it, force and torque about the origin of its S, axes of the world"},
+      {"paths/<pad>.npy", f8, {kFrames, 4, 4}, "m", "path of a gel, for `scene.yaml`: its poses in `pad_pose.npy`"},
+      {"state.npy", f8, {kStateNumbers}, "", "state of MuJoCo's model, from which a next window goes on"},
+      {"answers.npy",
+       f8,
+       {kWindowFrames, kPads, kAnswerNumbers},
+       "m, N, N m",
+       "of a window's try: pose of each pad (16 numbers), wrench (6) and gap (1) that the press returned for the try "
+       "before"},
+  }};
+  return kFields;
+}
 
-void add(std::vector<double>& all, double number) { all.push_back(number); }
-void add(std::vector<double>& all, const Matrix4& pose) { append_pose(all, pose); }
-void add(std::vector<double>& all, const Vector3& v) { all.insert(all.end(), v.begin(), v.end()); }
-void add(std::vector<double>& all, const Twist& twist) { add(all, twist.velocity_m_s), add(all, twist.spin_rad_s); }
-void add(std::vector<double>& all, const Wrench& wrench) { add(all, wrench.force_n), add(all, wrench.torque_n_m); }
-
-void take(const double*& at, double& number) { number = *at++; }
-void take(const double*& at, Matrix4& pose) { pose = pose_of(at), at += 16; }
-void take(const double*& at, Vector3& v) { v = {at[0], at[1], at[2]}, at += 3; }
-void take(const double*& at, Twist& twist) { take(at, twist.velocity_m_s), take(at, twist.spin_rad_s); }
-void take(const double*& at, Wrench& wrench) { take(at, wrench.force_n), take(at, wrench.torque_n_m); }
-
-/// Calls visit(field, member) for each array that has a row of things per frame.
+/// Calls visit(array, member) for each array that has a row of items per frame.
 template <typename Visit>
 void each_row(Visit&& visit) {
-  visit(kQpos, &RobotFrame::qpos);
-  visit(kQvel, &RobotFrame::qvel);
-  visit(kControl, &RobotFrame::control);
-  visit(kActuatorForce, &RobotFrame::actuator_force);
-  visit(kBodyPose, &RobotFrame::body_pose);
-  visit(kBodyTwist, &RobotFrame::body_twist);
-  visit(kPadPose, &RobotFrame::pad_pose);
-  visit(kPadWrench, &RobotFrame::pad_wrench);
+  visit(RobotArray::qpos, &RobotFrame::qpos);
+  visit(RobotArray::qvel, &RobotFrame::qvel);
+  visit(RobotArray::control, &RobotFrame::control);
+  visit(RobotArray::actuator_force, &RobotFrame::actuator_force);
+  visit(RobotArray::body_pose, &RobotFrame::body_pose);
+  visit(RobotArray::body_twist, &RobotFrame::body_twist);
+  visit(RobotArray::pad_pose, &RobotFrame::pad_pose);
+  visit(RobotArray::pad_wrench, &RobotFrame::pad_wrench);
 }
 
 }  // namespace
 
+std::span<const NpyField> robot_fields() { return all_fields(); }
+
+const NpyField& field_of(RobotArray array) { return all_fields()[static_cast<std::size_t>(array)]; }
+
 void write_robot_folder(Stage& stage, const RobotFolder& robot) {
   const std::vector<RobotFrame>& frames = robot.frames;
-  const Extents known{{kFrames, frames.size()},
-                      {kBodies, robot.parts.bodies.size()},
-                      {kPads, robot.parts.pads.size()},
-                      {kActuators, robot.parts.actuators.size()},
-                      {kPositions, frames[0].qpos.size()},
-                      {kVelocities, frames[0].qvel.size()}};
-  const auto write = [&](const NpyField& field, const std::vector<double>& values) {
-    write_field(field, stage.output(field.file), known, values);
-  };
-  std::vector<double> times, steps;
-  for (const RobotFrame& frame : frames) {
-    times.push_back(frame.time_s);
-    steps.push_back(frame.step);
-  }
-  write(kTimes, times);
-  write(kSteps, steps);
-  each_row([&](const NpyField& field, auto member) {
-    std::vector<double> values;
-    for (const RobotFrame& frame : frames) {
-      for (const auto& item : frame.*member) add(values, item);
-    }
-    write(field, values);
-  });
+  const ArrayWriter writer(stage, {{kFrames, frames.size()},
+                                   {kModelBodies, robot.parts.bodies.size()},
+                                   {kPads, robot.parts.pads.size()},
+                                   {kActuators, robot.parts.actuators.size()},
+                                   {kPositions, frames[0].qpos.size()},
+                                   {kVelocities, frames[0].qvel.size()}});
+  writer.write(RobotArray::time, frames, &RobotFrame::time_s);
+  writer.write(RobotArray::step, frames, &RobotFrame::step);
+  each_row([&](RobotArray array, auto member) { writer.write(array, frames, member); });
 }
 
 Value::Map robot_summary(const RobotFolder& robot) {
@@ -89,29 +91,27 @@ Value::Map robot_summary(const RobotFolder& robot) {
 }
 
 RobotFolder read_robot_folder(const fs::path& folder) {
-  if (!fs::is_regular_file(folder / "robot.yaml"))
-    throw DataError("{}: has no robot.yaml, so the robot did not finish", folder.string());
-  const Record summary = Record::from_file(folder / "robot.yaml").section("summary");
+  ArrayFolder arrays = ArrayFolder::finished(folder, "robot");
+  const Record summary = arrays.summary();
   RobotFolder robot{.parts = {summary.texts("bodies"), summary.texts("pads"), summary.texts("actuators")},
                     .frames = {}};
-  Extents known{{kBodies, robot.parts.bodies.size()},
-                {kPads, robot.parts.pads.size()},
-                {kActuators, robot.parts.actuators.size()}};
-  const auto read = [&](const NpyField& field) { return read_field(field, folder / field.file, known).data; };
-  const std::vector<double> times = read(kTimes), steps = read(kSteps);
-  if (times.empty()) throw DataError("{}: has no frames", (folder / kTimes.file).string());
+  arrays.know({{kModelBodies, robot.parts.bodies.size()},
+               {kPads, robot.parts.pads.size()},
+               {kActuators, robot.parts.actuators.size()}});
+  const std::vector<double> times = arrays.whole(field_of(RobotArray::time)),
+                            steps = arrays.whole(field_of(RobotArray::step));
   for (std::size_t f = 0; f < times.size(); ++f) {
     RobotFrame& frame = robot.frames.emplace_back();
     frame.time_s = times[f];
     frame.step = static_cast<int>(steps[f]);
   }
-  each_row([&](const NpyField& field, auto member) {
-    const std::vector<double> values = read(field);
-    const std::size_t items = known.at(std::get<std::string_view>(field.shape[1]));
-    const double* at = values.data();
+  each_row([&]<typename Item>(RobotArray array, std::vector<Item> RobotFrame::*member) {
+    const std::vector<Item> all = arrays.items<Item>(field_of(array));
+    auto at = all.begin();
+    const auto of_frame = static_cast<std::ptrdiff_t>(all.size() / times.size());
     for (RobotFrame& frame : robot.frames) {
-      (frame.*member).resize(items);
-      for (auto& item : frame.*member) take(at, item);
+      (frame.*member).assign(at, at + of_frame);
+      at += of_frame;
     }
   });
   return robot;

@@ -1,16 +1,42 @@
-// A folder that `robot` wrote: the motion of a robot frame by frame. The only owner of its arrays.
+// A folder that `robot` wrote: the motion of a robot frame by frame. The only place that knows its arrays.
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/types.h"
 #include "common/base/wrench.h"
-#include "common/sample/press_folder.h"
-#include "common/stage/stage.h"
+#include "common/sample/array_folder.h"
 
 namespace tacipc {
+
+enum class RobotArray {
+  time,
+  step,
+  qpos,
+  qvel,
+  control,
+  actuator_force,
+  body_pose,
+  body_twist,
+  pad_pose,
+  pad_wrench,
+  path,
+  state,
+  answers
+};
+
+/// Symbols of shapes.
+inline constexpr std::string_view kPads = "pads", kWindowFrames = "window frames", kStateNumbers = "#state";
+/// Numbers of a pad's answer: pose, wrench, gap.
+inline constexpr int kAnswerNumbers = 16 + 6 + 1;
+
+/// Every array, in the order of the enum: the table that docs/files.md shows.
+std::span<const NpyField> robot_fields();
+const NpyField& field_of(RobotArray array);
 
 /// What a robot is made of, in the order of the arrays.
 struct RobotParts {
@@ -33,7 +59,8 @@ struct RobotFolder {
   std::vector<RobotFrame> frames;
 };
 
-/// Writes the arrays as outputs of a stage; names of the parts go into the record's summary, which the caller writes.
+/// Writes the arrays of the frames as outputs of a stage; names of the parts go into the record's summary, which the
+/// caller writes.
 void write_robot_folder(Stage& stage, const RobotFolder& robot);
 
 /// \throw DataError if the robot did not finish, or an array is missing or of another shape

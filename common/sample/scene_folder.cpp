@@ -1,11 +1,5 @@
 #include "common/sample/scene_folder.h"
 
-#include <algorithm>
-#include <array>
-
-#include "common/base/error.h"
-#include "common/format/npy_field.h"
-#include "common/format/npy_pose.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/press_record.h"
 
@@ -13,73 +7,130 @@ namespace tacipc {
 namespace {
 
 namespace fs = std::filesystem;
+using enum NpyType;
 
 // Rows of finger_pose.npy.
 constexpr std::array<const char*, 2> kFingers{"left", "right"};
+constexpr int kFingerCount = kFingers.size();
 
-const NpyField kTimes{.file = "time.npy", .shape = {kFrames}, .unit = "s"};
-const NpyField kObjectPoses{.file = "object_pose.npy", .shape = {kFrames, 4, 4}, .unit = "m"};
-const NpyField kFingerPoses{
-    .file = "finger_pose.npy", .shape = {kFrames, static_cast<int>(kFingers.size()), 4, 4}, .unit = "m"};
-
-constexpr std::string_view kBodies = "bodies";
-const NpyField kBodyPoses{.file = "body_pose.npy", .shape = {kFrames, kBodies, 4, 4}, .unit = "m"};
-const NpyField kWrenches{.file = "wrench.npy", .shape = {kFrames, kBodies, kBodies, 6}, .unit = "N, N m"};
-const NpyField kEnergies{.file = "energy.npy", .shape = {kFrames, 8}, .unit = "J"};
-const NpyField kSoftPositions{.file = "positions.npy", .shape = {kFrames, kVertices, 3}, .unit = "m"};
-
-Matrix4 pose_at(const std::vector<double>& values, std::size_t index) { return pose_of(values.data() + 16 * index); }
-
-/// An array of the folder; what the symbols of its shape stand for is kept.
-std::vector<double> values_of(const fs::path& folder, const NpyField& field, Extents& known) {
-  return read_field(field, folder / field.file, known).data;
+NpyField energy_field() {
+  return {"energy.npy",
+          f8,
+          {kFrames, kEnergies},
+          "J",
+          "of gels and bodies but fixed ones: kinetic, elastic (of gels and soft bodies, long-term), of the contact "
+          "barrier, gravitational (from the world's origin); since the start: work of mounts and of whoever holds or "
+          "loads a body, lost by friction, by damping, by the time integration"};
 }
 
-std::vector<double> read_times(const fs::path& folder, Extents& known) {
-  if (!fs::is_regular_file(folder / "press.yaml"))
-    throw DataError("{}: has no press.yaml, so the press did not finish", folder.string());
-  std::vector<double> times = values_of(folder, kTimes, known);
-  if (times.empty()) throw DataError("{}: has no frames", (folder / kTimes.file).string());
-  return times;
+NpyField momentum_field() {
+  return {"momentum.npy",
+          f8,
+          {kFrames, kMomenta, 3},
+          "N s, N m s",
+          "of gels and bodies but fixed ones, about the world's origin: momentum, angular momentum; since the start: "
+          "impulse and angular impulse of weight, mounts and whoever holds or loads a body, angular momentum that the "
+          "time integration added"};
 }
 
-/// The bodies that the record of a scene lists, in the order of its arrays.
-std::vector<RecordLines<SceneBodyLines>> listed_bodies(const fs::path& folder, Extents& known) {
-  auto bodies = summary_of<SceneSummary>(Record::from_file(folder / "press.yaml")).sections(&SceneSummary::bodies);
-  known.emplace(kBodies, bodies.size());
-  return bodies;
+const std::array<NpyField, 9>& all_grasp_fields() {
+  static const std::array<NpyField, 9> kFields{{
+      field_of(PressArray::time),
+      {"object_pose.npy", f8, {kFrames, 4, 4}, "m", "`world_from_object`"},
+      {"object_twist.npy",
+       f8,
+       {kFrames, 6},
+       "m/s, rad/s",
+       "velocity of the object's centre of mass and its angular velocity, axes of the world"},
+      {"hand_pose.npy",
+       f8,
+       {kFrames, 4, 4},
+       "m",
+       "`world_from_hand`: its origin is where the object is gripped in frame 0"},
+      {"finger_pose.npy",
+       f8,
+       {kFrames, kFingerCount, 4, 4},
+       "m",
+       "`world_from_finger` of left and right: S in the world"},
+      {"finger_force.npy",
+       f8,
+       {kFrames, kFingerCount, 3},
+       "N",
+       "contact force on each finger, of the object and of the other gel, axes of the world"},
+      {"finger_drive.npy",
+       f8,
+       {kFrames, kFingerCount, 3},
+       "N, m, m/s",
+       "of left and right finger: force that its drive closes with (its grip, where it follows a way), its way since "
+       "frame 0, its velocity"},
+      energy_field(),
+      momentum_field(),
+  }};
+  return kFields;
+}
+
+const std::array<NpyField, 7>& all_scene_fields() {
+  static const std::array<NpyField, 7> kFields{{
+      field_of(PressArray::time),
+      {"body_pose.npy",
+       f8,
+       {kFrames, kBodies, 4, 4},
+       "m",
+       "`world_from_body`; of a gel that of its mount, of a soft body the pose at the start"},
+      {"body_twist.npy",
+       f8,
+       {kFrames, kRigidBodies, 6},
+       "m/s, rad/s",
+       "velocity of the centre of mass, angular velocity, axes of the world; none without rigid bodies"},
+      {"wrench.npy",
+       f8,
+       {kFrames, kBodies, kBodies, 6},
+       "N, N m",
+       "[a, b]: force and torque about the world's origin on body a by body b"},
+      energy_field(),
+      momentum_field(),
+      {"soft/<name>/positions.npy", f8, {kFrames, kVertices, 3}, "m", "vertices of `object.msh`, in the world"},
+  }};
+  return kFields;
+}
+
+/// A finished scene, and the bodies that its record lists, in the order of its arrays.
+std::pair<ArrayFolder, std::vector<RecordLines<SceneBodyLines>>> open_scene(const fs::path& folder) {
+  ArrayFolder arrays = ArrayFolder::finished(folder, "press");
+  auto bodies = RecordLines<SceneSummary>(arrays.summary()).sections(&SceneSummary::bodies);
+  arrays.know({{kBodies, bodies.size()}});
+  return {std::move(arrays), std::move(bodies)};
 }
 
 /// Poses of one of several bodies.
-std::vector<Matrix4> poses_of(const std::vector<double>& values, std::size_t body, std::size_t bodies) {
+std::vector<Matrix4> poses_of(const std::vector<Matrix4>& all, std::size_t body, std::size_t bodies) {
   std::vector<Matrix4> poses;
-  for (std::size_t at = body; 16 * at < values.size(); at += bodies) poses.push_back(pose_at(values, at));
+  for (std::size_t at = body; at < all.size(); at += bodies) poses.push_back(all[at]);
   return poses;
 }
 
 SceneFolder read_grasp(const fs::path& folder) {
-  Extents known;
-  SceneFolder scene{.times_s = read_times(folder, known), .gels = {}, .objects = {}};
-  scene.objects.push_back({"object", poses_of(values_of(folder, kObjectPoses, known), 0, 1)});
-  const std::vector<double> fingers = values_of(folder, kFingerPoses, known);
+  const ArrayFolder arrays = ArrayFolder::finished(folder, "press");
+  SceneFolder scene{.times_s = arrays.whole(field_of(GraspArray::time)), .gels = {}, .objects = {}};
+  scene.objects.push_back({"object", arrays.items<Matrix4>(field_of(GraspArray::object_pose))});
+  const auto fingers = arrays.items<Matrix4>(field_of(GraspArray::finger_pose));
   for (std::size_t g = 0; g < kFingers.size(); ++g)
     scene.gels.push_back({kFingers[g], folder / kFingers[g], poses_of(fingers, g, kFingers.size())});
   return scene;
 }
 
 SceneFolder read_bodies(const fs::path& folder) {
-  Extents known;
-  SceneFolder scene{.times_s = read_times(folder, known), .gels = {}, .objects = {}};
-  const auto bodies = listed_bodies(folder, known);
-  const std::vector<double> values = values_of(folder, kBodyPoses, known);
+  const auto [arrays, bodies] = open_scene(folder);
+  SceneFolder scene{.times_s = arrays.whole(field_of(SceneArray::time)), .gels = {}, .objects = {}};
+  const auto all = arrays.items<Matrix4>(field_of(SceneArray::body_pose));
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::string name = bodies[b].required(&SceneBodyLines::name),
                       kind = bodies[b].required(&SceneBodyLines::kind);
-    std::vector<Matrix4> poses = poses_of(values, b, bodies.size());
+    std::vector<Matrix4> poses = poses_of(all, b, bodies.size());
     if (kind == "gel") {
       scene.gels.push_back({name, folder / "gels" / name, std::move(poses)});
     } else if (kind == "soft") {
-      scene.soft.push_back({name, body_input(name), folder / "soft" / name / kSoftPositions.file});
+      scene.soft.push_back({name, body_input(name), folder});
     } else {
       scene.objects.push_back({name, std::move(poses), body_input(name),
                                bodies[b].required(&SceneBodyLines::metres_per_unit), kind == "fixed"});
@@ -88,13 +139,21 @@ SceneFolder read_bodies(const fs::path& folder) {
   return scene;
 }
 
-bool has_bodies(const fs::path& folder) { return fs::is_regular_file(folder / kBodyPoses.file); }
+bool has(const fs::path& folder, const NpyField& field) { return fs::is_regular_file(folder / field.file); }
+
+bool has_bodies(const fs::path& folder) { return has(folder, field_of(SceneArray::body_pose)); }
 
 }  // namespace
 
+std::span<const NpyField> grasp_fields() { return all_grasp_fields(); }
+std::span<const NpyField> scene_fields() { return all_scene_fields(); }
+
+const NpyField& field_of(GraspArray array) { return all_grasp_fields()[static_cast<std::size_t>(array)]; }
+const NpyField& field_of(SceneArray array) { return all_scene_fields()[static_cast<std::size_t>(array)]; }
+
 std::vector<Positions> SceneSoft::positions(std::size_t frames, std::size_t vertices) const {
-  Extents known{{kFrames, frames}, {kVertices, vertices}};
-  const std::vector<double> values = read_field(kSoftPositions, array, known).data;
+  const ArrayFolder arrays(folder, "press", {{kFrames, frames}, {kVertices, vertices}});
+  const std::vector<double> values = arrays.whole(field_named(field_of(SceneArray::soft_positions), name));
   std::vector<Positions> all;
   for (std::size_t f = 0; f < frames; ++f)
     all.emplace_back(
@@ -103,7 +162,7 @@ std::vector<Positions> SceneSoft::positions(std::size_t frames, std::size_t vert
 }
 
 bool is_scene_folder(const fs::path& folder) {
-  return has_bodies(folder) || fs::is_regular_file(folder / kFingerPoses.file);
+  return has_bodies(folder) || has(folder, field_of(GraspArray::finger_pose));
 }
 
 SceneFolder read_scene_folder(const fs::path& folder) {
@@ -111,28 +170,24 @@ SceneFolder read_scene_folder(const fs::path& folder) {
 }
 
 SceneBodies read_scene_bodies(const fs::path& folder) {
-  Extents known;
+  const auto [arrays, listed] = open_scene(folder);
   SceneBodies scene;
-  const std::size_t frames = read_times(folder, known).size();
-  for (const auto& body : listed_bodies(folder, known)) {
+  for (const auto& body : listed) {
     scene.bodies.push_back(body.required(&SceneBodyLines::name));
     scene.kinds.push_back(body.required(&SceneBodyLines::kind));
   }
-  const std::vector<double> poses = values_of(folder, kBodyPoses, known),
-                            wrenches = values_of(folder, kWrenches, known),
-                            energies = values_of(folder, kEnergies, known);
-  const std::size_t count = scene.bodies.size();
+  const std::size_t frames = arrays.whole(field_of(SceneArray::time)).size(), count = listed.size();
+  const auto poses = arrays.items<Matrix4>(field_of(SceneArray::body_pose));
+  const auto wrenches = arrays.items<Wrench>(field_of(SceneArray::wrench));
   for (std::size_t f = 0; f < frames; ++f) {
-    auto& of_frame = scene.per_frame.emplace_back();
-    for (std::size_t pair = 0; pair < count * count; ++pair) {
-      const double* six = wrenches.data() + 6 * (count * count * f + pair);
-      of_frame.push_back({Vector3(six[0], six[1], six[2]), Vector3(six[3], six[4], six[5])});
-    }
-    auto& energy = scene.energy_j.emplace_back();
-    std::copy_n(energies.begin() + static_cast<std::ptrdiff_t>(energy.size() * f), energy.size(), energy.begin());
-    auto& at = scene.body_pose.emplace_back();
-    for (std::size_t b = 0; b < count; ++b) at.push_back(pose_at(poses, count * f + b));
+    const auto rows = [f](const auto& all, std::size_t of_frame) {
+      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(f * of_frame);
+      return std::vector(begin, begin + static_cast<std::ptrdiff_t>(of_frame));
+    };
+    scene.per_frame.push_back(rows(wrenches, count * count));
+    scene.body_pose.push_back(rows(poses, count));
   }
+  scene.energy_j = arrays.items<std::array<double, kEnergies>>(field_of(SceneArray::energy));
   return scene;
 }
 

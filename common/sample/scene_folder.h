@@ -1,16 +1,45 @@
-// A folder in which several gels and objects share one world, as `press` leaves a grasp or a scene: where each of them
-// is in every frame. The only reader of its arrays; each gel has a press folder of its own below it.
+// A folder in which several gels and objects share one world, as `press` leaves a grasp or a scene: the pose of each of
+// them in every frame. The only place that knows its arrays; each gel has a press folder of its own below it.
 #pragma once
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/types.h"
 #include "common/base/wrench.h"
+#include "common/sample/array_folder.h"
 
 namespace tacipc {
+
+/// Arrays of a grasp.
+enum class GraspArray {
+  time,
+  object_pose,
+  object_twist,
+  hand_pose,
+  finger_pose,
+  finger_force,
+  finger_drive,
+  energy,
+  momentum
+};
+/// Arrays of a scene.
+enum class SceneArray { time, body_pose, body_twist, wrench, energy, momentum, soft_positions };
+
+/// Symbols of shapes; a scene's bodies are in the order of summary.bodies of its record.
+inline constexpr std::string_view kBodies = "bodies", kRigidBodies = "rigid bodies";
+/// Rows of energy.npy and of momentum.npy.
+inline constexpr int kEnergies = 8, kMomenta = 5;
+
+/// Every array, in the order of its enum: the tables that docs/files.md shows.
+std::span<const NpyField> grasp_fields();
+std::span<const NpyField> scene_fields();
+const NpyField& field_of(GraspArray array);
+const NpyField& field_of(SceneArray array);
 
 struct SceneGel {
   std::string name;  // of its folder, which holds press/ and render/
@@ -32,8 +61,8 @@ struct SceneObject {
 /// A soft body: the vertices of its tetrahedra in the world.
 struct SceneSoft {
   std::string name;
-  std::string input;            // name of its mesh among the inputs in press.yaml
-  std::filesystem::path array;  // its positions
+  std::string input;             // name of its mesh among the inputs in press.yaml
+  std::filesystem::path folder;  // of the scene
 
   /// Of all frames, m. \throw DataError if there are not as many frames, or vertices, or one is not finite
   std::vector<Positions> positions(std::size_t frames, std::size_t vertices) const;
@@ -63,7 +92,7 @@ struct SceneBodies {
   std::vector<std::vector<Matrix4>> body_pose;  // world_from_body, m, per frame
   /// J, per frame: kinetic, elastic, of the contact barrier, gravitational; since the start: work of mounts and of
   /// those who hold or load, lost by friction, by damping, by the time integration.
-  std::vector<std::array<double, 8>> energy_j;
+  std::vector<std::array<double, kEnergies>> energy_j;
 };
 
 /// \throw DataError as read_scene_folder, and for a grasp, which has none

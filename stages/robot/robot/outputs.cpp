@@ -11,8 +11,6 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/format/csv.h"
-#include "common/format/npy.h"
-#include "common/format/npy_pose.h"
 #include "common/sample/robot_folder.h"
 #include "common/sample/scene_folder.h"
 #include "common/stage/record.h"
@@ -24,10 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kState = "state.npy";
-constexpr const char* kBasis = "answers.npy";
 constexpr const char* kEvents = "contacts.csv";
-constexpr std::size_t kAnswerNumbers = 16 + 6 + 1;
 
 Value::List numbers(const Vector3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }
 
@@ -45,7 +40,8 @@ std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::
                        const RobotModel& robot, const std::vector<Matrix4>& object_start, int frames) {
   Value::List bodies;
   for (const PadSpec& pad : task.pads)
-    bodies.emplace_back(Value::Map{{"name", pad.name}, {"kind", "gel"}, {"path", "paths/" + pad.name + ".npy"}});
+    bodies.emplace_back(Value::Map{
+        {"name", pad.name}, {"kind", "gel"}, {"path", field_named(field_of(RobotArray::path), pad.name).file}});
   for (std::size_t i = 0; i < task.objects.size(); ++i) {
     const ObjectSpec& spec = task.objects[i];
     Value::Map body{{"name", spec.name},
@@ -117,25 +113,26 @@ void write_outputs(Stage& stage, const TaskSpec& task, const std::vector<TaskObj
   for (const ContactEvent& event : run.events)
     events += csv_line({fmt::format("{}", event.time_s), event.first, event.second, event.begins ? "begins" : "ends"});
   write_file(stage.output(kEvents), events);
-  write_npy(stage.output(kState), {run.state.size()}, run.state.data());
-  for (std::size_t p = 0; p < task.pads.size(); ++p) {
-    std::vector<double> path;
-    for (const RobotFrame& frame : run.frames) append_pose(path, frame.pad_pose[p]);
-    write_npy(stage.output("paths/" + task.pads[p].name + ".npy"), {run.frames.size(), 4, 4}, path.data());
-  }
+  const ArrayWriter writer(stage, {{kFrames, run.frames.size()},
+                                   {kStateNumbers, run.state.size()},
+                                   {kPads, task.pads.size()},
+                                   {kWindowFrames, answers ? answers->frames.size() : 0}});
+  writer.write(RobotArray::state, run.state);
+  for (std::size_t p = 0; p < task.pads.size(); ++p)
+    writer.write(field_named(field_of(RobotArray::path), task.pads[p].name), run.frames,
+                 [p](const RobotFrame& frame) { return frame.pad_pose[p]; });
   write_file(stage.output("scene.yaml"),
              scene_text(stage.out(), task, objects, robot, object_start, static_cast<int>(run.frames.size()) - 1));
   if (answers) {
-    std::vector<double> basis;
-    for (const auto& frame : answers->frames) {
+    writer.write(RobotArray::answers, answers->frames, [](const std::vector<PadAnswer>& frame) {
+      std::vector<double> numbers;
       for (const PadAnswer& answer : frame) {
-        append_pose(basis, answer.world_from_gel);
-        basis.insert(basis.end(), answer.wrench.force_n.begin(), answer.wrench.force_n.end());
-        basis.insert(basis.end(), answer.wrench.torque_n_m.begin(), answer.wrench.torque_n_m.end());
-        basis.push_back(answer.gap_m);
+        append_numbers(numbers, answer.world_from_gel);
+        append_numbers(numbers, answer.wrench);
+        append_numbers(numbers, answer.gap_m);
       }
-    }
-    write_npy(stage.output(kBasis), {answers->frames.size(), task.pads.size(), kAnswerNumbers}, basis.data());
+      return numbers;
+    });
   }
   stage.summarize(robot_summary(folder));
 }
@@ -146,24 +143,18 @@ RobotRun read_run(const fs::path& path) {
   CsvReader events(path / kEvents);
   while (events.next())
     run.events.push_back({std::stod(events["time_s"]), events["first"], events["second"], events["event"] == "begins"});
-  run.state = read_npy(path / kState).data;
+  run.state = ArrayFolder(path, "robot").whole(field_of(RobotArray::state));
   return run;
 }
 
 std::vector<std::vector<PadAnswer>> read_basis(const fs::path& folder, std::size_t pads) {
   std::vector<std::vector<PadAnswer>> all;
-  if (!fs::is_regular_file(folder / kBasis)) return all;
-  const NpyArray basis = read_npy(folder / kBasis);
-  if (basis.shape.size() != 3 || basis.shape[1] != pads || basis.shape[2] != kAnswerNumbers)
-    throw DataError("{}: is of another task", (folder / kBasis).string());
-  for (std::size_t at = 0; at < basis.data.size();) {
-    auto& frame = all.emplace_back();
-    for (std::size_t p = 0; p < pads; ++p, at += kAnswerNumbers) {
-      const double* n = basis.data.data() + at;
-      frame.push_back({.world_from_gel = pose_of(n),
-                       .wrench = {Vector3(n[16], n[17], n[18]), Vector3(n[19], n[20], n[21])},
-                       .gap_m = n[22]});
-    }
+  const ArrayFolder arrays(folder, "robot", {{kPads, pads}});
+  if (!arrays.has(field_of(RobotArray::answers))) return all;
+  const std::vector<double> numbers = arrays.whole(field_of(RobotArray::answers));
+  for (const double *at = numbers.data(), *end = at + numbers.size(); at != end;) {
+    for (PadAnswer& answer : all.emplace_back(pads))
+      take(at, answer.world_from_gel), take(at, answer.wrench), take(at, answer.gap_m);
   }
   return all;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -12,6 +13,8 @@
 #include "common/sample/pose_file.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/render_folder.h"
+#include "common/sample/robot_folder.h"
+#include "common/sample/scene_folder.h"
 #include "stages/dataset/report/dataset/overview_text.h"
 #include "stages/image/track/track_arrays.h"
 
@@ -47,10 +50,26 @@ std::string row_of(const ImageField& field) {
                      field.meaning);
 }
 
-TEST(FilesPage, ListsThePressFolder) {
-  std::string expected;
-  for (const NpyField& field : press_fields()) expected += row_of(field);
-  EXPECT_EQ(table_below("The press folder"), expected);
+/// Folders of arrays by the headings of their tables.
+const std::map<std::string, std::span<const NpyField>> kFolders{{"The press folder", press_fields()},
+                                                                {"The grasp folder", grasp_fields()},
+                                                                {"The scene folder", scene_fields()},
+                                                                {"The robot folder", robot_fields()}};
+
+TEST(FilesPage, ListsTheFoldersOfArrays) {
+  for (const auto& [heading, fields] : kFolders) {
+    std::string expected;
+    for (const NpyField& field : fields) expected += row_of(field);
+    EXPECT_EQ(table_below(heading), expected) << heading;
+  }
+}
+
+TEST(FilesPage, EveryCodeOfAnArrayHasItsDeclaration) {
+  EXPECT_EQ(field_of(PressArray::holder_pose).file, "holder_pose.npy");
+  EXPECT_EQ(&field_of(PressArray::holder_pose), &press_fields().back());
+  EXPECT_EQ(&field_of(GraspArray::momentum), &grasp_fields().back());
+  EXPECT_EQ(&field_of(SceneArray::soft_positions), &scene_fields().back());
+  EXPECT_EQ(&field_of(RobotArray::answers), &robot_fields().back());
 }
 
 TEST(FilesPage, ListsTheFolderOfAFrame) {
@@ -118,7 +137,9 @@ TEST(FilesPage, ThePageOverADatasetHasTheSameUnits) {
 TEST(FilesPage, NamesNoArrayThatNobodyDeclares) {
   std::set<std::string> declared{marker_px_field().file, marker_track_field().file, marker_quality_field().file,
                                  ball_poses_field().file, image_poses_field().file};
-  for (const NpyField& field : press_fields()) declared.insert(field.file);
+  for (const auto& [heading, fields] : kFolders) {
+    for (const NpyField& field : fields) declared.insert(std::filesystem::path(field.file).filename());
+  }
   const std::regex name(R"((\w+\.npy))");
   for (std::sregex_iterator at(kPage.begin(), kPage.end(), name), end; at != end; ++at)
     EXPECT_TRUE(declared.contains(at->str())) << at->str();

@@ -6,10 +6,9 @@
 #include <limits>
 
 #include "common/base/files.h"
-#include "common/format/npy.h"
-#include "common/format/npy_pose.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/press_record.h"
+#include "common/sample/scene_folder.h"
 #include "common/sensor/markers.h"
 #include "stages/gel/press/drive/grasp_outcome.h"
 #include "stages/gel/press/measure/contact_summary.h"
@@ -183,11 +182,6 @@ void add_cost(Stage& stage, const SolverTimes& t) {
               {"products", t.products}});
 }
 
-void write_array(Stage& stage, const std::string& name, const std::vector<std::size_t>& shape,
-                 const std::vector<double>& values) {
-  write_npy(stage.output(name), shape, values.data());
-}
-
 /// Energy and momentum of the whole over the frames, as files.
 struct WholeArrays {
   std::vector<double> energy, momentum;
@@ -201,9 +195,10 @@ struct WholeArrays {
       momentum.insert(momentum.end(), row->begin(), row->end());
     momentum_residual_n = std::max(momentum_residual_n, whole.momentum_residual_n);
   }
-  void write(Stage& stage) const {
-    write_array(stage, "energy.npy", {energy.size() / 8, 8}, energy);
-    write_array(stage, "momentum.npy", {momentum.size() / 15, 5, 3}, momentum);
+  template <typename Array>
+  void write(const ArrayWriter& writer) const {
+    writer.write(Array::energy, energy);
+    writer.write(Array::momentum, momentum);
   }
 };
 
@@ -269,34 +264,29 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
     const std::string folder = std::string(side == 0 ? "left" : "right") + "/press";
     stage.finish_part(folder, write_gel(stage, folder + "/", sensor, gel, grasp.freed_frame, grasp.fingers[side]));
   }
-  std::vector<double> time, object, twist, hand, fingers, forces, drives;
   WholeArrays whole;
   std::vector<GraspFrameLines> per_frame;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const GraspFrame& f = frames[i];
-    time.push_back(f.time_s);
-    append_pose(object, f.world_from_object);
-    twist.insert(twist.end(), f.velocity_m_s.begin(), f.velocity_m_s.end());
-    twist.insert(twist.end(), f.spin_rad_s.begin(), f.spin_rad_s.end());
-    append_pose(hand, f.world_from_hand);
-    for (std::size_t side = 0; side < 2; ++side) {
-      append_pose(fingers, f.world_from_finger[side]);
-      forces.insert(forces.end(), f.force_on_finger_n[side].begin(), f.force_on_finger_n[side].end());
-      const FingerDrive& drive = f.drives[side];
-      drives.insert(drives.end(), {drive.force_n, drive.closed_m, drive.velocity_m_s});
-    }
-    whole.add(f.whole);
+    whole.add(frames[i].whole);
     per_frame.push_back(grasp_lines(grasp, i));
   }
   const std::size_t n = frames.size();
-  write_array(stage, "time.npy", {n}, time);
-  write_array(stage, "object_pose.npy", {n, 4, 4}, object);
-  write_array(stage, "object_twist.npy", {n, 6}, twist);
-  write_array(stage, "hand_pose.npy", {n, 4, 4}, hand);
-  write_array(stage, "finger_pose.npy", {n, 2, 4, 4}, fingers);
-  write_array(stage, "finger_force.npy", {n, 2, 3}, forces);
-  write_array(stage, "finger_drive.npy", {n, 2, 3}, drives);
-  whole.write(stage);
+  const ArrayWriter writer(stage, {{kFrames, n}});
+  writer.write(GraspArray::time, frames, &GraspFrame::time_s);
+  writer.write(GraspArray::object_pose, frames, &GraspFrame::world_from_object);
+  writer.write(GraspArray::object_twist, frames, [](const GraspFrame& f) {
+    return Twist{f.velocity_m_s, f.spin_rad_s};
+  });
+  writer.write(GraspArray::hand_pose, frames, &GraspFrame::world_from_hand);
+  writer.write(GraspArray::finger_pose, frames, &GraspFrame::world_from_finger);
+  writer.write(GraspArray::finger_force, frames, &GraspFrame::force_on_finger_n);
+  writer.write(GraspArray::finger_drive, frames, [](const GraspFrame& f) {
+    std::vector<double> drives;
+    for (const FingerDrive& drive : f.drives)
+      drives.insert(drives.end(), {drive.force_n, drive.closed_m, drive.velocity_m_s});
+    return drives;
+  });
+  whole.write<GraspArray>(writer);
   const GraspFrame& judged = frames[grasp.judged_frame];
   const Rise rise = rise_of(frames[grasp.freed_frame], judged, grasp.grip_point());
   GraspSummary summary{.frames = n,
@@ -336,27 +326,9 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),
                     deformable = scene.gels.size() + frames[0].soft_m.size();
   WholeArrays whole;
-  std::vector<double> time, poses, twists, wrenches;
-  std::vector<std::vector<double>> soft(frames[0].soft_m.size());
   SceneSummary summary{.frames = n, .min_distance_m = frames[0].min_gap_m, .converged = true, .verdict = kPassed};
-  const auto add = [](std::vector<double>& all, const auto& numbers) {
-    for (Eigen::Index r = 0; r < numbers.rows(); ++r) {
-      for (Eigen::Index c = 0; c < numbers.cols(); ++c) all.push_back(numbers(r, c));
-    }
-  };
   for (const SceneFrame& f : frames) {
-    time.push_back(f.time_s);
-    for (const Matrix4& pose : f.world_from_body) append_pose(poses, pose);
-    for (std::size_t i = 0; i < rigid; ++i) {
-      add(twists, f.velocity_m_s[i]);
-      add(twists, f.spin_rad_s[i]);
-      summary.body_strain = std::max(summary.body_strain, f.strain[i]);
-    }
-    for (const Wrench& wrench : f.between) {
-      add(wrenches, wrench.force_n);
-      add(wrenches, wrench.torque_n_m);
-    }
-    for (std::size_t i = 0; i < soft.size(); ++i) add(soft[i], f.soft_m[i]);
+    for (const double strain : f.strain) summary.body_strain = std::max(summary.body_strain, strain);
     whole.add(f.whole);
     summary.intersections += f.intersections;
     summary.min_distance_m = std::min(summary.min_distance_m, f.min_gap_m);
@@ -376,14 +348,24 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
                                  .intersections = f.intersections});
   }
   summary.max_momentum_residual_n = whole.momentum_residual_n;
-  write_array(stage, "time.npy", {n}, time);
-  write_array(stage, "body_pose.npy", {n, count, 4, 4}, poses);
-  if (rigid > 0) write_array(stage, "body_twist.npy", {n, rigid, 6}, twists);
-  write_array(stage, "wrench.npy", {n, count, count, 6}, wrenches);
-  whole.write(stage);
-  for (std::size_t i = 0; i < soft.size(); ++i)
-    write_array(stage, "soft/" + spec.bodies[scene.gels.size() + i].name + "/positions.npy",
-                {n, static_cast<std::size_t>(frames[0].soft_m[i].rows()), 3}, soft[i]);
+  const ArrayWriter writer(stage, {{kFrames, n}, {kBodies, count}, {kRigidBodies, rigid}});
+  writer.write(SceneArray::time, frames, &SceneFrame::time_s);
+  writer.write(SceneArray::body_pose, frames, &SceneFrame::world_from_body);
+  if (rigid > 0) {
+    writer.write(SceneArray::body_twist, frames, [rigid](const SceneFrame& f) {
+      std::vector<Twist> twists;
+      for (std::size_t i = 0; i < rigid; ++i) twists.push_back({f.velocity_m_s[i], f.spin_rad_s[i]});
+      return twists;
+    });
+  }
+  writer.write(SceneArray::wrench, frames, &SceneFrame::between);
+  whole.write<SceneArray>(writer);
+  for (std::size_t i = 0; i < frames[0].soft_m.size(); ++i) {
+    const auto vertices = static_cast<std::size_t>(frames[0].soft_m[i].rows());
+    ArrayWriter(stage, {{kFrames, n}, {kVertices, vertices}})
+        .write(field_named(field_of(SceneArray::soft_positions), spec.bodies[scene.gels.size() + i].name), frames,
+               [i](const SceneFrame& f) -> const Positions& { return f.soft_m[i]; });
+  }
   for (std::size_t b = 0; b < count; ++b) {
     const BodyKind kind = spec.bodies[b].kind;
     SceneBodyLines& body = summary.bodies.emplace_back(
