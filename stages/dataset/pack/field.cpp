@@ -9,7 +9,6 @@
 
 #include "common/base/packed_units.h"
 #include "common/base/rounding.h"
-#include "common/format/npy_pose.h"
 
 namespace tacipc {
 namespace {
@@ -107,14 +106,13 @@ Numbers pose_numbers(const Matrix4& pose) {
 
 Numbers pose(SampleFrames& sample, std::size_t frame) { return pose_numbers(sample.arrays().poses()[frame]); }
 
-/// A frame of an array of the grasp with `poses` 4 × 4 matrices.
-Numbers world_poses(SampleFrames& sample, std::size_t frame, const char* file, std::size_t poses) {
-  const std::vector<double> values = sample.grasp_array(
-      file, poses == 1 ? std::vector<std::size_t>{4, 4} : std::vector<std::size_t>{poses, 4, 4}, frame);
-  Numbers all{{poses, 7}, {}};
-  if (poses == 1) all.shape = {7};
-  for (std::size_t p = 0; p < poses; ++p) {
-    const Numbers one = pose_numbers(pose_of(values.data() + 16 * p));
+/// A frame of poses of the grasp, 7 numbers each.
+Numbers world_poses(SampleFrames& sample, std::size_t frame, GraspArray array) {
+  const auto poses = items_of<Matrix4>(sample.grasp_arrays().frame_of(field_of(array), frame));
+  Numbers all{{poses.size(), 7}, {}};
+  if (poses.size() == 1) all.shape = {7};
+  for (const Matrix4& world_from : poses) {
+    const Numbers one = pose_numbers(world_from);
     all.values.insert(all.values.end(), one.values.begin(), one.values.end());
   }
   return all;
@@ -209,6 +207,8 @@ auto judged(T PressFrameLines::*number) {
 std::string source_of(FrameFile file) { return "render: " + field_of(file).file; }
 
 std::string source_of(PressArray array) { return "press: " + field_of(array).file; }
+
+std::string source_of(GraspArray array) { return "press: " + field_of(array).file + " of the grasp"; }
 
 std::string phase_codes() {
   std::string codes;
@@ -554,8 +554,7 @@ std::vector<Field> series() {
         scale,
         [measure](SampleFrames& s, std::size_t f) -> FieldData { return of_fingers(s, f, measure); }};
   };
-  const auto poses = [](const char* name, const char* shape, const char* sign, const char* meaning, const char* file,
-                        std::size_t count) {
+  const auto poses = [](const char* name, const char* shape, const char* sign, const char* meaning, GraspArray array) {
     return Field{kSeries,
                  name,
                  f64,
@@ -564,9 +563,9 @@ std::vector<Field> series() {
                  kWorld,
                  sign,
                  meaning,
-                 fmt::format("press: {} of the grasp", file),
+                 source_of(array),
                  kSame,
-                 [=](SampleFrames& s, std::size_t f) -> FieldData { return world_poses(s, f, file, count); },
+                 [=](SampleFrames& s, std::size_t f) -> FieldData { return world_poses(s, f, array); },
                  false,
                  true,
                  {{"quat_order", "xyzw"}}};
@@ -576,16 +575,15 @@ std::vector<Field> series() {
       phase_field(kSeries, "(P)"),
       poses("hand_pose", "(P,7)", "the world from the hand",
             "position and unit quaternion of the hand, whose origin is where the object is gripped in frame 0",
-            "hand_pose.npy", 1),
+            GraspArray::hand_pose),
       poses("finger_pose", "(P,2,7)", "the world from S of the left and of the right finger",
-            "position and unit quaternion of both fingers", "finger_pose.npy", 2),
+            "position and unit quaternion of both fingers", GraspArray::finger_pose),
       poses("object_pose", "(P,7)", "the world from the object's own frame",
-            "position and unit quaternion of the object", "object_pose.npy", 1),
+            "position and unit quaternion of the object", GraspArray::object_pose),
       {kSeries, "finger_force_N", f64, "(P,2,3)", "N", kWorld, "force on the left and on the right finger",
-       "contact force on each finger, of the object and of the other gel", "press: finger_force.npy of the grasp",
-       kNewton,
+       "contact force on each finger, of the object and of the other gel", source_of(GraspArray::finger_force), kNewton,
        [](SampleFrames& s, std::size_t f) -> FieldData {
-         return Numbers{{2, 3}, s.grasp_array("finger_force.npy", {2, 3}, f)};
+         return Numbers{{2, 3}, s.grasp_arrays().frame_of(field_of(GraspArray::finger_force), f)};
        }},
       sum("normal_force_N", "N", "sum of the lengths of the normal forces on the vertices of each front", kNewton,
           normal_force),

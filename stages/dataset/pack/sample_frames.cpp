@@ -42,6 +42,7 @@ SampleFrames::SampleFrames(fs::path folder)
     if (grasp_per_frame_.size() != per_frame_.size())
       throw DataError("{}: the grasp has {} frames, its finger {}", folder_.string(), grasp_per_frame_.size(),
                       per_frame_.size());
+    grasp_arrays_.emplace(folder_.parent_path(), "press", Extents{{kFrames, per_frame_.size()}});
     other_finger_.emplace(folder_.parent_path() / (is_right_finger() ? "left" : "right") / "press",
                           Extents{{kFrames, per_frame_.size()}});
   }
@@ -105,24 +106,6 @@ FieldData SampleFrames::marker_px(std::size_t frame, const std::string& reason) 
   if (!path) return Absent{reason};
   const MarkerPixels px = read_marker_px(*path);
   return Numbers{{static_cast<std::size_t>(px.rows()), 2}, {px.data(), px.data() + px.size()}};
-}
-
-std::vector<double> SampleFrames::grasp_array(const std::string& file, const std::vector<std::size_t>& frame_shape,
-                                              std::size_t frame) {
-  const auto found = grasp_arrays_.find(file);
-  if (found == grasp_arrays_.end()) {
-    const fs::path path = folder_.parent_path() / file;
-    if (grasp_->section("outputs").text(file) != content_hash(path))
-      throw DataError("{}: is not the file of the record beside it", path.string());
-    std::vector<std::size_t> shape = frame_shape;
-    shape.insert(shape.begin(), per_frame_.size());
-    grasp_arrays_.emplace(file, read_npy(path, shape));
-    return grasp_array(file, frame_shape, frame);
-  }
-  const std::vector<double>& values = found->second.data;
-  const auto size = static_cast<std::ptrdiff_t>(values.size() / per_frame_.size());
-  const auto begin = values.begin() + static_cast<std::ptrdiff_t>(frame) * size;
-  return {begin, begin + size};
 }
 
 FingerFront SampleFrames::finger_front(std::size_t side, std::size_t frame) const {

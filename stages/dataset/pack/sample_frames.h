@@ -9,11 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "common/format/npy.h"
 #include "common/image/image.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/press_record.h"
 #include "common/sample/render_folder.h"
+#include "common/sample/scene_folder.h"
 #include "common/sensor/sensor.h"
 #include "common/stage/record.h"
 #include "stages/dataset/pack/ensemble_labels.h"
@@ -85,10 +85,8 @@ class SampleFrames {
     return grasp_per_frame_[frame].number(number);
   }
   bool is_right_finger() const { return folder_.filename() == "right"; }
-  /// A frame of an array in the grasp's folder, each frame of this shape. \pre grasp() \throw DataError if the file is
-  /// not the one of its record
-  std::vector<double> grasp_array(const std::string& file, const std::vector<std::size_t>& frame_shape,
-                                  std::size_t frame);
+  /// The arrays of the grasp. \pre grasp()
+  const ArrayFolder& grasp_arrays() const { return *grasp_arrays_; }
   /// Of the left (0) or right (1) finger of the grasp. \pre grasp()
   FingerFront finger_front(std::size_t side, std::size_t frame) const;
   /// A number of the frame in the press's record.
@@ -114,7 +112,7 @@ class SampleFrames {
   std::vector<RecordLines<PressFrameLines>> per_frame_;
   std::optional<Record> grasp_;
   std::vector<RecordLines<GraspFrameLines>> grasp_per_frame_;
-  std::map<std::string, NpyArray> grasp_arrays_;
+  std::optional<ArrayFolder> grasp_arrays_;
   std::optional<PressFolder> other_finger_;
   PressFolder arrays_;
   std::vector<std::size_t> frames_;
