@@ -134,15 +134,6 @@ double slipping_force(const FingerFront& front) {
   return sum;
 }
 
-/// Mean distance of the normal force from its centre, in the plane of the front.
-double friction_radius(const FingerFront& front) {
-  const double all = front.normal_n.sum();
-  if (all == 0.0) return 0.0;
-  const Eigen::Matrix<double, Eigen::Dynamic, 2> flat = front.positions.leftCols<2>();
-  const Eigen::RowVector2d center = front.normal_n.transpose() * flat / all;
-  return front.normal_n.dot((flat.rowwise() - center).rowwise().norm()) / all;
-}
-
 FieldData twist(SampleFrames& sample, std::size_t frame, Vector3 Twist::*part) {
   if (!sample.arrays().has(PressArray::object_twist)) return Absent{"the object moves as prescribed"};
   return numbers_of(sample.arrays().twists()[frame].*part);
@@ -588,9 +579,12 @@ std::vector<Field> series() {
       sum("normal_force_N", "N", "sum of the lengths of the normal forces on the vertices of each front", kNewton,
           normal_force),
       sum("slipping_force_N", "N", "the same over those vertices that slip", kNewton, slipping_force),
-      sum("friction_radius_mm", "mm",
-          "mean distance of these normal forces from their centre, in the plane of the front; 0 where nothing touches",
-          kMmPerM, friction_radius)};
+      {kSeries, "friction_radius_mm", f64, "(P,2)", "mm", kNone, kNone,
+       "mean distance of these normal forces from their centre, in the plane of the front; 0 where nothing touches",
+       "press: record of the grasp", kMmPerM, [](SampleFrames& s, std::size_t f) -> FieldData {
+         return Numbers{{2},
+                        {s.grasp_number(f, "friction_radius_left_m"), s.grasp_number(f, "friction_radius_right_m")}};
+       }}};
 }
 
 /// Of a sample that an ensemble has pressed, too: each label, its standard deviation over the members, and by how much

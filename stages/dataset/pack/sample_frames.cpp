@@ -110,9 +110,7 @@ FieldData SampleFrames::marker_px(std::size_t frame, const std::string& reason) 
 
 FingerFront SampleFrames::finger_front(std::size_t side, std::size_t frame) const {
   const PressFolder& finger = (side == 1) == is_right_finger() ? arrays_ : *other_finger_;
-  return {.positions = finger.positions(frame)(finger.front_vertices(), Eigen::all),
-          .normal_n = finger.contact_forces(frame).normal.rowwise().norm(),
-          .states = finger.contact_states(frame)};
+  return {.normal_n = finger.contact_forces(frame).normal.rowwise().norm(), .states = finger.contact_states(frame)};
 }
 
 void SampleFrames::add_ensemble(const DatasetEnsemble& ensemble) {

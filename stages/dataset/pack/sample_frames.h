@@ -26,10 +26,8 @@ struct Numbers {
   std::vector<double> values;
 };
 
-/// What touches the front of a finger in one frame: of each vertex its place in S (m), length of the normal force (N)
-/// and state.
+/// Contact on the front of a finger in one frame: of each vertex the length of the normal force (N) and the state.
 struct FingerFront {
-  Positions positions;
   Eigen::VectorXd normal_n;
   std::vector<ContactState> states;
 };
