@@ -82,7 +82,7 @@ const std::array<NpyField, 7>& all_scene_fields() {
        {kFrames, kRigidBodies, 6},
        "m/s, rad/s",
        "velocity of the centre of mass, angular velocity, axes of the world; none without rigid bodies"},
-      {"wrench.npy",
+      {"pair_wrench.npy",
        f8,
        {kFrames, kBodies, kBodies, 6},
        "N, N m",
@@ -178,7 +178,7 @@ SceneBodies read_scene_bodies(const fs::path& folder) {
   }
   const std::size_t frames = arrays.whole(field_of(SceneArray::time)).size(), count = listed.size();
   const auto poses = arrays.items<Matrix4>(field_of(SceneArray::body_pose));
-  const auto wrenches = arrays.items<Wrench>(field_of(SceneArray::wrench));
+  const auto wrenches = arrays.items<Wrench>(field_of(SceneArray::pair_wrench));
   for (std::size_t f = 0; f < frames; ++f) {
     const auto rows = [f](const auto& all, std::size_t of_frame) {
       const auto begin = all.begin() + static_cast<std::ptrdiff_t>(f * of_frame);

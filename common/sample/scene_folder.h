@@ -28,7 +28,7 @@ enum class GraspArray {
   momentum
 };
 /// Arrays of a scene.
-enum class SceneArray { time, body_pose, body_twist, wrench, energy, momentum, soft_positions };
+enum class SceneArray { time, body_pose, body_twist, pair_wrench, energy, momentum, soft_positions };
 
 /// Symbols of shapes; a scene's bodies are in the order of summary.bodies of its record.
 inline constexpr std::string_view kBodies = "bodies", kRigidBodies = "rigid bodies";

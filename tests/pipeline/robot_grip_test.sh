@@ -24,7 +24,7 @@ for row in last.values():
     assert float(row["residual_relative"]) <= 1e-3 or float(row["apart_m"] or 1) <= 5e-6, row
 assert len(rows) <= 90, len(rows)
 # Bodies are left, right, block, table.
-wrench, pose = np.load(folder + "/press/wrench.npy"), np.load(folder + "/press/body_pose.npy")
+wrench, pose = np.load(folder + "/press/pair_wrench.npy"), np.load(folder + "/press/body_pose.npy")
 felt = np.load(folder + "/robot/pad_wrench.npy")
 assert len(wrench) == len(felt)
 assert wrench[-1, 2, 3, :3].any() == 0, "the block stands on the table"

@@ -60,7 +60,7 @@ assert sum(int(row["frames"]) for row in last.values()) == 30, rows
 assert len(rows) <= 30, rows
 felt = np.load(folder + "/robot/pad_wrench.npy")[:, 0]
 # Bodies are gel and point; wrenches about the world's origin, which is on the slide's axis.
-pressed = np.load(folder + "/wrench.npy")[:, 0, 1]
+pressed = np.load(folder + "/pair_wrench.npy")[:, 0, 1]
 assert np.abs(felt[:, :3] - pressed[:, :3]).max() <= 1.01e-3 * np.abs(pressed[:, :3]).max(), "the last press answers otherwise"
 weight = 0.06 * 9.81
 assert abs(felt[-1, 2] - weight) < 0.005 * weight and abs(pressed[-1, 2] - weight) < 0.005 * weight, (felt[-1], pressed[-1])
@@ -115,7 +115,7 @@ import numpy as np
 folder = sys.argv[1]
 gel, pad = np.load(folder + "/body_pose.npy")[:, 0], np.load(folder + "/robot/pad_pose.npy")[:, 0]
 assert gel.shape == pad.shape == (31, 4, 4) and np.abs(gel - pad).max() < 1e-9, "the gel is not where the robot has it"
-assert np.load(folder + "/wrench.npy")[-1, 0, 1, 2] > 0.001, "the gel touches nothing"
+assert np.load(folder + "/pair_wrench.npy")[-1, 0, 1, 2] > 0.001, "the gel touches nothing"
 END
 
 wrong() { # wrong CODE MESSAGE COMMAND …

@@ -12,7 +12,7 @@ scene() { # scene OUT EXAMPLE [VARIABLE=value …]
 # Debian's Python, which has numpy.
 number() { # number FOLDER EXPRESSION: of its arrays pose (frames, bodies, 4, 4; mm) and force (frames, bodies, bodies, 3; N)
   /usr/bin/python3 -c "import numpy as np
-pose, force = 1e3 * np.load('$1/body_pose.npy')[..., :3, 3], np.load('$1/wrench.npy')[..., :3]
+pose, force = 1e3 * np.load('$1/body_pose.npy')[..., :3, 3], np.load('$1/pair_wrench.npy')[..., :3]
 exit(0 if $2 else f'$2: {force[-1].tolist()} {pose[-1].tolist()}')"
 }
 
@@ -68,7 +68,7 @@ mkdir none
 press first piece/scene.yaml --solved none > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the first piece failed"; }
 press second whole/scene.yaml --solved first/solved > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the second piece failed"; }
 [ "$(find first/solved -type f | wc -l),$(find second/solved -type f | wc -l)" = 4,3 ] || fail "the pieces did not leave the frames that they solved"
-for file in body_pose.npy wrench.npy energy.npy gels/gel/press/positions.npy gels/gel/press/contact_force.npy; do
+for file in body_pose.npy pair_wrench.npy energy.npy gels/gel/press/positions.npy gels/gel/press/contact_force.npy; do
   cmp "at_once/$file" "second/$file" || fail "solved piece by piece, $file is another"
 done
 code=0; "$bin/press" --config configs/press/small_gap.yaml --sensor configs/sensors/mctac.yaml --gel one/gels/mctac-tiny/gel.msh --sample whole/scene.yaml --solved first/solved --out other > said.txt 2>&1 || code=$?
@@ -93,7 +93,7 @@ kill -KILL $killed 2> /dev/null || fail "the press was over before it could be k
 wait $killed 2> /dev/null || :
 press killed configs/scenes/soft_ball.yaml "${soft[@]}" --threads 1 > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the run after a kill failed"; }
 grep -q 'frame 12/34 resumed' said.txt || fail "it did not go on where it was"
-for file in body_pose.npy wrench.npy energy.npy momentum.npy soft/ball/positions.npy gels/gel/press/contact_force.npy; do
+for file in body_pose.npy pair_wrench.npy energy.npy momentum.npy soft/ball/positions.npy gels/gel/press/contact_force.npy; do
   cmp killed/$file one/scene/soft_ball/$file || fail "$file is another one after a kill"
 done
 

@@ -54,7 +54,7 @@ TEST_F(SceneFolderTest, BodiesOfASceneAreSortedByWhatTheyAre) {
   write_poses("body_pose.npy", {2, 4, 4, 4}, {1, 2, 3, 4, 5, 6, 7, 8});
   std::vector<double> wrenches(2 * 4 * 4 * 6, 0.0);
   wrenches[((1 * 4 + 2) * 4 + 3) * 6 + 2] = 7.0;  // frame 1, on the peg by the wall, z
-  write_npy(scratch_ / "wrench.npy", {2, 4, 4, 6}, wrenches.data());
+  write_npy(scratch_ / "pair_wrench.npy", {2, 4, 4, 6}, wrenches.data());
   std::vector<double> energies(16, 0.0);
   energies[8 + 4] = 0.5;
   write_npy(scratch_ / "energy.npy", {2, 8}, energies.data());

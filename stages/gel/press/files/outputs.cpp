@@ -358,7 +358,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
       return twists;
     });
   }
-  writer.write(SceneArray::wrench, frames, &SceneFrame::between);
+  writer.write(SceneArray::pair_wrench, frames, &SceneFrame::between);
   whole.write<SceneArray>(writer);
   for (std::size_t i = 0; i < frames[0].soft_m.size(); ++i) {
     const auto vertices = static_cast<std::size_t>(frames[0].soft_m[i].rows());

@@ -155,7 +155,7 @@ inline void write_pressed_bodies(const ScratchFolder& scratch) {
   };
   push(0, 2, 2, -2.0);
   push(2, 3, 0, 1.0);
-  write_npy(scratch / "bodies/wrench.npy", {2, 4, 4, 6}, wrenches.data());
+  write_npy(scratch / "bodies/pair_wrench.npy", {2, 4, 4, 6}, wrenches.data());
   write_npy(scratch / "bodies/energy.npy", {2, 8}, energies.data());
 }
 

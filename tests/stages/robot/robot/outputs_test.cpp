@@ -170,7 +170,7 @@ class PressAnswers : public Outputs {
     }
     write_npy(folder_ / "press/time.npy", {kFrames}, times.data());
     write_npy(folder_ / "press/body_pose.npy", {kFrames, 3, 4, 4}, poses.data());
-    write_npy(folder_ / "press/wrench.npy", {kFrames, 3, 3, 6}, wrenches.data());
+    write_npy(folder_ / "press/pair_wrench.npy", {kFrames, 3, 3, 6}, wrenches.data());
     write_npy(folder_ / "press/energy.npy", {kFrames, 8}, energies.data());
   }
   static void set(std::vector<double>& all, std::size_t frame, std::size_t on, std::size_t by, const Vector3& force,
@@ -205,9 +205,9 @@ TEST_F(PressAnswers, AnObjectGivesWayOnceItIsNoLongerHeld) {
 TEST_F(PressAnswers, AnObjectFloatsThatGelsAloneTouch) {
   WindowAnswers answers = read_answers(folder_ / "press", task_, objects_, 0);
   for (std::size_t f = 0; f < kFrames; ++f) EXPECT_EQ(answers.floats[f], (std::vector{f >= 4, false})) << f;
-  NpyArray wrenches = read_npy(folder_ / "press/wrench.npy");
+  NpyArray wrenches = read_npy(folder_ / "press/pair_wrench.npy");
   set(wrenches.data, 4, 0, 2, {0, 0, 1e-3}, {0, 0, 0});
-  write_npy(folder_ / "press/wrench.npy", wrenches.shape, wrenches.data.data());
+  write_npy(folder_ / "press/pair_wrench.npy", wrenches.shape, wrenches.data.data());
   answers = read_answers(folder_ / "press", task_, objects_, 0);
   EXPECT_FALSE(answers.floats[4][0]);
   // It gives way as far as what else it touches lets it.
@@ -217,9 +217,9 @@ TEST_F(PressAnswers, AnObjectFloatsThatGelsAloneTouch) {
 }
 
 TEST_F(PressAnswers, AGelThatIsNotPressedHasTheNearestObjectBeforeIt) {
-  NpyArray wrenches = read_npy(folder_ / "press/wrench.npy");
+  NpyArray wrenches = read_npy(folder_ / "press/pair_wrench.npy");
   std::fill(wrenches.data.begin(), wrenches.data.end(), 0.0);
-  write_npy(folder_ / "press/wrench.npy", wrenches.shape, wrenches.data.data());
+  write_npy(folder_ / "press/pair_wrench.npy", wrenches.shape, wrenches.data.data());
   EXPECT_EQ(read_answers(folder_ / "press", task_, objects_, 4).frames[0][0].carried, 0);
   EXPECT_EQ(read_answers(folder_ / "press", task_, objects_, 3).frames[0][0].carried, -1);
 }
