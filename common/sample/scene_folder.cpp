@@ -36,8 +36,8 @@ NpyField momentum_field() {
 const std::array<NpyField, 9>& all_grasp_fields() {
   static const std::array<NpyField, 9> kFields{{
       field_of(PressArray::time),
-      {"object_pose.npy", f8, {kFrames, 4, 4}, "m", "`world_from_object`"},
-      {"object_twist.npy",
+      {"object_world_pose.npy", f8, {kFrames, 4, 4}, "m", "`world_from_object`"},
+      {"object_world_twist.npy",
        f8,
        {kFrames, 6},
        "m/s, rad/s",
@@ -112,7 +112,7 @@ std::vector<Matrix4> poses_of(const std::vector<Matrix4>& all, std::size_t body,
 SceneFolder read_grasp(const fs::path& folder) {
   const ArrayFolder arrays = ArrayFolder::finished(folder, "press");
   SceneFolder scene{.times_s = arrays.whole(field_of(GraspArray::time)), .gels = {}, .objects = {}};
-  scene.objects.push_back({"object", arrays.items<Matrix4>(field_of(GraspArray::object_pose))});
+  scene.objects.push_back({"object", arrays.items<Matrix4>(field_of(GraspArray::object_world_pose))});
   const auto fingers = arrays.items<Matrix4>(field_of(GraspArray::finger_pose));
   for (std::size_t g = 0; g < kFingers.size(); ++g)
     scene.gels.push_back({kFingers[g], folder / kFingers[g], poses_of(fingers, g, kFingers.size())});

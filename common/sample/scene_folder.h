@@ -18,8 +18,8 @@ namespace tacipc {
 /// Arrays of a grasp.
 enum class GraspArray {
   time,
-  object_pose,
-  object_twist,
+  object_world_pose,
+  object_world_twist,
   hand_pose,
   finger_pose,
   finger_force,

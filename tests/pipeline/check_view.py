@@ -114,7 +114,7 @@ def main():
         for shown in data["objects"][own:]:  # the robot's, and what stands around it
             poses.append(still if shown["name"] == "world" else robot_poses(folder, shown["name"]))
     elif os.path.exists(f"{folder}/finger_pose.npy"):
-        poses, fingers = [np.load(f"{folder}/object_pose.npy")], np.load(f"{folder}/finger_pose.npy")
+        poses, fingers = [np.load(f"{folder}/object_world_pose.npy")], np.load(f"{folder}/finger_pose.npy")
         assert [gel["name"] for gel in data["gels"]] == ["left", "right"]
         for g, gel in enumerate(data["gels"]):
             check_gel(planes, data, gel, f"{folder}/{gel['name']}/press", fingers[:, g])

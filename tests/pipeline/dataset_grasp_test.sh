@@ -89,7 +89,7 @@ assert 0.2 <= left["mu"] == right["mu"] <= 0.8 and left["mu"] != 0.7 and lost["m
 assert np.allclose(left["center_of_mass_shift_mm"], right["center_of_mass_shift_mm"]) and abs(left["center_of_mass_shift_mm"][0]) <= 2
 grip = np.abs(left["force_N"][-1, 2]), np.abs(right["force_N"][-1, 2])
 assert 0.9 < min(grip) and max(grip) < 1.6, grip
-world = np.load(f"{folder}/samples/000/{lift}/object_twist.npy")
+world = np.load(f"{folder}/samples/000/{lift}/object_world_twist.npy")
 frames = left["frame"]
 # Left: z of S is x of the world, y is down; right: z is -x.
 assert np.allclose(left["object_velocity_mm_s"][:, 2], 1e3 * world[frames, 0], atol=1e-4)

@@ -570,7 +570,7 @@ std::vector<Field> series() {
       poses("finger_pose", "(P,2,7)", "the world from S of the left and of the right finger",
             "position and unit quaternion of both fingers", GraspArray::finger_pose),
       poses("object_pose", "(P,7)", "the world from the object's own frame",
-            "position and unit quaternion of the object", GraspArray::object_pose),
+            "position and unit quaternion of the object", GraspArray::object_world_pose),
       {kSeries, "finger_force_N", f64, "(P,2,3)", "N", kWorld, "force on the left and on the right finger",
        "contact force on each finger, of the object and of the other gel", source_of(GraspArray::finger_force), kNewton,
        [](SampleFrames& s, std::size_t f) -> FieldData {

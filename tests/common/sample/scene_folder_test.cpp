@@ -15,7 +15,7 @@ class SceneFolderTest : public ::testing::Test {
   void SetUp() override {
     scratch_.file("press.yaml", "stage: press\n");
     write_npy(scratch_ / "time.npy", {2}, std::vector<double>{0.0, 0.25}.data());
-    write_poses("object_pose.npy", {2, 4, 4}, {1, 2});
+    write_poses("object_world_pose.npy", {2, 4, 4}, {1, 2});
     write_poses("finger_pose.npy", {2, 2, 4, 4}, {10, 20, 30, 40});
   }
   /// Poses that are moved along x, one after the other.

@@ -273,8 +273,8 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
   const std::size_t n = frames.size();
   const ArrayWriter writer(stage, {{kFrames, n}});
   writer.write(GraspArray::time, frames, &GraspFrame::time_s);
-  writer.write(GraspArray::object_pose, frames, &GraspFrame::world_from_object);
-  writer.write(GraspArray::object_twist, frames, [](const GraspFrame& f) {
+  writer.write(GraspArray::object_world_pose, frames, &GraspFrame::world_from_object);
+  writer.write(GraspArray::object_world_twist, frames, [](const GraspFrame& f) {
     return Twist{f.velocity_m_s, f.spin_rad_s};
   });
   writer.write(GraspArray::hand_pose, frames, &GraspFrame::world_from_hand);

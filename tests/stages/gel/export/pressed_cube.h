@@ -107,7 +107,7 @@ inline void write_pressed_scene(const ScratchFolder& scratch) {
   write_poses("scene/finger_pose.npy", {2, 2, 4, 4}, pressed_scene_fingers());
   Matrix4 fallen = Matrix4::Identity();
   fallen(2, 3) = -0.003;
-  write_poses("scene/object_pose.npy", {2, 4, 4}, {Matrix4::Identity(), fallen});
+  write_poses("scene/object_world_pose.npy", {2, 4, 4}, {Matrix4::Identity(), fallen});
 }
 
 /// Writes a scene's folder bodies/ of two frames: the gel `pad` pressed as above, a soft cube `ball` of the same
