@@ -11,7 +11,8 @@ namespace {
 namespace fs = std::filesystem;
 using enum NpyType;
 
-constexpr std::string_view kModelBodies = "bodies", kActuators = "actuators", kPositions = "nq", kVelocities = "nv";
+constexpr std::string_view kModelBodies = "model bodies", kActuators = "actuators", kPositions = "nq",
+                           kVelocities = "nv";
 
 const std::array<NpyField, 13>& all_fields() {
   static const std::array<NpyField, 13> kFields{{
@@ -21,13 +22,13 @@ const std::array<NpyField, 13>& all_fields() {
       {"qvel.npy", f8, {kFrames, kVelocities}, "m/s, rad/s", "MuJoCo's own velocities"},
       {"control.npy", f8, {kFrames, kActuators}, "", "commands of the actuators in the time step before"},
       {"actuator_force.npy", f8, {kFrames, kActuators}, "N, N m", "forces of the actuators in the time step before"},
-      {"body_pose.npy",
+      {"model_pose.npy",
        f8,
        {kFrames, kModelBodies, 4, 4},
        "m",
        "`world_from_body` of all bodies of the model but the world. Of a coupled run's rigid objects take pose and "
        "twist from the scene's arrays: here they are put, at rest, where an earlier try had them"},
-      {"body_twist.npy",
+      {"model_twist.npy",
        f8,
        {kFrames, kModelBodies, 6},
        "m/s, rad/s",
@@ -57,8 +58,8 @@ void each_row(Visit&& visit) {
   visit(RobotArray::qvel, &RobotFrame::qvel);
   visit(RobotArray::control, &RobotFrame::control);
   visit(RobotArray::actuator_force, &RobotFrame::actuator_force);
-  visit(RobotArray::body_pose, &RobotFrame::body_pose);
-  visit(RobotArray::body_twist, &RobotFrame::body_twist);
+  visit(RobotArray::model_pose, &RobotFrame::body_pose);
+  visit(RobotArray::model_twist, &RobotFrame::body_twist);
   visit(RobotArray::pad_pose, &RobotFrame::pad_pose);
   visit(RobotArray::pad_wrench, &RobotFrame::pad_wrench);
 }

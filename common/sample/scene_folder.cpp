@@ -89,7 +89,7 @@ const std::array<NpyField, 7>& all_scene_fields() {
        "[a, b]: force and torque about the world's origin on body a by body b"},
       energy_field(),
       momentum_field(),
-      {"soft/<name>/positions.npy", f8, {kFrames, kVertices, 3}, "m", "vertices of `object.msh`, in the world"},
+      {"soft/<name>/world_positions.npy", f8, {kFrames, kVertices, 3}, "m", "vertices of `object.msh`, in the world"},
   }};
   return kFields;
 }

@@ -93,7 +93,7 @@ def check_object(planes, data, shown, poses, soft):
 def robot_poses(folder, body):
     with open(f"{folder}/robot/robot.yaml", encoding="utf-8") as file:
         [line] = [line for line in file if line.startswith("  bodies: [")]
-    return np.load(f"{folder}/robot/body_pose.npy")[:, line.strip()[len("bodies: ["):-1].split(", ").index(body)]
+    return np.load(f"{folder}/robot/model_pose.npy")[:, line.strip()[len("bodies: ["):-1].split(", ").index(body)]
 
 
 def main():
@@ -108,7 +108,7 @@ def main():
             check_gel(planes, data, gel, f"{folder}/gels/{gel['name']}/press", bodies[:, g])
         for shown in data["objects"]:
             if shown.get("kind") == "soft":
-                soft[shown["name"]] = np.load(f"{folder}/soft/{shown['name']}/positions.npy")
+                soft[shown["name"]] = np.load(f"{folder}/soft/{shown['name']}/world_positions.npy")
         still, own = np.tile(np.eye(4), (len(bodies), 1, 1)), bodies.shape[1] - len(data["gels"])
         poses = list(np.moveaxis(bodies[:, len(data["gels"]) + len(soft):], 1, 0)) + [still] * len(soft)
         for shown in data["objects"][own:]:  # the robot's, and what stands around it

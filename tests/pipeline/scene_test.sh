@@ -93,7 +93,7 @@ kill -KILL $killed 2> /dev/null || fail "the press was over before it could be k
 wait $killed 2> /dev/null || :
 press killed configs/scenes/soft_ball.yaml "${soft[@]}" --threads 1 > said.txt 2>&1 || { tail -5 said.txt >&2; fail "the run after a kill failed"; }
 grep -q 'frame 12/34 resumed' said.txt || fail "it did not go on where it was"
-for file in body_pose.npy pair_wrench.npy energy.npy momentum.npy soft/ball/positions.npy gels/gel/press/contact_force.npy; do
+for file in body_pose.npy pair_wrench.npy energy.npy momentum.npy soft/ball/world_positions.npy gels/gel/press/contact_force.npy; do
   cmp killed/$file one/scene/soft_ball/$file || fail "$file is another one after a kill"
 done
 

@@ -64,6 +64,16 @@ TEST(FilesPage, ListsTheFoldersOfArrays) {
   }
 }
 
+TEST(FilesPage, ANameHasOneLayoutAndOneMeaning) {
+  std::map<std::string, std::string> rows;
+  for (const auto& [heading, fields] : kFolders) {
+    for (const NpyField& field : fields) {
+      const std::string name = std::filesystem::path(field.file).filename(), row = row_of(field);
+      EXPECT_EQ(rows.try_emplace(name, row).first->second, row) << heading;
+    }
+  }
+}
+
 TEST(FilesPage, EveryCodeOfAnArrayHasItsDeclaration) {
   EXPECT_EQ(field_of(PressArray::holder_pose).file, "holder_pose.npy");
   EXPECT_EQ(&field_of(PressArray::holder_pose), &press_fields().back());

@@ -59,7 +59,7 @@ TEST_F(SceneFolderTest, BodiesOfASceneAreSortedByWhatTheyAre) {
   energies[8 + 4] = 0.5;
   write_npy(scratch_ / "energy.npy", {2, 8}, energies.data());
   scratch_.file("soft/ball/none", "");
-  write_npy(scratch_ / "soft/ball/positions.npy", {2, 1, 3}, std::vector<double>{1, 2, 3, 4, 5, 6}.data());
+  write_npy(scratch_ / "soft/ball/world_positions.npy", {2, 1, 3}, std::vector<double>{1, 2, 3, 4, 5, 6}.data());
   ASSERT_TRUE(is_scene_folder(scratch_ / ""));
   const SceneFolder scene = read_scene_folder(scratch_ / "");
   ASSERT_EQ(scene.gels.size(), 1u);

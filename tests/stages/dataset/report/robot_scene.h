@@ -53,8 +53,8 @@ inline void write_robot_scene(const ScratchFolder& scratch) {
     }
     for (int i = 0; i < 16; ++i) pads.push_back(i % 5 == 0 ? 1.0 : 0.0);
   }
-  write("body_pose.npy", {2, 2, 4, 4}, bodies);
-  write("body_twist.npy", {2, 2, 6}, std::vector<double>(24, 0.0));
+  write("model_pose.npy", {2, 2, 4, 4}, bodies);
+  write("model_twist.npy", {2, 2, 6}, std::vector<double>(24, 0.0));
   write("pad_pose.npy", {2, 1, 4, 4}, pads);
   write("pad_wrench.npy", {2, 1, 6}, {0, 0, 0, 0, 0, 0, 0.25, 0, -2, 0, 0, 0});
   // A block around the gel's front, which reaches from its middle to behind it.

@@ -146,8 +146,8 @@ inline void write_pressed_bodies(const ScratchFolder& scratch) {
     }
   }
   write_npy(scratch / "bodies/body_pose.npy", {2, 4, 4, 4}, poses.data());
-  scratch.file("bodies/soft/ball/positions.npy", "");
-  write_npy(scratch / "bodies/soft/ball/positions.npy", {2, 9, 3}, positions.data());
+  scratch.file("bodies/soft/ball/world_positions.npy", "");
+  write_npy(scratch / "bodies/soft/ball/world_positions.npy", {2, 9, 3}, positions.data());
   std::vector<double> wrenches(2 * 4 * 4 * 6, 0.0), energies(16, 0.0);
   const auto push = [&](std::size_t on, std::size_t by, std::size_t axis, double force) {
     wrenches[((4 + on) * 4 + by) * 6 + axis] = force;
