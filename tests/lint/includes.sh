@@ -47,4 +47,8 @@ bad=$(grep -rlE '#include <mujoco/' common stages --include=*.cpp --include=*.h 
 while read -r lines file; do
   [ "$file" = total ] || [ "$lines" -le 450 ] || { echo "$file: $lines lines, at most 450: cut it where it changes the subject"; faults=1; }
 done < <(find common stages verification bench \( -name '*.h' -o -name '*.cpp' \) -exec wc -l {} +)
+# Arrays between stages are named where they are declared.
+owners='^(common/sample/|stages/gel/export/surface_arrays\.cpp|stages/image/(calibrate/rival_mode\.cpp|track/track_arrays\.h))'
+bad=$(grep -rnE '"[a-z_/]*[a-z_]\.npy"' common stages verification bench --include=*.cpp --include=*.h | grep -vE "$owners" || true)
+[ -z "$bad" ] || { echo "$bad"; echo "  ^ an array is declared in a unit of common/sample, not named by others"; faults=1; }
 exit $faults

@@ -18,25 +18,49 @@ enum class Section { obs, sim, check, series, ensemble };
 
 const char* name_of(Section section);
 
-/// One field. Units, frames and signs of a packed dataset stand in this table and nowhere else: `read` gives SI or
-/// codes as the stages left them, the file holds `scale` times that.
-struct Field {
-  Section section;
-  std::string name;
+/// Unit of a packed dataset, and how many of it one is of the unit that a field is read in.
+struct PackedUnit {
+  const char* name;
+  double per_read = 1.0;
+};
+
+/// Numbers of a field as the file holds them. The shape is in letters: T packed frames, P frames of the press, H rows,
+/// W columns of the image, h, w of the grid, N markers, V, F.
+struct FieldNumbers {
   NumberType type;
-  std::string shape;  // in letters: T packed frames, P frames of the press, H rows, W columns of the image, h, w of the
-                      // grid, N markers, V, F
-  std::string unit;
-  std::string frame;  // of reference: "S", "camera", "image" or "none"
-  std::string sign;   // what a positive value means, or "none"
-  std::string meaning;
-  std::string source;  // stage and file
-  double scale = 1.0;
-  std::function<FieldData(SampleFrames& sample, std::size_t frame)> read = nullptr;
-  bool in_variants = false;                                    // a variant's folder may have it too
-  bool per_frame = true;                                       // else one value for the sample, read at frame 0
+  const char* shape;
+  PackedUnit unit;
+};
+
+/// Frame of reference ("S", "camera", "image", "world"), and what a positive value means.
+struct FieldAxes {
+  const char *frame = "none", *sign = "none";
+};
+
+using FieldReader = std::function<FieldData(SampleFrames& sample, std::size_t frame)>;
+
+/// Stage and file that a field comes from, and the reader of one frame: in SI or codes, as the stages left them.
+struct FieldSource {
+  std::string text;
+  FieldReader read;
+  bool in_variants = false;  // a variant's folder may have it too
+};
+
+struct FieldExtra {
   std::vector<std::pair<std::string, std::string>> more = {};  // further attributes: codes, quat_order
   std::optional<int> step_exponent = std::nullopt;             // the file holds multiples of 2^this, in its unit
+  bool per_frame = true;                                       // else one value for the sample, read at frame 0
+};
+
+/// One field. Units, frames and signs of a packed dataset stand in the table of fields and nowhere else.
+struct Field {
+  std::string name;
+  FieldNumbers numbers;
+  FieldAxes axes;
+  std::string meaning;
+  FieldSource from;
+  FieldExtra extra = {};
+  Section section = Section::obs;
 
   /// Of every frame of the press, else of those that were rendered.
   bool of_press_frames() const { return section == Section::series; }

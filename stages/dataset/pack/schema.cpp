@@ -9,7 +9,7 @@ Value schema(const PackConfig& config, bool with_ensemble) {
     Value::Map lines{{"path", field.path()}};
     for (auto& line : attributes_of(field)) lines.push_back(line);
     lines.emplace_back("packed", config.packs(field));
-    lines.emplace_back("in_variants", config.variants && field.in_variants && config.packs(field));
+    lines.emplace_back("in_variants", config.variants && field.from.in_variants && config.packs(field));
     list.emplace_back(std::move(lines));
   }
   Value::Map conventions{
