@@ -203,6 +203,20 @@ struct SceneBodyLines {
   }
 };
 
+/// A rigid body that the gels of a scene hold; common/sample/scene_hold.h.
+struct HeldBodyLines {
+  std::string body = {};
+  std::optional<std::string> outcome = {};
+  std::size_t freed_frame = 0;
+  double slip_m = 0.0, turn_rad = 0.0, rise_m = 0.0, hand_rise_m = 0.0;
+
+  static constexpr auto keys() {
+    using Lines = HeldBodyLines;
+    return std::tuple(RECORD_KEY(body), RECORD_KEY(outcome), RECORD_KEY(freed_frame), RECORD_KEY(slip_m),
+                      RECORD_KEY(turn_rad), RECORD_KEY(rise_m), RECORD_KEY(hand_rise_m));
+  }
+};
+
 /// One frame of a scene.
 struct SceneFrameLines {
   double time_s = 0.0;
@@ -228,6 +242,7 @@ struct SceneSummary {
   double min_distance_m = 0.0;
   int intersections = 0;
   double body_strain = 0.0, max_body_balance_relative = 0.0, max_momentum_residual_n = 0.0;
+  std::vector<HeldBodyLines> held = {};
   bool converged = false;
   std::string verdict = {};
   std::vector<SceneFrameLines> per_frame = {};
@@ -236,7 +251,7 @@ struct SceneSummary {
     using Lines = SceneSummary;
     return std::tuple(RECORD_KEY(frames), RECORD_KEY(bodies), RECORD_KEY(contact), RECORD_KEY(min_distance_m),
                       RECORD_KEY(intersections), RECORD_KEY(body_strain), RECORD_KEY(max_body_balance_relative),
-                      RECORD_KEY(max_momentum_residual_n), RECORD_KEY(converged), RECORD_KEY(verdict),
+                      RECORD_KEY(max_momentum_residual_n), RECORD_KEY(held), RECORD_KEY(converged), RECORD_KEY(verdict),
                       RECORD_KEY(per_frame));
   }
 };

@@ -143,30 +143,34 @@ std::vector<Field> simulated() {
 }
 
 std::vector<Field> checks() {
-  const auto line = [](const char* name, NumberType type, PackedUnit unit, const char* key, const char* meaning,
+  using Lines = PressFrameLines;
+  const auto line = [](const char* name, NumberType type, PackedUnit unit, auto number, const char* meaning,
                        const FieldAxes& axes = kNoAxes) {
-    return Field{name, as(type, "(T)", unit), axes, meaning, press_line(key)};
+    return Field{name, as(type, "(T)", unit), axes, meaning, press_line(number)};
   };
   return {
-      line("min_distance_mm", f32, kMm, "min_gap_m", "smallest gap between gel and object", kApart),
-      line("stand_off_mm", f32, kMm, "stand_off_m",
+      line("min_distance_mm", f32, kMm, &Lines::min_gap_m, "smallest gap between gel and object", kApart),
+      line("stand_off_mm", f32, kMm, &Lines::stand_off_m,
            "mean gap of what touches, weighted by force: how far the contact barrier keeps the surfaces apart", kApart),
-      line("min_volume_ratio", f32, kRatio, "min_volume_ratio",
+      line("min_volume_ratio", f32, kRatio, &Lines::min_volume_ratio,
            "smallest deformed over undeformed volume of a tetrahedron", in("none", "positive: not inverted")),
-      line("intersections", i32, kCount, "intersections", "pairs of triangles that intersect, by exact test"),
-      line("inverted_tets", i32, kCount, "inverted_tets", "inverted tetrahedra, by exact test"),
-      line("newton_iterations", i32, kCount, "newton_iterations", "Newton iterations since the frame before"),
-      line("velocity_residual_mm_s", f32, kMmPerS, "velocity_residual_m_s", "last Newton step over the time step"),
-      line("force_residual_N", f32, kNewton, "force_residual_n", "forces left out of balance, summed as lengths"),
-      line("friction_residual_N", f32, kNewton, "friction_residual_n",
+      line("intersections", i32, kCount, &Lines::intersections, "pairs of triangles that intersect, by exact test"),
+      line("inverted_tets", i32, kCount, &Lines::inverted_tets, "inverted tetrahedra, by exact test"),
+      line("newton_iterations", i32, kCount, &Lines::newton_iterations, "Newton iterations since the frame before"),
+      line("velocity_residual_mm_s", f32, kMmPerS, &Lines::velocity_residual_m_s,
+           "last Newton step over the time step"),
+      line("force_residual_N", f32, kNewton, &Lines::force_residual_n, "forces left out of balance, summed as lengths"),
+      line("friction_residual_N", f32, kNewton, &Lines::friction_residual_n,
            "how far friction is from that of its own contact forces"),
-      line("force_balance_rel", f32, kRatio, "balance_relative",
+      line("force_balance_rel", f32, kRatio, &Lines::balance_relative,
            "contact, inertia, damping, gravity and mount summed, over the contact force (at least 0.01 N)"),
-      line("force_balance_N", f32, kNewton, "balance_n", "the same sum"),
-      line("pose_error_mm", f32, kMm, "pose_error_m", "largest distance of the object from where its motion puts it"),
-      line("contact_area_mm2", f32, kSquareMm, "contact_area_mm2", "area of the front that carries contact force"),
-      line("sticking", i32, kCount, "sticking", "front vertices that stick"),
-      line("slipping", i32, kCount, "slipping", "front vertices that slip")};
+      line("force_balance_N", f32, kNewton, &Lines::balance_n, "the same sum"),
+      line("pose_error_mm", f32, kMm, &Lines::pose_error_m,
+           "largest distance of the object from where its motion puts it"),
+      line("contact_area_mm2", f32, kSquareMm, &Lines::contact_area_mm2,
+           "area of the front that carries contact force"),
+      line("sticking", i32, kCount, &Lines::sticking, "front vertices that stick"),
+      line("slipping", i32, kCount, &Lines::slipping, "front vertices that slip")};
 }
 
 /// Of a grasp, in every frame of the press: what its labels follow from.

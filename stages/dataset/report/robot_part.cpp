@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +9,6 @@
 
 #include "common/base/error.h"
 #include "common/format/html_text.h"
-#include "common/sample/grasp_outcome.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/page_parts.h"
@@ -20,7 +18,6 @@ namespace tacipc {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kContact_n = 1e-3;  // what pushes less does not touch
 
 std::string header(const RobotReport& robot) {
   std::string html = fmt::format("<section id=\"robot\">\n<h2>Task: {}</h2>\n", html_text(robot.task));
@@ -76,91 +73,48 @@ bool changes(const RobotFolder& motion, std::size_t actuator) {
   return std::any_of(motion.frames.begin(), motion.frames.end(), other);
 }
 
-/// From when on every pad that ever touches does; nothing if none does.
-std::optional<std::size_t> held_from(const std::vector<PadForces>& pads) {
-  std::optional<std::size_t> from;
-  for (const PadForces& pad : pads) {
-    const auto touches = [](const PadForce& force) { return force.normal_n > kContact_n; };
-    const auto first = std::find_if(pad.answered.begin(), pad.answered.end(), touches);
-    if (first == pad.answered.end()) continue;
-    from = std::max(from.value_or(0), static_cast<std::size_t>(first - pad.answered.begin()));
-  }
-  return from;
-}
-
-/// The frame of all pads together: the axes of the first, the middle of their origins.
-Matrix4 hand_pose(const std::vector<Matrix4>& pads) {
-  Matrix4 pose = pads.front();
-  for (std::size_t p = 1; p < pads.size(); ++p) pose.topRightCorner<3, 1>() += pads[p].topRightCorner<3, 1>();
-  pose.topRightCorner<3, 1>() /= static_cast<double>(pads.size());
-  return pose;
-}
-
 /// To a tenth, without a minus before a zero.
 double tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
 
-/// How far the free bodies have gone and turned as seen from the pads.
-/// \param outcomes gets a sentence for each
-std::string hold_figure(const RobotReport& robot, const SceneBodies& scene, const std::vector<PadForces>& pads,
-                        const std::vector<Instant>& frames, std::string& outcomes) {
-  constexpr std::size_t kMost = 2;
-  const auto from = held_from(pads);
-  if (!from) return "";
+/// A sentence for each body with an outcome.
+std::string outcomes(const std::vector<HeldBody>& held) {
+  std::string html;
+  for (const HeldBody& body : held) {
+    if (!body.outcome) continue;
+    html += fmt::format(
+        "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand and turned by {:.1f}°; it rose by "
+        "{:.1f} mm, the hand by {:.1f} mm.</p>\n",
+        html_text(body.body), html_text(*body.outcome), 1e3 * body.motion.slip_m, body.motion.turn_rad / kDegree,
+        tenths(1e3 * body.motion.rise_m), tenths(1e3 * body.motion.hand_rise_m));
+  }
+  return html;
+}
+
+/// Slip and turn of the first bodies that the gels hold, as seen from the pads.
+std::string hold_figure(const std::vector<HeldBody>& held, const SceneBodies& scene,
+                        const std::vector<Instant>& frames) {
+  if (held.empty()) return "";
+  const std::size_t shown = std::min<std::size_t>(held.size(), 2);
   Chart chart = over_time(frames, "slip and turn in the hand");
   chart.left_label = "gone by (mm)";
   chart.right_label = "turned by (°)";
-  std::vector<std::string> names;
-  for (std::size_t b = 0; b < scene.bodies.size() && names.size() < kMost; ++b) {
-    if (scene.kinds[b] != "rigid") continue;
-    const auto in_hand = [&](std::size_t f) -> Matrix4 {
-      return hand_pose(robot.motion.frames[f].pad_pose).inverse() * scene.body_pose[f][b];
-    };
-    const auto held_s = robot.held_s.find(scene.bodies[b]);
-    std::size_t freed = *from;
-    while (held_s != robot.held_s.end() && freed + 1 < frames.size() &&
-           robot.motion.frames[freed].time_s < held_s->second - 1e-9)
-      ++freed;
-    const Matrix4 first = in_hand(freed);
-    // Its point between the pads there.
-    const Vector3 grip = first.inverse().topRightCorner<3, 1>();
-    const auto at = [&](const Matrix4& pose) -> Vector3 { return (pose * grip.homogeneous()).head<3>(); };
+  std::string slips, turns;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto body = static_cast<std::size_t>(std::find(scene.bodies.begin(), scene.bodies.end(), held[i].body) -
+                                               scene.bodies.begin());
+    if (body == scene.bodies.size()) throw DataError("scene: its record holds {}, which is no body", held[i].body);
     Curve slip, turn;
     for (std::size_t f = 0; f < frames.size(); ++f) {
-      const bool held = f >= freed;
-      const Matrix4 now = in_hand(f);
-      const Matrix3 turned = now.topLeftCorner<3, 3>() * first.topLeftCorner<3, 3>().transpose();
-      slip.values.push_back(held ? std::optional(1e3 * (at(now) - at(first)).norm()) : std::nullopt);
-      turn.values.push_back(held ? std::optional(Eigen::AngleAxisd(turned).angle() / kDegree) : std::nullopt);
+      const bool free = f >= held[i].freed_frame;
+      const HeldMotion motion = free ? held_motion(scene, body, held[i].freed_frame, f) : HeldMotion{};
+      slip.values.push_back(free ? std::optional(1e3 * motion.slip_m) : std::nullopt);
+      turn.values.push_back(free ? std::optional(motion.turn_rad / kDegree) : std::nullopt);
     }
-    const std::size_t end = frames.size() - 1;
-    HeldMotion motion{
-        .touched = std::all_of(pads.begin(), pads.end(),
-                               [&](const PadForces& pad) { return pad.answered[end].normal_n > kContact_n; }),
-        .slip_m = 1e-3 * slip.values.back().value_or(0.0),
-        .turn_rad = kDegree * turn.values.back().value_or(0.0),
-        .rise_m = (at(scene.body_pose[end][b]) - at(scene.body_pose[freed][b])).z(),
-        .hand_rise_m =
-            (hand_pose(robot.motion.frames[end].pad_pose) - hand_pose(robot.motion.frames[freed].pad_pose))(2, 3)};
-    const GraspOutcome outcome = outcome_of(motion);
-    const char* word = outcome == GraspOutcome::lifted && motion.hand_rise_m < kSlipped_m
-                           ? "held"
-                           : kGraspOutcomes[static_cast<std::size_t>(outcome)];
-    // A single pad holds nothing.
-    if (pads.size() > 1)
-      outcomes += fmt::format(
-          "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand and turned by {:.1f}°; it rose by "
-          "{:.1f} mm, the hand by {:.1f} mm.</p>\n",
-          html_text(scene.bodies[b]), word, 1e3 * motion.slip_m, motion.turn_rad / kDegree, tenths(1e3 * motion.rise_m),
-          tenths(1e3 * motion.hand_rise_m));
     chart.left.push_back(std::move(slip));
     chart.right.push_back(std::move(turn));
-    names.push_back(scene.bodies[b]);
-  }
-  if (names.empty()) return "";
-  std::string slips, turns;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    slips += (i > 0 ? ", " : "") + curve_key(static_cast<int>(1 + i)) + html_text(names[i]);
-    turns += (i > 0 ? ", " : "") + curve_key(static_cast<int>(1 + names.size() + i)) + html_text(names[i]);
+    const std::string name = html_text(held[i].body), comma = i > 0 ? ", " : "";
+    slips += comma + curve_key(static_cast<int>(1 + i)) + name;
+    turns += comma + curve_key(static_cast<int>(1 + shown + i)) + name;
   }
   return figure(chart, "<b>As seen from the pads</b>, since all touch and it is free: way of " + slips + "; turn of " +
                            turns + ". Of the point that was gripped; that the gels give way counts");
@@ -285,7 +239,7 @@ std::optional<int> first_contact(const SceneBodies& scene) {
   const std::size_t count = scene.bodies.size();
   for (std::size_t f = 0; f < scene.per_frame.size(); ++f) {
     for (std::size_t pair = 0; pair < count * count; ++pair) {
-      if (scene.kinds[pair / count] == "gel" && scene.per_frame[f][pair].force_n.norm() > kContact_n)
+      if (scene.kinds[pair / count] == "gel" && scene.per_frame[f][pair].force_n.norm() > kGelTouches_n)
         return static_cast<int>(f);
     }
   }
@@ -347,11 +301,9 @@ std::string robot_sections(const RobotReport& robot, const SceneBodies& scene, c
         "instants\"></a><figcaption>{1}</figcaption></figure>\n",
         kRobotStrip, picture_key(scene.kinds, true));
   const std::vector<PadForces> pads = pad_forces(robot, scene);
-  std::string outcomes;
-  const std::string held = hold_figure(robot, scene, pads, frames, outcomes);
-  html += outcomes + "<div class=\"pictures\">\n";
+  html += outcomes(robot.held) + "<div class=\"pictures\">\n";
   for (const PadForces& pad : pads) html += pad_figure(pad, frames, !robot.tries.empty());
-  html += held;
+  html += hold_figure(robot.held, scene, frames);
   for (std::size_t a = 0; a < robot.motion.parts.actuators.size(); ++a) {
     if (changes(robot.motion, a)) html += actuator_figure(robot.motion, a, frames);
   }

@@ -72,9 +72,7 @@ std::optional<RobotReport> read_robot_report(const fs::path& scene) {
                     .tries = {}};
   for (const std::string& name : drawn.keys()) robot.variables.emplace_back(name, drawn.required_number(name));
   for (const Record& step : task.one_or_many("steps")) robot.steps.push_back(step_name(step, robot.steps.size() + 1));
-  for (const Record& object : task.one_or_many("objects")) {
-    if (const auto held = object.number("held_s")) robot.held_s[object.required_text("name")] = *held;
-  }
+  robot.held = read_held(scene);
   robot.tolerance = task.section("coupling").number("tolerance").value_or(robot.tolerance);
   if (fs::is_regular_file(residuals)) robot.tries = read_tries(residuals);
   return robot;

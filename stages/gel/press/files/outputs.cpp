@@ -8,7 +8,7 @@
 #include "common/base/files.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/press_record.h"
-#include "common/sample/scene_folder.h"
+#include "common/sample/scene_hold.h"
 #include "common/sensor/markers.h"
 #include "stages/gel/press/drive/grasp_outcome.h"
 #include "stages/gel/press/measure/contact_summary.h"
@@ -248,6 +248,27 @@ HeldPoseLines pose_lines(const GraspPose& pose) {
           .patch_m = pose.patch_m};
 }
 
+/// Rigid bodies that the gels hold.
+std::vector<HeldBody> held_by_gels(const SceneSpec& spec, const std::vector<SceneFrame>& frames) {
+  SceneBodies all;
+  for (const BodySpec& body : spec.bodies) {
+    all.bodies.push_back(body.name);
+    all.kinds.emplace_back(kBodyKinds[static_cast<std::size_t>(body.kind)]);
+  }
+  std::vector<std::size_t> free_from(spec.bodies.size(), 0);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    all.per_frame.push_back(frames[f].between);
+    all.body_pose.push_back(frames[f].world_from_body);
+    if (frames[f].phase_index < 0) continue;
+    const ScenePhase& phase = spec.motion[static_cast<std::size_t>(frames[f].phase_index)];
+    for (const int body : phase.hold) free_from[static_cast<std::size_t>(body)] = f;
+    for (const WaySpec& way : phase.move) free_from[static_cast<std::size_t>(way.body)] = f;
+  }
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (!spec.bodies[b].path.empty()) free_from[b] = frames.size() - 1;
+  return held_bodies(all, free_from);
+}
+
 }  // namespace
 
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const SampleSpec& sample,
@@ -379,6 +400,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
     };
     summary.contact.push_back({{name(0), name(1)}, scene.contact[i].friction, scene.contact[i].d_hat_m});
   }
+  summary.held = held_lines(held_by_gels(spec, frames));
   stage.summarize(record_lines(summary));
   add_cost(stage, scene.times);
 }

@@ -129,6 +129,7 @@ inline void write_pressed_bodies(const ScratchFolder& scratch) {
       "summary:\n  bodies:\n    - {name: pad, kind: gel}\n    - {name: ball, kind: soft}\n"
       "    - {name: peg, kind: rigid, metres_per_unit: 1, mass_kg: 0.1}\n"
       "    - {name: wall, kind: fixed, metres_per_unit: 0.001}\n"
+      "  held:\n    - {body: peg, freed_frame: 0, slip_m: 0.003, turn_rad: 0, rise_m: -0.003, hand_rise_m: 0}\n"
       "  per_frame:\n    - {time_s: 0, phase: -1}\n    - {time_s: 0.01, phase: 0}\n";
   scratch.file("bodies/press.yaml", record);
   const std::vector<double> times{0.0, 0.01};

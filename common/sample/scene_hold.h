@@ -1,0 +1,43 @@
+// Outcome of a scene for the rigid bodies that its gels hold: each body's motion as seen from the gels, judged like
+// that of a grasp. `press` decides it and the record keeps it, as summary.held.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/sample/grasp_outcome.h"
+#include "common/sample/press_record.h"
+#include "common/sample/scene_folder.h"
+
+namespace tacipc {
+
+/// A gel that is pressed with less does not touch.
+inline constexpr double kGelTouches_n = 1e-3;
+
+/// Force (N) on a gel into it, −f · z of its S.
+double normal_force_n(const Matrix4& world_from_gel, const Vector3& force_n);
+
+/// Motion of a body since the frame `freed`, as seen from all gels together: their frame has the axes of the first gel
+/// and its origin in the middle of theirs. Slip is that of the body's point in this origin at `freed`.
+HeldMotion held_motion(const SceneBodies& scene, std::size_t body, std::size_t freed, std::size_t frame);
+
+/// A rigid body that a gel touches.
+struct HeldBody {
+  std::string body;
+  std::size_t freed_frame = 0;         // nothing else holds it from here on, and all gels touch that ever do
+  std::optional<std::string> outcome;  // lifted, held (the hand does not rise), slipped, rotated or dropped; none of a
+                                       // single gel, which holds nothing
+  HeldMotion motion;                   // from there to the last frame
+};
+
+/// \param free_from for each body the last frame in which a phase holds or moves it
+/// \return those that are free before the last frame
+std::vector<HeldBody> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from);
+
+/// Lines of the record; read_held() reads them back, and is empty if the record has none.
+std::vector<HeldBodyLines> held_lines(const std::vector<HeldBody>& held);
+std::vector<HeldBody> read_held(const std::filesystem::path& scene_folder);
+
+}  // namespace tacipc
