@@ -106,6 +106,9 @@ TEST(PressRecord, ThePagesListTheKeys) {
   EXPECT_EQ(listed("grasp.md", "Keys of each frame:", ".\n"), key_names<GraspFrameLines>());
   EXPECT_EQ(listed("scenes.md", "Keys of the record's `summary`:", ".\n"), key_names<SceneSummary>());
   EXPECT_EQ(listed("scenes.md", "Keys of each body:", ".\n"), key_names<SceneBodyLines>());
+  EXPECT_EQ(listed("scenes.md", "Keys of each entry of `contact`, the contact of a pair that the scene names:", ". "),
+            key_names<ContactLines>());
+  EXPECT_EQ(listed("scenes.md", "Keys of each entry of `held`:", ".\n"), key_names<HeldBodyLines>());
   EXPECT_EQ(listed("scenes.md", "Keys of each frame:", ".\n"), key_names<SceneFrameLines>());
 }
 

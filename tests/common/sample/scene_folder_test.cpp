@@ -93,5 +93,18 @@ TEST_F(SceneFolderTest, WhatIsNotOneSceneIsRefused) {
   EXPECT_EQ(error(), (scratch_ / "").string() + ": has no press.yaml, so the press did not finish");
 }
 
+TEST_F(SceneFolderTest, AnArrayThatIsNotTheOneOfTheRecordIsRefused) {
+  const std::filesystem::path fingers = scratch_ / "finger_pose.npy";
+  scratch_.file("press.yaml", "stage: press\noutputs:\n  finger_pose.npy: " + content_hash(fingers) + "\n");
+  EXPECT_EQ(read_scene_folder(scratch_ / "").gels.size(), 2u);
+  write_poses("finger_pose.npy", {2, 2, 4, 4}, {10, 20, 30, 41});
+  EXPECT_EQ(error(), fingers.string() + ": has changed since press.yaml was written beside it");
+}
+
+TEST_F(SceneFolderTest, AGraspWithTheFormerNamesOfItsArraysIsRefused) {
+  std::filesystem::rename(scratch_ / "object_world_pose.npy", scratch_ / "object_pose.npy");
+  EXPECT_THAT(error(), ::testing::HasSubstr("object_world_pose.npy"));
+}
+
 }  // namespace
 }  // namespace tacipc
