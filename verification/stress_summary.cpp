@@ -117,11 +117,8 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
         sum.time_steps - sum.planned_steps, sum.newton_iterations, sum.moving_iterations, sum.lag_iterations,
         1e6 * lower_quantile(distances, 0.0), 1e6 * lower_quantile(distances, 0.5), sum.min_volume_ratio);
     if (!whole)
-      out += fmt::format(
-          "\nThe other {} cases left no numbers: {} crashed, {} ended early, of whose frames only the "
-          "count is known.\n",
-          lines.size() - distances.size(), all.crashed,
-          lines.size() - distances.size() - static_cast<std::size_t>(all.crashed));
+      out += fmt::format("\nNot in these totals: {} crashed, {} ended early (only the number of frames is known).\n",
+                         all.crashed, lines.size() - distances.size() - static_cast<std::size_t>(all.crashed));
   }
   if (all.converged == all.cases) return out;
   out += "\n| case | object | motion | frames | outcome | reason |\n|---|---|---|---|---|---|\n";

@@ -101,7 +101,7 @@ class RowTracer {
           const auto pixel = static_cast<std::size_t>((first + l) / subpixels_);
           const auto& hit = hits[l];
           if (!hit) {
-            ++pixels[pixel].segments[Segment::beside];
+            ++pixels[pixel].segments[static_cast<std::size_t>(Segment::beside)];
             continue;
           }
           const bool on_marker = add_geometry(*hit, pixels[pixel]);
@@ -240,11 +240,11 @@ class RowTracer {
     }
     if (sensor_.markers.radius_m) on_marker = sensor_.markers.covers(rest.x(), rest.y());
     pixel.on_marker += on_marker;
-    ++pixel.contacts[contact];
+    ++pixel.contacts[static_cast<std::size_t>(contact)];
     const bool touched = contact != ContactState::none;
     const Segment segment = on_marker ? (touched ? Segment::marker_in_contact : Segment::marker)
                                       : (touched ? Segment::contact : Segment::gel);
-    ++pixel.segments[segment];
+    ++pixel.segments[static_cast<std::size_t>(segment)];
     return on_marker;
   }
 
