@@ -134,8 +134,7 @@ TACIPC_CLONES unsigned edge_lanes(const double* x, const double* rest, const Con
 
 }  // namespace
 
-double ContactBarrier::value(const Positions& x) const {
-  const std::vector<int> near = active(x);
+double ContactBarrier::value_of(const std::vector<int>& near, const Positions& x) const {
   return ordered_sum(static_cast<int>(near.size()), [&](int first, int last) {
     double sum = 0.0;
     while (first < last) {

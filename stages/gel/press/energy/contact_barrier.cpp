@@ -113,10 +113,7 @@ bool ContactBarrier::mollified(int i, const FourPoints& x) const {
   return threshold > 0.0 && edge_cross_squared_norm(x) < threshold;
 }
 
-std::vector<int> ContactBarrier::active(const Positions& x) const {
-  if (last_.x.rows() != x.rows() || (last_.x.array() != x.array()).any()) last_ = {x, near_pairs(pairs_, x, s_hat_)};
-  return last_.near;
-}
+std::vector<int> ContactBarrier::active(const Positions& x) const { return near_pairs(pairs_, x, s_hat_); }
 
 double ContactBarrier::value_of(int i, const FourPoints& points) const {
   const double s = closest_feature(pairs_[i], points).squared_distance;

@@ -24,8 +24,8 @@ class ContactBarrier final : public ContactTerm {
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
 
-  double value(const Positions& x) const override;
   std::vector<int> active(const Positions& x) const override;
+  double value_of(const std::vector<int>& active, const Positions& x) const override;
   bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
   bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
   void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend, WantedVertices wanted,
@@ -63,12 +63,7 @@ class ContactBarrier final : public ContactTerm {
   std::vector<ContactPair> pairs_;
   ContactLaws laws_;
   std::vector<std::uint16_t> law_of_;  // index of each pair's law; empty if all are alike
-  /// What active() found last: energy, friction and derivatives ask at the same place. One thread at a time.
-  mutable struct {
-    Positions x;
-    std::vector<int> near;
-  } last_;
-  double s_hat_;  // square of the largest d̂: the largest ŝ of all pairs
+  double s_hat_;                       // square of the largest d̂: the largest ŝ of all pairs
 };
 
 }  // namespace tacipc

@@ -23,6 +23,10 @@ class ContactTerm : public EnergyTerm {
   /// Stencils that do not vanish at x, ascending, and perhaps some that do.
   virtual std::vector<int> active(const Positions& x) const = 0;
 
+  /// Σ over the stencils that are active at x: the term's value there.
+  virtual double value_of(const std::vector<int>& active, const Positions& x) const = 0;
+  double value(const Positions& x) const final { return value_of(active(x), x); }
+
   /// Gradient of stencil i; false where it vanishes.
   virtual bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const = 0;
 

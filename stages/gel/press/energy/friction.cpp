@@ -16,11 +16,11 @@ double friction_integral(double y, double epsilon) {
   return r < 1.0 ? epsilon * (r * r * (1.0 - r / 3.0) + 1.0 / 3.0) : y;
 }
 
-Friction::Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m)
+Friction::Friction(const ContactBarrier& barrier, const std::vector<int>& active, const Positions& lagged,
+                   const Positions& start, double epsilon_m)
     : epsilon_m_(epsilon_m) {
-  const std::vector<int> near = barrier.active(lagged);
-  pairs_.reserve(near.size());
-  for (const int i : near) {
+  pairs_.reserve(active.size());
+  for (const int i : active) {
     const ContactPair& contact = barrier.pairs()[i];
     const ContactBarrier::Push push = barrier.push(i, gather(lagged, contact));
     const double normal_force = push.force * barrier.laws().relative_friction(barrier.law(i));
@@ -79,11 +79,13 @@ std::vector<int> Friction::active(const Positions&) const {
   return all;
 }
 
-double Friction::value(const Positions& x) const {
-  return ordered_sum(num_stencils(), [&](int first, int last) {
+double Friction::value_of(const std::vector<int>& active, const Positions& x) const {
+  return ordered_sum(static_cast<int>(active.size()), [&](int first, int last) {
     double sum = 0.0;
-    for (int i = first; i < last; ++i)
+    for (int k = first; k < last; ++k) {
+      const int i = active[static_cast<std::size_t>(k)];
       sum += pairs_[i].normal_force * friction_integral(relative_slide(i, x) * epsilon_m_, epsilon_m_);
+    }
     return sum;
   });
 }

@@ -20,8 +20,12 @@ double friction_integral(double y, double epsilon);
 /// largest of all pairs of bodies; λ_k includes μ_k/μ, μ_k of the law of the pair.   [Eq. 6–9]
 class Friction final : public ContactTerm {
  public:
+  /// \param active the barrier's active pairs at the lagged position
   /// \param epsilon_m ε_v h: how far a side slides in one step at the speed where friction is fully reached
-  Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m);
+  Friction(const ContactBarrier& barrier, const std::vector<int>& active, const Positions& lagged,
+           const Positions& start, double epsilon_m);
+  Friction(const ContactBarrier& barrier, const Positions& lagged, const Positions& start, double epsilon_m)
+      : Friction(barrier, barrier.active(lagged), lagged, start, epsilon_m) {}
 
   /// This friction and a newer one of the same time step: the pairs of both, with 1 − part and `part` of their normal
   /// forces. Pairs whose share falls below a thousandth are dropped.
@@ -35,8 +39,8 @@ class Friction final : public ContactTerm {
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
 
-  double value(const Positions& x) const override;
   std::vector<int> active(const Positions& x) const override;  // all
+  double value_of(const std::vector<int>& active, const Positions& x) const override;
   bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const override;
   bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted, PairLocal& out) const override;
   void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend, WantedVertices wanted,

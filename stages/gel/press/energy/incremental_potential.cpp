@@ -4,13 +4,12 @@
 
 namespace tacipc {
 
-double IncrementalPotential::value(const Positions& x) const {
+double IncrementalPotential::value(const Positions& x, const std::vector<int>* active) const {
   double value = 0.0;
   for (const WeightedTerm& part : terms) value += part.weight * part.term->value(x);
   for (const WeightedTerm& part : of_bodies) value += part.weight * part.term->value(x);
-  for (const WeightedContact* contact : {&friction, &barrier}) {
-    if (contact->term) value += contact->weight * contact->term->value(x);
-  }
+  if (friction.term) value += friction.weight * friction.term->value(x);
+  if (barrier.term) value += barrier.weight * (active ? barrier.term->value_of(*active, x) : barrier.term->value(x));
   return value;
 }
 

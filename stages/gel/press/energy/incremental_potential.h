@@ -62,7 +62,8 @@ struct IncrementalPotential {
   WeightedContact barrier = {};
 
   /// Ê(x), +∞ where x is not allowed. The sum runs in a fixed order: terms, bodies, friction, barrier.
-  double value(const Positions& x) const;
+  /// \param active the barrier's active pairs at x, if known
+  double value(const Positions& x, const std::vector<int>* active = nullptr) const;
 };
 
 /// Ê = inertia + αh C_M + βh C_K + h² (f Φ + viscous memory + gravity + constraint + orthogonality) + κ′(μ D + B), κ′ =

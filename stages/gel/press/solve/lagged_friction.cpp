@@ -35,14 +35,15 @@ constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
 
 }  // namespace
 
-std::shared_ptr<const Friction> LaggedFriction::lagged_at(const Positions& x, const ContactBarrier& barrier,
+std::shared_ptr<const Friction> LaggedFriction::lagged_at(const Positions& x, ActiveBarrier& barrier,
                                                           const Step& step) const {
-  return std::make_shared<const Friction>(barrier, x, step.compared_start(),
+  return std::make_shared<const Friction>(*barrier.barrier(), barrier.at(x), x, step.compared_start(),
                                           model_.settings.friction->speed_threshold_m_s * step.goal.h_s);
 }
 
 std::shared_ptr<const Friction> LaggedFriction::lagged_at(const Positions& x, const Step& step) {
-  return lagged_at(x, *model_.barrier(detector_.pairs_at(x)), step);
+  ActiveBarrier barrier(model_.barrier(detector_.pairs_at(x)));
+  return lagged_at(x, barrier, step);
 }
 
 void LaggedFriction::start(Step& step) {
@@ -88,7 +89,7 @@ double LaggedFriction::limit(const Step& step) const {
 }
 
 void LaggedFriction::renew(Step& step, Minimisation& run) const {
-  auto renewed = lagged_at(step.x, *run.barrier, step);
+  auto renewed = lagged_at(step.x, run.active, step);
   if (step.arrived) {
     const double changed = change(*renewed, step);
     log_debug("  renewal {}: {:.3e} N", step.report.lag_iterations + 1, changed);
@@ -104,7 +105,7 @@ void LaggedFriction::renew(Step& step, Minimisation& run) const {
   }
   ++step.report.lag_iterations;
   step.friction = std::move(renewed);
-  run.energy = step.potential(run.barrier);
+  run.energy = step.potential(run.active.barrier());
   run.value.reset();
 }
 

@@ -24,7 +24,7 @@ class LaggedFriction {
 
  private:
   /// Friction of this step with normal forces and tangent planes at x. \pre there is friction
-  std::shared_ptr<const Friction> lagged_at(const Positions& x, const ContactBarrier& barrier, const Step& step) const;
+  std::shared_ptr<const Friction> lagged_at(const Positions& x, ActiveBarrier& barrier, const Step& step) const;
   std::shared_ptr<const Friction> lagged_at(const Positions& x, const Step& step);
   /// Σ over free vertices and free bodies of |force| by which other friction would differ from that of the step, at its
   /// x.

@@ -27,7 +27,7 @@ void raise_shares_of_farthest(const Positions& p, Blend& blend) {
 std::optional<double> line_search(const NewtonDirection& direction, double limit, Step& step, Minimisation& run,
                                   SolverTimes& times) {
   const auto value = [&](const Positions& at) {
-    return timed(times.line_search_s, [&] { return run.energy.value(at); });
+    return timed(times.line_search_s, [&] { return run.energy.value(at, &run.active.at(at)); });
   };
   const double before = run.value ? *run.value : value(step.x);
   // Near the minimum the decrease drowns in rounding; a step that changes nothing measurable is accepted, too.

@@ -45,8 +45,8 @@ void stretch_next(Minimisation& run, const NewtonDirection& direction, double al
 
 void Minimiser::minimise(Step& step) {
   const StepReport& report = step.report;
-  Minimisation run{.barrier = model_.barrier(detector_.pairs_at(step.x)), .energy = {}};
-  run.energy = step.potential(run.barrier);
+  Minimisation run{.active = ActiveBarrier(model_.barrier(detector_.pairs_at(step.x))), .energy = {}};
+  run.energy = step.potential(run.active.barrier());
   while (true) {
     if (report.newton_iterations >= model_.settings.newton.max_iterations) {
       throw SolverError(
@@ -78,8 +78,8 @@ void Minimiser::minimise(Step& step) {
     std::vector<ContactPair> pairs = detector_.pairs_along(step.x, direction.p);
     const double limit = moving ? mover_.bend_at_contacts(step, run, direction, pairs)
                                 : detector_.step_limit(pairs, step.x, direction.p, kNewtonSlack);
-    run.barrier = model_.barrier(pairs);
-    run.energy = step.potential(run.barrier);
+    run.active = ActiveBarrier(model_.barrier(pairs));
+    run.energy = step.potential(run.active.barrier());
     double alpha = limit;
     const char* const kind = moving ? "move" : step.arrived ? "newton" : "relax";
     if (moving) {
@@ -96,8 +96,8 @@ void Minimiser::minimise(Step& step) {
       run.relax_next = false;
       if (!step.bodies.empty()) stretch_next(run, direction, alpha);
       if (const auto change = step.arrived ? patches_.relax(step, direction, pairs) : std::nullopt) {
-        run.barrier = model_.barrier(std::move(pairs));
-        run.energy = step.potential(run.barrier);
+        run.active = ActiveBarrier(model_.barrier(std::move(pairs)));
+        run.energy = step.potential(run.active.barrier());
         *run.value += *change;
       }
     }
@@ -121,8 +121,9 @@ NewtonDirection Minimiser::find_direction(Step& step, Minimisation& run, bool mo
   step.newton.set_tolerance(moving ? kFineSolve : loose ? kLooseSolve : kCoarseSolve);
   const double longest_m = moving ? std::numeric_limits<double>::infinity() : kLengthGrowth * run.residual_m_s * h;
   Blend from_psd = model_.full_blend();
-  NewtonDirection direction = step.newton.direction({run.energy, step.x, motion, step.goal.free_axes, longest_m},
-                                                    step.arrived ? step.blend : from_psd);
+  NewtonDirection direction =
+      step.newton.direction({run.energy, step.x, motion, step.goal.free_axes, longest_m, &run.active.at(step.x)},
+                            step.arrived ? step.blend : from_psd);
   const Eigen::Index rows = model_.settings.augmented_lagrangian ? step.x.rows() : model_.mesh.num_gel_vertices;
   run.residual_m_s = std::max(largest_row(direction.p, rows), direction.object_shift.norm());
   for (const Step::Body& body : step.bodies) {

@@ -67,14 +67,15 @@ SolverTimes NewtonStepper::times() const {
 }
 
 NewtonStepper::Call NewtonStepper::start(const NewtonProblem& problem) {
-  const auto active = [&](const WeightedContact& contact) -> std::vector<int> {
+  const auto active = [&](const WeightedContact& contact, const std::vector<int>* known) -> std::vector<int> {
     if (!contact.term) return {};
     const Stopwatch watch(times_.contact_s);
-    std::vector<int> found = contact.term->active(problem.x);
+    std::vector<int> found = known ? *known : contact.term->active(problem.x);
     pattern_ = cover_contacts(pattern_, free_, first_object_vertex_, *contact.term, found, problem.x);
     return found;
   };
-  std::vector<int> friction = active(problem.potential.friction), barrier = active(problem.potential.barrier);
+  std::vector<int> friction = active(problem.potential.friction, nullptr),
+                   barrier = active(problem.potential.barrier, problem.active_barrier);
 
   const auto of_object = problem.motion.middleRows(first_object_vertex_, num_object_rows(problem.motion));
   const Vector3 translation = of_object.rows() > 0 ? Vector3(of_object.row(0)) : Vector3::Zero();

@@ -25,6 +25,7 @@ struct NewtonProblem {
   /// A step by which a vertex in contact goes farther than this counts as a sign of a Hessian that is almost
   /// indefinite; it is taken nevertheless once the PSD approximation does not shorten it.
   double longest_m = std::numeric_limits<double>::infinity();
+  const std::vector<int>* active_barrier = nullptr;  // the barrier's active pairs at x, if known
 };
 
 /// A Newton step and what was learnt on the way to it.

@@ -61,9 +61,28 @@ struct Step {
   }
 };
 
+/// A barrier and its active pairs at the last x: energy, friction and derivatives need them at the same x.
+class ActiveBarrier {
+ public:
+  explicit ActiveBarrier(std::shared_ptr<const ContactBarrier> barrier) : barrier_(std::move(barrier)) {}
+  const std::shared_ptr<const ContactBarrier>& barrier() const { return barrier_; }
+  const std::vector<int>& at(const Positions& x) {
+    if (x_.rows() != x.rows() || (x_.array() != x.array()).any()) {
+      x_ = x;
+      pairs_ = barrier_->active(x);
+    }
+    return pairs_;
+  }
+
+ private:
+  std::shared_ptr<const ContactBarrier> barrier_;
+  Positions x_;
+  std::vector<int> pairs_;
+};
+
 /// Newton's method at work on one minimum: data that an iteration leaves for the next.
 struct Minimisation {
-  std::shared_ptr<const ContactBarrier> barrier;
+  ActiveBarrier active;
   IncrementalPotential energy;
   std::optional<double> value = std::nullopt;  // of the energy at x, if line search or patch have computed it
   double residual_m_s = std::numeric_limits<double>::infinity();  // max |p| / h of the last direction
