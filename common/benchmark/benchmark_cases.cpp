@@ -69,6 +69,11 @@ std::string plain(ConfigReader& in, const std::string& key) {
   return fine ? text : "x";
 }
 
+Eigen::Vector2d pair_of(ConfigReader& in, const std::string& key, std::vector<double> fallback) {
+  const auto values = fallback.empty() ? in.numbers(key, 2) : in.numbers_or(key, std::move(fallback));
+  return {values[0], values[1]};
+}
+
 BenchmarkCases BenchmarkCases::read(ConfigReader& in) {
   BenchmarkCases cases;
   cases.title = in.text("title");

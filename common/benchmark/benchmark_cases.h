@@ -15,6 +15,9 @@ namespace tacipc {
 /// A text that Make and the shell take for one word, or a path of such words; anything else is a fault.
 std::string plain(ConfigReader& in, const std::string& key);
 
+/// Two numbers of a list; with a fallback the key may be absent.
+Eigen::Vector2d pair_of(ConfigReader& in, const std::string& key, std::vector<double> fallback = {});
+
 /// A photograph of an object pressed to a depth, or of a ball whose contact circle alone is known.
 struct PhotographCase {
   std::string name;

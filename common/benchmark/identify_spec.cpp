@@ -11,11 +11,6 @@
 namespace tacipc {
 namespace {
 
-Eigen::Vector2d pair_of(ConfigReader& in, const std::string& key, std::vector<double> fallback = {}) {
-  const auto values = fallback.empty() ? in.numbers(key, 2) : in.numbers_or(key, std::move(fallback));
-  return {values[0], values[1]};
-}
-
 std::vector<double> ascending(ConfigReader& in, const std::string& key, std::size_t least, const Range& range) {
   std::vector<double> values = in.any_numbers(key, range);
   if (values.size() < least) in.fault(key, fmt::format("needs at least {} values", least));

@@ -7,11 +7,6 @@
 namespace tacipc {
 namespace {
 
-Eigen::Vector2d pair_of(ConfigReader& in, const std::string& key) {
-  const auto values = in.numbers(key, 2);
-  return {values[0], values[1]};
-}
-
 MarkerVariant read_variant(ConfigReader& in, const MarkerAssumptions& base) {
   MarkerVariant variant{.name = plain(in, "name"), .assumed = base};
   if (const auto radius = in.optional_number("ball_radius_mm", Range::positive()))

@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr const char* kMagic = "PAR1";
+constexpr const char* kParquetMagic = "PAR1";
 // Enumerations of parquet.thrift.
 constexpr int kInt64 = 2, kFloat = 4, kByteArray = 6;
 constexpr int kRequired = 0, kRepeated = 2;
@@ -200,7 +200,7 @@ ParquetWriter::ParquetWriter(std::filesystem::path path, std::vector<ParquetColu
       metadata_(std::move(metadata)) {
   for ([[maybe_unused]] const ParquetColumn& column : columns_)
     for ([[maybe_unused]] const std::size_t extent : column.shape) assert(extent > 0);
-  write(kMagic);
+  write(kParquetMagic);
 }
 
 void ParquetWriter::write(const std::string& bytes) {
@@ -290,7 +290,7 @@ void ParquetWriter::close() {
   const std::string bytes = footer.bytes();
   write(bytes);
   const auto size = static_cast<std::uint32_t>(bytes.size());
-  write(std::string(reinterpret_cast<const char*>(&size), sizeof(size)) + kMagic);
+  write(std::string(reinterpret_cast<const char*>(&size), sizeof(size)) + kParquetMagic);
   file_.close();
   if (!file_) throw DataError("{}: cannot be written", path_.string());
 }

@@ -25,7 +25,7 @@ namespace {
 /// Coding in the calling thread keeps the order of chunks, and so the bytes, fixed.
 constexpr int kThreads = 0;
 /// Of zlib. Level 4, the library's own, makes floats 1 % smaller in a fifth more time.
-constexpr int kCompression = 1;
+constexpr int kExrCompression = 1;
 
 /// Files pass through memory, so that disk errors are read_file's and write_file's.
 class MemoryOut final : public Imf::OStream {
@@ -91,7 +91,7 @@ std::string exr_bytes(const Image<T>& image, const std::vector<std::string>& cha
   try {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
-    header.zipCompressionLevel() = kCompression;
+    header.zipCompressionLevel() = kExrCompression;
     Imf::FrameBuffer frame;
     for (int c = 0; c < image.channels; ++c) {
       const Imf::Slice part = slice(image, c, 0, 0);

@@ -14,7 +14,7 @@ namespace {
 constexpr int kExact = TJFLAG_ACCURATEDCT;
 
 /// Pixels per byte: a block of 8 x 8 of a grey, progressive file takes at least one bit.
-constexpr std::uint64_t kLargestRatio = 8 * 8 * 8;
+constexpr std::uint64_t kPixelsPerByte = 8 * 8 * 8;
 
 using Handle = std::unique_ptr<void, int (*)(tjhandle)>;
 
@@ -29,7 +29,7 @@ ByteImage decode_jpeg(std::string_view bytes, int channels, const std::string& n
   if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &sampling, &colors) != 0)
     throw DataError("{}: is not a readable image: {}", name, tjGetErrorStr2(handle.get()));
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (pixels / kLargestRatio > bytes.size())
+  if (pixels / kPixelsPerByte > bytes.size())
     throw DataError("{}: {} x {} pixels cannot be in a file of {} bytes", name, width, height, bytes.size());
   ByteImage image(width, height, channels);
   if (tjDecompress2(handle.get(), data, bytes.size(), image.pixels.data(), width, 0, height,

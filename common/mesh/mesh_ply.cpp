@@ -51,7 +51,7 @@ struct Element {
   std::vector<Property> properties;
 };
 
-struct Header {
+struct PlyHeader {
   bool ascii = true;
   std::endian order = std::endian::little;
   std::vector<Element> elements;
@@ -65,14 +65,14 @@ Scalar scalar_type(const TextReader& in, std::string_view word) {
   return *scalar;
 }
 
-Header read_header(std::string_view bytes, const std::string& name) {
+PlyHeader read_header(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kEnd = "end_header";
   std::size_t end = bytes.find(kEnd);
   // A comment may mention the word; the header ends with a line of its own.
   while (end != std::string_view::npos && end > 0 && bytes[end - 1] != '\n' && bytes[end - 1] != '\r')
     end = bytes.find(kEnd, end + 1);
   if (end == std::string_view::npos) throw DataError("{}: the file ends inside the PLY header", name);
-  Header header;
+  PlyHeader header;
   header.body = end + kEnd.size();
   while (header.body < bytes.size() && (bytes[header.body] == ' ' || bytes[header.body] == '\t')) ++header.body;
   if (header.body < bytes.size() && bytes[header.body] == '\r') ++header.body;
@@ -120,7 +120,7 @@ Header read_header(std::string_view bytes, const std::string& name) {
 /// The numbers of the body, text or binary.
 class Body {
  public:
-  Body(std::string_view bytes, const std::string& name, const Header& header)
+  Body(std::string_view bytes, const std::string& name, const PlyHeader& header)
       : ascii_(header.ascii),
         text_(bytes.substr(header.ascii ? header.body : bytes.size()), name, header.body_line),
         binary_(bytes, name, header.order) {
@@ -230,7 +230,7 @@ void read_lists(const Element& element, Body& body, PolygonSoup* soup) {
 }  // namespace
 
 PolygonSoup read_ply(std::string_view bytes, const std::string& name) {
-  const Header header = read_header(bytes, name);
+  const PlyHeader header = read_header(bytes, name);
   Body body(bytes, name, header);
   PolygonSoup soup;
   for (const Element& element : header.elements) {

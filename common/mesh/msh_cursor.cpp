@@ -14,7 +14,7 @@ std::string_view up_to_end(std::string_view file, std::string_view section) {
   return file.substr(0, offset_of(file, section) + section.size());
 }
 
-int first_line(std::string_view file, std::string_view section, bool text) {
+int first_line_of_section(std::string_view file, std::string_view section, bool text) {
   if (!text) return 1;
   const std::string_view before = file.substr(0, offset_of(file, section));
   return 1 + static_cast<int>(std::ranges::count(before, '\n'));
@@ -25,7 +25,7 @@ int first_line(std::string_view file, std::string_view section, bool text) {
 MshCursor::MshCursor(std::string_view file, std::string_view section, const std::string& name, Form form)
     : section_(section),
       text_form_(form == Form::text),
-      text_(section, name, first_line(file, section, text_form_)),
+      text_(section, name, first_line_of_section(file, section, text_form_)),
       bytes_(up_to_end(file, section), name, form == Form::binary_big ? std::endian::big : std::endian::little) {
   bytes_.seek(offset_of(file, section));
 }

@@ -23,7 +23,7 @@ std::string code_list(const Names& names) {
   return text;
 }
 
-const std::array<NpyField, 14>& all_fields() {
+const std::array<NpyField, 14>& all_arrays() {
   static const std::array<NpyField, 14> kFields{{
       {"positions.npy", f8, {kFrames, kVertices, 3}, "m", "gel vertices in the order of `gel.msh`; frame 0 is rest"},
       {"object_pose.npy", f8, {kFrames, 4, 4}, "m", "`gel_from_object`"},
@@ -112,9 +112,9 @@ std::vector<Code> codes_of(const std::vector<double>& values, const Names& names
 
 }  // namespace
 
-std::span<const NpyField> press_fields() { return all_fields(); }
+std::span<const NpyField> press_fields() { return all_arrays(); }
 
-const NpyField& field_of(PressArray array) { return all_fields()[static_cast<std::size_t>(array)]; }
+const NpyField& field_of(PressArray array) { return all_arrays()[static_cast<std::size_t>(array)]; }
 
 void PressFolder::require(std::initializer_list<PressArray> arrays) const {
   for (const PressArray array : arrays) arrays_.require(field_of(array));

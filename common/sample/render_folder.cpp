@@ -29,7 +29,7 @@ std::string codes_text(const Names& names, int step) {
   return text;
 }
 
-const std::array<ImageField, 14>& all_fields() {
+const std::array<ImageField, 14>& all_images() {
   // Names of EXR channels that OpenCV reads: one Y, or R G B. Of others it makes zeros, or one channel, without a word.
   static const std::vector<std::string> kRgb{"R", "G", "B"}, kGrey{"grey"};
   static const std::array<ImageField, 14> kFields{{
@@ -70,9 +70,9 @@ int multiple_of(double code, int step, std::size_t count, FrameFile file) {
 
 }  // namespace
 
-std::span<const ImageField> frame_fields() { return all_fields(); }
+std::span<const ImageField> frame_fields() { return all_images(); }
 
-const ImageField& field_of(FrameFile file) { return all_fields()[static_cast<std::size_t>(file)]; }
+const ImageField& field_of(FrameFile file) { return all_images()[static_cast<std::size_t>(file)]; }
 
 const NpyField& marker_px_field() {
   static const NpyField kField{.file = "marker_px.npy",

@@ -8,15 +8,15 @@
 namespace tacipc {
 namespace {
 
-const std::vector<std::string> kChannels{"height", "slope_x", "slope_y"};
+const std::vector<std::string> kReliefChannels{"height", "slope_x", "slope_y"};
 
 }  // namespace
 
 PrintRelief PrintRelief::read(const std::filesystem::path& path, const Camera& camera) {
-  return {.map = read_camera_exr(path, kChannels, camera), .pixel_m = camera.window_width_m / camera.width_px};
+  return {.map = read_camera_exr(path, kReliefChannels, camera), .pixel_m = camera.window_width_m / camera.width_px};
 }
 
-void PrintRelief::write(const std::filesystem::path& path) const { write_exr(path, map, kChannels); }
+void PrintRelief::write(const std::filesystem::path& path) const { write_exr(path, map, kReliefChannels); }
 
 Vector3 steeper(const Vector3& normal, double slope_x, double slope_y) {
   return Vector3(normal.x() - slope_x * normal.z(), normal.y() - slope_y * normal.z(), normal.z()).normalized();
