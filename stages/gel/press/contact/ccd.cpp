@@ -13,7 +13,7 @@ namespace {
 constexpr double kCloseEnough = 1e-2;
 /// Tries of a longer interval are this much shorter each time.
 constexpr double kShrink = 0.25;
-constexpr int kMaxTries = 24;
+constexpr int kMaxCuts = 24;
 
 double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
   assert(options.slack >= 0 && options.slack < 1 && options.minimum_separation_m >= 0);
@@ -33,7 +33,7 @@ double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& disp
     // A longer interval, by a plane that turns with the pair or by the volume.
     bool longer = false;
     double to = std::min(1.0, t + reach);
-    for (int tries = 0; to > exit && tries < kMaxTries; ++tries, to = t + kShrink * (to - t)) {
+    for (int tries = 0; to > exit && tries < kMaxCuts; ++tries, to = t + kShrink * (to - t)) {
       const std::optional<Vector3> n_to = motion.direction(motion.closest(to));
       if (!n_to) continue;
       if (motion.plane_separates(t, to, *n, *n_to, separation) ||

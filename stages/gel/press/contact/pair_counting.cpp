@@ -9,7 +9,7 @@ namespace tacipc {
 namespace {
 
 /// Edges or corners that vertices are near to, each by its lowest and highest vertex.
-class Cells {
+class PairCells {
  public:
   void add(int point, int a, int b) {
     points_.push_back(point);
@@ -57,7 +57,7 @@ std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactM
     const std::vector<double>& sharp = of_gel(a) ? mesh.gel_edge_sharpness : mesh.object_edge_sharpness;
     return sharp.empty() ? 0.0 : sharp[index_of_edge(surface, a, b)];
   };
-  Cells edges, corners;
+  PairCells edges, corners;
   for (ContactPair& pair : pairs) {
     const auto& v = pair.vertices;
     if (of_gel(v[0]) && of_gel(v[3]) && (mesh.gels.empty() || mesh.body_of(v[0]) == mesh.body_of(v[3]))) continue;

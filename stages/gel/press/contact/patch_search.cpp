@@ -9,7 +9,7 @@
 namespace tacipc {
 namespace {
 
-constexpr double kRounding = 1e-5;
+constexpr double kDistanceRounding = 1e-5;
 constexpr double kSpareTravel = 1.5;                       // × the way to go
 constexpr double kSpareReach = 3.0, kShortestReach = 0.2;  // × the step; × the longest reach
 constexpr double kUsedUp = 0.5;  // part of the reach: where one vertex gets out of its own, these are searched, too
@@ -52,7 +52,7 @@ void PatchSearch::search_around(const std::vector<int>& some, const Positions& x
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto& v = found[i].vertices;
     const double both = *std::max_element(v.begin(), v.end()) < num_gel_vertices_ ? 2.0 : 1.0;
-    const double needed = ((1.0 - kRounding) * std::sqrt(squared[i]) - within_m_) / both;
+    const double needed = ((1.0 - kDistanceRounding) * std::sqrt(squared[i]) - within_m_) / both;
     if (needed > farthest_reach(reach_m_, v)) continue;
     in_reach_.push_back(found[i]);
     needed_m_.push_back(needed);

@@ -10,8 +10,8 @@ namespace {
 // sin² of the angle between two edges below which distance.cpp finds the closest feature.
 constexpr double kTrustedSine2 = 2e-6;
 
-/// Lanes, by their bits, that evaluate_lanes must not decide: closest features of slivers and of nearly parallel edges,
-/// and mollified edges.
+/// Lanes, by their bits, that evaluate_barrier must not decide: closest features of slivers and of nearly parallel
+/// edges, and mollified edges.
 template <bool point_triangle>
 TACIPC_INLINE unsigned doubtful_lanes(const PackedPoints& p, const double* rest, const ContactPair* const* pairs) {
   const Pack3 a = point_triangle ? p[2] - p[1] : p[1] - p[0], b = point_triangle ? p[3] - p[1] : p[3] - p[2];
@@ -36,8 +36,8 @@ TACIPC_INLINE unsigned doubtful_lanes(const PackedPoints& p, const double* rest,
 /// evaluate_blended lane by lane; returns doubtful_lanes(). The wanted vertices are template arguments, so that the
 /// compiler leaves out the others.
 template <bool point_triangle, int first, int count>
-TACIPC_INLINE unsigned evaluate_lanes(const double* x, const double* rest, const ContactPair* const* pairs,
-                                      double s_hat, const Pack& blend, PackedBlocks& out) {
+TACIPC_INLINE unsigned evaluate_barrier(const double* x, const double* rest, const ContactPair* const* pairs,
+                                        double s_hat, const Pack& blend, PackedBlocks& out) {
   const PackedPoints p = load_points(x, pairs);
   const PackedFeature f = point_triangle ? point_triangle_feature(p) : edge_edge_feature(p);
   const Pack s = f.squared_distance, none = {}, one = none + 1.0;
@@ -121,15 +121,15 @@ using Lanes = unsigned(const double* x, const double* rest, const ContactPair* c
                        const Pack& blend, PackedBlocks& out);
 TACIPC_CLONES unsigned point_lanes(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
                                    const Pack& blend, PackedBlocks& out) {
-  return evaluate_lanes<true, 0, 1>(x, rest, pairs, s_hat, blend, out);
+  return evaluate_barrier<true, 0, 1>(x, rest, pairs, s_hat, blend, out);
 }
 TACIPC_CLONES unsigned triangle_lanes(const double* x, const double* rest, const ContactPair* const* pairs,
                                       double s_hat, const Pack& blend, PackedBlocks& out) {
-  return evaluate_lanes<true, 1, 3>(x, rest, pairs, s_hat, blend, out);
+  return evaluate_barrier<true, 1, 3>(x, rest, pairs, s_hat, blend, out);
 }
 TACIPC_CLONES unsigned edge_lanes(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
                                   const Pack& blend, PackedBlocks& out) {
-  return evaluate_lanes<false, 0, 2>(x, rest, pairs, s_hat, blend, out);
+  return evaluate_barrier<false, 0, 2>(x, rest, pairs, s_hat, blend, out);
 }
 
 }  // namespace

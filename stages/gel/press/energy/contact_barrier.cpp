@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-FourPoints unpack(const Eigen::VectorXd& x) {
+FourPoints four_points(const Eigen::VectorXd& x) {
   return {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
 }
 
@@ -164,7 +164,7 @@ bool ContactBarrier::evaluate_blended(int i, const FourPoints& x, double blend, 
 }
 
 void ContactBarrier::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const {
-  const FourPoints points = unpack(x);
+  const FourPoints points = four_points(x);
   out.value = value_of(i, points);
   const double s = closest_feature(pairs_[i], points).squared_distance;
   out.zero = s >= s_hat_ || s >= s_hat_of(i);

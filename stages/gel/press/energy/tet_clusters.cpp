@@ -10,9 +10,9 @@
 namespace tacipc {
 namespace {
 
-using Neighbours = std::vector<std::array<int, 4>>;  // across the face opposite each corner; −1 at the boundary
+using FaceNeighbours = std::vector<std::array<int, 4>>;  // across the face opposite each corner; −1 at the boundary
 
-Neighbours face_neighbours(const Tetrahedra& tets) {
+FaceNeighbours face_neighbours(const Tetrahedra& tets) {
   struct Side {
     std::array<int, 3> face;
     int tet, corner;
@@ -29,7 +29,7 @@ Neighbours face_neighbours(const Tetrahedra& tets) {
     }
   }
   std::sort(sides.begin(), sides.end());
-  Neighbours out(static_cast<std::size_t>(tets.rows()), {-1, -1, -1, -1});
+  FaceNeighbours out(static_cast<std::size_t>(tets.rows()), {-1, -1, -1, -1});
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const Side &a = sides[i - 1], &b = sides[i];
     if (a.face != b.face) continue;
@@ -42,7 +42,7 @@ Neighbours face_neighbours(const Tetrahedra& tets) {
 /// Grows clusters one after the other.
 class Growth {
  public:
-  Growth(const Tetrahedra& tets, const Neighbours& neighbours)
+  Growth(const Tetrahedra& tets, const FaceNeighbours& neighbours)
       : tets_(tets), neighbours_(neighbours), cluster_of_(neighbours.size(), -1), closed_(neighbours.size()) {
     for (int t = 0; t < tets.rows(); ++t) {
       closed_[t] = static_cast<int>(std::count(neighbours[t].begin(), neighbours[t].end(), -1));
@@ -126,7 +126,7 @@ class Growth {
   }
 
   const Tetrahedra& tets_;
-  const Neighbours& neighbours_;
+  const FaceNeighbours& neighbours_;
   std::vector<int> cluster_of_;
   std::vector<int> closed_;  // faces of a tetrahedron with no free neighbour
   /// Tetrahedra that have had so many closed faces, first ones first; those that are taken, or have more by now, stay
@@ -135,7 +135,7 @@ class Growth {
 };
 
 /// Joins clusters below half of `size` to the neighbour that has the fewest tetrahedra.
-void join_small(TetClusters& clusters, const Neighbours& neighbours, int size) {
+void join_small(TetClusters& clusters, const FaceNeighbours& neighbours, int size) {
   std::vector<int> cluster_of(neighbours.size());
   for (std::size_t p = 0; p < clusters.size(); ++p) {
     for (const int t : clusters[p]) cluster_of[t] = static_cast<int>(p);
@@ -173,7 +173,7 @@ void join_small(TetClusters& clusters, const Neighbours& neighbours, int size) {
 }  // namespace
 
 TetClusters make_tet_clusters(const Tetrahedra& tets, int size) {
-  const Neighbours neighbours = face_neighbours(tets);
+  const FaceNeighbours neighbours = face_neighbours(tets);
   TetClusters clusters = Growth(tets, neighbours).run(size);
   join_small(clusters, neighbours, size);
   return clusters;

@@ -8,7 +8,7 @@
 namespace tacipc {
 namespace {
 
-constexpr std::size_t kChunk = 1024, kChunksAtATime = 16;
+constexpr std::size_t kStencilsPerChunk = 1024, kChunksAtATime = 16;
 
 /// Derivatives of all pairs in a row that push on one primitive of the gel.
 struct Sum {
@@ -182,11 +182,12 @@ void add_stencils(double weight, const ContactTerm& term, const std::vector<int>
       first += static_cast<std::size_t>(count);
     }
   };
-  for (std::size_t first = 0; first < stencils.size(); first += kChunk * kChunksAtATime) {
-    std::vector<Chunk> chunks(std::min(kChunksAtATime, (stencils.size() - first + kChunk - 1) / kChunk));
+  for (std::size_t first = 0; first < stencils.size(); first += kStencilsPerChunk * kChunksAtATime) {
+    std::vector<Chunk> chunks(
+        std::min(kChunksAtATime, (stencils.size() - first + kStencilsPerChunk - 1) / kStencilsPerChunk));
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) {
-      const std::size_t begin = first + k * kChunk;
-      evaluate(begin, std::min(stencils.size(), begin + kChunk), chunks[k]);
+      const std::size_t begin = first + k * kStencilsPerChunk;
+      evaluate(begin, std::min(stencils.size(), begin + kStencilsPerChunk), chunks[k]);
     });
     for (const Chunk& chunk : chunks) {
       for (const Sum& sum : chunk.sums) scatter(sum, weight, free, motion.translation, system);

@@ -10,7 +10,8 @@ constexpr int kNowhere = std::numeric_limits<int>::min();
 using Places = std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>;
 
 /// Adds weight × the blocks of one pack, none of them transposed: a column of a block is one addition.
-TACIPC_CLONES void scatter(const ElasticPacks::Derivatives& from, const Places& places, double weight, double* values) {
+TACIPC_CLONES void scatter_straight(const ElasticPacks::Derivatives& from, const Places& places, double weight,
+                                    double* values) {
   for (int b = 0; b < ElasticPacks::kBlocks; ++b) {
     for (int half = 0; half < 2; ++half) {
       for (int c = 0; c < 3; ++c) {
@@ -86,7 +87,8 @@ void ElasticAssembly::add_gradient(int pack, const ElasticPacks::Derivatives& fo
 
 void ElasticAssembly::add_hessian(int pack, const ElasticPacks::Derivatives& found, NewtonSystem& system) const {
   const auto place = static_cast<std::size_t>(pack);
-  (none_transposed_[place] ? scatter : scatter_any)(found, places_[place], weight_, system.hessian.values.data());
+  (none_transposed_[place] ? scatter_straight : scatter_any)(found, places_[place], weight_,
+                                                             system.hessian.values.data());
 }
 
 void ElasticAssembly::add(const Positions& x, std::span<const double> pressure, double weight, NewtonSystem& system) {

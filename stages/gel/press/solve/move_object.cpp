@@ -21,7 +21,7 @@ constexpr double kKeptGap = 1.03 * kMovingSlack;
 constexpr double kPoorMove = 0.5;
 // After a move as long as wanted the next one goes so many times as far; after less than this part of one, the gel is
 // relaxed first.
-constexpr double kGrowth = 2.0, kShortMove = 0.1;
+constexpr double kMoveGrowth = 2.0, kShortMove = 0.1;
 constexpr double kSmallestPart = 1e-3;  // of the rest of the object's motion that a move aims at
 
 /// Change of a pair's gap in a move, to first order: the normal stays.
@@ -158,7 +158,7 @@ void ObjectMover::move(Step& step, Minimisation& run, const NewtonDirection& dir
   }
   const double made = alpha * run.bent;
   run.relax_next = made < kShortMove;
-  run.part_of_motion = std::clamp((made == 1.0 ? kGrowth : 1.0) * moved / (1.0 - moved), kSmallestPart, 1.0);
+  run.part_of_motion = std::clamp((made == 1.0 ? kMoveGrowth : 1.0) * moved / (1.0 - moved), kSmallestPart, 1.0);
   run.bent = 1.0;
 }
 

@@ -22,14 +22,14 @@ constexpr int kRings = 1, kRingsAboutApproximated = 3;
 // most so many rings wide, leave a fifth fewer steps of all.
 constexpr double kLeastWithoutFriction = 0.09;
 constexpr int kMostRingsWithoutFriction = 4;
-constexpr int kMaxIterations = 20;
+constexpr int kMaxPatchIterations = 20;
 // Iterations × vertices of a patch, × all that are free: a wide one that does not settle soon is left to steps of all.
 constexpr double kMostWork = 2.0;
 // A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
 // tolerance), so that the whole gel finds it at rest. Without friction the gel seldom does.
 constexpr double kPatchTolerance = 0.2, kPatchToleranceWithoutFriction = 1.0;
 constexpr double kSolveWithoutFriction = 1e-2;  // tolerance of the linear solver there
-constexpr int kMaxHalvings = 20;
+constexpr int kMaxPatchHalvings = 20;
 // How far a vertex of a patch may go until pairs are searched again: × d̂, or × the median edge of the front, whichever
 // is more.
 constexpr double kReach = 1.0, kReachOfEdge = 0.4;
@@ -134,7 +134,7 @@ class PatchRun {
   int minimise(double shortest_m, bool approximated) {
     const Positions still = Positions::Zero(step_.x.rows(), 3);
     const int most =
-        std::min(kMaxIterations, static_cast<int>(kMostWork * step_.newton.free().size() / patch_.free.size()));
+        std::min(kMaxPatchIterations, static_cast<int>(kMostWork * step_.newton.free().size() / patch_.free.size()));
     int iterations = 0;
     for (; iterations < most; ++iterations) {
       const NewtonDirection local = newton_->direction({energy_, step_.x, still}, blend_);

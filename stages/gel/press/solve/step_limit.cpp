@@ -15,7 +15,7 @@
 namespace tacipc {
 namespace {
 
-constexpr std::size_t kChunk = 512, kChunksPerRound = 16;
+constexpr std::size_t kLimitsPerChunk = 512, kChunksPerRound = 16;
 constexpr double kSmallestStep = 1e-12;
 
 /// The Bernstein coefficients but the first, which is c₀, of Σ c_k tᵏ on [0, t].
@@ -88,12 +88,13 @@ double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions
   // Each round of chunks checks p only up to the limit of the rounds before it, which is the same with any number of
   // threads.
   double limit = 1.0;
-  for (std::size_t round = 0; round < pairs.size() && limit > 0.0; round += kChunksPerRound * kChunk) {
-    const std::size_t chunks = std::min(kChunksPerRound, (pairs.size() - round + kChunk - 1) / kChunk);
+  for (std::size_t round = 0; round < pairs.size() && limit > 0.0; round += kChunksPerRound * kLimitsPerChunk) {
+    const std::size_t chunks =
+        std::min(kChunksPerRound, (pairs.size() - round + kLimitsPerChunk - 1) / kLimitsPerChunk);
     std::vector<double> limits(chunks, limit);
     tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-      const std::size_t first = round + chunk * kChunk;
-      limits[chunk] = limit_of(first, std::min(pairs.size(), first + kChunk), limit);
+      const std::size_t first = round + chunk * kLimitsPerChunk;
+      limits[chunk] = limit_of(first, std::min(pairs.size(), first + kLimitsPerChunk), limit);
     });
     limit = *std::min_element(limits.begin(), limits.end());
   }
@@ -107,10 +108,10 @@ double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions
 std::vector<ContactPair> limiting_pairs(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
                                         const GapRule& rule) {
   const Pack floor = Pack{} + rule.floor_m, near = Pack{} + rule.near_m;
-  std::vector<std::vector<ContactPair>> found((pairs.size() + kChunk - 1) / kChunk);
+  std::vector<std::vector<ContactPair>> found((pairs.size() + kLimitsPerChunk - 1) / kLimitsPerChunk);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
-    const std::size_t last = std::min(pairs.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < last;) {
+    const std::size_t last = std::min(pairs.size(), (chunk + 1) * kLimitsPerChunk);
+    for (std::size_t i = chunk * kLimitsPerChunk; i < last;) {
       const PairPack pack(pairs, i, last);
       const unsigned apart = stay_apart(x.data(), p.data(), 1.0, pack.pairs, pack.kind(), rule.slack, floor, near);
       for (int l = 0; l < pack.count; ++l) {
@@ -134,10 +135,10 @@ bool cubic_stays_above(const double c[4], double t, double floor) {
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p) {
   const auto count = static_cast<std::size_t>(tets.rows());
   // What passes at a step passes at all shorter ones, so that neither order nor chunks matter.
-  std::vector<double> limits((count + kChunk - 1) / kChunk, 1.0);
+  std::vector<double> limits((count + kLimitsPerChunk - 1) / kLimitsPerChunk, 1.0);
   tbb::parallel_for(std::size_t{0}, limits.size(), [&](std::size_t chunk) {
-    const std::size_t last = std::min(count, (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < last; i += kLanes)
+    const std::size_t last = std::min(count, (chunk + 1) * kLimitsPerChunk);
+    for (std::size_t i = chunk * kLimitsPerChunk; i < last; i += kLanes)
       limits[chunk] = volume_limit(x.data(), p.data(), tets.data() + 4 * i,
                                    static_cast<int>(std::min<std::size_t>(kLanes, last - i)), limits[chunk]);
   });

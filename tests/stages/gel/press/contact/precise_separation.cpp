@@ -6,31 +6,31 @@
 namespace tacipc {
 namespace {
 
-__extension__ using Quad = __float128;  // 113 bits; no product of doubles met here leaves its range
+__extension__ using Float128 = __float128;  // 113 bits; no product of doubles met here leaves its range
 
 /// One bound for every rounding error below, in units of the largest possible term; the true constants are below 64.
-const Quad kRounding = Quad(256) * Quad(0x1p-113);
+const Float128 kFloat128Rounding = Float128(256) * Float128(0x1p-113);
 constexpr int kMaxIterations = 600;
 constexpr int kMaxTries = 12;
-const Quad kBeforeImpact = 0.999;
+const Float128 kBeforeImpact = 0.999;
 
 struct Vec {
-  Quad x, y, z;
+  Float128 x, y, z;
 };
 Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec operator*(Quad s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-Quad dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec operator*(Float128 s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+Float128 dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec cross(const Vec& a, const Vec& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-Quad abs(Quad a) { return a < 0 ? -a : a; }
+Float128 abs(Float128 a) { return a < 0 ? -a : a; }
 /// Sum of the absolute coordinates: at least the length.
-Quad size(const Vec& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+Float128 size(const Vec& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 
 using Points = std::array<Vec, 4>;
 
 struct Direction {
-  Vec n;     // about a unit vector
-  Quad gap;  // smallest n·(first − second)
+  Vec n;         // about a unit vector
+  Float128 gap;  // smallest n·(first − second)
 };
 
 class ExactPaths {
@@ -43,14 +43,14 @@ class ExactPaths {
     }
   }
 
-  Points at(Quad t) const {
+  Points at(Float128 t) const {
     Points q;
     for (int i = 0; i < 4; ++i) q[i] = (1 - t) * start_[i] + t * end_[i];
     return q;
   }
 
   /// Error of n·(first − second) for a direction of length about 1.
-  Quad gap_error() const { return kRounding * size_; }
+  Float128 gap_error() const { return kFloat128Rounding * size_; }
 
   /// The direction with the largest gap among those of all closest features: vertices, edges, planes. For convex bodies
   /// that are apart this is the direction in which they are closest.
@@ -59,22 +59,22 @@ class ExactPaths {
     const auto offer = [&](const Vec& r) {
       const double length = std::sqrt(static_cast<double>(dot(r, r)));
       if (!(length > 0 && std::isfinite(length))) return;
-      const Vec n = (1 / Quad(length)) * r;
-      const Quad gap = smallest_gap(n, q);
+      const Vec n = (1 / Float128(length)) * r;
+      const Float128 gap = smallest_gap(n, q);
       if (gap > best.gap) best = {n, gap};
     };
     // Vertex `point` against edge ab, r pointing from the second body to the first.
-    const auto offer_edge = [&](int point, int a, int b, Quad sign) {
+    const auto offer_edge = [&](int point, int a, int b, Float128 sign) {
       const Vec edge = q[b] - q[a];
       const Vec r = sign * (q[point] - q[a]);
-      const Quad length2 = dot(edge, edge);
+      const Float128 length2 = dot(edge, edge);
       offer(r);
       offer(sign * (q[point] - q[b]));
       if (length2 > 0) offer(r - (dot(r, edge) / length2) * edge);
     };
     const Vec normal = area(q, q);
     offer(normal);
-    offer(Quad(-1) * normal);
+    offer(Float128(-1) * normal);
     if (kind_ == PairKind::point_triangle) {
       offer_edge(0, 1, 2, 1);
       offer_edge(0, 2, 3, 1);
@@ -89,10 +89,10 @@ class ExactPaths {
   }
 
   /// Where the gap along n, linear for each vertex pair, falls to twice its error.
-  Quad gap_exit(Quad from, const Points& now, const Vec& n) const {
-    Quad exit = 1;
-    for_each_gap(n, now, n, end_, [&](Quad gap_now, Quad gap_end, Quad) {
-      const Quad wanted = 2 * gap_error();
+  Float128 gap_exit(Float128 from, const Points& now, const Vec& n) const {
+    Float128 exit = 1;
+    for_each_gap(n, now, n, end_, [&](Float128 gap_now, Float128 gap_end, Float128) {
+      const Float128 wanted = 2 * gap_error();
       if (gap_now <= wanted) {
         exit = from;
       } else if (gap_end <= wanted) {
@@ -105,7 +105,7 @@ class ExactPaths {
   /// A plane whose normal goes from n_from to n_to separates the pair from `from` to `to` (see PairMotion).
   bool plane_separates(const Points& from, const Points& to, const Vec& n_from, const Vec& n_to) const {
     bool separated = true;
-    for_each_gap(n_from, from, n_to, to, [&](Quad first, Quad last, Quad middle) {
+    for_each_gap(n_from, from, n_to, to, [&](Float128 first, Float128 last, Float128 middle) {
       separated = separated && first > gap_error() && last > gap_error() && middle > gap_error();
     });
     return separated;
@@ -114,20 +114,21 @@ class ExactPaths {
   /// The volume of the four vertices, a cubic in time, keeps its sign (see PairMotion).
   bool volume_keeps_sign(const Points& from, const Points& to) const {
     const Vec n0 = area(from, from);
-    const Vec n1 = Quad(0.5) * (area(from, to) + area(to, from));
+    const Vec n1 = Float128(0.5) * (area(from, to) + area(to, from));
     const Vec n2 = area(to, to);
     const Vec r0 = across(from);
     const Vec r1 = across(to);
-    const std::array<Quad, 4> volume{dot(r0, n0), (dot(r1, n0) + 2 * dot(r0, n1)) / 3,
-                                     (dot(r0, n2) + 2 * dot(r1, n1)) / 3, dot(r1, n2)};
-    const Quad error = kRounding * size_ * size_ * size_ * 8;  // the edges are differences: up to twice the size each
-    return std::all_of(volume.begin(), volume.end(), [&](Quad v) { return v > error; }) ||
-           std::all_of(volume.begin(), volume.end(), [&](Quad v) { return v < -error; });
+    const std::array<Float128, 4> volume{dot(r0, n0), (dot(r1, n0) + 2 * dot(r0, n1)) / 3,
+                                         (dot(r0, n2) + 2 * dot(r1, n1)) / 3, dot(r1, n2)};
+    const Float128 error =
+        kFloat128Rounding * size_ * size_ * size_ * 8;  // the edges are differences: up to twice the size each
+    return std::all_of(volume.begin(), volume.end(), [&](Float128 v) { return v > error; }) ||
+           std::all_of(volume.begin(), volume.end(), [&](Float128 v) { return v < -error; });
   }
 
  private:
   static Vec difference(const Vector3& a, const Vector3& b) {
-    return {Quad(a.x()) - Quad(b.x()), Quad(a.y()) - Quad(b.y()), Quad(a.z()) - Quad(b.z())};
+    return {Float128(a.x()) - Float128(b.x()), Float128(a.y()) - Float128(b.y()), Float128(a.z()) - Float128(b.z())};
   }
 
   Vec across(const Points& q) const { return kind_ == PairKind::point_triangle ? q[0] - q[1] : q[0] - q[2]; }
@@ -146,19 +147,19 @@ class ExactPaths {
       for (int j = num_first; j < 4; ++j) {
         const Vec r = p[i] - p[j];
         const Vec s = q[i] - q[j];
-        visit(dot(n, r), dot(m, s), Quad(0.5) * (dot(n, s) + dot(m, r)));
+        visit(dot(n, r), dot(m, s), Float128(0.5) * (dot(n, s) + dot(m, r)));
       }
   }
 
-  Quad smallest_gap(const Vec& n, const Points& q) const {
-    Quad smallest = 4 * size_;
-    for_each_gap(n, q, n, q, [&](Quad gap, Quad, Quad) { smallest = std::min(smallest, gap); });
+  Float128 smallest_gap(const Vec& n, const Points& q) const {
+    Float128 smallest = 4 * size_;
+    for_each_gap(n, q, n, q, [&](Float128 gap, Float128, Float128) { smallest = std::min(smallest, gap); });
     return smallest;
   }
 
   PairKind kind_;
   Points start_, end_;  // relative to vertex 0
-  Quad size_;
+  Float128 size_;
 };
 
 }  // namespace
@@ -167,16 +168,16 @@ bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& 
   for (int i = 0; i < 4; ++i)
     if (!x_start[i].allFinite() || !x_end[i].allFinite()) return false;
   const ExactPaths paths(kind, x_start, x_end);
-  Quad t = known_apart_until;
+  Float128 t = known_apart_until;
   Points now = paths.at(t);
   Direction best = paths.best_direction(now);
-  Quad reach = 1;
+  Float128 reach = 1;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Quad exit = paths.gap_exit(t, now, best.n);
+    const Float128 exit = paths.gap_exit(t, now, best.n);
     if (exit <= t) return false;
 
     bool proven = false;
-    Quad to = std::min(Quad(1), t + reach);
+    Float128 to = std::min(Float128(1), t + reach);
     for (int tries = 0; !proven; ++tries) {
       // The last try is the step along the fixed plane.
       if (tries == kMaxTries || to <= exit) to = exit;
@@ -195,7 +196,7 @@ bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& 
       if (to == 1) return true;
       if (to <= t) return false;
       // Next aim just before the distance would vanish if it went on falling like this: impacts are met in few steps.
-      const Quad step = to - t;
+      const Float128 step = to - t;
       reach = 16 * step;
       if (next.gap < best.gap) reach = std::min(reach, kBeforeImpact * step * (next.gap / (best.gap - next.gap)));
       t = to;
