@@ -2,9 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <numbers>
-
 #include "common/base/error.h"
+#include "common/base/units.h"
 #include "common/format/html_text.h"
 #include "common/sample/press_record.h"
 #include "stages/dataset/report/chart.h"
@@ -14,8 +13,6 @@
 
 namespace tacipc {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::vector<Instant> instants_of(const std::vector<GraspMoment>& moments) {
   std::vector<Instant> instants;

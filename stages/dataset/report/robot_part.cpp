@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "common/base/error.h"
+#include "common/base/units.h"
 #include "common/format/html_text.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
@@ -17,7 +17,6 @@
 namespace tacipc {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string header(const RobotReport& robot) {
   std::string html = fmt::format("<section id=\"robot\">\n<h2>Task: {}</h2>\n", html_text(robot.task));

@@ -4,9 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 
 #include "common/base/error.h"
+#include "common/base/units.h"
 #include "common/format/html_text.h"
 #include "common/sample/press_record.h"
 #include "stages/dataset/report/chart.h"
@@ -16,7 +16,6 @@
 namespace tacipc {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMostCurves = 4;
 constexpr double kSmallestForceN = 1e-3;  // a pair that never pushes more is not drawn
 

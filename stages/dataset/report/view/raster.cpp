@@ -9,9 +9,9 @@
 namespace tacipc {
 namespace {
 
-constexpr int kSamples = 3;       // of a pixel, along each side
-constexpr double kNear = 0.02;    // of the distance to the target
-constexpr double kMargin = 1.04;  // of the picture around what it shows
+constexpr int kSamples = 3;              // of a pixel, along each side
+constexpr double kNear = 0.02;           // of the distance to the target
+constexpr double kPictureMargin = 1.04;  // of the picture around what it shows
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Viewpoint viewpoint_of(const std::vector<Vector3>& points, const Vector3& back, 
     for (const Vector3& p : points) {
       const Vector3 d = p - view.target_m;
       const double across = std::max(wide * std::abs(d.dot(view.right)), view.zoom * std::abs(d.dot(view.up)));
-      view.distance_m = std::max(view.distance_m, d.dot(view.back) + kMargin * across);
+      view.distance_m = std::max(view.distance_m, d.dot(view.back) + kPictureMargin * across);
     }
     if (round + 1 == kRounds) break;
     Eigen::Vector2d least = Eigen::Vector2d::Constant(1e9), most = -least;
