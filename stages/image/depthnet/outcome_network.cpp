@@ -7,14 +7,14 @@ namespace {
 
 /// Codes are divided by these, so that what the network sees is of the order of one: changes since the fingers have
 /// closed are smaller than those since they were open.
-constexpr double kChangeCodes = 16.0, kSinceCodes = 8.0;
+constexpr double kStepCodes = 16.0, kSinceCodes = 8.0;
 
 }  // namespace
 
 torch::jit::Module make_outcome_network(const OutcomeConfig& config, std::uint64_t seed) {
   torch::jit::Module module("OutcomeFromTouch");
   ScriptWriter writer(module, "logit", seed);
-  writer.begin_sequences(config.frames, kChangeCodes, kSinceCodes, 1 << config.network.levels);
+  writer.begin_sequences(config.frames, kStepCodes, kSinceCodes, 1 << config.network.levels);
   write_contracting_path(config.network, writer);
   const int images = 2 * config.frames;
   writer.pool_and_join(images);

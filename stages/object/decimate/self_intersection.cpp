@@ -18,7 +18,7 @@
 namespace tacipc {
 namespace {
 
-constexpr int kChunk = 64;  // faces per chunk; results are joined in chunk order
+constexpr int kFacesPerChunk = 64;  // faces per chunk; results are joined in chunk order
 
 /// Tells how many chunks are done, in steps of a hundredth. Only the thread that made it speaks.
 class ChunkProgress {
@@ -73,11 +73,11 @@ std::vector<FacePair> self_intersections(const TriangleMesh& mesh) {
   if (num_faces == 0) return {};
   const TriangleTree tree(mesh);
   const std::vector<int> place = lowest_at_place(mesh.positions);
-  const int num_chunks = (num_faces + kChunk - 1) / kChunk;
+  const int num_chunks = (num_faces + kFacesPerChunk - 1) / kFacesPerChunk;
   std::vector<std::vector<FacePair>> found(num_chunks);
   ChunkProgress progress(num_chunks);
   tbb::parallel_for(0, num_chunks, [&](int chunk) {
-    for (int f = chunk * kChunk; f < std::min(num_faces, (chunk + 1) * kChunk); ++f)
+    for (int f = chunk * kFacesPerChunk; f < std::min(num_faces, (chunk + 1) * kFacesPerChunk); ++f)
       tree.overlaps(tree.box_of(f), [&](int other) {
         if (other > f && cross(mesh, place, f, other)) found[chunk].push_back({f, other});
       });

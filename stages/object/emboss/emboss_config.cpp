@@ -9,10 +9,6 @@ namespace {
 
 constexpr int kMaxVertices = 20'000'000;
 
-double length(ConfigReader& in, const std::string& key, const Range& range) {
-  return kMillimetre * in.number(key, range);
-}
-
 }  // namespace
 
 double EmbossConfig::free_radius_m() const {

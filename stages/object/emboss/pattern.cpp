@@ -14,11 +14,6 @@
 namespace tacipc {
 namespace {
 
-/// A length in metres from a key in millimetres.
-double length(ConfigReader& in, const std::string& key, const Range& range = Range::positive()) {
-  return kMillimetre * in.number(key, range);
-}
-
 /// A length that must stay below another one.
 double length_below(ConfigReader& in, const std::string& key, double limit_m, const std::string& limit_name) {
   const double value = length(in, key);
@@ -178,6 +173,10 @@ constexpr std::array kKinds = {
 };
 
 }  // namespace
+
+double length(ConfigReader& in, const std::string& key, const Range& range) {
+  return kMillimetre * in.number(key, range);
+}
 
 Pattern read_pattern(ConfigReader& in, double free_radius_m) {
   std::vector<std::string> names;

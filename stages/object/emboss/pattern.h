@@ -29,6 +29,9 @@ struct PictureSource {
 
 using Pattern = std::variant<Outline, Texture, PictureSource>;
 
+/// A length in metres from a key in millimetres.
+double length(ConfigReader& in, const std::string& key, const Range& range = Range::positive());
+
 /// Reads `pattern:`. `free_radius_m` is the radius of the circle that patterns may fill; one that must stay whole
 /// (text, polygon, star, gear) and reaches farther is a fault. A picture's path counts from the YAML's folder.
 Pattern read_pattern(ConfigReader& in, double free_radius_m);
