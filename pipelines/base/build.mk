@@ -36,6 +36,18 @@ $(BUILD)/unpacked/usr/include/OpenMesh: | packages
 	mkdir -p $(BUILD)/unpacked.new && cd $(BUILD)/unpacked.new && apt-get download -q libopenmesh-dev && dpkg-deb -x libopenmesh-dev_*.deb . && \
 	mkdir -p ../unpacked && cp -r usr ../unpacked && rm -rf ../unpacked.new
 
+# Commands are shown with V=1 alone. With `make -s` a build and a finished stage show nothing.
+shown  = $(filter-out 0,$(V))
+silent = $(findstring s,$(firstword -$(MAKEFLAGS)))
+$(if $(shown),,$(eval .SILENT:))
+
+# $(call configure,folder,flags of cmake): its report goes to configure.log
+configure = $(if $(shown),cmake -B $(1) -G Ninja $(2),$(if $(silent),,echo 'configure: $(1)';) mkdir -p $(1); \
+  cmake -B $(1) -G Ninja $(2) > $(1)/configure.log 2>&1 || { cat $(1)/configure.log >&2; exit 1; })
+# $(call compile,folder[,targets]): ninja's status on a terminal, elsewhere a line now and then
+compile = ninja() { cmake --build $(1) -j $(JOBS) $(2:%=--target %) -- "$$@"; }; \
+  $(if $(shown),ninja -v,$(if $(silent),ninja --quiet,if [ -t 1 ]; then ninja; else ninja | bash pipelines/base/build_lines.sh; fi))
+
 # What CMake did not find before a group was installed it looks for again.
 cached_of_wrap     := CGAL_INCLUDE_DIR
 cached_of_identify := Ceres_DIR
@@ -44,7 +56,7 @@ cached_of_predict  := ONNX_DIR OpenCV_dnn_LIBRARY Protobuf_INCLUDE_DIR
 cached_of_depthnet := LIBTORCH_INCLUDE_DIR
 # Without tests, until with-tests switches them on.
 $(BUILD)/build.ninja: | packages $(OPENMESH_HEADERS)
-	@cmake --preset $(PRESET) -B $(BUILD) -G Ninja -DTACIPC_TESTS=OFF
+	@$(call configure,$(BUILD),--preset $(PRESET) -DTACIPC_TESTS=OFF)
 
 # Ninja rebuilds what a killed build left half done, which make would take for finished.
 ifeq ($(REBUILD),no)
@@ -52,7 +64,7 @@ build:
 else
 build: $(BUILD)/build.ninja ## development: Build all stages
 	@for name in $(foreach g,$(groups_wanted),$(cached_of_$(g))); do ! grep -qs "^$$name:.*NOTFOUND" $(BUILD)/CMakeCache.txt || cmake $(BUILD) > /dev/null; done
-	@cmake --build $(BUILD) --target $(programs_wanted) -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),$(programs_wanted))
 endif
 
 PREFIX ?= out/prefix#  where install puts everything
@@ -67,7 +79,7 @@ with-tests: build
 	@[ '$(REBUILD)' = no ] || grep -qs '^TACIPC_TESTS:BOOL=ON' $(BUILD)/CMakeCache.txt || cmake -DTACIPC_TESTS=ON $(BUILD) > /dev/null
 
 build-all: with-tests # one after the other: two builds in one folder would trip over each other
-	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD))
 
 check: build-all ## start: Build and run the tests (under 15 minutes)
 	ctest --test-dir $(BUILD) -LE "slow|dev" -j $(JOBS) --output-on-failure --no-tests=error

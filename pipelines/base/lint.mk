@@ -18,7 +18,7 @@ lint: build-all ## development: clang-format, shellcheck and clang-tidy (SINCE=c
 SANITIZED_TESTS := common_files_test fuzz_test press_contact_test press_test
 SANITIZED := build/sanitize
 $(SANITIZED)/build.ninja: | build-all
-	@cmake --preset sanitize -B $(SANITIZED) -G Ninja
+	@$(call configure,$(SANITIZED),--preset sanitize)
 check-sanitized: $(SANITIZED)/build.ninja ## development: Tests of readers, contact and solver under address and undefined-behaviour sanitizers
-	@cmake --build $(SANITIZED) --target $(SANITIZED_TESTS) -j $(JOBS) -- --quiet
+	@$(call compile,$(SANITIZED),$(SANITIZED_TESTS))
 	ctest --test-dir $(SANITIZED) -R '^($(subst $(eval ) ,|,$(SANITIZED_TESTS)))\.' -LE slow -j $(JOBS) --output-on-failure --no-tests=error

@@ -64,4 +64,21 @@ grep -qx 'Not made in this run.' <<< "$(part real)" || fail "the page shows what
 grep -q ' together: 0.2 processor hours' <<< "$(part cost)" || fail "the page counts other runs: $(part cost)"
 [ "$(ls $paper/paper_results)" = objects.png ] || fail "the page has other pictures"
 cmp docs/paper-results.md "$source_dir/docs/paper-results.md" || fail "docs/ was written"
-echo "$((count + 11)) passed, 0 failed"
+# A finished stage is one line with its seconds and results; commands are shown with V=1; with -s there is neither.
+embossed() { make -f Makefile.data out/emboss/dots/emboss.yaml OUT=out BUILD="$build_dir" REBUILD=no PACKAGES=no "$@" -B > said.txt 2>&1 || { cat said.txt; fail "emboss failed"; }; }
+embossed
+grep -qxE 'emboss +[0-9.]+ s  out/emboss/dots: vertices [0-9]+, relief_height_mm 0\.3' said.txt || fail "no line of the stage: $(cat said.txt)"
+[ "$(wc -l < said.txt)" = 1 ] || fail "more than a line: $(cat said.txt)"
+embossed V=1
+grep -q '/emboss --out out/emboss/dots' said.txt || fail "V=1 shows no command: $(cat said.txt)"
+embossed -s
+[ ! -s said.txt ] || fail "said with -s: $(cat said.txt)"
+
+# The log of a build: a line per tenth, and all that a compiler says.
+{
+  for i in $(seq 40); do printf '[%d/40] Building %d\n' "$i" "$i"; done
+  printf 'a.cpp:3: error: wrong\nninja: no work to do.\n'
+} | bash pipelines/base/build_lines.sh > said.txt
+[ "$(grep -c '^build: [0-9]* of 40, [0-9]* s$' said.txt)" = 10 ] && [ "$(tail -1 said.txt)" = 'a.cpp:3: error: wrong' ] && [ "$(wc -l < said.txt)" = 11 ] ||
+  fail "the log of a build: $(cat said.txt)"
+echo "$((count + 15)) passed, 0 failed"
