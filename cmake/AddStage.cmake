@@ -41,6 +41,7 @@ function(tacipc_add_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE tacipc_common tacipc::warnings ${ARG_LINK} GTest::gmock GTest::gtest GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM tacipc_test_headers)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # each test file has helpers of its own, with short names
   target_compile_definitions(${name} PRIVATE TACIPC_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TACIPC_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
   gtest_discover_tests(${name} TEST_PREFIX "${name}." PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 1500 DISCOVERY_TIMEOUT 60)
 endfunction()

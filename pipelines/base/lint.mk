@@ -9,7 +9,7 @@ packages_for_check-sanitized := tests
 # Without the headers that the build reads in advance: what a source leaves out of its own #include lines is a finding.
 LINTED := build/lint
 lint: build-all ## development: clang-format, shellcheck and clang-tidy (SINCE=commit, or SINCE=all for every source)
-	@cmake --preset release -B $(LINTED) -G Ninja -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+	@cmake --preset release -B $(LINTED) -G Ninja -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF > /dev/null
 	git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror
 	git ls-files '*.sh' .ci/run | xargs shellcheck --severity=info
 	bash tests/lint/tidy.sh . $(LINTED) $(JOBS) $(or $(SINCE),HEAD~1)

@@ -24,11 +24,11 @@ void for_each_vertex_pair(PairKind kind, const Visit& visit) {
 }
 
 /// One vector across the pair and two along it: volume = across · (along_a × along_b).
-struct Frame {
+struct EdgeFrame {
   Vector3 across, along_a, along_b;
 };
 
-Frame frame_of(PairKind kind, const FourPoints& q) {
+EdgeFrame frame_of(PairKind kind, const FourPoints& q) {
   if (kind == PairKind::point_triangle) return {q[0] - q[1], q[2] - q[1], q[3] - q[1]};
   return {q[0] - q[2], q[1] - q[0], q[3] - q[2]};
 }
@@ -118,8 +118,8 @@ bool PairMotion::plane_separates(double from, double to, const Vector3& n_from, 
 }
 
 bool PairMotion::volume_separates(double from, double to, double separation) const {
-  const Frame f0 = frame_of(kind_, at(from));
-  const Frame f1 = frame_of(kind_, at(to));
+  const EdgeFrame f0 = frame_of(kind_, at(from));
+  const EdgeFrame f1 = frame_of(kind_, at(to));
   // Bernstein coefficients of the area vector N = along_a × along_b and of the volume across · N.
   const Vector3 n0 = f0.along_a.cross(f0.along_b);
   const Vector3 n1 = 0.5 * (f0.along_a.cross(f1.along_b) + f1.along_a.cross(f0.along_b));

@@ -185,8 +185,8 @@ class PatchRun {
       return after <= value_ + kSufficientDecrease * part * alpha * local.slope + rounding;
     };
     int halvings = 0;
-    for (; !decreases() && halvings < kMaxHalvings; ++halvings) part *= 0.5;
-    if (halvings == kMaxHalvings) return std::nullopt;
+    for (; !decreases() && halvings < kMaxPatchHalvings; ++halvings) part *= 0.5;
+    if (halvings == kMaxPatchHalvings) return std::nullopt;
     value_ = after;
     for (const int v : inside) step_.x.row(v) = trial_.row(v);
     if (halvings > 0) raise_shares_of_farthest(local.p.topRows(blend_.size()), blend_);
