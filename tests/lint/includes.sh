@@ -23,14 +23,21 @@ for room in command optics benchmark sample rival sensor mesh image format stage
   later="${later:+$later|}$room"
 done
 for folder in common/*/; do [[ "|$later|" = *"|$(basename "$folder")|"* ]] || { echo "$folder: not in the order of rooms"; faults=1; }; done
-# Each of these rooms of press may include those before it in this list, and nothing else of press: contact is geometry only, energies know no
-# solver, the solver knows no motion.
+# Each room of press may include those before it in this list, and nothing else of press: contact is geometry only, energies know no solver,
+# the solver knows no motion, a world knows no drive, a drive no files.
 inner=""
-for room in contact energy solve; do
+for room in contact energy solve measure world drive files; do
   inner="${inner:+$inner|}$room"
   hits=$(grep -rnE '#include "stages/gel/press/' "stages/gel/press/$room" | grep -vE "\"stages/gel/press/($inner)/" || true)
   [ -z "$hits" ] || { echo "$hits"; echo "  ^ press/$room may include only press/($inner)"; faults=1; }
 done
+for folder in stages/gel/press/*/; do
+  [[ "|$inner|" = *"|$(basename "$folder")|"* ]] || { echo "$folder: not in the order of the rooms of press"; faults=1; }
+done
+# No two units of press include each other.
+mutual=$(grep -rnoE '#include "stages/gel/press/[a-z_/]+\.h"' stages/gel/press | sed -E 's/^([^:]+)\.(h|cpp):[0-9]+:#include "([^"]+)\.h"$/\1 \3/' |
+  awk '$1 != $2 { if (($2, $1) in seen) print $1, "and", $2; seen[$1, $2] }' | sort -u)
+[ -z "$mutual" ] || { echo "$mutual"; echo "  ^ these units include each other"; faults=1; }
 for header in tetgen.h embree3/ OpenMesh/ assimp/ cholmod.h CGAL/ opencv2/ yaml-cpp/ hdf5.h libdeflate.h archive.h openssl/ Imath/ zlib.h png.h \
   turbojpeg.h onnx/ ceres/ Imf; do
   files=$(grep -rlE "#include <$header" common stages --include=*.cpp --include=*.h || true)

@@ -7,18 +7,9 @@
 
 #include "common/base/types.h"
 #include "common/mesh/triangle_mesh.h"
+#include "stages/gel/press/contact/surface.h"
 
 namespace tacipc {
-
-/// Vertices, edges and triangles of one surface, in combined vertex indices.
-struct Surface {
-  std::vector<int> vertices;              // ascending
-  std::vector<std::array<int, 2>> edges;  // each once, lower index first, ascending
-  std::vector<std::array<int, 3>> triangles;
-};
-
-/// Collects the primitives of a surface whose vertex indices are shifted by `offset`.
-Surface make_surface(const Triangles& triangles, int offset);
 
 struct ContactMesh;
 

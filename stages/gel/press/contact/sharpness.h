@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stages/gel/press/contact/contact_mesh.h"
+#include "stages/gel/press/contact/surface.h"
 
 namespace tacipc {
 
