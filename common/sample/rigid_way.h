@@ -7,7 +7,8 @@
 
 namespace tacipc {
 
-inline constexpr double kLongestTurn_rad = 0.2;  // of a body of a scene, in one time step
+/// Longest turn of a body of a scene, or of a hand, in one time step: a straight path cuts 0.5 % off at most.
+inline constexpr double kLongestTurn_rad = 0.2;
 
 /// A way in the world, and a turn about the moved frame's origin: a rotation vector, as long as the angle.
 struct RigidWay {

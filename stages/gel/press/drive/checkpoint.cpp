@@ -189,6 +189,7 @@ void state_fields(auto& io, auto& state) {
   io.rows(state.mount_n);
   all(io, state.held, [&](auto& body) { io.plain(body); });
   wrenches(io, state.on_others);
+  wrenches(io, state.between);
   account(io, state.account);
   io.plain(state.time_s);
 }
@@ -196,7 +197,6 @@ void state_fields(auto& io, auto& state) {
 void fields(auto& io, auto& frame, auto& progress) {
   gel_frame_fields(io, frame);
   state_fields(io, progress.world);
-  each(io, progress.holder_pose);
   each(io, progress.object_shift_m);
 }
 

@@ -16,16 +16,8 @@ namespace tacipc {
 /// State from which a press resumes.
 struct PressProgress {
   WorldState world;
-  Matrix4 holder_pose = Matrix4::Identity();  // pose that a rigid mount would give the object
   /// Displacement of the object along its free axes since the start of the phase, or from its pose on a rigid mount.
   Vector3 object_shift_m = Vector3::Zero();
-};
-
-/// State of the hand of a grasp.
-struct HandState {
-  std::array<GripControl, 2> drives;  // of left and right finger; one that moves both counts as two that are alike
-  Matrix4 world_from_hand = Matrix4::Identity();
-  double grip_n = 0.0;  // Grasp::grip_n
 };
 
 /// State from which a grasp resumes.

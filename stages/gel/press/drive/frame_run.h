@@ -20,10 +20,26 @@ class FrameStore {
   virtual std::optional<std::string> load() = 0;
 };
 
+/// Number of frames of a motion of phases, frame 0 not counted.
+template <typename Motion>
+int num_frames(const Motion& motion) {
+  int sum = 0;
+  for (const auto& phase : motion) sum += phase.steps;
+  return sum;
+}
+
+/// \throw DataError if a saved frame is of another number of gels
+inline void require_gels(std::size_t saved, std::size_t expected) {
+  if (saved != expected) throw DataError("a saved frame is of {} gels, not {}", saved, expected);
+}
+
+/// The frames of one run.
 class FrameRun {
  public:
   FrameRun(int num_frames, const ProgressObserver& observe, FrameStore* store)
       : num_frames_(num_frames), observe_(observe), store_(store) {}
+  FrameRun(const FrameRun&) = delete;
+  FrameRun& operator=(const FrameRun&) = delete;
 
   /// Number of the next frame.
   int next() const { return next_; }
@@ -34,7 +50,9 @@ class FrameRun {
     if (!store_ || !restoring_) return std::nullopt;
     std::optional<std::string> bytes = store_->load();
     restoring_ = bytes.has_value();
-    if (restoring_) log_info("frame {}/{} resumed from an interrupted run", next_++, num_frames_);
+    if (!restoring_) return std::nullopt;
+    log_info("frame {}/{} resumed from an interrupted run", next_, num_frames_);
+    ++next_;
     return bytes;
   }
 

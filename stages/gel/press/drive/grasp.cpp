@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -68,9 +69,9 @@ class GraspDrive {
         spec_(spec),
         config_(spec.pressed_with(config)),
         grip_(make_grip(sensor, gel, object, config_, spec, out_)),
-        world_(sensor, config_, grip_.bodies, {.gravity_m_s2 = spec.gravity_m_s2}),
-        run_(num_frames(spec), observe, store),
-        hand_(spec, config_, grip_, out_, world_, run_) {
+        world_(sensor, config_, std::move(grip_.bodies), {.gravity_m_s2 = spec.gravity_m_s2}),
+        run_(num_frames(spec.motion), observe, store),
+        hand_(spec, config_, out_, world_, run_) {
     for (const std::size_t side : {0, 1}) out_.fingers[side] = world_.simulation_of(side);
   }
 
@@ -88,12 +89,6 @@ class GraspDrive {
   }
 
  private:
-  static int num_frames(const GraspSpec& spec) {
-    int sum = 0;
-    for (const GraspPhase& phase : spec.motion) sum += phase.steps;
-    return sum;
-  }
-
   void run_phase(const GraspPhase& phase, int index) {
     const double h = config_.time_step_s;
     const int steps = phase.steps * phase.substeps;
@@ -151,6 +146,7 @@ class GraspDrive {
     std::vector<Frame> fingers;
     GraspProgress progress;
     unpack_frame(*bytes, frame, fingers, progress);
+    require_gels(fingers.size(), 2);
     world_.state() = std::move(progress.world);
     hand_.state() = progress.hand;
     keep(frame, fingers);
@@ -177,7 +173,7 @@ class GraspDrive {
                      .body_residual_n = report.body_residual_n,
                      .body_load_n = report.body_load_n,
                      .grip_imbalance = hand_.take_imbalance(),
-                     .whole = state.account};
+                     .whole = world_.take_account()};
     const Positions object_at = world_.mesh().object_rows(state.motion.x);
     for (const std::size_t side : {0, 1}) {
       const SolvedGel gel = world_.deformable(side);
@@ -201,7 +197,6 @@ class GraspDrive {
         -(frame.force_on_finger_n[0] + frame.force_on_finger_n[1]).z(), 1e3 * frame.slip_m,
         frame.turn_rad * 180.0 / std::numbers::pi, report.newton_iterations, report.time_steps,
         1e6 * fingers[0].min_gap_m);
-    world_.begin_frame();
     run_.save([&] { return pack_frame(frame, fingers, {state, hand_.state()}); });
     keep(frame, fingers);
   }
@@ -210,7 +205,7 @@ class GraspDrive {
   const GraspSpec& spec_;
   const PressConfig config_;
   Grasp out_;
-  const Grip grip_;
+  Grip grip_;  // its bodies move into the world
   World world_;
   FrameRun run_;
   Hand hand_;

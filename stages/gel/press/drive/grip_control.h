@@ -1,9 +1,11 @@
 // How drives close two fingers, so that they press with a force that is wanted.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 
+#include "common/base/types.h"
 #include "stages/gel/press/measure/verdict.h"
 
 namespace tacipc {
@@ -47,6 +49,13 @@ struct GripControl {
   bool lost() const { return let_go && !touches(); }
   /// Whether the last step ended with what is wanted, and a drive with mass does not swing about it.
   bool arrived(const DriveInertia& inertia = {}) const;
+};
+
+/// State of the hand of a grasp.
+struct HandState {
+  std::array<GripControl, 2> drives;  // of left and right finger; one that moves both counts as two that are alike
+  Matrix4 world_from_hand = Matrix4::Identity();
+  double grip_n = 0.0;  // Grasp::grip_n
 };
 
 inline constexpr double kTouches_n = 1e-6;     // N: with a smaller force a finger counts as not touching

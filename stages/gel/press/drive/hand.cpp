@@ -6,12 +6,6 @@
 #include "common/base/log.h"
 
 namespace tacipc {
-namespace {
-
-constexpr double kMostTurn_rad = 0.2;  // of the hand in a time step: a straight path cuts 0.5 % off at most
-
-}  // namespace
-
 Ways Hand::pressing_n() const {
   const std::vector<Matrix4>& poses = world_.state().world_from_body;
   return {tacipc::pressing_n(force_on(0), poses[0]), tacipc::pressing_n(force_on(1), poses[1])};
@@ -49,7 +43,7 @@ Ways Hand::let_go() {
 std::vector<Matrix4> Hand::poses(const Matrix4& world_from_hand, const Ways& closed_m) const {
   std::vector<Matrix4> all;
   for (const std::size_t side : {0, 1}) {
-    Matrix4 pose = grip_.bodies[side].start;
+    Matrix4 pose = world_.body(side).start;
     pose.topRightCorner<3, 1>() += closed_m[side] * pose.topLeftCorner<3, 3>().col(2);
     all.push_back(world_from_hand * pose);
   }
@@ -63,7 +57,7 @@ void Hand::step(double h_s, const Ways& closing_m, const RigidWay& motion, int h
     for (int half = 0; half < 2; ++half)
       step(0.5 * h_s, {0.5 * closing_m[0], 0.5 * closing_m[1]}, motion * 0.5, deeper, report);
   };
-  if (motion.turn_rad.norm() > kMostTurn_rad) return both_halves(halvings);
+  if (motion.turn_rad.norm() > kLongestTurn_rad) return both_halves(halvings);
   auto& drives = state_.drives;
   const Ways closed{drives[0].closed_m + closing_m[0], drives[1].closed_m + closing_m[1]};
   const Matrix4 to = moved(state_.world_from_hand, motion);

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "common/sample/rigid_way.h"
-#include "stages/gel/press/drive/checkpoint.h"
 #include "stages/gel/press/drive/frame_run.h"
-#include "stages/gel/press/drive/grip.h"
+#include "stages/gel/press/drive/grasp_frame.h"
+#include "stages/gel/press/drive/grip_control.h"
 #include "stages/gel/press/drive/way_search.h"
+#include "stages/gel/press/world/world.h"
 
 namespace tacipc {
 
@@ -17,9 +18,8 @@ namespace tacipc {
 class Hand {
  public:
   /// \param grasp mass and centre of the object \pre all outlive the hand
-  Hand(const GraspSpec& spec, const PressConfig& config, const Grip& grip, const Grasp& grasp, World& world,
-       const FrameRun& run)
-      : spec_(spec), config_(config), grip_(grip), grasp_(grasp), world_(world), run_(run) {}
+  Hand(const GraspSpec& spec, const PressConfig& config, const Grasp& grasp, World& world, const FrameRun& run)
+      : spec_(spec), config_(config), grasp_(grasp), world_(world), run_(run) {}
 
   HandState& state() { return state_; }
 
@@ -58,7 +58,6 @@ class Hand {
 
   const GraspSpec& spec_;
   const PressConfig& config_;
-  const Grip& grip_;
   const Grasp& grasp_;
   World& world_;
   const FrameRun& run_;

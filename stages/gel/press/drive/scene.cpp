@@ -1,7 +1,6 @@
 #include "stages/gel/press/drive/scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -24,7 +23,7 @@ class SceneDrive {
         spec_(spec),
         world_(sensor, config, scene_bodies(sensor, bodies, config, spec),
                {.gravity_m_s2 = spec.gravity_m_s2, .pairs = scene_contact(sensor, config, spec)}),
-        run_(num_frames(spec), observe, store),
+        run_(num_frames(spec.motion), observe, store),
         loads_n_(world_.num_free(), Vector3::Zero()) {
     for (std::size_t g = 0; g < world_.num_gels(); ++g) out_.gels.push_back(world_.simulation_of(g));
     for (std::size_t i = 0; i < world_.num_free(); ++i) out_.mass_kg.push_back(world_.affine(i).mass_kg);
@@ -45,12 +44,6 @@ class SceneDrive {
   }
 
  private:
-  static int num_frames(const SceneSpec& spec) {
-    int sum = 0;
-    for (const ScenePhase& phase : spec.motion) sum += phase.steps;
-    return sum;
-  }
-
   /// Poses of all bodies at a fraction of a phase, for those that the scene moves; of others, as they are now.
   std::vector<Matrix4> poses_in(const ScenePhase& phase, const std::vector<Matrix4>& start, double fraction) const {
     std::vector<Matrix4> poses = world_.state().world_from_body;
@@ -121,8 +114,9 @@ class SceneDrive {
     const std::optional<std::string> bytes = run_.restored();
     if (!bytes) return false;
     SceneFrame frame;
-    std::vector<Frame> of_gels(world_.num_gels());
+    std::vector<Frame> of_gels;
     unpack_frame(*bytes, frame, of_gels, world_.state());
+    require_gels(of_gels.size(), world_.num_gels());
     for (std::size_t g = 0; g < of_gels.size(); ++g) out_.gels[g].frames.push_back(std::move(of_gels[g]));
     require_on_path();
     out_.frames.push_back(std::move(frame));
@@ -178,9 +172,10 @@ class SceneDrive {
     SceneFrame frame{.time_s = state.time_s,
                      .phase_index = phase_index,
                      .world_from_body = state.world_from_body,
-                     .between = world_.between(),
+                     .between = state.between,
                      .min_gap_m = frames[0].min_gap_m,
-                     .whole = state.account,
+                     .intersections = frames[0].intersections,
+                     .whole = world_.take_account(),
                      .solver = report};
     for (std::size_t i = 0; i < world_.num_free(); ++i) {
       frame.velocity_m_s.push_back(state.motion.object_motion[i].velocity_m_s);
@@ -194,7 +189,6 @@ class SceneDrive {
     frames.resize(world_.num_gels());
     log_info("frame {}/{}: {} Newton iterations in {} steps, smallest gap {:.3g} um", run_.next(), run_.num_frames(),
              report.newton_iterations, report.time_steps, 1e6 * frame.min_gap_m);
-    world_.begin_frame();
     run_.save([&] { return pack_frame(frame, frames, state); });
     for (std::size_t g = 0; g < frames.size(); ++g) out_.gels[g].frames.push_back(std::move(frames[g]));
     out_.frames.push_back(std::move(frame));

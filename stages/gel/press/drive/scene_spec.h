@@ -14,7 +14,7 @@
 
 namespace tacipc {
 
-/// What a body is.
+/// Kind of a body.
 enum class BodyKind {
   gel,    // the sensor's gel on its mount
   soft,   // tetrahedra of a material of their own, without a mount

@@ -1,7 +1,6 @@
 #include "stages/gel/press/drive/simulate.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -19,11 +18,20 @@ bool has_free_phase(const SampleSpec& sample) {
                      [](const Phase& phase) { return phase.kind == PhaseKind::free; });
 }
 
+/// Mass of the object, 0 if the sample gives no density. \throw DataError if it encloses no volume
+double mass_of(const TriangleMesh& object, const SampleSpec& sample) {
+  if (!sample.density_kg_m3) return 0.0;
+  const double mass_kg = *sample.density_kg_m3 * signed_volume(object);
+  if (!(mass_kg > 0.0)) throw DataError("the object encloses no volume, so it has no mass");
+  return mass_kg;
+}
+
 /// The gel at the origin and the object above it, in the pose of frame 0.
 std::vector<Body> bodies_of(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object,
                             const PressConfig& config, const SampleSpec& sample, const std::string& default_face) {
   check_motion(sample, sensor, config);
   Body pressed{.name = "object", .surface = object, .closed = check_object(object, config)};
+  mass_of(object, sample);
   if (has_free_phase(sample)) {
     if (!pressed.closed)
       throw DataError("the object is not closed: where it moves freely its surface says how heavy it is");
@@ -45,16 +53,13 @@ class Press {
         compliance_m_n_(sensor.mount.compliance()),
         world_(sensor, config, bodies_of(sensor, gel, object, config, sample, default_face),
                {.gravity_m_s2 = config.gravity_m_s2, .mounts_move = false}),
-        run_(num_frames(sample), observe, store),
+        run_(num_frames(sample.motion), observe, store),
         placed_(pose()),
         holder_(pose()) {
     out_ = world_.simulation_of(0);
     out_.mount_gives_way = sensor.mount.gives_way();
     out_.face = sample.face.value_or(default_face);
-    if (sample.density_kg_m3) {
-      out_.object_mass_kg = *sample.density_kg_m3 * signed_volume(object);
-      if (!(out_.object_mass_kg > 0.0)) throw DataError("the object encloses no volume, so it has no mass");
-    }
+    out_.object_mass_kg = mass_of(object, sample);
   }
 
   Simulation run() {
@@ -85,17 +90,11 @@ class Press {
   }
 
  private:
-  static int num_frames(const SampleSpec& sample) {
-    int sum = 0;
-    for (const Phase& phase : sample.motion) sum += phase.steps;
-    return sum;
-  }
-
   Matrix4& pose() { return world_.state().world_from_body[kObject]; }
   bool may_be_free() const { return world_.num_free() > 0; }
 
-  /// The goal of a time step that ends at the time `to`, counted in time steps since the start of the phase.
-  /// \param goal where the object should be then, moved by its displacement so far
+  /// Goal of a time step of `h_s` seconds. \param goal of the phase at its end, moved by the object's displacement so
+  /// far
   StepGoal step_goal(const Phase& phase, const Goal& goal, double h_s) const {
     StepGoal step{.h_s = h_s,
                   .object_target = transformed(goal.gel_from_object, object_.positions),
@@ -168,7 +167,7 @@ class Press {
     PressProgress progress;
     unpack_frame(*bytes, frame, progress);
     world_.state() = std::move(progress.world);
-    holder_ = progress.holder_pose;
+    holder_ = frame.holder_pose;
     shift_m_ = progress.object_shift_m;
     touched_ = touched_ || frame.balance.contact_n != Vector3::Zero();
     out_.frames.push_back(std::move(frame));
@@ -177,11 +176,12 @@ class Press {
 
   /// Measures and judges a frame, writes its line of the log, and saves it.
   void finish(PhaseKind phase, int phase_index, const StepReport& report) {
-    Frame frame = world_.measure(phase, phase_index, report)[0];
+    std::vector<Frame> frames = world_.measure(phase, phase_index, report);
+    Frame& frame = frames[0];
     frame.holder_pose = holder_;
     touched_ = touched_ || frame.balance.contact_n != Vector3::Zero();
     if (frame.phase == PhaseKind::press && !touched_) frame.phase = PhaseKind::approach;
-    // The points of a free object say where it is; those of any other follow its pose, up to their strain.
+    // The pose of a free object follows from its points; the points of any other object follow from its pose.
     const bool free = frame.phase == PhaseKind::free;
     const Positions at = world_.mesh().object_rows(world_.state().motion.x);
     const Positions prescribed = free ? at : transformed(pose(), object_.positions);
@@ -190,13 +190,13 @@ class Press {
     if (world_.body(kObject).closed)
       frame.gel_in_object =
           winding_number(frame.positions.row(out_.front.vertices[0]), {prescribed, object_.triangles});
-    world_.judge(run_.next(), {frame});
+    world_.judge(run_.next(), frames);
     log_info(
         "frame {}/{} {}: press {:.4f} N, tangential {:.4f} N, {} Newton iterations in {} steps, "
         "smallest gap {:.3g} um, smallest volume ratio {:.3f}",
         run_.next(), run_.num_frames(), name_of(frame.phase), 0.0 - frame.force_n.z(), frame.force_n.head<2>().norm(),
         frame.solver.newton_iterations, frame.solver.time_steps, 1e6 * frame.min_gap_m, frame.min_volume_ratio);
-    run_.save([&] { return pack_frame(frame, {world_.state(), holder_, shift_m_}); });
+    run_.save([&] { return pack_frame(frame, {world_.state(), shift_m_}); });
     out_.frames.push_back(std::move(frame));
   }
 

@@ -78,7 +78,10 @@ std::optional<double> WaySearch::found_n_m() const {
 
 bool WaySearch::stands() const { return balanced() || at_its_limit() || tries_ >= kMostTries; }
 
-double WaySearch::imbalance() const { return balanced() || at_its_limit() ? 0.0 : std::abs(off_n_) / scale_n(); }
+double WaySearch::imbalance() const {
+  if (at_its_limit() && !balanced()) return 0.0;
+  return std::abs(off_n_) / std::max(scale_n(), kTouches_n);
+}
 
 void WaySearch::correct(double object_ahead_m) {
   const double total = inertia_n_m_ + stiffness_n_m_;

@@ -26,8 +26,8 @@ class WaySearch {
   void note(double grip_n, double object_m = 0.0);
   /// Whether that way stands: it is in balance, or as far as the drive may go towards it.
   bool stands() const;
-  /// Fraction of the force that is missing to the balance after the last way; 0 within the tolerance, or if the drive
-  /// may not go farther towards it.
+  /// Fraction of the force that is missing to the balance after the last displacement; 0 if the drive may not go
+  /// farther towards it.
   double imbalance() const;
   /// The next way to be tried, towards the balance, if the object is to go ahead by so much more than it did. Where it
   /// stays, ways between two known ones are between them: the more a finger closes, the harder it presses.

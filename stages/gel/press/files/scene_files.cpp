@@ -87,11 +87,11 @@ std::string rounded(const Vector3& v) { return fmt::format(" {:.9g} {:.9g} {:.9g
 }  // namespace
 
 std::vector<std::string> motion_by_frame(const SceneSpec& spec) {
-  std::vector<std::string> all{""};  // frame 0 is the same for every motion
+  std::vector<std::string> all{"\n"};  // frame 0 is the same for every motion
   for (const ScenePhase& phase : spec.motion) {
     for (int frame = 1; frame <= phase.steps; ++frame) {
       const double fraction = static_cast<double>(frame) / phase.steps;
-      std::string text = fmt::format("; {} steps", phase.substeps);
+      std::string text = fmt::format("frame {} of a phase; {} steps", frame, phase.substeps);
       for (const WaySpec& move : phase.move) {
         const RigidWay way = move.way * (move.smooth ? smooth_part(fraction) : fraction);
         text += fmt::format("; move {}", move.body) + rounded(way.shift_m) + rounded(way.turn_rad);
@@ -99,7 +99,7 @@ std::vector<std::string> motion_by_frame(const SceneSpec& spec) {
       for (const int body : phase.hold) text += fmt::format("; hold {}", body);
       for (const auto& [body, load_n] : phase.load_n)
         text += fmt::format("; load {}", body) + rounded(fraction * load_n);
-      all.push_back(std::move(text));
+      all.push_back(text + "\n");
     }
   }
   return all;
@@ -126,6 +126,7 @@ SceneFiles read_scene(Stage& stage, const Sensor& sensor) {
   stage.add_inputs(files);
   if (const auto solved = stage.optional_input("--solved")) {
     for (const char* flag : {"--config", "--sensor", "--gel"}) identity += content_hash(stage.input(flag));
+    identity += "\n";
     scene.frames = std::make_unique<SolvedFrames>(stage, *solved, identity, motion_by_frame(scene.spec));
   } else {
     scene.frames = std::make_unique<ScratchFrames>(stage);

@@ -42,12 +42,14 @@ void check_path(const std::string& name, const std::vector<Matrix4>& path, int t
   }
 }
 
-void judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
+int judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
+  std::int64_t sum = 0;
   const auto miss = [&](const char* check, double value, double limit, const std::string& reason) {
     throw VerdictError({.frame = frame, .check = check, .value = value, .limit = limit},
                        fmt::format("frame {}: {}", frame, reason));
   };
   const auto count = [&](std::int64_t found, const std::string& whose) {
+    sum += found;
     if (found > kVerdictLimits.intersections)
       miss("intersections", static_cast<double>(found), kVerdictLimits.intersections,
            fmt::format("{} pairs of triangles of {} intersect", found, whose));
@@ -68,6 +70,7 @@ void judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
              fmt::format("{} is inside {}", bodies[inner].name, bodies[outer].name));
     }
   });
+  return static_cast<int>(sum);
 }
 
 void require_apart(const std::vector<BodyShape>& bodies,

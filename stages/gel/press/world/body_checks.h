@@ -15,7 +15,8 @@ struct BodyShape {
   const std::string& name;
   Positions positions;
   const Triangles& triangles;
-  bool deformable = false, fixed = false;
+  bool deformable = false;
+  bool fixed = false;  // does not move freely
   bool closed = true;  // encloses a volume in which another body may lie
 };
 
@@ -24,8 +25,9 @@ struct BodyShape {
 void check_path(const std::string& name, const std::vector<Matrix4>& path, int time_steps);
 
 /// Tests exactly for intersections between bodies and of each deformable one with itself, and whether one is inside
-/// another that is closed. \throw VerdictError naming the bodies
-void judge_bodies(int frame, const std::vector<BodyShape>& bodies);
+/// another that is closed. \return pairs of triangles that intersect, of which the limit allows none
+/// \throw VerdictError naming the bodies
+int judge_bodies(int frame, const std::vector<BodyShape>& bodies);
 
 /// \param d_hat_m of two bodies, by their numbers
 /// \throw DataError naming two bodies that intersect where they begin, or are as near as contact reaches

@@ -16,10 +16,10 @@ struct PlacedGel {
   Matrix4 world_from_gel;
 };
 
-/// All of them as one mesh in the world, rows in their order.
+/// Gels joined to one mesh in the world, rows in their order.
 TetMesh joined(std::span<const PlacedGel> gels);
 
-/// What of one gel does not change.
+/// Parts of one gel that stay constant.
 struct SolvedGel {
   const TetMesh& gel;  // undeformed, in its own frame S
   const FrontSurface& front;
@@ -30,7 +30,8 @@ struct SolvedGel {
 /// Σ contact forces on it, normal and friction, in the world; zero where there is no force yet.
 Vector3 contact_force_on(const SolvedGel& part, const StepForces& forces);
 
-/// Its vertices of `x`, positions in the world, in its own frame. \param world_from_gel absent: its frame is the world
+/// Positions of the gel's vertices in its own frame, of `x` in the world. \param world_from_gel absent: its frame is
+/// the world
 Positions positions_in_gel(const SolvedGel& part, const std::optional<Matrix4>& world_from_gel, const Positions& x);
 
 /// Forces, their balance and volumes, in its own frame. Object, time and solver are left out.

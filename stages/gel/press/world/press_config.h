@@ -1,4 +1,4 @@
-// What a press needs to be told: numerics that hold for a dataset.
+// Settings of the press stage: numerics that hold for a dataset.
 #pragma once
 
 #include <optional>

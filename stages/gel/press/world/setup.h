@@ -1,4 +1,4 @@
-// What a simulation derives from configuration, sensor and gel before its first step.
+// Quantities derived from configuration, sensor and gel before the first step.
 #pragma once
 
 #include <string>

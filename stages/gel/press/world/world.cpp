@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/base/error.h"
 #include "common/sample/placement.h"
@@ -25,15 +26,15 @@ bool has_mount(const Body& body) { return !body.tets.vertices(BoundaryTag::glued
 
 }  // namespace
 
-World::World(const Sensor& sensor, const PressConfig& config, std::vector<Body> bodies, const WorldSettings& settings)
+World::World(const Sensor& sensor, const PressConfig& config, std::vector<Body> bodies, const WorldOptions& options)
     : config_(config),
       bodies_(std::move(bodies)),
-      world_(settings),
+      options_(options),
       num_gels_(static_cast<std::size_t>(std::count_if(bodies_.begin(), bodies_.end(), has_mount))),
       scales_(scales_of(config, sensor, bodies_[0].tets)),
       affine_(affine_bodies(bodies_)),
       parts_(make_parts()),
-      settings_(step_settings(config, scales_)),
+      settings_(make_settings()),
       mesh_(make_mesh()),
       model_(make_gel_model(materials())),
       stepper_(mesh_, model_, settings_, affine_) {
@@ -52,9 +53,22 @@ std::vector<World::Part> World::make_parts() const {
   return parts;
 }
 
-ContactMesh World::make_mesh() {
-  settings_.gravity_m_s2 = world_.gravity_m_s2;
-  settings_.wrenches_between_bodies = world_.mounts_move;
+StepSettings World::make_settings() const {
+  StepSettings settings = step_settings(config_, scales_);
+  settings.gravity_m_s2 = options_.gravity_m_s2;
+  settings.wrenches_between_bodies = options_.mounts_move;
+  if (!options_.pairs) return settings;
+  std::vector<std::string> names;
+  for (const Body& body : bodies_) names.push_back(body.name);
+  double weight_n = 0.0;
+  for (const AffineBody& body : affine_) weight_n += body.mass_kg * options_.gravity_m_s2.norm();
+  set_pair_laws(*options_.pairs, config_, scales_, names, static_cast<int>(num_gels_), static_cast<int>(parts_.size()),
+                weight_n, settings);
+  return settings;
+}
+
+ContactMesh World::make_mesh() const {
+  assert(options_.mounts_move || (parts_.size() == 1 && bodies_[0].start == Matrix4::Identity()));
   std::vector<PlacedGel> placed;
   std::vector<TriangleMesh> objects;
   for (const Body& body : bodies_) {
@@ -64,18 +78,10 @@ ContactMesh World::make_mesh() {
       objects.push_back({transformed(body.start, body.surface.positions), body.surface.triangles});
     }
   }
-  const TetMesh whole = world_.mounts_move ? joined(placed) : bodies_[0].tets;
+  const TetMesh whole = options_.mounts_move ? joined(placed) : bodies_[0].tets;
   ContactMesh mesh = make_contact_mesh(whole.positions, whole.boundary, objects);
   mesh.num_control_points = static_cast<int>(4 * affine_.size());
-  if (world_.mounts_move) add_gels(mesh);
-  if (world_.pairs) {
-    std::vector<std::string> names;
-    for (const Body& body : bodies_) names.push_back(body.name);
-    double weight_n = 0.0;
-    for (const AffineBody& body : affine_) weight_n += body.mass_kg * world_.gravity_m_s2.norm();
-    set_pair_laws(*world_.pairs, config_, scales_, names, static_cast<int>(num_gels_), static_cast<int>(parts_.size()),
-                  weight_n, settings_);
-  }
+  if (options_.mounts_move) add_gels(mesh);
   return mesh;
 }
 
@@ -116,11 +122,12 @@ void World::start() {
       motion.object_motion[i] = make_rigid_motion(affine_[i], at, body.velocity_m_s, body.spin_rad_s);
   }
   for (const Body& body : bodies_) state_.world_from_body.push_back(body.start);
-  if (!world_.mounts_move) return;
+  if (!options_.mounts_move) return;
   state_.mount_n = Positions::Zero(mesh_.num_gel_vertices, 3);
   state_.on_others.assign(bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
+  state_.between.assign(bodies_.size() * bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
   state_.account =
-      open_account(model_.mass_kg, instant(goal(0.0)), world_.gravity_m_s2, model_.elasticity->value(motion.x));
+      open_account(model_.mass_kg, instant(goal(0.0)), options_.gravity_m_s2, model_.elasticity->value(motion.x));
 }
 
 SolvedGel World::deformable(std::size_t b) const {
@@ -129,10 +136,11 @@ SolvedGel World::deformable(std::size_t b) const {
 
 Simulation World::simulation_of(std::size_t gel) const {
   Simulation simulation;
-  const ContactLaw& law = law_of(gel, std::min(object(0), bodies_.size() - 1));
+  const std::size_t other = gel == 0 && bodies_.size() > 1 ? 1 : 0;  // of gels alone
+  const ContactLaw& law = law_of(gel, object(0) < bodies_.size() ? object(0) : other);
   simulation.friction = law.friction;
   simulation.d_hat_m = law.d_hat_m;
-  simulation.barrier_stiffness = scales_.barrier_stiffness;
+  simulation.barrier_stiffness = law.stiffness * scales_.barrier_stiffness;
   simulation.gap_horizon_m = scales_.gap_horizon_m;
   simulation.object_mass_kg = affine_.empty() ? 0.0 : affine_[0].mass_kg;
   simulation.object_may_be_free = !affine_.empty();
@@ -206,10 +214,9 @@ void World::move_mounts(StepGoal& goal, const std::vector<Matrix4>& world_from_b
 
 Vector3 World::start_of_soft_body(std::size_t b, const std::vector<Matrix4>& world_from_body, const Vector3& shift_m,
                                   double h_s) const {
-  const std::vector<Wrench>& between = stepper_.forces().between;
-  for (std::size_t gel = 0; gel < num_gels_ && !between.empty(); ++gel) {
+  for (std::size_t gel = 0; gel < num_gels_; ++gel) {
     if (world_from_body[gel] != state_.world_from_body[gel] &&
-        between[b * bodies_.size() + gel].force_n != Vector3::Zero())
+        state_.between[b * bodies_.size() + gel].force_n != Vector3::Zero())
       return shift_m;
   }
   return h_s * own_rows(b, state_.motion.velocity_m_s).colwise().mean().transpose();
@@ -217,7 +224,7 @@ Vector3 World::start_of_soft_body(std::size_t b, const std::vector<Matrix4>& wor
 
 StepReport World::advance(const StepGoal& goal, const std::vector<Matrix4>& world_from_body,
                           const IterationObserver& observe) {
-  if (!world_.mounts_move) {
+  if (!options_.mounts_move) {
     const StepReport done = stepper_.advance(state_.motion, goal, observe);
     take_poses(goal, world_from_body);
     return done;
@@ -230,13 +237,14 @@ StepReport World::advance(const StepGoal& goal, const std::vector<Matrix4>& worl
   for (std::size_t i = 0; i < affine_.size(); ++i) {
     if (is_held(goal, i)) held.push_back(static_cast<int>(i));
   }
-  if (held != state_.held) regroup(state_.account, model_.mass_kg, before, world_.gravity_m_s2);
+  if (held != state_.held) regroup(state_.account, model_.mass_kg, before, options_.gravity_m_s2);
   const StepForces& forces = stepper_.forces();
+  state_.between = forces.between;
   StepExchange exchange = exchange_of(goal.h_s, forces, state_.mount_n, model_.elasticity->value(state_.motion.x));
   add_held_and_fixed(held, poses_before, exchange);
   const WholeInstant after = instant(goal);
   add_weights_and_loads(goal, before, after, exchange);
-  add_step(state_.account, model_.mass_kg, before, after, world_.gravity_m_s2, exchange);
+  add_step(state_.account, model_.mass_kg, before, after, options_.gravity_m_s2, exchange);
   state_.mount_n = forces.mount;
   state_.held = std::move(held);
   return done;
@@ -270,8 +278,8 @@ void World::add_held_and_fixed(const std::vector<int>& held, const std::vector<M
     const bool outside = in(held, b);
     for (std::size_t a = 0; outside && a < count; ++a) {
       if (in(held, a)) continue;
-      now.force_n += stepper_.forces().between[a * count + b].force_n;
-      now.torque_n_m += stepper_.forces().between[a * count + b].torque_n_m;
+      now.force_n += state_.between[a * count + b].force_n;
+      now.torque_n_m += state_.between[a * count + b].torque_n_m;
     }
     exchange.others.force_n += now.force_n;
     exchange.others.torque_n_m += now.torque_n_m;
@@ -294,7 +302,7 @@ void World::add_weights_and_loads(const StepGoal& goal, const WholeInstant& befo
     const Vector3 at = center_of(after.bodies[i].control), shift = at - center_of(before.bodies[i].control);
     if (after.bodies[i].held) {
       // Its height counts, so whoever lifts it does that work.
-      exchange.others_work_j -= affine_[i].mass_kg * world_.gravity_m_s2.dot(shift);
+      exchange.others_work_j -= affine_[i].mass_kg * options_.gravity_m_s2.dot(shift);
       continue;
     }
     if (goal.body_load_n.empty()) continue;
@@ -303,12 +311,6 @@ void World::add_weights_and_loads(const StepGoal& goal, const WholeInstant& befo
     exchange.others.torque_n_m += at.cross(load);
     exchange.others_work_j += load.dot(shift);
   }
-}
-
-std::vector<Wrench> World::between() const {
-  const std::vector<Wrench>& between = stepper_.forces().between;
-  if (!between.empty()) return between;
-  return std::vector<Wrench>(bodies_.size() * bodies_.size(), {Vector3::Zero(), Vector3::Zero()});
 }
 
 std::vector<Frame> World::measure(PhaseKind phase, int phase_index, const StepReport& report) {
@@ -321,7 +323,7 @@ std::vector<Frame> World::measure(PhaseKind phase, int phase_index, const StepRe
   std::vector<Frame> frames;
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const SolvedGel part = deformable(b);
-    const auto pose = world_.mounts_move ? std::optional(state_.world_from_body[b]) : std::nullopt;
+    const auto pose = options_.mounts_move ? std::optional(state_.world_from_body[b]) : std::nullopt;
     Frame frame =
         gel_frame(part, pose, at_rest && b < num_gels_ ? part.gel.positions : positions_in_gel(part, pose, x), forces);
     if (b >= num_gels_) frame.balance.relative = frame.balance.force_n / most_force_on(b);
@@ -344,16 +346,16 @@ std::vector<Frame> World::measure(PhaseKind phase, int phase_index, const StepRe
 
 double World::most_force_on(std::size_t b) const {
   // Forces that squeeze a soft body cancel in their sum.
-  const std::vector<Wrench> all = between();
   double most = kSmallestContactN;
   for (std::size_t other = 0; other < bodies_.size(); ++other)
-    most = std::max(most, all[b * bodies_.size() + other].force_n.norm());
+    most = std::max(most, state_.between[b * bodies_.size() + other].force_n.norm());
   return most;
 }
 
-void World::judge(int number, const std::vector<Frame>& frames) const {
-  judge_bodies(number, shapes());
+void World::judge(int number, std::vector<Frame>& frames) const {
+  const int intersections = judge_bodies(number, shapes());
   for (std::size_t b = 0; b < frames.size(); ++b) {
+    frames[b].intersections = intersections;
     try {
       judge_frame(number, numbers_of(frames[b]),
                   limits_of(config_, settings_.newton, frames[b].solver.contact_force_n));
@@ -368,6 +370,12 @@ void World::require_apart() const {
   tacipc::require_apart(shapes(), [&](std::size_t a, std::size_t b) { return law_of(a, b).d_hat_m; });
 }
 
+WholeAccount World::take_account() {
+  const WholeAccount account = state_.account;
+  state_.account.momentum_residual_n = state_.account.angular_residual_n_m = 0.0;
+  return account;
+}
+
 std::vector<BodyShape> World::shapes() const {
   const Positions& x = state_.motion.x;
   std::vector<BodyShape> all;
@@ -379,7 +387,8 @@ std::vector<BodyShape> World::shapes() const {
   for (std::size_t i = 0; i < mesh_.objects.size(); ++i) {
     const Body& body = bodies_[object(i)];
     all.push_back({.name = body.name,
-                   .positions = mesh_.objects[i].rows(x),
+                   .positions = body.affine ? Positions(mesh_.objects[i].rows(x))
+                                            : transformed(state_.world_from_body[object(i)], body.surface.positions),
                    .triangles = body.surface.triangles,
                    .fixed = !body.affine,
                    .closed = body.closed});

@@ -37,7 +37,7 @@ struct Body {
   bool deformable() const { return tets.num_vertices() > 0; }
 };
 
-struct WorldSettings {
+struct WorldOptions {
   Vector3 gravity_m_s2 = Vector3::Zero();
   /// Mounts move, and energy and momentum are accounted for. If false there is one gel, whose frame S is the world.
   bool mounts_move = true;
@@ -51,20 +51,21 @@ struct WorldState {
   Positions mount_n;                     // force of the mounts on each vertex of deformable bodies
   std::vector<int> held;                 // objects that may move freely but were held in the last step, ascending
   std::vector<Wrench> on_others;         // by each held or fixed body on all others, about the world's origin
+  /// Contact wrenches after the last step, about the world's origin: on body a by body b at a × number of bodies + b.
+  std::vector<Wrench> between;
   WholeAccount account;
   double time_s = 0.0;
 };
 
+/// A world at one instant, with the solver that takes it to the next.
 class World {
  public:
   /// \throw UsageError or DataError if the bodies cannot be simulated together
-  World(const Sensor& sensor, const PressConfig& config, std::vector<Body> bodies, const WorldSettings& settings);
+  World(const Sensor& sensor, const PressConfig& config, std::vector<Body> bodies, const WorldOptions& options);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  std::size_t num_bodies() const { return bodies_.size(); }
   std::size_t num_gels() const { return num_gels_; }
-  std::size_t num_deformable() const { return parts_.size(); }
   std::size_t num_free() const { return affine_.size(); }  // objects that may move freely
   const Body& body(std::size_t b) const { return bodies_[b]; }
   const AffineBody& affine(std::size_t i) const { return affine_[i]; }
@@ -74,14 +75,15 @@ class World {
 
   WorldState& state() { return state_; }
   const WorldState& state() const { return state_; }
-  TimeStepper& stepper() { return stepper_; }
+  const TimeStepper& stepper() const { return stepper_; }
   const StepForces& forces() const { return stepper_.forces(); }
 
   /// Friction and reach of contact between two bodies.
   const ContactLaw& law_of(std::size_t a, std::size_t b) const {
     return settings_.laws.of(static_cast<int>(a), static_cast<int>(b));
   }
-  /// A simulation of one gel without frames; friction and d̂ are those with the first object.
+  /// A simulation of one gel without frames; friction, d̂ and κ are those with the first object, or, if there is none,
+  /// with the first other body.
   Simulation simulation_of(std::size_t gel) const;
 
   /// Number of the i-th object among all bodies; objects that may move freely come first.
@@ -99,24 +101,22 @@ class World {
   void hold(StepGoal& goal, std::size_t i, const Matrix4& world_from_body) const;
   static bool is_held(const StepGoal& goal, std::size_t i);
 
-  /// One time step. \param world_from_body poses of gels and held bodies at its end
-  /// \throw SolverError if it does not converge; the state is then as before
+  /// One time step. \param world_from_body poses of all bodies at its end, those of the goal; poses of free bodies are
+  /// replaced \throw SolverError if it does not converge; the state is then as before but for the barrier's factor
   StepReport advance(const StepGoal& goal, const std::vector<Matrix4>& world_from_body,
                      const IterationObserver& observe);
 
-  /// Contact wrenches between all bodies after the last step, zero before the first: on body a by body b at
-  /// a × num_bodies() + b.
-  std::vector<Wrench> between() const;
   double smallest_gap(double none) { return stepper_.smallest_gap(state_.motion.x, none); }
 
   /// The frames of all deformable bodies, each in its own frame S. \param phase_index −1 in frame 0
   std::vector<Frame> measure(PhaseKind phase, int phase_index, const StepReport& report);
-  /// \throw VerdictError naming the body if a frame of measure() misses a limit, or two bodies intersect
-  void judge(int number, const std::vector<Frame>& frames) const;
+  /// Notes the number of intersections in the frames of measure().
+  /// \throw VerdictError naming the body if a frame misses a limit, or two bodies intersect
+  void judge(int number, std::vector<Frame>& frames) const;
   /// \throw DataError naming two bodies that touch in frame 0
   void require_apart() const;
-  /// Sets the account's residuals, which are those of the time steps of one frame, back to zero.
-  void begin_frame() { state_.account.momentum_residual_n = state_.account.angular_residual_n_m = 0.0; }
+  /// Energy and momentum at the end of a frame; the account's residuals begin anew with the next frame.
+  WholeAccount take_account();
 
  private:
   struct Part {
@@ -126,7 +126,8 @@ class World {
   };
 
   std::vector<Part> make_parts() const;
-  ContactMesh make_mesh();
+  StepSettings make_settings() const;
+  ContactMesh make_mesh() const;
   void add_gels(ContactMesh& mesh) const;
   std::vector<DeformableBody> materials() const;
   void start();
@@ -150,12 +151,12 @@ class World {
 
   const PressConfig config_;
   const std::vector<Body> bodies_;
-  const WorldSettings world_;
+  const WorldOptions options_;
   const std::size_t num_gels_;
   const Scales scales_;
   const std::vector<AffineBody> affine_;
   const std::vector<Part> parts_;
-  StepSettings settings_;  // completed by make_mesh()
+  const StepSettings settings_;
   const ContactMesh mesh_;
   GelModel model_;
   TimeStepper stepper_;

@@ -16,8 +16,9 @@ TEST(SceneFiles, TheMotionOfAFrameIsThatOfAnotherSceneWhereverBothMoveAlike) {
     return motion_by_frame(spec);
   };
   const auto usual = motion(1e-3, {1}, {0, 0, -1});
-  EXPECT_THAT(usual, ElementsAre("", "; 3 steps; move 0 0 0 0.0005 0 0 0; hold 1",
-                                 "; 3 steps; move 0 0 0 0.001 0 0 0; hold 1", "; 1 steps; load 1 0 0 -1"));
+  EXPECT_THAT(usual, ElementsAre("\n", "frame 1 of a phase; 3 steps; move 0 0 0 0.0005 0 0 0; hold 1\n",
+                                 "frame 2 of a phase; 3 steps; move 0 0 0 0.001 0 0 0; hold 1\n",
+                                 "frame 1 of a phase; 1 steps; load 1 0 0 -1\n"));
   const auto farther = motion(2e-3, {1}, {0, 0, -1}), free = motion(1e-3, {}, {0, 0, -1}),
              loaded = motion(1e-3, {1}, {0, 0, -2});
   EXPECT_NE(farther[1], usual[1]);

@@ -28,7 +28,7 @@ class BodyChecks : public ::testing::Test {
   }
   std::string verdict() const {
     try {
-      judge_bodies(7, bodies_);
+      EXPECT_EQ(judge_bodies(7, bodies_), 0);
     } catch (const VerdictError& error) {
       return error.what();
     }
