@@ -14,7 +14,7 @@ namespace {
 
 // Numbers of the glTF 2.0 specification.
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
-constexpr int kVertices = 34962, kIndices = 34963;
+constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
 
 /// Binary part and its description, array by array.
 class Buffer {
@@ -128,7 +128,7 @@ Value morphing_mesh(const std::string& name, Value::Map attributes, int indices,
   Value mesh = Value::Map{{"name", name}};
   Value::List targets;
   for (const Positions& moved : later)
-    targets.emplace_back(Value::Map{{"POSITION", buffer.add(floats(moved), 3, kFloat, kVertices, true)}});
+    targets.emplace_back(Value::Map{{"POSITION", buffer.add(floats(moved), 3, kFloat, kVertexBuffer, true)}});
   if (!later.empty()) {
     mesh.set("weights", Value::List(later.size(), Value(0.0)));
     primitive.set("targets", targets);
@@ -141,9 +141,9 @@ Value morphing_mesh(const std::string& name, Value::Map attributes, int indices,
 Value gel_mesh(const OpenGel& gel, std::size_t frames, double deepest, Buffer& buffer) {
   const std::vector<int> front = gel.press.front_vertices();
   const Positions rest = front_at(gel, 0), last = front_at(gel, frames - 1);
-  const int positions = buffer.add(floats(rest), 3, kFloat, kVertices, true);
-  const int colors = buffer.add(indentation_colors(rest, last, deepest), 4, kUnsignedShort, kVertices);
-  const int indices = buffer.add(corners(gel.mesh.faces(BoundaryTag::front), &front), 1, kUnsignedInt, kIndices);
+  const int positions = buffer.add(floats(rest), 3, kFloat, kVertexBuffer, true);
+  const int colors = buffer.add(indentation_colors(rest, last, deepest), 4, kUnsignedShort, kVertexBuffer);
+  const int indices = buffer.add(corners(gel.mesh.faces(BoundaryTag::front), &front), 1, kUnsignedInt, kIndexBuffer);
   std::vector<Positions> later;
   for (std::size_t f = 1; f < frames; ++f) later.emplace_back(front_at(gel, f) - rest);
   return morphing_mesh(named("gel", gel.name), Value::Map{{"POSITION", positions}, {"COLOR_0", colors}}, indices, 0,
@@ -151,8 +151,8 @@ Value gel_mesh(const OpenGel& gel, std::size_t frames, double deepest, Buffer& b
 }
 
 Value object_mesh(const OpenObject& object, Buffer& buffer) {
-  const int positions = buffer.add(floats(object.mesh.positions), 3, kFloat, kVertices, true);
-  const int indices = buffer.add(corners(object.mesh.triangles), 1, kUnsignedInt, kIndices);
+  const int positions = buffer.add(floats(object.mesh.positions), 3, kFloat, kVertexBuffer, true);
+  const int indices = buffer.add(corners(object.mesh.triangles), 1, kUnsignedInt, kIndexBuffer);
   return Value::Map{
       {"name", named("object", object.name)},
       {"primitives", Value::List{Value::Map{
@@ -163,8 +163,8 @@ Value object_mesh(const OpenObject& object, Buffer& buffer) {
 Value soft_mesh(const OpenSoft& soft, Buffer& buffer) {
   const std::vector<int> surface = soft.mesh.vertices(BoundaryTag::free);
   const Positions first = soft.positions.front()(surface, Eigen::all);
-  const int positions = buffer.add(floats(first), 3, kFloat, kVertices, true);
-  const int indices = buffer.add(corners(soft.mesh.boundary, &surface), 1, kUnsignedInt, kIndices);
+  const int positions = buffer.add(floats(first), 3, kFloat, kVertexBuffer, true);
+  const int indices = buffer.add(corners(soft.mesh.boundary, &surface), 1, kUnsignedInt, kIndexBuffer);
   std::vector<Positions> later;
   for (std::size_t f = 1; f < soft.positions.size(); ++f)
     later.emplace_back(soft.positions[f](surface, Eigen::all) - first);

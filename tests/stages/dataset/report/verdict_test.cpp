@@ -16,6 +16,7 @@ const std::string kLimits =
 class VerdictTest : public ::testing::Test {
  protected:
   Record record(const std::string& text) { return Record::from_file(scratch_.file("record.yaml", text)); }
+  RecordLines<PressSummary> summary_lines(const std::string& text) { return RecordLines<PressSummary>(record(text)); }
   /// The check of this name for one frame and a summary with one line replaced or added.
   CheckReport check(const std::string& name, const std::string& line, const FrameReport& frame = {.min_gap_m = 1e-6},
                     const std::string& limits = kLimits) {
@@ -23,7 +24,7 @@ class VerdictTest : public ::testing::Test {
         "converged: true\nintersections: 0\ninverted_tets: 0\nmin_distance_m: 1.0e-06\nmin_volume_ratio: 0.5\n";
     const std::string key = line.substr(0, line.find(':') + 1);
     if (const auto at = text.find(key); at != std::string::npos) text.erase(at, text.find('\n', at) + 1 - at);
-    for (const CheckReport& c : checks_of(record(text + line + "\n" + limits), {frame})) {
+    for (const CheckReport& c : checks_of(summary_lines(text + line + "\n" + limits), {frame})) {
       if (c.name == name) return c;
     }
     ADD_FAILURE() << "no check is called " << name;
@@ -77,7 +78,7 @@ TEST_F(VerdictTest, WithoutLimitsWhatMustBeZeroIsCheckedAndTheRestIsNot) {
   EXPECT_FALSE(check("triangle pairs that intersect", "intersections: 1", {.min_gap_m = 1.0}, "").held);
   const std::string summary =
       "converged: true\nintersections: 0\ninverted_tets: 0\nmin_distance_m: 1\nmin_volume_ratio: 1\n";
-  EXPECT_EQ(checks_of(record(summary + "max_balance_relative: 1\nmax_pose_error_m: 1\n"), {}).size(), 5u);
+  EXPECT_EQ(checks_of(summary_lines(summary + "max_balance_relative: 1\nmax_pose_error_m: 1\n"), {}).size(), 5u);
 }
 
 TEST_F(VerdictTest, AFrameThatIsWorseThanTheSummaryCounts) {
@@ -95,11 +96,11 @@ TEST_F(VerdictTest, AFrameThatIsWorseThanTheSummaryCounts) {
 }
 
 TEST_F(VerdictTest, WhatARecordDoesNotTellIsNotChecked) {
-  const auto checks =
-      checks_of(record("converged: true\nintersections: 0\ninverted_tets: 0\nmin_distance_m: 1\nmin_volume_ratio: 1\n"),
-                {FrameReport{.min_gap_m = 1}});
+  const auto checks = checks_of(
+      summary_lines("converged: true\nintersections: 0\ninverted_tets: 0\nmin_distance_m: 1\nmin_volume_ratio: 1\n"),
+      {FrameReport{.min_gap_m = 1}});
   EXPECT_EQ(checks.size(), 5u);
-  EXPECT_EQ(message_of<DataError>([&] { checks_of(record("converged: true\nintersections: 0\n"), {}); }),
+  EXPECT_EQ(message_of<DataError>([&] { checks_of(summary_lines("converged: true\nintersections: 0\n"), {}); }),
             (scratch_ / "record.yaml").string() + ": inverted_tets: missing");
 }
 

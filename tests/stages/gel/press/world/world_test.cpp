@@ -26,7 +26,8 @@ Body box_body(const std::string& name, const Vector3& low, const Vector3& high, 
 std::string verdict(const Body& object, bool mounts_move) {
   World world(paper_sensor(), friction_config(0.5), {gel_body("gel"), object}, {.mounts_move = mounts_move});
   try {
-    world.judge(0, world.measure(PhaseKind::reference, -1, {}));
+    std::vector<Frame> frames = world.measure(PhaseKind::reference, -1, {});
+    world.judge(0, frames);
   } catch (const VerdictError& error) {
     return error.miss().check + ": " + error.what();
   }
