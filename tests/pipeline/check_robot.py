@@ -15,7 +15,7 @@ load = lambda name: np.load(f"{folder}/{name}.npy")
 model = mujoco.MjModel.from_xml_path(model_file)
 data = mujoco.MjData(model)
 time, qpos, qvel, control, force = map(load, ("time", "qpos", "qvel", "control", "actuator_force"))
-body_pose, body_twist, pad_pose = map(load, ("body_pose", "body_twist", "pad_pose"))
+body_pose, body_twist, pad_pose = map(load, ("model_pose", "model_twist", "pad_pose"))
 assert np.abs(np.diff(time) - model.opt.timestep).max() < 1e-9
 assert len(time) == 1001, len(time)
 ball = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, "ball")
