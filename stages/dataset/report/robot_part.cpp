@@ -17,7 +17,6 @@
 namespace tacipc {
 namespace {
 
-
 std::string header(const RobotReport& robot) {
   std::string html = fmt::format("<section id=\"robot\">\n<h2>Task: {}</h2>\n", html_text(robot.task));
   if (robot.variables.empty()) return html;
