@@ -33,11 +33,11 @@ concept HasRecordKeys = requires {
 
 template <typename T>
 struct WithoutOptional {
-  using type = T;
+  using Type = T;
 };
 template <typename T>
 struct WithoutOptional<std::optional<T>> {
-  using type = T;
+  using Type = T;
 };
 
 /// Name of the key that a member stands for.
@@ -83,7 +83,7 @@ Value::Map record_lines(const Lines& lines) {
   const auto add = [&](const auto& key) {
     const auto& value = lines.*key.member;
     using T = std::remove_cvref_t<decltype(value)>;
-    if constexpr (std::is_same_v<T, typename WithoutOptional<T>::type>) {
+    if constexpr (std::is_same_v<T, typename WithoutOptional<T>::Type>) {
       map.emplace_back(key.name, record_value(value));
     } else {
       if (value) map.emplace_back(key.name, record_value(*value));
@@ -98,7 +98,7 @@ Value::Map record_lines(const Lines& lines) {
 template <HasRecordKeys Lines>
 class RecordLines {
   template <typename T>
-  using Plain = typename WithoutOptional<T>::type;
+  using Plain = typename WithoutOptional<T>::Type;
   /// Type in which a value is read: int for whole numbers.
   template <typename T>
   using Held = std::conditional_t<std::is_integral_v<Plain<T>> && !std::is_same_v<Plain<T>, bool>, int, Plain<T>>;

@@ -69,7 +69,7 @@ void Hand::step(double h_s, const Ways& closing_m, const RigidWay& motion, int h
   goal.hand_motion = motion_of_world(state_.world_from_hand, motion);
   if (!is_free()) world_.hold(goal, 0, object_pose());
   const auto advance = [&] {
-    const StepReport done = world_.advance(goal, at_end, run_.observer());
+    StepReport done = world_.advance(goal, at_end, run_.observer());
     for (const std::size_t side : {0, 1}) drives[side].closed_m = closed[side];
     state_.world_from_hand = to;
     return done;

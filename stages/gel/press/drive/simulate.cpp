@@ -120,7 +120,7 @@ class Press {
     goal.gel_from_object.topRightCorner<3, 1>() += shift_m_;
     const StepGoal step = step_goal(phase, goal, (to - from) * goal.duration_s);
     const auto advance_whole = [&] {
-      const StepReport done = world_.advance(step, {Matrix4::Identity(), goal.gel_from_object}, run_.observer());
+      StepReport done = world_.advance(step, {Matrix4::Identity(), goal.gel_from_object}, run_.observer());
       shift_m_ += done.object_shift_m;
       if (!step.free_object) pose().topRightCorner<3, 1>() += done.object_shift_m;
       find_holder(goal, held_m);

@@ -225,12 +225,12 @@ Vector3 World::start_of_soft_body(std::size_t b, const std::vector<Matrix4>& wor
 StepReport World::advance(const StepGoal& goal, const std::vector<Matrix4>& world_from_body,
                           const IterationObserver& observe) {
   if (!options_.mounts_move) {
-    const StepReport done = stepper_.advance(state_.motion, goal, observe);
+    StepReport done = stepper_.advance(state_.motion, goal, observe);
     take_poses(goal, world_from_body);
     return done;
   }
   const WholeInstant before = instant(goal);
-  const StepReport done = stepper_.advance(state_.motion, goal, observe);
+  StepReport done = stepper_.advance(state_.motion, goal, observe);
   const std::vector<Matrix4> poses_before = state_.world_from_body;
   take_poses(goal, world_from_body);
   std::vector<int> held;
@@ -371,7 +371,7 @@ void World::require_apart() const {
 }
 
 WholeAccount World::take_account() {
-  const WholeAccount account = state_.account;
+  WholeAccount account = state_.account;
   state_.account.momentum_residual_n = state_.account.angular_residual_n_m = 0.0;
   return account;
 }
