@@ -7,13 +7,11 @@ packages_wanted = $(sort $(foreach g,$(groups_wanted),$(file < packages/$(g).txt
 packages_for_packages    := $(GROUPS)
 packages_for_check       := tests loaders wrap identify robot predict depthnet
 packages_for_check-slow  := tests loaders cluster pages wrap identify robot predict depthnet
-packages_for_check-all   := $(packages_for_check-slow)
-packages_for_build-all   := $(packages_for_check)
 
 # A goal that needs but some stages says programs_for_<goal> := <their names>; any other builds them all.
 programs_wanted = $(sort $(or $(foreach g,$(MAKECMDGOALS),$(or $(programs_for_$(g)),stages)),stages))
 
-.PHONY: packages build build-all check check-slow check-all clean
+.PHONY: packages build build-all check check-slow clean
 
 packages: ## development: Install the Debian packages that are missing: of the chain, or GROUPS="tests cluster" too (PACKAGES=no: only say which)
 	$(foreach g,$(filter-out $(PACKAGE_GROUPS),$(groups_wanted)),$(error GROUPS: there is no packages/$(g).txt (there are: $(PACKAGE_GROUPS))))
@@ -86,9 +84,6 @@ check: build-all ## start: Build and run the tests (under 15 minutes)
 
 check-slow: build-all ## development: Build and run the long tests
 	ctest --test-dir $(BUILD) -L slow -j $(JOBS) --output-on-failure --no-tests=error
-
-check-all: build-all ## development: Build and run all tests in one run, the longest first
-	ctest --test-dir $(BUILD) -LE dev -j $(JOBS) --output-on-failure --no-tests=error
 
 clean: ## development: Remove the build folder (generated data stay)
 	$(if $(filter-out clean,$(MAKECMDGOALS)),$(error clean goes alone))
