@@ -4,17 +4,28 @@ function(tacipc_own target)
   target_precompile_headers(${target} REUSE_FROM tacipc_headers)
 endfunction()
 
-# tacipc_add_stage(<name> SOURCES a.cpp … [LINK lib …])
-# One library target tacipc_<name> from SOURCES and one executable bin/<name> from main.cpp.
+# tacipc_own_cold(<target>): the same for code that runs once per stage: -O1, and headers read anew, since those compiled once are for -O3.
+function(tacipc_own_cold target)
+  target_link_libraries(${target} PRIVATE tacipc::warnings)
+  target_compile_options(${target} PRIVATE -O1)
+endfunction()
+
+# tacipc_add_stage(<name> [COLD] SOURCES a.cpp … [LINK lib …])
+# One library target tacipc_<name> from SOURCES and one executable bin/<name> from main.cpp; COLD: see tacipc_own_cold.
 function(tacipc_add_stage name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "SOURCES;LINK" ${ARGN})
   add_library(tacipc_${name} STATIC ${ARG_SOURCES})
   target_include_directories(tacipc_${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(tacipc_${name} PUBLIC tacipc_common PRIVATE ${ARG_LINK})
-  tacipc_own(tacipc_${name})
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE tacipc_${name})
-  tacipc_own(${name})
+  foreach(target tacipc_${name} ${name})
+    if(ARG_COLD)
+      tacipc_own_cold(${target})
+    else()
+      tacipc_own(${target})
+    endif()
+  endforeach()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
@@ -31,7 +42,8 @@ function(tacipc_add_program name)
 endfunction()
 
 # tacipc_add_test(<name> SOURCES a_test.cpp … [LINK lib …] [LABEL fast|slow|dev])
-# Every GoogleTest case becomes a CTest case named <name>.<suite>.<case>.
+# Every GoogleTest case becomes a CTest case named <name>.<suite>.<case>. Each source has its helpers in a namespace of its own name, so
+# that several can be compiled as one. A test's own code is short: more of the optimiser than -O1 would cost CI minutes.
 function(tacipc_add_test name)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_LABEL)
@@ -40,8 +52,8 @@ function(tacipc_add_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE tacipc_common tacipc::warnings ${ARG_LINK} GTest::gmock GTest::gtest GTest::gtest_main)
+  target_compile_options(${name} PRIVATE -O1)
   target_precompile_headers(${name} REUSE_FROM tacipc_test_headers)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # each test file has helpers of its own, with short names
   target_compile_definitions(${name} PRIVATE TACIPC_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TACIPC_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
   gtest_discover_tests(${name} TEST_PREFIX "${name}." PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 1500 DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -47,9 +47,9 @@ ElementType supported_type(const MshCursor& in, int number) {
   return *type;
 }
 
-class Reader {
+class MshReader {
  public:
-  Reader(std::string_view file, std::string name) : file_(file), name_(std::move(name)) { read_format(); }
+  MshReader(std::string_view file, std::string name) : file_(file), name_(std::move(name)) { read_format(); }
 
   MshContent read() {
     for (std::size_t at = 0; const auto section = next_section(at);) {
@@ -268,7 +268,7 @@ class Reader {
 
 MshContent read_msh(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
-  return Reader(bytes, path.string()).read();
+  return MshReader(bytes, path.string()).read();
 }
 
 }  // namespace tacipc

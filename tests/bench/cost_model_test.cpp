@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace tacipc::bench {
-namespace {
+namespace cost_model_test {
 
 /// Presses and drags of three sizes with both elements that cost what `model` says.
 std::vector<Run> runs_of(const CostModel& model) {
@@ -61,5 +61,5 @@ TEST(CostModel, SaysHowFarOffItIs) {
   EXPECT_LT(off, 3.0);
 }
 
-}  // namespace
+}  // namespace cost_model_test
 }  // namespace tacipc::bench

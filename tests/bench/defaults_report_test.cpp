@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 namespace tacipc::bench {
-namespace {
+namespace defaults_report_test {
 
 using ::testing::HasSubstr;
 
@@ -36,5 +36,5 @@ TEST(Defaults, RatiosOfMeansStandBelowTheRows) {
   EXPECT_THAT(table, HasSubstr("| **mean** | 8.0 | 80 | 800 | 7.0 | 1.14 | 10.0 | 8.0 | 1.00 | 4.0 | 30.0 | 30.0 |\n"));
 }
 
-}  // namespace
+}  // namespace defaults_report_test
 }  // namespace tacipc::bench

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace tacipc::bench {
-namespace {
+namespace element_study_test {
 
 using ::testing::HasSubstr;
 
@@ -47,5 +47,5 @@ TEST(ElementSection, ComparesBothElementsOnTheMeshesThatBothHave) {
   EXPECT_THAT(element_svg(runs), HasSubstr("averaged volume"));
 }
 
-}  // namespace
+}  // namespace element_study_test
 }  // namespace tacipc::bench

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc::bench {
-namespace {
+namespace rivals_report_test {
 
 TEST(RivalsTable, HasARowPerMethodAndColumnsPerSize) {
   const std::vector<ImageSpeed> speeds{
@@ -23,5 +23,5 @@ TEST(RivalsTable, HasARowPerMethodAndColumnsPerSize) {
       "presses over all of their frames (40 of TacIPC's), whatever the images' size.\n");
 }
 
-}  // namespace
+}  // namespace rivals_report_test
 }  // namespace tacipc::bench

@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc::bench {
-namespace {
+namespace routes_report_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -82,5 +82,5 @@ TEST(Routes, LimitsAreGivenInMillimetresAndPercent) {
   EXPECT_DOUBLE_EQ(limits.force, 0.03);
 }
 
-}  // namespace
+}  // namespace routes_report_test
 }  // namespace tacipc::bench

@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace common_damaged_files_test {
 
 constexpr std::size_t kMemory = std::size_t{256} << 20;  // bytes
 
@@ -120,5 +120,5 @@ TEST(DamagedFiles, EightBytesOfOnesAnywhereAreRefusedOrHarmless) {
       }
 }
 
-}  // namespace
+}  // namespace common_damaged_files_test
 }  // namespace tacipc

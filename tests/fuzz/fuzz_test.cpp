@@ -14,7 +14,7 @@
 #include "tests/fuzz/mutation.h"
 
 namespace tacipc {
-namespace {
+namespace fuzz_test {
 
 namespace fs = std::filesystem;
 constexpr int kMutations = 1500;             // per reader
@@ -168,5 +168,5 @@ TEST(FuzzHarness, MutationsAreTheSameEveryTime) {
   EXPECT_GT(changed, 180);
 }
 
-}  // namespace
+}  // namespace fuzz_test
 }  // namespace tacipc

@@ -16,7 +16,7 @@
 #include "verification/object_shapes.h"
 
 namespace tacipc::verify {
-namespace {
+namespace bonded_layer_soft_ball_slow_test {
 
 using std::numbers::pi;
 
@@ -176,5 +176,5 @@ TEST(SoftBall, PressesAGelAsBothModuliTogetherSay) {
   EXPECT_GT(expected.contact_radius_m, 8.0 * kEdge);
 }
 
-}  // namespace
+}  // namespace bonded_layer_soft_ball_slow_test
 }  // namespace tacipc::verify

@@ -10,7 +10,7 @@
 #include "verification/closed_forms.h"
 
 namespace tacipc::verify {
-namespace {
+namespace bonded_layer_test {
 
 using std::numbers::pi;
 using Shape = LayerProblem::Shape;
@@ -146,5 +146,5 @@ TEST(BondedLayer, DimitriadisSeriesIsItsBeginning) {
   }
 }
 
-}  // namespace
+}  // namespace bonded_layer_test
 }  // namespace tacipc::verify

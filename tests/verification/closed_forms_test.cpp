@@ -7,7 +7,7 @@
 #include "verification/closed_forms.h"
 
 namespace tacipc::verify {
-namespace {
+namespace closed_forms_test {
 
 const Elastic kGel{1.2e5, 0.43};
 
@@ -70,5 +70,5 @@ TEST(ClosedForms, ARelaxingForceBeginsAtTheInstantaneousModulusAndEndsAtTheLongT
   EXPECT_NEAR(relaxing_force_factor(series, 1.0, 0.7), 0.5 * halves, 1e-12);
 }
 
-}  // namespace
+}  // namespace closed_forms_test
 }  // namespace tacipc::verify

@@ -11,7 +11,7 @@
 #include "verification/gel_shapes.h"
 
 namespace tacipc::verify {
-namespace {
+namespace equilibrium_test {
 
 struct PatchCase {
   std::string law;
@@ -210,5 +210,5 @@ INSTANTIATE_TEST_SUITE_P(Materials, PatchTest,
                                            PatchCase{"stvk_hencky", Element::averaged_volume, 0.49}),
                          name_of);
 
-}  // namespace
+}  // namespace equilibrium_test
 }  // namespace tacipc::verify

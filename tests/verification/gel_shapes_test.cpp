@@ -10,7 +10,7 @@
 #include "verification/object_shapes.h"
 
 namespace tacipc::verify {
-namespace {
+namespace gel_shapes_test {
 
 using std::numbers::pi;
 using Kind = ObjectShape::Kind;
@@ -139,5 +139,5 @@ TEST(GelShapes, CrownFollowsItsProfile) {
   EXPECT_NEAR(gel.positions.col(2).minCoeff(), -0.004, 1e-15);
 }
 
-}  // namespace
+}  // namespace gel_shapes_test
 }  // namespace tacipc::verify

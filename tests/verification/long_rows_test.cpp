@@ -8,7 +8,7 @@
 #include "verification/table_report.h"
 
 namespace tacipc::verify {
-namespace {
+namespace long_rows_test {
 
 const LongRow kRow{.title = "Stress campaign",
                    .shows = "random cases",
@@ -79,5 +79,5 @@ TEST(LongRows, TheListReads) {
             2u);
 }
 
-}  // namespace
+}  // namespace long_rows_test
 }  // namespace tacipc::verify

@@ -13,7 +13,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc::verify {
-namespace {
+namespace marker_curve_test {
 
 constexpr int kPressEnd = 2, kMarkers = 3;
 
@@ -243,5 +243,5 @@ TEST(MarkerCurveConfig, ReadsItsKeys) {
                                       place + ":3:15: settled_load: 1.5 is outside (0, 1)"}));
 }
 
-}  // namespace
+}  // namespace marker_curve_test
 }  // namespace tacipc::verify

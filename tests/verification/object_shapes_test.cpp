@@ -8,7 +8,7 @@
 #include "verification/object_shapes.h"
 
 namespace tacipc::verify {
-namespace {
+namespace object_shapes_test {
 
 using std::numbers::pi;
 using Kind = ObjectShape::Kind;
@@ -74,5 +74,5 @@ TEST(ObjectShapes, SphereHasItsVerticesOnTheTrueSurfaceAndOneBelow) {
   EXPECT_LT(mesh.num_vertices(), 2000);
 }
 
-}  // namespace
+}  // namespace object_shapes_test
 }  // namespace tacipc::verify

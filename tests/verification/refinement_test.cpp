@@ -12,7 +12,7 @@
 #include "verification/refinement_report.h"
 
 namespace tacipc::verify {
-namespace {
+namespace refinement_test {
 
 const std::string kScene = R"(title: a sphere dragged
 gel:
@@ -159,5 +159,5 @@ TEST(Refinement, ASmallSceneSettlesInTime) {
     EXPECT_LT(curves[c].against_next[1], curves[c].against_next[0]) << curves[c].quantity;
 }
 
-}  // namespace
+}  // namespace refinement_test
 }  // namespace tacipc::verify

@@ -3,7 +3,7 @@
 #include "tests/verification/case_file.h"
 
 namespace tacipc::verify {
-namespace {
+namespace run_case_closed_forms_test {
 
 class ClosedFormCase : public ::testing::TestWithParam<std::string> {};
 
@@ -17,5 +17,5 @@ INSTANTIATE_TEST_SUITE_P(
                       "tests/verification/hertz_reduced", "tests/verification/flat_punch_reduced"),
     case_name);
 
-}  // namespace
+}  // namespace run_case_closed_forms_test
 }  // namespace tacipc::verify

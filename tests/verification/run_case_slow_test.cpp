@@ -3,11 +3,11 @@
 #include "tests/verification/case_file.h"
 
 namespace tacipc::verify {
-namespace {
+namespace run_case_slow_test {
 
 TEST(ReferenceCase, SmallShearHoldsItsLimits) {
   expect_case_holds("configs/studies/verification/reference_small_shear");
 }
 
-}  // namespace
+}  // namespace run_case_slow_test
 }  // namespace tacipc::verify

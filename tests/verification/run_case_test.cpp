@@ -7,7 +7,7 @@
 #include "verification/run_case.h"
 
 namespace tacipc::verify {
-namespace {
+namespace run_case_test {
 
 const std::string kCase = R"(title: a pyramid of nothing
 source: by hand
@@ -115,5 +115,5 @@ TEST(Case, SharedDataThatAreNotThereSkip) {
   }
 }
 
-}  // namespace
+}  // namespace run_case_test
 }  // namespace tacipc::verify

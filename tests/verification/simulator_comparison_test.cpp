@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc::verify {
-namespace {
+namespace simulator_comparison_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -203,5 +203,5 @@ TEST(SimulatorComparison, ReadsItsKeys) {
                                       place + ":7:17: reported_below: 0 is outside (0, inf)"}));
 }
 
-}  // namespace
+}  // namespace simulator_comparison_test
 }  // namespace tacipc::verify

@@ -4,7 +4,7 @@
 #include "verification/stress_case.h"
 
 namespace tacipc::verify {
-namespace {
+namespace stress_case_slow_test {
 
 TEST(StressSlow, TwentyFiveCasesConverge) {
   const auto ranges = read_config<StressConfig>(TACIPC_SOURCE_DIR "/configs/studies/stress/stress.yaml");
@@ -17,5 +17,5 @@ TEST(StressSlow, TwentyFiveCasesConverge) {
   }
 }
 
-}  // namespace
+}  // namespace stress_case_slow_test
 }  // namespace tacipc::verify

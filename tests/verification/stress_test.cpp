@@ -11,7 +11,7 @@
 #include "verification/stress_summary.h"
 
 namespace tacipc::verify {
-namespace {
+namespace stress_test {
 
 const char* const kRanges = TACIPC_SOURCE_DIR "/configs/studies/stress/stress.yaml";
 
@@ -215,5 +215,5 @@ TEST(StressSummary, ReadsRecordsAndMissesThem) {
   EXPECT_EQ(read_stress_line(scratch / "case_0009").result.reason, "left no record");
 }
 
-}  // namespace
+}  // namespace stress_test
 }  // namespace tacipc::verify

@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc::verify {
-namespace {
+namespace table_report_test {
 
 TEST(TableReport, ReadsAResultAndShowsWhatMissed) {
   const ScratchFolder folder;
@@ -48,5 +48,5 @@ TEST(TableReport, AnythingElseIsRefused) {
   EXPECT_THROW(read_result(file), ConfigError);
 }
 
-}  // namespace
+}  // namespace table_report_test
 }  // namespace tacipc::verify

@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace checked_file_test {
 
 namespace fs = std::filesystem;
 
@@ -53,5 +53,5 @@ TEST(ReplaceIfChanged, SaysWhatItCannotReplace) {
   EXPECT_THROW(replace_if_changed(scratch / "a", "text"), DataError);
 }
 
-}  // namespace
+}  // namespace checked_file_test
 }  // namespace tacipc

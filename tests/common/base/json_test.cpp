@@ -6,7 +6,7 @@
 #include "common/base/json.h"
 
 namespace tacipc {
-namespace {
+namespace json_test {
 
 TEST(Json, ListsOfNumbersStandOnALineAndMapsDoNot) {
   const Value value = Value::Map{{"n", 1},
@@ -26,5 +26,5 @@ TEST(Json, EscapesAndHasNoInfinity) {
   EXPECT_EQ(to_json(Value(Value::List{inf, nan, 1e-9})), "[null, null, 1e-09]\n");
 }
 
-}  // namespace
+}  // namespace json_test
 }  // namespace tacipc

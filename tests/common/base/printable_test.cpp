@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace printable_test {
 
 TEST(Printable, KnowsWhatIsUtf8) {
   for (const char* good : {"", "µm", "d̂ ≥ 5", "\xf0\x9f\x98\x80", "\xf4\x8f\xbf\xbf"})
@@ -28,5 +28,5 @@ TEST(Printable, QuotesOnOneLineAndCutsBetweenCharacters) {
   EXPECT_EQ(excerpt("12\r\r", 6), "12\\x0d… (4 bytes)");
 }
 
-}  // namespace
+}  // namespace printable_test
 }  // namespace tacipc

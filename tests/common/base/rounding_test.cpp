@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace tacipc {
-namespace {
+namespace rounding_test {
 
 TEST(Rounding, MovesByHalfAStepAtMost) {
   constexpr int kExponent = -25;
@@ -32,5 +32,5 @@ TEST(Rounding, TiesGoToEvenAndWhatIsNoNumberStays) {
   EXPECT_TRUE(std::isnan(values[6]));
 }
 
-}  // namespace
+}  // namespace rounding_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sha256_test {
 
 TEST(Sha256, AgreesWithTheStandardsExamples) {
   // FIPS 180-4's own: one block, two blocks, a million letters.
@@ -51,5 +51,5 @@ TEST(Sha256, BesideAFileTellsWhetherItIsWhole) {
   EXPECT_EQ(message_of<DataError>([&] { checked_sha256(file); }), name + ": does not exist");
 }
 
-}  // namespace
+}  // namespace sha256_test
 }  // namespace tacipc

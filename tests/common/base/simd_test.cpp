@@ -7,7 +7,7 @@
 #include <random>
 
 namespace tacipc {
-namespace {
+namespace simd_test {
 
 /// Compiled as what production calls is: for each kind of processor.
 TACIPC_CLONES void logarithms(const Pack& of, Pack& out) { out = logarithm(of); }
@@ -91,5 +91,5 @@ TEST(PackLogarithm, OfWhatIsNoNormalPositiveNumberIsThatOfTheLibrary) {
   EXPECT_TRUE(std::isnan(found[7]));
 }
 
-}  // namespace
+}  // namespace simd_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include <set>
 
 namespace tacipc {
-namespace {
+namespace sobol_test {
 
 TEST(Sobol, FirstPointsByHand) {
   const double points[][3] = {
@@ -36,5 +36,5 @@ TEST(Sobol, NoTwoDimensionsAreAlike) {
     }
 }
 
-}  // namespace
+}  // namespace sobol_test
 }  // namespace tacipc

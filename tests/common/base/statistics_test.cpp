@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace statistics_test {
 
 TEST(Statistics, MeanAndDeviationOverAll) {
   const auto of = mean_and_deviation({1.0, 2.0, 3.0, 6.0});
@@ -44,5 +44,5 @@ TEST(Statistics, LowerQuantilesAreOneOfTheValues) {
   EXPECT_EQ(lower_quantile(values, 1.0), 16);
 }
 
-}  // namespace
+}  // namespace statistics_test
 }  // namespace tacipc

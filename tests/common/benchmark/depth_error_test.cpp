@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 
 namespace tacipc {
-namespace {
+namespace depth_error_test {
 
 constexpr DepthRegions kPressed{.pressed_m = 0.02e-3};
 
@@ -108,5 +108,5 @@ TEST(DepthError, WithoutAPressThereIsNothingToCompare) {
   EXPECT_THROW(depth_errors(flat, flat, flat, kPressed), DataError);
 }
 
-}  // namespace
+}  // namespace depth_error_test
 }  // namespace tacipc

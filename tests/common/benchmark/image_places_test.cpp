@@ -9,7 +9,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace image_places_test {
 
 TEST(ImagePlaces, FaultsAreSaid) {
   EXPECT_THAT(
@@ -50,5 +50,5 @@ TEST(SearchPlace, FindsAPictureWhereItIsWhateverItsBrightness) {
   EXPECT_EQ(search_place({.x_px = 29, .y_px = 25, .yaw_rad = 0}, straight, photograph, cross_at).place.yaw_rad, 0.0);
 }
 
-}  // namespace
+}  // namespace image_places_test
 }  // namespace tacipc

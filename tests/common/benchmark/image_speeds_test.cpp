@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace image_speeds_test {
 
 TEST(ImageSpeeds, ComeBackAsTheyWereWritten) {
   const ScratchFolder scratch;
@@ -26,5 +26,5 @@ TEST(ImageSpeeds, ComeBackAsTheyWereWritten) {
   EXPECT_THROW(read_image_speeds(scratch / "odd.csv"), DataError);
 }
 
-}  // namespace
+}  // namespace image_speeds_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/shared_data.h"
 
 namespace tacipc {
-namespace {
+namespace measured_field_test {
 
 TEST(MeasuredField, ReadsRestAndDisplacement) {
   const ScratchFolder folder;
@@ -53,5 +53,5 @@ TEST(Quiver, DrawsEachMarkerAtItsScale) {
   EXPECT_NE(svg.find("arrows 4 times as long"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace measured_field_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace metrics_rows_test {
 
 TEST(MetricsRows, ShortestNumbersInfinityAndQuotes) {
   const MetricsRow row{
@@ -24,5 +24,5 @@ TEST(MetricsRows, MeansDeviationsAndPooledPsnr) {
   EXPECT_THAT(text, testing::Not(testing::HasSubstr("crop")));
 }
 
-}  // namespace
+}  // namespace metrics_rows_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace file_commands_test {
 
 class FileCommands : public ProgramTest {
  protected:
@@ -146,5 +146,5 @@ TEST_F(TableCommand, SaysWhichColumnsThereAre) {
   EXPECT_EQ(said_, "tacipc table: error: none.csv: cannot be read: No such file or directory\n");
 }
 
-}  // namespace
+}  // namespace file_commands_test
 }  // namespace tacipc

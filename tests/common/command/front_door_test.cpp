@@ -9,7 +9,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace front_door_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -83,5 +83,5 @@ TEST_F(FrontDoor, ManPageHasTheCommands) {
   EXPECT_THAT(printed_, HasSubstr("\npress: Press hard.\n"));
 }
 
-}  // namespace
+}  // namespace front_door_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace config_test {
 
 using ::testing::ElementsAre;
 
@@ -223,5 +223,5 @@ TEST(ConfigReader, ResolvedHoldsEveryValueInTheOrderReadWithDefaults) {
   EXPECT_EQ(to_yaml(in.resolved()), "b: 0.1\na: 1.0e-05\nlist:\n  - x: 1\n  - x: 2\ns:\n  t: word\n");
 }
 
-}  // namespace
+}  // namespace config_test
 }  // namespace tacipc

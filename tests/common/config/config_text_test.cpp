@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace config_text_test {
 
 const std::string kPress =
     "# slow, µm apart\n"
@@ -149,5 +149,5 @@ TEST(ConfigText, RefusesWhatWouldSayAnythingElse) {
   EXPECT_EQ(message_of<UsageError>([] { set("a: 1\n", "a", ""); }), "a: a value stands on one line and is not empty");
 }
 
-}  // namespace
+}  // namespace config_text_test
 }  // namespace tacipc

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace key_path_test {
 
 TEST(KeyPath, FindsKeysThatHoldPoints) {
   const Value root = Value::Map{{"outputs", Value::Map{{"frame_0001", "a"}, {"frame_0001/x.png", "b"}, {"x.y", "c"}}}};
@@ -15,5 +15,5 @@ TEST(KeyPath, FindsKeysThatHoldPoints) {
   EXPECT_EQ(to_text(follow(root, "outputs.x.y").steps), "outputs.x.y");
 }
 
-}  // namespace
+}  // namespace key_path_test
 }  // namespace tacipc

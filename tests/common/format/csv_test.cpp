@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace csv_test {
 
 TEST(Csv, WhatIsWrittenReadsBack) {
   const ScratchFolder scratch;
@@ -62,5 +62,5 @@ TEST(Csv, FaultsSayWhere) {
   EXPECT_EQ(message_of<DataError>(read_all), path.string() + ": has no line of column names");
 }
 
-}  // namespace
+}  // namespace csv_test
 }  // namespace tacipc

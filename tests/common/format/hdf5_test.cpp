@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace hdf5_test {
 
 /// The half that a shard has for a number, and the number that it then stands for.
 std::uint16_t half_of(double value) {
@@ -144,5 +144,5 @@ TEST_F(Hdf5Test, FaultsNameFileAndObject) {
   EXPECT_NE(message_of<DataError>([&] { Hdf5Writer nowhere(scratch_ / "no/such/folder/x.h5"); }), "");
 }
 
-}  // namespace
+}  // namespace hdf5_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace npy_field_test {
 
 const NpyField kForce{.file = "force.npy", .type = NpyType::f8, .shape = {"frames", "#V", 2}, .unit = "N"};
 const NpyField kCode{.file = "code.npy", .type = NpyType::u1, .shape = {"frames"}, .unit = "code"};
@@ -62,5 +62,5 @@ TEST(NpyField, OnlyWhatMayBeInfiniteIs) {
             (folder / "force.npy").string() + ": the value at [0, 1, 0] is not finite");
 }
 
-}  // namespace
+}  // namespace npy_field_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace npy_test {
 
 template <typename T>
 std::string packed(std::vector<T> values, std::endian order = std::endian::little) {
@@ -131,5 +131,5 @@ TEST(Npy, FramesRefuseWhatHasNone) {
   EXPECT_EQ(message_of<DataError>([&] { cut.frame(1); }), name + ": ends inside frame 1");
 }
 
-}  // namespace
+}  // namespace npy_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace parquet_test {
 
 using namespace std::string_literals;
 
@@ -120,5 +120,5 @@ TEST(ParquetWriter, SaysWhichFileCannotBeWritten) {
   }
 }
 
-}  // namespace
+}  // namespace parquet_test
 }  // namespace tacipc

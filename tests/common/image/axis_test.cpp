@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace axis_test {
 
 TEST(RoundAxis, CoversTheRangeWithRoundTicks) {
   const Axis axis = round_axis(-0.05, 0.45, 7);
@@ -113,5 +113,5 @@ TEST(RoundBelow, IsOneTwoOrFive) {
     EXPECT_DOUBLE_EQ(round_below(value), expected) << value;
 }
 
-}  // namespace
+}  // namespace axis_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "common/image/picture.h"
 
 namespace tacipc {
-namespace {
+namespace depth_sheet_test {
 
 TEST(DepthSheet, ReducesWidePicturesToMeans) {
   // 401 x 5 pixels become 134 x 2: means of 3 x 3, less at the right and below.
@@ -37,5 +37,5 @@ TEST(DepthSheet, ReducesWidePicturesToMeans) {
   }
 }
 
-}  // namespace
+}  // namespace depth_sheet_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/shared_data.h"
 
 namespace tacipc {
-namespace {
+namespace image_test {
 
 FloatImage gradient(int channels) {
   FloatImage image(7, 5, channels);
@@ -156,5 +156,5 @@ TEST(Png, RealPhotographIsRead) {
   EXPECT_EQ(image.height, 320);
 }
 
-}  // namespace
+}  // namespace image_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace tacipc {
-namespace {
+namespace picture_test {
 
 /// Relative luminance of an sRGB colour.
 double luminance(const std::array<std::uint8_t, 3>& color) {
@@ -51,5 +51,5 @@ TEST(PictureOfNormals, MapsMinusOneToOneOntoTheCodes) {
   EXPECT_EQ(picture_of_normals(normals).pixels, (std::vector<std::uint8_t>{128, 0, 255, 191, 64, 0}));
 }
 
-}  // namespace
+}  // namespace picture_test
 }  // namespace tacipc

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace plot_test {
 
 TEST(Plot, WritesWhatItShows) {
   const std::string svg = to_svg(Plot{.title = "a < b",
@@ -38,5 +38,5 @@ TEST(Plot, LogarithmicAxesHaveTheNumbersThemselvesAndLeaveZeroOut) {
   EXPECT_EQ(circles, 2u);
 }
 
-}  // namespace
+}  // namespace plot_test
 }  // namespace tacipc

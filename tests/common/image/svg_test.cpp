@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace svg_test {
 
 const AxesLook kLook{.grid = "class=\"grid\"", .axis = "", .x_tick = "", .y_tick = "class=\"y\"", .decimals = 1};
 constexpr PlotArea kArea{.left = 60.0, .right = 160.0, .top = 10.0, .bottom = 90.0};
@@ -40,5 +40,5 @@ TEST(Svg, QuiversAreOnePathOfWhatCanBeSeen) {
   EXPECT_EQ(dots_svg(Eigen::Matrix2Xd(2, 0), ""), "");
 }
 
-}  // namespace
+}  // namespace svg_test
 }  // namespace tacipc

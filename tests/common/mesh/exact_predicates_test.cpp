@@ -6,7 +6,7 @@
 #include "tests/stages/gel/press/contact/random_points.h"
 
 namespace tacipc {
-namespace {
+namespace exact_predicates_test {
 
 int rational_orient3d(const FourPoints& x) {
   std::array<std::array<mpq_class, 3>, 3> e;
@@ -118,5 +118,5 @@ TEST(HingeIsFoldedFlat, OnlyWhenOneTriangleLiesOnTheOther) {
   EXPECT_FALSE(hinge_is_folded_flat(v, w, a, Vector3(2, 0, 1e-300)));
 }
 
-}  // namespace
+}  // namespace exact_predicates_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace mass_properties_test {
 
 MassProperties properties_of(const TriangleMesh& mesh) { return mass_properties(mesh.positions, mesh.triangles); }
 
@@ -135,5 +135,5 @@ TEST(MassProperties, SecondMomentsThatNoSolidHasAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace mass_properties_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace surface_distance_test {
 
 TEST(SurfaceDistance, ViewsTurnTheirSideUpAndMirrorNothing) {
   for (const std::string& side : face_names()) {
@@ -45,5 +45,5 @@ TEST(SurfaceDistance, NothingIsSeenBelowASteepFace) {
   }
 }
 
-}  // namespace
+}  // namespace surface_distance_test
 }  // namespace tacipc

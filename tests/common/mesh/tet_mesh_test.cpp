@@ -6,7 +6,7 @@
 #include "tests/shared_data.h"
 
 namespace tacipc {
-namespace {
+namespace tet_mesh_test {
 
 /// Two tets on the common face 1 2 3: six outward faces.
 TetMesh two_tets() {
@@ -180,5 +180,5 @@ TEST(MshFile, RealMeshesHaveTheirKnownCounts) {
                 "$MeshFormat");
 }
 
-}  // namespace
+}  // namespace tet_mesh_test
 }  // namespace tacipc

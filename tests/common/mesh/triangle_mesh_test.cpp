@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace triangle_mesh_test {
 
 Positions tet_positions(double scale) {
   Positions positions(4, 3);
@@ -201,5 +201,5 @@ TEST(Units, AreMetresPerUnit) {
   EXPECT_EQ(message_of<UsageError>([] { metres_per_unit("feet"); }), "'feet' is not a known unit (m, cm, mm, um, in)");
 }
 
-}  // namespace
+}  // namespace triangle_mesh_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "common/base/rng.h"
 
 namespace tacipc {
-namespace {
+namespace develop_test {
 
 const Response kSrgb{.mean_level = 0.5, .curve = "srgb"}, kLinear{.mean_level = 0.5, .curve = "linear"};
 
@@ -195,5 +195,5 @@ TEST(Random, IsUniformNormalAndIndependentOfItsNeighbours) {
   EXPECT_NEAR(across / kCount, 0.0, 5.0 / std::sqrt(kCount));
 }
 
-}  // namespace
+}  // namespace develop_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
-namespace {
+namespace indirect_test {
 
 double flat(double, double) { return 0.0; }
 
@@ -122,5 +122,5 @@ TEST(Trace, IndirectLightIsAddedOnceAndLeavesTheRestAlone) {
   EXPECT_EQ(trace(ball, sensor, {.indirect_rays = 64}).indirect.pixels, with.indirect.pixels);
 }
 
-}  // namespace
+}  // namespace indirect_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
-namespace {
+namespace light_path_test {
 
 double flat(double, double) { return 0.0; }
 
@@ -308,5 +308,5 @@ TEST(Trace, SlopesThatFaceTheLightAreBright) {
   EXPECT_GT(basis.at(28, 23, 0), 1.3f * basis.at(11, 6, 0));
 }
 
-}  // namespace
+}  // namespace light_path_test
 }  // namespace tacipc

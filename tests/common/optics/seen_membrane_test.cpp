@@ -8,7 +8,7 @@
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
-namespace {
+namespace seen_membrane_test {
 
 Sensor straight() {
   Sensor out;
@@ -52,5 +52,5 @@ TEST(SeenMembrane, WhereNothingIsSeenTheFrontIsFlat) {
   EXPECT_NEAR(view.point[view.index(33, 23)].z(), -1e-3, 1e-12);
 }
 
-}  // namespace
+}  // namespace seen_membrane_test
 }  // namespace tacipc

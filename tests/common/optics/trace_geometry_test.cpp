@@ -14,7 +14,7 @@
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
-namespace {
+namespace trace_geometry_test {
 
 double flat(double, double) { return 0.0; }
 
@@ -192,5 +192,5 @@ TEST(MakeMembrane, TakesTheFrontFacesOnly) {
                   "the gel's front face has 2 boundary loops; it must be one piece without holes"));
 }
 
-}  // namespace
+}  // namespace trace_geometry_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
-namespace {
+namespace trace_layered_test {
 
 double flat(double, double) { return 0.0; }
 
@@ -341,5 +341,5 @@ TEST(Trace, LayeredBytesDoNotDependOnThreads) {
   }
 }
 
-}  // namespace
+}  // namespace trace_layered_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/common/optics/test_surfaces.h"
 
 namespace tacipc {
-namespace {
+namespace trace_oracle_test {
 
 struct Crossing {
   double t = std::numeric_limits<double>::infinity();
@@ -193,5 +193,5 @@ TEST(Trace, AgreesWithBruteForceThroughLayers) {
   EXPECT_GT(shadowed, 3);
 }
 
-}  // namespace
+}  // namespace trace_oracle_test
 }  // namespace tacipc

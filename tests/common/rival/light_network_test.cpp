@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace light_network_test {
 
 TEST(LightNetwork, HasThePublishedNumberOfParameters) { EXPECT_EQ(num_parameters(), 2403); }
 
@@ -48,5 +48,5 @@ TEST(LightNetwork, TheFileComesBackAndOthersAreRefused) {
   EXPECT_NE(message_of<DataError>([&] { LightNetwork::read(scratch / "short.npy"); }), "");
 }
 
-}  // namespace
+}  // namespace light_network_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace metallic_lamps_test {
 
 /// Codes under the three pure lamps of TACTO's DIGIT, its camera looking along +x.
 std::array<double, 3> digit_codes(const Vector3& point, const Vector3& normal) {
@@ -51,5 +51,5 @@ TEST(MetallicLamps, TheFileComesBack) {
   EXPECT_EQ(read.change_factor, 0.5);
 }
 
-}  // namespace
+}  // namespace metallic_lamps_test
 }  // namespace tacipc

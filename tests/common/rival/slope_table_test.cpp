@@ -10,7 +10,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace slope_table_test {
 
 TEST(SlopeTable, BinsAreThePublishedOnes) {
   const SlopeTable table(125);
@@ -52,5 +52,5 @@ TEST(SlopeTable, TheFileComesBackAndOthersAreRefused) {
             (scratch / "nan.npy").string() + ": a weight is not finite");
 }
 
-}  // namespace
+}  // namespace slope_table_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace antipodal_grasp_test {
 
 using ::testing::AllOf;
 using ::testing::Contains;
@@ -249,5 +249,5 @@ TEST(AntipodalGrasp, LimitsOfTheHandAreRead) {
               Contains(HasSubstr("draw.yaml:1:11: width_mm: a hand opens from the lower to the higher number")));
 }
 
-}  // namespace
+}  // namespace antipodal_grasp_test
 }  // namespace tacipc

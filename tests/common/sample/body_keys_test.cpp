@@ -7,7 +7,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace body_keys_test {
 
 using ::testing::ElementsAre;
 
@@ -42,5 +42,5 @@ TEST(BodyKeys, NamesAndMassesThatAreNoneAreSaid) {
   EXPECT_THAT(faults_in<Body>("{name: a}", "b.yaml"), ElementsAre(testing::HasSubstr("density_kg_m3")));
 }
 
-}  // namespace
+}  // namespace body_keys_test
 }  // namespace tacipc

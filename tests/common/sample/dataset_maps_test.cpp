@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace dataset_maps_test {
 
 DatasetMaps read(const std::string& text) {
   ConfigReader in = ConfigReader::from_text(text, "d.yaml");
@@ -41,5 +41,5 @@ TEST(DatasetMaps, AreRefusedWithTheirPlace) {
               ::testing::HasSubstr("'basis' is not one of "));
 }
 
-}  // namespace
+}  // namespace dataset_maps_test
 }  // namespace tacipc

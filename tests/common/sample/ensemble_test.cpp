@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace ensemble_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -89,5 +89,5 @@ TEST(DatasetEnsemble, IsWrittenAsItIsReadAndPressesTheSensorItselfInAnotherMesh)
   }
 }
 
-}  // namespace
+}  // namespace ensemble_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace motion_test {
 
 using ::testing::ElementsAre;
 
@@ -167,5 +167,5 @@ TEST(SampleSpec, FaultsOfPhasesAreNamedTogether) {
                   "x.yaml:5:12: motion[3].kind: the object is free only if its object.density_kg_m3 is given"));
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace tacipc

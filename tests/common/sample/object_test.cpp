@@ -6,7 +6,7 @@
 #include "common/base/error.h"
 
 namespace tacipc {
-namespace {
+namespace object_test {
 
 ObjectSpec read(const std::string& text) {
   ConfigReader in = ConfigReader::from_text(text, "object.yaml");
@@ -66,5 +66,5 @@ TEST(ObjectSpec, RefusesSidesAndThicknessesThatAreNone) {
   EXPECT_THROW(read("{unit: mm, scale: fit, wrap: {offset_mm: 0.1}}"), ConfigError);
 }
 
-}  // namespace
+}  // namespace object_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "common/base/error.h"
 
 namespace tacipc {
-namespace {
+namespace placement_test {
 
 const Positions kBox{{1, 2, 3}, {2, 4, 6}};
 
@@ -41,5 +41,5 @@ TEST(OppositeFace, IsTheOtherSide) {
   EXPECT_EQ(opposite_face("-x"), "+x");
 }
 
-}  // namespace
+}  // namespace placement_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace press_folder_test {
 
 using ::testing::ElementsAre;
 
@@ -215,5 +215,5 @@ TEST_F(PressFolderTest, TheFrontMustBeTheGels) {
             "front_vertices.npy: does not list the front of the gel");
 }
 
-}  // namespace
+}  // namespace press_folder_test
 }  // namespace tacipc

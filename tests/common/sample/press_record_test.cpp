@@ -10,7 +10,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace press_record_test {
 
 template <typename Summary>
 Record recorded(const ScratchFolder& folder, const Summary& summary) {
@@ -119,5 +119,5 @@ TEST(PressRecord, ThePageOfTheVerdictListsTheLimits) {
   EXPECT_EQ(listed("verdict.md", "`report` reads them:", ".\n"), expected);
 }
 
-}  // namespace
+}  // namespace press_record_test
 }  // namespace tacipc

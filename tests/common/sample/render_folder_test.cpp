@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace render_folder_test {
 
 TEST(RenderFolder, FramesHaveFourDigitsOrMore) {
   EXPECT_EQ(frame_name(5), "frame_0005");
@@ -73,5 +73,5 @@ TEST(RenderFolder, FilesGoIntoTheirFrame) {
   EXPECT_TRUE(std::isnan(back(1, 0)) && std::isnan(back(1, 1)));
 }
 
-}  // namespace
+}  // namespace render_folder_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace tacipc {
-namespace {
+namespace rigid_way_test {
 
 TEST(RigidWay, AFrameTurnsAboutItsOwnOrigin) {
   Matrix4 pose = Matrix4::Identity();
@@ -49,5 +49,5 @@ TEST(RigidWay, OnAPathAPoseIsMetToTheBitAndBetweenTwoItGoesEvenly) {
   EXPECT_LT((pose_on_path(path, 0.25) - moved(first, {{0.25, 0.5, 0.75}, {0, 0, 0.1}})).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-}  // namespace
+}  // namespace rigid_way_test
 }  // namespace tacipc

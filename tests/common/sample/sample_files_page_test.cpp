@@ -19,7 +19,7 @@
 #include "stages/image/track/track_arrays.h"
 
 namespace tacipc {
-namespace {
+namespace sample_files_page_test {
 
 const std::string kPage = read_file(TACIPC_SOURCE_DIR "/docs/files.md");
 
@@ -155,5 +155,5 @@ TEST(FilesPage, NamesNoArrayThatNobodyDeclares) {
     EXPECT_TRUE(declared.contains(at->str())) << at->str();
 }
 
-}  // namespace
+}  // namespace sample_files_page_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace sample_spec_test {
 
 using ::testing::ElementsAre;
 
@@ -45,5 +45,5 @@ TEST(PressEnd, IsTheLastFrameOfTheFirstPress) {
   EXPECT_EQ(press_end_frame(sample, {-1, 0}), std::nullopt);
 }
 
-}  // namespace
+}  // namespace sample_spec_test
 }  // namespace tacipc

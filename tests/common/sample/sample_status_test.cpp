@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sample_status_test {
 
 TEST(SampleStatus, AFingerIsAFolderOfAGraspNotAnySampleOfThatName) {
   const ScratchFolder scratch;
@@ -29,5 +29,5 @@ TEST(SampleStatus, AFingerIsAFolderOfAGraspNotAnySampleOfThatName) {
   EXPECT_EQ(timings_file(planned, "press"), planned / "press/press.timings.yaml");
 }
 
-}  // namespace
+}  // namespace sample_status_test
 }  // namespace tacipc

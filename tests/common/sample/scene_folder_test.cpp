@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace scene_folder_test {
 
 class SceneFolderTest : public ::testing::Test {
  protected:
@@ -106,5 +106,5 @@ TEST_F(SceneFolderTest, AGraspWithTheFormerNamesOfItsArraysIsRefused) {
   EXPECT_THAT(error(), ::testing::HasSubstr("object_world_pose.npy"));
 }
 
-}  // namespace
+}  // namespace scene_folder_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace scene_hold_test {
 
 using ::testing::IsEmpty;
 
@@ -123,5 +123,5 @@ TEST_F(SceneHoldTest, TheRecordKeepsIt) {
   EXPECT_THAT(read_held(scratch / ""), IsEmpty());
 }
 
-}  // namespace
+}  // namespace scene_hold_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "common/sensor/sensor.h"
 
 namespace tacipc {
-namespace {
+namespace camera_model_test {
 
 constexpr double kMm = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -115,5 +115,5 @@ TEST(Undistort, UndoesDistortion) {
   EXPECT_FALSE(undistort({2.0, 0.0}, {-0.5, 0.0, 0.0}, {}));  // r (1 − r²/2) never gets there
 }
 
-}  // namespace
+}  // namespace camera_model_test
 }  // namespace tacipc

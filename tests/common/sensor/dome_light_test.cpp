@@ -12,7 +12,7 @@
 #include "common/sensor/pinhole.h"
 
 namespace tacipc {
-namespace {
+namespace dome_light_test {
 
 /// 121 × 81 pixels of 0.05 mm, seen from far away: no parallax.
 MembraneView view_of(const std::function<double(double, double)>& indentation) {
@@ -158,5 +158,5 @@ TEST(DomeIrradiance, IsThatOfTheWholeMarchAtEveryPixel) {
   EXPECT_GT(shaded, 15);
 }
 
-}  // namespace
+}  // namespace dome_light_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "common/sensor/sensor.h"
 
 namespace tacipc {
-namespace {
+namespace layered_path_test {
 
 constexpr double kMm = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -168,5 +168,5 @@ TEST(OpticalStack, StartsInTheMediumThatHoldsTheLight) {
   EXPECT_EQ(from_acrylic.ior[0], 1.49);
 }
 
-}  // namespace
+}  // namespace layered_path_test
 }  // namespace tacipc

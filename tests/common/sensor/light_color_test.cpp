@@ -7,7 +7,7 @@
 #include "common/sensor/light_color.h"
 
 namespace tacipc {
-namespace {
+namespace light_color_test {
 
 TEST(ColorOfTemperature, MatchesTheTable) {
   const std::vector<std::pair<double, std::array<double, 3>>> table = {
@@ -30,5 +30,5 @@ TEST(ColorOfLine, MatchesTheTable) {
   }
 }
 
-}  // namespace
+}  // namespace light_color_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace light_field_test {
 
 Sensor sensor(int width = 60, int height = 40) {
   Sensor out;
@@ -255,5 +255,5 @@ TEST(Blur, SpreadsWithItsDeviationAndKeepsTheSum) {
   for (const float v : grey.pixels) EXPECT_NEAR(v, 7.0f, 1e-5f);
 }
 
-}  // namespace
+}  // namespace light_field_test
 }  // namespace tacipc

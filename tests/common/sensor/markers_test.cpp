@@ -9,7 +9,7 @@
 #include "tests/stages/gel/press/measure/fronts.h"
 
 namespace tacipc {
-namespace {
+namespace markers_test {
 
 TEST(Markers, LieOnTheirGridAtRest) {
   Positions rest;
@@ -148,5 +148,5 @@ TEST(Markers, TableHoldsTheBinding) {
             "marker,row,column,vertex0,vertex1,vertex2,weight0,weight1,weight2\n0,0,1,4,8,9,0.1,0.7,0.2\n");
 }
 
-}  // namespace
+}  // namespace markers_test
 }  // namespace tacipc

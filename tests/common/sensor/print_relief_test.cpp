@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace print_relief_test {
 
 Camera camera() {
   return {.position_m = {0, 0, -50e-3},
@@ -65,5 +65,5 @@ TEST(PrintReliefFile, ReadsBack) {
   EXPECT_NEAR(again.pixel_m, relief.pixel_m, 1e-18);
 }
 
-}  // namespace
+}  // namespace print_relief_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace sensor_optics_test {
 
 constexpr double kMm = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -112,5 +112,5 @@ TEST(Camera, FieldOfViewGivesTheWindowItSees) {
   EXPECT_NEAR(0.5 * sensor.camera.window_width_m, 7.0 * kMm, 2e-6);  // 37.36° to each side
 }
 
-}  // namespace
+}  // namespace sensor_optics_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sensor_test {
 
 TEST(Sensor, ShippedMcTacReadsWithThePapersNumbers) {
   const auto sensor = read_config<Sensor>(std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/mctac.yaml");
@@ -161,5 +161,5 @@ TEST(Sensor, FaultsOfMeaningNameTheirPlace) {
                              "odd.yaml:8:23: camera.position_mm: the camera must lie behind the front face (z < 0)"));
 }
 
-}  // namespace
+}  // namespace sensor_test
 }  // namespace tacipc

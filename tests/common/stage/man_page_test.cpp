@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 namespace tacipc {
-namespace {
+namespace man_page_test {
 
 using ::testing::HasSubstr;
 
@@ -34,5 +34,5 @@ TEST(ManPage, TextIsNoRequestOfRoff) {
   EXPECT_THAT(roff, HasSubstr(".SH \"\\(dqX\\(dq\"\n\\&.so /etc/passwd\n\\&'a \\efB b\n"));
 }
 
-}  // namespace
+}  // namespace man_page_test
 }  // namespace tacipc

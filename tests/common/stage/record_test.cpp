@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace record_test {
 
 class RecordTest : public ::testing::Test {
  protected:
@@ -49,5 +49,5 @@ TEST_F(RecordTest, NamesThePlaceOfWhatIsMissingOrOfTheWrongType) {
   EXPECT_EQ(said([&] { r.section("none").required_flag("z"); }), file() + ": none.z: missing");
 }
 
-}  // namespace
+}  // namespace record_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace stage_part_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -154,5 +154,5 @@ TEST_F(PartTest, ANewRunLeavesNothingOfPartsThatItDoesNotHave) {
   EXPECT_THAT(outputs_of(root_ / "out/press.yaml"), ElementsAre("force.txt"));
 }
 
-}  // namespace
+}  // namespace stage_part_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace stage_resume_test {
 
 namespace fs = std::filesystem;
 
@@ -187,5 +187,5 @@ TEST_F(ResumeTest, AStageThatCannotHashItsInputLeavesWhatThereIs) {
   EXPECT_EQ(solved_, 2);
 }
 
-}  // namespace
+}  // namespace stage_resume_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace stage_test {
 
 namespace fs = std::filesystem;
 
@@ -341,5 +341,5 @@ TEST_F(StageTest, InputsAddedTogetherAreInTheRecord) {
                                ::testing::HasSubstr("  two:\n    path: ../2.txt\n")));
 }
 
-}  // namespace
+}  // namespace stage_test
 }  // namespace tacipc

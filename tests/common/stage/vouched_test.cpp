@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace vouched_test {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
@@ -70,5 +70,5 @@ TEST_F(Vouched, OnlyRecordsCount) {
   refuse_changed_outputs(root_ / "gel", root_ / "gel/cut.yaml");  // the asker's own
 }
 
-}  // namespace
+}  // namespace vouched_test
 }  // namespace tacipc

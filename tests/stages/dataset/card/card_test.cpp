@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/pack/sample_files.h"
 
 namespace tacipc {
-namespace {
+namespace card_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -228,5 +228,5 @@ TEST_F(CardTest, ShardsMustHaveTheSameFieldsAndFiles) {
   EXPECT_THAT(said_, HasSubstr("object.ply: has changed or been removed since the samples were made from it"));
 }
 
-}  // namespace
+}  // namespace card_test
 }  // namespace tacipc

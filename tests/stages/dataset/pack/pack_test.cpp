@@ -12,7 +12,7 @@
 #include "tests/stages/dataset/pack/sample_files.h"
 
 namespace tacipc {
-namespace {
+namespace pack_test {
 
 using ::testing::HasSubstr;
 
@@ -352,5 +352,5 @@ TEST_F(PackTest, WrongWordsAreUsage) {
   EXPECT_THAT(said_, HasSubstr("has no shard 'train-00000-of-00001'"));
 }
 
-}  // namespace
+}  // namespace pack_test
 }  // namespace tacipc

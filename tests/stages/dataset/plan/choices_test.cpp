@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace choices_test {
 
 namespace fs = std::filesystem;
 using std::chrono::hours;
@@ -79,5 +79,5 @@ TEST_F(Choices, SensorsAndPhotographsOfVariantsBelongToRender) {
   EXPECT_THAT(files, testing::IsSupersetOf({config.render, fs::path(sensor), scratch_ / "b.png"}));
 }
 
-}  // namespace
+}  // namespace choices_test
 }  // namespace tacipc

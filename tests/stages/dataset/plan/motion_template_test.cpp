@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace motion_template_test {
 
 using testing::ElementsAre;
 
@@ -167,5 +167,5 @@ motion:
                           testing::HasSubstr("motion[3].file: none.csv does not exist")));
 }
 
-}  // namespace
+}  // namespace motion_template_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace plan_program_test {
 
 namespace fs = std::filesystem;
 
@@ -175,5 +175,5 @@ outputs: {{keep: [report]}}
   EXPECT_FALSE(fs::exists(scratch_ / "set/samples"));
 }
 
-}  // namespace
+}  // namespace plan_program_test
 }  // namespace tacipc

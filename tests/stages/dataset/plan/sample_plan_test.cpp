@@ -13,7 +13,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace sample_plan_test {
 
 /// Objects a, b, …, one sensor or two, a press with three ranges; no files.
 DatasetConfig dataset(int objects, int samples, int sensors = 1) {
@@ -247,5 +247,5 @@ TEST(PlanChecks, WhatNoSampleCouldDoIsSaid) {
                            "d.yaml: 1000002 samples; a dataset has at most 999999"));
 }
 
-}  // namespace
+}  // namespace sample_plan_test
 }  // namespace tacipc

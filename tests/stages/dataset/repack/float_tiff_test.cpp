@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace tacipc {
-namespace {
+namespace float_tiff_test {
 
 template <typename T>
 T at(const std::string& bytes, std::size_t position) {
@@ -55,5 +55,5 @@ TEST(FloatTiff, ComesBackBitByBit) {
   }
 }
 
-}  // namespace
+}  // namespace float_tiff_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@
 #include "tests/stages/dataset/pack/sample_files.h"
 
 namespace tacipc {
-namespace {
+namespace repack_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -202,5 +202,5 @@ TEST_F(RepackTest, ADamagedShardIsRefusedBeforeItIsRead) {
   }
 }
 
-}  // namespace
+}  // namespace repack_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/report/svg_numbers.h"
 
 namespace tacipc {
-namespace {
+namespace chart_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -122,5 +122,5 @@ TEST(Chart, NamesCannotBecomeMarkup) {
   for (const char* tag : {"<b>", "<i>", "<u>"}) EXPECT_THAT(svg, Not(HasSubstr(tag)));
 }
 
-}  // namespace
+}  // namespace chart_test
 }  // namespace tacipc

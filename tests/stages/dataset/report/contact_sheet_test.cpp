@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/report/sample_folder.h"
 
 namespace tacipc {
-namespace {
+namespace contact_sheet_test {
 
 namespace fs = std::filesystem;
 
@@ -93,5 +93,5 @@ TEST_F(ContactSheetTest, APictureThatIsNoneIsAnError) {
   EXPECT_NE(message_of<DataError>([&] { contact_sheet("Title", {sample}); }).find("normal.png"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace contact_sheet_test
 }  // namespace tacipc

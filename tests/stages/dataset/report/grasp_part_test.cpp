@@ -10,7 +10,7 @@
 #include "tests/stages/dataset/report/sample_folder.h"
 
 namespace tacipc {
-namespace {
+namespace grasp_part_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -139,5 +139,5 @@ TEST_F(GraspPartTest, ARecordThatIsNoGraspsIsRefused) {
             file + ": has no frame that was judged");
 }
 
-}  // namespace
+}  // namespace grasp_part_test
 }  // namespace tacipc

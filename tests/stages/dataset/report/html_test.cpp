@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace html_test {
 
 TEST(HtmlLink, GoesUpAndDownFromTheFolderOfThePage) {
   EXPECT_EQ(html_link("out/demo/star/render/a.png", "out/demo/report"), "../star/render/a.png");
@@ -41,5 +41,5 @@ TEST(CountText, SeparatesThousands) {
   EXPECT_EQ(count_text(std::nullopt), "–");
 }
 
-}  // namespace
+}  // namespace html_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/report/sheared_folder.h"
 
 namespace tacipc {
-namespace {
+namespace markers_test {
 
 namespace fs = std::filesystem;
 
@@ -93,5 +93,5 @@ TEST_F(MarkersTest, ArraysThatDoNotFitAreRefused) {
             (press_ / "marker_displacement.npy").string() + ": frame 4: the value at [0, 0, 0] is not finite");
 }
 
-}  // namespace
+}  // namespace markers_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@ void PrintTo(const PhaseReport& phase, std::ostream* out) {
   *out << phase.name << ' ' << phase.first << '-' << phase.last;
 }
 
-namespace {
+namespace motion_test {
 
 using ::testing::ElementsAre;
 
@@ -88,5 +88,5 @@ TEST(ChosenFrames, OfManyTheLastIsAlwaysThere) {
   }
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace tacipc

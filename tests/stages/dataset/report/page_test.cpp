@@ -10,7 +10,7 @@
 #include "tests/stages/dataset/report/sheared_folder.h"
 
 namespace tacipc {
-namespace {
+namespace page_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -196,5 +196,5 @@ TEST_F(PageTest, ElementsAreClosed) {
   EXPECT_TRUE(open.empty());
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace tacipc

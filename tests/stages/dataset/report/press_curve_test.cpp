@@ -10,7 +10,7 @@
 #include "tests/stages/dataset/report/sheared_folder.h"
 
 namespace tacipc {
-namespace {
+namespace press_curve_test {
 
 /// Position on the drawing and value, read from the ticks' labels alone.
 struct Tick {
@@ -155,5 +155,5 @@ TEST_F(FrameCurvesTest, AnOlderRecordHasItsPressForceOnly) {
     EXPECT_THAT(html, Not(HasSubstr(absent)));
 }
 
-}  // namespace
+}  // namespace press_curve_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include <regex>
 
 namespace tacipc {
-namespace {
+namespace quiver_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -103,5 +103,5 @@ TEST(View, HoldsEveryMarkerOfAllPicturesAndAMargin) {
   EXPECT_GT(view.high_y, 9);
 }
 
-}  // namespace
+}  // namespace quiver_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/report/sample_folder.h"
 
 namespace tacipc {
-namespace {
+namespace report_program_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -95,5 +95,5 @@ TEST_F(ReportStageTest, AFolderThatIsMissingOrNoSampleIsRefused) {
             "dataset\n");
 }
 
-}  // namespace
+}  // namespace report_program_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/dataset/report/robot_scene.h"
 
 namespace tacipc {
-namespace {
+namespace robot_part_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -132,5 +132,5 @@ TEST_F(RobotPartTest, OfARobotAloneItIsSaidThatItDidNotFeelTheGels) {
   EXPECT_THAT(html, Not(HasSubstr("converged")));
 }
 
-}  // namespace
+}  // namespace robot_part_test
 }  // namespace tacipc

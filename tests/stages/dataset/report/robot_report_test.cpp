@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/report/sample_folder.h"
 
 namespace tacipc {
-namespace {
+namespace robot_report_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -48,5 +48,5 @@ TEST(RobotReport, ATryThatIsNoNumberIsRefusedWithItsPlace) {
             file.string() + ":6: residual_relative: expected a number, found 'much'");
 }
 
-}  // namespace
+}  // namespace robot_report_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/stages/dataset/report/sheared_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sample_test {
 
 namespace fs = std::filesystem;
 
@@ -293,5 +293,5 @@ TEST_F(SampleTest, AFolderThatIsNoSamplesIsRefused) {
       (scratch_ / "empty").string() + ": has neither a press folder nor a sample.yaml, so it is not a sample's folder");
 }
 
-}  // namespace
+}  // namespace sample_test
 }  // namespace tacipc

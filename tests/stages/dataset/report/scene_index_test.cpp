@@ -6,7 +6,7 @@
 #include "tests/stages/dataset/report/robot_scene.h"
 
 namespace tacipc {
-namespace {
+namespace scene_index_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -54,5 +54,5 @@ TEST_F(SceneIndexTest, AFolderThatIsNoSceneIsRefused) {
   EXPECT_EQ(run("--scene bodies --grasp bodies --out report"), 2);
 }
 
-}  // namespace
+}  // namespace scene_index_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/stages/gel/export/pressed_cube.h"
 
 namespace tacipc {
-namespace {
+namespace scene_part_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -47,5 +47,5 @@ TEST_F(ScenePartTest, AnotherRecordIsRefused) {
   EXPECT_THAT(message_of<DataError>([&] { read_scene(scratch_ / ""); }), HasSubstr("has no press.yaml"));
 }
 
-}  // namespace
+}  // namespace scene_part_test
 }  // namespace tacipc

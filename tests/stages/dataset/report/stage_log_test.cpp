@@ -5,7 +5,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace stage_log_test {
 
 constexpr const char* kLog =
     "2024-06-07 12:34:56.789 info: frame 1/2: error: not an error\n"
@@ -49,5 +49,5 @@ TEST(StageLog, ConfigurationFaultsHaveNoStageInFront) {
   EXPECT_EQ(failure_reason(scratch / "press", "press"), "press: a.yaml:3:1: depth_mm: missing");
 }
 
-}  // namespace
+}  // namespace stage_log_test
 }  // namespace tacipc

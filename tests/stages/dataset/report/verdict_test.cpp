@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace verdict_test {
 
 const std::string kLimits =
     "limits: {smallest_distance_m: 0, intersections: 0, inverted_tets: 0, volume_ratio: 0, balance_relative: 0.001, "
@@ -117,5 +117,5 @@ TEST_F(VerdictTest, TheCheckThatEndedAPress) {
   EXPECT_FALSE(read_failed_check(record("message: out of memory\n")).check);
 }
 
-}  // namespace
+}  // namespace verdict_test
 }  // namespace tacipc

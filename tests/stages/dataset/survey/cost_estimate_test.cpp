@@ -6,7 +6,7 @@
 #include "tests/stages/dataset/survey/planned_dataset.h"
 
 namespace tacipc {
-namespace {
+namespace cost_estimate_test {
 
 const CostModel kModel{.press_frame_s = 0.02,
                        .motion_frame_s = 0.04,
@@ -112,5 +112,5 @@ TEST(CostEstimate, APilotIsSpreadOverThePlan) {
   EXPECT_EQ(pilot_samples(data.path(), 1000).size(), 10u);
 }
 
-}  // namespace
+}  // namespace cost_estimate_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/stages/dataset/survey/planned_dataset.h"
 
 namespace tacipc {
-namespace {
+namespace drop_test {
 
 namespace fs = std::filesystem;
 
@@ -80,5 +80,5 @@ TEST_F(Drop, SaysWhyNothingIsRemoved) {
   EXPECT_EQ(message(), data_.path().string() + " is not packed; nothing is removed");
 }
 
-}  // namespace
+}  // namespace drop_test
 }  // namespace tacipc

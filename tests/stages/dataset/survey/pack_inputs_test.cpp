@@ -9,7 +9,7 @@
 #include "tests/stages/dataset/survey/planned_dataset.h"
 
 namespace tacipc {
-namespace {
+namespace pack_inputs_test {
 
 namespace fs = std::filesystem;
 
@@ -95,5 +95,5 @@ TEST(PackInputs, SayWhatIsMissing) {
             (empty / "plan/samples.csv").string() + " has no samples");
 }
 
-}  // namespace
+}  // namespace pack_inputs_test
 }  // namespace tacipc

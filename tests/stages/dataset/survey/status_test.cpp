@@ -8,7 +8,7 @@
 #include "tests/stages/dataset/survey/planned_dataset.h"
 
 namespace tacipc {
-namespace {
+namespace status_test {
 
 TEST(DatasetStatus, CountsWhatIsMadeFailedAndLeft) {
   const PlannedDataset data(6);
@@ -59,5 +59,5 @@ TEST(DatasetStatus, ATableThatIsNotWholeIsAFault) {
   EXPECT_EQ(message({}), "there is no " + table + " yet: make -f Makefile.data plan CONFIG=...");
 }
 
-}  // namespace
+}  // namespace status_test
 }  // namespace tacipc

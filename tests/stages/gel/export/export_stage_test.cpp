@@ -7,7 +7,7 @@
 #include "tests/stages/gel/export/vtu_reader.h"
 
 namespace tacipc {
-namespace {
+namespace export_stage_test {
 
 using ::testing::HasSubstr;
 
@@ -131,5 +131,5 @@ TEST_F(ExportStageTest, AnUnfinishedPressIsAFailureWithItsReason) {
               HasSubstr("message: \"press: has no press.yaml, so the press did not finish\"\n"));
 }
 
-}  // namespace
+}  // namespace export_stage_test
 }  // namespace tacipc

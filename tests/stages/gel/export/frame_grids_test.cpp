@@ -7,7 +7,7 @@
 #include "tests/stages/gel/export/pressed_cube.h"
 
 namespace tacipc {
-namespace {
+namespace frame_grids_test {
 
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -117,5 +117,5 @@ TEST_F(FrameGridsTest, WhatDoesNotBelongTogetherIsRefused) {
   EXPECT_EQ(error(), path("press") + ": has no press.yaml, so the press did not finish");
 }
 
-}  // namespace
+}  // namespace frame_grids_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/stages/gel/export/pressed_cube.h"
 
 namespace tacipc {
-namespace {
+namespace gltf_test {
 
 using ::testing::ElementsAre;
 using ::testing::Pointwise;
@@ -177,5 +177,5 @@ TEST_F(GltfTest, InASceneEveryGelAndObjectIsWhereItsPosePutsIt) {
   }
 }
 
-}  // namespace
+}  // namespace gltf_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/stages/gel/export/vtu_reader.h"
 
 namespace tacipc {
-namespace {
+namespace vtu_test {
 
 using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
@@ -51,5 +51,5 @@ TEST(Pvd, ListsFilesWithTheirTimes) {
             "  </Collection>\n</VTKFile>\n");
 }
 
-}  // namespace
+}  // namespace vtu_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace delaunay_test {
 
 double area_of(const std::vector<Vector2>& points, const Triangles& triangles) {
   double area = 0.0;
@@ -72,5 +72,5 @@ TEST(Delaunay, RefusesWhatHasNoTriangulation) {
             "two points of a face coincide (points 1 and 3)");
 }
 
-}  // namespace
+}  // namespace delaunay_test
 }  // namespace tacipc

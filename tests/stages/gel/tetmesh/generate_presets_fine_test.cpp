@@ -5,7 +5,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace generate_presets_fine_test {
 
 TEST(FinePresets, AreUniform) {
   for (const char* name : {"uniform_0375um", "uniform_0250um"}) {
@@ -15,5 +15,5 @@ TEST(FinePresets, AreUniform) {
   }
 }
 
-}  // namespace
+}  // namespace generate_presets_fine_test
 }  // namespace tacipc

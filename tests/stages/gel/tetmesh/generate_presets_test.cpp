@@ -5,7 +5,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace generate_presets_test {
 
 TEST(Presets, Adaptive100HasThePapersSize) {
   const GenerateConfig config = preset("adaptive_0100um");
@@ -34,5 +34,5 @@ TEST(Presets, Uniform500IsUniform) {
   expect_wanted_edges(mesh, mctac_gel(), config, 0.05, 50);
 }
 
-}  // namespace
+}  // namespace generate_presets_test
 }  // namespace tacipc

@@ -16,7 +16,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace generate_test {
 
 /// A sizing for gels of a few hundred vertices.
 GenerateConfig coarse(double uniform_m) {
@@ -180,5 +180,5 @@ TEST(AnalyticVolume, DomesByAnotherFormula) {
   EXPECT_NEAR(analytic_volume(flat) / (0.02 * 0.016), 0.004 - mean_sag, 1e-6 * mean_sag);
 }
 
-}  // namespace
+}  // namespace generate_test
 }  // namespace tacipc

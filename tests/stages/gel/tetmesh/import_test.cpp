@@ -14,7 +14,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace import_test {
 
 ImportConfig import_preset(const std::string& name) {
   return std::get<ImportConfig>(read_config<TetmeshConfig>(config_path("gels/" + name + ".yaml")).way);
@@ -201,5 +201,5 @@ TEST(ImportReference, GelsOfTheReferenceScenes) {
   }
 }
 
-}  // namespace
+}  // namespace import_test
 }  // namespace tacipc

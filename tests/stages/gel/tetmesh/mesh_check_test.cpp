@@ -12,7 +12,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace mesh_check_test {
 
 const Vector3 kA(1, 1, 1), kB(1, -1, -1), kC(-1, 1, -1), kD(-1, -1, 1);
 
@@ -116,5 +116,5 @@ TEST(CheckGel, NothingAtAll) {
   EXPECT_EQ(message_of<DataError>([] { check_gel({}, mctac_gel(), {}, "gel"); }), "gel: has no tets");
 }
 
-}  // namespace
+}  // namespace mesh_check_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace sizing_test {
 
 constexpr double kMillimetre = 1e-3;
 
@@ -109,5 +109,5 @@ TEST(Sizing, FaultsNameTheirPlace) {
             "s.yaml:8:1: depth_exponents: unknown key (did you mean depth_exponent?)");
 }
 
-}  // namespace
+}  // namespace sizing_test
 }  // namespace tacipc

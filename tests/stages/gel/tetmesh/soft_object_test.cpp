@@ -14,7 +14,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace soft_object_test {
 
 using ::testing::HasSubstr;
 
@@ -153,5 +153,5 @@ TEST_F(SoftObjectStageTest, FlagsMustAgree) {
   EXPECT_THAT(said_, HasSubstr("the sizing of an object has uniform_mm alone"));
 }
 
-}  // namespace
+}  // namespace soft_object_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/gel/tetmesh/gels.h"
 
 namespace tacipc {
-namespace {
+namespace tetmesh_stage_test {
 
 using ::testing::HasSubstr;
 
@@ -101,5 +101,5 @@ TEST_F(TetmeshStageTest, SizesBeyondAnySensorAreRefusedAtTheirPlace) {
   EXPECT_THAT(said_, HasSubstr(": transform.translation_mm[0]: 1.0e+300 is outside [-1000000, 1000000]"));
 }
 
-}  // namespace
+}  // namespace tetmesh_stage_test
 }  // namespace tacipc

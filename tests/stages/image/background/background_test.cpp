@@ -6,7 +6,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace background_test {
 
 /// A slanted plane of codes; within `radius` of the contact everything is 250.
 ByteImage photograph(const BallLabel& label, int brighter) {
@@ -66,5 +66,5 @@ TEST_F(BackgroundProgram, PhotographsOfOneSizeMakeTheBackground) {
   EXPECT_EQ(said_, "background: error: p/c.png: is 40 x 31 pixels, the first photograph has 40 x 30\n");
 }
 
-}  // namespace
+}  // namespace background_test
 }  // namespace tacipc

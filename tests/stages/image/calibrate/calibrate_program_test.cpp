@@ -13,7 +13,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace calibrate_program_test {
 
 class CalibrateProgram : public ProgramTest {
  protected:
@@ -228,5 +228,5 @@ TEST_F(CalibrateProgram, WrongFlagsAndFilesAreSaidOnce) {
   EXPECT_EQ(said_, "calibrate: error: photos/b1.png: is 60 x 61 pixels, the sensor's camera has 60 x 60\n");
 }
 
-}  // namespace
+}  // namespace calibrate_program_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace fit_light_test {
 
 TEST(GaussNewton, LinearProblemsAreSolvedWithTheirCovariance) {
   // Line through four points: closed form (JᵀJ)⁻¹ σ².
@@ -402,5 +402,5 @@ TEST(NormalEquations, ResidualAndPartsAreThoseOfTheRows) {
             "the photographs do not determine all weights of the light: give more of them or a larger ridge");
 }
 
-}  // namespace
+}  // namespace fit_light_test
 }  // namespace tacipc

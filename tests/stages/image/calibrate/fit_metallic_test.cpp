@@ -7,7 +7,7 @@
 #include "common/sensor/camera_model.h"
 
 namespace tacipc {
-namespace {
+namespace fit_metallic_test {
 
 Sensor small_sensor() {
   Sensor sensor;
@@ -101,5 +101,5 @@ TEST(FitMetallic, ColoursAndFactorThatMadeThePhotographsComeBack) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(strength(fitted, l, c), strength(truth, l, c), 0.01);
 }
 
-}  // namespace
+}  // namespace fit_metallic_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace fit_table_test {
 
 constexpr int kWidth = 120, kHeight = 90;
 
@@ -141,5 +141,5 @@ TEST(FitTable, WithoutAPixelThereIsNone) {
             "no ball has a pixel in its contact that is not clipped");
 }
 
-}  // namespace
+}  // namespace fit_table_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace led_intensities_test {
 
 TEST(NonnegativeLeastSquares, StopsAtTheBoundByHand) {
   Eigen::MatrixXd a(3, 2);
@@ -133,5 +133,5 @@ TEST(LinearOfCode, IsTheSrgbCurve) {
   EXPECT_EQ(linear_of_code(51, "linear"), 0.2);
 }
 
-}  // namespace
+}  // namespace led_intensities_test
 }  // namespace tacipc

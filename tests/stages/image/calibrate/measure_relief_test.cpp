@@ -8,7 +8,7 @@
 #include "common/optics/seen_membrane.h"
 
 namespace tacipc {
-namespace {
+namespace measure_relief_test {
 
 constexpr int kSide = 121;  // vertices of the front, 0.1 mm apart
 
@@ -106,5 +106,5 @@ TEST(MeasureRelief, WithoutAnEarlierPressIsUnknown) {
     for (int x = 0; x < 100; ++x) EXPECT_EQ(found.map.at(x, y, 0), 1.0f);
 }
 
-}  // namespace
+}  // namespace measure_relief_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sensor_file_test {
 
 const std::string kSensorText = R"(# what is known of it
 name: tiny
@@ -126,5 +126,5 @@ TEST_F(SensorFile, RefusesWhatMakesNoSensor) {
             "name.first: the sensor file has no map there");
 }
 
-}  // namespace
+}  // namespace sensor_file_test
 }  // namespace tacipc

@@ -14,7 +14,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sensor_fit_test {
 
 /// MC-Tac's stack and ring with six of its LEDs lit, a small picture, no markers.
 const std::string kSensorText = R"(name: ring
@@ -375,5 +375,5 @@ TEST_F(SensorFitTest, RefusesWhatCannotBeFitted) {
             "LED 0 lights nothing in channel 0 that counts, so its colour cannot be determined");
 }
 
-}  // namespace
+}  // namespace sensor_fit_test
 }  // namespace tacipc

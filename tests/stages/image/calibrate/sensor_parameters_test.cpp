@@ -12,7 +12,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sensor_parameters_test {
 
 const std::string kConfigs = std::string(TACIPC_SOURCE_DIR) + "/configs/sensors/";
 
@@ -180,5 +180,5 @@ TEST(BlockCodes, AreMidmeansAndKnowClipping) {
   EXPECT_EQ(block_codes(image, 1).at(1, 0, 0), 13.0f);
 }
 
-}  // namespace
+}  // namespace sensor_parameters_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace train_network_test {
 
 NetworkSamples random_samples(Eigen::Index count) {
   NetworkSamples samples{.inputs = Eigen::MatrixXf(5, count), .targets = Eigen::MatrixXf(3, count)};
@@ -98,5 +98,5 @@ TEST(NetworkSamples, FlatAndClippedPixelsAreLeftOut) {
   EXPECT_NE(message_of<DataError>([] { train_network(network_samples({{}}, 4, 4), {.epochs = 1, .batch = 1}); }), "");
 }
 
-}  // namespace
+}  // namespace train_network_test
 }  // namespace tacipc

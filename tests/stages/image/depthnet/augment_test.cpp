@@ -6,7 +6,7 @@
 #include "tests/stages/image/depthnet/dents.h"
 
 namespace tacipc {
-namespace {
+namespace augment_test {
 
 TEST(Augmentation, MovesImageReferenceAndDepthTogether) {
   const torch::jit::Module network = make_network({.levels = 1, .base_channels = 1, .reduction = 1}, 1);
@@ -35,5 +35,5 @@ TEST(Augmentation, MovesImageReferenceAndDepthTogether) {
   EXPECT_TRUE((first - plain.input).narrow(1, 3, 3).eq(0).all().item<bool>());
 }
 
-}  // namespace
+}  // namespace augment_test
 }  // namespace tacipc

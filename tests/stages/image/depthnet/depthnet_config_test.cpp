@@ -5,7 +5,7 @@
 #include "tests/stages/image/depthnet/dents.h"
 
 namespace tacipc {
-namespace {
+namespace depthnet_config_test {
 
 TEST(DepthnetConfig, DefaultIsReadAndFaultsAreNamed) {
   const auto config =
@@ -24,5 +24,5 @@ TEST(DepthnetConfig, DefaultIsReadAndFaultsAreNamed) {
               testing::ElementsAre(testing::HasSubstr("schedule.warmup_epochs: is longer than the training")));
 }
 
-}  // namespace
+}  // namespace depthnet_config_test
 }  // namespace tacipc

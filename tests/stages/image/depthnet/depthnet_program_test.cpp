@@ -16,7 +16,7 @@
 #include "tests/stages/image/depthnet/grasps.h"
 
 namespace tacipc {
-namespace {
+namespace depthnet_program_test {
 
 class Depthnet : public ProgramTest {
  protected:
@@ -246,5 +246,5 @@ TEST_F(Depthnet, RefusesGraspsOfOneOutcomeInOneLine) {
   EXPECT_THAT(said_, testing::HasSubstr("takes --shards"));
 }
 
-}  // namespace
+}  // namespace depthnet_program_test
 }  // namespace tacipc

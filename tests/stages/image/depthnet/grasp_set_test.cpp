@@ -9,7 +9,7 @@
 #include "tests/stages/image/depthnet/grasps.h"
 
 namespace tacipc {
-namespace {
+namespace grasp_set_test {
 
 std::vector<GraspItem> read(const std::filesystem::path& list, int frames) {
   return read_grasps(listed_shards(list), frames, make_outcome_network(small_outcome(), 1));
@@ -63,5 +63,5 @@ TEST(Grasps, WithoutEnoughFramesArePassedOverAndJudgedOnesRefused) {
   EXPECT_TRUE(read(list, 2).empty());
 }
 
-}  // namespace
+}  // namespace grasp_set_test
 }  // namespace tacipc

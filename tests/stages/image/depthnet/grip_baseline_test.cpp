@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace grip_baseline_test {
 
 TEST(GripBaseline, OfTwoForcesSaysTheShareThatHeldAtEach) {
   // Of four at 1 N one held, of four at 3 N three.
@@ -27,5 +27,5 @@ TEST(GripBaseline, StaysFiniteWhereAForceSeparatesAndWhereThereIsOneForce) {
   EXPECT_NEAR(same.probability(2.0), 0.75, 1e-6);
 }
 
-}  // namespace
+}  // namespace grip_baseline_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace network_test {
 
 TEST(TrainedNetwork, EnlargesItsAnswerToTheImageAndIsTheSameWhenRead) {
   stay_in_this_thread();
@@ -86,5 +86,5 @@ TEST(Onnx, OpenCvAnswersAsLibtorchDoes) {
     }
 }
 
-}  // namespace
+}  // namespace network_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/stages/image/depthnet/grasps.h"
 
 namespace tacipc {
-namespace {
+namespace outcome_config_test {
 
 TEST(TaskConfig, IsOfDepthUnlessItSaysOutcome) {
   EXPECT_TRUE(std::holds_alternative<DepthnetConfig>(config_from_text<TaskConfig>(kSmall, "a.yaml").task));
@@ -21,5 +21,5 @@ TEST(TaskConfig, IsOfDepthUnlessItSaysOutcome) {
               testing::ElementsAre(testing::HasSubstr("hidden"), testing::HasSubstr("loss")));
 }
 
-}  // namespace
+}  // namespace outcome_config_test
 }  // namespace tacipc

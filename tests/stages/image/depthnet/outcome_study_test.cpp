@@ -12,7 +12,7 @@
 #include "tests/stages/image/depthnet/grasps.h"
 
 namespace tacipc {
-namespace {
+namespace outcome_study_test {
 
 Checkpoints no_checkpoints(const std::string&) {
   return {.load = [] { return std::optional<std::string>(); }, .save = [](const std::string&) {}};
@@ -110,5 +110,5 @@ TEST(OutcomeStudy, RefusesSplitsThatSayNothing) {
               testing::HasSubstr("the splits train and test both have the object ball"));
 }
 
-}  // namespace
+}  // namespace outcome_study_test
 }  // namespace tacipc

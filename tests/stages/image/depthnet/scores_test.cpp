@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace scores_test {
 
 TEST(Scores, AreThoseByHand) {
   const std::vector<double> said{0.9, 0.6, 0.4, 0.4, 0.1};
@@ -30,5 +30,5 @@ TEST(Roc, IsHighestAtItsSteps) {
   EXPECT_NEAR(height_of(roc, 1.0), 1.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace scores_test
 }  // namespace tacipc

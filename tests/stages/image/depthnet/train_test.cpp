@@ -11,7 +11,7 @@
 #include "tests/stages/image/depthnet/dents.h"
 
 namespace tacipc {
-namespace {
+namespace train_test {
 
 const Checkpoints kNoCheckpoints{.load = [] { return std::optional<std::string>(); },
                                  .save = [](const std::string&) {}};
@@ -89,5 +89,5 @@ TEST(Training, WeightsDependNeitherOnThreadsNorOnInterruptions) {
   EXPECT_EQ(trained(2, keeping), alone);
 }
 
-}  // namespace
+}  // namespace train_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/stages/image/depthnet/dents.h"
 
 namespace tacipc {
-namespace {
+namespace training_set_test {
 
 TEST(DepthItem, IsMeansOverSquaresAndKnowsWhatIsBesideTheGel) {
   const torch::jit::Module network = make_network({.levels = 1, .base_channels = 1, .reduction = 2}, 1);
@@ -51,5 +51,5 @@ TEST(PackedImages, AreThoseOfTheSplitsAsked) {
   EXPECT_THROW(read_packed(shard, {"train"}, false, [](const DepthImage&) {}), DataError);
 }
 
-}  // namespace
+}  // namespace training_set_test
 }  // namespace tacipc

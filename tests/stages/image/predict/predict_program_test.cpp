@@ -14,7 +14,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace predict_program_test {
 
 constexpr int kWidth = 8, kHeight = 6;
 
@@ -153,5 +153,5 @@ TEST_F(Predict, RefusesFlagsThatDoNotGoTogether) {
   EXPECT_THAT(said_, testing::HasSubstr("--truth: needs --rest"));
 }
 
-}  // namespace
+}  // namespace predict_program_test
 }  // namespace tacipc

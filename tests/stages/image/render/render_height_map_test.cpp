@@ -12,7 +12,7 @@
 #include "tests/stages/image/render/render_stage.h"
 
 namespace tacipc {
-namespace {
+namespace render_height_map_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -97,5 +97,5 @@ TEST_F(HeightMapRender, APressOrMaps) {
   EXPECT_THAT(said_, HasSubstr("belong together"));
 }
 
-}  // namespace
+}  // namespace render_height_map_test
 }  // namespace tacipc

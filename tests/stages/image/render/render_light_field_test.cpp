@@ -10,7 +10,7 @@
 #include "tests/stages/image/render/render_stage.h"
 
 namespace tacipc {
-namespace {
+namespace render_light_field_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -88,5 +88,5 @@ TEST_F(RenderStage, WhatALightFieldCannotDoIsSaid) {
   EXPECT_THAT(said_, testing::Not(HasSubstr("unknown")));
 }
 
-}  // namespace
+}  // namespace render_light_field_test
 }  // namespace tacipc

@@ -16,7 +16,7 @@
 #include "tests/stages/image/render/render_stage.h"
 
 namespace tacipc {
-namespace {
+namespace render_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -372,5 +372,5 @@ TEST_F(RenderStage, RefusesASensorThatSaysNothingOfItsReference) {
             "render: error: slab: the sensor has neither a reference_image nor a section noise to make one with\n");
 }
 
-}  // namespace
+}  // namespace render_test
 }  // namespace tacipc

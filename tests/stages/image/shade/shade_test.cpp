@@ -11,7 +11,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace shade_test {
 
 Sensor sensor() {
   Sensor out;
@@ -126,5 +126,5 @@ TEST_F(ShadeProgram, ShapesGiveImagesOnTheBackground) {
   EXPECT_EQ(said_, "shade: error: background.png: is 40 x 31 pixels, the sensor's camera has 40 x 30\n");
 }
 
-}  // namespace
+}  // namespace shade_test
 }  // namespace tacipc

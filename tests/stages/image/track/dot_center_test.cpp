@@ -9,7 +9,7 @@
 #include "tests/stages/image/track/drawn_dots.h"
 
 namespace tacipc {
-namespace {
+namespace dot_center_test {
 
 constexpr double kRadius = 4.0;
 
@@ -78,5 +78,5 @@ TEST(FindDots, InReadingOrderWithoutWhatIsNoDot) {
   EXPECT_TRUE(find_dots(light_of(drawn_dots(80, 60, centers, 3.0, 0.1, even_light), "srgb"), wide).empty());
 }
 
-}  // namespace
+}  // namespace dot_center_test
 }  // namespace tacipc

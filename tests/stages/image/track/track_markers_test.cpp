@@ -12,7 +12,7 @@
 #include "tests/stages/image/track/drawn_dots.h"
 
 namespace tacipc {
-namespace {
+namespace track_markers_test {
 
 constexpr int kWidth = 100, kHeight = 84;
 constexpr double kPitch = 16.0, kRadius = 3.5;
@@ -136,5 +136,5 @@ TEST(TrackConfig, ReadsItsKeys) {
             std::vector<std::string>{"t.yaml:1:48: dots.most_diameter_px: 4 is outside [5, 500]"});
 }
 
-}  // namespace
+}  // namespace track_markers_test
 }  // namespace tacipc

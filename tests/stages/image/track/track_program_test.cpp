@@ -11,7 +11,7 @@
 #include "tests/stages/image/track/drawn_dots.h"
 
 namespace tacipc {
-namespace {
+namespace track_program_test {
 
 const std::string kSource = TACIPC_SOURCE_DIR;
 
@@ -154,5 +154,5 @@ TEST_F(TrackProgram, WhatIsWrongIsSaid) {
               ::testing::StartsWith("marker,frame,x_px,y_px,dx_px,dy_px,quality\n0,0,20"));
 }
 
-}  // namespace
+}  // namespace track_program_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace collapse_mesh_test {
 
 using Library = OpenMesh::TriMesh_ArrayKernelT<CollapseTraits>;
 
@@ -90,5 +90,5 @@ TEST(CollapseMesh, CollapsesAsTheLibraryDoes) {
   }
 }
 
-}  // namespace
+}  // namespace collapse_mesh_test
 }  // namespace tacipc

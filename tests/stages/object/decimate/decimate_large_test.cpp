@@ -6,7 +6,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace decimate_large_test {
 
 TEST(DecimateLarge, HalfAMillionVerticesBecomeEightThousand) {
   const TriangleMesh torus = bumpy_torus(0.004, 0.0015, 0.05, 1000, 500);
@@ -18,5 +18,5 @@ TEST(DecimateLarge, HalfAMillionVerticesBecomeEightThousand) {
   EXPECT_LT(hausdorff_distance(torus, object.mesh, config.hausdorff).max_m(), 2e-5);
 }
 
-}  // namespace
+}  // namespace decimate_large_test
 }  // namespace tacipc

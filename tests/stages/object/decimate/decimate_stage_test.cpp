@@ -6,7 +6,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace decimate_stage_test {
 
 class DecimateStage : public ProgramTest {
  protected:
@@ -112,5 +112,5 @@ TEST_F(DecimateStage, FitsTheSensorsWindow) {
   EXPECT_NEAR(1e3 * (p.col(1).maxCoeff() - p.col(1).minCoeff()), 0.9 * 11.25, 1e-6);
 }
 
-}  // namespace
+}  // namespace decimate_stage_test
 }  // namespace tacipc

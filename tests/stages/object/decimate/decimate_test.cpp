@@ -14,7 +14,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace decimate_test {
 
 TriangleMesh collapse(const TriangleMesh& mesh, int target) {
   CollapseReport report;
@@ -182,5 +182,5 @@ INSTANTIATE_TEST_SUITE_P(Folders, RealObjects,
                          ::testing::Values("data/printed_indenters", "data/tacipc_release/objects",
                                            "data/gelsight_sim2real/meshes"));
 
-}  // namespace
+}  // namespace decimate_test
 }  // namespace tacipc

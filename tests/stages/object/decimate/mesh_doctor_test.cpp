@@ -10,7 +10,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace mesh_doctor_test {
 
 constexpr double kSize = 0.01;
 
@@ -479,5 +479,5 @@ TEST(SelfIntersection, FindsExactlyTheCrossingPairs) {
   EXPECT_EQ(self_intersections(mesh), (std::vector<FacePair>{{0, 1}, {1, 3}}));
 }
 
-}  // namespace
+}  // namespace mesh_doctor_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace side_survey_test {
 
 constexpr double kSize = 20e-3, kStamp = 0.4e-3;
 const SensorWindow kWindow{.size_m = {15e-3, 11.25e-3}, .usual = "-z"};
@@ -119,5 +119,5 @@ TEST(SideSurvey, ThePictureFramesThePressedSide) {
   EXPECT_GT(picture.at(300, 100, 1), picture.at(300, 30, 1) + 50);
 }
 
-}  // namespace
+}  // namespace side_survey_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/closed_surface.h"
 
 namespace tacipc {
-namespace {
+namespace coin_test {
 
 using std::numbers::pi;
 
@@ -116,5 +116,5 @@ TEST(CoinSpacing, GivesAtLeastTheVerticesAndLittleMore) {
   }
 }
 
-}  // namespace
+}  // namespace coin_test
 }  // namespace tacipc

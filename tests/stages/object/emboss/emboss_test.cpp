@@ -10,7 +10,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace emboss_test {
 
 namespace fs = std::filesystem;
 
@@ -225,5 +225,5 @@ TEST_F(EmbossProgram, WrongConfigurationEndsWithTwo) {
   EXPECT_EQ(said_, (scratch_ / "c.yaml").string() + ":4:31: pattern.points: 2 is outside [3, 60]\n");
 }
 
-}  // namespace
+}  // namespace emboss_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "common/base/rng.h"
 
 namespace tacipc {
-namespace {
+namespace outline_test {
 
 using std::numbers::pi;
 
@@ -119,5 +119,5 @@ TEST(CellBorderDistance, IsADistanceThatVanishesOnlyOnBorders) {
   EXPECT_NE(cell_border_distance({0.2, 0.3}, 1.5, 3), cell_border_distance({0.2, 0.3}, 1.5, 4));
 }
 
-}  // namespace
+}  // namespace outline_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace pattern_test {
 
 Pattern pattern_of(const std::string& text, double free_radius_m = 5e-3) {
   ConfigReader in = ConfigReader::from_text(text, "p.yaml");
@@ -74,5 +74,5 @@ TEST(Pattern, APicturesPathCountsFromTheConfiguration) {
   EXPECT_FALSE(source.dark_is_high);
 }
 
-}  // namespace
+}  // namespace pattern_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace picture_relief_test {
 
 /// 8 × 4 pixels, the upper left quarter white.
 ByteImage corner_image() {
@@ -50,5 +50,5 @@ TEST(PictureHeight, OneGreyIsNoRelief) {
       "p.png: every pixel has the grey 77, so there is no relief");
 }
 
-}  // namespace
+}  // namespace picture_relief_test
 }  // namespace tacipc

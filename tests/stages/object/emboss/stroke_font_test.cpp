@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace stroke_font_test {
 
 const std::string kAll = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.!?";
 
@@ -68,5 +68,5 @@ TEST(StrokesDistance, IsHalfThePenOnTheCentreLine) {
   EXPECT_NEAR(strokes_distance(dot, 0.16, {0.0, -0.6}), 0.08 - 0.1, 1e-15);
 }
 
-}  // namespace
+}  // namespace stroke_font_test
 }  // namespace tacipc

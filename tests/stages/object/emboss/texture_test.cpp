@@ -7,7 +7,7 @@
 #include "common/base/rng.h"
 
 namespace tacipc {
-namespace {
+namespace texture_test {
 
 Vector2 random_point(std::uint64_t i) {
   return 10.0 * Vector2(random_uniform(1, 0, i) - 0.5, random_uniform(1, 1, i) - 0.5);
@@ -74,5 +74,5 @@ TEST(RidgesHeight, WithoutBendIsAnOvalWhorl) {
   EXPECT_NEAR(ridges_height({0, -0.5 / 0.8}, 0.5, 0.0, 1.0, 0), 1.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace texture_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace indenter_test {
 
 /// Every edge lies in two triangles, once in each direction.
 bool closed(const TriangleMesh& mesh) {
@@ -133,5 +133,5 @@ TEST_F(IndenterProgram, RoundsAMeshTheSameWayWithAnyThreads) {
   EXPECT_EQ(said_, "i.yaml:1:31: ball.edge_mm: must not exceed the radius\n");
 }
 
-}  // namespace
+}  // namespace indenter_test
 }  // namespace tacipc

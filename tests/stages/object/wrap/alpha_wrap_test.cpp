@@ -11,7 +11,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace alpha_wrap_test {
 
 constexpr double kMillimetre = 1e-3;
 constexpr double kOffset = 0.05 * kMillimetre;
@@ -90,5 +90,5 @@ TEST(AlphaWrap, SaysWhatItCannotWrap) {
   EXPECT_EQ(message_of<DataError>([&] { alpha_wrap(line, 0.1, 0.01); }), "the mesh has no face with an area");
 }
 
-}  // namespace
+}  // namespace alpha_wrap_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace wrap_object_test {
 
 constexpr double kMillimetre = 1e-3;
 
@@ -93,5 +93,5 @@ TEST(WrapObject, TheObjectFileOfAWrapIsInMetresAndAsksForNoOther) {
             "unit: m\nup: \"-z\"\nscale: fit\nheight_field: {side: \"-z\", spacing_mm: 0.05}\n");
 }
 
-}  // namespace
+}  // namespace wrap_object_test
 }  // namespace tacipc

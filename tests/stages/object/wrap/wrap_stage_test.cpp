@@ -6,7 +6,7 @@
 #include "tests/stages/object/decimate/shapes.h"
 
 namespace tacipc {
-namespace {
+namespace wrap_stage_test {
 
 using ::testing::HasSubstr;
 
@@ -72,5 +72,5 @@ TEST_F(WrapStage, SaysWhereAlphaIsWrong) {
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "made/wrap.failed.yaml"));
 }
 
-}  // namespace
+}  // namespace wrap_stage_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace baseline_program_test {
 
 class BaselineProgram : public ProgramTest {
  protected:
@@ -128,5 +128,5 @@ TEST_F(BaselineProgram, WrongFlagsAndFilesAreSaidOnce) {
   EXPECT_EQ(said_, "baseline: error: pose.npy: pose 0 is not a rigid motion\n");
 }
 
-}  // namespace
+}  // namespace baseline_program_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace change_test {
 
 /// 40 × 30 pixels of 0.2 mm, the camera 49 mm away.
 Sensor small_sensor() {
@@ -186,5 +186,5 @@ TEST(BaselineConfig, FaultsOfTheNewMethodsAreSaid) {
                                    testing::HasSubstr("size_px: expected an odd number")));
 }
 
-}  // namespace
+}  // namespace change_test
 }  // namespace tacipc

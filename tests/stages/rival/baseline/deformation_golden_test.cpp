@@ -8,7 +8,7 @@
 #include "stages/rival/baseline/kernel.h"
 
 namespace tacipc {
-namespace {
+namespace deformation_golden_test {
 
 struct Profile {
   int size;
@@ -166,5 +166,5 @@ TEST(Golden, ExponentialMembrane) {
   for (const Sample& s : kExponential) EXPECT_NEAR(0.03 - out.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
 }
 
-}  // namespace
+}  // namespace deformation_golden_test
 }  // namespace tacipc

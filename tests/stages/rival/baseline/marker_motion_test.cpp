@@ -8,7 +8,7 @@
 #include "common/config/config.h"
 
 namespace tacipc {
-namespace {
+namespace marker_motion_test {
 
 FotsMotion published() {
   return read_config<MarkerMotionConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/rivals/baseline/fots_markers.yaml")
@@ -123,5 +123,5 @@ TEST(Superposition, OneNodeGivesItsResponseAndManyTheirDepths) {
       << "without contact nothing moves";
 }
 
-}  // namespace
+}  // namespace marker_motion_test
 }  // namespace tacipc

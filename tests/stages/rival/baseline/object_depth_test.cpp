@@ -12,7 +12,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace object_depth_test {
 
 Camera small_camera() {
   return {.position_m = {1e-3, 0.0, -20e-3},
@@ -208,5 +208,5 @@ TEST(Texture, HasItsDeviationAndDependsOnTheSeedAlone) {
   EXPECT_NEAR(std::sqrt(squares / 20000.0), 2e-6, 4e-8);  // one standard error of the deviation is 1e-8
 }
 
-}  // namespace
+}  // namespace object_depth_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "common/config/config.h"
 
 namespace tacipc {
-namespace {
+namespace phong_test {
 
 BaselineConfig shipped(const std::string& name) {
   return read_config<BaselineConfig>(std::string(TACIPC_SOURCE_DIR) + "/configs/rivals/baseline/" + name + ".yaml");
@@ -89,5 +89,5 @@ TEST(Phong, TheFinalBlurLeavesAConstantImage) {
   }
 }
 
-}  // namespace
+}  // namespace phong_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "stages/rival/mpm/gel_lattice.h"
 
 namespace tacipc {
-namespace {
+namespace clough_tocher_test {
 
 /// 13 × 11 points 0.2 apart around the origin, moved to where `place` says.
 struct Sheet {
@@ -108,5 +108,5 @@ TEST(CloughTocher, GradientDoesNotJump) {
   EXPECT_LT(fine, 0.35 * coarse);
 }
 
-}  // namespace
+}  // namespace clough_tocher_test
 }  // namespace tacipc

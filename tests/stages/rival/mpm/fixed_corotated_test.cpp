@@ -9,7 +9,7 @@
 #include "tests/stages/rival/mpm/kirchhoff_stress.h"
 
 namespace tacipc {
-namespace {
+namespace fixed_corotated_test {
 
 constexpr double kMu = 2.0, kLambda = 3.0;
 
@@ -57,5 +57,5 @@ TEST(KirchhoffStress, SixteenAtATimeAreTheSame) {
   for (int k = 0; k < 9; ++k) EXPECT_EQ(tau[k][7], 0.0f) << "no stress without strain";
 }
 
-}  // namespace
+}  // namespace fixed_corotated_test
 }  // namespace tacipc

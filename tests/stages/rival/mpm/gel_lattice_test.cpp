@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace gel_lattice_test {
 
 GelShape disc(double radius_m, double thickness_m) {
   return {.outline = GelShape::Outline::disc, .radius_m = radius_m, .thickness_m = thickness_m};
@@ -97,5 +97,5 @@ TEST(Triangulate, TakesTheDiagonalOfDelaunay) {
   EXPECT_TRUE(cut_from_first());
 }
 
-}  // namespace
+}  // namespace gel_lattice_test
 }  // namespace tacipc

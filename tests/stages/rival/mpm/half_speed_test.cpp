@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace half_speed_test {
 
 TEST(SpeedEffect, ComparesDisplacementsSinceRest) {
   const Positions rest{{5, 5, 0}, {7, 5, 0}};
@@ -24,5 +24,5 @@ TEST(SpeedEffect, ComparesDisplacementsSinceRest) {
   EXPECT_EQ(speed_effect({rest, far}, {rest, far}).change, 0.0);
 }
 
-}  // namespace
+}  // namespace half_speed_test
 }  // namespace tacipc

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace height_map_test {
 
 Camera window(double width_m, double height_m) {
   Camera camera;
@@ -51,5 +51,5 @@ TEST(IndentationMap, BesideTheGelIsZero) {
   EXPECT_NEAR(inside, 41 * 31 * 12.0 / 20.0, 60) << "4 x 3 of 5 x 4 mm, without holes";
 }
 
-}  // namespace
+}  // namespace height_map_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@
 #include "tests/stages/rival/mpm/kirchhoff_stress.h"
 
 namespace tacipc {
-namespace {
+namespace material_points_test {
 
 constexpr double kCell = 0.2e-3;
 
@@ -281,5 +281,5 @@ TEST(MaterialPoints, AnObjectThatJumpsIsRefused) {
             "the object moves 1 cells of the grid in one step (at most 0.5)");
 }
 
-}  // namespace
+}  // namespace material_points_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace mpm_config_test {
 
 using ::testing::ElementsAre;
 
@@ -104,5 +104,5 @@ TEST(MpmConfig, NamesWhatIsWrong) {
                           "x.yaml:7:30: half_speed.largest_change: 0 is outside (0, inf)"));
 }
 
-}  // namespace
+}  // namespace mpm_config_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace mpm_program_test {
 
 using ::testing::HasSubstr;
 
@@ -121,5 +121,5 @@ TEST_F(MpmProgram, RefusesLoads) {
   EXPECT_THAT(said_, HasSubstr("the sample lets the object go"));
 }
 
-}  // namespace
+}  // namespace mpm_program_test
 }  // namespace tacipc

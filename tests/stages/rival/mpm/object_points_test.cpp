@@ -6,7 +6,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace object_points_test {
 
 /// A rectangle of 3 × 1 in the plane z = 2, cut into two triangles.
 TriangleMesh rectangle() { return make_mesh({{0, 0, 2}, {3, 0, 2}, {3, 1, 2}, {0, 1, 2}}, {{0, 1, 2}, {0, 2, 3}}); }
@@ -33,5 +33,5 @@ TEST(SampleSurface, NeedsAnArea) {
   EXPECT_THROW(sample_surface(make_mesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}), 5, 1), DataError);
 }
 
-}  // namespace
+}  // namespace object_points_test
 }  // namespace tacipc

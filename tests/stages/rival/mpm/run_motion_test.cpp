@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace run_motion_test {
 
 /// A gel of 6 × 6 × 1.2 mm.
 Sensor small_sensor() {
@@ -185,5 +185,5 @@ TEST(RunMotion, SaysWhatItCannotDo) {
               ::testing::StartsWith("the object is 1.2"));
 }
 
-}  // namespace
+}  // namespace run_motion_test
 }  // namespace tacipc

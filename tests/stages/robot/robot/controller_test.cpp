@@ -9,7 +9,7 @@
 #include "tests/stages/robot/robot/small_robots.h"
 
 namespace tacipc {
-namespace {
+namespace controller_test {
 
 using ::testing::HasSubstr;
 
@@ -258,5 +258,5 @@ TEST(Controller, GoesOnFromASavedStateToTheSameBits) {
             "a saved state is of another model");
 }
 
-}  // namespace
+}  // namespace controller_test
 }  // namespace tacipc

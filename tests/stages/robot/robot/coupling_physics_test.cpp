@@ -10,7 +10,7 @@
 #include "tests/stages/robot/robot/spring_press.h"
 
 namespace tacipc {
-namespace {
+namespace coupling_physics_test {
 
 constexpr double kGravity_m_s2 = 9.81;
 
@@ -164,5 +164,5 @@ TEST(CoupledRobot, WhatOneSideGetsTheOtherLoses) {
   EXPECT_NEAR(robot + object, 0.0, 1e-5 * most);
 }
 
-}  // namespace
+}  // namespace coupling_physics_test
 }  // namespace tacipc

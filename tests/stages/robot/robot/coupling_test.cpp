@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace coupling_test {
 
 constexpr double kStiffness_n_m = 5000.0;
 
@@ -246,5 +246,5 @@ TEST(BalancedForces, OfTwoPadsOfWhichOneLosesContactAreMet) {
   for (const Eigen::Index k : {0, 1}) EXPECT_NEAR(answered[k], force[k], 1e-6);
 }
 
-}  // namespace
+}  // namespace coupling_test
 }  // namespace tacipc

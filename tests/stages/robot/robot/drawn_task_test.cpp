@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace drawn_task_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -73,5 +73,5 @@ TEST(DrawnTask, ANameThatIsNoVariableIsNoNumber) {
               ElementsAre("t.yaml:2:4: b: expected a number, found '$c'"));
 }
 
-}  // namespace
+}  // namespace drawn_task_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/stages/robot/robot/small_robots.h"
 
 namespace tacipc {
-namespace {
+namespace mjcf_model_test {
 
 using ::testing::HasSubstr;
 using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
@@ -339,5 +339,5 @@ TEST(Quaternions, GoThereAndBack) {
   }
 }
 
-}  // namespace
+}  // namespace mjcf_model_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/stages/robot/robot/small_robots.h"
 
 namespace tacipc {
-namespace {
+namespace outputs_test {
 
 using ::testing::HasSubstr;
 
@@ -239,5 +239,5 @@ TEST_F(PressAnswers, GapIsToTheNearestObjectAndANumberWhereThereIsNone) {
   EXPECT_EQ(gap_of(task_, objects_, 0, pose_at({5, 0, 0}, 0.0, {1, 0, 0}), poses), 1.0);
 }
 
-}  // namespace
+}  // namespace outputs_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace pad_gap_test {
 
 Matrix4 moved(const Vector3& by_m, double turn_rad = 0.0, const Vector3& axis = Vector3::UnitX()) {
   Matrix4 pose = Matrix4::Identity();
@@ -62,5 +62,5 @@ TEST(GapBefore, OfABallIsItsLowestPoint) {
               0.012 - std::sqrt(radius * radius - edge * edge), 5e-6);
 }
 
-}  // namespace
+}  // namespace pad_gap_test
 }  // namespace tacipc

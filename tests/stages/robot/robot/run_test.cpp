@@ -11,7 +11,7 @@
 #include "tests/stages/robot/robot/small_robots.h"
 
 namespace tacipc {
-namespace {
+namespace run_test {
 
 using ::testing::HasSubstr;
 
@@ -264,5 +264,5 @@ TEST(JudgeTry, NeedsAsManyAnswersAsFrames) {
             "the press answered 5 frames, and its try has 6");
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace tacipc

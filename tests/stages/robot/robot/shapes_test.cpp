@@ -9,7 +9,7 @@
 #include "tests/stages/robot/robot/small_robots.h"
 
 namespace tacipc {
-namespace {
+namespace shapes_test {
 
 using std::numbers::pi;
 
@@ -77,5 +77,5 @@ TEST(ShapeOfBody, SeveralGeomsAreOneAndHiddenOnesAndPlanesAreNone) {
   EXPECT_EQ(shape_of("").num_triangles(), 0);
 }
 
-}  // namespace
+}  // namespace shapes_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace task_spec_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -162,5 +162,5 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"model: m\n" PADS CUP "steps: {seconds: 1, moves: {site: a}}\n",
               "tasks/t.yaml:4:21: steps.moves: unknown key (did you mean move?)"}));
 
-}  // namespace
+}  // namespace task_spec_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace cases_test {
 
 const std::string kCases = R"(title: two
 data: shots
@@ -177,5 +177,5 @@ TEST_F(CasesProgram, TheShippedBenchmarkIsRead) {
   EXPECT_THAT(read_file(scratch_ / "out/cases.yaml"), testing::HasSubstr("images: 8\n"));
 }
 
-}  // namespace
+}  // namespace cases_test
 }  // namespace tacipc

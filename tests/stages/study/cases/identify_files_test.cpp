@@ -8,7 +8,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace identify_files_test {
 
 const std::string kHead =
     "title: gel\nsensor: ../s.yaml\nmesh: m.yaml\npress: p.yaml\nchanges: [+gel.dome_radius_mm=145]\n";
@@ -84,5 +84,5 @@ TEST(IdentifySpec, TellsWhatIsWrong) {
               testing::HasSubstr("names nothing to identify"));
 }
 
-}  // namespace
+}  // namespace identify_files_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace marker_files_test {
 
 const std::string kBenchmark = R"(title: shots
 data: shots
@@ -81,5 +81,5 @@ TEST(MarkerFiles, TheShippedBenchmarkIsWhole) {
   EXPECT_EQ(benchmark.depths_m().size(), 6u);
 }
 
-}  // namespace
+}  // namespace marker_files_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/stages/study/identify/made_up_sensor.h"
 
 namespace tacipc {
-namespace {
+namespace fit_test {
 
 /// What is true; forces of a made-up gel follow in closed form.
 struct Truth {
@@ -390,5 +390,5 @@ TEST(Identify, FindsThicknessDepthAndTravelByMarkersThoughTheImageMoved) {
   honesty.expect();
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace tacipc

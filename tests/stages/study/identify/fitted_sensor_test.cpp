@@ -5,7 +5,7 @@
 #include "tests/stages/study/identify/made_up_sensor.h"
 
 namespace tacipc {
-namespace {
+namespace fitted_sensor_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -72,5 +72,5 @@ TEST(EnsembleOf, HasOneMemberPerEvenShareOfTheDraws) {
                                                             testing::Pair("mount.compliance_mm_per_n", "0.03")));
 }
 
-}  // namespace
+}  // namespace fitted_sensor_test
 }  // namespace tacipc

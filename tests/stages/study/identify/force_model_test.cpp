@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace force_model_test {
 
 /// N per Pa, over mm.
 Curve force_per_pa(double exponent) {
@@ -67,5 +67,5 @@ TEST(RelaxingForce, OfASpringBehindASoftMountIsThatOfTheSpringInTheEnd) {
   EXPECT_NEAR(forces[0], 1.0 / (0.35 + 0.1), 0.01);
 }
 
-}  // namespace
+}  // namespace force_model_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace node_grid_test {
 
 TEST(NodeGrid, IsExactForPolynomialsOfEachAxisBelowItsValues) {
   const NodeGrid grid({{0.45, 0.48, 0.495}, {3.0, 5.0}});
@@ -66,5 +66,5 @@ TEST(CurveTable, BlendsItsRows) {
   EXPECT_NEAR(table.blend(Eigen::Vector2d(0.25, 0.75)).at(2.0), 0.25 * 2.0 + 0.75 * 8.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace node_grid_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/stages/study/identify/made_up_sensor.h"
 
 namespace tacipc {
-namespace {
+namespace predictions_test {
 
 /// A press whose force is E x² in units of 1e-5 N/Pa, measured exactly at 0.5 and 1 mm with these deviations.
 MechanicsModel model_with(double shallow_sigma_n, double deep_sigma_n) {
@@ -72,5 +72,5 @@ TEST(PredictForces, HasEveryRowOnceAndJudgesThoseThatWereNotFitted) {
   EXPECT_GT((rows[3].high_n - rows[3].low_n) / rows[3].force_n, (rows[1].high_n - rows[1].low_n) / rows[1].force_n);
 }
 
-}  // namespace
+}  // namespace predictions_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace fit_field_test {
 
 constexpr double kRadius = 2e-3, kPxPerM = 20e3;
 const Eigen::Vector2d kPlace(0.5e-3, -0.25e-3), kContactPx(60, 55);
@@ -254,5 +254,5 @@ TEST(MarkerBenchmark, SaysWhatIsWrong) {
                                       "b.yaml:21:12: variants[1].name: is given twice"}));
 }
 
-}  // namespace
+}  // namespace fit_field_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace image_pairs_test {
 
 namespace fs = std::filesystem;
 
@@ -64,5 +64,5 @@ TEST(PairImages, ListsOfDifferentLengthOrWithFoldersAreRefused) {
             root + ": give one folder each, or files only");
 }
 
-}  // namespace
+}  // namespace image_pairs_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace measure_depths_program_test {
 
 using ::testing::HasSubstr;
 
@@ -79,5 +79,5 @@ TEST_F(DepthMetrics, RefusesWhatDoesNotFit) {
   EXPECT_THAT(said_, HasSubstr("ours/star.exr against rest.exr: the reference is nowhere pressed deeper than 0.02 mm"));
 }
 
-}  // namespace
+}  // namespace measure_depths_program_test
 }  // namespace tacipc

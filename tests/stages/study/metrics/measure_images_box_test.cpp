@@ -12,7 +12,7 @@
 #include "tests/stages/study/metrics/test_images.h"
 
 namespace tacipc {
-namespace {
+namespace measure_images_box_test {
 
 TEST(SsimInBox, BoxesThatTileTheMapAverageToTheWhole) {
   const ByteImage a = pattern_image(41, 33), b = changed(a, "noise");
@@ -103,5 +103,5 @@ TEST_F(BoxRows, BoxesThatDoNotFitAreRefused) {
               testing::ElementsAre("m.yaml:1:14: boxes[0].px: must be at least 1 pixel wide and high"));
 }
 
-}  // namespace
+}  // namespace measure_images_box_test
 }  // namespace tacipc

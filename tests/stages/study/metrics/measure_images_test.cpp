@@ -12,7 +12,7 @@
 #include "tests/stages/study/metrics/test_images.h"
 
 namespace tacipc {
-namespace {
+namespace measure_images_test {
 
 ImagePair pair_in(const ScratchFolder& folder, const ByteImage& a, const ByteImage& b) {
   write_png(folder / "a.png", a);
@@ -72,5 +72,5 @@ TEST(ImageMetrics, CropIsCheckedBeforeWork) {
             "m.yaml:1:11: crop_px: expected whole pixels");
 }
 
-}  // namespace
+}  // namespace measure_images_test
 }  // namespace tacipc

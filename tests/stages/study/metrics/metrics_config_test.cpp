@@ -5,7 +5,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace metrics_config_test {
 
 TEST(MetricsConfig, TheKindTellsTheFilesAndTheKeys) {
   const auto images = config_from_text<MetricsConfig>("{kind: images}", "m.yaml"),
@@ -18,5 +18,5 @@ TEST(MetricsConfig, TheKindTellsTheFilesAndTheKeys) {
               testing::ElementsAre("m.yaml:1:1: pressed_mm: missing", "m.yaml:1:15: crop_px: unknown key"));
 }
 
-}  // namespace
+}  // namespace metrics_config_test
 }  // namespace tacipc

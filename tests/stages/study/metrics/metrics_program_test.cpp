@@ -8,7 +8,7 @@
 #include "tests/stages/study/metrics/test_images.h"
 
 namespace tacipc {
-namespace {
+namespace metrics_program_test {
 
 class MetricsProgram : public ProgramTest {
  protected:
@@ -58,5 +58,5 @@ TEST_F(MetricsProgram, FailuresLeaveNoRecord) {
   EXPECT_EQ(said_, "metrics: error: --rest: is for depth maps, and the configuration is for images\n");
 }
 
-}  // namespace
+}  // namespace metrics_program_test
 }  // namespace tacipc

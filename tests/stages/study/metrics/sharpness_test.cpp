@@ -8,7 +8,7 @@
 #include "tests/stages/study/metrics/test_images.h"
 
 namespace tacipc {
-namespace {
+namespace sharpness_test {
 
 /// Stripes of 40 codes about 120 with this period along x.
 ByteImage stripes(int period_px) {
@@ -48,5 +48,5 @@ TEST(Sharpness, DependsOnTheBoxAlone) {
   EXPECT_TRUE(std::isnan(sharpness(ByteImage(20, 20, 3, 7), ByteImage(20, 20, 3, 7), {0, 0, 20, 20})));
 }
 
-}  // namespace
+}  // namespace sharpness_test
 }  // namespace tacipc

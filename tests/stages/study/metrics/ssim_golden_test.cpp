@@ -9,7 +9,7 @@
 #include "tests/stages/study/metrics/test_images.h"
 
 namespace tacipc {
-namespace {
+namespace ssim_golden_test {
 
 struct Golden {
   int width;
@@ -59,5 +59,5 @@ TEST(Golden, AllMetricsEqualScikitImage) {
   }
 }
 
-}  // namespace
+}  // namespace ssim_golden_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/stages/study/metrics/test_images.h"
 
 namespace tacipc {
-namespace {
+namespace ssim_test {
 
 TEST(Ssim, ConstantImagesByHand) {
   // No variance: only the luminance term is left.
@@ -61,5 +61,5 @@ TEST(ImageError, ByHand) {
   EXPECT_TRUE(std::isinf(psnr_db(image_error(a, a).mse)));
 }
 
-}  // namespace
+}  // namespace ssim_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace card_test {
 
 /// What identify and sim2real leave, as far as a card reads it.
 struct Folders {
@@ -70,5 +70,5 @@ TEST(CardConfig, NamesSomething) {
               testing::HasSubstr("neither this nor photographs are named"));
 }
 
-}  // namespace
+}  // namespace card_test
 }  // namespace tacipc

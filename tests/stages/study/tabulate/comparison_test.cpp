@@ -8,7 +8,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace comparison_test {
 
 BenchmarkCases cases() {
   BenchmarkCases out;
@@ -88,5 +88,5 @@ TEST(Judgement, NeedsTheMustsAndEveryRivalBehindOnAllThree) {
   EXPECT_THAT(page, testing::HasSubstr("| ball_b (fitted place) | 0.850"));
 }
 
-}  // namespace
+}  // namespace comparison_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/stages/study/tabulate/small_table.h"
 
 namespace tacipc {
-namespace {
+namespace image_table_config_test {
 
 using testing::ElementsAre;
 
@@ -49,5 +49,5 @@ TEST(ImageTableConfig, NamesEveryFault) {
               ElementsAre("t.yaml:4:48: rows[1].method: is given twice"));
 }
 
-}  // namespace
+}  // namespace image_table_config_test
 }  // namespace tacipc

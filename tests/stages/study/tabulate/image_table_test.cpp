@@ -8,7 +8,7 @@
 #include "tests/stages/study/tabulate/small_table.h"
 
 namespace tacipc {
-namespace {
+namespace image_table_test {
 
 constexpr const char* kPrinted =
     "printed: {label: elsewhere, source: a paper, region: full, rows: [{name: p|q, values: {psnr_ln: 55.92}}]}\n";
@@ -175,5 +175,5 @@ TEST(ImageTable, CsvHasOneLinePerNumberAndSaysWhatWasPrinted) {
             "p|q,elsewhere,full,ssim_s,,,0.90,,a paper\n");
 }
 
-}  // namespace
+}  // namespace image_table_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace markdown_test {
 
 TEST(Markdown, CellsStayCells) {
   EXPECT_EQ(markdown_cell("a|b\nc"), "a\\|b c");
@@ -30,5 +30,5 @@ TEST(Markdown, ParagraphsAndPictures) {
   EXPECT_EQ(markdown_picture("x", "pictures", "s.png"), "\n![x](pictures/s.png)\n");
 }
 
-}  // namespace
+}  // namespace markdown_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace mesh_costs_test {
 
 using ::testing::HasSubstr;
 
@@ -96,5 +96,5 @@ TEST_F(MeshTable, EveryMeshNeedsItsFiles) {
   EXPECT_EQ(said_, "tabulate: error: no record of metrics was given for even_2\n");
 }
 
-}  // namespace
+}  // namespace mesh_costs_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/study/tabulate/small_table.h"
 
 namespace tacipc {
-namespace {
+namespace method_scores_test {
 
 TEST(MethodScores, StandInTheOrderOfTheConfigurationUnderTheirMethods) {
   const ScratchFolder scratch;
@@ -82,5 +82,5 @@ TEST(MethodScores, RefuseWhatDoesNotBelongTogether) {
   EXPECT_EQ(said({a, b}, small_table()), b.path.string() + ":2: psnr_ln: 'many' is not a number");
 }
 
-}  // namespace
+}  // namespace method_scores_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace {
+namespace picture_sheet_test {
 
 namespace fs = std::filesystem;
 
@@ -93,5 +93,5 @@ TEST(DifferenceSheet, ShowsPhotographOursDifferenceAndRival) {
   EXPECT_EQ(out.at(35, 60, 1), 255);  // the second row is only 30 wide
 }
 
-}  // namespace
+}  // namespace picture_sheet_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/program_test.h"
 
 namespace tacipc {
-namespace {
+namespace stage_costs_test {
 
 using ::testing::HasSubstr;
 
@@ -87,5 +87,5 @@ TEST_F(StageCosts, ARowNeedsTimings) {
   EXPECT_THAT(said_, HasSubstr("broken.timings.yaml"));
 }
 
-}  // namespace
+}  // namespace stage_costs_test
 }  // namespace tacipc

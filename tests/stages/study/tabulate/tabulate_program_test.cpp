@@ -6,7 +6,7 @@
 #include "tests/stages/study/tabulate/small_table.h"
 
 namespace tacipc {
-namespace {
+namespace tabulate_program_test {
 
 using TabulateProgram = ProgramTest;
 
@@ -89,5 +89,5 @@ objects:
   EXPECT_EQ(said_, "tabulate: error: --pictures: 1 of photograph, the benchmark has 2 images\n");
 }
 
-}  // namespace
+}  // namespace tabulate_program_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/report/svg_numbers.h"
 
 namespace tacipc {
-namespace {
+namespace coverage_svg_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -53,5 +53,5 @@ TEST(SpreadsSvg, ShowsEachRowWithItsMedianInside) {
   }
 }
 
-}  // namespace
+}  // namespace coverage_svg_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include <numeric>
 
 namespace tacipc {
-namespace {
+namespace coverage_test {
 
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -81,5 +81,5 @@ TEST(EvenlyChosen, AreApartByTheSameOrOneMore) {
   }
 }
 
-}  // namespace
+}  // namespace coverage_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/stages/dataset/report/dataset/dataset_folder.h"
 
 namespace tacipc {
-namespace {
+namespace dataset_report_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -174,5 +174,5 @@ TEST_F(DatasetReportTest, SamplesAndADatasetAreNotMixed) {
   EXPECT_THAT(said_, HasSubstr("faled: unknown key (did you mean failed?)"));
 }
 
-}  // namespace
+}  // namespace dataset_report_test
 }  // namespace tacipc

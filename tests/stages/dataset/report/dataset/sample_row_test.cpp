@@ -12,7 +12,7 @@
 #include "tests/stages/dataset/report/dataset/dataset_folder.h"
 
 namespace tacipc {
-namespace {
+namespace sample_row_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -130,5 +130,5 @@ TEST_F(SampleRowTest, TheTallyCountsAndGathersWhatIsMade) {
   EXPECT_THAT(tally.press().processor_s, ElementsAre(3, 3));
 }
 
-}  // namespace
+}  // namespace sample_row_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tacipc {
-namespace {
+namespace raster_test {
 
 constexpr Color kRed{200, 0, 0}, kBlue{0, 0, 200};
 
@@ -97,5 +97,5 @@ TEST(Viewpoint, StandsAsNearAsItCanWithAllInThePicture) {
   }
 }
 
-}  // namespace
+}  // namespace raster_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/stages/dataset/report/robot_scene.h"
 
 namespace tacipc {
-namespace {
+namespace scene_pictures_test {
 
 using ::testing::ElementsAre;
 
@@ -74,5 +74,5 @@ TEST_F(RobotPicturesTest, LargePartsOfTheRobotDoNotTakeTheRoom) {
   EXPECT_EQ(scene_viewpoint(view_, 1.0).distance_m, distance);
 }
 
-}  // namespace
+}  // namespace scene_pictures_test
 }  // namespace tacipc

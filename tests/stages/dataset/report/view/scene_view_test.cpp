@@ -8,7 +8,7 @@
 #include "tests/stages/gel/export/pressed_cube.h"
 
 namespace tacipc {
-namespace {
+namespace scene_view_test {
 
 using ::testing::ElementsAre;
 
@@ -103,5 +103,5 @@ TEST(SceneView, TheImagesThatThereAreAreLinkedFromThePage) {
   EXPECT_THAT(view.gels[1].pictures, ElementsAre("", "../right/render/frame_0012/tactile.png"));
 }
 
-}  // namespace
+}  // namespace scene_view_test
 }  // namespace tacipc

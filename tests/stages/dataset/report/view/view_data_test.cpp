@@ -6,7 +6,7 @@
 #include "common/base/error.h"
 
 namespace tacipc {
-namespace {
+namespace view_data_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -143,5 +143,5 @@ TEST(ViewData, TheSameViewGivesTheSameBytes) {
   EXPECT_EQ(view_script(small_view(), {"a", "b"}), view_script(small_view(), {"a", "b"}));
 }
 
-}  // namespace
+}  // namespace view_data_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace tacipc {
-namespace {
+namespace body_frame_test {
 
 class BodyFrameTest : public ::testing::Test {
  protected:
@@ -86,5 +86,5 @@ TEST_F(BodyFrameTest, SameRowsGiveTheSameBits) {
   EXPECT_EQ(one.places(x), other.places(x));
 }
 
-}  // namespace
+}  // namespace body_frame_test
 }  // namespace tacipc

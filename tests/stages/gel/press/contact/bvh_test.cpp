@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/contact/random_points.h"
 
 namespace tacipc {
-namespace {
+namespace bvh_test {
 
 Box random_box(std::mt19937& random, double size) {
   const Vector3 corner = random_vector(random);
@@ -160,5 +160,5 @@ TEST(Bvh, OrderDependsNeitherOnTheQueryNorOnWhereBoxesHaveMoved) {
   EXPECT_EQ(found(bvh, kEverywhere), order);
 }
 
-}  // namespace
+}  // namespace bvh_test
 }  // namespace tacipc

@@ -17,7 +17,7 @@
 #include "tests/stages/gel/press/contact/precise_separation.h"
 
 namespace tacipc {
-namespace {
+namespace ccd_queries_test {
 
 struct Counts {
   int queries = 0;
@@ -197,5 +197,5 @@ TEST(CcdQueries, NoCollisionPassesAndFewFreeQueriesAreStopped) {
   EXPECT_EQ(all.stopped_with_room, 0);
 }
 
-}  // namespace
+}  // namespace ccd_queries_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/stages/gel/press/contact/precise_separation.h"
 
 namespace tacipc {
-namespace {
+namespace ccd_test {
 
 struct Kind {
   PairKind kind;
@@ -180,5 +180,5 @@ TEST_P(Ccd, AgreesWithExactTruthOnTenThousandRandomQueries) {
   EXPECT_LT(false_positives, free / 100);
 }
 
-}  // namespace
+}  // namespace ccd_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace tacipc {
-namespace {
+namespace contact_laws_test {
 
 constexpr ContactLaw kUsual{.friction = 0.7, .d_hat_m = 2e-5, .stiffness = 3.0};
 
@@ -54,5 +54,5 @@ TEST(ContactLaws, TheReachIsTheLargestOfAllPairs) {
   EXPECT_EQ(ContactLaws::resolved(kUsual, 2, {{.between = {0, 1}, .d_hat_m = 5e-5}}).reach_m(), 5e-5);
 }
 
-}  // namespace
+}  // namespace contact_laws_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/stages/gel/press/contact/search_scene.h"
 
 namespace tacipc {
-namespace {
+namespace contact_search_test {
 
 constexpr double kRadius = 0.3e-3;
 
@@ -299,5 +299,5 @@ TEST(ContactSearch, AroundTwoVerticesThatMeetHalfwayTheirPairsAreFound) {
   EXPECT_GT(met, 5);
 }
 
-}  // namespace
+}  // namespace contact_search_test
 }  // namespace tacipc

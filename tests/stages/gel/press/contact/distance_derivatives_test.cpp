@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/convergence_order.h"
 
 namespace tacipc {
-namespace {
+namespace distance_derivatives_test {
 
 struct Case {
   const char* name;
@@ -118,5 +118,5 @@ TEST_P(DistanceDerivatives, GramInverseInvertsTheGramMatrix) {
   EXPECT_LT((product - expected).norm(), 1e-14);
 }
 
-}  // namespace
+}  // namespace distance_derivatives_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/stages/gel/press/contact/random_points.h"
 
 namespace tacipc {
-namespace {
+namespace distance_test {
 
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 using LongPoints = std::array<Long3, 4>;
@@ -201,5 +201,5 @@ TEST(EdgeEdge, ClosedForms) {
   }
 }
 
-}  // namespace
+}  // namespace distance_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include "tests/stages/gel/press/convergence_order.h"
 
 namespace tacipc {
-namespace {
+namespace edge_edge_mollifier_test {
 
 Vector12 random_direction(std::mt19937& random) {
   Vector12 p;
@@ -99,5 +99,5 @@ TEST(EdgeEdgeMollifier, LeavesEdgesAtAnAngleAlone) {
   EXPECT_EQ(m.hessian.norm(), 0);
 }
 
-}  // namespace
+}  // namespace edge_edge_mollifier_test
 }  // namespace tacipc

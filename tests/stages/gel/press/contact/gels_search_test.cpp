@@ -14,7 +14,7 @@
 #include "tests/stages/gel/press/contact/search_scene.h"
 
 namespace tacipc {
-namespace {
+namespace gels_search_test {
 
 constexpr double kRadius = 0.2e-3;
 
@@ -368,5 +368,5 @@ TEST_F(BallOverAGel, HasNoFlatFaceAndIsSearchedWhole) {
   EXPECT_GT(near, 300);
 }
 
-}  // namespace
+}  // namespace gels_search_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/stages/gel/press/contact/random_points.h"
 
 namespace tacipc {
-namespace {
+namespace intersection_check_test {
 
 struct Mesh {
   Positions positions;
@@ -158,5 +158,5 @@ TEST(WindingNumber, TellsTheInsideOfAClosedSurface) {
   EXPECT_NEAR(winding_number(centre, turned), -1.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace intersection_check_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace tacipc {
-namespace {
+namespace near_pairs_test {
 
 using Kind = ContactPair::Kind;
 
@@ -58,5 +58,5 @@ TEST(NearPairs, NoneIsMissed) {
   }
 }
 
-}  // namespace
+}  // namespace near_pairs_test
 }  // namespace tacipc

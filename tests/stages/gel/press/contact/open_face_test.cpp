@@ -10,7 +10,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace open_face_test {
 
 ContactMesh gel_alone(const TetMesh& gel) {
   return make_contact_mesh(gel.positions, boundary_triangles(gel.tets, gel.positions.rows()), Positions(0, 3),
@@ -208,5 +208,5 @@ TEST(OpenFace, AFoldOnTheWayIsSeen) {
   EXPECT_FALSE(face.at_risk(x + p, p, 0.0).none());
 }
 
-}  // namespace
+}  // namespace open_face_test
 }  // namespace tacipc

@@ -15,7 +15,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace pair_counting_test {
 
 constexpr double kDHat = 0.3;
 
@@ -196,5 +196,5 @@ TEST(PairCounting, FacetsOfAPlateDoNotDrag) {
   EXPECT_GT(every, 5.0 * once);
 }
 
-}  // namespace
+}  // namespace pair_counting_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/contact/search_scene.h"
 
 namespace tacipc {
-namespace {
+namespace patch_search_test {
 
 constexpr double kRadius = 0.3e-3;
 
@@ -99,5 +99,5 @@ TEST(PatchSearch, HasEveryNearPairOnItsWays) {
   EXPECT_LT(most, with_vertices / 2) << "not all that there is";
 }
 
-}  // namespace
+}  // namespace patch_search_test
 }  // namespace tacipc

@@ -15,7 +15,7 @@
 #include "tests/stages/gel/press/contact/impacts.h"
 
 namespace tacipc {
-namespace {
+namespace plane_filter_test {
 
 /// Moving pairs that share no vertex, as the search hands them over.
 struct MovingPairs {
@@ -280,5 +280,5 @@ TEST_P(PlaneFilter, ClaimsWhatSlackAndFloorLeaveToTheLastDigit) {
   }
 }
 
-}  // namespace
+}  // namespace plane_filter_test
 }  // namespace tacipc

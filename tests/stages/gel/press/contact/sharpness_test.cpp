@@ -9,7 +9,7 @@
 #include "common/mesh/triangle_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace sharpness_test {
 
 constexpr int kOffset = 3;  // of vertex indices, as an object's are behind the gel's
 
@@ -74,5 +74,5 @@ TEST(Sharpness, OfACubeIsFullAtEdgesAndNoneAcrossFaces) {
   EXPECT_EQ(sharp, 12);
 }
 
-}  // namespace
+}  // namespace sharpness_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/drive/grasp_scene.h"
 
 namespace tacipc {
-namespace {
+namespace grasp_drive_test {
 
 using ::testing::HasSubstr;
 
@@ -188,5 +188,5 @@ TEST(GraspDrive, GoesOnFromAnyFrameToTheSameBytes) {
   }
 }
 
-}  // namespace
+}  // namespace grasp_drive_test
 }  // namespace tacipc

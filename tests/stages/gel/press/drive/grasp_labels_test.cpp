@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/drive/grasp_scene.h"
 
 namespace tacipc {
-namespace {
+namespace grasp_labels_test {
 
 constexpr double kMu = 0.3, kGrip_n = 1.0, kMost_n = 2.0 * kMu * kGrip_n;
 
@@ -155,5 +155,5 @@ TEST(GraspLabels, AFingerThatDoesNotTouchWhenItIsFreedIsTheReason) {
   EXPECT_EQ(grasp.reason, GraspReason::no_contact);
 }
 
-}  // namespace
+}  // namespace grasp_labels_test
 }  // namespace tacipc

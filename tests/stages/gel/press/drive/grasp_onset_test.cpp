@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/drive/grasp_scene.h"
 
 namespace tacipc {
-namespace {
+namespace grasp_onset_test {
 
 constexpr double kMu = 0.3, kGrip_n = 1.0;
 constexpr double kThreshold_m_s = 28.4e-6;  // ε_v: a thousandth of the gel's diagonal in a second
@@ -118,5 +118,5 @@ TEST(GraspOnset, ABarTurnsWhereItsWeightIsWhatBothPadsCanBearOffTheirAxis) {
   }
 }
 
-}  // namespace
+}  // namespace grasp_onset_test
 }  // namespace tacipc

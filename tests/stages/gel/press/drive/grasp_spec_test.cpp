@@ -11,7 +11,7 @@
 #include "tests/stages/gel/press/drive/grasp_scene.h"
 
 namespace tacipc {
-namespace {
+namespace grasp_spec_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -206,5 +206,5 @@ TEST(GraspSpec, VectorsHaveThreeNumbers) {
   EXPECT_THAT(faults("gravity_m_s2: [1]", "mass_g: 50"), ElementsAre(HasSubstr("fingers.gravity_m_s2")));
 }
 
-}  // namespace
+}  // namespace grasp_spec_test
 }  // namespace tacipc

@@ -14,7 +14,7 @@
 #include "tests/stages/gel/press/drive/grasp_scene.h"
 
 namespace tacipc {
-namespace {
+namespace grasp_test {
 
 using ::testing::HasSubstr;
 
@@ -451,5 +451,5 @@ TEST(Grasp, WarnsOfUnevenFingersAndOfNoFriction) {
   EXPECT_THAT(said(tip, 0.8), HasSubstr("the left finger pressed with"));
 }
 
-}  // namespace
+}  // namespace grasp_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace scene_spec_test {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -94,5 +94,5 @@ TEST(SceneSpec, EachFaultIsNamedWhereItStands) {
   EXPECT_THAT(faults(kBodies + "contact: [{between: [peg]}]\n" + kMotion), Contains(HasSubstr("two bodies")));
 }
 
-}  // namespace
+}  // namespace scene_spec_test
 }  // namespace tacipc

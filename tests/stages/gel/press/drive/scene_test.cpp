@@ -15,7 +15,7 @@
 #include "tests/stages/gel/press/drive/grasp_scene.h"
 
 namespace tacipc {
-namespace {
+namespace scene_test {
 
 using ::testing::HasSubstr;
 
@@ -366,5 +366,5 @@ TEST_F(SceneOf, BodiesThatAreToldToMeetAreAnErrorThatNamesThem) {
   EXPECT_THAT(message(), HasSubstr("bodies gel and peg are 0.001 mm apart in frame 0"));
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace tacipc

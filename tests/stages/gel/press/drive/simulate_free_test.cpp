@@ -11,7 +11,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace simulate_free_test {
 
 constexpr double kG = 9.81;
 
@@ -175,5 +175,5 @@ TEST(FreeObject, MustBeClosed) {
   EXPECT_THROW(run(open, config, sample), DataError);
 }
 
-}  // namespace
+}  // namespace simulate_free_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace simulate_mount_test {
 
 using ::testing::HasSubstr;
 
@@ -165,5 +165,5 @@ TEST(Mount, IsRefusedWhereNothingTakesItIntoAccount) {
               HasSubstr("for single presses, not for grasps and scenes"));
 }
 
-}  // namespace
+}  // namespace simulate_mount_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace simulate_moved_gel_test {
 
 /// A flat-ended square punch.
 TriangleMesh punch(double half_width_m, double height_m) {
@@ -229,5 +229,5 @@ TEST(MovedGel, GravityAndQuasiStaticModeAgreeWithTheWeightOfALayer) {
   EXPECT_LE(simulation.frames[1].balance.force_n, 1e-5);
 }
 
-}  // namespace
+}  // namespace simulate_moved_gel_test
 }  // namespace tacipc

@@ -5,7 +5,7 @@
 #include "tests/stages/gel/press/reference_scene.h"
 
 namespace tacipc {
-namespace {
+namespace simulate_reference_slow_test {
 
 TEST(Simulate, AgreesWithTheReferenceSolverAtFullSize) {
   TACIPC_SHARED_DATA(folder, "reference");
@@ -20,5 +20,5 @@ TEST(Simulate, AgreesWithTheReferenceSolverAtFullSize) {
   EXPECT_LT(found.largest_m, 5e-6);
 }
 
-}  // namespace
+}  // namespace simulate_reference_slow_test
 }  // namespace tacipc

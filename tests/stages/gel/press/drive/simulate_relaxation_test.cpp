@@ -9,7 +9,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace simulate_relaxation_test {
 
 Sensor relaxing_sensor(std::vector<Relaxation> series) {
   Sensor sensor = paper_sensor();
@@ -164,5 +164,5 @@ TEST(Relaxation, ADividedStepRelaxesOverItsHalves) {
   EXPECT_LT((end.force_n - second.force_n).norm(), 1e-9 * second.force_n.norm());
 }
 
-}  // namespace
+}  // namespace simulate_relaxation_test
 }  // namespace tacipc

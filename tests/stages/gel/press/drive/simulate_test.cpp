@@ -15,7 +15,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace simulate_test {
 
 /// Forces of the gel's stresses on its vertices, tetrahedron by tetrahedron: P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ.
 Positions elastic_forces(const TetMesh& gel, const Positions& x, const Material& material) {
@@ -299,5 +299,5 @@ TEST(Simulate, CountingPairsOnceNeedsAClosedObjectThatLooksOutwards) {
   EXPECT_EQ(refusal(inwards, false), "");
 }
 
-}  // namespace
+}  // namespace simulate_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace simulate_verdict_test {
 
 Miss missed(const Frame& frame, const SolverLimits& limits) {
   try {
@@ -186,5 +186,5 @@ TEST(SimulateVerdict, ResidualsAreThoseOfTheSolver) {
   for (std::size_t f = 1; f < held.frames.size(); ++f) EXPECT_GT(numbers_of(held.frames[f]).pose_error_m, 0.0) << f;
 }
 
-}  // namespace
+}  // namespace simulate_verdict_test
 }  // namespace tacipc

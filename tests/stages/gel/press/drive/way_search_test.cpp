@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace tacipc {
-namespace {
+namespace way_search_test {
 
 constexpr double kStep_s = 0.01, kMost_m = 2e-4, kReach_m = 2e-5;
 
@@ -218,5 +218,5 @@ TEST(GripControl, IsLostOnceTheObjectIsFreeAndUntouched) {
   EXPECT_FALSE(spring.drive.lost());
 }
 
-}  // namespace
+}  // namespace way_search_test
 }  // namespace tacipc

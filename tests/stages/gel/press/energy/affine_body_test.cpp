@@ -10,7 +10,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace affine_body_test {
 
 template <typename Matrix>
 Matrix random_matrix(std::uint64_t seed, Eigen::Index rows, Eigen::Index columns) {
@@ -189,5 +189,5 @@ TEST(AffineBody, OfNoSolidIsRefused) {
   EXPECT_THROW(make_affine_body(box.positions, box.triangles, 1.0), DataError);
 }
 
-}  // namespace
+}  // namespace affine_body_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/stages/gel/press/elastic_block.h"
 
 namespace tacipc {
-namespace {
+namespace averaged_elasticity_slow_test {
 
 using Displacement = std::array<std::optional<double>, 3>;
 
@@ -126,5 +126,5 @@ TEST(Elements, TableOfPatchSizes) {
   }
 }
 
-}  // namespace
+}  // namespace averaged_elasticity_slow_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@
 #include "tests/stages/gel/press/elastic_block.h"
 
 namespace tacipc {
-namespace {
+namespace averaged_elasticity_test {
 
 /// Young's modulus 1 Pa.
 NeoHookean rubber(double poissons_ratio) {
@@ -195,5 +195,5 @@ TEST(AveragedElasticity, BendsWhereTheLinearElementLocks) {
   EXPECT_LT(averaged, 1.7);
 }
 
-}  // namespace
+}  // namespace averaged_elasticity_test
 }  // namespace tacipc

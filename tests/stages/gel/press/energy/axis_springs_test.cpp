@@ -6,7 +6,7 @@
 #include "stages/gel/press/energy/inertia.h"
 
 namespace tacipc {
-namespace {
+namespace axis_springs_test {
 
 Local evaluated(const EnergyTerm& term, const Vector3& x, Order order) {
   Local local;
@@ -37,5 +37,5 @@ TEST(AxisSprings, OfOneStiffnessAreAnInertia) {
   EXPECT_EQ(a.hessian, b.hessian);
 }
 
-}  // namespace
+}  // namespace axis_springs_test
 }  // namespace tacipc

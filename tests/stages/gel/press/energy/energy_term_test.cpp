@@ -25,7 +25,7 @@
 #include "tests/stages/gel/press/elastic_block.h"
 
 namespace tacipc {
-namespace {
+namespace energy_term_test {
 
 /// A term with one stencil at a given place.
 struct Case {
@@ -386,5 +386,5 @@ TEST(Friction, MixtureIsTheWeightedSumAndForgetsWhatHasFaded) {
   EXPECT_EQ(faded->num_stencils(), 9);
 }
 
-}  // namespace
+}  // namespace energy_term_test
 }  // namespace tacipc

@@ -15,7 +15,7 @@
 #include "tests/stages/gel/press/elastic_block.h"
 
 namespace tacipc {
-namespace {
+namespace joined_term_test {
 
 /// Three blocks of the same tetrahedra, each of its own material, law and element, deformed each in its way.
 class ThreeBodies : public ::testing::Test {
@@ -164,5 +164,5 @@ TEST_F(ThreeBodies, EachHasTheNewtonStepThatItHasAloneWithItsFactor) {
   }
 }
 
-}  // namespace
+}  // namespace joined_term_test
 }  // namespace tacipc

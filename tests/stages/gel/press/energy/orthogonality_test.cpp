@@ -10,7 +10,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace orthogonality_test {
 
 /// A cube of 20 mm about the origin.
 constexpr double kSide = 0.02, kVolume = kSide * kSide * kSide;
@@ -115,5 +115,5 @@ TEST(Orthogonality, StandInForTheHessianIsTheNearestOne) {
   EXPECT_LT((kept - evaluated(term, stretched, Order::hessian).hessian).norm(), 1e-12 * kept.norm());
 }
 
-}  // namespace
+}  // namespace orthogonality_test
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 #include "tests/stages/gel/press/elastic_block.h"
 
 namespace tacipc {
-namespace {
+namespace tet_clusters_test {
 
 bool share_face(const Tetrahedra& tets, int a, int b) {
   int shared = 0;
@@ -70,5 +70,5 @@ TEST(TetClusters, ATinyPartOfAMeshIsAClusterAndNoMeshIsNone) {
   EXPECT_TRUE(make_tet_clusters(Tetrahedra(0, 4), 12).empty());
 }
 
-}  // namespace
+}  // namespace tet_clusters_test
 }  // namespace tacipc

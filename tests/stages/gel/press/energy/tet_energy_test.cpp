@@ -9,7 +9,7 @@
 #include "tests/stages/gel/press/convergence_order.h"
 
 namespace tacipc {
-namespace {
+namespace tet_energy_test {
 
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
@@ -169,5 +169,5 @@ TEST(PrincipalStretches, AreRotationsAndStretchesOfFlatAndPlainGradients) {
   EXPECT_NEAR(principal_stretches(flat).sigma.minCoeff(), 1e-9, 1e-15);
 }
 
-}  // namespace
+}  // namespace tet_energy_test
 }  // namespace tacipc

@@ -13,7 +13,7 @@
 #include "tests/stages/gel/press/elastic_block.h"
 
 namespace tacipc {
-namespace {
+namespace viscoelasticity_test {
 
 const std::vector<Relaxation> kSeries{{0.3, 0.5}, {0.2, 0.04}};
 constexpr double kLasting = 0.5;  // g∞
@@ -280,5 +280,5 @@ TEST(Viscoelasticity, ALargeStrainHeldLongEndsAsTheElasticGelDoes) {
   }
 }
 
-}  // namespace
+}  // namespace viscoelasticity_test
 }  // namespace tacipc

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 namespace tacipc {
-namespace {
+namespace scene_files_test {
 
 using ::testing::ElementsAre;
 
@@ -27,5 +27,5 @@ TEST(SceneFiles, TheMotionOfAFrameIsThatOfAnotherSceneWhereverBothMoveAlike) {
   EXPECT_NE(loaded[3], usual[3]);
 }
 
-}  // namespace
+}  // namespace scene_files_test
 }  // namespace tacipc

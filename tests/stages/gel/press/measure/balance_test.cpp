@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace tacipc {
-namespace {
+namespace balance_test {
 
 TEST(Balance, ForcesThatAddUpLeaveNothing) {
   // A bar along z, pressed at its top and held at its foot; weight and inertia halfway.
@@ -35,5 +35,5 @@ TEST(Balance, IsRelativeToTheContactForceButNeverToLessThanItsFloor) {
   EXPECT_EQ(balance_of(x, {}).relative, 0.0);
 }
 
-}  // namespace
+}  // namespace balance_test
 }  // namespace tacipc

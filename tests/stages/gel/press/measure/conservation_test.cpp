@@ -5,7 +5,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace conservation_test {
 
 constexpr double kH = 0.01;
 const Vector3 kGravity(0.0, 0.0, -9.81);
@@ -159,5 +159,5 @@ TEST(Conservation, AFreeBodyCountsAndAHeldOneOnlyByItsHeight) {
   EXPECT_NEAR(flight.method_loss_j, 0.5 * m * 9.81 * 9.81 * kH * kH, 1e-13);
 }
 
-}  // namespace
+}  // namespace conservation_test
 }  // namespace tacipc

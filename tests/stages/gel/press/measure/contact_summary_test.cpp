@@ -9,7 +9,7 @@
 #include "tests/stages/gel/press/measure/fronts.h"
 
 namespace tacipc {
-namespace {
+namespace contact_summary_test {
 
 TEST(ContactSummary, OfTwoTrianglesByHand) {
   // A unit square of two triangles; the vertex of one triangle alone and one of both carry force.
@@ -69,5 +69,5 @@ TEST(ContactSummary, WithoutContactIsZeroAndWithoutAreaAnError) {
             "gel vertex 5 carries 0.25 N, but the front around it has no area");
 }
 
-}  // namespace
+}  // namespace contact_summary_test
 }  // namespace tacipc

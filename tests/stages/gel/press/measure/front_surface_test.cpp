@@ -7,7 +7,7 @@
 #include "tests/stages/gel/press/measure/fronts.h"
 
 namespace tacipc {
-namespace {
+namespace front_surface_test {
 
 TEST(FrontSurface, IsNumberedByItself) {
   // Two tetrahedra; the two faces that hold vertex 0 but not 2 are the front.
@@ -41,5 +41,5 @@ TEST(FrontSurface, LumpedAreasSumToTheFront) {
   EXPECT_DOUBLE_EQ(lumped[0], (areas[0] + areas[1]) / 3.0);
 }
 
-}  // namespace
+}  // namespace front_surface_test
 }  // namespace tacipc

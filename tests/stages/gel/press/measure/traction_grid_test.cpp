@@ -5,7 +5,7 @@
 #include "tests/stages/gel/press/measure/fronts.h"
 
 namespace tacipc {
-namespace {
+namespace traction_grid_test {
 
 const TractionGrid kGrid{.rows = 24, .columns = 32, .width_m = 0.015, .height_m = 0.01125};
 
@@ -137,5 +137,5 @@ TEST(TractionGrid, StandsBeforeTheCamera) {
   EXPECT_DOUBLE_EQ(grid.cell_area_m2(), 0.012 / 32 * 0.009 / 24);
 }
 
-}  // namespace
+}  // namespace traction_grid_test
 }  // namespace tacipc

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace tacipc {
-namespace {
+namespace verdict_test {
 
 const SolverLimits kLimits{.velocity_residual_m_s = 3e-5, .force_residual_n = 2e-4, .friction_residual_n = 4e-4};
 
@@ -183,5 +183,5 @@ TEST(Verdict, TheFirstMissIsTold) {
   EXPECT_EQ(judged(numbers).miss.check, "intersections");
 }
 
-}  // namespace
+}  // namespace verdict_test
 }  // namespace tacipc

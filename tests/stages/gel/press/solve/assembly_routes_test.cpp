@@ -15,7 +15,7 @@
 #include "tests/stages/gel/press/elastic_block.h"
 
 namespace tacipc {
-namespace {
+namespace assembly_routes_test {
 
 /// Largest difference over the largest entry.
 double difference(const NewtonSystem& a, const NewtonSystem& b) {
@@ -457,5 +457,5 @@ TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
   }
 }
 
-}  // namespace
+}  // namespace assembly_routes_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
-namespace {
+namespace assembly_test {
 
 TEST(BlockPattern, KeepsEachPairOnceWithTheDiagonalFirst) {
   const BlockPattern pattern = make_block_pattern(3, {{2, 0}, {0, 2}, {1, 2}});
@@ -99,5 +99,5 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
             1e-12 * system.gradient.norm());
 }
 
-}  // namespace
+}  // namespace assembly_test
 }  // namespace tacipc

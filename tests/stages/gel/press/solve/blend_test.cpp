@@ -4,7 +4,7 @@
 #include "stages/gel/press/solve/blend.h"
 
 namespace tacipc {
-namespace {
+namespace blend_test {
 
 TEST(Blend, TakesAsLittleOfThePsdApproximationAsTheMatrixAllows) {
   Blend blend(3);
@@ -85,5 +85,5 @@ TEST(Blend, StaysWithThePsdApproximationUnlessAdaptive) {
   EXPECT_EQ(blend.share(1), 1.0);
 }
 
-}  // namespace
+}  // namespace blend_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
-namespace {
+namespace body_blocks_test {
 
 constexpr int kSmall = 60, kInParts = 4400;  // gel rows: swept as one, and in parts
 
@@ -157,5 +157,5 @@ TEST(BodyBlocks, SaysWhichBodyIsNotPositiveDefinite) {
   EXPECT_EQ(rows, (std::vector<int>{kSmall, kSmall + 1, kSmall + 2, kSmall + 3}));
 }
 
-}  // namespace
+}  // namespace body_blocks_test
 }  // namespace tacipc

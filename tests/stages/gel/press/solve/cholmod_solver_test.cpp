@@ -7,7 +7,7 @@
 #include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
-namespace {
+namespace cholmod_solver_test {
 
 TEST(CholmodSolver, SolvesAsDenseAlgebraDoesAndAnalysesOncePerPattern) {
   BlockMatrix matrix = random_matrix(40, 3, 20.0);
@@ -30,5 +30,5 @@ TEST(CholmodSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndRecovers) {
   EXPECT_TRUE(solver.prepare(random_matrix(40, 3, 20.0)));
 }
 
-}  // namespace
+}  // namespace cholmod_solver_test
 }  // namespace tacipc

@@ -9,7 +9,7 @@
 #include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
-namespace {
+namespace conjugate_gradient_test {
 
 TEST(ConjugateGradient, SolvesAsDenseAlgebraDoesToItsToleranceWithoutAFactor) {
   BlockMatrix matrix = random_matrix(12, 3, 20.0);
@@ -140,5 +140,5 @@ TEST(ConjugateGradient, SaysWhereAMatrixIsNotPositiveDefinite) {
   for (const int row : solver.indefinite_rows()) EXPECT_TRUE(row == 24 || row == 25) << row;
 }
 
-}  // namespace
+}  // namespace conjugate_gradient_test
 }  // namespace tacipc

@@ -14,7 +14,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace newton_step_test {
 
 /// A block of gel, glued below, deformed, with the tip of a pyramid in contact and sliding; numbers about 1.
 class NewtonStepTest : public ::testing::Test {
@@ -281,5 +281,5 @@ TEST(NewtonStep, PlacesThatYieldAreFoundTogether) {
   EXPECT_LE(stepper.times().solves, 4);
 }
 
-}  // namespace
+}  // namespace newton_step_test
 }  // namespace tacipc

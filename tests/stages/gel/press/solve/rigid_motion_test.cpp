@@ -9,7 +9,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace rigid_motion_test {
 
 const Vector3 kGravity(0, 0, -9.81);
 
@@ -189,5 +189,5 @@ TEST(RigidMotion, VelocityAndEnergyAreThoseOfTheFourParticles) {
   EXPECT_NEAR(kinetic_energy(body, control, motion), energy, 1e-13 * energy);
 }
 
-}  // namespace
+}  // namespace rigid_motion_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "tests/stages/gel/press/contact/random_points.h"
 
 namespace tacipc {
-namespace {
+namespace step_limit_contact_test {
 
 /// Far more pairs than one round of chunks takes, of both kinds, with displacements as long as the pairs are large.
 struct MovingPairs {
@@ -116,5 +116,5 @@ TEST(ContactStepLimit, AWideGapMayBecomeAsNarrowAsANearOne) {
   }
 }
 
-}  // namespace
+}  // namespace step_limit_contact_test
 }  // namespace tacipc

@@ -10,7 +10,7 @@
 #include "stages/gel/press/solve/step_limit.h"
 
 namespace tacipc {
-namespace {
+namespace step_limit_test {
 
 TEST(CubicStaysAbove, NeverSaysYesForACubicThatDips) {
   std::mt19937 random(11);
@@ -80,5 +80,5 @@ TEST(InversionStepLimit, SeesATurnThatEndsUprightAgain) {
   EXPECT_LT(inversion_step_limit(Tetrahedra{{0, 1, 2, 3}}, x, p), 0.5);
 }
 
-}  // namespace
+}  // namespace step_limit_test
 }  // namespace tacipc

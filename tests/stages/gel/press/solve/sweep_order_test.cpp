@@ -5,7 +5,7 @@
 #include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
-namespace {
+namespace sweep_order_test {
 
 TEST(SweepOrder, PartsShareNoBlockAndEveryBlockHasItsPlace) {
   const BlockPattern pattern = chain(1000);
@@ -58,5 +58,5 @@ TEST(SweepOrder, BodiesEndTheSeparatorAndDoNotBringWhatTouchesThemThere) {
   }
 }
 
-}  // namespace
+}  // namespace sweep_order_test
 }  // namespace tacipc

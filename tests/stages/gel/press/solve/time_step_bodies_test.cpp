@@ -12,7 +12,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace time_step_bodies_test {
 
 constexpr double kH = 2e-3, kG = 9.81, kDensity = 2700.0, kSpeed = 1e-4, kDHat = 2e-5, kMu = 0.5;
 
@@ -358,5 +358,5 @@ TEST_F(WedgedPeg, ComesFreeIfItIsDeeper) {
   EXPECT_LT(looks.tilt_rad.back(), 0.99 * looks.tilt_rad.front());
 }
 
-}  // namespace
+}  // namespace time_step_bodies_test
 }  // namespace tacipc

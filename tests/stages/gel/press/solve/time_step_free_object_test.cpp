@@ -18,7 +18,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace time_step_free_object_test {
 
 TriangleMesh moved(TriangleMesh mesh, const Vector3& by) {
   mesh.positions.rowwise() += by.transpose();
@@ -537,5 +537,5 @@ TEST_F(FlatFace, CatchesOnTrianglesWhereEachPairPushesByItself) {
   EXPECT_GT(largest_ratio(), 2e-3);
 }
 
-}  // namespace
+}  // namespace time_step_free_object_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace time_step_mirrored_gels_test {
 
 constexpr double kH = 0.01, kThickness = 0.002;
 constexpr double kDHat = 2e-4;  // large: vertices that face each other stay so only if little force brings them near
@@ -125,5 +125,5 @@ TEST_P(MirroredGels, StayMirrorImagesWithoutFrictionUnderALightPress) { expect_m
 
 INSTANTIATE_TEST_SUITE_P(Once, MirroredGels, ::testing::Bool());
 
-}  // namespace
+}  // namespace time_step_mirrored_gels_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace time_step_mounts_test {
 
 constexpr double kH = 0.01, kDHat = 2e-5;
 
@@ -194,5 +194,5 @@ TEST_F(SlipperyFingers, LoseTheBlockAndEachHoldsMuTimesItsGripMeanwhile) {
   }
 }
 
-}  // namespace
+}  // namespace time_step_mounts_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace time_step_soft_body_test {
 
 constexpr double kH = 0.002, kDHat = 2e-5, kGravity = 10.0;
 
@@ -98,5 +98,5 @@ TEST_F(SoftBody, SticksOrSlidesByFrictionOnAGel) {
   EXPECT_NEAR(-force_on_foam(second).x() / force_on_foam(second).z(), 0.2, 2e-2);
 }
 
-}  // namespace
+}  // namespace time_step_soft_body_test
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace time_step_test {
 
 Positions moved(Positions positions, const Vector3& by) {
   positions.rowwise() += by.transpose();
@@ -181,5 +181,5 @@ TEST(TimeStepper, AFreeGelSwingsAsDenseAlgebraSaysWithDampingOfEitherKind) {
   }
 }
 
-}  // namespace
+}  // namespace time_step_test
 }  // namespace tacipc

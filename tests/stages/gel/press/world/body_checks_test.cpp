@@ -6,7 +6,7 @@
 #include "tests/make_mesh.h"
 
 namespace tacipc {
-namespace {
+namespace body_checks_test {
 
 using ::testing::HasSubstr;
 
@@ -86,5 +86,5 @@ TEST_F(BodyChecks, TwoThatAreFixedMayDoWhatTheyLike) {
   EXPECT_EQ(start(0.1), "apart");
 }
 
-}  // namespace
+}  // namespace body_checks_test
 }  // namespace tacipc

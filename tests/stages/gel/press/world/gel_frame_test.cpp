@@ -7,7 +7,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace gel_frame_test {
 
 Matrix4 pose_of(const Vector3& axis, double angle_rad, const Vector3& at) {
   Matrix4 pose = Matrix4::Identity();
@@ -78,5 +78,5 @@ TEST_F(GelFrame, ForcesAreThoseOfItsOwnRowsInItsAxes) {
   EXPECT_LT((frame.object_spin_rad_s - Vector3(4, 5, 6)).norm(), 1e-14);
 }
 
-}  // namespace
+}  // namespace gel_frame_test
 }  // namespace tacipc

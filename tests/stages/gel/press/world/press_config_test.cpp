@@ -5,7 +5,7 @@
 #include "tests/config_text.h"
 
 namespace tacipc {
-namespace {
+namespace press_config_test {
 
 using ::testing::ElementsAre;
 
@@ -73,5 +73,5 @@ TEST(PressConfig, StartGapMustExceedDHat) {
       ElementsAre("x.yaml:3:66: barrier.start_gap_d_hat: 1 is outside (1, 100]"));
 }
 
-}  // namespace
+}  // namespace press_config_test
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace setup_test {
 
 const Material kSoft{.law = "neo_hookean", .density_kg_m3 = 1010.0, .youngs_modulus_pa = 1.2e5, .poissons_ratio = 0.48};
 const Material kFoam{.law = "stvk_hencky",
@@ -105,5 +105,5 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Swinging,
                          ::testing::Values(LinearSolverKind::direct, LinearSolverKind::conjugate_gradient),
                          [](const auto& test) { return test.param == LinearSolverKind::direct ? "direct" : "cg"; });
 
-}  // namespace
+}  // namespace setup_test
 }  // namespace tacipc

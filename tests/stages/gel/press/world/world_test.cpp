@@ -10,7 +10,7 @@
 #include "tests/stages/gel/press/small_scene.h"
 
 namespace tacipc {
-namespace {
+namespace world_test {
 
 using ::testing::HasSubstr;
 
@@ -70,5 +70,5 @@ TEST(World, BodiesThatTouchInFrameZeroAreNamed) {
               HasSubstr("bodies gel and box are 0.001 mm apart"));
 }
 
-}  // namespace
+}  // namespace world_test
 }  // namespace tacipc

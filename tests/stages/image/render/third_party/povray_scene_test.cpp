@@ -16,7 +16,7 @@
 #include "tests/stages/image/render/third_party/povray_scene.h"
 
 namespace tacipc {
-namespace {
+namespace povray_scene_test {
 
 using ::testing::HasSubstr;
 
@@ -101,5 +101,5 @@ TEST(RelativeRmse, IsTheOneByHand) {
   EXPECT_FLOAT_EQ(halved(theirs).at(1, 0, 2), 0.75f);
 }
 
-}  // namespace
+}  // namespace povray_scene_test
 }  // namespace tacipc

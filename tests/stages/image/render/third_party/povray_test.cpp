@@ -13,7 +13,7 @@
 #include "tests/stages/image/render/third_party/povray_scene.h"
 
 namespace tacipc {
-namespace {
+namespace povray_test {
 
 TEST(Povray, AgreesWithOursOnABallPress) {
   if (!povray_is_there()) GTEST_SKIP() << "there is no program povray";
@@ -34,5 +34,5 @@ TEST(Povray, AgreesWithOursOnABallPress) {
   EXPECT_GT(std::count(traced.basis.pixels.begin(), traced.basis.pixels.end(), 0.0f), 1000);  // there are shadows
 }
 
-}  // namespace
+}  // namespace povray_test
 }  // namespace tacipc
