@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "common/format/html_text.h"
-#include "stages/dataset/report/dataset/overview_text.h"
 #include "stages/dataset/report/dataset/site.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/page_parts.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "common/format/html_text.h"
-#include "stages/dataset/report/dataset/site_style.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/page_parts.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
@@ -73,7 +73,7 @@ std::string pager(std::size_t page, std::size_t pages, std::string (*name)(std::
   return html + "</nav>\n";
 }
 
-std::string site_style() { return page_style() + kSiteStyle; }
+std::string site_style() { return page_style() + "\n" + kSiteStyle; }
 
 std::string scroll_start(const std::string& label) {
   return fmt::format("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">", html_text(label));
