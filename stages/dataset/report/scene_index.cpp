@@ -16,6 +16,7 @@
 #include "stages/dataset/report/scene_part.h"
 #include "stages/dataset/report/view/robot_view.h"
 #include "stages/dataset/report/view/scene_pictures.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
@@ -141,17 +142,12 @@ void report_scenes(Stage& stage) {
     robots = robots || scene.robot;
   }
   const std::string& title = stage.option("--title");
-  std::string html = page_head(title, "<style>" + page_style() + "</style>") + "<body>\n<header>\n<h1>" +
-                     html_text(title) +
-                     "</h1>\n<p class=\"quiet\">Scenes with gels of camera-based tactile sensors. The gels deform by "
-                     "finite elements without ever intersecting what they touch. Each name leads to a page with forces "
-                     "over time, tactile images and a view in 3-D.</p>\n" +
-                     picture_key(kinds, robots) + "</header>\n<section id=\"scenes\">\n<h2>Scenes</h2>\n";
-  for (const ListedScene& scene : scenes) html += card_of(scene, stage.out());
-  html +=
-      "</section>\n<p class=\"quiet\">Record of this page: <a href=\"report.yaml\">report.yaml</a></p>\n</body>\n"
-      "</html>\n";
-  write_file(stage.output("index.html"), html);
+  std::string cards;
+  for (const ListedScene& scene : scenes) cards += card_of(scene, stage.out());
+  write_file(stage.output("index.html"),
+             page_head(title, "<style>" + page_style() + "</style>") +
+                 fmt::format(kScenesPage, fmt::arg("title", html_text(title)),
+                             fmt::arg("key", picture_key(kinds, robots)), fmt::arg("cards", cards)));
   stage.summarize({{"scenes", scenes.size()}, {"samples", gels}, {"passed", passed}, {"failed", gels - passed}});
 }
 

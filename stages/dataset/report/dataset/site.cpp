@@ -25,22 +25,12 @@ std::string picture_name(const std::string& id, const std::string& picture) {
 }
 
 std::string site_page(const SitePage& page) {
-  std::string html =
-      page_head(page.heading + (page.heading == page.dataset ? "" : " – " + page.dataset),
-                "<link rel=\"stylesheet\" href=\"" + page.up + "style.css\">\n<link rel=\"icon\" href=\"data:,\">");
-  html += "<body>\n<a class=\"skip\" href=\"#main\">Skip to the content</a>\n<header class=\"site\">\n";
-  html += fmt::format(
-      "<nav aria-label=\"Dataset\"><a class=\"home\" href=\"{0}index.html\">{1}</a> <a href=\"{0}{2}\">Contact "
-      "sheets</a> <a href=\"{0}{3}\">All samples</a> <a href=\"{0}index.html#coverage\">Coverage</a> <a "
-      "href=\"{0}index.html#frames\">Units and frames</a> <a href=\"{0}index.html#trust\">What the checks "
-      "prove</a></nav>\n",
-      page.up, html_text(page.dataset), sheet_page_name(0), list_page_name(0));
-  html += "</header>\n<main id=\"main\" tabindex=\"-1\">\n<h1>" + html_text(page.heading) + "</h1>\n" + page.nav +
-          page.main + "</main>\n";
-  return html + fmt::format(
-                    "<footer class=\"quiet\">Record of these pages: <a href=\"{}report.yaml\">report.yaml</a>"
-                    "</footer>\n</body>\n</html>\n",
-                    page.up);
+  using fmt::arg;
+  return page_head(page.heading + (page.heading == page.dataset ? "" : " – " + page.dataset),
+                   "<link rel=\"stylesheet\" href=\"" + page.up + "style.css\">\n<link rel=\"icon\" href=\"data:,\">") +
+         fmt::format(kSitePage, arg("up", page.up), arg("dataset", html_text(page.dataset)),
+                     arg("sheets", sheet_page_name(0)), arg("list", list_page_name(0)),
+                     arg("heading", html_text(page.heading)), arg("nav", page.nav), arg("main", page.main));
 }
 
 std::string neighbours(const std::optional<Neighbour>& before, const std::optional<Neighbour>& after) {

@@ -34,14 +34,12 @@ std::vector<std::string> frame_texts(const SampleReport& sample, const SceneView
 }
 
 std::string view_page(const std::string& title, const std::vector<ViewedSample>& samples) {
-  std::string html =
-      page_head(title + " in 3-D", "<link rel=\"icon\" href=\"data:,\">\n<style>" + page_style() + "\n" + kViewStyle + "</style>");
-  html += "<body>\n<header class=\"top\"><h1>" + html_text(title) + "</h1>\n<span class=\"controls\"><label>Sample ";
-  html += "<select id=\"sample\">";
+  std::string options;
   for (const ViewedSample& sample : samples)
-    html += fmt::format("<option value=\"{}\">{}</option>", sample.id, html_text(sample.name));
-  html += "</select></label> <a id=\"back\" href=\"index.html\">Report</a></span></header>\n";
-  return html + kViewBody + "<script src=\"" + kViewScript + "\"></script>\n</body>\n</html>\n";
+    options += fmt::format("<option value=\"{}\">{}</option>", sample.id, html_text(sample.name));
+  return page_head(title + " in 3-D",
+                   "<link rel=\"icon\" href=\"data:,\">\n<style>" + page_style() + "\n" + kViewStyle + "</style>") +
+         fmt::format(kViewBody, fmt::arg("title", html_text(title)), fmt::arg("samples", options));
 }
 
 std::string view_program() { return kViewProgram; }
