@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "common/sample/press_record.h"
 #include "tacipc_card_texts.h"
 

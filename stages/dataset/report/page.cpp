@@ -7,7 +7,6 @@
 #include "common/format/html_text.h"
 #include "stages/dataset/report/card.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
 #include "tacipc_report_texts.h"
 
 namespace tacipc {

@@ -9,9 +9,9 @@
 #include "common/base/error.h"
 #include "common/base/units.h"
 #include "common/format/html_text.h"
+#include "common/sample/scene_hold.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
 #include "stages/dataset/report/view/scene_pictures.h"
 
 namespace tacipc {

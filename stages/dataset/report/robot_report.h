@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/sample/press_record.h"
 #include "common/sample/robot_folder.h"
-#include "common/sample/scene_hold.h"
 
 namespace tacipc {
 

@@ -10,7 +10,6 @@
 #include "common/format/html_text.h"
 #include "common/image/image.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
 #include "stages/dataset/report/robot_part.h"
 #include "stages/dataset/report/sample.h"
 #include "stages/dataset/report/scene_part.h"

@@ -2,12 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "common/format/html_text.h"
 #include "stages/dataset/report/dataset/site.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
 #include "tacipc_report_texts.h"
 
 namespace tacipc {

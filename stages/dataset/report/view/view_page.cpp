@@ -4,7 +4,6 @@
 
 #include "common/format/html_text.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
 #include "stages/dataset/report/view/view_data.h"
 #include "tacipc_report_texts.h"
 
