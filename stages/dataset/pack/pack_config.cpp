@@ -12,7 +12,7 @@ PackConfig PackConfig::read(ConfigReader& in) {
   PackConfig config;
   config.variants = in.flag_or("variants", false);
   config.list_unmade = in.choice_or("unmade", "refuse", {"refuse", "list"}) == "list";
-  for (const Section section : {Section::obs, Section::sim, Section::check, Section::series, Section::ensemble}) {
+  for (const Section section : kSections) {
     // What judges a sample, and what labels follow from, is never left out.
     if (section != Section::obs && section != Section::sim) {
       for (const Field& field : fields())

@@ -14,7 +14,7 @@ Value schema(const PackConfig& config, bool with_ensemble) {
     lines.emplace_back("in_variants", config.variants && field.from.in_variants && config.packs(field));
     list.emplace_back(std::move(lines));
   }
-  ConfigReader texts = ConfigReader::from_text(kConventions, "conventions.yaml");
+  ConfigReader texts = ConfigReader::from_text(kSchema, "schema.yaml");
   Value conventions = texts.section("conventions").content();
   if (with_ensemble) conventions.set("ensemble", texts.text("ensemble"));
   return Value::Map{{"format", "tactile-shard"},

@@ -137,7 +137,7 @@ void ShardWriter::write_field(const Field& field, const std::string& group, Samp
     std::iota(frames.begin(), frames.end(), 0);
   }
   std::vector<std::size_t> frame_shape;
-  for (std::size_t i = 0; i < (field.extra.per_frame ? frames.size() : 1); ++i) {
+  for (std::size_t i = 0; i < (field.per_frame ? frames.size() : 1); ++i) {
     const FieldData data = field.from.read(sample, frames[i]);
     const auto* absent = std::get_if<Absent>(&data);
     if (absent && i == 0) {
@@ -149,14 +149,13 @@ void ShardWriter::write_field(const Field& field, const std::string& group, Samp
     const std::string bytes = bytes_of(field, data);
     if (i == 0) {
       frame_shape = shape_of(data);
-      if (!field.extra.per_frame) {
-        file_.write(path, field.numbers.type, frame_shape, bytes);
+      if (!field.per_frame) {
+        file_.write(path, field.type, frame_shape, bytes);
         break;
       }
       std::vector<std::size_t> shape = frame_shape;
       shape.insert(shape.begin(), frames.size());
-      file_.dataset(path, field.numbers.type, shape,
-                    count_of(frame_shape) * size_of(field.numbers.type) >= kSmallestChunk);
+      file_.dataset(path, field.type, shape, count_of(frame_shape) * size_of(field.type) >= kSmallestChunk);
     }
     if (shape_of(data) != frame_shape)
       throw DataError("{}: {}: frame {} is {}, frame 0 is {}", sample.folder().string(), field.path(), frames[i],

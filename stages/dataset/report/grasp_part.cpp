@@ -10,6 +10,7 @@
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/timeline.h"
 #include "stages/dataset/report/view/view_page.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
@@ -129,25 +130,20 @@ PageWords grasp_words(const GraspReport& grasp) {
   const Vector3 grip_mm = 1e3 * grasp.grip_m;
   const std::string width =
       grasp.width_m ? fmt::format(", where it is {} mm wide", number_text(1e3 * *grasp.width_m)) : "";
-  return {
-      .intro = "Simulated touch: two camera-based tactile sensors grip one object between their soft gels.",
-      .thing = "finger",
-      .heading = "Fingers",
-      .first =
-          fmt::format(
-              "<section id=\"{}\">\n<h2>Grasp: {}</h2>\n"
-              "<p>{} g gripped with {} N at ({}, {}, {}) mm from its centre of mass, in its own axes{}; the lever of "
-              "the "
-              "centre of mass about the line of the grip is {} mm.{} When judged (frame {}), the object had slipped {} "
-              "mm and turned {}° relative to the hand. The left finger {}; the right finger {}.{}</p>\n"
-              "<figure class=\"strip\"><a href=\"{}\"><img src=\"{}\" alt=\"tactile images of the fingers, one above "
-              "the other, over time\"></a></figure>\n<div class=\"pictures\">\n",
-              kGraspId, outcome_text(grasp), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n),
-              number_text(grip_mm.x()), number_text(grip_mm.y()), number_text(grip_mm.z()), width,
-              number_text(1e3 * grasp.lever_m), margin, grasp.judged_frame, number_text(1e3 * judged.slip_m),
-              number_text(judged.turn_rad / kDegree), times_text(grasp.slips[0]), times_text(grasp.slips[1]),
-              grasp.has_view ? " " + view_link(kGraspId) + "." : "", kGraspStrip, kGraspStrip) +
-          force_figure(grasp.moments) + slip_figure(grasp) + share_figure(grasp) + "</div>\n</section>\n"};
+  using fmt::arg;
+  return {.intro = "Simulated touch: two camera-based tactile sensors grip one object between their soft gels.",
+          .thing = "finger",
+          .heading = "Fingers",
+          .first = fmt::format(
+              kGraspSection, arg("id", kGraspId), arg("outcome", outcome_text(grasp)),
+              arg("mass", number_text(1e3 * grasp.mass_kg)), arg("grip", number_text(grasp.grip_n)),
+              arg("x", number_text(grip_mm.x())), arg("y", number_text(grip_mm.y())),
+              arg("z", number_text(grip_mm.z())), arg("width", width), arg("lever", number_text(1e3 * grasp.lever_m)),
+              arg("margin", margin), arg("frame", grasp.judged_frame), arg("slip", number_text(1e3 * judged.slip_m)),
+              arg("turn", number_text(judged.turn_rad / kDegree)), arg("left", times_text(grasp.slips[0])),
+              arg("right", times_text(grasp.slips[1])),
+              arg("view", grasp.has_view ? " " + view_link(kGraspId) + "." : ""), arg("strip", kGraspStrip),
+              arg("figures", force_figure(grasp.moments) + slip_figure(grasp) + share_figure(grasp)))};
 }
 
 std::string grasp_article(const GraspReport& grasp, std::size_t side, const std::string& strip) {

@@ -55,7 +55,7 @@ std::string number_text(std::optional<double> value, double scale, int digits) {
   return fmt::format("{:.{}f}", scaled, std::max(0, digits - 1 - exponent));
 }
 
-std::string count_text(std::optional<int> value) {
+std::string count_text(std::optional<std::int64_t> value) {
   if (!value) return "–";
   std::string digits = fmt::format("{}", *value);
   constexpr std::string_view kThinSpace = "\u202f";

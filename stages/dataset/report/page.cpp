@@ -13,7 +13,8 @@ namespace tacipc {
 namespace {
 
 std::string tiles(const std::vector<SampleReport>& samples, const std::string& thing) {
-  int passed = 0, iterations = 0;
+  std::size_t passed = 0;
+  int iterations = 0;
   std::optional<double> distance_m, ratio, balance;
   const auto least = [](std::optional<double>& so_far, std::optional<double> value) {
     if (value) so_far = std::min(so_far.value_or(*value), *value);
@@ -25,7 +26,7 @@ std::string tiles(const std::vector<SampleReport>& samples, const std::string& t
     least(ratio, sample.min_volume_ratio);
     for (const FrameReport& frame : sample.frames) balance = std::max(balance, frame.balance_relative);
   }
-  const int all = static_cast<int>(samples.size());
+  const std::size_t all = samples.size();
   return "<ul class=\"tiles\">\n" + tile(count_text(all), all == 1 ? thing : thing + "s") +
          tile(count_text(passed), "passed", passed > 0 ? "good" : "") +
          tile(count_text(all - passed), "failed", passed < all ? "bad" : "") +

@@ -88,7 +88,7 @@ PadForce largest_force(const ListedScene& scene) {
 std::string numbers_of(const ListedScene& scene) {
   const PadForce force = largest_force(scene);
   std::string html = "<ul class=\"tiles\">\n" + tile(number_text(scene.arrays.times_s.back()) + " s", "simulated") +
-                     tile(count_text(static_cast<int>(scene.arrays.times_s.size())), "frames") +
+                     tile(count_text(scene.arrays.times_s.size()), "frames") +
                      tile(number_text(force.normal_n) + " N", "largest force into a gel") +
                      tile(number_text(force.tangential_n) + " N", "largest along its front");
   if (scene.robot && !scene.robot->tries.empty()) {

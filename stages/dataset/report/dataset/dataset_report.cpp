@@ -173,7 +173,7 @@ void report_dataset(Stage& stage) {
                                                         .shots = shots,
                                                         .dataset = dataset,
                                                         .folder = stage.out()}));
-  const StatusCounts& all = tally.all();
+  const StatusCounts& all = tally.all;
   stage.summarize({{"samples", all.total()},
                    {"made", all[SampleStatus::made]},
                    {"failed", all[SampleStatus::failed]},
