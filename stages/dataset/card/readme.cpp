@@ -1,6 +1,8 @@
 #include "stages/dataset/card/readme.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <ranges>
 
 #include "common/sample/press_record.h"
 #include "tacipc_card_texts.h"
@@ -8,17 +10,9 @@
 namespace tacipc {
 namespace {
 
-std::string joined(const auto& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + std::string(word);
-  return text;
-}
+std::string joined(const auto& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
-std::vector<std::string> keys_of(const auto& map) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : map) keys.push_back(key);
-  return keys;
-}
+std::string joined_keys(const auto& map) { return joined(std::views::keys(map)); }
 
 int at_or_zero(const std::map<std::string, int>& counts, const std::string& key) {
   const auto found = counts.find(key);
@@ -140,8 +134,8 @@ std::string dataset_card(const CardContent& c) {
   std::string text = fmt::format(
       kCard, arg("name", c.name), arg("purpose", c.config.purpose), arg("samples", samples), arg("frames", frames),
       arg("shards", c.shards.shards.size()), arg("size", size_text(bytes)),
-      arg("sensors", joined(keys_of(c.shards.sensors))), arg("objects", joined(keys_of(c.shards.objects))),
-      arg("motions", made_motions == c.counts.made.end() ? "" : joined(keys_of(made_motions->second))),
+      arg("sensors", joined_keys(c.shards.sensors)), arg("objects", joined_keys(c.shards.objects)),
+      arg("motions", made_motions == c.counts.made.end() ? "" : joined_keys(made_motions->second)),
       arg("versions", joined(c.shards.versions)), arg("splits", split_rows(c.counts)),
       arg("outcomes", outcomes_text(c.counts)), arg("ensemble", ensemble_text(c.shards)),
       arg("failed", at_or_zero(c.counts.status, "failed")), arg("unmade", at_or_zero(c.counts.status, "unmade")),

@@ -1,6 +1,8 @@
 #include "stages/dataset/pack/shard_writer.h"
 
-#include <charconv>
+#include <fmt/ranges.h>
+
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -15,28 +17,11 @@ namespace {
 constexpr std::size_t kSmallestChunk = 2048;
 
 std::size_t count_of(const std::vector<std::size_t>& shape) {
-  std::size_t count = 1;
-  for (const std::size_t extent : shape) count *= extent;
-  return count;
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
 std::string shape_text(const std::vector<std::size_t>& shape) {
-  std::string text;
-  for (const std::size_t extent : shape) text += fmt::format("{}{}", text.empty() ? "" : " x ", extent);
-  return text.empty() ? "one number" : text;
-}
-
-std::string words(const std::vector<std::string>& all) {
-  std::string text;
-  for (const std::string& word : all) text.append(text.empty() ? "" : " ").append(word);
-  return text;
-}
-
-std::int64_t whole_number(const std::string& text) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) throw DataError("index '{}' is not a number", text);
-  return number;
+  return shape.empty() ? "one number" : fmt::format("{}", fmt::join(shape, " x "));
 }
 
 }  // namespace
@@ -47,7 +32,7 @@ Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_i
   const Sensor& sensor = sample.sensor();
   Value::Map lines{
       {"id", plan.id},
-      {"index", whole_number(plan.index)},
+      {"index", std::int64_t{std::stoll(plan.index)}},
       {"split", plan.split},
       {"split_pose", plan.split_pose},
       {"seed", plan.seed},
@@ -188,8 +173,8 @@ void ShardWriter::add_sample(const PlannedRow& plan, const std::string& sensor_i
     const EnsembleLabels& ensemble = sample.ensemble();
     for (const auto& [key, value] :
          Value::Map{{"title", ensemble.ensemble().title},
-                    {"members", words(ensemble.made())},
-                    {"missing", words(ensemble.missing())},
+                    {"members", fmt::format("{}", fmt::join(ensemble.made(), " "))},
+                    {"missing", fmt::format("{}", fmt::join(ensemble.missing(), " "))},
                     {"num_members", ensemble.made().size()},
                     {"mesh", ensemble.ensemble().mesh.empty() ? plan.mesh : ensemble.ensemble().mesh}})
       file_.attribute(group + "/ensemble", key, value);

@@ -5,7 +5,6 @@
 #include "common/base/error.h"
 #include "common/base/units.h"
 #include "common/format/html_text.h"
-#include "common/sample/press_record.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/timeline.h"
@@ -69,11 +68,11 @@ std::string outcome_text(const GraspReport& grasp) {
   return html_text(grasp.outcome) + (grasp.reason ? " (" + html_text(*grasp.reason) + ")" : "");
 }
 
-std::string times_text(const FingerSlip& slip) {
+std::string times_text(const SlipLines& slip) {
   const auto time = [](const std::optional<double>& time_s) {
     return time_s ? "from " + number_text(time_s) + " s on" : std::string("never");
   };
-  return "slips " + time(slip.first_s) + ", as a whole " + time(slip.gross_s);
+  return "slips " + time(slip.first_slip_s) + ", as a whole " + time(slip.gross_slip_s);
 }
 
 }  // namespace
@@ -97,11 +96,7 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
   grasp.reason = summary.find(&Lines::reason);
   grasp.friction = summary.find(&Lines::friction_coefficient);
   grasp.center_shift_m = summary.find(&Lines::center_of_mass_shift_m);
-  for (const std::size_t side : {0, 1}) {
-    const auto slip = summary.section(side == 0 ? &Lines::slip_left : &Lines::slip_right);
-    grasp.slips[side] = {.first_s = slip.find(&SlipLines::first_slip_s),
-                         .gross_s = slip.find(&SlipLines::gross_slip_s)};
-  }
+  grasp.slips = {summary.section(&Lines::slip_left).all(), summary.section(&Lines::slip_right).all()};
   for (const auto& frame : summary.sections(&Lines::per_frame)) {
     using F = GraspFrameLines;
     grasp.moments.push_back({.time_s = frame.required(&F::time_s),

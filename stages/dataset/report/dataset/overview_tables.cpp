@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <numeric>
 #include <set>
 
 #include "common/format/html_text.h"
@@ -61,9 +62,7 @@ std::string cost_row(const std::string& stage, const CostColumn& costs) {
 }
 
 double core_hours(const CostColumn& costs) {
-  double sum_s = 0.0;
-  for (const double seconds : costs.processor_s) sum_s += seconds;
-  return sum_s / 3600.0;
+  return std::accumulate(costs.processor_s.begin(), costs.processor_s.end(), 0.0) / 3600.0;
 }
 
 }  // namespace
