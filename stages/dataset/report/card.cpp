@@ -6,7 +6,6 @@
 
 #include "common/format/html_text.h"
 #include "common/sample/motion.h"
-#include "stages/dataset/report/frames_table.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/press_curve.h"
 #include "stages/dataset/report/quiver.h"

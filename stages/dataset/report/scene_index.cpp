@@ -13,8 +13,8 @@
 #include "stages/dataset/report/robot_part.h"
 #include "stages/dataset/report/sample.h"
 #include "stages/dataset/report/scene_part.h"
-#include "stages/dataset/report/view/robot_view.h"
 #include "stages/dataset/report/view/scene_pictures.h"
+#include "stages/dataset/report/view/scene_view.h"
 #include "tacipc_report_texts.h"
 
 namespace tacipc {
