@@ -19,12 +19,12 @@ constexpr double kNothingMm = 1e-6;
 constexpr const char* kArrows = "class=\"arrows\"";
 
 /// From mm on the front to the drawing.
-struct Drawing {
+struct FrontDrawing {
   View view;
   double per_mm;
   double height;
 
-  explicit Drawing(const View& v)
+  explicit FrontDrawing(const View& v)
       : view(v),
         per_mm(
             std::min((kWidth - 2 * kMargin) / (v.high_x - v.low_x), (kMaxHeight - 2 * kMargin) / (v.high_y - v.low_y))),
@@ -35,7 +35,7 @@ struct Drawing {
 
 /// One dot per cell of a few drawing units, so that the picture stays small however fine the gel is; where some slip
 /// and some do not, the slipping ones show.
-std::string contacts_svg(const std::vector<ContactPoint>& contacts, const Drawing& drawing) {
+std::string contacts_svg(const std::vector<ContactPoint>& contacts, const FrontDrawing& drawing) {
   constexpr double kCell = 3.0;
   std::map<std::pair<long, long>, bool> cells;
   for (const ContactPoint& point : contacts) {
@@ -90,7 +90,7 @@ double arrow_scale(const std::vector<MarkerArrow>& arrows) {
 }
 
 std::string quiver_svg(const MarkerPicture& picture, const View& view) {
-  const Drawing drawing(view);
+  const FrontDrawing drawing(view);
   const double scale = arrow_scale(picture.arrows), longest = longest_mm(picture.arrows);
   const auto count = static_cast<Eigen::Index>(picture.arrows.size());
   Eigen::Matrix2Xd at(2, count), by(2, count);
