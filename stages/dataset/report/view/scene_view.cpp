@@ -47,30 +47,29 @@ TriangleMesh ordered(const TriangleMesh& mesh) {
           renumbered(mesh.triangles, spatial_rank(mesh.positions))};
 }
 
-/// The front alone: which rows of the gel its vertices are, and its triangles among these.
-struct Front {
-  std::vector<int> order;  // rows of front_vertices
-  std::vector<int> rows;   // the same as rows of the gel
+/// A part of a mesh's surface alone: which rows of the mesh its vertices are, and its triangles among these.
+struct Part {
+  std::vector<int> order;  // rows of `vertices`
+  std::vector<int> rows;   // the same as rows of the mesh
   Triangles triangles;
 };
 
-Front front_of(const TetMesh& gel) {
-  const std::vector<int> vertices = gel.vertices(BoundaryTag::front);
-  Front front{.order = spatial_order(gel.positions(vertices, Eigen::all)), .rows = {}, .triangles = {}};
-  std::vector<int> place(static_cast<std::size_t>(gel.num_vertices()), -1);
-  for (const int v : front.order) {
+Part part_of(const TetMesh& mesh, const std::vector<int>& vertices, const Triangles& triangles) {
+  Part part{.order = spatial_order(mesh.positions(vertices, Eigen::all)), .rows = {}, .triangles = {}};
+  std::vector<int> place(static_cast<std::size_t>(mesh.num_vertices()), -1);
+  for (const int v : part.order) {
     const int row = vertices[static_cast<std::size_t>(v)];
-    place[static_cast<std::size_t>(row)] = static_cast<int>(front.rows.size());
-    front.rows.push_back(row);
+    place[static_cast<std::size_t>(row)] = static_cast<int>(part.rows.size());
+    part.rows.push_back(row);
   }
-  front.triangles = renumbered(gel.faces(BoundaryTag::front), place);
-  return front;
+  part.triangles = renumbered(triangles, place);
+  return part;
 }
 
 /// A gel whose press can be shown.
 struct ShownGel {
   PressFolder press;
-  Front front;
+  Part front;
   double bottom_m;
 };
 
@@ -91,7 +90,8 @@ std::optional<ShownGel> open_gel(const fs::path& folder) {
     if (!press.has(array)) return std::nullopt;
   }
   press.require_front(gel.vertices(BoundaryTag::front));
-  return ShownGel{std::move(press), front_of(gel), gel.positions.col(2).minCoeff()};
+  return ShownGel{std::move(press), part_of(gel, gel.vertices(BoundaryTag::front), gel.faces(BoundaryTag::front)),
+                  gel.positions.col(2).minCoeff()};
 }
 
 ViewedFront read_frame(const ShownGel& gel, std::size_t frame, const Matrix4& world_from_gel) {
@@ -111,17 +111,12 @@ ViewedObject soft_object(const SceneSoft& soft, const fs::path& path, std::size_
                          const std::vector<int>& shown) {
   const TetMesh tets = read_object_tet_mesh(path);
   const std::vector<Positions> all = soft.positions(frames, static_cast<std::size_t>(tets.num_vertices()));
-  const std::vector<int> surface = tets.vertices(BoundaryTag::free);
-  std::vector<int> place(static_cast<std::size_t>(tets.num_vertices()), -1), rows;
-  for (const int v : spatial_order(tets.positions(surface, Eigen::all))) {
-    const int row = surface[static_cast<std::size_t>(v)];
-    place[static_cast<std::size_t>(row)] = static_cast<int>(rows.size());
-    rows.push_back(row);
-  }
+  const Part surface = part_of(tets, tets.vertices(BoundaryTag::free), tets.boundary);
   ViewedObject object{.name = soft.name,
-                      .mesh = {all.front()(rows, Eigen::all), renumbered(tets.boundary, place)},
+                      .mesh = {all.front()(surface.rows, Eigen::all), surface.triangles},
                       .world_from_object = std::vector<Matrix4>(shown.size(), Matrix4::Identity())};
-  for (const int frame : shown) object.deformed.emplace_back(all[static_cast<std::size_t>(frame)](rows, Eigen::all));
+  for (const int frame : shown)
+    object.deformed.emplace_back(all[static_cast<std::size_t>(frame)](surface.rows, Eigen::all));
   return object;
 }
 
