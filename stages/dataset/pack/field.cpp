@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "common/base/packed_units.h"
 #include "common/base/rounding.h"
@@ -74,6 +75,8 @@ std::vector<Field> read_fields() {
       for (Field& spread : spreads_of(field, sources)) all.push_back(std::move(spread));
     }
   }
+  for (const char* other : {"conventions", "ensemble", "letters"}) in.ignore(other);
+  in.finish();
   return all;
 }
 
