@@ -136,10 +136,17 @@ class RecordLines {
     if (!value) record_.required_text(key_of(member));  // throws
     return *value;
   }
-  /// All lines. \pre every member is a number \throw DataError as `required`
+  /// All lines; an optional one may be absent. \pre no member is a map or a list of maps \throw DataError as `required`
   Lines all() const {
     Lines lines;
-    std::apply([&](const auto&... keys) { ((lines.*keys.member = required(keys.member)), ...); }, Lines::keys());
+    const auto read = [&](const auto& key) {
+      using T = std::remove_cvref_t<decltype(lines.*key.member)>;
+      if constexpr (std::is_same_v<T, Plain<T>>)
+        lines.*key.member = static_cast<T>(required(key.member));
+      else if (const auto value = find(key.member))
+        lines.*key.member = static_cast<Plain<T>>(*value);
+    };
+    std::apply([&](const auto&... keys) { (read(keys), ...); }, Lines::keys());
     return lines;
   }
   /// A number of any type, also a negative whole number. \throw DataError as `required`

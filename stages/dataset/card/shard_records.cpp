@@ -1,7 +1,6 @@
 #include "stages/dataset/card/shard_records.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/files.h"

@@ -15,27 +15,9 @@ namespace tacipc {
 
 /// Part of a sample's group.
 enum class Section { obs, sim, check, series, ensemble };
+inline constexpr Section kSections[] = {Section::obs, Section::sim, Section::check, Section::series, Section::ensemble};
 
 const char* name_of(Section section);
-
-/// Unit of a packed dataset, and how many of it one is of the unit that a field is read in.
-struct PackedUnit {
-  const char* name;
-  double per_read = 1.0;
-};
-
-/// Numbers of a field as the file holds them. The shape is in letters: T packed frames, P frames of the press, H rows,
-/// W columns of the image, h, w of the grid, N markers, V, F.
-struct FieldNumbers {
-  NumberType type;
-  const char* shape;
-  PackedUnit unit;
-};
-
-/// Frame of reference ("S", "camera", "image", "world"), and what a positive value means.
-struct FieldAxes {
-  const char *frame = "none", *sign = "none";
-};
 
 using FieldReader = std::function<FieldData(SampleFrames& sample, std::size_t frame)>;
 
@@ -44,29 +26,31 @@ struct FieldSource {
   std::string text;
   FieldReader read;
   bool in_variants = false;  // a variant's folder may have it too
+  std::string codes = {};    // what the numbers mean, if an enumeration of ours says it
 };
 
-struct FieldExtra {
+/// One field as schema.yaml has it: units, frames and signs of a packed dataset stand there and nowhere else.
+struct Field {
+  Section section;
+  std::string name;
+  NumberType type;    // in the file
+  std::string shape;  // in letters
+  std::string unit;   // in the file
+  double per_read;    // how many of `unit` one is of the unit that the source reads
+  std::string frame;  // "S", "camera", "image", "world" or "none"
+  std::string sign;   // what a positive value means, or "none"
+  std::string meaning;
+  FieldSource from;
   std::vector<std::pair<std::string, std::string>> more = {};  // further attributes: codes, quat_order
   std::optional<int> step_exponent = std::nullopt;             // the file holds multiples of 2^this, in its unit
   bool per_frame = true;                                       // else one value for the sample, read at frame 0
-};
-
-/// One field. Units, frames and signs of a packed dataset stand in the table of fields and nowhere else.
-struct Field {
-  std::string name;
-  FieldNumbers numbers;
-  FieldAxes axes;
-  std::string meaning;
-  FieldSource from;
-  FieldExtra extra = {};
-  Section section = Section::obs;
 
   /// Of every frame of the press, else of those that were rendered.
   bool of_press_frames() const { return section == Section::series; }
   std::string path() const { return std::string(name_of(section)) + "/" + name; }
 };
 
+/// All fields, in the order of schema.yaml.
 const std::vector<Field>& fields();
 
 /// Extents of one frame of a field. \pre not Absent

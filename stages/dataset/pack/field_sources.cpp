@@ -11,6 +11,12 @@
 namespace tacipc {
 namespace {
 
+using Sources = std::map<std::string, FieldSource>;
+
+/// Normal or friction part of contact forces and tractions.
+using Part = Positions ContactParts::*;
+constexpr Part kNormal = &ContactParts::normal, kFriction = &ContactParts::friction;
+
 constexpr const char* kNotWanted = "the dataset's maps leave it out";
 constexpr const char* kNoForces = "the press had left no contact forces when the images were made";
 constexpr const char* kNoMarkers = "the press tracks no markers";
@@ -48,10 +54,17 @@ FieldData changed(FieldData data, double (*change)(double code)) {
   return data;
 }
 
-FieldSource contact_image(FrameFile file, double (*change)(double code)) {
-  return of_image(file, [=](SampleFrames& s, std::size_t f) {
+FieldSource contact_image(FrameFile file, double (*change)(double code), std::string codes = {}) {
+  FieldSource source = of_image(file, [=](SampleFrames& s, std::size_t f) {
     return changed(s.image(f, file, because(s, not_wanted_or(s, kNoForces))), change);
   });
+  source.codes = std::move(codes);
+  return source;
+}
+
+/// An image that depends on the camera's rays, so a variant with the sensor's own rays has none.
+FieldSource ray_image(FrameFile file) {
+  return of_image(file, [=](SampleFrames& s, std::size_t f) { return s.image(f, file, because(s, kNotWanted)); });
 }
 
 Numbers numbers_of(const Positions& rows) {
@@ -62,6 +75,7 @@ Numbers numbers_of(const Vector3& v) { return {{3}, {v.begin(), v.end()}}; }
 
 Numbers scalar(double value) { return {{}, {value}}; }
 
+/// Sum of these parts on each cell of a grid over the camera's window.
 Numbers grid_of(const SampleFrames& sample, std::size_t frame, const std::vector<Part>& parts, double factor) {
   const ContactParts traction = sample.arrays().tractions(frame);
   Positions sum = Positions::Zero(traction.normal.rows(), 3);
@@ -132,8 +146,6 @@ double packed_segment(double code) {
   return seen == Segment::marker || seen == Segment::marker_in_contact ? 1.0 : 0.0;
 }
 
-}  // namespace
-
 std::string phase_codes() {
   std::string codes;
   for (std::size_t k = 0; k < kPhaseNames.size(); ++k)
@@ -147,52 +159,37 @@ std::string slip_codes() {
                      static_cast<int>(slip));
 }
 
-FieldSource tactile_image() {
-  return of_image(FrameFile::tactile,
-                  [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::tactile, "no image"); });
+/// They are absent if the dataset's maps or the sensor leave them out.
+Sources images() {
+  using enum FrameFile;
+  return {
+      {"rgb", of_image(tactile, [](SampleFrames& s, std::size_t f) { return s.image(f, tactile, "no image"); })},
+      {"rgb_marker", of_image(marker,
+                              [](SampleFrames& s, std::size_t f) {
+                                const bool printed = s.sensor().markers.radius_m.has_value();
+                                return s.image(f, marker, printed ? kNotWanted : "the sensor prints no markers");
+                              })},
+      {"radiance", of_image(linear, [](SampleFrames& s, std::size_t f) { return s.image(f, linear, kNotWanted); })},
+      {"indentation_mm", ray_image(indentation)},
+      {"camera_depth_mm", ray_image(depth)},
+      {"normal", ray_image(normal)},
+      {"contact_mask", contact_image(contact, [](double code) { return touches(code) ? 1.0 : 0.0; })},
+      {"slip_state", contact_image(
+                         stick_slip, [](double code) { return static_cast<double>(state_of(code)); }, slip_codes())},
+      {"segmentation", of_image(segment,
+                                [](SampleFrames& s, std::size_t f) {
+                                  return changed(s.image(f, segment, because(s, kNotWanted)), packed_segment);
+                                })},
+      {"marker_px", of_marker_px(marker_px)},
+      {"marker_visible", of_marker_px(marker_visible)}};
 }
 
-FieldSource marker_image() {
-  return of_image(FrameFile::marker, [](SampleFrames& s, std::size_t f) {
-    return s.image(f, FrameFile::marker, s.sensor().markers.radius_m ? kNotWanted : "the sensor prints no markers");
-  });
+FieldSource traction_grid(std::vector<Part> parts) {
+  return of_array(PressArray::traction, [=](SampleFrames& s, std::size_t f) { return grid_of(s, f, parts, 1.0); });
 }
 
-FieldSource radiance_image() {
-  return of_image(FrameFile::linear,
-                  [](SampleFrames& s, std::size_t f) { return s.image(f, FrameFile::linear, kNotWanted); });
-}
-
-FieldSource ray_image(FrameFile file) {
-  return of_image(file, [=](SampleFrames& s, std::size_t f) { return s.image(f, file, because(s, kNotWanted)); });
-}
-
-FieldSource contact_mask() {
-  return contact_image(FrameFile::contact, [](double code) { return touches(code) ? 1.0 : 0.0; });
-}
-
-FieldSource slip_image() {
-  return contact_image(FrameFile::stick_slip, [](double code) { return static_cast<double>(state_of(code)); });
-}
-
-FieldSource segmentation() {
-  return of_image(FrameFile::segment, [](SampleFrames& s, std::size_t f) {
-    return changed(s.image(f, FrameFile::segment, because(s, kNotWanted)), packed_segment);
-  });
-}
-
-FieldSource marker_pixels() { return of_marker_px(marker_px); }
-
-FieldSource visible_markers() { return of_marker_px(marker_visible); }
-
-FieldSource traction_grid(std::initializer_list<Part> parts) {
-  return of_array(PressArray::traction,
-                  [parts = std::vector(parts)](SampleFrames& s, std::size_t f) { return grid_of(s, f, parts, 1.0); });
-}
-
-FieldSource force_grid(std::initializer_list<Part> parts) {
-  return {text_of(PressArray::traction) + " times the cell's area",
-          [parts = std::vector(parts)](SampleFrames& s, std::size_t f) {
+FieldSource force_grid(std::vector<Part> parts) {
+  return {text_of(PressArray::traction) + " times the cell's area", [=](SampleFrames& s, std::size_t f) {
             const Camera& camera = s.sensor().camera;
             const double cell_area_m2 =
                 camera.window_width_m * camera.window_height_m / static_cast<double>(kTractionRows * kTractionColumns);
@@ -219,43 +216,6 @@ FieldSource contact_wrench(Vector3 Wrench::*part) {
                   [=](SampleFrames& s, std::size_t f) { return numbers_of(s.arrays().wrenches()[f].*part); });
 }
 
-FieldSource contact_states() {
-  return of_array(PressArray::contact_state, [](SampleFrames& s, std::size_t f) {
-    const std::vector<ContactState> states = s.arrays().contact_states(f);
-    Numbers numbers{{states.size()}, {}};
-    append_numbers(numbers.values, states);
-    return numbers;
-  });
-}
-
-FieldSource first_slips() {
-  return of_array(PressArray::first_slip, [](SampleFrames& s, std::size_t) {
-    std::vector<double> times_s = s.arrays().first_slips();
-    return Numbers{{times_s.size()}, std::move(times_s)};
-  });
-}
-
-FieldSource marker_positions() {
-  return of_array(PressArray::markers,
-                  [](SampleFrames& s, std::size_t f) { return numbers_of(s.arrays().markers(f)); });
-}
-
-FieldSource front_positions() {
-  return {text_of(PressArray::positions) + ", " + field_of(PressArray::front_vertices).file,
-          [](SampleFrames& s, std::size_t f) {
-            return numbers_of(Positions(s.arrays().positions(f)(s.arrays().front_vertices(), Eigen::all)));
-          }};
-}
-
-FieldSource front_triangles() {
-  return {"tetmesh: gel.msh", [](SampleFrames& s, std::size_t) { return s.front_triangles(); }};
-}
-
-FieldSource object_pose() {
-  return of_array(PressArray::object_pose,
-                  [](SampleFrames& s, std::size_t f) { return pose_numbers(s.arrays().poses()[f]); });
-}
-
 FieldSource object_twist(Vector3 Twist::*part) {
   return of_array(PressArray::object_twist, [=](SampleFrames& s, std::size_t f) -> FieldData {
     if (!s.arrays().has(PressArray::object_twist)) return Absent{"the object moves as prescribed"};
@@ -263,28 +223,102 @@ FieldSource object_twist(Vector3 Twist::*part) {
   });
 }
 
-FieldSource frame_times() {
-  return of_array(PressArray::time, [](SampleFrames& s, std::size_t f) { return scalar(s.arrays().times()[f]); });
+/// A line of `per_frame` in the record of the press.
+template <typename T>
+FieldSource press_line(T PressFrameLines::*number) {
+  return {"press: record", [=](SampleFrames& s, std::size_t f) { return scalar(s.press_number(f, number)); }};
 }
 
-FieldSource frame_phases() {
-  return of_array(PressArray::phase,
-                  [](SampleFrames& s, std::size_t f) { return scalar(static_cast<double>(s.arrays().phases()[f])); });
-}
-
-FieldSource frame_numbers() {
-  return {"render: record", [](SampleFrames&, std::size_t f) { return scalar(static_cast<double>(f)); }};
-}
-
-FieldSource of_press_record(FieldReader read) { return {"press: record", std::move(read)}; }
-
-FieldSource grasp_line(double GraspFrameLines::*number) { return finger_line(number, number); }
-
+/// A line of `per_frame` in the record of the grasp, that of the sample's own finger; absent if the sample is no
+/// finger.
 FieldSource finger_line(double GraspFrameLines::*left, double GraspFrameLines::*right) {
   return {"press: record of the grasp", [=](SampleFrames& s, std::size_t f) -> FieldData {
             if (!s.grasp()) return Absent{"no grasp"};
             return scalar(s.grasp_number(f, s.is_right_finger() ? right : left));
           }};
+}
+
+FieldSource frame_times() {
+  return of_array(PressArray::time, [](SampleFrames& s, std::size_t f) { return scalar(s.arrays().times()[f]); });
+}
+
+FieldSource frame_phases() {
+  FieldSource source = of_array(PressArray::phase, [](SampleFrames& s, std::size_t f) {
+    return scalar(static_cast<double>(s.arrays().phases()[f]));
+  });
+  source.codes = phase_codes();
+  return source;
+}
+
+Sources forces_and_motion() {
+  using Grasp = GraspFrameLines;
+  return {{"force_field_N", force_grid({kNormal, kFriction})},
+          {"force_field_normal_N", force_grid({kNormal})},
+          {"force_field_friction_N", force_grid({kFriction})},
+          {"traction_Nmm2", traction_grid({kNormal, kFriction})},
+          {"force_N", contact_wrench(&Wrench::force_n)},
+          {"torque_Nmm", contact_wrench(&Wrench::torque_n_m)},
+          {"normal_force_N", summed_force(kNormal)},
+          {"friction_force_N", summed_force(kFriction)},
+          {"press_force_N", press_line(&PressFrameLines::press_force_n)},
+          {"marker_mm", of_array(PressArray::markers,
+                                 [](SampleFrames& s, std::size_t f) { return numbers_of(s.arrays().markers(f)); })},
+          {"object_pose", of_array(PressArray::object_pose,
+                                   [](SampleFrames& s, std::size_t f) { return pose_numbers(s.arrays().poses()[f]); })},
+          {"object_velocity_mm_s", object_twist(&Twist::velocity_m_s)},
+          {"object_spin_rad_s", object_twist(&Twist::spin_rad_s)},
+          {"slip_mm", finger_line(&Grasp::slip_m, &Grasp::slip_m)},
+          {"turn_deg", finger_line(&Grasp::turn_rad, &Grasp::turn_rad)},
+          {"slip_share", finger_line(&Grasp::slip_share_left, &Grasp::slip_share_right)},
+          {"time_s", frame_times()},
+          {"phase", frame_phases()},
+          {"frame", {"render: record", [](SampleFrames&, std::size_t f) { return scalar(static_cast<double>(f)); }}}};
+}
+
+FieldData contact_states(SampleFrames& s, std::size_t f) {
+  const std::vector<ContactState> states = s.arrays().contact_states(f);
+  Numbers numbers{{states.size()}, {}};
+  append_numbers(numbers.values, states);
+  return numbers;
+}
+
+FieldData first_slips(SampleFrames& s, std::size_t) {
+  std::vector<double> times_s = s.arrays().first_slips();
+  return Numbers{{times_s.size()}, std::move(times_s)};
+}
+
+Sources simulated() {
+  FieldSource states = of_array(PressArray::contact_state, contact_states);
+  states.codes = slip_codes();
+  return {{"surface_vertices_mm",
+           {text_of(PressArray::positions) + ", " + field_of(PressArray::front_vertices).file,
+            [](SampleFrames& s, std::size_t f) {
+              return numbers_of(Positions(s.arrays().positions(f)(s.arrays().front_vertices(), Eigen::all)));
+            }}},
+          {"surface_triangles", {"tetmesh: gel.msh", [](SampleFrames& s, std::size_t) { return s.front_triangles(); }}},
+          {"nodal_force_normal_N", nodal_force(kNormal)},
+          {"nodal_force_friction_N", nodal_force(kFriction)},
+          {"nodal_contact_state", std::move(states)},
+          {"first_slip_s", of_array(PressArray::first_slip, first_slips)}};
+}
+
+Sources checks() {
+  using Lines = PressFrameLines;
+  return {{"min_distance_mm", press_line(&Lines::min_gap_m)},
+          {"stand_off_mm", press_line(&Lines::stand_off_m)},
+          {"min_volume_ratio", press_line(&Lines::min_volume_ratio)},
+          {"intersections", press_line(&Lines::intersections)},
+          {"inverted_tets", press_line(&Lines::inverted_tets)},
+          {"newton_iterations", press_line(&Lines::newton_iterations)},
+          {"velocity_residual_mm_s", press_line(&Lines::velocity_residual_m_s)},
+          {"force_residual_N", press_line(&Lines::force_residual_n)},
+          {"friction_residual_N", press_line(&Lines::friction_residual_n)},
+          {"force_balance_rel", press_line(&Lines::balance_relative)},
+          {"force_balance_N", press_line(&Lines::balance_n)},
+          {"pose_error_mm", press_line(&Lines::pose_error_m)},
+          {"contact_area_mm2", press_line(&Lines::contact_area_mm2)},
+          {"sticking", press_line(&Lines::sticking)},
+          {"slipping", press_line(&Lines::slipping)}};
 }
 
 FieldSource world_poses(GraspArray array) {
@@ -297,46 +331,70 @@ FieldSource world_poses(GraspArray array) {
           }};
 }
 
-FieldSource finger_forces() {
-  return {text_of(GraspArray::finger_force), [](SampleFrames& s, std::size_t f) {
-            return Numbers{{2, 3}, s.grasp_arrays().frame_of(field_of(GraspArray::finger_force), f)};
-          }};
+double slipping_force(const FingerFront& front) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < front.states.size(); ++v)
+    if (front.states[v] == ContactState::slip) sum += front.normal_n[static_cast<Eigen::Index>(v)];
+  return sum;
 }
 
-FieldSource normal_forces() {
-  return of_fingers([](const FingerFront& front) { return front.normal_n.sum(); });
+/// Of the grasp and of both of its fingers.
+Sources series() {
+  return {{"time_s", frame_times()},
+          {"phase", frame_phases()},
+          {"hand_pose", world_poses(GraspArray::hand_pose)},
+          {"finger_pose", world_poses(GraspArray::finger_pose)},
+          {"object_pose", world_poses(GraspArray::object_world_pose)},
+          {"finger_force_N",
+           {text_of(GraspArray::finger_force),
+            [](SampleFrames& s, std::size_t f) {
+              return Numbers{{2, 3}, s.grasp_arrays().frame_of(field_of(GraspArray::finger_force), f)};
+            }}},
+          {"normal_force_N", of_fingers([](const FingerFront& front) { return front.normal_n.sum(); })},
+          {"slipping_force_N", of_fingers(slipping_force)},
+          {"friction_radius_mm", {"press: record of the grasp", [](SampleFrames& s, std::size_t f) {
+                                    return Numbers{{2},
+                                                   {s.grasp_number(f, &GraspFrameLines::friction_radius_left_m),
+                                                    s.grasp_number(f, &GraspFrameLines::friction_radius_right_m)}};
+                                  }}}};
 }
 
-FieldSource slipping_forces() {
-  return of_fingers([](const FingerFront& front) {
-    double sum = 0.0;
-    for (std::size_t v = 0; v < front.states.size(); ++v)
-      if (front.states[v] == ContactState::slip) sum += front.normal_n[static_cast<Eigen::Index>(v)];
-    return sum;
-  });
+/// Labels of the sample, their deviation, and their change with the members' mesh.
+Sources ensemble() {
+  using enum EnsembleLabel;
+  Sources all;
+  for (const auto& [name, label] : {std::pair<std::string, EnsembleLabel>{"press_force_N", press_force},
+                                    {"tangential_force_N", tangential_force},
+                                    {"torque_Nmm", torque},
+                                    {"contact_area_mm2", contact_area},
+                                    {"deepest_indentation_mm", deepest_indentation},
+                                    {"object_depth_mm", object_depth}}) {
+    all[name] = of_ensemble("press: arrays and record", label, "",
+                            [label](const EnsembleLabels& of, std::size_t f) { return of.label(label, f); });
+    all[name + "_sigma"] = of_ensemble(kOfMembers, label, "fewer than two members were pressed",
+                                       [label](const EnsembleLabels& of, std::size_t f) { return of.sigma(label, f); });
+    all[name + "_mesh"] =
+        of_ensemble(kOfMembers, label, "the members have the mesh of the sample, or this press failed",
+                    [label](const EnsembleLabels& of, std::size_t f) { return of.mesh_difference(label, f); });
+  }
+  return all;
 }
 
-FieldSource friction_radii() {
-  return {"press: record of the grasp", [](SampleFrames& s, std::size_t f) {
-            return Numbers{{2},
-                           {s.grasp_number(f, &GraspFrameLines::friction_radius_left_m),
-                            s.grasp_number(f, &GraspFrameLines::friction_radius_right_m)}};
-          }};
-}
+}  // namespace
 
-FieldSource ensemble_label(EnsembleLabel label) {
-  return of_ensemble("press: arrays and record", label, "",
-                     [=](const EnsembleLabels& of, std::size_t f) { return of.label(label, f); });
-}
-
-FieldSource ensemble_sigma(EnsembleLabel label) {
-  return of_ensemble(kOfMembers, label, "fewer than two members were pressed",
-                     [=](const EnsembleLabels& of, std::size_t f) { return of.sigma(label, f); });
-}
-
-FieldSource ensemble_mesh_difference(EnsembleLabel label) {
-  return of_ensemble(kOfMembers, label, "the members have the mesh of the sample, or this press failed",
-                     [=](const EnsembleLabels& of, std::size_t f) { return of.mesh_difference(label, f); });
+std::map<std::string, FieldSource> field_sources(Section section) {
+  switch (section) {
+    case Section::obs: {
+      Sources all = images();
+      all.merge(forces_and_motion());
+      return all;
+    }
+    case Section::sim: return simulated();
+    case Section::check: return checks();
+    case Section::series: return series();
+    case Section::ensemble: return ensemble();
+  }
+  return {};
 }
 
 }  // namespace tacipc

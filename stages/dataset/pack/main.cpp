@@ -13,7 +13,6 @@
 #include "common/stage/stage.h"
 #include "stages/dataset/pack/manifest.h"
 #include "stages/dataset/pack/origins.h"
-#include "stages/dataset/pack/schema.h"
 #include "stages/dataset/pack/shard_writer.h"
 
 namespace {
@@ -92,7 +91,7 @@ int main(int argc, char** argv) {
     const auto ensemble = ensemble_of(stage);
     const std::vector<ShardSample> samples =
         find_samples(stage, config, ensemble ? ensemble->presses() : std::vector<std::string>());
-    const std::string schema_text = to_json(schema(config, ensemble.has_value()));
+    const std::string schema_text = to_json(config.schema(ensemble.has_value()));
     Value::Map root{{"format", "tactile-shard"},
                     {"version", 1},
                     {"shard", shard},

@@ -1,4 +1,4 @@
-// Which fields a shard holds.
+// Which fields a shard holds, and what schema.json says of them.
 #pragma once
 
 #include <vector>
@@ -14,6 +14,9 @@ struct PackConfig {
   bool list_unmade = false;          // samples without record and failure go to failures.csv instead of being refused
 
   bool packs(const Field& field) const;
+  /// schema.json: name and version of the format, conventions, what the letters of shapes mean, and each field with its
+  /// attributes and whether this dataset packs it.
+  Value schema(bool with_ensemble) const;
   static PackConfig read(ConfigReader& in);
 };
 

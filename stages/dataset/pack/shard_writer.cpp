@@ -1,6 +1,8 @@
 #include "stages/dataset/pack/shard_writer.h"
 
-#include <charconv>
+#include <fmt/ranges.h>
+
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -15,28 +17,11 @@ namespace {
 constexpr std::size_t kSmallestChunk = 2048;
 
 std::size_t count_of(const std::vector<std::size_t>& shape) {
-  std::size_t count = 1;
-  for (const std::size_t extent : shape) count *= extent;
-  return count;
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
 std::string shape_text(const std::vector<std::size_t>& shape) {
-  std::string text;
-  for (const std::size_t extent : shape) text += fmt::format("{}{}", text.empty() ? "" : " x ", extent);
-  return text.empty() ? "one number" : text;
-}
-
-std::string words(const std::vector<std::string>& all) {
-  std::string text;
-  for (const std::string& word : all) text.append(text.empty() ? "" : " ").append(word);
-  return text;
-}
-
-std::int64_t whole_number(const std::string& text) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) throw DataError("index '{}' is not a number", text);
-  return number;
+  return shape.empty() ? "one number" : fmt::format("{}", fmt::join(shape, " x "));
 }
 
 }  // namespace
@@ -47,7 +32,7 @@ Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_i
   const Sensor& sensor = sample.sensor();
   Value::Map lines{
       {"id", plan.id},
-      {"index", whole_number(plan.index)},
+      {"index", std::int64_t{std::stoll(plan.index)}},
       {"split", plan.split},
       {"split_pose", plan.split_pose},
       {"seed", plan.seed},
@@ -137,7 +122,7 @@ void ShardWriter::write_field(const Field& field, const std::string& group, Samp
     std::iota(frames.begin(), frames.end(), 0);
   }
   std::vector<std::size_t> frame_shape;
-  for (std::size_t i = 0; i < (field.extra.per_frame ? frames.size() : 1); ++i) {
+  for (std::size_t i = 0; i < (field.per_frame ? frames.size() : 1); ++i) {
     const FieldData data = field.from.read(sample, frames[i]);
     const auto* absent = std::get_if<Absent>(&data);
     if (absent && i == 0) {
@@ -149,14 +134,13 @@ void ShardWriter::write_field(const Field& field, const std::string& group, Samp
     const std::string bytes = bytes_of(field, data);
     if (i == 0) {
       frame_shape = shape_of(data);
-      if (!field.extra.per_frame) {
-        file_.write(path, field.numbers.type, frame_shape, bytes);
+      if (!field.per_frame) {
+        file_.write(path, field.type, frame_shape, bytes);
         break;
       }
       std::vector<std::size_t> shape = frame_shape;
       shape.insert(shape.begin(), frames.size());
-      file_.dataset(path, field.numbers.type, shape,
-                    count_of(frame_shape) * size_of(field.numbers.type) >= kSmallestChunk);
+      file_.dataset(path, field.type, shape, count_of(frame_shape) * size_of(field.type) >= kSmallestChunk);
     }
     if (shape_of(data) != frame_shape)
       throw DataError("{}: {}: frame {} is {}, frame 0 is {}", sample.folder().string(), field.path(), frames[i],
@@ -189,8 +173,8 @@ void ShardWriter::add_sample(const PlannedRow& plan, const std::string& sensor_i
     const EnsembleLabels& ensemble = sample.ensemble();
     for (const auto& [key, value] :
          Value::Map{{"title", ensemble.ensemble().title},
-                    {"members", words(ensemble.made())},
-                    {"missing", words(ensemble.missing())},
+                    {"members", fmt::format("{}", fmt::join(ensemble.made(), " "))},
+                    {"missing", fmt::format("{}", fmt::join(ensemble.missing(), " "))},
                     {"num_members", ensemble.made().size()},
                     {"mesh", ensemble.ensemble().mesh.empty() ? plan.mesh : ensemble.ensemble().mesh}})
       file_.attribute(group + "/ensemble", key, value);

@@ -1,7 +1,6 @@
 // A dataset as one file: sensors, objects, motions, how samples are drawn and split, what is kept.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/base/files.h"
+#include "common/base/text_reader.h"
 #include "common/sample/motion.h"
 #include "common/sample/placement.h"
 
@@ -18,21 +19,14 @@ const std::vector<std::string> kGraspKinds{"close", "lift", "shake", "hold", "re
 /// Six digits: finer than any of these lengths and angles can be set, and short to read.
 std::string number_text(double value) { return fmt::format("{:.6g}", value); }
 
+/// Lines that are not blank, from the first that begins as a number does: before it is a heading.
 int rows_of(const std::filesystem::path& file) {
+  constexpr std::string_view kNumeric = "0123456789.+-";
   const std::string text = read_file(file);
+  TextReader lines(text, file.string());
   int rows = 0;
-  bool blank = true, numeric = true, started = false;
-  for (const char c : text + "\n") {
-    if (c == '\n') {
-      if (!blank && (numeric || rows > 0)) ++rows;
-      blank = numeric = true;
-      started = false;
-    } else if (c != ' ' && c != '\t' && c != '\r') {
-      blank = false;
-      if (!started) numeric = (c >= '0' && c <= '9') || c == '.' || c == '+' || c == '-';  // else a heading
-      started = true;
-    }
-  }
+  while (lines.next_line())
+    if (rows > 0 || kNumeric.find(lines.rest().front()) != std::string_view::npos) ++rows;
   return rows;
 }
 

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "common/base/sobol.h"
 #include "common/sample/dataset_plan.h"
-#include "stages/dataset/plan/seeds.h"
 
 namespace tacipc {
 namespace {

@@ -4,11 +4,18 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "common/base/rng.h"
 #include "stages/dataset/plan/dataset_config.h"
 
 namespace tacipc {
+
+/// Seed of what has this name in a dataset of this global seed; 53 bits, which every reader of numbers keeps.
+constexpr std::uint64_t seed_of(std::uint64_t global_seed, std::string_view name) {
+  return random_bits(global_seed, hash_of(name), 0) >> 11;
+}
 
 enum class Split { train, val, test };
 const char* name_of(Split split);

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"

@@ -6,7 +6,6 @@
 
 #include "common/format/html_text.h"
 #include "common/sample/motion.h"
-#include "stages/dataset/report/frames_table.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/press_curve.h"
 #include "stages/dataset/report/quiver.h"
@@ -63,9 +62,9 @@ std::string marker_caption(const MarkerPicture& picture, const std::vector<Phase
   if (!picture.contacts.empty()) {
     const auto slipping =
         std::count_if(picture.contacts.begin(), picture.contacts.end(), [](const auto& c) { return c.slips; });
-    caption += fmt::format("<br><i class=\"dot stuck\"></i>{} contacts stick, <i class=\"dot slipping\"></i>{} slip",
-                           count_text(static_cast<int>(picture.contacts.size()) - static_cast<int>(slipping)),
-                           count_text(static_cast<int>(slipping)));
+    caption +=
+        fmt::format("<br><i class=\"dot stuck\"></i>{} contacts stick, <i class=\"dot slipping\"></i>{} slip",
+                    count_text(picture.contacts.size() - static_cast<std::size_t>(slipping)), count_text(slipping));
   }
   return caption;
 }

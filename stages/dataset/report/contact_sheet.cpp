@@ -3,29 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/lettering.h"
-#include "stages/dataset/report/scaled_picture.h"
+#include "stages/dataset/report/sheet.h"
 
 namespace tacipc {
 namespace {
 
 constexpr Color kPaper{243, 244, 247}, kCard{255, 255, 255}, kLine{218, 223, 230}, kInk{27, 35, 48};
 constexpr Color kQuiet{93, 104, 120}, kGood{21, 112, 60}, kBad{163, 35, 27}, kBadPaper{253, 234, 232};
-
-cv::Scalar scalar(const Color& color) { return {color[0], color[1], color[2]}; }
-
-/// Scales the picture into the box, keeping its proportions.
-void draw_picture(cv::Mat& sheet, const ByteImage& image, const cv::Rect& box) {
-  ByteImage copy = fitted_picture(image, box.width, box.height);
-  const cv::Mat scaled(copy.height, copy.width, CV_8UC3, copy.pixels.data());
-  scaled.copyTo(
-      sheet({box.x + (box.width - copy.width) / 2, box.y + (box.height - copy.height) / 2, copy.width, copy.height}));
-}
 
 /// Breaks at spaces so that each line fits; words that are too long are shortened. At most `max_lines`.
 std::vector<Text> wrapped(const std::string& words, const Text& like, int width, std::size_t max_lines) {
@@ -50,14 +36,14 @@ std::vector<Text> wrapped(const std::string& words, const Text& like, int width,
   return lines;
 }
 
-void draw_cell(cv::Mat& sheet, const SheetLayout& layout, int index, const SampleReport& sample) {
+void draw_cell(ByteImage& sheet, const SheetLayout& layout, int index, const SampleReport& sample) {
   constexpr int kPadding = SheetLayout::kPadding, kCellHeader = SheetLayout::kCellHeader, kGap = SheetLayout::kGap;
-  const cv::Rect cell(layout.cell_x(index), layout.cell_y(index), layout.cell_width, layout.cell_height);
-  cv::rectangle(sheet, cell, scalar(kCard), cv::FILLED);
-  cv::rectangle(sheet, cell, scalar(kLine), 1);
-  const int baseline = cell.y + kPadding + 20;
+  const int cell_x = layout.cell_x(index), cell_y = layout.cell_y(index);
+  fill_box(sheet, cell_x, cell_y, layout.cell_width, layout.cell_height, kLine);
+  fill_box(sheet, cell_x + 1, cell_y + 1, layout.cell_width - 2, layout.cell_height - 2, kCard);
+  const int baseline = cell_y + kPadding + 20;
   const Text verdict{sample.passed() ? "passed" : "FAILED", 12, sample.passed() ? kGood : kBad, true};
-  const int verdict_x = cell.x + cell.width - kPadding - verdict.width();
+  const int verdict_x = cell_x + layout.cell_width - kPadding - verdict.width();
   draw_text(sheet, verdict, verdict_x, baseline);
   int right = verdict_x;
   if (sample.press_force_n) {
@@ -65,17 +51,17 @@ void draw_cell(cv::Mat& sheet, const SheetLayout& layout, int index, const Sampl
     right -= force.width() + 3 * kPadding / 2;
     draw_text(sheet, force, right, baseline);
   }
-  const int left = cell.x + kPadding;
+  const int left = cell_x + kPadding;
   draw_text(sheet, fitted({sample.name, 14, kInk, true}, right - left - kPadding), left, baseline);
 
-  const int y = cell.y + kPadding + kCellHeader - kGap;
+  const int y = cell_y + kPadding + kCellHeader - kGap;
   if (!sample.images) {
-    const cv::Rect area(left, y, cell.width - 2 * kPadding, layout.picture_height);
-    cv::rectangle(sheet, area, scalar(kBadPaper), cv::FILLED);
-    int line_y = area.y + 40;
-    const auto room = static_cast<std::size_t>((area.height - 40) / 26);
-    for (const Text& line : wrapped(sample.failure.value_or("no images"), {"", 12, kBad}, area.width - 40, room)) {
-      draw_text(sheet, line, area.x + 20, line_y);
+    const int width = layout.cell_width - 2 * kPadding;
+    fill_box(sheet, left, y, width, layout.picture_height, kBadPaper);
+    int line_y = y + 40;
+    const auto room = static_cast<std::size_t>((layout.picture_height - 40) / 26);
+    for (const Text& line : wrapped(sample.failure.value_or("no images"), {"", 12, kBad}, width - 40, room)) {
+      draw_text(sheet, line, left + 20, line_y);
       line_y += 26;
     }
     return;
@@ -83,7 +69,10 @@ void draw_cell(cv::Mat& sheet, const SheetLayout& layout, int index, const Sampl
   int x = left;
   for (const std::optional<std::filesystem::path>& path :
        {std::optional(sample.images->tactile), sample.images->indentation, sample.images->normal}) {
-    if (path) draw_picture(sheet, read_picture(*path), {x, y, layout.picture_width, layout.picture_height});
+    if (path) {
+      const ByteImage copy = fitted_picture(read_picture(*path), layout.picture_width, layout.picture_height);
+      paste(sheet, copy, x + (layout.picture_width - copy.width) / 2, y + (layout.picture_height - copy.height) / 2);
+    }
     x += layout.picture_width + kGap;
   }
 }
@@ -105,16 +94,15 @@ SheetLayout SheetLayout::for_samples(int count) {
 
 ByteImage contact_sheet(const std::string& title, const std::vector<SampleReport>& samples) {
   const SheetLayout layout = SheetLayout::for_samples(static_cast<int>(samples.size()));
-  ByteImage image(layout.width, layout.height, 3);
-  cv::Mat sheet(layout.height, layout.width, CV_8UC3, image.pixels.data());
-  sheet.setTo(scalar(kPaper));
+  ByteImage sheet(layout.width, layout.height, 3);
+  fill_box(sheet, 0, 0, layout.width, layout.height, kPaper);
   const auto passed = std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.passed(); });
   const Text tally = {fmt::format("{} of {} passed", passed, samples.size()), 14, kQuiet};
   const int tally_x = layout.width - SheetLayout::kMargin - tally.width(), baseline = SheetLayout::kHeader - 36;
   draw_text(sheet, tally, tally_x, baseline);
   draw_text(sheet, fitted({title, 24, kInk, true}, tally_x - 2 * SheetLayout::kMargin), SheetLayout::kMargin, baseline);
   for (std::size_t i = 0; i < samples.size(); ++i) draw_cell(sheet, layout, static_cast<int>(i), samples[i]);
-  return image;
+  return sheet;
 }
 
 }  // namespace tacipc

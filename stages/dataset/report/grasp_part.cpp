@@ -5,11 +5,11 @@
 #include "common/base/error.h"
 #include "common/base/units.h"
 #include "common/format/html_text.h"
-#include "common/sample/press_record.h"
 #include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
 #include "stages/dataset/report/timeline.h"
 #include "stages/dataset/report/view/view_page.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
@@ -68,11 +68,11 @@ std::string outcome_text(const GraspReport& grasp) {
   return html_text(grasp.outcome) + (grasp.reason ? " (" + html_text(*grasp.reason) + ")" : "");
 }
 
-std::string times_text(const FingerSlip& slip) {
+std::string times_text(const SlipLines& slip) {
   const auto time = [](const std::optional<double>& time_s) {
     return time_s ? "from " + number_text(time_s) + " s on" : std::string("never");
   };
-  return "slips " + time(slip.first_s) + ", as a whole " + time(slip.gross_s);
+  return "slips " + time(slip.first_slip_s) + ", as a whole " + time(slip.gross_slip_s);
 }
 
 }  // namespace
@@ -96,11 +96,7 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
   grasp.reason = summary.find(&Lines::reason);
   grasp.friction = summary.find(&Lines::friction_coefficient);
   grasp.center_shift_m = summary.find(&Lines::center_of_mass_shift_m);
-  for (const std::size_t side : {0, 1}) {
-    const auto slip = summary.section(side == 0 ? &Lines::slip_left : &Lines::slip_right);
-    grasp.slips[side] = {.first_s = slip.find(&SlipLines::first_slip_s),
-                         .gross_s = slip.find(&SlipLines::gross_slip_s)};
-  }
+  grasp.slips = {summary.section(&Lines::slip_left).all(), summary.section(&Lines::slip_right).all()};
   for (const auto& frame : summary.sections(&Lines::per_frame)) {
     using F = GraspFrameLines;
     grasp.moments.push_back({.time_s = frame.required(&F::time_s),
@@ -129,25 +125,20 @@ PageWords grasp_words(const GraspReport& grasp) {
   const Vector3 grip_mm = 1e3 * grasp.grip_m;
   const std::string width =
       grasp.width_m ? fmt::format(", where it is {} mm wide", number_text(1e3 * *grasp.width_m)) : "";
-  return {
-      .intro = "Simulated touch: two camera-based tactile sensors grip one object between their soft gels.",
-      .thing = "finger",
-      .heading = "Fingers",
-      .first =
-          fmt::format(
-              "<section id=\"{}\">\n<h2>Grasp: {}</h2>\n"
-              "<p>{} g gripped with {} N at ({}, {}, {}) mm from its centre of mass, in its own axes{}; the lever of "
-              "the "
-              "centre of mass about the line of the grip is {} mm.{} When judged (frame {}), the object had slipped {} "
-              "mm and turned {}° relative to the hand. The left finger {}; the right finger {}.{}</p>\n"
-              "<figure class=\"strip\"><a href=\"{}\"><img src=\"{}\" alt=\"tactile images of the fingers, one above "
-              "the other, over time\"></a></figure>\n<div class=\"pictures\">\n",
-              kGraspId, outcome_text(grasp), number_text(1e3 * grasp.mass_kg), number_text(grasp.grip_n),
-              number_text(grip_mm.x()), number_text(grip_mm.y()), number_text(grip_mm.z()), width,
-              number_text(1e3 * grasp.lever_m), margin, grasp.judged_frame, number_text(1e3 * judged.slip_m),
-              number_text(judged.turn_rad / kDegree), times_text(grasp.slips[0]), times_text(grasp.slips[1]),
-              grasp.has_view ? " " + view_link(kGraspId) + "." : "", kGraspStrip, kGraspStrip) +
-          force_figure(grasp.moments) + slip_figure(grasp) + share_figure(grasp) + "</div>\n</section>\n"};
+  using fmt::arg;
+  return {.intro = "Simulated touch: two camera-based tactile sensors grip one object between their soft gels.",
+          .thing = "finger",
+          .heading = "Fingers",
+          .first = fmt::format(
+              kGraspSection, arg("id", kGraspId), arg("outcome", outcome_text(grasp)),
+              arg("mass", number_text(1e3 * grasp.mass_kg)), arg("grip", number_text(grasp.grip_n)),
+              arg("x", number_text(grip_mm.x())), arg("y", number_text(grip_mm.y())),
+              arg("z", number_text(grip_mm.z())), arg("width", width), arg("lever", number_text(1e3 * grasp.lever_m)),
+              arg("margin", margin), arg("frame", grasp.judged_frame), arg("slip", number_text(1e3 * judged.slip_m)),
+              arg("turn", number_text(judged.turn_rad / kDegree)), arg("left", times_text(grasp.slips[0])),
+              arg("right", times_text(grasp.slips[1])),
+              arg("view", grasp.has_view ? " " + view_link(kGraspId) + "." : ""), arg("strip", kGraspStrip),
+              arg("figures", force_figure(grasp.moments) + slip_figure(grasp) + share_figure(grasp)))};
 }
 
 std::string grasp_article(const GraspReport& grasp, std::size_t side, const std::string& strip) {

@@ -10,6 +10,7 @@
 
 #include "common/base/types.h"
 #include "common/image/image.h"
+#include "common/sample/press_record.h"
 #include "stages/dataset/report/page.h"
 #include "stages/dataset/report/view/scene_view.h"
 
@@ -24,15 +25,10 @@ struct GraspMoment {
   std::array<std::optional<double>, 2> slip_share = {};  // of the normal force of left and right finger
 };
 
-/// When the contact of a finger slips, where it does.
-struct FingerSlip {
-  std::optional<double> first_s = std::nullopt, gross_s = std::nullopt;
-};
-
 struct GraspReport {
   std::string outcome;
   std::optional<std::string> reason = std::nullopt;  // of any outcome but lifted
-  std::array<FingerSlip, 2> slips = {};              // of left and right finger
+  std::array<SlipLines, 2> slips = {};               // of left and right finger
   std::optional<double> friction = std::nullopt;     // coefficient
   std::optional<Vector3> center_shift_m = std::nullopt;
   double mass_kg = 0.0, grip_n = 0.0;

@@ -19,8 +19,8 @@
 #include "stages/dataset/report/sample.h"
 #include "stages/dataset/report/scene_index.h"
 #include "stages/dataset/report/scene_part.h"
-#include "stages/dataset/report/view/robot_view.h"
 #include "stages/dataset/report/view/scene_pictures.h"
+#include "stages/dataset/report/view/scene_view.h"
 #include "stages/dataset/report/view/view_data.h"
 #include "stages/dataset/report/view/view_page.h"
 

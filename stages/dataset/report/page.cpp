@@ -7,13 +7,14 @@
 #include "common/format/html_text.h"
 #include "stages/dataset/report/card.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
 
 std::string tiles(const std::vector<SampleReport>& samples, const std::string& thing) {
-  int passed = 0, iterations = 0;
+  std::size_t passed = 0;
+  int iterations = 0;
   std::optional<double> distance_m, ratio, balance;
   const auto least = [](std::optional<double>& so_far, std::optional<double> value) {
     if (value) so_far = std::min(so_far.value_or(*value), *value);
@@ -25,7 +26,7 @@ std::string tiles(const std::vector<SampleReport>& samples, const std::string& t
     least(ratio, sample.min_volume_ratio);
     for (const FrameReport& frame : sample.frames) balance = std::max(balance, frame.balance_relative);
   }
-  const int all = static_cast<int>(samples.size());
+  const std::size_t all = samples.size();
   return "<ul class=\"tiles\">\n" + tile(count_text(all), all == 1 ? thing : thing + "s") +
          tile(count_text(passed), "passed", passed > 0 ? "good" : "") +
          tile(count_text(all - passed), "failed", passed < all ? "bad" : "") +
@@ -52,36 +53,20 @@ std::string summary_row(const SampleReport& sample, std::size_t index) {
   return row + fmt::format("<td class=\"word\">{}</td></tr>\n", reference);
 }
 
-std::string summary_table(const std::vector<SampleReport>& samples, const std::string& thing) {
-  std::string table =
-      "<div class=\"scroll\"><table>\n<thead><tr><th class=\"word\">" + thing +
-      "</th><th class=\"word\">object</th>"
-      "<th class=\"word\">verdict</th><th>depth<br>mm</th><th>press force<br>N</th><th>tangential<br>force "
-      "N</th><th>Newton<br>iterations</th>"
-      "<th>smallest<br>distance µm</th><th>smallest<br>volume ratio</th><th>gel<br>vertices</th>"
-      "<th>object vertices<br>in → out</th><th>Hausdorff<br>mm</th><th class=\"word\">reference<br>image</th></tr>"
-      "</thead>\n<tbody>\n";
-  for (std::size_t i = 0; i < samples.size(); ++i) table += summary_row(samples[i], i);
-  return table + "</tbody></table></div>\n";
-}
-
 }  // namespace
 
 std::string report_page(const std::string& title, const std::vector<SampleReport>& samples,
                         const std::filesystem::path& folder, const PageWords& words) {
-  std::string page = page_head(title, "<style>" + page_style() + "</style>");
-  page += "<body>\n<header>\n<h1>" + html_text(title) + "</h1>\n";
-  page += "<p class=\"quiet\">" + words.intro +
-          " The gel deforms by finite elements without ever intersecting the object; its images are ray traced. "
-          "See all at a glance on the <a href=\"contact_sheet.png\">contact sheet</a>.</p>\n";
-  page += tiles(samples, words.thing) + "</header>\n" + words.first;
-  page += "<section id=\"summary\">\n<h2>Summary</h2>\n" + summary_table(samples, words.thing) + "</section>\n";
-  page += "<section id=\"samples\">\n<h2>" + words.heading + "</h2>\n";
-  for (std::size_t i = 0; i < samples.size(); ++i) page += sample_card(samples[i], i, folder);
-  page += "</section>\n";
-  page += legend();
-  page += "<p class=\"quiet\">Record of this page: <a href=\"report.yaml\">report.yaml</a></p>\n</body>\n</html>\n";
-  return page;
+  std::string rows, cards;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    rows += summary_row(samples[i], i);
+    cards += sample_card(samples[i], i, folder);
+  }
+  using fmt::arg;
+  return page_head(title, "<style>" + page_style() + "</style>") +
+         fmt::format(kPage, arg("title", html_text(title)), arg("intro", words.intro),
+                     arg("tiles", tiles(samples, words.thing)), arg("first", words.first), arg("thing", words.thing),
+                     arg("rows", rows), arg("heading", words.heading), arg("cards", cards), arg("legend", legend()));
 }
 
 }  // namespace tacipc

@@ -13,29 +13,29 @@
 namespace tacipc {
 namespace {
 
-constexpr double kWidth = 400, kMaxHeight = 400, kFooter = 28, kMargin = 8;
+constexpr double kQuiverWidth = 400, kMaxHeight = 400, kFooter = 28, kQuiverMargin = 8;
 /// Shorter displacements are numerical noise: drawn as dots.
 constexpr double kNothingMm = 1e-6;
 constexpr const char* kArrows = "class=\"arrows\"";
 
 /// From mm on the front to the drawing.
-struct Drawing {
+struct FrontDrawing {
   View view;
   double per_mm;
   double height;
 
-  explicit Drawing(const View& v)
+  explicit FrontDrawing(const View& v)
       : view(v),
-        per_mm(
-            std::min((kWidth - 2 * kMargin) / (v.high_x - v.low_x), (kMaxHeight - 2 * kMargin) / (v.high_y - v.low_y))),
-        height(per_mm * (v.high_y - v.low_y) + 2 * kMargin) {}
-  double x(double x_mm) const { return 0.5 * kWidth + per_mm * (x_mm - 0.5 * (view.low_x + view.high_x)); }
-  double y(double y_mm) const { return kMargin + per_mm * (y_mm - view.low_y); }
+        per_mm(std::min((kQuiverWidth - 2 * kQuiverMargin) / (v.high_x - v.low_x),
+                        (kMaxHeight - 2 * kQuiverMargin) / (v.high_y - v.low_y))),
+        height(per_mm * (v.high_y - v.low_y) + 2 * kQuiverMargin) {}
+  double x(double x_mm) const { return 0.5 * kQuiverWidth + per_mm * (x_mm - 0.5 * (view.low_x + view.high_x)); }
+  double y(double y_mm) const { return kQuiverMargin + per_mm * (y_mm - view.low_y); }
 };
 
 /// One dot per cell of a few drawing units, so that the picture stays small however fine the gel is; where some slip
 /// and some do not, the slipping ones show.
-std::string contacts_svg(const std::vector<ContactPoint>& contacts, const Drawing& drawing) {
+std::string contacts_svg(const std::vector<ContactPoint>& contacts, const FrontDrawing& drawing) {
   constexpr double kCell = 3.0;
   std::map<std::pair<long, long>, bool> cells;
   for (const ContactPoint& point : contacts) {
@@ -90,7 +90,7 @@ double arrow_scale(const std::vector<MarkerArrow>& arrows) {
 }
 
 std::string quiver_svg(const MarkerPicture& picture, const View& view) {
-  const Drawing drawing(view);
+  const FrontDrawing drawing(view);
   const double scale = arrow_scale(picture.arrows), longest = longest_mm(picture.arrows);
   const auto count = static_cast<Eigen::Index>(picture.arrows.size());
   Eigen::Matrix2Xd at(2, count), by(2, count);
@@ -104,8 +104,8 @@ std::string quiver_svg(const MarkerPicture& picture, const View& view) {
   std::string svg = fmt::format(
       "<svg class=\"quiver\" viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"marker displacement in frame {}\">\n"
       "<rect class=\"face\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
-      kWidth, height, picture.frame, drawing.x(view.low_x), kMargin, drawing.per_mm * (view.high_x - view.low_x),
-      drawing.per_mm * (view.high_y - view.low_y));
+      kQuiverWidth, height, picture.frame, drawing.x(view.low_x), kQuiverMargin,
+      drawing.per_mm * (view.high_x - view.low_x), drawing.per_mm * (view.high_y - view.low_y));
   svg += contacts_svg(picture.contacts, drawing);
   svg += dots_svg(at, "class=\"dots\"") + arrows_svg(at, by, kArrows);
   if (longest >= kNothingMm) {

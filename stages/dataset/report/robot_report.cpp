@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/format/csv.h"
+#include "common/sample/scene_hold.h"
 #include "common/stage/record.h"
 
 namespace tacipc {

@@ -10,12 +10,12 @@
 #include "common/format/html_text.h"
 #include "common/image/image.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
 #include "stages/dataset/report/robot_part.h"
 #include "stages/dataset/report/sample.h"
 #include "stages/dataset/report/scene_part.h"
-#include "stages/dataset/report/view/robot_view.h"
 #include "stages/dataset/report/view/scene_pictures.h"
+#include "stages/dataset/report/view/scene_view.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
@@ -88,7 +88,7 @@ PadForce largest_force(const ListedScene& scene) {
 std::string numbers_of(const ListedScene& scene) {
   const PadForce force = largest_force(scene);
   std::string html = "<ul class=\"tiles\">\n" + tile(number_text(scene.arrays.times_s.back()) + " s", "simulated") +
-                     tile(count_text(static_cast<int>(scene.arrays.times_s.size())), "frames") +
+                     tile(count_text(scene.arrays.times_s.size()), "frames") +
                      tile(number_text(force.normal_n) + " N", "largest force into a gel") +
                      tile(number_text(force.tangential_n) + " N", "largest along its front");
   if (scene.robot && !scene.robot->tries.empty()) {
@@ -141,17 +141,12 @@ void report_scenes(Stage& stage) {
     robots = robots || scene.robot;
   }
   const std::string& title = stage.option("--title");
-  std::string html = page_head(title, "<style>" + page_style() + "</style>") + "<body>\n<header>\n<h1>" +
-                     html_text(title) +
-                     "</h1>\n<p class=\"quiet\">Scenes with gels of camera-based tactile sensors. The gels deform by "
-                     "finite elements without ever intersecting what they touch. Each name leads to a page with forces "
-                     "over time, tactile images and a view in 3-D.</p>\n" +
-                     picture_key(kinds, robots) + "</header>\n<section id=\"scenes\">\n<h2>Scenes</h2>\n";
-  for (const ListedScene& scene : scenes) html += card_of(scene, stage.out());
-  html +=
-      "</section>\n<p class=\"quiet\">Record of this page: <a href=\"report.yaml\">report.yaml</a></p>\n</body>\n"
-      "</html>\n";
-  write_file(stage.output("index.html"), html);
+  std::string cards;
+  for (const ListedScene& scene : scenes) cards += card_of(scene, stage.out());
+  write_file(stage.output("index.html"),
+             page_head(title, "<style>" + page_style() + "</style>") +
+                 fmt::format(kScenesPage, fmt::arg("title", html_text(title)),
+                             fmt::arg("key", picture_key(kinds, robots)), fmt::arg("cards", cards)));
   stage.summarize({{"scenes", scenes.size()}, {"samples", gels}, {"passed", passed}, {"failed", gels - passed}});
 }
 

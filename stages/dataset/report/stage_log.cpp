@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <cctype>
+#include <regex>
 #include <sstream>
 
 #include "common/base/files.h"
@@ -10,18 +10,8 @@
 namespace tacipc {
 namespace {
 
-/// Length of "2024-06-07 12:34:56.789 ", with which every message starts.
-constexpr std::size_t kTimeLength = 24;
-
-bool starts_with_time(const std::string& line) {
-  constexpr std::string_view kPattern = "0000-00-00 00:00:00.000 ";
-  if (line.size() < kTimeLength) return false;
-  for (std::size_t i = 0; i < kTimeLength; ++i) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(line[i])) != 0;
-    if (kPattern[i] == '0' ? !digit : line[i] != kPattern[i]) return false;
-  }
-  return true;
-}
+/// "2024-06-07 12:34:56.789 ", with which every message starts.
+const std::regex kTime(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3} )");
 
 std::string trimmed(const std::string& line) {
   const auto first = line.find_first_not_of(" \t\r");
@@ -37,8 +27,8 @@ std::vector<std::string> log_messages(const std::filesystem::path& log, const st
   std::istringstream lines(read_file(log));
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {
-    if (starts_with_time(line)) {
-      const std::string rest = line.substr(kTimeLength);
+    if (std::smatch time; std::regex_search(line, time, kTime, std::regex_constants::match_continuous)) {
+      const std::string rest = time.suffix();
       inside = rest.starts_with(level + ": ");
       if (inside) messages.push_back(trimmed(rest.substr(level.size() + 2)));
     } else if (inside && !trimmed(line).empty()) {

@@ -3,12 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <opencv2/core.hpp>
 
 #include "common/base/error.h"
 #include "common/sample/render_folder.h"
-#include "stages/dataset/report/lettering.h"
-#include "stages/dataset/report/scaled_picture.h"
+#include "stages/dataset/report/sheet.h"
 
 namespace tacipc {
 
@@ -40,8 +38,7 @@ ByteImage picture_strip(const std::vector<SceneGel>& gels, const std::vector<Ins
   if (rendered.empty()) throw DataError("{}: has no images", first.string());
   const std::size_t count = std::min(kMostPictures, rendered.size());
   const int columns = static_cast<int>(count), rows = static_cast<int>(gels.size());
-  ByteImage strip(kMargin + columns * (kWidth + kGap) - kGap, kHead + rows * (kHeight + kGap) - kGap, 3, 255);
-  cv::Mat sheet(strip.height, strip.width, CV_8UC3, strip.pixels.data());
+  ByteImage sheet(kMargin + columns * (kWidth + kGap) - kGap, kHead + rows * (kHeight + kGap) - kGap, 3, 255);
   for (int row = 0; row < rows; ++row)
     draw_text(sheet, fitted({gels[static_cast<std::size_t>(row)].name, kLetters, kInk}, kMargin - 2 * kGap), kGap,
               kHead + row * (kHeight + kGap) + (kHeight + kLetters) / 2);
@@ -55,12 +52,10 @@ ByteImage picture_strip(const std::vector<SceneGel>& gels, const std::vector<Ins
     for (int row = 0; row < rows; ++row) {
       const std::filesystem::path file =
           frame_path(gels[static_cast<std::size_t>(row)].folder / "render", frame, FrameFile::tactile);
-      ByteImage picture = fitted_picture(read_png(file, 3), kWidth, kHeight);
-      cv::Mat(picture.height, picture.width, CV_8UC3, picture.pixels.data())
-          .copyTo(sheet({x, kHead + row * (kHeight + kGap), picture.width, picture.height}));
+      paste(sheet, fitted_picture(read_png(file, 3), kWidth, kHeight), x, kHead + row * (kHeight + kGap));
     }
   }
-  return strip;
+  return sheet;
 }
 
 }  // namespace tacipc

@@ -1,7 +1,5 @@
 #include "stages/dataset/report/verdict.h"
 
-#include <fmt/core.h>
-
 #include <functional>
 
 #include "stages/dataset/report/html.h"

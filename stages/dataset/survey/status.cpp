@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "common/base/error.h"
 #include "common/sample/dataset_plan.h"
@@ -26,10 +25,8 @@ std::optional<double> time_of(const fs::path& file) {
 }
 
 bool lies_in(const std::string& index, const IndexRange& range) {
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), value);
-  return error == std::errc() && end == index.data() + index.size() && value >= range.first &&
-         (!range.end || value < *range.end);
+  const std::size_t value = std::stoul(index);
+  return value >= range.first && (!range.end || value < *range.end);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <ctime>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 

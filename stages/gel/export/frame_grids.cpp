@@ -29,13 +29,7 @@ std::vector<VtuArray> gel_data(const TetMesh& gel, const PressFolder& press, std
 
 /// Keeps the points that cells use, in their order, with their data.
 void drop_unused_points(VtuGrid& grid) {
-  std::vector<int> used(grid.cells.data(), grid.cells.data() + grid.cells.size());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (Eigen::Index i = 0; i < grid.cells.size(); ++i) {
-    int& vertex = grid.cells.data()[i];
-    vertex = static_cast<int>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
-  }
+  const std::vector<int> used = drop_unused({grid.cells.data(), static_cast<std::size_t>(grid.cells.size())});
   grid.points = Positions(grid.points(used, Eigen::all));
   for (VtuArray& array : grid.point_data) {
     std::visit(
@@ -63,6 +57,15 @@ VtuArray volume_ratios(const TetMesh& mesh, const Positions& x) {
 }
 
 }  // namespace
+
+std::vector<int> drop_unused(std::span<int> indices) {
+  std::vector<int> used(indices.begin(), indices.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (int& vertex : indices)
+    vertex = static_cast<int>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
+  return used;
+}
 
 VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame) {
   VtuGrid grid{.points = press.positions(frame), .cells = gel.boundary};

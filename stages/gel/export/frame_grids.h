@@ -1,12 +1,18 @@
 // One frame of a press as grids: the gel's surface, its volume, the object.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "common/mesh/tet_mesh.h"
 #include "common/mesh/triangle_mesh.h"
 #include "common/sample/press_folder.h"
 #include "stages/gel/export/vtu.h"
 
 namespace tacipc {
+
+/// Numbers vertices anew, without those that no index names. \return the vertices that are named, ascending
+std::vector<int> drop_unused(std::span<int> indices);
 
 /// All boundary triangles of the gel and the vertices they use, where they are in this frame. Points: displacement from
 /// the undeformed gel (m), normal_force and friction_force on the gel (N), contact_state (a ContactState), the last

@@ -153,10 +153,7 @@ Value gel_mesh(const OpenGel& gel, std::size_t frames, double deepest, Buffer& b
 Value object_mesh(const OpenObject& object, Buffer& buffer) {
   const int positions = buffer.add(floats(object.mesh.positions), 3, kFloat, kVertexBuffer, true);
   const int indices = buffer.add(corners(object.mesh.triangles), 1, kUnsignedInt, kIndexBuffer);
-  return Value::Map{
-      {"name", named("object", object.name)},
-      {"primitives", Value::List{Value::Map{
-                         {"attributes", Value::Map{{"POSITION", positions}}}, {"indices", indices}, {"material", 1}}}}};
+  return morphing_mesh(named("object", object.name), Value::Map{{"POSITION", positions}}, indices, 1, {}, buffer);
 }
 
 /// The surface of a soft body as a mesh with a morph target per later frame.
@@ -215,11 +212,6 @@ Value animation(const OpenScene& scene, Buffer& buffer) {
   return Value::Map{{"name", "press"}, {"samplers", samplers}, {"channels", channels}};
 }
 
-Value::List list_of(const std::vector<float>& values, std::size_t from, std::size_t count) {
-  return {values.begin() + static_cast<std::ptrdiff_t>(from),
-          values.begin() + static_cast<std::ptrdiff_t>(from + count)};
-}
-
 Value::List nodes(const OpenScene& scene) {
   Value::List nodes, children;
   const auto add = [&](const std::string& name, const std::vector<Matrix4>& poses) {
@@ -227,7 +219,8 @@ Value::List nodes(const OpenScene& scene) {
     if (!poses.empty()) {
       const Vector3 place = poses.front().topRightCorner<3, 1>();
       node.set("translation", Value::List{place.x(), place.y(), place.z()});
-      node.set("rotation", list_of(rotations(poses), 0, 4));
+      const std::vector<float> rotation = rotations({poses.front()});
+      node.set("rotation", Value::List(rotation.begin(), rotation.end()));
     }
     children.emplace_back(children.size() + 1);
     nodes.push_back(std::move(node));

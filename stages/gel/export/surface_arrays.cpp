@@ -5,40 +5,19 @@
 
 #include "common/format/npy.h"
 #include "common/sample/placement.h"
+#include "stages/gel/export/frame_grids.h"
 
 namespace tacipc {
 namespace {
 
-/// Triangles over the vertices that they name alone, and which these are.
-struct Surface {
-  Triangles triangles;
-  std::vector<int> vertices;
-};
-
-Surface surface_of(const Triangles& boundary, Eigen::Index num_vertices) {
-  std::vector<int> number(static_cast<std::size_t>(num_vertices), -1);
-  for (Eigen::Index i = 0; i < boundary.size(); ++i) number[static_cast<std::size_t>(boundary.data()[i])] = 0;
-  Surface surface{.triangles = boundary, .vertices = {}};
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
-    number[v] = static_cast<int>(surface.vertices.size());
-    surface.vertices.push_back(static_cast<int>(v));
-  }
-  for (Eigen::Index i = 0; i < boundary.size(); ++i)
-    surface.triangles.data()[i] = number[static_cast<std::size_t>(boundary.data()[i])];
-  return surface;
-}
-
-void write(Stage& stage, const std::string& name, const Triangles& boundary, const std::vector<double>& times_s,
+void write(Stage& stage, const std::string& name, Triangles triangles, const std::vector<double>& times_s,
            const std::function<Positions(std::size_t)>& positions_m) {
   const std::size_t frames = times_s.size();
   std::vector<double> positions, velocities;
-  Surface surface;
+  const std::vector<int> vertices = drop_unused({triangles.data(), static_cast<std::size_t>(triangles.size())});
   Positions before;
   for (std::size_t f = 0; f < frames; ++f) {
-    const Positions all = positions_m(f);
-    if (f == 0) surface = surface_of(boundary, all.rows());
-    const Positions now = all(surface.vertices, Eigen::all);
+    const Positions now = positions_m(f)(vertices, Eigen::all);
     const Positions velocity =
         f == 0 ? Positions(Positions::Zero(now.rows(), 3)) : Positions((now - before) / (times_s[f] - times_s[f - 1]));
     positions.insert(positions.end(), now.data(), now.data() + now.size());
@@ -46,11 +25,10 @@ void write(Stage& stage, const std::string& name, const Triangles& boundary, con
     before = now;
   }
   const std::string folder = "surfaces/" + name + "/";
-  const std::vector<std::size_t> shape{frames, surface.vertices.size(), 3};
+  const std::vector<std::size_t> shape{frames, vertices.size(), 3};
   write_npy(stage.output(folder + "positions.npy"), shape, positions.data());
   write_npy(stage.output(folder + "velocities.npy"), shape, velocities.data());
-  write_npy(stage.output(folder + "triangles.npy"), {static_cast<std::size_t>(surface.triangles.rows()), 3},
-            surface.triangles.data());
+  write_npy(stage.output(folder + "triangles.npy"), {static_cast<std::size_t>(triangles.rows()), 3}, triangles.data());
 }
 
 }  // namespace

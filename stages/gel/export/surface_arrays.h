@@ -1,8 +1,6 @@
 // The surfaces of all bodies over time as NumPy arrays, for other simulators.
 #pragma once
 
-#include <string>
-
 #include "common/stage/stage.h"
 #include "stages/gel/export/open_press.h"
 

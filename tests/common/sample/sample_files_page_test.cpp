@@ -15,7 +15,6 @@
 #include "common/sample/render_folder.h"
 #include "common/sample/robot_folder.h"
 #include "common/sample/scene_folder.h"
-#include "stages/dataset/report/dataset/overview_text.h"
 #include "stages/image/track/track_arrays.h"
 
 namespace tacipc {
@@ -121,7 +120,8 @@ TEST(FilesPage, ListsTheArraysOfOtherStages) {
 
 /// Unit that the page over a dataset gives for a file; empty if it does not show the file.
 std::string unit_on_overview(const std::string& file) {
-  const std::string page = kUnitsAndFrames, cell = "<td class=\"word\">";
+  static const std::string page = read_file(TACIPC_SOURCE_DIR "/stages/dataset/report/dataset/frames.html");
+  const std::string cell = "<td class=\"word\">";
   const std::size_t at = page.find("/" + file);
   if (at == std::string::npos) return "";
   const std::size_t begin = page.find(cell, at) + cell.size();

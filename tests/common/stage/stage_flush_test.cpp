@@ -14,14 +14,14 @@
 #include "common/stage/stage.h"
 #include "tests/scratch_folder.h"
 
-namespace stage_flush_test {
+namespace {
 
 std::vector<std::string> calls;
 std::string broken;  // the file whose bytes the disk refuses
 
 std::string last_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-}  // namespace stage_flush_test
+}  // namespace
 
 extern "C" int fsync(int file) {
   const std::string path = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file)).string();
@@ -39,7 +39,7 @@ extern "C" int rename(const char* from, const char* to) noexcept {
 }
 
 namespace tacipc {
-namespace stage_flush_test {
+namespace {
 
 namespace fs = std::filesystem;
 
@@ -98,5 +98,5 @@ TEST_F(FlushTest, WhatTheDiskRefusesIsNoResult) {
 
 TEST_F(FlushTest, AFolderThatIsGoneSaysSo) { EXPECT_THROW(flush_to_disk({root_ / "nowhere"}), std::runtime_error); }
 
-}  // namespace stage_flush_test
+}  // namespace
 }  // namespace tacipc

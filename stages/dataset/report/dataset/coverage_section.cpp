@@ -50,9 +50,8 @@ std::string histogram_figure(const DatasetTally& tally, std::size_t q) {
   std::string caption = fmt::format("<b>{}</b>: {}<span class=\"keys\">", capital(quantity.label()), quantity.meaning);
   for (std::size_t g = 0; g < names.size(); ++g)
     caption += fmt::format("<span>{}{}</span>", curve_key(static_cast<int>(g) + 1), html_text(names[g]));
-  caption += fmt::format("</span>{} samples, median {}, nine tenths between {} and {}",
-                         count_text(static_cast<int>(spread->count)), number_text(spread->median),
-                         number_text(spread->p5), number_text(spread->p95));
+  caption += fmt::format("</span>{} samples, median {}, nine tenths between {} and {}", count_text(spread->count),
+                         number_text(spread->median), number_text(spread->p5), number_text(spread->p95));
   const std::string what =
       fmt::format("{} of {} samples, from {} to {}, median {}", quantity.label(), spread->count,
                   number_text(spread->low), number_text(spread->high), number_text(spread->median));
@@ -66,8 +65,7 @@ std::string pair_figure(const DatasetTally& tally, std::size_t x, std::size_t y)
   const PairMap map = pair_map(first, second, kColumns, kRows, 7);
   return figure(pair_map_svg(map, y_label + " over " + x_label, x_label, y_label),
                 fmt::format("<b>{}</b> over {}; the fullest cell has {} of {} samples", capital(kQuantities[y].name),
-                            kQuantities[x].name, count_text(static_cast<int>(map.largest())),
-                            count_text(static_cast<int>(first.size()))));
+                            kQuantities[x].name, count_text(map.largest()), count_text(first.size())));
 }
 
 std::vector<std::pair<std::string, Spread>> spreads_by(const DatasetTally& tally, std::size_t q,
@@ -107,8 +105,7 @@ std::string spreads_figures(const DatasetTally& tally, const std::string& column
   for (std::size_t q = 0; q < kQuantities.size(); ++q) {
     const auto rows = spreads_by(tally, q, column);
     if (rows.empty()) continue;
-    if (rows.size() > kDrawnRows)
-      return fmt::format("<p>{} of them: too many to draw.</p>\n", count_text(static_cast<int>(rows.size())));
+    if (rows.size() > kDrawnRows) return fmt::format("<p>{} of them: too many to draw.</p>\n", count_text(rows.size()));
     const std::string label = kQuantities[q].label();
     html += figure(spreads_svg(rows, label + " by " + column, label),
                    "<b>" + capital(label) + "</b>: " + kQuantities[q].meaning);
@@ -120,12 +117,12 @@ std::string spreads_figures(const DatasetTally& tally, const std::string& column
 
 std::string coverage_section(const DatasetTally& tally) {
   std::string html = "<section id=\"coverage\">\n<h2>Coverage</h2>\n";
-  const std::size_t made = tally.all()[SampleStatus::made];
+  const std::size_t made = tally.all[SampleStatus::made];
   if (made == 0) return html + "<p>No sample is made yet.</p>\n</section>\n";
   html += fmt::format(
       "<p>Of all {} made samples. Each number is the largest over the frames of its sample; splits are by object.</p>\n"
       "<div class=\"plots\">\n",
-      count_text(static_cast<int>(made)));
+      count_text(made));
   for (std::size_t q = 0; q < kQuantities.size(); ++q) html += histogram_figure(tally, q);
   html += pair_figure(tally, kDepth, kShearRatio) + pair_figure(tally, kDepth, kArea) +
           pair_figure(tally, kTwist, kShearRatio) + pair_figure(tally, kDepth, kPressForce);

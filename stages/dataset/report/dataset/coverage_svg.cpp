@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/format/html_text.h"
-#include "stages/dataset/report/drawing.h"
+#include "stages/dataset/report/chart.h"
 #include "stages/dataset/report/html.h"
 
 namespace tacipc {

@@ -90,8 +90,6 @@ DatasetFacts read_dataset_facts(const std::string& name, const fs::path& dataset
   facts.seed = dataset.text("seed");
   facts.sampling = dataset.text("sampling").value_or("");
   for (const Record& motion : dataset.one_or_many("motions")) facts.motions.push_back(motion_facts(motion));
-  const Record outputs = dataset.section("outputs");
-  facts.kept = outputs.has("keep") ? outputs.texts("keep") : std::vector<std::string>{"press", "render"};
   facts.packed = fs::exists(dataset_yaml.parent_path().parent_path() / "pack/card.yaml");
   return facts;
 }

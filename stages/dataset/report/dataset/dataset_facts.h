@@ -35,7 +35,6 @@ struct DatasetFacts {
   std::vector<MotionFacts> motions;
   std::map<std::string, GelFacts> gels;  // by sensor-mesh; those of which a sample is made
   bool packed = false;                   // pack/ is there
-  std::vector<std::string> kept;         // stages whose files stay after packing
 };
 
 /// What dataset.yaml says.

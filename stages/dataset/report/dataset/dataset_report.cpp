@@ -7,7 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "stages/dataset/report/dataset/list_pages.h"
@@ -16,7 +15,6 @@
 #include "stages/dataset/report/dataset/sample_page.h"
 #include "stages/dataset/report/dataset/site.h"
 #include "stages/dataset/report/dataset/tally.h"
-#include "stages/dataset/report/press_report.h"
 
 namespace tacipc {
 namespace {
@@ -175,7 +173,7 @@ void report_dataset(Stage& stage) {
                                                         .shots = shots,
                                                         .dataset = dataset,
                                                         .folder = stage.out()}));
-  const StatusCounts& all = tally.all();
+  const StatusCounts& all = tally.all;
   stage.summarize({{"samples", all.total()},
                    {"made", all[SampleStatus::made]},
                    {"failed", all[SampleStatus::failed]},

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stages/dataset/report/dataset/sample_row.h"
-#include "stages/dataset/report/dataset/sample_shots.h"
+#include "stages/dataset/report/dataset/site.h"
 
 namespace tacipc {
 

@@ -2,42 +2,37 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "common/format/html_text.h"
-#include "stages/dataset/report/dataset/overview_text.h"
 #include "stages/dataset/report/dataset/site.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
 
-std::string count(std::size_t number) { return count_text(static_cast<int>(number)); }
-
 std::string tiles(const DatasetTally& tally) {
-  const StatusCounts& all = tally.all();
-  std::string html = "<ul class=\"tiles\">\n" + tile(count(all.total()), "planned samples") +
-                     tile(count(all[SampleStatus::made]), "made", all[SampleStatus::made] > 0 ? "good" : "") +
-                     tile(count(all[SampleStatus::failed]), "failed", all[SampleStatus::failed] > 0 ? "bad" : "");
-  if (all[SampleStatus::running] > 0) html += tile(count(all[SampleStatus::running]), "running");
-  if (all[SampleStatus::unmade] > 0) html += tile(count(all[SampleStatus::unmade]), "not made yet");
+  const StatusCounts& all = tally.all;
+  std::string html = "<ul class=\"tiles\">\n" + tile(count_text(all.total()), "planned samples") +
+                     tile(count_text(all[SampleStatus::made]), "made", all[SampleStatus::made] > 0 ? "good" : "") +
+                     tile(count_text(all[SampleStatus::failed]), "failed", all[SampleStatus::failed] > 0 ? "bad" : "");
+  if (all[SampleStatus::running] > 0) html += tile(count_text(all[SampleStatus::running]), "running");
+  if (all[SampleStatus::unmade] > 0) html += tile(count_text(all[SampleStatus::unmade]), "not made yet");
   for (const auto& [column, words] : {std::pair{"object", "objects"}, {"motion", "motions"}, {"gel", "gels"}}) {
-    const auto rows = tally.counts().find(column);
-    if (rows != tally.counts().end()) html += tile(count(rows->second.size()), words);
+    const auto rows = tally.counts.find(column);
+    if (rows != tally.counts.end()) html += tile(count_text(rows->second.size()), words);
   }
   return html + "</ul>\n";
 }
 
 /// How far it is, and what is gone or packed.
 std::string state(const Overview& o) {
-  const StatusCounts& all = o.tally.all();
+  const StatusCounts& all = o.tally.all;
   std::string html;
   if (all[SampleStatus::made] < all.total()) {
     html += fmt::format(
         "<p class=\"note warn\">Not complete: {} of {} samples are made. These pages show what was "
         "there when they were written.</p>\n",
-        count(all[SampleStatus::made]), count(all.total()));
+        count_text(all[SampleStatus::made]), count_text(all.total()));
   }
   if (o.facts.packed) {
     html += fmt::format(
@@ -45,11 +40,11 @@ std::string state(const Overview& o) {
         "it.</p>\n",
         html_link(o.dataset / "pack/README.md", o.folder));
   }
-  if (o.tally.dropped() > 0) {
+  if (o.tally.dropped > 0) {
     html += fmt::format(
         "<p class=\"note warn\">Of {} samples files were removed after packing (<code>drop</code>): their numbers are "
         "here, their data are in the shards of <code>pack/</code>.</p>\n",
-        count(o.tally.dropped()));
+        count_text(o.tally.dropped));
   }
   return html;
 }
@@ -59,12 +54,12 @@ std::string shown_samples(const Overview& o) {
   if (o.shots.empty()) return "";
   std::vector<SampleShot> some;
   for (const std::size_t i : evenly_chosen(o.shots.size(), kOnFirstPage)) some.push_back(o.shots[i]);
-  const StatusCounts& all = o.tally.all();
+  const StatusCounts& all = o.tally.all;
   const std::size_t finished = all[SampleStatus::made] + all[SampleStatus::failed];
   const std::string which = o.shots.size() == finished
-                                ? fmt::format("All {} finished samples have", count(finished))
+                                ? fmt::format("All {} finished samples have", count_text(finished))
                                 : fmt::format("{} of {} finished samples, spread evenly over the plan, have",
-                                              count(o.shots.size()), count(finished));
+                                              count_text(o.shots.size()), count_text(finished));
   return fmt::format(
              "<section id=\"samples\">\n<h2>A look at it</h2>\n<p>{} a page with images, normals, curves and checks: "
              "<a href=\"{}\">contact sheets</a>. Numbers of every sample are in the <a href=\"{}\">list</a>.</p>\n",
@@ -98,8 +93,8 @@ std::string contents(const Overview& o) {
   if (!o.facts.gels.empty()) html += "<h3 class=\"over\">Sensors and gels</h3>\n<div class=\"facts facts-list\">\n";
   for (const auto& [gel, facts] : o.facts.gels) html += definition(gel, facts.lines);
   if (!o.facts.gels.empty()) html += "</div>\n";
-  const auto objects = o.tally.counts().find("object");
-  if (objects != o.tally.counts().end()) {
+  const auto objects = o.tally.counts.find("object");
+  if (objects != o.tally.counts.end()) {
     constexpr std::size_t kNamed = 60;
     html += "<h3 class=\"over\">Objects</h3>\n<p class=\"files\">";
     std::size_t named = 0;
@@ -108,7 +103,7 @@ std::string contents(const Overview& o) {
       html += (named++ > 0 ? ", " : "") + html_text(object);
     }
     html += objects->second.size() > kNamed
-                ? fmt::format(" and {} more (<a href=\"#counts\">all</a>)", count(objects->second.size() - kNamed))
+                ? fmt::format(" and {} more (<a href=\"#counts\">all</a>)", count_text(objects->second.size() - kNamed))
                 : "";
     html += "</p>\n";
   }
@@ -133,10 +128,10 @@ std::string trust(const Overview& o) {
   std::string html =
       std::string("<section id=\"trust\">\n<h2>What the checks prove</h2>\n") + kTrust + checks_table(o.facts);
   const std::pair<const char*, std::string> worst[] = {
-      {"largest force imbalance, of the contact force", number_text(tally.worst_balance(), 100) + " %"},
-      {"smallest distance between gel and object", number_text(tally.smallest_distance_m(), 1e6) + " µm"},
-      {"smallest volume ratio of an element", number_text(tally.smallest_volume_ratio())}};
-  if (tally.all()[SampleStatus::made] == 0) return html + "</section>\n";
+      {"largest force imbalance, of the contact force", number_text(tally.worst_balance, 100) + " %"},
+      {"smallest distance between gel and object", number_text(tally.smallest_distance_m, 1e6) + " µm"},
+      {"smallest volume ratio of an element", number_text(tally.smallest_volume_ratio)}};
+  if (tally.all[SampleStatus::made] == 0) return html + "</section>\n";
   html += "<h3 class=\"over\">The worst of all frames of all made samples</h3>\n<dl class=\"worst\">";
   for (const auto& [name, value] : worst) html += fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
   return html + "</dl>\n</section>\n";

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "stages/dataset/report/dataset/dataset_facts.h"
-#include "stages/dataset/report/dataset/sample_shots.h"
+#include "stages/dataset/report/dataset/site.h"
 #include "stages/dataset/report/dataset/tally.h"
 
 namespace tacipc {

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <numeric>
 #include <set>
 
 #include "common/format/html_text.h"
@@ -13,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string number_cell(std::size_t count) {
-  return "<td>" + (count == 0 ? std::string("–") : count_text(static_cast<int>(count))) + "</td>";
+  return "<td>" + (count == 0 ? std::string("–") : count_text(count)) + "</td>";
 }
 
 std::string share_bar(const StatusCounts& counts) {
@@ -51,8 +52,8 @@ std::string cost_row(const std::string& stage, const CostColumn& costs) {
   const auto wall = spread_of(costs.wall_s), processor = spread_of(costs.processor_s),
              memory = spread_of(costs.memory_mb);
   if (!processor) return "";
-  std::string row = fmt::format("<tr><td class=\"word\">{}</td><td>{}</td>", html_text(stage),
-                                count_text(static_cast<int>(processor->count)));
+  std::string row =
+      fmt::format("<tr><td class=\"word\">{}</td><td>{}</td>", html_text(stage), count_text(processor->count));
   for (const double value : {processor->mean, processor->median, processor->p95, processor->high, wall->mean,
                              memory->mean, memory->p95, memory->high})
     row += "<td>" + number_text(value) + "</td>";
@@ -61,9 +62,7 @@ std::string cost_row(const std::string& stage, const CostColumn& costs) {
 }
 
 double core_hours(const CostColumn& costs) {
-  double sum_s = 0.0;
-  for (const double seconds : costs.processor_s) sum_s += seconds;
-  return sum_s / 3600.0;
+  return std::accumulate(costs.processor_s.begin(), costs.processor_s.end(), 0.0) / 3600.0;
 }
 
 }  // namespace
@@ -71,8 +70,8 @@ double core_hours(const CostColumn& costs) {
 std::string counts_section(const DatasetTally& tally) {
   std::string html = "<section id=\"counts\">\n<h2>Samples</h2>\n<div class=\"tables\">\n";
   for (const char* column : {"split", "pose split", "motion", "gel", "outcome", "reason", "object"}) {
-    const auto rows = tally.counts().find(column);
-    if (rows != tally.counts().end()) html += counts_table(column, rows->second);
+    const auto rows = tally.counts.find(column);
+    if (rows != tally.counts.end()) html += counts_table(column, rows->second);
   }
   return html + "</div>\n</section>\n";
 }
@@ -80,15 +79,14 @@ std::string counts_section(const DatasetTally& tally) {
 std::string failures_section(const Overview& overview) {
   const DatasetTally& tally = overview.tally;
   std::string html = "<section id=\"failures\">\n<h2>Failures</h2>\n";
-  const std::size_t failed = tally.all()[SampleStatus::failed];
+  const std::size_t failed = tally.all[SampleStatus::failed];
   const fs::path ledger = overview.dataset / "failures.csv";
   if (failed == 0) {
     html += "<p>No sample stands as failed.";
   } else {
-    html += fmt::format("<p>{} of {} samples failed: ", count_text(static_cast<int>(failed)),
-                        count_text(static_cast<int>(tally.all().total())));
+    html += fmt::format("<p>{} of {} samples failed: ", count_text(failed), count_text(tally.all.total()));
     std::string kinds;
-    for (const auto& [kind, count] : tally.failures_by_kind())
+    for (const auto& [kind, count] : tally.failures_by_kind)
       kinds += fmt::format("{}{} × {}", kinds.empty() ? "" : ", ", count, html_text(kind));
     html += kinds + ".";
   }
@@ -99,11 +97,11 @@ std::string failures_section(const Overview& overview) {
   if (failed == 0) return html + "</section>\n";
   std::set<std::string> with_page;
   for (const SampleShot& shot : overview.shots) with_page.insert(shot.plan.id);
-  if (tally.failures().size() < failed) html += fmt::format("<p>The first {} of them:</p>\n", tally.failures().size());
+  if (tally.failures.size() < failed) html += fmt::format("<p>The first {} of them:</p>\n", tally.failures.size());
   html += scroll_start("Failed samples") +
           "<table>\n<thead><tr><th class=\"word\">sample</th><th class=\"word\">stage</th><th "
           "class=\"word\">reason</th><th class=\"word\">log</th></tr></thead>\n<tbody>\n";
-  for (const auto& [plan, failure] : tally.failures()) {
+  for (const auto& [plan, failure] : tally.failures) {
     const std::string id = html_text(plan.id);
     html += "<tr><td class=\"word\">";
     html += with_page.contains(plan.id)
@@ -119,9 +117,9 @@ std::string failures_section(const Overview& overview) {
 
 std::string costs_section(const DatasetTally& tally, const std::vector<OtherCost>& others) {
   std::string html = "<section id=\"costs\">\n<h2>Time and memory</h2>\n";
-  const double samples_h = core_hours(tally.press()) + core_hours(tally.render());
-  const std::size_t made = tally.all()[SampleStatus::made];
-  if (tally.press().processor_s.empty()) return html + "<p>Nothing has run yet.</p>\n</section>\n";
+  const double samples_h = core_hours(tally.press) + core_hours(tally.render);
+  const std::size_t made = tally.all[SampleStatus::made];
+  if (tally.press.processor_s.empty()) return html + "<p>Nothing has run yet.</p>\n</section>\n";
   double all_h = samples_h;
   for (const OtherCost& other : others) all_h += core_hours(other.costs);
   html += fmt::format("<p>{} core-hours in all, {} of them for samples", number_text(all_h), number_text(samples_h));
@@ -135,7 +133,7 @@ std::string costs_section(const DatasetTally& tally, const std::vector<OtherCost
       "<table>\n<thead><tr><th class=\"word\">stage</th><th>runs</th><th>processor s<br>mean</th><th><br>median</th>"
       "<th><br>95 %</th><th><br>most</th><th>wall s<br>mean</th><th>memory MB<br>mean</th><th><br>95 %</th><th><br>"
       "most</th><th>core-hours<br>in all</th></tr></thead>\n<tbody>\n";
-  html += cost_row("press", tally.press()) + cost_row("render", tally.render());
+  html += cost_row("press", tally.press) + cost_row("render", tally.render);
   for (const OtherCost& other : others) html += cost_row(other.stage, other.costs);
   return html + "</tbody></table></div>\n</section>\n";
 }

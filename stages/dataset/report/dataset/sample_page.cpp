@@ -13,7 +13,7 @@
 #include "stages/dataset/report/dataset/tally.h"
 #include "stages/dataset/report/grasp_part.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/scaled_picture.h"
+#include "stages/dataset/report/sheet.h"
 
 namespace tacipc {
 namespace {

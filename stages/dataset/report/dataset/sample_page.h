@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "stages/dataset/report/dataset/report_config.h"
-#include "stages/dataset/report/dataset/sample_shots.h"
 #include "stages/dataset/report/dataset/site.h"
 
 namespace tacipc {

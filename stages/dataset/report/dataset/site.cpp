@@ -5,9 +5,8 @@
 #include <algorithm>
 
 #include "common/format/html_text.h"
-#include "stages/dataset/report/dataset/site_style.h"
 #include "stages/dataset/report/html.h"
-#include "stages/dataset/report/page_parts.h"
+#include "tacipc_report_texts.h"
 
 namespace tacipc {
 namespace {
@@ -25,22 +24,12 @@ std::string picture_name(const std::string& id, const std::string& picture) {
 }
 
 std::string site_page(const SitePage& page) {
-  std::string html =
-      page_head(page.heading + (page.heading == page.dataset ? "" : " – " + page.dataset),
-                "<link rel=\"stylesheet\" href=\"" + page.up + "style.css\">\n<link rel=\"icon\" href=\"data:,\">");
-  html += "<body>\n<a class=\"skip\" href=\"#main\">Skip to the content</a>\n<header class=\"site\">\n";
-  html += fmt::format(
-      "<nav aria-label=\"Dataset\"><a class=\"home\" href=\"{0}index.html\">{1}</a> <a href=\"{0}{2}\">Contact "
-      "sheets</a> <a href=\"{0}{3}\">All samples</a> <a href=\"{0}index.html#coverage\">Coverage</a> <a "
-      "href=\"{0}index.html#frames\">Units and frames</a> <a href=\"{0}index.html#trust\">What the checks "
-      "prove</a></nav>\n",
-      page.up, html_text(page.dataset), sheet_page_name(0), list_page_name(0));
-  html += "</header>\n<main id=\"main\" tabindex=\"-1\">\n<h1>" + html_text(page.heading) + "</h1>\n" + page.nav +
-          page.main + "</main>\n";
-  return html + fmt::format(
-                    "<footer class=\"quiet\">Record of these pages: <a href=\"{}report.yaml\">report.yaml</a>"
-                    "</footer>\n</body>\n</html>\n",
-                    page.up);
+  using fmt::arg;
+  return page_head(page.heading + (page.heading == page.dataset ? "" : " – " + page.dataset),
+                   "<link rel=\"stylesheet\" href=\"" + page.up + "style.css\">\n<link rel=\"icon\" href=\"data:,\">") +
+         fmt::format(kSitePage, arg("up", page.up), arg("dataset", html_text(page.dataset)),
+                     arg("sheets", sheet_page_name(0)), arg("list", list_page_name(0)),
+                     arg("heading", html_text(page.heading)), arg("nav", page.nav), arg("main", page.main));
 }
 
 std::string neighbours(const std::optional<Neighbour>& before, const std::optional<Neighbour>& after) {
@@ -73,7 +62,28 @@ std::string pager(std::size_t page, std::size_t pages, std::string (*name)(std::
   return html + "</nav>\n";
 }
 
-std::string site_style() { return page_style() + kSiteStyle; }
+std::string shots_list(const std::vector<SampleShot>& shots, std::size_t first, std::size_t count) {
+  std::string html = "<ul class=\"sheet\">\n";
+  for (std::size_t i = first; i < std::min(first + count, shots.size()); ++i) {
+    const SampleShot& shot = shots[i];
+    const std::string words = fmt::format("{}, {}, {}", html_text(shot.plan.object), html_text(shot.plan.motion),
+                                          html_text(shot.plan.sensor));
+    const std::string picture =
+        shot.thumb_px
+            ? fmt::format(
+                  "<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"last tactile image of {}\" loading=\"lazy\">",
+                  html_link(picture_name(shot.plan.id, "thumb"), "."), shot.thumb_px->first, shot.thumb_px->second,
+                  words)
+        : shot.passed ? "<span class=\"none gone\">no image left</span>"
+                      : "<span class=\"none\">failed</span>";
+    html += fmt::format("<li><a href=\"{}\">{}<b>{}</b> {}<br><span class=\"quiet\">{} · {}</span></a></li>\n",
+                        html_link(sample_page_name(shot.plan.id), "."), picture, html_text(shot.plan.object),
+                        html_text(shot.plan.motion), html_text(shot.plan.sensor), html_text(shot.plan.index));
+  }
+  return html + "</ul>\n";
+}
+
+std::string site_style() { return page_style() + "\n" + kSiteStyle; }
 
 std::string scroll_start(const std::string& label) {
   return fmt::format("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">", html_text(label));

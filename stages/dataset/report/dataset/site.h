@@ -4,6 +4,10 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "common/sample/dataset_plan.h"
 
 namespace tacipc {
 
@@ -34,6 +38,16 @@ std::string neighbours(const std::optional<Neighbour>& before, const std::option
 
 /// Of many numbered pages: to the first, those near `page`, and the last. \pre page < pages
 std::string pager(std::size_t page, std::size_t pages, std::string (*name)(std::size_t));
+
+/// A sample that has a page of its own, and what contact sheets and lists show of it.
+struct SampleShot {
+  PlannedRow plan;
+  bool passed = true;
+  std::optional<std::pair<int, int>> thumb_px = std::nullopt;  // width and height of pictures/<id>/thumb.jpg
+};
+
+/// The pictures of these samples as links to their pages.
+std::string shots_list(const std::vector<SampleShot>& shots, std::size_t first, std::size_t count);
 
 /// The style sheet of all pages, as a file of its own.
 std::string site_style();

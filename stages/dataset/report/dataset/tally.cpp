@@ -24,29 +24,29 @@ void DatasetTally::add(const SampleRow& row) {
                                                        {"object", plan.object},
                                                        {"motion", plan.motion}};
   const auto status = static_cast<std::size_t>(row.status);
-  ++all_.of[status];
-  for (const auto& [column, word] : words) ++counts_[column][word].of[status];
-  if (!row.outcome.empty()) ++counts_["outcome"][row.outcome].of[status];
-  if (!row.reason.empty()) ++counts_["reason"][row.reason].of[status];
-  dropped_ += row.dropped ? 1 : 0;
-  if (row.press) press_.add(*row.press);
-  if (row.render) render_.add(*row.render);
+  ++all.of[status];
+  for (const auto& [column, word] : words) ++counts[column][word].of[status];
+  if (!row.outcome.empty()) ++counts["outcome"][row.outcome].of[status];
+  if (!row.reason.empty()) ++counts["reason"][row.reason].of[status];
+  dropped += row.dropped ? 1 : 0;
+  if (row.press) press.add(*row.press);
+  if (row.render) render.add(*row.render);
   if (row.failure) {
-    ++failure_kinds_[row.failure->stage + ": " +
-                     (row.failure->check.empty() ? "no check of the verdict" : row.failure->check)];
-    if (failures_.size() < kept_failures_) failures_.push_back({plan, *row.failure});
+    ++failures_by_kind[row.failure->stage + ": " +
+                       (row.failure->check.empty() ? "no check of the verdict" : row.failure->check)];
+    if (failures.size() < kept_failures_) failures.push_back({plan, *row.failure});
   }
   if (row.status != SampleStatus::made) return;
   for (const auto& [column, word] : words) words_[column].add(word);
   for (std::size_t q = 0; q < kQuantities.size(); ++q)
     numbers_[q].push_back((row.numbers.*kQuantities[q].number).value_or(std::numeric_limits<double>::quiet_NaN()));
   const SampleNumbers& numbers = row.numbers;
-  worst_balance_ = std::max(worst_balance_, numbers.balance_relative);
+  worst_balance = std::max(worst_balance, numbers.balance_relative);
   const auto least = [](std::optional<double>& so_far, std::optional<double> value) {
     if (value) so_far = std::min(so_far.value_or(*value), *value);
   };
-  least(smallest_distance_m_, numbers.min_distance_m);
-  least(smallest_volume_ratio_, numbers.min_volume_ratio);
+  least(smallest_distance_m, numbers.min_distance_m);
+  least(smallest_volume_ratio, numbers.min_volume_ratio);
 }
 
 std::map<std::string, std::vector<double>> DatasetTally::values(std::size_t quantity, const std::string& column) const {

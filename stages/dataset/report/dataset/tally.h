@@ -54,27 +54,20 @@ class DatasetTally {
   explicit DatasetTally(std::size_t kept_failures) : kept_failures_(kept_failures) {}
   void add(const SampleRow& row);
 
-  const StatusCounts& all() const { return all_; }
-  std::size_t dropped() const { return dropped_; }
-  /// By column ("split", "pose split", "gel", "object", "motion") and word.
-  const std::map<std::string, std::map<std::string, StatusCounts>>& counts() const { return counts_; }
-
   /// Values of a quantity of made samples, by the word of a column, for those that have it.
   std::map<std::string, std::vector<double>> values(std::size_t quantity, const std::string& column) const;
   /// Two quantities of the made samples that have both.
   std::pair<std::vector<double>, std::vector<double>> pairs(std::size_t first, std::size_t second) const;
 
-  const CostColumn& press() const { return press_; }
-  const CostColumn& render() const { return render_; }
-
-  const std::vector<FailedSample>& failures() const { return failures_; }
-  /// How often samples failed by stage and check.
-  const std::map<std::string, std::size_t>& failures_by_kind() const { return failure_kinds_; }
-
+  StatusCounts all;
+  std::size_t dropped = 0;
+  /// By column ("split", "pose split", "gel", "object", "motion") and word.
+  std::map<std::string, std::map<std::string, StatusCounts>> counts;
+  CostColumn press, render;
+  std::vector<FailedSample> failures;
+  std::map<std::string, std::size_t> failures_by_kind;  // by stage and check
   /// Over all made samples.
-  std::optional<double> worst_balance() const { return worst_balance_; }
-  std::optional<double> smallest_distance_m() const { return smallest_distance_m_; }
-  std::optional<double> smallest_volume_ratio() const { return smallest_volume_ratio_; }
+  std::optional<double> worst_balance, smallest_distance_m, smallest_volume_ratio;
 
  private:
   /// Words of a column as numbers, and which each made sample has.
@@ -85,15 +78,8 @@ class DatasetTally {
   };
 
   std::size_t kept_failures_;
-  StatusCounts all_;
-  std::size_t dropped_ = 0;
-  std::map<std::string, std::map<std::string, StatusCounts>> counts_;
   std::map<std::string, Words> words_;                           // of made samples
   std::array<std::vector<double>, kQuantities.size()> numbers_;  // of made samples; NaN where there is none
-  CostColumn press_, render_;
-  std::vector<FailedSample> failures_;
-  std::map<std::string, std::size_t> failure_kinds_;
-  std::optional<double> worst_balance_, smallest_distance_m_, smallest_volume_ratio_;
 };
 
 /// Sensor and mesh, as the plan names gels.

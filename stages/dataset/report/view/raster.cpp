@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "stages/dataset/report/scaled_picture.h"
-
 namespace tacipc {
 namespace {
 

@@ -6,7 +6,7 @@
 #include "common/base/types.h"
 #include "common/image/image.h"
 #include "common/mesh/triangle_mesh.h"
-#include "stages/dataset/report/lettering.h"
+#include "stages/dataset/report/sheet.h"
 
 namespace tacipc {
 

@@ -4,9 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <opencv2/core.hpp>
 #include <utility>
 
 namespace tacipc {
@@ -166,8 +164,7 @@ ByteImage scene_pictures(const SceneView& view, const std::vector<PicturedInstan
   constexpr Color kInk{27, 35, 48}, kQuiet{93, 104, 120};
   const int columns = static_cast<int>(instants.size());
   const Viewpoint from = scene_viewpoint(view, static_cast<double>(width) / height);
-  ByteImage strip(columns * (width + kGap) - kGap, kHead + height, 3, 255);
-  cv::Mat sheet(strip.height, strip.width, CV_8UC3, strip.pixels.data());
+  ByteImage sheet(columns * (width + kGap) - kGap, kHead + height, 3, 255);
   for (int column = 0; column < columns; ++column) {
     const PicturedInstant& instant = instants[static_cast<std::size_t>(column)];
     const Instant& now = frames.at(static_cast<std::size_t>(view.frames[instant.shown]));
@@ -176,11 +173,9 @@ ByteImage scene_pictures(const SceneView& view, const std::vector<PicturedInstan
     draw_text(sheet, fitted({instant.what.empty() ? time : time + ", " + instant.what, kLetters, kInk, true}, width),
               x + kGap, kLetters + 5);
     draw_text(sheet, fitted({now.phase, kLetters - 1, kQuiet}, width), x + kGap, 2 * kLetters + 14);
-    ByteImage picture = picture_of(view, instant.shown, from, width, height);
-    cv::Mat(picture.height, picture.width, CV_8UC3, picture.pixels.data())
-        .copyTo(sheet({x, kHead, picture.width, picture.height}));
+    paste(sheet, picture_of(view, instant.shown, from, width, height), x, kHead);
   }
-  return strip;
+  return sheet;
 }
 
 }  // namespace tacipc

@@ -47,30 +47,29 @@ TriangleMesh ordered(const TriangleMesh& mesh) {
           renumbered(mesh.triangles, spatial_rank(mesh.positions))};
 }
 
-/// The front alone: which rows of the gel its vertices are, and its triangles among these.
-struct Front {
-  std::vector<int> order;  // rows of front_vertices
-  std::vector<int> rows;   // the same as rows of the gel
+/// A part of a mesh's surface alone: which rows of the mesh its vertices are, and its triangles among these.
+struct Part {
+  std::vector<int> order;  // rows of `vertices`
+  std::vector<int> rows;   // the same as rows of the mesh
   Triangles triangles;
 };
 
-Front front_of(const TetMesh& gel) {
-  const std::vector<int> vertices = gel.vertices(BoundaryTag::front);
-  Front front{.order = spatial_order(gel.positions(vertices, Eigen::all)), .rows = {}, .triangles = {}};
-  std::vector<int> place(static_cast<std::size_t>(gel.num_vertices()), -1);
-  for (const int v : front.order) {
+Part part_of(const TetMesh& mesh, const std::vector<int>& vertices, const Triangles& triangles) {
+  Part part{.order = spatial_order(mesh.positions(vertices, Eigen::all)), .rows = {}, .triangles = {}};
+  std::vector<int> place(static_cast<std::size_t>(mesh.num_vertices()), -1);
+  for (const int v : part.order) {
     const int row = vertices[static_cast<std::size_t>(v)];
-    place[static_cast<std::size_t>(row)] = static_cast<int>(front.rows.size());
-    front.rows.push_back(row);
+    place[static_cast<std::size_t>(row)] = static_cast<int>(part.rows.size());
+    part.rows.push_back(row);
   }
-  front.triangles = renumbered(gel.faces(BoundaryTag::front), place);
-  return front;
+  part.triangles = renumbered(triangles, place);
+  return part;
 }
 
 /// A gel whose press can be shown.
 struct ShownGel {
   PressFolder press;
-  Front front;
+  Part front;
   double bottom_m;
 };
 
@@ -91,7 +90,8 @@ std::optional<ShownGel> open_gel(const fs::path& folder) {
     if (!press.has(array)) return std::nullopt;
   }
   press.require_front(gel.vertices(BoundaryTag::front));
-  return ShownGel{std::move(press), front_of(gel), gel.positions.col(2).minCoeff()};
+  return ShownGel{std::move(press), part_of(gel, gel.vertices(BoundaryTag::front), gel.faces(BoundaryTag::front)),
+                  gel.positions.col(2).minCoeff()};
 }
 
 ViewedFront read_frame(const ShownGel& gel, std::size_t frame, const Matrix4& world_from_gel) {
@@ -111,17 +111,12 @@ ViewedObject soft_object(const SceneSoft& soft, const fs::path& path, std::size_
                          const std::vector<int>& shown) {
   const TetMesh tets = read_object_tet_mesh(path);
   const std::vector<Positions> all = soft.positions(frames, static_cast<std::size_t>(tets.num_vertices()));
-  const std::vector<int> surface = tets.vertices(BoundaryTag::free);
-  std::vector<int> place(static_cast<std::size_t>(tets.num_vertices()), -1), rows;
-  for (const int v : spatial_order(tets.positions(surface, Eigen::all))) {
-    const int row = surface[static_cast<std::size_t>(v)];
-    place[static_cast<std::size_t>(row)] = static_cast<int>(rows.size());
-    rows.push_back(row);
-  }
+  const Part surface = part_of(tets, tets.vertices(BoundaryTag::free), tets.boundary);
   ViewedObject object{.name = soft.name,
-                      .mesh = {all.front()(rows, Eigen::all), renumbered(tets.boundary, place)},
+                      .mesh = {all.front()(surface.rows, Eigen::all), surface.triangles},
                       .world_from_object = std::vector<Matrix4>(shown.size(), Matrix4::Identity())};
-  for (const int frame : shown) object.deformed.emplace_back(all[static_cast<std::size_t>(frame)](rows, Eigen::all));
+  for (const int frame : shown)
+    object.deformed.emplace_back(all[static_cast<std::size_t>(frame)](surface.rows, Eigen::all));
   return object;
 }
 
@@ -151,6 +146,33 @@ SceneView view_of(const SceneFolder& scene, const std::vector<ShownGel>& gels, c
   for (std::size_t i = 0; i < scene.soft.size(); ++i)
     view.objects.push_back(soft_object(scene.soft[i], bodies[objects + i], scene.times_s.size(), view.frames));
   return view;
+}
+
+constexpr const char* kWorld = "world";  // MuJoCo's name of what does not move
+
+bool has_body(const SceneFolder& scene, const std::string& name) {
+  const auto named = [&](const auto& body) { return body.name == name; };
+  return std::any_of(scene.objects.begin(), scene.objects.end(), named) ||
+         std::any_of(scene.soft.begin(), scene.soft.end(), named);
+}
+
+/// A body that carries a gel ends behind it: MuJoCo's pad, a shape of the body, lies where the gel is, which the view
+/// has itself. Vertices in the gel's place go back to its bottom.
+void make_room(TriangleMesh& shape, const Matrix4& gel_from_body, const ViewedGel& gel) {
+  constexpr double kInFront_m = 5e-4, kAround = 1.2;  // a pad may stand out, and be wider
+  const Positions& front = gel.frames.front().positions;
+  const Eigen::RowVector2d middle = 0.5 * (front.colwise().minCoeff() + front.colwise().maxCoeff()).leftCols<2>();
+  const double radius = kAround * (front.leftCols<2>().rowwise() - middle).rowwise().norm().maxCoeff();
+  const Matrix3 rotation = gel_from_body.topLeftCorner<3, 3>();
+  const Vector3 origin = gel_from_body.topRightCorner<3, 1>();
+  for (Eigen::Index v = 0; v < shape.positions.rows(); ++v) {
+    Vector3 in_gel = rotation * shape.positions.row(v).transpose() + origin;
+    const bool inside = in_gel.z() > gel.bottom_m && in_gel.z() < front.col(2).maxCoeff() + kInFront_m &&
+                        (in_gel.head<2>().transpose() - middle).norm() < radius;
+    if (!inside) continue;
+    in_gel.z() = gel.bottom_m;
+    shape.positions.row(v) = (rotation.transpose() * (in_gel - origin)).transpose();
+  }
 }
 
 }  // namespace
@@ -216,6 +238,30 @@ std::optional<SceneView> read_scene_view(const SceneFolder& scene, const fs::pat
     bodies.push_back(*path);
   }
   return view_of(scene, gels, bodies);
+}
+
+void add_robot(SceneView& view, const RobotFolder& robot, const std::filesystem::path& folder,
+               const SceneFolder& scene) {
+  const auto add = [&](const std::string& name, auto&& pose_in) {
+    const std::filesystem::path shape = robot_shape(folder, name);
+    if (has_body(scene, name) || !std::filesystem::is_regular_file(shape)) return;
+    ViewedObject object{.name = name, .mesh = read_triangle_mesh(shape, 1.0), .world_from_object = {}};
+    for (const int frame : view.frames) object.world_from_object.push_back(pose_in(static_cast<std::size_t>(frame)));
+    object.fixed = name == kWorld;
+    object.robot = !object.fixed;
+    for (const ViewedGel& gel : view.gels) {
+      const auto gel_from_body = [&](std::size_t f) -> Matrix4 {
+        return gel.frames[f].world_from_gel.inverse() * object.world_from_object[f];
+      };
+      constexpr double kStill = 1e-6;  // m; what carries the gel does not move as seen from it
+      const Matrix4 first = gel_from_body(0), last = gel_from_body(view.frames.size() - 1);
+      if (object.robot && (last - first).cwiseAbs().maxCoeff() < kStill) make_room(object.mesh, first, gel);
+    }
+    view.objects.push_back(std::move(object));
+  };
+  add(kWorld, [](std::size_t) -> Matrix4 { return Matrix4::Identity(); });
+  for (std::size_t b = 0; b < robot.parts.bodies.size(); ++b)
+    add(robot.parts.bodies[b], [&](std::size_t frame) { return robot.frames[frame].body_pose[b]; });
 }
 
 void link_pictures(SceneView& view, const std::vector<fs::path>& render_folders, const fs::path& page_folder) {

@@ -9,6 +9,7 @@
 #include "common/base/types.h"
 #include "common/mesh/triangle_mesh.h"
 #include "common/sample/contact_state.h"
+#include "common/sample/robot_folder.h"
 #include "common/sample/scene_folder.h"
 
 namespace tacipc {
@@ -60,6 +61,11 @@ std::optional<SceneView> read_press_view(const std::filesystem::path& press_fold
 
 /// The same of a scene, whose folder this is.
 std::optional<SceneView> read_scene_view(const SceneFolder& scene, const std::filesystem::path& folder);
+
+/// Adds the shapes of the robot's bodies, and of what stands around it; not of bodies that the scene has itself.
+/// `folder`: of the robot. \throw DataError for a shape that cannot be read \pre the robot has the scene's frames
+void add_robot(SceneView& view, const RobotFolder& robot, const std::filesystem::path& folder,
+               const SceneFolder& scene);
 
 /// Links every gel's tactile images, those that there are, from a page in `page_folder`. `render_folders`: one per gel.
 void link_pictures(SceneView& view, const std::vector<std::filesystem::path>& render_folders,

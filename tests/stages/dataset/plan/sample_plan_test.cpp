@@ -9,7 +9,6 @@
 #include "common/base/error.h"
 #include "stages/dataset/plan/plan_checks.h"
 #include "stages/dataset/plan/plan_files.h"
-#include "stages/dataset/plan/seeds.h"
 #include "tests/config_text.h"
 
 namespace tacipc {

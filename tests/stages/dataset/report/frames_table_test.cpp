@@ -1,4 +1,4 @@
-#include "stages/dataset/report/frames_table.h"
+#include "stages/dataset/report/press_curve.h"
 
 #include <gmock/gmock.h>
 

@@ -117,17 +117,17 @@ TEST_F(SampleRowTest, TheTallyCountsAndGathersWhatIsMade) {
   data_.fail(1);
   DatasetTally tally(0);
   for (int i = 0; i < 4; ++i) tally.add(row(i));
-  EXPECT_EQ(tally.all().total(), 4u);
-  EXPECT_EQ(tally.all()[SampleStatus::made], 2u);
-  EXPECT_EQ(tally.all()[SampleStatus::failed], 1u);
-  EXPECT_EQ(tally.counts().at("object").at("star")[SampleStatus::failed], 1u);
-  EXPECT_EQ(tally.counts().at("object").at("gear")[SampleStatus::unmade], 1u);
+  EXPECT_EQ(tally.all.total(), 4u);
+  EXPECT_EQ(tally.all[SampleStatus::made], 2u);
+  EXPECT_EQ(tally.all[SampleStatus::failed], 1u);
+  EXPECT_EQ(tally.counts.at("object").at("star")[SampleStatus::failed], 1u);
+  EXPECT_EQ(tally.counts.at("object").at("gear")[SampleStatus::unmade], 1u);
   EXPECT_THAT(tally.values(kDepth, "split"),
               ElementsAre(Pair("test", ElementsAre(0.5)), Pair("train", ElementsAre(0.5))));
   EXPECT_EQ(tally.pairs(kDepth, kArea).first.size(), 2u);
-  EXPECT_TRUE(tally.failures().empty());  // none were to be kept
-  EXPECT_THAT(tally.failures_by_kind(), ElementsAre(Pair("press: force balance", 1u)));
-  EXPECT_THAT(tally.press().processor_s, ElementsAre(3, 3));
+  EXPECT_TRUE(tally.failures.empty());  // none were to be kept
+  EXPECT_THAT(tally.failures_by_kind, ElementsAre(Pair("press: force balance", 1u)));
+  EXPECT_THAT(tally.press.processor_s, ElementsAre(3, 3));
 }
 
 }  // namespace sample_row_test

@@ -1,4 +1,4 @@
-#include "stages/dataset/report/view/robot_view.h"
+#include "stages/dataset/report/view/scene_view.h"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "stages/dataset/report/scene_part.h"
-#include "stages/dataset/report/view/robot_view.h"
+#include "stages/dataset/report/view/scene_view.h"
 #include "tests/stages/dataset/report/robot_scene.h"
 
 namespace tacipc {

@@ -1,4 +1,4 @@
-#include "stages/dataset/report/lettering.h"
+#include "stages/dataset/report/sheet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,11 @@ namespace tacipc {
 namespace {
 
 constexpr int kOversampling = 4;  // drawn larger and averaged, strokes of a stroke font become smooth
+
+/// The same pixels as OpenCV has them.
+cv::Mat mat_of(const ByteImage& image) {
+  return {image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data())};
+}
 
 double font_scale(int height) { return static_cast<double>(kOversampling * height) / 22.0; }
 
@@ -44,7 +49,7 @@ Text fitted(Text text, int width) {
   return text;
 }
 
-void draw_text(cv::Mat& sheet, const Text& text, int x, int baseline) {
+void draw_text(ByteImage& sheet, const Text& text, int x, int baseline) {
   const int margin = text.height;
   const cv::Size size(text.width() + 2 * margin, 3 * text.height);
   cv::Mat large = cv::Mat::zeros(size * kOversampling, CV_8UC1), mask;
@@ -52,17 +57,35 @@ void draw_text(cv::Mat& sheet, const Text& text, int x, int baseline) {
               font_scale(text.height), 255, text.stroke(), cv::LINE_AA);
   cv::resize(large, mask, size, 0, 0, cv::INTER_AREA);
   const cv::Rect place = cv::Rect(x - margin, baseline - 2 * text.height, size.width, size.height);
-  const cv::Rect inside = place & cv::Rect(0, 0, sheet.cols, sheet.rows);
+  const cv::Rect inside = place & cv::Rect(0, 0, sheet.width, sheet.height);
+  cv::Mat pixels = mat_of(sheet);
   for (int row = inside.y; row < inside.y + inside.height; ++row) {
     for (int column = inside.x; column < inside.x + inside.width; ++column) {
       const double part = mask.at<unsigned char>(row - place.y, column - place.x) / 255.0;
-      auto& pixel = sheet.at<cv::Vec3b>(row, column);
+      auto& pixel = pixels.at<cv::Vec3b>(row, column);
       for (int c = 0; c < 3; ++c) {
         pixel[c] = static_cast<unsigned char>(
             std::lround((1.0 - part) * pixel[c] + part * text.color[static_cast<std::size_t>(c)]));
       }
     }
   }
+}
+
+void fill_box(ByteImage& sheet, int x, int y, int width, int height, const Color& color) {
+  mat_of(sheet)({x, y, width, height}).setTo(cv::Scalar(color[0], color[1], color[2]));
+}
+
+ByteImage fitted_picture(const ByteImage& image, int width, int height) {
+  const double scale = std::min(static_cast<double>(width) / image.width, static_cast<double>(height) / image.height);
+  ByteImage copy(std::max(1, static_cast<int>(std::lround(scale * image.width))),
+                 std::max(1, static_cast<int>(std::lround(scale * image.height))), 3);
+  cv::Mat target = mat_of(copy);
+  cv::resize(mat_of(image), target, target.size(), 0, 0, scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return copy;
+}
+
+void paste(ByteImage& sheet, const ByteImage& picture, int x, int y) {
+  mat_of(picture).copyTo(mat_of(sheet)({x, y, picture.width, picture.height}));
 }
 
 }  // namespace tacipc
