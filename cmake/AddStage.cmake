@@ -19,6 +19,20 @@ function(tacipc_add_stage name)
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
 
+# tacipc_embed(<target> <constant> <file> …)
+# Header embedded/<target>_texts.h for the sources of <target>: the text of each file, as it stands, as a constant of C++.
+function(tacipc_embed target)
+  set(constants "")
+  while(ARGN)
+    list(POP_FRONT ARGN constant file)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} text)
+    string(APPEND constants "\ninline constexpr const char* ${constant} = R\"embedded(${text})embedded\";\n")
+  endwhile()
+  file(CONFIGURE OUTPUT embedded/${target}_texts.h CONTENT "#pragma once\n@constants@" @ONLY)
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+endfunction()
+
 # tacipc_add_program(<name> SOURCES a.cpp … LINK lib …)
 # A program of a study: an executable bin/<name> that is not installed.
 function(tacipc_add_program name)
