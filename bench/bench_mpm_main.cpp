@@ -23,9 +23,9 @@ namespace {
 
 const StageSpec kBench{.name = "bench_mpm",
                        .summary = "Measure what material points cost.",
-                       .inputs = {{.flag = "--config", .help = "numerics of mpm (YAML)", .many = true},
-                                  {.flag = "--sensor", .help = "the sensor (YAML)"},
-                                  {.flag = "--object", .help = "triangle mesh in metres (object.ply of decimate)"}}};
+                       .inputs = {InputSpec::several("--config", "numerics of mpm (YAML)"),
+                                  {"--sensor", "the sensor (YAML)"},
+                                  {"--object", "triangle mesh in metres (object.ply of decimate)"}}};
 
 using bench::processor_s;
 using bench::wall_s;

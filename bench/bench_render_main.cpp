@@ -24,11 +24,10 @@ using namespace tacipc;
 
 namespace {
 
-const StageSpec kBench{.name = "bench_render",
-                       .summary = "Measure what rendering a frame costs.",
-                       .inputs = {{.flag = "--sensor", .help = "the sensor (YAML)"},
-                                  {.flag = "--gel", .help = "gel.msh of tetmesh"},
-                                  {.flag = "--press", .help = "folder of a press"}}};
+const StageSpec kBench{
+    .name = "bench_render",
+    .summary = "Measure what rendering a frame costs.",
+    .inputs = {{"--sensor", "the sensor (YAML)"}, {"--gel", "gel.msh of tetmesh"}, {"--press", "folder of a press"}}};
 
 using bench::processor_s;
 using bench::wall_s;

@@ -18,9 +18,10 @@ using namespace tacipc::bench;
 
 namespace {
 
-const StageSpec kTable{.name = "bench_table",
-                       .summary = "Put presses of the benchmark together as tables, a plot and the cost model.",
-                       .inputs = {{"--press", "folder of a press, named gel-object-motion-route[-how]", true, true}}};
+const StageSpec kTable{
+    .name = "bench_table",
+    .summary = "Put presses of the benchmark together as tables, a plot and the cost model.",
+    .inputs = {InputSpec::several("--press", "folder of a press, named gel-object-motion-route[-how]")}};
 
 constexpr const char* kFast = "fast";
 constexpr const char* kDirect = "direct";

@@ -15,9 +15,9 @@ namespace {
 
 const StageSpec kTable{.name = "verify_table",
                        .summary = "Put the results of verification cases together as one page.",
-                       .inputs = {{"--result", "folder of a case's result", true, true},
-                                  {"--rows", "long rows that the page shows (YAML)", false},
-                                  {"--long", "record of a long row, or its failure file", false, true}}};
+                       .inputs = {InputSpec::several("--result", "folder of a case's result"),
+                                  InputSpec::optional("--rows", "long rows that the page shows (YAML)"),
+                                  InputSpec::any_number("--long", "record of a long row, or its failure file")}};
 
 std::vector<verify::LongRowResult> read_long_rows(Stage& stage) {
   std::vector<verify::LongRowResult> results;
