@@ -5,6 +5,7 @@
 
 #include "common/base/units.h"
 #include "common/image/plot.h"
+#include "tacipc_verification_long_texts.h"
 #include "verification/marker_curve.h"
 
 namespace tacipc::verify {
@@ -84,56 +85,43 @@ std::string marker_curve_found(const std::vector<SlidingRun>& runs, const std::v
 
 std::string marker_curve_page(const std::vector<SlidingRun>& runs, const std::vector<MarkerCurve>& curves,
                               const std::vector<MarkerMotion>& others, const MarkerCurveConfig& config) {
-  std::string out = fmt::format(
-      "# Markers under a dragged or turned object\n\nWritten by `make -f Makefile.data board3`; discussion: "
-      "[board3](../board3.md). Markers of rows {} to {} and columns {} to {}, mean length of their displacement in x "
-      "and y since the end of the press. Settled: the friction load stays above {:g} % of its largest.\n\n"
-      "| Sample | Gel vertices | Frames after the press | Largest first difference | Settled from | Largest second "
-      "difference from there | Limit | | Over the whole motion |\n|---|---|---|---|---|---|---|---|---|\n",
-      config.chosen.first_row, config.chosen.last_row, config.chosen.first_column, config.chosen.last_column,
-      100.0 * config.settled_load);
+  std::string evenness, loads, compared, pictures;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SlidingRun& run = runs[i];
     const MarkerCurve& c = curves[i];
-    out += fmt::format("| {} | {} | {} | {:.3f} µm | {:.3g}{} | {:.4f} µm = {:.2f} % | {:g} % | {} | {:.2f} % |\n",
-                       run.name, run.gel_vertices, c.mean_m.size() - 1, c.largest_first_m / kMicrometre,
-                       shown_way(run, run.way[c.settled]), way_unit(run), c.largest_second_m / kMicrometre,
-                       100.0 * c.ratio(), 100.0 * config.second_difference_limit,
-                       c.ratio() < config.second_difference_limit ? "holds" : "**missed**",
-                       100.0 * c.largest_second_ever_m / c.largest_first_m);
-  }
-  out +=
-      "\n| Sample | Verdict | Markers at the end | Press force | Friction load: largest, at the end | All slip from | "
-      "Balance | Smallest gap | Smallest volume ratio |\n|---|---|---|---|---|---|---|---|---|\n";
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const SlidingRun& run = runs[i];
+    evenness += fmt::format("| {} | {} | {} | {:.3f} µm | {:.3g}{} | {:.4f} µm = {:.2f} % | {:g} % | {} | {:.2f} % |\n",
+                            run.name, run.gel_vertices, c.mean_m.size() - 1, c.largest_first_m / kMicrometre,
+                            shown_way(run, run.way[c.settled]), way_unit(run), c.largest_second_m / kMicrometre,
+                            100.0 * c.ratio(), 100.0 * config.second_difference_limit,
+                            c.ratio() < config.second_difference_limit ? "holds" : "**missed**",
+                            100.0 * c.largest_second_ever_m / c.largest_first_m);
     const auto [low, high] = std::ranges::minmax_element(run.press_force_n);
     const char* unit = run.turns ? "N mm" : "N";
-    out += fmt::format(
+    loads += fmt::format(
         "| {} | {} | {:.1f} µm | {:.4f} … {:.4f} N | {:.4g}, {:.4g} {} | {} | {:.1e} | {:.1f} µm | {:.2f} |\n",
-        run.name, run.verdict, curves[i].mean_m.back() / kMicrometre, *low, *high,
+        run.name, run.verdict, c.mean_m.back() / kMicrometre, *low, *high,
         shown_load(run, *std::ranges::max_element(run.load)), shown_load(run, run.load.back()), unit,
         run.gross_slip_way ? fmt::format("{:.3g}{}", shown_way(run, *run.gross_slip_way), way_unit(run)) : "never",
         run.max_balance_relative, run.min_distance_m / kMicrometre, run.min_volume_ratio);
   }
   if (!others.empty())
-    out +=
+    compared =
         "\nThe same markers by another simulator, at the end of the travel:\n\n| Sample | Simulator | Markers at the "
         "end | Of ours | Difference of the vectors, mean | largest |\n|---|---|---|---|---|---|\n";
   for (const SlidingRun& run : runs)
     for (const MarkerMotion& other : of_kind(others, run)) {
       const MotionComparison c = compare(run, other, config.chosen);
-      out += fmt::format("| {} | {} | {:.1f} µm | {:.3f} | {:.1f} µm | {:.1f} µm |\n", run.name, other.name,
-                         c.mean_m / kMicrometre, c.ratio, c.error_m / kMicrometre, c.largest_m / kMicrometre);
+      compared += fmt::format("| {} | {} | {:.1f} µm | {:.3f} | {:.1f} µm | {:.1f} µm |\n", run.name, other.name,
+                              c.mean_m / kMicrometre, c.ratio, c.error_m / kMicrometre, c.largest_m / kMicrometre);
     }
-  out += '\n';
   for (const SlidingRun& run : runs) {
     for (const char* picture : {"curve", "differences", "quiver"})
-      out += fmt::format("![{0}: {1}]({0}_{1}.svg)\n", run.name, picture);
+      pictures += fmt::format("![{0}: {1}]({0}_{1}.svg)\n", run.name, picture);
     for (const MarkerMotion& other : of_kind(others, run))
-      out += fmt::format("![{0} by {1}: quiver]({0}_{1}_quiver.svg)\n", run.name, other.name);
+      pictures += fmt::format("![{0} by {1}: quiver]({0}_{1}_quiver.svg)\n", run.name, other.name);
   }
-  return out;
+  return fmt::format(kMarkerCurvePage, config.chosen.first_row, config.chosen.last_row, config.chosen.first_column,
+                     config.chosen.last_column, 100.0 * config.settled_load, evenness, loads, compared, pictures);
 }
 
 }  // namespace tacipc::verify

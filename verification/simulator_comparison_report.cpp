@@ -4,6 +4,7 @@
 
 #include "common/base/units.h"
 #include "common/image/plot.h"
+#include "tacipc_verification_long_texts.h"
 #include "verification/simulator_comparison.h"
 
 namespace tacipc::verify {
@@ -92,12 +93,9 @@ const std::string& label_of(const ComparedRuns& all, const SimulatorRun& run) {
   return all.config.simulators[std::ranges::find(runs, &run) - runs.begin()].label;
 }
 
-std::string factor_table(const ComparedRuns& all) {
+std::string factor_rows(const ComparedRuns& all) {
   const SimulatorRun& ours = all.at(0, 0);
-  std::string out = fmt::format(
-      "| Run | Changed value | Mean at the end, µm | of the travel | of that run's | of {}'s |\n"
-      "|---|---|---|---|---|---|\n",
-      label_of(all, ours));
+  std::string out;
   const std::vector<const SimulatorRun*> bases = first_motion(all);
   for (const SimulatorRun& run : all.factors) {
     const SimulatorRun* base = nearest_run(run, bases);
@@ -185,33 +183,24 @@ std::string comparison_curve_csv(const ComparedRuns& all, std::size_t m) {
 
 std::string comparison_page(const ComparedRuns& all, const std::string& pictures) {
   const SimulatorComparison& config = all.config;
-  std::string out = fmt::format(
-      "Markers of rows {} to {} and columns {} to {}; displacement in x and y since the end of the press. *Of the "
-      "travel*: relative to markers stuck to the object. *Difference*: of the vectors of the same markers. *Change at "
-      "half speed*: of the markers of all frames when the object moves half as fast.\n",
-      config.chosen.first_row, config.chosen.last_row, config.chosen.first_column, config.chosen.last_column);
+  std::string out = fmt::format(kComparisonPage, config.chosen.first_row, config.chosen.last_row,
+                                config.chosen.first_column, config.chosen.last_column);
   for (std::size_t m = 0; m < config.motions.size(); ++m) {
-    const std::string name = config.title + "_" + config.motions[m];
-    out += fmt::format(
-        "\n| {}, {} | Mean at the end, µm | of the travel | of {}'s | Difference, µm: mean | largest | All markers, µm "
-        "| Change at half speed |\n"
-        "|---|---|---|---|---|---|---|---|\n",
-        config.title, config.motions[m], config.simulators[0].label);
-    for (std::size_t s = 0; s < config.simulators.size(); ++s) out += row_of(all, s, m);
-    out += fmt::format("\n{}\n\n![{}: mean displacement over the travel]({}/{}_curves.svg)\n\n|", finding(all, m),
-                       config.motions[m], pictures, name);
-    std::string rule = "|", arrows = "|";
+    std::string rows, labels, rule, arrows;
     for (std::size_t s = 0; s < config.simulators.size(); ++s) {
+      const auto& [name, label] = config.simulators[s];
+      rows += row_of(all, s, m);
       if (!all.at(s, m).motion) continue;
-      out += fmt::format(" {} |", config.simulators[s].label);
+      labels += fmt::format(" {} |", label);
       rule += "---|";
-      arrows += fmt::format(" ![{0}]({1}/{2}_{0}.svg) |", config.simulators[s].name, pictures, name);
+      arrows += fmt::format(" ![{0}]({1}/{2}_{3}_{0}.svg) |", name, pictures, config.title, config.motions[m]);
     }
-    out += fmt::format("\n{}\n{}\n", rule, arrows);
+    out += fmt::format(kComparedMotion, config.title, config.motions[m], config.simulators[0].label, rows,
+                       finding(all, m), pictures, labels, rule, arrows);
   }
   if (all.factors.empty()) return out;
-  return out + fmt::format("\nOne value changed, {}:\n\n", config.motions[0]) + factor_table(all) + "\n" +
-         factor_finding(all);
+  return out +
+         fmt::format(kFactors, config.motions[0], label_of(all, all.at(0, 0)), factor_rows(all), factor_finding(all));
 }
 
 }  // namespace tacipc::verify

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/config/config.h"
+#include "tacipc_verification_texts.h"
 
 namespace tacipc::verify {
 ResultFile read_result(const std::filesystem::path& result_yaml) {
@@ -32,20 +33,16 @@ ResultFile read_result(const std::filesystem::path& result_yaml) {
 
 std::string to_markdown(const std::vector<ResultFile>& results, const std::vector<LongRowResult>& long_rows,
                         const std::string& plots) {
-  std::string out =
-      "# Verification of the press\n\n"
-      "Made by `make -f Makefile.data verification`; each case is a file of `configs/studies/verification/` (see [the "
-      "format](verification_cases.md)).\n\n"
-      "| Case | Vertices | Quantity | Measured | Expected | Deviation | Limit | |\n|---|---|---|---|---|---|---|---|\n";
+  std::string rows, sources, curves;
   for (const ResultFile& file : results) {
     if (file.reason) {
-      out += fmt::format("| {} | | | | | | | **{}**: {} |\n", file.title, file.state, *file.reason);
+      rows += fmt::format("| {} | | | | | | | **{}**: {} |\n", file.title, file.state, *file.reason);
       continue;
     }
     bool first = true;
     for (const ResultRow& row : file.rows) {
       const bool percent = row.limit.ends_with("%");
-      out += fmt::format(
+      rows += fmt::format(
           "| {} | {} | {} | {:.5g} {} | {} | {} | {} | {} |\n",
           first ? fmt::format("[{}](../configs/studies/verification/{}.yaml)", file.title, file.name) : "",
           first ? fmt::format("{}", file.gel_vertices) : "", row.label, row.measured, row.unit,
@@ -54,16 +51,13 @@ std::string to_markdown(const std::vector<ResultFile>& results, const std::vecto
       first = false;
     }
     if (file.fitted_modulus_pa)
-      out += fmt::format("| | | fitted modulus | {:.4g} Pa | | | | |\n", *file.fitted_modulus_pa);
+      rows += fmt::format("| | | fitted modulus | {:.4g} Pa | | | | |\n", *file.fitted_modulus_pa);
   }
-  out += '\n';
-  out += long_rows_section(long_rows);
-  out += "## Sources of the expected values\n\n";
-  for (const ResultFile& file : results) out += fmt::format("- {}: {}\n", file.title, file.source);
-  out += "\n## Curves\n\n";
-  for (const ResultFile& file : results)
-    if (!file.reason) out += fmt::format("![{}]({}/{}.svg)\n", file.title, plots, file.name);
-  return out;
+  for (const ResultFile& file : results) {
+    sources += fmt::format("- {}: {}\n", file.title, file.source);
+    if (!file.reason) curves += fmt::format("![{}]({}/{}.svg)\n", file.title, plots, file.name);
+  }
+  return fmt::format(kVerificationPage, rows, long_rows_section(long_rows), sources, curves);
 }
 
 }  // namespace tacipc::verify
