@@ -4,8 +4,6 @@
 #include "common/base/files.h"
 #include "common/stage/stage.h"
 #include "stages/study/cases/case_files.h"
-#include "stages/study/cases/identify_files.h"
-#include "stages/study/cases/marker_files.h"
 
 namespace {
 
