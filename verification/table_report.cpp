@@ -20,9 +20,9 @@ ResultFile read_result(const std::filesystem::path& result_yaml) {
     for (ConfigReader& row : in.sections("rows")) {
       file.rows.push_back({.label = row.text("label"),
                            .unit = row.text("unit"),
-                           .limit = row.text("limit"),
                            .measured = row.number("measured"),
                            .expected = row.optional_number("expected"),
+                           .limit = row.text("limit"),
                            .deviation = row.number("deviation"),
                            .pass = row.flag("pass")});
     }
@@ -40,7 +40,7 @@ std::string to_markdown(const std::vector<ResultFile>& results, const std::vecto
       continue;
     }
     bool first = true;
-    for (const ResultRow& row : file.rows) {
+    for (const Row& row : file.rows) {
       const bool percent = row.limit.ends_with("%");
       rows += fmt::format(
           "| {} | {} | {} | {:.5g} {} | {} | {} | {} | {} |\n",

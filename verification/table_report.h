@@ -6,25 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "verification/judge.h"
 #include "verification/long_rows.h"
 
 namespace tacipc::verify {
 
 /// One result.yaml as the page needs it.
-struct ResultRow {
-  std::string label, unit, limit;
-  double measured = 0.0;
-  std::optional<double> expected;
-  double deviation = 0.0;
-  bool pass = false;
-};
 struct ResultFile {
   std::string name;  // of its folder
   std::string title, source, state;
   std::optional<std::string> reason;
   std::optional<double> fitted_modulus_pa;
   int gel_vertices = 0;
-  std::vector<ResultRow> rows;
+  std::vector<Row> rows;
 };
 
 /// \throw DataError, ConfigError for a file that is not a result

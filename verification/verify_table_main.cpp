@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
       results.push_back(verify::read_result(folder / "result.yaml"));
       const verify::ResultFile& result = results.back();
       write_file(stage.output("verification/" + result.name + ".svg"), read_file(folder / "plot.svg"));
-      for (const verify::ResultRow& row : result.rows) {
+      for (const verify::Row& row : result.rows) {
         log_info("{}: {}: {:.5g} {}{} ({}): {}", result.name, row.label, row.measured, row.unit,
                  row.expected ? fmt::format(", expected {:.5g}", *row.expected) : "", row.limit,
                  row.pass ? "holds" : "MISSED");

@@ -71,9 +71,9 @@ std::string metrics(const BenchmarkCases& cases) {
   return text;
 }
 
-std::string labels(const std::vector<ContactCircle>& circles) {
+std::string labels(const std::vector<BallLabel>& circles) {
   std::string text;
-  for (const ContactCircle& circle : circles)
+  for (const BallLabel& circle : circles)
     text += fmt::format("{} ({}, {}) {}\n", circle.image, circle.x_px, circle.y_px, circle.radius_px);
   return text;
 }

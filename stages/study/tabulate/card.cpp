@@ -94,7 +94,7 @@ CardImages read_card_images(const std::string& name, const std::filesystem::path
   return out;
 }
 
-Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mechanics,
+Card make_card(const CardConfig& config, const std::vector<NamedPath>& mechanics,
                const std::vector<CardImages>& images) {
   Card out;
   out.page = fmt::format("# Blind card: {}\n\n", config.title);
@@ -104,17 +104,17 @@ Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mecha
       "its parameters, of its mesh, gap and material law where the file checks them, and, of an interval, of the "
       "measurement.\n";
   Value::Map fits, compared;
-  for (const CardMechanics& m : mechanics) {
-    out.page += fmt::format("\n## Mechanics: {}\n\n{}", m.name, read_file(m.folder / "table.md"));
-    const Value record = record_of(m.folder / "identify.yaml");
-    fits.emplace_back(m.name, at(record, m.folder / "identify.yaml", "summary"));
+  for (const auto& [name, folder] : mechanics) {
+    out.page += fmt::format("\n## Mechanics: {}\n\n{}", name, read_file(folder / "table.md"));
+    const Value record = record_of(folder / "identify.yaml");
+    fits.emplace_back(name, at(record, folder / "identify.yaml", "summary"));
     std::vector<std::filesystem::path> plots;
-    for (const auto& entry : std::filesystem::directory_iterator(m.folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
       if (entry.path().extension() == ".svg") plots.push_back(entry.path());
     std::ranges::sort(plots);
     out.page += '\n';
     for (const auto& plot : plots) {
-      const std::string picture = m.name + "_" + plot.filename().string();
+      const std::string picture = name + "_" + plot.filename().string();
       out.pictures[picture] = plot;
       out.page += fmt::format("![{}]({})\n", plot.stem().string(), picture);
     }

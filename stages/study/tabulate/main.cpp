@@ -115,8 +115,7 @@ void make(Stage& stage, const StageCostsConfig& config) {
 }
 
 void make(Stage& stage, const CardConfig& config) {
-  std::vector<CardMechanics> mechanics;
-  for (const auto& [name, folder] : stage.named_inputs("--identified")) mechanics.push_back({name, folder});
+  const std::vector<NamedPath>& mechanics = stage.named_inputs("--identified");
   std::vector<CardImages> images;
   for (const auto& [name, folder] : stage.named_inputs("--compared")) images.push_back(read_card_images(name, folder));
   const Card card = make_card(config, mechanics, images);
