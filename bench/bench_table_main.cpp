@@ -54,7 +54,7 @@ std::string route_rows(const std::vector<Run>& runs) {
     const double systems = run.parts.at("linear_systems"), products = run.parts.at("products");
     out += fmt::format("| {} {} | {} | {} | {:.1f} | {} | {} | {} | {:.0f} | {} | {:.0f} | {:.4f} | {} |\n",
                        run.name.object, run.name.motion, run.gel_vertices, run.name.route, run.processor_s, times,
-                       run.newton(), run.patch(), systems,
+                       run.sum(&Frame::newton), run.sum(&Frame::patch), systems,
                        products > 0 ? fmt::format("{:.0f}", products / systems) : "factor", run.peak_memory_mb,
                        run.press_force_n, difference_text);
   }

@@ -24,8 +24,8 @@ std::string line(const std::string& object, const std::vector<RoutePair>& pairs,
       worst.largest_m = std::max(worst.largest_m, d->largest_m);
       worst.rms_m = std::max(worst.rms_m, d->rms_m);
       worst.force = std::max(worst.force, std::abs(d->force));
-      fast_newton += pair.fast.run->newton();
-      direct_newton += pair.direct.run->newton();
+      fast_newton += pair.fast.run->sum(&Frame::newton);
+      direct_newton += pair.direct.run->sum(&Frame::newton);
     }
   }
   return fmt::format("| {} | {} of {} | {} of {} | {} of {} | {:.2g} | {:.2g} | {:.2g} | {} / {} | {:.0f} / {:.0f} |\n",

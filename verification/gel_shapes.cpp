@@ -220,8 +220,7 @@ GelSpec GelSpec::read(ConfigReader& in) {
     DiscGel gel;
     gel.radius_m = kMillimetre * disc->number("radius_mm", Range::positive());
     gel.thickness_m = kMillimetre * disc->number("thickness_mm", Range::positive());
-    ConfigReader mesh = disc->section("mesh");
-    gel.sizing = SizingConfig::read(mesh);
+    gel.sizing = disc->read<SizingConfig>("mesh");
     spec.shape = gel;
   }
   if (auto file = in.optional_section("file")) {

@@ -37,12 +37,11 @@ RefinementSpec RefinementSpec::read(ConfigReader& in) {
   RefinementSpec spec;
   spec.scene.title = in.text("title");
   spec.scene.source = spec.scene.title;
-  ConfigReader gel = in.section("gel"), material = in.section("material"), shape = in.section("shape"),
-               press = in.section("press"), front = in.section("front");
-  spec.scene.gel = GelSpec::read(gel);
-  spec.scene.material = Material::read(material);
-  spec.scene.object = ObjectShape::read(shape);
-  spec.scene.press = PressConfig::read(press);
+  spec.scene.gel = in.read<GelSpec>("gel");
+  spec.scene.material = in.read<Material>("material");
+  spec.scene.object = in.read<ObjectShape>("shape");
+  spec.scene.press = in.read<PressConfig>("press");
+  ConfigReader front = in.section("front");
   spec.scene.sample = SampleSpec::read(in);
   spec.front_half_m = kMillimetre * front.number("half_mm", Range::positive());
   spec.front_pitch_m = kMillimetre * front.number("pitch_mm", Range::positive());

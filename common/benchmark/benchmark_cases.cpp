@@ -37,13 +37,13 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
     if (object.images.size() > 1 && !(object.images.back().depth_m > object.images[object.images.size() - 2].depth_m))
       item.fault("depth_mm", "must be deeper than the image before");
   }
-  if (std::ranges::none_of(object.images, [&](const PhotographCase& image) { return image.name == object.fit_image; }))
-    fit.fault("image", "is not one of the images");
+  const auto is_image = [&](const std::string& name) {
+    return std::ranges::count(object.images, name, &PhotographCase::name) > 0;
+  };
+  if (!is_image(object.fit_image)) fit.fault("image", "is not one of the images");
   if (in.has("calibrates")) {
     object.calibrates = in.text("calibrates");
-    if (std::ranges::none_of(object.images,
-                             [&](const PhotographCase& image) { return image.name == object.calibrates; }))
-      in.fault("calibrates", "is not one of the images");
+    if (!is_image(object.calibrates)) in.fault("calibrates", "is not one of the images");
     if (object.images.size() == 1) in.fault("calibrates", "leaves no image of the object to test");
   }
   return object;
@@ -79,8 +79,7 @@ BenchmarkCases BenchmarkCases::read(ConfigReader& in) {
   cases.photographs = plain(in, "photographs");
   if (in.has("circles")) {
     cases.circles = plain(in, "circles");
-    ConfigReader table = in.section("circle_table");
-    cases.circle_table = CircleTable::read(table);
+    cases.circle_table = in.read<CircleTable>("circle_table");
   } else {
     cases.background = plain(in, "background");
     cases.labels = plain(in, "labels");

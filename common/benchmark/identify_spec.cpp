@@ -47,10 +47,10 @@ void read_relaxation(ConfigReader& parameters, IdentifySpec& out) {
   std::vector<ConfigReader> terms = parameters.sections("relaxation");
   for (ConfigReader& term : terms) {
     const std::string index = std::to_string(out.relaxation.size());
-    ConfigReader part = term.section("part"), time = term.section("time_s");
-    MechanicsParameter g{.name = "relaxation_" + index + "_part",
-                         .prior = Prior::read(part, Range::between(0.0, 0.95 / static_cast<double>(terms.size())))};
-    MechanicsParameter tau{.name = "relaxation_" + index + "_time_s", .prior = Prior::read(time, Range::positive())};
+    const Range parts = Range::between(0.0, 0.95 / static_cast<double>(terms.size()));
+    MechanicsParameter g{.name = "relaxation_" + index + "_part", .prior = term.read<Prior>("part", parts)};
+    MechanicsParameter tau{.name = "relaxation_" + index + "_time_s",
+                           .prior = term.read<Prior>("time_s", Range::positive())};
     out.relaxation.emplace_back(std::move(g), std::move(tau));
   }
 }
@@ -109,9 +109,8 @@ Measurement read_measurement(ConfigReader& in) {
   out.file = plain(in, "file");
   if (out.kind == MeasurementKind::markers) {
     out.markers = read_markers(in);
-    ConfigReader depth = in.section("depth_mm"), travel = in.section("travel_mm");
-    out.markers->depth_mm = Prior::read(depth, Range::positive());
-    out.markers->travel_mm = Prior::read(travel, Range::positive());
+    out.markers->depth_mm = in.read<Prior>("depth_mm", Range::positive());
+    out.markers->travel_mm = in.read<Prior>("travel_mm", Range::positive());
   } else {
     const std::vector<std::string> first{"depth_mm", "travel_mm", "time_s"};
     out.columns = read_columns(in, {first[static_cast<std::size_t>(out.kind)], "force_n"});

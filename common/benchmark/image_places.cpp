@@ -55,8 +55,8 @@ ImagePlaces ImagePlaces::read(ConfigReader& in) {
       image.frame = item.integer("frame", 0, 1000000);
     }
     config.images.push_back(image);
-    const auto same = [&](const NamedFrame& other) { return other.name == config.images.back().name; };
-    if (std::ranges::count_if(config.images, same) > 1) item.fault("name", "is given twice");
+    if (std::ranges::count(config.images, config.images.back().name, &NamedFrame::name) > 1)
+      item.fault("name", "is given twice");
   }
   if (config.ball_radius_m) return config;
   ConfigReader place = in.section("place");
@@ -66,7 +66,7 @@ ImagePlaces ImagePlaces::read(ConfigReader& in) {
   if (auto fit = in.optional_section("fit")) {
     PlaceFit wanted{.image = fit->text("image"), .box_px = {}, .yaw = fit->flag("yaw")};
     wanted.box_px = pixel_box(*fit, "box_px");
-    if (std::ranges::none_of(config.images, [&](const NamedFrame& image) { return image.name == wanted.image; }))
+    if (std::ranges::count(config.images, wanted.image, &NamedFrame::name) == 0)
       fit->fault("image", "is not one of the images");
     config.fit = wanted;
   }

@@ -36,9 +36,7 @@ MarkerLattice::MarkerLattice(const Positions& rest_m, const std::string& source)
   const Eigen::Index markers = rest_m.rows();
   if (markers < 16) no_lattice();
   for (int k = 0; k < 2; ++k) {
-    std::vector<double> values;
-    for (Eigen::Index m = 0; m < markers; ++m) values.push_back(rest_m(m, k));
-    const std::vector<double> lines = distinct(std::move(values));
+    const std::vector<double> lines = distinct({rest_m.col(k).begin(), rest_m.col(k).end()});
     if (lines.size() < 4) no_lattice();
     first_m_[k] = lines.front();
     count_[k] = static_cast<int>(lines.size());

@@ -67,8 +67,7 @@ PressedRuns::PressedRuns(const std::vector<std::filesystem::path>& folders, doub
         found.push_back(entry.path().parent_path());
   std::ranges::sort(found);
   for (const auto& run : found) runs_.push_back(read_run(run, ball_radius_m));
-  std::ranges::stable_sort(
-      runs_, [](const PressedRun& a, const PressedRun& b) { return a.final_depth_m() < b.final_depth_m(); });
+  std::ranges::stable_sort(runs_, {}, &PressedRun::final_depth_m);
   for (std::size_t i = 1; i < runs_.size(); ++i)
     if (!(runs_[i].final_depth_m() > runs_[i - 1].final_depth_m()))
       throw DataError("{}: is pressed as deep as {}", runs_[i].source, runs_[i - 1].source);

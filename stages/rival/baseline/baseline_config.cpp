@@ -129,8 +129,7 @@ BaselineConfig BaselineConfig::read(ConfigReader& in) {
       static_cast<ObjectRays>(std::ranges::find(kRays, in.choice_or("rays", kRays[0], kRays)) - kRays.begin());
   if (auto force = in.optional_section("contact_force")) config.force = ForceDepth::read(*force);
   if (const auto depth = in.optional_number("front_depth_mm", Range::positive())) config.front_depth_m = 1e-3 * *depth;
-  ConfigReader deformation = in.section("deformation");
-  config.deformation = DeformationConfig::read(deformation);
+  config.deformation = in.read<DeformationConfig>("deformation");
   config.texture_sigma_m = 1e-3 * in.number("texture_sigma_mm", Range::non_negative());
   config.seed = static_cast<std::uint64_t>(in.integer_or("seed", 1, 0));
   if (auto shading = in.optional_section("shading")) {

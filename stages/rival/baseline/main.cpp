@@ -96,8 +96,7 @@ std::vector<Matrix4> wanted_poses(Stage& stage, const BaselineSimulator& simulat
     if (!file) throw UsageError("--photograph: needed where a place is to be fitted to it");
     if (!simulator.config().shades()) throw UsageError("--places: no place can be fitted without shading");
     const ByteImage photograph = read_photograph(*file, simulator.sensor().camera);
-    const NamedFrame& image =
-        *std::ranges::find_if(places.images, [&](const NamedFrame& one) { return one.name == places.fit->image; });
+    const NamedFrame& image = *std::ranges::find(places.images, places.fit->image, &NamedFrame::name);
     const FittedPlace fitted = search_place(place, *places.fit, photograph, [&](const ImagePlace& at) {
       return *simulator.frame(simulator.seen(moved(at, image))).tactile;
     });

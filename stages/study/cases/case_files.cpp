@@ -105,8 +105,7 @@ std::string variables(const BenchmarkCases& cases, const std::string& folder) {
     make.set("FIT_" + object.name, object.fit_image);
     if (!object.calibrates.empty()) {
       known += (known.empty() ? "" : " ") + object.name;
-      const auto at = std::ranges::find_if(
-          object.images, [&](const PhotographCase& image) { return image.name == object.calibrates; });
+      const auto at = std::ranges::find(object.images, object.calibrates, &PhotographCase::name);
       make.set("KNOWN_FRAME_" + object.name, fmt::format("{}", at - object.images.begin() + 1));
     }
     make.set("MESH_" + object.name, object.mesh.empty() ? "" : cases.data + "/" + object.mesh);

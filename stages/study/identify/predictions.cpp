@@ -62,10 +62,8 @@ std::vector<ForcePrediction> predict_forces(const MechanicsModel& model, const P
     for (const MeasuredForce& f : data.fitted) row(f.at, true, f.force_n);
     for (const MeasuredForce& f : data.held_out) row(f.at, false, f.force_n);
     for (const double depth : measurements[m].predict_mm)
-      if (std::ranges::none_of(rows, [&](const ForcePrediction& p) { return p.depth_mm == depth; }))
-        row(depth, false, std::nullopt);
-    std::ranges::stable_sort(
-        rows, [](const ForcePrediction& a, const ForcePrediction& b) { return a.depth_mm < b.depth_mm; });
+      if (std::ranges::count(rows, depth, &ForcePrediction::depth_mm) == 0) row(depth, false, std::nullopt);
+    std::ranges::stable_sort(rows, {}, &ForcePrediction::depth_mm);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       ForcePrediction& p = rows[r];
       p.force_n = model.press_force_n(m, mean, p.depth_mm);

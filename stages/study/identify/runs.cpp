@@ -88,9 +88,8 @@ void read_rows(const Measurement& m, const std::filesystem::path& path, ForceDat
     }
     (held_out ? data.held_out : data.fitted).push_back(row);
   }
-  const auto earlier = [](const MeasuredForce& a, const MeasuredForce& b) { return a.at < b.at; };
-  std::ranges::stable_sort(data.fitted, earlier);
-  std::ranges::stable_sort(data.held_out, earlier);
+  std::ranges::stable_sort(data.fitted, {}, &MeasuredForce::at);
+  std::ranges::stable_sort(data.held_out, {}, &MeasuredForce::at);
   if (data.fitted.empty()) throw DataError("{}: has no row to fit to", path.string());
 }
 

@@ -4,7 +4,6 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
-#include "common/benchmark/quiver.h"
 #include "common/stage/stage.h"
 #include "stages/study/marker_fit/fit_report.h"
 

@@ -84,8 +84,7 @@ std::string named(const MeasuredRow& row) {
 
 /// Number of a column as its differences count: the logarithm where its mean is geometric.
 double value_of(double number, const Finding& finding, const ImageTableConfig& config) {
-  const auto column =
-      std::ranges::find_if(config.columns, [&](const ShownColumn& shown) { return shown.column == finding.column; });
+  const auto column = std::ranges::find(config.columns, finding.column, &ShownColumn::column);
   return column->geometric ? std::log(number) : number;
 }
 

@@ -11,8 +11,7 @@ namespace {
 template <typename Item>
 void refuse_repeats(ConfigReader& in, const std::string& key, const std::vector<Item>& items,
                     std::string Item::*member) {
-  const auto same = [&](const Item& other) { return other.*member == items.back().*member; };
-  if (std::ranges::count_if(items, same) > 1) in.fault(key, "is given twice");
+  if (std::ranges::count(items, items.back().*member, member) > 1) in.fault(key, "is given twice");
 }
 
 template <typename Item>
