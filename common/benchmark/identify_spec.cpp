@@ -55,14 +55,13 @@ void read_relaxation(ConfigReader& parameters, IdentifySpec& out) {
   }
 }
 
-MeasuredColumns read_columns(ConfigReader& in, const std::vector<std::string>& quantities) {
-  MeasuredColumns out;
+void read_columns(ConfigReader& in, Measurement& out) {
   ConfigReader columns = in.section("columns");
-  for (const std::string& quantity : quantities) out.column_of.emplace_back(quantity, columns.text(quantity));
-  if (auto factors = in.optional_section("factors"))
-    for (const std::string& quantity : quantities)
-      if (const auto factor = factors->optional_number(quantity)) out.factor_of.emplace_back(quantity, *factor);
-  return out;
+  auto factors = in.optional_section("factors");
+  for (MeasuredColumn* one : {&out.at, &out.force}) {
+    one->column = columns.text(one->quantity);
+    if (factors) one->factor = factors->optional_number(one->quantity).value_or(1.0);
+  }
 }
 
 MarkerMeasurement read_markers(ConfigReader& in) {
@@ -113,7 +112,9 @@ Measurement read_measurement(ConfigReader& in) {
     out.markers->travel_mm = in.read<Prior>("travel_mm", Range::positive());
   } else {
     const std::vector<std::string> first{"depth_mm", "travel_mm", "time_s"};
-    out.columns = read_columns(in, {first[static_cast<std::size_t>(out.kind)], "force_n"});
+    out.at.quantity = first[static_cast<std::size_t>(out.kind)];
+    out.force.quantity = "force_n";
+    read_columns(in, out);
     ConfigReader sigma = in.section("sigma");
     out.sigma_relative = sigma.number_or("relative", 0.0, Range::non_negative());
     out.sigma_n = sigma.number("force_n", Range::positive());
@@ -188,16 +189,6 @@ Prior Prior::read(ConfigReader& in, const Range& natural) {
       in.fault("bounds", "must be the least and the largest value, with the mean between them");
   }
   return out;
-}
-
-const std::string& MeasuredColumns::column(const std::string& quantity) const {
-  return std::ranges::find_if(column_of, [&](const auto& c) { return c.first == quantity; })->second;
-}
-
-double MeasuredColumns::factor(const std::string& quantity) const {
-  for (const auto& [name, factor] : factor_of)
-    if (name == quantity) return factor;
-  return 1.0;
 }
 
 IdentifySpec IdentifySpec::read(ConfigReader& in) {

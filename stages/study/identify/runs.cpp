@@ -66,11 +66,11 @@ CurveTable table_of(const std::vector<std::filesystem::path>& folders, const std
 }
 
 void read_rows(const Measurement& m, const std::filesystem::path& path, ForceData& data) {
-  const std::string& at = m.columns.column_of.front().first;
+  const std::string& at = m.at.quantity;
   CsvReader table(path);
   while (table.next()) {
-    MeasuredForce row{.at = m.columns.factor(at) * table.number(m.columns.column(at)),
-                      .force_n = m.columns.factor("force_n") * table.number(m.columns.column("force_n"))};
+    MeasuredForce row{.at = m.at.factor * table.number(m.at.column),
+                      .force_n = m.force.factor * table.number(m.force.column)};
     row.sigma_n = std::hypot(m.sigma_n, m.sigma_relative * row.force_n);
     if (!std::isfinite(row.at) || !std::isfinite(row.force_n))
       throw DataError("{}:{}: is not finite", path.string(), table.line());
