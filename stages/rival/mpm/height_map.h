@@ -1,4 +1,4 @@
-// The front as the camera's image of heights.
+// The front as maps of heights: from straight above, and as the sensor's camera sees it.
 #pragma once
 
 #include "common/image/image.h"
@@ -11,23 +11,14 @@ namespace tacipc {
 /// of a row and a column at the window's edges (as published), or half a pixel inside.
 enum class PixelPlaces { ends, centres };
 
-/// Pixels of one row or column: the place of pixel i is first + i · step.
-struct PixelLine {
-  double first, step;
-  int count;
-
-  PixelLine(double center_m, double window_m, int pixels, PixelPlaces places);
-  double place(int i) const { return first + i * step; }
-  /// The pixel at a place, between pixels a fraction.
-  double pixel(double at) const { return step > 0.0 ? (at - first) / step : 0.0; }
-  /// The first and the last pixel that can lie in an interval.
-  int from(double low) const;
-  int to(double high) const;
-};
-
 /// Indentation (m, > 0 into the gel) of the front's particles at `front_m` (undeformed at z = 0), interpolated between
 /// them as deformed; 0 beside the gel.
 FloatImage indentation_map(const GelLattice& lattice, const Positions& front_m, const Camera& camera,
                            PixelPlaces places);
+
+/// Indentation (m, > 0 into the gel) of what each pixel's ray, bent at the sensor's layers, meets first of the surface
+/// that `from_above` (indentation_map's) describes, linear between its pixels and constant outside: the map that
+/// baseline makes and render, shade and calibrate take. \throw DataError if a pixel does not look at the front face
+FloatImage seen_along_rays(const FloatImage& from_above, const Sensor& sensor, PixelPlaces places);
 
 }  // namespace tacipc

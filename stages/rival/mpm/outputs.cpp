@@ -9,7 +9,6 @@
 #include "common/sample/render_folder.h"
 #include "common/sensor/markers.h"
 #include "stages/rival/mpm/height_map.h"
-#include "stages/rival/mpm/seen_map.h"
 
 namespace tacipc {
 namespace {
