@@ -16,28 +16,6 @@ constexpr double kBarycentricSlack = 1e-9;
 
 constexpr int kHalvings = 24;  // of half a pixel's distance along a ray: below 1e-8 of it
 
-/// Pixels of one row or column: the place of pixel i is first + i · step.
-struct PixelLine {
-  double first, step;
-  int count;
-
-  PixelLine(double center_m, double window_m, int pixels, PixelPlaces places)
-      : first(center_m - 0.5 * window_m), step(window_m / pixels), count(pixels) {
-    if (places == PixelPlaces::ends)
-      step = pixels > 1 ? window_m / (pixels - 1) : 0.0;
-    else
-      first += 0.5 * step;
-  }
-  double place(int i) const { return first + i * step; }
-  /// The pixel at a place, between pixels a fraction.
-  double pixel(double at) const { return step > 0.0 ? (at - first) / step : 0.0; }
-  /// The first and the last pixel that can lie in an interval.
-  int from(double low) const { return step > 0.0 ? std::max(0, static_cast<int>(std::floor(pixel(low)))) : 0; }
-  int to(double high) const {
-    return step > 0.0 ? static_cast<int>(std::min(count - 1.0, std::ceil(pixel(high)))) : count - 1;
-  }
-};
-
 /// The surface between the pixels of its map.
 class Surface {
  public:
