@@ -4,7 +4,7 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/stage/stage.h"
-#include "verification/refinement_report.h"
+#include "verification/refinement.h"
 
 using namespace tacipc;
 
