@@ -31,15 +31,16 @@ std::vector<MarkerErrors> marker_errors(const MechanicsModel& model, std::size_t
                                         const Posterior& posterior, bool fitted) {
   const MarkerMeasurement& m = *model.spec().measurements[measurement].markers;
   const MarkerData& data = *model.data(measurement).markers;
-  const auto mean = model.marker_px(measurement, posterior.mean_u());
+  using Both = std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd>;
+  const Both mean = model.marker_px(measurement, posterior.mean_u());
   constexpr int kDraws = 200;
-  std::vector<std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd>> drawn;
+  std::vector<Both> drawn;
   for (const Eigen::Index k : posterior.resampled(kDraws))
     drawn.push_back(model.marker_px(measurement, posterior.u.col(k)));
   const double noise = model.sigma_factor[measurement] * m.sigma_px;
   std::vector<MarkerErrors> out;
-  const auto add = [&](const std::string& photograph, const MarkerField& field, const Eigen::Matrix2Xd& px,
-                       auto&& part) {
+  const auto add = [&](const char* photograph, const MarkerField& field, Eigen::Matrix2Xd Both::*part) {
+    const Eigen::Matrix2Xd& px = mean.*part;
     MarkerErrors e{.photograph = photograph, .fitted = fitted};
     for (Eigen::Index i = 0; i < px.cols(); ++i) {
       if (model.fits_marker(i) != fitted) continue;
@@ -48,15 +49,14 @@ std::vector<MarkerErrors> marker_errors(const MechanicsModel& model, std::size_t
       e.error_px += (px.col(i) - field.moved_px.col(i)).norm();
       for (Eigen::Index k = 0; k < 2; ++k) {
         double square = noise * noise;
-        for (const auto& draw : drawn) square += std::pow(part(draw)(k, i) - px(k, i), 2) / kDraws;
+        for (const auto& draw : drawn) square += std::pow((draw.*part)(k, i) - px(k, i), 2) / kDraws;
         e.inside += std::abs(px(k, i) - field.moved_px(k, i)) <= 1.96 * std::sqrt(square);
       }
     }
     out.push_back(e);
   };
-  add("press", data.press, mean.first, [](const auto& both) -> const Eigen::Matrix2Xd& { return both.first; });
-  add("press and shear", data.shear, mean.second,
-      [](const auto& both) -> const Eigen::Matrix2Xd& { return both.second; });
+  add("press", data.press, &Both::first);
+  add("press and shear", data.shear, &Both::second);
   return out;
 }
 
