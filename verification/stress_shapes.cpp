@@ -299,7 +299,6 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
   const auto edge_for = [&](double extent, double area) {
     return std::max(object.edge_m * extent / object.size_m, std::sqrt(1.16 * area / ranges.max_vertices));
   };
-  const auto prism = [&](std::vector<Eigen::Vector2d> polygon, double length) { return extrude(polygon, length, 1); };
   if (object.kind == "cone") {
     const double radius = std::tan(half_angle), slope = std::hypot(1.0, radius);
     object.half_angle_rad = half_angle;
@@ -312,10 +311,10 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
   } else if (object.kind == "wedge") {
     object.half_angle_rad = half_angle;
     const double half_width = std::tan(half_angle);
-    object.mesh = prism({{0.0, 0.0}, {half_width, 1.0}, {-half_width, 1.0}}, draws.in({0.3, 2.0}));
+    object.mesh = extrude({{0.0, 0.0}, {half_width, 1.0}, {-half_width, 1.0}}, draws.in({0.3, 2.0}));
   } else if (object.kind == "box") {
     const double a = draws.in({0.2, 1.0}), b = draws.in({0.2, 1.0});
-    object.mesh = prism({{-a / 2, -b / 2}, {a / 2, -b / 2}, {a / 2, b / 2}, {-a / 2, b / 2}}, 1.0);
+    object.mesh = extrude({{-a / 2, -b / 2}, {a / 2, -b / 2}, {a / 2, b / 2}, {-a / 2, b / 2}}, 1.0);
     const int stands_on = draws.below(3);  // a corner, an edge, a face
     const Matrix3 any = any_rotation(draws);
     const double roll = draws.in({0.0, pi / 2});
@@ -335,7 +334,7 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
     std::vector<Eigen::Vector2d> polygon;
     for (int i = 0; i < sides; ++i)
       polygon.emplace_back(radius * std::sin(2.0 * pi * i / sides), -radius * std::cos(2.0 * pi * i / sides));
-    object.mesh = prism(polygon, 1.0);
+    object.mesh = extrude(polygon, 1.0);
   } else {
     const double tube = draws.in({0.2, 0.6});
     const double edge = edge_for(2.0 + 2.0 * tube, 4.0 * pi * pi * tube);
