@@ -204,7 +204,6 @@ SimulatorRun SimulatorRun::read(const std::filesystem::path& folder) {
     flatten(record.section("config").section("config").content(), "", run.settings);
     ConfigReader summary = record.section("summary");
     run.half_speed_change = summary.optional_number("marker_change_at_half_speed");
-    run.mach = summary.optional_number("largest_mach");
     run.motion = read_other_motion(folder);
     run.motion->name = run.name;
     run.failure.clear();
