@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/machine.h"
+#include "bench_mpm_texts.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/sample/placement.h"
@@ -22,9 +23,9 @@ namespace {
 
 const StageSpec kBench{.name = "bench_mpm",
                        .summary = "Measure what material points cost.",
-                       .inputs = {{.flag = "--config", .help = "numerics of mpm (YAML)", .many = true},
-                                  {.flag = "--sensor", .help = "the sensor (YAML)"},
-                                  {.flag = "--object", .help = "triangle mesh in metres (object.ply of decimate)"}}};
+                       .inputs = {InputSpec::several("--config", "numerics of mpm (YAML)"),
+                                  {"--sensor", "the sensor (YAML)"},
+                                  {"--object", "triangle mesh in metres (object.ply of decimate)"}}};
 
 using bench::processor_s;
 using bench::wall_s;
@@ -62,19 +63,7 @@ double memory_bytes_per_s(int repeats) {
 /// `load` is the number of runnable processes of the last minute on `cores` cores.
 std::string mpm_page(const std::vector<MpmCost>& costs, double memory_bytes_per_s, const std::string& processor,
                      double load, unsigned cores) {
-  std::string out = fmt::format(
-      "# Cost of material points\n\nMade by `make -f Makefile.data bench-mpm` on {}: steps of the gel of "
-      "`configs/sensors/mctac.yaml` while a star presses into it, with sorting, without files. Best of several runs, "
-      "in millions of particles · steps per second; *CPU* is per processor second on one thread. When it began, {:.1f} "
-      "processes were running on {} cores. With more processes than cores wall times are unreliable, and processor "
-      "times include the sharing of caches and memory.\n\n"
-      "One thread streams {:.1f} GB per second of processor time (a = b + s c over 128 MiB each, in the same run). "
-      "*Limit* is that rate over the bytes that a particle moves in a step without caching: its own data, scattered, "
-      "gathered and written, and its share of the grid's nodes, zeroed, added to, updated, read. A gel that fits in a "
-      "cache can be faster.\n\n"
-      "| Configuration | Particles | Nodes | Bytes per particle and step | Limit | CPU | of the limit | 1 thread | 2 "
-      "threads | Cost of 1 mm |\n|---|---|---|---|---|---|---|---|---|---|\n",
-      processor, load, cores, 1e-9 * memory_bytes_per_s);
+  std::string out = fmt::format(kMaterialPointsPage, processor, load, cores, 1e-9 * memory_bytes_per_s);
   for (const MpmCost& cost : costs) {
     const double limit = memory_bytes_per_s / cost.bytes;
     out += fmt::format(

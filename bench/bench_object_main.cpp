@@ -9,7 +9,7 @@ namespace {
 
 const StageSpec kObject{.name = "bench_object",
                         .summary = "Write a shape (sphere, punch, cone …) as a closed triangle mesh.",
-                        .inputs = {{.flag = "--config", .help = "the shape, as verification cases give it (YAML)"}}};
+                        .inputs = {{"--config", "the shape, as verification cases give it (YAML)"}}};
 
 struct Shape {
   verify::ObjectShape shape;

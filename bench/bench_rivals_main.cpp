@@ -27,24 +27,15 @@ namespace {
 const StageSpec kBench{
     .name = "bench_rivals",
     .summary = "Measure what a tactile image costs, by ours and other simulators.",
-    .inputs = {{.flag = "--sensor", .help = "the sensor (YAML); its images get the sizes that are measured"},
-               {.flag = "--press",
-                .help = "folders of presses, whose cost counts; the first one's frames are pictured",
-                .many = true},
-               {.flag = "--gel", .help = "gel.msh of these presses"},
-               {.flag = "--object", .help = "object of the first press (object.ply)"},
-               {.flag = "--light", .help = "light.yaml of calibrate, for TacIPC's images"},
-               {.flag = "--configs", .help = "baseline configurations, by method", .many = true, .named = true},
-               {.flag = "--lights",
-                .help = "light of a method whose configuration has none of its own",
-                .required = false,
-                .many = true,
-                .named = true},
-               {.flag = "--mpm",
-                .help = "folders of mpm, by method: seen under TacIPC's light",
-                .required = false,
-                .many = true,
-                .named = true}}};
+    .inputs = {
+        {"--sensor", "the sensor (YAML); its images get the sizes that are measured"},
+        InputSpec::several("--press", "folders of presses, whose cost counts; the first one's frames are pictured"),
+        {"--gel", "gel.msh of these presses"},
+        {"--object", "object of the first press (object.ply)"},
+        {"--light", "light.yaml of calibrate, for TacIPC's images"},
+        InputSpec::several_named("--configs", "baseline configurations, by method"),
+        InputSpec::any_number_named("--lights", "light of a method whose configuration has none of its own"),
+        InputSpec::any_number_named("--mpm", "folders of mpm, by method: seen under TacIPC's light")}};
 
 constexpr std::array<std::array<int, 2>, 2> kSizes{{{320, 240}, {640, 480}}};
 constexpr int kLeastFrames = 12;  // timed of every method: frames are repeated where there are fewer

@@ -19,16 +19,10 @@ RunName parse_run_name(const std::string& name) {
   return {parts[0], parts[1], parts[2], parts[3], parts.size() == 5 ? parts[4] : ""};
 }
 
-int Run::newton() const {
-  int sum = 0;
-  for (const Frame& frame : frames) sum += frame.newton;
-  return sum;
-}
-
-int Run::patch() const {
-  int sum = 0;
-  for (const Frame& frame : frames) sum += frame.patch;
-  return sum;
+int Run::sum(int Frame::*count) const {
+  int total = 0;
+  for (const Frame& frame : frames) total += frame.*count;
+  return total;
 }
 
 Run read_run(const std::filesystem::path& folder) {

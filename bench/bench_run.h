@@ -39,8 +39,8 @@ struct Run {
   std::map<std::string, double> parts;  // seconds and counts, as press names them
   Positions last;                       // of the gel, m
 
-  int newton() const;
-  int patch() const;
+  /// Over all frames.
+  int sum(int Frame::*count) const;
 };
 
 /// \throw DataError, ConfigError where the folder does not hold a finished press with its timings

@@ -7,6 +7,7 @@
 #include "bench/cost_model.h"
 #include "bench/element_study.h"
 #include "bench/machine.h"
+#include "bench_table_texts.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/image/plot.h"
@@ -17,9 +18,10 @@ using namespace tacipc::bench;
 
 namespace {
 
-const StageSpec kTable{.name = "bench_table",
-                       .summary = "Put presses of the benchmark together as tables, a plot and the cost model.",
-                       .inputs = {{"--press", "folder of a press, named gel-object-motion-route[-how]", true, true}}};
+const StageSpec kTable{
+    .name = "bench_table",
+    .summary = "Put presses of the benchmark together as tables, a plot and the cost model.",
+    .inputs = {InputSpec::several("--press", "folder of a press, named gel-object-motion-route[-how]")}};
 
 constexpr const char* kFast = "fast";
 constexpr const char* kDirect = "direct";
@@ -31,11 +33,8 @@ const Run* find(const std::vector<Run>& runs, const std::string& text) {
   return found == runs.end() ? nullptr : &*found;
 }
 
-std::string routes_table(const std::vector<Run>& runs) {
-  std::string out =
-      "| Scene | Gel vertices | Route | CPU s | Speed-up | Whole-gel iterations | Patch iterations | Linear systems | "
-      "Products each | Peak memory, MB | Force, N | Difference: largest, rms, force "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+std::string route_rows(const std::vector<Run>& runs) {
+  std::string out;
   for (const Run& run : runs) {
     if (!run.name.how.empty()) continue;
     const Run* direct = run.name.route == kFast ? find(runs, run.name.with_route(kDirect)) : nullptr;
@@ -55,7 +54,7 @@ std::string routes_table(const std::vector<Run>& runs) {
     const double systems = run.parts.at("linear_systems"), products = run.parts.at("products");
     out += fmt::format("| {} {} | {} | {} | {:.1f} | {} | {} | {} | {:.0f} | {} | {:.0f} | {:.4f} | {} |\n",
                        run.name.object, run.name.motion, run.gel_vertices, run.name.route, run.processor_s, times,
-                       run.newton(), run.patch(), systems,
+                       run.sum(&Frame::newton), run.sum(&Frame::patch), systems,
                        products > 0 ? fmt::format("{:.0f}", products / systems) : "factor", run.peak_memory_mb,
                        run.press_force_n, difference_text);
   }
@@ -87,10 +86,8 @@ std::string parts_table(const std::vector<Run>& runs) {
   return out;
 }
 
-std::string runs_table(const std::vector<Run>& runs) {
-  std::string out =
-      "| Scene | Gel vertices | Run | Wall s | CPU s | Wall time over one process, one thread "
-      "|\n|---|---|---|---|---|---|\n";
+std::string run_rows(const std::vector<Run>& runs) {
+  std::string out;
   for (const Run& run : runs) {
     if (run.name.how.empty()) continue;
     const Run* plain = find(runs, run.name.with_route(run.name.route));
@@ -104,30 +101,9 @@ std::string runs_table(const std::vector<Run>& runs) {
 /// The page docs/performance.md: the routes beside each other, where the time goes, threads and processes, the cost
 /// model. `processor`: what it was measured on.
 std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor) {
-  return "# Cost of a press\n\nMade by `make -f Makefile.data bench-press` on " + processor +
-         ", one process and one thread unless noted. *press*: 0.5 mm in five frames into the MC-Tac gel, friction 0.5 "
-         "with one lag per step, d̂ 10⁻³, κ 10⁵; *shear*: then 1 mm sideways in twenty frames; *settled*: friction "
-         "renewed until it is consistent with its own contact forces; *tight*: a tenth of the tolerances; *thin*: a "
-         "fifth of d̂, κ × 125; *stiff*: κ × 10, that of the paper. Gels are the paper's mesh with its lengths scaled, "
-         "the scenes are `configs/studies/speed/*.yaml`; `BENCH_GELS=` and the other variables of "
-         "`pipelines/verification/bench.mk` select what is measured.\n\n## Shipped settings\n\n<!-- defaults -->\nNot "
-         "made in this run.\n<!-- end of defaults -->\n\n## Routes\n\n" +
-         routes_table(runs) +
-         "\n*fast* is the default solver with the paper's linear tetrahedra. *direct* factorises every linear system "
-         "instead (CHOLMOD, METIS, one symbolic analysis) and is otherwise the same. *plain* is textbook projected "
-         "Newton: factorised, for the whole gel in every iteration, with the projected Hessian of contact "
-         "(`newton.contact_hessian: positive`). *averaged* is *fast* with volumes averaged over clusters, the default "
-         "element of this gel. *Difference*: of gel vertices in the last frame, and of the press force, from *direct*. "
-         "*Products each*: iterations of conjugate gradients per linear system. *Speed-up*: 2 × *direct* is half its "
-         "CPU seconds.\n\n![CPU seconds over vertices](performance/bench_press.svg)\n"
-         "\n## Time by part\n\nShares of the wall time.\n\n" +
-         parts_table(runs) + element_section(runs) + "\n## Threads and processes\n\n" + runs_table(runs) +
-         fmt::format(
-             "\n## Cost model\n\n`configs/studies/speed/cost_model.yaml`: seconds of a frame = c (vertices / "
-             "1000)^{:.2f} (1 + touching / 100)^{:.2f}, c = {:.3g} s while pressing and {:.3g} s while dragging, "
-             "{:.2f} times that with averaged volumes; fitted to {} presses, largest error a factor of {:.2f}.\n",
-             model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s, model.averaged_factor,
-             model.runs, model.largest_ratio);
+  return fmt::format(kPressPage, processor, route_rows(runs), parts_table(runs), element_section(runs), run_rows(runs),
+                     model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s,
+                     model.averaged_factor, model.runs, model.largest_ratio);
 }
 
 /// Processor seconds of presses over vertices, a curve for each object and route.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tacipc_bench_texts.h"
+
 namespace tacipc::bench {
 namespace {
 
@@ -67,18 +69,8 @@ CostModel fit_cost_model(const std::vector<Run>& runs) {
 }
 
 std::string to_yaml_text(const CostModel& m) {
-  return fmt::format(
-      "# Cost of a press on one core, fitted to {} presses by make -f Makefile.data bench-press:\n"
-      "# seconds of a frame = c (gel vertices / 1000)^vertices_exponent (1 + touching front vertices / "
-      "100)^contacts_exponent,\n"
-      "# c for frames of a press and of motions after it; times averaged_volume_factor with that element. Largest\n# "
-      "error of the fit: a factor of {:.2f}.\n"
-      "press_frame_s: {:.4g}\n"
-      "motion_frame_s: {:.4g}\n"
-      "vertices_exponent: {:.3f}\n"
-      "contacts_exponent: {:.3f}\n"
-      "averaged_volume_factor: {:.3f}\n",
-      m.runs, m.largest_ratio, m.press_s, m.motion_s, m.vertices_exponent, m.contacts_exponent, m.averaged_factor);
+  return fmt::format(kCostModel, m.runs, m.largest_ratio, m.press_s, m.motion_s, m.vertices_exponent,
+                     m.contacts_exponent, m.averaged_factor);
 }
 
 }  // namespace tacipc::bench

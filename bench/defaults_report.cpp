@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/sample/press_folder.h"
+#include "tacipc_bench_texts.h"
 
 namespace tacipc::bench {
 namespace {
@@ -100,17 +101,11 @@ double depth_error_m(const Positions& x, const Positions& near, const std::vecto
 }
 
 std::string defaults_table(const std::vector<DefaultsRow>& rows, const std::string& processor) {
-  std::string out = fmt::format(
-      "Made by `make -f Makefile.data bench-default` on {}, one process and one thread: 0.5 mm in five frames into a "
-      "gel of {} vertices.\n\n"
-      "| Object | `default.yaml`, CPU s | Linear systems | Products | Friction lagged once, CPU s | `default.yaml` "
-      "over that | Frictionless, CPU s | Wide gap, CPU s | `default.yaml` over that | Depth error, µm | with the wide "
-      "gap, µm | Sheared after it, CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-      processor, rows.empty() ? 0 : rows.front().shipped.gel_vertices);
+  std::string lines;
   const auto line = [&](const std::string& name, double shipped, double systems, double products, double once,
                         double frictionless, double wide, const std::optional<double>& error,
                         const std::optional<double>& wide_error, const std::optional<double>& shear) {
-    out +=
+    lines +=
         fmt::format("| {} | {:.1f} | {:.0f} | {:.0f} | {:.1f} | {:.2f} | {:.1f} | {:.1f} | {:.2f} | {} | {} | {} |\n",
                     name, shipped, systems, products, once, shipped / once, frictionless, wide, shipped / wide,
                     shown("{:.1f}", error), shown("{:.1f}", wide_error), shown("{:.1f}", shear));
@@ -133,11 +128,7 @@ std::string defaults_table(const std::vector<DefaultsRow>& rows, const std::stri
          micro(mean(rows, [](const DefaultsRow& row) { return row.error_m; })),
          micro(mean(rows, [](const DefaultsRow& row) { return row.wide_error_m; })), mean(rows, shear_s));
   }
-  out +=
-      "\n*Friction lagged once*: `friction.lag: once`. *Frictionless*: `frictionless.yaml`. *Wide gap*: the paper's d̂, "
-      "10⁻³. *Depth error*: mean height between the gel's front and that of a press with d̂ 5 × 10⁻⁵, a twentieth of "
-      "the paper's, where that is pressed. *Sheared*: 20 × 0.05 mm, the press included.\n";
-  return out;
+  return fmt::format(kDefaultsTable, processor, rows.empty() ? 0 : rows.front().shipped.gel_vertices, lines);
 }
 
 }  // namespace tacipc::bench

@@ -8,12 +8,12 @@ using namespace tacipc;
 
 namespace {
 
-const StageSpec kTable{.name = "defaults_table",
-                       .summary = "Put presses with the shipped settings, and with one of them changed, side by side.",
-                       .inputs = {{"--press",
-                                   "folder of a press, named gel-object-motion-route: press-default, -once, "
-                                   "-frictionless, -wide, -near; shear-default",
-                                   true, true}}};
+const StageSpec kTable{
+    .name = "defaults_table",
+    .summary = "Put presses with the shipped settings, and with one of them changed, side by side.",
+    .inputs = {InputSpec::several("--press",
+                                  "folder of a press, named gel-object-motion-route: press-default, -once, "
+                                  "-frictionless, -wide, -near; shear-default")}};
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/image/plot.h"
+#include "tacipc_bench_texts.h"
 
 namespace tacipc::bench {
 namespace {
@@ -59,22 +60,19 @@ std::string element_section(const std::vector<Run>& runs) {
   const auto linear = presses(runs, "fast"), averaged = presses(runs, "averaged");
   const auto limit = limit_of(averaged), of_linear = limit_of(linear);
   if (!limit) return "";
-  std::string out = fmt::format(
-      "\n## Elements\n\nThe sphere's press force with linear tetrahedra (*fast*) and with volumes averaged over "
-      "clusters ([elements](elements.md)), against the limit of the latter's three finest meshes, {:.4f} N (order "
-      "{:.1f} in the edge length){}.\n\n| Gel vertices | Linear: force, N | off | CPU s | Averaged: force, N | off | "
-      "CPU s |\n|---|---|---|---|---|---|---|\n",
-      limit->value, limit->order,
-      of_linear ? fmt::format("; the linear element's three finest extrapolate to {:.4f} N", of_linear->value) : "");
+  std::string rows;
   for (const Run* b : averaged) {
     const auto a = std::ranges::find_if(linear, [&](const Run* run) { return run->name.gel == b->name.gel; });
     const auto side = [&](const Run& run) {
       return fmt::format(" {:.4f} | {:+.1f} % | {:.1f} |", run.press_force_n,
                          100.0 * (run.press_force_n / limit->value - 1.0), run.processor_s);
     };
-    out += fmt::format("| {} |{}{}\n", b->gel_vertices, a != linear.end() ? side(**a) : " | | |", side(*b));
+    rows += fmt::format("| {} |{}{}\n", b->gel_vertices, a != linear.end() ? side(**a) : " | | |", side(*b));
   }
-  return out + "\n![error of the force over CPU seconds](performance/bench_elements.svg)\n";
+  return fmt::format(
+      kElementSection, limit->value, limit->order,
+      of_linear ? fmt::format("; the linear element's three finest extrapolate to {:.4f} N", of_linear->value) : "",
+      rows);
 }
 
 std::string element_svg(const std::vector<Run>& runs) {

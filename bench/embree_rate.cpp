@@ -3,16 +3,14 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <limits>
 
+#include "bench/machine.h"
 #include "common/base/error.h"
 
 namespace tacipc::bench {
 namespace {
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 struct alignas(64) CameraQuery {
   alignas(32) int valid[RayPacket::kSize];
@@ -76,15 +74,15 @@ EmbreeSeconds embree_seconds(const Positions& positions, const Triangles& triang
         first[i].rays.hit.instID[0][l] = RTC_INVALID_GEOMETRY_ID;
       }
     }
-    double start = now_s();
+    double start = wall_s();
     for (CameraQuery& query : first) rtcIntersect8(query.valid, scene, &context, &query.rays);
-    seconds.camera = std::min(seconds.camera, now_s() - start);
+    seconds.camera = std::min(seconds.camera, wall_s() - start);
     first.clear();
     std::vector<ShadowQuery> second(shadow.size());
     for (std::size_t i = 0; i < shadow.size(); ++i) fill(shadow[i], second[i].valid, second[i].rays);
-    start = now_s();
+    start = wall_s();
     for (ShadowQuery& query : second) rtcOccluded8(query.valid, scene, &context, &query.rays);
-    seconds.shadow = std::min(seconds.shadow, now_s() - start);
+    seconds.shadow = std::min(seconds.shadow, wall_s() - start);
   }
   rtcReleaseScene(scene);
   rtcReleaseDevice(device);

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "tacipc_bench_texts.h"
+
 namespace tacipc::bench {
 
 std::string rivals_table(const std::vector<ImageSpeed>& speeds, std::size_t frames, const std::string& processor,
@@ -22,12 +24,7 @@ std::string rivals_table(const std::vector<ImageSpeed>& speeds, std::size_t fram
                             s.membrane_ms, s.light_ms, s.total());
     rows += "\n";
   }
-  return fmt::format("{}\n{}\n{}\n", head, line, rows) +
-         fmt::format(
-             "One thread of: {}; in the minute before, {:.1f} processes wanted a processor. Medians over frames of one "
-             "press in images of these sizes, files not counted. *Press*: the simulation before it, all of its presses "
-             "over all of their frames ({} of TacIPC's), whatever the images' size.\n",
-             processor, load, frames);
+  return fmt::format(kRivalsTable, head, line, rows, processor, load, frames);
 }
 
 }  // namespace tacipc::bench

@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/statistics.h"
+#include "tacipc_bench_texts.h"
 #include "verification/stage_record.h"
 
 namespace tacipc::bench {
@@ -23,8 +24,8 @@ std::string line(const std::string& object, const std::vector<RoutePair>& pairs,
       worst.largest_m = std::max(worst.largest_m, d->largest_m);
       worst.rms_m = std::max(worst.rms_m, d->rms_m);
       worst.force = std::max(worst.force, std::abs(d->force));
-      fast_newton += pair.fast.run->newton();
-      direct_newton += pair.direct.run->newton();
+      fast_newton += pair.fast.run->sum(&Frame::newton);
+      direct_newton += pair.direct.run->sum(&Frame::newton);
     }
   }
   return fmt::format("| {} | {} of {} | {} of {} | {} of {} | {:.2g} | {:.2g} | {:.2g} | {} / {} | {:.0f} / {:.0f} |\n",
@@ -99,29 +100,16 @@ RouteSummary summarize(const std::vector<RoutePair>& pairs, const RouteLimits& l
 
 std::string routes_page(const std::vector<RoutePair>& pairs, const RouteLimits& limits) {
   const RouteSummary sum = summarize(pairs, limits);
-  std::string out = fmt::format(
-      "# Default solver against factorisation\n\n"
-      "Every mesh of the shared data in five poses (`configs/studies/speed/poses/*.yaml`: pressed, aside, dragged, "
-      "turned, tilted) on a gel of 12k vertices, friction 0.5 with one lag per step, the paper's stiffness, a tenth of "
-      "the usual tolerances: by the default route, and with every linear system factorised. Made by `make -f "
-      "Makefile.data routes SHARED=…`.\n\n"
-      "{} samples: {} converged by the default route, {} by factorisation; in {} the results agree in the last frame "
-      "within {:g} µm rms over the gel's vertices and {:g} % of the press force, in {} of these no vertex differs by "
-      "more than {:g} µm. Median differences: {:.2g} µm rms, {:.2g} µm largest, {:.2g} % of the force. CPU seconds in "
-      "total: {:.0f} against {:.0f}.\n\n"
-      "| Object | Converged | by factorisation | Agree | Largest, µm | rms, µm | Force, % | Newton iterations | CPU s "
-      "|\n|---|---|---|---|---|---|---|---|---|\n",
-      sum.samples, sum.fast_converged, sum.direct_converged, sum.agree, 1e6 * limits.rms_m, 100.0 * limits.force,
-      sum.agrees_at_every_vertex, 1e6 * limits.largest_m, 1e6 * sum.median_rms_m, 1e6 * sum.median_largest_m,
-      100.0 * sum.median_force, sum.fast_s, sum.direct_s);
+  std::string rows;
   for (auto first = pairs.begin(); first != pairs.end();) {
     const auto last = std::find_if(first, pairs.end(), [&](const RoutePair& p) { return p.object != first->object; });
-    out += line(first->object, {first, last}, limits);
+    rows += line(first->object, {first, last}, limits);
     first = last;
   }
-  out +=
-      "\nDifferences are the largest over the poses; Newton iterations and CPU seconds are sums over them, default / "
-      "factorised.\n";
+  std::string out =
+      fmt::format(kRoutesPage, sum.samples, sum.fast_converged, sum.direct_converged, sum.agree, 1e6 * limits.rms_m,
+                  100.0 * limits.force, sum.agrees_at_every_vertex, 1e6 * limits.largest_m, 1e6 * sum.median_rms_m,
+                  1e6 * sum.median_largest_m, 100.0 * sum.median_force, sum.fast_s, sum.direct_s, rows);
   std::string exceptions;
   for (const RoutePair& pair : pairs) {
     if (pair.agrees_at_every_vertex(limits)) continue;

@@ -10,8 +10,9 @@ namespace {
 const StageSpec kTable{
     .name = "routes_table",
     .summary = "Put samples that were pressed by two routes side by side.",
-    .inputs = {{"--limits", "largest differences between agreeing results (YAML)"},
-               {"--press", "folder of a press, named gel-object-pose-fast or gel-object-pose-direct", true, true}}};
+    .inputs = {
+        {"--limits", "largest differences between agreeing results (YAML)"},
+        InputSpec::several("--press", "folder of a press, named gel-object-pose-fast or gel-object-pose-direct")}};
 
 }  // namespace
 

@@ -111,10 +111,8 @@ LayerSolution press_bonded_layer(const LayerProblem& problem, double depth_m, in
     return solve_bonded_layer(problem, problem.radius_m, depth_m, points);
   }
   // An incompressible thin layer bulges: there the contact is wider than √(2 R δ); a sphere never touches beyond R.
-  double low = 0.0;
-  double high = problem.shape == LayerProblem::Shape::sphere ? 0.999999 * problem.radius_m
-                                                             : 4.0 * std::sqrt(problem.radius_m * depth_m);
-  high = std::min(high, 4.0 * std::sqrt(problem.radius_m * depth_m));
+  double low = 0.0, high = 4.0 * std::sqrt(problem.radius_m * depth_m);
+  if (problem.shape == LayerProblem::Shape::sphere) high = std::min(high, 0.999999 * problem.radius_m);
   for (int i = 0; i < 60; ++i) {
     const double a = 0.5 * (low + high);
     (solve_bonded_layer(problem, a, 0.0, points).depth_m < depth_m ? low : high) = a;

@@ -73,14 +73,10 @@ CaseSpec CaseSpec::read(ConfigReader& in) {
   CaseSpec spec;
   spec.title = in.text("title");
   spec.source = in.text("source");
-  ConfigReader gel = in.section("gel");
-  spec.gel = GelSpec::read(gel);
-  ConfigReader material = in.section("material");
-  spec.material = Material::read(material);
-  ConfigReader shape = in.section("shape");
-  spec.object = ObjectShape::read(shape);
-  ConfigReader press = in.section("press");
-  spec.press = PressConfig::read(press);
+  spec.gel = in.read<GelSpec>("gel");
+  spec.material = in.read<Material>("material");
+  spec.object = in.read<ObjectShape>("shape");
+  spec.press = in.read<PressConfig>("press");
   spec.sample = SampleSpec::read(in);
   for (ConfigReader& row : in.sections("expect")) spec.expect.push_back(Expectation::read(row));
   if (auto fit = in.optional_section("fit")) spec.fit = Fit::read(*fit);

@@ -16,8 +16,8 @@ const StageSpec kCompareSimulators{
     .name = "compare_simulators",
     .summary = "Compare the markers of several simulators under a dragged or turned object.",
     .inputs = {{"--config", "which markers, motions and simulators (YAML)"},
-               {"--run", "folders of press or mpm: for each simulator in order each motion in order", true, true},
-               {"--factor", "folder of a run of the first motion with a changed value", false, true}}};
+               InputSpec::several("--run", "folders of press or mpm: for each simulator in order each motion in order"),
+               InputSpec::any_number("--factor", "folder of a run of the first motion with a changed value")}};
 
 }  // namespace
 

@@ -13,8 +13,8 @@ const StageSpec kMarkerCurve{
     .name = "marker_curve",
     .summary = "Judge the evenness of the markers' motion under a dragged or turned object.",
     .inputs = {{"--config", "which markers, and what counts as settled and as even (YAML)"},
-               {"--press", "folder of a press whose object is dragged or turned", true, true},
-               {"--other", "folder of the same motion by another simulator, drawn beside it", false, true}}};
+               InputSpec::several("--press", "folder of a press whose object is dragged or turned"),
+               InputSpec::any_number("--other", "folder of the same motion by another simulator, drawn beside it")}};
 
 /// Lines of all markers in the last frame, and their vectors in every frame.
 void write_motion(Stage& stage, const std::string& name, const verify::MarkerMotion& motion,

@@ -17,6 +17,43 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
+/// Surface of revolution about z of a profile (ρ, z) that starts and ends on the axis, running so that the outside lies
+/// to its right; `edge_m[i]` is the target edge length around ring i.
+TriangleMesh revolve(const std::vector<Vector2d>& profile, const std::vector<double>& edge_m) {
+  std::vector<Vector3> points;
+  std::vector<int> start, count;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    const double radius = profile[i].x();
+    const int n = radius <= 0.0 ? 1 : std::max(8, static_cast<int>(std::ceil(2.0 * pi * radius / edge_m[i])));
+    start.push_back(static_cast<int>(points.size()));
+    count.push_back(n);
+    for (int k = 0; k < n; ++k) {
+      // Every other ring is turned by half an edge: no seam runs up the surface.
+      const double angle = 2.0 * pi * (k + 0.5 * static_cast<double>(i % 2)) / n;
+      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), profile[i].y());
+    }
+  }
+  // Between two rings the triangles advance on the ring that is behind in angle.
+  std::vector<std::array<int, 3>> triangles;
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+    const int n = count[i], m = count[i + 1], a0 = start[i], b0 = start[i + 1];
+    int a = 0, b = 0;
+    const double shift_a = 0.5 * static_cast<double>(i % 2), shift_b = 0.5 - shift_a;
+    while (a < (n > 1 ? n : 0) || b < (m > 1 ? m : 0)) {
+      const double next_a = n > 1 && a < n ? (a + 1 + shift_a) / n : 2.0;
+      const double next_b = m > 1 && b < m ? (b + 1 + shift_b) / m : 2.0;
+      if (next_a <= next_b) {
+        triangles.push_back({a0 + a % n, a0 + (a + 1) % n, b0 + b % m});
+        ++a;
+      } else {
+        triangles.push_back({a0 + a % n, b0 + (b + 1) % m, b0 + b % m});
+        ++b;
+      }
+    }
+  }
+  return make_mesh(points, triangles);
+}
+
 /// Edges are `edge_m` long up to `fine_radius_m` along the meridian, then grow by a third of the distance beyond.
 TriangleMesh sphere(const ObjectShape& s) {
   std::vector<Vector2d> profile{{0.0, 0.0}};
@@ -68,62 +105,25 @@ TriangleMesh cylinder(const ObjectShape& s) {
     const double angle = 2.0 * pi * i / sides;
     polygon.emplace_back(s.radius_m * std::sin(angle), s.radius_m * (1.0 - std::cos(angle)));
   }
-  return extrude(polygon, s.length_m, 1);
+  return extrude(polygon, s.length_m);
 }
 
 }  // namespace
 
-TriangleMesh revolve(const std::vector<Vector2d>& profile, const std::vector<double>& edge_m) {
-  std::vector<Vector3> points;
-  std::vector<int> start, count;
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    const double radius = profile[i].x();
-    const int n = radius <= 0.0 ? 1 : std::max(8, static_cast<int>(std::ceil(2.0 * pi * radius / edge_m[i])));
-    start.push_back(static_cast<int>(points.size()));
-    count.push_back(n);
-    for (int k = 0; k < n; ++k) {
-      // Every other ring is turned by half an edge: no seam runs up the surface.
-      const double angle = 2.0 * pi * (k + 0.5 * static_cast<double>(i % 2)) / n;
-      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), profile[i].y());
-    }
-  }
-  // Between two rings the triangles advance on the ring that is behind in angle.
-  std::vector<std::array<int, 3>> triangles;
-  for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
-    const int n = count[i], m = count[i + 1], a0 = start[i], b0 = start[i + 1];
-    int a = 0, b = 0;
-    const double shift_a = 0.5 * static_cast<double>(i % 2), shift_b = 0.5 - shift_a;
-    while (a < (n > 1 ? n : 0) || b < (m > 1 ? m : 0)) {
-      const double next_a = n > 1 && a < n ? (a + 1 + shift_a) / n : 2.0;
-      const double next_b = m > 1 && b < m ? (b + 1 + shift_b) / m : 2.0;
-      if (next_a <= next_b) {
-        triangles.push_back({a0 + a % n, a0 + (a + 1) % n, b0 + b % m});
-        ++a;
-      } else {
-        triangles.push_back({a0 + a % n, b0 + (b + 1) % m, b0 + b % m});
-        ++b;
-      }
-    }
-  }
-  return make_mesh(points, triangles);
-}
-
-TriangleMesh extrude(const std::vector<Vector2d>& polygon, double length_m, int slices) {
+TriangleMesh extrude(const std::vector<Vector2d>& polygon, double length_m) {
   std::vector<Vector3> points;
   const int n = static_cast<int>(polygon.size());
-  for (int j = 0; j <= slices; ++j)
-    for (const Vector2d& p : polygon) points.emplace_back(p.x(), length_m * (1.0 * j / slices - 0.5), p.y());
+  for (const double end : {-0.5, 0.5})
+    for (const Vector2d& p : polygon) points.emplace_back(p.x(), length_m * end, p.y());
   std::vector<std::array<int, 3>> triangles;
-  for (int j = 0; j < slices; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const int a = j * n + i, b = j * n + (i + 1) % n;
-      triangles.push_back({a, a + n, b});
-      triangles.push_back({b, a + n, b + n});
-    }
+  for (int a = 0; a < n; ++a) {
+    const int b = (a + 1) % n;
+    triangles.push_back({a, a + n, b});
+    triangles.push_back({b, a + n, b + n});
   }
   for (int i = 1; i + 1 < n; ++i) {
     triangles.push_back({0, i, i + 1});
-    triangles.push_back({slices * n, slices * n + i + 1, slices * n + i});
+    triangles.push_back({n, n + i + 1, n + i});
   }
   return make_mesh(points, triangles);
 }
@@ -177,8 +177,8 @@ TriangleMesh make_object(const ObjectShape& s, const std::filesystem::path& shar
       return make_mesh({{-side, -w, 0}, {side, -w, 0}, {0, 2 * w, 0}, {0, -2 * w, w}},
                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
     }
-    case Kind::block: return extrude({{-w, 0}, {w, 0}, {w, s.height_m}, {-w, s.height_m}}, 2 * s.half_depth_m, 1);
-    case Kind::wedge: return extrude({{0, 0}, {w, s.height_m}, {-w, s.height_m}}, s.length_m, 1);
+    case Kind::block: return extrude({{-w, 0}, {w, 0}, {w, s.height_m}, {-w, s.height_m}}, 2 * s.half_depth_m);
+    case Kind::wedge: return extrude({{0, 0}, {w, s.height_m}, {-w, s.height_m}}, s.length_m);
     case Kind::file: break;
   }
   return read_triangle_mesh(resolve(s.path, shared), s.unit_m);

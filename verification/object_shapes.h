@@ -34,11 +34,7 @@ struct ObjectShape {
 /// cylinder) lowest. A plate is a tetrahedron that stands on one large triangle: no edge runs through its face.
 TriangleMesh make_object(const ObjectShape& shape, const std::filesystem::path& shared);
 
-/// Surface of revolution about z of a profile (ρ, z) that starts and ends on the axis, running so that the outside lies
-/// to its right; `edge_m[i]` is the target edge length around ring i.
-TriangleMesh revolve(const std::vector<Eigen::Vector2d>& profile, const std::vector<double>& edge_m);
-
 /// Prism along y of a convex polygon (x, z), counter-clockwise seen from −y.
-TriangleMesh extrude(const std::vector<Eigen::Vector2d>& polygon, double length_m, int slices);
+TriangleMesh extrude(const std::vector<Eigen::Vector2d>& polygon, double length_m);
 
 }  // namespace tacipc::verify

@@ -5,7 +5,6 @@
 #include "common/base/log.h"
 #include "common/stage/stage.h"
 #include "verification/refinement.h"
-#include "verification/refinement_report.h"
 #include "verification/shared_files.h"
 
 using namespace tacipc;

@@ -4,7 +4,7 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/stage/stage.h"
-#include "verification/refinement_report.h"
+#include "verification/refinement.h"
 
 using namespace tacipc;
 
@@ -12,7 +12,7 @@ namespace {
 
 const StageSpec kTable{.name = "refinement_table",
                        .summary = "Put studies of refinement together as tables and plots.",
-                       .inputs = {{"--result", "folder of a study's result", true, true}}};
+                       .inputs = {InputSpec::several("--result", "folder of a study's result")}};
 
 }  // namespace
 

@@ -37,7 +37,6 @@ struct SimulatorRun {
   std::string failure;                                             // where there is no motion
   std::vector<std::pair<std::string, std::string>> settings = {};  // path and value of each key of its numerics
   std::optional<double> half_speed_change = std::nullopt;          // of the markers
-  std::optional<double> mach = std::nullopt;
 
   /// \throw DataError if files do not fit together
   static SimulatorRun read(const std::filesystem::path& folder);

@@ -7,8 +7,7 @@
 #include "common/stage/record_lines.h"
 #include "stages/gel/press/drive/grasp.h"
 #include "stages/gel/press/drive/simulate.h"
-#include "verification/stress_gel.h"
-#include "verification/stress_object.h"
+#include "verification/stress_shapes.h"
 
 namespace tacipc::verify {
 

@@ -8,6 +8,7 @@
 
 #include "common/base/statistics.h"
 #include "common/config/config.h"
+#include "tacipc_verification_texts.h"
 #include "verification/stage_record.h"
 
 namespace tacipc::verify {
@@ -88,34 +89,23 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
           ? "Two random coarse gels close on a random object, lift it, shake it, and in some cases open"
           : "Each case presses a random object into a random coarse gel, up to three quarters of the gel's thickness "
             "deep, then shears, twists, tilts or releases it";
-  std::string out = fmt::format(
-      "# Stress campaign{0}\n\nMade by `make -f Makefile.data {1} SEED={2} N={3}`. {7}; `{4}` has the ranges. "
-      "Seed and index reproduce a case: "
-      "`stress_case --config {4} --seed {2} --index 7 --out DIR --log-level debug`. The "
-      "campaign holds with no intersection, inversion (exact tests of every frame) or crash, and with less than 1 % of "
-      "cases that did not converge. A case counts as converged if every frame passes the [verdict](verdict.md).\n\n"
-      "{5}: {6}.\n\n"
-      "| object | cases | converged | not converged | intersected | inverted | crashed "
-      "|\n|---|---|---|---|---|---|---|\n",
-      presses  ? ""
-      : grasps ? " of grasps"
-               : " of small presses",
-      presses  ? "stress"
-      : grasps ? "grasp-campaign"
-               : "campaign",
-      seed, lines.size(), config, all.holds() ? "Holds" : "**Does not hold**", found(all, seed), what);
+  std::string out =
+      fmt::format(kStressPage,
+                  presses  ? ""
+                  : grasps ? " of grasps"
+                           : " of small presses",
+                  presses  ? "stress"
+                  : grasps ? "grasp-campaign"
+                           : "campaign",
+                  seed, lines.size(), config, all.holds() ? "Holds" : "**Does not hold**", found(all, seed), what);
   for (const auto& [kind, counts] : by_kind) out += row(kind, counts);
   out += row("all", all);
   if (!distances.empty()) {
     const bool whole = distances.size() == lines.size();
-    out += fmt::format(
-        "\n| total{} | |\n|---|---|\n| frames | {} |\n| time steps | {} |\n| of these by halving | {} |\n"
-        "| Newton iterations | {} |\n| of these moving the object | {} |\n| renewals of friction | {} |\n"
-        "| smallest distance | {:.3g} µm |\n| smallest distance of half of the cases | {:.3g} µm |\n"
-        "| smallest volume ratio | {:.3g} |\n",
-        whole ? "" : fmt::format(" of {} cases", distances.size()), frames, sum.time_steps,
-        sum.time_steps - sum.planned_steps, sum.newton_iterations, sum.moving_iterations, sum.lag_iterations,
-        1e6 * lower_quantile(distances, 0.0), 1e6 * lower_quantile(distances, 0.5), sum.min_volume_ratio);
+    out += fmt::format(kStressTotals, whole ? "" : fmt::format(" of {} cases", distances.size()), frames,
+                       sum.time_steps, sum.time_steps - sum.planned_steps, sum.newton_iterations, sum.moving_iterations,
+                       sum.lag_iterations, 1e6 * lower_quantile(distances, 0.0), 1e6 * lower_quantile(distances, 0.5),
+                       sum.min_volume_ratio);
     if (!whole)
       out += fmt::format("\nNot in these totals: {} crashed, {} ended early (only the number of frames is known).\n",
                          all.crashed, lines.size() - distances.size() - static_cast<std::size_t>(all.crashed));

@@ -11,7 +11,7 @@ namespace {
 
 const StageSpec kStressTable{.name = "stress_table",
                              .summary = "Put the cases of a stress campaign together as one page.",
-                             .inputs = {{"--case", "folder of a case", true, true}},
+                             .inputs = {InputSpec::several("--case", "folder of a case")},
                              .options = {{"--seed", "seed of the campaign", "1"},
                                          {"--ranges", "file of configs/studies/stress", verify::kStressRanges}}};
 

@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/config/config.h"
+#include "tacipc_verification_texts.h"
+#include "verification/shared_files.h"
+#include "verification/stage_record.h"
 
 namespace tacipc::verify {
+
 ResultFile read_result(const std::filesystem::path& result_yaml) {
   ConfigReader in = ConfigReader::from_file(result_yaml);
   ResultFile file;
@@ -19,9 +25,9 @@ ResultFile read_result(const std::filesystem::path& result_yaml) {
     for (ConfigReader& row : in.sections("rows")) {
       file.rows.push_back({.label = row.text("label"),
                            .unit = row.text("unit"),
-                           .limit = row.text("limit"),
                            .measured = row.number("measured"),
                            .expected = row.optional_number("expected"),
+                           .limit = row.text("limit"),
                            .deviation = row.number("deviation"),
                            .pass = row.flag("pass")});
     }
@@ -32,20 +38,16 @@ ResultFile read_result(const std::filesystem::path& result_yaml) {
 
 std::string to_markdown(const std::vector<ResultFile>& results, const std::vector<LongRowResult>& long_rows,
                         const std::string& plots) {
-  std::string out =
-      "# Verification of the press\n\n"
-      "Made by `make -f Makefile.data verification`; each case is a file of `configs/studies/verification/` (see [the "
-      "format](verification_cases.md)).\n\n"
-      "| Case | Vertices | Quantity | Measured | Expected | Deviation | Limit | |\n|---|---|---|---|---|---|---|---|\n";
+  std::string rows, sources, curves;
   for (const ResultFile& file : results) {
     if (file.reason) {
-      out += fmt::format("| {} | | | | | | | **{}**: {} |\n", file.title, file.state, *file.reason);
+      rows += fmt::format("| {} | | | | | | | **{}**: {} |\n", file.title, file.state, *file.reason);
       continue;
     }
     bool first = true;
-    for (const ResultRow& row : file.rows) {
+    for (const Row& row : file.rows) {
       const bool percent = row.limit.ends_with("%");
-      out += fmt::format(
+      rows += fmt::format(
           "| {} | {} | {} | {:.5g} {} | {} | {} | {} | {} |\n",
           first ? fmt::format("[{}](../configs/studies/verification/{}.yaml)", file.title, file.name) : "",
           first ? fmt::format("{}", file.gel_vertices) : "", row.label, row.measured, row.unit,
@@ -54,16 +56,62 @@ std::string to_markdown(const std::vector<ResultFile>& results, const std::vecto
       first = false;
     }
     if (file.fitted_modulus_pa)
-      out += fmt::format("| | | fitted modulus | {:.4g} Pa | | | | |\n", *file.fitted_modulus_pa);
+      rows += fmt::format("| | | fitted modulus | {:.4g} Pa | | | | |\n", *file.fitted_modulus_pa);
   }
-  out += '\n';
-  out += long_rows_section(long_rows);
-  out += "## Sources of the expected values\n\n";
-  for (const ResultFile& file : results) out += fmt::format("- {}: {}\n", file.title, file.source);
-  out += "\n## Curves\n\n";
-  for (const ResultFile& file : results)
-    if (!file.reason) out += fmt::format("![{}]({}/{}.svg)\n", file.title, plots, file.name);
+  for (const ResultFile& file : results) {
+    sources += fmt::format("- {}: {}\n", file.title, file.source);
+    if (!file.reason) curves += fmt::format("![{}]({}/{}.svg)\n", file.title, plots, file.name);
+  }
+  return fmt::format(kVerificationPage, rows, long_rows_section(long_rows), sources, curves);
+}
+
+LongRow LongRow::read(ConfigReader& in) {
+  return {.title = in.text("title"),
+          .shows = in.text("shows"),
+          .goal = in.text("goal"),
+          .stage = in.text("stage"),
+          .page = in.text("page"),
+          .needs = in.optional_text("needs")};
+}
+
+LongRows LongRows::read(ConfigReader& in) {
+  LongRows out;
+  for (ConfigReader& row : in.sections("rows")) out.rows.push_back(LongRow::read(row));
   return out;
+}
+
+LongRowResult read_long_row(const LongRow& row, const std::vector<std::filesystem::path>& files,
+                            const std::filesystem::path& shared) {
+  const auto file = std::ranges::find_if(files, [&](const std::filesystem::path& f) {
+    return f.filename() == row.stage + ".yaml" || f.filename() == row.stage + ".failed.yaml";
+  });
+  if (file == files.end()) {
+    if (const auto why = row.needs ? why_skipped(*row.needs, shared) : std::nullopt) return {row, "skipped", *why};
+    return {row, "not run", fmt::format("`make -f Makefile.data {}`", row.goal)};
+  }
+  if (const auto why = why_no_record(file->parent_path(), row.stage)) return {row, "failed", *why};
+  ConfigReader in = ConfigReader::from_file(*file);
+  for (const std::string& key : in.keys())
+    if (key != "summary") in.ignore(key);
+  ConfigReader summary = in.section("summary");
+  for (const std::string& key : summary.keys())
+    if (key != "holds" && key != "found") summary.ignore(key);
+  LongRowResult result{row, summary.flag("holds") ? "pass" : "missed", summary.text("found")};
+  in.finish();
+  return result;
+}
+
+std::string long_rows_section(const std::vector<LongRowResult>& rows) {
+  if (rows.empty()) return "";
+  std::string out = "## Long rows\n\n| Row | Shows | Found | |\n|---|---|---|---|\n";
+  for (const LongRowResult& r : rows) {
+    if (r.state == "pass" || r.state == "missed")
+      out += fmt::format("| [{}]({}) | {} | {} | {} |\n", r.row.title, r.row.page, r.row.shows, r.found,
+                         r.state == "pass" ? "holds" : "**missed**");
+    else
+      out += fmt::format("| {} | {} | | **{}**: {} |\n", r.row.title, r.row.shows, r.state, r.found);
+  }
+  return out + "\n";
 }
 
 }  // namespace tacipc::verify

@@ -6,29 +6,55 @@
 #include <string>
 #include <vector>
 
-#include "verification/long_rows.h"
+#include "common/config/config.h"
+#include "verification/judge.h"
 
 namespace tacipc::verify {
 
 /// One result.yaml as the page needs it.
-struct ResultRow {
-  std::string label, unit, limit;
-  double measured = 0.0;
-  std::optional<double> expected;
-  double deviation = 0.0;
-  bool pass = false;
-};
 struct ResultFile {
   std::string name;  // of its folder
   std::string title, source, state;
   std::optional<std::string> reason;
   std::optional<double> fitted_modulus_pa;
   int gel_vertices = 0;
-  std::vector<ResultRow> rows;
+  std::vector<Row> rows;
 };
 
 /// \throw DataError, ConfigError for a file that is not a result
 ResultFile read_result(const std::filesystem::path& result_yaml);
+
+/// A campaign with a line of its own on the page: purpose, result, and whether it holds.
+struct LongRow {
+  std::string title, shows;
+  std::string goal;                  // of make
+  std::string stage;                 // whose record has holds and found in its summary
+  std::string page;                  // relative to the page that shows the row
+  std::optional<std::string> needs;  // a file of the shared data
+
+  static LongRow read(ConfigReader& in);
+};
+
+/// configs/studies/verification/table/long_rows.yaml
+struct LongRows {
+  std::vector<LongRow> rows;
+
+  static LongRows read(ConfigReader& in);
+};
+
+struct LongRowResult {
+  LongRow row;
+  std::string state;  // pass, missed, failed, skipped, not run
+  std::string found;  // why, if it neither passed nor missed
+};
+
+/// Looks for the row's record, else its failure file, among `files`. A row with neither was skipped if the folder of
+/// the shared data is not there. \throw DataError, ConfigError for a file that is not such a record
+LongRowResult read_long_row(const LongRow& row, const std::vector<std::filesystem::path>& files,
+                            const std::filesystem::path& shared);
+
+/// The section of the page, a line for each row; empty without rows.
+std::string long_rows_section(const std::vector<LongRowResult>& rows);
 
 /// The page in Markdown, its long rows as given. `plots` is the folder, relative to the page, with <name>.svg of every
 /// case.

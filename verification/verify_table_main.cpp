@@ -15,9 +15,9 @@ namespace {
 
 const StageSpec kTable{.name = "verify_table",
                        .summary = "Put the results of verification cases together as one page.",
-                       .inputs = {{"--result", "folder of a case's result", true, true},
-                                  {"--rows", "long rows that the page shows (YAML)", false},
-                                  {"--long", "record of a long row, or its failure file", false, true}}};
+                       .inputs = {InputSpec::several("--result", "folder of a case's result"),
+                                  InputSpec::optional("--rows", "long rows that the page shows (YAML)"),
+                                  InputSpec::any_number("--long", "record of a long row, or its failure file")}};
 
 std::vector<verify::LongRowResult> read_long_rows(Stage& stage) {
   std::vector<verify::LongRowResult> results;
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
       results.push_back(verify::read_result(folder / "result.yaml"));
       const verify::ResultFile& result = results.back();
       write_file(stage.output("verification/" + result.name + ".svg"), read_file(folder / "plot.svg"));
-      for (const verify::ResultRow& row : result.rows) {
+      for (const verify::Row& row : result.rows) {
         log_info("{}: {}: {:.5g} {}{} ({}): {}", result.name, row.label, row.measured, row.unit,
                  row.expected ? fmt::format(", expected {:.5g}", *row.expected) : "", row.limit,
                  row.pass ? "holds" : "MISSED");

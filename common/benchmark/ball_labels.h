@@ -1,4 +1,4 @@
-// Hand labels of ball presses.
+// Contacts seen in photographs of ball presses, and their labels made by hand.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace tacipc {
 
-/// One photograph of a ball: centre (column, row of a pixel, its middle) and radius of the contact.
+/// Contact in one photograph of a ball: centre (column, row of a pixel, its middle) and radius.
 struct BallLabel {
   std::string image;  // file name
   double x_px = 0.0;

@@ -11,15 +11,6 @@
 namespace tacipc {
 namespace {
 
-std::array<int, 4> read_box(ConfigReader& in) {
-  const auto values = in.numbers("box_px", 4, Range::between(0.0, 1e6));
-  std::array<int, 4> box{};
-  for (std::size_t i = 0; i < 4; ++i) box[i] = static_cast<int>(values[i]);
-  const bool whole = std::ranges::all_of(values, [](double v) { return v == std::round(v); });
-  if (!whole || box[2] < 1 || box[3] < 1) in.fault("box_px", "expected whole pixels, at least one wide and high");
-  return box;
-}
-
 ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
   ObjectCase object;
   object.name = plain(in, "name");
@@ -34,7 +25,7 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
   if (object.ball_radius_m.has_value() != object.mesh.empty()) in.fault("mesh", "give either ball_radius_mm or mesh");
   const auto center = in.numbers("center_px", 2);
   object.center_px = {center[0], center[1]};
-  object.box_px = read_box(in);
+  object.box_px = pixel_box(in, "box_px");
   ConfigReader fit = in.section("fit");
   object.fit_image = fit.text("image");
   object.fit_yaw = fit.flag("yaw");
@@ -46,13 +37,13 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
     if (object.images.size() > 1 && !(object.images.back().depth_m > object.images[object.images.size() - 2].depth_m))
       item.fault("depth_mm", "must be deeper than the image before");
   }
-  if (std::ranges::none_of(object.images, [&](const PhotographCase& image) { return image.name == object.fit_image; }))
-    fit.fault("image", "is not one of the images");
+  const auto is_image = [&](const std::string& name) {
+    return std::ranges::count(object.images, name, &PhotographCase::name) > 0;
+  };
+  if (!is_image(object.fit_image)) fit.fault("image", "is not one of the images");
   if (in.has("calibrates")) {
     object.calibrates = in.text("calibrates");
-    if (std::ranges::none_of(object.images,
-                             [&](const PhotographCase& image) { return image.name == object.calibrates; }))
-      in.fault("calibrates", "is not one of the images");
+    if (!is_image(object.calibrates)) in.fault("calibrates", "is not one of the images");
     if (object.images.size() == 1) in.fault("calibrates", "leaves no image of the object to test");
   }
   return object;
@@ -62,9 +53,7 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
 
 std::string plain(ConfigReader& in, const std::string& key) {
   const std::string text = in.text(key);
-  const bool fine = !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
-    return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
-  });
+  const bool fine = is_plain(text);
   if (!fine) in.fault(key, "has characters other than letters, digits and . _ / + -");
   return fine ? text : "x";
 }
@@ -74,6 +63,15 @@ Eigen::Vector2d pair_of(ConfigReader& in, const std::string& key, std::vector<do
   return {values[0], values[1]};
 }
 
+std::array<int, 4> pixel_box(ConfigReader& in, const std::string& key) {
+  const auto values = in.numbers(key, 4, Range::between(0.0, 1e6));
+  std::array<int, 4> box{};
+  for (std::size_t i = 0; i < 4; ++i) box[i] = static_cast<int>(values[i]);
+  if (!std::ranges::equal(values, box) || box[2] < 1 || box[3] < 1)
+    in.fault(key, "expected whole pixels, at least one wide and high");
+  return box;
+}
+
 BenchmarkCases BenchmarkCases::read(ConfigReader& in) {
   BenchmarkCases cases;
   cases.title = in.text("title");
@@ -81,8 +79,7 @@ BenchmarkCases BenchmarkCases::read(ConfigReader& in) {
   cases.photographs = plain(in, "photographs");
   if (in.has("circles")) {
     cases.circles = plain(in, "circles");
-    ConfigReader table = in.section("circle_table");
-    cases.circle_table = CircleTable::read(table);
+    cases.circle_table = in.read<CircleTable>("circle_table");
   } else {
     cases.background = plain(in, "background");
     cases.labels = plain(in, "labels");
@@ -119,7 +116,7 @@ void add_circles(BenchmarkCases& cases, const std::optional<std::filesystem::pat
   object.name = "ball";
   object.ball_radius_m = cases.ball_radius_m;
   int row = 0;
-  for (const ContactCircle& circle : read_contact_circles(*path, table, cases.ball_radius_m)) {
+  for (const BallLabel& circle : read_contact_circles(*path, table, cases.ball_radius_m)) {
     if (row++ % table.calibrate_every == 0) {
       cases.labels_of_circles.push_back(circle);
       cases.labels_of_circles.back().image += cases.ending;

@@ -18,13 +18,16 @@ std::string plain(ConfigReader& in, const std::string& key);
 /// Two numbers of a list; with a fallback the key may be absent.
 Eigen::Vector2d pair_of(ConfigReader& in, const std::string& key, std::vector<double> fallback = {});
 
+/// x, y, width and height of a part of an image.
+std::array<int, 4> pixel_box(ConfigReader& in, const std::string& key);
+
 /// A photograph of an object pressed to a depth, or of a ball whose contact circle alone is known.
 struct PhotographCase {
   std::string name;
   double depth_m = 0.0;
   std::string photograph = {};  // file below `photographs`
   std::array<int, 4> box_px{};  // x, y, width, height of the contact
-  std::optional<ContactCircle> circle = std::nullopt;
+  std::optional<BallLabel> circle = std::nullopt;
 };
 
 struct ObjectCase {
@@ -58,9 +61,9 @@ struct BenchmarkCases {
   double ball_edge_m = 0.0;     // longest edge of balls
   /// Least mean ssim_s, largest mean mae, least mean psnr_db in the box; without it ours must be ahead, no more.
   std::optional<std::array<double, 3>> must;
-  std::string circles;                           // table of contact circles below `data` …
-  std::optional<CircleTable> circle_table;       // … in place of background, labels and objects
-  std::vector<ContactCircle> labels_of_circles;  // the photographs that calibrate, `image` their file
+  std::string circles;                       // table of contact circles below `data` …
+  std::optional<CircleTable> circle_table;   // … in place of background, labels and objects
+  std::vector<BallLabel> labels_of_circles;  // the photographs that calibrate, `image` their file
   std::vector<ObjectCase> objects;
 
   static BenchmarkCases read(ConfigReader& in);

@@ -38,8 +38,14 @@ CircleTable CircleTable::read(ConfigReader& in) {
   return table;
 }
 
-std::vector<ContactCircle> read_contact_circles(const std::filesystem::path& path, const CircleTable& table,
-                                                double ball_radius_m) {
+bool is_plain(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
+    return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
+  });
+}
+
+std::vector<BallLabel> read_contact_circles(const std::filesystem::path& path, const CircleTable& table,
+                                            double ball_radius_m) {
   std::istringstream text(read_file(path));
   std::string line;
   std::getline(text, line);
@@ -51,7 +57,7 @@ std::vector<ContactCircle> read_contact_circles(const std::filesystem::path& pat
   };
   const std::size_t image = column(table.image), diameter = column(table.diameter_mm), x = column(table.x_px),
                     y = column(table.y_px), radius = column(table.radius_px), leave_out = column(table.leave_out);
-  std::vector<ContactCircle> circles;
+  std::vector<BallLabel> circles;
   std::set<std::string> names;
   for (int number = 2; std::getline(text, line); ++number) {
     const std::vector<std::string> fields = fields_of(line);
@@ -69,10 +75,7 @@ std::vector<ContactCircle> read_contact_circles(const std::filesystem::path& pat
     constexpr double kSameBall = 1e-6;
     if (value(leave_out) != 0.0 || std::abs(0.5e-3 * value(diameter) - ball_radius_m) > kSameBall) continue;
     const std::string& name = fields[image];
-    const bool plain = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
-      return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
-    });
-    if (!plain)
+    if (!is_plain(name))
       throw DataError("{}:{}: '{}' has characters other than letters, digits and . _ / + -", path.string(), number,
                       name);
     if (!names.insert(name).second) throw DataError("{}:{}: {} is given twice", path.string(), number, name);

@@ -6,17 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "common/benchmark/ball_labels.h"
 #include "common/config/config.h"
 
 namespace tacipc {
-
-/// Centre (column, row of a pixel, its middle) and radius of the contact seen in one photograph.
-struct ContactCircle {
-  std::string image;  // as the table names it
-  double x_px = 0.0;
-  double y_px = 0.0;
-  double radius_px = 0.0;
-};
 
 /// Which columns of the table hold what, and how its photographs are divided.
 struct CircleTable {
@@ -30,9 +23,12 @@ struct CircleTable {
   static CircleTable read(ConfigReader& in);
 };
 
-/// Rows in the order of the table, of balls of this radius, that do not say to be left out.
+/// A text that Make and the shell take for one word, or a path of such words.
+bool is_plain(const std::string& text);
+
+/// Rows in the order of the table, images as it names them, of balls of this radius, that do not say to be left out.
 /// \throw DataError `FILE: …` without such a row, for a missing column, `FILE:LINE: …` for a row one cannot read
-std::vector<ContactCircle> read_contact_circles(const std::filesystem::path& path, const CircleTable& table,
-                                                double ball_radius_m);
+std::vector<BallLabel> read_contact_circles(const std::filesystem::path& path, const CircleTable& table,
+                                            double ball_radius_m);
 
 }  // namespace tacipc

@@ -47,22 +47,21 @@ void read_relaxation(ConfigReader& parameters, IdentifySpec& out) {
   std::vector<ConfigReader> terms = parameters.sections("relaxation");
   for (ConfigReader& term : terms) {
     const std::string index = std::to_string(out.relaxation.size());
-    ConfigReader part = term.section("part"), time = term.section("time_s");
-    MechanicsParameter g{.name = "relaxation_" + index + "_part",
-                         .prior = Prior::read(part, Range::between(0.0, 0.95 / static_cast<double>(terms.size())))};
-    MechanicsParameter tau{.name = "relaxation_" + index + "_time_s", .prior = Prior::read(time, Range::positive())};
+    const Range parts = Range::between(0.0, 0.95 / static_cast<double>(terms.size()));
+    MechanicsParameter g{.name = "relaxation_" + index + "_part", .prior = term.read<Prior>("part", parts)};
+    MechanicsParameter tau{.name = "relaxation_" + index + "_time_s",
+                           .prior = term.read<Prior>("time_s", Range::positive())};
     out.relaxation.emplace_back(std::move(g), std::move(tau));
   }
 }
 
-MeasuredColumns read_columns(ConfigReader& in, const std::vector<std::string>& quantities) {
-  MeasuredColumns out;
+void read_columns(ConfigReader& in, Measurement& out) {
   ConfigReader columns = in.section("columns");
-  for (const std::string& quantity : quantities) out.column_of.emplace_back(quantity, columns.text(quantity));
-  if (auto factors = in.optional_section("factors"))
-    for (const std::string& quantity : quantities)
-      if (const auto factor = factors->optional_number(quantity)) out.factor_of.emplace_back(quantity, *factor);
-  return out;
+  auto factors = in.optional_section("factors");
+  for (MeasuredColumn* one : {&out.at, &out.force}) {
+    one->column = columns.text(one->quantity);
+    if (factors) one->factor = factors->optional_number(one->quantity).value_or(1.0);
+  }
 }
 
 MarkerMeasurement read_markers(ConfigReader& in) {
@@ -109,12 +108,13 @@ Measurement read_measurement(ConfigReader& in) {
   out.file = plain(in, "file");
   if (out.kind == MeasurementKind::markers) {
     out.markers = read_markers(in);
-    ConfigReader depth = in.section("depth_mm"), travel = in.section("travel_mm");
-    out.markers->depth_mm = Prior::read(depth, Range::positive());
-    out.markers->travel_mm = Prior::read(travel, Range::positive());
+    out.markers->depth_mm = in.read<Prior>("depth_mm", Range::positive());
+    out.markers->travel_mm = in.read<Prior>("travel_mm", Range::positive());
   } else {
     const std::vector<std::string> first{"depth_mm", "travel_mm", "time_s"};
-    out.columns = read_columns(in, {first[static_cast<std::size_t>(out.kind)], "force_n"});
+    out.at.quantity = first[static_cast<std::size_t>(out.kind)];
+    out.force.quantity = "force_n";
+    read_columns(in, out);
     ConfigReader sigma = in.section("sigma");
     out.sigma_relative = sigma.number_or("relative", 0.0, Range::non_negative());
     out.sigma_n = sigma.number("force_n", Range::positive());
@@ -189,16 +189,6 @@ Prior Prior::read(ConfigReader& in, const Range& natural) {
       in.fault("bounds", "must be the least and the largest value, with the mean between them");
   }
   return out;
-}
-
-const std::string& MeasuredColumns::column(const std::string& quantity) const {
-  return std::ranges::find_if(column_of, [&](const auto& c) { return c.first == quantity; })->second;
-}
-
-double MeasuredColumns::factor(const std::string& quantity) const {
-  for (const auto& [name, factor] : factor_of)
-    if (name == quantity) return factor;
-  return 1.0;
 }
 
 IdentifySpec IdentifySpec::read(ConfigReader& in) {

@@ -40,13 +40,11 @@ inline constexpr const char* kShearMount = "mount_shear_compliance_mm_per_n";
 
 enum class MeasurementKind { press, shear, relaxation, markers };
 
-/// Rows of a table: names of its columns, and what its numbers are multiplied by to be in our units and signs.
-struct MeasuredColumns {
-  std::vector<std::pair<std::string, std::string>> column_of;  // quantity → column
-  std::vector<std::pair<std::string, double>> factor_of;       // quantity → factor; absent: 1
-
-  const std::string& column(const std::string& quantity) const;
-  double factor(const std::string& quantity) const;
+/// A column of a table, and what its numbers are multiplied by to be in our units and signs.
+struct MeasuredColumn {
+  std::string quantity;
+  std::string column;
+  double factor = 1.0;
 };
 
 /// Marker vectors in two photographs of one press, which is dragged between them.
@@ -70,8 +68,8 @@ struct Measurement {
   double edge_radius_mm = 0.0;
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  // on the gel
 
-  std::string file;  // table below the shared data (of markers the fields' folder)
-  MeasuredColumns columns;
+  std::string file;                            // table below the shared data (of markers the fields' folder)
+  MeasuredColumn at, force;                    // depth, travel or time, and force, of each row
   double sigma_relative = 0.0, sigma_n = 0.0;  // of a force
   std::optional<double> fit_to_mm;             // press: deeper rows are predicted, not fitted
   std::optional<Prior> depth_zero_mm;          // by which the gel is deeper than the table says; absent: 0

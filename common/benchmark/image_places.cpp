@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/units.h"
+#include "common/benchmark/benchmark_cases.h"
 #include "common/sensor/camera_model.h"
 
 namespace tacipc {
@@ -54,8 +55,8 @@ ImagePlaces ImagePlaces::read(ConfigReader& in) {
       image.frame = item.integer("frame", 0, 1000000);
     }
     config.images.push_back(image);
-    const auto same = [&](const NamedFrame& other) { return other.name == config.images.back().name; };
-    if (std::ranges::count_if(config.images, same) > 1) item.fault("name", "is given twice");
+    if (std::ranges::count(config.images, config.images.back().name, &NamedFrame::name) > 1)
+      item.fault("name", "is given twice");
   }
   if (config.ball_radius_m) return config;
   ConfigReader place = in.section("place");
@@ -64,15 +65,8 @@ ImagePlaces ImagePlaces::read(ConfigReader& in) {
       .x_px = center[0], .y_px = center[1], .yaw_rad = place.number_or("yaw_deg", 0.0) * std::numbers::pi / 180.0};
   if (auto fit = in.optional_section("fit")) {
     PlaceFit wanted{.image = fit->text("image"), .box_px = {}, .yaw = fit->flag("yaw")};
-    const auto box = fit->numbers("box_px", 4, Range::between(0.0, 1e6));
-    for (std::size_t i = 0; i < 4; ++i) {
-      wanted.box_px[i] = static_cast<int>(box[i]);
-      if (box[i] != std::round(box[i]) || (i > 1 && box[i] < 1.0)) {
-        fit->fault("box_px", "expected whole pixels, at least one wide and high");
-        break;
-      }
-    }
-    if (std::ranges::none_of(config.images, [&](const NamedFrame& image) { return image.name == wanted.image; }))
+    wanted.box_px = pixel_box(*fit, "box_px");
+    if (std::ranges::count(config.images, wanted.image, &NamedFrame::name) == 0)
       fit->fault("image", "is not one of the images");
     config.fit = wanted;
   }

@@ -76,6 +76,12 @@ class ConfigReader {
   /// The keys of this map, in file order.
   std::vector<std::string> keys() const;
   ConfigReader section(const std::string& key);
+  /// The section as T, where T::read(ConfigReader&, …) declares its keys.
+  template <typename T, typename... Arguments>
+  T read(const std::string& key, const Arguments&... arguments) {
+    ConfigReader in = section(key);
+    return T::read(in, arguments...);
+  }
   std::optional<ConfigReader> optional_section(const std::string& key);
   /// A list of maps (empty where the key is absent).
   std::vector<ConfigReader> sections(const std::string& key);

@@ -26,6 +26,12 @@ struct InputSpec {
   bool required = true;
   bool many = false;   // may be given several times
   bool named = false;  // each as NAME=PATH: the stage is told which is which, and need not guess it from the path
+
+  static InputSpec optional(const char* flag, const char* help) { return {flag, help, false}; }
+  static InputSpec several(const char* flag, const char* help) { return {flag, help, true, true}; }
+  static InputSpec any_number(const char* flag, const char* help) { return {flag, help, false, true}; }
+  static InputSpec several_named(const char* flag, const char* help) { return {flag, help, true, true, true}; }
+  static InputSpec any_number_named(const char* flag, const char* help) { return {flag, help, false, true, true}; }
 };
 
 /// A flag that carries a word rather than a file (a sample's name); tuning belongs into configuration.

@@ -1,11 +1,10 @@
 // Long rows: what their records say, and what stands in the page where there is none.
-#include "verification/long_rows.h"
+#include "verification/table_report.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
-#include "verification/table_report.h"
 
 namespace tacipc::verify {
 namespace long_rows_test {

@@ -9,7 +9,6 @@
 #include "common/base/files.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
-#include "verification/refinement_report.h"
 
 namespace tacipc::verify {
 namespace refinement_test {

@@ -44,13 +44,9 @@ GaussianWindow GaussianWindow::of_size(int size_px) {
 
 DeformationConfig DeformationConfig::read(ConfigReader& in) {
   DeformationConfig config;
-  const std::string method = in.choice(
-      "method", {"difference_of_gaussians", "exponential_kernel", "two_gaussians", "pyramid", "rigid", "none"});
-  if (method == "none") config.method = Method::none;
-  if (method == "rigid") config.method = Method::rigid;
-  if (method == "exponential_kernel") config.method = Method::exponential_kernel;
-  if (method == "two_gaussians") config.method = Method::two_gaussians;
-  if (method == "pyramid") config.method = Method::pyramid;
+  static const std::vector<std::string> kMethods{
+      "difference_of_gaussians", "exponential_kernel", "two_gaussians", "pyramid", "rigid", "none"};
+  config.method = static_cast<Method>(std::ranges::find(kMethods, in.choice("method", kMethods)) - kMethods.begin());
   if (config.method == Method::none || config.method == Method::rigid) return config;
   if (config.method == Method::pyramid) {
     config.designed_pixel_m = 1e-3 * in.number("designed_mm_per_px", Range::positive());
@@ -128,13 +124,12 @@ ChangeConfig ChangeConfig::read(ConfigReader& in, const std::string& model) {
 
 BaselineConfig BaselineConfig::read(ConfigReader& in) {
   BaselineConfig config;
-  const std::string rays = in.choice_or("rays", "refracted", {"refracted", "straight", "parallel"});
-  if (rays == "straight") config.rays = ObjectRays::straight;
-  if (rays == "parallel") config.rays = ObjectRays::parallel;
+  static const std::vector<std::string> kRays{"refracted", "straight", "parallel"};
+  config.rays =
+      static_cast<ObjectRays>(std::ranges::find(kRays, in.choice_or("rays", kRays[0], kRays)) - kRays.begin());
   if (auto force = in.optional_section("contact_force")) config.force = ForceDepth::read(*force);
   if (const auto depth = in.optional_number("front_depth_mm", Range::positive())) config.front_depth_m = 1e-3 * *depth;
-  ConfigReader deformation = in.section("deformation");
-  config.deformation = DeformationConfig::read(deformation);
+  config.deformation = in.read<DeformationConfig>("deformation");
   config.texture_sigma_m = 1e-3 * in.number("texture_sigma_mm", Range::non_negative());
   config.seed = static_cast<std::uint64_t>(in.integer_or("seed", 1, 0));
   if (auto shading = in.optional_section("shading")) {

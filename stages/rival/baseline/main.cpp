@@ -25,28 +25,22 @@ const StageSpec kBaseline{
     .summary =
         "Make tactile images as simulators do that know the object's depth alone: its shape, blurred, and a light.",
     .inputs = {
-        {.flag = "--config", .help = "kernels and lights (YAML)"},
-        {.flag = "--sensor", .help = "the sensor: camera and gel (YAML)"},
-        {.flag = "--background", .help = "photograph without contact (PNG)", .required = false},
-        {.flag = "--light",
-         .help =
-             "table or network (NPY), lamps or our light (YAML) of calibrate, where the shading has its light there",
-         .required = false},
-        {.flag = "--depth", .help = "depth maps (EXR)", .required = false, .many = true},
-        {.flag = "--object",
-         .help = "triangle mesh in metres (object.ply of decimate), in place of depth maps",
-         .required = false},
-        {.flag = "--pose", .help = "gel_from_object per frame (NPY)", .required = false},
-        {.flag = "--places",
-         .help = "which of these poses, moved where in the image (YAML, as for shade)",
-         .required = false},
-        {.flag = "--photograph", .help = "photograph the place is fitted to (PNG)", .required = false},
-        {.flag = "--press",
-         .help = "folder of a press of the object, whose way its markers go (with a section markers)",
-         .required = false},
-        {.flag = "--response",
-         .help = "folder of a press of a small object in the middle, then along x: unit responses of markers",
-         .required = false}}};
+        {"--config", "kernels and lights (YAML)"},
+        {"--sensor", "the sensor: camera and gel (YAML)"},
+        InputSpec::optional("--background", "photograph without contact (PNG)"),
+        InputSpec::optional(
+            "--light",
+            "table or network (NPY), lamps or our light (YAML) of calibrate, where the shading has its light there"),
+        InputSpec::any_number("--depth", "depth maps (EXR)"),
+        InputSpec::optional("--object", "triangle mesh in metres (object.ply of decimate), in place of depth maps"),
+        InputSpec::optional("--pose", "gel_from_object per frame (NPY)"),
+        InputSpec::optional("--places", "which of these poses, moved where in the image (YAML, as for shade)"),
+        InputSpec::optional("--photograph", "photograph the place is fitted to (PNG)"),
+        InputSpec::optional("--press",
+                            "folder of a press of the object, whose way its markers go (with a section markers)"),
+        InputSpec::optional(
+            "--response",
+            "folder of a press of a small object in the middle, then along x: unit responses of markers")}};
 
 void check_flags(const Stage& stage) {
   const bool mesh = stage.optional_input("--object").has_value();
@@ -102,8 +96,7 @@ std::vector<Matrix4> wanted_poses(Stage& stage, const BaselineSimulator& simulat
     if (!file) throw UsageError("--photograph: needed where a place is to be fitted to it");
     if (!simulator.config().shades()) throw UsageError("--places: no place can be fitted without shading");
     const ByteImage photograph = read_photograph(*file, simulator.sensor().camera);
-    const NamedFrame& image =
-        *std::ranges::find_if(places.images, [&](const NamedFrame& one) { return one.name == places.fit->image; });
+    const NamedFrame& image = *std::ranges::find(places.images, places.fit->image, &NamedFrame::name);
     const FittedPlace fitted = search_place(place, *places.fit, photograph, [&](const ImagePlace& at) {
       return *simulator.frame(simulator.seen(moved(at, image))).tactile;
     });

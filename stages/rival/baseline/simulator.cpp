@@ -3,10 +3,13 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <utility>
+#include <ctime>
 
 #include "common/base/error.h"
 #include "common/mesh/vertex_normals.h"
+#include "common/sensor/light_field.h"
+#include "stages/rival/baseline/deformation.h"
+#include "stages/rival/baseline/phong.h"
 
 namespace tacipc {
 namespace {
@@ -53,8 +56,34 @@ SeenObject BaselineSimulator::seen(Matrix4 pose) const {
   return camera_.see(object_.value(), normals_, pose, name_);
 }
 
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 BaselineFrame BaselineSimulator::frame(SeenObject object_seen) const {
-  return simulate_depth(std::move(object_seen), front_, config_, background_, change_ ? &*change_ : nullptr);
+  const double started = processor_s();
+  const Raster h = protrusion(object_seen.depth, front_);
+  const Raster indentation = membrane_indentation(h, config_.deformation);
+  Raster membrane = front_;
+  for (std::size_t i = 0; i < membrane.values.size(); ++i) membrane.values[i] -= indentation.values[i];
+  add_texture(membrane, config_.texture_sigma_m, config_.seed);
+  const double shaped = processor_s();
+  BaselineFrame frame{.indentation = to_image(indentation), .depth = to_image(membrane), .tactile = std::nullopt};
+  frame.membrane_s = shaped - started;
+  if (config_.phong) frame.tactile = phong_image(*background_, membrane, h, *config_.phong);
+  if (change_) {
+    for (std::size_t i = 0; i < object_seen.normal.size(); ++i)
+      if (!(h.values[i] > 0.0)) object_seen.normal[i] = Vector3::Zero();
+    frame.tactile = add_change(*background_, (*change_)(indentation, object_seen.normal));
+    add_noise(*frame.tactile, config_.change->noise_codes, config_.seed);
+  }
+  frame.light_s = processor_s() - shaped;
+  return frame;
+}
+
+Raster read_depth(const std::filesystem::path& path) {
+  const FloatImage image = read_exr(path, {"Y"});
+  Raster depth(image.width, image.height);
+  for (std::size_t i = 0; i < depth.values.size(); ++i) depth.values[i] = image.pixels[i];
+  return depth;
 }
 
 }  // namespace tacipc

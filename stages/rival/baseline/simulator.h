@@ -11,9 +11,16 @@
 #include "stages/rival/baseline/baseline_config.h"
 #include "stages/rival/baseline/change.h"
 #include "stages/rival/baseline/object_depth.h"
-#include "stages/rival/baseline/simulate_depth.h"
 
 namespace tacipc {
+
+struct BaselineFrame {
+  FloatImage indentation;            // m, > 0 into the gel, without texture
+  FloatImage depth;                  // m along the camera's axis, with texture
+  std::optional<ByteImage> tactile;  // where the configuration shades
+  double membrane_s = 0.0;           // processor time of membrane and light
+  double light_s = 0.0;
+};
 
 class BaselineSimulator {
  public:
@@ -27,6 +34,7 @@ class BaselineSimulator {
   bool has_object() const { return object_.has_value(); }
 
   SeenObject seen(Matrix4 pose) const;
+  /// \pre of the size of the sensor's images
   BaselineFrame frame(SeenObject object_seen) const;
 
   const BaselineConfig& config() const { return config_; }
@@ -44,5 +52,11 @@ class BaselineSimulator {
   Positions normals_;  // of its vertices, where the light wants them
   std::string name_;   // of its file
 };
+
+/// Depth (m) of a float EXR as render writes it: channel Z.
+Raster read_depth(const std::filesystem::path& path);
+
+/// Processor time of this process, s.
+double processor_s();
 
 }  // namespace tacipc

@@ -1,8 +1,11 @@
 #include "stages/rival/mpm/height_map.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "common/base/error.h"
+#include "common/sensor/camera_model.h"
 #include "stages/rival/mpm/clough_tocher.h"
 
 namespace tacipc {
@@ -11,21 +14,34 @@ namespace {
 /// How far outside a triangle, in barycentric coordinates, a pixel on its edge may seem to lie by rounding.
 constexpr double kBarycentricSlack = 1e-9;
 
+constexpr int kHalvings = 24;  // of half a pixel's distance along a ray: below 1e-8 of it
+
+/// The surface between the pixels of its map.
+class Surface {
+ public:
+  Surface(const FloatImage& map, const Camera& camera, PixelPlaces places)
+      : map_(map),
+        columns_(camera.position_m.x(), camera.window_width_m, map.width, places),
+        rows_(camera.position_m.y(), camera.window_height_m, map.height, places) {}
+
+  double indentation(double x, double y) const {
+    const double u = std::clamp(columns_.pixel(x), 0.0, map_.width - 1.0);
+    const double v = std::clamp(rows_.pixel(y), 0.0, map_.height - 1.0);
+    const int i = std::min(static_cast<int>(u), std::max(0, map_.width - 2));
+    const int j = std::min(static_cast<int>(v), std::max(0, map_.height - 2));
+    const int k = std::min(i + 1, map_.width - 1), l = std::min(j + 1, map_.height - 1);
+    const double s = u - i, t = v - j;
+    return (1.0 - t) * ((1.0 - s) * map_.at(i, j, 0) + s * map_.at(k, j, 0)) +
+           t * ((1.0 - s) * map_.at(i, l, 0) + s * map_.at(k, l, 0));
+  }
+  double pixel_m() const { return std::min(columns_.step, rows_.step); }
+
+ private:
+  const FloatImage& map_;
+  PixelLine columns_, rows_;
+};
+
 }  // namespace
-
-PixelLine::PixelLine(double center_m, double window_m, int pixels, PixelPlaces places)
-    : first(center_m - 0.5 * window_m), step(window_m / pixels), count(pixels) {
-  if (places == PixelPlaces::ends)
-    step = pixels > 1 ? window_m / (pixels - 1) : 0.0;
-  else
-    first += 0.5 * step;
-}
-
-int PixelLine::from(double low) const { return step > 0.0 ? std::max(0, static_cast<int>(std::floor(pixel(low)))) : 0; }
-
-int PixelLine::to(double high) const {
-  return step > 0.0 ? static_cast<int>(std::min(count - 1.0, std::ceil(pixel(high)))) : count - 1;
-}
 
 FloatImage indentation_map(const GelLattice& lattice, const Positions& front_m, const Camera& camera,
                            PixelPlaces places) {
@@ -51,6 +67,42 @@ FloatImage indentation_map(const GelLattice& lattice, const Positions& front_m, 
     }
   }
   return map;
+}
+
+FloatImage seen_along_rays(const FloatImage& from_above, const Sensor& sensor, PixelPlaces places) {
+  assert(from_above.width == sensor.camera.width_px && from_above.height == sensor.camera.height_px);
+  const Surface surface(from_above, sensor.camera, places);
+  const CameraModel rays(sensor.camera, sensor.stack);
+  const double deepest = std::max(0.0, double{*std::ranges::max_element(from_above.pixels)});
+  const double highest = std::min(0.0, double{*std::ranges::min_element(from_above.pixels)});
+  FloatImage seen(from_above.width, from_above.height, 1);
+  for (int y = 0; y < seen.height; ++y) {
+    for (int x = 0; x < seen.width; ++x) {
+      const auto ray = rays.ray(x + 0.5, y + 0.5);
+      if (!ray || !(ray->direction.z() > 0.0))
+        throw DataError("pixel ({}, {}) of the camera does not look at the front face", x, y);
+      const Vector3 along = ray->direction / ray->direction.z();
+      const auto below = [&](double depth) {  // whether the point of the ray that deep is still inside the gel
+        const Vector3 point = ray->origin + (-depth - ray->origin.z()) * along;
+        return depth > surface.indentation(point.x(), point.y());
+      };
+      // From the deepest point upwards, in steps of at most half a pixel sideways, then between the last two places.
+      const double range = deepest - highest, sideways = range * along.head<2>().norm();
+      const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * sideways / surface.pixel_m())));
+      double inside = deepest, outside = deepest;
+      for (int k = 0; k <= steps; ++k) {
+        outside = deepest - range * k / steps;
+        if (!below(outside)) break;
+        inside = outside;
+      }
+      for (int k = 0; k < kHalvings; ++k) {
+        const double middle = 0.5 * (inside + outside);
+        (below(middle) ? inside : outside) = middle;
+      }
+      seen.at(x, y, 0) = static_cast<float>(outside);
+    }
+  }
+  return seen;
 }
 
 }  // namespace tacipc

@@ -13,11 +13,11 @@ using namespace tacipc;
 const StageSpec kMpm{
     .name = "mpm",
     .summary = "Press an object into a gel of material points, as Tacchi does: MLS-MPM in three dimensions.",
-    .inputs = {{.flag = "--config", .help = "numerics (YAML)"},
-               {.flag = "--sensor", .help = "sensor (YAML)"},
-               {.flag = "--sample", .help = "placement and motion (YAML)"},
-               {.flag = "--object", .help = "triangle mesh in metres (object.ply of decimate)"},
-               {.flag = "--object-config", .help = "the object's YAML: which side is up", .required = false}},
+    .inputs = {{"--config", "numerics (YAML)"},
+               {"--sensor", "sensor (YAML)"},
+               {"--sample", "placement and motion (YAML)"},
+               {"--object", "triangle mesh in metres (object.ply of decimate)"},
+               InputSpec::optional("--object-config", "the object's YAML: which side is up")},
     .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}}};
 
 double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

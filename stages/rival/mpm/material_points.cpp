@@ -179,37 +179,8 @@ double MaterialPoints::deepest_m(int first) const {
   return 0.0 - metres_per_cell() * static_cast<double>(lowest);
 }
 
-std::vector<ParticleState> MaterialPoints::states() const {
-  std::vector<ParticleState> states(num_particles_);
-  for_each_particle([&](const ParticlePack& pack, int l) {
-    ParticleState& state = states[pack.id[l]];
-    for (int r = 0; r < 3; ++r) {
-      state.shift_m[r] = metres_per_cell() * static_cast<double>(pack.shift[r][l]);
-      state.velocity_m_s[r] = metres_per_cell() / setup_.step_s * static_cast<double>(pack.velocity[r][l]);
-      for (int c = 0; c < 3; ++c) {
-        state.velocity_gradient_per_s(r, c) = static_cast<double>(pack.affine[3 * r + c][l]) / setup_.step_s;
-        state.deformation(r, c) = static_cast<double>(pack.deformation[3 * r + c][l]);
-      }
-    }
-  });
-  return states;
-}
-
-void MaterialPoints::set_states(const std::vector<ParticleState>& states) {
-  assert(states.size() == static_cast<std::size_t>(num_particles_));
-  for (ParticlePack& pack : sorted_.packs) {
-    for (int l = 0; l < kParticleLanes && pack.id[l] >= 0; ++l) {
-      const ParticleState& state = states[pack.id[l]];
-      for (int r = 0; r < 3; ++r) {
-        pack.shift[r][l] = static_cast<float>(state.shift_m[r] / metres_per_cell());
-        pack.velocity[r][l] = static_cast<float>(state.velocity_m_s[r] * setup_.step_s / metres_per_cell());
-        for (int c = 0; c < 3; ++c) {
-          pack.affine[3 * r + c][l] = static_cast<float>(state.velocity_gradient_per_s(r, c) * setup_.step_s);
-          pack.deformation[3 * r + c][l] = static_cast<float>(state.deformation(r, c));
-        }
-      }
-    }
-  }
+void MaterialPoints::set_packs(std::vector<ParticlePack> packs) {
+  sorted_.packs = std::move(packs);
   sort();
 }
 

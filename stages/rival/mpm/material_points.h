@@ -29,14 +29,6 @@ struct MpmSetup {
   double particle_mass_kg() const { return density_kg_m3 * particle_volume_m3; }
 };
 
-/// One particle, SI units.
-struct ParticleState {
-  Vector3 shift_m = Vector3::Zero();
-  Vector3 velocity_m_s = Vector3::Zero();
-  Matrix3 velocity_gradient_per_s = Matrix3::Zero();
-  Matrix3 deformation = Matrix3::Identity();
-};
-
 class MaterialPoints {
  public:
   /// Particles at `rest_m`, at rest; row i has id i. \pre at least one
@@ -56,8 +48,10 @@ class MaterialPoints {
   Positions shifts_m(int first, int count) const;
   /// How far the lowest of the particles from `first` on has gone down, m; at least 0.
   double deepest_m(int first) const;
-  std::vector<ParticleState> states() const;
-  void set_states(const std::vector<ParticleState>& states);
+  const MpmSetup& setup() const { return setup_; }
+  const std::vector<ParticlePack>& packs() const { return sorted_.packs; }
+  /// Goes on from another state of all particles, in any order.
+  void set_packs(std::vector<ParticlePack> packs);
 
   /// Σ m v of the gel, kg m/s; Σ ½ m v², J.
   Vector3 momentum() const;

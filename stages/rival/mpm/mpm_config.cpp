@@ -52,8 +52,7 @@ ObjectPointsConfig ObjectPointsConfig::read(ConfigReader& in) {
 
 MpmConfig MpmConfig::read(ConfigReader& in) {
   MpmConfig config;
-  ConfigReader gel = in.section("gel");
-  config.gel = LatticeConfig::read(gel);
+  config.gel = in.read<LatticeConfig>("gel");
   if (auto material = in.optional_section("material")) {
     config.density_kg_m3 = material->optional_number("density_kg_m3", Range::positive());
     config.youngs_modulus_pa = material->optional_number("youngs_modulus_pa", Range::positive());
@@ -73,8 +72,7 @@ MpmConfig MpmConfig::read(ConfigReader& in) {
     config.courant = time.number("courant", {.low = 0.0, .high = 1.0, .open_low = true});
   }
   config.damping_per_s = time.number_or("damping_per_s", 0.0, Range::non_negative());
-  ConfigReader object = in.section("object");
-  config.object = ObjectPointsConfig::read(object);
+  config.object = in.read<ObjectPointsConfig>("object");
   ConfigReader motion = in.section("motion");
   config.depth_of_gel = motion.choice("depth_of", {"gel", "object"}) == "gel";
   config.frame_within_m = read_frame_within_m(motion);

@@ -12,12 +12,12 @@ namespace tacipc {
 /// Particles of the gel on a regular lattice.
 struct LatticeConfig {
   std::optional<std::array<int, 3>> counts =
-      std::nullopt;  // a block of its own with its front at z = 0; absent: the sensor's gel
+      {};  // a block of its own with its front at z = 0; absent: the sensor's gel
   double spacing_m = 0.0;
-  bool on_faces = false;  // the outermost particles lie on the gel's faces, else half a spacing inside
-  std::optional<double> volume_m3 = std::nullopt;  // of a particle; absent: spacing³
+  bool on_faces = false;                 // the outermost particles lie on the gel's faces, else half a spacing inside
+  std::optional<double> volume_m3 = {};  // of a particle; absent: spacing³
   std::optional<int> fixed_layers =
-      std::nullopt;  // the lowest layers of particles do not move; absent: the nodes of the glued face
+      {};  // the lowest layers of particles do not move; absent: the nodes of the glued face
 
   static LatticeConfig read(ConfigReader& in);
 };
@@ -36,14 +36,13 @@ struct ObjectPointsConfig {
 
 struct MpmConfig {
   LatticeConfig gel = {};
-  std::optional<double> density_kg_m3 = std::nullopt;  // absent: the sensor's, as the next two
-  std::optional<double> youngs_modulus_pa = std::nullopt;
-  std::optional<double> poissons_ratio = std::nullopt;
+  std::optional<double> density_kg_m3 = {};  // absent: the sensor's, as the next two
+  std::optional<double> youngs_modulus_pa = {};
+  std::optional<double> poissons_ratio = {};
   double grid_spacing_m = 0.0;
-  std::optional<Vector3> grid_origin_m =
-      std::nullopt;                             // where a node lies; absent: below the origin of S on the glued face
-  std::optional<double> step_s = std::nullopt;  // or
-  double courant = 0.0;                         // wave speed × step / grid spacing
+  std::optional<Vector3> grid_origin_m = {};  // where a node lies; absent: below the origin of S on the glued face
+  std::optional<double> step_s = {};          // or
+  double courant = 0.0;                       // wave speed × step / grid spacing
   double damping_per_s = 0.0;
   ObjectPointsConfig object = {};
   bool depth_of_gel = false;    // a press is as deep as the gel's front is, else as the object's lowest point
@@ -52,8 +51,7 @@ struct MpmConfig {
   double hold_frame_s = 0.0;    // a frame in which nothing moves
   bool height_maps = true;      // of every frame; else markers only
   bool pixels_at_ends = false;  // the first and last pixel look at the window's edges, else at half a pixel inside
-  std::optional<double> largest_change =
-      std::nullopt;  // of the markers when the object moves half as fast; absent: not tried
+  std::optional<double> largest_change = {};  // of the markers when the object moves half as fast; absent: not tried
 
   static MpmConfig read(ConfigReader& in);
 };

@@ -1,9 +1,10 @@
 #include "stages/study/cases/case_files.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+
+#include "stages/study/cases/make_variables.h"
 
 namespace tacipc {
 namespace {
@@ -39,9 +40,8 @@ std::string shade(const ObjectCase& object) {
   int frame = 0;
   for (const PhotographCase& image : object.images)
     text += fmt::format("  - {{name: {}, frame: {}}}\n", image.name, ++frame);
-  const auto& box = object.box_px;
-  return text + fmt::format("place: {{center_px: [{}, {}]}}\nfit: {{image: {}, box_px: [{}, {}, {}, {}], yaw: {}}}\n",
-                            object.center_px[0], object.center_px[1], object.fit_image, box[0], box[1], box[2], box[3],
+  return text + fmt::format("place: {{center_px: [{}]}}\nfit: {{image: {}, box_px: [{}], yaw: {}}}\n",
+                            fmt::join(object.center_px, ", "), object.fit_image, fmt::join(object.box_px, ", "),
                             object.fit_yaw);
 }
 
@@ -53,11 +53,9 @@ std::string known_objects(const BenchmarkCases& cases) {
     for (const PhotographCase& image : object.images) {
       ++frame;
       if (image.name != object.calibrates) continue;
-      const auto& box = object.box_px;
-      text += fmt::format(
-          "  - {{name: {}, photograph: {}, frame: {}, center_px: [{}, {}], box_px: [{}, {}, {}, {}], yaw: {}}}\n",
-          object.name, image.photograph, frame, object.center_px[0], object.center_px[1], box[0], box[1], box[2],
-          box[3], object.fit_yaw);
+      text += fmt::format("  - {{name: {}, photograph: {}, frame: {}, center_px: [{}], box_px: [{}], yaw: {}}}\n",
+                          object.name, image.photograph, frame, fmt::join(object.center_px, ", "),
+                          fmt::join(object.box_px, ", "), object.fit_yaw);
     }
   }
   return text.empty() ? text : "objects:\n" + text;
@@ -69,71 +67,62 @@ std::string metrics(const BenchmarkCases& cases) {
   for (const ObjectCase& object : cases.objects)
     for (const PhotographCase& image : object.images)
       for (const std::string& name : {object.name + "/" + image.name + ".png", image.name + ".png"})
-        text += fmt::format("  - {{starts_with: {}, px: [{}, {}, {}, {}]}}\n", name, image.box_px[0], image.box_px[1],
-                            image.box_px[2], image.box_px[3]);
+        text += fmt::format("  - {{starts_with: {}, px: [{}]}}\n", name, fmt::join(image.box_px, ", "));
   return text;
 }
 
-std::string labels(const std::vector<ContactCircle>& circles) {
+std::string labels(const std::vector<BallLabel>& circles) {
   std::string text;
-  for (const ContactCircle& circle : circles)
+  for (const BallLabel& circle : circles)
     text += fmt::format("{} ({}, {}) {}\n", circle.image, circle.x_px, circle.y_px, circle.radius_px);
   return text;
 }
 
 std::string variables(const BenchmarkCases& cases, const std::string& folder) {
-  const auto setting = [&](const std::string& path) {
-    return (std::filesystem::path(folder) / path).lexically_normal().generic_string();
-  };
-  std::string text = "# Made by the stage cases.\n";
-  const auto set = [&](const std::string& name, const std::string& value) {
-    text += fmt::format("CASES_{} := {}\n", name, value);
-  };
-  set("DATA", cases.data);
-  set("CIRCLES", cases.circle_table ? cases.data + "/" + cases.circles : "");
+  MakeVariables make("CASES", folder);
+  make.set("DATA", cases.data);
+  make.set("CIRCLES", cases.circle_table ? cases.data + "/" + cases.circles : "");
   if (!cases.circle_table) {
-    set("BACKGROUND", cases.data + "/" + cases.background);
-    set("LABELS", cases.data + "/" + cases.labels);
+    make.set("BACKGROUND", cases.data + "/" + cases.background);
+    make.set("LABELS", cases.data + "/" + cases.labels);
   }
-  set("PHOTOGRAPHS", cases.data + "/" + cases.photographs);
+  make.set("PHOTOGRAPHS", cases.data + "/" + cases.photographs);
   for (const auto& [name, path] : {std::pair{"SENSOR", cases.sensor},
                                    {"MESH", cases.mesh},
                                    {"PRESS", cases.press},
                                    {"CALIBRATE", cases.calibrate},
                                    {"BASELINE", cases.baseline}})
-    set(name, setting(path));
+    make.set_path(name, path);
   std::string objects, known;
   for (const ObjectCase& object : cases.objects) {
     objects += (objects.empty() ? "" : " ") + object.name;
     std::string images;
     for (const PhotographCase& image : object.images) {
       images += (images.empty() ? "" : " ") + image.name;
-      set("PHOTOGRAPH_" + image.name, cases.data + "/" + cases.photographs + "/" + image.photograph);
+      make.set("PHOTOGRAPH_" + image.name, cases.data + "/" + cases.photographs + "/" + image.photograph);
     }
-    set("IMAGES_" + object.name, images);
-    set("FIT_" + object.name, object.fit_image);
+    make.set("IMAGES_" + object.name, images);
+    make.set("FIT_" + object.name, object.fit_image);
     if (!object.calibrates.empty()) {
       known += (known.empty() ? "" : " ") + object.name;
-      const auto at = std::ranges::find_if(
-          object.images, [&](const PhotographCase& image) { return image.name == object.calibrates; });
-      set("KNOWN_FRAME_" + object.name, fmt::format("{}", at - object.images.begin() + 1));
+      const auto at = std::ranges::find(object.images, object.calibrates, &PhotographCase::name);
+      make.set("KNOWN_FRAME_" + object.name, fmt::format("{}", at - object.images.begin() + 1));
     }
-    set("MESH_" + object.name, object.mesh.empty() ? "" : cases.data + "/" + object.mesh);
+    make.set("MESH_" + object.name, object.mesh.empty() ? "" : cases.data + "/" + object.mesh);
   }
-  set("OBJECTS", objects);
-  set("KNOWN", known);
-  return text;
+  make.set("OBJECTS", objects);
+  make.set("KNOWN", known);
+  return make.text();
 }
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> case_files(const BenchmarkCases& cases, const std::string& folder) {
-  std::vector<std::pair<std::string, std::string>> files{
-      {"cases.mk", variables(cases, folder)},
-      {"metrics.yaml", metrics(cases)},
-      {"ball/indenter.yaml", ball_indenter(cases.ball_radius_m, cases.ball_edge_m)},
-      {"ball/motion.yaml",
-       fmt::format("motion: {{kind: press, depth_mm: {}, steps: {}}}\n", 1e3 * cases.ball_depth_m, cases.ball_steps)}};
+CaseFiles case_files(const BenchmarkCases& cases, const std::string& folder) {
+  CaseFiles files{{"cases.mk", variables(cases, folder)},
+                  {"metrics.yaml", metrics(cases)},
+                  {"ball/indenter.yaml", ball_indenter(cases.ball_radius_m, cases.ball_edge_m)},
+                  {"ball/motion.yaml", fmt::format("motion: {{kind: press, depth_mm: {}, steps: {}}}\n",
+                                                   1e3 * cases.ball_depth_m, cases.ball_steps)}};
   if (cases.circle_table) {
     files.emplace_back("labels.txt", labels(cases.labels_of_circles));
     files.emplace_back("background.yaml", fmt::format("contact_radii: {}\n", cases.circle_table->background_radii));

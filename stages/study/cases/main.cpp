@@ -4,8 +4,6 @@
 #include "common/base/files.h"
 #include "common/stage/stage.h"
 #include "stages/study/cases/case_files.h"
-#include "stages/study/cases/identify_files.h"
-#include "stages/study/cases/marker_files.h"
 
 namespace {
 
@@ -14,10 +12,8 @@ using namespace tacipc;
 const StageSpec kCases{
     .name = "cases",
     .summary = "Write the inputs of the stages from the one file of a benchmark or of an identification.",
-    .inputs = {{.flag = "--config", .help = "the benchmark (YAML)"},
-               {.flag = "--circles",
-                .help = "contact circles of its photographs (CSV), where it names them",
-                .required = false}}};
+    .inputs = {{"--config", "the benchmark (YAML)"},
+               InputSpec::optional("--circles", "contact circles of its photographs (CSV), where it names them")}};
 
 /// Photographs, marker vectors (`fields`) measured in them, or `measurements` that tell a sensor's mechanics.
 struct Benchmark {

@@ -1,10 +1,10 @@
-#include "stages/study/cases/marker_files.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+
+#include "stages/study/cases/case_files.h"
+#include "stages/study/cases/make_variables.h"
 
 namespace tacipc {
 namespace {
@@ -24,9 +24,8 @@ std::string motion(const MarkerBenchmark& benchmark, double depth_m) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> marker_files(const MarkerBenchmark& benchmark,
-                                                              const std::string& folder) {
-  std::vector<std::pair<std::string, std::string>> files;
+CaseFiles marker_files(const MarkerBenchmark& benchmark, const std::string& folder) {
+  CaseFiles files;
   std::string depths, variants = "base";
   for (const double depth_m : benchmark.depths_m()) {
     depths += fmt::format("{}{}", depths.empty() ? "" : " ", depth_name(depth_m));
@@ -48,24 +47,18 @@ std::vector<std::pair<std::string, std::string>> marker_files(const MarkerBenchm
     variants += " " + variant.name;
     simulated(variant.name, variant.assumed);
   }
-  std::string text = "# Made by the stage cases.\n";
-  const auto set = [&](const std::string& name, const std::string& value) {
-    text += fmt::format("MARKERS_{} := {}\n", name, value);
-  };
-  const auto setting = [&](const std::string& path) {
-    return (std::filesystem::path(folder) / path).lexically_normal().generic_string();
-  };
-  set("PRESSED", benchmark.data + "/" + benchmark.press_file);
-  set("SHEARED", benchmark.data + "/" + benchmark.shear_file);
-  set("SENSOR", setting(benchmark.sensor));
-  set("MESH", setting(benchmark.mesh));
-  set("PRESS", setting(benchmark.press));
-  set("DEPTHS", depths);
-  set("VARIANTS", variants);
+  MakeVariables make("MARKERS", folder);
+  make.set("PRESSED", benchmark.data + "/" + benchmark.press_file);
+  make.set("SHEARED", benchmark.data + "/" + benchmark.shear_file);
+  make.set_path("SENSOR", benchmark.sensor);
+  make.set_path("MESH", benchmark.mesh);
+  make.set_path("PRESS", benchmark.press);
+  make.set("DEPTHS", depths);
+  make.set("VARIANTS", variants);
   for (const MarkerVariant& variant : benchmark.variants)
     if (variant.gel_thickness_m)
-      set("THICKNESS_MM_" + variant.name, fmt::format("{:.10g}", 1e3 * *variant.gel_thickness_m));
-  files.emplace_back("cases.mk", text);
+      make.set("THICKNESS_MM_" + variant.name, fmt::format("{:.10g}", 1e3 * *variant.gel_thickness_m));
+  files.emplace_back("cases.mk", make.text());
   return files;
 }
 

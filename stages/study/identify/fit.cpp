@@ -142,7 +142,7 @@ Fit fit_mechanics(MechanicsModel& model) {
     fit.iterations += iterations;
     bool changed = false;
     for (std::size_t m = 0; m < model.spec().measurements.size(); ++m) {
-      const Eigen::VectorXd off = (model.predicted(m, u) - model.measured(m)).cwiseQuotient(model.sigma(m));
+      const Eigen::VectorXd off = model.off(m, u);
       if (off.size() < kEnoughRows) continue;
       const double factor =
           std::max(1.0, model.sigma_factor[m] * std::sqrt(off.squaredNorm() / static_cast<double>(off.size())));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/benchmark/quiver.h"
 #include "common/image/plot.h"
 
 namespace tacipc {
@@ -46,8 +45,7 @@ std::vector<Estimate> estimates_of(const MechanicsModel& model, const Fit& fit, 
 }
 
 double misfit(const MechanicsModel& model, std::size_t measurement, const Eigen::VectorXd& u) {
-  const Eigen::VectorXd off =
-      (model.predicted(measurement, u) - model.measured(measurement)).cwiseQuotient(model.sigma(measurement));
+  const Eigen::VectorXd off = model.off(measurement, u);
   return std::sqrt(off.squaredNorm() / static_cast<double>(off.size()));
 }
 
@@ -112,14 +110,13 @@ Value::Map result_summary(const IdentifyResult& result) {
   for (const Estimate& e : result.estimates) {
     Value::Map line{{"name", e.name}};
     if (!e.measurement.empty()) line.emplace_back("of", e.measurement);
-    for (auto& [key, value] : Value::Map{{"value", e.value},
-                                         {"sigma", e.sigma},
-                                         {"interval_95", std::vector<double>{e.low, e.high}},
-                                         {"prior_mean", e.prior.mean},
-                                         {e.prior.logarithmic ? "prior_factor" : "prior_sigma",
-                                          e.prior.logarithmic ? std::exp(e.prior.sigma) : e.prior.sigma},
-                                         {"told_by", e.told ? "measurements" : "prior"}})
-      line.emplace_back(key, value);
+    line.insert(line.end(), {{"value", e.value},
+                             {"sigma", e.sigma},
+                             {"interval_95", std::vector<double>{e.low, e.high}},
+                             {"prior_mean", e.prior.mean},
+                             {e.prior.logarithmic ? "prior_factor" : "prior_sigma",
+                              e.prior.logarithmic ? std::exp(e.prior.sigma) : e.prior.sigma},
+                             {"told_by", e.told ? "measurements" : "prior"}});
     if (e.at_bound) line.emplace_back("at_bound", true);
     if (e.against_prior) line.emplace_back("against_prior", true);
     unknowns.emplace_back(std::move(line));

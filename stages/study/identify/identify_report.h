@@ -7,7 +7,6 @@
 
 #include "common/base/value.h"
 #include "stages/study/identify/fit.h"
-#include "stages/study/identify/marker_errors.h"
 #include "stages/study/identify/predictions.h"
 
 namespace tacipc {

@@ -18,17 +18,10 @@ using namespace tacipc;
 const StageSpec kIdentify{
     .name = "identify",
     .summary = "Fit a sensor's mechanics to measured forces and marker vectors, and predict what was not fitted.",
-    .inputs = {
-        {.flag = "--config", .help = "what is known, measured and simulated (YAML)"},
-        {.flag = "--sensor", .help = "the sensor file that the presses were run with, but for their nodes (YAML)"},
-        {.flag = "--measured",
-         .help = "the table or folder of a measurement, by its name",
-         .many = true,
-         .named = true},
-        {.flag = "--runs",
-         .help = "a press folder, by NODE/RUN of cases.mk; of a check CHECK/RUN",
-         .many = true,
-         .named = true}}};
+    .inputs = {{"--config", "what is known, measured and simulated (YAML)"},
+               {"--sensor", "the sensor file that the presses were run with, but for their nodes (YAML)"},
+               InputSpec::several_named("--measured", "the table or folder of a measurement, by its name"),
+               InputSpec::several_named("--runs", "a press folder, by NODE/RUN of cases.mk; of a check CHECK/RUN")}};
 
 std::map<std::string, std::filesystem::path> by_name(const std::vector<NamedPath>& named) {
   std::map<std::string, std::filesystem::path> out;

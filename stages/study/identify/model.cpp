@@ -169,7 +169,7 @@ Eigen::VectorXd MechanicsModel::residuals(const Eigen::VectorXd& u) const {
   Eigen::VectorXd out(rows() + unknowns_.size());
   Eigen::Index row = 0;
   for (std::size_t m = 0; m < data_.size(); ++m) {
-    const Eigen::VectorXd r = (predicted(m, u) - measured(m)).cwiseQuotient(sigma(m));
+    const Eigen::VectorXd r = off(m, u);
     out.segment(row, r.size()) = r;
     row += r.size();
   }

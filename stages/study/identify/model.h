@@ -70,7 +70,11 @@ class MechanicsModel {
   }
   /// Deviations of measurements are multiplied by these (1 unless the fit found them too small).
   std::vector<double> sigma_factor;
-  /// (predicted − measured) / deviation of every fitted row, then (u − mean) / deviation of every prior.
+  /// (predicted − measured) / deviation of the fitted rows of a measurement.
+  Eigen::VectorXd off(std::size_t measurement, const Eigen::VectorXd& u) const {
+    return (predicted(measurement, u) - measured(measurement)).cwiseQuotient(sigma(measurement));
+  }
+  /// The same of every measurement, then (u − mean) / deviation of every prior.
   Eigen::VectorXd residuals(const Eigen::VectorXd& u) const;
   Eigen::Index rows() const;  // without those of priors
   Eigen::Vector2d camera_px() const { return {held_.camera.width_px, held_.camera.height_px}; }

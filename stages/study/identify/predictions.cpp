@@ -26,6 +26,40 @@ double mean_change(const CheckedPress& check, const MechanicsModel& model) {
   return weights > 0.0 ? sum / weights : 0.0;
 }
 
+/// Sums over the markers that are fitted, or over those that are not.
+std::vector<MarkerErrors> marker_errors(const MechanicsModel& model, std::size_t measurement,
+                                        const Posterior& posterior, bool fitted) {
+  const MarkerMeasurement& m = *model.spec().measurements[measurement].markers;
+  const MarkerData& data = *model.data(measurement).markers;
+  using Both = std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd>;
+  const Both mean = model.marker_px(measurement, posterior.mean_u());
+  constexpr int kDraws = 200;
+  std::vector<Both> drawn;
+  for (const Eigen::Index k : posterior.resampled(kDraws))
+    drawn.push_back(model.marker_px(measurement, posterior.u.col(k)));
+  const double noise = model.sigma_factor[measurement] * m.sigma_px;
+  std::vector<MarkerErrors> out;
+  const auto add = [&](const char* photograph, const MarkerField& field, Eigen::Matrix2Xd Both::*part) {
+    const Eigen::Matrix2Xd& px = mean.*part;
+    MarkerErrors e{.photograph = photograph, .fitted = fitted};
+    for (Eigen::Index i = 0; i < px.cols(); ++i) {
+      if (model.fits_marker(i) != fitted) continue;
+      ++e.vectors;
+      e.measured_px += field.moved_px.col(i).norm();
+      e.error_px += (px.col(i) - field.moved_px.col(i)).norm();
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        double square = noise * noise;
+        for (const auto& draw : drawn) square += std::pow((draw.*part)(k, i) - px(k, i), 2) / kDraws;
+        e.inside += std::abs(px(k, i) - field.moved_px(k, i)) <= 1.96 * std::sqrt(square);
+      }
+    }
+    out.push_back(e);
+  };
+  add("press", data.press, &Both::first);
+  add("press and shear", data.shear, &Both::second);
+  return out;
+}
+
 }  // namespace
 
 double model_error(const std::vector<CheckedPress>& checks, const MechanicsModel& model, std::size_t measurement,
@@ -62,10 +96,8 @@ std::vector<ForcePrediction> predict_forces(const MechanicsModel& model, const P
     for (const MeasuredForce& f : data.fitted) row(f.at, true, f.force_n);
     for (const MeasuredForce& f : data.held_out) row(f.at, false, f.force_n);
     for (const double depth : measurements[m].predict_mm)
-      if (std::ranges::none_of(rows, [&](const ForcePrediction& p) { return p.depth_mm == depth; }))
-        row(depth, false, std::nullopt);
-    std::ranges::stable_sort(
-        rows, [](const ForcePrediction& a, const ForcePrediction& b) { return a.depth_mm < b.depth_mm; });
+      if (std::ranges::count(rows, depth, &ForcePrediction::depth_mm) == 0) row(depth, false, std::nullopt);
+    std::ranges::stable_sort(rows, {}, &ForcePrediction::depth_mm);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       ForcePrediction& p = rows[r];
       p.force_n = model.press_force_n(m, mean, p.depth_mm);
@@ -90,6 +122,42 @@ std::vector<ForcePrediction> predict_forces(const MechanicsModel& model, const P
     }
     out.insert(out.end(), rows.begin(), rows.end());
   }
+  return out;
+}
+
+std::map<std::size_t, std::vector<MarkerErrors>> all_marker_errors(MechanicsModel& model, const Posterior& posterior) {
+  std::map<std::size_t, std::vector<MarkerErrors>> out;
+  for (std::size_t m = 0; m < model.spec().measurements.size(); ++m)
+    if (model.spec().measurements[m].markers) out[m] = marker_errors(model, m, posterior, true);
+  if (out.empty()) return out;
+  const std::vector<double> factors = model.sigma_factor;
+  for (const auto part : {MechanicsModel::Markers::even, MechanicsModel::Markers::odd}) {
+    model.fitted_markers = part;
+    model.sigma_factor.assign(factors.size(), 1.0);
+    const Fit fit = fit_mechanics(model);
+    const Posterior half = draw_posterior(model, fit, model.spec().draws, model.spec().seed);
+    for (auto& [m, errors] : out)
+      for (const MarkerErrors& e : marker_errors(model, m, half, false)) {
+        auto same = std::ranges::find_if(
+            errors, [&](const MarkerErrors& o) { return !o.fitted && o.photograph == e.photograph; });
+        if (same == errors.end()) {
+          errors.push_back(e);
+          continue;
+        }
+        same->vectors += e.vectors;
+        same->measured_px += e.measured_px;
+        same->error_px += e.error_px;
+        same->inside += e.inside;
+      }
+  }
+  model.fitted_markers = MechanicsModel::Markers::all;
+  model.sigma_factor = factors;
+  for (auto& [m, errors] : out)
+    for (MarkerErrors& e : errors) {
+      e.measured_px /= e.vectors;
+      e.error_px /= e.vectors;
+      e.inside /= 2 * e.vectors;
+    }
   return out;
 }
 

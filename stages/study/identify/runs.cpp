@@ -66,11 +66,11 @@ CurveTable table_of(const std::vector<std::filesystem::path>& folders, const std
 }
 
 void read_rows(const Measurement& m, const std::filesystem::path& path, ForceData& data) {
-  const std::string& at = m.columns.column_of.front().first;
+  const std::string& at = m.at.quantity;
   CsvReader table(path);
   while (table.next()) {
-    MeasuredForce row{.at = m.columns.factor(at) * table.number(m.columns.column(at)),
-                      .force_n = m.columns.factor("force_n") * table.number(m.columns.column("force_n"))};
+    MeasuredForce row{.at = m.at.factor * table.number(m.at.column),
+                      .force_n = m.force.factor * table.number(m.force.column)};
     row.sigma_n = std::hypot(m.sigma_n, m.sigma_relative * row.force_n);
     if (!std::isfinite(row.at) || !std::isfinite(row.force_n))
       throw DataError("{}:{}: is not finite", path.string(), table.line());
@@ -88,9 +88,8 @@ void read_rows(const Measurement& m, const std::filesystem::path& path, ForceDat
     }
     (held_out ? data.held_out : data.fitted).push_back(row);
   }
-  const auto earlier = [](const MeasuredForce& a, const MeasuredForce& b) { return a.at < b.at; };
-  std::ranges::stable_sort(data.fitted, earlier);
-  std::ranges::stable_sort(data.held_out, earlier);
+  std::ranges::stable_sort(data.fitted, {}, &MeasuredForce::at);
+  std::ranges::stable_sort(data.held_out, {}, &MeasuredForce::at);
   if (data.fitted.empty()) throw DataError("{}: has no row to fit to", path.string());
 }
 

@@ -36,8 +36,7 @@ struct MeasuredPressAndShear {
 
 struct FieldFit {
   double depth_m = 0.0;
-  std::string depth_end =
-      {};  // "the shallowest" or "the deepest" that is sheared, where one beyond it might fit better
+  std::string depth_end = {};  // "the shallowest" or "the deepest" that is sheared, if one beyond it might fit better
   double way_m = 0.0;
   double way_missed_px = 0.0;           // by how much the fitted marker is still off
   Eigen::Matrix2Xd press_px, shear_px;  // simulated, at the measured markers

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "tacipc_marker_fit_texts.h"
+
 namespace tacipc {
 namespace {
 
@@ -20,41 +22,30 @@ std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShe
     return fmt::format("{} {}", cells(field_errors(press, press_truth, benchmark.least_length_px, std::nullopt)),
                        cells(field_errors(shear, shear_truth, benchmark.least_length_px, measured.shear_marker)));
   };
-  std::string out = fmt::format(
-      "| {} | Depth, mm | Travel, mm | Press, {} vectors: error, px: mean | median | largest | angle | length | Shear, "
-      "{} vectors: error, px: mean | median | largest | angle | length |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-      benchmark.title, first.press.markers, first.shear.markers);
+  std::string fits;
   for (const FitRow& row : rows) {
     if (row.fit) {
       constexpr double kMatchedPx = 0.5;  // as exact as it was measured
       const std::string missed = row.fit->way_missed_px > kMatchedPx
                                      ? fmt::format(" (its marker off by {:.1f} px)", row.fit->way_missed_px)
                                      : "";
-      out += fmt::format("| {} | {:.2f}{} | {:.2f}{} | {} {}\n", row.name, 1e3 * row.fit->depth_m,
-                         row.fit->depth_end.empty() ? "" : " (" + row.fit->depth_end + ")", 1e3 * row.fit->way_m,
-                         missed, cells(row.fit->press), cells(row.fit->shear));
+      fits += fmt::format("| {} | {:.2f}{} | {:.2f}{} | {} {}\n", row.name, 1e3 * row.fit->depth_m,
+                          row.fit->depth_end.empty() ? "" : " (" + row.fit->depth_end + ")", 1e3 * row.fit->way_m,
+                          missed, cells(row.fit->press), cells(row.fit->shear));
     } else {
-      out += fmt::format("| {} | | | {} |\n", row.name, row.no_fit);
+      fits += fmt::format("| {} | | | {} |\n", row.name, row.no_fit);
     }
   }
   const Eigen::Matrix2Xd none_press = Eigen::Matrix2Xd::Zero(2, first.press_px.cols());
   const Eigen::Matrix2Xd none_shear = Eigen::Matrix2Xd::Zero(2, first.shear_px.cols());
-  out += fmt::format("| no displacement at all | | | {}\n",
-                     errors(none_press, measured.press.moved_px, none_shear, measured.shear.moved_px));
   const auto rounded = [](const Eigen::Matrix2Xd& v) { return Eigen::Matrix2Xd(v.array().round().matrix()); };
-  out += fmt::format("| rounding alone, first row | | | {}\n",
-                     errors(rounded(first.press_px), first.press_px, rounded(first.shear_px), first.shear_px));
   const MarkerAssumptions& held = benchmark.assumed;
-  out += fmt::format(
-      "\nHeld in the first row: ball of {:g} mm, friction {:g}, {:g} px/mm, contact at ({:g}, {:g}) px. Fitted: the "
-      "depth to all vectors of the press, the travel to the vector of the marker at ({:g}, {:g}) px, which the shear's "
-      "columns omit. Error: length of simulated minus measured. Angle: mean over measured vectors of {:g} px or more "
-      "({} of the press, {} of the shear). Length: sum of simulated over sum of measured lengths.\n",
-      1e3 * held.ball_radius_m, held.friction, 1e-3 * held.px_per_m, held.contact_px.x(), held.contact_px.y(),
-      benchmark.shear_marker_px.x(), benchmark.shear_marker_px.y(), benchmark.least_length_px, first.press.directions,
-      first.shear.directions);
-  return out;
+  return fmt::format(kFitTable, benchmark.title, first.press.markers, first.shear.markers, fits,
+                     errors(none_press, measured.press.moved_px, none_shear, measured.shear.moved_px),
+                     errors(rounded(first.press_px), first.press_px, rounded(first.shear_px), first.shear_px),
+                     1e3 * held.ball_radius_m, held.friction, 1e-3 * held.px_per_m, held.contact_px.x(),
+                     held.contact_px.y(), benchmark.shear_marker_px.x(), benchmark.shear_marker_px.y(),
+                     benchmark.least_length_px, first.press.directions, first.shear.directions);
 }
 
 std::string comparison_text(const std::vector<FitRow>& simulators) {

@@ -4,7 +4,6 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
-#include "common/benchmark/quiver.h"
 #include "common/stage/stage.h"
 #include "stages/study/marker_fit/fit_report.h"
 
@@ -17,14 +16,12 @@ const StageSpec kMarkerFit{
     .summary =
         "Fit depth and travel of a ball to measured marker vectors, and compare the other vectors with simulated ones.",
     .inputs =
-        {{.flag = "--config", .help = "the benchmark (YAML)"},
-         {.flag = "--pressed", .help = "vectors measured after the press (CSV: Mx,My,dx,dy in px)"},
-         {.flag = "--sheared", .help = "vectors measured after the shear (CSV)"},
-         {.flag = "--runs",
-          .help =
-              "a press, or a folder with several, by what ran it: first the base, then variants and other simulators",
-          .many = true,
-          .named = true}},
+        {{"--config", "the benchmark (YAML)"},
+         {"--pressed", "vectors measured after the press (CSV: Mx,My,dx,dy in px)"},
+         {"--sheared", "vectors measured after the shear (CSV)"},
+         InputSpec::several_named(
+             "--runs",
+             "a press, or a folder with several, by what ran it: first the base, then variants and other simulators")},
     .options = {{.flag = "--name",
                  .help = "what the first row is called (default: the name its runs were given under)",
                  .fallback = ""}}};

@@ -21,14 +21,14 @@ ImageError image_error(const ByteImage& a, const ByteImage& b) {
           .mse = static_cast<double>(squared) / (255.0 * 255.0 * count)};
 }
 
-ByteImage offset_to(const ByteImage& image, const ByteImage& reference, int left, int top, int right, int bottom) {
+ByteImage offset_to(const ByteImage& image, const ByteImage& reference, const Box& box) {
   assert(image.pixels.size() == reference.pixels.size());
   ByteImage out = image;
   for (int c = 0; c < image.channels; ++c) {
     std::int64_t sum = 0, count = 0;
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        if (x >= left && x < right && y >= top && y < bottom) continue;
+        if (x >= box.x && x < box.x + box.width && y >= box.y && y < box.y + box.height) continue;
         sum += int{reference.at(x, y, c)} - int{image.at(x, y, c)};
         ++count;
       }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/image/image.h"
+#include "stages/study/metrics/ssim.h"
 
 namespace tacipc {
 
@@ -15,9 +16,9 @@ struct ImageError {
 ImageError image_error(const ByteImage& a, const ByteImage& b);
 
 /// The image with round(code + o_c) clamped to 0 … 255 in channel c, where o_c is the mean of reference − image over
-/// the pixels outside the box [left, right) × [top, bottom): what least squares takes from a drift of the whole
+/// the pixels outside the box: what least squares takes from a drift of the whole
 /// picture. \pre equal sizes and channels, a pixel outside the box
-ByteImage offset_to(const ByteImage& image, const ByteImage& reference, int left, int top, int right, int bottom);
+ByteImage offset_to(const ByteImage& image, const ByteImage& reference, const Box& box);
 
 /// 10 ln(1 / mse): the natural logarithm, which is what the paper's table must hold (its values exceed what any decibel
 /// value can be at its MAE); 2.3026 times the decibels. +∞ for equal images.

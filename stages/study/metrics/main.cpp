@@ -13,14 +13,13 @@ using namespace tacipc;
 const StageSpec kMetrics{
     .name = "metrics",
     .summary = "Compare tactile images or depth maps with references: MAE, MSE, PSNR, SSIM; errors in mm, slopes.",
-    .inputs = {{.flag = "--config", .help = "images or depth maps, which of them, which part (YAML)"},
-               {.flag = "--images", .help = "folder of images (PNG) or depth maps (EXR, m), or files", .many = true},
-               {.flag = "--reference", .help = "folder with the same names, or as many files", .many = true},
-               {.flag = "--rest", .help = "depth map of the gel at rest, for depth maps", .required = false},
-               {.flag = "--surface",
-                .help = "depth maps of the object's surface, for the region contact: as many files as --images",
-                .required = false,
-                .many = true}}};
+    .inputs = {
+        {"--config", "images or depth maps, which of them, which part (YAML)"},
+        InputSpec::several("--images", "folder of images (PNG) or depth maps (EXR, m), or files"),
+        InputSpec::several("--reference", "folder with the same names, or as many files"),
+        InputSpec::optional("--rest", "depth map of the gel at rest, for depth maps"),
+        InputSpec::any_number(
+            "--surface", "depth maps of the object's surface, for the region contact: as many files as --images")}};
 
 std::vector<MetricsRow> measure(Stage& stage, const MetricsConfig& config) {
   const auto rest = stage.optional_input("--rest");

@@ -11,6 +11,7 @@
 #include "common/benchmark/benchmark_cases.h"
 #include "common/config/key_path.h"
 #include "common/format/csv.h"
+#include "tacipc_tabulate_texts.h"
 
 namespace tacipc {
 namespace {
@@ -94,42 +95,34 @@ CardImages read_card_images(const std::string& name, const std::filesystem::path
   return out;
 }
 
-Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mechanics,
+Card make_card(const CardConfig& config, const std::vector<NamedPath>& mechanics,
                const std::vector<CardImages>& images) {
   Card out;
   out.page = fmt::format("# Blind card: {}\n\n", config.title);
   if (!config.about.empty()) out.page += config.about + "\n\n";
-  out.page +=
-      "*Fitted* rows were seen by the fit, *predicted* ones were not. ± and intervals of 95 % are the model's own: of "
-      "its parameters, of its mesh, gap and material law where the file checks them, and, of an interval, of the "
-      "measurement.\n";
+  out.page += kCardAbout;
   Value::Map fits, compared;
-  for (const CardMechanics& m : mechanics) {
-    out.page += fmt::format("\n## Mechanics: {}\n\n{}", m.name, read_file(m.folder / "table.md"));
-    const Value record = record_of(m.folder / "identify.yaml");
-    fits.emplace_back(m.name, at(record, m.folder / "identify.yaml", "summary"));
+  for (const auto& [name, folder] : mechanics) {
+    out.page += fmt::format("\n## Mechanics: {}\n\n{}", name, read_file(folder / "table.md"));
+    const Value record = record_of(folder / "identify.yaml");
+    fits.emplace_back(name, at(record, folder / "identify.yaml", "summary"));
     std::vector<std::filesystem::path> plots;
-    for (const auto& entry : std::filesystem::directory_iterator(m.folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
       if (entry.path().extension() == ".svg") plots.push_back(entry.path());
     std::ranges::sort(plots);
     out.page += '\n';
     for (const auto& plot : plots) {
-      const std::string picture = m.name + "_" + plot.filename().string();
+      const std::string picture = name + "_" + plot.filename().string();
       out.pictures[picture] = plot;
       out.page += fmt::format("![{}]({})\n", plot.stem().string(), picture);
     }
   }
   for (const CardImages& i : images) {
-    out.page += fmt::format(
-        "\n## Images: {}\n\nLight fitted on {} photographs of balls{}; the contacts of balls left out of the fit "
-        "(cross-validation) have an error of {:.1f} codes, which is what to expect of photographs that were not "
-        "fitted. Errors are in the contact box.\n\n"
-        "| photograph | | expected, codes | error, codes | SSIM-S | MAE | PSNR, dB |\n|---|---|---|---|---|---|---|\n",
-        i.name, i.calibrated_on,
-        std::ranges::any_of(i.photographs, [](const CardPhotograph& p) { return p.fitted; })
-            ? " and those marked as fitted"
-            : "",
-        i.predicted_rmse_codes);
+    out.page += fmt::format(kCardImages, i.name, i.calibrated_on,
+                            std::ranges::any_of(i.photographs, [](const CardPhotograph& p) { return p.fitted; })
+                                ? " and those marked as fitted"
+                                : "",
+                            i.predicted_rmse_codes);
     Value::List rows;
     for (const CardPhotograph& p : i.photographs) {
       out.page += fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.3f} | {:.4f} | {:.2f} |\n", p.name,

@@ -8,6 +8,7 @@
 
 #include "common/base/value.h"
 #include "common/config/config.h"
+#include "common/stage/named_path.h"
 
 namespace tacipc {
 
@@ -19,12 +20,6 @@ struct CardConfig {
   std::vector<std::string> photographs;  // benchmarks of `sim2real`
 
   static CardConfig read(ConfigReader& in);
-};
-
-/// A finished fit of `identify`, by the name of its file.
-struct CardMechanics {
-  std::string name;
-  std::filesystem::path folder;
 };
 
 /// One photograph: errors in the contact box.
@@ -50,8 +45,9 @@ struct Card {
   Value::Map values;                                      // the same as YAML
   std::map<std::string, std::filesystem::path> pictures;  // by the names that the page links
 };
+/// \param mechanics folders of finished fits of `identify`, by the names of their files
 /// \throw DataError if a fit's record or table cannot be read
-Card make_card(const CardConfig& config, const std::vector<CardMechanics>& mechanics,
+Card make_card(const CardConfig& config, const std::vector<NamedPath>& mechanics,
                const std::vector<CardImages>& images);
 
 }  // namespace tacipc

@@ -84,8 +84,7 @@ std::string named(const MeasuredRow& row) {
 
 /// Number of a column as its differences count: the logarithm where its mean is geometric.
 double value_of(double number, const Finding& finding, const ImageTableConfig& config) {
-  const auto column =
-      std::ranges::find_if(config.columns, [&](const ShownColumn& shown) { return shown.column == finding.column; });
+  const auto column = std::ranges::find(config.columns, finding.column, &ShownColumn::column);
   return column->geometric ? std::log(number) : number;
 }
 
@@ -107,20 +106,13 @@ std::optional<double> difference_in_deviations(const MethodScores& row, const Me
 }
 
 /// Means of a finding's row and of its variants: the smallest and the largest.
-struct Spread {
-  double low = 0.0, high = 0.0;
-};
-
-Spread spread_of(const Finding& finding, const std::vector<MethodScores>& rows) {
-  const auto mean_of = [&](const std::string& method) {
-    return row_in(rows, method).cell(finding.region, finding.column).mean;
-  };
-  Spread spread{.low = mean_of(finding.row), .high = mean_of(finding.row)};
-  for (const std::string& variant : finding.variants) {
-    spread.low = std::min(spread.low, mean_of(variant));
-    spread.high = std::max(spread.high, mean_of(variant));
-  }
-  return spread;
+std::pair<double, double> spread_of(const Finding& finding, const std::vector<MethodScores>& rows) {
+  std::vector<double> means;
+  for (const MethodScores& row : rows)
+    if (row.row.method == finding.row || std::ranges::count(finding.variants, row.row.method) > 0)
+      means.push_back(row.cell(finding.region, finding.column).mean);
+  const auto [low, high] = std::ranges::minmax(means);
+  return {low, high};
 }
 
 /// `- <region>, <column>: <row> 0.62 times <row>: <what that means>`

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/benchmark/benchmark_cases.h"
+
 namespace tacipc {
 namespace {
 
@@ -9,8 +11,7 @@ namespace {
 template <typename Item>
 void refuse_repeats(ConfigReader& in, const std::string& key, const std::vector<Item>& items,
                     std::string Item::*member) {
-  const auto same = [&](const Item& other) { return other.*member == items.back().*member; };
-  if (std::ranges::count_if(items, same) > 1) in.fault(key, "is given twice");
+  if (std::ranges::count(items, items.back().*member, member) > 1) in.fault(key, "is given twice");
 }
 
 template <typename Item>
@@ -61,14 +62,7 @@ SheetConfig read_sheet(ConfigReader& in) {
                     .picture_px = in.integer("picture_px", 8, kWidest),
                     .columns = {}};
   if (sheet.name.find('/') != std::string::npos) in.fault("name", "must be a file's name, not a path");
-  if (in.has("crop_px")) {
-    const auto box = in.numbers("crop_px", 4, Range::between(0.0, 1e6));
-    std::array<int, 4> crop{};
-    for (std::size_t i = 0; i < 4; ++i) crop[i] = static_cast<int>(box[i]);
-    if (!std::equal(box.begin(), box.end(), crop.begin()) || crop[2] < 1 || crop[3] < 1)
-      in.fault("crop_px", "expected whole pixels, at least one wide and high");
-    sheet.crop_px = crop;
-  }
+  if (in.has("crop_px")) sheet.crop_px = pixel_box(in, "crop_px");
   for (ConfigReader& item : in.one_or_more_sections("columns")) {
     sheet.columns.push_back({.heading = item.text("heading"), .method = item.text("method")});
     refuse_repeats(item, "method", sheet.columns, &SheetColumn::method);

@@ -23,41 +23,19 @@ const StageSpec kTabulate{
         "Tables of what many runs measured: images of several methods, gel meshes, costs of stages, what a sensor was "
         "fitted on.",
     .inputs = {
-        {.flag = "--config", .help = "kind of table, its rows and columns (YAML)"},
-        {.flag = "--samples",
-         .help = "images, comparison: samples.csv of metrics, by the method of a row",
-         .required = false,
-         .many = true,
-         .named = true},
-        {.flag = "--pictures",
-         .help = "images, comparison: pictures (PNG), by method, in the order of the sheet's rows",
-         .required = false,
-         .many = true,
-         .named = true},
-        {.flag = "--speeds",
-         .help = "images: image_speeds.csv of bench_rivals, what an image costs by the rows' methods",
-         .required = false},
-        {.flag = "--benchmark", .help = "comparison: the photographs and what is required (YAML)", .required = false},
-        {.flag = "--circles", .help = "comparison: contact circles, where the benchmark names them", .required = false},
-        {.flag = "--records",
-         .help = "meshes: records of tetmesh, press, render and metrics, by the mesh's name",
-         .required = false,
-         .many = true,
-         .named = true},
-        {.flag = "--timings",
-         .help = "costs: <stage>.timings.yaml of all runs that count",
-         .required = false,
-         .many = true},
-        {.flag = "--identified",
-         .help = "card: folders that identify wrote, by the names of their files",
-         .required = false,
-         .many = true,
-         .named = true},
-        {.flag = "--compared",
-         .help = "card: folders that sim2real wrote, by the names of their files",
-         .required = false,
-         .many = true,
-         .named = true}}};
+        {"--config", "kind of table, its rows and columns (YAML)"},
+        InputSpec::any_number_named("--samples", "images, comparison: samples.csv of metrics, by the method of a row"),
+        InputSpec::any_number_named("--pictures",
+                                    "images, comparison: pictures (PNG), by method, in the order of the sheet's rows"),
+        InputSpec::optional("--speeds",
+                            "images: image_speeds.csv of bench_rivals, what an image costs by the rows' methods"),
+        InputSpec::optional("--benchmark", "comparison: the photographs and what is required (YAML)"),
+        InputSpec::optional("--circles", "comparison: contact circles, where the benchmark names them"),
+        InputSpec::any_number_named("--records",
+                                    "meshes: records of tetmesh, press, render and metrics, by the mesh's name"),
+        InputSpec::any_number("--timings", "costs: <stage>.timings.yaml of all runs that count"),
+        InputSpec::any_number_named("--identified", "card: folders that identify wrote, by the names of their files"),
+        InputSpec::any_number_named("--compared", "card: folders that sim2real wrote, by the names of their files")}};
 
 struct TabulateConfig {
   std::string kind;
@@ -137,8 +115,7 @@ void make(Stage& stage, const StageCostsConfig& config) {
 }
 
 void make(Stage& stage, const CardConfig& config) {
-  std::vector<CardMechanics> mechanics;
-  for (const auto& [name, folder] : stage.named_inputs("--identified")) mechanics.push_back({name, folder});
+  const std::vector<NamedPath>& mechanics = stage.named_inputs("--identified");
   std::vector<CardImages> images;
   for (const auto& [name, folder] : stage.named_inputs("--compared")) images.push_back(read_card_images(name, folder));
   const Card card = make_card(config, mechanics, images);

@@ -16,10 +16,14 @@ namespace fs = std::filesystem;
 constexpr int kGap = 4, kHeadingHeight = 18, kLetterHeight = 9;
 constexpr int kOversampling = 4;  // letters are drawn larger and averaged
 
+cv::Mat view(const ByteImage& image) {
+  return cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
+}
+
 /// A picture, cropped and scaled.
 cv::Mat picture(const fs::path& path, const SheetConfig& config) {
   ByteImage image = read_png(path, 3);
-  cv::Mat whole(image.height, image.width, CV_8UC3, image.pixels.data());
+  cv::Mat whole = view(image);
   if (const auto& crop = config.crop_px) {
     const auto& [x, y, width, height] = *crop;
     if (x + width > image.width || y + height > image.height)
@@ -54,15 +58,11 @@ cv::Mat words(const std::string& text, int width) {
 
 constexpr int kBorderPx = 20, kComparedColumns = 4;
 
-struct Window {
-  int left, top, width, height;
-};
-
-Window window_of(const ComparedPicture& row) {
+/// The contact box and its border, as far as the image goes.
+cv::Rect window_of(const ComparedPicture& row) {
   const auto& [x, y, w, h] = row.box_px;
-  const int left = std::max(0, x - kBorderPx), top = std::max(0, y - kBorderPx);
-  return {left, top, std::min(row.real.width, x + w + kBorderPx) - left,
-          std::min(row.real.height, y + h + kBorderPx) - top};
+  return cv::Rect(x - kBorderPx, y - kBorderPx, w + 2 * kBorderPx, h + 2 * kBorderPx) &
+         cv::Rect(0, 0, row.real.width, row.real.height);
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ ByteImage picture_sheet(const std::vector<std::vector<fs::path>>& columns, const
   }
   const int step = config.picture_px + kGap;
   ByteImage out(kGap + static_cast<int>(columns.size()) * step, height, 3, 255);
-  cv::Mat sheet(out.height, out.width, CV_8UC3, out.pixels.data());
+  cv::Mat sheet = view(out);
   int top = kGap;
   for (std::size_t c = 0; c < columns.size(); ++c)
     words(config.columns[c].heading, config.picture_px)
@@ -149,26 +149,21 @@ std::vector<ComparedPicture> compared_pictures(const std::vector<NamedPath>& pic
 ByteImage difference_sheet(const std::vector<ComparedPicture>& rows) {
   int width = 0, height = kGap;
   for (const ComparedPicture& row : rows) {
-    const Window window = window_of(row);
+    const cv::Rect window = window_of(row);
     width = std::max(width, kGap + kComparedColumns * (window.width + kGap));
     height += window.height + kGap;
   }
   ByteImage out(width, height, 3, 255);
   int top = kGap;
   for (const ComparedPicture& row : rows) {
-    const Window window = window_of(row);
-    for (int y = 0; y < window.height; ++y)
-      for (int x = 0; x < window.width; ++x)
-        for (int c = 0; c < 3; ++c) {
-          const int u = window.left + x, v = window.top + y;
-          const std::uint8_t real = row.real.at(u, v, c), ours = row.ours.at(u, v, c), rival = row.rival.at(u, v, c);
-          const auto difference = static_cast<std::uint8_t>(std::clamp(128 + 2 * (int{ours} - int{real}), 0, 255));
-          int left = kGap;
-          for (const std::uint8_t code : {real, ours, difference, rival}) {
-            out.at(left + x, top + y, c) = code;
-            left += window.width + kGap;
-          }
-        }
+    const cv::Rect window = window_of(row);
+    cv::Mat difference;
+    cv::addWeighted(view(row.ours), 2.0, view(row.real), -2.0, 128.0, difference);
+    int left = kGap;
+    for (const cv::Mat& picture : {view(row.real), view(row.ours), difference, view(row.rival)}) {
+      picture(window).copyTo(view(out)(cv::Rect({left, top}, window.size())));
+      left += window.width + kGap;
+    }
     top += window.height + kGap;
   }
   return out;

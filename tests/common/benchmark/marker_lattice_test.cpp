@@ -1,4 +1,4 @@
-#include "common/benchmark/marker_lattice.h"
+#include "common/benchmark/pressed_runs.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/benchmark/quiver.h"
 #include "tests/scratch_folder.h"
 #include "tests/shared_data.h"
 

@@ -11,6 +11,7 @@
 #include "common/base/rng.h"
 #include "tests/scratch_folder.h"
 #include "tests/stages/rival/mpm/kirchhoff_stress.h"
+#include "tests/stages/rival/mpm/particle_state.h"
 
 namespace tacipc {
 namespace material_points_test {
@@ -41,13 +42,13 @@ Positions block(int nx, int ny, int nz) {
 MaterialPoints tumbling(int side) {
   const Positions rest = block(side, side + 3, side);
   MaterialPoints points(rest, soft());
-  std::vector<ParticleState> states = points.states();
+  std::vector<ParticleState> states = states_of(points);
   for (std::size_t p = 0; p < states.size(); ++p) {
     const auto random = [&](std::uint64_t k) { return random_uniform(3, k, p) - 0.5; };
     states[p].velocity_m_s = Vector3(0.3 + 0.4 * random(0), 0.4 * random(1), -0.2 + 0.4 * random(2));
     for (int k = 0; k < 9; ++k) states[p].deformation(k / 3, k % 3) += 0.1 * random(static_cast<std::uint64_t>(3 + k));
   }
-  points.set_states(states);
+  set_states(points, states);
   return points;
 }
 
@@ -68,16 +69,16 @@ TEST(MaterialPoints, AtRestStayAtRest) {
 
 TEST(MaterialPoints, ABodyThatNothingHoldsFliesOnUndeformed) {
   MaterialPoints points(block(10, 10, 6), soft());
-  std::vector<ParticleState> states = points.states();
+  std::vector<ParticleState> states = states_of(points);
   const Vector3 v(0.8, -0.5, 0.3);
   for (ParticleState& state : states) state.velocity_m_s = v;
-  points.set_states(states);
+  set_states(points, states);
   constexpr int kSteps = 400;
   for (int step = 0; step < kSteps; ++step) points.step();
   const Vector3 way = kSteps * soft().step_s * v;
   EXPECT_GT(way.norm(), 9.0 * kCell) << "through many cells and tiles";
   EXPECT_GT(points.num_sorts(), 3);
-  for (const ParticleState& state : points.states()) {
+  for (const ParticleState& state : states_of(points)) {
     EXPECT_LT((state.shift_m - way).norm(), 1e-4 * way.norm());
     EXPECT_LT((state.deformation - Matrix3::Identity()).norm(), 1e-4);
   }
@@ -89,7 +90,7 @@ Vector3 spin_of(const MaterialPoints& points, int side) {
   const Positions rest = block(side, side + 3, side);
   Vector3 sum = Vector3::Zero();
   Eigen::Index p = 0;
-  for (const ParticleState& state : points.states()) {
+  for (const ParticleState& state : states_of(points)) {
     const Vector3 x = rest.row(p++).transpose() + state.shift_m;
     const Matrix3& C = state.velocity_gradient_per_s;
     sum += x.cross(state.velocity_m_s) +
@@ -123,14 +124,14 @@ TEST(MaterialPoints, OneParticleIsPushedApartByItsStress) {
   const MpmSetup setup = soft();
   for (const Vector3& place : {Vector3(0, 0, 0), Vector3(0.31, 0.77, 0.5)}) {
     MaterialPoints points(kCell * place.transpose(), setup);
-    std::vector<ParticleState> states = points.states();
+    std::vector<ParticleState> states = states_of(points);
     states[0].deformation << 1.1, 0.05, 0.0, -0.1, 0.9, 0.02, 0.03, 0.0, 1.2;
     states[0].velocity_m_s = {0.1, 0.2, -0.1};
-    points.set_states(states);
+    set_states(points, states);
     points.step();
     const Matrix3 tau = kirchhoff_stress(states[0].deformation, setup.mu_pa, setup.lambda_pa);
     const Matrix3 expected = -4.0 * setup.step_s / (setup.density_kg_m3 * kCell * kCell) * tau;
-    const ParticleState after = points.states()[0];
+    const ParticleState after = states_of(points)[0];
     EXPECT_LT((after.velocity_gradient_per_s - expected).norm(), 2e-6 * expected.norm());
     EXPECT_LT((after.velocity_m_s - states[0].velocity_m_s).norm(), 1e-6);
     EXPECT_LT((after.deformation - (Matrix3::Identity() + setup.step_s * expected) * states[0].deformation).norm(),
@@ -148,11 +149,11 @@ double relative_half_period(int cells) {
   const int side = 4, layers = 2 * cells;
   const Positions rest = block(side, side, layers);
   MaterialPoints points(rest, setup);
-  std::vector<ParticleState> states = points.states();
+  std::vector<ParticleState> states = states_of(points);
   for (std::size_t p = 0; p < states.size(); ++p)
     states[p].velocity_m_s.z() =
         1e-3 * wave * std::sin(0.5 * std::numbers::pi * rest(static_cast<Eigen::Index>(p), 2) / length);
-  points.set_states(states);
+  set_states(points, states);
   const int top = side * side;
   double before = 0.0;
   for (int step = 1; step < 40 * cells; ++step) {
@@ -181,9 +182,9 @@ TEST(MaterialPoints, FixedParticlesAndHeldNodesDoNotMove) {
     else
       setup.num_fixed = 10 * 10;
     MaterialPoints points(block(10, 10, 6), setup);
-    std::vector<ParticleState> states = points.states();
+    std::vector<ParticleState> states = states_of(points);
     for (ParticleState& state : states) state.velocity_m_s = {0.2, 0.0, 0.0};
-    points.set_states(states);
+    set_states(points, states);
     for (int step = 0; step < 300; ++step) points.step();
     const double lowest = points.shifts_m(0, 100).cwiseAbs().maxCoeff(),
                  highest = points.shifts_m(500, 100).cwiseAbs().maxCoeff();
@@ -199,11 +200,11 @@ TEST(MaterialPoints, DampingTakesVelocityAway) {
   MpmSetup setup = soft();
   setup.damping_per_s = 0.01 / setup.step_s;
   MaterialPoints points(block(6, 6, 6), setup);
-  std::vector<ParticleState> states = points.states();
+  std::vector<ParticleState> states = states_of(points);
   for (ParticleState& state : states) state.velocity_m_s = {0.1, 0.0, 0.0};
-  points.set_states(states);
+  set_states(points, states);
   for (int step = 0; step < 100; ++step) points.step();
-  EXPECT_NEAR(points.states()[0].velocity_m_s.x(), 0.1 * std::pow(0.99, 100), 1e-6);
+  EXPECT_NEAR(states_of(points)[0].velocity_m_s.x(), 0.1 * std::pow(0.99, 100), 1e-6);
 }
 
 /// A heavy plate that comes down on a held block and turns.
@@ -225,7 +226,7 @@ std::vector<ParticleState> pressed(int threads) {
     points.step(pose);
   }
   EXPECT_GT(points.num_sorts(), 2);
-  return points.states();
+  return states_of(points);
 }
 
 TEST(MaterialPoints, SameBitsWithAnyNumberOfThreads) {
@@ -256,16 +257,16 @@ TEST(MaterialPoints, TheObjectGivesItsVelocityToWhatItTouches) {
   pose(0, 3) = 1e-6;
   points.step(pose);
   // The top particle in the middle sees nodes of the plate's velocity alone.
-  const ParticleState top = points.states()[3 * 144 + 6 * 12 + 6];
+  const ParticleState top = states_of(points)[3 * 144 + 6 * 12 + 6];
   EXPECT_NEAR(top.velocity_m_s.x(), 1e-6 / setup.step_s, 0.01 * 1e-6 / setup.step_s);
   EXPECT_NEAR(top.velocity_m_s.z(), 0.0, 1e-6);
 }
 
 TEST(MaterialPoints, AStepThatIsTooLongIsRefused) {
   MaterialPoints points(block(6, 6, 6), soft(3.0));
-  std::vector<ParticleState> states = points.states();
+  std::vector<ParticleState> states = states_of(points);
   for (ParticleState& state : states) state.deformation *= 1.2;
-  points.set_states(states);
+  set_states(points, states);
   const std::string message = message_of<SolverError>([&] {
     for (int step = 0; step < 50; ++step) points.step();
   });

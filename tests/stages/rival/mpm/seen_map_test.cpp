@@ -1,4 +1,4 @@
-#include "stages/rival/mpm/seen_map.h"
+#include "stages/rival/mpm/height_map.h"
 
 #include <gtest/gtest.h>
 

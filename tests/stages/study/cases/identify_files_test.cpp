@@ -1,4 +1,4 @@
-#include "stages/study/cases/identify_files.h"
+#include "stages/study/cases/case_files.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

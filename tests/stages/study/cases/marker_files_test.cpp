@@ -1,4 +1,4 @@
-#include "stages/study/cases/marker_files.h"
+#include "stages/study/cases/case_files.h"
 
 #include <gmock/gmock.h>
 

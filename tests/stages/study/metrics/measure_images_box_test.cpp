@@ -47,14 +47,14 @@ TEST(Offset, IsTheMeanDifferenceOutsideTheBoxAlone) {
       image.at(x, y, 0) = inside ? 250 : 107;
       image.at(x, y, 1) = inside ? 3 : 95;
     }
-  const ByteImage out = offset_to(image, reference, 2, 1, 5, 4);
+  const ByteImage out = offset_to(image, reference, {2, 1, 3, 3});
   EXPECT_EQ(out.at(0, 0, 0), 100);
   EXPECT_EQ(out.at(3, 2, 0), 243);
   EXPECT_EQ(out.at(9, 7, 1), 100);
   EXPECT_EQ(out.at(3, 2, 1), 8);
   EXPECT_EQ(out.at(3, 2, 2), 100);
   reference.at(9, 7, 2) = 255;  // 155 over 71 pixels outside: an offset of 2.18
-  EXPECT_EQ(offset_to(image, reference, 2, 1, 5, 4).at(0, 0, 2), 102);
+  EXPECT_EQ(offset_to(image, reference, {2, 1, 3, 3}).at(0, 0, 2), 102);
 }
 
 class BoxRows : public ::testing::Test {

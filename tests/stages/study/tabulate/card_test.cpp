@@ -40,7 +40,7 @@ CardConfig config() {
 
 TEST(Card, PutsFitsPredictionsAndMeasurementsOnOnePage) {
   const Folders folders;
-  const Card card = make_card(config(), {{.name = "g", .folder = folders.fit}}, {read_card_images("s", folders.shots)});
+  const Card card = make_card(config(), {{.name = "g", .path = folders.fit}}, {read_card_images("s", folders.shots)});
   for (const char* part :
        {"# Blind card: a gel\n", "Of two pads.", "## Mechanics: g\n\n| gel | value |\n",
         "![curve_ball](g_curve_ball.svg)", "Light fitted on 22 photographs of balls and those marked as fitted",
@@ -61,7 +61,7 @@ TEST(Card, SaysWhatIsNotFinished) {
   EXPECT_THAT(message_of<DataError>([&] { read_card_images("s", folders.shots); }),
               testing::HasSubstr("calibrate.yaml: does not exist: it is not finished"));
   write_file(folders.fit / "identify.yaml", "stage: identify\n");
-  EXPECT_THAT(message_of<DataError>([&] { make_card(config(), {{.name = "g", .folder = folders.fit}}, {}); }),
+  EXPECT_THAT(message_of<DataError>([&] { make_card(config(), {{.name = "g", .path = folders.fit}}, {}); }),
               testing::HasSubstr("identify.yaml: has no summary"));
 }
 

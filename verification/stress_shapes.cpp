@@ -1,4 +1,4 @@
-#include "verification/stress_object.h"
+#include "verification/stress_shapes.h"
 
 #include <algorithm>
 #include <array>
@@ -6,11 +6,70 @@
 #include <map>
 #include <numbers>
 
+#include "common/base/error.h"
+#include "stages/gel/press/measure/front_surface.h"
 #include "tests/make_mesh.h"
+#include "verification/gel_shapes.h"
 #include "verification/object_shapes.h"
 
 namespace tacipc::verify {
 namespace {
+
+double volume6(const Positions& x, const auto& tet) {
+  Matrix3 edges;
+  for (int k = 0; k < 3; ++k) edges.col(k) = x.row(tet[k + 1]) - x.row(tet[0]);
+  return edges.determinant();
+}
+
+/// Vertices that box_mesh makes of a box.
+double count_of(const BoxGel& box) {
+  const auto lines = [&](double size) {
+    return static_cast<double>(
+        graded_lines(size / 2, box.near_m, box.near_half_m, box.growth, box.far_m, std::nullopt).size());
+  };
+  double layers = 1.0, covered = 0.0;
+  for (double step = box.layer_m; covered < box.thickness_m; step *= box.layer_growth, ++layers) covered += step;
+  return lines(box.width_m) * lines(box.height_m) * layers;
+}
+
+GelSpec draw_box(const StressConfig::Gel& ranges, double thickness_m, double vertices, Draws& draws) {
+  BoxGel box;
+  box.thickness_m = thickness_m;
+  box.width_m = thickness_m * draws.in(ranges.width_thicknesses);
+  box.height_m = thickness_m * draws.in(ranges.width_thicknesses);
+  box.growth = draws.in(ranges.growth);
+  box.layer_growth = draws.in(ranges.growth);
+  box.near_half_m = 0.25 * draws.unit() * std::min(box.width_m, box.height_m);
+  const double flatness = draws.in({0.5, 1.0});  // first layer over cell width
+  for (double cell = thickness_m;; cell *= 0.98) {
+    box.near_m = cell;
+    box.far_m = std::max(cell, 0.5 * thickness_m);
+    box.layer_m = flatness * cell;
+    if (count_of(box) >= vertices) break;
+  }
+  return {.shape = box};
+}
+
+GelSpec draw_disc(const StressConfig::Gel& ranges, double thickness_m, double vertices, Draws& draws) {
+  DiscGel disc;
+  disc.thickness_m = thickness_m;
+  disc.radius_m = 0.5 * thickness_m * draws.in(ranges.width_thicknesses);
+  const double growth = draws.in(ranges.growth), back = draws.in(ranges.growth), part = draws.in({0.1, 0.4});
+  GelShape shape;
+  shape.outline = GelShape::Outline::disc;
+  shape.radius_m = disc.radius_m;
+  shape.thickness_m = thickness_m;
+  for (double edge = thickness_m;; edge *= 0.98) {
+    disc.sizing = {.centre_m = edge,
+                   .centre_radius_m = part * disc.radius_m,
+                   .inner_m = growth * edge,
+                   .inner_radius_m = (part + 0.4) * disc.radius_m,
+                   .rim_m = growth * growth * edge,
+                   .back_m = back * edge};
+    if (estimated_vertices(sizing_for(disc.sizing, shape)) >= vertices) break;
+  }
+  return {.shape = disc};
+}
 
 using std::numbers::pi;
 
@@ -83,6 +142,57 @@ int pieces(double radius, double edge, int least) {
 }
 
 }  // namespace
+
+StressGel draw_gel(const StressConfig::Gel& ranges, double exact_share, Draws& draws) {
+  const bool round = draws.chance(ranges.disc_share);
+  const double thickness_m = draws.in(ranges.thickness_m), vertices = draws.in(ranges.vertices);
+  const GelSpec spec =
+      round ? draw_disc(ranges, thickness_m, vertices, draws) : draw_box(ranges, thickness_m, vertices, draws);
+  StressGel gel;
+  gel.mesh = make_gel(spec, {});
+  gel.shape = shape_of(spec, gel.mesh);
+  const double jitter = draws.in(ranges.jitter);
+  if (!draws.chance(exact_share)) jitter_vertices(gel.mesh, jitter, draws);
+  gel.front_edge_m = median_front_edge_m(gel.mesh);
+  return gel;
+}
+
+void jitter_vertices(TetMesh& mesh, double part, Draws& draws) {
+  const auto count = static_cast<std::size_t>(mesh.num_vertices());
+  std::vector<bool> fixed(count, false), front(count, false);
+  for (std::size_t f = 0; f < mesh.tags.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.boundary(static_cast<Eigen::Index>(f), k);
+      (mesh.tags[f] == BoundaryTag::front ? front : fixed)[static_cast<std::size_t>(v)] = true;
+    }
+  }
+  std::vector<std::vector<Eigen::Index>> tets_of(count);
+  std::vector<double> volume(static_cast<std::size_t>(mesh.num_tets()));
+  for (Eigen::Index t = 0; t < mesh.num_tets(); ++t) {
+    for (int k = 0; k < 4; ++k) tets_of[static_cast<std::size_t>(mesh.tets(t, k))].push_back(t);
+    volume[static_cast<std::size_t>(t)] = volume6(mesh.positions, mesh.tets.row(t));
+  }
+  for (std::size_t v = 0; v < count; ++v) {
+    if (fixed[v]) continue;
+    const auto row = static_cast<Eigen::Index>(v);
+    const Vector3 before = mesh.positions.row(row);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Eigen::Index t : tets_of[v]) {
+      for (int k = 0; k < 4; ++k) {
+        const double length = (mesh.positions.row(mesh.tets(t, k)).transpose() - before).norm();
+        if (length > 0.0) shortest = std::min(shortest, length);
+      }
+    }
+    Vector3 move;
+    for (int k = 0; k < 3; ++k) move[k] = draws.in({-1.0, 1.0});
+    if (front[v]) move.z() = 0.0;
+    mesh.positions.row(row) = before + part * shortest * move;
+    const bool flat = std::any_of(tets_of[v].begin(), tets_of[v].end(), [&](Eigen::Index t) {
+      return volume6(mesh.positions, mesh.tets.row(t)) < 0.25 * volume[static_cast<std::size_t>(t)];
+    });
+    if (flat) mesh.positions.row(row) = before;
+  }
+}
 
 TriangleMesh split_triangles(TriangleMesh mesh, double edge_m, int max_vertices) {
   while (longest_edge_m(mesh) > edge_m && 4 * mesh.num_vertices() <= max_vertices) {
@@ -189,7 +299,6 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
   const auto edge_for = [&](double extent, double area) {
     return std::max(object.edge_m * extent / object.size_m, std::sqrt(1.16 * area / ranges.max_vertices));
   };
-  const auto prism = [&](std::vector<Eigen::Vector2d> polygon, double length) { return extrude(polygon, length, 1); };
   if (object.kind == "cone") {
     const double radius = std::tan(half_angle), slope = std::hypot(1.0, radius);
     object.half_angle_rad = half_angle;
@@ -202,10 +311,10 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
   } else if (object.kind == "wedge") {
     object.half_angle_rad = half_angle;
     const double half_width = std::tan(half_angle);
-    object.mesh = prism({{0.0, 0.0}, {half_width, 1.0}, {-half_width, 1.0}}, draws.in({0.3, 2.0}));
+    object.mesh = extrude({{0.0, 0.0}, {half_width, 1.0}, {-half_width, 1.0}}, draws.in({0.3, 2.0}));
   } else if (object.kind == "box") {
     const double a = draws.in({0.2, 1.0}), b = draws.in({0.2, 1.0});
-    object.mesh = prism({{-a / 2, -b / 2}, {a / 2, -b / 2}, {a / 2, b / 2}, {-a / 2, b / 2}}, 1.0);
+    object.mesh = extrude({{-a / 2, -b / 2}, {a / 2, -b / 2}, {a / 2, b / 2}, {-a / 2, b / 2}}, 1.0);
     const int stands_on = draws.below(3);  // a corner, an edge, a face
     const Matrix3 any = any_rotation(draws);
     const double roll = draws.in({0.0, pi / 2});
@@ -225,7 +334,7 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
     std::vector<Eigen::Vector2d> polygon;
     for (int i = 0; i < sides; ++i)
       polygon.emplace_back(radius * std::sin(2.0 * pi * i / sides), -radius * std::cos(2.0 * pi * i / sides));
-    object.mesh = prism(polygon, 1.0);
+    object.mesh = extrude(polygon, 1.0);
   } else {
     const double tube = draws.in({0.2, 0.6});
     const double edge = edge_for(2.0 + 2.0 * tube, 4.0 * pi * pi * tube);

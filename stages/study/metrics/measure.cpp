@@ -1,16 +1,28 @@
 #include "stages/study/metrics/measure.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "common/base/each_in_threads.h"
 #include "common/base/error.h"
+#include "common/benchmark/depth_error.h"
 #include "common/image/image.h"
 #include "stages/study/metrics/image_error.h"
-#include "stages/study/metrics/measure_pairs.h"
 #include "stages/study/metrics/sharpness.h"
 #include "stages/study/metrics/ssim.h"
 
 namespace tacipc {
 namespace {
+
+/// The rows of all pairs in their order; pairs run in parallel. Where several fail, the first one's error is thrown.
+template <typename Measure>
+std::vector<MetricsRow> measure_pairs(const std::vector<ImagePair>& pairs, const Measure& measure) {
+  std::vector<std::vector<MetricsRow>> of_pair(pairs.size());
+  each_in_threads(pairs.size(), [&](std::size_t i) { of_pair[i] = measure(pairs[i]); });
+  std::vector<MetricsRow> rows;
+  for (const auto& some : of_pair) rows.insert(rows.end(), some.begin(), some.end());
+  return rows;
+}
 
 ByteImage cropped(const ByteImage& image, const Box& box) {
   ByteImage out(box.width, box.height, image.channels);
@@ -80,8 +92,7 @@ std::vector<MetricsRow> measure_pair(const ImagePair& pair, const ImageMetrics& 
                     kLeastSide);
   }
   const Box* box = checked_box(image, pair, config);
-  if (config.offset_outside_box)
-    image = offset_to(image, reference, box->x, box->y, box->x + box->width, box->y + box->height);
+  if (config.offset_outside_box) image = offset_to(image, reference, *box);
   std::vector<MetricsRow> rows{compare(image, reference, pair, "full")};
   if (const auto& crop = config.crop_px) {
     check_inside(*crop, image, pair, "crop_px");
@@ -91,10 +102,40 @@ std::vector<MetricsRow> measure_pair(const ImagePair& pair, const ImageMetrics& 
   return rows;
 }
 
+FloatImage read_depth(const std::filesystem::path& file) { return read_exr(file, {"Y"}); }
+
+FloatImage read_depth_like(const std::filesystem::path& file, const FloatImage& rest) {
+  FloatImage map = read_depth(file);
+  if (map.width != rest.width || map.height != rest.height)
+    throw DataError("{}: is {} x {} pixels, the gel at rest {} x {}", file.string(), map.width, map.height, rest.width,
+                    rest.height);
+  return map;
+}
+
 }  // namespace
 
 std::vector<MetricsRow> measure_images(const std::vector<ImagePair>& pairs, const ImageMetrics& config) {
   return measure_pairs(pairs, [&](const ImagePair& pair) { return measure_pair(pair, config); });
+}
+
+std::vector<MetricsRow> measure_depths(const std::vector<ImagePair>& pairs, const std::filesystem::path& rest,
+                                       const DepthMetrics& config) {
+  const FloatImage at_rest = read_depth(rest);
+  return measure_pairs(pairs, [&](const ImagePair& pair) -> std::vector<MetricsRow> {
+    const FloatImage map = read_depth_like(pair.image, at_rest), reference = read_depth_like(pair.reference, at_rest);
+    std::optional<FloatImage> surface;
+    if (!pair.surface.empty()) surface = read_depth_like(pair.surface, at_rest);
+    try {
+      const DepthErrors errors = depth_errors(map, reference, at_rest, config.regions, surface ? &*surface : nullptr);
+      std::vector<MetricsRow> rows{row_of(pair.name, "full", errors.full),
+                                   row_of(pair.name, "pressed", errors.pressed)};
+      if (errors.contact) rows.push_back(row_of(pair.name, "contact", *errors.contact));
+      if (errors.beside) rows.push_back(row_of(pair.name, "beside", *errors.beside));
+      return rows;
+    } catch (const DataError& error) {
+      throw DataError("{} against {}: {}", pair.image.string(), pair.reference.string(), error.what());
+    }
+  });
 }
 
 }  // namespace tacipc
