@@ -71,49 +71,41 @@ HeldMotion held_motion(const SceneBodies& scene, std::size_t body, std::size_t f
           .hand_rise_m = (hand_now - hand_then)(2, 3)};
 }
 
-std::vector<HeldBody> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from) {
-  std::vector<HeldBody> held;
+std::vector<HeldBodyLines> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from) {
+  std::vector<HeldBodyLines> held;
   const auto gripped = gripped_from(scene);
   if (!gripped) return held;
   const std::size_t end = scene.per_frame.size() - 1;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const std::size_t freed = std::max(*gripped, free_from[b]);
     if (scene.kinds[b] != "rigid" || freed >= end || !is_touched(scene, b)) continue;
-    HeldBody& body = held.emplace_back(HeldBody{scene.bodies[b], freed, std::nullopt, {}});
-    body.motion = held_motion(scene, b, freed, end);
+    const HeldMotion motion = held_motion(scene, b, freed, end);
+    HeldBodyLines& body = held.emplace_back(HeldBodyLines{.body = scene.bodies[b],
+                                                          .freed_frame = freed,
+                                                          .slip_m = motion.slip_m,
+                                                          .turn_rad = motion.turn_rad,
+                                                          .rise_m = motion.rise_m,
+                                                          .hand_rise_m = motion.hand_rise_m});
     if (gels_of(scene).size() < 2) continue;
-    const GraspOutcome outcome = outcome_of(body.motion);
-    const bool stays = outcome == GraspOutcome::lifted && body.motion.hand_rise_m < kSlipped_m;
+    const GraspOutcome outcome = outcome_of(motion);
+    const bool stays = outcome == GraspOutcome::lifted && motion.hand_rise_m < kSlipped_m;
     body.outcome = stays ? "held" : kGraspOutcomes[static_cast<std::size_t>(outcome)];
   }
   return held;
 }
 
-std::vector<HeldBodyLines> held_lines(const std::vector<HeldBody>& held) {
-  std::vector<HeldBodyLines> lines;
-  for (const HeldBody& body : held)
-    lines.push_back({.body = body.body,
-                     .outcome = body.outcome,
-                     .freed_frame = body.freed_frame,
-                     .slip_m = body.motion.slip_m,
-                     .turn_rad = body.motion.turn_rad,
-                     .rise_m = body.motion.rise_m,
-                     .hand_rise_m = body.motion.hand_rise_m});
-  return lines;
-}
-
-std::vector<HeldBody> read_held(const std::filesystem::path& scene_folder) {
+std::vector<HeldBodyLines> read_held(const std::filesystem::path& scene_folder) {
   using Lines = HeldBodyLines;
-  std::vector<HeldBody> held;
+  std::vector<HeldBodyLines> held;
   const auto summary = summary_of<SceneSummary>(Record::from_file(scene_folder / "press.yaml"));
   for (const auto& body : summary.sections(&SceneSummary::held))
     held.push_back({.body = body.required(&Lines::body),
-                    .freed_frame = static_cast<std::size_t>(body.required(&Lines::freed_frame)),
                     .outcome = body.find(&Lines::outcome),
-                    .motion = {.slip_m = body.required(&Lines::slip_m),
-                               .turn_rad = body.required(&Lines::turn_rad),
-                               .rise_m = body.required(&Lines::rise_m),
-                               .hand_rise_m = body.required(&Lines::hand_rise_m)}});
+                    .freed_frame = static_cast<std::size_t>(body.required(&Lines::freed_frame)),
+                    .slip_m = body.required(&Lines::slip_m),
+                    .turn_rad = body.required(&Lines::turn_rad),
+                    .rise_m = body.required(&Lines::rise_m),
+                    .hand_rise_m = body.required(&Lines::hand_rise_m)});
   return held;
 }
 

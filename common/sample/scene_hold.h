@@ -3,8 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "common/sample/grasp_outcome.h"
@@ -23,21 +21,14 @@ double normal_force_n(const Matrix4& world_from_gel, const Vector3& force_n);
 /// and its origin in the middle of theirs. Slip is that of the body's point in this origin at `freed`.
 HeldMotion held_motion(const SceneBodies& scene, std::size_t body, std::size_t freed, std::size_t frame);
 
-/// A rigid body that a gel touches.
-struct HeldBody {
-  std::string body;
-  std::size_t freed_frame = 0;         // nothing else holds it from here on, and all gels touch that ever do
-  std::optional<std::string> outcome;  // lifted, held (the hand does not rise), slipped, rotated or dropped; none of a
-                                       // single gel, which holds nothing
-  HeldMotion motion;                   // from there to the last frame
-};
-
+/// Rigid bodies that a gel touches. Each is free from its `freed_frame` on: nothing else holds it, and all gels touch
+/// that ever do. Its motion is that from there to the last frame; its outcome is lifted, held (the hand does not rise),
+/// slipped, rotated or dropped, and absent for a single gel, which holds nothing.
 /// \param free_from for each body the last frame in which a phase holds or moves it
 /// \return those that are free before the last frame
-std::vector<HeldBody> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from);
+std::vector<HeldBodyLines> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from);
 
-/// Lines of the record; read_held() reads them back, and is empty if the record has none.
-std::vector<HeldBodyLines> held_lines(const std::vector<HeldBody>& held);
-std::vector<HeldBody> read_held(const std::filesystem::path& scene_folder);
+/// What a record keeps of them; empty if it has none.
+std::vector<HeldBodyLines> read_held(const std::filesystem::path& scene_folder);
 
 }  // namespace tacipc

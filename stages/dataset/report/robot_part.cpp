@@ -75,21 +75,21 @@ bool changes(const RobotFolder& motion, std::size_t actuator) {
 double tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
 
 /// A sentence for each body with an outcome.
-std::string outcomes(const std::vector<HeldBody>& held) {
+std::string outcomes(const std::vector<HeldBodyLines>& held) {
   std::string html;
-  for (const HeldBody& body : held) {
+  for (const HeldBodyLines& body : held) {
     if (!body.outcome) continue;
     html += fmt::format(
         "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand and turned by {:.1f}°; it rose by "
         "{:.1f} mm, the hand by {:.1f} mm.</p>\n",
-        html_text(body.body), html_text(*body.outcome), 1e3 * body.motion.slip_m, body.motion.turn_rad / kDegree,
-        tenths(1e3 * body.motion.rise_m), tenths(1e3 * body.motion.hand_rise_m));
+        html_text(body.body), html_text(*body.outcome), 1e3 * body.slip_m, body.turn_rad / kDegree,
+        tenths(1e3 * body.rise_m), tenths(1e3 * body.hand_rise_m));
   }
   return html;
 }
 
 /// Slip and turn of the first bodies that the gels hold, as seen from the pads.
-std::string hold_figure(const std::vector<HeldBody>& held, const SceneBodies& scene,
+std::string hold_figure(const std::vector<HeldBodyLines>& held, const SceneBodies& scene,
                         const std::vector<Instant>& frames) {
   if (held.empty()) return "";
   const std::size_t shown = std::min<std::size_t>(held.size(), 2);

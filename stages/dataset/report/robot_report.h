@@ -31,7 +31,7 @@ struct RobotReport {
   std::vector<CouplingTry>
       tries;                // in the order in which they were made; none of a robot that felt MuJoCo's own contacts
   double tolerance = 1e-3;  // of residual_relative
-  std::vector<HeldBody> held = {};  // by the gels, as the record of the scene has them
+  std::vector<HeldBodyLines> held = {};  // by the gels, as the record of the scene has them
 };
 
 /// Folder of a robot below that of its scene.

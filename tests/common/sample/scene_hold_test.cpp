@@ -42,7 +42,7 @@ class SceneHoldTest : public ::testing::Test {
   void move(std::size_t frame, double hand_z, const Vector3& block_at, const Vector3& block_turn = Vector3::Zero()) {
     scene_.body_pose[frame] = {left(hand_z), right(hand_z), pose_at(block_at, block_turn), pose_at({0, 0, -0.1})};
   }
-  std::vector<HeldBody> held() const { return held_bodies(scene_, {0, 0, 0, 0}); }
+  std::vector<HeldBodyLines> held() const { return held_bodies(scene_, {0, 0, 0, 0}); }
 
   SceneBodies scene_;
 };
@@ -59,20 +59,20 @@ TEST_F(SceneHoldTest, ABodyThatRisesWithTheHandIsLifted) {
   EXPECT_EQ(bodies[0].body, "block");
   EXPECT_EQ(bodies[0].freed_frame, 1u);
   EXPECT_EQ(bodies[0].outcome, "lifted");
-  EXPECT_NEAR(bodies[0].motion.slip_m, 4e-4, 1e-15);
-  EXPECT_NEAR(bodies[0].motion.rise_m, 0.05, 1e-15);
-  EXPECT_NEAR(bodies[0].motion.hand_rise_m, 0.05, 1e-15);
+  EXPECT_NEAR(bodies[0].slip_m, 4e-4, 1e-15);
+  EXPECT_NEAR(bodies[0].rise_m, 0.05, 1e-15);
+  EXPECT_NEAR(bodies[0].hand_rise_m, 0.05, 1e-15);
 }
 
 TEST_F(SceneHoldTest, ABodyWhoseHandStaysIsHeld) {
   EXPECT_EQ(held()[0].outcome, "held");
-  EXPECT_EQ(held()[0].motion.slip_m, 0.0);
+  EXPECT_EQ(held()[0].slip_m, 0.0);
 }
 
 TEST_F(SceneHoldTest, ABodyThatLagsHasSlippedAndOneThatStaysBelowIsDropped) {
   move(3, 0.05, {0, 0, 0.0485});
   EXPECT_EQ(held()[0].outcome, "slipped");
-  EXPECT_NEAR(held()[0].motion.slip_m, 1.5e-3, 1e-15);
+  EXPECT_NEAR(held()[0].slip_m, 1.5e-3, 1e-15);
   move(3, 0.05, {0, 0, 0.009});
   EXPECT_EQ(held()[0].outcome, "dropped");
   move(3, 0.05, {0, 0, 0.05});
@@ -83,7 +83,7 @@ TEST_F(SceneHoldTest, ABodyThatLagsHasSlippedAndOneThatStaysBelowIsDropped) {
 TEST_F(SceneHoldTest, ABodyThatTurnsInTheHandIsRotated) {
   move(3, 0.05, {0, 0, 0.05}, {0.1, 0, 0});
   EXPECT_EQ(held()[0].outcome, "rotated");
-  EXPECT_NEAR(held()[0].motion.turn_rad, 0.1, 1e-12);
+  EXPECT_NEAR(held()[0].turn_rad, 0.1, 1e-12);
 }
 
 TEST_F(SceneHoldTest, MotionCountsFromTheFrameInWhichTheBodyIsFree) {
@@ -91,7 +91,7 @@ TEST_F(SceneHoldTest, MotionCountsFromTheFrameInWhichTheBodyIsFree) {
   const auto bodies = held_bodies(scene_, {0, 0, 2, 0});
   ASSERT_EQ(bodies.size(), 1u);
   EXPECT_EQ(bodies[0].freed_frame, 2u);
-  EXPECT_EQ(bodies[0].motion.slip_m, 0.0);
+  EXPECT_EQ(bodies[0].slip_m, 0.0);
   EXPECT_THAT(held_bodies(scene_, {0, 0, 3, 0}), IsEmpty());
 }
 
@@ -111,14 +111,14 @@ TEST_F(SceneHoldTest, ABodyThatNoGelTouchesIsNotListed) {
 TEST_F(SceneHoldTest, TheRecordKeepsIt) {
   move(3, 0.05, {0.0004, 0, 0.05});
   const ScratchFolder scratch;
-  scratch.file("press.yaml", to_yaml(Value::Map{{"summary", record_lines(SceneSummary{.held = held_lines(held())})}}));
+  scratch.file("press.yaml", to_yaml(Value::Map{{"summary", record_lines(SceneSummary{.held = held()})}}));
   const auto bodies = read_held(scratch / "");
   ASSERT_EQ(bodies.size(), 1u);
   EXPECT_EQ(bodies[0].body, "block");
   EXPECT_EQ(bodies[0].freed_frame, 1u);
   EXPECT_EQ(bodies[0].outcome, "lifted");
-  EXPECT_EQ(bodies[0].motion.slip_m, held()[0].motion.slip_m);
-  EXPECT_EQ(bodies[0].motion.hand_rise_m, held()[0].motion.hand_rise_m);
+  EXPECT_EQ(bodies[0].slip_m, held()[0].slip_m);
+  EXPECT_EQ(bodies[0].hand_rise_m, held()[0].hand_rise_m);
   scratch.file("press.yaml", "summary: {frames: 2}\n");
   EXPECT_THAT(read_held(scratch / ""), IsEmpty());
 }

@@ -249,7 +249,7 @@ HeldPoseLines pose_lines(const GraspPose& pose) {
 }
 
 /// Rigid bodies that the gels hold.
-std::vector<HeldBody> held_by_gels(const SceneSpec& spec, const std::vector<SceneFrame>& frames) {
+std::vector<HeldBodyLines> held_by_gels(const SceneSpec& spec, const std::vector<SceneFrame>& frames) {
   SceneBodies all;
   for (const BodySpec& body : spec.bodies) {
     all.bodies.push_back(body.name);
@@ -400,7 +400,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
     };
     summary.contact.push_back({{name(0), name(1)}, scene.contact[i].friction, scene.contact[i].d_hat_m});
   }
-  summary.held = held_lines(held_by_gels(spec, frames));
+  summary.held = held_by_gels(spec, frames);
   stage.summarize(record_lines(summary));
   add_cost(stage, scene.times);
 }
