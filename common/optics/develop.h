@@ -32,17 +32,14 @@ FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const R
 /// \throw DataError if no light reaches the membrane.
 double solve_exposure(const FloatImage& signal, const Response& response);
 
-/// Codes of a whole image, not rounded.
-FloatImage encode(const FloatImage& signal, double exposure, const Response& response);
-
 /// A signal with its codes at some exposure and response.
 struct Encoded {
   FloatImage signal = {};
   FloatImage codes = {};
 };
-/// The same codes with less work where `signal` is that of `known`, as most of an image with markers is that without.
-/// \pre exposure and response are those of `known`
-FloatImage encode(const FloatImage& signal, double exposure, const Response& response, const Encoded& known);
+/// Codes of a whole image, not rounded; with less work where `signal` is that of `known`, as most of an image with
+/// markers is that without. \pre exposure and response are those of `known`
+FloatImage encode(const FloatImage& signal, double exposure, const Response& response, const Encoded& known = {});
 
 /// Shot and read noise on electrons: v' = v + √(N v + σ²) ξ / N for v = exposure × signal, N full well, σ read noise,
 /// ξ ~ N(0, 1) a function of seed, stream, pixel and channel alone. Returned over the exposure again, as a signal.
