@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "common/base/error.h"
-#include "common/sensor/pinhole.h"
 #include "stages/image/calibrate/fit_light.h"
+#include "tests/common/sensor/pinhole.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
