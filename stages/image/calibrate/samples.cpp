@@ -1,11 +1,11 @@
 #include "stages/image/calibrate/samples.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/error.h"
+#include "stages/image/calibrate/led_intensities.h"
 
 namespace tacipc {
 
@@ -161,15 +161,7 @@ std::array<double, 3> NormalEquations::residual(const Codes& weights) const {
 }
 
 double NormalEquations::condition() const {
-  double worst = 0.0;
-  for (const Eigen::MatrixXd& g : gram) {
-    const Eigen::VectorXd scale = g.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * g * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
-    const double low = std::max(eigen.eigenvalues().minCoeff(), 1e-300);
-    worst = std::max(worst, std::sqrt(eigen.eigenvalues().maxCoeff() / low));
-  }
-  return worst;
+  return std::max({condition_of(gram[0]), condition_of(gram[1]), condition_of(gram[2])});
 }
 
 }  // namespace tacipc

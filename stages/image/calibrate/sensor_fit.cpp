@@ -12,7 +12,7 @@
 #include "common/base/log.h"
 #include "common/base/statistics.h"
 #include "common/optics/develop.h"
-#include "stages/image/calibrate/block_codes.h"
+#include "stages/image/calibrate/blocks.h"
 #include "stages/image/calibrate/gauss_newton.h"
 #include "stages/image/calibrate/led_intensities.h"
 
