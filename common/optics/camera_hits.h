@@ -12,13 +12,6 @@
 
 namespace tacipc {
 
-inline Vector3 lane_of(const Pack3& pack, int lane) { return {pack.x[lane], pack.y[lane], pack.z[lane]}; }
-inline void put(Pack3& pack, int lane, const Vector3& v) {
-  pack.x[lane] = v.x();
-  pack.y[lane] = v.y();
-  pack.z[lane] = v.z();
-}
-
 struct HitCounts {
   std::int64_t nudged = 0;   // slipped through a vertex and hit after a retry with an offset of 1e-6
   std::int64_t outside = 0;  // pass beside the membrane
