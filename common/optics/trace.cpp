@@ -304,10 +304,4 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
   return out;
 }
 
-TraceResult trace(const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
-                  const SurfaceFields& fields) {
-  const RayScene scene(membrane.positions, membrane.triangles);
-  return trace(scene, membrane, sensor, settings, fields);
-}
-
 }  // namespace tacipc

@@ -10,6 +10,7 @@
 #include "common/optics/develop.h"
 #include "stages/image/calibrate/led_intensities.h"
 #include "stages/image/calibrate/rest_membrane.h"
+#include "tests/common/optics/test_surfaces.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
