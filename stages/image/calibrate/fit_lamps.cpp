@@ -9,28 +9,6 @@
 namespace tacipc {
 namespace {
 
-struct LampRange {
-  Eigen::VectorXd lower, upper;
-};
-
-LampRange range_of(const CalibrateConfig& config) {
-  const int each = parameters_per_lamp(config);
-  const auto n = static_cast<Eigen::Index>(config.lamps.size()) * each;
-  LampRange range{.lower = Eigen::VectorXd(n), .upper = Eigen::VectorXd(n)};
-  for (std::size_t l = 0; l < config.lamps.size(); ++l) {
-    const auto i = static_cast<Eigen::Index>(l) * each;
-    const LampBounds& bounds = config.bounds;
-    const double azimuth = config.lamps[l].azimuth_rad;
-    range.lower.segment<3>(i) << azimuth - bounds.azimuth_rad, bounds.elevation_tan[0], std::log(bounds.distance_m[0]);
-    range.upper.segment<3>(i) << azimuth + bounds.azimuth_rad, bounds.elevation_tan[1], std::log(bounds.distance_m[1]);
-    if (each > 3) {
-      range.lower[i + 3] = bounds.half_width_rad[0];
-      range.upper[i + 3] = bounds.half_width_rad[1];
-    }
-  }
-  return range;
-}
-
 Eigen::VectorXd parameters_of(const std::vector<LampGuess>& lamps, const CalibrateConfig& config) {
   const int each = parameters_per_lamp(config);
   Eigen::VectorXd u(static_cast<Eigen::Index>(lamps.size()) * each);
@@ -42,23 +20,34 @@ Eigen::VectorXd parameters_of(const std::vector<LampGuess>& lamps, const Calibra
   return u;
 }
 
+struct LampRange {
+  Eigen::VectorXd lower, upper;
+};
+
+LampRange range_of(const CalibrateConfig& config) {
+  const LampBounds& bounds = config.bounds;
+  std::vector<LampGuess> lower, upper;
+  for (const LampGuess& lamp : config.lamps) {
+    lower.push_back({lamp.azimuth_rad - bounds.azimuth_rad, bounds.distance_m[0], bounds.elevation_tan[0],
+                     bounds.half_width_rad[0]});
+    upper.push_back({lamp.azimuth_rad + bounds.azimuth_rad, bounds.distance_m[1], bounds.elevation_tan[1],
+                     bounds.half_width_rad[1]});
+  }
+  return {.lower = parameters_of(lower, config), .upper = parameters_of(upper, config)};
+}
+
 /// Residuals of the best weights with lamps at some parameters.
 Eigen::VectorXd projected_residuals(const std::vector<const Contact*>& contacts, const std::vector<LampGuess>& lamps,
                                     LightGeometry& geometry, const CalibrateConfig& config) {
   set_lamps(geometry, lamps);
   const auto features = all_features(contacts, geometry);
   const Codes weights = best_weights(contacts, features, config.ridge).codes;
-  std::vector<Eigen::VectorXd> parts;
-  Eigen::Index rows = 0;
-  for (std::size_t b = 0; b < contacts.size(); ++b)
-    rows += parts.emplace_back(residuals_of(contacts[b]->samples, features[b], weights)).size();
-  Eigen::VectorXd all(rows);
-  Eigen::Index row = 0;
-  for (const Eigen::VectorXd& part : parts) {
-    all.segment(row, part.size()) = part;
-    row += part.size();
+  std::vector<double> all;
+  for (std::size_t b = 0; b < contacts.size(); ++b) {
+    const Eigen::VectorXd part = residuals_of(contacts[b]->samples, features[b], weights);
+    all.insert(all.end(), part.begin(), part.end());
   }
-  return all;
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all));
 }
 
 }  // namespace
