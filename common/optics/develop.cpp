@@ -186,7 +186,8 @@ FloatImage encode(const FloatImage& signal, double exposure, const Response& res
   return codes;
 }
 
-FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel& noise, std::uint64_t stream) {
+FloatImage add_noise(const FloatImage& signal, double exposure, const SensorNoise& noise, std::uint64_t seed,
+                     std::uint64_t stream) {
   FloatImage out(signal.width, signal.height, signal.channels);
   const std::size_t length = row_length(signal);
   tbb::parallel_for(0, signal.height, [&](int y) {
@@ -194,7 +195,7 @@ FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel
     for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
       const double electrons = noise.full_well_e * exposure * std::max(0.0f, signal.pixels[i]);
       const double deviation = std::sqrt(electrons + noise.read_e * noise.read_e);
-      const double noisy = electrons + deviation * random_normal(noise.seed, stream, i);
+      const double noisy = electrons + deviation * random_normal(seed, stream, i);
       out.pixels[i] = static_cast<float>(noisy / (noise.full_well_e * exposure));
     }
   });
@@ -202,9 +203,9 @@ FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel
 }
 
 ByteImage synthetic_reference(const FloatImage& signal, double exposure, const Response& response,
-                              const NoiseModel& noise) {
+                              const SensorNoise& noise, std::uint64_t seed) {
   constexpr std::uint64_t kReferenceStream = 1;
-  return quantise(encode(add_noise(signal, exposure, noise, kReferenceStream), exposure, response)).image;
+  return quantise(encode(add_noise(signal, exposure, noise, seed, kReferenceStream), exposure, response)).image;
 }
 
 namespace {
