@@ -20,11 +20,8 @@ Eigen::VectorXd parameters_of(const std::vector<LampGuess>& lamps, const Calibra
   return u;
 }
 
-struct LampRange {
-  Eigen::VectorXd lower, upper;
-};
-
-LampRange range_of(const CalibrateConfig& config) {
+/// How far the parameters of lamps may go, and by which steps.
+GaussNewtonSettings range_of(const CalibrateConfig& config) {
   const LampBounds& bounds = config.bounds;
   std::vector<LampGuess> lower, upper;
   for (const LampGuess& lamp : config.lamps) {
@@ -33,7 +30,9 @@ LampRange range_of(const CalibrateConfig& config) {
     upper.push_back({lamp.azimuth_rad + bounds.azimuth_rad, bounds.distance_m[1], bounds.elevation_tan[1],
                      bounds.half_width_rad[1]});
   }
-  return {.lower = parameters_of(lower, config), .upper = parameters_of(upper, config)};
+  const Eigen::VectorXd lowest = parameters_of(lower, config);
+  return {
+      .step = Eigen::VectorXd::Constant(lowest.size(), 1e-3), .lower = lowest, .upper = parameters_of(upper, config)};
 }
 
 /// Residuals of the best weights with lamps at some parameters.
@@ -119,13 +118,10 @@ GaussNewtonResult fit_lamps(const std::vector<const Contact*>& contacts, const s
   geometry.environment_degree = 0;
   geometry.environment_depth = false;
   geometry.dome = {};
-  const LampRange range = range_of(config);
-  const GaussNewtonSettings settings{
-      .step = Eigen::VectorXd::Constant(range.lower.size(), 1e-3), .lower = range.lower, .upper = range.upper};
   const auto residuals = [&](const Eigen::VectorXd& at) {
     return projected_residuals(contacts, lamps_at(start, at, config), geometry, config);
   };
-  return gauss_newton(residuals, parameters_of(start, config), settings);
+  return gauss_newton(residuals, parameters_of(start, config), range_of(config));
 }
 
 double samples_per_fact(const CalibrateConfig& config) {
@@ -136,8 +132,7 @@ double samples_per_fact(const CalibrateConfig& config) {
 std::vector<LampKnowledge> lamp_knowledge(const std::vector<const Contact*>& contacts,
                                           const std::vector<LampGuess>& lamps, LightGeometry geometry,
                                           const CalibrateConfig& config) {
-  constexpr double kStep = 1e-3;
-  const LampRange range = range_of(config);
+  const GaussNewtonSettings range = range_of(config);
   const Eigen::VectorXd u = parameters_of(lamps, config);
   const auto residuals = [&](const Eigen::VectorXd& at) {
     return projected_residuals(contacts, lamps_at(lamps, at, config), geometry, config);
@@ -146,7 +141,7 @@ std::vector<LampKnowledge> lamp_knowledge(const std::vector<const Contact*>& con
   Eigen::MatrixXd jacobian(here.size(), u.size());
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     Eigen::VectorXd moved = u;
-    moved[i] += u[i] + kStep > range.upper[i] ? -kStep : kStep;
+    moved[i] += u[i] + range.step[i] > range.upper[i] ? -range.step[i] : range.step[i];
     jacobian.col(i) = (residuals(moved) - here) / (moved[i] - u[i]);
   }
   double count = 0.0;

@@ -85,18 +85,15 @@ namespace {
 
 /// Change − photograph of each sample and channel, codes; 0 where a sample is not used.
 Eigen::VectorXd errors_of(const std::vector<MetallicSamples>& balls, const MetallicLamps& lamps) {
-  Eigen::Index rows = 0;
-  for (const MetallicSamples& ball : balls) rows += ball.samples.target.size();
-  Eigen::VectorXd all(rows);
-  Eigen::Index row = 0;
+  std::vector<double> all;
   for (const MetallicSamples& ball : balls)
     for (Eigen::Index i = 0; i < ball.samples.target.rows(); ++i)
       for (std::size_t c = 0; c < 3; ++c) {
         const auto column = static_cast<Eigen::Index>(c);
-        all[row++] =
-            ball.samples.used(i, column) * (metallic_change(ball, lamps, i, c) - ball.samples.target(i, column));
+        const double error = metallic_change(ball, lamps, i, c) - ball.samples.target(i, column);
+        all.push_back(ball.samples.used(i, column) * error);
       }
-  return all;
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all));
 }
 
 }  // namespace
