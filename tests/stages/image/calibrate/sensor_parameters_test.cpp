@@ -131,8 +131,8 @@ TEST(SensorParameters, NeedLeds) {
 
 TEST(SensorFitConfig, FaultsHaveTheirPlace) {
   EXPECT_THAT(faults_in<SensorFitConfig>("sensor_fit:\n  block_px: 8\n  sigma_codes: 0\n  parameters:\n"
-                                       "    ring_radios_mm: {sigma: 1}\n    gamma: {sigma: 0.1, bounds: [3, 2]}\n",
-                                       "c.yaml"),
+                                         "    ring_radios_mm: {sigma: 1}\n    gamma: {sigma: 0.1, bounds: [3, 2]}\n",
+                                         "c.yaml"),
               testing::ElementsAre("c.yaml:3:16: sensor_fit.sigma_codes: 0 is outside (0, inf)",
                                    "c.yaml:5:5: sensor_fit.parameters.ring_radios_mm: unknown key (did you mean "
                                    "ring_radius_mm?)",
