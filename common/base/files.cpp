@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -101,18 +102,17 @@ std::string content_hash(const std::filesystem::path& path) {
   return hash_hex(XXH3_128bits(listing.data(), listing.size()));
 }
 
-std::vector<std::string> short_names(const std::vector<std::filesystem::path>& files) {
-  std::filesystem::path folder = files.front().parent_path();
-  for (const auto& file : files) {
-    std::filesystem::path shared;
-    for (auto a = folder.begin(), b = file.begin(); a != folder.end() && b != file.end() && *a == *b; ++a, ++b)
-      shared /= *a;
-    folder = shared;
+std::filesystem::path common_folder(const std::vector<std::filesystem::path>& files) {
+  if (files.empty()) return {};
+  const std::filesystem::path first = files.front().parent_path();
+  auto end = first.end();
+  for (const std::filesystem::path& file : files) {
+    const std::filesystem::path folder = file.parent_path();
+    end = std::mismatch(first.begin(), end, folder.begin(), folder.end()).first;
   }
-  std::vector<std::string> names;
-  for (const auto& file : files)
-    names.push_back((folder.empty() ? file : file.lexically_relative(folder)).generic_string());
-  return names;
+  std::filesystem::path common;
+  for (auto part = first.begin(); part != end; ++part) common /= *part;
+  return common;
 }
 
 }  // namespace tacipc

@@ -29,8 +29,7 @@ void flush_to_disk(const std::vector<std::filesystem::path>& paths);
 /// order, leaving out logs, timings and hidden names, so that it changes exactly when a result in it does.
 std::string content_hash(const std::filesystem::path& path);
 
-/// Paths below the longest folder that holds all files, with slashes: names for rows of a table that do not depend on
-/// where that folder lies. \pre not empty
-std::vector<std::string> short_names(const std::vector<std::filesystem::path>& files);
+/// The longest folder that holds all files: names further up tell nothing about them.
+std::filesystem::path common_folder(const std::vector<std::filesystem::path>& files);
 
 }  // namespace tacipc

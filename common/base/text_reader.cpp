@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "common/base/error.h"
+#include "common/base/parse.h"
 
 namespace tacipc {
 namespace {
@@ -90,12 +91,11 @@ double TextReader::to_number(std::string_view word, std::string_view what) const
 std::int64_t TextReader::to_integer(std::string_view word, std::string_view what) const {
   std::string_view digits = word;
   if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (digits.empty() || end != digits.data() + digits.size() || error != std::errc())
+  const auto value = parse_number<std::int64_t>(digits);
+  if (!value)
     fail(word.empty() ? fmt::format("{} is missing", what)
                       : fmt::format("{} '{}' is not an integer", what, shown(word)));
-  return value;
+  return *value;
 }
 
 double TextReader::number(std::string_view what) { return to_number(word(), what); }

@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 
 #include "common/base/files.h"
+#include "common/base/parse.h"
 #include "common/base/printable.h"
 #include "common/config/config_document.h"
 
@@ -60,12 +60,10 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
 }
 
 ConfigReader ConfigReader::from_file(const std::filesystem::path& path) {
-  return parse(read_file(path), path.lexically_normal().string());
+  return from_text(read_file(path), path.lexically_normal().string());
 }
 
-ConfigReader ConfigReader::from_text(const std::string& text, const std::string& name) { return parse(text, name); }
-
-ConfigReader ConfigReader::parse(const std::string& text, const std::string& name) {
+ConfigReader ConfigReader::from_text(const std::string& text, const std::string& name) {
   std::shared_ptr<Document> document = Document::parse(text, name);
   Node* root = document->root.get();
   return ConfigReader(std::move(document), root);
@@ -109,17 +107,16 @@ double ConfigReader::to_number(const Node& node, const std::string& key, const R
   if (!scalar) return otherwise;
   std::string_view digits = *scalar;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (status != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
+  const auto value = parse_number<double>(digits);
+  if (!value || !std::isfinite(*value)) {
     add_fault(node, path_of(key), fmt::format("expected a number, found '{}'", excerpt(*scalar)));
     return otherwise;
   }
-  if (!range.contains(value)) {
+  if (!range.contains(*value)) {
     add_fault(node, path_of(key), fmt::format("{} is outside {}", excerpt(*scalar), range.text()));
     return otherwise;
   }
-  return value;
+  return *value;
 }
 
 namespace {
@@ -130,9 +127,10 @@ double inside(const Range& range) {
 }
 }  // namespace
 
+// Where a key must be there, its absence is reported, and it is read like one that need not be.
 double ConfigReader::number(const std::string& key, const Range& range) {
-  const Node* node = find(key, true);
-  return keep(key, node ? to_number(*node, key, range, inside(range)) : inside(range));
+  find(key, true);
+  return number_or(key, inside(range), range);
 }
 
 double ConfigReader::number_or(const std::string& key, double fallback, const Range& range) {
@@ -147,40 +145,37 @@ std::optional<double> ConfigReader::optional_number(const std::string& key, cons
 }
 
 int ConfigReader::integer(const std::string& key, int low, int high) {
-  if (!find(key, true)) return keep(key, low);
+  find(key, true);
   return integer_or(key, low, low, high);
 }
 
 int ConfigReader::integer_or(const std::string& key, int fallback, int low, int high) {
   const Node* node = find(key, false);
-  if (!node) return keep(key, fallback);
-  const auto scalar = to_scalar(*node, key);
+  const auto scalar = node ? to_scalar(*node, key) : std::nullopt;
   if (!scalar) return keep(key, fallback);
-  long long value = 0;
-  const auto [end, status] = std::from_chars(scalar->data(), scalar->data() + scalar->size(), value);
-  if (status != std::errc() || end != scalar->data() + scalar->size()) {
+  const auto value = parse_number<long long>(*scalar);
+  if (!value) {
     add_fault(*node, path_of(key), fmt::format("expected a whole number, found '{}'", excerpt(*scalar)));
     return keep(key, fallback);
   }
-  if (value < low || value > high) {
+  if (*value < low || *value > high) {
     const Range range{.low = static_cast<double>(low), .high = static_cast<double>(high)};
     add_fault(*node, path_of(key),
-              high == std::numeric_limits<int>::max() ? fmt::format("{} is below {}", value, low)
-                                                      : fmt::format("{} is outside {}", value, range.text()));
+              high == std::numeric_limits<int>::max() ? fmt::format("{} is below {}", *value, low)
+                                                      : fmt::format("{} is outside {}", *value, range.text()));
     return keep(key, fallback);
   }
-  return keep(key, static_cast<int>(value));
+  return keep(key, static_cast<int>(*value));
 }
 
 bool ConfigReader::flag(const std::string& key) {
-  if (!find(key, true)) return keep(key, false);
+  find(key, true);
   return flag_or(key, false);
 }
 
 bool ConfigReader::flag_or(const std::string& key, bool fallback) {
   const Node* node = find(key, false);
-  if (!node) return keep(key, fallback);
-  const auto scalar = to_scalar(*node, key);
+  const auto scalar = node ? to_scalar(*node, key) : std::nullopt;
   if (!scalar) return keep(key, fallback);
   if (*scalar == "true" || *scalar == "false") return keep(key, *scalar == "true");
   add_fault(*node, path_of(key), fmt::format("expected true or false, found '{}'", excerpt(*scalar)));
@@ -188,8 +183,8 @@ bool ConfigReader::flag_or(const std::string& key, bool fallback) {
 }
 
 std::string ConfigReader::text(const std::string& key) {
-  const Node* node = find(key, true);
-  return keep(key, node ? to_scalar(*node, key).value_or("") : std::string());
+  find(key, true);
+  return text_or(key, "");
 }
 
 std::string ConfigReader::text_or(const std::string& key, const std::string& fallback) {
@@ -204,7 +199,7 @@ std::optional<std::string> ConfigReader::optional_text(const std::string& key) {
 }
 
 std::string ConfigReader::choice(const std::string& key, const std::vector<std::string>& options) {
-  if (!find(key, true)) return keep(key, options.front());
+  find(key, true);
   return choice_or(key, options.front(), options);
 }
 
@@ -246,9 +241,8 @@ std::vector<std::string> ConfigReader::choices_or(const std::string& key, std::v
 }
 
 std::vector<double> ConfigReader::numbers(const std::string& key, std::size_t count, const Range& range) {
-  std::vector<double> fallback(count, inside(range));
-  if (!find(key, true)) return keep(key, fallback);
-  return numbers_or(key, std::move(fallback), range);
+  find(key, true);
+  return numbers_or(key, std::vector<double>(count, inside(range)), range);
 }
 
 std::vector<double> ConfigReader::numbers_or(const std::string& key, std::vector<double> fallback, const Range& range) {
@@ -317,8 +311,7 @@ ConfigReader ConfigReader::section(const std::string& key) {
   }
   if (node) add_fault(*node, path_of(key), fmt::format("expected a map, found {}", node->kind_name()));
   // Reading continues inside an empty map of a document of its own, whose faults would only repeat this one.
-  ConfigReader nowhere = from_text("{}", document_->name);
-  return nowhere;
+  return from_text("{}", document_->name);
 }
 
 std::optional<ConfigReader> ConfigReader::optional_section(const std::string& key) {

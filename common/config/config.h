@@ -114,7 +114,6 @@ class ConfigReader {
   struct Document;
   struct Convert;
   explicit ConfigReader(std::shared_ptr<Document> document, Node* node) : document_(std::move(document)), node_(node) {}
-  static ConfigReader parse(const std::string& text, const std::string& name);
 
   Node* find(const std::string& key, bool required);
   void add_fault(const Node& node, const std::string& path, const std::string& reason);

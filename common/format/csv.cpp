@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 
 #include "common/base/error.h"
+#include "common/base/parse.h"
 
 namespace tacipc {
 
@@ -80,13 +80,10 @@ const std::string& CsvReader::operator[](std::string_view column) const {
 
 double CsvReader::number(std::string_view column) const {
   const std::string& field = (*this)[column];
-  const char* begin = field.data() + std::min(field.find_first_not_of(' '), field.size());
-  const char* end = field.data() + field.size();
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc{} || stop != end)
-    throw DataError("{}:{}: {}: '{}' is not a number", name_, line_, column, field);
-  return value;
+  const auto value =
+      parse_number<double>(std::string_view(field).substr(std::min(field.find_first_not_of(' '), field.size())));
+  if (!value) throw DataError("{}:{}: {}: '{}' is not a number", name_, line_, column, field);
+  return *value;
 }
 
 }  // namespace tacipc

@@ -199,14 +199,4 @@ std::string Hdf5Reader::read(const std::string& dataset) const {
   return bytes;
 }
 
-std::vector<std::string> Hdf5Reader::read_texts(const std::string& dataset) const {
-  const std::vector<std::size_t> extents = shape(dataset);
-  const std::string bytes = read(dataset);
-  if (extents.size() != 1) throw DataError("{}: {}: is not a list of texts", file_->name, dataset);
-  std::vector<std::string> texts;
-  const std::size_t each = extents[0] == 0 ? 0 : bytes.size() / extents[0];
-  for (std::size_t i = 0; i < extents[0]; ++i) texts.emplace_back(bytes.substr(i * each, each).c_str());
-  return texts;
-}
-
 }  // namespace tacipc

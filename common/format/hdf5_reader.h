@@ -33,7 +33,6 @@ class Hdf5Reader {
   /// Bytes of one entry of the first axis.
   std::string read_frame(const std::string& dataset, std::size_t frame) const;
   std::string read(const std::string& dataset) const;
-  std::vector<std::string> read_texts(const std::string& dataset) const;
 
  private:
   struct File;

@@ -26,25 +26,17 @@ namespace {
 constexpr int kDeflateLevel = 1;
 constexpr std::size_t kMetadataCache = 1 << 20;
 
-template <typename T, typename Store>
-std::string packed(const std::vector<double>& values, Store&& store) {
-  std::string bytes(values.size() * sizeof(T), '\0');
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const T value = store(values[i]);
-    std::memcpy(bytes.data() + i * sizeof(T), &value, sizeof(T));
+/// use(T{}) for the C++ type of a number in the file.
+template <typename Use>
+auto with_type(NumberType type, const Use& use) {
+  switch (type) {
+    case NumberType::u8: return use(std::uint8_t{});
+    case NumberType::i32: return use(std::int32_t{});
+    case NumberType::f16: return use(half{});
+    case NumberType::f32: return use(float{});
+    case NumberType::f64: break;
   }
-  return bytes;
-}
-
-template <typename T, typename Load>
-std::vector<double> unpacked(std::string_view bytes, Load&& load) {
-  std::vector<double> values(bytes.size() / sizeof(T));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    T value;
-    std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
-    values[i] = load(value);
-  }
-  return values;
+  return use(double{});
 }
 
 std::vector<hsize_t> extents(const std::vector<std::size_t>& shape) { return {shape.begin(), shape.end()}; }
@@ -86,14 +78,7 @@ void hdf5::begin() {
 }
 
 std::size_t size_of(NumberType type) {
-  switch (type) {
-    case NumberType::u8: return 1;
-    case NumberType::f16: return 2;
-    case NumberType::i32:
-    case NumberType::f32: return 4;
-    case NumberType::f64: return 8;
-  }
-  return 0;
+  return with_type(type, [](auto number) { return sizeof(number); });
 }
 
 const char* name_of(NumberType type) {
@@ -107,27 +92,29 @@ const char* npy_type_of(NumberType type) {
 }
 
 std::string to_bytes(NumberType type, const std::vector<double>& values) {
-  switch (type) {
-    case NumberType::u8: return packed<std::uint8_t>(values, [](double v) { return static_cast<std::uint8_t>(v); });
-    case NumberType::i32: return packed<std::int32_t>(values, [](double v) { return static_cast<std::int32_t>(v); });
-    case NumberType::f16: return packed<half>(values, [](double v) { return half(static_cast<float>(v)); });
-    case NumberType::f32: return packed<float>(values, [](double v) { return static_cast<float>(v); });
-    case NumberType::f64: return packed<double>(values, [](double v) { return v; });
-  }
-  return {};
+  return with_type(type, [&]<typename T>(T) {
+    std::string bytes(values.size() * sizeof(T), '\0');
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      T value;
+      if constexpr (std::is_same_v<T, half>)
+        value = half(static_cast<float>(values[i]));
+      else
+        value = static_cast<T>(values[i]);
+      std::memcpy(bytes.data() + i * sizeof(T), &value, sizeof(T));
+    }
+    return bytes;
+  });
 }
 
 std::vector<double> from_bytes(NumberType type, std::string_view bytes) {
-  const auto as_is = [](auto v) { return static_cast<double>(v); };
-  switch (type) {
-    case NumberType::u8: return unpacked<std::uint8_t>(bytes, as_is);
-    case NumberType::i32: return unpacked<std::int32_t>(bytes, as_is);
-    case NumberType::f16:
-      return unpacked<half>(bytes, [](half v) { return static_cast<double>(static_cast<float>(v)); });
-    case NumberType::f32: return unpacked<float>(bytes, as_is);
-    case NumberType::f64: return unpacked<double>(bytes, as_is);
-  }
-  return {};
+  return with_type(type, [&]<typename T>(T value) {
+    std::vector<double> values(bytes.size() / sizeof(T));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
+      values[i] = static_cast<double>(value);
+    }
+    return values;
+  });
 }
 
 struct Hdf5Writer::File {

@@ -32,15 +32,6 @@ std::string index_text(std::size_t at, const Shape& shape) {
 
 }  // namespace
 
-const char* name_of(NpyType type) {
-  switch (type) {
-    case NpyType::f8: return "f8";
-    case NpyType::i4: return "i4";
-    case NpyType::u1: return "u1";
-  }
-  return "";
-}
-
 std::string shape_text(const NpyField& field, const Extents& known) {
   std::vector<std::string> lengths;
   for (const Extent& extent : field.shape) {

@@ -13,7 +13,6 @@
 namespace tacipc {
 
 enum class NpyType { f8, i4, u1 };
-const char* name_of(NpyType type);
 
 /// Length of an axis: a number, or a symbol that stands for the same number wherever it is used in a folder.
 using Extent = std::variant<int, std::string_view>;

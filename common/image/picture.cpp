@@ -5,14 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/tone_curve.h"
+
 namespace tacipc {
 namespace {
 
-/// Linear light to the sRGB curve (IEC 61966-2-1), then to a code.
 std::uint8_t srgb_code(double linear) {
-  const double v = std::clamp(linear, 0.0, 1.0);
-  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+  return static_cast<std::uint8_t>(std::lround(ToneCurve{}.code_of(std::clamp(linear, 0.0, 1.0))));
 }
 
 double cube(double v) { return v * v * v; }

@@ -44,10 +44,7 @@ PolygonSoup read_obj(std::string_view bytes, const std::string& name) {
     in.join_continued();
     const std::string_view statement = in.word();
     if (statement == "v") {
-      const double x = in.number("x");
-      const double y = in.number("y");
-      const double z = in.number("z");
-      soup.vertices.emplace_back(x, y, z);  // a weight or a colour may follow
+      soup.vertices.push_back({in.number("x"), in.number("y"), in.number("z")});  // a weight or a colour may follow
     } else if (statement == "f" || statement == "fo") {
       polygon.clear();
       for (std::string_view corner = in.word(); !corner.empty(); corner = in.word())

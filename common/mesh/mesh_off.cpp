@@ -45,10 +45,7 @@ PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   soup.vertices.reserve(num_vertices);
   for (std::size_t i = 0; i < num_vertices; ++i) {
     if (!in.next_line('#')) in.fail(fmt::format("the file ends after {} of {} vertices", i, num_vertices));
-    const double x = in.number("x");
-    const double y = in.number("y");
-    const double z = in.number("z");
-    soup.vertices.emplace_back(x, y, z);
+    soup.vertices.push_back({in.number("x"), in.number("y"), in.number("z")});
   }
   std::vector<int> polygon;
   for (std::size_t f = 0; f < num_faces; ++f) {

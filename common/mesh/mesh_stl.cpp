@@ -54,12 +54,8 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
   for (std::uint32_t f = 0; f < count; ++f) {
     in.skip(3 * sizeof(float), "a normal");
     std::array<int, 3> corners;
-    for (int& corner : corners) {
-      const auto x = in.read<float>("a corner");
-      const auto y = in.read<float>("a corner");
-      const auto z = in.read<float>("a corner");
-      corner = index.of({x, y, z});
-    }
+    const auto coordinate = [&] { return in.read<float>("a corner"); };
+    for (int& corner : corners) corner = index.of({coordinate(), coordinate(), coordinate()});
     soup.add_polygon(corners);
     in.skip(2, "a facet");
   }
@@ -92,10 +88,7 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
       std::array<int, 3> corners;
       for (int& corner : corners) {
         expect("vertex");
-        const double x = in.number_anywhere("x");
-        const double y = in.number_anywhere("y");
-        const double z = in.number_anywhere("z");
-        corner = index.of({x, y, z});
+        corner = index.of({in.number_anywhere("x"), in.number_anywhere("y"), in.number_anywhere("z")});
       }
       expect("endloop");
       expect("endfacet");

@@ -146,8 +146,8 @@ class MshReader {
     in.check_fits(count, 4, 28, "nodes");
     for (std::uint64_t i = 0; i < count; ++i) {
       const int number = in.integer("node number");
-      const double x = in.real("x"), y = in.real("y"), z = in.real("z");
-      add_node(in, static_cast<std::uint64_t>(static_cast<std::int64_t>(number)), {x, y, z});
+      add_node(in, static_cast<std::uint64_t>(static_cast<std::int64_t>(number)),
+               {in.real("x"), in.real("y"), in.real("z")});
     }
   }
 

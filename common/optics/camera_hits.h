@@ -12,8 +12,6 @@
 
 namespace tacipc {
 
-inline Vector3 lane_of(const Pack3& pack, int lane) { return {pack.x[lane], pack.y[lane], pack.z[lane]}; }
-
 struct HitCounts {
   std::int64_t nudged = 0;   // slipped through a vertex and hit after a retry with an offset of 1e-6
   std::int64_t outside = 0;  // pass beside the membrane

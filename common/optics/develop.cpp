@@ -14,31 +14,16 @@
 #include "common/base/error.h"
 #include "common/base/rng.h"
 #include "common/base/simd.h"
+#include "common/base/tone_curve.h"
 #include "common/sensor/camera_model.h"
 
 namespace tacipc {
 namespace {
 
-/// The response curve f: slope × v up to the toe, from there on scale × v^(1/gamma) − offset.
-struct Curve {
-  double toe = 0.0, slope = 1.0, scale = 1.0, gamma = 1.0, offset = 0.0;
-  explicit Curve(const Response& response) {
-    if (response.curve == "linear") {
-      toe = std::numeric_limits<double>::infinity();
-    } else if (response.curve == "gamma") {
-      gamma = response.gamma;
-    } else {
-      toe = 0.0031308;
-      slope = 12.92;
-      scale = 1.055;
-      gamma = 2.4;
-      offset = 0.055;
-    }
-  }
-};
+ToneCurve curve_of(const Response& response) { return ToneCurve::named(response.curve, response.gamma); }
 
 /// code_of eight values.
-TACIPC_INLINE Pack codes_of(const Pack& v, const Curve& f) {
+TACIPC_INLINE Pack codes_of(const Pack& v, const ToneCurve& f) {
   constexpr double kLeast = std::numeric_limits<double>::min();
   const Pack power = exponential(logarithm(larger(v, Pack{} + kLeast)) * (1.0 / f.gamma));
   return choose(v, 255.0 * choose(v - f.toe, f.scale * power - f.offset, f.slope * v), Pack{});
@@ -52,7 +37,7 @@ TACIPC_INLINE Pack exposed(const float* signal, std::size_t i, std::size_t count
 }
 
 /// Codes of a row of signals. Where these are those of `known`, codes are those there.
-TACIPC_CLONES void encode_row(const float* signal, std::size_t count, double exposure, const Curve& f,
+TACIPC_CLONES void encode_row(const float* signal, std::size_t count, double exposure, const ToneCurve& f,
                               const float* known, const float* known_codes, float* codes) {
   for (std::size_t i = 0; i < count; i += kLanes) {
     const std::size_t some = std::min<std::size_t>(kLanes, count - i);
@@ -66,7 +51,7 @@ TACIPC_CLONES void encode_row(const float* signal, std::size_t count, double exp
 }
 
 /// Σ min(code, 255) over a row of signals.
-TACIPC_CLONES double sum_of_codes(const float* signal, std::size_t count, double exposure, const Curve& f) {
+TACIPC_CLONES double sum_of_codes(const float* signal, std::size_t count, double exposure, const ToneCurve& f) {
   Pack sum = {};
   for (std::size_t i = 0; i < count; i += kLanes)
     sum += smaller(codes_of(exposed(signal, i, count, exposure), f), Pack{} + 255.0);
@@ -79,17 +64,9 @@ std::size_t row_length(const FloatImage& image) { return static_cast<std::size_t
 
 }  // namespace
 
-double code_of(double v, const Response& response) {
-  const Curve f(response);
-  if (v <= 0.0) return 0.0;
-  return 255.0 * (v <= f.toe ? f.slope * v : f.scale * std::pow(v, 1.0 / f.gamma) - f.offset);
-}
+double code_of(double v, const Response& response) { return curve_of(response).code_of(v); }
 
-double value_of(double code, const Response& response) {
-  const Curve f(response);
-  const double of_full = code / 255.0;
-  return of_full <= f.slope * f.toe ? of_full / f.slope : std::pow((of_full + f.offset) / f.scale, f.gamma);
-}
+double value_of(double code, const Response& response) { return curve_of(response).value_of(code); }
 
 FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const Response& response) {
   FloatImage out(linear.width, linear.height, 3);
@@ -177,7 +154,7 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
       step = 1e-3;
     }
   }
-  const Curve curve(response);
+  const ToneCurve curve = curve_of(response);
   const std::size_t length = row_length(linear);
   const double wanted = response.mean_level * 255.0 * static_cast<double>(linear.pixels.size());
   const auto excess = [&](double log_exposure) {
@@ -195,14 +172,10 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
   return std::exp(*found);
 }
 
-FloatImage encode(const FloatImage& signal, double exposure, const Response& response) {
-  return encode(signal, exposure, response, {});
-}
-
 FloatImage encode(const FloatImage& signal, double exposure, const Response& response, const Encoded& known) {
   FloatImage codes(signal.width, signal.height, signal.channels);
   const std::size_t length = row_length(signal);
-  const Curve curve(response);
+  const ToneCurve curve = curve_of(response);
   const bool knows = known.signal.pixels.size() == signal.pixels.size();
   tbb::parallel_for(0, signal.height, [&](int y) {
     const std::size_t first = static_cast<std::size_t>(y) * length;
@@ -213,7 +186,8 @@ FloatImage encode(const FloatImage& signal, double exposure, const Response& res
   return codes;
 }
 
-FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel& noise, std::uint64_t stream) {
+FloatImage add_noise(const FloatImage& signal, double exposure, const SensorNoise& noise, std::uint64_t seed,
+                     std::uint64_t stream) {
   FloatImage out(signal.width, signal.height, signal.channels);
   const std::size_t length = row_length(signal);
   tbb::parallel_for(0, signal.height, [&](int y) {
@@ -221,7 +195,7 @@ FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel
     for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
       const double electrons = noise.full_well_e * exposure * std::max(0.0f, signal.pixels[i]);
       const double deviation = std::sqrt(electrons + noise.read_e * noise.read_e);
-      const double noisy = electrons + deviation * random_normal(noise.seed, stream, i);
+      const double noisy = electrons + deviation * random_normal(seed, stream, i);
       out.pixels[i] = static_cast<float>(noisy / (noise.full_well_e * exposure));
     }
   });
@@ -229,37 +203,40 @@ FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel
 }
 
 ByteImage synthetic_reference(const FloatImage& signal, double exposure, const Response& response,
-                              const NoiseModel& noise) {
+                              const SensorNoise& noise, std::uint64_t seed) {
   constexpr std::uint64_t kReferenceStream = 1;
-  return quantise(encode(add_noise(signal, exposure, noise, kReferenceStream), exposure, response)).image;
+  return quantise(encode(add_noise(signal, exposure, noise, seed, kReferenceStream), exposure, response)).image;
 }
 
-TactileImage quantise(const FloatImage& codes) {
-  TactileImage out{.image = ByteImage(codes.width, codes.height, codes.channels)};
+namespace {
+
+/// The image of codes `code(i)`, as large as `like`.
+template <typename T, typename Code>
+TactileImage clamped(const Image<T>& like, const Code& code) {
+  TactileImage out{.image = ByteImage(like.width, like.height, like.channels)};
   std::int64_t clipped = 0;
-  for (std::size_t i = 0; i < codes.pixels.size(); ++i) {
-    const long code = std::lround(codes.pixels[i]);
-    clipped += code < 0 || code > 255;
-    out.image.pixels[i] = static_cast<std::uint8_t>(std::clamp(code, 0L, 255L));
+  for (std::size_t i = 0; i < like.pixels.size(); ++i) {
+    const long rounded = std::lround(code(i));
+    clipped += rounded < 0 || rounded > 255;
+    out.image.pixels[i] = static_cast<std::uint8_t>(std::clamp(rounded, 0L, 255L));
   }
-  out.clipped_fraction = static_cast<double>(clipped) / static_cast<double>(codes.pixels.size());
+  out.clipped_fraction = static_cast<double>(clipped) / static_cast<double>(like.pixels.size());
   return out;
+}
+
+}  // namespace
+
+TactileImage quantise(const FloatImage& codes) {
+  return clamped(codes, [&](std::size_t i) { return codes.pixels[i]; });
 }
 
 TactileImage transfer_noise(const ByteImage& reference, const FloatImage& simulated,
                             const FloatImage& simulated_reference) {
   assert(reference.pixels.size() == simulated.pixels.size());
   assert(reference.pixels.size() == simulated_reference.pixels.size());
-  TactileImage out{.image = ByteImage(reference.width, reference.height, reference.channels)};
-  std::int64_t clipped = 0;
-  for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
-    const long code =
-        std::lround(reference.pixels[i] + (static_cast<double>(simulated.pixels[i]) - simulated_reference.pixels[i]));
-    clipped += code < 0 || code > 255;
-    out.image.pixels[i] = static_cast<std::uint8_t>(std::clamp(code, 0L, 255L));
-  }
-  out.clipped_fraction = static_cast<double>(clipped) / static_cast<double>(reference.pixels.size());
-  return out;
+  return clamped(reference, [&](std::size_t i) {
+    return reference.pixels[i] + (static_cast<double>(simulated.pixels[i]) - simulated_reference.pixels[i]);
+  });
 }
 
 TactileImage transfer_ratio(const ByteImage& reference, const FloatImage& simulated,

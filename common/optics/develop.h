@@ -9,13 +9,6 @@
 
 namespace tacipc {
 
-/// Noise of the photosites and where its random numbers come from.
-struct NoiseModel {
-  double full_well_e = 0.0;  // electrons at full scale
-  double read_e = 0.0;       // standard deviation of the read-out, electrons
-  std::uint64_t seed = 0;
-};
-
 /// 255 f(v) with f the response curve, for v = exposure × signal. Values above full scale are kept: clipping happens
 /// once, at the end; negative ones (a colour matrix makes them) are 0. `srgb` (IEC 61966-2-1): f(v) = 12.92 v up to
 /// 0.0031308, then 1.055 v^(1/2.4) − 0.055; `gamma`: v^(1/gamma); `linear`: v.
@@ -32,26 +25,24 @@ FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const R
 /// \throw DataError if no light reaches the membrane.
 double solve_exposure(const FloatImage& signal, const Response& response);
 
-/// Codes of a whole image, not rounded.
-FloatImage encode(const FloatImage& signal, double exposure, const Response& response);
-
 /// A signal with its codes at some exposure and response.
 struct Encoded {
   FloatImage signal = {};
   FloatImage codes = {};
 };
-/// The same codes with less work where `signal` is that of `known`, as most of an image with markers is that without.
-/// \pre exposure and response are those of `known`
-FloatImage encode(const FloatImage& signal, double exposure, const Response& response, const Encoded& known);
+/// Codes of a whole image, not rounded; with less work where `signal` is that of `known`, as most of an image with
+/// markers is that without. \pre exposure and response are those of `known`
+FloatImage encode(const FloatImage& signal, double exposure, const Response& response, const Encoded& known = {});
 
 /// Shot and read noise on electrons: v' = v + √(N v + σ²) ξ / N for v = exposure × signal, N full well, σ read noise,
 /// ξ ~ N(0, 1) a function of seed, stream, pixel and channel alone. Returned over the exposure again, as a signal.
-FloatImage add_noise(const FloatImage& signal, double exposure, const NoiseModel& noise, std::uint64_t stream);
+FloatImage add_noise(const FloatImage& signal, double exposure, const SensorNoise& noise, std::uint64_t seed,
+                     std::uint64_t stream);
 
 /// What a photograph of the reference might look like: noise, then curve and rounding. The same seed gives
 /// every sample of a sensor the same one.
 ByteImage synthetic_reference(const FloatImage& signal, double exposure, const Response& response,
-                              const NoiseModel& noise);
+                              const SensorNoise& noise, std::uint64_t seed);
 
 struct TactileImage {
   ByteImage image;

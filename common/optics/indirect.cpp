@@ -10,6 +10,7 @@
 
 #include "common/base/rng.h"
 #include "common/base/sobol.h"
+#include "common/optics/camera_hits.h"
 #include "common/optics/light_path.h"
 
 namespace tacipc {
@@ -77,12 +78,8 @@ VertexLight direct_vertex_light(const RayScene& scene, const Membrane& membrane,
     SurfacePack surface{};
     for (int l = 0; l < kLanes; ++l) {
       const Eigen::Index v = std::min(block * kLanes + l, count - 1);
-      for (const auto& [pack, from] : {std::pair{&surface.point, Vector3(membrane.positions.row(v))},
-                                       std::pair{&surface.normal, Vector3(-membrane.normals.row(v))}}) {
-        pack->x[l] = from.x();
-        pack->y[l] = from.y();
-        pack->z[l] = from.z();
-      }
+      put(surface.point, l, membrane.positions.row(v));
+      put(surface.normal, l, -membrane.normals.row(v));
     }
     surface.view = surface.normal;
     surface.shadow_origin = surface.point + (Pack{} + kOffset) * surface.normal;
@@ -90,10 +87,8 @@ VertexLight direct_vertex_light(const RayScene& scene, const Membrane& membrane,
       const IncidencePack incidence = light_path(surface.point, sample);
       const Pack radiance = incidence.irradiance * coating_response(surface, incidence.direction, paper).diffuse;
       RayPacket shadow;
-      for (int l = 0; l < kLanes; ++l) {
-        shadow.set(l, {surface.shadow_origin.x[l], surface.shadow_origin.y[l], surface.shadow_origin.z[l]},
-                   {incidence.direction.x[l], incidence.direction.y[l], incidence.direction.z[l]}, incidence.length[l]);
-      }
+      for (int l = 0; l < kLanes; ++l)
+        shadow.set(l, lane_of(surface.shadow_origin, l), lane_of(incidence.direction, l), incidence.length[l]);
       const std::uint32_t blocked = scene.blocked(shadow);
       for (int l = 0; l < kLanes && block * kLanes + l < count; ++l) {
         if ((blocked >> l & 1u) == 0 && radiance[l] > 0.0) light(block * kLanes + l, sample.group) += radiance[l];

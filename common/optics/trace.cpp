@@ -25,12 +25,6 @@ struct RowCounts {
   std::optional<std::array<int, 2>> fallen_pixel;
 };
 
-void put(Pack3& pack, int lane, const Vector3& v) {
-  pack.x[lane] = v.x();
-  pack.y[lane] = v.y();
-  pack.z[lane] = v.z();
-}
-
 /// Sums over the rays of one pixel.
 struct PixelSums {
   double depth = 0.0, indentation = 0.0;
@@ -200,15 +194,8 @@ class RowTracer {
 
   static RayPacket shadow_rays(const SurfacePack& surface, const DoubtfulLight& light, std::uint32_t valid) {
     RayPacket packet;
-    for (int l = 0; l < kLanes; ++l) {
-      packet.origin_x[l] = static_cast<float>(surface.shadow_origin.x[l]);
-      packet.origin_y[l] = static_cast<float>(surface.shadow_origin.y[l]);
-      packet.origin_z[l] = static_cast<float>(surface.shadow_origin.z[l]);
-      packet.direction_x[l] = static_cast<float>(light.direction.x[l]);
-      packet.direction_y[l] = static_cast<float>(light.direction.y[l]);
-      packet.direction_z[l] = static_cast<float>(light.direction.z[l]);
-      packet.far[l] = static_cast<float>(light.length[l]);
-    }
+    for (int l = 0; l < kLanes; ++l)
+      packet.set(l, lane_of(surface.shadow_origin, l), lane_of(light.direction, l), light.length[l]);
     packet.valid = valid;
     return packet;
   }
@@ -315,12 +302,6 @@ TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor&
     out.outside_rays += row.rays.outside;
   }
   return out;
-}
-
-TraceResult trace(const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
-                  const SurfaceFields& fields) {
-  const RayScene scene(membrane.positions, membrane.triangles);
-  return trace(scene, membrane, sensor, settings, fields);
 }
 
 }  // namespace tacipc

@@ -60,9 +60,7 @@ struct TraceResult {
 /// transmittance towards the camera, V_s = 0 where the membrane blocks the path inside the gel.
 /// Rows are traced in parallel; the result does not depend on the number of threads.
 /// \throw DataError if a ray inside the membrane's outline slips through it even after a retry.
-TraceResult trace(const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
-                  const SurfaceFields& fields = {});
-/// The same with a tree that exists already: `scene` holds the membrane's triangles where they are now.
+/// \pre `scene` holds the membrane's triangles where they are now
 TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
                   const SurfaceFields& fields = {});
 

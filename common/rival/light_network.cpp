@@ -28,8 +28,7 @@ LightNetwork LightNetwork::read(const std::filesystem::path& path) {
   LightNetwork network;
   const double* value = array.data.data();
   for (Layer& layer : network.layers) {
-    for (Eigen::Index i = 0; i < layer.weights.rows(); ++i)
-      for (Eigen::Index j = 0; j < layer.weights.cols(); ++j) layer.weights(i, j) = static_cast<float>(*value++);
+    for (float& weight : layer.weights.reshaped<Eigen::RowMajor>()) weight = static_cast<float>(*value++);
     for (float& bias : layer.bias) bias = static_cast<float>(*value++);
   }
   return network;
@@ -38,8 +37,7 @@ LightNetwork LightNetwork::read(const std::filesystem::path& path) {
 void LightNetwork::write(const std::filesystem::path& path) const {
   std::vector<double> values;
   for (const Layer& layer : layers) {
-    for (Eigen::Index i = 0; i < layer.weights.rows(); ++i)
-      for (Eigen::Index j = 0; j < layer.weights.cols(); ++j) values.push_back(double{layer.weights(i, j)});
+    for (const float weight : layer.weights.reshaped<Eigen::RowMajor>()) values.push_back(double{weight});
     for (const float bias : layer.bias) values.push_back(double{bias});
   }
   write_npy(path, {values.size()}, values.data());

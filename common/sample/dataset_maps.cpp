@@ -28,14 +28,15 @@ constexpr std::array<std::pair<FrameFile, const char*>, 12> kNames{{{linear, "li
 const std::vector<std::string> kUsual{"tactile",  "marker",  "indentation", "depth",  "normal",
                                       "traction", "contact", "stick_slip",  "segment"};
 
-}  // namespace
-
-bool DatasetMaps::has(FrameFile file) const { return std::find(files.begin(), files.end(), file) != files.end(); }
-
+/// Name of a map in configurations; empty of files that no dataset can choose.
 std::string map_name(FrameFile file) {
   const auto found = std::find_if(kNames.begin(), kNames.end(), [&](const auto& named) { return named.first == file; });
   return found == kNames.end() ? "" : found->second;
 }
+
+}  // namespace
+
+bool DatasetMaps::has(FrameFile file) const { return std::find(files.begin(), files.end(), file) != files.end(); }
 
 DatasetMaps DatasetMaps::read(ConfigReader& in) {
   std::vector<std::string> all;

@@ -20,7 +20,4 @@ struct DatasetMaps {
   std::string yaml() const;
 };
 
-/// Name of a map in configurations; empty of files that no dataset can choose.
-std::string map_name(FrameFile file);
-
 }  // namespace tacipc

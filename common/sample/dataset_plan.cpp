@@ -1,10 +1,10 @@
 #include "common/sample/dataset_plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/parse.h"
 #include "common/base/printable.h"
 #include "common/sample/sample_status.h"
 
@@ -45,11 +45,7 @@ bool is_folder_below(const std::string& text) {
                      [](const fs::path& part) { return part != ".." && part.string().size() <= kLongestName; });
 }
 
-bool is_whole(const std::string& text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
+bool is_whole(const std::string& text) { return parse_number<std::uint64_t>(text).has_value(); }
 
 }  // namespace
 

@@ -14,7 +14,9 @@ namespace tacipc {
 namespace {
 
 constexpr int kMaxSteps = 100000;
-const std::vector<std::string> kKinds{"press", "shear", "twist", "hold", "release", "tilt", "path", "load", "free"};
+/// What a motion may ask for. A press adds what comes before, a grasp its own.
+const std::vector<std::string> kKinds(kPhaseNames.begin() + static_cast<int>(PhaseKind::press),
+                                      kPhaseNames.begin() + static_cast<int>(PhaseKind::free) + 1);
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -95,13 +97,7 @@ std::vector<PathPoint> read_path(const std::filesystem::path& file) {
 Phase Phase::read(ConfigReader& in) {
   Phase phase;
   const std::string kind = in.choice("kind", kKinds);
-  for (std::size_t k = 0; k < kPhaseNames.size(); ++k) {
-    if (kind == kPhaseNames[k]) phase.kind = static_cast<PhaseKind>(k);
-  }
-  const auto steps = [&] {
-    phase.steps = in.integer("steps", 1, kMaxSteps);
-    phase.substeps = in.integer_or("substeps", 1, 1, 1000);
-  };
+  phase.kind = static_cast<PhaseKind>(std::ranges::find(kPhaseNames, kind) - kPhaseNames.begin());
   switch (phase.kind) {
     case PhaseKind::press:
       if (in.has("force_n")) {
@@ -152,7 +148,8 @@ Phase Phase::read(ConfigReader& in) {
     }
     default: break;
   }
-  steps();
+  phase.steps = in.integer("steps", 1, kMaxSteps);
+  phase.substeps = in.integer_or("substeps", 1, 1, 1000);
   return phase;
 }
 

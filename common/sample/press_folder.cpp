@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "common/base/error.h"
 
@@ -89,8 +88,9 @@ Positions rows_of(const std::vector<double>& values) {
   return Eigen::Map<const Positions>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
 }
 
-/// The two vectors of every row.
-std::pair<Positions, Positions> pairs_of(const std::vector<double>& values) {
+/// The two vectors of every row, as ContactParts or MarkerDisplacement.
+template <typename Pair>
+Pair pair_of(const std::vector<double>& values) {
   const auto count = static_cast<Eigen::Index>(values.size() / 6);
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> both(values.data(), count, 6);
   return {both.leftCols<3>(), both.rightCols<3>()};
@@ -159,8 +159,7 @@ std::vector<double> PressFolder::first_slips() const { return arrays_.whole(fiel
 Positions PressFolder::positions(std::size_t frame) const { return rows_of(frame_of(PressArray::positions, frame)); }
 
 ContactParts PressFolder::contact_forces(std::size_t frame) const {
-  auto [normal, friction] = pairs_of(frame_of(PressArray::contact_force, frame));
-  return {std::move(normal), std::move(friction)};
+  return pair_of<ContactParts>(frame_of(PressArray::contact_force, frame));
 }
 
 std::vector<ContactState> PressFolder::contact_states(std::size_t frame) const {
@@ -169,15 +168,13 @@ std::vector<ContactState> PressFolder::contact_states(std::size_t frame) const {
 }
 
 ContactParts PressFolder::tractions(std::size_t frame) const {
-  auto [normal, friction] = pairs_of(frame_of(PressArray::traction, frame));
-  return {std::move(normal), std::move(friction)};
+  return pair_of<ContactParts>(frame_of(PressArray::traction, frame));
 }
 
 Positions PressFolder::markers(std::size_t frame) const { return rows_of(frame_of(PressArray::markers, frame)); }
 
 MarkerDisplacement PressFolder::marker_displacements(std::size_t frame) const {
-  auto [since_rest, since_press] = pairs_of(frame_of(PressArray::marker_displacement, frame));
-  return {std::move(since_rest), std::move(since_press)};
+  return pair_of<MarkerDisplacement>(frame_of(PressArray::marker_displacement, frame));
 }
 
 }  // namespace tacipc

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "common/base/error.h"
+#include "common/base/parse.h"
 #include "common/base/rounding.h"
 
 namespace tacipc {
@@ -95,10 +95,7 @@ std::string frame_folder(std::size_t frame, const std::string& variant) {
 std::optional<std::size_t> frame_number(std::string_view name) {
   if (!name.starts_with(kFrameBegin)) return std::nullopt;
   name.remove_prefix(kFrameBegin.size());
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
-  return number;
+  return parse_number<std::size_t>(name);
 }
 
 std::vector<std::size_t> frames_in(const fs::path& folder) {

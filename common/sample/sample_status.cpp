@@ -20,13 +20,8 @@ bool is_locked(const fs::path& lock) {
 }  // namespace
 
 const char* status_word(SampleStatus status) {
-  switch (status) {
-    case SampleStatus::made: return "made";
-    case SampleStatus::failed: return "failed";
-    case SampleStatus::running: return "running";
-    case SampleStatus::unmade: return "not made";
-  }
-  return "";
+  constexpr const char* kWords[] = {"made", "failed", "running", "not made"};
+  return kWords[static_cast<int>(status)];
 }
 
 bool is_finger(const fs::path& sample_folder) {

@@ -21,13 +21,14 @@ double normal_force_n(const Matrix4& world_from_gel, const Vector3& force_n);
 /// and its origin in the middle of theirs. Slip is that of the body's point in this origin at `freed`.
 HeldMotion held_motion(const SceneBodies& scene, std::size_t body, std::size_t freed, std::size_t frame);
 
-/// Rigid bodies that a gel touches and that are free before the last frame: nothing else holds them from `freed_frame`
-/// on, and all gels touch that ever do. The outcome is lifted, held (the hand does not rise), slipped, rotated or
-/// dropped; none of a single gel, which holds nothing. Their motion is that from `freed_frame` to the last frame.
+/// Rigid bodies that a gel touches. Each is free from its `freed_frame` on: nothing else holds it, and all gels touch
+/// that ever do. Its motion is that from there to the last frame; its outcome is lifted, held (the hand does not rise),
+/// slipped, rotated or dropped, and absent for a single gel, which holds nothing.
 /// \param free_from for each body the last frame in which a phase holds or moves it
+/// \return those that are free before the last frame
 std::vector<HeldBodyLines> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from);
 
-/// The bodies that the record of a scene has; empty if it has none.
+/// What a record keeps of them; empty if it has none.
 std::vector<HeldBodyLines> read_held(const std::filesystem::path& scene_folder);
 
 }  // namespace tacipc

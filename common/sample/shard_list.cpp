@@ -22,11 +22,6 @@ std::vector<fs::path> listed_records(const fs::path& list) {
   return records;
 }
 
-fs::path shard_of_record(const fs::path& record) {
-  const fs::path folder = record.parent_path();
-  return folder / (folder.filename().string() + ".h5");
-}
-
 std::vector<std::pair<std::string, fs::path>> named_by_shard(const std::vector<fs::path>& files) {
   std::vector<std::pair<std::string, fs::path>> named;
   for (const fs::path& file : files) named.emplace_back("shards/" + file.parent_path().filename().string(), file);
@@ -35,7 +30,9 @@ std::vector<std::pair<std::string, fs::path>> named_by_shard(const std::vector<f
 
 std::vector<std::pair<std::string, fs::path>> listed_shards(const fs::path& list) {
   std::vector<fs::path> files;
-  for (const fs::path& record : listed_records(list)) files.push_back(shard_of_record(record));
+  // The HDF5 file beside a shard's record: D/<shard>/<shard>.h5 for D/<shard>/pack.yaml.
+  for (const fs::path& record : listed_records(list))
+    files.push_back(record.parent_path() / (record.parent_path().filename().string() + ".h5"));
   return named_by_shard(files);
 }
 

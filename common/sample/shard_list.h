@@ -12,9 +12,6 @@ namespace tacipc {
 /// line takes. \throw DataError if it names none, or a file that is not there
 std::vector<std::filesystem::path> listed_records(const std::filesystem::path& list);
 
-/// The HDF5 file beside a shard's record: D/<shard>/<shard>.h5 for D/<shard>/pack.yaml.
-std::filesystem::path shard_of_record(const std::filesystem::path& record);
-
 /// Files in the folders of shards, each under the name that records have for it: `shards/<shard>`.
 std::vector<std::pair<std::string, std::filesystem::path>> named_by_shard(
     const std::vector<std::filesystem::path>& files);

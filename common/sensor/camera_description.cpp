@@ -7,14 +7,7 @@
 namespace tacipc {
 namespace {
 
-const char* name_of(Camera::Model model) {
-  switch (model) {
-    case Camera::Model::pinhole: return "pinhole";
-    case Camera::Model::fisheye: return "fisheye";
-    case Camera::Model::rectified: return "rectified";
-  }
-  return "";
-}
+constexpr const char* kModels[] = {"pinhole", "fisheye", "rectified"};
 
 template <typename Matrix>
 Value::List rows_of(const Matrix& matrix) {
@@ -43,7 +36,7 @@ Value::Map describe_camera(const Sensor& sensor) {
   Matrix4 s_from_camera = Matrix4::Identity();
   s_from_camera.topLeftCorner<3, 3>() = model.s_from_camera();
   s_from_camera.topRightCorner<3, 1>() = kMmPerM * camera.position_m;
-  Value::Map lines{{"camera_model", name_of(camera.model)},
+  Value::Map lines{{"camera_model", kModels[static_cast<int>(camera.model)]},
                    {"width_px", camera.width_px},
                    {"height_px", camera.height_px},
                    {"window_mm", Value::List{kMmPerM * camera.window_width_m, kMmPerM * camera.window_height_m}},

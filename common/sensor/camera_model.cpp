@@ -168,9 +168,7 @@ Eigen::Vector2d CameraModel::plane_point(double column, double row) const {
 std::optional<CameraRay> CameraModel::ray(double column, double row) const {
   if (camera_.model == Camera::Model::rectified) {
     const CameraRays eight = rays(Pack{} + column, row);
-    return CameraRay{{eight.origin.x[0], eight.origin.y[0], eight.origin.z[0]},
-                     {eight.direction.x[0], eight.direction.y[0], eight.direction.z[0]},
-                     eight.transmittance[0]};
+    return CameraRay{lane_of(eight.origin, 0), lane_of(eight.direction, 0), eight.transmittance[0]};
   }
   const auto direction = direction_of(column, row);
   return direction ? enter(*direction) : std::nullopt;
@@ -209,9 +207,7 @@ CameraRays CameraModel::rays(const Pack& columns, double row) const {
     const Pack dx = px - camera_.position_m.x(), dy = py - camera_.position_m.y();
     for (int l = 0; l < kLanes; ++l) {
       const double inverse = 1.0 / std::sqrt(dx[l] * dx[l] + dy[l] * dy[l] + h * h);
-      out.direction.x[l] = inverse * dx[l];
-      out.direction.y[l] = inverse * dy[l];
-      out.direction.z[l] = inverse * h;
+      put(out.direction, l, {inverse * dx[l], inverse * dy[l], inverse * h});
     }
     out.origin = {Pack{} + camera_.position_m.x(), Pack{} + camera_.position_m.y(), Pack{} + camera_.position_m.z()};
     out.transmittance = Pack{} + 1.0;
@@ -220,12 +216,8 @@ CameraRays CameraModel::rays(const Pack& columns, double row) const {
   for (int l = 0; l < kLanes; ++l) {
     const auto one = ray(columns[l], row);
     const CameraRay r = one.value_or(CameraRay{camera_.position_m, -Vector3::UnitZ(), 0.0});
-    out.origin.x[l] = r.origin.x();
-    out.origin.y[l] = r.origin.y();
-    out.origin.z[l] = r.origin.z();
-    out.direction.x[l] = r.direction.x();
-    out.direction.y[l] = r.direction.y();
-    out.direction.z[l] = r.direction.z();
+    put(out.origin, l, r.origin);
+    put(out.direction, l, r.direction);
     out.transmittance[l] = r.transmittance;
   }
   return out;

@@ -16,6 +16,14 @@ struct CameraRays {
   Pack transmittance;  // share of the radiance that leaves towards the camera (Fresnel); 0: no ray
 };
 
+/// The vector in a lane, and the way back.
+inline Vector3 lane_of(const Pack3& pack, int lane) { return {pack.x[lane], pack.y[lane], pack.z[lane]}; }
+inline void put(Pack3& pack, int lane, const Vector3& v) {
+  pack.x[lane] = v.x();
+  pack.y[lane] = v.y();
+  pack.z[lane] = v.z();
+}
+
 /// One such ray.
 struct CameraRay {
   Vector3 origin;

@@ -19,8 +19,7 @@ Vector3 srgb_from(const Vector3& xyz) {
   return srgb_from_xyz * xyz;
 }
 
-}  // namespace
-
+/// CIE 1931 colour-matching functions at a wavelength (piecewise Gaussian fit of Wyman et al. 2013): X, Y, Z.
 Vector3 color_matching(double nanometre) {
   const double w = nanometre;
   return {1.056 * lobe(w, 599.8, 0.0264, 0.0323) + 0.362 * lobe(w, 442.0, 0.0624, 0.0374) -
@@ -28,6 +27,8 @@ Vector3 color_matching(double nanometre) {
           0.821 * lobe(w, 568.8, 0.0213, 0.0247) + 0.286 * lobe(w, 530.9, 0.0613, 0.0322),
           1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
 }
+
+}  // namespace
 
 std::array<double, 3> color_of_temperature(double kelvin) {
   constexpr double kSecondRadiation = 1.438776877e7;  // nm K

@@ -7,9 +7,6 @@
 
 namespace tacipc {
 
-/// CIE 1931 colour-matching functions at a wavelength (piecewise Gaussian fit of Wyman et al. 2013): X, Y, Z.
-Vector3 color_matching(double nanometre);
-
 /// Linear sRGB of a black body at `kelvin`, largest channel 1 (Planck's law).
 std::array<double, 3> color_of_temperature(double kelvin);
 

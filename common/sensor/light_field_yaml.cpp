@@ -14,9 +14,8 @@ constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
 Value rows_to_value(const LightField& light, int first) {
   Value::Map map;
   for (int c = 0; c < 3; ++c) {
-    Value::List codes;
-    for (int f = 0; f < light.geometry.num_field_terms(); ++f) codes.push_back(light.weights(first + f, c));
-    map.emplace_back(kChannels[c], std::move(codes));
+    const auto codes = light.weights.col(c).segment(first, light.geometry.num_field_terms());
+    map.emplace_back(kChannels[c], Value::List(codes.begin(), codes.end()));
   }
   return map;
 }
@@ -109,10 +108,9 @@ Value LightField::to_value() const {
   }
   if (!lamps.empty()) out.emplace_back("lamps", std::move(lamps));
   if (geometry.dome.size() > 0) {
-    Value::List edges;
-    for (const double edge : geometry.dome.elevation_tan) edges.push_back(edge);
-    Value::Map dome{
-        {"azimuths", geometry.dome.azimuths}, {"bands", geometry.dome.bands()}, {"elevation_tan", std::move(edges)}};
+    Value::Map dome{{"azimuths", geometry.dome.azimuths},
+                    {"bands", geometry.dome.bands()},
+                    {"elevation_tan", geometry.dome.elevation_tan}};
     for (int k = 0; k < geometry.dome.azimuths; ++k)
       for (int band = 0; band < geometry.dome.bands(); ++band, row += terms)
         dome.emplace_back(bin_key(k, band), rows_to_value(*this, row));

@@ -1,9 +1,9 @@
 #include "common/sensor/markers.h"
 
 #include <cassert>
-#include <charconv>
 
 #include "common/base/error.h"
+#include "common/base/parse.h"
 #include "common/format/csv.h"
 
 namespace tacipc {
@@ -97,11 +97,9 @@ std::vector<MarkerPlace> read_marker_places(const std::filesystem::path& file) {
   CsvReader rows(file);
   const auto count = [&](const char* column) {
     const std::string& text = rows[column];
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 0)
-      throw DataError("{}:{}: '{}' is not a {}", file.string(), rows.line(), text, column);
-    return value;
+    const auto value = parse_number<int>(text);
+    if (!value || *value < 0) throw DataError("{}:{}: '{}' is not a {}", file.string(), rows.line(), text, column);
+    return *value;
   };
   while (rows.next()) places.push_back({.row = count("row"), .column = count("column")});
   return places;

@@ -1,23 +1,12 @@
 #include "common/stage/record.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/parse.h"
 
 namespace tacipc {
-namespace {
-
-template <typename T>
-std::optional<T> parse(const std::string& text) {
-  T value{};
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-}  // namespace
 
 Record Record::from_file(const std::filesystem::path& path) {
   return {ConfigReader::from_file(path), path.lexically_normal().string(), ""};
@@ -61,7 +50,7 @@ std::optional<std::string> Record::text(const std::string& key) const {
 std::optional<double> Record::number(const std::string& key) const {
   if (!has(key)) return std::nullopt;
   const std::string digits = text(key).value_or("");
-  const auto value = parse<double>(digits);
+  const auto value = parse_number<double>(digits);
   if (!value || !std::isfinite(*value)) refuse(key, fmt::format("expected a number, found '{}'", digits));
   return value;
 }
@@ -69,7 +58,7 @@ std::optional<double> Record::number(const std::string& key) const {
 std::optional<int> Record::count(const std::string& key) const {
   if (!has(key)) return std::nullopt;
   const std::string digits = text(key).value_or("");
-  const auto value = parse<int>(digits);
+  const auto value = parse_number<int>(digits);
   if (!value || *value < 0) refuse(key, fmt::format("expected a whole number from 0, found '{}'", digits));
   return value;
 }

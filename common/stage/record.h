@@ -41,9 +41,6 @@ class Record {
   std::string required_text(const std::string& key) const { return present(text(key), key); }
   double required_number(const std::string& key) const { return present(number(key), key); }
   int required_count(const std::string& key) const { return present(count(key), key); }
-  std::vector<double> required_numbers(const std::string& key, std::size_t how_many) const {
-    return present(numbers(key, how_many), key);
-  }
   bool required_flag(const std::string& key) const { return present(flag(key), key); }
 
  private:

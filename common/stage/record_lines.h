@@ -54,12 +54,6 @@ const char* key_of(T Lines::*member) {
   return name;
 }
 
-/// Names of all keys, in the order of the record.
-template <HasRecordKeys Lines>
-std::vector<std::string> key_names() {
-  return std::apply([](const auto&... keys) { return std::vector<std::string>{keys.name...}; }, Lines::keys());
-}
-
 /// The lines as they are written. An optional member without a value is left out.
 template <HasRecordKeys Lines>
 Value::Map record_lines(const Lines& lines);

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/json.h"
+#include "common/base/tone_curve.h"
 #include "common/image/picture.h"
 
 namespace tacipc {
@@ -67,9 +68,7 @@ std::vector<float> floats(const Positions& rows) { return {rows.data(), rows.dat
 
 /// A colour channel of a screen as light, 16 bits: what glTF means by colours of vertices.   [IEC 61966-2-1]
 std::uint16_t linear_channel(std::uint8_t code) {
-  const double c = code / 255.0;
-  return static_cast<std::uint16_t>(
-      std::lround(65535.0 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4))));
+  return static_cast<std::uint16_t>(std::lround(65535.0 * ToneCurve{}.value_of(code)));
 }
 
 /// The front of a gel in one frame.

@@ -24,4 +24,9 @@ FloatImage reduced_blocks(const Image<Pixel>& image, int block, Reduce&& reduce)
   return out;
 }
 
+/// Midmean of each block of `block` × `block` pixels and channel, the mean over the middle half of the sorted codes:
+/// dust, scratches and single markers drop out as with the median, but noise averages out below one code. NaN where one
+/// of those codes is 0 or 255: clipped. \pre block divides width and height
+FloatImage block_codes(const ByteImage& image, int block);
+
 }  // namespace tacipc

@@ -1,12 +1,12 @@
 #include "stages/image/calibrate/calibrate_config.h"
 
 #include "common/base/units.h"
-#include "common/sensor/light_field.h"
 
 namespace tacipc {
 
 CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
   CalibrateConfig config;
+  LightGeometry& geometry = config.geometry;
   config.ball_radius_m = 1e-3 * in.number("ball_radius_mm", Range::positive());
   config.contact_gap_m = 1e-3 * in.number("contact_gap_mm", Range::positive());
   config.label_sigma_px = in.number("label_sigma_px", Range::non_negative());
@@ -50,16 +50,16 @@ CalibrateConfig CalibrateConfig::read(ConfigReader& in) {
     break;
   }
   config.fit_lamps = in.flag_or("fit_lamps", true);
-  config.environment_degree = in.integer("environment_degree", 0, 8);
-  config.environment_depth = in.flag_or("environment_depth", false);
-  if (auto dome = in.optional_section("dome")) config.dome = read_dome_bins(*dome);
-  const bool environment = config.environment_degree > 0 || config.dome.size() > 0;
-  if (config.environment_depth && !environment)
+  geometry.environment_degree = in.integer("environment_degree", 0, 8);
+  geometry.environment_depth = in.flag_or("environment_depth", false);
+  if (auto dome = in.optional_section("dome")) geometry.dome = read_dome_bins(*dome);
+  const bool environment = geometry.environment_degree > 0 || geometry.dome.size() > 0;
+  if (geometry.environment_depth && !environment)
     in.fault("environment_depth", "without environment_degree or dome there is no environment");
-  config.field_degree = in.integer_or("field_degree", 1, 0, 4);
+  geometry.field_degree = in.integer_or("field_degree", 1, 0, 4);
   if (config.lamps.empty() && !environment)
     in.fault("environment_degree", "without lamps there must be an environment");
-  config.shadow_softness = in.number("shadow_softness", Range::positive());
+  geometry.shadow_softness = in.number("shadow_softness", Range::positive());
   config.blur_px = in.number("blur_px", Range::between(0.0, 100.0));
   config.relief_slope = in.number_or("relief_slope", 0.0, Range::between(0.0, 1.0));
   config.ridge = in.number("ridge", Range::non_negative());

@@ -7,7 +7,7 @@
 
 #include "common/base/types.h"
 #include "common/config/config.h"
-#include "common/sensor/dome_light.h"
+#include "common/sensor/light_field.h"
 
 namespace tacipc {
 
@@ -44,12 +44,8 @@ struct CalibrateConfig {
   int object_margin_px = 0;      // pixels this near a known object's box enter its fit too
   std::vector<LampGuess> lamps;
   LampBounds bounds;
-  bool fit_lamps = true;  // else they stay where the guess has them
-  int environment_degree = 0;
-  bool environment_depth = false;
-  DomeBins dome = {};
-  int field_degree = 1;
-  double shadow_softness = 0.0;
+  bool fit_lamps = true;        // else they stay where the guess has them
+  LightGeometry geometry = {};  // its lamps and its field's width come later
   double blur_px = 0.0;
   double relief_slope = 0.0;  // expected deviation of a print's slopes from its mesh; 0: reliefs are not measured
   double ridge = 0.0;         // on the weights, as a part of each feature's own square sum

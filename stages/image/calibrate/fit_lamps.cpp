@@ -9,28 +9,6 @@
 namespace tacipc {
 namespace {
 
-struct LampRange {
-  Eigen::VectorXd lower, upper;
-};
-
-LampRange range_of(const CalibrateConfig& config) {
-  const int each = parameters_per_lamp(config);
-  const auto n = static_cast<Eigen::Index>(config.lamps.size()) * each;
-  LampRange range{.lower = Eigen::VectorXd(n), .upper = Eigen::VectorXd(n)};
-  for (std::size_t l = 0; l < config.lamps.size(); ++l) {
-    const auto i = static_cast<Eigen::Index>(l) * each;
-    const LampBounds& bounds = config.bounds;
-    const double azimuth = config.lamps[l].azimuth_rad;
-    range.lower.segment<3>(i) << azimuth - bounds.azimuth_rad, bounds.elevation_tan[0], std::log(bounds.distance_m[0]);
-    range.upper.segment<3>(i) << azimuth + bounds.azimuth_rad, bounds.elevation_tan[1], std::log(bounds.distance_m[1]);
-    if (each > 3) {
-      range.lower[i + 3] = bounds.half_width_rad[0];
-      range.upper[i + 3] = bounds.half_width_rad[1];
-    }
-  }
-  return range;
-}
-
 Eigen::VectorXd parameters_of(const std::vector<LampGuess>& lamps, const CalibrateConfig& config) {
   const int each = parameters_per_lamp(config);
   Eigen::VectorXd u(static_cast<Eigen::Index>(lamps.size()) * each);
@@ -42,23 +20,33 @@ Eigen::VectorXd parameters_of(const std::vector<LampGuess>& lamps, const Calibra
   return u;
 }
 
+/// How far the parameters of lamps may go, and by which steps.
+GaussNewtonSettings range_of(const CalibrateConfig& config) {
+  const LampBounds& bounds = config.bounds;
+  std::vector<LampGuess> lower, upper;
+  for (const LampGuess& lamp : config.lamps) {
+    lower.push_back({lamp.azimuth_rad - bounds.azimuth_rad, bounds.distance_m[0], bounds.elevation_tan[0],
+                     bounds.half_width_rad[0]});
+    upper.push_back({lamp.azimuth_rad + bounds.azimuth_rad, bounds.distance_m[1], bounds.elevation_tan[1],
+                     bounds.half_width_rad[1]});
+  }
+  const Eigen::VectorXd lowest = parameters_of(lower, config);
+  return {
+      .step = Eigen::VectorXd::Constant(lowest.size(), 1e-3), .lower = lowest, .upper = parameters_of(upper, config)};
+}
+
 /// Residuals of the best weights with lamps at some parameters.
 Eigen::VectorXd projected_residuals(const std::vector<const Contact*>& contacts, const std::vector<LampGuess>& lamps,
                                     LightGeometry& geometry, const CalibrateConfig& config) {
   set_lamps(geometry, lamps);
   const auto features = all_features(contacts, geometry);
   const Codes weights = best_weights(contacts, features, config.ridge).codes;
-  std::vector<Eigen::VectorXd> parts;
-  Eigen::Index rows = 0;
-  for (std::size_t b = 0; b < contacts.size(); ++b)
-    rows += parts.emplace_back(residuals_of(contacts[b]->samples, features[b], weights)).size();
-  Eigen::VectorXd all(rows);
-  Eigen::Index row = 0;
-  for (const Eigen::VectorXd& part : parts) {
-    all.segment(row, part.size()) = part;
-    row += part.size();
+  std::vector<double> all;
+  for (std::size_t b = 0; b < contacts.size(); ++b) {
+    const Eigen::VectorXd part = residuals_of(contacts[b]->samples, features[b], weights);
+    all.insert(all.end(), part.begin(), part.end());
   }
-  return all;
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all));
 }
 
 }  // namespace
@@ -130,13 +118,10 @@ GaussNewtonResult fit_lamps(const std::vector<const Contact*>& contacts, const s
   geometry.environment_degree = 0;
   geometry.environment_depth = false;
   geometry.dome = {};
-  const LampRange range = range_of(config);
-  const GaussNewtonSettings settings{
-      .step = Eigen::VectorXd::Constant(range.lower.size(), 1e-3), .lower = range.lower, .upper = range.upper};
   const auto residuals = [&](const Eigen::VectorXd& at) {
     return projected_residuals(contacts, lamps_at(start, at, config), geometry, config);
   };
-  return gauss_newton(residuals, parameters_of(start, config), settings);
+  return gauss_newton(residuals, parameters_of(start, config), range_of(config));
 }
 
 double samples_per_fact(const CalibrateConfig& config) {
@@ -147,8 +132,7 @@ double samples_per_fact(const CalibrateConfig& config) {
 std::vector<LampKnowledge> lamp_knowledge(const std::vector<const Contact*>& contacts,
                                           const std::vector<LampGuess>& lamps, LightGeometry geometry,
                                           const CalibrateConfig& config) {
-  constexpr double kStep = 1e-3;
-  const LampRange range = range_of(config);
+  const GaussNewtonSettings range = range_of(config);
   const Eigen::VectorXd u = parameters_of(lamps, config);
   const auto residuals = [&](const Eigen::VectorXd& at) {
     return projected_residuals(contacts, lamps_at(lamps, at, config), geometry, config);
@@ -157,7 +141,7 @@ std::vector<LampKnowledge> lamp_knowledge(const std::vector<const Contact*>& con
   Eigen::MatrixXd jacobian(here.size(), u.size());
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     Eigen::VectorXd moved = u;
-    moved[i] += u[i] + kStep > range.upper[i] ? -kStep : kStep;
+    moved[i] += u[i] + range.step[i] > range.upper[i] ? -range.step[i] : range.step[i];
     jacobian.col(i) = (residuals(moved) - here) / (moved[i] - u[i]);
   }
   double count = 0.0;

@@ -18,12 +18,8 @@ namespace tacipc {
 namespace {
 
 LightGeometry start_geometry(const CalibrateConfig& config, const Sensor& sensor) {
-  LightGeometry geometry{.shadow_softness = config.shadow_softness,
-                         .environment_degree = config.environment_degree,
-                         .dome = config.dome,
-                         .environment_depth = config.environment_depth,
-                         .field_degree = config.field_degree,
-                         .field_half_width_m = 0.5 * sensor.camera.window_width_m};
+  LightGeometry geometry = config.geometry;
+  geometry.field_half_width_m = 0.5 * sensor.camera.window_width_m;
   set_lamps(geometry, config.lamps);
   return geometry;
 }

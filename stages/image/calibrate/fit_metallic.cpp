@@ -81,18 +81,27 @@ double metallic_change(const MetallicSamples& samples, const MetallicLamps& lamp
   return object == empty ? 0.0 : lamps.change_factor * (metallic_code(object) - metallic_code(empty));
 }
 
-double metallic_rmse(const std::vector<MetallicSamples>& balls, const MetallicLamps& lamps) {
-  double squares = 0.0, count = 0.0;
-  for (const MetallicSamples& ball : balls) {
-    for (Eigen::Index i = 0; i < ball.samples.target.rows(); ++i) {
+namespace {
+
+/// Change − photograph of each sample and channel, codes; 0 where a sample is not used.
+Eigen::VectorXd errors_of(const std::vector<MetallicSamples>& balls, const MetallicLamps& lamps) {
+  std::vector<double> all;
+  for (const MetallicSamples& ball : balls)
+    for (Eigen::Index i = 0; i < ball.samples.target.rows(); ++i)
       for (std::size_t c = 0; c < 3; ++c) {
         const auto column = static_cast<Eigen::Index>(c);
         const double error = metallic_change(ball, lamps, i, c) - ball.samples.target(i, column);
-        squares += ball.samples.used(i, column) * error * error;
-        count += ball.samples.used(i, column);
+        all.push_back(ball.samples.used(i, column) * error);
       }
-    }
-  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all));
+}
+
+}  // namespace
+
+double metallic_rmse(const std::vector<MetallicSamples>& balls, const MetallicLamps& lamps) {
+  double squares = 0.0, count = 0.0;
+  for (const double error : errors_of(balls, lamps)) squares += error * error;
+  for (const MetallicSamples& ball : balls) count += ball.samples.used.sum();
   return std::sqrt(squares / count);
 }
 
@@ -108,21 +117,7 @@ MetallicLamps fit_metallic(const std::vector<MetallicSamples>& balls, const Meta
                                .upper = Eigen::VectorXd::Constant(n, kLargest),
                                .max_iterations = 100};
   settings.lower[0] = 1e-3;
-  Eigen::Index rows = 0;
-  for (const MetallicSamples& ball : balls) rows += ball.samples.target.size();
-  const auto residuals = [&](const Eigen::VectorXd& at) {
-    const MetallicLamps lamps = lamps_at(start, at);
-    Eigen::VectorXd all(rows);
-    Eigen::Index row = 0;
-    for (const MetallicSamples& ball : balls)
-      for (Eigen::Index i = 0; i < ball.samples.target.rows(); ++i)
-        for (std::size_t c = 0; c < 3; ++c) {
-          const auto column = static_cast<Eigen::Index>(c);
-          all[row++] =
-              ball.samples.used(i, column) * (metallic_change(ball, lamps, i, c) - ball.samples.target(i, column));
-        }
-    return all;
-  };
+  const auto residuals = [&](const Eigen::VectorXd& at) { return errors_of(balls, lamps_at(start, at)); };
   return lamps_at(start, gauss_newton(residuals, u, settings).parameters);
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/statistics.h"
+#include "common/base/tone_curve.h"
 #include "stages/image/calibrate/blocks.h"
 
 namespace tacipc {
@@ -25,18 +26,13 @@ double condition_of(const Eigen::MatrixXd& gram) {
   return std::sqrt(values.maxCoeff() / std::max(values.minCoeff(), 1e-300));
 }
 
-IntensityConfig IntensityConfig::read(ConfigReader& in) {
+IntensityConfig IntensityConfig::read(ConfigReader& file) {
+  ConfigReader in = file.section("intensities");
   IntensityConfig config{.curve = in.choice("curve", {"srgb", "linear"}),
                          .shot_gain = in.number("shot_gain", Range::non_negative()),
                          .read_noise = in.number("read_noise", Range::positive())};
   config.block_px = in.integer("block_px", 1, 1000);
   return config;
-}
-
-double linear_of_code(double code, const std::string& curve) {
-  const double v = code / 255.0;
-  if (curve == "linear") return v;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
 }
 
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& y) {
@@ -89,6 +85,7 @@ IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatIm
   const auto leds = static_cast<Eigen::Index>(basis.size()), unknowns = leds + 1;
   IntensityFit fit{.rgb = {}, .residual = FloatImage(seen.width, seen.height, 3)};
   fit.rgb.resize(leds, 3);
+  const ToneCurve curve = ToneCurve::named(config.curve);
   for (int c = 0; c < 3; ++c) {
     std::vector<std::array<int, 2>> used;
     for (int y = 0; y < seen.height; ++y)
@@ -102,7 +99,7 @@ IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatIm
       const auto [u, v] = used[i];
       for (Eigen::Index l = 0; l < leds; ++l) a(i, l) = blocks[l].at(u, v, c);
       a(i, leds) = uniform.at(u, v, 0);
-      y[i] = linear_of_code(seen.at(u, v, c), config.curve);
+      y[i] = curve.value_of(seen.at(u, v, c));
       weight[i] = 1.0 / std::sqrt(config.shot_gain * y[i] + config.read_noise * config.read_noise);
     }
     const Eigen::MatrixXd weighted = weight.asDiagonal() * a;

@@ -18,7 +18,7 @@ struct IntensityConfig {
   double read_noise = 0.0;
   int block_px = 1;  // medians over blocks this wide and high are fitted: dust and markers drop out
 
-  static IntensityConfig read(ConfigReader& in);
+  static IntensityConfig read(ConfigReader& file);
 };
 
 /// y_c = Σ_l a_lc B_lc + b_c U with a ≥ 0 and veil b ≥ 0: B_l the image of LED l alone in white light, U that of a veil
@@ -39,9 +39,6 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
 
 /// From AᵀA: the root of its eigenvalues' ratio, A's columns scaled to unit length.
 double condition_of(const Eigen::MatrixXd& gram);
-
-/// Linear value in 0 … 1 of a code in 0 … 255.
-double linear_of_code(double code, const std::string& curve);
 
 /// Blocks with a code 0 or 255 in a channel's median do not count there. \pre basis images and codes have three
 /// channels, the veil has one, all are of one size. \throw DataError if fewer blocks than unknowns are left

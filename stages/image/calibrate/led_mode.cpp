@@ -23,21 +23,12 @@ FloatImage through_lens(const FloatImage& radiance, const Camera& camera) {
   return out;
 }
 
-/// configs with a section `intensities`
-struct IntensityFile {
-  IntensityConfig intensities;
-  static IntensityFile read(ConfigReader& in) {
-    ConfigReader section = in.section("intensities");
-    return {IntensityConfig::read(section)};
-  }
-};
-
 }  // namespace
 
 void calibrate_leds(Stage& stage) {
   for (const char* flag : {"--photographs", "--labels", "--press", "--gel"})
     if (stage.optional_input(flag)) throw UsageError(fmt::format("{} cannot be combined with --basis", flag));
-  const auto config = stage.read_config<IntensityFile>("--config").intensities;
+  const auto config = stage.read_config<IntensityConfig>("--config");
   const Camera camera = stage.read_config<Sensor>("--sensor").camera;
   const ByteImage background = read_photograph(stage.input("--background"), camera);
   std::vector<FloatImage> basis;

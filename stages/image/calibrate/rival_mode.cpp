@@ -50,12 +50,20 @@ struct Shown {
   std::vector<Contact> contacts;
   std::size_t balls = 0;  // the others are known objects
 
-  /// In and out of a fold, as of our own fit: balls alone are left out.
-  std::pair<std::vector<Contact>, std::vector<Contact>> split(int folds, int fold) const {
-    std::pair<std::vector<Contact>, std::vector<Contact>> parts;
-    for (std::size_t b = 0; b < contacts.size(); ++b)
-      (b < balls && static_cast<int>(b) % folds == fold ? parts.second : parts.first).push_back(contacts[b]);
-    return parts;
+  /// Root mean square error of what a fold leaves out of the fit, balls alone as in our own fit, over all folds.
+  /// `errors(kept, left)`: sum of squares, and how many codes there are.
+  template <typename Errors>
+  double held_out_rmse(int folds, const Errors& errors) const {
+    double squares = 0.0, count = 0.0;
+    for (int fold = 0; fold < folds; ++fold) {
+      std::vector<Contact> kept, left;
+      for (std::size_t b = 0; b < contacts.size(); ++b)
+        (b < balls && static_cast<int>(b) % folds == fold ? left : kept).push_back(contacts[b]);
+      const auto [error, codes] = errors(kept, left);
+      squares += error;
+      count += codes;
+    }
+    return std::sqrt(squares / count);
   }
 };
 
@@ -81,16 +89,11 @@ void calibrate_table(Stage& stage, const RivalFit& fit, const Shown<std::vector<
                      const Camera& camera, int folds) {
   const SlopeTable table = fit_table(shown.contacts, camera.width_px, camera.height_px, fit.table);
   table.write(stage.output("light.npy"));
-  double squares = 0.0, count = 0.0;
-  for (int fold = 0; fold < folds; ++fold) {
-    const auto [kept, left] = shown.split(folds, fold);
-    const auto [error, codes] =
-        table_errors(fit_table(kept, camera.width_px, camera.height_px, fit.table), left, camera);
-    squares += error;
-    count += codes;
-  }
+  const double held_out = shown.held_out_rmse(folds, [&](const auto& kept, const auto& left) {
+    return table_errors(fit_table(kept, camera.width_px, camera.height_px, fit.table), left, camera);
+  });
   const auto [error, codes] = table_errors(table, shown.contacts, camera);
-  stage.summarize({{"held_out_rmse_codes", std::sqrt(squares / count)}, {"rmse_codes", std::sqrt(error / codes)}});
+  stage.summarize({{"held_out_rmse_codes", held_out}, {"rmse_codes", std::sqrt(error / codes)}});
 }
 
 void calibrate_network(Stage& stage, const RivalFit& fit, const std::vector<std::vector<ContactPixel>>& contacts,
@@ -107,18 +110,15 @@ void calibrate_network(Stage& stage, const RivalFit& fit, const std::vector<std:
 void calibrate_metallic(Stage& stage, const RivalFit& fit, const Shown<MetallicSamples>& shown, int folds) {
   const MetallicLamps lamps = fit_metallic(shown.contacts, fit.lamps);
   write_file(stage.output("light.yaml"), to_yaml(lamps.to_value()));
-  double squares = 0.0, count = 0.0;
-  for (int fold = 0; fold < folds; ++fold) {
-    const auto [kept, left] = shown.split(folds, fold);
+  const double held_out = shown.held_out_rmse(folds, [&](const auto& kept, const auto& left) {
     double codes = 0.0;
     for (const MetallicSamples& ball : left) codes += ball.samples.used.sum();
     const double rmse = metallic_rmse(left, fit_metallic(kept, fit.lamps));
-    squares += rmse * rmse * codes;
-    count += codes;
-  }
+    return std::pair(rmse * rmse * codes, codes);
+  });
   MetallicLamps dark = lamps;
   for (MetallicLamp& lamp : dark.lamps) lamp.rgb = {};
-  stage.summarize({{"held_out_rmse_codes", std::sqrt(squares / count)},
+  stage.summarize({{"held_out_rmse_codes", held_out},
                    {"rmse_codes", metallic_rmse(shown.contacts, lamps)},
                    {"rmse_codes_at_start", metallic_rmse(shown.contacts, fit.lamps)},
                    {"rmse_codes_without_light", metallic_rmse(shown.contacts, dark)},

@@ -1,11 +1,11 @@
 #include "stages/image/calibrate/samples.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/error.h"
+#include "stages/image/calibrate/led_intensities.h"
 
 namespace tacipc {
 
@@ -75,12 +75,6 @@ Eigen::VectorXd residuals_of(const Samples& samples, const Eigen::MatrixXd& feat
 
 namespace {
 
-Eigen::MatrixXd rows_of(const Eigen::MatrixXd& features, const std::vector<Eigen::Index>& rows) {
-  Eigen::MatrixXd out(rows.size(), features.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i) out.row(i) = features.row(rows[i]);
-  return out;
-}
-
 Eigen::MatrixXd gram_of(const Eigen::MatrixXd& features) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(features.cols(), features.cols());
   if (features.rows() == 0) return gram;
@@ -101,11 +95,11 @@ NormalEquations normal_equations(const Eigen::MatrixXd& features, const Samples&
       for (Eigen::Index c = 0; c < 3; ++c)
         if (active(i, c) > 0.0) own[c].push_back(i);
   }
-  const Eigen::MatrixXd shared = gram_of(rows_of(features, common));
+  const Eigen::MatrixXd shared = gram_of(features(common, Eigen::all));
   NormalEquations out;
   for (Eigen::Index c = 0; c < 3; ++c) {
     const Eigen::VectorXd target = samples.target.col(c).cwiseProduct(active.col(c));
-    out.gram[c] = shared + gram_of(rows_of(features, own[c]));
+    out.gram[c] = shared + gram_of(features(own[c], Eigen::all));
     out.moment[c] = features.transpose() * target;
     out.square[c] = target.squaredNorm();
     out.count[c] = active.col(c).sum();
@@ -161,15 +155,7 @@ std::array<double, 3> NormalEquations::residual(const Codes& weights) const {
 }
 
 double NormalEquations::condition() const {
-  double worst = 0.0;
-  for (const Eigen::MatrixXd& g : gram) {
-    const Eigen::VectorXd scale = g.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * g * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
-    const double low = std::max(eigen.eigenvalues().minCoeff(), 1e-300);
-    worst = std::max(worst, std::sqrt(eigen.eigenvalues().maxCoeff() / low));
-  }
-  return worst;
+  return std::max({condition_of(gram[0]), condition_of(gram[1]), condition_of(gram[2])});
 }
 
 }  // namespace tacipc

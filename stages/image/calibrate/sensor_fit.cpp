@@ -12,7 +12,7 @@
 #include "common/base/log.h"
 #include "common/base/statistics.h"
 #include "common/optics/develop.h"
-#include "stages/image/calibrate/block_codes.h"
+#include "stages/image/calibrate/blocks.h"
 #include "stages/image/calibrate/gauss_newton.h"
 #include "stages/image/calibrate/led_intensities.h"
 
@@ -48,10 +48,9 @@ class Problem {
     const Colors colors = solve_colors(light, now.response);
     Eigen::VectorXd out(num_rows() + unknowns());
     Eigen::Index row = 0;
-    for (std::size_t k = 0; k < photographs_.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        for (const Eigen::Index block : photographs_[k].used[c])
-          out[row++] = difference(k, c, block, light, colors, now.response) / sigma_;
+    each_used([&](std::size_t k, std::size_t c, Eigen::Index block) {
+      out[row++] = difference(k, c, block, light, colors, now.response) / sigma_;
+    });
     out.tail(unknowns()) = p;
     return out;
   }

@@ -28,7 +28,8 @@ const std::vector<std::string>& parameter_names() {
   return names;
 }
 
-SensorFitConfig SensorFitConfig::read(ConfigReader& in) {
+SensorFitConfig SensorFitConfig::read(ConfigReader& file) {
+  ConfigReader in = file.section("sensor_fit");
   SensorFitConfig config;
   config.block_px = in.integer("block_px", 1, 256);
   config.sigma_codes = in.number("sigma_codes", Range::positive());
@@ -54,11 +55,6 @@ SensorFitConfig SensorFitConfig::read(ConfigReader& in) {
                             .fit_radius_px = balls->optional_number("fit_radius_px", Range::positive())};
   }
   return config;
-}
-
-SensorFitFile SensorFitFile::read(ConfigReader& in) {
-  ConfigReader section = in.section("sensor_fit");
-  return {SensorFitConfig::read(section)};
 }
 
 }  // namespace tacipc

@@ -36,16 +36,10 @@ struct SensorFitConfig {
   std::vector<FreeParameter> parameters = {};  // in the order of parameter_names()
   std::optional<FitBalls> balls = std::nullopt;
 
-  static SensorFitConfig read(ConfigReader& in);
+  static SensorFitConfig read(ConfigReader& file);
 };
 
 /// All names a parameter may have (docs/calibrate.md says what each of them is).
 const std::vector<std::string>& parameter_names();
-
-/// A configuration that holds nothing else.
-struct SensorFitFile {
-  SensorFitConfig fit;
-  static SensorFitFile read(ConfigReader& in);
-};
 
 }  // namespace tacipc

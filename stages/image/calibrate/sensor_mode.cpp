@@ -135,7 +135,7 @@ void calibrate_sensor(Stage& stage) {
     ball_flags += stage.optional_input(flag).has_value();
   for (const char* flag : {"--basis", "--shapes"})
     if (!stage.inputs(flag).empty()) throw UsageError(fmt::format("{} cannot be combined with sensor_fit", flag));
-  const auto config = stage.read_config<SensorFitFile>("--config").fit;
+  const auto config = stage.read_config<SensorFitConfig>("--config");
   if (ball_flags != (config.balls ? 4 : 0))
     throw UsageError(
         "--photographs, --labels, --press, --gel and the section sensor_fit.balls belong together: give all or none");

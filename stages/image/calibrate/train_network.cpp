@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -122,11 +123,9 @@ LightNetwork train_network(const NetworkSamples& samples, const NetworkFit& sett
     double loss = 0.0;
     for (Eigen::Index first = 0; first < count; first += settings.batch) {
       const Eigen::Index size = std::min<Eigen::Index>(settings.batch, count - first);
-      NetworkSamples batch{.inputs = Eigen::MatrixXf(5, size), .targets = Eigen::MatrixXf(3, size)};
-      for (Eigen::Index i = 0; i < size; ++i) {
-        batch.inputs.col(i) = samples.inputs.col(order[first + i]);
-        batch.targets.col(i) = samples.targets.col(order[first + i]);
-      }
+      const std::span chosen(order.data() + first, static_cast<std::size_t>(size));
+      const NetworkSamples batch{.inputs = samples.inputs(Eigen::all, chosen),
+                                 .targets = samples.targets(Eigen::all, chosen)};
       DropoutMasks masks;
       if (settings.dropout > 0.0)
         for (std::size_t l = 0; l < masks.size(); ++l)

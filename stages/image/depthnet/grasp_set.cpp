@@ -19,12 +19,6 @@ namespace {
 constexpr const char* kHeld = "lifted";
 constexpr const char* kFingers[] = {"left", "right"};
 
-/// Fingers of a grasp that were found.
-struct Found {
-  GraspItem item;
-  bool has[2] = {false, false};
-};
-
 const Value* attribute(const Value::Map& attributes, const std::string& name) {
   const auto found = std::ranges::find_if(attributes, [&](const auto& line) { return line.first == name; });
   return found == attributes.end() ? nullptr : &found->second;
@@ -97,7 +91,7 @@ bool take_images(GraspItem& item, std::size_t finger, const Hdf5Reader& shard, c
 
 std::vector<GraspItem> read_grasps(const std::vector<std::pair<std::string, std::filesystem::path>>& shards, int frames,
                                    const torch::jit::Module& network) {
-  std::map<std::string, Found> grasps;
+  std::map<std::string, GraspItem> grasps;
   std::size_t fingers = 0;
   for (const auto& [name, path] : shards) {
     checked_sha256(path);
@@ -110,12 +104,10 @@ std::vector<GraspItem> read_grasps(const std::vector<std::pair<std::string, std:
         const std::string grasp = text(attributes, "grasp"), finger = text(attributes, "finger");
         const auto which = std::find(std::begin(kFingers), std::end(kFingers), finger) - std::begin(kFingers);
         if (which == 2) throw DataError("{}: its finger is {}, neither left nor right", id, finger);
-        Found& found = grasps[grasp];
-        GraspItem& item = found.item;
+        GraspItem& item = grasps[grasp];
         if (!take_images(item, static_cast<std::size_t>(which), shard, sample, static_cast<std::size_t>(frames),
                          number(attributes, "judged_frame"), network))
           continue;
-        found.has[which] = true;
         item.name = grasp;
         item.object = text(attributes, "object_id");
         item.split = text(attributes, "split");
@@ -129,9 +121,9 @@ std::vector<GraspItem> read_grasps(const std::vector<std::pair<std::string, std:
     }
   }
   std::vector<GraspItem> items;
-  for (auto& [name, found] : grasps) {
-    if (found.has[0] && found.has[1])
-      items.push_back(std::move(found.item));
+  for (auto& [name, item] : grasps) {
+    if (item.fingers[0].defined() && item.fingers[1].defined())
+      items.push_back(std::move(item));
     else
       log_warning("{}: passed over: the shards have not {} frames of both fingers after they have closed", name,
                   frames);

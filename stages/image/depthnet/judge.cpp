@@ -24,16 +24,16 @@ FloatImage height_of(FloatImage depth_mm) {
 
 }  // namespace
 
-void RowsForSheet::offer(DepthRow row) {
-  if (!rows_.empty() &&
-      (row.image.width != rows_.front().image.width || row.image.height != rows_.front().image.height))
+void Judge::keep_picture(DepthRow row) {
+  if (!pictures_.empty() &&
+      (row.image.width != pictures_.front().image.width || row.image.height != pictures_.front().image.height))
     return;
-  if (seen_++ % stride_ != 0) return;
-  rows_.push_back(std::move(row));
-  if (rows_.size() < 2 * kFewest) return;
+  if (offered_++ % stride_ != 0) return;
+  pictures_.push_back(std::move(row));
+  if (pictures_.size() < 2 * kFewest) return;
   stride_ *= 2;
-  for (std::size_t i = 1; i < kFewest; ++i) rows_[i] = std::move(rows_[2 * i]);
-  rows_.resize(kFewest);
+  for (std::size_t i = 1; i < kFewest; ++i) pictures_[i] = std::move(pictures_[2 * i]);
+  pictures_.resize(kFewest);
 }
 
 void Judge::add(const DepthImage& image) {
@@ -70,7 +70,7 @@ void Judge::take(const DepthImage& image, const FloatImage& depth_mm) {
   } catch (const DataError& error) {
     throw DataError("{}: {}", image.name, error.what());
   }
-  pictures_.offer({.image = image.image, .truth_mm = image.depth_mm, .depth_mm = depth_mm});
+  keep_picture({.image = image.image, .truth_mm = image.depth_mm, .depth_mm = depth_mm});
 }
 
 }  // namespace tacipc

@@ -10,17 +10,6 @@
 
 namespace tacipc {
 
-/// At most a dozen of many images of one size, spread over all of them, without keeping the rest.
-class RowsForSheet {
- public:
-  void offer(DepthRow row);
-  std::vector<DepthRow> take() { return std::move(rows_); }
-
- private:
-  std::vector<DepthRow> rows_;
-  std::size_t seen_ = 0, stride_ = 1;
-};
-
 /// What a network says of images, and how far it is off: rows of the regions `full` and `pressed` as `metrics` has
 /// them.
 class Judge {
@@ -34,18 +23,21 @@ class Judge {
 
   const std::vector<MetricsRow>& rows() const { return rows_; }
   /// \pre there are rows
-  ByteImage sheet() { return depth_sheet(pictures_.take()); }
+  ByteImage sheet() const { return depth_sheet(pictures_); }
   /// Of images without contact, which have no rows: how many, and the mean of what the network sees in them, mm.
   std::size_t untouched() const { return untouched_; }
   double seen_untouched_mm() const { return seen_untouched_mm_ / static_cast<double>(untouched_); }
 
  private:
   void take(const DepthImage& image, const FloatImage& depth_mm);
+  /// Keeps at most a dozen of many images of one size, spread over all of them.
+  void keep_picture(DepthRow row);
 
   TrainedNetwork network_;
   std::vector<DepthImage> waiting_;
   std::vector<MetricsRow> rows_;
-  RowsForSheet pictures_;
+  std::vector<DepthRow> pictures_;
+  std::size_t offered_ = 0, stride_ = 1;  // every so many of those offered is kept
   std::size_t untouched_ = 0;
   double seen_untouched_mm_ = 0.0;
 };

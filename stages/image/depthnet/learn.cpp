@@ -87,6 +87,13 @@ std::vector<std::size_t> random_order(std::size_t count, std::uint64_t seed, std
   return order;
 }
 
+std::vector<std::string> history_fields(const std::vector<LearntEpoch>& history, const LearntEpoch& row) {
+  std::vector<std::string> fields{std::to_string(&row - history.data() + 1), fmt::format("{}", row.learning_rate),
+                                  fmt::format("{}", row.loss)};
+  for (const double number : row.judged) fields.push_back(fmt::format("{}", number));
+  return fields;
+}
+
 std::vector<LearntEpoch> learn(std::vector<torch::Tensor> weights, const Lesson& lesson, const ScheduleConfig& schedule,
                                std::uint64_t seed, const Checkpoints& checkpoints, const std::string& name) {
   const std::string who = name.empty() ? "" : name + ", ";
@@ -101,7 +108,7 @@ std::vector<LearntEpoch> learn(std::vector<torch::Tensor> weights, const Lesson&
   const auto batch = static_cast<std::size_t>(schedule.batch);
   auto saved_at = std::chrono::steady_clock::now();
   for (int epoch = static_cast<int>(rows.size()) + 1; epoch <= schedule.epochs; ++epoch) {
-    const std::vector<std::size_t> order = random_order(lesson.examples(), seed, kOrderStream, epoch);
+    const std::vector<std::size_t> order = random_order(lesson.examples, seed, kOrderStream, epoch);
     LearntEpoch row;
     std::vector<double> sums;
     for (std::size_t begin = 0; begin < order.size(); begin += batch) {

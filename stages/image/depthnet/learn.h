@@ -14,19 +14,17 @@
 
 namespace tacipc {
 
-/// What is to be learnt. Methods are called in any thread; what they say depends on their arguments and the weights.
-class Lesson {
- public:
+/// What is to be learnt. Functions are called in any thread; their results depend on their arguments and the weights.
+struct Lesson {
   struct Answer {
     torch::Tensor loss;
     std::vector<double> sums;  // added up over an epoch
   };
-  virtual ~Lesson() = default;
-  virtual std::size_t examples() const = 0;
+  std::size_t examples;
   /// Of an example as it is met in this epoch, the first one 1.
-  virtual Answer answer(int epoch, std::size_t index) const = 0;
+  std::function<Answer(int epoch, std::size_t index)> answer;
   /// After an epoch: further numbers of its row, always as many, of the mean loss and the sums of its examples.
-  virtual std::vector<double> judged(int epoch, double loss, const std::vector<double>& sums) const = 0;
+  std::function<std::vector<double>(int epoch, double loss, const std::vector<double>& sums)> judged;
 };
 
 /// Where a training that was interrupted goes on.
@@ -49,6 +47,9 @@ struct LearntEpoch {
 /// \pre there are examples
 std::vector<LearntEpoch> learn(std::vector<torch::Tensor> weights, const Lesson& lesson, const ScheduleConfig& schedule,
                                std::uint64_t seed, const Checkpoints& checkpoints, const std::string& name = {});
+
+/// Fields of an epoch in a history.csv: its number, rate, loss and what was judged.
+std::vector<std::string> history_fields(const std::vector<LearntEpoch>& history, const LearntEpoch& row);
 
 /// The numbers from 0 on, sorted by random numbers of seed, stream and epoch.
 std::vector<std::size_t> random_order(std::size_t count, std::uint64_t seed, std::uint64_t stream, int epoch);

@@ -35,16 +35,11 @@ const StageSpec kDepthnet{
                 .many = true}},
     .resumable = true};
 
-void write_history(Stage& stage, const std::vector<EpochRow>& rows) {
-  std::string text = csv_line(
-      {"epoch", "learning_rate", "loss", "mae_mm", "mae_contact_mm", "validation_mae_mm", "validation_mae_contact_mm"});
-  for (const EpochRow& row : rows) {
-    std::vector<std::string> fields{std::to_string(&row - rows.data() + 1)};
-    for (const double number : {row.learning_rate, row.loss, row.mae_mm, row.mae_contact_mm, row.validation_mae_mm,
-                                row.validation_mae_contact_mm})
-      fields.push_back(fmt::format("{}", number));
-    text += csv_line(fields);
-  }
+void write_history(Stage& stage, const std::vector<LearntEpoch>& rows) {
+  std::vector<std::string> names{"epoch", "learning_rate", "loss"};
+  names.insert(names.end(), kJudgedErrors.begin(), kJudgedErrors.end());
+  std::string text = csv_line(names);
+  for (const LearntEpoch& row : rows) text += csv_line(history_fields(rows, row));
   write_file(stage.output("history.csv"), text);
 }
 
@@ -96,11 +91,10 @@ void train_depth(Stage& stage, const DepthnetConfig& config) {
     read_rendered(folder, config.last_frame, [&](const DepthImage& image) { validation.add(image); });
   if (training.items().empty()) throw DataError("there are no images to train on");
   if (config.shuffle_pairs) shuffle_depths(training.items(), config.seed);
-  std::int64_t weights = 0;
-  for (const torch::Tensor& weight : weights_of(network.module)) weights += weight.numel();
+  const std::int64_t weights = count_weights(network.module);
   log_info("{} images to train on, {} to judge by, {} weights", training.items().size(), validation.items().size(),
            weights);
-  const std::vector<EpochRow> rows =
+  const std::vector<LearntEpoch> rows =
       train(network.module, training.items(), validation.items(), config, checkpoints_of(stage, "checkpoint"));
   network.sizes = training.sizes();
   save_network(network, stage.output("model.pt"));
@@ -108,16 +102,14 @@ void train_depth(Stage& stage, const DepthnetConfig& config) {
     write_file(stage.output(fmt::format("model_{}x{}.onnx", size.second, size.first)),
                onnx_of(network.module, config.network, size));
   write_history(stage, rows);
-  const EpochRow& last = rows.back();
+  const std::vector<double>& errors = rows.back().judged;
   Value::Map summary{{"images", training.items().size()},
                      {"weights", weights},
-                     {"mae_mm", last.mae_mm},
-                     {"mae_contact_mm", last.mae_contact_mm},
+                     {kJudgedErrors[0], errors[0]},
+                     {kJudgedErrors[1], errors[1]},
                      {"validation_images", validation.items().size()}};
-  if (!validation.items().empty()) {
-    summary.emplace_back("validation_mae_mm", last.validation_mae_mm);
-    summary.emplace_back("validation_mae_contact_mm", last.validation_mae_contact_mm);
-  }
+  for (const std::size_t k : {2U, 3U})
+    if (!validation.items().empty()) summary.emplace_back(kJudgedErrors[k], errors[k]);
   stage.summarize(summary);
 }
 

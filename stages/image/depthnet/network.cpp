@@ -36,6 +36,12 @@ std::vector<torch::Tensor> weights_of(const torch::jit::Module& network) {
   return weights;
 }
 
+std::int64_t count_weights(const torch::jit::Module& network) {
+  std::int64_t count = 0;
+  for (const torch::Tensor& weight : network.parameters()) count += weight.numel();
+  return count;
+}
+
 torch::Tensor tensor_of(const ByteImage& image) {
   torch::Tensor tensor = torch::empty({1, image.height, image.width, 3}, torch::kU8);
   std::ranges::copy(image.pixels, tensor.data_ptr<std::uint8_t>());

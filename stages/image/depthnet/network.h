@@ -22,6 +22,8 @@ torch::jit::Module make_network(const NetworkConfig& config, std::uint64_t seed)
 
 /// Its weights, in the order they were made. They share memory with the module.
 std::vector<torch::Tensor> weights_of(const torch::jit::Module& network);
+/// How many numbers these are.
+std::int64_t count_weights(const torch::jit::Module& network);
 
 /// Rows and columns of an image.
 using ImageSize = std::pair<int, int>;

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "common/base/statistics.h"
 #include "common/format/csv.h"
@@ -14,22 +14,22 @@
 namespace tacipc {
 namespace {
 
-/// Scores of the trainings of one kind, by seed, each kind of score a list.
-struct SeedScores {
-  std::vector<double> accuracy, balanced_accuracy, auc;
-};
+constexpr std::array<std::pair<const char*, double Scores::*>, 3> kScores{
+    {{"accuracy", &Scores::accuracy}, {"balanced_accuracy", &Scores::balanced_accuracy}, {"auc", &Scores::auc}}};
 
-SeedScores scores_of_kind(const OutcomeStudy& study, bool shuffled) {
-  SeedScores all;
+/// Scores of the trainings of one kind, by seed.
+std::vector<Scores> scores_of_kind(const OutcomeStudy& study, bool shuffled) {
+  std::vector<Scores> all;
   const std::vector<bool> held = held_of(study.test);
-  for (const OutcomeTraining& training : study.trainings) {
-    if (training.shuffled != shuffled) continue;
-    const Scores scores = scores_of(training.probabilities, held);
-    all.accuracy.push_back(scores.accuracy);
-    all.balanced_accuracy.push_back(scores.balanced_accuracy);
-    all.auc.push_back(scores.auc);
-  }
+  for (const OutcomeTraining& training : study.trainings)
+    if (training.shuffled == shuffled) all.push_back(scores_of(training.probabilities, held));
   return all;
+}
+
+std::vector<double> by_seed(const std::vector<Scores>& scores, double Scores::*kind) {
+  std::vector<double> values;
+  for (const Scores& of_seed : scores) values.push_back(of_seed.*kind);
+  return values;
 }
 
 /// Always the outcome that is more frequent in the training.
@@ -37,12 +37,6 @@ Scores scores_of_constant(const OutcomeStudy& study) {
   const std::vector<bool> trained = held_of(study.train);
   const bool more_held = 2 * std::ranges::count(trained, true) >= static_cast<long>(trained.size());
   return scores_of(std::vector<double>(study.test.size(), more_held ? 1.0 : 0.0), held_of(study.test));
-}
-
-std::size_t objects_in(const std::vector<GraspItem>& items) {
-  std::set<std::string> objects;
-  for (const GraspItem& item : items) objects.insert(item.object);
-  return objects.size();
 }
 
 std::size_t held_in(const std::vector<GraspItem>& items) {
@@ -69,28 +63,29 @@ Seen seen_in(const std::vector<GraspItem>& items) {
 }
 
 Value::Map split_lines(const std::vector<GraspItem>& items) {
-  return {{"grasps", items.size()}, {"objects", objects_in(items)}, {"held", held_in(items)}};
+  return {{"grasps", items.size()}, {"objects", objects_of(items).size()}, {"held", held_in(items)}};
 }
 
-Value::Map score_lines(const SeedScores& scores) {
+Value::Map score_lines(const std::vector<Scores>& scores) {
   Value::Map lines;
-  for (const auto& [name, values] :
-       {std::pair("accuracy", &scores.accuracy), std::pair("balanced_accuracy", &scores.balanced_accuracy),
-        std::pair("auc", &scores.auc)}) {
-    const auto [mean, deviation] = mean_and_deviation(*values);
-    lines.emplace_back(name, Value::Map{{"mean", mean}, {"deviation", deviation}, {"seeds", *values}});
+  for (const auto& [name, kind] : kScores) {
+    const std::vector<double> values = by_seed(scores, kind);
+    const auto [mean, deviation] = mean_and_deviation(values);
+    lines.emplace_back(name, Value::Map{{"mean", mean}, {"deviation", deviation}, {"seeds", values}});
   }
   return lines;
 }
 
 Value::Map score_lines(const Scores& scores) {
-  return {{"accuracy", scores.accuracy}, {"balanced_accuracy", scores.balanced_accuracy}, {"auc", scores.auc}};
+  Value::Map lines;
+  for (const auto& [name, kind] : kScores) lines.emplace_back(name, scores.*kind);
+  return lines;
 }
 
-std::string score_row(const std::string& who, const SeedScores& scores) {
+std::string score_row(const std::string& who, const std::vector<Scores>& scores) {
   std::string row = "| " + who;
-  for (const auto* values : {&scores.accuracy, &scores.balanced_accuracy, &scores.auc}) {
-    const auto [mean, deviation] = mean_and_deviation(*values);
+  for (const auto& [name, kind] : kScores) {
+    const auto [mean, deviation] = mean_and_deviation(by_seed(scores, kind));
     row += fmt::format(" | {:.3f} ± {:.3f}", mean, deviation);
   }
   return row + " |\n";
@@ -149,9 +144,8 @@ std::string outcome_history_csv(const OutcomeStudy& study) {
   std::string text = csv_line({"training", "epoch", "learning_rate", "loss", "accuracy", "validation_accuracy"});
   for (const OutcomeTraining& training : study.trainings)
     for (const LearntEpoch& row : training.history) {
-      std::vector<std::string> fields{training.name(), std::to_string(&row - training.history.data() + 1)};
-      for (const double number : {row.learning_rate, row.loss, row.judged[0], row.judged[1]})
-        fields.push_back(fmt::format("{}", number));
+      std::vector<std::string> fields = history_fields(training.history, row);
+      fields.insert(fields.begin(), training.name());
       text += csv_line(fields);
     }
   return text;
@@ -159,13 +153,13 @@ std::string outcome_history_csv(const OutcomeStudy& study) {
 
 std::string outcome_page(const OutcomeStudy& study, int frames) {
   const std::size_t seeds = study.trainings.size() / 2;
-  const SeedScores network = scores_of_kind(study, false);
-  const double accuracy = mean_and_deviation(network.accuracy).mean;
+  const std::vector<Scores> network = scores_of_kind(study, false);
+  const double accuracy = mean_and_deviation(by_seed(network, &Scores::accuracy)).mean;
   std::string text = fmt::format(
       "# Outcomes of grasps, foretold from touch\n\nFrom the first {} images of both fingers after they have closed: "
       "will the object be held? Trained on {} grasps of {} objects ({} held), judged by {} of {} others ({} held).\n\n",
-      frames, study.train.size(), objects_in(study.train), held_in(study.train), study.test.size(),
-      objects_in(study.test), held_in(study.test));
+      frames, study.train.size(), objects_of(study.train).size(), held_in(study.train), study.test.size(),
+      objects_of(study.test).size(), held_in(study.test));
   const Seen seen = seen_in(study.test);
   text += fmt::format(
       "The last of these images is of {:.3g} s after closing (median of the test; at most {:.3g} s). By then the "
@@ -192,9 +186,7 @@ Value::Map outcome_summary(const OutcomeStudy& study) {
                                         {"largest_s", seen.largest_s},
                                         {"median_slip_mm", seen.median_slip_mm},
                                         {"largest_slip_mm", seen.largest_slip_mm}});
-  std::int64_t weights = 0;
-  for (const torch::Tensor& weight : weights_of(study.network)) weights += weight.numel();
-  lines.emplace_back("weights", weights);
+  lines.emplace_back("weights", count_weights(study.network));
   Value::List seeds;
   for (const OutcomeTraining& training : study.trainings)
     if (!training.shuffled) seeds.emplace_back(static_cast<std::int64_t>(training.seed));

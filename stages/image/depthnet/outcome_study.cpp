@@ -29,60 +29,50 @@ double share_right(const std::vector<double>& probabilities, const std::vector<G
   return items.empty() ? std::numeric_limits<double>::quiet_NaN() : right / static_cast<double>(items.size());
 }
 
-class OutcomeLesson : public Lesson {
- public:
-  OutcomeLesson(const torch::jit::Module& network, const std::vector<GraspItem>& items, const std::vector<bool>& held,
-                const std::vector<GraspItem>& validation, const AugmentationConfig& augmentation, std::uint64_t seed,
-                std::string name)
-      : network_(network),
-        items_(items),
-        held_(held),
-        validation_(validation),
-        augmentation_(augmentation),
-        seed_(seed),
-        name_(std::move(name)) {}
+/// The network's probability that each grasp holds.
+std::vector<double> probabilities_of(const torch::jit::Module& network, const std::vector<GraspItem>& items) {
+  std::vector<double> probabilities(items.size());
+  each_in_threads(items.size(), [&](std::size_t i) {
+    stay_in_this_thread();
+    const torch::NoGradGuard no_gradients;
+    const torch::Tensor seen = torch::cat({items[i].fingers[0], items[i].fingers[1]}).to(torch::kFloat);
+    probabilities[i] = torch::sigmoid(logit_of(network, seen)).item<double>();
+  });
+  return probabilities;
+}
 
-  std::size_t examples() const override { return items_.size(); }
-  Answer answer(int epoch, std::size_t index) const override {
+/// Trains the weights in place on grasps and what is said of each (`held`), and returns the epochs; `judged`: the share
+/// of the examples that it foretold as it was taught, the same of the validation (NaN without any). The loss is the
+/// logistic one; in every epoch each grasp is disturbed anew and seen from the other side or not, left and right
+/// exchanged: a half turn about the vertical takes one finger to the other.
+std::vector<LearntEpoch> train_outcome(torch::jit::Module& network, const std::vector<GraspItem>& items,
+                                       const std::vector<bool>& held, const std::vector<GraspItem>& validation,
+                                       const OutcomeConfig& config, std::uint64_t seed, const Checkpoints& checkpoints,
+                                       const std::string& name) {
+  const auto answer = [&](int epoch, std::size_t index) -> Lesson::Answer {
     const bool exchanged =
-        (random_bits(seed_, mix_bits(hash_of("side") + index), static_cast<std::uint64_t>(epoch)) & 1) != 0;
+        (random_bits(seed, mix_bits(hash_of("side") + index), static_cast<std::uint64_t>(epoch)) & 1) != 0;
     torch::Tensor seen[2];
     for (std::size_t f = 0; f < 2; ++f)
       seen[exchanged ? 1 - f : f] =
-          disturbed(items_[index].fingers[f], {}, augmentation_, seed_, epoch, 2 * index + f).input;
-    const torch::Tensor logit = logit_of(network_, torch::cat({seen[0], seen[1]}));
-    const bool held = held_[index];
-    return {.loss = torch::binary_cross_entropy_with_logits(logit, torch::full_like(logit, held ? 1.0 : 0.0)),
-            .sums = {(logit.item<float>() >= 0.0F) == held ? 1.0 : 0.0}};
-  }
-  std::vector<double> judged(int epoch, double loss, const std::vector<double>& sums) const override {
-    const double right = sums[0] / static_cast<double>(items_.size());
-    const double validated = share_right(probabilities_of(network_, validation_), validation_);
-    log_debug("{}, epoch {}: loss {:.4f}, right {:.3f}, of the validation {:.3f}", name_, epoch, loss, right,
-              validated);
+          disturbed(items[index].fingers[f], {}, config.augmentation, seed, epoch, 2 * index + f).input;
+    const torch::Tensor logit = logit_of(network, torch::cat({seen[0], seen[1]}));
+    return {.loss = torch::binary_cross_entropy_with_logits(logit, torch::full_like(logit, held[index] ? 1.0 : 0.0)),
+            .sums = {(logit.item<float>() >= 0.0F) == held[index] ? 1.0 : 0.0}};
+  };
+  const auto judged = [&](int epoch, double loss, const std::vector<double>& sums) -> std::vector<double> {
+    const double right = sums[0] / static_cast<double>(items.size());
+    const double validated = share_right(probabilities_of(network, validation), validation);
+    log_debug("{}, epoch {}: loss {:.4f}, right {:.3f}, of the validation {:.3f}", name, epoch, loss, right, validated);
     return {right, validated};
-  }
-
- private:
-  const torch::jit::Module& network_;
-  const std::vector<GraspItem>& items_;
-  const std::vector<bool>& held_;
-  const std::vector<GraspItem>& validation_;
-  const AugmentationConfig& augmentation_;
-  std::uint64_t seed_;
-  std::string name_;
-};
+  };
+  return learn(weights_of(network), {items.size(), answer, judged}, config.schedule, seed, checkpoints, name);
+}
 
 std::vector<double> grips_of(const std::vector<GraspItem>& items) {
   std::vector<double> grips_n;
   for (const GraspItem& item : items) grips_n.push_back(item.grip_n);
   return grips_n;
-}
-
-std::set<std::string> objects_of(const std::vector<GraspItem>& items) {
-  std::set<std::string> objects;
-  for (const GraspItem& item : items) objects.insert(item.object);
-  return objects;
 }
 
 void check(const std::vector<GraspItem>& items, const std::string& split) {
@@ -99,29 +89,16 @@ void check(const std::vector<GraspItem>& items, const std::string& split) {
 
 std::string OutcomeTraining::name() const { return fmt::format("{}_{}", shuffled ? "shuffled" : "network", seed); }
 
+std::set<std::string> objects_of(const std::vector<GraspItem>& items) {
+  std::set<std::string> objects;
+  for (const GraspItem& item : items) objects.insert(item.object);
+  return objects;
+}
+
 std::vector<bool> held_of(const std::vector<GraspItem>& items) {
   std::vector<bool> held;
   for (const GraspItem& item : items) held.push_back(item.held);
   return held;
-}
-
-std::vector<LearntEpoch> train_outcome(torch::jit::Module& network, const std::vector<GraspItem>& items,
-                                       const std::vector<bool>& held, const std::vector<GraspItem>& validation,
-                                       const OutcomeConfig& config, std::uint64_t seed, const Checkpoints& checkpoints,
-                                       const std::string& name) {
-  const OutcomeLesson lesson(network, items, held, validation, config.augmentation, seed, name);
-  return learn(weights_of(network), lesson, config.schedule, seed, checkpoints, name);
-}
-
-std::vector<double> probabilities_of(const torch::jit::Module& network, const std::vector<GraspItem>& items) {
-  std::vector<double> probabilities(items.size());
-  each_in_threads(items.size(), [&](std::size_t i) {
-    stay_in_this_thread();
-    const torch::NoGradGuard no_gradients;
-    const torch::Tensor seen = torch::cat({items[i].fingers[0], items[i].fingers[1]}).to(torch::kFloat);
-    probabilities[i] = torch::sigmoid(logit_of(network, seen)).item<double>();
-  });
-  return probabilities;
 }
 
 OutcomeStudy study_outcomes(std::vector<GraspItem> items, const OutcomeConfig& config,

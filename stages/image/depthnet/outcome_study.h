@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,19 +13,8 @@
 
 namespace tacipc {
 
-/// Trains the weights in place on grasps and what is said of each (`held`), and returns a row per epoch; `judged`: the
-/// share of the examples that it foretold as it was taught, the same of the validation (NaN without any). The loss is
-/// the logistic one; in every epoch each grasp is disturbed anew and seen from the other side or not, left and right
-/// exchanged: a half turn about the vertical takes one finger to the other.
-std::vector<LearntEpoch> train_outcome(torch::jit::Module& network, const std::vector<GraspItem>& items,
-                                       const std::vector<bool>& held, const std::vector<GraspItem>& validation,
-                                       const OutcomeConfig& config, std::uint64_t seed, const Checkpoints& checkpoints,
-                                       const std::string& name);
-
-/// The network's probability that each grasp holds.
-std::vector<double> probabilities_of(const torch::jit::Module& network, const std::vector<GraspItem>& items);
-
 std::vector<bool> held_of(const std::vector<GraspItem>& items);
+std::set<std::string> objects_of(const std::vector<GraspItem>& items);
 
 /// One training.
 struct OutcomeTraining {

@@ -25,36 +25,6 @@ torch::Tensor predicted(const torch::jit::Module& network, const torch::Tensor& 
   return network.get_method("indentation")({input}).toTensor();
 }
 
-class DepthLesson : public Lesson {
- public:
-  DepthLesson(const torch::jit::Module& network, const std::vector<DepthItem>& items,
-              const std::vector<DepthItem>& validation, const DepthnetConfig& config)
-      : network_(network), items_(items), validation_(validation), config_(config) {}
-
-  std::size_t examples() const override { return items_.size(); }
-  Answer answer(int epoch, std::size_t index) const override {
-    const DepthExample example = augmented(items_[index], config_.augmentation, config_.seed, epoch, index);
-    const torch::Tensor depth_mm = predicted(network_, example.input);
-    const ErrorSums errors = errors_of(depth_mm.detach(), example.depth_mm);
-    return {.loss = loss_of(depth_mm, example.depth_mm, config_.loss),
-            .sums = {errors.pixels, errors.error_mm, errors.contact_pixels, errors.contact_error_mm}};
-  }
-  std::vector<double> judged(int epoch, double loss, const std::vector<double>& sums) const override {
-    const ErrorSums errors{
-        .pixels = sums[0], .error_mm = sums[1], .contact_pixels = sums[2], .contact_error_mm = sums[3]};
-    const ErrorSums judged = errors_of(network_, validation_);
-    log_info("epoch {}: loss {:.5f}, in contact {:.4f} mm{}", epoch, loss, errors.mae_contact_mm(),
-             validation_.empty() ? "" : fmt::format(", of the validation {:.4f} mm", judged.mae_contact_mm()));
-    return {errors.mae_mm(), errors.mae_contact_mm(), judged.mae_mm(), judged.mae_contact_mm()};
-  }
-
- private:
-  const torch::jit::Module& network_;
-  const std::vector<DepthItem>& items_;
-  const std::vector<DepthItem>& validation_;
-  const DepthnetConfig& config_;
-};
-
 }  // namespace
 
 torch::Tensor loss_of(const torch::Tensor& predicted_mm, const torch::Tensor& depth_mm, const LossConfig& config) {
@@ -68,13 +38,6 @@ torch::Tensor loss_of(const torch::Tensor& predicted_mm, const torch::Tensor& de
   return loss;
 }
 
-void ErrorSums::add(const ErrorSums& other) {
-  pixels += other.pixels;
-  error_mm += other.error_mm;
-  contact_pixels += other.contact_pixels;
-  contact_error_mm += other.contact_error_mm;
-}
-
 ErrorSums errors_of(const torch::jit::Module& network, const std::vector<DepthItem>& items) {
   std::vector<ErrorSums> sums(items.size());
   tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
@@ -84,23 +47,34 @@ ErrorSums errors_of(const torch::jit::Module& network, const std::vector<DepthIt
     sums[i] = errors_of(predicted(network, example.input), example.depth_mm);
   });
   ErrorSums all;
-  for (const ErrorSums& one : sums) all.add(one);
+  for (const ErrorSums& one : sums) {
+    all.pixels += one.pixels;
+    all.error_mm += one.error_mm;
+    all.contact_pixels += one.contact_pixels;
+    all.contact_error_mm += one.contact_error_mm;
+  }
   return all;
 }
 
-std::vector<EpochRow> train(torch::jit::Module& network, const std::vector<DepthItem>& items,
-                            const std::vector<DepthItem>& validation, const DepthnetConfig& config,
-                            const Checkpoints& checkpoints) {
-  const DepthLesson lesson(network, items, validation, config);
-  std::vector<EpochRow> rows;
-  for (const LearntEpoch& epoch : learn(weights_of(network), lesson, config.schedule, config.seed, checkpoints))
-    rows.push_back({.learning_rate = epoch.learning_rate,
-                    .loss = epoch.loss,
-                    .mae_mm = epoch.judged[0],
-                    .mae_contact_mm = epoch.judged[1],
-                    .validation_mae_mm = epoch.judged[2],
-                    .validation_mae_contact_mm = epoch.judged[3]});
-  return rows;
+std::vector<LearntEpoch> train(torch::jit::Module& network, const std::vector<DepthItem>& items,
+                               const std::vector<DepthItem>& validation, const DepthnetConfig& config,
+                               const Checkpoints& checkpoints) {
+  const auto answer = [&](int epoch, std::size_t index) -> Lesson::Answer {
+    const DepthExample example = augmented(items[index], config.augmentation, config.seed, epoch, index);
+    const torch::Tensor depth_mm = predicted(network, example.input);
+    const ErrorSums errors = errors_of(depth_mm.detach(), example.depth_mm);
+    return {.loss = loss_of(depth_mm, example.depth_mm, config.loss),
+            .sums = {errors.pixels, errors.error_mm, errors.contact_pixels, errors.contact_error_mm}};
+  };
+  const auto judged = [&](int epoch, double loss, const std::vector<double>& sums) -> std::vector<double> {
+    const ErrorSums errors{
+        .pixels = sums[0], .error_mm = sums[1], .contact_pixels = sums[2], .contact_error_mm = sums[3]};
+    const ErrorSums validated = errors_of(network, validation);
+    log_info("epoch {}: loss {:.5f}, in contact {:.4f} mm{}", epoch, loss, errors.mae_contact_mm(),
+             validation.empty() ? "" : fmt::format(", of the validation {:.4f} mm", validated.mae_contact_mm()));
+    return {errors.mae_mm(), errors.mae_contact_mm(), validated.mae_mm(), validated.mae_contact_mm()};
+  };
+  return learn(weights_of(network), {items.size(), answer, judged}, config.schedule, config.seed, checkpoints);
 }
 
 void shuffle_depths(std::vector<DepthItem>& items, std::uint64_t seed) {

@@ -1,6 +1,7 @@
 // Training of the network that reads depth.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "stages/image/depthnet/augment.h"
@@ -9,16 +10,9 @@
 
 namespace tacipc {
 
-/// An epoch of the training, the first one first. Errors are means over all pixels of the images; `contact`: over those
-/// in contact.
-struct EpochRow {
-  double learning_rate = 0.0;  // of its last step
-  double loss = 0.0;           // mean over the images, as they were augmented
-  double mae_mm = 0.0;         // of the same images
-  double mae_contact_mm = 0.0;
-  double validation_mae_mm = 0.0;  // NaN without any
-  double validation_mae_contact_mm = 0.0;
-};
+/// What is judged of an epoch: mean error over all pixels of the images as they were augmented and over those in
+/// contact, then the same of the validation, NaN without any.
+inline constexpr std::array kJudgedErrors{"mae_mm", "mae_contact_mm", "validation_mae_mm", "validation_mae_contact_mm"};
 
 /// The network's loss of one example. \throw DataError if no pixel has a depth
 torch::Tensor loss_of(const torch::Tensor& predicted_mm, const torch::Tensor& depth_mm, const LossConfig& config);
@@ -27,18 +21,16 @@ torch::Tensor loss_of(const torch::Tensor& predicted_mm, const torch::Tensor& de
 struct ErrorSums {
   double pixels = 0.0, error_mm = 0.0;                  // where there is a depth
   double contact_pixels = 0.0, contact_error_mm = 0.0;  // where it is more than kContactMm
-
-  void add(const ErrorSums& other);
-  double mae_mm() const { return error_mm / pixels; }  // NaN without pixels
+  double mae_mm() const { return error_mm / pixels; }   // NaN without pixels
   double mae_contact_mm() const { return contact_error_mm / contact_pixels; }
 };
 ErrorSums errors_of(const torch::jit::Module& network, const std::vector<DepthItem>& items);
 
-/// Trains the weights in place and returns a row per epoch, those before an interruption included. Results depend on
-/// nothing but network, items and configuration. \pre items are not empty
-std::vector<EpochRow> train(torch::jit::Module& network, const std::vector<DepthItem>& items,
-                            const std::vector<DepthItem>& validation, const DepthnetConfig& config,
-                            const Checkpoints& checkpoints);
+/// Trains the weights in place and returns the epochs with kJudgedErrors, those before an interruption included.
+/// Results depend on nothing but network, items and configuration. \pre items are not empty
+std::vector<LearntEpoch> train(torch::jit::Module& network, const std::vector<DepthItem>& items,
+                               const std::vector<DepthItem>& validation, const DepthnetConfig& config,
+                               const Checkpoints& checkpoints);
 
 /// Gives each item the depth of another, by a random cycle. \throw DataError unless there are two at least, all of one
 /// size

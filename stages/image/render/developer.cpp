@@ -20,20 +20,16 @@ const std::string& name_of(const RenderUnit& unit) { return unit.name.empty() ? 
 
 class RadianceDeveloper : public Developer {
  public:
-  RadianceDeveloper(const RenderUnit& unit, const RenderConfig& config) : unit_(unit), config_(config) {
-    if (unit.sensor.noise) {
-      noise_ = NoiseModel{.full_well_e = unit.sensor.noise->full_well_e,
-                          .read_e = unit.sensor.noise->read_e,
-                          .seed = config.noise_seed};
-    }
-  }
+  RadianceDeveloper(const RenderUnit& unit, const RenderConfig& config) : unit_(unit), config_(config) {}
 
   void set_reference(const TraceResult& rest) override {
     const Sensor& sensor = unit_.sensor;
     signal_ = camera_signal(radiance(rest), sensor.camera, sensor.response);
     exposure_ = solve_exposure(signal_, sensor.response);
     codes_ = encode(signal_, exposure_, sensor.response);
-    reference_ = unit_.reference ? *unit_.reference : synthetic_reference(signal_, exposure_, sensor.response, noise());
+    reference_ = unit_.reference
+                     ? *unit_.reference
+                     : synthetic_reference(signal_, exposure_, sensor.response, noise(), config_.noise_seed);
     summary_ = {.name = unit_.name,
                 .real_reference = unit_.reference.has_value(),
                 .exposure = exposure_,
@@ -47,7 +43,7 @@ class RadianceDeveloper : public Developer {
     FloatImage signal = camera_signal(color_image(traced, sensor, with_markers), sensor.camera, sensor.response);
     // Fresh noise comes beside the reference's. Frame 0 has that one already.
     if (config_.noise_in_every_frame && (frame > 0 || config_.transfer == Transfer::none))
-      signal = add_noise(signal, exposure_, noise(), kFrameStreams + frame);
+      signal = add_noise(signal, exposure_, noise(), config_.noise_seed, kFrameStreams + frame);
     TactileImage out = [&] {
       if (config_.transfer == Transfer::linear)
         return transfer_ratio(reference_, signal, signal_, exposure_, sensor.response);
@@ -62,17 +58,16 @@ class RadianceDeveloper : public Developer {
  private:
   static constexpr std::uint64_t kFrameStreams = 1000;  // one stream of random numbers per frame
 
-  const NoiseModel& noise() const {
-    if (!noise_) {
+  const SensorNoise& noise() const {
+    if (!unit_.sensor.noise) {
       throw DataError("{}: the sensor has neither a reference_image nor a section noise to make one with",
                       name_of(unit_));
     }
-    return *noise_;
+    return *unit_.sensor.noise;
   }
 
   const RenderUnit& unit_;
   const RenderConfig& config_;
-  std::optional<NoiseModel> noise_;
   FloatImage signal_, codes_;
   Encoded last_;  // of the image without markers, before the one with them
   ByteImage reference_;

@@ -1,13 +1,13 @@
 
-#include <charconv>
+#include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/parse.h"
 #include "common/image/picture.h"
 #include "common/sample/dataset_maps.h"
 #include "common/sample/render_folder.h"
@@ -91,12 +91,10 @@ class FrameWriter {
 
 /// How many values of the sensor file are known, derived, guessed.
 Value::Map count_sources(const Sensor& sensor) {
-  std::map<std::string, int> counts{{"known", 0}, {"derived", 0}, {"guess", 0}, {"unstated", 0}};
-  for (const ValueSource& value : sensor.sources) ++counts[value.source];
-  return {{"known", counts["known"]},
-          {"derived", counts["derived"]},
-          {"guess", counts["guess"]},
-          {"unstated", counts["unstated"]}};
+  Value::Map counts;
+  for (const std::string source : {"known", "derived", "guess", "unstated"})
+    counts.emplace_back(source, static_cast<int>(std::ranges::count(sensor.sources, source, &ValueSource::source)));
+  return counts;
 }
 
 /// Which LEDs the basis images show, in the order of their numbers.
@@ -114,10 +112,8 @@ Value::List groups_of(const Sensor& sensor) {
 /// \throw UsageError if it is not a count
 std::optional<std::uint64_t> sample_seed(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  std::uint64_t seed = 0;
-  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || at != text.data() + text.size())
-    throw UsageError("--seed: '" + text + "' is not a count");
+  const auto seed = parse_number<std::uint64_t>(text);
+  if (!seed) throw UsageError("--seed: '" + text + "' is not a count");
   return seed;
 }
 

@@ -19,6 +19,25 @@ void check_rest(const PressFolder& press, const TetMesh& gel) {
   }
 }
 
+/// Traction of one frame on the membrane's vertices: normal plus friction force over the vertex's share of the deformed
+/// area, a third of each triangle around it.
+Positions traction_of(const ContactParts& forces_n, const Membrane& membrane) {
+  const Eigen::Index count = membrane.positions.rows();
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index f = 0; f < membrane.triangles.rows(); ++f) {
+    const Vector3 a = membrane.positions.row(membrane.triangles(f, 0)).transpose();
+    const Vector3 b = membrane.positions.row(membrane.triangles(f, 1)).transpose();
+    const Vector3 c = membrane.positions.row(membrane.triangles(f, 2)).transpose();
+    const double third = (b - a).cross(c - a).norm() / 6.0;
+    for (int k = 0; k < 3; ++k) area[membrane.triangles(f, k)] += third;
+  }
+  Positions traction_pa = Positions::Zero(count, 3);
+  for (Eigen::Index v = 0; v < count; ++v) {
+    if (area[v] > 0.0) traction_pa.row(v) = (forces_n.normal.row(v) + forces_n.friction.row(v)) / area[v];
+  }
+  return traction_pa;
+}
+
 }  // namespace
 
 PressedGel::PressedGel(const std::filesystem::path& press, const TetMesh& gel)
@@ -52,23 +71,6 @@ std::vector<std::size_t> PressedGel::phase_ends() const {
 
 Positions PressedGel::markers(std::size_t frame) const {
   return press_.has(PressArray::markers) ? press_.markers(frame) : Positions(0, 3);
-}
-
-Positions traction_of(const ContactParts& forces_n, const Membrane& membrane) {
-  const Eigen::Index count = membrane.positions.rows();
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(count);
-  for (Eigen::Index f = 0; f < membrane.triangles.rows(); ++f) {
-    const Vector3 a = membrane.positions.row(membrane.triangles(f, 0)).transpose();
-    const Vector3 b = membrane.positions.row(membrane.triangles(f, 1)).transpose();
-    const Vector3 c = membrane.positions.row(membrane.triangles(f, 2)).transpose();
-    const double third = (b - a).cross(c - a).norm() / 6.0;
-    for (int k = 0; k < 3; ++k) area[membrane.triangles(f, k)] += third;
-  }
-  Positions traction_pa = Positions::Zero(count, 3);
-  for (Eigen::Index v = 0; v < count; ++v) {
-    if (area[v] > 0.0) traction_pa.row(v) = (forces_n.normal.row(v) + forces_n.friction.row(v)) / area[v];
-  }
-  return traction_pa;
 }
 
 }  // namespace tacipc

@@ -10,10 +10,6 @@
 
 namespace tacipc {
 
-/// Traction of one frame on the membrane's vertices: normal plus friction force over the vertex's share of the deformed
-/// area, a third of each triangle around it.
-Positions traction_of(const ContactParts& forces_n, const Membrane& membrane);
-
 /// Refers to the gel, which must outlive it.
 class PressedGel : public Deformation {
  public:

@@ -33,17 +33,7 @@ void warn_of_dark_leds(const FloatImage& basis, const std::vector<LightGroup>& g
   }
 }
 
-}  // namespace
-
-ByteImage read_reference(const std::filesystem::path& path, const Camera& camera) {
-  ByteImage image = read_png(path, 3);
-  if (image.width != camera.width_px || image.height != camera.height_px) {
-    throw DataError("{}: the reference image has {} x {} pixels, the sensor's camera {} x {}", path.string(),
-                    image.width, image.height, camera.width_px, camera.height_px);
-  }
-  return image;
-}
-
+/// Image points of markers in columns 0 and 1, NaN where the picture does not show them; column 2 is 1 or 0.
 Positions project_markers(const Positions& markers, const Sensor& sensor, bool refract) {
   const CameraModel camera(sensor.camera, sensor.stack, refract);
   Positions out(markers.rows(), 3);
@@ -55,6 +45,17 @@ Positions project_markers(const Positions& markers, const Sensor& sensor, bool r
     out.row(i) << (seen ? point->x() : kNothing), (seen ? point->y() : kNothing), seen ? 1.0 : 0.0;
   }
   return out;
+}
+
+}  // namespace
+
+ByteImage read_reference(const std::filesystem::path& path, const Camera& camera) {
+  ByteImage image = read_png(path, 3);
+  if (image.width != camera.width_px || image.height != camera.height_px) {
+    throw DataError("{}: the reference image has {} x {} pixels, the sensor's camera {} x {}", path.string(),
+                    image.width, image.height, camera.width_px, camera.height_px);
+  }
+  return image;
 }
 
 RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const Deformation& front,

@@ -41,9 +41,6 @@ struct RenderSummary {
   double indirect_share = 0.0;     // of the last frame's light
 };
 
-/// Image points of markers in columns 0 and 1, NaN where the picture does not show them; column 2 is 1 or 0.
-Positions project_markers(const Positions& markers, const Sensor& sensor, bool refract);
-
 /// Renders frame 0 (the reference, from the gel at rest), then the frames asked for, with every unit, and hands each to
 /// `deliver`. \pre the first unit needs rays
 /// \throw DataError if a unit without reference has no noise model, if nothing lights the gel or the camera sees none.

@@ -1,16 +1,15 @@
 #include "stages/image/track/light_image.h"
 
 #include <array>
-#include <cmath>
+
+#include "common/base/tone_curve.h"
 
 namespace tacipc {
 
 FloatImage light_of(const ByteImage& image, const std::string& curve) {
   std::array<double, 256> light{};
-  for (std::size_t code = 0; code < light.size(); ++code) {
-    const double v = static_cast<double>(code) / 255.0;
-    light[code] = curve == "linear" ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  }
+  for (std::size_t code = 0; code < light.size(); ++code)
+    light[code] = ToneCurve::named(curve).value_of(static_cast<double>(code));
   FloatImage out(image.width, image.height, 1);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {

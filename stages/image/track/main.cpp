@@ -6,7 +6,6 @@
 #include "common/stage/stage.h"
 #include "stages/image/track/agreement.h"
 #include "stages/image/track/track_arrays.h"
-#include "stages/image/track/tracks_csv.h"
 
 namespace {
 

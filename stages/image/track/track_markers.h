@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "stages/image/track/dot_center.h"
@@ -30,5 +31,9 @@ struct MarkerTracks {
 /// \throw DataError if the first image shows no dots, or images differ in size
 MarkerTracks track_markers(int count, const std::function<ByteImage(int)>& image, const TrackConfig& config,
                            const std::optional<std::vector<Eigen::Vector2d>>& start);
+
+/// marker,frame,x_px,y_px,dx_px,dy_px,quality: all frames of the first marker, then of the next. d counts from the
+/// first frame; fields are empty where a marker is lost. `frames` are the numbers of the images.
+std::string tracks_csv(const MarkerTracks& tracks, const std::vector<int>& frames);
 
 }  // namespace tacipc

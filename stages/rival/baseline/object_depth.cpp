@@ -3,11 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/base/error.h"
-#include "common/sensor/pinhole.h"
 
 namespace tacipc {
+namespace {
+
+struct RayHit {
+  double depth = 0.0;                   // along the camera's axis
+  std::array<double, 3> barycentric{};  // of the corners, sum 1
+};
+
+/// Where the ray from the origin meets triangle (a, b, c). The signed volumes of the ray with the three edges have one
+/// sign inside; an edge's volume is the same number but for its sign in both its triangles, so nothing falls between
+/// two, and a ray through an edge meets both.
+std::optional<RayHit> ray_hit(const Vector3& ray, const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double u = ray.dot(b.cross(c)), v = ray.dot(c.cross(a)), w = ray.dot(a.cross(b));
+  const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+  const double sum = u + v + w;
+  if (!inside || sum == 0.0) return std::nullopt;
+  return RayHit{(u * a.z() + v * b.z() + w * c.z()) / sum, {u / sum, v / sum, w / sum}};
+}
+
+}  // namespace
 
 ObjectCamera::ObjectCamera(const Sensor& sensor, ObjectRays rays)
     : camera_(sensor.camera),

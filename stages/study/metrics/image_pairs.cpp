@@ -50,9 +50,13 @@ std::vector<ImagePair> pair_lists(const std::vector<fs::path>& listed, const std
   }
   std::vector<fs::path> images;
   for (const fs::path& image : listed) images.push_back(image.lexically_normal());
-  const std::vector<std::string> names = short_names(images);
+  // Names that do not depend on where that folder lies.
+  const fs::path folder = common_folder(images);
   std::vector<ImagePair> pairs;
-  for (std::size_t i = 0; i < images.size(); ++i) pairs.push_back({names[i], images[i], references[i]});
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const fs::path name = folder.empty() ? images[i] : images[i].lexically_relative(folder);
+    pairs.push_back({name.generic_string(), images[i], references[i]});
+  }
   return pairs;
 }
 

@@ -5,11 +5,25 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "common/base/files.h"
 #include "common/format/csv.h"
 #include "common/stage/stage_timings.h"
 #include "stages/study/tabulate/markdown.h"
 
 namespace tacipc {
+namespace {
+
+/// Whether a folder on the path below `root` has this name, or ends with it after a hyphen (`mctac-adaptive_0100um`).
+/// \pre the path begins with `root`, as of common_folder
+bool lies_in(const std::filesystem::path& path, const std::string& folder, const std::filesystem::path& root) {
+  const std::filesystem::path folders = path.parent_path();
+  const auto below = std::next(folders.begin(), std::distance(root.begin(), root.end()));
+  return std::any_of(below, folders.end(), [&](const std::filesystem::path& part) {
+    return part == folder || part.string().ends_with("-" + folder);
+  });
+}
+
+}  // namespace
 
 StageCostsConfig StageCostsConfig::read(ConfigReader& in) {
   StageCostsConfig config{.title = in.text("title"), .caption = in.text_or("caption", ""), .rows = {}, .sums = {}};

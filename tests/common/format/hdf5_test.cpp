@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/format/hdf5_reader.h"
+#include "tests/hdf5_texts.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -107,8 +108,8 @@ TEST_F(Hdf5Test, WhatIsWrittenReadsBack) {
     EXPECT_EQ(file.text_attribute(path, "unit"), "mm");
   }
   EXPECT_EQ(from_bytes(NumberType::f32, file.read("/a/whole")), (std::vector<double>{1.0, 2.5, -3.0}));
-  EXPECT_EQ(file.read_texts("/mask/train"), (std::vector<std::string>{"one", "second"}));
-  EXPECT_EQ(file.read_texts("/mask/val"), std::vector<std::string>{});
+  EXPECT_EQ(texts_of(file, "/mask/train"), (std::vector<std::string>{"one", "second"}));
+  EXPECT_EQ(texts_of(file, "/mask/val"), std::vector<std::string>{});
   EXPECT_TRUE(file.has("/a/b/uint8"));
   EXPECT_FALSE(file.has("/a/c/uint8"));
 }

@@ -156,8 +156,8 @@ TEST(SyntheticReference, HasTheNoiseOfItsModel) {
   constexpr int kSide = 200;
   const FloatImage flat(kSide, kSide, 1, 0.4f);
   const Response response{.mean_level = 0.4, .curve = "linear"};
-  const NoiseModel noise{.full_well_e = 5000, .read_e = 4, .seed = 7};
-  const ByteImage image = synthetic_reference(flat, 1.0, response, noise);
+  const SensorNoise noise{.full_well_e = 5000, .read_e = 4};
+  const ByteImage image = synthetic_reference(flat, 1.0, response, noise, 7);
   double sum = 0.0, squares = 0.0;
   for (const std::uint8_t code : image.pixels) {
     sum += code;
@@ -168,9 +168,8 @@ TEST(SyntheticReference, HasTheNoiseOfItsModel) {
   const double scale = 255.0 / 5000.0, expected = 2016.0 * scale * scale + 1.0 / 12.0;
   EXPECT_NEAR(mean, 102.0, 4.0 * std::sqrt(expected / count));
   EXPECT_NEAR(variance / expected, 1.0, 0.04);
-  EXPECT_EQ(image.pixels, synthetic_reference(flat, 1.0, response, noise).pixels);
-  EXPECT_NE(image.pixels,
-            synthetic_reference(flat, 1.0, response, {.full_well_e = 5000, .read_e = 4, .seed = 8}).pixels);
+  EXPECT_EQ(image.pixels, synthetic_reference(flat, 1.0, response, noise, 7).pixels);
+  EXPECT_NE(image.pixels, synthetic_reference(flat, 1.0, response, noise, 8).pixels);
 }
 
 TEST(Random, IsUniformNormalAndIndependentOfItsNeighbours) {

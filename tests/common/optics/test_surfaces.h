@@ -7,6 +7,7 @@
 
 #include "common/image/image.h"
 #include "common/optics/membrane.h"
+#include "common/optics/trace.h"
 #include "common/sensor/sensor.h"
 
 namespace tacipc {
@@ -27,6 +28,13 @@ Sensor plain_sensor(int width_px, int height_px);
 
 /// White point light of intensity 1, isotropic.
 Led point_light(const Vector3& position_m);
+
+/// As `trace`, of a membrane alone.
+inline TraceResult trace(const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
+                         const SurfaceFields& fields = {}) {
+  const RayScene scene(membrane.positions, membrane.triangles);
+  return trace(scene, membrane, sensor, settings, fields);
+}
 
 /// Largest |a − b| of two images of one shape.
 double largest_difference(const FloatImage& a, const FloatImage& b);

@@ -97,6 +97,11 @@ std::vector<std::string> listed(const std::string& page, const std::string& begi
   return names;
 }
 
+template <HasRecordKeys Lines>
+std::vector<std::string> key_names() {
+  return std::apply([](const auto&... keys) { return std::vector<std::string>{keys.name...}; }, Lines::keys());
+}
+
 TEST(PressRecord, ThePagesListTheKeys) {
   EXPECT_EQ(table_keys("Summary of a press"), key_names<PressSummary>());
   EXPECT_EQ(table_keys("Frames of a press record"), key_names<PressFrameLines>());

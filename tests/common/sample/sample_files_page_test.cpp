@@ -35,7 +35,10 @@ std::string table_below(const std::string& heading) {
   return rows;
 }
 
-std::string type_of(const NpyField& field) { return fmt::format("{} {}", name_of(field.type), shape_text(field)); }
+std::string type_of(const NpyField& field) {
+  constexpr const char* kTypes[] = {"f8", "i4", "u1"};
+  return fmt::format("{} {}", kTypes[static_cast<int>(field.type)], shape_text(field));
+}
 
 std::string row_of(const NpyField& field) {
   return fmt::format("| `{}` | {} | {} | {} |\n", field.file, type_of(field), field.unit, field.meaning);

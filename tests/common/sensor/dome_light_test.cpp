@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/sensor/membrane_view.h"
-#include "common/sensor/pinhole.h"
+#include "tests/common/sensor/pinhole.h"
 
 namespace tacipc {
 namespace dome_light_test {

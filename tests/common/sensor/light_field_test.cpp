@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "common/sensor/membrane_view.h"
-#include "common/sensor/pinhole.h"
+#include "tests/common/sensor/pinhole.h"
 #include "tests/config_text.h"
 
 namespace tacipc {

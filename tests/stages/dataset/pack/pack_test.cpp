@@ -8,6 +8,7 @@
 #include "common/format/csv.h"
 #include "common/format/hdf5_reader.h"
 #include "common/stage/record.h"
+#include "tests/hdf5_texts.h"
 #include "tests/program_test.h"
 #include "tests/stages/dataset/pack/sample_files.h"
 
@@ -198,8 +199,8 @@ TEST_F(PackTest, TheShardTellsItsCameraAndItsSamples) {
     ASSERT_NE(k, lines.end());
     EXPECT_THAT(to_yaml(k->second), HasSubstr("[2.5, 0, 2]\n- [0, 2.5, 1.5]\n- [0, 0, 1]"));
   }
-  EXPECT_EQ(file.read_texts("/mask/train"), std::vector<std::string>{kId});
-  EXPECT_EQ(file.read_texts("/mask/pose_val"), std::vector<std::string>{kId});
+  EXPECT_EQ(texts_of(file, "/mask/train"), std::vector<std::string>{kId});
+  EXPECT_EQ(texts_of(file, "/mask/pose_val"), std::vector<std::string>{kId});
   EXPECT_EQ(file.text_attribute(group(), "seed"), "18446744073709551615");
   EXPECT_EQ(file.text_attribute(group(), "sample_yaml"), "motion: {kind: press, depth_mm: 1, steps: 2}\n");
   EXPECT_EQ(file.text_attribute(group(), "path_csv"), "0,0,0,0,0,0,0,1\n");

@@ -97,13 +97,11 @@ TEST_F(RobotPartTest, ThePageHasTheTaskItsForcesAndTheActuatorsThatChange) {
 TEST_F(RobotPartTest, TheOutcomeIsThatOfTheRecord) {
   EXPECT_THAT(page(), Not(HasSubstr("in the hand and turned by")));  // a single gel
   RobotReport held = robot();
-  held.held[0] = {.body = held.held[0].body,
-                  .outcome = "dropped",
-                  .freed_frame = held.held[0].freed_frame,
-                  .slip_m = 0.0123,
-                  .turn_rad = 0.5,
-                  .rise_m = -0.003,
-                  .hand_rise_m = 0.04};
+  held.held[0].outcome = "dropped";
+  held.held[0].slip_m = 0.0123;
+  held.held[0].turn_rad = 0.5;
+  held.held[0].rise_m = -0.003;
+  held.held[0].hand_rise_m = 0.04;
   EXPECT_THAT(robot_sections(held, scene().bodies, steps_over_time(held, scene().frames), false),
               HasSubstr("<p>peg: <b>dropped</b>. Since it was free it slipped by 12.30 mm in the hand and turned by "
                         "28.6°; it rose by -3.0 mm, the hand by 40.0 mm.</p>"));

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "common/base/error.h"
-#include "common/sensor/pinhole.h"
 #include "stages/image/calibrate/fit_light.h"
+#include "tests/common/sensor/pinhole.h"
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
@@ -147,8 +147,7 @@ CalibrateConfig config() {
                       .lamps = {},
                       .bounds = {.azimuth_rad = 0.5, .elevation_tan = {0.2, 0.9}, .distance_m = {10e-3, 60e-3}},
                       .fit_lamps = true,
-                      .environment_degree = 2,
-                      .shadow_softness = 0.2,
+                      .geometry = {.shadow_softness = 0.2, .environment_degree = 2},
                       .blur_px = 0.0,
                       .ridge = 1e-9,
                       .folds = 4};
@@ -242,7 +241,7 @@ BallPress cap_press() {
 
 TEST(FitLight, FindsWhichRimTheLabelsMean) {
   CalibrateConfig settings = config();
-  settings.environment_degree = 0;
+  settings.geometry.environment_degree = 0;
   settings.fit_lamps = false;
   settings.lamps.clear();
   for (const auto& [degrees, elevation] : {std::pair{22.0, 0.42}, {118.0, 0.55}, {255.0, 0.47}})
@@ -310,7 +309,7 @@ TEST(FitLight, AKnownObjectTellsLampsThatShallowBallsDoNot) {
       .azimuth_rad = 0.5, .elevation_tan = {0.2, 0.9}, .distance_m = {10e-3, 60e-3}, .half_width_rad = {0.05, 0.7}};
   settings.lamps.resize(2);
   for (LampGuess& lamp : settings.lamps) lamp.half_width_rad = 0.3;
-  settings.shadow_softness = 0.1;
+  settings.geometry.shadow_softness = 0.1;
   settings.ridge = 1e-8;
   const double azimuth[] = {0.3, 2.1}, elevation[] = {0.45, 0.6}, width[] = {0.45, 0.2};
   LightField light{.geometry = {.shadow_softness = 0.1, .field_half_width_m = 6e-3}, .weights = {}, .blur_px = 0.0};

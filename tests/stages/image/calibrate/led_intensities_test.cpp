@@ -126,12 +126,5 @@ TEST(FitIntensities, BlocksIgnoreDustAndClippingIsLeftOut) {
             "channel 0: 0 usable blocks for 9 unknowns");
 }
 
-TEST(LinearOfCode, IsTheSrgbCurve) {
-  EXPECT_NEAR(linear_of_code(255, "srgb"), 1.0, 1e-15);
-  EXPECT_NEAR(linear_of_code(128, "srgb"), 0.2158605, 1e-7);
-  EXPECT_NEAR(linear_of_code(5, "srgb"), 5 / 255.0 / 12.92, 1e-15);
-  EXPECT_EQ(linear_of_code(51, "linear"), 0.2);
-}
-
 }  // namespace led_intensities_test
 }  // namespace tacipc

@@ -10,6 +10,7 @@
 #include "common/optics/develop.h"
 #include "stages/image/calibrate/led_intensities.h"
 #include "stages/image/calibrate/rest_membrane.h"
+#include "tests/common/optics/test_surfaces.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 
@@ -79,7 +80,7 @@ ByteImage photograph(const Sensor& sensor, const Membrane& membrane, double expo
                      std::uint64_t stream) {
   FloatImage signal =
       camera_signal(color_image(trace(membrane, sensor, kTrace), sensor, false), sensor.camera, sensor.response);
-  if (noisy) signal = add_noise(signal, exposure, {sensor.noise->full_well_e, sensor.noise->read_e, 11}, stream);
+  if (noisy) signal = add_noise(signal, exposure, *sensor.noise, 11, stream);
   return quantise(encode(signal, exposure, sensor.response)).image;
 }
 

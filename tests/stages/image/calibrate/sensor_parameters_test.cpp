@@ -6,7 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/sensor/camera_model.h"
-#include "stages/image/calibrate/block_codes.h"
+#include "stages/image/calibrate/blocks.h"
 #include "stages/image/calibrate/rest_membrane.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
@@ -130,9 +130,9 @@ TEST(SensorParameters, NeedLeds) {
 }
 
 TEST(SensorFitConfig, FaultsHaveTheirPlace) {
-  EXPECT_THAT(faults_in<SensorFitFile>("sensor_fit:\n  block_px: 8\n  sigma_codes: 0\n  parameters:\n"
-                                       "    ring_radios_mm: {sigma: 1}\n    gamma: {sigma: 0.1, bounds: [3, 2]}\n",
-                                       "c.yaml"),
+  EXPECT_THAT(faults_in<SensorFitConfig>("sensor_fit:\n  block_px: 8\n  sigma_codes: 0\n  parameters:\n"
+                                         "    ring_radios_mm: {sigma: 1}\n    gamma: {sigma: 0.1, bounds: [3, 2]}\n",
+                                         "c.yaml"),
               testing::ElementsAre("c.yaml:3:16: sensor_fit.sigma_codes: 0 is outside (0, inf)",
                                    "c.yaml:5:5: sensor_fit.parameters.ring_radios_mm: unknown key (did you mean "
                                    "ring_radius_mm?)",

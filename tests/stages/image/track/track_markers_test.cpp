@@ -6,7 +6,6 @@
 #include "stages/image/track/agreement.h"
 #include "stages/image/track/find_dots.h"
 #include "stages/image/track/flow.h"
-#include "stages/image/track/tracks_csv.h"
 #include "tests/config_text.h"
 #include "tests/scratch_folder.h"
 #include "tests/stages/image/track/drawn_dots.h"

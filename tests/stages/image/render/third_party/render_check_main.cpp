@@ -6,6 +6,7 @@
 #include "common/optics/trace.h"
 #include "common/stage/stage.h"
 #include "stages/image/render/pressed_gel.h"
+#include "tests/common/optics/test_surfaces.h"
 #include "tests/stages/image/render/third_party/agreement.h"
 #include "tests/stages/image/render/third_party/flat_start.h"
 #include "tests/stages/image/render/third_party/povray_scene.h"

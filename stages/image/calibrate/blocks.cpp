@@ -1,12 +1,10 @@
-#include "stages/image/calibrate/block_codes.h"
+#include "stages/image/calibrate/blocks.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <limits>
 #include <vector>
-
-#include "stages/image/calibrate/blocks.h"
 
 namespace tacipc {
 

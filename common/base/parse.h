@@ -1,0 +1,20 @@
+// Numbers as texts of files and flags have them.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace tacipc {
+
+/// The number that a whole text stands for; none if it is no number of this type.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+}  // namespace tacipc
