@@ -205,6 +205,7 @@ struct WholeArrays {
 GraspFrameLines grasp_lines(const Grasp& grasp, std::size_t frame) {
   const GraspFrame& f = grasp.frames[frame];
   const auto& [left, right] = grasp.contacts[frame];
+  const Frame& finger = grasp.fingers[0].frames[frame];
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
   GraspFrameLines lines{.time_s = f.time_s,
                         .phase = name_of(f.phase),
@@ -219,9 +220,9 @@ GraspFrameLines grasp_lines(const Grasp& grasp, std::size_t frame) {
                         .slip_share_right = right.slip_share,
                         .friction_radius_left_m = left.friction_radius_m,
                         .friction_radius_right_m = right.friction_radius_m,
-                        .body_strain = grasp.fingers[0].frames[frame].body_strain,
-                        .body_load_n = f.body_load_n,
-                        .body_residual_n = f.body_residual_n,
+                        .body_strain = finger.body_strain,
+                        .body_load_n = finger.solver.body_load_n,
+                        .body_residual_n = finger.solver.body_residual_n,
                         .momentum_residual_n = f.whole.momentum_residual_n,
                         .angular_residual_n_m = f.whole.angular_residual_n_m,
                         .grip_imbalance = f.grip_imbalance};
