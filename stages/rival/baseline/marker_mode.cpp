@@ -76,7 +76,7 @@ struct MovedPress {
       markers.back().row(m).head<2>() += field(static_cast<std::size_t>(m)).transpose();
   }
   void write(Stage& stage, const std::string& folder) const {
-    const PressWriter writer(
+    const ArrayWriter writer(
         stage, {{kFrames, poses.size()}, {kMarkers, static_cast<std::size_t>(markers.front().rows())}}, folder);
     writer.write(PressArray::object_pose, poses, [](const Matrix4& pose) { return pose; });
     writer.write(PressArray::phase, phases, [](PhaseKind phase) { return phase; });

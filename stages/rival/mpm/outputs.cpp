@@ -21,7 +21,7 @@ std::vector<Marker> bind(const Sensor& sensor, const MpmScene& scene) {
 
 void write_arrays(Stage& stage, const Sensor& sensor, const MpmScene& scene, const MpmRun& run,
                   const std::vector<Positions>& markers, std::optional<std::size_t> press_end) {
-  const PressWriter writer(stage,
+  const ArrayWriter writer(stage,
                            {{kFrames, run.frames.size()}, {kMarkers, static_cast<std::size_t>(markers[0].rows())}});
   writer.write(PressArray::object_pose, run.frames, [](const MpmFrame& f) { return f.gel_from_object; });
   writer.write(PressArray::time, run.frames, [](const MpmFrame& f) { return f.time_s; });

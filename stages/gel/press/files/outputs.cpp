@@ -18,7 +18,7 @@
 namespace tacipc {
 namespace {
 
-void write_markers(Stage& stage, const std::string& folder, const PressWriter& writer,
+void write_markers(Stage& stage, const std::string& folder, const ArrayWriter& writer,
                    const std::vector<Marker>& markers, const std::vector<Frame>& frames,
                    const std::optional<std::size_t>& end) {
   std::vector<Positions> positions;
@@ -39,7 +39,7 @@ std::vector<double> first_slip_s(const Simulation& simulation) {
   return first;
 }
 
-void write_contact(const PressWriter& writer, const Sensor& sensor, const Simulation& simulation) {
+void write_contact(const ArrayWriter& writer, const Sensor& sensor, const Simulation& simulation) {
   const auto& frames = simulation.frames;
   const FrontSurface& front = simulation.front;
   writer.write(PressArray::front_vertices, {front.vertices.begin(), front.vertices.end()});
@@ -129,7 +129,7 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
   const auto& frames = simulation.frames;
   const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
   const std::vector<Marker> markers = bind_markers(sensor.markers, gel.positions, gel.faces(BoundaryTag::front));
-  const PressWriter writer(stage,
+  const ArrayWriter writer(stage,
                            {{kFrames, frames.size()},
                             {kVertices, vertices},
                             {kFrontVertices, simulation.front.vertices.size()},
