@@ -56,21 +56,11 @@ int count_loops(const std::vector<std::array<int, 2>>& edges) {
 
 Membrane make_membrane(const TetMesh& gel, const Eigen::Ref<const Positions>& deformed) {
   assert(deformed.rows() == gel.positions.rows());
-  Triangles triangles = gel.faces(BoundaryTag::front);
+  Triangles triangles = gel.surface(BoundaryTag::front);
   if (triangles.rows() == 0) throw DataError("the gel has no triangle tagged as front face");
   const std::vector<int> vertices = gel.vertices(BoundaryTag::front);
-  std::vector<int> row_of(gel.num_vertices(), -1);
-  Positions positions(vertices.size(), 3), rest(positions.rows(), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    row_of[vertices[i]] = static_cast<int>(i);
-    positions.row(row) = deformed.row(vertices[i]);
-    rest.row(row) = gel.positions.row(vertices[i]);
-  }
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) triangles(f, k) = row_of[triangles(f, k)];
-  }
-  Membrane membrane = make_membrane(std::move(positions), std::move(rest), std::move(triangles));
+  Membrane membrane =
+      make_membrane(deformed(vertices, Eigen::all), gel.positions(vertices, Eigen::all), std::move(triangles));
   membrane.gel_rows = vertices;
   const int loops = count_loops(membrane.outline);
   if (loops != 1)
@@ -80,8 +70,7 @@ Membrane make_membrane(const TetMesh& gel, const Eigen::Ref<const Positions>& de
 
 void move_membrane(Membrane& membrane, const Eigen::Ref<const Positions>& deformed) {
   assert(static_cast<Eigen::Index>(membrane.gel_rows.size()) == membrane.positions.rows());
-  for (std::size_t i = 0; i < membrane.gel_rows.size(); ++i)
-    membrane.positions.row(i) = deformed.row(membrane.gel_rows[i]);
+  membrane.positions = deformed(membrane.gel_rows, Eigen::all);
   membrane.normals = vertex_normals(membrane.positions, membrane.triangles);
 }
 
