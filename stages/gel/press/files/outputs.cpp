@@ -50,7 +50,7 @@ void write_contact(const ArrayWriter& writer, const Sensor& sensor, const Simula
   writer.write(PressArray::first_slip, first_slip_s(simulation));
   const TractionGrid grid = TractionGrid::over_window(sensor.camera);
   writer.write(PressArray::traction, frames, [&](const Frame& f) {
-    return spread_traction(grid, front, on_front(front, f.positions), f.normal_force_n, f.friction_force_n).pascal;
+    return spread_traction(grid, front, on_front(front, f.positions), f.normal_force_n, f.friction_force_n);
   });
 }
 
@@ -109,10 +109,8 @@ void add_frames(PressSummary& summary, const Simulation& simulation) {
     summary.min_volume_ratio = std::min(summary.min_volume_ratio, lines.min_volume_ratio);
     summary.max_balance_relative = std::max(summary.max_balance_relative, lines.balance_relative);
     summary.max_pose_error_m = std::max(summary.max_pose_error_m, lines.pose_error_m);
-    const auto slipping = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::slip);
-    const auto sticking = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::stick);
-    if (slipping > 0 && !summary.first_slip_time_s) summary.first_slip_time_s = f.time_s;
-    if (slipping > 0 && sticking == 0 && !summary.gross_slip_time_s) summary.gross_slip_time_s = f.time_s;
+    if (lines.slipping > 0 && !summary.first_slip_time_s) summary.first_slip_time_s = f.time_s;
+    if (lines.slipping > 0 && lines.sticking == 0 && !summary.gross_slip_time_s) summary.gross_slip_time_s = f.time_s;
   }
   if (!approximated.empty()) summary.approximated_frames = std::move(approximated);
   const PressFrameLines& last = summary.per_frame.back();

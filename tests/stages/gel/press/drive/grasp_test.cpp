@@ -389,7 +389,7 @@ TEST(Grasp, ADividedTimeStepGivesAResult) {
     return a.solver.newton_iterations < b.solver.newton_iterations;
   };
   // After the fingers have closed: the last frame of that has several time steps.
-  config.max_newton_iterations =
+  config.newton.max_iterations =
       std::max_element(frames.begin() + 4, frames.end(), fewer)->solver.newton_iterations - 1;
   config.max_halvings = 6;
   const Grasp grasp = run_grasp(kBox, config, grasp_of(kMass_kg, motion));
