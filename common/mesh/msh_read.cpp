@@ -8,6 +8,7 @@
 #include "common/base/files.h"
 #include "common/mesh/msh_cursor.h"
 #include "common/mesh/tet_mesh.h"
+#include "common/mesh/triangle_mesh.h"
 
 namespace tacipc {
 namespace {
@@ -60,8 +61,7 @@ class MshReader {
     if (points_.empty()) throw DataError("{}: has no nodes", name_);
     if (tets_.empty()) throw DataError("{}: has no tetrahedra", name_);
     MshContent content;
-    content.positions.resize(points_.size(), 3);
-    for (std::size_t i = 0; i < points_.size(); ++i) content.positions.row(i) = points_[i].transpose();
+    content.positions = rows_of<Positions>(points_);
     content.tets = Eigen::Map<const Tetrahedra>(tets_.data(), tets_.size() / 4, 4);
     content.triangles.resize(triangles_.size() / 3, 3);
     std::ranges::copy(triangles_, content.triangles.data());

@@ -39,6 +39,13 @@ std::vector<int> TetMesh::vertices(BoundaryTag tag) const {
   return found;
 }
 
+Triangles TetMesh::surface(BoundaryTag tag) const {
+  const std::vector<int> all = vertices(tag);
+  Triangles triangles = faces(tag);
+  for (int& v : triangles.reshaped()) v = static_cast<int>(std::ranges::lower_bound(all, v) - all.begin());
+  return triangles;
+}
+
 TetMesh joined(const std::vector<TetMesh>& meshes) {
   Eigen::Index vertices = 0, tets = 0, triangles = 0;
   for (const TetMesh& mesh : meshes) {

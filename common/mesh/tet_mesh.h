@@ -25,6 +25,8 @@ struct TetMesh {
   Triangles faces(BoundaryTag tag) const;
   /// Vertices of the faces of one kind, ascending.
   std::vector<int> vertices(BoundaryTag tag) const;
+  /// The faces of one kind as a surface of its own: by places in vertices(tag).
+  Triangles surface(BoundaryTag tag) const;
 };
 
 /// Several meshes as one: the vertices of the first, then those of the second, …; tets and boundary likewise.

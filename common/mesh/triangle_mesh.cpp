@@ -74,11 +74,8 @@ TriangleMesh read_triangle_mesh(const std::filesystem::path& path, double metres
   }
   if (triangle_corners.empty()) throw DataError("{}: has no triangles", name);
 
-  TriangleMesh mesh;
-  mesh.positions.resize(num_vertices, 3);
-  for (std::size_t i = 0; i < num_vertices; ++i) mesh.positions.row(i) = soup.vertices[i].transpose();
-  mesh.triangles = Eigen::Map<const Triangles>(triangle_corners.data(), triangle_corners.size() / 3, 3);
-  return mesh;
+  return {rows_of<Positions>(soup.vertices),
+          Eigen::Map<const Triangles>(triangle_corners.data(), triangle_corners.size() / 3, 3)};
 }
 
 double signed_volume(const TriangleMesh& mesh) {

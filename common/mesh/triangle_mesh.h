@@ -18,6 +18,14 @@ struct TriangleMesh {
   Eigen::Index num_triangles() const { return triangles.rows(); }
 };
 
+/// Positions or triangles from a list of their rows.
+template <typename Matrix, typename Row>
+Matrix rows_of(const std::vector<Row>& rows) {
+  Matrix out(std::ssize(rows), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) out.row(i) << rows[i][0], rows[i][1], rows[i][2];
+  return out;
+}
+
 /// What a file's numbers may mean.
 inline const std::vector<std::string> kLengthUnits{"m", "cm", "mm", "um", "in"};
 double metres_per_unit(const std::string& unit);  // of one of these; \throw UsageError otherwise

@@ -56,12 +56,9 @@ int count_loops(const std::vector<std::array<int, 2>>& edges) {
 
 Membrane make_membrane(const TetMesh& gel, const Eigen::Ref<const Positions>& deformed) {
   assert(deformed.rows() == gel.positions.rows());
-  Triangles triangles = gel.faces(BoundaryTag::front);
+  Triangles triangles = gel.surface(BoundaryTag::front);
   if (triangles.rows() == 0) throw DataError("the gel has no triangle tagged as front face");
   const std::vector<int> vertices = gel.vertices(BoundaryTag::front);
-  std::vector<int> row_of(gel.num_vertices(), -1);
-  for (std::size_t i = 0; i < vertices.size(); ++i) row_of[vertices[i]] = static_cast<int>(i);
-  for (int& vertex : triangles.reshaped()) vertex = row_of[vertex];
   Membrane membrane =
       make_membrane(deformed(vertices, Eigen::all), gel.positions(vertices, Eigen::all), std::move(triangles));
   membrane.gel_rows = vertices;

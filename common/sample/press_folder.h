@@ -104,7 +104,4 @@ class PressFolder {
   ArrayFolder arrays_;
 };
 
-/// Writes arrays of a press folder.
-using PressWriter = ArrayWriter;
-
 }  // namespace tacipc

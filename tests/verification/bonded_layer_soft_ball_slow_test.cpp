@@ -132,9 +132,9 @@ PressConfig precise_config(const TetMesh& gel) {
   config.relative_barrier_stiffness = 0.02;
   config.pair_counting.once = true;
   config.relative_velocity_tolerance = 1e-5;
-  config.relative_force_tolerance = 1e-4;
-  config.force_tolerance_n = 1e-7;
-  config.max_newton_iterations = 300;
+  config.newton.relative_force_tolerance = 1e-4;
+  config.newton.force_tolerance_n = 1e-7;
+  config.newton.max_iterations = 300;
   return config;
 }
 

@@ -92,7 +92,7 @@ fit: {press_force_n: 3}
 
 TEST(Case, WhatFailsSaysWhy) {
   CaseSpec spec = read(kCase + "  - {quantity: press_force_n, at_least: 0}\n");
-  spec.press.max_newton_iterations = 1;
+  spec.press.newton.max_iterations = 1;
   const CaseResult result = run_case(spec, "", [](int, int, int, double) {});
   ASSERT_TRUE(result.failed);
   EXPECT_FALSE(result.pass());

@@ -139,7 +139,7 @@ TEST(Stress, AFewCasesConverge) {
 
 TEST(Stress, WhatTheSolverGivesUpIsAResult) {
   StressCase stress = draw_case(ranges(), 1, 7);
-  stress.press.max_newton_iterations = 1;
+  stress.press.newton.max_iterations = 1;
   stress.press.max_halvings = 0;
   const StressResult result = run_stress_case(stress, [](int, int, int, double) {});
   EXPECT_EQ(result.outcome, StressOutcome::not_converged);

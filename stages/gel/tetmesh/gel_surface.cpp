@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/base/error.h"
+#include "common/mesh/triangle_mesh.h"
 #include "stages/gel/tetmesh/face_mesh.h"
 #include "stages/gel/tetmesh/outline.h"
 
@@ -102,16 +103,7 @@ class Builder {
 
   int num_vertices() const { return static_cast<int>(positions_.size()); }
 
-  GelSurface finish() const {
-    GelSurface surface;
-    surface.positions.resize(num_vertices(), 3);
-    for (int i = 0; i < num_vertices(); ++i) surface.positions.row(i) = positions_[i];
-    surface.triangles.resize(static_cast<Eigen::Index>(triangles_.size()), 3);
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-      surface.triangles.row(static_cast<Eigen::Index>(t)) << triangles_[t][0], triangles_[t][1], triangles_[t][2];
-    surface.tags = tags_;
-    return surface;
-  }
+  GelSurface finish() const { return {rows_of<Positions>(positions_), rows_of<Triangles>(triangles_), tags_}; }
 
  private:
   /// The point of the gel over (x, y) at a fraction of the depth there.

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
+#include "common/base/disjoint_sets.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/mesh/exact_predicates.h"
@@ -51,25 +51,11 @@ void check_apart(const TriangleMesh& surface) {
 }
 
 int num_pieces(const TriangleMesh& surface) {
-  std::vector<int> parent(static_cast<std::size_t>(surface.num_vertices()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v) {
-      int& up = parent[static_cast<std::size_t>(v)];
-      up = parent[static_cast<std::size_t>(up)];
-      v = up;
-    }
-    return v;
-  };
-  auto pieces = static_cast<int>(surface.num_vertices());
-  for (Eigen::Index f = 0; f < surface.num_triangles(); ++f) {
-    for (int k = 0; k < 2; ++k) {
-      const int a = root(surface.triangles(f, k)), b = root(surface.triangles(f, k + 1));
-      if (a == b) continue;
-      parent[static_cast<std::size_t>(b)] = a;
-      --pieces;
-    }
-  }
+  DisjointSets joined(static_cast<std::size_t>(surface.num_vertices()));
+  int pieces = joined.size();
+  for (Eigen::Index f = 0; f < surface.num_triangles(); ++f)
+    for (int k = 0; k < 2; ++k)
+      if (joined.join(surface.triangles(f, k), surface.triangles(f, k + 1))) --pieces;
   return pieces;
 }
 

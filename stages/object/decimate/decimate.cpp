@@ -170,24 +170,14 @@ Mesh to_openmesh(const TriangleMesh& mesh) {
 
 /// What is left, with the coordinates of the input bit by bit.
 TriangleMesh remaining(const Mesh& collapsed, const TriangleMesh& input) {
-  std::vector<int> new_index(input.num_vertices(), -1);
-  std::vector<int> old_index;
-  for (int v = 0; v < static_cast<int>(input.num_vertices()); ++v) {
-    if (collapsed.status(collapsed.vertex_handle(static_cast<unsigned>(v))).deleted()) continue;
-    new_index[v] = static_cast<int>(old_index.size());
-    old_index.push_back(v);
-  }
   std::vector<int> corners;
   for (int f = 0; f < static_cast<int>(input.num_triangles()); ++f) {
     const auto face = collapsed.face_handle(static_cast<unsigned>(f));
     if (collapsed.status(face).deleted()) continue;
-    for (auto corner = collapsed.cfv_iter(face); corner.is_valid(); ++corner)
-      corners.push_back(new_index[corner->idx()]);
+    for (auto corner = collapsed.cfv_iter(face); corner.is_valid(); ++corner) corners.push_back(corner->idx());
   }
-  TriangleMesh out;
-  out.positions.resize(std::ssize(old_index), 3);
-  for (std::size_t v = 0; v < old_index.size(); ++v) out.positions.row(v) = input.positions.row(old_index[v]);
-  out.triangles = Eigen::Map<const Triangles>(corners.data(), std::ssize(corners) / 3, 3);
+  TriangleMesh out{input.positions, Eigen::Map<const Triangles>(corners.data(), std::ssize(corners) / 3, 3)};
+  remove_unreferenced_vertices(out);
   return out;
 }
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 
+#include "common/base/disjoint_sets.h"
 #include "common/base/error.h"
 #include "stages/object/decimate/doctor_steps.h"
 
@@ -14,39 +14,20 @@ constexpr double kFlatRelativeHeight = 1e-9;
 /// Each pass of flips may uncover new faces without area; chains in real files are short.
 constexpr int kMaxPasses = 20;
 
-int root_of(std::vector<int>& parent, int v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-/// The lower index stays.
-void merge(std::vector<int>& parent, int a, int b) {
-  const auto [low, high] = std::minmax({root_of(parent, a), root_of(parent, b)});
-  parent[high] = low;
-}
-
-std::int64_t apply(std::vector<int>& parent, Triangles& triangles) {
+/// Makes one vertex, the lowest, of each set; returns how many went.
+std::int64_t merge(DisjointSets& sets, Triangles& triangles) {
   std::int64_t merged = 0;
-  for (int v = 0; v < static_cast<int>(parent.size()); ++v) merged += root_of(parent, v) != v ? 1 : 0;
-  for (Eigen::Index i = 0; merged > 0 && i < triangles.size(); ++i)
-    triangles.data()[i] = root_of(parent, triangles.data()[i]);
+  for (int v = 0; v < sets.size(); ++v) merged += sets.root(v) != v ? 1 : 0;
+  for (int& v : triangles.reshaped()) v = sets.root(v);
   return merged;
-}
-
-std::vector<int> identity(const TriangleMesh& mesh) {
-  std::vector<int> parent(mesh.num_vertices());
-  std::iota(parent.begin(), parent.end(), 0);
-  return parent;
 }
 
 /// Vertices of edges that only one face has, ascending.
 std::vector<int> open_vertices(const Triangles& triangles) {
-  const std::vector<EdgeUse> uses = edge_uses(triangles);
   std::vector<int> open;
-  for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
-    while (last < uses.size() && uses[last].low == uses[first].low && uses[last].high == uses[first].high) ++last;
-    if (last - first == 1) open.insert(open.end(), {uses[first].low, uses[first].high});
-  }
+  for_each_edge(edge_uses(triangles), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 1) open.insert(open.end(), {edge[0].low, edge[0].high});
+  });
   std::ranges::sort(open);
   open.erase(std::unique(open.begin(), open.end()), open.end());
   return open;
@@ -95,7 +76,7 @@ bool treat_flat_faces(TriangleMesh& mesh, DoctorReport& report) {
     shapes.push_back(shape);
   }
   if (flat.empty()) return false;
-  std::vector<int> parent = identity(mesh);
+  DisjointSets same(mesh.num_vertices());
   std::vector<char> keep(mesh.num_triangles(), 1);
   std::vector<char> touched(keep.size(), 0);
   const std::vector<EdgeUse> uses = edge_uses(mesh.triangles);
@@ -111,7 +92,7 @@ bool treat_flat_faces(TriangleMesh& mesh, DoctorReport& report) {
     if (touched[face] != 0) continue;
     touched[face] = 1;
     if (shape.shortest_length <= kFlatRelativeHeight * shape.length) {
-      merge(parent, origin_of(mesh.triangles, shape.shortest), target_of(mesh.triangles, shape.shortest));
+      same.join(origin_of(mesh.triangles, shape.shortest), target_of(mesh.triangles, shape.shortest));
       continue;
     }
     // The middle corner c lies on the longest edge ab: the neighbour abd becomes acd and cbd.
@@ -136,7 +117,7 @@ bool treat_flat_faces(TriangleMesh& mesh, DoctorReport& report) {
     keep[face] = 1;
   }
   mesh.triangles = select_faces(mesh.triangles, keep);
-  report.merged_vertices += apply(parent, mesh.triangles);
+  report.merged_vertices += merge(same, mesh.triangles);
   report.degenerate_faces += drop_collapsed_faces(mesh);
   return true;
 }
@@ -154,16 +135,16 @@ void weld_open_vertices(TriangleMesh& mesh, double distance_m, DoctorReport& rep
       return u < v;
     };
     std::ranges::sort(order, before);
-    std::vector<int> parent = identity(mesh);
+    DisjointSets same(mesh.num_vertices());
     for (std::size_t i = 0; i < order.size(); ++i)
       for (std::size_t j = i + 1;
            j < order.size() && mesh.positions(order[j], 0) - mesh.positions(order[i], 0) <= distance; ++j) {
         if ((mesh.positions.row(order[i]) - mesh.positions.row(order[j])).norm() <= distance)
-          merge(parent, order[i], order[j]);
+          same.join(order[i], order[j]);
         else if (distance == 0.0)
           break;  // equal places lie side by side
       }
-    report.merged_vertices += apply(parent, mesh.triangles);
+    report.merged_vertices += merge(same, mesh.triangles);
   }
 }
 

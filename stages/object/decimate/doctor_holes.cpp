@@ -99,10 +99,7 @@ void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& repo
     patch.insert(patch.end(), faces.begin(), faces.end());
     ++report.filled_holes;
   }
-  const Eigen::Index before = mesh.num_triangles();
-  mesh.triangles.conservativeResize(before + std::ssize(patch), 3);
-  for (std::size_t i = 0; i < patch.size(); ++i)
-    mesh.triangles.row(before + i) << patch[i][0], patch[i][1], patch[i][2];
+  append_faces(mesh, patch);
   report.hole_faces += std::ssize(patch);
 }
 
@@ -116,14 +113,14 @@ void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& re
   if (report.thickened_sheets == 0) return;
 
   Positions normals = Positions::Zero(mesh.num_vertices(), 3);
-  std::vector<Eigen::Index> behind(mesh.num_vertices(), 0);
+  std::vector<int> behind(mesh.num_vertices(), 0);
   const auto is_open = [&](int f) { return open[components.of_face[f]] != 0; };
   const int num_faces = static_cast<int>(mesh.num_triangles());
   for (int f = 0; f < num_faces; ++f)
     for (int k = 0; is_open(f) && k < 3; ++k)
       normals.row(mesh.triangles(f, k)) += area_vector(mesh, f).transpose(), behind[mesh.triangles(f, k)] = 1;
-  Eigen::Index count = mesh.num_vertices();
-  for (Eigen::Index& vertex : behind) vertex = vertex != 0 ? count++ : -1;
+  auto count = static_cast<int>(mesh.num_vertices());
+  for (int& vertex : behind) vertex = vertex != 0 ? count++ : -1;
   const Eigen::Index in_front = mesh.num_vertices();
   mesh.positions.conservativeResize(count, 3);
   for (Eigen::Index v = 0; v < in_front; ++v) {
@@ -132,7 +129,7 @@ void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& re
     mesh.positions.row(behind[v]) = mesh.positions.row(v) - half;
     mesh.positions.row(v) += half;
   }
-  std::vector<std::array<Eigen::Index, 3>> added;
+  std::vector<std::array<int, 3>> added;
   for (int f = 0; f < num_faces; ++f) {
     if (!is_open(f)) continue;
     const auto corner_behind = [&](int k) { return behind[mesh.triangles(f, k)]; };
@@ -144,9 +141,7 @@ void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& re
       added.push_back({to, behind[from], behind[to]});
     }
   }
-  mesh.triangles.conservativeResize(num_faces + std::ssize(added), 3);
-  for (std::size_t i = 0; i < added.size(); ++i)
-    for (int k = 0; k < 3; ++k) mesh.triangles(num_faces + i, k) = static_cast<int>(added[i][k]);
+  append_faces(mesh, added);
 }
 
 }  // namespace tacipc

@@ -9,16 +9,10 @@
 namespace tacipc {
 namespace {
 
-using Uses = std::vector<EdgeUse>;
+using Uses = std::span<const EdgeUse>;
 
-/// Calls use(first, last) for the half edges of each edge of three or more faces.
-template <typename Use>
-void for_each_crowded_edge(const Uses& uses, Use&& use) {
-  for (auto first = uses.begin(), last = first; first != uses.end(); first = last) {
-    while (last != uses.end() && last->low == first->low && last->high == first->high) ++last;
-    if (last - first > 2) use(first, last);
-  }
-}
+/// Of more than two faces.
+bool crowded(Uses edge) { return edge.size() > 2; }
 
 /// A face at an edge, seen along the edge from its lower to its higher vertex.
 struct Leaf {
@@ -27,15 +21,14 @@ struct Leaf {
   bool forwards;  // runs from the lower to the higher vertex: its matter lies at smaller angles, else at larger ones
 };
 
-std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Uses::const_iterator first, Uses::const_iterator last) {
-  const Vector3 from = mesh.positions.row(first->low), to = mesh.positions.row(first->high);
+std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Uses edge) {
+  const Vector3 from = mesh.positions.row(edge[0].low), to = mesh.positions.row(edge[0].high);
   const Vector3 along = (to - from).normalized(), u = along.unitOrthogonal(), v = along.cross(u);
   std::vector<Leaf> leaves;
-  for (auto use = first; use != last; ++use) {
-    const int third = target_of(mesh.triangles, next_in_face(use->half_edge));
+  for (const auto& [low, high, half_edge] : edge) {
+    const int third = target_of(mesh.triangles, next_in_face(half_edge));
     const Vector3 away = Vector3(mesh.positions.row(third)) - from;
-    leaves.push_back(
-        {use->half_edge, std::atan2(v.dot(away), u.dot(away)), origin_of(mesh.triangles, use->half_edge) == use->low});
+    leaves.push_back({half_edge, std::atan2(v.dot(away), u.dot(away)), origin_of(mesh.triangles, half_edge) == low});
   }
   // Of two faces in one place the one with matter below comes first: they are two solids that touch, not a sheet.
   std::ranges::sort(leaves, [](const Leaf& a, const Leaf& b) {
@@ -63,40 +56,35 @@ void pair_leaves(std::vector<Leaf> leaves, std::vector<int>& opposite) {
     }
     if (narrowest == leaves.size()) return;
     const std::size_t other = (narrowest + 1) % leaves.size();
-    opposite[leaves[narrowest].half_edge] = leaves[other].half_edge;
-    opposite[leaves[other].half_edge] = leaves[narrowest].half_edge;
+    pair_up(leaves[narrowest].half_edge, leaves[other].half_edge, opposite);
     leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(std::max(narrowest, other)));
     leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(std::min(narrowest, other)));
   }
 }
 
 /// As opposite_half_edges, with the faces of crowded edges in pairs.
-std::vector<int> paired_half_edges(const TriangleMesh& mesh, const Uses& uses) {
+std::vector<int> paired_half_edges(const TriangleMesh& mesh, Uses uses) {
   std::vector<int> opposite(uses.size(), kOpen);
-  for (auto first = uses.begin(), last = first; first != uses.end(); first = last) {
-    while (last != uses.end() && last->low == first->low && last->high == first->high) ++last;
-    if (last - first == 2) {
-      opposite[first->half_edge] = (first + 1)->half_edge;
-      opposite[(first + 1)->half_edge] = first->half_edge;
-    } else if (last - first > 2) {
-      pair_leaves(leaves_around(mesh, first, last), opposite);
-    }
-  }
+  for_each_edge(uses, [&](Uses edge) {
+    if (crowded(edge)) pair_leaves(leaves_around(mesh, edge), opposite);
+    if (edge.size() == 2) pair_up(edge[0].half_edge, edge[1].half_edge, opposite);
+  });
   return opposite;
 }
 
 /// Where sheets share both ends of an edge, gives each pair of faces a vertex of its own in the middle. A face is cut
 /// once; edges whose faces are cut already wait for the next round.
-void halve_edges(TriangleMesh& mesh, const Uses& uses, const std::vector<int>& opposite) {
+void halve_edges(TriangleMesh& mesh, Uses uses, const std::vector<int>& opposite) {
   std::vector<char> cut(mesh.num_triangles(), 0);
   std::vector<Eigen::RowVector3d> middles;
   std::vector<std::array<int, 3>> added;
   const int before = static_cast<int>(mesh.num_vertices());
-  for_each_crowded_edge(uses, [&](auto first, auto last) {
-    if (std::any_of(first, last, [&](const EdgeUse& use) { return cut[use.half_edge / 3] != 0; })) return;
-    const Eigen::RowVector3d middle = 0.5 * (mesh.positions.row(first->low) + mesh.positions.row(first->high));
-    for (auto use = first; use != last; ++use) {
-      const int h = use->half_edge, partner = opposite[h];
+  for_each_edge(uses, [&](Uses edge) {
+    const auto is_cut = [&](const EdgeUse& use) { return cut[use.half_edge / 3] != 0; };
+    if (!crowded(edge) || std::ranges::any_of(edge, is_cut)) return;
+    const Eigen::RowVector3d middle = 0.5 * (mesh.positions.row(edge[0].low) + mesh.positions.row(edge[0].high));
+    for (const EdgeUse& use : edge) {
+      const int h = use.half_edge, partner = opposite[h];
       if (partner != kOpen && partner < h) continue;
       const int m = before + static_cast<int>(middles.size());
       middles.push_back(middle);
@@ -112,10 +100,8 @@ void halve_edges(TriangleMesh& mesh, const Uses& uses, const std::vector<int>& o
     }
   });
   mesh.positions.conservativeResize(before + std::ssize(middles), 3);
-  for (std::size_t i = 0; i < middles.size(); ++i) mesh.positions.row(before + i) = middles[i];
-  const Eigen::Index faces = mesh.num_triangles();
-  mesh.triangles.conservativeResize(faces + std::ssize(added), 3);
-  for (std::size_t i = 0; i < added.size(); ++i) mesh.triangles.row(faces + i) << added[i][0], added[i][1], added[i][2];
+  mesh.positions.bottomRows(std::ssize(middles)) = rows_of<Positions>(middles);
+  append_faces(mesh, added);
 }
 
 }  // namespace
@@ -123,11 +109,11 @@ void halve_edges(TriangleMesh& mesh, const Uses& uses, const std::vector<int>& o
 void separate_sheets(TriangleMesh& mesh, DoctorReport& report) {
   constexpr int kMaxRounds = 20;
   for (int round = 0; round < kMaxRounds; ++round) {
-    Uses uses = edge_uses(mesh.triangles);
-    std::int64_t crowded = 0;
-    for_each_crowded_edge(uses, [&](auto, auto) { ++crowded; });
-    if (crowded == 0) return;
-    if (round == 0) report.separated_edges = crowded;
+    std::vector<EdgeUse> uses = edge_uses(mesh.triangles);
+    std::int64_t count = 0;
+    for_each_edge(uses, [&](Uses edge) { count += crowded(edge) ? 1 : 0; });
+    if (count == 0) return;
+    if (round == 0) report.separated_edges = count;
     split_fans(mesh, paired_half_edges(mesh, uses), report);
     uses = edge_uses(mesh.triangles);
     halve_edges(mesh, uses, paired_half_edges(mesh, uses));

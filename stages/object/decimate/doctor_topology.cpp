@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/base/disjoint_sets.h"
 #include "common/base/error.h"
 #include "stages/object/decimate/doctor_steps.h"
 
@@ -105,39 +106,28 @@ void split_vertices(TriangleMesh& mesh, DoctorReport& report) { split_fans(mesh,
 
 void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorReport& report) {
   // Corners of one fan are joined through the edges they share; half edge h stands for the corner it starts from.
-  std::vector<int> parent(opposite.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int h) {
-    while (parent[h] != h) h = parent[h] = parent[parent[h]];
-    return h;
-  };
-  const auto join = [&](int a, int b) {
-    const auto [low, high] = std::minmax({root(a), root(b)});
-    parent[high] = low;
-  };
+  DisjointSets fans(opposite.size());
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
     if (opposite[h] == kOpen) continue;
-    join(h, next_in_face(opposite[h]));
-    join(next_in_face(h), opposite[h]);
+    fans.join(h, next_in_face(opposite[h]));
+    fans.join(next_in_face(h), opposite[h]);
   }
-  constexpr int kNone = -1;
-  std::vector<int> fan_of_vertex(mesh.num_vertices(), kNone);
-  std::vector<int> vertex_of_fan(opposite.size(), kNone);
+  std::vector<char> has_fan(mesh.num_vertices(), 0);
+  std::vector<int> vertex_of_fan(opposite.size());
   std::vector<int> copied;
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
-    const int fan = root(h);
-    if (fan != h) continue;
+    if (fans.root(h) != h) continue;
     const int v = origin_of(mesh.triangles, h);
-    if (fan_of_vertex[v] == kNone) {
-      fan_of_vertex[v] = fan;
-      vertex_of_fan[fan] = v;
+    if (has_fan[v] == 0) {
+      has_fan[v] = 1;
+      vertex_of_fan[h] = v;
     } else {
-      vertex_of_fan[fan] = static_cast<int>(mesh.num_vertices() + std::ssize(copied));
+      vertex_of_fan[h] = static_cast<int>(mesh.num_vertices() + std::ssize(copied));
       copied.push_back(v);
     }
   }
   if (copied.empty()) return;
-  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) mesh.triangles.data()[h] = vertex_of_fan[root(h)];
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) mesh.triangles.data()[h] = vertex_of_fan[fans.root(h)];
   const Eigen::Index before = mesh.num_vertices();
   mesh.positions.conservativeResize(before + std::ssize(copied), 3);
   for (std::size_t i = 0; i < copied.size(); ++i) mesh.positions.row(before + i) = mesh.positions.row(copied[i]);

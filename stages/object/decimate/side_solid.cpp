@@ -34,9 +34,7 @@ Triangles faces_between(const HeightField& field, const std::vector<int>& point)
       }
     }
   }
-  Triangles triangles(faces.size(), 3);
-  for (std::size_t f = 0; f < faces.size(); ++f) triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
-  return triangles;
+  return rows_of<Triangles>(faces);
 }
 
 /// The front, its mirror on the back, and walls between their outlines.
@@ -99,7 +97,7 @@ TriangleMesh solid_of_side(const TriangleMesh& mesh, const std::string& side, do
   const SurfaceDistance distance =
       distance_from(solid, seen_points(seen, std::max(kBetween * spacing_m, longer / kProbes)));
   error = {.spacing_m = spacing_m, .mean_m = distance.mean_m, .max_m = distance.max_m};
-  solid.positions = Positions(solid.positions * view);
+  solid.positions *= view;
   return solid;
 }
 

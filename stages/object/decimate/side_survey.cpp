@@ -18,11 +18,10 @@ constexpr double kGrid = 300.0;  // points along the longer side
 /// |∇h| dA summed over rows and columns before (i, j), heights cut off kPressDepth below the highest.
 class ReliefSums {
  public:
-  explicit ReliefSums(const HeightField& field) : columns_(field.columns), sums_(0) {
+  explicit ReliefSums(const HeightField& field) : at_(Eigen::MatrixXd::Zero(field.columns + 1, field.rows + 1)) {
     const double highest = *std::ranges::max_element(field.z);
     const auto felt = [&](int i, int j) { return std::max(0.0, field.at(i, j) - highest + SideSurvey::kPressDepth); };
     const auto there = [&](int i, int j) { return field.at(i, j) != HeightField::kNothing; };
-    sums_.assign(static_cast<std::size_t>((field.columns + 1) * (field.rows + 1)), 0.0);
     for (int j = 0; j < field.rows; ++j) {
       for (int i = 0; i < field.columns; ++i) {
         double squared = 0.0;
@@ -31,23 +30,19 @@ class ReliefSums {
           if (i + 1 < field.columns && there(i + 1, j)) squared += std::pow(felt(i + 1, j) - here, 2.0);
           if (j + 1 < field.rows && there(i, j + 1)) squared += std::pow(felt(i, j + 1) - here, 2.0);
         }
-        at(i + 1, j + 1) = at(i, j + 1) + at(i + 1, j) - at(i, j) + std::sqrt(squared) * field.spacing;
+        at_(i + 1, j + 1) = at_(i, j + 1) + at_(i + 1, j) - at_(i, j) + std::sqrt(squared) * field.spacing;
       }
     }
   }
 
   /// Over columns first.x … last.x − 1 and rows alike, as a length of full steps.
   double relief(int first_i, int last_i, int first_j, int last_j) const {
-    const double sum = at(last_i, last_j) - at(first_i, last_j) - at(last_i, first_j) + at(first_i, first_j);
+    const double sum = at_(last_i, last_j) - at_(first_i, last_j) - at_(last_i, first_j) + at_(first_i, first_j);
     return std::max(0.0, sum) / SideSurvey::kPressDepth;
   }
 
  private:
-  double& at(int i, int j) { return sums_[j * (columns_ + 1) + i]; }
-  double at(int i, int j) const { return sums_[j * (columns_ + 1) + i]; }
-
-  int columns_;
-  std::vector<double> sums_;
+  Eigen::MatrixXd at_;
 };
 
 /// Share of the outline's points that lie in the upper fifth of what a press reaches.

@@ -20,21 +20,18 @@ std::vector<EdgeUse> edge_uses(const Triangles& triangles) {
   return uses;
 }
 
+void pair_up(int a, int b, std::vector<int>& opposite) { opposite[a] = b, opposite[b] = a; }
+
 std::vector<int> opposite_half_edges(const TriangleMesh& mesh) {
   const std::vector<EdgeUse> uses = edge_uses(mesh.triangles);
   std::vector<int> opposite(uses.size(), kOpen);
-  for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
-    while (last < uses.size() && uses[last].low == uses[first].low && uses[last].high == uses[first].high) ++last;
-    if (last - first > 2) {
-      const Eigen::RowVector3d middle =
-          0.5 * (mesh.positions.row(uses[first].low) + mesh.positions.row(uses[first].high));
-      throw DataError("non-manifold mesh: {} faces share the edge near {}", last - first, place_mm(middle));
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    if (edge.size() > 2) {
+      const Eigen::RowVector3d middle = 0.5 * (mesh.positions.row(edge[0].low) + mesh.positions.row(edge[0].high));
+      throw DataError("non-manifold mesh: {} faces share the edge near {}", edge.size(), place_mm(middle));
     }
-    if (last - first == 2) {
-      opposite[uses[first].half_edge] = uses[first + 1].half_edge;
-      opposite[uses[first + 1].half_edge] = uses[first].half_edge;
-    }
-  }
+    if (edge.size() == 2) pair_up(edge[0].half_edge, edge[1].half_edge, opposite);
+  });
   return opposite;
 }
 
@@ -59,6 +56,11 @@ Components connected_components(const Triangles& triangles, const std::vector<in
     ++components.count;
   }
   return components;
+}
+
+void append_faces(TriangleMesh& mesh, const std::vector<std::array<int, 3>>& faces) {
+  mesh.triangles.conservativeResize(mesh.num_triangles() + std::ssize(faces), 3);
+  mesh.triangles.bottomRows(std::ssize(faces)) = rows_of<Triangles>(faces);
 }
 
 Triangles select_faces(const Triangles& triangles, const std::vector<char>& keep) {

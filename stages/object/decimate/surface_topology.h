@@ -1,6 +1,8 @@
 // Which triangles meet at which edges and vertices, from indices alone.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,8 +25,19 @@ struct EdgeUse {
 /// All half edges, those of one edge side by side, in ascending order of vertices and half edges.
 std::vector<EdgeUse> edge_uses(const Triangles& triangles);
 
+/// Calls visit(uses) with the uses of each edge.
+template <typename Visit>
+void for_each_edge(std::span<const EdgeUse> uses, Visit&& visit) {
+  for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
+    while (last < uses.size() && uses[last].low == uses[first].low && uses[last].high == uses[first].high) ++last;
+    visit(uses.subspan(first, last - first));
+  }
+}
+
 /// Marks a half edge whose edge belongs to no other face.
 inline constexpr int kOpen = -1;
+/// Makes each the other's opposite.
+void pair_up(int a, int b, std::vector<int>& opposite);
 
 /// For each half edge the other one of its edge, or kOpen; the two may run the same way where faces disagree about the
 /// outside. \throw DataError where more than two faces share an edge, with the place.
@@ -36,6 +49,9 @@ struct Components {
 };
 /// Faces connected through edges; numbered in the order of their first faces.
 Components connected_components(const Triangles& triangles, const std::vector<int>& opposite);
+
+/// Adds these faces behind the others.
+void append_faces(TriangleMesh& mesh, const std::vector<std::array<int, 3>>& faces);
 
 /// Keeps the faces marked true, in order.
 Triangles select_faces(const Triangles& triangles, const std::vector<char>& keep);

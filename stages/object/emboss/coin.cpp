@@ -112,8 +112,7 @@ TriangleMesh coin_mesh(const CoinShape& shape, double spacing_m, const Height& r
   for (std::size_t k = 0; k + 1 < rings.size(); ++k)
     zip(triangles, first[k], rings[k].count, first[k + 1], rings[k + 1].count);
   for (int i = 0; i < last; ++i) triangles.emplace_back(first.back() + i, next, first.back() + (i + 1) % last);
-  mesh.triangles.resize(triangles.size(), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) mesh.triangles.row(t) = triangles[t].transpose();
+  mesh.triangles = rows_of<Triangles>(triangles);
   return mesh;
 }
 

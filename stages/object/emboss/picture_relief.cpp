@@ -10,16 +10,8 @@
 namespace tacipc {
 namespace {
 
-/// Row-major heights with `border` rows and columns of zeros around the picture, so that its edge is a wall too.
-struct Raster {
-  int width = 0;
-  int height = 0;
-  int border = 0;
-  std::vector<double> values;
-
-  double& at(int x, int y) { return values[static_cast<std::size_t>(y) * width + x]; }
-  double at(int x, int y) const { return const_cast<Raster*>(this)->at(x, y); }
-};
+/// Height of each pixel (x, y).
+using Raster = Eigen::MatrixXd;
 
 std::vector<double> gaussian_weights(double sigma_px, int radius) {
   std::vector<double> weights(2 * radius + 1);
@@ -29,16 +21,17 @@ std::vector<double> gaussian_weights(double sigma_px, int radius) {
   return weights;
 }
 
-/// One pass along rows, result transposed: two passes blur the plane.
-Raster blurred_rows_transposed(const Raster& in, const std::vector<double>& weights) {
+/// One pass along x, result transposed: two passes blur the plane.
+Raster blurred_transposed(const Raster& in, const std::vector<double>& weights) {
   const int radius = static_cast<int>(weights.size() / 2);
-  Raster out{in.height, in.width, in.border, std::vector<double>(static_cast<std::size_t>(in.width) * in.height)};
-  for (int y = 0; y < in.height; ++y) {
-    for (int x = 0; x < in.width; ++x) {
+  const int width = static_cast<int>(in.rows()), height = static_cast<int>(in.cols());
+  Raster out(height, width);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
       double sum = 0.0;
-      for (int i = std::max(-radius, -x); i <= std::min(radius, in.width - 1 - x); ++i)
-        sum += weights[i + radius] * in.at(x + i, y);
-      out.at(y, x) = sum;
+      for (int i = std::max(-radius, -x); i <= std::min(radius, width - 1 - x); ++i)
+        sum += weights[i + radius] * in(x + i, y);
+      out(y, x) = sum;
     }
   }
   return out;
@@ -53,28 +46,27 @@ Height picture_height(const ByteImage& grey, const PictureRelief& relief, const 
   const double pixel_m = relief.width_m / grey.width;
   const double sigma_px = relief.wall_m / std::sqrt(2.0 * std::numbers::pi) / pixel_m;
   const int radius = static_cast<int>(std::ceil(4.0 * sigma_px));
-  Raster raster;
-  raster.border = radius + 1;
-  raster.width = grey.width + 2 * raster.border;
-  raster.height = grey.height + 2 * raster.border;
-  raster.values.assign(static_cast<std::size_t>(raster.width) * raster.height, 0.0);
+  const int border = radius + 1;  // of zeros around the picture, so that its edge is a wall too
+  Raster raster = Raster::Zero(grey.width + 2 * border, grey.height + 2 * border);
   for (int y = 0; y < grey.height; ++y) {
     for (int x = 0; x < grey.width; ++x) {
       const double value = grey.at(x, y, 0) / 255.0;
-      raster.at(x + raster.border, y + raster.border) = relief.dark_is_high ? 1.0 - value : value;
+      raster(x + border, y + border) = relief.dark_is_high ? 1.0 - value : value;
     }
   }
   const std::vector<double> weights = gaussian_weights(sigma_px, radius);
-  raster = blurred_rows_transposed(blurred_rows_transposed(raster, weights), weights);
+  raster = blurred_transposed(blurred_transposed(raster, weights), weights);
 
   const auto shared = std::make_shared<const Raster>(std::move(raster));
   return [shared, pixel_m](const Vector2& p) {
-    const double x = p.x() / pixel_m + 0.5 * (shared->width - 1), y = 0.5 * (shared->height - 1) - p.y() / pixel_m;
+    const Raster& at = *shared;
+    const auto right = static_cast<double>(at.rows() - 1), bottom = static_cast<double>(at.cols() - 1);
+    const double x = p.x() / pixel_m + 0.5 * right, y = 0.5 * bottom - p.y() / pixel_m;
     const double column = std::floor(x), row = std::floor(y);
-    if (column < 0 || row < 0 || column >= shared->width - 1 || row >= shared->height - 1) return 0.0;
+    if (column < 0 || row < 0 || column >= right || row >= bottom) return 0.0;
     const int i = static_cast<int>(column), j = static_cast<int>(row);
-    const double low_row = std::lerp(shared->at(i, j), shared->at(i + 1, j), x - column);
-    const double high_row = std::lerp(shared->at(i, j + 1), shared->at(i + 1, j + 1), x - column);
+    const double low_row = std::lerp(at(i, j), at(i + 1, j), x - column);
+    const double high_row = std::lerp(at(i, j + 1), at(i + 1, j + 1), x - column);
     return std::clamp(std::lerp(low_row, high_row, y - row), 0.0, 1.0);
   };
 }

@@ -73,13 +73,7 @@ TriangleMesh ball_mesh(double radius_m, double edge_m) {
       throw DataError("a ball with edges of {} m needs more than {} splits", edge_m, kMaxSplits);
     split(vertices, faces);
   }
-  TriangleMesh mesh;
-  mesh.positions.resize(vertices.size(), 3);
-  mesh.triangles.resize(faces.size(), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.positions.row(i) = radius_m * vertices[i].transpose();
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    for (Eigen::Index k = 0; k < 3; ++k) mesh.triangles(i, k) = faces[i][k];
-  return mesh;
+  return {radius_m * rows_of<Positions>(vertices), rows_of<Triangles>(faces)};
 }
 
 }  // namespace tacipc

@@ -108,9 +108,7 @@ TriangleMesh solid(const HeightField& field, double relief_m) {
     wall(id(field.columns - 1, j), id(field.columns - 1, j + 1));
     wall(id(0, j + 1), id(0, j));
   }
-  mesh.triangles.resize(faces.size(), 3);
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) mesh.triangles(f, k) = faces[f][k];
+  mesh.triangles = rows_of<Triangles>(faces);
   return mesh;
 }
 

@@ -100,13 +100,7 @@ TriangleMesh shape_of_body(const mjModel& m, int body) {
     for (const Vector3& p : facets.points) all.points.push_back(rotation * p + at);
     for (const Eigen::Vector3i& t : facets.triangles) all.triangles.push_back(t + Eigen::Vector3i::Constant(first));
   }
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(all.points.size()), 3);
-  for (std::size_t v = 0; v < all.points.size(); ++v) mesh.positions.row(static_cast<Eigen::Index>(v)) = all.points[v];
-  mesh.triangles.resize(static_cast<Eigen::Index>(all.triangles.size()), 3);
-  for (std::size_t t = 0; t < all.triangles.size(); ++t)
-    mesh.triangles.row(static_cast<Eigen::Index>(t)) = all.triangles[t];
-  return mesh;
+  return {rows_of<Positions>(all.points), rows_of<Triangles>(all.triangles)};
 }
 
 }  // namespace tacipc

@@ -53,7 +53,7 @@ class PressFolderTest : public ::testing::Test {
 
   static void write(Stage& stage) {
     using enum PressArray;
-    const PressWriter writer(stage, {{kFrames, 2}, {kVertices, 3}, {kFrontVertices, 2}, {kMarkers, 1}});
+    const ArrayWriter writer(stage, {{kFrames, 2}, {kVertices, 3}, {kFrontVertices, 2}, {kMarkers, 1}});
     writer.write(positions, kInstants, [](const Instant& i) { return i.positions; });
     writer.write(object_pose, kInstants, [](const Instant& i) { return i.pose; });
     writer.write(time, kInstants, [](const Instant& i) { return i.time_s; });

@@ -107,7 +107,7 @@ TEST_F(PartTest, PathsOfInputsAreSeenFromTheFolder) {
 
 TEST_F(PartTest, APressFolderIsFinishedByIt) {
   ASSERT_EQ(run([](Stage& stage) {
-              const PressWriter writer(stage, {{kFrames, 2}}, "left/press/");
+              const ArrayWriter writer(stage, {{kFrames, 2}}, "left/press/");
               writer.write(PressArray::time, {0.0, 0.5});
               stage.finish_part("left/press", {});
             }),

@@ -14,16 +14,20 @@ constexpr double kCloseEnough = 1e-2;
 /// Tries of a longer interval are this much shorter each time.
 constexpr double kShrink = 0.25;
 constexpr int kMaxCuts = 24;
+/// Certified steps; the time reached then is returned.
+constexpr int kMaxSteps = 200;
 
-double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
-  assert(options.slack >= 0 && options.slack < 1 && options.minimum_separation_m >= 0);
+}  // namespace
+
+double time_of_impact(ContactPair::Kind kind, const FourPoints& x, const FourPoints& displacement, double slack) {
+  assert(slack >= 0 && slack < 1);
   const PairMotion motion(kind, x, displacement);
   const ClosestFeature start = motion.closest(0);
-  const double separation = std::max(options.slack * std::sqrt(start.squared_distance), options.minimum_separation_m);
+  const double separation = slack * std::sqrt(start.squared_distance);
   std::optional<Vector3> n = motion.direction(start);
   double t = 0;
   double reach = 1;  // length of the next interval to try
-  for (int iteration = 0; n && iteration < options.max_iterations; ++iteration) {
+  for (int step = 0; n && step < kMaxSteps; ++step) {
     // A fixed plane through the gap: one step to the end for most pairs, and a Newton step towards an impact for the
     // others.
     const double exit = motion.gap_exit(t, *n, separation);
@@ -53,16 +57,6 @@ double time_of_impact(PairKind kind, const FourPoints& x, const FourPoints& disp
     t = to;
   }
   return t;
-}
-
-}  // namespace
-
-double time_of_impact_point_triangle(const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
-  return time_of_impact(PairKind::point_triangle, x, displacement, options);
-}
-
-double time_of_impact_edge_edge(const FourPoints& x, const FourPoints& displacement, const CcdOptions& options) {
-  return time_of_impact(PairKind::edge_edge, x, displacement, options);
 }
 
 }  // namespace tacipc

@@ -38,10 +38,4 @@ ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_bo
   return mesh;
 }
 
-ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_boundary, const Positions& object,
-                              const Triangles& object_triangles) {
-  if (object.rows() == 0) return make_contact_mesh(gel_rest, gel_boundary, std::vector<TriangleMesh>{});
-  return make_contact_mesh(gel_rest, gel_boundary, {{object, object_triangles}});
-}
-
 }  // namespace tacipc

@@ -63,8 +63,5 @@ struct ContactMesh {
 /// Of a gel, or several whose rows follow one another, and any number of objects.
 ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_boundary,
                               const std::vector<TriangleMesh>& objects);
-/// Of one object, which may be empty: then there is none.
-ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_boundary, const Positions& object,
-                              const Triangles& object_triangles);
 
 }  // namespace tacipc

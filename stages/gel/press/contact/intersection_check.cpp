@@ -129,22 +129,14 @@ void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit&
   }
 }
 
-void keep_first(std::vector<TrianglePair>& pairs, std::size_t count) {
-  std::sort(pairs.begin(), pairs.end(), [](const TrianglePair& a, const TrianglePair& b) {
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
-  });
-  if (pairs.size() > count) pairs.resize(count);
-}
-
 }  // namespace
 
-IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples,
-                                      bool gel_with_itself) {
+std::int64_t count_intersections(const SurfaceView& gel, const SurfaceView& object) {
   check_cells("gel triangle", gel.positions, gel.triangles);
   check_cells("object triangle", object.positions, object.triangles);
   std::vector<Bounds> bounds = bounds_of(gel);
   const int num_gel = static_cast<int>(bounds.size());
-  if (bounds.empty()) return {};
+  if (bounds.empty()) return 0;
   const Bounds whole_gel = around(bounds);
   const std::vector<Bounds> object_bounds = bounds_of(object);
   std::vector<int> object_triangle;  // of those that are anywhere near
@@ -153,25 +145,26 @@ IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView&
     bounds.push_back(object_bounds[t]);
     object_triangle.push_back(static_cast<int>(t));
   }
-
-  IntersectionReport report;
-  // Gel triangles come first in the joint numbering, so i < j leaves only pairs of two object triangles to skip.
+  std::int64_t count = 0;
+  // Gel triangles come first in the joint numbering.
   sweep(
-      bounds, [&](int i, int j) { return i < num_gel && (gel_with_itself || j >= num_gel); },
+      bounds, [&](int i, int j) { return i < num_gel && j >= num_gel; },
       [&](int i, int j) {
-        if (j < num_gel) {
-          if (mesh_triangles_intersect(vertices(gel, i), corners(gel, i), vertices(gel, j), corners(gel, j)))
-            report.gel_gel_examples.push_back({i, j});
-        } else if (const int t = object_triangle[static_cast<std::size_t>(j - num_gel)];
-                   triangles_intersect(corners(gel, i), corners(object, t))) {
-          report.gel_object_examples.push_back({i, t});
-        }
+        const int t = object_triangle[static_cast<std::size_t>(j - num_gel)];
+        if (triangles_intersect(corners(gel, i), corners(object, t))) ++count;
       });
-  report.gel_gel = static_cast<std::int64_t>(report.gel_gel_examples.size());
-  report.gel_object = static_cast<std::int64_t>(report.gel_object_examples.size());
-  keep_first(report.gel_gel_examples, max_examples);
-  keep_first(report.gel_object_examples, max_examples);
-  return report;
+  return count;
+}
+
+std::int64_t count_self_intersections(const SurfaceView& gel) {
+  check_cells("gel triangle", gel.positions, gel.triangles);
+  std::int64_t count = 0;
+  sweep(
+      bounds_of(gel), [](int, int) { return true; },
+      [&](int i, int j) {
+        if (mesh_triangles_intersect(vertices(gel, i), corners(gel, i), vertices(gel, j), corners(gel, j))) ++count;
+      });
+  return count;
 }
 
 double winding_number(const Vector3& point, const SurfaceView& surface) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "common/base/types.h"
 
@@ -14,27 +13,13 @@ struct SurfaceView {
   const Triangles& triangles;
 };
 
-struct TrianglePair {
-  int first;
-  int second;
-  friend bool operator==(const TrianglePair&, const TrianglePair&) = default;
-};
-
-struct IntersectionReport {
-  std::int64_t gel_object = 0;                    // intersecting pairs (gel triangle, object triangle)
-  std::int64_t gel_gel = 0;                       // intersecting pairs of gel triangles
-  std::vector<TrianglePair> gel_object_examples;  // the first pairs in ascending order
-  std::vector<TrianglePair> gel_gel_examples;     // first < second
-
-  bool none() const { return gel_object == 0 && gel_gel == 0; }
-};
-
-/// Every pair of triangles that share a point, decided exactly; touching counts. Gel triangles with common vertices
-/// intersect only where they share more than those vertices or the common edge.
-/// \param gel_with_itself false: pairs of two gel triangles are left out
+/// Pairs of a triangle of either surface that share a point, decided exactly; touching counts.
 /// \throw DataError if a vertex is not finite or an index is out of range.
-IntersectionReport find_intersections(const SurfaceView& gel, const SurfaceView& object, std::size_t max_examples = 8,
-                                      bool gel_with_itself = true);
+std::int64_t count_intersections(const SurfaceView& gel, const SurfaceView& object);
+
+/// The same of two triangles of one surface. Those with common vertices intersect only where they share more than those
+/// vertices or the common edge.
+std::int64_t count_self_intersections(const SurfaceView& gel);
 
 /// How many times a closed surface winds around a point [Van Oosterom and Strackee 1983: solid angles of triangles]: 1
 /// inside a surface that looks outwards, 0 outside, to rounding.

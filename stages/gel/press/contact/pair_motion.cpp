@@ -15,8 +15,8 @@ constexpr double kUnderflow = 1e-290;
 
 /// Visits all pairs (vertex of the first body, vertex of the second).
 template <typename Visit>
-void for_each_vertex_pair(PairKind kind, const Visit& visit) {
-  if (kind == PairKind::point_triangle) {
+void for_each_vertex_pair(ContactPair::Kind kind, const Visit& visit) {
+  if (kind == ContactPair::Kind::point_triangle) {
     visit(0, 1), visit(0, 2), visit(0, 3);
   } else {
     visit(0, 2), visit(0, 3), visit(1, 2), visit(1, 3);
@@ -28,14 +28,14 @@ struct EdgeFrame {
   Vector3 across, along_a, along_b;
 };
 
-EdgeFrame frame_of(PairKind kind, const FourPoints& q) {
-  if (kind == PairKind::point_triangle) return {q[0] - q[1], q[2] - q[1], q[3] - q[1]};
+EdgeFrame frame_of(ContactPair::Kind kind, const FourPoints& q) {
+  if (kind == ContactPair::Kind::point_triangle) return {q[0] - q[1], q[2] - q[1], q[3] - q[1]};
   return {q[0] - q[2], q[1] - q[0], q[3] - q[2]};
 }
 
 }  // namespace
 
-PairMotion::PairMotion(PairKind kind, const FourPoints& x, const FourPoints& displacement) : kind_(kind) {
+PairMotion::PairMotion(ContactPair::Kind kind, const FourPoints& x, const FourPoints& displacement) : kind_(kind) {
   double relative_size = 0;  // S
   double size = 0;           // M
   for (int i = 0; i < 4; ++i) {
@@ -56,7 +56,7 @@ FourPoints PairMotion::at(double t) const {
 }
 
 ClosestFeature PairMotion::closest(double t) const {
-  return kind_ == PairKind::point_triangle ? closest_point_triangle(at(t)) : closest_edge_edge(at(t));
+  return kind_ == ContactPair::Kind::point_triangle ? closest_point_triangle(at(t)) : closest_edge_edge(at(t));
 }
 
 std::optional<Vector3> PairMotion::direction(const ClosestFeature& feature) const {

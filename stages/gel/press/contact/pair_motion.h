@@ -3,11 +3,9 @@
 
 #include <optional>
 
-#include "stages/gel/press/contact/distance.h"
+#include "stages/gel/press/contact/contact_pair.h"
 
 namespace tacipc {
-
-enum class PairKind { point_triangle, edge_edge };
 
 /// Four vertices on straight paths xᵢ + t dᵢ, 0 ≤ t ≤ 1, seen from vertex 0: what all four share (the mean
 /// displacement, the distance to the origin) cancels in the relative paths qᵢ(t).
@@ -17,7 +15,7 @@ enum class PairKind { point_triangle, edge_edge };
 /// coordinate: a difference of two vertices is computed within 8 u S, and those other paths move it by at most 8 u M.
 class PairMotion {
  public:
-  PairMotion(PairKind kind, const FourPoints& x, const FourPoints& displacement);
+  PairMotion(ContactPair::Kind kind, const FourPoints& x, const FourPoints& displacement);
 
   /// Relative positions at time t, vertex 0 at the origin.
   FourPoints at(double t) const;
@@ -43,7 +41,7 @@ class PairMotion {
   bool volume_separates(double from, double to, double separation) const;
 
  private:
-  PairKind kind_;
+  ContactPair::Kind kind_;
   FourPoints start_;   // qᵢ(0)
   FourPoints change_;  // qᵢ(1) − qᵢ(0)
   double gap_error_;

@@ -1,6 +1,8 @@
 #include "stages/gel/press/drive/checkpoint.h"
 
+#include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <type_traits>
 
 #include "common/base/error.h"
@@ -8,76 +10,38 @@
 namespace tacipc {
 namespace {
 
-/// Appends to, or takes from, a string of bytes: one description of a frame serves both directions.
+/// Appends to a string of bytes. One description of a frame serves both it and Reader.
 class Writer {
  public:
-  template <typename T>
-  void plain(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
-  }
-  template <int Columns>
-  void rows(const Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>& array) {
-    plain(static_cast<std::int64_t>(array.rows()));
-    bytes_.append(reinterpret_cast<const char*>(array.data()), sizeof(double) * static_cast<std::size_t>(array.size()));
-  }
-  void states(const std::vector<ContactState>& states) {
-    plain(static_cast<std::int64_t>(states.size()));
-    for (const ContactState state : states) plain(state);
-  }
-  void history(const Viscoelasticity::History& history) {
-    plain(static_cast<std::int64_t>(history.size()));
-    for (const SymmetricRows& member : history) rows(member);
-  }
-  template <typename T>
-  void sized(const std::vector<T>& items) {
-    plain(static_cast<std::int64_t>(items.size()));
-  }
+  void bytes(const void* values, std::size_t count) { bytes_.append(static_cast<const char*>(values), count); }
+  void rows(const auto& matrix) { size(matrix.rows()); }
+  void items(const auto& list) { size(std::ssize(list)); }
   std::string take() { return std::move(bytes_); }
 
  private:
+  void size(std::int64_t count) { bytes(&count, sizeof(count)); }
   std::string bytes_;
 };
 
+/// Takes from a string of bytes.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-  template <typename T>
-  void plain(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
+  void bytes(void* values, std::size_t count) {
+    if (count > bytes_.size()) throw DataError("a saved frame ends too early");
+    if (count > 0) std::memcpy(values, bytes_.data(), count);  // an empty array has no address
+    bytes_.remove_prefix(count);
   }
-  template <int Columns>
-  void rows(Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>& array) {
-    const auto count = size(Columns * sizeof(double));
-    array.resize(count, Columns);
-    const std::size_t bytes = Columns * sizeof(double) * static_cast<std::size_t>(count);
-    if (bytes > 0) std::memcpy(array.data(), take(bytes), bytes);  // an empty array has no address
+  void rows(auto& matrix) {
+    matrix.resize(size(sizeof(double) * static_cast<std::size_t>(matrix.cols())), matrix.cols());
   }
-  void states(std::vector<ContactState>& states) {
-    states.resize(static_cast<std::size_t>(size(1)));
-    for (ContactState& state : states) plain(state);
-  }
-  void history(Viscoelasticity::History& history) {
-    history.resize(static_cast<std::size_t>(size(sizeof(std::int64_t))));  // each has at least its own size
-    for (SymmetricRows& member : history) rows(member);
-  }
-  template <typename T>
-  void sized(std::vector<T>& items) {
-    items.resize(static_cast<std::size_t>(size(1)));  // each has more than a byte
-  }
+  void items(auto& list) { list.resize(static_cast<std::size_t>(size(1))); }  // each has a byte at least
   bool at_end() const { return bytes_.empty(); }
 
  private:
-  const char* take(std::size_t count) {
-    if (count > bytes_.size()) throw DataError("a saved frame ends too early");
-    const char* at = bytes_.data();
-    bytes_.remove_prefix(count);
-    return at;
-  }
   Eigen::Index size(std::size_t bytes_each) {
     std::int64_t count = 0;
-    plain(count);
+    bytes(&count, sizeof(count));
     if (count < 0 || static_cast<std::size_t>(count) > bytes_.size() / bytes_each)
       throw DataError("a saved frame ends too early");
     return static_cast<Eigen::Index>(count);
@@ -85,193 +49,96 @@ class Reader {
   std::string_view bytes_;
 };
 
-void each(auto& io, auto& matrix) {
-  for (Eigen::Index i = 0; i < matrix.size(); ++i) io.plain(matrix.data()[i]);
-}
-
-void all(auto& io, auto& items, const auto& fields_of) {
-  io.sized(items);
-  for (auto& item : items) fields_of(item);
-}
-
-void matrices(auto& io, auto& items) {
-  all(io, items, [&](auto& item) { each(io, item); });
-}
-
-void wrenches(auto& io, auto& items) {
-  all(io, items, [&](auto& wrench) {
-    each(io, wrench.force_n);
-    each(io, wrench.torque_n_m);
-  });
-}
-
-void solver(auto& io, auto& report) {
-  io.plain(report.time_steps);
-  io.plain(report.newton_iterations);
-  io.plain(report.moving_iterations);
-  io.plain(report.patches);
-  io.plain(report.patch_iterations);
-  io.plain(report.lag_iterations);
-  io.plain(report.exact_hessian_waits);
-  io.plain(report.approximated_share);
-  io.plain(report.velocity_residual_m_s);
-  io.plain(report.force_residual_n);
-  io.plain(report.friction_residual_n);
-  io.plain(report.barrier_factor);
-  io.plain(report.contact_force_n);
-  each(io, report.object_shift_m);
-  io.plain(report.body_residual_n);
-  io.plain(report.body_residual_n_m);
-  io.plain(report.body_load_n);
-}
-
-void gel_frame_fields(auto& io, auto& frame) {
-  io.plain(frame.time_s);
-  io.plain(frame.phase);
-  io.plain(frame.phase_index);
-  io.rows(frame.positions);
-  each(io, frame.gel_from_object);
-  each(io, frame.holder_pose);
-  io.rows(frame.normal_force_n);
-  io.rows(frame.friction_force_n);
-  io.states(frame.contact_state);
-  each(io, frame.force_n);
-  each(io, frame.torque_n_m);
-  io.plain(frame.balance.force_n);
-  io.plain(frame.balance.torque_n_m);
-  io.plain(frame.balance.relative);
-  each(io, frame.balance.contact_n);
-  each(io, frame.balance.inertia_n);
-  each(io, frame.balance.mount_n);
-  io.plain(frame.min_gap_m);
-  io.plain(frame.stand_off_m);
-  io.plain(frame.min_volume_ratio);
-  io.plain(frame.pose_error_m);
-  io.plain(frame.body_strain);
-  each(io, frame.object_velocity_m_s);
-  each(io, frame.object_spin_rad_s);
-  io.plain(frame.intersections);
-  io.plain(frame.inverted_tets);
-  io.plain(frame.gel_in_object);
-  solver(io, frame.solver);
-}
-
-void account(auto& io, auto& whole) {
-  io.plain(whole.kinetic_j);
-  io.plain(whole.elastic_j);
-  io.plain(whole.contact_j);
-  io.plain(whole.gravitational_j);
-  io.plain(whole.work_j);
-  io.plain(whole.friction_loss_j);
-  io.plain(whole.damping_loss_j);
-  io.plain(whole.method_loss_j);
-  each(io, whole.momentum_kg_m_s);
-  each(io, whole.angular_momentum_kg_m2_s);
-  each(io, whole.impulse_n_s);
-  each(io, whole.angular_impulse_n_m_s);
-  each(io, whole.method_angular_n_m_s);
-  io.plain(whole.momentum_residual_n);
-  io.plain(whole.angular_residual_n_m);
-}
-
-void state_fields(auto& io, auto& state) {
-  auto& motion = state.motion;
-  io.rows(motion.x);
-  io.rows(motion.velocity_m_s);
-  each(io, motion.object_velocity_m_s);
-  all(io, motion.object_motion, [&](auto& of_object) {
-    each(io, of_object.velocity_m_s);
-    each(io, of_object.angular_momentum_kg_m2_s);
-  });
-  io.plain(motion.barrier_factor);
-  io.history(motion.viscous_pa);
-  matrices(io, state.world_from_body);
-  io.rows(state.mount_n);
-  all(io, state.held, [&](auto& body) { io.plain(body); });
-  wrenches(io, state.on_others);
-  wrenches(io, state.between);
-  account(io, state.account);
-  io.plain(state.time_s);
-}
-
-void fields(auto& io, auto& frame, auto& progress) {
-  gel_frame_fields(io, frame);
-  state_fields(io, progress.world);
-  each(io, progress.object_shift_m);
-}
-
-void grasp_fields(auto& io, auto& frame, auto& progress) {
-  io.plain(frame.time_s);
-  io.plain(frame.phase);
-  each(io, frame.world_from_hand);
-  for (auto& pose : frame.world_from_finger) each(io, pose);
-  for (auto& force : frame.force_on_finger_n) each(io, force);
-  for (auto& drive : frame.drives) {
-    io.plain(drive.force_n);
-    io.plain(drive.closed_m);
-    io.plain(drive.velocity_m_s);
-  }
-  each(io, frame.world_from_object);
-  each(io, frame.velocity_m_s);
-  each(io, frame.spin_rad_s);
-  io.plain(frame.body_residual_n);
-  io.plain(frame.body_load_n);
-  io.plain(frame.grip_imbalance);
-  io.plain(frame.slip_m);
-  io.plain(frame.turn_rad);
-  account(io, frame.whole);
-  state_fields(io, progress.world);
-  for (auto& drive : progress.hand.drives) {
-    io.plain(drive.wanted_n);
-    io.plain(drive.closed_m);
-    io.plain(drive.velocity_m_s);
-    io.plain(drive.last_step_m);
-    io.plain(drive.last_grip_n);
-    io.plain(drive.stiffness_n_m);
-    io.plain(drive.let_go);
-    io.plain(drive.by_way);
-    io.plain(drive.wanted_closed_m);
-  }
-  each(io, progress.hand.world_from_hand);
-  io.plain(progress.hand.grip_n);
-}
-
-void scene_fields(auto& io, auto& frame, auto& state) {
-  io.plain(frame.time_s);
-  io.plain(frame.phase_index);
-  matrices(io, frame.world_from_body);
-  matrices(io, frame.velocity_m_s);
-  matrices(io, frame.spin_rad_s);
-  all(io, frame.strain, [&](auto& strain) { io.plain(strain); });
-  all(io, frame.soft_m, [&](auto& positions) { io.rows(positions); });
-  wrenches(io, frame.between);
-  io.plain(frame.min_gap_m);
-  io.plain(frame.intersections);
-  account(io, frame.whole);
-  solver(io, frame.solver);
-  state_fields(io, state);
-}
-
-void fields(auto& io, auto& frame, auto& gels, auto& progress) {
-  all(io, gels, [&](auto& of_gel) { gel_frame_fields(io, of_gel); });
-  if constexpr (requires { frame.world_from_hand; }) {
-    grasp_fields(io, frame, progress);
+/// A number, a matrix of numbers, a list, or what fields() describes.
+void one(auto& io, auto& value) {
+  using T = std::remove_cvref_t<decltype(value)>;
+  if constexpr (std::is_base_of_v<Eigen::MatrixBase<T>, T>) {
+    if constexpr (T::RowsAtCompileTime == Eigen::Dynamic) io.rows(value);
+    io.bytes(value.data(), sizeof(typename T::Scalar) * static_cast<std::size_t>(value.size()));
+  } else if constexpr (requires { value.begin(); }) {
+    if constexpr (requires(T list) { list.resize(1); }) io.items(value);
+    for (auto& item : value) one(io, item);
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    io.bytes(&value, sizeof(value));
   } else {
-    scene_fields(io, frame, progress);
+    fields(io, value);
   }
+}
+
+void all(auto& io, auto&... values) { (one(io, values), ...); }
+
+template <typename T, typename Struct>
+concept Is = std::is_same_v<std::remove_const_t<T>, Struct>;
+
+void fields(auto& io, Is<Wrench> auto& wrench) { all(io, wrench.force_n, wrench.torque_n_m); }
+
+void fields(auto& io, Is<StepReport> auto& r) {
+  all(io, r.time_steps, r.newton_iterations, r.moving_iterations, r.patches, r.patch_iterations, r.lag_iterations,
+      r.exact_hessian_waits, r.approximated_share, r.velocity_residual_m_s, r.force_residual_n, r.friction_residual_n,
+      r.barrier_factor, r.contact_force_n, r.object_shift_m, r.body_residual_n, r.body_residual_n_m, r.body_load_n);
+}
+
+void fields(auto& io, Is<Balance> auto& b) {
+  all(io, b.force_n, b.torque_n_m, b.relative, b.contact_n, b.inertia_n, b.mount_n);
+}
+
+void fields(auto& io, Is<Frame> auto& f) {
+  all(io, f.time_s, f.phase, f.phase_index, f.positions, f.gel_from_object, f.holder_pose, f.normal_force_n,
+      f.friction_force_n, f.contact_state, f.force_n, f.torque_n_m, f.balance, f.min_gap_m, f.stand_off_m,
+      f.min_volume_ratio, f.pose_error_m, f.body_strain, f.object_velocity_m_s, f.object_spin_rad_s, f.intersections,
+      f.inverted_tets, f.gel_in_object, f.solver);
+}
+
+void fields(auto& io, Is<WholeAccount> auto& w) {
+  all(io, w.kinetic_j, w.elastic_j, w.contact_j, w.gravitational_j, w.work_j, w.friction_loss_j, w.damping_loss_j,
+      w.method_loss_j, w.momentum_kg_m_s, w.angular_momentum_kg_m2_s, w.impulse_n_s, w.angular_impulse_n_m_s,
+      w.method_angular_n_m_s, w.momentum_residual_n, w.angular_residual_n_m);
+}
+
+void fields(auto& io, Is<RigidMotion> auto& motion) { all(io, motion.velocity_m_s, motion.angular_momentum_kg_m2_s); }
+
+void fields(auto& io, Is<State> auto& s) {
+  all(io, s.x, s.velocity_m_s, s.object_velocity_m_s, s.object_motion, s.barrier_factor, s.viscous_pa);
+}
+
+void fields(auto& io, Is<WorldState> auto& s) {
+  all(io, s.motion, s.world_from_body, s.mount_n, s.held, s.on_others, s.between, s.account, s.time_s);
+}
+
+void fields(auto& io, Is<PressProgress> auto& progress) { all(io, progress.world, progress.object_shift_m); }
+
+void fields(auto& io, Is<FingerDrive> auto& drive) { all(io, drive.force_n, drive.closed_m, drive.velocity_m_s); }
+
+void fields(auto& io, Is<GraspFrame> auto& f) {
+  all(io, f.time_s, f.phase, f.world_from_hand, f.world_from_finger, f.force_on_finger_n, f.drives, f.world_from_object,
+      f.velocity_m_s, f.spin_rad_s, f.grip_imbalance, f.slip_m, f.turn_rad, f.whole);
+}
+
+void fields(auto& io, Is<GripControl> auto& d) {
+  all(io, d.wanted_n, d.closed_m, d.velocity_m_s, d.last_step_m, d.last_grip_n, d.stiffness_n_m, d.let_go, d.by_way,
+      d.wanted_closed_m);
+}
+
+void fields(auto& io, Is<HandState> auto& hand) { all(io, hand.drives, hand.world_from_hand, hand.grip_n); }
+
+void fields(auto& io, Is<GraspProgress> auto& progress) { all(io, progress.world, progress.hand); }
+
+void fields(auto& io, Is<SceneFrame> auto& f) {
+  all(io, f.time_s, f.phase_index, f.world_from_body, f.velocity_m_s, f.spin_rad_s, f.strain, f.soft_m, f.between,
+      f.min_gap_m, f.intersections, f.whole, f.solver);
 }
 
 template <typename... Parts>
 std::string pack(const Parts&... parts) {
   Writer writer;
-  fields(writer, parts...);
+  all(writer, parts...);
   return writer.take();
 }
 
 template <typename... Parts>
 void unpack(std::string_view bytes, Parts&... parts) {
   Reader reader(bytes);
-  fields(reader, parts...);
+  all(reader, parts...);
   if (!reader.at_end()) throw DataError("a saved frame has more bytes than a frame");
 }
 
@@ -282,19 +149,19 @@ std::string pack_frame(const Frame& frame, const PressProgress& progress) { retu
 void unpack_frame(std::string_view bytes, Frame& frame, PressProgress& progress) { unpack(bytes, frame, progress); }
 
 std::string pack_frame(const GraspFrame& frame, const std::vector<Frame>& fingers, const GraspProgress& progress) {
-  return pack(frame, fingers, progress);
+  return pack(fingers, frame, progress);
 }
 
 void unpack_frame(std::string_view bytes, GraspFrame& frame, std::vector<Frame>& fingers, GraspProgress& progress) {
-  unpack(bytes, frame, fingers, progress);
+  unpack(bytes, fingers, frame, progress);
 }
 
 std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const WorldState& state) {
-  return pack(frame, gels, state);
+  return pack(gels, frame, state);
 }
 
 void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, WorldState& state) {
-  unpack(bytes, frame, gels, state);
+  unpack(bytes, gels, frame, state);
 }
 
 }  // namespace tacipc

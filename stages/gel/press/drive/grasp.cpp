@@ -170,8 +170,6 @@ class GraspDrive {
                      .world_from_object = state.world_from_body[2],
                      .velocity_m_s = state.motion.object_motion[0].velocity_m_s,
                      .spin_rad_s = world_.spin_rad_s(0),
-                     .body_residual_n = report.body_residual_n,
-                     .body_load_n = report.body_load_n,
                      .grip_imbalance = hand_.take_imbalance(),
                      .whole = world_.take_account()};
     const Positions object_at = world_.mesh().object_rows(state.motion.x);

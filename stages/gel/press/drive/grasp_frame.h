@@ -34,7 +34,6 @@ struct GraspFrame {
   std::array<FingerDrive, 2> drives = {};
   Matrix4 world_from_object;
   Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();
-  double body_residual_n = 0.0, body_load_n = 0.0;
   double grip_imbalance = 0.0;  // largest fraction of the force missing to a drive's balance in the frame's time steps
   double slip_m = 0.0;          // of the object's point at the grip, in the hand, since the fingers closed
   double turn_rad = 0.0;        // of the object in the hand since then

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/base/error.h"
+#include "common/sample/body_keys.h"
 
 namespace tacipc {
 
@@ -49,8 +50,7 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
   } else {
     spec.rotation = read_rotation(fingers);
     spec.turn_rad = fingers.number_or("turn_deg", 0.0, kAnyTurn) * std::numbers::pi / 180.0;
-    const auto grip_mm = fingers.numbers_or("grip_mm", {0.0, 0.0, 0.0});
-    spec.grip_m = 1e-3 * Vector3(grip_mm[0], grip_mm[1], grip_mm[2]);
+    spec.grip_m = read_triple(fingers, "grip_mm", 1e-3);
   }
   const auto gravity = fingers.numbers_or("gravity_m_s2", {0.0, 0.0, -9.81});
   spec.gravity_m_s2 = {gravity[0], gravity[1], gravity[2]};
@@ -77,8 +77,7 @@ GraspSpec GraspSpec::read(ConfigReader& in) {
     spec.density_kg_m3 = object.number("density_kg_m3", Range::positive());
   }
   if (object.has("friction")) spec.friction_coefficient = object.number("friction", FrictionConfig::coefficients());
-  const auto shift_mm = object.numbers_or("center_of_mass_shift_mm", {0.0, 0.0, 0.0});
-  spec.center_shift_m = 1e-3 * Vector3(shift_mm[0], shift_mm[1], shift_mm[2]);
+  spec.center_shift_m = read_triple(object, "center_of_mass_shift_mm", 1e-3);
   bool closed = false;
   for (ConfigReader& phase : in.one_or_more_sections("motion")) {
     spec.motion.push_back(GraspPhase::read(phase));

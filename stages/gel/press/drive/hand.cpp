@@ -112,7 +112,7 @@ double Hand::along_axis(const Matrix4& from, const Matrix4& to, const Matrix4& m
 /// The search of a time step, from the state that it starts from. \param motion of the hand, in the world
 PairSearch Hand::start_search(double h_s, const Matrix4& motion) {
   const auto begin = [&](std::size_t side) {
-    return WaySearch(state_.drives[side], spec_.mount, h_s, spec_.closing_speed_m_s * h_s, world_.scales().d_hat_m,
+    return WaySearch(state_.drives[side], spec_.mount, h_s, spec_.closing_speed_m_s * h_s, world_.laws().reach_m(),
                      [&](double none) { return world_.smallest_gap(none); });
   };
   const WaySearch left = begin(0);

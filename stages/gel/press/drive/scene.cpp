@@ -28,8 +28,7 @@ class SceneDrive {
     for (std::size_t g = 0; g < world_.num_gels(); ++g) out_.gels.push_back(world_.simulation_of(g));
     for (std::size_t i = 0; i < world_.num_free(); ++i) out_.mass_kg.push_back(world_.affine(i).mass_kg);
     for (const ContactSpec& pair : spec.contact)
-      out_.contact.push_back(
-          world_.law_of(static_cast<std::size_t>(pair.between[0]), static_cast<std::size_t>(pair.between[1])));
+      out_.contact.push_back(world_.laws().of(pair.between[0], pair.between[1]));
   }
 
   Scene run() {

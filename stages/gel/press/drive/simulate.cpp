@@ -84,7 +84,6 @@ class Press {
       start.free = last.free;
       start.load_n = last.load_n;
     }
-    out_.symbolic_analyses = world_.stepper().num_analyses();
     out_.times = world_.stepper().times();
     return std::move(out_);
   }

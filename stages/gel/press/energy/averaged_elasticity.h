@@ -28,7 +28,6 @@ class AveragedElasticity final : public EnergyTerm {
   /// Some clusters of another.
   AveragedElasticity(const AveragedElasticity& whole, const std::vector<int>& which);
 
-  std::string_view name() const override { return "averaged_elasticity"; }
   int num_stencils() const override { return static_cast<int>(clusters_.size()); }
   std::span<const int> stencil(int i) const override { return clusters_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;

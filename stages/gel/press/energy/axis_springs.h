@@ -18,7 +18,6 @@ class AxisSprings final : public EnergyTerm {
         shares_((stiffness / largest_).cwiseSqrt()),
         target_m_(target_m) {}
 
-  std::string_view name() const override { return "axis_springs"; }
   int num_stencils() const override { return 1; }
   std::span<const int> stencil(int) const override { return {&vertex_, 1}; }
   void evaluate(int, const Eigen::VectorXd& x, Order order, Local& out) const override {

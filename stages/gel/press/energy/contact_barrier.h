@@ -19,7 +19,6 @@ class ContactBarrier final : public ContactTerm {
   /// \pre the mesh stays where it is
   ContactBarrier(const ContactMesh& mesh, std::vector<ContactPair> pairs, ContactLaws laws);
 
-  std::string_view name() const override { return "barrier"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;

@@ -21,7 +21,6 @@ class Dirichlet final : public EnergyTerm {
         multipliers_n_(std::move(multipliers_n)),
         stiffness_n_m_(stiffness_n_m) {}
 
-  std::string_view name() const override { return "dirichlet"; }
   int num_stencils() const override { return static_cast<int>(vertices_.size()); }
   std::span<const int> stencil(int i) const override { return {&vertices_[i], 1}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override {

@@ -125,18 +125,13 @@ TACIPC_INLINE Pack of_lanes(const double* pressure) {
 
 TACIPC_CLONES void differentiate(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
                                  const Pack3* rest, const Stiffness& stiffness, const double* pressure,
-                                 ElasticPacks::Derivatives& out) {
+                                 ElasticPacks::State& state, ElasticPacks::Derivatives& out) {
   const Deformation d = deformation(x, vertices, rest);
-  const Shapes s = shapes(d, rest, stiffness, of_lanes(pressure) * d.J);
+  for (int r = 0; r < 3; ++r) state.row[r] = d.row[r];
+  state.pressure_J = of_lanes(pressure) * d.J;
+  const Shapes s = shapes(d, rest, stiffness, state.pressure_J);
   gradients(d, s, out.gradient);
   blocks(s, out.hessian);
-}
-
-TACIPC_CLONES void find_state(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
-                              const Pack3* rest, const double* pressure, ElasticPacks::State& out) {
-  const Deformation d = deformation(x, vertices, rest);
-  for (int r = 0; r < 3; ++r) out.row[r] = d.row[r];
-  out.pressure_J = of_lanes(pressure) * d.J;
 }
 
 TACIPC_CLONES bool differentiate_change(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
@@ -217,17 +212,11 @@ void ElasticPacks::volumes(int i, const Positions& x, double* out) const {
   deformed_volumes(x.data(), pack.corners.vertices, pack.shape_gradients, pack.volume_m3, out);
 }
 
-void ElasticPacks::derivatives(int i, const Positions& x, const double* pressure, Derivatives& out) const {
+void ElasticPacks::derivatives(int i, const Positions& x, const double* pressure, State& state,
+                               Derivatives& out) const {
   const Rest& pack = packs_[static_cast<std::size_t>(i)];
   differentiate(x.data(), pack.corners.vertices, pack.shape_gradients, {pack.volume_m3, law_.mu_pa, law_.lambda_pa},
-                pressure, out);
-}
-
-ElasticPacks::State ElasticPacks::state(int i, const Positions& x, const double* pressure) const {
-  const Rest& pack = packs_[static_cast<std::size_t>(i)];
-  State out;
-  find_state(x.data(), pack.corners.vertices, pack.shape_gradients, pressure, out);
-  return out;
+                pressure, state, out);
 }
 
 bool ElasticPacks::change(int i, const Positions& x, const double* pressure, double tolerance, State& known,

@@ -38,16 +38,14 @@ class ElasticPacks {
     Pack gradient[4][3];
     Pack hessian[kBlocks][9];
   };
-  /// Exact gradient and Hessian of V [ψ(F) + p J] of one pack; `pressure`: p for each of kLanes tetrahedra, Pa, null
-  /// for none. \pre no tetrahedron is inverted
-  void derivatives(int pack, const Positions& x, const double* pressure, Derivatives& out) const;
-
   /// What the Hessian of one pack depends on: F by rows, and p J.
   struct State {
     Pack3 row[3];
     Pack pressure_J;
   };
-  State state(int pack, const Positions& x, const double* pressure) const;
+  /// Exact gradient and Hessian of V [ψ(F) + p J] of one pack, and the state at x; `pressure`: p for each of kLanes
+  /// tetrahedra, Pa, null for none. \pre no tetrahedron is inverted
+  void derivatives(int pack, const Positions& x, const double* pressure, State& state, Derivatives& out) const;
   /// Gradient as above. Where a tetrahedron's Hessian differs from that of `known` by more than about `tolerance` (ΔF
   /// F⁻¹, or p J in shear moduli), the pack's Hessian minus that of `known`, which becomes the state at x: true. Else
   /// `out.hessian` is left as it was: false.

@@ -18,7 +18,6 @@ class Elasticity final : public EnergyTerm {
   /// Some tetrahedra of another.
   Elasticity(const Elasticity& whole, const std::vector<int>& which);
 
-  std::string_view name() const override { return "elasticity"; }
   int num_stencils() const override { return static_cast<int>(tets_.rows()); }
   std::span<const int> stencil(int i) const override { return {&tets_(i, 0), 4}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;

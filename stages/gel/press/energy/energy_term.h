@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <functional>
 #include <span>
-#include <string_view>
 
 #include "stages/gel/press/contact/distance.h"
 
@@ -34,7 +33,6 @@ struct Local {
 class EnergyTerm {
  public:
   virtual ~EnergyTerm() = default;
-  virtual std::string_view name() const = 0;
   virtual int num_stencils() const = 0;
   virtual std::span<const int> stencil(int i) const = 0;
   /// Evaluates stencil i at its vertices' coordinates `x` (3 × #vertices). A value of +∞ means x is not allowed.

@@ -34,7 +34,6 @@ class Friction final : public ContactTerm {
   /// The pairs with any vertex that moves (one flag per vertex).
   std::shared_ptr<const Friction> restricted_to(const std::vector<bool>& moves) const;
 
-  std::string_view name() const override { return "friction"; }
   int num_stencils() const override { return static_cast<int>(pairs_.size()); }
   std::span<const int> stencil(int i) const override { return pairs_[i].vertices; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;

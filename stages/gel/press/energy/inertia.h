@@ -23,7 +23,6 @@ class Inertia final : public EnergyTerm {
     for (const int i : which) vertex_.push_back(whole.vertex_[static_cast<std::size_t>(i)]);
   }
 
-  std::string_view name() const override { return "inertia"; }
   int num_stencils() const override { return static_cast<int>(vertex_.size()); }
   std::span<const int> stencil(int i) const override { return {&vertex_[i], 1}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override {

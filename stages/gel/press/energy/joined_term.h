@@ -15,7 +15,6 @@ class JoinedTerm final : public EnergyTerm {
   /// \pre no part is null
   explicit JoinedTerm(std::vector<std::shared_ptr<const EnergyTerm>> parts);
 
-  std::string_view name() const override { return "joined"; }
   int num_stencils() const override { return first_.back(); }
   std::span<const int> stencil(int i) const override {
     const auto [part, own] = find(i);

@@ -18,7 +18,6 @@ class LinearLoad final : public EnergyTerm {
     assert(static_cast<Eigen::Index>(vertices_.size()) == force_n_.rows());
   }
 
-  std::string_view name() const override { return "linear_load"; }
   int num_stencils() const override { return static_cast<int>(vertices_.size()); }
   std::span<const int> stencil(int i) const override { return {&vertices_[i], 1}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override {

@@ -2,16 +2,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <limits>
 
 namespace tacipc {
-
-double NeoHookean::energy_density(const Matrix3& F) const {
-  const double J = F.determinant();
-  if (!(J > 0.0)) return std::numeric_limits<double>::infinity();
-  const double log_J = std::log(J);
-  return 0.5 * mu_pa * (F.squaredNorm() - 3.0) - mu_pa * log_J + 0.5 * lambda_pa * log_J * log_J;
-}
 
 Matrix3 NeoHookean::stress(const Matrix3& F) const {
   const double a = mu_pa - lambda_pa * std::log(F.determinant());

@@ -12,8 +12,6 @@ struct NeoHookean {
   double mu_pa;
   double lambda_pa;
 
-  /// +∞ for J ≤ 0: the material cannot be inverted.
-  double energy_density(const Matrix3& F) const;
   /// First Piola–Kirchhoff stress P, Pa. \pre det F > 0
   Matrix3 stress(const Matrix3& F) const;
 };

@@ -23,7 +23,6 @@ class Orthogonality final : public EnergyTerm {
   /// The body's control points are vertices first_vertex … first_vertex + 3 of x.
   Orthogonality(int first_vertex, const AffineBody& body, double stiffness_pa = kOrthogonalityPa);
 
-  std::string_view name() const override { return "orthogonality"; }
   int num_stencils() const override { return 1; }
   std::span<const int> stencil(int) const override { return vertices_; }
   /// ∂Ψ/∂pₖ = 4κV A C gₖ with C = AᵀA − I;

@@ -15,7 +15,6 @@ class RestrictedTerm final : public EnergyTerm {
   RestrictedTerm(std::shared_ptr<const EnergyTerm> whole, std::vector<int> stencils)
       : whole_(std::move(whole)), stencils_(std::move(stencils)) {}
 
-  std::string_view name() const override { return whole_->name(); }
   int num_stencils() const override { return static_cast<int>(stencils_.size()); }
   std::span<const int> stencil(int i) const override { return whole_->stencil(stencils_[i]); }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override {

@@ -18,7 +18,6 @@ class StiffnessDamping final : public EnergyTerm {
   StiffnessDamping(std::shared_ptr<const EnergyTerm> elasticity, Positions start_m)
       : elasticity_(std::move(elasticity)), start_m_(std::move(start_m)) {}
 
-  std::string_view name() const override { return "stiffness_damping"; }
   int num_stencils() const override { return elasticity_->num_stencils(); }
   std::span<const int> stencil(int i) const override { return elasticity_->stencil(i); }
   void evaluate(int i, const Eigen::VectorXd& x, Order /*any: the Hessian comes first*/, Local& out) const override {

@@ -1,8 +1,6 @@
 #include "stages/gel/press/energy/stvk_hencky.h"
 
-#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 namespace tacipc {
 
@@ -10,11 +8,6 @@ double StvkHencky::principal_energy(const Vector3& sigma) const {
   const Vector3 strain = sigma.array().log();
   const double trace = strain.sum();
   return mu_pa * strain.squaredNorm() + 0.5 * lambda_pa * trace * trace;
-}
-
-double StvkHencky::energy_density(const Matrix3& F) const {
-  if (!(F.determinant() > 0.0)) return std::numeric_limits<double>::infinity();
-  return principal_energy(principal_stretches(F).sigma);
 }
 
 Vector3 StvkHencky::principal_stress(const Vector3& sigma) const {

@@ -14,8 +14,7 @@ struct StvkHencky {
   double mu_pa;
   double lambda_pa;
 
-  double energy_density(const Matrix3& F) const;
-  /// The same from the stretches.
+  /// ψ from the stretches.
   double principal_energy(const Vector3& sigma) const;
   /// First Piola–Kirchhoff stress, Pa. \pre det F > 0
   Matrix3 stress(const Matrix3& F) const;

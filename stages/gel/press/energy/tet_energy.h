@@ -11,9 +11,9 @@
 
 namespace tacipc {
 
-/// A hyperelastic law ψ(F) = ψ_μ(F) + λ/2 (ln J)². Each is a struct of mu_pa and lambda_pa with energy_density(F) in
-/// J/m³, +∞ for J ≤ 0, and stress(F) in Pa, and has a tet_energy below. The volumetric part is the same in all, so that
-/// an element may take it over more than one tetrahedron (averaged_elasticity.h).
+/// A hyperelastic law ψ(F) = ψ_μ(F) + λ/2 (ln J)². Each is a struct of mu_pa and lambda_pa with stress(F) in Pa, and
+/// has a tet_energy below. The volumetric part is the same in all, so that an element may take it over more than one
+/// tetrahedron (averaged_elasticity.h).
 using ElasticLaw = std::variant<NeoHookean, StvkHencky>;
 
 /// By the name a sensor file gives it: neo_hookean or stvk_hencky. \pre one of those

@@ -21,7 +21,6 @@ class ViscousMemory final : public EnergyTerm {
   /// Some tetrahedra of another.
   ViscousMemory(const ViscousMemory& whole, const std::vector<int>& which);
 
-  std::string_view name() const override { return "viscous_memory"; }
   int num_stencils() const override { return static_cast<int>(which_.size()); }
   std::span<const int> stencil(int i) const override { return {&body_->tets(which_[i], 0), 4}; }
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;

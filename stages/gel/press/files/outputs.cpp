@@ -18,7 +18,7 @@
 namespace tacipc {
 namespace {
 
-void write_markers(Stage& stage, const std::string& folder, const PressWriter& writer,
+void write_markers(Stage& stage, const std::string& folder, const ArrayWriter& writer,
                    const std::vector<Marker>& markers, const std::vector<Frame>& frames,
                    const std::optional<std::size_t>& end) {
   std::vector<Positions> positions;
@@ -39,7 +39,7 @@ std::vector<double> first_slip_s(const Simulation& simulation) {
   return first;
 }
 
-void write_contact(const PressWriter& writer, const Sensor& sensor, const Simulation& simulation) {
+void write_contact(const ArrayWriter& writer, const Sensor& sensor, const Simulation& simulation) {
   const auto& frames = simulation.frames;
   const FrontSurface& front = simulation.front;
   writer.write(PressArray::front_vertices, {front.vertices.begin(), front.vertices.end()});
@@ -50,7 +50,7 @@ void write_contact(const PressWriter& writer, const Sensor& sensor, const Simula
   writer.write(PressArray::first_slip, first_slip_s(simulation));
   const TractionGrid grid = TractionGrid::over_window(sensor.camera);
   writer.write(PressArray::traction, frames, [&](const Frame& f) {
-    return spread_traction(grid, front, on_front(front, f.positions), f.normal_force_n, f.friction_force_n).pascal;
+    return spread_traction(grid, front, on_front(front, f.positions), f.normal_force_n, f.friction_force_n);
   });
 }
 
@@ -109,10 +109,8 @@ void add_frames(PressSummary& summary, const Simulation& simulation) {
     summary.min_volume_ratio = std::min(summary.min_volume_ratio, lines.min_volume_ratio);
     summary.max_balance_relative = std::max(summary.max_balance_relative, lines.balance_relative);
     summary.max_pose_error_m = std::max(summary.max_pose_error_m, lines.pose_error_m);
-    const auto slipping = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::slip);
-    const auto sticking = std::count(f.contact_state.begin(), f.contact_state.end(), ContactState::stick);
-    if (slipping > 0 && !summary.first_slip_time_s) summary.first_slip_time_s = f.time_s;
-    if (slipping > 0 && sticking == 0 && !summary.gross_slip_time_s) summary.gross_slip_time_s = f.time_s;
+    if (lines.slipping > 0 && !summary.first_slip_time_s) summary.first_slip_time_s = f.time_s;
+    if (lines.slipping > 0 && lines.sticking == 0 && !summary.gross_slip_time_s) summary.gross_slip_time_s = f.time_s;
   }
   if (!approximated.empty()) summary.approximated_frames = std::move(approximated);
   const PressFrameLines& last = summary.per_frame.back();
@@ -129,7 +127,7 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
   const auto& frames = simulation.frames;
   const auto vertices = static_cast<std::size_t>(frames[0].positions.rows());
   const std::vector<Marker> markers = bind_markers(sensor.markers, gel.positions, gel.faces(BoundaryTag::front));
-  const PressWriter writer(stage,
+  const ArrayWriter writer(stage,
                            {{kFrames, frames.size()},
                             {kVertices, vertices},
                             {kFrontVertices, simulation.front.vertices.size()},
@@ -205,6 +203,7 @@ struct WholeArrays {
 GraspFrameLines grasp_lines(const Grasp& grasp, std::size_t frame) {
   const GraspFrame& f = grasp.frames[frame];
   const auto& [left, right] = grasp.contacts[frame];
+  const Frame& finger = grasp.fingers[0].frames[frame];
   const Vector3 carried = f.force_on_finger_n[0] + f.force_on_finger_n[1];
   GraspFrameLines lines{.time_s = f.time_s,
                         .phase = name_of(f.phase),
@@ -219,9 +218,9 @@ GraspFrameLines grasp_lines(const Grasp& grasp, std::size_t frame) {
                         .slip_share_right = right.slip_share,
                         .friction_radius_left_m = left.friction_radius_m,
                         .friction_radius_right_m = right.friction_radius_m,
-                        .body_strain = grasp.fingers[0].frames[frame].body_strain,
-                        .body_load_n = f.body_load_n,
-                        .body_residual_n = f.body_residual_n,
+                        .body_strain = finger.body_strain,
+                        .body_load_n = finger.solver.body_load_n,
+                        .body_residual_n = finger.solver.body_residual_n,
                         .momentum_residual_n = f.whole.momentum_residual_n,
                         .angular_residual_n_m = f.whole.angular_residual_n_m,
                         .grip_imbalance = f.grip_imbalance};

@@ -20,8 +20,7 @@ Balance balance_of(const Positions& positions, const VertexForces& forces) {
   Balance balance{.contact_n = resultant(forces.contact),
                   .inertia_n = resultant(forces.inertia),
                   .mount_n = resultant(forces.mount)};
-  const Vector3 all_n =
-      balance.contact_n + balance.inertia_n + balance.mount_n + resultant(forces.damping) + resultant(forces.gravity);
+  const Vector3 all_n = balance.contact_n + balance.inertia_n + balance.mount_n;
   balance.force_n = all_n.norm();
   balance.torque_n_m = torque.norm();
   balance.relative = balance.force_n / std::max(balance.contact_n.norm(), kSmallestContactN);

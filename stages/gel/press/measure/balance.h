@@ -5,13 +5,11 @@
 
 namespace tacipc {
 
-/// Forces on every gel vertex, N, #V × 3 each, all as forces on the gel: inertia is −m a (d'Alembert), damping what
-/// opposes the velocity, mount what the mount does to the glued face. An array without rows stands for zero.
+/// Forces on every gel vertex, N, #V × 3 each, all as forces on the gel: inertia is −m a (d'Alembert) with damping and
+/// gravity, mount what the mount does to the glued face. An array without rows stands for zero.
 struct VertexForces {
   Positions contact = {};
   Positions inertia = {};
-  Positions damping = {};
-  Positions gravity = {};
   Positions mount = {};
 };
 

@@ -1,7 +1,5 @@
 #include "stages/gel/press/measure/front_surface.h"
 
-#include <algorithm>
-
 #include "common/base/statistics.h"
 
 namespace tacipc {
@@ -17,21 +15,10 @@ double median_front_edge_m(const TetMesh& gel) {
 }
 
 FrontSurface make_front_surface(const TetMesh& gel) {
-  FrontSurface front{.vertices = gel.vertices(BoundaryTag::front), .triangles = gel.faces(BoundaryTag::front)};
-  for (Eigen::Index f = 0; f < front.triangles.rows(); ++f) {
-    for (int c = 0; c < 3; ++c) {
-      const auto at = std::lower_bound(front.vertices.begin(), front.vertices.end(), front.triangles(f, c));
-      front.triangles(f, c) = static_cast<int>(at - front.vertices.begin());
-    }
-  }
-  return front;
+  return {.vertices = gel.vertices(BoundaryTag::front), .triangles = gel.surface(BoundaryTag::front)};
 }
 
-Positions on_front(const FrontSurface& front, const Positions& of_gel) {
-  Positions rows(static_cast<Eigen::Index>(front.vertices.size()), 3);
-  for (Eigen::Index v = 0; v < rows.rows(); ++v) rows.row(v) = of_gel.row(front.vertices[static_cast<std::size_t>(v)]);
-  return rows;
-}
+Positions on_front(const FrontSurface& front, const Positions& of_gel) { return of_gel(front.vertices, Eigen::all); }
 
 std::vector<double> triangle_areas(const FrontSurface& front, const Positions& front_positions) {
   std::vector<double> areas(static_cast<std::size_t>(front.triangles.rows()));

@@ -88,10 +88,10 @@ TractionGrid TractionGrid::over_window(const Camera& camera) {
           .height_m = camera.window_height_m};
 }
 
-Traction spread_traction(const TractionGrid& grid, const FrontSurface& front, const Positions& front_positions,
-                         const Positions& normal_n, const Positions& friction_n) {
+std::vector<double> spread_traction(const TractionGrid& grid, const FrontSurface& front,
+                                    const Positions& front_positions, const Positions& normal_n,
+                                    const Positions& friction_n) {
   Cells cells(grid);
-  Traction traction;
   const std::vector<double> area = triangle_areas(front, front_positions);
   const std::vector<double> around = lumped_areas(front, front_positions);
   std::vector<NormalAndFriction> force_n(front.vertices.size(), NormalAndFriction::Zero());
@@ -100,10 +100,8 @@ Traction spread_traction(const TractionGrid& grid, const FrontSurface& front, co
     NormalAndFriction force;
     force << normal_n.row(row).transpose(), friction_n.row(row).transpose();
     const Eigen::Vector2d place = cells.place(front_positions.row(row));
-    if (!cells.inside(place)) {
-      traction.normal_outside_n += force.head<3>();
-      traction.friction_outside_n += force.tail<3>();
-    } else if (around[v] > 0.0) {
+    if (!cells.inside(place)) continue;
+    if (around[v] > 0.0) {
       force_n[v] = force;
     } else {
       cells.add(place, force);  // all triangles around it have collapsed
@@ -132,8 +130,7 @@ Traction spread_traction(const TractionGrid& grid, const FrontSurface& front, co
       cells.add(place, (weights[0] * share[0] + weights[1] * share[1] + weights[2] * share[2]) * (3.0 / (n * n)));
     });
   }
-  traction.pascal = cells.pascal();
-  return traction;
+  return cells.pascal();
 }
 
 }  // namespace tacipc

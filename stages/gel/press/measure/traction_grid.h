@@ -24,12 +24,6 @@ struct TractionGrid {
   double cell_area_m2() const { return width_m / columns * (height_m / rows); }
 };
 
-struct Traction {
-  std::vector<double> pascal;  // (rows, columns, 2, 3): normal [0] and friction [1], on the gel, frame S
-  Vector3 normal_outside_n = Vector3::Zero();  // Σ of the forces on vertices outside the rectangle, which no cell holds
-  Vector3 friction_outside_n = Vector3::Zero();
-};
-
 /// Spreads the forces on the front vertices (N, #V_front × 3) over the cells. The force on a vertex acts on the
 /// deformed triangles around it, with a density that falls linearly to zero at their other corners. Each triangle is
 /// cut into n² equal ones with edges no longer than a quarter of a cell in x and y; the share of each small one goes,
@@ -40,7 +34,9 @@ struct Traction {
 /// rounding. A uniform pressure on a flat front gives it in each cell to within 1 %, but in cells along the border,
 /// where whole vertices are in or out, only to within (triangle edge) / (cell edge). Area is that of the plane: on a
 /// slope the traction is per projected area.
-Traction spread_traction(const TractionGrid& grid, const FrontSurface& front, const Positions& front_positions,
-                         const Positions& normal_n, const Positions& friction_n);
+/// \return (rows, columns, 2, 3) in Pa: normal [0] and friction [1], on the gel, frame S
+std::vector<double> spread_traction(const TractionGrid& grid, const FrontSurface& front,
+                                    const Positions& front_positions, const Positions& normal_n,
+                                    const Positions& friction_n);
 
 }  // namespace tacipc

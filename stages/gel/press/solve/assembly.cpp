@@ -41,10 +41,6 @@ void for_each_local(const EnergyTerm& term, const std::vector<int>& stencils, co
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Unknowns that a pair's four vertices depend on: x_a = Σ_d part(a, d) u_d, and what is prescribed.
 struct PairUnknowns {
   static constexpr int kMost = 8;  // two bodies, or up to three vertices of the gel and a body

@@ -3,17 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace tacipc {
-FreeVertices::FreeVertices(int num_vertices, const std::vector<bool>& fixed)
-    : FreeVertices(
-          [&] {
-            std::vector<int> all(static_cast<std::size_t>(num_vertices));
-            std::iota(all.begin(), all.end(), 0);
-            return all;
-          }(),
-          fixed) {}
 
 FreeVertices::FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed)
     : free_of_vertex(fixed.size(), -1) {

@@ -34,8 +34,6 @@ struct FreeVertices {
   std::vector<bool> gel_without_mount;  // of each of those
   int num_control_points = 0;           // the last rows of positions: points that carry bodies, free or not
 
-  /// All of `num_vertices` but those marked as fixed, numbered by vertex.
-  FreeVertices(int num_vertices, const std::vector<bool>& fixed);
   /// Those of `order` that are not marked as fixed, in that order; `fixed` has a mark for every vertex.
   FreeVertices(const std::vector<int>& order, const std::vector<bool>& fixed);
   int size() const { return static_cast<int>(vertex_of_free.size()); }

@@ -1,10 +1,8 @@
 #include "stages/gel/press/solve/cholmod_solver.h"
 
-#include <cholmod.h>
 #include <omp.h>
 
-#include <algorithm>
-#include <vector>
+#include <Eigen/CholmodSupport>
 
 #include "common/base/error.h"
 
@@ -13,31 +11,23 @@ extern "C" void openblas_set_num_threads(int);
 namespace tacipc {
 
 struct CholmodSolver::State {
-  cholmod_common common{};
+  Eigen::SparseMatrix<double> matrix;  // lower triangle: of a diagonal block only its lower half
+  Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>> factor;
   std::shared_ptr<const BlockPattern> pattern;
-  cholmod_sparse* matrix = nullptr;
-  cholmod_factor* factor = nullptr;
-  int num_analyses = 0;
 
-  void release() {
-    cholmod_free_sparse(&matrix, &common);
-    cholmod_free_factor(&factor, &common);
+  void check(const char* what) {
+    const int status = factor.cholmod().status;
+    if (status == CHOLMOD_OUT_OF_MEMORY) throw SolverError("CHOLMOD ran out of memory during {}", what);
+    if (status < 0) throw SolverError("CHOLMOD failed during {} (status {})", what, status);
   }
 
-  void check(const char* what) const {
-    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw SolverError("CHOLMOD ran out of memory during {}", what);
-    if (common.status < 0) throw SolverError("CHOLMOD failed during {} (status {})", what, common.status);
-  }
-
-  /// Scalar lower triangle in compressed columns: of a diagonal block only its lower half.
   void lay_out() {
     const BlockPattern& p = *pattern;
-    const std::size_t n = 3 * static_cast<std::size_t>(p.size());
-    const std::size_t entries = 9 * static_cast<std::size_t>(p.num_blocks()) - 3 * static_cast<std::size_t>(p.size());
-    matrix = cholmod_allocate_sparse(n, n, entries, 1, 1, -1, CHOLMOD_REAL, &common);
-    check("allocation");
-    auto* start = static_cast<int*>(matrix->p);
-    auto* rows = static_cast<int*>(matrix->i);
+    const Eigen::Index n = 3 * static_cast<Eigen::Index>(p.size());
+    matrix.resize(n, n);
+    matrix.resizeNonZeros(9 * static_cast<Eigen::Index>(p.num_blocks()) - n);
+    int* start = matrix.outerIndexPtr();
+    int* rows = matrix.innerIndexPtr();
     int at = 0;
     for (int c = 0; c < p.size(); ++c) {
       for (int k = 0; k < 3; ++k) {
@@ -52,7 +42,7 @@ struct CholmodSolver::State {
 
   void copy_values(const BlockMatrix& source) {
     const BlockPattern& p = *pattern;
-    auto* values = static_cast<double*>(matrix->x);
+    double* values = matrix.valuePtr();
     for (int c = 0; c < p.size(); ++c) {
       for (int k = 0; k < 3; ++k) {
         for (int b = p.column_start[c]; b < p.column_start[c + 1]; ++b) {
@@ -68,8 +58,8 @@ CholmodSolver::CholmodSolver() : state_(std::make_unique<State>()) {
   // Debian's CHOLMOD opens four OpenMP threads whatever is asked for; with no active level left it runs them as one.
   omp_set_max_active_levels(0);
   openblas_set_num_threads(1);
-  cholmod_common& common = state_->common;
-  cholmod_start(&common);
+  state_->factor.setMode(Eigen::CholmodAuto);
+  cholmod_common& common = state_->factor.cholmod();
   common.print = 0;
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_METIS;
@@ -78,42 +68,26 @@ CholmodSolver::CholmodSolver() : state_(std::make_unique<State>()) {
   common.try_catch = 1;  // a matrix that is not positive definite is an answer here, not an error to print
 }
 
-CholmodSolver::~CholmodSolver() {
-  state_->release();
-  cholmod_finish(&state_->common);
-}
-
-int CholmodSolver::num_analyses() const { return state_->num_analyses; }
+CholmodSolver::~CholmodSolver() = default;
 
 bool CholmodSolver::prepare(const BlockMatrix& matrix, const std::vector<char>* /*changed*/) {
   State& s = *state_;
   if (s.pattern != matrix.pattern) {
-    s.release();
     s.pattern = matrix.pattern;
     s.lay_out();
-    s.factor = cholmod_analyze(s.matrix, &s.common);
+    s.factor.analyzePattern(s.matrix);
     s.check("analysis");
-    ++s.num_analyses;
   }
   s.copy_values(matrix);
-  cholmod_factorize(s.matrix, s.factor, &s.common);
+  s.factor.factorize(s.matrix);
   s.check("factorisation");
-  return s.common.status != CHOLMOD_NOT_POSDEF && s.factor->minor == s.factor->n;
+  return s.factor.cholmod().status != CHOLMOD_NOT_POSDEF && s.factor.info() == Eigen::Success;
 }
 
 std::optional<Eigen::VectorXd> CholmodSolver::solve(const Eigen::VectorXd& b) {
-  State& s = *state_;
-  cholmod_dense rhs{};
-  rhs.nrow = rhs.d = rhs.nzmax = static_cast<std::size_t>(b.size());
-  rhs.ncol = 1;
-  rhs.xtype = CHOLMOD_REAL;
-  rhs.dtype = CHOLMOD_DOUBLE;
-  rhs.x = const_cast<double*>(b.data());  // CHOLMOD only reads it
-  cholmod_dense* x = cholmod_solve(CHOLMOD_A, s.factor, &rhs, &s.common);
-  s.check("solution");
-  const Eigen::VectorXd out = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(x->x), b.size());
-  cholmod_free_dense(&x, &s.common);
-  return out;
+  Eigen::VectorXd x = state_->factor.solve(b);
+  state_->check("solution");
+  return x;
 }
 
 }  // namespace tacipc

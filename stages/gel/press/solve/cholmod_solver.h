@@ -20,7 +20,6 @@ class CholmodSolver final : public LinearSolver {
   bool prepare(const BlockMatrix& matrix, const std::vector<char>* changed = nullptr) override;
   /// A⁻¹ b by the last factorisation, never empty.
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
-  int num_analyses() const override;
 
  private:
   struct State;

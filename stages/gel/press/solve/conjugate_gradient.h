@@ -33,7 +33,6 @@ class ConjugateGradient final : public LinearSolver {
   /// that. Of a body all or none.
   std::vector<int> indefinite_rows() const override { return indefinite_rows_; }
   void set_tolerance(double relative) override { tolerance_ = relative; }
-  int num_analyses() const override { return direct_ ? direct_->num_analyses() : 0; }
   /// Products with Â so far.
   std::int64_t num_products() const override { return products_; }
   /// Systems that had to be factorised.

@@ -103,8 +103,7 @@ void ElasticAssembly::add(const Positions& x, std::span<const double> pressure, 
     ElasticPacks::Derivatives found;
     for (const int p : group) {
       const double* of_pack = pressure.empty() ? nullptr : &pressure[static_cast<std::size_t>(kLanes * p)];
-      packs_.derivatives(p, x, of_pack, found);
-      states_[static_cast<std::size_t>(p)] = packs_.state(p, x, of_pack);
+      packs_.derivatives(p, x, of_pack, states_[static_cast<std::size_t>(p)], found);
       add_gradient(p, found, system);
       add_hessian(p, found, system);
     }

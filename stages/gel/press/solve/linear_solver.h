@@ -36,8 +36,6 @@ class LinearSolver {
   virtual std::int64_t num_products() const { return 0; }
   /// Systems that an iterative solver had to leave to a factorisation.
   virtual int num_factorized() const { return 0; }
-  /// Symbolic analyses so far.
-  virtual int num_analyses() const = 0;
 };
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind);

@@ -84,7 +84,6 @@ class NewtonStepper {
   SolverTimes times() const;
 
   const FreeVertices& free() const { return free_; }
-  const LinearSolver& solver() const { return *solver_; }
 
  private:
   /// One call of direction().

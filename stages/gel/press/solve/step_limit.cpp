@@ -64,9 +64,8 @@ double pair_limit(const ContactPair& pair, const Positions& x, const Positions& 
   const double distance = std::sqrt(closest_feature(pair, now).squared_distance);
   if (distance == 0.0) return 0.0;
   const double floor = std::min({rule.floor_m, 0.999 * distance, rule.near_m});
-  const CcdOptions options{.slack = (floor + rule.slack * (std::min(distance, rule.near_m) - floor)) / distance};
-  return until * (pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(now, d, options)
-                                                                 : time_of_impact_edge_edge(now, d, options));
+  const double slack = (floor + rule.slack * (std::min(distance, rule.near_m) - floor)) / distance;
+  return until * time_of_impact(pair.kind, now, d, slack);
 }
 
 }  // namespace

@@ -77,19 +77,13 @@ SolverTimes TimeStepper::times() const {
   return all;
 }
 
-int TimeStepper::num_analyses() const {
-  int sum = 0;
-  for (const auto& [free_bodies, stepper] : steppers_) sum += stepper->solver().num_analyses();
-  return sum;
-}
-
 bool TimeStepper::stiffen_barrier(State& state, const Positions& x) {
   if (!model_.settings.adaptive_barrier || state.barrier_factor >= kMostStiffening) return false;
   const double gap = detector_.smallest_relative_gap(x);
   if (gap >= kSmallGap) return false;
   state.barrier_factor =
       std::min(kMostStiffening, std::min(kMostStiffeningAtOnce, kWantedGap / gap) * state.barrier_factor);
-  log_debug("  smallest gap {:.2g} of d_hat: barrier {:.3g} times as stiff from here on", gap, state.barrier_factor);
+  log_debug("  smallest gap {:.2g} of d̂: barrier {:.3g} times as stiff from here on", gap, state.barrier_factor);
   return true;
 }
 

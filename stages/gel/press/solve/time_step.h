@@ -24,13 +24,10 @@ class TimeStepper {
 
   /// Forces at the end of the last step that succeeded.
   const StepForces& forces() const { return forces_; }
-  /// Forces on a gel that nothing touches.
-  StepForces no_forces() const { return tacipc::no_forces(model_.mesh.num_gel_vertices); }
   /// Smallest gap between two bodies, one of which can move by itself (not counting a gel with itself), at most `none`.
   double smallest_gap(const Positions& x, double none) { return detector_.smallest_gap(x, none); }
   /// Solver time and work since construction.
   SolverTimes times() const;
-  int num_analyses() const;
 
  private:
   /// The step before its first iteration: terms, weights, friction.

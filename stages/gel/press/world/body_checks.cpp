@@ -55,11 +55,10 @@ int judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
            fmt::format("{} pairs of triangles of {} intersect", found, whose));
   };
   for (const BodyShape& body : bodies) {
-    if (body.deformable)
-      count(find_intersections(view(body), {Positions(0, 3), Triangles(0, 3)}, 0).gel_gel, body.name);
+    if (body.deformable) count(count_self_intersections(view(body)), body.name);
   }
   for_each_two(bodies, [&](std::size_t i, std::size_t j) {
-    count(find_intersections(view(bodies[i]), view(bodies[j]), 0, false).gel_object,
+    count(count_intersections(view(bodies[i]), view(bodies[j])),
           fmt::format("{} and {}", bodies[i].name, bodies[j].name));
     for (const auto& [inner, outer] : {std::pair(i, j), std::pair(j, i)}) {
       if (!bodies[outer].closed) continue;
@@ -73,15 +72,14 @@ int judge_bodies(int frame, const std::vector<BodyShape>& bodies) {
   return static_cast<int>(sum);
 }
 
-void require_apart(const std::vector<BodyShape>& bodies,
-                   const std::function<double(std::size_t, std::size_t)>& d_hat_m) {
+void require_apart(const std::vector<BodyShape>& bodies, const ContactLaws& laws) {
   for_each_two(bodies, [&](std::size_t i, std::size_t j) {
     const BodyShape &a = bodies[i], &b = bodies[j];
-    if (find_intersections(view(a), view(b), 0, false).gel_object > 0)
+    if (count_intersections(view(a), view(b)) > 0)
       throw DataError("bodies {} and {} intersect where they begin", a.name, b.name);
     Positions both(a.positions.rows() + b.positions.rows(), 3);
     both << a.positions, b.positions;
-    const double d_hat = d_hat_m(i, j);
+    const double d_hat = laws.of(static_cast<int>(i), static_cast<int>(j)).d_hat_m;
     std::vector<ContactPair> pairs;
     pairs_between(make_surface(a.triangles, 0), make_surface(b.triangles, static_cast<int>(a.positions.rows())), both,
                   Positions::Zero(both.rows(), 3), d_hat, pairs);

@@ -2,11 +2,10 @@
 // solver.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "common/base/types.h"
+#include "stages/gel/press/contact/contact_laws.h"
 
 namespace tacipc {
 
@@ -29,9 +28,7 @@ void check_path(const std::string& name, const std::vector<Matrix4>& path, int t
 /// \throw VerdictError naming the bodies
 int judge_bodies(int frame, const std::vector<BodyShape>& bodies);
 
-/// \param d_hat_m of two bodies, by their numbers
 /// \throw DataError naming two bodies that intersect where they begin, or are as near as contact reaches
-void require_apart(const std::vector<BodyShape>& bodies,
-                   const std::function<double(std::size_t, std::size_t)>& d_hat_m);
+void require_apart(const std::vector<BodyShape>& bodies, const ContactLaws& laws);
 
 }  // namespace tacipc

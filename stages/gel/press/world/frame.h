@@ -56,7 +56,6 @@ struct Simulation {
   NewtonSettings newton;
   std::vector<Frame> frames;
   SolverTimes times;  // of this run, which may have found frames of an earlier one
-  int symbolic_analyses = 0;
 };
 
 /// The numbers of a frame that the verdict judges.

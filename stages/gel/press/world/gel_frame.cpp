@@ -1,6 +1,5 @@
 #include "stages/gel/press/world/gel_frame.h"
 
-#include "common/sample/placement.h"
 #include "stages/gel/press/contact/intersection_check.h"
 #include "stages/gel/press/energy/elasticity.h"
 
@@ -12,15 +11,6 @@ Positions rotated(const Positions& rows, const Matrix3& rotation) { return rows 
 Matrix3 axes_to_gel(const Matrix4& world_from_gel) { return world_from_gel.topLeftCorner<3, 3>().transpose(); }
 
 }  // namespace
-
-TetMesh joined(std::span<const PlacedGel> gels) {
-  std::vector<TetMesh> placed;
-  for (const auto& [gel, world_from_gel] : gels) {
-    placed.push_back(gel);
-    placed.back().positions = transformed(world_from_gel, gel.positions);
-  }
-  return joined(placed);
-}
 
 Vector3 contact_force_on(const SolvedGel& part, const StepForces& forces) {
   const Eigen::Index n = part.gel.num_vertices(), first = part.first_row;

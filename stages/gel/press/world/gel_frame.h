@@ -2,22 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "stages/gel/press/energy/tet_energy.h"
 #include "stages/gel/press/world/frame.h"
 
 namespace tacipc {
-
-/// An undeformed gel and where it is put: S in the world.
-struct PlacedGel {
-  const TetMesh& gel;
-  Matrix4 world_from_gel;
-};
-
-/// Gels joined to one mesh in the world, rows in their order.
-TetMesh joined(std::span<const PlacedGel> gels);
 
 /// Parts of one gel that stay constant.
 struct SolvedGel {

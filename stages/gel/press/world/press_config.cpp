@@ -1,5 +1,7 @@
 #include "stages/gel/press/world/press_config.h"
 
+#include "common/sample/body_keys.h"
+
 namespace tacipc {
 
 FrictionConfig FrictionConfig::read(ConfigReader& in) {
@@ -20,8 +22,7 @@ PressConfig PressConfig::read(ConfigReader& in) {
   config.time_step_s = in.number("time_step_s", Range::positive());
   config.quasi_static =
       in.choice_or("dynamics", "implicit_euler", {"implicit_euler", "quasi_static"}) == "quasi_static";
-  const auto gravity = in.numbers_or("gravity_m_s2", {0.0, 0.0, 0.0});
-  config.gravity_m_s2 = {gravity[0], gravity[1], gravity[2]};
+  config.gravity_m_s2 = read_triple(in, "gravity_m_s2", 1.0);
   if (auto damping = in.optional_section("damping")) {
     config.mass_damping_per_s = damping->number_or("mass_per_s", 0.0, Range::non_negative());
     config.stiffness_damping_s = damping->number_or("stiffness_s", 0.0, Range::non_negative());
@@ -50,16 +51,16 @@ PressConfig PressConfig::read(ConfigReader& in) {
   if (auto friction = in.optional_section("friction")) config.friction = FrictionConfig::read(*friction);
   ConfigReader newton = in.section("newton");
   config.relative_velocity_tolerance = newton.number_or("relative_velocity_tolerance", 1e-3, Range::positive());
-  config.relative_force_tolerance = newton.number_or("relative_force_tolerance", 5e-4, Range::positive());
-  config.force_tolerance_n = newton.number_or("force_tolerance_n", 1e-5, Range::positive());
+  config.newton.relative_force_tolerance = newton.number_or("relative_force_tolerance", 5e-4, Range::positive());
+  config.newton.force_tolerance_n = newton.number_or("force_tolerance_n", 1e-5, Range::positive());
   config.linear_solver =
       newton.choice_or("linear_solver", "conjugate_gradient", {"direct", "conjugate_gradient"}) == "direct"
           ? LinearSolverKind::direct
           : LinearSolverKind::conjugate_gradient;
-  config.adaptive_contact_hessian =
+  config.newton.adaptive_contact_hessian =
       newton.choice_or("contact_hessian", "adaptive", {"adaptive", "positive"}) == "adaptive";
-  config.patches = newton.flag_or("patches", true);
-  config.max_newton_iterations = newton.integer_or("max_iterations", 200, 1);
+  config.newton.patches = newton.flag_or("patches", true);
+  config.newton.max_iterations = newton.integer_or("max_iterations", 200, 1);
   config.max_halvings = newton.integer_or("max_halvings", 5, 0, 20);
   return config;
 }

@@ -7,8 +7,7 @@
 
 #include "common/config/config.h"
 #include "common/sensor/sensor.h"
-#include "stages/gel/press/contact/pair_counting.h"
-#include "stages/gel/press/solve/linear_solver.h"
+#include "stages/gel/press/solve/step_settings.h"
 
 namespace tacipc {
 
@@ -42,13 +41,9 @@ struct PressConfig {
   double start_gap_d_hat = 0.0;             // gap of frame 0 between the object's lowest point and z = 0, in d̂
   std::optional<FrictionConfig> friction;
   double relative_velocity_tolerance = 0.0;  // Newton: max |p| / h below this part of the diagonal per second
-  double relative_force_tolerance = 0.0;     // and residual forces below this part of the contact force
-  double force_tolerance_n = 0.0;            // or below this
+  NewtonSettings newton;                     // all but the velocity tolerance; too many iterations halve a step
   LinearSolverKind linear_solver = LinearSolverKind::conjugate_gradient;
-  bool adaptive_contact_hessian = true;
-  bool patches = true;            // solves for the last few moving vertices alone in between
-  int max_newton_iterations = 0;  // per time step; reaching it halves the step
-  int max_halvings = 0;           // of a time step; reaching it is a failure
+  int max_halvings = 0;  // of a time step; reaching it is a failure
 
   static PressConfig read(ConfigReader& in);
   double coefficient_of_friction() const { return friction ? friction->coefficient : 0.0; }

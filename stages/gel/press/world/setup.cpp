@@ -8,13 +8,23 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/sensor/averaged_volume.h"
-#include "stages/gel/press/energy/barrier_stiffness.h"
 #include "stages/gel/press/energy/elasticity.h"
 #include "stages/gel/press/energy/element.h"
 #include "stages/gel/press/energy/joined_term.h"
 #include "stages/gel/press/measure/front_surface.h"
 
 namespace tacipc {
+namespace {
+
+/// κ = c h² E ℓ² / d̂³ in kg m⁻², as stiff as the gel beneath. At a given d/d̂ a pair pushes with about κ d̂³/h² (from
+/// ∂/∂d of κ/h² b(d²), b of barrier.h), and it takes about E ℓ² to press one vertex of the gel in: their ratio c is the
+/// same for any gel, mesh and d̂.
+double balanced_barrier_stiffness(const PressConfig& config, const Material& material, const Scales& scales) {
+  const double h = config.time_step_s, l = scales.front_edge_m, d = scales.d_hat_m;
+  return config.relative_barrier_stiffness * h * h * material.youngs_modulus_pa * l * l / (d * d * d);
+}
+
+}  // namespace
 
 Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh& gel) {
   Scales scales;
@@ -23,13 +33,8 @@ Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh&
   scales.d_hat_m = config.relative_d_hat * scales.diagonal_m;
   scales.gap_horizon_m = 2.0 * config.start_gap_d_hat * scales.d_hat_m;
   scales.start_gap_m = config.start_gap_d_hat * scales.d_hat_m;
-  scales.barrier_stiffness = config.barrier_stiffness
-                                 ? *config.barrier_stiffness
-                                 : balanced_barrier_stiffness(config.relative_barrier_stiffness,
-                                                              {.h_s = config.time_step_s,
-                                                               .youngs_modulus_pa = sensor.material.youngs_modulus_pa,
-                                                               .front_edge_m = scales.front_edge_m,
-                                                               .d_hat_m = scales.d_hat_m});
+  scales.barrier_stiffness =
+      config.barrier_stiffness.value_or(balanced_barrier_stiffness(config, sensor.material, scales));
   return scales;
 }
 
@@ -82,12 +87,8 @@ StepSettings step_settings(const PressConfig& config, const Scales& scales) {
                         .mass_damping_per_s = config.mass_damping_per_s,
                         .stiffness_damping_s = config.stiffness_damping_s,
                         .linear_solver = config.linear_solver,
-                        .newton = {.velocity_tolerance_m_s = config.relative_velocity_tolerance * scales.diagonal_m,
-                                   .relative_force_tolerance = config.relative_force_tolerance,
-                                   .force_tolerance_n = config.force_tolerance_n,
-                                   .max_iterations = config.max_newton_iterations,
-                                   .adaptive_contact_hessian = config.adaptive_contact_hessian,
-                                   .patches = config.patches}};
+                        .newton = config.newton};
+  settings.newton.velocity_tolerance_m_s = config.relative_velocity_tolerance * scales.diagonal_m;
   if (config.coefficient_of_friction() > 0.0) settings.friction = friction_settings(*config.friction, scales);
   return settings;
 }

@@ -69,11 +69,12 @@ StepSettings World::make_settings() const {
 
 ContactMesh World::make_mesh() const {
   assert(options_.mounts_move || (parts_.size() == 1 && bodies_[0].start == Matrix4::Identity()));
-  std::vector<PlacedGel> placed;
+  std::vector<TetMesh> placed;
   std::vector<TriangleMesh> objects;
   for (const Body& body : bodies_) {
     if (body.deformable()) {
-      placed.push_back({body.tets, body.start});
+      placed.push_back(body.tets);
+      placed.back().positions = transformed(body.start, body.tets.positions);
     } else {
       objects.push_back({transformed(body.start, body.surface.positions), body.surface.triangles});
     }
@@ -137,7 +138,8 @@ SolvedGel World::deformable(std::size_t b) const {
 Simulation World::simulation_of(std::size_t gel) const {
   Simulation simulation;
   const std::size_t other = gel == 0 && bodies_.size() > 1 ? 1 : 0;  // of gels alone
-  const ContactLaw& law = law_of(gel, object(0) < bodies_.size() ? object(0) : other);
+  const ContactLaw& law =
+      laws().of(static_cast<int>(gel), static_cast<int>(object(0) < bodies_.size() ? object(0) : other));
   simulation.friction = law.friction;
   simulation.d_hat_m = law.d_hat_m;
   simulation.barrier_stiffness = law.stiffness * scales_.barrier_stiffness;
@@ -316,7 +318,7 @@ void World::add_weights_and_loads(const StepGoal& goal, const WholeInstant& befo
 std::vector<Frame> World::measure(PhaseKind phase, int phase_index, const StepReport& report) {
   const Positions& x = state_.motion.x;
   const bool at_rest = phase_index < 0;
-  const StepForces forces = at_rest ? stepper_.no_forces() : stepper_.forces();
+  const StepForces forces = at_rest ? no_forces(mesh_.num_gel_vertices) : stepper_.forces();
   const double gap = smallest_gap(scales_.gap_horizon_m);
   double strain = 0.0;
   for (std::size_t i = 0; i < affine_.size(); ++i) strain = std::max(strain, strain_of(affine_[i], points(i)));
@@ -366,9 +368,7 @@ void World::judge(int number, std::vector<Frame>& frames) const {
   }
 }
 
-void World::require_apart() const {
-  tacipc::require_apart(shapes(), [&](std::size_t a, std::size_t b) { return law_of(a, b).d_hat_m; });
-}
+void World::require_apart() const { tacipc::require_apart(shapes(), laws()); }
 
 WholeAccount World::take_account() {
   WholeAccount account = state_.account;

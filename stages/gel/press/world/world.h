@@ -78,10 +78,8 @@ class World {
   const TimeStepper& stepper() const { return stepper_; }
   const StepForces& forces() const { return stepper_.forces(); }
 
-  /// Friction and reach of contact between two bodies.
-  const ContactLaw& law_of(std::size_t a, std::size_t b) const {
-    return settings_.laws.of(static_cast<int>(a), static_cast<int>(b));
-  }
+  /// Friction and reach of contact between any two bodies.
+  const ContactLaws& laws() const { return settings_.laws; }
   /// A simulation of one gel without frames; friction, d̂ and κ are those with the first object, or, if there is none,
   /// with the first other body.
   Simulation simulation_of(std::size_t gel) const;

@@ -102,7 +102,7 @@ bool filter_passes(const Query& query) {
 void run(const Query& query, Counts& counts) {
   ++counts.queries;
   counts.hits += query.collides;
-  const PairKind kind = query.edge_edge ? PairKind::edge_edge : PairKind::point_triangle;
+  const ContactPair::Kind kind = query.edge_edge ? ContactPair::Kind::edge_edge : ContactPair::Kind::point_triangle;
   const bool reported = may_collide(kind, query.start, query.end);
   counts.false_negatives += query.collides && !reported;
   counts.false_positives += !query.collides && reported;

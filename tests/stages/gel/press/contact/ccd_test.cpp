@@ -14,15 +14,17 @@ namespace tacipc {
 namespace ccd_test {
 
 struct Kind {
-  PairKind kind;
-  double (*time_of_impact)(const FourPoints&, const FourPoints&, const CcdOptions&);
+  ContactPair::Kind kind;
   ClosestFeature (*closest)(const FourPoints&);
 
-  const char* name() const { return kind == PairKind::point_triangle ? "point_triangle" : "edge_edge"; }
+  double time_of_impact(const FourPoints& x, const FourPoints& displacement, double slack = 0.1) const {
+    return tacipc::time_of_impact(kind, x, displacement, slack);
+  }
+  const char* name() const { return kind == ContactPair::Kind::point_triangle ? "point_triangle" : "edge_edge"; }
   friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name(); }
 };
-const Kind kPointTriangle{PairKind::point_triangle, time_of_impact_point_triangle, closest_point_triangle};
-const Kind kEdgeEdge{PairKind::edge_edge, time_of_impact_edge_edge, closest_edge_edge};
+const Kind kPointTriangle{ContactPair::Kind::point_triangle, closest_point_triangle};
+const Kind kEdgeEdge{ContactPair::Kind::edge_edge, closest_edge_edge};
 
 class Ccd : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Pairs, Ccd, testing::Values(kPointTriangle, kEdgeEdge),
@@ -35,20 +37,18 @@ TEST(CcdClosedForm, FallingPointStopsAtTheSlack) {
   FourPoints d{2 * kDown, Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
   // Height 1 − 2t reaches slack × 1 at t = (1 − slack) / 2.
   for (const double slack : {0.0, 0.1, 0.5, 0.9}) {
-    const double t = time_of_impact_point_triangle(x, d, {.slack = slack});
+    const double t = kPointTriangle.time_of_impact(x, d, slack);
     EXPECT_LE(t, (1 - slack) / 2);
     EXPECT_GE(t, (1 - slack) / 2 - 0.01 * slack / 2 - 1e-14) << slack;
   }
-  EXPECT_NEAR(time_of_impact_point_triangle(x, d, {.slack = 0, .minimum_separation_m = 0.25}), 0.375, 2e-3);
-  EXPECT_EQ(time_of_impact_point_triangle(x, d, {.slack = 0, .minimum_separation_m = 1}), 0);
   d[0] = 0.89 * kDown;
-  EXPECT_EQ(time_of_impact_point_triangle(x, d), 1);
+  EXPECT_EQ(kPointTriangle.time_of_impact(x, d), 1);
 }
 
 TEST(CcdClosedForm, CrossingEdgesStopAtTheSlack) {
   const FourPoints x{Vector3(-1, 0, 1), Vector3(1, 0, 1), Vector3(0, -1, 0), Vector3(0, 1, 0)};
   const FourPoints d{kDown, kDown, -kDown, -kDown};
-  const double t = time_of_impact_edge_edge(x, d);
+  const double t = kEdgeEdge.time_of_impact(x, d);
   EXPECT_LE(t, 0.45);
   EXPECT_GE(t, 0.449);
 }
@@ -56,16 +56,16 @@ TEST(CcdClosedForm, CrossingEdgesStopAtTheSlack) {
 TEST(CcdClosedForm, ParallelEdgesMayTouchAllAlong) {
   const FourPoints x{Vector3(-1, 0, 1), Vector3(1, 0, 1), Vector3(-1, 0, 0), Vector3(1, 0, 0)};
   const FourPoints d{2 * kDown, 2 * kDown, Vector3::Zero(), Vector3::Zero()};
-  EXPECT_NEAR(time_of_impact_edge_edge(x, d), 0.45, 1e-3);
+  EXPECT_NEAR(kEdgeEdge.time_of_impact(x, d), 0.45, 1e-3);
 }
 
 TEST(CcdClosedForm, SlidingAtATinyGapIsFree) {
   for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const Vector3 slide(5, -3, 0);
     const FourPoints parallel{Vector3(-1, 0, gap), Vector3(1, 0, gap), Vector3(-1, 0, 0), Vector3(1, 0, 0)};
-    EXPECT_EQ(time_of_impact_edge_edge(parallel, {slide, slide, -slide, Vector3::Zero()}), 1) << gap;
+    EXPECT_EQ(kEdgeEdge.time_of_impact(parallel, {slide, slide, -slide, Vector3::Zero()}), 1) << gap;
     const FourPoints over{Vector3(0.1, 0.1, gap), Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
-    EXPECT_EQ(time_of_impact_point_triangle(over, {slide, Vector3::Zero(), -slide, slide}), 1) << gap;
+    EXPECT_EQ(kPointTriangle.time_of_impact(over, {slide, Vector3::Zero(), -slide, slide}), 1) << gap;
   }
 }
 
@@ -80,8 +80,8 @@ TEST(CcdClosedForm, RollingTogetherAtATinyGapIsFree) {
       over_end[i] = turn * over[i];
       across_end[i] = turn * across[i];
     }
-    EXPECT_EQ(time_of_impact_point_triangle(over, over_end - over), 1) << gap;
-    EXPECT_EQ(time_of_impact_edge_edge(across, across_end - across), 1) << gap;
+    EXPECT_EQ(kPointTriangle.time_of_impact(over, over_end - over), 1) << gap;
+    EXPECT_EQ(kEdgeEdge.time_of_impact(across, across_end - across), 1) << gap;
   }
 }
 
@@ -92,7 +92,7 @@ TEST_P(Ccd, StartInContactCannotMove) {
     const FourPoints x = lattice_points(random, 1);
     if (GetParam().closest(x).squared_distance > 1e-28) continue;
     ++touching;
-    EXPECT_EQ(GetParam().time_of_impact(x, lattice_points(random, 3), {}), 0) << to_string(x);
+    EXPECT_EQ(GetParam().time_of_impact(x, lattice_points(random, 3)), 0) << to_string(x);
   }
   EXPECT_GT(touching, 50);
 }
@@ -102,7 +102,7 @@ TEST_P(Ccd, CommonMotionAndNoMotionAreFree) {
   for (int i = 0; i < 500; ++i) {
     const FourPoints x = random_points(random);
     const Vector3 v = 1e3 * random_vector(random);
-    EXPECT_EQ(GetParam().time_of_impact(x, {v, v, v, v}, {}), 1) << to_string(x);
+    EXPECT_EQ(GetParam().time_of_impact(x, {v, v, v, v}), 1) << to_string(x);
   }
 }
 
@@ -110,7 +110,7 @@ TEST_P(Ccd, NumbersThatAreNotFiniteCannotMove) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e308}) {
     const FourPoints x{Vector3(bad, 0, 1), Vector3(1, 1, 1), Vector3(2, 0, 0), Vector3(0, 3, 0)};
     const FourPoints d{Vector3(1, 1, 1), Vector3(-bad, 0, 0), Vector3(0, 0, 0), Vector3(1, 0, 0)};
-    EXPECT_EQ(GetParam().time_of_impact(x, d, {}), 0) << bad;
+    EXPECT_EQ(GetParam().time_of_impact(x, d), 0) << bad;
   }
 }
 
@@ -126,7 +126,7 @@ TEST_P(Ccd, KeepsTheSeparationAndUsesTheRoom) {
       d[j] *= 2 * size;
     }
     const double slack = 0.2;
-    const double t = GetParam().time_of_impact(x, d, {.slack = slack});
+    const double t = GetParam().time_of_impact(x, d, slack);
     const double separation = slack * std::sqrt(GetParam().closest(x).squared_distance);
     for (int j = 0; j <= 40; ++j) {
       const double distance = std::sqrt(GetParam().closest(x + t * j / 40 * d).squared_distance);
@@ -147,7 +147,7 @@ TEST_P(Ccd, FindsImpactsThatAreKnownByConstruction) {
   int missed = 0;
   for (int i = 0; i < kImpacts; ++i) {
     const Impact impact = random_impact(GetParam().kind, kMeetings[i % 4], random);
-    const double t = GetParam().time_of_impact(impact.start, impact.displacement, {.slack = 0});
+    const double t = GetParam().time_of_impact(impact.start, impact.displacement, 0);
     EXPECT_TRUE(t == 0 || t < impact.time)
         << "impact at " << impact.time << ": " << to_string(impact.start) << " by " << to_string(impact.displacement);
     missed += !may_collide(GetParam().kind, impact.start, impact.start + impact.displacement);

@@ -136,7 +136,7 @@ TEST(ContactSearch, FindsWhatComesNearOnTheWayBack) {
   rest << one, one;
   rest.bottomRows(4).col(0).array() += 2e-3;
   const Tetrahedra tets{{0, 2, 1, 3}, {4, 6, 5, 7}};
-  const ContactMesh mesh = make_contact_mesh(rest, boundary_triangles(tets, 8), Positions(0, 3), Triangles(0, 3));
+  const ContactMesh mesh = make_contact_mesh(rest, boundary_triangles(tets, 8), {});
   ContactSearch search(mesh);
   Positions x = rest, p = Positions::Zero(8, 3);
   p.rowwise() = Eigen::RowVector3d(3e-3, 3e-3, 0);

@@ -91,7 +91,8 @@ Collision decide(const Query& query, int depth, int& budget) {
 
 }  // namespace
 
-Collision exact_collision(PairKind kind, const FourPoints& x_start, const FourPoints& displacement, double until) {
+Collision exact_collision(ContactPair::Kind kind, const FourPoints& x_start, const FourPoints& displacement,
+                          double until) {
   std::array<std::array<std::array<mpq_class, 2>, 3>, 4> ends;
   mpz_class unit = 1;  // that all coordinates are multiples of one over: doubles have powers of two only
   for (int i = 0; i < 4; ++i) {
@@ -105,7 +106,7 @@ Collision exact_collision(PairKind kind, const FourPoints& x_start, const FourPo
   for (int i = 0; i < 4; ++i)
     for (int c = 0; c < 3; ++c) x[i][c] = {mpz_class(ends[i][c][0] * unit), mpz_class(ends[i][c][1] * unit)};
   Query query;
-  if (kind == PairKind::point_triangle) {
+  if (kind == ContactPair::Kind::point_triangle) {
     const Vector w = x[0] - x[1], e1 = x[2] - x[1], e2 = x[3] - x[1];
     const Vector normal = cross(e1, e2);
     const Polynomial b1 = dot(cross(w, e2), normal), b2 = dot(cross(e1, w), normal);

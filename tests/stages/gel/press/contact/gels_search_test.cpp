@@ -43,9 +43,8 @@ class TwoGels : public ::testing::Test {
     both.bottomRows(n).col(0).array() += 0.5 * kApart;
     Triangles boundary(2 * gel_.boundary.rows(), 3);
     boundary << gel_.boundary, gel_.boundary.array() + n;
-    mesh_ = make_contact_mesh(both, boundary, Positions(0, 3), Triangles(0, 3));
-    const auto alone = std::make_shared<const ContactMesh>(
-        make_contact_mesh(gel_.positions, gel_.boundary, Positions(0, 3), Triangles(0, 3)));
+    mesh_ = make_contact_mesh(both, boundary, {});
+    const auto alone = std::make_shared<const ContactMesh>(make_contact_mesh(gel_.positions, gel_.boundary, {}));
     const int anchor = gel_.vertices(BoundaryTag::glued).front();
     mesh_.gels = {{0, anchor, alone}, {n, anchor, alone}};
     all_ = sorted(all_pairs(mesh_.gel));
@@ -225,9 +224,9 @@ class BallOverAGel : public ::testing::Test {
     both << gel_.positions, ball_.positions.rowwise() + Eigen::RowVector3d(0, 0, 1.6e-3);
     Triangles surface(gel_.boundary.rows() + ball_.num_triangles(), 3);
     surface << gel_.boundary, ball_.triangles.array() + n;
-    mesh_ = make_contact_mesh(both, surface, Positions(0, 3), Triangles(0, 3));
+    mesh_ = make_contact_mesh(both, surface, {});
     const auto alone = [](const Positions& rest, const Triangles& triangles) {
-      return std::make_shared<const ContactMesh>(make_contact_mesh(rest, triangles, Positions(0, 3), Triangles(0, 3)));
+      return std::make_shared<const ContactMesh>(make_contact_mesh(rest, triangles, {}));
     };
     mesh_.gels = {{0, gel_.vertices(BoundaryTag::glued).front(), alone(gel_.positions, gel_.boundary)},
                   {n, -1, alone(ball_.positions, ball_.triangles)}};

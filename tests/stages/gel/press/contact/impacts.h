@@ -36,9 +36,9 @@ inline int random_int(std::mt19937& random, int low, int high) {
 
 /// Moves the first point into the triangle, or the second edge so that it crosses the first, at multiples of 1/16 of
 /// the points given.
-inline FourPoints touching(PairKind kind, FourPoints y, std::mt19937& random) {
+inline FourPoints touching(ContactPair::Kind kind, FourPoints y, std::mt19937& random) {
   const double scale = 16;
-  if (kind == PairKind::point_triangle) {
+  if (kind == ContactPair::Kind::point_triangle) {
     const int b1 = random_int(random, 0, 16), b2 = random_int(random, 0, 16 - b1);
     y[0] = ((16 - b1 - b2) * y[1] + b1 * y[2] + b2 * y[3]) / scale;
   } else {
@@ -53,9 +53,9 @@ inline FourPoints touching(PairKind kind, FourPoints y, std::mt19937& random) {
 }
 
 /// Coordinates are multiples of 1/256 below 2^11.
-inline Impact random_impact(PairKind kind, Meeting meeting, std::mt19937& random) {
+inline Impact random_impact(ContactPair::Kind kind, Meeting meeting, std::mt19937& random) {
   FourPoints y = lattice_points(random, 64), v = lattice_points(random, random() % 3 == 0 ? 1 : 100);
-  const bool point_triangle = kind == PairKind::point_triangle;
+  const bool point_triangle = kind == ContactPair::Kind::point_triangle;
   if (meeting == Meeting::one_plane) {
     const FourPoints axes = lattice_points(random, 3);
     const auto in_plane = [&](FourPoints x) {

@@ -13,8 +13,7 @@ namespace tacipc {
 namespace open_face_test {
 
 ContactMesh gel_alone(const TetMesh& gel) {
-  return make_contact_mesh(gel.positions, boundary_triangles(gel.tets, gel.positions.rows()), Positions(0, 3),
-                           Triangles(0, 3));
+  return make_contact_mesh(gel.positions, boundary_triangles(gel.tets, gel.positions.rows()), {});
 }
 
 /// Hands pairs of primitives of the face that share no vertex to use(pair, distance at x, distance at rest).

@@ -51,8 +51,7 @@ struct OnePoint {
   ContactLaws laws{{.d_hat_m = kDHat}};
 
   OnePoint(const TriangleMesh& object, const Vector3& point) {
-    mesh = make_contact_mesh(Positions{{point.x(), point.y(), point.z()}}, Triangles(0, 3), object.positions,
-                             object.triangles);
+    mesh = make_contact_mesh(Positions{{point.x(), point.y(), point.z()}}, Triangles(0, 3), {object});
     for (Eigen::Index f = 0; f < object.num_triangles(); ++f) {
       pairs.push_back({ContactPair::Kind::point_triangle,
                        {0, 1 + object.triangles(f, 0), 1 + object.triangles(f, 1), 1 + object.triangles(f, 2)}});
@@ -140,7 +139,7 @@ TEST(PairCounting, EdgesCountAsMuchAsTheyAreSharpAndGelPairsStay) {
   const Positions roof{{0, -1, 0}, {0, 1, 0}, {1, 0, -1}, {-1, 0, -1}};
   const Triangles two{{0, 2, 1}, {0, 1, 3}};
   const Positions gel = Positions::Random(10, 3);
-  const ContactMesh mesh = make_contact_mesh(gel, Triangles{{0, 1, 2}, {1, 3, 2}}, roof, two);
+  const ContactMesh mesh = make_contact_mesh(gel, Triangles{{0, 1, 2}, {1, 3, 2}}, {{roof, two}});
   const std::vector<ContactPair> pairs{{Kind::edge_edge, {0, 1, 10, 11}},
                                        {Kind::edge_edge, {0, 1, 2, 3}},
                                        {Kind::point_triangle, {0, 1, 2, 3}},
@@ -155,7 +154,7 @@ TEST(PairCounting, EdgesCountAsMuchAsTheyAreSharpAndGelPairsStay) {
 
   Positions flat = roof;
   flat.col(2).tail(2).setConstant(-0.1);
-  const ContactMesh smooth = make_contact_mesh(gel, Triangles{{0, 1, 2}, {1, 3, 2}}, flat, two);
+  const ContactMesh smooth = make_contact_mesh(gel, Triangles{{0, 1, 2}, {1, 3, 2}}, {{flat, two}});
   EXPECT_EQ(weighted(pairs, smooth, ContactLaws(), {.once = true, .edge_weight = 0.1})[0].weight, 0.1);
 }
 

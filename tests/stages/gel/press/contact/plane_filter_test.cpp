@@ -22,7 +22,7 @@ struct MovingPairs {
   Positions x, p;
   std::vector<ContactPair> pairs;
 
-  void add(PairKind kind, const FourPoints& start, const FourPoints& displacement) {
+  void add(ContactPair::Kind kind, const FourPoints& start, const FourPoints& displacement) {
     const int first = static_cast<int>(x.rows());
     x.conservativeResize(first + 4, 3);
     p.conservativeResize(first + 4, 3);
@@ -30,9 +30,7 @@ struct MovingPairs {
       x.row(first + k) = start[k].transpose();
       p.row(first + k) = displacement[k].transpose();
     }
-    pairs.push_back(
-        {kind == PairKind::point_triangle ? ContactPair::Kind::point_triangle : ContactPair::Kind::edge_edge,
-         {first, first + 1, first + 2, first + 3}});
+    pairs.push_back({kind, {first, first + 1, first + 2, first + 3}});
   }
   /// Bits of those of the eight pairs `lanes` that the filter shows to stay apart.
   unsigned apart(const std::array<int, kLanes>& lanes, double until, double slack, const Pack& floor_m,
@@ -68,10 +66,11 @@ const Frame kFrames[] = {{1.0, kNowhere, kNowhere, "as made"},
                          {1.0, kFar, kNowhere, "far away"},
                          {0x1p20, Vector3(-0x1p12, 1000.0, 0x1p13), kFast, "large and fast"}};
 
-class PlaneFilter : public testing::TestWithParam<PairKind> {};
-INSTANTIATE_TEST_SUITE_P(Pairs, PlaneFilter, testing::Values(PairKind::point_triangle, PairKind::edge_edge),
+class PlaneFilter : public testing::TestWithParam<ContactPair::Kind> {};
+INSTANTIATE_TEST_SUITE_P(Pairs, PlaneFilter,
+                         testing::Values(ContactPair::Kind::point_triangle, ContactPair::Kind::edge_edge),
                          [](const auto& test) {
-                           return test.param == PairKind::point_triangle ? "point_triangle" : "edge_edge";
+                           return test.param == ContactPair::Kind::point_triangle ? "point_triangle" : "edge_edge";
                          });
 
 TEST_P(PlaneFilter, ClaimsNoImpactInAnyLaneApart) {
@@ -112,7 +111,8 @@ TEST_P(PlaneFilter, ClaimsNoImpactInAnyLaneApart) {
 /// As a step meets it: among pairs that are far apart, in each lane of full and partial packs.
 TEST_P(PlaneFilter, NoStepGoesAsFarAsAnImpact) {
   std::mt19937 random(22);
-  const PairKind other = GetParam() == PairKind::point_triangle ? PairKind::edge_edge : PairKind::point_triangle;
+  const ContactPair::Kind other = GetParam() == ContactPair::Kind::point_triangle ? ContactPair::Kind::edge_edge
+                                                                                  : ContactPair::Kind::point_triangle;
   int impacts = 0, short_of_half = 0;
   for (const Frame& frame : kFrames) {
     for (const Meeting meeting : kMeetings) {
@@ -120,13 +120,13 @@ TEST_P(PlaneFilter, NoStepGoesAsFarAsAnImpact) {
         const Impact impact = random_impact(GetParam(), meeting, random);
         if (impact.time == 0.0) continue;
         MovingPairs moving;
-        const auto add = [&](PairKind kind, const Impact& what) {
+        const auto add = [&](ContactPair::Kind kind, const Impact& what) {
           const Impact seen = transformed(what, frame.scale, frame.offset, frame.velocity);
           moving.add(kind, seen.start, seen.displacement);
         };
-        const auto add_bystander = [&](PairKind kind) {
+        const auto add_bystander = [&](ContactPair::Kind kind) {
           FourPoints apart = lattice_points(random, 64);
-          for (int k = 0; k < (kind == PairKind::point_triangle ? 1 : 2); ++k) apart[k].z() += 500.0;
+          for (int k = 0; k < (kind == ContactPair::Kind::point_triangle ? 1 : 2); ++k) apart[k].z() += 500.0;
           add(kind, {apart, lattice_points(random, 64), 0.0});
         };
         const int lane = i % kLanes, count = lane + 1 + random_int(random, 0, kLanes - 1 - lane);
@@ -172,7 +172,7 @@ TEST_P(PlaneFilter, NearMissesMayPassAndNearHitsMayNot) {
     for (int i = 0; i < 600; ++i) {
       Impact impact = random_impact(GetParam(), i % 2 == 0 ? Meeting::plain : Meeting::one_plane, random);
       FourPoints y = impact.start + impact.time * impact.displacement;
-      const bool point_triangle = GetParam() == PairKind::point_triangle;
+      const bool point_triangle = GetParam() == ContactPair::Kind::point_triangle;
       const Vector3 normal = point_triangle ? (y[2] - y[1]).cross(y[3] - y[1]) : (y[1] - y[0]).cross(y[3] - y[2]);
       for (int k = 0; k < (point_triangle ? 1 : 2); ++k) y[k] += (i % 4 < 2 ? part : -part) * normal;
       const double time = i % 2 == 0 ? 1.0 : impact.time;
@@ -212,8 +212,8 @@ TEST_P(PlaneFilter, JudgesEachLaneByItselfAndKeepsItsDistance) {
       FourPoints x = random_points(random);
       // The last corner or end all but in line with others.
       if (pack % 5 == 0) {
-        const Vector3 edge = GetParam() == PairKind::point_triangle ? x[2] - x[1] : x[1] - x[0];
-        const Vector3 corner = GetParam() == PairKind::point_triangle ? x[1] : x[2];
+        const Vector3 edge = GetParam() == ContactPair::Kind::point_triangle ? x[2] - x[1] : x[1] - x[0];
+        const Vector3 corner = GetParam() == ContactPair::Kind::point_triangle ? x[1] : x[2];
         x[3] = corner + random_unit(random) * edge + std::ldexp(1.0, -random_int(random, 10, 60)) * x[3];
       }
       moving.add(GetParam(), x, random_points(random));
@@ -246,12 +246,12 @@ TEST_P(PlaneFilter, JudgesEachLaneByItselfAndKeepsItsDistance) {
 /// The first side sinks from 1 to 1/4 above the second while it slides: what may be claimed of the end is known to the
 /// last digit, wherever that is.
 TEST_P(PlaneFilter, ClaimsWhatSlackAndFloorLeaveToTheLastDigit) {
-  const FourPoints over = GetParam() == PairKind::point_triangle
+  const FourPoints over = GetParam() == ContactPair::Kind::point_triangle
                               ? FourPoints{Vector3(0.25, 0.25, 1), Vector3(0, 0, 0), Vector3(4, 0, 0), Vector3(0, 4, 0)}
                               : FourPoints{Vector3(-2, 0, 1), Vector3(2, 0, 1), Vector3(0, -2, 0), Vector3(0, 2, 0)};
   const Vector3 sinks(0.5, 0.25, -0.75);
   FourPoints d{sinks, Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-  if (GetParam() == PairKind::edge_edge) d[1] = sinks;
+  if (GetParam() == ContactPair::Kind::edge_edge) d[1] = sinks;
   for (const Frame& frame : kFrames) {
     const Impact seen = transformed({over, d, 0.0}, frame.scale, frame.offset, frame.velocity);
     MovingPairs moving;

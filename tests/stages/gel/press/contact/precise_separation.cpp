@@ -35,7 +35,7 @@ struct Direction {
 
 class ExactPaths {
  public:
-  ExactPaths(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) : kind_(kind), size_(0) {
+  ExactPaths(ContactPair::Kind kind, const FourPoints& x_start, const FourPoints& x_end) : kind_(kind), size_(0) {
     for (int i = 0; i < 4; ++i) {
       start_[i] = difference(x_start[i], x_start[0]);
       end_[i] = difference(x_end[i], x_end[0]);
@@ -75,7 +75,7 @@ class ExactPaths {
     const Vec normal = area(q, q);
     offer(normal);
     offer(Float128(-1) * normal);
-    if (kind_ == PairKind::point_triangle) {
+    if (kind_ == ContactPair::Kind::point_triangle) {
       offer_edge(0, 1, 2, 1);
       offer_edge(0, 2, 3, 1);
       offer_edge(0, 3, 1, 1);
@@ -131,18 +131,18 @@ class ExactPaths {
     return {Float128(a.x()) - Float128(b.x()), Float128(a.y()) - Float128(b.y()), Float128(a.z()) - Float128(b.z())};
   }
 
-  Vec across(const Points& q) const { return kind_ == PairKind::point_triangle ? q[0] - q[1] : q[0] - q[2]; }
+  Vec across(const Points& q) const { return kind_ == ContactPair::Kind::point_triangle ? q[0] - q[1] : q[0] - q[2]; }
 
   /// First tangent of p times second tangent of q.
   Vec area(const Points& p, const Points& q) const {
-    if (kind_ == PairKind::point_triangle) return cross(p[2] - p[1], q[3] - q[1]);
+    if (kind_ == ContactPair::Kind::point_triangle) return cross(p[2] - p[1], q[3] - q[1]);
     return cross(p[1] - p[0], q[3] - q[2]);
   }
 
   /// Calls visit(gap at p along n, gap at q along m, their mixed mean) for all pairs of a vertex of each body.
   template <typename Visit>
   void for_each_gap(const Vec& n, const Points& p, const Vec& m, const Points& q, const Visit& visit) const {
-    const int num_first = kind_ == PairKind::point_triangle ? 1 : 2;
+    const int num_first = kind_ == ContactPair::Kind::point_triangle ? 1 : 2;
     for (int i = 0; i < num_first; ++i)
       for (int j = num_first; j < 4; ++j) {
         const Vec r = p[i] - p[j];
@@ -157,14 +157,15 @@ class ExactPaths {
     return smallest;
   }
 
-  PairKind kind_;
+  ContactPair::Kind kind_;
   Points start_, end_;  // relative to vertex 0
   Float128 size_;
 };
 
 }  // namespace
 
-bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& x_end, double known_apart_until) {
+bool provably_apart(ContactPair::Kind kind, const FourPoints& x_start, const FourPoints& x_end,
+                    double known_apart_until) {
   for (int i = 0; i < 4; ++i)
     if (!x_start[i].allFinite() || !x_end[i].allFinite()) return false;
   const ExactPaths paths(kind, x_start, x_end);
@@ -207,13 +208,10 @@ bool provably_apart(PairKind kind, const FourPoints& x_start, const FourPoints& 
   return false;
 }
 
-bool may_collide(PairKind kind, const FourPoints& x_start, const FourPoints& x_end) {
+bool may_collide(ContactPair::Kind kind, const FourPoints& x_start, const FourPoints& x_end) {
   FourPoints displacement;
   for (int i = 0; i < 4; ++i) displacement[i] = x_end[i] - x_start[i];
-  const CcdOptions touch{.slack = 0};
-  const double apart_until = kind == PairKind::point_triangle
-                                 ? time_of_impact_point_triangle(x_start, displacement, touch)
-                                 : time_of_impact_edge_edge(x_start, displacement, touch);
+  const double apart_until = time_of_impact(kind, x_start, displacement, 0.0);
   return apart_until < 1 && !provably_apart(kind, x_start, x_end, apart_until);
 }
 

@@ -101,8 +101,7 @@ struct SearchScene {
 
   SearchScene() {
     object.positions.col(2).array() += 0.1e-3 - object.positions.col(2).minCoeff();
-    mesh = make_contact_mesh(gel.positions, boundary_triangles(gel.tets, gel.positions.rows()), object.positions,
-                             object.triangles);
+    mesh = make_contact_mesh(gel.positions, boundary_triangles(gel.tets, gel.positions.rows()), {object});
     x = mesh.rest_positions;
   }
   Positions displacement(double largest) {

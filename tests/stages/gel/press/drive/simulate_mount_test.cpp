@@ -28,8 +28,8 @@ PressConfig exact_config() {
   config.quasi_static = true;
   config.linear_solver = LinearSolverKind::direct;
   config.relative_velocity_tolerance = 1e-8;
-  config.relative_force_tolerance = 1e-10;
-  config.force_tolerance_n = 1e-11;
+  config.newton.relative_force_tolerance = 1e-10;
+  config.newton.force_tolerance_n = 1e-11;
   return config;
 }
 
@@ -73,8 +73,8 @@ TEST(Mount, APressIsARigidOneToTheDepthThatItsForceLeaves) {
 
 TEST(Mount, LagsAlongEachAxisByItsForce) {
   PressConfig config = friction_config(0.8);
-  config.relative_force_tolerance = 1e-7;
-  config.force_tolerance_n = 1e-9;
+  config.newton.relative_force_tolerance = 1e-7;
+  config.newton.force_tolerance_n = 1e-9;
   config.relative_velocity_tolerance = 1e-5;
   for (const bool quasi_static : {false, true}) {
     config.quasi_static = quasi_static;

@@ -55,7 +55,7 @@ TEST(MovedGel, FrictionRenewedBeforeIterationsIsThatRenewedAtMinima) {
   const TriangleMesh object = pyramid(0.003, 0.002);
   PressConfig config = friction_config(0.7);
   config.relative_velocity_tolerance = 1e-5;
-  config.relative_force_tolerance = 1e-6;
+  config.newton.relative_force_tolerance = 1e-6;
   config.friction->relative_lag_tolerance = 1e-5;
   SampleSpec sample;
   sample.motion = {{.kind = PhaseKind::press, .steps = 3, .depth_m = 0.3e-3},
@@ -86,9 +86,9 @@ TEST(MovedGel, IterationsAreCountedOverAllRenewalsOfFriction) {
   const StepReport solver = run(object, config, sample).frames[1].solver;
   ASSERT_GT(solver.lag_iterations, 1);
   config.max_halvings = 0;
-  config.max_newton_iterations = solver.newton_iterations;
+  config.newton.max_iterations = solver.newton_iterations;
   EXPECT_NO_THROW(run(object, config, sample));
-  config.max_newton_iterations = solver.newton_iterations - 1;
+  config.newton.max_iterations = solver.newton_iterations - 1;
   EXPECT_THROW(run(object, config, sample), SolverError);
 }
 
@@ -159,7 +159,7 @@ TEST(MovedGel, AStepThatIsTooLongIsDivided) {
   const Simulation expected = run(pyramid(0.003, 0.002), halves, press(0.9e-3, 2));
   const Frame &first = expected.frames[1], &second = expected.frames[2];
   // Just enough for a half, too few for the whole.
-  config.max_newton_iterations = std::max(first.solver.newton_iterations, second.solver.newton_iterations);
+  config.newton.max_iterations = std::max(first.solver.newton_iterations, second.solver.newton_iterations);
   config.max_halvings = 1;
   const Simulation divided = run(pyramid(0.003, 0.002), config, press(0.9e-3, 1));
   ASSERT_EQ(divided.frames.size(), 2u);
@@ -183,8 +183,8 @@ TEST(MovedGel, AugmentedLagrangianGivesTheAnswerOfElimination) {
   sample.center_y_m = 0.9e-3;
   sample.motion.push_back({.kind = PhaseKind::shear, .steps = 2, .shift_m = {0.1e-3, 0.0, 0.0}});
   PressConfig config = friction_config(0.4);
-  config.relative_force_tolerance = 1e-6;
-  config.force_tolerance_n = 1e-9;
+  config.newton.relative_force_tolerance = 1e-6;
+  config.newton.force_tolerance_n = 1e-9;
   config.friction->relative_lag_tolerance = 1e-5;
   const Simulation eliminated = run(pyramid(0.003, 0.002), config, sample);
   config.augmented_lagrangian = true;

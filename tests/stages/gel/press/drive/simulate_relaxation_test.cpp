@@ -25,8 +25,8 @@ Simulation run(const Sensor& sensor, const PressConfig& config, const SampleSpec
 PressConfig precise_config(const std::string& element) {
   PressConfig config = paper_config();
   config.element = element;
-  config.relative_force_tolerance = 1e-6;
-  config.force_tolerance_n = 1e-9;
+  config.newton.relative_force_tolerance = 1e-6;
+  config.newton.force_tolerance_n = 1e-9;
   return config;
 }
 
@@ -155,7 +155,7 @@ TEST(Relaxation, ADividedStepRelaxesOverItsHalves) {
   const Simulation expected = run(sensor, halves, press(0.9e-3, 2));
   const Frame &first = expected.frames[1], &second = expected.frames[2];
   // Just enough for a half, too few for the whole.
-  config.max_newton_iterations = std::max(first.solver.newton_iterations, second.solver.newton_iterations);
+  config.newton.max_iterations = std::max(first.solver.newton_iterations, second.solver.newton_iterations);
   config.max_halvings = 1;
   const Simulation divided = run(sensor, config, press(0.9e-3, 1));
   const Frame& end = divided.frames[1];

@@ -143,7 +143,6 @@ TEST(Viscoelasticity, OfSeveralBodiesEachIsAsItIsAlone) {
 class Sum final : public EnergyTerm {
  public:
   explicit Sum(std::vector<WeightedTerm> parts) : parts_(std::move(parts)) {}
-  std::string_view name() const override { return "sum"; }
   int num_stencils() const override {
     int count = 0;
     for (const WeightedTerm& part : parts_) count += part.term->num_stencils();

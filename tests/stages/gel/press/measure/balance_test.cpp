@@ -9,15 +9,13 @@ TEST(Balance, ForcesThatAddUpLeaveNothing) {
   // A bar along z, pressed at its top and held at its foot; weight and inertia halfway.
   const Positions x{{0, 0, 0}, {0, 0, -1}, {0, 0, -2}};
   const VertexForces forces{.contact = Positions{{0.25, 0, -4}, {0, 0, 0}, {0, 0, 0}},
-                            .inertia = Positions{{0, 0, 0}, {0, 0, 0.5}, {0, 0, 0}},
-                            .damping = Positions{{0, 0, 0}, {0, 0, 0.25}, {0, 0, 0}},
-                            .gravity = Positions{{0, 0, 0}, {0, 0, -1.5}, {0, 0, 0}},
+                            .inertia = Positions{{0, 0, 0}, {0, 0, -0.75}, {0, 0, 0}},
                             .mount = Positions{{0, 0, 0}, {-0.25, 0, 0}, {0, 0, 4.75}}};
   const Balance balance = balance_of(x, forces);
   EXPECT_EQ(balance.force_n, 0.0);
   EXPECT_EQ(balance.relative, 0.0);
   EXPECT_EQ(balance.contact_n, Vector3(0.25, 0, -4));
-  EXPECT_EQ(balance.inertia_n, Vector3(0, 0, 0.5));
+  EXPECT_EQ(balance.inertia_n, Vector3(0, 0, -0.75));
   EXPECT_EQ(balance.mount_n, Vector3(-0.25, 0, 4.75));
   // The couple of the shear forces, a metre apart.
   EXPECT_DOUBLE_EQ(balance.torque_n_m, 0.25);

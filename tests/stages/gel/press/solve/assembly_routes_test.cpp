@@ -13,6 +13,7 @@
 #include "stages/gel/press/solve/local_patch.h"
 #include "stages/gel/press/solve/volume_assembly.h"
 #include "tests/stages/gel/press/elastic_block.h"
+#include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
 namespace assembly_routes_test {
@@ -359,7 +360,7 @@ class BlendedContact : public testing::TestWithParam<int> {};
 TEST_P(BlendedContact, EveryVertexHasItsOwnShare) {
   const int with_shares = GetParam();
   const Touching t;
-  const FreeVertices free(Touching::kAll, some_fixed());
+  const FreeVertices free = all_but(some_fixed());
   const auto pattern = pattern_of(t, free);
   // Where objects touch each other their vertices have shares, too.
   std::vector<double> shares;
@@ -389,8 +390,8 @@ TEST_P(BlendedContact, EveryVertexHasItsOwnShare) {
       for (int c = 0; c < free.size(); ++c) {
         for (int k = pattern->column_start[c]; k < pattern->column_start[c + 1]; ++k) {
           if (reblended.hessian.block(k) != before.hessian.block(k)) {
-            EXPECT_TRUE(changed[c]) << term->name() << " moves " << moves;
-            EXPECT_TRUE(changed[pattern->row[k]]) << term->name() << " moves " << moves;
+            EXPECT_TRUE(changed[c]) << typeid(*term).name() << " moves " << moves;
+            EXPECT_TRUE(changed[pattern->row[k]]) << typeid(*term).name() << " moves " << moves;
           }
         }
       }
@@ -401,8 +402,8 @@ TEST_P(BlendedContact, EveryVertexHasItsOwnShare) {
         system->object_border.setZero();
         system->object_hessian.setZero();
       }
-      EXPECT_LT(difference(blended, expected), 1e-12) << term->name() << " moves " << moves;
-      EXPECT_LT(difference(reblended, expected), 1e-12) << term->name() << " moves " << moves;
+      EXPECT_LT(difference(blended, expected), 1e-12) << typeid(*term).name() << " moves " << moves;
+      EXPECT_LT(difference(reblended, expected), 1e-12) << typeid(*term).name() << " moves " << moves;
     }
   }
 }
@@ -411,7 +412,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheGelAndOfAll, BlendedContact, testing::Values(Touch
 
 TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
   const Touching t;
-  const FreeVertices free(Touching::kAll, some_fixed());
+  const FreeVertices free = all_but(some_fixed());
   const auto pattern = pattern_of(t, free);
   const Positions still = Positions::Zero(Touching::kAll, 3);
   for (const std::shared_ptr<const ContactTerm>& term :
@@ -451,7 +452,8 @@ TEST(AssembleContact, IsTheBlendOfExactAndPositive) {
           expected.object_hessian.setZero();
           expected.object_gradient.setZero();
         }
-        EXPECT_LT(difference(blended, expected), 1e-12) << term->name() << " blend " << blend << " moves " << moves;
+        EXPECT_LT(difference(blended, expected), 1e-12)
+            << typeid(*term).name() << " blend " << blend << " moves " << moves;
       }
     }
   }

@@ -23,7 +23,7 @@ TEST(Assemble, HessianIsTheGradientsDerivativeAndCouplingThatOfPrescribedMotion)
   const Tetrahedra tets{{0, 1, 2, 3}, {1, 2, 3, 4}};
   const auto elasticity = std::make_shared<Elasticity>(rest, tets, NeoHookean{2.0, 3.0});
   const IncrementalPotential potential{{{.weight = 0.7, .term = elasticity}}};
-  const FreeVertices free(5, {false, false, false, false, true});
+  const FreeVertices free = all_but({false, false, false, false, true});
   Positions x = rest;
   x(4, 2) = 1.3;
   x(1, 1) = 0.1;
@@ -59,7 +59,7 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   const Positions rest{{0, 0, 0},     {1, 0, 0},     {0, 1, 0},     {0.2, 0.2, -1},
                        {0.3, 0.3, 1}, {0.8, 0.3, 2}, {0.3, 0.8, 2}, {0.1, 0.1, 2}};
   const Tetrahedra tets{{0, 2, 1, 3}, {4, 5, 6, 7}};
-  const FreeVertices free(8, std::vector<bool>(8, false));
+  const FreeVertices free = all_but(std::vector<bool>(8, false));
   ContactMesh mesh;
   mesh.num_gel_vertices = 8;
   mesh.rest_positions = rest;
@@ -77,12 +77,12 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   EXPECT_EQ(cover_contacts(covered, free, 8, barrier, barrier.active(x), x), covered);
 
   // Only some of each side free, as in a patch of the gel or beside its glued face.
-  const FreeVertices some(8, {false, true, true, false, false, false, false, false});
+  const FreeVertices some = all_but({false, true, true, false, false, false, false, false});
   const auto of_some = cover_contacts(mesh_pattern(some, Elasticity(rest, tets, NeoHookean{2.0, 3.0})), some, 8,
                                       barrier, barrier.active(x), x);
   EXPECT_GE(of_some->find(some.free_of_vertex[4], some.free_of_vertex[0]), 0);
 
-  // The extended system solves as dense algebra does, and a new pattern is analysed anew.
+  // The extended system solves as dense algebra does, also after another pattern.
   NewtonSystem system;
   clear(system, free, covered);
   assemble({.weight = 1.0, .term = std::make_shared<ContactBarrier>(barrier)}, x, free, 8, Order::psd,
@@ -94,7 +94,6 @@ TEST(CoverContacts, GelAgainstGelExtendsThePatternOnlyWhileItIsNear) {
   for (int v = 0; v < 8; ++v) identity.block(pattern->find(v, v)) = Matrix3::Identity();
   ASSERT_TRUE(solver.prepare(identity));
   ASSERT_TRUE(solver.prepare(system.hessian));
-  EXPECT_EQ(solver.num_analyses(), 2);
   EXPECT_LT((solver.solve(system.gradient).value() - dense(system.hessian).ldlt().solve(system.gradient)).norm(),
             1e-12 * system.gradient.norm());
 }

@@ -2,11 +2,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 #include <random>
 
 #include "stages/gel/press/solve/block_matrix.h"
 
 namespace tacipc {
+
+/// All vertices but those marked as fixed, numbered by vertex.
+inline FreeVertices all_but(const std::vector<bool>& fixed) {
+  std::vector<int> order(fixed.size());
+  std::iota(order.begin(), order.end(), 0);
+  return {order, fixed};
+}
 
 /// A random symmetric block matrix, diagonally dominant, with some blocks off the diagonal.
 inline BlockMatrix random_matrix(int size, unsigned seed, double diagonal) {

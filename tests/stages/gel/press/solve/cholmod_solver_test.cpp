@@ -9,7 +9,7 @@
 namespace tacipc {
 namespace cholmod_solver_test {
 
-TEST(CholmodSolver, SolvesAsDenseAlgebraDoesAndAnalysesOncePerPattern) {
+TEST(CholmodSolver, SolvesAsDenseAlgebraDoes) {
   BlockMatrix matrix = random_matrix(40, 3, 20.0);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(120, -1.0, 2.0);
   CholmodSolver solver;
@@ -20,7 +20,6 @@ TEST(CholmodSolver, SolvesAsDenseAlgebraDoesAndAnalysesOncePerPattern) {
   for (double& value : matrix.values) value *= 2.0;
   ASSERT_TRUE(solver.prepare(matrix));
   EXPECT_LT((A * solver.solve(b).value() * 2.0 - b).norm(), 1e-12);
-  EXPECT_EQ(solver.num_analyses(), 1);
 }
 
 TEST(CholmodSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndRecovers) {

@@ -12,6 +12,7 @@
 #include "stages/gel/press/energy/viscous_memory.h"
 #include "tests/stages/gel/press/dense_derivatives.h"
 #include "tests/stages/gel/press/small_scene.h"
+#include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
 namespace newton_step_test {
@@ -52,14 +53,14 @@ class NewtonStepTest : public ::testing::Test {
     object.positions.rowwise() += Eigen::RowVector3d(0.3, 0.2, 0.2);
     return object;
   }();
-  ContactMesh mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, object_.positions, object_.triangles);
+  ContactMesh mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, {object_});
   std::vector<bool> fixed_ = [this] {
     std::vector<bool> fixed(static_cast<std::size_t>(mesh_.num_vertices()), false);
     for (const int v : gel_.vertices(BoundaryTag::glued)) fixed[v] = true;
     for (int v = mesh_.num_gel_vertices; v < mesh_.num_vertices(); ++v) fixed[v] = true;
     return fixed;
   }();
-  FreeVertices free_{mesh_.num_vertices(), fixed_};
+  FreeVertices free_ = all_but(fixed_);
   std::shared_ptr<const Elasticity> elasticity_ =
       std::make_shared<Elasticity>(gel_.positions, gel_.tets, NeoHookean{2.0, 7.0});
   Positions x_ = mesh_.rest_positions, start_ = x_, motion_ = Positions::Zero(x_.rows(), 3);
@@ -260,11 +261,11 @@ TEST(NewtonStep, PlacesThatYieldAreFoundTogether) {
     tips.triangles.conservativeResize(triangles + one.triangles.rows(), 3);
     tips.triangles.bottomRows(one.triangles.rows()) = one.triangles.array() + static_cast<int>(vertices);
   }
-  const ContactMesh mesh = make_contact_mesh(gel.positions, gel.boundary, tips.positions, tips.triangles);
+  const ContactMesh mesh = make_contact_mesh(gel.positions, gel.boundary, {tips});
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_vertices()), false);
   for (const int v : gel.vertices(BoundaryTag::glued)) fixed[v] = true;
   for (int v = mesh.num_gel_vertices; v < mesh.num_vertices(); ++v) fixed[v] = true;
-  const FreeVertices free(mesh.num_vertices(), fixed);
+  const FreeVertices free = all_but(fixed);
   StepTerms terms;
   terms.elasticity = std::make_shared<Elasticity>(gel.positions, gel.tets, NeoHookean{2.0, 7.0});
   const Positions x = mesh.rest_positions, still = Positions::Zero(x.rows(), 3);

@@ -31,10 +31,7 @@ struct MovingPairs {
   }
   /// How far one pair alone lets it go.
   double limit_of(const ContactPair& pair, double slack) const {
-    const FourPoints now = gather(x, pair), displacement = gather(p, pair);
-    const CcdOptions options{.slack = slack};
-    return pair.kind == ContactPair::Kind::point_triangle ? time_of_impact_point_triangle(now, displacement, options)
-                                                          : time_of_impact_edge_edge(now, displacement, options);
+    return time_of_impact(pair.kind, gather(x, pair), gather(p, pair), slack);
   }
 };
 

@@ -16,6 +16,7 @@
 #include "stages/gel/press/solve/time_step.h"
 #include "tests/make_mesh.h"
 #include "tests/stages/gel/press/small_scene.h"
+#include "tests/stages/gel/press/solve/block_matrices.h"
 
 namespace tacipc {
 namespace time_step_free_object_test {
@@ -33,11 +34,11 @@ class CarriedPairs : public ::testing::Test {
   const Positions gel_{{0.1, 0.15, 0.0}, {1.0, 0.0, -0.1}, {0.0, 1.0, -0.2}, {0.2, 0.2, -1.0}};
   const TriangleMesh box_ = make_box({-0.4, -0.3, 0.25}, {0.9, 0.8, 1.2});
   const AffineBody body_ = make_affine_body(box_.positions, box_.triangles, 3.0);
-  ContactMesh mesh_ = make_contact_mesh(gel_, Triangles{{0, 1, 2}}, box_.positions, box_.triangles);
+  ContactMesh mesh_ = make_contact_mesh(gel_, Triangles{{0, 1, 2}}, {box_});
   FreeVertices free_ = [&] {
     std::vector<bool> fixed(16, false);
     for (int v = 3; v < 12; ++v) fixed[v] = true;  // one of the gel's, and the box's own, which follow from its points
-    FreeVertices free(16, fixed);
+    FreeVertices free = all_but(fixed);
     free.carried = {{4, body_.weights, 12}};
     free.num_control_points = 4;
     return free;
@@ -91,14 +92,14 @@ TEST_F(CarriedPairs, GradientAndHessianAreDerivativesByTheControlPoints) {
     const Eigen::VectorXd away = Eigen::VectorXd::LinSpaced(3 * free_.size(), -0.01, 0.013).array().sin();
     const Positions x = after(start(), 0.3 * away);
     const NewtonSystem system = at(x);
-    ASSERT_GT(system.gradient.tail<12>().norm(), 1e-3) << term->name();
+    ASSERT_GT(system.gradient.tail<12>().norm(), 1e-3) << typeid(*term).name();
     Eigen::VectorXd d(3 * free_.size());
     for (Eigen::Index i = 0; i < d.size(); ++i) d[i] = std::sin(1.0 + 2.3 * static_cast<double>(i));
     const double h = 1e-6;
     const double slope = 0.7 * (term->value(after(x, h * d)) - term->value(after(x, -h * d))) / (2 * h);
-    EXPECT_NEAR(system.gradient.dot(d), slope, 1e-6 * system.gradient.norm()) << term->name();
+    EXPECT_NEAR(system.gradient.dot(d), slope, 1e-6 * system.gradient.norm()) << typeid(*term).name();
     const Eigen::VectorXd difference = (at(after(x, h * d)).gradient - at(after(x, -h * d)).gradient) / (2 * h);
-    EXPECT_LT((system.hessian.multiply(d) - difference).norm(), 1e-6 * difference.norm()) << term->name();
+    EXPECT_LT((system.hessian.multiply(d) - difference).norm(), 1e-6 * difference.norm()) << typeid(*term).name();
   }
 }
 
@@ -137,7 +138,7 @@ class FreeBody : public ::testing::Test {
       : gel_(block_gel(cells, 0.04, 0.002)),
         object_(std::move(object)),
         body_(make_affine_body(object_.positions, object_.triangles, kDensity)) {
-    mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, object_.positions, object_.triangles);
+    mesh_ = make_contact_mesh(gel_.positions, gel_.boundary, {object_});
     mesh_.num_control_points = 4;
     state_.x.resize(mesh_.num_rows(), 3);
     state_.x << mesh_.rest_positions, body_.rest_m;

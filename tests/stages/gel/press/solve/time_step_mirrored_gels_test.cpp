@@ -46,10 +46,9 @@ class MirroredGels : public ::testing::TestWithParam<bool> {
     above_.positions *= kTurn;
     above_.positions.col(2).array() += 2.0 * plane_m_;
     const TetMesh all = joined({below_, above_});
-    mesh_ = make_contact_mesh(all.positions, all.boundary, Positions(0, 3), Triangles(0, 3));
+    mesh_ = make_contact_mesh(all.positions, all.boundary, {});
     const auto alone = [](const TetMesh& body) {
-      return std::make_shared<const ContactMesh>(
-          make_contact_mesh(body.positions, body.boundary, Positions(0, 3), Triangles(0, 3)));
+      return std::make_shared<const ContactMesh>(make_contact_mesh(body.positions, body.boundary, {}));
     };
     const auto n = static_cast<int>(below_.num_vertices());
     mesh_.gels = {{0, below_.vertices(BoundaryTag::glued).front(), alone(below_)},

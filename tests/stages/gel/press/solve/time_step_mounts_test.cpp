@@ -41,7 +41,7 @@ TEST(MovingMount, IsTheObjectsMotionTheOtherWay) {
   const TetMesh gel = block_gel(8, 0.02, 0.002);
   TriangleMesh object = pyramid(0.003, 0.002);
   object.positions.rowwise() += Eigen::RowVector3d(4e-4, 2e-4, 1.5e-5);
-  const ContactMesh mesh = make_contact_mesh(gel.positions, gel.boundary, object.positions, object.triangles);
+  const ContactMesh mesh = make_contact_mesh(gel.positions, gel.boundary, {object});
   for (const Element element : {Element::linear, Element::averaged_volume}) {
     StepSettings quasi_static = settings(0.5);
     quasi_static.quasi_static = true;
@@ -142,7 +142,7 @@ class TwoFingers : public ::testing::Test {
   const TetMesh gels_ = two_gels(gel_, kHalf + 0.6 * kDHat);
   const TriangleMesh box_ = make_box({-kHalf, -kHalf, -kHalf}, {kHalf, kHalf, kHalf});
   const GelModel model_ = model_of(gels_, Element::linear);
-  ContactMesh mesh_ = make_contact_mesh(gels_.positions, gels_.boundary, box_.positions, box_.triangles);
+  ContactMesh mesh_ = make_contact_mesh(gels_.positions, gels_.boundary, {box_});
   AffineBody body_;
   StepSettings settings_;
   State state_;

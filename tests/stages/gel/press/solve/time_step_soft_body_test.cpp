@@ -22,10 +22,9 @@ class SoftBody : public ::testing::Test {
     foam_.positions.rowwise() += Eigen::RowVector3d(3e-4, 2e-4, 0.002 + 2.5 * kDHat);
     object_.positions.col(2).array() += 0.1;
     const TetMesh all = joined({gel_, foam_});
-    mesh_ = make_contact_mesh(all.positions, all.boundary, object_.positions, object_.triangles);
+    mesh_ = make_contact_mesh(all.positions, all.boundary, {object_});
     const auto alone = [](const TetMesh& body) {
-      return std::make_shared<const ContactMesh>(
-          make_contact_mesh(body.positions, body.boundary, Positions(0, 3), Triangles(0, 3)));
+      return std::make_shared<const ContactMesh>(make_contact_mesh(body.positions, body.boundary, {}));
     };
     mesh_.gels = {{0, gel_.vertices(BoundaryTag::glued).front(), alone(gel_)},
                   {static_cast<int>(gel_.num_vertices()), -1, alone(foam_)}};

@@ -48,8 +48,9 @@ class BlockOnAPlate : public ::testing::Test {
   TetMesh gel_ = block_gel(2, 0.02, 0.002);
   // Its tip over the inside of a triangle, all else of it beyond the barrier's reach of the triangle's edges.
   TriangleMesh object_ = pyramid(0.003, 0.002);
-  ContactMesh mesh_ = make_contact_mesh(
-      gel_.positions, gel_.boundary, moved(object_.positions, Vector3(4e-3, 1.5e-3, 0.5 * kDHat)), object_.triangles);
+  ContactMesh mesh_ =
+      make_contact_mesh(gel_.positions, gel_.boundary,
+                        {{moved(object_.positions, Vector3(4e-3, 1.5e-3, 0.5 * kDHat)), object_.triangles}});
   TimeStepper stepper_{
       mesh_,
       // The whole surface is held: a rigid plate. Only vertices inside move, and nothing moves them.
@@ -137,8 +138,8 @@ TEST_F(BlockOnAPlate, SlipsAboveMuNHeldByMuNAgainstItsMotion) {
 TEST(TimeStepper, AFreeGelSwingsAsDenseAlgebraSaysWithDampingOfEitherKind) {
   const TetMesh gel = block_gel(2, 0.006, 0.002);
   const TriangleMesh object = pyramid(0.003, 0.002);
-  const ContactMesh mesh =
-      make_contact_mesh(gel.positions, gel.boundary, moved(object.positions, Vector3(0, 0, 0.01)), object.triangles);
+  const ContactMesh mesh = make_contact_mesh(gel.positions, gel.boundary,
+                                             {{moved(object.positions, Vector3(0, 0, 0.01)), object.triangles}});
   const auto elasticity = make_elasticity(gel.positions, gel.tets, NeoHookean{4.3e4, 2.6e5}, Element::linear);
   const Eigen::VectorXd mass_kg =
       lumped_masses(gel.tets, make_rest_tets(gel.positions, gel.tets), gel.num_vertices(), 1010.0);

@@ -36,7 +36,7 @@ class BodyChecks : public ::testing::Test {
   }
   std::string start(double d_hat) const {
     try {
-      require_apart(bodies_, [&](std::size_t, std::size_t) { return d_hat; });
+      require_apart(bodies_, ContactLaws({.d_hat_m = d_hat}));
     } catch (const DataError& error) {
       return error.what();
     }

@@ -16,12 +16,17 @@ Matrix4 pose_of(const Vector3& axis, double angle_rad, const Vector3& at) {
   return pose;
 }
 
+TetMesh placed(TetMesh gel, const Matrix4& world_from_gel) {
+  gel.positions = transformed(world_from_gel, gel.positions);
+  return gel;
+}
+
 class GelFrame : public testing::Test {
  protected:
   const TetMesh first_ = block_gel(3, 0.01, 0.002), second_ = block_gel(4, 0.02, 0.003);
   const Matrix4 first_pose_ = pose_of({1, 2, 3}, 0.7, {0.1, 0.2, -0.3}),
                 second_pose_ = pose_of({-1, 0, 2}, 2.1, {0.0, -0.1, 0.4});
-  const TetMesh both_ = joined(std::array{PlacedGel{first_, first_pose_}, PlacedGel{second_, second_pose_}});
+  const TetMesh both_ = joined({placed(first_, first_pose_), placed(second_, second_pose_)});
   const FrontSurface front_ = make_front_surface(second_);
   const std::vector<RestTet> rest_ = make_rest_tets(second_.positions, second_.tets);
   const SolvedGel gel_{second_, front_, rest_, first_.num_vertices()};

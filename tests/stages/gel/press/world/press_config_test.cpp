@@ -14,7 +14,7 @@ TEST(PressConfig, ShippedSettingsAreThePapers) {
   EXPECT_EQ(config.time_step_s, 0.01);
   EXPECT_EQ(config.relative_d_hat, 1e-3);
   EXPECT_EQ(config.barrier_stiffness, 1e6);
-  EXPECT_EQ(config.max_newton_iterations, 200);
+  EXPECT_EQ(config.newton.max_iterations, 200);
   EXPECT_FALSE(config.friction);
 }
 
@@ -42,9 +42,9 @@ TEST(PressConfig, ContactHessianIsAdaptiveUnlessNamed) {
     return config_from_text<PressConfig>(
         "time_step_s: 0.01\nnewton: {" + newton + "}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6}\n", "x.yaml");
   };
-  EXPECT_TRUE(read("").adaptive_contact_hessian);
-  EXPECT_TRUE(read("contact_hessian: adaptive").adaptive_contact_hessian);
-  EXPECT_FALSE(read("contact_hessian: positive").adaptive_contact_hessian);
+  EXPECT_TRUE(read("").newton.adaptive_contact_hessian);
+  EXPECT_TRUE(read("contact_hessian: adaptive").newton.adaptive_contact_hessian);
+  EXPECT_FALSE(read("contact_hessian: positive").newton.adaptive_contact_hessian);
   EXPECT_THAT(faults_in<PressConfig>("time_step_s: 0.01\nnewton: {contact_hessian: exact}\n"
                                      "barrier: {relative_d_hat: 1e-3, stiffness: 1e6}\n",
                                      "x.yaml"),

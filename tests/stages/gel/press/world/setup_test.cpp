@@ -67,7 +67,7 @@ class Swinging : public ::testing::TestWithParam<LinearSolverKind> {
     // An object that is nowhere near.
     TriangleMesh object = pyramid(0.003, 0.002);
     object.positions.col(2).array() += 0.1;
-    const ContactMesh mesh = make_contact_mesh(all.positions, all.boundary, object.positions, object.triangles);
+    const ContactMesh mesh = make_contact_mesh(all.positions, all.boundary, {object});
     TimeStepper stepper(mesh, make_gel_model(bodies),
                         {.laws = ContactLaws({.d_hat_m = 2e-5}),
                          .front_edge_m = 1e-3,

@@ -60,7 +60,7 @@ TEST(World, AGelsSimulationHasTheContactOfItsPair) {
   EXPECT_EQ(world.simulation_of(0).d_hat_m, 5e-6);
   EXPECT_EQ(world.simulation_of(1).friction, 0.1);
   EXPECT_EQ(world.simulation_of(1).d_hat_m, world.scales().d_hat_m);
-  EXPECT_EQ(world.law_of(0, 1).friction, 0.7);
+  EXPECT_EQ(world.laws().of(0, 1).friction, 0.7);
 }
 
 TEST(World, BodiesThatTouchInFrameZeroAreNamed) {
