@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 namespace tacipc {
-namespace frames_table_test {
+namespace press_curve_table_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -31,5 +31,5 @@ TEST(FramesTable, OfManyFramesItKeepsFirstLastAndTheEndsOfPhases) {
   EXPECT_THAT(table, HasSubstr("Numbers per frame (42 of 306; press.yaml has all)"));
 }
 
-}  // namespace frames_table_test
+}  // namespace press_curve_table_test
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc::verify {
-namespace long_rows_test {
+namespace table_report_long_rows_test {
 
 const LongRow kRow{.title = "Stress campaign",
                    .shows = "random cases",
@@ -78,5 +78,5 @@ TEST(LongRows, TheListReads) {
             2u);
 }
 
-}  // namespace long_rows_test
+}  // namespace table_report_long_rows_test
 }  // namespace tacipc::verify

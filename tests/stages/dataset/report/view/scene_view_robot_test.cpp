@@ -5,7 +5,7 @@
 #include "tests/stages/dataset/report/robot_scene.h"
 
 namespace tacipc {
-namespace robot_view_test {
+namespace scene_view_robot_test {
 
 class RobotViewTest : public ::testing::Test {
  protected:
@@ -52,5 +52,5 @@ TEST_F(RobotViewTest, WhatMovesAgainstTheGelKeepsItsShape) {
   EXPECT_NEAR(added()[1].mesh.positions(0, 2), 1e-4, 1e-12);
 }
 
-}  // namespace robot_view_test
+}  // namespace scene_view_robot_test
 }  // namespace tacipc

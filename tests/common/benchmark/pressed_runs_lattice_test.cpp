@@ -10,7 +10,7 @@
 #include "tests/scratch_folder.h"
 
 namespace tacipc {
-namespace marker_lattice_test {
+namespace pressed_runs_lattice_test {
 
 /// Rows × columns places, `spacing` apart, from (−1, −2) mm on; z is 0.
 Positions places(int rows, int columns, double spacing_m) {
@@ -68,5 +68,5 @@ TEST(MarkerLattice, RefusesWhatIsNone) {
   EXPECT_EQ(message_of<DataError>([&] { MarkerLattice(rest, "m"); }), expected);
 }
 
-}  // namespace marker_lattice_test
+}  // namespace pressed_runs_lattice_test
 }  // namespace tacipc

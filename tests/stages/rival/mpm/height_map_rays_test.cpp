@@ -7,7 +7,7 @@
 #include "common/sensor/camera_model.h"
 
 namespace tacipc {
-namespace seen_map_test {
+namespace height_map_rays_test {
 
 /// A camera 12 mm behind a gel of 2 mm under 5 mm of acrylic, 15 × 11.25 mm of the front on 160 × 120 pixels.
 Sensor behind_acrylic() {
@@ -74,5 +74,5 @@ TEST(SeenAlongRays, WhatComesNearerLooksLarger) {
   EXPECT_EQ(seen.at(155, 60, 0), 0.0f);
 }
 
-}  // namespace seen_map_test
+}  // namespace height_map_rays_test
 }  // namespace tacipc
