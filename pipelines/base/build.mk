@@ -42,8 +42,9 @@ $(if $(shown),,$(eval .SILENT:))
 # $(call configure,folder,flags of cmake): its report goes to configure.log
 configure = $(if $(shown),cmake -B $(1) -G Ninja $(2),$(if $(silent),,echo 'configure: $(1)';) mkdir -p $(1); \
   cmake -B $(1) -G Ninja $(2) > $(1)/configure.log 2>&1 || { cat $(1)/configure.log >&2; exit 1; })
-# $(call compile,folder[,targets]): ninja's status on a terminal, elsewhere a line now and then
-compile = ninja() { cmake --build $(1) -j $(JOBS) $(2:%=--target %) -- "$$@"; }; \
+# $(call compile,folder[,targets]): ninja's status on a terminal, elsewhere a line now and then; nothing with REBUILD=no
+compile = $(if $(filter no,$(REBUILD)),:,$(call compile_now,$(1),$(2)))
+compile_now = ninja() { cmake --build $(1) -j $(JOBS) $(2:%=--target %) -- "$$@"; }; \
   $(if $(shown),ninja -v,$(if $(silent),ninja --quiet,if [ -t 1 ]; then ninja; else ninja | bash pipelines/base/build_lines.sh; fi))
 
 # What CMake did not find before a group was installed it looks for again.

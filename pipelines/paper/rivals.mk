@@ -165,7 +165,7 @@ RIVALS_METRICS := $(foreach m,$(RIVALS_ROWS),$(addsuffix /metrics.yaml,$(call ri
 # Cost of an image, on the way of one object, and of all presses; measured when everything else is made, so that nothing runs beside it.
 # $(call rivals_speed,further flags)
 build-bench-rivals: build
-	@cmake --build $(BUILD) --target bench_rivals -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),bench_rivals)
 RIVALS_TIMED := depth-based tacto taxim fots chen
 rivals_presses := $(sort $(foreach o,$(CASES_OBJECTS),$(call cases_press,$(o))/press))
 rivals_timed := $(RIVALS_TIMED:%=$(RIVALS)/configs/%.yaml) $(foreach m,$(RIVALS_TIMED),$(RIVAL_RECORD_$(m))) $(rivals_presses:%=%/press.yaml)

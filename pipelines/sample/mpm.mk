@@ -25,7 +25,7 @@ endif
 
 # What material points cost, beside what the memory allows. Nothing else should run beside it.
 build-bench-mpm: build
-	@cmake --build $(BUILD) --target bench_mpm -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),bench_mpm)
 
 # Measured again at every call.
 bench-mpm-page: $(OUT)/objects/star/decimate.yaml | build-bench-mpm

@@ -16,7 +16,7 @@ bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_inde
 
 .PHONY: build-bench
 build-bench: build
-	@cmake --build $(BUILD) --target bench_object bench_table routes_table defaults_table -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),bench_object bench_table routes_table defaults_table)
 
 # Gels: the paper's mesh with its lengths scaled.
 BENCH_SCALE_3k   := 2.2

@@ -13,9 +13,9 @@ FUZZ_RECORDS := $(FUZZED:%=$(FUZZ)/%/fuzz.yaml)
 
 # A build folder of its own: clang alone has libFuzzer.
 $(FUZZ_BUILD)/build.ninja: | packages $(OPENMESH_HEADERS)
-	@cmake --preset fuzz -B $(FUZZ_BUILD) -G Ninja
+	@$(call configure,$(FUZZ_BUILD),--preset fuzz)
 build-fuzz: $(if $(filter no,$(REBUILD)),,$(FUZZ_BUILD)/build.ninja)
-	@[ '$(REBUILD)' = no ] || cmake --build $(FUZZ_BUILD) --target $(FUZZED:%=fuzz_%) tacipc -j $(JOBS) -- --quiet
+	@$(call compile,$(FUZZ_BUILD),$(FUZZED:%=fuzz_%) tacipc)
 
 $(FUZZ)/%/fuzz.yaml: | build-fuzz
 	bash pipelines/verification/fuzz.sh $(FUZZ_BUILD)/bin/fuzz_$* $* $(RUNS) $(@D)

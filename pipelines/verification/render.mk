@@ -2,7 +2,7 @@
 
 .PHONY: build-bench-render bench-render bench-render-page
 build-bench-render: build
-	@cmake --build $(BUILD) --target bench_render -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),bench_render)
 
 # Measured again at every call; the press is made once.
 bench-render-page: $(OUT)/demo/letter_a/press/press.yaml | build-bench-render
@@ -19,7 +19,7 @@ bench-render: | build
 packages_for_render-check := tests
 .PHONY: build-render-check render-check render-check-page
 build-render-check: with-tests # the program belongs to a test
-	@cmake --build $(BUILD) --target render_check -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),render_check)
 
 $(OUT)/render_check/render_check.yaml: $(OUT)/demo/letter_a/press/press.yaml configs/sensors/mctac.yaml | build-render-check
 	$(call run,render_check,--sensor configs/sensors/mctac.yaml --gel $(OUT)/gels/mctac-adaptive_0100um/gel.msh --press $(OUT)/demo/letter_a/press)

@@ -13,12 +13,11 @@ LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(FREE_OBJECT_RECORD) $(REFINEMENT_RECORD)
 # Never built beside another build in the same folder.
 .PHONY: build-verification build-closed-forms build-free-object
 build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
-	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verify verify_table stress_case stress_table refinement refinement_table marker_curve \
-	  compare_simulators -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),verify verify_table stress_case stress_table refinement refinement_table marker_curve compare_simulators)
 build-closed-forms: build-verification with-tests # the closed forms are tests
-	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target verification_test -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),verification_test)
 build-free-object: build-closed-forms
-	@[ '$(REBUILD)' = no ] || cmake --build $(BUILD) --target press_test verification_slow_test -j $(JOBS) -- --quiet
+	@$(call compile,$(BUILD),press_test verification_slow_test)
 packages_for_closed-forms := tests
 packages_for_free-object := tests
 packages_for_verification := tests
