@@ -30,8 +30,8 @@ std::vector<ContactPixel> disc_pixels(const BallDisc& disc, const ByteImage& pho
       // h = √(R² − r²) + constant rises towards the centre.
       const double height = std::sqrt(disc.radius_px * disc.radius_px - squared);
       ContactPixel& pixel = pixels.emplace_back(contact_pixel(x, y, photograph, background, drift));
-      pixel.slope_x = -dx / height;
-      pixel.slope_y = -dy / height;
+      pixel.slope_x = (0.0 - dx) / height;  // 0 and not −0 in the centre's row and column, where −dx would turn the
+      pixel.slope_y = (0.0 - dy) / height;  // direction from π to −π: as published, whose offsets are whole numbers
     }
   }
   return pixels;

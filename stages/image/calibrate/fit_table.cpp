@@ -34,9 +34,7 @@ BallTable table_of_ball(const std::vector<ContactPixel>& pixels, const SlopeTabl
   std::vector<std::array<double, kTerms>> terms(size);
   for (const ContactPixel& pixel : pixels) {
     if (!pixel.all_used()) continue;
-    // The centre's own pixel is filed under −π, the direction of (−0, −0), as released.
-    const bool center = pixel.slope_x == 0.0 && pixel.slope_y == 0.0;
-    const auto bin = center ? std::size_t{0} : static_cast<std::size_t>(bin_of(table, pixel));
+    const auto bin = static_cast<std::size_t>(bin_of(table, pixel));
     value[bin] = pixel.target;
     terms[bin] = SlopeTable::terms(pixel.x, pixel.y, width, height);
     has_place[bin] = true;

@@ -23,7 +23,7 @@ GaussianSize scaled(const GaussianSize& kernel, double factor) {
 GaussianWindow read_window(ConfigReader& in) {
   const int size = in.integer("size_px", 3, kLargestKernel);
   if (size % 2 == 0) in.fault("size_px", "expected an odd number");
-  return GaussianWindow::of_size(size);
+  return {.size_px = size};
 }
 
 PhongLight read_light(ConfigReader& in) {
@@ -36,11 +36,6 @@ PhongLight read_light(ConfigReader& in) {
 }
 
 }  // namespace
-
-GaussianWindow GaussianWindow::of_size(int size_px) {
-  const double half = 0.5 * (size_px - 1);
-  return {.half_px = half, .sigma_px = 0.3 * (half - 1.0) + 0.8};
-}
 
 DeformationConfig DeformationConfig::read(ConfigReader& in) {
   DeformationConfig config;
@@ -65,7 +60,7 @@ DeformationConfig DeformationConfig::read(ConfigReader& in) {
 
 DeformationConfig DeformationConfig::scaled_to(int width_px, double pixel_m) const {
   DeformationConfig out = *this;
-  for (GaussianWindow& level : out.levels) level = level.scaled(designed_pixel_m / pixel_m);
+  for (GaussianWindow& level : out.levels) level.factor = designed_pixel_m / pixel_m;
   if (!designed_width_px) return out;
   const double factor = static_cast<double>(width_px) / *designed_width_px;
   out.exponential_factor = exponential_factor * factor;
@@ -93,6 +88,7 @@ PhongConfig PhongConfig::read(ConfigReader& in) {
   config.shininess = in.integer("shininess", 0, 1000);
   config.metres_per_pixel = in.number("metres_per_pixel", Range::positive());
   config.gel_thickness_m = 1e-3 * in.number("gel_thickness_mm", Range::positive());
+  config.darkened_by_membrane = in.choice_or("darkened_by", "object", {"object", "membrane"}) == "membrane";
   if (auto blur = in.optional_section("final_blur")) config.final_blur = read_gaussian(*blur);
   for (ConfigReader& item : in.one_or_more_sections("lights")) {
     PhongLight light = read_light(item);

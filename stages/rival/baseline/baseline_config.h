@@ -19,14 +19,11 @@ struct GaussianSize {
   double sigma_px = 0.0;
 };
 
-/// OpenCV's Gaussian window of n pixels (odd) without a σ: σ = 0.3 ((n − 1)/2 − 1) + 0.8, cut at ±(n − 1)/2. Made for
-/// pixels of another size, its σ and its half width keep their length in mm.
+/// OpenCV's Gaussian window of n pixels (odd) without a σ, on pixels 1/factor times as large: window_profile
+/// (kernel.h).
 struct GaussianWindow {
-  double half_px = 0.0;  // not whole where scaled
-  double sigma_px = 0.0;
-
-  static GaussianWindow of_size(int size_px);
-  GaussianWindow scaled(double factor) const { return {half_px * factor, sigma_px * factor}; }
+  int size_px = 0;
+  double factor = 1.0;
 };
 
 /// How the membrane follows from the object's depth alone.
@@ -40,7 +37,7 @@ struct DeformationConfig {
   double exponential_factor = 1.0;       // f of the exponential kernel
   std::optional<int> designed_width_px;  // of the images the kernels were made for; absent: taken as they are
   std::vector<GaussianWindow> levels;    // of the pyramid, px of the images it was made for; the last closes it
-  double contact_share = 0.0;            // of the press's depth: what is less deep does not keep its height
+  double contact_share = 0.0;            // of the depth of the press: what is less deep does not keep its height
   double designed_pixel_m = 0.0;         // of those images
 
   static DeformationConfig read(ConfigReader& in);
@@ -75,7 +72,8 @@ struct PhongConfig {
   double ambient = 0.0;  // of the background
   int shininess = 0;     // power of the reflected light's share towards the camera
   double metres_per_pixel = 0.0;
-  double gel_thickness_m = 0.0;  // over which the protrusion goes over to black
+  double gel_thickness_m = 0.0;       // over which what darkens goes over to black
+  bool darkened_by_membrane = false;  // by the membrane's indentation instead of the object's protrusion
   std::optional<GaussianSize> final_blur;
   std::vector<PhongLight> lights;  // laid over each other in this order
 

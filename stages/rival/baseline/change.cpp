@@ -49,9 +49,9 @@ Slopes slopes_of(const Raster& height_m, double pixel_m) {
   Slopes slopes{.x = Raster(w, h), .y = Raster(w, h)};
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
-      const auto at = [&](int u, int v) { return height_m.at(std::clamp(u, 0, w - 1), std::clamp(v, 0, h - 1)); };
-      slopes.x.at(x, y) = (at(x + 1, y) - at(x - 1, y)) / (2.0 * pixel_m);
-      slopes.y.at(x, y) = (at(x, y + 1) - at(x, y - 1)) / (2.0 * pixel_m);
+      const int u = std::clamp(x, 1, w - 2), v = std::clamp(y, 1, h - 2);
+      slopes.x.at(x, y) = (height_m.at(u + 1, v) - height_m.at(u - 1, v)) / (2.0 * pixel_m);
+      slopes.y.at(x, y) = (height_m.at(u, v + 1) - height_m.at(u, v - 1)) / (2.0 * pixel_m);
     }
   }
   return slopes;
@@ -124,8 +124,7 @@ FloatImage ChangeOfCodes::metallic(const Raster& indentation_m, const std::vecto
       change.pixels[3 * i + c] = static_cast<float>(factor * (codes[c] - empty_[i][c]));
   }
   if (!config_.window) return change;
-  const GaussianWindow window = config_.window->scaled(config_.designed_pixel_m / pixel_m_);
-  return blurred(change, cut_gaussian_profile(window.half_px, window.sigma_px));
+  return blurred(change, window_profile(config_.window->size_px, config_.designed_pixel_m / pixel_m_));
 }
 
 FloatImage ChangeOfCodes::table(const Raster& indentation_m) const {

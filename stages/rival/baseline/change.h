@@ -24,7 +24,8 @@ using RivalLight = std::variant<std::monostate, MetallicLamps, SlopeTable, Light
 RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model);
 
 /// Height into the gel over pixels of one size: what a pixel rises by along columns and rows, by central differences;
-/// the border repeats its outermost pixel.
+/// pixels of the border have the slopes of their neighbour inside, as Taxim and FOTS have it. \pre 3 x 3 pixels at
+/// least
 struct Slopes {
   Raster x, y;
 };

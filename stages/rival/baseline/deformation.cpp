@@ -50,11 +50,11 @@ Raster two_gaussians(const Raster& h, const DeformationConfig& config) {
   return correlate_separable(f, near_profile);
 }
 
-Raster pyramid(const Raster& h, const DeformationConfig& config) {
-  const double least = config.contact_share * maximum(h);
+Raster pyramid(const Raster& h, const DeformationConfig& config, double pressed_m) {
+  const double least = config.contact_share * std::max(pressed_m, maximum(h));
   Raster f = h;
   for (std::size_t level = 0; level < config.levels.size(); ++level) {
-    f = correlate_separable(f, cut_gaussian_profile(config.levels[level].half_px, config.levels[level].sigma_px));
+    f = correlate_separable(f, window_profile(config.levels[level].size_px, config.levels[level].factor));
     if (level + 1 == config.levels.size()) break;
     for (std::size_t i = 0; i < f.values.size(); ++i)
       if (h.values[i] > least) f.values[i] = h.values[i];
@@ -74,14 +74,14 @@ Raster protrusion(const Raster& depth_m, const Raster& front_depth_m) {
   return h;
 }
 
-Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config) {
+Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config, double pressed_m) {
   switch (config.method) {
     case DeformationConfig::Method::difference_of_gaussians: return difference_of_gaussians(protrusion_m, config);
     case DeformationConfig::Method::exponential_kernel:
       // The kernel's sum is 1, so padding the depth with the front's depth is padding the protrusion with zero.
       return correlate(protrusion_m, exponential_kernel(config.exponential_factor), Border::constant, 0.0);
     case DeformationConfig::Method::two_gaussians: return two_gaussians(protrusion_m, config);
-    case DeformationConfig::Method::pyramid: return pyramid(protrusion_m, config);
+    case DeformationConfig::Method::pyramid: return pyramid(protrusion_m, config, pressed_m);
     case DeformationConfig::Method::rigid:
     case DeformationConfig::Method::none: return protrusion_m;
   }

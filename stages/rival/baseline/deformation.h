@@ -17,9 +17,10 @@ Raster protrusion(const Raster& depth_m, const Raster& front_depth_m);
 /// - two Gaussians, as Chen et al. (2022) have it: with M(f, k) = max(k * f, h): S = Mᵗ(h, k1), B = Mᵘ(h, k2), and
 ///   k1 * (2 S − B).
 /// - pyramid [SiYuan2022, Zhao2024]: from f = h, for every level but the last f ← k * f and then f = h where the object
-///   keeps its height: in contact, deeper than contact_share of the deepest point. The last level blurs it all.
+///   keeps its height: in contact, deeper than contact_share of `pressed_m`. The last level blurs it all.
 /// - rigid, none: h. (A rigid object's own normals may light it; those of a map are its slopes.)
-Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config);
+/// `pressed_m`: depth of the press, the deepest point's if that is deeper.
+Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config, double pressed_m = 0.0);
 
 /// Adds N(0, σ) to every value, by seed and pixel alone.
 void add_texture(Raster& depth_m, double sigma_m, std::uint64_t seed);

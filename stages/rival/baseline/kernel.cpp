@@ -75,6 +75,21 @@ std::vector<double> cut_gaussian_profile(double half, double sigma) {
   return profile;
 }
 
+std::vector<double> window_profile(int size_px, double factor) {
+  const cv::Mat_<double> own = cv::getGaussianKernel(size_px, 0.0, CV_64F);
+  constexpr double kSamePixels = 1e-9;
+  if (std::abs(factor - 1.0) < kSamePixels) return {own.begin(), own.end()};
+  constexpr int kLargestTable = 7;
+  const double half = 0.5 * (size_px - 1);
+  double sigma = 0.3 * (half - 1.0) + 0.8;
+  if (size_px <= kLargestTable) {
+    double square = 0.0;
+    for (int i = 0; i < size_px; ++i) square += (i - half) * (i - half) * own(i);
+    sigma = std::sqrt(square);
+  }
+  return cut_gaussian_profile(half * factor, sigma * factor);
+}
+
 Raster correlate_separable(const Raster& image, const std::vector<double>& profile) {
   Raster out(image.width, image.height);
   cv::Mat target = view(out);

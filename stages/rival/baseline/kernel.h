@@ -27,6 +27,11 @@ Raster correlate(const Raster& image, const Raster& kernel, Border border = Bord
 /// exp(−i²/2σ²), |i| ≤ half to the nearest whole number, divided by its sum. \pre sigma > 0
 std::vector<double> cut_gaussian_profile(double half, double sigma);
 
+/// OpenCV's Gaussian window of n pixels without a σ: for n = 3, 5 and 7 a table ([1 4 6 4 1]/16 for 5), else
+/// σ = 0.3 ((n − 1)/2 − 1) + 0.8, cut at ±(n − 1)/2. On pixels 1/factor times as large, a Gaussian whose σ (the table's
+/// standard deviation) and half width keep their length. \pre n odd, at least 3; factor > 0
+std::vector<double> window_profile(int size_px, double factor);
+
 /// correlate with profile(x) profile(y), mirrored about the outermost pixel centres: as a separable filter.
 Raster correlate_separable(const Raster& image, const std::vector<double>& profile);
 

@@ -52,15 +52,18 @@ SeenObject ObjectCamera::see(const TriangleMesh& object, const Positions& vertex
   const Matrix3 turn = gel_from_object.topLeftCorner<3, 3>();
   const Vector3 shift = gel_from_object.topRightCorner<3, 1>();
   std::vector<Vector3> placed;
+  double pressed = 0.0;
   std::vector<Eigen::Vector2d> pixel;  // NaN: no image point shows it
   for (Eigen::Index i = 0; i < object.num_vertices(); ++i) {
     const Vector3 p = turn * object.positions.row(i).transpose() + shift;
     if (!(p.z() > nearest_z_m_)) throw DataError("{}: the object reaches the camera", name);
     const auto shown = model_.project(rays_ == ObjectRays::parallel ? Vector3(p.x(), p.y(), 0.0) : p);
     placed.push_back(p);
+    pressed = std::max(pressed, -p.z());
     pixel.push_back(shown.value_or(Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())));
   }
-  SeenObject seen{.depth = Raster(camera_.width_px, camera_.height_px, std::numeric_limits<double>::infinity())};
+  SeenObject seen{.depth = Raster(camera_.width_px, camera_.height_px, std::numeric_limits<double>::infinity()),
+                  .pressed_m = pressed};
   if (vertex_normals.rows() > 0) seen.normal.assign(seen.depth.values.size(), Vector3::Zero());
   // One pixel more on each side than the exact box: rounding, and edges that bend a little, must not cut a triangle
   // short.

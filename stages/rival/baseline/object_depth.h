@@ -20,6 +20,7 @@ enum class ObjectRays { refracted, straight, parallel };
 struct SeenObject {
   Raster depth;
   std::vector<Vector3> normal = {};
+  double pressed_m = 0.0;  // of a mesh: how far its deepest vertex is in the gel (z < 0), in view or not
 };
 
 /// One ray through each pixel's centre, made once for many poses.

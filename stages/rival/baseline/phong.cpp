@@ -42,14 +42,14 @@ double phong_opacity(const PhongLight& light, const std::array<double, 3>& norma
   return std::max(d * light.diffuse, 0.0) + std::pow(reflected_z, shininess) * light.specular;
 }
 
-ByteImage phong_image(const ByteImage& background, const Raster& depth_m, const Raster& protrusion_m,
+ByteImage phong_image(const ByteImage& background, const Raster& depth_m, const Raster& darkening_m,
                       const PhongConfig& config) {
   assert(background.width == depth_m.width && background.height == depth_m.height && background.channels == 3);
   ByteImage out(background.width, background.height, 3);
   for (int y = 0; y < out.height; ++y) {
     for (int x = 0; x < out.width; ++x) {
       const std::array<double, 3> normal = phong_normal(depth_m, config.metres_per_pixel, x, y);
-      const double shade = std::clamp(protrusion_m.at(x, y) / config.gel_thickness_m, 0.0, 1.0);
+      const double shade = std::clamp(darkening_m.at(x, y) / config.gel_thickness_m, 0.0, 1.0);
       for (int c = 0; c < 3; ++c) out.at(x, y, c) = overlaid(config.ambient * background.at(x, y, c), shade, 0.0);
       for (const PhongLight& light : config.lights) {
         const double opacity = phong_opacity(light, normal, config.shininess);

@@ -18,10 +18,10 @@ double phong_opacity(const PhongLight& light, const std::array<double, 3>& norma
 /// right) and rows (downwards); 0 across the outermost pixels, as of a mirrored border.
 std::array<double, 3> phong_normal(const Raster& depth_m, double metres_per_pixel, int x, int y);
 
-/// The tactile image [Gomes2021]: ambient × background fades to black with protrusion / gel thickness (clamped to
-/// [0, 1]); then each light's colour is laid over it with its opacity, codes truncated every time; then the blur.
-/// \pre equal sizes, RGB
-ByteImage phong_image(const ByteImage& background, const Raster& depth_m, const Raster& protrusion_m,
+/// The tactile image [Gomes2021]: ambient × background fades to black with `darkening` (of object or membrane) / gel
+/// thickness (clamped to [0, 1]); then each light's colour is laid over it with its opacity, codes truncated every
+/// time; then the blur. \pre equal sizes, RGB
+ByteImage phong_image(const ByteImage& background, const Raster& depth_m, const Raster& darkening_m,
                       const PhongConfig& config);
 
 }  // namespace tacipc

@@ -61,14 +61,16 @@ double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 BaselineFrame BaselineSimulator::frame(SeenObject object_seen) const {
   const double started = processor_s();
   const Raster h = protrusion(object_seen.depth, front_);
-  const Raster indentation = membrane_indentation(h, config_.deformation);
+  const Raster indentation = membrane_indentation(h, config_.deformation, object_seen.pressed_m);
   Raster membrane = front_;
   for (std::size_t i = 0; i < membrane.values.size(); ++i) membrane.values[i] -= indentation.values[i];
   add_texture(membrane, config_.texture_sigma_m, config_.seed);
   const double shaped = processor_s();
   BaselineFrame frame{.indentation = to_image(indentation), .depth = to_image(membrane), .tactile = std::nullopt};
   frame.membrane_s = shaped - started;
-  if (config_.phong) frame.tactile = phong_image(*background_, membrane, h, *config_.phong);
+  if (config_.phong)
+    frame.tactile =
+        phong_image(*background_, membrane, config_.phong->darkened_by_membrane ? indentation : h, *config_.phong);
   if (change_) {
     for (std::size_t i = 0; i < object_seen.normal.size(); ++i)
       if (!(h.values[i] > 0.0)) object_seen.normal[i] = Vector3::Zero();

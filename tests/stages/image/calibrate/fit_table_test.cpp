@@ -51,6 +51,23 @@ TEST(BallDiscs, SlopesAreTheBallsAndRiseToItsCentre) {
       << "a ball ends where it does";
 }
 
+// As published, where offsets from a ball's labelled centre are whole numbers and know no −0.
+TEST(BallDiscs, TheCentresRowAndColumnHaveThePublishedDirections) {
+  const ByteImage grey(40, 30, 3, 128);
+  const SlopeTable table(125);
+  const auto direction = [&](int x, int y) {
+    for (const ContactPixel& p :
+         disc_pixels({.x_px = 20, .y_px = 12, .contact_px = 5, .radius_px = 13}, grey, grey, {}))
+      if (p.x == x && p.y == y) return table.direction_bin(p.slope_x, p.slope_y);
+    return -1;
+  };
+  EXPECT_EQ(direction(20, 12), 62);   // atan2(0, 0) = 0
+  EXPECT_EQ(direction(23, 12), 124);  // atan2(0, −3) = π
+  EXPECT_EQ(direction(17, 12), 62);   // atan2(0, 3) = 0
+  EXPECT_EQ(direction(20, 9), 93);    // atan2(3, 0) = π/2
+  EXPECT_EQ(direction(20, 15), 31);   // atan2(−3, 0) = −π/2
+}
+
 TEST(ObjectPixels, AreThoseWhoseNeighboursAreInTheGel) {
   ByteImage photo(12, 9, 3, 130);
   const ByteImage background(12, 9, 3, 128);
@@ -113,6 +130,18 @@ TEST(FitTable, AsReleasedOnePixelOfEachBallTellsTheBin) {
                 bins.direction_bin(pixels[k].slope_x, pixels[k].slope_y))
           pixels[i].target = {99.0, 99.0, 99.0};
   EXPECT_EQ(fit_table(balls, kWidth, kHeight, released).weights, table.weights);
+}
+
+TEST(FitTable, AsReleasedAFlatPixelIsChangedAsTheMiddleOfTheBall) {
+  const ByteImage grey(kWidth, kHeight, 3, 128);
+  auto ball = disc_pixels({.x_px = 60, .y_px = 45, .contact_px = 6, .radius_px = 24}, grey, grey, {});
+  for (ContactPixel& p : ball)
+    p.target = p.x == 60 && p.y == 45 ? std::array{7.0, -5.0, 3.0} : std::array{50.0, 50.0, 50.0};
+  const auto codes =
+      fit_table({ball}, kWidth, kHeight, {.bins = 125}).change(0.0, 0.0, SlopeTable::terms(60, 45, kWidth, kHeight));
+  EXPECT_NEAR(codes[0], 7.0, 1e-9);
+  EXPECT_NEAR(codes[1], -5.0, 1e-9);
+  EXPECT_NEAR(codes[2], 3.0, 1e-9);
 }
 
 TEST(FitTable, SlopesBeyondTheBallsHaveTheNearestWeights) {

@@ -69,14 +69,18 @@ const Sample kTwoGaussians[] = {{33, 27, 0.000784015662488507},
                                 {99, 79, 0.0},
                                 {0, 40, 0.0},
                                 {62, 28, 0.00013417814288984957}};
-const Sample kTaxim[] = {{33, 27, 0.0007978078781582531},  {5, 5, 3.754533372989728e-05},
-                         {50, 30, 0.0001685267214848948},  {70, 40, 0.00018646739973154677},
-                         {80, 52, 0.00013652932897673264}, {99, 79, 7.723222910766074e-06},
-                         {0, 40, 3.8374100093555544e-05},  {62, 28, 9.080556234937903e-05}};
-const Sample kFots[] = {{33, 27, 0.000793191212755948},   {5, 5, 3.4802677335988256e-07},
-                        {50, 30, 8.791120969846238e-05},  {70, 40, 0.0002999999999999999},
-                        {80, 52, 0.00012447863975557097}, {99, 79, 5.070820914353764e-10},
-                        {0, 40, 6.307399028883367e-07},   {62, 28, 0.00014140914009887982}};
+const Sample kTaxim[] = {{33, 27, 0.0007983194602474053},  {5, 5, 3.7522630307726725e-05},
+                         {50, 30, 0.00016841778051899974}, {70, 40, 0.0001859297346067677},
+                         {80, 52, 0.00013551829102885046}, {99, 79, 7.716372640692956e-06},
+                         {0, 40, 3.835513927115244e-05},   {62, 28, 9.076412184512202e-05}};
+const Sample kFots[] = {{33, 27, 0.0007942037214967924},  {5, 5, 3.40499744117989e-07},
+                        {50, 30, 8.829796696720799e-05},  {70, 40, 0.0003},
+                        {80, 52, 0.00012245972004571918}, {99, 79, 4.723835317706039e-10},
+                        {0, 40, 6.160472621593931e-07},   {62, 28, 0.0001412040584920023}};
+const Sample kFotsOwn[] = {{33, 27, 0.0007920000000000002},  {5, 5, 1.3120919973745141e-06},
+                           {50, 30, 0.0001015231932599588},  {70, 40, 0.00030000000000000003},
+                           {80, 52, 0.00013162857395661139}, {99, 79, 1.2435058857317061e-08},
+                           {0, 40, 2.3258796451034373e-06},  {62, 28, 0.0001468282128864203}};
 
 /// The heights that make_golden.py computes too.
 Raster object_height() {
@@ -139,24 +143,53 @@ TEST(Golden, PyramidsKeepTheirLengthsOnOtherPixels) {
   for (const Sample& s : kTaxim) EXPECT_NEAR(taxim.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
   const Raster fots = membrane_indentation(object_height(), published("fots").scaled_to(320, 0.05926e-3));
   for (const Sample& s : kFots) EXPECT_NEAR(fots.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
+  const Raster own = membrane_indentation(object_height(), published("fots").scaled_to(320, 0.0510725e-3));
+  for (const Sample& s : kFotsOwn) EXPECT_NEAR(own.at(s.x, s.y), s.value, 1e-12) << s.x << ", " << s.y;
 }
 
 TEST(Golden, WindowsAreThosePublishedAndScaled) {
   // n on pixels of 0.059259 mm, and σ in mm.
   const auto taxim = published("taxim").scaled_to(320, 0.059259e-3).levels;
-  const std::array<double, 6> taxim_mm{0.900, 0.457, 0.236, 0.103, 0.059, 0.032};
+  const std::array<double, 6> taxim_mm{0.900, 0.457, 0.236, 0.103, 0.059, 0.0295};
   const std::array<std::size_t, 6> taxim_px{101, 51, 25, 11, 5, 3};
+  const auto sigma_px = [](const std::vector<double>& window) {  // from its two middle weights
+    const std::size_t middle = window.size() / 2;
+    return std::sqrt(0.5 / std::log(window[middle] / window[middle + 1]));
+  };
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_NEAR(taxim[i].sigma_px * 0.059259, taxim_mm[i], 5e-4);
-    EXPECT_EQ(cut_gaussian_profile(taxim[i].half_px, taxim[i].sigma_px).size(), taxim_px[i]);
+    const auto window = window_profile(taxim[i].size_px, taxim[i].factor);
+    EXPECT_NEAR(sigma_px(window) * 0.059259, taxim_mm[i], 5e-4);
+    EXPECT_EQ(window.size(), taxim_px[i]);
   }
   const auto fots = published("fots").scaled_to(320, 0.059259e-3).levels;
-  const std::array<double, 4> fots_mm{0.409, 0.179, 0.102, 0.056};
+  const std::array<double, 4> fots_mm{0.409, 0.179, 0.102, 0.0511};
   const std::array<std::size_t, 4> fots_px{45, 19, 9, 5};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(fots[i].sigma_px * 0.059259, fots_mm[i], 5e-4);
-    EXPECT_EQ(cut_gaussian_profile(fots[i].half_px, fots[i].sigma_px).size(), fots_px[i]);
+    const auto window = window_profile(fots[i].size_px, fots[i].factor);
+    EXPECT_NEAR(sigma_px(window) * 0.059259, fots_mm[i], 5e-4);
+    EXPECT_EQ(window.size(), fots_px[i]);
   }
+}
+
+TEST(Golden, SmallWindowsAreOpenCVsTables) {
+  const auto expect = [](int size_px, const std::vector<double>& weights) {
+    const auto window = window_profile(size_px, 1.0);
+    ASSERT_EQ(window.size(), weights.size());
+    for (std::size_t i = 0; i < window.size(); ++i) EXPECT_NEAR(window[i], weights[i], 1e-15) << size_px << " at " << i;
+  };
+  expect(3, {1.0 / 4, 2.0 / 4, 1.0 / 4});
+  expect(5, {1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16});
+  expect(7, {2.0 / 64, 7.0 / 64, 14.0 / 64, 18.0 / 64, 14.0 / 64, 7.0 / 64, 2.0 / 64});
+  // 21 pixels: σ = 0.3 · 9 + 0.8 = 3.5.
+  const auto large = window_profile(21, 1.0);
+  EXPECT_NEAR(large[10] / large[13], std::exp(0.5 * 9 / (3.5 * 3.5)), 1e-9);
+}
+
+TEST(Golden, WhatKeepsItsHeightIsAShareOfThePressEvenIfItsDeepestPointIsOutOfView) {
+  const Raster seen = membrane_indentation(object_height(), published("taxim").scaled_to(320, 0.05926e-3));
+  const Raster deeper = membrane_indentation(object_height(), published("taxim").scaled_to(320, 0.05926e-3), 1.9e-3);
+  EXPECT_NEAR(seen.at(33, 27), 8e-4, 1e-5);
+  EXPECT_LT(deeper.at(33, 27), 6e-4);  // 0.4 · 1.9 mm is deeper than nearly all of the ball
 }
 
 TEST(Golden, ExponentialMembrane) {

@@ -56,9 +56,17 @@ def two_gaussians(h, near, near_rounds, far, far_rounds):
     return correlate(2 * raised(h, near, near_rounds) - raised(h, far, far_rounds), near, mode="mirror")
 
 
+SMALL = {3: (1, 2, 1), 5: (1, 4, 6, 4, 1), 7: (2, 7, 14, 18, 14, 7, 2)}
+
+
 def window(size, factor):
-    """OpenCV's Gaussian of `size` pixels on pixels 1/factor times as large, cut at half its width."""
+    """OpenCV's Gaussian of `size` pixels, for small sizes a table, on pixels 1/factor times as large, cut at half its width."""
     sigma, half = (0.3 * ((size - 1) / 2 - 1) + 0.8) * factor, int(np.floor((size - 1) / 2 * factor + 0.5))
+    if size in SMALL:
+        table = np.array(SMALL[size]) / sum(SMALL[size])
+        if factor == 1:
+            return np.outer(table, table)
+        sigma = factor * np.sqrt((table * (np.arange(size) - size // 2) ** 2).sum())
     w = np.exp(-0.5 * (np.arange(-half, half + 1) / sigma) ** 2)
     return np.outer(w, w) / w.sum() ** 2
 
@@ -83,6 +91,7 @@ maps = {
     "two_gaussians": two_gaussians(h, kernel(5, 3), 6, kernel(7, 7), 3),
     "pyramid of Taxim at 0.05926 mm": pyramid(h, (201, 101, 51, 21, 11, 5, 5), 0.4, 0.0295 / 0.05926),
     "pyramid of FOTS at 0.05926 mm": pyramid(h, (51, 21, 11, 5, 5), 0, 0.0510725 / 0.05926),
+    "pyramid of FOTS at its own pixels": pyramid(h, (51, 21, 11, 5, 5), 0, 1),
     "exponential": correlate(0.03 - h, exponential(), mode="constant", cval=0.03),
 }
 for name, m in maps.items():

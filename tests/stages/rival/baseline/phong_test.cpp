@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/config/config.h"
 
 namespace tacipc {
@@ -47,6 +49,21 @@ TEST(Phong, FlatOpacitiesOfBothLightSets) {
   EXPECT_THAT(opacities("gomes_2017"), testing::ElementsAre(testing::DoubleNear(0.15 + 0.4 / 1024, 1e-15),
                                                             testing::DoubleNear(0.025 + 0.4 / 1024, 1e-15),
                                                             testing::DoubleNear(0.025 + 0.4 / 1024, 1e-15)));
+}
+
+// Each light of gomes_2017 comes from its own side: opacities of planes that face −x and −y, by hand.
+TEST(Phong, LightsOf2017ComeFromTheirSides) {
+  const PhongConfig config = *shipped("gomes_2017").phong;
+  const auto opacity = [&](std::size_t light, double nx, double ny) {
+    return phong_opacity(config.lights[light], {nx, ny, 0.8}, 5);
+  };
+  // Red, L = (−1, 0, 1/4): d = N · L = 0.8 of (−0.6, 0, 0.8) and 0.2 of (0, −0.6, 0.8).
+  EXPECT_NEAR(opacity(0, -0.6, 0.0), 0.6 * 0.8 + 0.4 * std::pow(1.03, 5), 1e-12);
+  EXPECT_NEAR(opacity(0, 0.0, -0.6), 0.6 * 0.2 + 0.4 * std::pow(0.07, 5), 1e-12);
+  // Green, L = (1/2, −0.866, 1/4): d = −0.1 and 0.7196; blue is its mirror image.
+  EXPECT_NEAR(opacity(1, -0.6, 0.0), 0.4 * std::pow(-0.41, 5), 1e-12);
+  EXPECT_NEAR(opacity(1, 0.0, -0.6), 0.1 * 0.7196 + 0.4 * std::pow(0.90136, 5), 1e-12);
+  EXPECT_NEAR(opacity(2, 0.0, 0.6), opacity(1, 0.0, -0.6), 1e-15);
 }
 
 TEST(Phong, CodesAreTruncatedAndClampedEveryTime) {
