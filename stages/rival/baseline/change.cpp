@@ -5,20 +5,10 @@
 #include "common/base/rng.h"
 #include "stages/rival/baseline/kernel.h"
 #include "stages/rival/baseline/phong.h"
+#include "stages/rival/baseline/shadows.h"
 
 namespace tacipc {
 namespace {
-
-FloatImage blurred(const FloatImage& change, const std::vector<double>& profile) {
-  FloatImage out = change;
-  Raster one(change.width, change.height);
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = 0; i < one.values.size(); ++i) one.values[i] = double{change.pixels[3 * i + c]};
-    const Raster smooth = correlate_separable(one, profile);
-    for (std::size_t i = 0; i < one.values.size(); ++i) out.pixels[3 * i + c] = static_cast<float>(smooth.values[i]);
-  }
-  return out;
-}
 
 std::array<int, 3> lambert_codes(const std::vector<PhongLight>& lights, const std::array<double, 3>& normal) {
   std::array<int, 3> codes{};
@@ -44,21 +34,14 @@ RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model mod
   return {};
 }
 
-Slopes slopes_of(const Raster& height_m, double pixel_m) {
-  const int w = height_m.width, h = height_m.height;
-  Slopes slopes{.x = Raster(w, h), .y = Raster(w, h)};
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      const int u = std::clamp(x, 1, w - 2), v = std::clamp(y, 1, h - 2);
-      slopes.x.at(x, y) = (height_m.at(u + 1, v) - height_m.at(u - 1, v)) / (2.0 * pixel_m);
-      slopes.y.at(x, y) = (height_m.at(u, v + 1) - height_m.at(u, v - 1)) / (2.0 * pixel_m);
-    }
-  }
-  return slopes;
-}
-
-ChangeOfCodes::ChangeOfCodes(const ChangeConfig& config, const RivalLight& light, const Sensor& sensor)
-    : config_(config), light_(light), sensor_(sensor), pixel_m_(sensor.camera.window_width_m / sensor.camera.width_px) {
+ChangeOfCodes::ChangeOfCodes(const ChangeConfig& config, const RivalLight& light, const Sensor& sensor,
+                             std::optional<ShadowTable> shadows, double shadow_pixel_m)
+    : config_(config),
+      light_(light),
+      sensor_(sensor),
+      shadows_(std::move(shadows)),
+      shadow_pixel_m_(shadow_pixel_m),
+      pixel_m_(sensor.camera.window_width_m / sensor.camera.width_px) {
   const Camera& camera = sensor.camera;
   if (std::holds_alternative<MetallicLamps>(light_)) {
     const MembraneView flat = flat_view(CameraModel(camera, sensor.stack), camera);
@@ -70,7 +53,8 @@ ChangeOfCodes::ChangeOfCodes(const ChangeConfig& config, const RivalLight& light
   }
 }
 
-FloatImage ChangeOfCodes::operator()(const Raster& indentation_m, const std::vector<Vector3>& object_normal) const {
+FloatImage ChangeOfCodes::operator()(const Raster& indentation_m, const std::vector<Vector3>& object_normal,
+                                     const std::vector<bool>& held) const {
   FloatImage change;
   switch (config_.model) {
     case ChangeConfig::Model::lambert_sum: change = lambert(indentation_m); break;
@@ -81,6 +65,7 @@ FloatImage ChangeOfCodes::operator()(const Raster& indentation_m, const std::vec
       change = code_change(std::get<LightField>(light_), view_height_map(to_image(indentation_m), sensor_));
       break;
   }
+  if (shadows_) cast_shadows(change, *shadows_, indentation_m, held, pixel_m_, shadow_pixel_m_ / pixel_m_);
   return gaussian_blurred(change, config_.final_blur_px);
 }
 
@@ -97,8 +82,9 @@ FloatImage ChangeOfCodes::lambert(const Raster& indentation_m) const {
       }
     }
   }
-  return config_.blur ? blurred(change, folded_gaussian_profile(config_.blur->size_px, config_.blur->sigma_px))
-                      : change;
+  return config_.blur
+             ? correlate_channels(change, folded_gaussian_profile(config_.blur->size_px, config_.blur->sigma_px))
+             : change;
 }
 
 std::array<double, 3> ChangeOfCodes::metallic_codes(const Vector3& point, const Vector3& normal) const {
@@ -124,7 +110,7 @@ FloatImage ChangeOfCodes::metallic(const Raster& indentation_m, const std::vecto
       change.pixels[3 * i + c] = static_cast<float>(factor * (codes[c] - empty_[i][c]));
   }
   if (!config_.window) return change;
-  return blurred(change, window_profile(config_.window->size_px, config_.designed_pixel_m / pixel_m_));
+  return correlate_channels(change, window_profile(config_.window->size_px, config_.designed_pixel_m / pixel_m_));
 }
 
 FloatImage ChangeOfCodes::table(const Raster& indentation_m) const {

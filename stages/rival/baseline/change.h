@@ -9,6 +9,7 @@
 #include "common/image/image.h"
 #include "common/rival/light_network.h"
 #include "common/rival/metallic_lamps.h"
+#include "common/rival/shadow_table.h"
 #include "common/rival/slope_table.h"
 #include "common/sensor/light_field.h"
 #include "common/sensor/membrane_view.h"
@@ -23,19 +24,12 @@ using RivalLight = std::variant<std::monostate, MetallicLamps, SlopeTable, Light
 /// \throw DataError, ConfigError if it is no light of this model
 RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model);
 
-/// Height into the gel over pixels of one size: what a pixel rises by along columns and rows, by central differences;
-/// pixels of the border have the slopes of their neighbour inside, as Taxim and FOTS have it. \pre 3 x 3 pixels at
-/// least
-struct Slopes {
-  Raster x, y;
-};
-Slopes slopes_of(const Raster& height_m, double pixel_m);
-
 /// Makes changes of codes for one sensor; what does not depend on the membrane is computed once.
 class ChangeOfCodes {
  public:
-  /// \pre a light of the model's kind
-  ChangeOfCodes(const ChangeConfig& config, const RivalLight& light, const Sensor& sensor);
+  /// `shadows`: of a table's contacts, measured in pixels of `shadow_pixel_m`. \pre a light of the model's kind
+  ChangeOfCodes(const ChangeConfig& config, const RivalLight& light, const Sensor& sensor,
+                std::optional<ShadowTable> shadows = std::nullopt, double shadow_pixel_m = 0.0);
 
   /// `object_normal`: of a rigid object where it is in the gel, zero elsewhere, or none.
   /// - lambert_sum: Σ k_d max(N · L, 0) colour over normals (−dz/dx, −dz/dy, 1) / |…| of depth / metres_per_pixel, cut
@@ -45,8 +39,9 @@ class ChangeOfCodes {
   /// - table, network: of the slopes of the height map straight from above; the network's answer less that for a flat
   /// gel.
   /// - light_field: that of light_field.h, our own, with the blur that belongs to it.
-  /// final_blur_px comes last of all.
-  FloatImage operator()(const Raster& indentation_m, const std::vector<Vector3>& object_normal) const;
+  /// Shadows of the pixels `held`, if there are any, come next, final_blur_px last of all.
+  FloatImage operator()(const Raster& indentation_m, const std::vector<Vector3>& object_normal,
+                        const std::vector<bool>& held = {}) const;
 
  private:
   FloatImage lambert(const Raster& indentation_m) const;
@@ -59,6 +54,8 @@ class ChangeOfCodes {
   ChangeConfig config_;
   RivalLight light_;
   Sensor sensor_;
+  std::optional<ShadowTable> shadows_;
+  double shadow_pixel_m_;
   double pixel_m_;
   std::vector<std::array<double, 3>> empty_;  // metallic: codes without object
   std::vector<Eigen::MatrixXf> flat_;         // network: answers for a flat gel, row by row

@@ -51,13 +51,13 @@ Raster two_gaussians(const Raster& h, const DeformationConfig& config) {
 }
 
 Raster pyramid(const Raster& h, const DeformationConfig& config, double pressed_m) {
-  const double least = config.contact_share * std::max(pressed_m, maximum(h));
+  const std::vector<bool> held = held_pixels(h, config, pressed_m);
   Raster f = h;
   for (std::size_t level = 0; level < config.levels.size(); ++level) {
     f = correlate_separable(f, window_profile(config.levels[level].size_px, config.levels[level].factor));
     if (level + 1 == config.levels.size()) break;
     for (std::size_t i = 0; i < f.values.size(); ++i)
-      if (h.values[i] > least) f.values[i] = h.values[i];
+      if (held[i]) f.values[i] = h.values[i];
   }
   return f;
 }
@@ -72,6 +72,13 @@ Raster protrusion(const Raster& depth_m, const Raster& front_depth_m) {
     h.values[i] = in > 0.0 ? in : 0.0;  // NaN compares false
   }
   return h;
+}
+
+std::vector<bool> held_pixels(const Raster& protrusion_m, const DeformationConfig& config, double pressed_m) {
+  const double least = config.contact_share * std::max(pressed_m, maximum(protrusion_m));
+  std::vector<bool> held;
+  for (const double height : protrusion_m.values) held.push_back(height > least);
+  return held;
 }
 
 Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config, double pressed_m) {

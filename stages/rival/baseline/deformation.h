@@ -22,6 +22,9 @@ Raster protrusion(const Raster& depth_m, const Raster& front_depth_m);
 /// `pressed_m`: depth of the press, the deepest point's if that is deeper.
 Raster membrane_indentation(const Raster& protrusion_m, const DeformationConfig& config, double pressed_m = 0.0);
 
+/// Pixels of a pyramid that keep the object's height: in contact, deeper than contact_share of `pressed_m` (see above).
+std::vector<bool> held_pixels(const Raster& protrusion_m, const DeformationConfig& config, double pressed_m);
+
 /// Adds N(0, σ) to every value, by seed and pixel alone.
 void add_texture(Raster& depth_m, double sigma_m, std::uint64_t seed);
 

@@ -1,5 +1,6 @@
 #include "stages/rival/baseline/kernel.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -94,6 +95,32 @@ Raster correlate_separable(const Raster& image, const std::vector<double>& profi
   Raster out(image.width, image.height);
   cv::Mat target = view(out);
   cv::sepFilter2D(view(image), target, CV_64F, profile, profile);
+  return out;
+}
+
+Slopes slopes_of(const Raster& height_m, double pixel_m) {
+  const int w = height_m.width, h = height_m.height;
+  Slopes slopes{.x = Raster(w, h), .y = Raster(w, h)};
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      const int u = std::clamp(x, 1, w - 2), v = std::clamp(y, 1, h - 2);
+      slopes.x.at(x, y) = (height_m.at(u + 1, v) - height_m.at(u - 1, v)) / (2.0 * pixel_m);
+      slopes.y.at(x, y) = (height_m.at(u, v + 1) - height_m.at(u, v - 1)) / (2.0 * pixel_m);
+    }
+  }
+  return slopes;
+}
+
+FloatImage correlate_channels(const FloatImage& image, const std::vector<double>& profile) {
+  FloatImage out = image;
+  Raster one(image.width, image.height);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    for (std::size_t i = 0; i < one.values.size(); ++i) one.values[i] = double{image.pixels[channels * i + c]};
+    const Raster smooth = correlate_separable(one, profile);
+    for (std::size_t i = 0; i < one.values.size(); ++i)
+      out.pixels[channels * i + c] = static_cast<float>(smooth.values[i]);
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 // The convolution kernels of the depth-based simulators, and convolution as they do it.
 #pragma once
 
+#include "common/image/image.h"
 #include "stages/rival/baseline/raster.h"
 
 namespace tacipc {
@@ -34,6 +35,17 @@ std::vector<double> window_profile(int size_px, double factor);
 
 /// correlate with profile(x) profile(y), mirrored about the outermost pixel centres: as a separable filter.
 Raster correlate_separable(const Raster& image, const std::vector<double>& profile);
+
+/// Height into the gel over pixels of one size: what a pixel rises by along columns and rows, by central differences;
+/// pixels of the border have the slopes of their neighbour inside, as Taxim and FOTS have it. \pre 3 x 3 pixels at
+/// least
+struct Slopes {
+  Raster x, y;
+};
+Slopes slopes_of(const Raster& height_m, double pixel_m);
+
+/// correlate_separable of every channel.
+FloatImage correlate_channels(const FloatImage& image, const std::vector<double>& profile);
 
 /// OpenCV's own threads would not heed --threads: from here on it has none.
 void keep_to_one_thread();

@@ -31,6 +31,7 @@ const StageSpec kBaseline{
         InputSpec::optional(
             "--light",
             "table or network (NPY), lamps or our light (YAML) of calibrate, where the shading has its light there"),
+        InputSpec::optional("--shadows", "Taxim's shadows beside a contact (NPY), for the model table"),
         InputSpec::any_number("--depth", "depth maps (EXR)"),
         InputSpec::optional("--object", "triangle mesh in metres (object.ply of decimate), in place of depth maps"),
         InputSpec::optional("--pose", "gel_from_object per frame (NPY)"),
@@ -61,6 +62,9 @@ void check_light(const Stage& stage, const BaselineConfig& config) {
   if (light != (config.change && config.change->needs_light()))
     throw UsageError(light ? "--light: the configuration's shading has its own"
                            : "--light: needed for the configuration's shading");
+  if (stage.optional_input("--shadows") && !(config.change && config.change->model == ChangeConfig::Model::table &&
+                                             config.deformation.method == DeformationConfig::Method::pyramid))
+    throw UsageError("--shadows: is for a pyramid under a table, as Taxim has it");
   if (config.force && !stage.optional_input("--object"))
     throw UsageError("contact_force: moves an object, which --depth has not");
 }
@@ -72,7 +76,8 @@ BaselineSimulator make_simulator(Stage& stage) {
   std::optional<ByteImage> background;
   if (const auto photograph = stage.optional_input("--background"))
     background = read_photograph(*photograph, sensor.camera);
-  BaselineSimulator out(config, sensor, std::move(background), stage.optional_input("--light"));
+  BaselineSimulator out(config, sensor, std::move(background), stage.optional_input("--light"),
+                        stage.optional_input("--shadows"));
   if (const auto mesh = stage.optional_input("--object")) out.take_object(*mesh);
   return out;
 }

@@ -28,7 +28,8 @@ void check_front(double front_depth_m, const Raster& own_front) {
 
 BaselineSimulator::BaselineSimulator(const BaselineConfig& config, const Sensor& sensor,
                                      std::optional<ByteImage> background,
-                                     const std::optional<std::filesystem::path>& light)
+                                     const std::optional<std::filesystem::path>& light,
+                                     const std::optional<std::filesystem::path>& shadows)
     : config_(config),
       sensor_(sensor),
       camera_(sensor, config.rays),
@@ -38,7 +39,9 @@ BaselineSimulator::BaselineSimulator(const BaselineConfig& config, const Sensor&
   config_.deformation = config.deformation.scaled_to(camera.width_px, camera.window_width_m / camera.width_px);
   if (config.front_depth_m) front_ = Raster(camera.width_px, camera.height_px, *config.front_depth_m);
   if (config.change)
-    change_.emplace(*config.change, light ? read_light(*light, config.change->model) : RivalLight{}, sensor);
+    change_.emplace(*config.change, light ? read_light(*light, config.change->model) : RivalLight{}, sensor,
+                    shadows ? std::optional(ShadowTable::read(*shadows)) : std::nullopt,
+                    config.deformation.designed_pixel_m);
 }
 
 void BaselineSimulator::take_object(const std::filesystem::path& mesh) {
@@ -74,7 +77,8 @@ BaselineFrame BaselineSimulator::frame(SeenObject object_seen) const {
   if (change_) {
     for (std::size_t i = 0; i < object_seen.normal.size(); ++i)
       if (!(h.values[i] > 0.0)) object_seen.normal[i] = Vector3::Zero();
-    frame.tactile = add_change(*background_, (*change_)(indentation, object_seen.normal));
+    const std::vector<bool> held = held_pixels(h, config_.deformation, object_seen.pressed_m);
+    frame.tactile = add_change(*background_, (*change_)(indentation, object_seen.normal, held));
     add_noise(*frame.tactile, config_.change->noise_codes, config_.seed);
   }
   frame.light_s = processor_s() - shaped;

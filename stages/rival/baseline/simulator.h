@@ -24,10 +24,12 @@ struct BaselineFrame {
 
 class BaselineSimulator {
  public:
-  /// `light`: the file of a model that has its light there. Kernels are scaled to the sensor's images.
-  /// \pre background and light as the configuration wants them. \throw DataError, ConfigError of the light
+  /// `light`: the file of a model that has its light there; `shadows`: of a pyramid under a table. Kernels are scaled
+  /// to the sensor's images. \pre background, light and shadows as the configuration wants them. \throw DataError,
+  /// ConfigError of the light
   BaselineSimulator(const BaselineConfig& config, const Sensor& sensor, std::optional<ByteImage> background,
-                    const std::optional<std::filesystem::path>& light);
+                    const std::optional<std::filesystem::path>& light,
+                    const std::optional<std::filesystem::path>& shadows = std::nullopt);
 
   /// The mesh (m) that `seen` places. \throw UsageError if its depth would count from another sensor's front
   void take_object(const std::filesystem::path& mesh);
