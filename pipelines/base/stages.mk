@@ -5,9 +5,9 @@
 run = $(if $(always),{ )$(run_now)$(if $(silent),, && $(call finished,$(1)))$(if $(always),; } || (code=$$?; [ $$code = 3 ] || exit $$code))
 run_now = OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(if $(always),--if-changed )$(if $(messages),,--log-level warning )$(2)
 # Goals that make a few results have every stage look at the content of its inputs, whatever their dates: one whose record is of these very inputs
-# and options does nothing (code 3). Elsewhere dates tell (datasets compare hashes of their own).
+# and options does nothing (code 3). With any other goal dates tell (datasets compare hashes of their own).
 looking := sample track gallery grasp scene robot robot-demo demo demo-full mpm-sample paper%
-always  := $(if $(filter $(looking),$(MAKECMDGOALS)),FORCE)
+always  := $(if $(filter-out $(looking) build packages,$(or $(MAKECMDGOALS),help)),,FORCE)
 finished = awk -f pipelines/base/finished.awk $(@D)/$(1).timings.yaml $(@D)/$(1).yaml
 # Messages of a running stage are shown by goals that make one sample; other goals run several stages at a time. Its log has them all.
 messages = $(shown)$(silent)$(filter sample grasp scene robot mpm-sample track gallery,$(MAKECMDGOALS))

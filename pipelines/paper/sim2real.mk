@@ -26,7 +26,7 @@ cases_circles := $(addprefix --circles ,$(CASES_TABLE))
 $(SIM2REAL)/cases/cases.yaml: $(CASES) $(CASES_TABLE) $(always) | build
 	@circles=$$($(BIN)/tacipc get $< circles --default ''); table=$(SHARED)/$$($(BIN)/tacipc get $< data --default '')/$$circles; \
 	[ -z "$$circles" ] || [ -e "$$table" ] || { echo "CASES: $< names $$table, which does not exist" >&2; exit 1; }; \
-	$(call run,cases,--config $<) $${circles:+--circles "$$table"}
+	$(call run,cases,--config $< $${circles:+--circles "$$table"})
 $(SIM2REAL)/cases/cases.mk: $(SIM2REAL)/cases/cases.yaml ;
 cases_data = $(SHARED)/$(1)
 cases_photograph = $(call cases_data,$(CASES_PHOTOGRAPH_$(1)))
