@@ -87,14 +87,19 @@ void flush_to_disk(const std::vector<std::filesystem::path>& paths) {
       throw DataError("{}: cannot be written: {}", path.string(), std::strerror(errno));
 }
 
-std::string content_hash(const std::filesystem::path& path) {
+std::string content_hash(const std::filesystem::path& path, const std::set<std::filesystem::path>& without) {
   if (!std::filesystem::is_directory(path)) return file_hash(path);
+  std::set<std::filesystem::path> absolute;
+  for (const auto& file : without) absolute.insert(std::filesystem::weakly_canonical(file));
+  const auto counts_not = [&](const std::filesystem::path& file) {
+    return !absolute.empty() && absolute.contains(std::filesystem::weakly_canonical(file));
+  };
   std::map<std::string, std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
     const std::string name = entry.path().lexically_relative(path).generic_string();
     const bool hidden = name.front() == '.' || name.find("/.") != std::string::npos;
     const bool of_the_run = name.ends_with(".log") || name.ends_with(".timings.yaml");
-    if (!entry.is_regular_file() || of_the_run || hidden) continue;
+    if (!entry.is_regular_file() || of_the_run || hidden || counts_not(entry.path())) continue;
     files.emplace(name, entry.path());
   }
   std::string listing;

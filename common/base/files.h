@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,9 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 void flush_to_disk(const std::vector<std::filesystem::path>& paths);
 
 /// Content hash as 32 hex digits (XXH3, 128 bit). Of a folder: over the names and contents of its regular files in name
-/// order, leaving out logs, timings and hidden names, so that it changes exactly when a result in it does.
-std::string content_hash(const std::filesystem::path& path);
+/// order, leaving out logs, timings and hidden names, so that it changes exactly when a result in it does. `without`:
+/// files of it that do not count.
+std::string content_hash(const std::filesystem::path& path, const std::set<std::filesystem::path>& without = {});
 
 /// The longest folder that holds all files: names further up tell nothing about them.
 std::filesystem::path common_folder(const std::vector<std::filesystem::path>& files);

@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/base/printable.h"
+#include "common/stage/unchanged.h"
 
 namespace tacipc {
 namespace {
@@ -112,6 +113,17 @@ int paths_command(const std::vector<std::string>& arguments) {
   });
 }
 
+int unchanged_command(const std::vector<std::string>& arguments) {
+  CLI::App app(
+      "Exits with 0 if all that a finished stage read still has the content that its record names, and all that it "
+      "wrote is there; else with 1.");
+  std::string record;
+  app.add_option("record", record, "the record")->required()->type_name("RECORD.yaml");
+  bool unchanged = true;
+  const int code = run_command("unchanged", app, arguments, [&] { unchanged = is_unchanged(record); });
+  return code == 0 && !unchanged ? 1 : code;
+}
+
 }  // namespace
 
 const std::vector<FileCommand>& file_commands() {
@@ -119,7 +131,8 @@ const std::vector<FileCommand>& file_commands() {
       {"get", "Values of a record or configuration, by key.", get_command},
       {"set", "A configuration with some of its values changed.", set_command},
       {"table", "Rows of a table, by names of columns.", table_command},
-      {"paths", "Files that the paths of a motion name.", paths_command}};
+      {"paths", "Files that the paths of a motion name.", paths_command},
+      {"unchanged", "Whether a result's inputs are what they were.", unchanged_command}};
   return commands;
 }
 

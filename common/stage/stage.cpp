@@ -15,6 +15,8 @@
 #include "common/base/instruction_set.h"
 #include "common/base/log.h"
 #include "common/base/printable.h"
+#include "common/stage/record.h"
+#include "common/stage/unchanged.h"
 #include "common/stage/vouched.h"
 
 namespace tacipc {
@@ -298,6 +300,26 @@ void Stage::begin() {
   for (const auto& [flag, paths] : named_inputs_)
     for (const NamedPath& named : paths) refuse_changed(named.path);
   inputs_at_start_ = input_hashes(out_);
+}
+
+bool Stage::is_done() const {
+  const fs::path path = out_ / (spec_.name + ".yaml");
+  if (!is_unchanged(path)) return false;
+  const Record record = Record::from_file(path), inputs = record.section("inputs");
+  using NamesAndPaths = std::vector<std::pair<std::string, std::string>>;
+  for (const InputSpec& spec : spec_.inputs) {
+    NamesAndPaths given, recorded;
+    if (spec.named)
+      for (const auto& [name, file] : named_inputs_.at(spec.flag)) given.emplace_back(name, relative_to(file, out_));
+    else if (const auto found = inputs_.find(spec.flag); found != inputs_.end())
+      for (const fs::path& file : found->second) given.emplace_back("", relative_to(file, out_));
+    for (const Record& input : inputs.one_or_many(spec.flag.substr(2)))
+      recorded.emplace_back(input.text("name").value_or(""), input.required_text("path"));
+    if (given != recorded) return false;
+  }
+  return std::ranges::all_of(spec_.options, [&](const OptionSpec& option) {
+    return record.text(option.flag.substr(2)).value_or("") == printable(options_.at(option.flag));
+  });
 }
 
 void Stage::open_scratch() const {

@@ -122,6 +122,8 @@ class Stage {
   /// The whole life of a stage under the lock of its folder. Returns the exit code.
   int run(const std::function<void(Stage&)>& body);
   void begin();
+  /// Whether the record in the output folder is of these very inputs and options, unchanged.
+  bool is_done() const;
   /// Keeps the scratch files of an equal earlier run, or none. Before the first file is written or looked for, but not
   /// earlier: until all inputs are added no run is equal to an earlier one.
   void open_scratch() const;
@@ -174,7 +176,8 @@ class Stage {
 
 /// Runs one stage: parses flags, removes the old record (of one that keeps old results after the body), calls `body`,
 /// moves outputs into place, writes the record last. Returns the exit code: 0 done, 1 the work failed, 2 wrong flags or
-/// configuration. Work that failed leaves `<stage>.failed.yaml` with the reason, which the next start removes.
+/// configuration; 3 nothing had to be done, as --if-changed asks. Work that failed leaves `<stage>.failed.yaml` with
+/// the reason, which the next start removes.
 int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body);
 
 /// Version of the program, from git when it was built.

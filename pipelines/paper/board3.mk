@@ -28,11 +28,11 @@ ifeq ($(wildcard configs/press/$(BOARD3_PRESS).yaml),)
 endif
 endif
 
-$(BOARD3)/object/decimate.yaml: $(BOARD3_OBJECT) configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml | build
+$(BOARD3)/object/decimate.yaml: $(BOARD3_OBJECT) configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml $(always) | build
 	$(call run,decimate,--mesh $(BOARD3_OBJECT) --object configs/objects/printed_indenter.yaml --config configs/objects/decimate/default.yaml)
 
 # The published gel with its third axis scaled.
-$(OUT)/gels/mctac_3mm-import_paper_3mm/tetmesh.yaml: $(PAPER_GEL) configs/gels/import_paper_3mm.yaml configs/sensors/mctac_3mm.yaml | build
+$(OUT)/gels/mctac_3mm-import_paper_3mm/tetmesh.yaml: $(PAPER_GEL) configs/gels/import_paper_3mm.yaml configs/sensors/mctac_3mm.yaml $(always) | build
 	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac_3mm.yaml --config configs/gels/import_paper_3mm.yaml)
 
 # $(call board3_rules,folder,name,mesh,motion below configs/studies/board3,press)
@@ -41,7 +41,7 @@ board3_rules = $(call sample_rules,$(1),name=$(2) object=$(BOARD3)/object object
 $(foreach s,$(BOARD3_SAMPLES),$(eval $(call board3_rules,$(BOARD3_RUN)/$(s),$(s),$(BOARD3_MESH),$(s),configs/press/$(BOARD3_PRESS).yaml)))
 
 $(BOARD3_RECORD): configs/studies/board3/marker_curve.yaml $(BOARD3_SAMPLES:%=$(BOARD3_RUN)/%/press/press.yaml) \
-    $(if $(filter board3,$(MAKECMDGOALS)),$(wildcard $(ALSO:%=%/*.npy))) | build-verification
+    $(if $(filter board3,$(MAKECMDGOALS)),$(wildcard $(ALSO:%=%/*.npy))) $(always) | build-verification
 	$(call try,marker_curve,--config $< $(BOARD3_SAMPLES:%=--press $(BOARD3_RUN)/%/press) $(if $(filter board3,$(MAKECMDGOALS)),$(ALSO:%=--other %)))
 
 .PHONY: board3 board3-page

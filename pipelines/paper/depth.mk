@@ -43,12 +43,12 @@ depth-quick: | build
 define depth_ball
 $(DEPTH)/indenters/ball_$(1).yaml: FORCE
 	$$(call replace_if_changed,ball: {radius_mm: $(1)$$(comma) edge_mm: 0.25})
-$(DEPTH)/indenters/ball_$(1)/indenter.yaml: $(DEPTH)/indenters/ball_$(1).yaml | build
+$(DEPTH)/indenters/ball_$(1)/indenter.yaml: $(DEPTH)/indenters/ball_$(1).yaml $(always) | build
 	$$(call run,indenter,--config $$<)
 endef
 $(foreach r,$(DEPTH_BALLS),$(eval $(call depth_ball,$(r))))
 $(DEPTH_PRINTED:%=$(DEPTH)/indenters/%/indenter.yaml): $(DEPTH)/indenters/%/indenter.yaml: $(SHARED)/data/printed_indenters/%.stl \
-    configs/studies/depth/printed.yaml | build
+    configs/studies/depth/printed.yaml $(always) | build
 	$(call run,indenter,--config configs/studies/depth/printed.yaml --mesh $<)
 $(DEPTH_MADE:%=$(DEPTH)/meshes/%.ply): $(DEPTH)/meshes/%.ply: $(DEPTH)/indenters/%/indenter.yaml
 	@mkdir -p $(@D)
@@ -95,7 +95,7 @@ $(DEPTH)/lists/made.txt: FORCE
 # $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml[,4: only the first quarter of the training's list])
 define depth_network
 $(call changed_config,$(1)/network.yaml,configs/depthnet/default.yaml,$(3))
-$(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt | build
+$(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt $(always) | build
 	mapfile -t train < $(DEPTH)/lists/$(2)-train.txt; \
 	  train=("$$$${train[@]:0:($$$${#train[@]} + $(or $(4),1) - 1) / $(or $(4),1)}"); mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
 	$$(call run,depthnet,--config $$< --renders "$$$${train[@]}" --validation "$$$${val[@]}")
@@ -113,7 +113,7 @@ DEPTH_READ := $(DEPTH)/read/$(cases_name)
 $(DEPTH)/rest.exr: $(DEPTH)/lists/made.txt
 	cp "$$(head -n 1 $(DEPTH)/lists/tacipc-train.txt)/frame_0000/depth.exr" $@.new && mv $@.new $@
 define depth_surface
-$(DEPTH_READ)/surface/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml configs/studies/depth/surface.yaml | build
+$(DEPTH_READ)/surface/$(1)/baseline.yaml: $(SIM2REAL)/ours/$(1)/shade.yaml configs/studies/depth/surface.yaml $(always) | build
 	$$(call run,baseline,--config configs/studies/depth/surface.yaml --sensor $(CASES_SENSOR) $(call cases_posed,$(1)))
 endef
 $(foreach o,$(CASES_OBJECTS),$(eval $(call depth_surface,$(o))))
@@ -130,7 +130,7 @@ depth_images_simulated   := $(call sim2real_images,ours)
 
 # $(call depth_read,images,network)
 define depth_read
-$(DEPTH_READ)/$(1)/$(2)/predict.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt | build
+$(DEPTH_READ)/$(1)/$(2)/predict.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEPTH)/rest.exr $(depth_truths) $(DEPTH_READ)/images/copied.txt $(always) | build
 	@compgen -G '$(DEPTH)/networks/$(2)/model_*.onnx' > /dev/null \
 	  || { echo "$(DEPTH)/networks/$(2): has no model_*.onnx: remove the folder, it was trained by an earlier version" >&2; exit 1; }
 	$$(call run,predict,--model $(DEPTH)/networks/$(2)/model_*.onnx --background $(cases_background) --images $(depth_images_$(1)) \
@@ -144,7 +144,7 @@ $(DEPTH_READ)/%/nothing/1/predict.yaml: $(DEPTH)/rest.exr $(depth_truths)
 	touch $@
 # $(call depth_judge,truth)
 define depth_judge
-$(DEPTH_READ)/%/$(1)/metrics.yaml: $(DEPTH_READ)/%/predict.yaml configs/studies/depth/metrics.yaml | build
+$(DEPTH_READ)/%/$(1)/metrics.yaml: $(DEPTH_READ)/%/predict.yaml configs/studies/depth/metrics.yaml $(always) | build
 	$$(call run,metrics,--config configs/studies/depth/metrics.yaml --images $(CASES_ALL:%=$$(<D)/depth/%.exr) --reference $(depth_truth_$(1)) \
 	  --rest $(DEPTH)/rest.exr --surface $(depth_truth_surface))
 endef
@@ -156,7 +156,7 @@ define depth_table
 $(DEPTH_READ)/tables/$(1)_$(2).yaml: configs/studies/depth/table.yaml FORCE | build
 	$$(call replace_if_changed_by,$(BIN)/tacipc set $$< 'title="$(3)"')
 $(DEPTH_READ)/tables/$(1)_$(2)/tabulate.yaml: $(DEPTH_READ)/tables/$(1)_$(2).yaml \
-    $(foreach s,$(call depth_scores,$(1),$(2)/metrics.yaml),$(lastword $(subst =, ,$(s)))) | build
+    $(foreach s,$(call depth_scores,$(1),$(2)/metrics.yaml),$(lastword $(subst =, ,$(s)))) $(always) | build
 	$$(call run,tabulate,--config $$< --samples $(call depth_scores,$(1),$(2)/samples.csv))
 DEPTH_TABLES += $(1)_$(2)
 endef

@@ -20,26 +20,24 @@ ifeq ($(wildcard $(SHARED)),)
 endif
 
 # Inputs of the stages: made from the one file first, then make restarts with its variables.
-$(FOTS)/cases/cases.yaml: $(MARKERS) | build
+$(FOTS)/cases/cases.yaml: $(MARKERS) $(always) | build
 	$(call run,cases,--config $<)
 $(FOTS)/cases/cases.mk: $(FOTS)/cases/cases.yaml ;
 include $(FOTS)/cases/cases.mk
 
 # The ball, the gel and the press configuration of the base and of each variant, then a press to each depth.
 define fots_variant
-$(FOTS)/runs/$(1)/indenter/indenter.yaml: $(FOTS)/cases/cases.yaml | build
+$(FOTS)/runs/$(1)/indenter/indenter.yaml: $(FOTS)/cases/cases.yaml $(always) | build
 	$$(call run,indenter,--config $(FOTS)/cases/$(1)/indenter.yaml)
-$(FOTS)/runs/$(1)/settings/sensor.yaml: $(MARKERS_SENSOR) $(FOTS)/cases/cases.yaml | build
-	mkdir -p $$(@D)
-	$(BIN)/tacipc set $(MARKERS_SENSOR) $(addprefix gel.thickness_mm=,$(MARKERS_THICKNESS_MM_$(1))) > $$@
-$(FOTS)/runs/$(1)/settings/press.yaml: $(MARKERS_PRESS) $(FOTS)/cases/cases.yaml
-	mkdir -p $$(@D)
-	cat $(MARKERS_PRESS) $(FOTS)/cases/$(1)/friction.yaml > $$@
-$(FOTS)/runs/$(1)/gel/tetmesh.yaml: $(FOTS)/runs/$(1)/settings/sensor.yaml $(MARKERS_MESH) | build
+$(call changed_config,$(FOTS)/runs/$(1)/settings/sensor.yaml,$(MARKERS_SENSOR),$(addprefix gel.thickness_mm=,$(MARKERS_THICKNESS_MM_$(1))))
+$(FOTS)/runs/$(1)/settings/press.yaml: $(MARKERS_PRESS) $(FOTS)/cases/cases.yaml FORCE
+	$$(call replace_if_changed_by,cat $(MARKERS_PRESS) $(FOTS)/cases/$(1)/friction.yaml)
+$(FOTS)/runs/$(1)/gel/tetmesh.yaml: $(FOTS)/runs/$(1)/settings/sensor.yaml $(MARKERS_MESH) $(always) | build
 	$$(call run,tetmesh,--sensor $(FOTS)/runs/$(1)/settings/sensor.yaml --config $(MARKERS_MESH))
 endef
 define fots_run
-$(FOTS)/runs/$(1)/$(2)/press.yaml: $(FOTS)/runs/$(1)/indenter/indenter.yaml $(FOTS)/runs/$(1)/gel/tetmesh.yaml $(FOTS)/runs/$(1)/settings/press.yaml | build
+$(FOTS)/runs/$(1)/$(2)/press.yaml: $(FOTS)/runs/$(1)/indenter/indenter.yaml $(FOTS)/runs/$(1)/gel/tetmesh.yaml $(FOTS)/runs/$(1)/settings/press.yaml \
+    $(always) | build
 	$$(call run,press,--name $(1)_$(2) --object $(FOTS)/runs/$(1)/indenter/object.ply --object-config configs/objects/embossed.yaml \
 	  --gel $(FOTS)/runs/$(1)/gel/gel.msh --sensor $(FOTS)/runs/$(1)/settings/sensor.yaml \
 	  --config $(FOTS)/runs/$(1)/settings/press.yaml --sample $(FOTS)/cases/motion_$(2).yaml)
@@ -51,33 +49,27 @@ $(foreach v,$(MARKERS_VARIANTS),$(eval $(call fots_variant,$(v)))$(foreach d,$(M
 FOTS_RIVALS := fots_published fots_fitted taxim_superposition
 FOTS_FITTED_KEYS := markers.press_per_mm2=1.26514 markers.shear_per_mm2=0.065174
 FOTS_DEEPEST := $(lastword $(MARKERS_DEPTHS))
-$(FOTS)/unit/indenter/indenter.yaml: configs/studies/fots/unit_response/indenter.yaml | build
+$(FOTS)/unit/indenter/indenter.yaml: configs/studies/fots/unit_response/indenter.yaml $(always) | build
 	$(call run,indenter,--config $<)
-$(FOTS)/unit/settings.yaml: $(MARKERS_PRESS) configs/studies/fots/unit_response/friction.yaml
-	mkdir -p $(@D)
-	cat $^ > $@
+$(FOTS)/unit/settings.yaml: $(MARKERS_PRESS) configs/studies/fots/unit_response/friction.yaml FORCE
+	$(call replace_if_changed_by,cat $(filter %.yaml,$^))
 $(FOTS)/unit/press/press.yaml: $(FOTS)/unit/indenter/indenter.yaml $(FOTS)/unit/settings.yaml configs/studies/fots/unit_response/motion.yaml \
-    $(FOTS)/runs/base/gel/tetmesh.yaml | build
+    $(FOTS)/runs/base/gel/tetmesh.yaml $(always) | build
 	$(call run,press,--name unit --object $(FOTS)/unit/indenter/object.ply --object-config configs/objects/embossed.yaml --gel $(FOTS)/runs/base/gel/gel.msh \
 	  --sensor $(FOTS)/runs/base/settings/sensor.yaml --config $(FOTS)/unit/settings.yaml --sample configs/studies/fots/unit_response/motion.yaml)
-$(FOTS)/rivals/fots_published.yaml: configs/rivals/baseline/fots_markers.yaml
-	mkdir -p $(@D)
-	cp $< $@
-$(FOTS)/rivals/fots_fitted.yaml: configs/rivals/baseline/fots_markers.yaml | build
-	mkdir -p $(@D)
-	$(BIN)/tacipc set $< $(FOTS_FITTED_KEYS) > $@
-$(FOTS)/rivals/taxim_superposition.yaml: configs/rivals/baseline/taxim_markers.yaml
-	mkdir -p $(@D)
-	cp $< $@
+$(eval $(call changed_config,$(FOTS)/rivals/fots_published.yaml,configs/rivals/baseline/fots_markers.yaml,))
+$(eval $(call changed_config,$(FOTS)/rivals/fots_fitted.yaml,configs/rivals/baseline/fots_markers.yaml,$(FOTS_FITTED_KEYS)))
+$(eval $(call changed_config,$(FOTS)/rivals/taxim_superposition.yaml,configs/rivals/baseline/taxim_markers.yaml,))
 $(FOTS)/rivals/taxim_superposition/baseline.yaml: $(FOTS)/unit/press/press.yaml
-$(FOTS_RIVALS:%=$(FOTS)/rivals/%/baseline.yaml): $(FOTS)/rivals/%/baseline.yaml: $(FOTS)/rivals/%.yaml $(FOTS)/runs/base/$(FOTS_DEEPEST)/press.yaml | build
+$(FOTS_RIVALS:%=$(FOTS)/rivals/%/baseline.yaml): $(FOTS)/rivals/%/baseline.yaml: $(FOTS)/rivals/%.yaml $(FOTS)/runs/base/$(FOTS_DEEPEST)/press.yaml \
+    $(always) | build
 	$(call try,baseline,--config $< --sensor $(FOTS)/runs/base/settings/sensor.yaml --object $(FOTS)/runs/base/indenter/object.ply \
 	  --press $(FOTS)/runs/base/$(FOTS_DEEPEST) $(if $(filter taxim_superposition,$*),--response $(FOTS)/unit/press))
 FOTS_RIVAL_RECORDS := $(FOTS_RIVALS:%=$(FOTS)/rivals/%/baseline.yaml)
 fots_rival_runs = $(foreach r,$(FOTS_RIVALS),$(r)=$(FOTS)/rivals/$(r))
 
 $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
-    $(FOTS_RIVAL_RECORDS) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(foreach a,$(ALSO),$(shell find $(a) -name "*.npy")) | build
+    $(FOTS_RIVAL_RECORDS) $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(foreach a,$(ALSO),$(shell find $(a) -name "*.npy")) $(always) | build
 	$(call run,marker_fit,--config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
 	  --runs $(foreach v,$(MARKERS_VARIANTS),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(fots_rival_runs) $(foreach a,$(ALSO:%/=%),$(notdir $(a))=$(a)))
 
@@ -112,7 +104,7 @@ $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_tacc
 
 $(FOTS)/fit_tacchi/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(v)/$(d)/press.yaml)) \
     $(foreach t,$(FOTS_TACCHI),$(foreach d,$(MARKERS_DEPTHS),$(FOTS)/runs/$(t)/$(d)/mpm.yaml)) $(FOTS_RIVAL_RECORDS) \
-    $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) | build
+    $(addprefix $(SHARED)/,$(MARKERS_PRESSED) $(MARKERS_SHEARED)) $(always) | build
 	$(call run,marker_fit,--name TacIPC --config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
 	  --runs $(foreach v,$(MARKERS_VARIANTS) $(FOTS_TACCHI),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(fots_rival_runs))
 

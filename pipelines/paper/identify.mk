@@ -18,7 +18,7 @@ ifeq ($(wildcard $(SHARED)),)
 endif
 
 # Inputs of the stages: made from the one file first, then make restarts with its variables.
-$(IDENTIFIED)/cases/cases.yaml: $(IDENTIFY) | build
+$(IDENTIFIED)/cases/cases.yaml: $(IDENTIFY) $(always) | build
 	@[ -x $(BIN)/identify ] || { echo "identify: not built for want of libceres-dev: make -f Makefile.data packages build GROUPS=identify" >&2; exit 2; }
 	$(call run,cases,--config $<)
 $(IDENTIFIED)/cases/cases.mk: $(IDENTIFIED)/cases/cases.yaml ;
@@ -44,12 +44,12 @@ $(foreach n,$(IDENTIFY_NODES),$(eval $(call changed_config,$(IDENTIFIED)/setting
 
 # $(call identify_gel,name,node,mesh)
 define identify_gel
-$(IDENTIFIED)/$(1)/tetmesh.yaml: $(IDENTIFIED)/settings/$(2)/sensor.yaml $(3) | build
+$(IDENTIFIED)/$(1)/tetmesh.yaml: $(IDENTIFIED)/settings/$(2)/sensor.yaml $(3) $(always) | build
 	$$(call run,tetmesh,--sensor $$< --config $(3))
 endef
 $(foreach g,$(IDENTIFY_GELS),$(eval $(call identify_gel,$(g),$(IDENTIFY_FIRST_$(g)),$(IDENTIFY_MESH))))
 define identify_indenter
-$(IDENTIFIED)/indenters/$(1)/indenter.yaml: $(IDENTIFIED)/settings/$(1)/indenter.yaml $(addprefix $(SHARED)/,$(IDENTIFY_OBJECT_$(1))) | build
+$(IDENTIFIED)/indenters/$(1)/indenter.yaml: $(IDENTIFIED)/settings/$(1)/indenter.yaml $(addprefix $(SHARED)/,$(IDENTIFY_OBJECT_$(1))) $(always) | build
 	$$(call run,indenter,--config $$< $(addprefix --mesh $(SHARED)/,$(IDENTIFY_OBJECT_$(1))))
 endef
 $(foreach m,$(IDENTIFY_MEASUREMENTS),$(eval $(call identify_indenter,$(m))))
@@ -57,7 +57,7 @@ $(foreach m,$(IDENTIFY_MEASUREMENTS),$(eval $(call identify_indenter,$(m))))
 # $(call identify_press,folder below runs,run,folder of the sensor below settings,gel,press configuration)
 define identify_press
 $(IDENTIFIED)/runs/$(1)/$(2)/press.yaml: $(IDENTIFIED)/indenters/$(IDENTIFY_MEASUREMENT_$(2))/indenter.yaml $(IDENTIFIED)/$(4)/tetmesh.yaml \
-    $(IDENTIFIED)/settings/$(3)/sensor.yaml $(IDENTIFIED)/settings/motion_$(2).yaml $(5) | build
+    $(IDENTIFIED)/settings/$(3)/sensor.yaml $(IDENTIFIED)/settings/motion_$(2).yaml $(5) $(always) | build
 	$$(call run,press,--name $(1)_$(2) --object $(IDENTIFIED)/indenters/$(IDENTIFY_MEASUREMENT_$(2))/object.ply --object-config configs/objects/embossed.yaml \
 	  --gel $(IDENTIFIED)/$(4)/gel.msh --sensor $(IDENTIFIED)/settings/$(3)/sensor.yaml --config $(5) --sample $(IDENTIFIED)/settings/motion_$(2).yaml \
 	  --log-level warning)
@@ -80,7 +80,7 @@ $(foreach c,$(IDENTIFY_CHECKS),$(eval $(call identify_check,$(c)))$(foreach r,$(
 
 identify_runs := $(foreach n,$(IDENTIFY_NODES),$(IDENTIFY_RUNS:%=$(n)/%)) $(foreach c,$(IDENTIFY_CHECKS),$(identify_checked:%=$(c)/%))
 $(IDENTIFIED)/fit/identify.yaml: $(IDENTIFY) $(IDENTIFIED)/settings/sensor.yaml $(identify_runs:%=$(IDENTIFIED)/runs/%/press.yaml) \
-    $(identify_tables) | build
+    $(identify_tables) $(always) | build
 	$(call run,identify,--config $(IDENTIFY) --sensor $(IDENTIFIED)/settings/sensor.yaml \
 	  --measured $(foreach m,$(IDENTIFY_MEASUREMENTS),$(m)=$(SHARED)/$(IDENTIFY_FILE_$(m))) --runs $(foreach r,$(identify_runs),$(r)=$(IDENTIFIED)/runs/$(r)))
 

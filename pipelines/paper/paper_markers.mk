@@ -12,7 +12,7 @@ RIVALS_RUNS := $(OUT)/paper/marker_runs
 define tacchi_run
 $(call fields,tacchi,name numerics sensor motion object object_yaml,$(2))
 $(call changed_config,$(1).config.yaml,configs/rivals/mpm/$(tacchi_numerics).yaml,pixels=none $(3))
-$(1)/mpm.yaml: $(1).config.yaml $(tacchi_sensor) $(tacchi_motion) $(tacchi_object) $(tacchi_object_yaml) | build
+$(1)/mpm.yaml: $(1).config.yaml $(tacchi_sensor) $(tacchi_motion) $(tacchi_object) $(tacchi_object_yaml) $(always) | build
 	$$(call try,mpm,--name $(tacchi_name) --config $(1).config.yaml --sensor $(tacchi_sensor) --sample $(tacchi_motion) \
 	  --object $(dir $(tacchi_object))object.ply --object-config $(tacchi_object_yaml))
 endef
@@ -64,9 +64,9 @@ RIVALS_BOARD3_FACTORS := $(RIVALS_FRICTIONS:%=$(RIVALS_BOARD3)/friction_%/press)
 
 # The same with a ball, coarse and short.
 RIVALS_QUICK := $(RIVALS_RUNS)/quick
-$(RIVALS_QUICK)/ball/indenter.yaml: configs/studies/paper/markers/quick_ball.yaml | build
+$(RIVALS_QUICK)/ball/indenter.yaml: configs/studies/paper/markers/quick_ball.yaml $(always) | build
 	$(call run,indenter,--config $<)
-$(RIVALS_QUICK)/object/decimate.yaml: $(RIVALS_QUICK)/ball/indenter.yaml configs/objects/embossed.yaml configs/objects/decimate/default.yaml | build
+$(RIVALS_QUICK)/object/decimate.yaml: $(RIVALS_QUICK)/ball/indenter.yaml configs/objects/embossed.yaml configs/objects/decimate/default.yaml $(always) | build
 	$(call run,decimate,--mesh $(RIVALS_QUICK)/ball/object.ply --object configs/objects/embossed.yaml --config configs/objects/decimate/default.yaml)
 $(eval $(call sample_rules,$(RIVALS_QUICK)/tacipc,name=tacipc object=$(RIVALS_QUICK)/object object_yaml=configs/objects/embossed.yaml sensor=mctac_3mm \
   mesh=adaptive_0400um motion=configs/studies/paper/markers/quick_shear.yaml press=configs/press/friction_viscous.yaml by=try))
@@ -81,7 +81,7 @@ $(eval $(call quick_tacchi,points_6,$(RIVALS_LEGACY),object.samples_per_mm2=6))
 # $(call comparison_rule,title,runs,factors): $(RIVALS_RUNS)/pages/<title>
 define comparison_rule
 $(RIVALS_RUNS)/pages/$(1)/compare_simulators.yaml: configs/studies/paper/markers/$(1).yaml \
-    $(foreach r,$(2) $(3),$(r)/$(if $(filter %/press,$(r)),press,mpm).yaml) | build-verification
+    $(foreach r,$(2) $(3),$(r)/$(if $(filter %/press,$(r)),press,mpm).yaml) $(always) | build-verification
 	$$(call run,compare_simulators,--config configs/studies/paper/markers/$(1).yaml $(2:%=--run %) $(3:%=--factor %))
 endef
 $(eval $(call comparison_rule,board3,$(RIVALS_BOARD3_RUNS),$(RIVALS_BOARD3_FACTORS)))

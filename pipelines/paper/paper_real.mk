@@ -29,7 +29,7 @@ $(foreach t,$(PAPER_TACCHI),$(eval $(call changed_config,$(PAPER_REAL)/$(t)/nume
 # Its gel under the balls that calibrate, each at the place and depth that our calibration found, and under the objects
 # at ours. $(call paper_mpm,which Tacchi,balls/ball_0000 or objects/name,indenter folder)
 define paper_mpm
-$(PAPER_REAL)/$(1)/$(2)/mpm.yaml: $(PAPER_REAL)/motions/$(2)/motion.yaml $(3)/indenter.yaml $(PAPER_REAL)/$(1)/numerics.yaml $(CASES_SENSOR) | build
+$(PAPER_REAL)/$(1)/$(2)/mpm.yaml: $(PAPER_REAL)/motions/$(2)/motion.yaml $(3)/indenter.yaml $(PAPER_REAL)/$(1)/numerics.yaml $(CASES_SENSOR) $(always) | build
 	$$(call run,mpm,--name $(notdir $(2)) --config $(PAPER_REAL)/$(1)/numerics.yaml --sensor $(CASES_SENSOR) --sample $(PAPER_REAL)/motions/$(2)/motion.yaml \
 	  --object $(3)/object.ply --object-config configs/objects/embossed.yaml)
 endef
@@ -40,7 +40,7 @@ $(PAPER_REAL)/motions/balls/ball_%/motion.yaml: $(SIM2REAL)/calibrate/calibrate.
 	printf 'placement: {center_mm: [%s, %s]}\nmotion: {kind: press, depth_mm: %s, steps: 1}\n' "$$x" "$$y" "$$depth" > $@
 define paper_light
 $(PAPER_REAL)/$(1)/calibrate/calibrate.yaml: $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/mpm.yaml) \
-    $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/mpm.yaml) $(CASES_CALIBRATE) | build
+    $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/mpm.yaml) $(CASES_CALIBRATE) $(always) | build
 	$$(call run,calibrate,$$(calibration) --shapes $(foreach b,$(PAPER_BALLS),$(PAPER_REAL)/$(1)/$(b)/frame_0001/seen_indentation.exr) \
 	  $(foreach o,$(CASES_KNOWN),$(PAPER_REAL)/$(1)/objects/$(o)/frame_$(call known_frame,$(o),0)/seen_indentation.exr))
 endef
@@ -48,12 +48,12 @@ $(foreach t,$(PAPER_TACCHI_LIT),$(eval $(call paper_light,$(t)))$(foreach b,$(PA
 
 # $(call paper_shade,method,object,light's record,record of the shapes,shapes)
 define paper_shade
-$(PAPER_REAL)/simulated/$(1)/$(2)/shade.yaml: $(4) $(3) | build
+$(PAPER_REAL)/simulated/$(1)/$(2)/shade.yaml: $(4) $(3) $(always) | build
 	$$(call run,shade,$$(call shading,$(2)) --light $(dir $(3))light.yaml --shapes $(5))
 endef
 # $(call paper_legacy,method,object,configuration,record of the shapes,shapes): images under the photographs' names
 define paper_legacy
-$(PAPER_REAL)/legacy/$(1)/$(2)/baseline.yaml: $(4) $(PAPER_CONFIGS)/legacy_$(3).yaml | build
+$(PAPER_REAL)/legacy/$(1)/$(2)/baseline.yaml: $(4) $(PAPER_CONFIGS)/legacy_$(3).yaml $(always) | build
 	$$(call run,baseline,--config $(PAPER_CONFIGS)/legacy_$(3).yaml --sensor $(CASES_SENSOR) --background $(cases_background) $(5))
 $(PAPER_REAL)/simulated/$(1)/$(2)/shade.yaml: $(PAPER_REAL)/legacy/$(1)/$(2)/baseline.yaml
 	mkdir -p $$(@D)
@@ -92,7 +92,7 @@ $(foreach o,$(CASES_OBJECTS),$(eval $(call paper_objects,$(o))))
 PAPER_METHODS := $(PAPER_TACCHI_LIT) $(PAPER_TACCHI:%=%-our-light) depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential
 paper_images = $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(PAPER_REAL)/simulated/$(1)/$(o)/$(i).png))
 $(foreach m,$(PAPER_METHODS),$(eval $(PAPER_REAL)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(PAPER_REAL)/simulated/$(m)/$(o)/shade.yaml)))
-$(PAPER_REAL)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
+$(PAPER_REAL)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml $(always) | build
 	$(call run,metrics,--config $(SIM2REAL)/cases/metrics.yaml --images $(call paper_images,$*) --reference $(CASES_REAL))
 
 # Rows of the table that rivals.mk makes.
@@ -109,7 +109,7 @@ ifneq ($(filter paper-real,$(MAKECMDGOALS)),)
 $(RIVALS)/speed/bench_rivals.yaml: | $(PAPER_SCORES)
 $(if $(RIVALS_TABLE),$(eval $(PAPER_REAL)/speed/bench_rivals.yaml: | $(RIVALS)/tabulate.yaml))
 endif
-$(PAPER_REAL)/tabulate.yaml: $(PAPER_TABLE) $(PAPER_SCORES) $(PAPER_REAL)/speed/bench_rivals.yaml | build
+$(PAPER_REAL)/tabulate.yaml: $(PAPER_TABLE) $(PAPER_SCORES) $(PAPER_REAL)/speed/bench_rivals.yaml $(always) | build
 	$(call run,tabulate,--config $(PAPER_TABLE) --speeds $(PAPER_REAL)/speed/image_speeds.csv --pictures $(addprefix photograph=,$(CASES_REAL)) \
 	  $(foreach m,ours depth-based,$(addprefix $(m)=,$(call sim2real_images,$(m)))) \
 	  $(foreach m,$(PAPER_METHODS),$(addprefix $(m)=,$(call paper_images,$(m)))) $(foreach m,$(PAPER_RIVALS),$(call rivals_pictures,$(m))) \

@@ -18,7 +18,7 @@ endif
 $(eval $(call changed_config,$(RIVALS)/rigid/parallel.yaml,configs/rivals/baseline/rigid.yaml,+rays=parallel))
 $(eval $(call changed_config,$(RIVALS)/rigid/refracted.yaml,configs/rivals/baseline/rigid.yaml,))
 define rivals_rigid
-$(RIVALS)/rigid/$(1)/$(2)/baseline.yaml: $(SIM2REAL)/ours/$(2)/shade.yaml $(RIVALS)/rigid/$(1).yaml | build
+$(RIVALS)/rigid/$(1)/$(2)/baseline.yaml: $(SIM2REAL)/ours/$(2)/shade.yaml $(RIVALS)/rigid/$(1).yaml $(always) | build
 	$$(call run,baseline,--config $(RIVALS)/rigid/$(1).yaml --sensor $(CASES_SENSOR) $(call cases_posed,$(2)))
 endef
 $(foreach r,parallel refracted,$(foreach o,$(CASES_KNOWN),$(eval $(call rivals_rigid,$(r),$(o)))))
@@ -26,20 +26,15 @@ rivals_rays = $(if $(filter tacto,$(1)),refracted,parallel)
 
 # Their lights. Circles that are not the contact's rim are no labels for them: then the contacts are those of our fit.
 rivals_balls := $(if $(CASES_TABLE),--balls $(SIM2REAL)/calibrate/balls.csv)
-$(RIVALS)/fits/taxim_%.yaml: configs/rivals/calibrate/taxim_%.yaml
-	mkdir -p $(@D)
-	cp $< $@
-$(RIVALS)/fits/fots_%.yaml: configs/rivals/calibrate/fots.yaml | build
-	mkdir -p $(@D)
-	$(BIN)/tacipc set $< seed=$* > $@
-$(RIVALS)/fits/tacto.yaml: $(RIVALS_CONFIGS)/tacto_lamps.yaml
-	mkdir -p $(@D)
-	{ echo 'model: metallic_roughness'; cat $<; } > $@
+$(foreach f,taxim_released taxim_pooled,$(eval $(call changed_config,$(RIVALS)/fits/$(f).yaml,configs/rivals/calibrate/$(f).yaml,)))
+$(foreach s,$(RIVALS_SEEDS),$(eval $(call changed_config,$(RIVALS)/fits/fots_$(s).yaml,configs/rivals/calibrate/fots.yaml,seed=$(s))))
+$(RIVALS)/fits/tacto.yaml: $(RIVALS_CONFIGS)/tacto_lamps.yaml FORCE
+	$(call replace_if_changed_by,{ echo 'model: metallic_roughness'; cat $<; })
 # $(call rivals_fit,fit)
 define rivals_fit
 $(RIVALS)/calibrate/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml \
     $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/baseline.yaml) $(background_record) \
-    $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+    $(if $(CASES_TABLE),$(SIM2REAL)/calibrate/calibrate.yaml) $(CASES_CALIBRATE) $(CASES_SENSOR) $(always) | build
 	$$(call run,calibrate,$$(calibration) --rival $(RIVALS)/fits/$(1).yaml $(rivals_balls) \
 	  $(if $(CASES_KNOWN),--shapes $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/frame_$$(call known_frame,$(o),-1)/indentation.exr)))
 endef
@@ -47,11 +42,11 @@ $(foreach f,taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%),$(eval $(
 # From balls alone, where known objects calibrate too; the depth-based method's balls are where the fit with the objects has put them.
 ifneq ($(CASES_KNOWN),)
 $(foreach f,taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%),$(RIVALS)/calibrate_balls/$(f)/calibrate.yaml): \
-  $(RIVALS)/calibrate_balls/%/calibrate.yaml: $(RIVALS)/fits/%.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+  $(RIVALS)/calibrate_balls/%/calibrate.yaml: $(RIVALS)/fits/%.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) $(always) | build
 	$(call run,calibrate,$(calibration_balls) --rival $<)
-$(RIVALS)/calibrate_balls/ours/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+$(RIVALS)/calibrate_balls/ours/calibrate.yaml: $(SIM2REAL)/ball/press/press.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) $(always) | build
 	$(call run,calibrate,$(calibration_balls) --press $(SIM2REAL)/ball/press --gel $(SIM2REAL)/gel/gel.msh)
-$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) | build
+$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) $(always) | build
 	$(call run,calibrate,$(calibration_balls) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr)
 endif
 
@@ -70,9 +65,7 @@ define rival
 RIVAL_METHODS += $(1)
 RIVAL_LIGHT_$(1) := $(addprefix --light ,$(4))
 RIVAL_RECORD_$(1) := $(5)
-$(RIVALS)/configs/$(1).yaml: $(if $(findstring /,$(2)),$(2),configs/rivals/baseline/$(2).yaml) $(CASES_CALIBRATE) | build
-	mkdir -p $$(@D)
-	$(BIN)/tacipc set $$< $(3) > $$@
+$(call changed_config,$(RIVALS)/configs/$(1).yaml,$(if $(findstring /,$(2)),$(2),configs/rivals/baseline/$(2).yaml),$(3))
 endef
 rival_blurred = +shading.final_blur_px=$(RIVALS_BLUR)
 # $(call rival_rows,method,configuration,light's file below a folder of calibrate): from all photographs, at its own place, without blur, from balls alone
@@ -117,7 +110,7 @@ rival_shape = $(if $(filter %-on-ours,$(1)),--depth $(call rival_shape_ours,$(2)
 rival_named = frames=($(call cases_frames,$(1),$(2),0,tactile.png)); i=0; \
   for image in $(CASES_IMAGES_$(1)); do cp "$${frames[i]}" $(@D)/$$image.png; i=$$((i + 1)); done; touch $@
 define rival_images
-$(RIVALS)/runs/$(1)/$(2)/baseline.yaml: $(SIM2REAL)/ours/$(2)/shade.yaml $(RIVALS)/configs/$(1).yaml $(RIVAL_RECORD_$(1)) | build
+$(RIVALS)/runs/$(1)/$(2)/baseline.yaml: $(SIM2REAL)/ours/$(2)/shade.yaml $(RIVALS)/configs/$(1).yaml $(RIVAL_RECORD_$(1)) $(always) | build
 	$$(call run,baseline,--config $(RIVALS)/configs/$(1).yaml --sensor $(CASES_SENSOR) --background $(cases_background) $(RIVAL_LIGHT_$(1)) \
 	  $(call rival_shape,$(1),$(2)))
 $(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(RIVALS)/runs/$(1)/$(2)/baseline.yaml
@@ -129,7 +122,7 @@ $(foreach m,$(RIVAL_METHODS),$(foreach o,$(CASES_OBJECTS),$(eval $(call rival_im
 # Our press at the place that was found with our light: without the slopes of its print, without the last blur, under the light of balls alone.
 # $(call rival_shaded,method,object,light's file,its record)
 define rival_shaded
-$(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(4) $(RIVALS)/places/$(2).yaml | build
+$(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(4) $(RIVALS)/places/$(2).yaml $(always) | build
 	$$(call run,shade,--sensor $(CASES_SENSOR) --background $(cases_background) --light $(3) --config $(RIVALS)/places/$(2).yaml \
 	  --press $(call cases_press,$(2))/press --gel $(SIM2REAL)/gel/gel.msh $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml))
 endef
@@ -149,7 +142,7 @@ $(foreach o,$(CASES_OBJECTS),$(eval $(call rival_object,$(o))))
 rivals_images = $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(RIVALS)/simulated/$(1)/$(o)/$(i).png))
 $(foreach m,$(RIVAL_METHODS) ours-light ours-sharp ours-balls,\
   $(eval $(RIVALS)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(RIVALS)/simulated/$(m)/$(o)/shade.yaml)))
-$(RIVALS)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml | build
+$(RIVALS)/metrics/%/metrics.yaml: $(SIM2REAL)/cases/cases.yaml $(always) | build
 	$(call run,metrics,--config $(SIM2REAL)/cases/metrics.yaml --images $(call rivals_images,$*) --reference $(CASES_REAL))
 rivals_from = $(if $(filter ours depth-based background,$(1)),$(SIM2REAL),$(RIVALS))/metrics/$(1)
 rivals_pictures = $(addprefix $(1)=,$(if $(filter ours depth-based,$(1)),$(call sim2real_images,$(1)),$(call rivals_images,$(1))))
@@ -175,7 +168,7 @@ rivals_speed = $(call run,bench_rivals,--sensor $(CASES_SENSOR) --press $(rivals
   --lights $(foreach m,$(RIVALS_TIMED),$(if $(RIVAL_LIGHT_$(m)),$(m)=$(lastword $(RIVAL_LIGHT_$(m))))) $(1))
 $(RIVALS)/speed/bench_rivals.yaml: $(rivals_timed) | $(RIVALS_METRICS) build-bench-rivals
 	$(call rivals_speed)
-$(RIVALS)/tabulate.yaml: $(RIVALS_TABLE) $(RIVALS_METRICS) $(RIVALS)/speed/bench_rivals.yaml | build
+$(RIVALS)/tabulate.yaml: $(RIVALS_TABLE) $(RIVALS_METRICS) $(RIVALS)/speed/bench_rivals.yaml $(always) | build
 	$(call run,tabulate,--config $(RIVALS_TABLE) --samples $(foreach m,$(RIVALS_ROWS),$(foreach r,$(call rivals_runs,$(m)),$(m)=$(r)/samples.csv)) \
 	  --speeds $(RIVALS)/speed/image_speeds.csv --pictures $(addprefix photograph=,$(CASES_REAL)) $(foreach m,$(RIVALS_SHOWN),$(call rivals_pictures,$(m))))
 

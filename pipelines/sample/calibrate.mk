@@ -45,16 +45,16 @@ $(CALIBRATED)/indenter.yaml: FORCE
 	$(call replace_if_changed,ball: {radius_mm: $(BALL_MM)$(comma) edge_mm: 0.2})
 $(CALIBRATED)/motion.yaml: FORCE
 	$(call replace_if_changed,$(ball_motion_yaml))
-$(CALIBRATED)/gel/tetmesh.yaml: $(SENSOR_FILE) configs/gels/$(MESH).yaml | build
+$(CALIBRATED)/gel/tetmesh.yaml: $(SENSOR_FILE) configs/gels/$(MESH).yaml $(always) | build
 	$(call run,tetmesh,--sensor $(SENSOR_FILE) --config configs/gels/$(MESH).yaml)
-$(CALIBRATED)/indenter/indenter.yaml: $(CALIBRATED)/indenter.yaml | build
+$(CALIBRATED)/indenter/indenter.yaml: $(CALIBRATED)/indenter.yaml $(always) | build
 	$(call run,indenter,--config $<)
 $(CALIBRATED)/press/press.yaml: $(CALIBRATED)/indenter/indenter.yaml $(CALIBRATED)/gel/tetmesh.yaml $(CALIBRATED)/motion.yaml $(SENSOR_FILE) \
-    $(BALL_PRESS) | build
+    $(BALL_PRESS) $(always) | build
 	$(call run,press,--name ball --object $(CALIBRATED)/indenter/object.ply --object-config configs/objects/embossed.yaml \
 	  --gel $(CALIBRATED)/gel/gel.msh --sensor $(SENSOR_FILE) --config $(BALL_PRESS) --sample $(CALIBRATED)/motion.yaml)
 $(CALIBRATED)/fit/calibrate.yaml: $(SENSOR_FILE) $(BACKGROUND) $(calibrate_photographs) $(LABELS) $(CALIBRATED)/fit.yaml \
-    $(if $(LABELS),$(CALIBRATED)/press/press.yaml) | build
+    $(if $(LABELS),$(CALIBRATED)/press/press.yaml) $(always) | build
 	$(call run,calibrate,--config $(CALIBRATED)/fit.yaml --sensor $(SENSOR_FILE) --background $(BACKGROUND) $(if $(LABELS), \
 	  --photographs $(PHOTOGRAPHS) --labels $(LABELS) --press $(CALIBRATED)/press --gel $(CALIBRATED)/gel/gel.msh))
 

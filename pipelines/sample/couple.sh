@@ -77,7 +77,12 @@ robot_try "$out/windows/begin" "$window" '' ''
   sha256sum < "$bin/robot"
   sha256sum < "$bin/press"
 } > "$out/windows/of.txt.new"
-if ! cmp -s "$out/windows/of.txt.new" "$out/windows/of.txt"; then
+if cmp -s "$out/windows/of.txt.new" "$out/windows/of.txt"; then
+  if "$bin/tacipc" unchanged "$out/robot/robot.yaml"; then
+    rm -rf "$out/windows/begin" "$out/windows/of.txt.new"
+    exit 0
+  fi
+else
   find "$out/windows" "$out/solved" -mindepth 1 -maxdepth 1 ! -name 'of.txt.new' -exec rm -rf {} +
   mv "$out/windows/of.txt.new" "$out/windows/of.txt"
 fi

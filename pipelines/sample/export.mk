@@ -11,7 +11,7 @@ exported := $(SAMPLE)$(if $(wildcard $(SAMPLE)/press.yaml),,/press)
 # $(call press_input,gel): the file the press was made with; its record says where, as seen from its own folder.
 press_input = $(exported)/$$($(BIN)/tacipc get $(exported)/press.yaml inputs.$(1).path)
 
-$(SAMPLE)/export/export.yaml: $(exported)/press.yaml | build
+$(SAMPLE)/export/export.yaml: $(exported)/press.yaml $(always) | build
 	$(call run,export,--press $(exported) --gel $(call press_input,gel) $$($(BIN)/tacipc get $(exported)/press.yaml inputs.object.path --default '' \
 	  | sed -n 's#^.#--object $(exported)/&#p'))
 

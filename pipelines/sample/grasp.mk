@@ -63,21 +63,21 @@ $(GRASPED)/choice.txt: FORCE
 	$(call replace_if_changed,$(grasp_choice))
 $(GRASPED)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
 	$(call replace_if_changed_by,$(BIN)/tacipc set $< 'friction.coefficient=$(FRICTION)')
-$(GRASPED)/wrap/wrap.yaml: $(OBJECT) $(GRASPED)/object.yaml $(GRASPED)/choice.txt | build
+$(GRASPED)/wrap/wrap.yaml: $(OBJECT) $(GRASPED)/object.yaml $(GRASPED)/choice.txt $(always) | build
 	$(wrap_is_built)
 	$(call run,wrap,--mesh $(OBJECT) --object $(GRASPED)/object.yaml)
 $(GRASPED)/object/decimate.yaml: $(OBJECT) $(GRASPED)/object.yaml $(call grasp_made,wrap.yaml) $(GRASPED)/choice.txt \
-    configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml | build
+    configs/objects/decimate/default.yaml configs/sensors/$(SENSOR).yaml $(always) | build
 	$(call run,decimate,--mesh $(call grasp_made,object.ply,$(OBJECT)) --object $(call grasp_made,object.yaml,$(GRASPED)/object.yaml) \
 	  --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
 $(GRASPED)/press.yaml: $(GRASPED)/object/decimate.yaml $(grasp_gel)/tetmesh.yaml configs/sensors/$(SENSOR).yaml $(grasp_config) $(grasp_spec) \
-    $(GRASPED)/choice.txt | build
+    $(GRASPED)/choice.txt $(always) | build
 	$(call run,press,--name $(NAME) --object $(GRASPED)/object/object.ply --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml \
 	  --config $(grasp_config) --sample $(grasp_spec))
 $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml: $(GRASPED)/%/render/render.yaml: $(GRASPED)/press.yaml \
-    configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
+    configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) $(always) | build
 	$(call run,render,--press $(GRASPED)/$*/press --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
-$(GRASPED)/report/report.yaml: $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml | build
+$(GRASPED)/report/report.yaml: $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml $(always) | build
 	$(call run,report,--title "$(NAME)" --grasp $(GRASPED))
 
 grasp: ## own: Two sensors grip, hold and lift an object: OBJECT=path.stl [MASS_G=80 FORCE_N=5 FRICTION=0.7 LIFT_MM=10 SEED=1; TURN= GRIP=; GRASP=your.yaml]

@@ -11,7 +11,7 @@ ifeq ($(wildcard configs/rivals/mpm/$(MPM).yaml),)
 endif
 MPM_SAMPLE := $(SAMPLE)/mpm-$(MPM)
 $(MPM_SAMPLE)/mpm.yaml: $(SAMPLE)/object/decimate.yaml $(SAMPLE)/object.yaml $(sample_spec) $(motion_paths) configs/sensors/$(SENSOR).yaml \
-    configs/rivals/mpm/$(MPM).yaml $(SAMPLE)/choice.txt | build
+    configs/rivals/mpm/$(MPM).yaml $(SAMPLE)/choice.txt $(always) | build
 	$(call run,mpm,--name $(NAME) --object $(SAMPLE)/object/object.ply --object-config $(SAMPLE)/object.yaml --sensor configs/sensors/$(SENSOR).yaml \
 	  --config configs/rivals/mpm/$(MPM).yaml --sample $(sample_spec))
 

@@ -23,7 +23,7 @@ table_rules = $(call sample_rules,$(TABLE)/$(1)/$(2),name=$(2) object=$(TABLE)/o
 
 # $(call table_object,file): decimated as every object is, the relief side pressing.
 define table_object
-$(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml | build
+$(TABLE)/objects/$(call name_of,$(1))/decimate.yaml: $(1) configs/objects/printed_indenter.yaml configs/objects/decimate/default.yaml $(always) | build
 	$$(call run,decimate,--mesh $(1) --object configs/objects/printed_indenter.yaml --config configs/objects/decimate/default.yaml)
 $(call table_rules,own,$(call name_of,$(1)),adaptive_0250um,frictionless)
 endef
@@ -31,7 +31,7 @@ $(foreach f,$(TABLE_FILES),$(eval $(call table_object,$(f))))
 
 # The paper's own gel.
 PAPER_GEL := $(SHARED)/data/tacipc_release/gel/gelslim-gel-l_0.1.msh
-$(OUT)/gels/mctac-import_paper/tetmesh.yaml: $(PAPER_GEL) configs/gels/import_paper.yaml configs/sensors/mctac.yaml | build
+$(OUT)/gels/mctac-import_paper/tetmesh.yaml: $(PAPER_GEL) configs/gels/import_paper.yaml configs/sensors/mctac.yaml $(always) | build
 	$(call run,tetmesh,--import $(PAPER_GEL) --sensor configs/sensors/mctac.yaml --config configs/gels/import_paper.yaml)
 $(foreach o,$(PAPER_GEL_OBJECTS),$(eval $(call table_rules,paper,$(o),import_paper,paper)))
 

@@ -19,21 +19,21 @@ $(1)/choice.txt: FORCE
 	$$(call replace_if_changed,{task: $$(abspath $(3))$$(comma) sensor: $(4)$$(comma) mesh: $(5)$$(comma) press: $(6)$$(comma) seed: $(7)$$(comma) \
 	  alone: $$(ALONE)})
 $(1)/robot/robot.yaml: $(3) $$(wildcard $$(dir $(3))*.xml configs/robots/*.xml) $$(OUT)/gels/$(4)-$(5)/tetmesh.yaml configs/sensors/$(4).yaml \
-    configs/press/$(6).yaml $(1)/choice.txt | build
+    configs/press/$(6).yaml $(1)/choice.txt $(always) | build
 	$$(robot_is_built)
 	$(if $(filter yes,$(ALONE)),rm -f $(1)/residuals.csv; $$(call run,robot,--name $(2) --task $(3) --seed $(7)),\
 	  OPENBLAS_NUM_THREADS=1 bash pipelines/sample/couple.sh $$(BIN) $(1) $(3) --name $(2) --task $(3) --seed $(7) -- \
 	    --name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml --threads $$(THREADS))
-$(1)/press.yaml: $(1)/robot/robot.yaml | build
+$(1)/press.yaml: $(1)/robot/robot.yaml $(always) | build
 	$$(call run,press,--name $(2) --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/press/$(6).yaml \
 	  --sample $(1)/robot/scene.yaml $(if $(filter yes,$(ALONE)),,--solved $(1)/solved))
-$(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) | build
+$(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) $(always) | build
 	$$(call run,render,--press $(1)/gels/$$*/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml)
 # Which gels there are.
 $(1)/pads.mk: $(3) FORCE | build
 	$$(call replace_if_changed_by,echo "robot_pads_$(2) := $$$$($$(call robot_pads,$(3)) | paste -s -d ' ')")
 include $(1)/pads.mk
-$(1)/report/report.yaml: $$(foreach p,$$(robot_pads_$(2)),$(1)/gels/$$(p)/render/render.yaml) | build
+$(1)/report/report.yaml: $$(foreach p,$$(robot_pads_$(2)),$(1)/gels/$$(p)/render/render.yaml) $(always) | build
 	$$(call run,report,--title "$(2)" --scene $(1))
 endef
 
@@ -71,7 +71,7 @@ packages_for_robot-demo := robot
 ifneq ($(filter robot-demo,$(MAKECMDGOALS)),)
 $(foreach t,$(demo_tasks),$(eval $(call robot_rules,$(OUT)/robot-demo/$(t),$(t),configs/tasks/$(t).yaml,mctac,$(demo_mesh),default,1)))
 demo_pages := $(foreach t,$(demo_tasks),$(OUT)/robot-demo/$(t)/report/report.yaml)
-$(OUT)/robot-demo/report/report.yaml: $(demo_pages) | build
+$(OUT)/robot-demo/report/report.yaml: $(demo_pages) $(always) | build
 	$(call run,report,--title "Robots with gels on their fingers" $(foreach t,$(demo_tasks),--scene $(OUT)/robot-demo/$(t)))
 robot-demo: $(OUT)/robot-demo/report/report.yaml ## start: Four tasks of robots with gels on their fingers, with pages
 	@echo; echo "Look at $(OUT)/robot-demo/report/index.html"

@@ -130,13 +130,13 @@ $(SAMPLE)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
 $(SAMPLE)/choice.txt: FORCE
 	$(call replace_if_changed,$(choice_yaml))
 	$(if $(motion_file),@rm -f $(SAMPLE)/sample.yaml)
-$(SAMPLE)/wrap/wrap.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt | build
+$(SAMPLE)/wrap/wrap.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt $(always) | build
 	$(wrap_is_built)
 	$(call run,wrap,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml)
 # What decimate takes: the mesh, or the wrap with an object file of its own.
 wrap_made = $(if $(filter-out no,$(WRAP)),$(SAMPLE)/wrap/$(1),$(2))
 $(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(call wrap_made,wrap.yaml) $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml \
-    configs/sensors/$(SENSOR).yaml | build
+    configs/sensors/$(SENSOR).yaml $(always) | build
 	$(call run,decimate,--mesh $(call wrap_made,object.ply,$(OBJECT)) --object $(call wrap_made,object.yaml,$(SAMPLE)/object.yaml) \
 	  --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
 ifdef choose_side
@@ -153,10 +153,10 @@ $(eval $(call chosen_rules,$(SAMPLE),$(NAME),$(sample_spec)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
 # Every frame rendered, and the printed markers found in the images.
-$(SAMPLE)/frames/render.yaml: $(SAMPLE)/press/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
+$(SAMPLE)/frames/render.yaml: $(SAMPLE)/press/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) $(always) | build
 	$(call run,render,--press $(SAMPLE)/press --gel $(OUT)/gels/$(SENSOR)-$(MESH)/gel.msh --sensor configs/sensors/$(SENSOR).yaml \
 	  --config configs/render/all_frames.yaml)
-$(SAMPLE)/track/track.yaml: $(SAMPLE)/frames/render.yaml configs/render/track/default.yaml | build
+$(SAMPLE)/track/track.yaml: $(SAMPLE)/frames/render.yaml configs/render/track/default.yaml $(always) | build
 	$(call run,track,--render $(SAMPLE)/frames --config configs/render/track/default.yaml)
 
 track: $(SAMPLE)/track/track.yaml ## own: Printed markers of a sample measured in its images: OBJECT=path.stl [as of sample]

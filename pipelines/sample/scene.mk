@@ -32,17 +32,17 @@ $(SCENED)/choice.txt: FORCE
 $(SCENED)/press_config.yaml: configs/press/$(PRESS).yaml FORCE | build
 	$(call replace_if_changed_by,$(BIN)/tacipc set $< 'friction.coefficient=$(FRICTION)')
 define scene_soft_rule
-$(SCENED)/tets/$(1)/tetmesh.yaml: $(scene_surface_$(1)) configs/gels/$(SOFT).yaml $(SCENED)/choice.txt | build
+$(SCENED)/tets/$(1)/tetmesh.yaml: $(scene_surface_$(1)) configs/gels/$(SOFT).yaml $(SCENED)/choice.txt $(always) | build
 	$$(call run,tetmesh,--object $(scene_surface_$(1)) --config configs/gels/$(SOFT).yaml)
 endef
 $(foreach b,$(scene_soft),$(eval $(call scene_soft_rule,$(b))))
 $(SCENED)/press.yaml: $(SCENE) $(scene_files) $(foreach b,$(scene_soft),$(SCENED)/tets/$(b)/tetmesh.yaml) $(scene_gel)/tetmesh.yaml \
-    configs/sensors/$(SENSOR).yaml $(scene_config) $(SCENED)/choice.txt | build
+    configs/sensors/$(SENSOR).yaml $(scene_config) $(SCENED)/choice.txt $(always) | build
 	$(call run,press,--name $(scene_name) --gel $(scene_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config $(scene_config) \
 	  --sample $(SCENE) $(if $(scene_soft),--soft $(SCENED)/tets))
-$(SCENED)/gels/%/render/render.yaml: $(SCENED)/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) | build
+$(SCENED)/gels/%/render/render.yaml: $(SCENED)/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) $(always) | build
 	$(call run,render,--press $(SCENED)/gels/$*/press --gel $(scene_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
-$(SCENED)/report/report.yaml: $(foreach g,$(scene_gels),$(SCENED)/gels/$(g)/render/render.yaml) | build
+$(SCENED)/report/report.yaml: $(foreach g,$(scene_gels),$(SCENED)/gels/$(g)/render/render.yaml) $(always) | build
 	$(call run,report,--title "$(scene_name)" --scene $(SCENED))
 
 scene: ## own: Gels, soft, rigid and fixed bodies that touch: SCENE=configs/scenes/lift_block.yaml [SENSOR= MESH= PRESS= FRICTION= SOFT=uniform_0500um]

@@ -18,16 +18,31 @@ tiny_sample one
 [ "$before" = "$(stamp)" ] || fail "a second run did something"
 
 sleep 1.1
-touch configs/render/default.yaml
+touch configs/render/default.yaml pyramid.stl
+tiny_sample one
+[ "$before" = "$(stamp)" ] || fail "later dates redid something"
+echo '# says the same' >> configs/render/default.yaml
+touch -d '2001-01-01' configs/render/default.yaml
 tiny_sample one
 changed=$(comm -13 <(echo "$before") <(stamp) | cut -d' ' -f1 | xargs -n1 basename | sort | tr '\n' ' ')
-[ "$changed" = "render.yaml report.yaml " ] || fail "touching the render configuration redid: $changed"
+[ "$changed" = "render.yaml report.yaml " ] || fail "another render configuration of an earlier date redid: $changed"
+tiny_sample two
 same_files one two
 
-# Another mesh or another, older file under the same name is another sample.
-cp pyramid.stl flatter.stl
-sed -i 's/ 2$/ 1.5/' flatter.stl
+# Another object in the place of this one, copied with its earlier date, and as a link.
+cp pyramid.stl kept.stl
+sed 's/ 2$/ 1.5/' kept.stl > flatter.stl
 touch -d '2001-01-01' flatter.stl
+cp -p flatter.stl pyramid.stl
+tiny_sample one
+cmp -s {one,two}/sample/pyramid/object/object.ply && fail "another object of an earlier date changed nothing"
+ln -sf kept.stl pyramid.stl
+tiny_sample one
+same_files one two
+rm pyramid.stl
+mv kept.stl pyramid.stl
+
+# Another file under the same name is another sample.
 tiny_sample one OBJECT=flatter.stl NAME=pyramid
 cmp -s {one,two}/sample/pyramid/object/object.ply && fail "another object changed nothing"
 tiny_sample one

@@ -1,4 +1,3 @@
-#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/stage/stage.h"
 #include "stages/object/emboss/emboss.h"
@@ -21,7 +20,7 @@ int main(int argc, char** argv) {
   return run_stage(kEmboss, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<EmbossConfig>("--config");
     if (const auto* picture = std::get_if<PictureSource>(&config.pattern))
-      stage.note("image_hash", content_hash(picture->path));
+      stage.add_input("image", picture->path);
     const Height relief = face_relief(config);
     const EmbossedCoin coin = emboss(config, relief);
     if (coin.relief_height_m < kFullHeightShare * config.relief.height_m) {

@@ -26,6 +26,7 @@ using GetCommand = FileCommands;
 using SetCommand = FileCommands;
 using TableCommand = FileCommands;
 using PathsCommand = FileCommands;
+using UnchangedCommand = FileCommands;
 
 const char* const kRecord =
     "stage: press\noutputs:\n  frame_0001/x.png: ab12\n  log.txt: cd\nsummary:\n  frames: 6\n  force_n: [0.5, 1.25]\n"
@@ -52,6 +53,23 @@ TEST_F(GetCommand, PrintsARowForEachMapOfAList) {
   EXPECT_EQ(said_, "tacipc get: error: r.yaml: summary.phases[0]: has no single value depth\n");
   EXPECT_EQ(tacipc("get r.yaml summary --fields kind"), 1);
   EXPECT_EQ(said_, "tacipc get: error: r.yaml: summary: is not a list\n");
+}
+
+TEST_F(UnchangedCommand, SaysItByItsCode) {
+  scratch_.file("mesh.txt", "mesh");
+  scratch_.file("out/copy.txt", "mesh");
+  scratch_.file(
+      "out/copy.yaml",
+      fmt::format("stage: copy\ninputs:\n  mesh:\n    path: ../mesh.txt\n    hash: {}\noutputs:\n  copy.txt: ab\n",
+                  content_hash(scratch_ / "mesh.txt")));
+  EXPECT_EQ(tacipc("unchanged out/copy.yaml"), 0);
+  scratch_.file("mesh.txt", "another");
+  EXPECT_EQ(tacipc("unchanged out/copy.yaml"), 1);
+  EXPECT_EQ(tacipc("unchanged out/none.yaml"), 1);
+  scratch_.file("out/bad.yaml", "stage: [");
+  EXPECT_EQ(tacipc("unchanged out/bad.yaml"), 1);
+  EXPECT_EQ(said_, "");
+  EXPECT_EQ(tacipc("unchanged"), 2);
 }
 
 TEST_F(PathsCommand, PrintsWhereTheFilesOfAMotionLie) {

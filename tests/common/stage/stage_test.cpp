@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -52,6 +53,67 @@ TEST_F(StageTest, SuccessPublishesOutputsAndARecordWithoutTimes) {
   EXPECT_FALSE(fs::exists(root_ / "out/.partial-copy"));
   ASSERT_EQ(run(body, {"--threads", "2"}), 0);
   EXPECT_EQ(read_file(root_ / "out/copy.yaml"), first);
+}
+
+// Content alone tells: dates, links and copies do not.
+TEST_F(StageTest, IfChangedRunsForOtherContentAlone) {
+  int runs = 0;
+  spec_.inputs.push_back({.flag = "--other", .help = "too", .required = false});
+  spec_.options.push_back({.flag = "--name", .help = "of it", .fallback = ""});
+  const auto body = [&](Stage& stage) {
+    ++runs;
+    stage.add_input("named", root_ / "named.txt");
+    write_file(stage.output("copy.txt"), read_file(stage.input("--mesh")));
+  };
+  write_file(root_ / "named.txt", "by a configuration");
+  const auto again = [&](std::vector<std::string> more = {}) {
+    more.emplace_back("--if-changed");
+    return run(body, more);
+  };
+  EXPECT_EQ(again(), 0);
+  EXPECT_EQ(again(), 3);
+  fs::last_write_time(root_ / "in.txt", fs::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_EQ(again(), 3) << "a later date";
+  fs::rename(root_ / "in.txt", root_ / "elsewhere.txt");
+  fs::create_symlink(root_ / "elsewhere.txt", root_ / "in.txt");
+  EXPECT_EQ(again(), 3) << "a link to the same content";
+  EXPECT_EQ(runs, 1);
+  write_file(root_ / "elsewhere.txt", "longer");
+  fs::last_write_time(root_ / "elsewhere.txt", fs::file_time_type::clock::now() - std::chrono::hours(9999));
+  EXPECT_EQ(again(), 0) << "another content of an earlier date";
+  EXPECT_EQ(read_file(root_ / "out/copy.txt"), "longer");
+  write_file(root_ / "named.txt", "by another");
+  EXPECT_EQ(again(), 0) << "a file that no flag names";
+  EXPECT_EQ(again({"--name", "star"}), 0) << "another option";
+  EXPECT_EQ(again({"--name", "star", "--other", (root_ / "named.txt").string()}), 0) << "another input";
+  EXPECT_EQ(again({"--name", "star"}), 0) << "an input less";
+  EXPECT_EQ(again({"--name", "star"}), 3);
+  fs::remove(root_ / "out/copy.txt");
+  EXPECT_EQ(again({"--name", "star"}), 0) << "an output that is gone";
+  EXPECT_EQ(run(body, {"--name", "star"}), 0) << "not asked";
+  EXPECT_EQ(runs, 8);
+}
+
+TEST_F(StageTest, AFolderThatHoldsTheResultsIsReadWithoutThem) {
+  spec_.inputs = {{.flag = "--mesh", .help = "a folder"}};
+  int runs = 0;
+  const auto again = [&] {
+    std::vector<std::string> words{
+        "copy", "--mesh",      (root_ / "all").string(), "--out", (root_ / "all/out").string(), "--log-level",
+        "off",  "--if-changed"};
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    return run_stage(spec_, static_cast<int>(argv.size()), argv.data(), [&](Stage& stage) {
+      ++runs;
+      write_file(stage.output("copy.txt"), "copy");
+    });
+  };
+  write_file(root_ / "all/press/one.txt", "one");
+  EXPECT_EQ(again(), 0);
+  EXPECT_EQ(again(), 3);
+  write_file(root_ / "all/press/two.txt", "two");
+  EXPECT_EQ(again(), 0);
+  EXPECT_EQ(runs, 2);
 }
 
 TEST_F(StageTest, FailureLeavesNoRecordAndNoOutput) {

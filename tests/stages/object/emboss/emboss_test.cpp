@@ -210,7 +210,7 @@ TEST_F(EmbossProgram, SaysWhatIsWrongWithAPicture) {
     for (int x = 0; x < 10; ++x) half.at(x, y, 0) = 255;
   write_png(scratch_ / "mine.png", half);
   EXPECT_EQ(run("out"), 0) << said_;
-  EXPECT_THAT(read_file(scratch_ / "out/emboss.yaml"), testing::HasSubstr("image_hash: "));
+  EXPECT_THAT(read_file(scratch_ / "out/emboss.yaml"), testing::HasSubstr("\n  image:\n    path: "));
 }
 
 TEST_F(EmbossProgram, WarnsOfStrokesTooNarrowForTheirWalls) {
