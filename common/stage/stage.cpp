@@ -306,16 +306,18 @@ bool Stage::is_done() const {
   const fs::path path = out_ / (spec_.name + ".yaml");
   if (!is_unchanged(path)) return false;
   const Record record = Record::from_file(path), inputs = record.section("inputs");
-  using NamesAndPaths = std::vector<std::pair<std::string, std::string>>;
   for (const InputSpec& spec : spec_.inputs) {
-    NamesAndPaths given, recorded;
+    std::vector<NamedPath> given;
     if (spec.named)
-      for (const auto& [name, file] : named_inputs_.at(spec.flag)) given.emplace_back(name, relative_to(file, out_));
+      given = named_inputs_.at(spec.flag);
     else if (const auto found = inputs_.find(spec.flag); found != inputs_.end())
-      for (const fs::path& file : found->second) given.emplace_back("", relative_to(file, out_));
-    for (const Record& input : inputs.one_or_many(spec.flag.substr(2)))
-      recorded.emplace_back(input.text("name").value_or(""), input.required_text("path"));
-    if (given != recorded) return false;
+      for (const fs::path& file : found->second) given.push_back({.name = "", .path = file});
+    // A record names the file behind a link.
+    const auto is_same = [&](const NamedPath& one, const Record& input) {
+      return one.name == input.text("name").value_or("") &&
+             fs::equivalent(one.path, out_ / input.required_text("path"));
+    };
+    if (!std::ranges::equal(given, inputs.one_or_many(spec.flag.substr(2)), is_same)) return false;
   }
   return std::ranges::all_of(spec_.options, [&](const OptionSpec& option) {
     return record.text(option.flag.substr(2)).value_or("") == printable(options_.at(option.flag));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/statistics.h"
+#include "stages/rival/baseline/kernel.h"
 #include "tests/config_text.h"
 
 namespace tacipc {
