@@ -143,8 +143,6 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
     if (error) throw DataError("{}: cannot be created: {}", stage.out_.string(), error.message());
     const FolderLock lock(stage.out_ / (".lock-" + spec.name));
     code = if_changed && stage.is_done() ? 3 : stage.run(body);
-    // What others take for older than its inputs would be made again.
-    if (code == 3) fs::last_write_time(stage.out_ / (spec.name + ".yaml"), fs::file_time_type::clock::now());
   } catch (const std::exception& error) {
     log_error(fmt::format("{}: error: {}", spec.name, error.what()));
     std::error_code ignored;

@@ -5,7 +5,8 @@
 run = $(if $(always),{ )$(run_now)$(if $(silent),, && $(call finished,$(1)))$(if $(always),; } || (code=$$?; [ $$code = 3 ] || exit $$code))
 run_now = OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(if $(always),--if-changed )$(if $(messages),,--log-level warning )$(2)
 # Goals that make a few results have every stage look at the content of its inputs, whatever their dates: one whose record is of these very inputs
-# and options does nothing (code 3). With any other goal dates tell (datasets compare hashes of their own).
+# and options does nothing (code 3). With any other goal dates tell (datasets compare hashes of their own), and they tell of pages, whose records are new if
+# anything in them is.
 looking := sample track gallery grasp scene robot robot-demo demo demo-full mpm-sample paper%
 always  := $(if $(filter-out $(looking) build packages,$(or $(MAKECMDGOALS),help)),,FORCE)
 finished = awk -f pipelines/base/finished.awk $(@D)/$(1).timings.yaml $(@D)/$(1).yaml
@@ -56,7 +57,7 @@ endef
 
 # A page over samples: $(call report_rules,folder,title,sample folders)
 define report_rules
-$(1)/report/report.yaml: $(addsuffix /render/render.yaml,$(3)) $(always) | build
+$(1)/report/report.yaml: $(addsuffix /render/render.yaml,$(3)) | build
 	$$(call run,report,--title "$(2)" $(addprefix --sample ,$(3)))
 endef
 

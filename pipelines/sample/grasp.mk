@@ -77,7 +77,7 @@ $(GRASPED)/press.yaml: $(GRASPED)/object/decimate.yaml $(grasp_gel)/tetmesh.yaml
 $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml: $(GRASPED)/%/render/render.yaml: $(GRASPED)/press.yaml \
     configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) $(always) | build
 	$(call run,render,--press $(GRASPED)/$*/press --gel $(grasp_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
-$(GRASPED)/report/report.yaml: $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml $(always) | build
+$(GRASPED)/report/report.yaml: $(GRASPED)/left/render/render.yaml $(GRASPED)/right/render/render.yaml | build
 	$(call run,report,--title "$(NAME)" --grasp $(GRASPED))
 
 grasp: ## own: Two sensors grip, hold and lift an object: OBJECT=path.stl [MASS_G=80 FORCE_N=5 FRICTION=0.7 LIFT_MM=10 SEED=1; TURN= GRIP=; GRASP=your.yaml]

@@ -33,7 +33,7 @@ $(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml config
 $(1)/pads.mk: $(3) FORCE | build
 	$$(call replace_if_changed_by,echo "robot_pads_$(2) := $$$$($$(call robot_pads,$(3)) | paste -s -d ' ')")
 include $(1)/pads.mk
-$(1)/report/report.yaml: $$(foreach p,$$(robot_pads_$(2)),$(1)/gels/$$(p)/render/render.yaml) $(always) | build
+$(1)/report/report.yaml: $$(foreach p,$$(robot_pads_$(2)),$(1)/gels/$$(p)/render/render.yaml) | build
 	$$(call run,report,--title "$(2)" --scene $(1))
 endef
 
@@ -71,7 +71,7 @@ packages_for_robot-demo := robot
 ifneq ($(filter robot-demo,$(MAKECMDGOALS)),)
 $(foreach t,$(demo_tasks),$(eval $(call robot_rules,$(OUT)/robot-demo/$(t),$(t),configs/tasks/$(t).yaml,mctac,$(demo_mesh),default,1)))
 demo_pages := $(foreach t,$(demo_tasks),$(OUT)/robot-demo/$(t)/report/report.yaml)
-$(OUT)/robot-demo/report/report.yaml: $(demo_pages) $(always) | build
+$(OUT)/robot-demo/report/report.yaml: $(demo_pages) | build
 	$(call run,report,--title "Robots with gels on their fingers" $(foreach t,$(demo_tasks),--scene $(OUT)/robot-demo/$(t)))
 robot-demo: $(OUT)/robot-demo/report/report.yaml ## start: Four tasks of robots with gels on their fingers, with pages
 	@echo; echo "Look at $(OUT)/robot-demo/report/index.html"

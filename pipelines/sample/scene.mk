@@ -42,7 +42,7 @@ $(SCENED)/press.yaml: $(SCENE) $(scene_files) $(foreach b,$(scene_soft),$(SCENED
 	  --sample $(SCENE) $(if $(scene_soft),--soft $(SCENED)/tets))
 $(SCENED)/gels/%/render/render.yaml: $(SCENED)/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) $(always) | build
 	$(call run,render,--press $(SCENED)/gels/$*/press --gel $(scene_gel)/gel.msh --sensor configs/sensors/$(SENSOR).yaml --config configs/render/all_frames.yaml)
-$(SCENED)/report/report.yaml: $(foreach g,$(scene_gels),$(SCENED)/gels/$(g)/render/render.yaml) $(always) | build
+$(SCENED)/report/report.yaml: $(foreach g,$(scene_gels),$(SCENED)/gels/$(g)/render/render.yaml) | build
 	$(call run,report,--title "$(scene_name)" --scene $(SCENED))
 
 scene: ## own: Gels, soft, rigid and fixed bodies that touch: SCENE=configs/scenes/lift_block.yaml [SENSOR= MESH= PRESS= FRICTION= SOFT=uniform_0500um]

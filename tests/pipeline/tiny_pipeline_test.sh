@@ -38,9 +38,12 @@ tiny_sample one
 cmp -s {one,two}/sample/pyramid/object/object.ply && fail "another object of an earlier date changed nothing"
 ln -sf kept.stl pyramid.stl
 tiny_sample one
-same_files one two
+cmp {one,two}/sample/pyramid/object/object.ply || fail "a link to the first object is not seen"
 rm pyramid.stl
 mv kept.stl pyramid.stl
+rm -rf one/sample
+tiny_sample one
+same_files one two
 
 # Another file under the same name is another sample.
 tiny_sample one OBJECT=flatter.stl NAME=pyramid
