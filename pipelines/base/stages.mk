@@ -3,7 +3,7 @@
 # $(call run,stage,flags): a stage writes its record $@ into the folder of $@. OpenBLAS would start a thread per core as it is
 # loaded, whatever --threads says; no stage wants them.
 run = OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(if $(messages),,--log-level warning )$(2)$(if $(silent),, && $(call finished,$(1)))
-finished = awk -f pipelines/base/finished.awk $(@D)/$(1).timings.yaml $(@D)/$(1).yaml
+finished = { [ ! -e $(@D)/$(1).yaml ] || awk -f pipelines/base/finished.awk $(@D)/$(1).timings.yaml $(@D)/$(1).yaml; }
 # Messages of a running stage are shown by goals that make one sample; other goals run several stages at a time. Its log has them all.
 messages = $(shown)$(silent)$(filter sample grasp scene robot mpm-sample track gallery,$(MAKECMDGOALS))
 # $(call try,stage,flags): the same, but work that fails does not stop make: the page above it shows the reason in <stage>.failed.yaml.
