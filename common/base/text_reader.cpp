@@ -107,6 +107,23 @@ void TextReader::fail(const std::string& reason) const {
   throw DataError(fmt::format("{}:{}: {}", name_, line_number_, reason));
 }
 
+std::string_view plain_text(std::string_view bytes, const std::string& name) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("\xEF\xBB\xBF"sv)) return bytes.substr(3);
+  const auto refuse = [&](const char* encoding) {
+    throw DataError("{}: is {} text; save it as UTF-8", name, encoding);
+  };
+  if (bytes.starts_with("\xFF\xFE\0\0"sv) || bytes.starts_with("\0\0\xFE\xFF"sv)) refuse("UTF-32");
+  // Without a mark, letters of ASCII with a zero before or after each of them, as no other text has.
+  const auto zeros_at = [&](std::size_t first) {
+    return bytes.size() >= 4 && bytes[first] == '\0' && bytes[first + 2] == '\0' && bytes[1 - first] != '\0' &&
+           bytes[3 - first] != '\0';
+  };
+  if (bytes.starts_with("\xFF\xFE"sv) || zeros_at(1)) refuse("UTF-16 (little-endian)");
+  if (bytes.starts_with("\xFE\xFF"sv) || zeros_at(0)) refuse("UTF-16 (big-endian)");
+  return bytes;
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower)

@@ -56,6 +56,10 @@ class TextReader {
   int next_number_;
 };
 
+/// The text behind a UTF-8 byte-order mark, if it has one. \throw DataError `NAME: is UTF-16 text …` for UTF-16 and
+/// UTF-32 of either byte order, with or without a mark.
+std::string_view plain_text(std::string_view bytes, const std::string& name);
+
 /// Lower-case copy (ASCII letters only).
 std::string lower_case(std::string_view text);
 

@@ -37,7 +37,7 @@ int vertex_index(const TextReader& in, std::string_view corner, std::size_t num_
 }  // namespace
 
 PolygonSoup read_obj(std::string_view bytes, const std::string& name) {
-  TextReader in(bytes, name);
+  TextReader in(plain_text(bytes, name), name);
   PolygonSoup soup;
   std::vector<int> polygon;
   while (in.next_line('#')) {

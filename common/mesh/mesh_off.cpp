@@ -22,7 +22,7 @@ std::size_t count(TextReader& in, std::string_view what, std::size_t bytes_each)
 }  // namespace
 
 PolygonSoup read_off(std::string_view bytes, const std::string& name) {
-  TextReader in(bytes, name);
+  TextReader in(plain_text(bytes, name), name);
   if (!in.next_line('#')) in.fail("expected 'OFF', found the end");
   const std::string_view header = in.rest().substr(0, in.rest().find_first_of(" \t"));
   // ST, C, N before the word announce texture coordinates, colours and normals after the position.

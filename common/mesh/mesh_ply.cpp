@@ -230,6 +230,7 @@ void read_lists(const Element& element, Body& body, PolygonSoup* soup) {
 }  // namespace
 
 PolygonSoup read_ply(std::string_view bytes, const std::string& name) {
+  bytes = plain_text(bytes, name);
   const PlyHeader header = read_header(bytes, name);
   Body body(bytes, name, header);
   PolygonSoup soup;

@@ -101,13 +101,16 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
   return soup;
 }
 
-/// Binary files may begin with "solid" too: their size tells, and so do bytes that no text holds.
-bool is_binary(std::string_view bytes) {
-  if (bytes.size() >= kHeaderBytes + 4) {
-    std::uint32_t count = 0;
-    std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof(count));
-    if (kHeaderBytes + 4 + std::uint64_t{kFacetBytes} * count == bytes.size()) return true;
-  }
+/// Whether the facets that a binary file counts are what it holds: it may begin with any word, "solid" too.
+bool has_size_of_binary(std::string_view bytes) {
+  if (bytes.size() < kHeaderBytes + 4) return false;
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof(count));
+  return kHeaderBytes + 4 + std::uint64_t{kFacetBytes} * count == bytes.size();
+}
+
+/// Whether bytes that no text holds follow, or another word than a text begins with.
+bool looks_binary(std::string_view bytes) {
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   if (lower_case(bytes.substr(first, 5)) != "solid") return true;
   for (const char c : bytes.substr(0, 1024))
@@ -118,7 +121,9 @@ bool is_binary(std::string_view bytes) {
 }  // namespace
 
 PolygonSoup read_stl(std::string_view bytes, const std::string& name) {
-  return is_binary(bytes) ? read_binary(bytes, name) : read_ascii(bytes, name);
+  if (has_size_of_binary(bytes)) return read_binary(bytes, name);
+  const std::string_view text = plain_text(bytes, name);
+  return looks_binary(text) ? read_binary(bytes, name) : read_ascii(text, name);
 }
 
 }  // namespace tacipc

@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/text_reader.h"
 #include "common/mesh/msh_cursor.h"
 #include "common/mesh/tet_mesh.h"
 #include "common/mesh/triangle_mesh.h"
@@ -268,7 +269,7 @@ class MshReader {
 
 MshContent read_msh(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
-  return MshReader(bytes, path.string()).read();
+  return MshReader(plain_text(bytes, path.string()), path.string()).read();
 }
 
 }  // namespace tacipc

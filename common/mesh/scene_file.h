@@ -10,13 +10,14 @@ namespace tacipc {
 
 struct SceneMesh {
   TriangleMesh mesh;  // in `unit`
-  std::string unit;   // m, cm, mm, um or in
+  std::string unit;   // m, cm, mm, um, in or ft
 };
 
 bool is_scene_file(const std::filesystem::path& path);
 
-/// All triangles of the scene at their places, read by Assimp. A glTF file must hold its buffers itself. \throw
-/// DataError `FILE: …` for files it cannot read, that have no triangles or vertices that are not finite.
+/// All triangles at their places: of the build of a 3MF file but its supports, and of one scene of a glTF file, at
+/// rest. A glTF file must hold its buffers itself. \throw DataError `FILE: …` for files it cannot read, that have no
+/// triangles or vertices that are not finite.
 SceneMesh read_scene_file(const std::filesystem::path& path);
 
 }  // namespace tacipc

@@ -42,6 +42,7 @@ double metres_per_unit(const std::string& unit) {
   if (unit == "mm") return 1e-3;
   if (unit == "um") return 1e-6;
   if (unit == "in") return 0.0254;
+  if (unit == "ft") return 0.3048;
   throw UsageError(fmt::format("'{}' is not a known unit (m, cm, mm, um, in)", shown(unit)));
 }
 

@@ -28,7 +28,8 @@ Matrix rows_of(const std::vector<Row>& rows) {
 
 /// What a file's numbers may mean.
 inline const std::vector<std::string> kLengthUnits{"m", "cm", "mm", "um", "in"};
-double metres_per_unit(const std::string& unit);  // of one of these; \throw UsageError otherwise
+/// Of one of these, and of ft, which 3MF files may state. \throw UsageError otherwise
+double metres_per_unit(const std::string& unit);
 
 /// Reads a surface by the file's suffix (.stl .obj .off .ply, any case) and scales it to metres. Polygons are split
 /// into triangles (a fan from the first corner of convex ones, ear clipping of concave ones); STL corners with equal

@@ -12,7 +12,7 @@ namespace tacipc {
 
 struct ObjectFile {
   TriangleMesh mesh;
-  std::string unit;       // of the file's numbers: m, cm, mm, um, in
+  std::string unit;       // of the file's numbers: m, cm, mm, um, in, or ft
   std::string unit_from;  // "object file", "mesh format", "file name" or "default"
 };
 

@@ -9,7 +9,7 @@ run_now = OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(
 # anything in them is.
 looking := sample track gallery grasp scene robot robot-demo demo demo-full mpm-sample paper%
 always  := $(if $(filter-out $(looking) build packages,$(or $(MAKECMDGOALS),help)),,FORCE)
-finished = awk -f pipelines/base/finished.awk $(@D)/$(1).timings.yaml $(@D)/$(1).yaml
+finished = { [ ! -e $(@D)/$(1).yaml ] || awk -f pipelines/base/finished.awk $(@D)/$(1).timings.yaml $(@D)/$(1).yaml; }
 # Messages of a running stage are shown by goals that make one sample; other goals run several stages at a time. Its log has them all.
 messages = $(shown)$(silent)$(filter sample grasp scene robot mpm-sample track gallery,$(MAKECMDGOALS))
 # $(call try,stage,flags): the same, but work that fails does not stop make: the page above it shows the reason in <stage>.failed.yaml.

@@ -48,8 +48,10 @@ submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter comma
 # A file that changes if another file was chosen for a gel, an object, a motion or a rendering, however old that one is.
 # (A plan made by an earlier version has none.)
 dataset_choice = $(if $(DATASET_CHOICES),$(DATASET_CHOICES)/$(1))
-# Of runs that miss a gel or an object together one makes it, and the others take that one. $(call dataset_shared,stage,what it is made of,flags)
-dataset_shared = bash pipelines/dataset/dataset_shared.sh '$@' '$(2)' $(call run,$(1),$(3))
+# Of runs that miss a gel or an object together one makes it, and the others take that one. A gel that fails stops make; an object is noted in
+# failures.csv, as a sample is. $(call dataset_shared,stage,what it is made of,flags)
+dataset_shared = TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
+  bash pipelines/dataset/dataset_shared.sh '$(DATASET_DIR)' '$(DATASET_RUN)' '$@' '$(2)' $(call run,$(1),$(3))
 # A gel, $(call dataset_gel,name,sensor,mesh,mesh to import,photographs and further sensors for render); an object, by its pattern or mesh.
 define dataset_gel
 DATASET_SENSOR_$(1) := $(2)
@@ -189,6 +191,7 @@ dataset: dataset-samples ## datasets: Make and pack a dataset: CONFIG=configs/da
 retry: dataset ## datasets: Samples of a dataset that failed or are missing, again: CONFIG=
 
 dataset-shared: $(DATASET_SHARED)
+	@rm -f $(DATASET_RUN) $(DATASET_RUN).full
 dataset-some: $(SAMPLES:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(SAMPLES))
 dataset-part: dataset-samples
 	@rm -f $(DATASET_RUN) $(DATASET_RUN).full

@@ -13,7 +13,11 @@ folder=$(realpath "$dataset/$folder")
 declare -A ran=([press]=$folder/press [render]=$folder/render)
 grasp=$folder
 case $folder in */left | */right) grasp=$(dirname "$folder") ran[press]=$grasp ;; esac
-[ -e "${ran[press]}/.command" ] || { echo "bundle: $(basename "$sample") has not been tried yet" >&2; exit 1; }
+if [ ! -e "${ran[press]}/.command" ]; then
+  why=$("$tacipc" get "${ran[press]}/press.failed.yaml" message --default '' 2> /dev/null || true)
+  echo "bundle: $(basename "$sample") has not been tried${why:+: $why}" >&2
+  exit 1
+fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/expected"

@@ -47,6 +47,7 @@ std::span<const FuzzedReader> fuzzed_readers() {
   static const std::vector<FuzzedReader> kReaders{
       {"stl", ".stl", check_triangle_mesh}, {"obj", ".obj", check_triangle_mesh},
       {"off", ".off", check_triangle_mesh}, {"ply", ".ply", check_triangle_mesh},
+      {"gltf", ".glb", check_scene},        {"threemf", ".3mf", check_scene, zip_made_whole},
       {"msh", ".msh", check_tet_mesh},      {"yaml", ".yaml", check_yaml},
       {"edit", ".yaml", check_edits},       {"sensor", ".yaml", check_sensor},
       {"motion", ".yaml", check_motion},    {"object", ".yaml", check_object},

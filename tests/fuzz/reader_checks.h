@@ -9,6 +9,10 @@ namespace tacipc {
 
 /// read_triangle_mesh: finite positions, indices of vertices that there are.
 void check_triangle_mesh(const std::filesystem::path& file);
+/// read_scene_file: glTF and 3MF.
+void check_scene(const std::filesystem::path& file);
+/// The files of a ZIP archive in a new one that is whole, as they lie there: those that were stored are read.
+std::string zip_made_whole(std::string_view bytes);
 /// read_msh, and read_tet_mesh where that accepts the file too.
 void check_tet_mesh(const std::filesystem::path& file);
 

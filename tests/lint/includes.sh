@@ -38,7 +38,7 @@ done
 mutual=$(grep -rnoE '#include "stages/gel/press/[a-z_/]+\.h"' stages/gel/press | sed -E 's/^([^:]+)\.(h|cpp):[0-9]+:#include "([^"]+)\.h"$/\1 \3/' |
   awk '$1 != $2 { if (($2, $1) in seen) print $1, "and", $2; seen[$1, $2] }' | sort -u)
 [ -z "$mutual" ] || { echo "$mutual"; echo "  ^ these units include each other"; faults=1; }
-for header in tetgen.h embree3/ OpenMesh/ assimp/ cholmod.h CGAL/ opencv2/ yaml-cpp/ hdf5.h libdeflate.h archive.h openssl/ Imath/ zlib.h png.h \
+for header in tetgen.h embree3/ OpenMesh/ cholmod.h CGAL/ opencv2/ yaml-cpp/ hdf5.h libdeflate.h archive.h draco/ pugixml.hpp nlohmann/ openssl/ Imath/ zlib.h png.h \
   turbojpeg.h onnx/ ceres/ Imf; do
   files=$(grep -rlE "#include <$header" common stages --include=*.cpp --include=*.h || true)
   # What derives from a class of OpenMesh shows it.

@@ -61,9 +61,14 @@ TEST(TetMesh, JoinedHasTheRowsOfEachOneAfterAnother) {
 
 TEST(MshFile, EveryVersionGivesTheSameTetAndTaggedTriangle) {
   const ScratchFolder scratch;
-  const std::vector<std::string> files{
-      msh22_ascii(), msh22_binary(std::endian::little), msh22_binary(std::endian::big),
-      msh41_ascii(), msh41_binary(std::endian::little), msh41_binary(std::endian::big)};
+  const std::vector<std::string> files{msh22_ascii(),
+                                       msh22_binary(std::endian::little),
+                                       msh22_binary(std::endian::big),
+                                       msh41_ascii(),
+                                       msh41_binary(std::endian::little),
+                                       msh41_binary(std::endian::big),
+                                       "\xEF\xBB\xBF" + msh22_ascii(),
+                                       "\xEF\xBB\xBF" + msh41_ascii()};
   for (std::size_t i = 0; i < files.size(); ++i) {
     const MshContent content = read_msh(scratch.file("a.msh", files[i]));
     ASSERT_EQ(content.positions.rows(), 4) << i;

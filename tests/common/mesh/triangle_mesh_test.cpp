@@ -61,6 +61,43 @@ TEST_F(TriangleMeshFile, EveryFormatGivesTheSameTetrahedron) {
   }
 }
 
+/// ASCII as UTF-16, or with more zeros as UTF-32, of either order.
+std::string widened(const std::string& text, std::size_t zeros, bool big) {
+  std::string wide;
+  for (const char c : text) {
+    if (big) wide.append(zeros, '\0');
+    wide += c;
+    if (!big) wide.append(zeros, '\0');
+  }
+  return wide;
+}
+
+TEST_F(TriangleMeshFile, ByteOrderMarksOfUtf8AreReadAndOtherEncodingsRefusedByName) {
+  for (const auto& [name, text] :
+       std::vector<std::pair<std::string, std::string>>{{"a.obj", tetrahedron_obj()},
+                                                        {"a.off", tetrahedron_off()},
+                                                        {"a.stl", tetrahedron_ascii_stl()},
+                                                        {"a.ply", tetrahedron_ply("ascii")}}) {
+    const TriangleMesh plain = read(name, text);
+    const TriangleMesh marked = read(name, "\xEF\xBB\xBF" + text);
+    EXPECT_EQ(marked.positions, plain.positions) << name;
+    EXPECT_EQ(marked.triangles, plain.triangles) << name;
+    for (const std::string& mark : {std::string("\xFF\xFE"), std::string()})
+      EXPECT_EQ(error(name, mark + widened(text, 1, false)),
+                name + ": is UTF-16 (little-endian) text; save it as UTF-8");
+    for (const std::string& mark : {std::string("\xFE\xFF"), std::string()})
+      EXPECT_EQ(error(name, mark + widened(text, 1, true)), name + ": is UTF-16 (big-endian) text; save it as UTF-8");
+    EXPECT_EQ(error(name, std::string("\xFF\xFE\0\0", 4) + widened(text, 3, false)),
+              name + ": is UTF-32 text; save it as UTF-8");
+    EXPECT_EQ(error(name, std::string("\0\0\xFE\xFF", 4) + widened(text, 3, true)),
+              name + ": is UTF-32 text; save it as UTF-8");
+  }
+  EXPECT_EQ(error("a.obj", "\xEF\xBB\xBFv 0 0 zero\n"), "a.obj:1: z 'zero' is not a number");
+  // Whatever a binary STL has in its header, its size tells what it is.
+  for (const std::string header : {"\xFF\xFE", "\xFE\xFF", "\xEF\xBB\xBFsolid"})
+    EXPECT_EQ(read("a.stl", tetrahedron_binary_stl(header)).num_triangles(), 4);
+}
+
 TEST_F(TriangleMeshFile, StlCornersOfEqualCoordinatesBecomeOneVertexInOrderOfAppearance) {
   for (const std::string& bytes :
        {tetrahedron_ascii_stl(), tetrahedron_binary_stl(), tetrahedron_binary_stl("no such word")}) {
