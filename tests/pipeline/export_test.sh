@@ -18,6 +18,17 @@ stamp() { find one -name '*.yaml' -printf '%p %T@\n' | sort; }
 before=$(stamp)
 export_goal SAMPLE=one/sample/pyramid
 [ "$before" = "$(stamp)" ] || fail "a second run did something"
+
+# With stress in the press file: the tensors of the volume, pressure on the surface.
+sed '$a stress: true' configs/press/default.yaml > configs/press/stressed.yaml
+tiny_sample stressed PRESS=stressed
+export_goal SAMPLE=stressed/sample/pyramid
+grep -qa 'Name="stress" NumberOfComponents="6"' stressed/sample/pyramid/export/volume_0002.vtu || fail "no stress in volume_0002.vtu"
+grep -qa 'Name="pressure"' stressed/sample/pyramid/export/surface_0002.vtu || fail "no pressure in surface_0002.vtu"
+[ -f stressed/sample/pyramid/render/frame_0002/pressure.exr ] || fail "no pressure.exr"
+cmp one/sample/pyramid/press/positions.npy stressed/sample/pyramid/press/positions.npy || fail "measuring stress changes the press"
+[ ! -f one/sample/pyramid/press/stress.npy ] || fail "stress without being asked"
+
 code=0
 export_goal 2>said.txt || code=$?
 [ "$code" = 2 ] && grep -q 'export: say which sample' said.txt || fail "no sample is not refused"
