@@ -69,4 +69,26 @@ ByteImage picture_of_normals(const FloatImage& normals) {
   return picture;
 }
 
+ByteImage reduced(const ByteImage& picture, int by) {
+  if (by == 1) return picture;
+  ByteImage out((picture.width + by - 1) / by, (picture.height + by - 1) / by, picture.channels);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x)
+      for (int c = 0; c < out.channels; ++c) {
+        int sum = 0, count = 0;
+        for (int j = by * y; j < std::min(by * (y + 1), picture.height); ++j)
+          for (int i = by * x; i < std::min(by * (x + 1), picture.width); ++i, ++count) sum += picture.at(i, j, c);
+        out.at(x, y, c) = static_cast<std::uint8_t>((sum + count / 2) / count);
+      }
+  return out;
+}
+
+void paste(ByteImage& sheet, const ByteImage& picture, int x, int y) {
+  assert(sheet.channels == 3 && picture.channels == 3 && x + picture.width <= sheet.width &&
+         y + picture.height <= sheet.height);
+  const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
+  for (int line = 0; line < picture.height; ++line)
+    std::copy_n(&picture.at(0, line, 0), row, &sheet.at(x, y + line, 0));
+}
+
 }  // namespace tacipc

@@ -12,11 +12,13 @@ namespace {
 
 using enum FrameFile;
 
-constexpr std::array<std::pair<FrameFile, const char*>, 12> kNames{{{linear, "linear"},
+constexpr std::array<std::pair<FrameFile, const char*>, 14> kNames{{{linear, "linear"},
                                                                     {depth, "depth"},
                                                                     {normal, "normal"},
                                                                     {indentation, "indentation"},
                                                                     {traction, "traction"},
+                                                                    {pressure, "pressure"},
+                                                                    {shear, "shear"},
                                                                     {tactile, "tactile"},
                                                                     {marker, "marker"},
                                                                     {contact, "contact"},

@@ -22,8 +22,8 @@ std::string code_list(const Names& names) {
   return text;
 }
 
-const std::array<NpyField, 14>& all_arrays() {
-  static const std::array<NpyField, 14> kFields{{
+const std::array<NpyField, 17>& all_arrays() {
+  static const std::array<NpyField, 17> kFields{{
       {"positions.npy", f8, {kFrames, kVertices, 3}, "m", "gel vertices in the order of `gel.msh`; frame 0 is rest"},
       {"object_pose.npy", f8, {kFrames, 4, 4}, "m", "`gel_from_object`"},
       {"time.npy", f8, {kFrames}, "s", "time of the frame, 0 at the first"},
@@ -80,6 +80,23 @@ const std::array<NpyField, 14>& all_arrays() {
        "m",
        "`gel_from_object` if the mount were rigid, so the motion of the object's holder against the sensor's housing; "
        "only of a sensor whose [mount](press.md#a-mount-that-gives-way) gives way"},
+      {"stress.npy",
+       f8,
+       {kFrames, kTets, 6},
+       "Pa",
+       "Cauchy stress of each tetrahedron of `gel.msh`: xx, yy, zz, yz, xz, xy in frame S, > 0 in tension; this and "
+       "the "
+       "next two only where the press file says `stress: true` ([stress](press.md#stress))"},
+      {"front_pressure.npy",
+       f8,
+       {kFrames, kFrontVertices, 2},
+       "Pa",
+       "pressure on each front vertex, [0] of the contact force over its area, [1] of the stress behind it, −n · σ n"},
+      {"front_shear.npy",
+       f8,
+       {kFrames, kFrontVertices, 2, 3},
+       "Pa",
+       "traction along the front, on the gel, of the same two"},
   }};
   return kFields;
 }
@@ -172,6 +189,24 @@ ContactParts PressFolder::tractions(std::size_t frame) const {
 }
 
 Positions PressFolder::markers(std::size_t frame) const { return rows_of(frame_of(PressArray::markers, frame)); }
+
+SymmetricRows PressFolder::stresses(std::size_t frame) const {
+  const std::vector<double> values = frame_of(PressArray::stress, frame);
+  return Eigen::Map<const SymmetricRows>(values.data(), static_cast<Eigen::Index>(values.size() / 6), 6);
+}
+
+FrontTraction PressFolder::front_of(std::size_t frame, Eigen::Index which) const {
+  const std::vector<double> pressures = frame_of(PressArray::front_pressure, frame),
+                            shears = frame_of(PressArray::front_shear, frame);
+  const auto count = static_cast<Eigen::Index>(pressures.size() / 2);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return {Eigen::Map<const Rows>(pressures.data(), count, 2).col(which),
+          Eigen::Map<const Rows>(shears.data(), count, 6).middleCols<3>(3 * which)};
+}
+
+FrontTraction PressFolder::front_by_contact(std::size_t frame) const { return front_of(frame, 0); }
+
+FrontTraction PressFolder::front_by_stress(std::size_t frame) const { return front_of(frame, 1); }
 
 MarkerDisplacement PressFolder::marker_displacements(std::size_t frame) const {
   return pair_of<MarkerDisplacement>(frame_of(PressArray::marker_displacement, frame));

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/symmetric_rows.h"
 #include "common/base/types.h"
 #include "common/sample/array_folder.h"
 #include "common/sample/contact_state.h"
@@ -29,11 +30,14 @@ enum class PressArray {
   markers,
   marker_displacement,
   object_twist,
-  holder_pose
+  holder_pose,
+  stress,
+  front_pressure,
+  front_shear
 };
 
 /// Symbols of shapes.
-inline constexpr std::string_view kVertices = "#V", kFrontVertices = "#V_front", kMarkers = "#M";
+inline constexpr std::string_view kVertices = "#V", kFrontVertices = "#V_front", kMarkers = "#M", kTets = "#T";
 /// Cells of traction.npy.
 inline constexpr int kTractionRows = 24, kTractionColumns = 32;
 
@@ -53,6 +57,12 @@ inline void append_numbers(std::vector<double>& all, const ContactParts& parts) 
   for (Eigen::Index i = 0; i < parts.normal.rows(); ++i)
     append_numbers(all, parts.normal.row(i)), append_numbers(all, parts.friction.row(i));
 }
+
+/// Force on the gel per deformed area at each front vertex, Pa: t = −p n + s with the outward normal n.
+struct FrontTraction {
+  Eigen::VectorXd pressure;  // p, > 0 where something pushes
+  Positions shear;           // s, along the front
+};
 
 /// Of every marker, m.
 struct MarkerDisplacement {
@@ -94,8 +104,12 @@ class PressFolder {
   ContactParts tractions(std::size_t frame) const;                    // kTractionRows · kTractionColumns rows, Pa
   Positions markers(std::size_t frame) const;                         // #M × 3, m
   MarkerDisplacement marker_displacements(std::size_t frame) const;   // #M rows
+  SymmetricRows stresses(std::size_t frame) const;                    // Cauchy stress, #T rows, Pa
+  FrontTraction front_by_contact(std::size_t frame) const;            // #V_front rows
+  FrontTraction front_by_stress(std::size_t frame) const;             // #V_front rows
 
  private:
+  FrontTraction front_of(std::size_t frame, Eigen::Index which) const;
   explicit PressFolder(ArrayFolder arrays) : arrays_(std::move(arrays)) {}
   std::vector<double> frame_of(PressArray array, std::size_t frame) const {
     return arrays_.frame_of(field_of(array), frame);

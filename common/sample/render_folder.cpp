@@ -29,10 +29,10 @@ std::string codes_text(const Names& names, int step) {
   return text;
 }
 
-const std::array<ImageField, 14>& all_images() {
+const std::array<ImageField, 16>& all_images() {
   // Names of EXR channels that OpenCV reads: one Y, or R G B. Of others it makes zeros, or one channel, without a word.
   static const std::vector<std::string> kRgb{"R", "G", "B"}, kGrey{"grey"};
-  static const std::array<ImageField, 14> kFields{{
+  static const std::array<ImageField, 16> kFields{{
       {"linear.exr", kRgb, "relative", "radiance before noise transfer, linear sRGB primaries"},
       {"basis_{:02}.exr", kRgb, "relative",
        "radiance of one light group alone in white, where the configuration asks for it"},
@@ -49,6 +49,14 @@ const std::array<ImageField, 14>& all_images() {
        "indentation at each pixel's first hit: for `--shapes` of render, shade and calibrate (mpm alone)"},
       {"traction.exr", kRgb, "Pa",
        "normal plus friction force on the gel per deformed area, frame S: x, y, z in R, G, B", kTraction},
+      {"pressure.exr",
+       {"Y"},
+       "Pa",
+       "its part against the outward normal n of the front, −n · t; this and the next only where the press has stress, "
+       "or "
+       "a dataset wants them",
+       kTraction},
+      {"shear.exr", kRgb, "Pa", "its part along the front, t + pressure n, frame S: x, y, z in R, G, B", kTraction},
       {"tactile.png", kRgb, "code", "after noise transfer: what a user loads"},
       {"marker.png", kRgb, "code", "the same with printed markers, where the sensor has any"},
       {"contact.png", kGrey, "code", fmt::format("{} where the object touches, else 0", kTouches)},

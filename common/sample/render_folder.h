@@ -27,6 +27,8 @@ enum class FrameFile {
   indentation,
   seen_indentation,
   traction,
+  pressure,
+  shear,
   tactile,
   marker,
   contact,

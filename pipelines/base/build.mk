@@ -5,8 +5,8 @@ PACKAGE_GROUPS := $(basename $(notdir $(wildcard packages/*.txt)))
 groups_wanted   = $(sort chain $(foreach g,$(MAKECMDGOALS),$(packages_for_$(g))))
 packages_wanted = $(sort $(foreach g,$(groups_wanted),$(file < packages/$(g).txt)))
 packages_for_packages    := $(GROUPS)
-packages_for_check       := tests loaders wrap identify robot predict depthnet
-packages_for_check-slow  := tests loaders cluster pages wrap identify robot predict depthnet
+packages_for_check       := tests loaders wrap identify robot video predict depthnet
+packages_for_check-slow  := tests loaders cluster pages wrap identify robot video predict depthnet
 
 # A goal that needs but some stages says programs_for_<goal> := <their names>; any other builds them all.
 programs_wanted = $(sort $(or $(foreach g,$(MAKECMDGOALS),$(or $(programs_for_$(g)),stages)),stages))
@@ -51,6 +51,7 @@ compile_now = ninja() { cmake --build $(1) -j $(JOBS) $(2:%=--target %) -- "$$@"
 cached_of_wrap     := CGAL_INCLUDE_DIR
 cached_of_identify := Ceres_DIR
 cached_of_robot    := MUJOCO_INCLUDE_DIR
+cached_of_video    := OPENH264_INCLUDE_DIR OPENH264_LIBRARY
 cached_of_predict  := ONNX_DIR OpenCV_dnn_LIBRARY Protobuf_INCLUDE_DIR
 cached_of_depthnet := LIBTORCH_INCLUDE_DIR
 # Without tests, until with-tests switches them on.

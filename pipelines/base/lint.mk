@@ -3,7 +3,7 @@
 SINCE ?=#  lint: C++ sources that differ from this commit go through clang-tidy (default: the last commit; all: every source)
 override SINCE := $(strip $(SINCE))
 
-packages_for_lint            := tests lint wrap predict depthnet
+packages_for_lint            := tests lint wrap video predict depthnet
 packages_for_check-sanitized := tests
 .PHONY: lint check-sanitized
 # Without the headers that the build reads in advance: what a source leaves out of its own #include lines is a finding.

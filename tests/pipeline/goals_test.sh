@@ -33,10 +33,12 @@ asks() { # asks "GROUPS" GOAL …
 }
 asks "chain" demo
 asks "chain tests" packages GROUPS=tests
-asks "chain tests loaders wrap identify robot depthnet predict" check
-asks "chain tests loaders cluster pages wrap identify robot depthnet predict" check-slow
+asks "chain tests loaders wrap identify robot video depthnet predict" check
+asks "chain tests loaders cluster pages wrap identify robot video depthnet predict" check-slow
 asks "chain" sample OBJECT=pyramid.stl
 asks "chain wrap" sample OBJECT=pyramid.stl WRAP=yes
+asks "chain" export SAMPLE=none/sample/pyramid
+asks "chain video" export SAMPLE=none/sample/pyramid FORMAT=video
 mkdir -p none/datasets/a/{pack,shards}
 touch none/datasets/a/pack/card.yaml
 echo test-00000-of-00001/pack.yaml > none/datasets/a/shards/shards.txt
@@ -47,7 +49,7 @@ for net in default outcome; do  # of depth a second run judges; outcomes are jud
 done
 grep -q -- --model default.txt && grep -q test/sheet.png default.txt || fail "nothing is judged: $(cat default.txt)"
 ! grep -q -- --model outcome.txt && grep -q depthnet/outcome/outcome.md outcome.txt || fail "outcomes: $(cat outcome.txt)"
-for name in chromium-headless-shell python3-torch slurmd libgtest-dev libcgal-dev libmujoco-dev libtorch-dev libonnx-dev; do
+for name in chromium-headless-shell python3-torch slurmd libgtest-dev libcgal-dev libmujoco-dev libtorch-dev libonnx-dev libopenh264-dev; do
   ! grep -qx "$name" packages/chain.txt || fail "$name for everybody"
 done
 make -s -f Makefile.data packages GROUPS=gone 2> said.txt && fail "a group that is not there"

@@ -53,6 +53,13 @@ grep -q '<h2>Grasp: lifted</h2>' one/grasp/block/report/index.html || fail "the 
 make -s -f Makefile.data export SAMPLE=one/grasp/block OUT=one BUILD="$build_dir" PACKAGES=no > said.txt 2>&1 || { tail -5 said.txt >&2; fail "export failed"; }
 for side in left right; do [ -s one/grasp/block/export/surface_${side}_0013.vtu ] || fail "$side: was not exported"; done
 [ "$(head -c 4 one/grasp/block/export/sample.glb)" = glTF ] || fail "sample.glb is no glTF file"
+grep -q 'class="film"' one/grasp/block/report/index.html && [ -s one/grasp/block/report/film.jpg ] || fail "the page does not show the motion"
+if [ -x "$build_dir/bin/video" ]; then
+  make -s -f Makefile.data export SAMPLE=one/grasp/block FORMAT=video OUT=one BUILD="$build_dir" PACKAGES=no > said.txt 2>&1 || { tail -5 said.txt >&2; fail "no video"; }
+  grep -q 'frames: 14' one/grasp/block/video/video.yaml && [ -s one/grasp/block/video/video.mp4 ] || fail "not fourteen frames"
+  grep -q 'height_px: 100' one/grasp/block/video/video.yaml || fail "not one finger above the other: $(cat one/grasp/block/video/video.yaml)"
+  [ ! -e one/grasp/block/left/frames ] || fail "frames are rendered twice"
+fi
 before=$(find one -name '*.yaml' -printf '%p %T@\n' | sort)
 make -s -f Makefile.data export SAMPLE=one/grasp/block OUT=one BUILD="$build_dir" PACKAGES=no > said.txt 2>&1 || fail "a second export failed"
 grasp one GRASP=short.yaml THREADS=1 || fail "a second run failed"

@@ -16,7 +16,7 @@ order=$(listed)
 reversed=$(tr ' ' '\n' <<< "$order" | tac | paste -sd ' ')
 [ "$order" != "$reversed" ] || fail "there are no files to reverse: $order"
 for goal in demo verification paper-coins 'paper-coins PAPER_KIND=quick' 'sample OBJECT=pyramid.stl MOTION=shear' 'sample OBJECT=pyramid.stl WRAP=0.1' 'mpm-sample OBJECT=pyramid.stl' \
-  'export SAMPLE=out/demo/star' bench-page refinement 'stress N=2' 'campaign N=2' 'campaign-part N=2 PART=1 PARTS=2' docs-update; do
+  'export SAMPLE=out/demo/star' 'export SAMPLE=out/demo/star FORMAT=video' bench-page refinement 'stress N=2' 'campaign N=2' 'campaign-part N=2 PART=1 PARTS=2' docs-update; do
   read -ra words <<< "$goal"
   plan "$order" "${words[@]}" > one.txt
   plan "$reversed" "${words[@]}" > other.txt

@@ -19,6 +19,7 @@ constexpr Part kNormal = &ContactParts::normal, kFriction = &ContactParts::frict
 
 constexpr const char* kNotWanted = "the dataset's maps leave it out";
 constexpr const char* kNoForces = "the press had left no contact forces when the images were made";
+constexpr const char* kNoStress = "the press file does not say stress: true";
 constexpr const char* kNoMarkers = "the press tracks no markers";
 
 /// Reason of a missing picture: a variant without rays of its own has only what light changes.
@@ -173,6 +174,8 @@ Sources images() {
       {"indentation_mm", ray_image(indentation)},
       {"camera_depth_mm", ray_image(depth)},
       {"normal", ray_image(normal)},
+      {"pressure_Nmm2", ray_image(pressure)},
+      {"shear_Nmm2", ray_image(shear)},
       {"contact_mask", contact_image(contact, [](double code) { return touches(code) ? 1.0 : 0.0; })},
       {"slip_state", contact_image(
                          stick_slip, [](double code) { return static_cast<double>(state_of(code)); }, slip_codes())},
@@ -200,6 +203,31 @@ FieldSource force_grid(std::vector<Part> parts) {
 FieldSource nodal_force(Part part) {
   return of_array(PressArray::contact_force,
                   [=](SampleFrames& s, std::size_t f) { return numbers_of(s.arrays().contact_forces(f).*part); });
+}
+
+/// What a press has only where it was asked for stress.
+FieldSource of_stress(PressArray array, Numbers (*read)(const PressFolder& press, std::size_t frame)) {
+  return of_array(array, [=](SampleFrames& s, std::size_t f) -> FieldData {
+    if (!s.arrays().has(array)) return Absent{kNoStress};
+    return read(s.arrays(), f);
+  });
+}
+
+Sources stresses() {
+  return {{"nodal_pressure_Nmm2",
+           of_stress(PressArray::front_pressure,
+                     [](const PressFolder& press, std::size_t f) {
+                       const Eigen::VectorXd pressure = press.front_by_contact(f).pressure;
+                       return Numbers{{static_cast<std::size_t>(pressure.size())}, {pressure.begin(), pressure.end()}};
+                     })},
+          {"nodal_shear_Nmm2", of_stress(PressArray::front_shear,
+                                         [](const PressFolder& press, std::size_t f) {
+                                           return numbers_of(press.front_by_contact(f).shear);
+                                         })},
+          {"stress_Nmm2", of_stress(PressArray::stress, [](const PressFolder& press, std::size_t f) {
+             const SymmetricRows rows = press.stresses(f);
+             return Numbers{{static_cast<std::size_t>(rows.rows()), 6}, {rows.data(), rows.data() + rows.size()}};
+           })}};
 }
 
 FieldSource summed_force(Part part) {
@@ -389,7 +417,11 @@ std::map<std::string, FieldSource> field_sources(Section section) {
       all.merge(forces_and_motion());
       return all;
     }
-    case Section::sim: return simulated();
+    case Section::sim: {
+      Sources all = simulated();
+      all.merge(stresses());
+      return all;
+    }
     case Section::check: return checks();
     case Section::series: return series();
     case Section::ensemble: return ensemble();

@@ -223,7 +223,7 @@ std::string sample_body(const SampleReport& sample, const fs::path& folder, Load
   std::string card;
   if (sample.failure) card += "<p class=\"note bad\">" + html_text(*sample.failure) + "</p>\n";
   for (const std::string& warning : sample.warnings) card += "<p class=\"note warn\">" + html_text(warning) + "</p>\n";
-  card += pictures(sample, folder, loading);
+  card += sample.film + pictures(sample, folder, loading);
   card += "<div class=\"facts\">\n" + press_facts(sample) + friction_facts(sample);
   if (sample.placement) card += placement_facts(*sample.placement);
   if (sample.decimate) card += decimate_facts(*sample.decimate);

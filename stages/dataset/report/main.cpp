@@ -9,10 +9,12 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/image/image.h"
+#include "common/sample/press_folder.h"
 #include "common/stage/stage.h"
 #include "stages/dataset/report/card.h"
 #include "stages/dataset/report/contact_sheet.h"
 #include "stages/dataset/report/dataset/dataset_report.h"
+#include "stages/dataset/report/film_strip.h"
 #include "stages/dataset/report/grasp_part.h"
 #include "stages/dataset/report/page.h"
 #include "stages/dataset/report/robot_part.h"
@@ -84,6 +86,39 @@ void write_views(Stage& stage, std::vector<SampleReport>& samples) {
   write_view_page(stage, viewed);
 }
 
+constexpr int kFilmQuality = 85;
+constexpr const char* kFilm = "film.jpg";  // of gels that share one world
+
+/// Writes the moving picture of gels of which all frames were rendered. \return its HTML; none for fewer frames, or, as
+/// of a view, where one cannot be read. `times_s` gives the times of the frames.
+template <typename Times>
+std::string write_film(Stage& stage, const std::string& name, const std::vector<FilmedGel>& gels, std::size_t frames,
+                       Times&& times_s, const std::string& file) {
+  for (const FilmedGel& gel : gels)
+    if (!has_all_frames(gel.render, frames)) return "";
+  try {
+    const FilmStrip strip = film_strip(gels, times_s());
+    write_file(stage.output(file), jpeg_bytes(strip.sheet, kFilmQuality, file));
+    return film_figure(strip, file);
+  } catch (const std::runtime_error& error) {
+    log_warning("{}: no moving picture: {}", name, error.what());
+    return "";
+  }
+}
+
+void write_films(Stage& stage, std::vector<SampleReport>& samples) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    SampleReport& sample = samples[i];
+    if (!sample.images) continue;
+    // Where they were rendered for `track` or for a video, all frames are in a folder of their own.
+    const auto all = sample.folder / "frames";
+    const FilmedGel gel{sample.folder / "press", std::filesystem::exists(all) ? all : sample.folder / "render"};
+    sample.film = write_film(
+        stage, sample.name, {gel}, sample.frames.size(), [&] { return PressFolder(gel.press).times(); },
+        "films/" + card_id(i) + ".jpg");
+  }
+}
+
 /// Gels that share one world: fingers of a grasp, or the gels of a scene.
 struct Together {
   std::filesystem::path folder;
@@ -93,14 +128,20 @@ struct Together {
   const char* strip;                      // file of the pictures in rows
   std::optional<RobotReport> robot = {};  // of a scene that has one
   bool has_pictures = false;              // of the robot, beside the page
+  std::string film = {};                  // HTML of the moving picture
 
   bool& has_view() {
     return std::visit([](auto& of) -> bool& { return of.has_view; }, report);
   }
   PageWords words() const {
-    if (const auto* grasp = std::get_if<GraspReport>(&report)) return grasp_words(*grasp);
+    if (const auto* grasp = std::get_if<GraspReport>(&report)) {
+      PageWords words = grasp_words(*grasp);
+      words.first += film;
+      return words;
+    }
     const SceneReport& of = std::get<SceneReport>(report);
     PageWords words = scene_words(of);
+    words.first += film;
     if (robot) {
       words.intro = "A simulated robot with gels of camera-based tactile sensors.";
       words.first = robot_sections(*robot, of.bodies, of.frames, has_pictures) + words.first;
@@ -177,7 +218,7 @@ void try_pictures(SampleReport& sample) {
 void report_samples(Stage& stage) {
   // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
   for (const char* name :
-       {"index.html", "contact_sheet.png", kGraspStrip, kSceneStrip, kRobotStrip, kViewPage, "view"}) {
+       {"index.html", "contact_sheet.png", kGraspStrip, kSceneStrip, kRobotStrip, kFilm, "films", kViewPage, "view"}) {
     std::error_code error;
     std::filesystem::remove_all(stage.out() / name, error);
     if (error) throw DataError("{}: cannot be removed: {}", (stage.out() / name).string(), error.message());
@@ -196,7 +237,17 @@ void report_samples(Stage& stage) {
     try_pictures(sample);
     if (!sample.passed()) log_warning("{}: failed: {}", sample.name, *sample.failure);
   }
-  all ? write_view_of_all(stage, *all, samples) : write_views(stage, samples);
+  if (all) {
+    std::vector<FilmedGel> gels;
+    for (const SceneGel& gel : all->scene.gels) gels.push_back({gel.press(), gel.folder / "render"});
+    const std::vector<double>& times_s = all->scene.times_s;
+    all->film = write_film(
+        stage, all->folder.string(), gels, times_s.size(), [&] { return times_s; }, kFilm);
+    write_view_of_all(stage, *all, samples);
+  } else {
+    write_films(stage, samples);
+    write_views(stage, samples);
+  }
   write_file(stage.output("index.html"),
              report_page(stage.option("--title"), samples, stage.out(), all ? all->words() : PageWords{}));
   write_png(stage.output("contact_sheet.png"), contact_sheet(stage.option("--title"), samples));

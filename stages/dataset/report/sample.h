@@ -109,6 +109,7 @@ struct SampleReport {
   std::optional<SampleImages> images;
   std::vector<PhaseImage> phase_images;
 
+  std::string film = {};  // HTML of a moving picture, where all frames were rendered
   std::string view = {};  // in 3-D: where on the view's page; empty if there is none
 
   std::vector<std::pair<std::string, std::filesystem::path>> records;  // label and file, those that exist

@@ -84,8 +84,4 @@ ByteImage fitted_picture(const ByteImage& image, int width, int height) {
   return copy;
 }
 
-void paste(ByteImage& sheet, const ByteImage& picture, int x, int y) {
-  mat_of(picture).copyTo(mat_of(sheet)({x, y, picture.width, picture.height}));
-}
-
 }  // namespace tacipc

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "common/image/image.h"
+#include "common/image/picture.h"
 
 namespace tacipc {
 
@@ -35,8 +35,5 @@ void fill_box(ByteImage& sheet, int x, int y, int width, int height, const Color
 /// The largest copy that fits into the box and keeps its proportions, averaged where it gets smaller.
 /// \pre RGB, width and height ≥ 1
 ByteImage fitted_picture(const ByteImage& image, int width, int height);
-
-/// Puts a picture with its upper left corner at x, y. \pre both RGB, and it lies inside the sheet
-void paste(ByteImage& sheet, const ByteImage& picture, int x, int y);
 
 }  // namespace tacipc

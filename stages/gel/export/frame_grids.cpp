@@ -1,6 +1,7 @@
 #include "stages/gel/export/frame_grids.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tacipc {
 namespace {
@@ -25,6 +26,18 @@ std::vector<VtuArray> gel_data(const TetMesh& gel, const PressFolder& press, std
   return {{"displacement", 3, numbers(x - gel.positions)},
           {"normal_force", 3, of_all(forces.normal)},
           {"friction_force", 3, of_all(forces.friction)}};
+}
+
+/// Pressure and shear of the contact, where the press has them.
+void add_traction(VtuGrid& grid, const PressFolder& press, std::size_t frame, const std::vector<int>& front) {
+  if (!press.has(PressArray::front_pressure)) return;
+  const FrontTraction traction = press.front_by_contact(frame);
+  Eigen::VectorXd pressure = Eigen::VectorXd::Zero(grid.points.rows());
+  Positions shear = Positions::Zero(grid.points.rows(), 3);
+  pressure(front) = traction.pressure;
+  shear(front, Eigen::all) = traction.shear;
+  grid.point_data.push_back({"pressure", 1, std::vector<double>(pressure.begin(), pressure.end())});
+  grid.point_data.push_back({"shear", 3, numbers(shear)});
 }
 
 /// Keeps the points that cells use, in their order, with their data.
@@ -56,6 +69,26 @@ VtuArray volume_ratios(const TetMesh& mesh, const Positions& x) {
   return {"volume_ratio", 1, std::move(ratios)};
 }
 
+/// Where VTK has a component of a symmetric tensor (xx yy zz xy yz xz) ours has this one (xx yy zz yz xz xy).
+constexpr std::array<int, 6> kOfVtk{0, 1, 2, 5, 3, 4};
+
+VtuArray stress_array(const SymmetricRows& stress_pa) {
+  std::vector<double> values;
+  for (Eigen::Index t = 0; t < stress_pa.rows(); ++t)
+    for (const int ours : kOfVtk) values.push_back(stress_pa(t, ours));
+  return {"stress", 6, std::move(values)};
+}
+
+/// R σ Rᵀ of VTK's six components.
+void turn_tensors(std::vector<double>& values, const Matrix3& R) {
+  for (std::size_t at = 0; at < values.size(); at += 6) {
+    double* v = &values[at];
+    const Matrix3 turned = R * Matrix3{{v[0], v[3], v[5]}, {v[3], v[1], v[4]}, {v[5], v[4], v[2]}} * R.transpose();
+    v[0] = turned(0, 0), v[1] = turned(1, 1), v[2] = turned(2, 2);
+    v[3] = turned(0, 1), v[4] = turned(1, 2), v[5] = turned(0, 2);
+  }
+}
+
 }  // namespace
 
 std::vector<int> drop_unused(std::span<int> indices) {
@@ -76,6 +109,7 @@ VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t f
   for (std::size_t v = 0; v < front.size(); ++v)
     states[static_cast<std::size_t>(front[v])] = static_cast<std::uint8_t>(of_front[v]);
   grid.point_data.push_back({"contact_state", 1, std::move(states)});
+  add_traction(grid, press, frame, front);
   std::vector<std::uint8_t> tags;
   for (const BoundaryTag tag : gel.tags) tags.push_back(static_cast<std::uint8_t>(tag));
   grid.cell_data.push_back({"boundary", 1, std::move(tags)});
@@ -87,6 +121,7 @@ VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t fr
   VtuGrid grid{.points = press.positions(frame), .cells = gel.tets};
   grid.point_data = gel_data(gel, press, frame, grid.points);
   grid.cell_data.push_back(volume_ratios(gel, grid.points));
+  if (press.has(PressArray::stress)) grid.cell_data.push_back(stress_array(press.stresses(frame)));
   return grid;
 }
 
@@ -107,7 +142,9 @@ VtuGrid in_world(VtuGrid grid, const Matrix4& world_from_gel) {
   turn.topRightCorner<3, 1>().setZero();
   for (auto* arrays : {&grid.point_data, &grid.cell_data}) {
     for (VtuArray& array : *arrays) {
-      if (auto* values = std::get_if<std::vector<double>>(&array.values); values && array.components == 3) {
+      auto* values = std::get_if<std::vector<double>>(&array.values);
+      if (values && array.components == 6) turn_tensors(*values, turn.topLeftCorner<3, 3>());
+      if (values && array.components == 3) {
         const auto rows = static_cast<Eigen::Index>(values->size() / 3);
         *values = numbers(moved(Eigen::Map<const Positions>(values->data(), rows, 3), turn));
       }

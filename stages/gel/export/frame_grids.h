@@ -16,11 +16,12 @@ std::vector<int> drop_unused(std::span<int> indices);
 
 /// All boundary triangles of the gel and the vertices they use, where they are in this frame. Points: displacement from
 /// the undeformed gel (m), normal_force and friction_force on the gel (N), contact_state (a ContactState), the last
-/// three zero off the front. Cells: boundary (1 front, 2 side, 3 glued).
+/// three zero off the front; where the press has stress also pressure and shear of the contact (Pa). Cells: boundary (1
+/// front, 2 side, 3 glued).
 VtuGrid surface_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame);
 
 /// The tetrahedra. Points: displacement, normal_force, friction_force. Cells: volume_ratio, deformed over undeformed
-/// volume.
+/// volume, and stress (Cauchy, Pa, xx yy zz xy yz xz as VTK has them) where the press has it.
 VtuGrid volume_grid(const TetMesh& gel, const PressFolder& press, std::size_t frame);
 
 /// The tetrahedra of a soft body with its vertices at `x`. Points: displacement since frame 0, where they were at
@@ -30,7 +31,8 @@ VtuGrid soft_grid(const TetMesh& soft, const Positions& first, const Positions& 
 /// The object's triangles where a pose puts them.
 VtuGrid object_grid(const TriangleMesh& object, const Matrix4& world_from_object);
 
-/// A grid whose points, and with them all arrays of three components, are moved and turned into the world.
+/// A grid whose points, and with them all arrays of three components and all tensors, are moved and turned into the
+/// world.
 VtuGrid in_world(VtuGrid grid, const Matrix4& world_from_gel);
 
 }  // namespace tacipc

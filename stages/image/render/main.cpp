@@ -15,6 +15,7 @@
 #include "stages/image/render/height_maps.h"
 #include "stages/image/render/pressed_gel.h"
 #include "stages/image/render/render.h"
+#include "stages/image/render/traction_parts.h"
 
 namespace {
 
@@ -47,9 +48,14 @@ ByteImage coded(const ByteImage& labels, std::uint8_t (*code)(Label)) {
 /// Writes those files of a frame that are wanted: what a dataset names, or all.
 class FrameWriter {
  public:
-  FrameWriter(Stage& stage, std::optional<DatasetMaps> maps) : stage_(stage), maps_(std::move(maps)) {}
+  /// \param pressure also the two parts of the traction, where no dataset says what is wanted
+  FrameWriter(Stage& stage, std::optional<DatasetMaps> maps, bool pressure)
+      : stage_(stage), maps_(std::move(maps)), pressure_(pressure) {}
 
-  bool wants(FrameFile file) const { return !maps_ || maps_->has(file); }
+  bool wants(FrameFile file) const {
+    if (maps_) return maps_->has(file);
+    return pressure_ || (file != FrameFile::pressure && file != FrameFile::shear);
+  }
 
   void write(const RenderedFrame& frame) {
     folder_ = frame_folder(static_cast<std::size_t>(frame.index), frame.unit);
@@ -73,6 +79,11 @@ class FrameWriter {
     put(FrameFile::segment, coded(trace.segment, segment_code));
     if (trace.traction.channels == 0) return;
     put(FrameFile::traction, trace.traction);
+    if (wants(FrameFile::pressure) || wants(FrameFile::shear)) {
+      const TractionParts parts = parts_of(trace.traction, trace.normal);
+      put(FrameFile::pressure, parts.pressure);
+      put(FrameFile::shear, parts.shear);
+    }
     put(FrameFile::contact, coded(trace.contact, contact_code));
     put(FrameFile::stick_slip, coded(trace.contact, stick_slip_code));
   }
@@ -86,6 +97,7 @@ class FrameWriter {
 
   Stage& stage_;
   std::optional<DatasetMaps> maps_;
+  bool pressure_;
   std::string folder_;
 };
 
@@ -182,7 +194,8 @@ int main(int argc, char** argv) {
     } else {
       stage.note("reference", "synthetic");
     }
-    FrameWriter writer(stage, read_maps(stage));
+    const bool stress = press && PressFolder(*stage.optional_input("--press")).has(PressArray::front_pressure);
+    FrameWriter writer(stage, read_maps(stage), stress);
     config.linear = writer.wants(FrameFile::linear);
     config.marker = writer.wants(FrameFile::marker);
     const auto deliver = [&](const RenderedFrame& frame) { writer.write(frame); };

@@ -53,7 +53,7 @@ class PressFolderTest : public ::testing::Test {
 
   static void write(Stage& stage) {
     using enum PressArray;
-    const ArrayWriter writer(stage, {{kFrames, 2}, {kVertices, 3}, {kFrontVertices, 2}, {kMarkers, 1}});
+    const ArrayWriter writer(stage, {{kFrames, 2}, {kVertices, 3}, {kFrontVertices, 2}, {kMarkers, 1}, {kTets, 1}});
     writer.write(positions, kInstants, [](const Instant& i) { return i.positions; });
     writer.write(object_pose, kInstants, [](const Instant& i) { return i.pose; });
     writer.write(time, kInstants, [](const Instant& i) { return i.time_s; });
@@ -70,6 +70,11 @@ class PressFolderTest : public ::testing::Test {
     writer.write(marker_displacement, {0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6});
     writer.write(object_twist, {0, 0, 0, 0, 0, 0, 7, 8, 9, 10, 11, 12});
     writer.write(holder_pose, kInstants, [](const Instant& i) { return Matrix4(2.0 * i.pose); });
+    writer.write(stress, {0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6});
+    writer.write(front_pressure, {0, 0, 0, 0, 1, 2, 3, 4});
+    std::vector<double> shears(12, 0.0);
+    for (int i = 1; i <= 12; ++i) shears.push_back(i);
+    writer.write(front_shear, shears);
   }
 
   std::string refused(const std::function<void(const PressFolder&)>& read) const {
@@ -96,7 +101,10 @@ TEST_F(PressFolderTest, EveryDeclaredArrayIsInTheFile) {
                                                                               {"markers.npy", {2, 1, 3}},
                                                                               {"marker_displacement.npy", {2, 1, 2, 3}},
                                                                               {"object_twist.npy", {2, 6}},
-                                                                              {"holder_pose.npy", {2, 4, 4}}};
+                                                                              {"holder_pose.npy", {2, 4, 4}},
+                                                                              {"stress.npy", {2, 1, 6}},
+                                                                              {"front_pressure.npy", {2, 2, 2}},
+                                                                              {"front_shear.npy", {2, 2, 2, 3}}};
   ASSERT_EQ(press_fields().size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
     EXPECT_EQ(press_fields()[i].file, written[i].first);
@@ -137,6 +145,11 @@ TEST_F(PressFolderTest, WhatIsWrittenReadsBack) {
   EXPECT_EQ(press.marker_displacements(1).since_press, (Positions{{4, 5, 6}}));
   EXPECT_EQ(press.twists()[1].velocity_m_s, Vector3(7, 8, 9));
   EXPECT_EQ(press.twists()[1].spin_rad_s, Vector3(10, 11, 12));
+  EXPECT_EQ(press.stresses(1), (SymmetricRows{{1, 2, 3, 4, 5, 6}}));
+  EXPECT_EQ(press.front_by_contact(1).pressure, Eigen::Vector2d(1, 3));
+  EXPECT_EQ(press.front_by_stress(1).pressure, Eigen::Vector2d(2, 4));
+  EXPECT_EQ(press.front_by_contact(1).shear, (Positions{{1, 2, 3}, {7, 8, 9}}));
+  EXPECT_EQ(press.front_by_stress(1).shear, (Positions{{4, 5, 6}, {10, 11, 12}}));
 }
 
 TEST_F(PressFolderTest, AFileOfWhichOneBitIsNotAsRecordedIsRefused) {
@@ -148,6 +161,8 @@ TEST_F(PressFolderTest, AFileOfWhichOneBitIsNotAsRecordedIsRefused) {
       press.tractions(frame);
       press.markers(frame);
       press.marker_displacements(frame);
+      press.stresses(frame);
+      press.front_by_contact(frame);
     }
     press.times(), press.phases(), press.poses(), press.holder_poses(), press.wrenches(), press.twists(),
         press.front_vertices(), press.first_slips();

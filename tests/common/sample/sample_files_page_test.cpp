@@ -78,7 +78,7 @@ TEST(FilesPage, ANameHasOneLayoutAndOneMeaning) {
 
 TEST(FilesPage, EveryCodeOfAnArrayHasItsDeclaration) {
   EXPECT_EQ(field_of(PressArray::holder_pose).file, "holder_pose.npy");
-  EXPECT_EQ(&field_of(PressArray::holder_pose), &press_fields().back());
+  EXPECT_EQ(&field_of(PressArray::front_shear), &press_fields().back());
   EXPECT_EQ(&field_of(GraspArray::momentum), &grasp_fields().back());
   EXPECT_EQ(&field_of(SceneArray::soft_positions), &scene_fields().back());
   EXPECT_EQ(&field_of(RobotArray::answers), &robot_fields().back());

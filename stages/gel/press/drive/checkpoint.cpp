@@ -86,7 +86,7 @@ void fields(auto& io, Is<Frame> auto& f) {
   all(io, f.time_s, f.phase, f.phase_index, f.positions, f.gel_from_object, f.holder_pose, f.normal_force_n,
       f.friction_force_n, f.contact_state, f.force_n, f.torque_n_m, f.balance, f.min_gap_m, f.stand_off_m,
       f.min_volume_ratio, f.pose_error_m, f.body_strain, f.object_velocity_m_s, f.object_spin_rad_s, f.intersections,
-      f.inverted_tets, f.gel_in_object, f.solver);
+      f.inverted_tets, f.gel_in_object, f.stress_pa, f.solver);
 }
 
 void fields(auto& io, Is<WholeAccount> auto& w) {

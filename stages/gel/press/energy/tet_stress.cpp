@@ -17,6 +17,12 @@ Matrix3 deformation(const RestBody& body, Eigen::Index t, const Positions& x) {
   return corners * body.rest[static_cast<std::size_t>(t)].shape_gradients.transpose();
 }
 
+/// The mean of both triangles, which agree but for rounding.
+void put_symmetric(const Matrix3& m, SymmetricRows& rows, Eigen::Index t) {
+  rows.row(t) << m(0, 0), m(1, 1), m(2, 2), 0.5 * (m(1, 2) + m(2, 1)), 0.5 * (m(0, 2) + m(2, 0)),
+      0.5 * (m(0, 1) + m(1, 0));
+}
+
 }  // namespace
 
 TetStress::TetStress(std::shared_ptr<const RestBody> body, const ElasticLaw& law, TetClusters clusters)
@@ -42,8 +48,18 @@ SymmetricRows TetStress::operator()(const Positions& x) const {
       const Matrix3 F = deformation(*body_, t, x), inverse = F.inverse();
       const Matrix3 P = std::visit([&](const auto& law) { return law.stress(F); }, law_);
       const Matrix3 S = inverse * (P + pressure[static_cast<std::size_t>(t)] * F.determinant() * inverse.transpose());
-      out.row(t) << S(0, 0), S(1, 1), S(2, 2), 0.5 * (S(1, 2) + S(2, 1)), 0.5 * (S(0, 2) + S(2, 0)),
-          0.5 * (S(0, 1) + S(1, 0));
+      put_symmetric(S, out, t);
+    }
+  });
+  return out;
+}
+
+SymmetricRows cauchy_stress(const RestBody& body, const Positions& x, const SymmetricRows& second_pa) {
+  SymmetricRows out(body.tets.rows(), 6);
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, out.rows(), kTetsAtATime), [&](const auto& range) {
+    for (Eigen::Index t = range.begin(); t < range.end(); ++t) {
+      const Matrix3 F = deformation(body, t, x);
+      put_symmetric(F * symmetric(second_pa, t) * F.transpose() / F.determinant(), out, t);
     }
   });
   return out;

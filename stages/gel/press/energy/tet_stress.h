@@ -4,18 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "common/base/symmetric_rows.h"
 #include "stages/gel/press/energy/tet_clusters.h"
 #include "stages/gel/press/energy/tet_energy.h"
 
 namespace tacipc {
-
-/// Symmetric 3 × 3 tensors, one per tetrahedron: a row xx yy zz yz xz xy each.
-using SymmetricRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
-
-inline Matrix3 symmetric(const SymmetricRows& rows, Eigen::Index t) {
-  const auto r = rows.row(t);
-  return Matrix3{{r[0], r[5], r[4]}, {r[5], r[1], r[3]}, {r[4], r[3], r[2]}};
-}
 
 /// Tetrahedra of a mesh with their rest shapes.
 struct RestBody {
@@ -43,5 +36,9 @@ class TetStress {
   TetClusters clusters_;
   double lambda_pa_ = 0.0;  // of the clusters
 };
+
+/// Cauchy stress σ = F S Fᵀ/J = P Fᵀ/J, Pa, along the axes of `x`, such that Σ_t v_t σ_t ∇ₓNᵢ is the same derivative.
+/// \param second_pa S of each tetrahedron, or S with what a gel whose stress relaxes remembers \pre none is inverted
+SymmetricRows cauchy_stress(const RestBody& body, const Positions& x, const SymmetricRows& second_pa);
 
 }  // namespace tacipc

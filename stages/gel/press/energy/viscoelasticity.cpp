@@ -68,6 +68,18 @@ std::shared_ptr<const ViscousMemory> Viscoelasticity::memory(const History& hist
   return std::make_shared<ViscousMemory>(body_, std::move(held));
 }
 
+SymmetricRows Viscoelasticity::remembered(const History& history, std::size_t body) const {
+  SymmetricRows sum(0, 6);
+  if (history.empty()) return sum;
+  auto member_history = history.begin();
+  for (const Relaxing& part : relaxing_) {
+    if (part.body == body) sum.setZero(part.num_rows, 6);
+    for (std::size_t i = 0; i < part.series.size(); ++i, ++member_history)
+      if (part.body == body) sum += *member_history;
+  }
+  return sum;
+}
+
 void Viscoelasticity::advance(History& history, const SymmetricRows& change_pa, double h_s) const {
   const bool first = history.empty();
   std::size_t i = 0;

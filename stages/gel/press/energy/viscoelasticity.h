@@ -41,6 +41,8 @@ class Viscoelasticity {
   std::vector<double> elastic_factors(double h_s) const;
   /// The other part of the energy of a step from stress S_n.
   std::shared_ptr<const ViscousMemory> memory(const History& history, const SymmetricRows& start_pa, double h_s) const;
+  /// Σ Qᵢ of a body, by its number, a row for each of its tetrahedra; no rows where it remembers nothing.
+  SymmetricRows remembered(const History& history, std::size_t body) const;
   /// Takes the history over a step that changed S by `change_pa`.
   void advance(History& history, const SymmetricRows& change_pa, double h_s) const;
 

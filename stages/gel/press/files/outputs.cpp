@@ -12,6 +12,7 @@
 #include "common/sensor/markers.h"
 #include "stages/gel/press/drive/grasp_outcome.h"
 #include "stages/gel/press/measure/contact_summary.h"
+#include "stages/gel/press/measure/front_traction.h"
 #include "stages/gel/press/measure/traction_grid.h"
 #include "stages/gel/press/measure/verdict.h"
 
@@ -52,6 +53,29 @@ void write_contact(const ArrayWriter& writer, const Sensor& sensor, const Simula
   writer.write(PressArray::traction, frames, [&](const Frame& f) {
     return spread_traction(grid, front, on_front(front, f.positions), f.normal_force_n, f.friction_force_n);
   });
+}
+
+/// Where the configuration wants them: stress in the gel, pressure and shear on its front.
+void write_stress(const ArrayWriter& writer, const TetMesh& gel, const Simulation& simulation) {
+  const auto& frames = simulation.frames;
+  const FrontSurface& front = simulation.front;
+  if (frames[0].stress_pa.rows() == 0) return;
+  writer.write(PressArray::stress, frames, &Frame::stress_pa);
+  const std::vector<int> behind = tets_behind(front, gel.tets);
+  std::vector<double> pressure_pa, shear_pa;
+  for (const Frame& f : frames) {
+    const Positions x = on_front(front, f.positions);
+    const FrontTraction of_forces = traction_of_forces(front, x, f.normal_force_n + f.friction_force_n);
+    const FrontTraction of_stress = traction_of_stress(front, x, f.stress_pa, behind);
+    for (Eigen::Index v = 0; v < x.rows(); ++v) {
+      for (const FrontTraction* of : {&of_forces, &of_stress}) {
+        pressure_pa.push_back(of->pressure[v]);
+        append_numbers(shear_pa, of->shear.row(v));
+      }
+    }
+  }
+  writer.write(PressArray::front_pressure, pressure_pa);
+  writer.write(PressArray::front_shear, shear_pa);
 }
 
 PressFrameLines frame_lines(const Simulation& simulation, const Frame& f) {
@@ -131,7 +155,8 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
                            {{kFrames, frames.size()},
                             {kVertices, vertices},
                             {kFrontVertices, simulation.front.vertices.size()},
-                            {kMarkers, markers.size()}},
+                            {kMarkers, markers.size()},
+                            {kTets, static_cast<std::size_t>(gel.num_tets())}},
                            folder);
   writer.write(PressArray::positions, frames, [](const Frame& f) { return f.positions; });
   writer.write(PressArray::object_pose, frames, [](const Frame& f) { return f.gel_from_object; });
@@ -146,6 +171,7 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
   if (simulation.mount_gives_way)
     writer.write(PressArray::holder_pose, frames, [](const Frame& f) { return f.holder_pose; });
   write_contact(writer, sensor, simulation);
+  write_stress(writer, gel, simulation);
   write_markers(stage, folder, writer, markers, frames, end);
 
   PressSummary summary{

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/symmetric_rows.h"
 #include "common/sample/motion.h"
 #include "stages/gel/press/measure/balance.h"
 #include "stages/gel/press/measure/front_surface.h"
@@ -39,6 +40,7 @@ struct Frame {
   int intersections = 0;       // pairs of triangles, by an exact test
   int inverted_tets = 0;       // by an exact test
   double gel_in_object = 0.0;  // winding number of a closed object's surface around the gel
+  SymmetricRows stress_pa;     // Cauchy stress of each tetrahedron, where the configuration wants it; else no rows
   StepReport solver;
 };
 

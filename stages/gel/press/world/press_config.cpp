@@ -62,6 +62,9 @@ PressConfig PressConfig::read(ConfigReader& in) {
   config.newton.patches = newton.flag_or("patches", true);
   config.newton.max_iterations = newton.integer_or("max_iterations", 200, 1);
   config.max_halvings = newton.integer_or("max_halvings", 5, 0, 20);
+  config.stress = in.flag_or("stress", false);
+  if (config.stress && config.stiffness_damping_s > 0.0)
+    in.fault("stress", "is not measured with damping.stiffness_s, a damping of elements that has no stress of its own");
   return config;
 }
 

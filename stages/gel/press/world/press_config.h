@@ -44,6 +44,7 @@ struct PressConfig {
   NewtonSettings newton;                     // all but the velocity tolerance; too many iterations halve a step
   LinearSolverKind linear_solver = LinearSolverKind::conjugate_gradient;
   int max_halvings = 0;  // of a time step; reaching it is a failure
+  bool stress = false;   // Cauchy stress in the gels, pressure and shear on their fronts are measured
 
   static PressConfig read(ConfigReader& in);
   double coefficient_of_friction() const { return friction ? friction->coefficient : 0.0; }

@@ -24,6 +24,18 @@ double balanced_barrier_stiffness(const PressConfig& config, const Material& mat
   return config.relative_barrier_stiffness * h * h * material.youngs_modulus_pa * l * l / (d * d * d);
 }
 
+/// A body's material law, and the element it is of.
+struct Elastic {
+  ElasticLaw law;
+  Element kind;
+};
+
+Elastic elastic_of(const DeformableBody& body) {
+  const Material& m = body.material;
+  return {make_elastic_law(m.law, m.lame_mu_pa(), m.lame_lambda_pa()),
+          body.element == "averaged_volume" ? Element::averaged_volume : Element::linear};
+}
+
 }  // namespace
 
 Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh& gel) {
@@ -55,9 +67,9 @@ GelModel make_gel_model(const std::vector<DeformableBody>& bodies) {
   std::vector<Viscoelasticity::Body> viscous;
   bool relaxes = false;
   Eigen::Index first_vertex = 0, first_tet = 0;
-  for (const auto& [material, element, mesh] : bodies) {
-    const ElasticLaw law = make_elastic_law(material.law, material.lame_mu_pa(), material.lame_lambda_pa());
-    const Element kind = element == "averaged_volume" ? Element::averaged_volume : Element::linear;
+  for (const DeformableBody& body : bodies) {
+    const auto& [material, element, mesh] = body;
+    const auto [law, kind] = elastic_of(body);
     const Tetrahedra tets = all.tets.middleRows(first_tet, mesh.num_tets());
     elastic.push_back(make_elasticity(all.positions, tets, law, kind));
     model.mass_kg.segment(first_vertex, mesh.num_vertices()) = lumped_masses(
@@ -73,6 +85,11 @@ GelModel make_gel_model(const std::vector<DeformableBody>& bodies) {
   model.elasticity = elastic.size() == 1 ? elastic.front() : std::make_shared<JoinedTerm>(std::move(elastic));
   if (relaxes) model.viscoelasticity = std::make_shared<Viscoelasticity>(viscous);
   return model;
+}
+
+TetStress tet_stress_of(const DeformableBody& body) {
+  const auto [law, kind] = elastic_of(body);
+  return make_tet_stress(body.mesh.positions, body.mesh.tets, law, kind);
 }
 
 StepSettings step_settings(const PressConfig& config, const Scales& scales) {

@@ -9,6 +9,7 @@
 #include "common/sample/sample_spec.h"
 #include "common/sensor/sensor.h"
 #include "stages/gel/press/energy/tet_energy.h"
+#include "stages/gel/press/energy/tet_stress.h"
 #include "stages/gel/press/solve/time_step.h"
 #include "stages/gel/press/world/press_config.h"
 
@@ -38,6 +39,9 @@ struct DeformableBody {
 /// vertices and tetrahedra follow one another as in joined(). The glued vertices are those of all; a body without any
 /// has no mount. \throw DataError naming the first tetrahedron of a body that is not positively oriented
 GelModel make_gel_model(const std::vector<DeformableBody>& bodies);
+
+/// The stress in a body's tetrahedra by the same law and element. \throw the same
+TetStress tet_stress_of(const DeformableBody& body);
 
 /// Settings with one law for all pairs of bodies.
 StepSettings step_settings(const PressConfig& config, const Scales& scales);

@@ -36,6 +36,7 @@ World::World(const Sensor& sensor, const PressConfig& config, std::vector<Body> 
       parts_(make_parts()),
       settings_(make_settings()),
       mesh_(make_mesh()),
+      stresses_(make_stresses()),
       model_(make_gel_model(materials())),
       stepper_(mesh_, model_, settings_, affine_) {
   start();
@@ -107,6 +108,23 @@ std::vector<DeformableBody> World::materials() const {
   for (std::size_t b = 0; b < parts_.size(); ++b)
     all.push_back({bodies_[b].material, element_of(config_, bodies_[b].material), bodies_[b].tets});
   return all;
+}
+
+std::vector<TetStress> World::make_stresses() const {
+  std::vector<TetStress> all;
+  const std::vector<DeformableBody> bodies = materials();
+  for (std::size_t b = 0; config_.stress && b < num_gels_; ++b) all.push_back(tet_stress_of(bodies[b]));
+  return all;
+}
+
+SymmetricRows World::stress(std::size_t gel, const Positions& x) const {
+  const TetStress& elastic = stresses_[gel];
+  SymmetricRows second_pa = elastic(x);
+  if (model_.viscoelasticity) {
+    const SymmetricRows memory = model_.viscoelasticity->remembered(state_.motion.viscous_pa, gel);
+    if (memory.rows() > 0) second_pa += memory;
+  }
+  return cauchy_stress(*elastic.body(), x, second_pa);
 }
 
 void World::start() {
@@ -328,6 +346,7 @@ std::vector<Frame> World::measure(PhaseKind phase, int phase_index, const StepRe
     const auto pose = options_.mounts_move ? std::optional(state_.world_from_body[b]) : std::nullopt;
     Frame frame =
         gel_frame(part, pose, at_rest && b < num_gels_ ? part.gel.positions : positions_in_gel(part, pose, x), forces);
+    if (b < stresses_.size()) frame.stress_pa = stress(b, frame.positions);
     if (b >= num_gels_) frame.balance.relative = frame.balance.force_n / most_force_on(b);
     frame.time_s = state_.time_s;
     frame.phase = phase;

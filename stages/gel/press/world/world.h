@@ -128,6 +128,9 @@ class World {
   ContactMesh make_mesh() const;
   void add_gels(ContactMesh& mesh) const;
   std::vector<DeformableBody> materials() const;
+  std::vector<TetStress> make_stresses() const;
+  /// Cauchy stress of a gel's tetrahedra. \param x its vertices in its own frame
+  SymmetricRows stress(std::size_t gel, const Positions& x) const;
   void start();
 
   void take_poses(const StepGoal& goal, const std::vector<Matrix4>& world_from_body);
@@ -156,6 +159,7 @@ class World {
   const std::vector<Part> parts_;
   const StepSettings settings_;
   const ContactMesh mesh_;
+  const std::vector<TetStress> stresses_;  // of the gels, where the configuration wants them
   GelModel model_;
   TimeStepper stepper_;
   WorldState state_;

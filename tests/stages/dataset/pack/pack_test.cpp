@@ -128,6 +128,27 @@ TEST_F(PackTest, NumbersComeOutInTheUnitsOfTheTable) {
   expect_same(values(file, group("/check/min_distance_mm"))[1], 0.03);
 }
 
+TEST_F(PackTest, StressIsThereWhereThePressHasIt) {
+  for (const char* field : {"pressure_Nmm2", "shear_Nmm2", "nodal_pressure_Nmm2", "nodal_shear_Nmm2", "stress_Nmm2"})
+    also(field);
+  ASSERT_EQ(pack(), 0) << said_;
+  for (const char* field : {"nodal_pressure_Nmm2", "nodal_shear_Nmm2", "stress_Nmm2"})
+    EXPECT_EQ(shard().text_attribute(group("/sim"), std::string("absent_") + field),
+              "the press file does not say stress: true");
+  EXPECT_EQ(shard().text_attribute(group("/obs"), "absent_pressure_Nmm2"), "the dataset's maps leave it out");
+  sample_->write_stress();
+  ASSERT_EQ(pack("more"), 0) << said_;
+  const Hdf5Reader file = shard("more");
+  EXPECT_EQ(file.shape(group("/sim/stress_Nmm2")), (std::vector<std::size_t>{2, 5, 6}));
+  EXPECT_EQ(file.shape(group("/obs/shear_Nmm2")), (std::vector<std::size_t>{2, 3, 4, 3}));
+  // stress.npy holds n Pa, front_pressure.npy 10 n, front_shear.npy 100 n; frames 0 and 2 are packed.
+  expect_same(values(file, group("/sim/stress_Nmm2"))[30 + 7], 1e-6 * (60 + 7));
+  EXPECT_THAT(values(file, group("/sim/nodal_pressure_Nmm2")),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.0, 20e-6, 80e-6, 100e-6}));
+  expect_same(values(file, group("/sim/nodal_shear_Nmm2"))[6 + 3 + 1], 1e-4 * (24 + 6 + 1));
+  expect_same(values(file, group("/obs/pressure_Nmm2"))[12 + 5], 1e-6 * 205);
+}
+
 TEST_F(PackTest, SchemaAndAttributesSayTheSameFieldByField) {
   ASSERT_EQ(pack(), 0) << said_;
   const Hdf5Reader file = shard();

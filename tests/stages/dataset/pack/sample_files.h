@@ -105,6 +105,21 @@ class MadeSample {
                     per_frame));
   }
 
+  /// Adds stress to the press, of five tetrahedra, and its maps to the pictures.
+  void write_stress() {
+    const auto counted = [](std::size_t count, double unit) {
+      std::vector<double> all(count);
+      for (std::size_t i = 0; i < count; ++i) all[i] = unit * static_cast<double>(i);
+      return all;
+    };
+    const auto path = [&](const std::string& name) { return root_ / (folder_ + "/press/" + name); };
+    write_npy(path("stress.npy"), {3, 5, 6}, counted(90, 1.0).data());
+    write_npy(path("front_pressure.npy"), {3, 2, 2}, counted(12, 10.0).data());
+    write_npy(path("front_shear.npy"), {3, 2, 2, 3}, counted(36, 100.0).data());
+    has_stress_ = true;
+    write_render();
+  }
+
   void write_render() {
     std::string outputs;
     const auto add = [&](const std::string& name, auto&& write) {
@@ -120,6 +135,10 @@ class MadeSample {
       add(at + "indentation.exr", [&](const auto& path) { write_exr(path, test_map(f, 1, 1e-5f), {"Y"}); });
       add(at + "depth.exr", [&](const auto& path) { write_exr(path, test_map(f, 1, 1e-4f), {"Y"}); });
       add(at + "normal.exr", [&](const auto& path) { write_exr(path, test_map(f, 3, 0.25f), {"R", "G", "B"}); });
+      if (has_stress_) {
+        add(at + "pressure.exr", [&](const auto& path) { write_exr(path, test_map(f, 1, 1.0f), {"Y"}); });
+        add(at + "shear.exr", [&](const auto& path) { write_exr(path, test_map(f, 3, 1.0f), {"R", "G", "B"}); });
+      }
       add(at + "contact.png", [&](const auto& path) { write_png(path, levels({0, 255})); });
       add(at + "stick_slip.png", [&](const auto& path) { write_png(path, levels({0, 127, 254})); });
       add(at + "segment.png", [&](const auto& path) { write_png(path, levels({0, 60, 120, 180, 240})); });
@@ -158,6 +177,7 @@ class MadeSample {
 
   const ScratchFolder& root_;
   std::string folder_;
+  bool has_stress_ = false;
 };
 
 }  // namespace tacipc

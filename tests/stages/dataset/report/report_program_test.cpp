@@ -38,6 +38,38 @@ TEST_F(ReportStageTest, WritesPageSheetAndRecordAndCountsTheFailed) {
   EXPECT_THAT(record, HasSubstr("- path: ../star\n"));
 }
 
+/// Where all frames were rendered the page shows them in turn; of fewer, or of another press, it does not.
+TEST_F(ReportStageTest, AMotionOfWhichAllFramesAreRenderedMoves) {
+  const auto write_frames = [&](const fs::path& render, const std::string& hash) {
+    for (int f = 0; f < 3; ++f)
+      write_flat_png(render / fmt::format("frame_{:04}/tactile.png", f), 16, 12,
+                     static_cast<std::uint8_t>(50 + 60 * f));
+    write_file(render / "render.yaml",
+               fmt::format("stage: render\ninputs: {{press: {{path: ../press, hash: {}}}}}\n", hash));
+  };
+  const std::vector<double> times{0.0, 0.01, 0.02};
+  write_npy(star_ / "press/time.npy", {3}, times.data());
+  ASSERT_EQ(run({"out/demo/star"}, "out/demo/report"), 0) << said_;
+  EXPECT_THAT(read_file(scratch_ / "out/demo/report/index.html"), ::testing::Not(HasSubstr("class=\"film\"")));
+  write_frames(star_ / "frames", content_hash(star_ / "press"));
+  ASSERT_EQ(run({"out/demo/star", "out/demo/gear"}, "out/demo/report"), 0) << said_;
+  const std::string page = read_file(scratch_ / "out/demo/report/index.html");
+  const std::size_t film = page.find("class=\"film\"");
+  ASSERT_NE(film, std::string::npos);
+  EXPECT_EQ(page.find("class=\"film\"", film + 1), std::string::npos) << "the gear has none";
+  EXPECT_THAT(page, HasSubstr("background-image: url(films/sample-1.jpg); background-size: 100% 300%; "
+                              "animation-duration: 0.300s; animation-timing-function: steps(3, jump-none)"));
+  EXPECT_THAT(page, HasSubstr("<b>The motion</b>: tactile; 10 times slower than the motion, 3 of 3 frames"));
+  const ByteImage strip = read_png(scratch_ / "out/demo/report/films/sample-1.jpg", 3);
+  ASSERT_EQ(strip.height, 36);
+  for (int f = 0; f < 3; ++f) EXPECT_NEAR(strip.at(8, 12 * f + 6, 0), 50 + 60 * f, 4);
+  write_frames(star_ / "frames", "another");
+  ASSERT_EQ(run({"out/demo/star"}, "out/demo/report"), 0);
+  EXPECT_THAT(said_, HasSubstr("star-007: no moving picture: out/demo/star/frames: its images are of another press"));
+  EXPECT_THAT(read_file(scratch_ / "out/demo/report/index.html"), ::testing::Not(HasSubstr("class=\"film\"")));
+  EXPECT_FALSE(fs::exists(scratch_ / "out/demo/report/films"));
+}
+
 TEST_F(ReportStageTest, TheSameSamplesGiveTheSameBytesWhereverTheyLie) {
   ASSERT_EQ(run({"out/demo/star", "out/demo/gear"}, "out/demo/report", "--threads 1"), 0);
   fs::copy(scratch_ / "out", scratch_ / "copied", fs::copy_options::recursive);

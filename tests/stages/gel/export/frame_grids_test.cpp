@@ -73,6 +73,37 @@ TEST_F(FrameGridsTest, TheVolumeHasTheRatioOfEachTetrahedron) {
   EXPECT_EQ(values(grid.point_data, "friction_force")[3 * 8], 0.0);
 }
 
+/// Where the press has stress: of each tetrahedron in VTK's order, turned with the gel; pressure and shear on the
+/// front.
+TEST_F(FrameGridsTest, StressTurnsWithTheGel) {
+  const TetMesh gel = read_tet_mesh(scratch_ / "gel.msh");
+  for (const VtuArray& array : volume_grid(gel, press(), 1).cell_data) EXPECT_NE(array.name, "stress");
+  std::vector<double> stress(2 * 12 * 6, 0.0), pressure(2 * 4 * 2, 0.0), shear(2 * 4 * 2 * 3, 0.0);
+  for (std::size_t t = 0; t < 12; ++t)
+    for (std::size_t i = 0; i < 6; ++i) stress[(12 + t) * 6 + i] = 1.0 + static_cast<double>(i);  // xx yy zz yz xz xy
+  pressure[(4 + 1) * 2] = 70.0, pressure[(4 + 1) * 2 + 1] = 60.0;
+  shear[((4 + 3) * 2 + 0) * 3 + 1] = 5.0;
+  write_npy(scratch_ / "press/stress.npy", {2, 12, 6}, stress.data());
+  write_npy(scratch_ / "press/front_pressure.npy", {2, 4, 2}, pressure.data());
+  write_npy(scratch_ / "press/front_shear.npy", {2, 4, 2, 3}, shear.data());
+  const VtuGrid volume = volume_grid(gel, press(), 1), surface = surface_grid(gel, press(), 1);
+  const auto first = [](const VtuGrid& grid) {
+    const auto& all = values(grid.cell_data, "stress");
+    return std::vector<double>(all.begin() + 6, all.begin() + 12);
+  };
+  EXPECT_THAT(first(volume), ElementsAre(1, 2, 3, 6, 4, 5)) << "xx yy zz xy yz xz";
+  const auto& on_vertices = values(surface.point_data, "pressure");
+  for (std::size_t v = 0; v < 8; ++v) {
+    EXPECT_EQ(on_vertices[v], v == 5 ? 70.0 : 0.0);
+    EXPECT_EQ(values(surface.point_data, "shear")[3 * v + 1], v == 7 ? 5.0 : 0.0);
+  }
+  // A quarter turn about z: x to y, y to −x.
+  Matrix4 turn = Matrix4::Identity();
+  turn.topLeftCorner<3, 3>() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  turn.topRightCorner<3, 1>() << 7, 8, 9;
+  EXPECT_THAT(first(in_world(volume, turn)), ElementsAre(2, 1, 3, -6, 5, -4));
+}
+
 TEST_F(FrameGridsTest, TheObjectIsWhereItsPosePutsIt) {
   const TriangleMesh object = read_triangle_mesh(scratch_ / "object.ply", 1.0);
   EXPECT_EQ(object_grid(object, press().poses()[0]).points, object.positions);

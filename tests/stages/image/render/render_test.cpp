@@ -239,6 +239,38 @@ TEST_F(RenderOutputs, ContactTractionAndMarkersHaveTheirImages) {
   EXPECT_EQ(with.at(2, 2, 1), without.at(2, 2, 1));
 }
 
+/// Where the press has stress: pressure and shear make up the traction again, pixel by pixel.
+TEST_F(RenderOutputs, SplitTheTractionWhereThePressHasStress) {
+  ASSERT_EQ(run(), 0) << said_;
+  EXPECT_FALSE(fs::exists(scratch_ / "out/frame_0002/pressure.exr"));
+  const std::vector<double> none(3 * 221 * 2, 0.0);
+  write_npy(scratch_ / "press/front_pressure.npy", {3, 221, 2}, none.data());
+  ASSERT_EQ(run(), 0) << said_;
+  const fs::path frame = scratch_ / "out/frame_0002";
+  const std::vector<std::string> rgb{"R", "G", "B"};
+  const FloatImage traction = read_exr(frame / "traction.exr", rgb), normal = read_exr(frame / "normal.exr", rgb),
+                   pressure = read_exr(frame / "pressure.exr", {"Y"}), shear = read_exr(frame / "shear.exr", rgb);
+  EXPECT_NEAR(pressure.at(16, 12, 0), 16e3, 1.5e3);
+  int seen = 0;
+  for (int y = 0; y < traction.height; ++y) {
+    for (int x = 0; x < traction.width; ++x) {
+      double along = 0.0;
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(shear.at(x, y, c) - pressure.at(x, y, 0) * normal.at(x, y, c), traction.at(x, y, c), 0.01);
+        along += double{shear.at(x, y, c)} * normal.at(x, y, c);
+      }
+      EXPECT_NEAR(along, 0.0, 0.02);
+      seen += pressure.at(x, y, 0) > 1e3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(seen, 10);
+  // A dataset says itself what it wants.
+  write_file(scratch_ / "maps.yaml", "maps: [tactile, shear]\n");
+  ASSERT_EQ(run("out", "--threads 1 --maps " + (scratch_ / "maps.yaml").string()), 0) << said_;
+  EXPECT_TRUE(fs::exists(frame / "shear.exr"));
+  EXPECT_FALSE(fs::exists(frame / "pressure.exr"));
+}
+
 TEST_F(RenderOutputs, RefusesFilesThatDoNotBelongTogether) {
   fs::remove(scratch_ / "press/contact_state.npy");
   EXPECT_EQ(run(), 1);

@@ -51,6 +51,16 @@ TEST(PressConfig, ContactHessianIsAdaptiveUnlessNamed) {
               ElementsAre("x.yaml:2:27: newton.contact_hessian: 'exact' is not one of adaptive, positive"));
 }
 
+TEST(PressConfig, StressIsMeasuredWhereItIsWantedButNotWithDampingByStiffness) {
+  const std::string rest = "time_step_s: 0.01\nnewton: {}\nbarrier: {relative_d_hat: 1e-3, stiffness: 1e6}\n";
+  EXPECT_FALSE(config_from_text<PressConfig>(rest, "x.yaml").stress);
+  EXPECT_TRUE(config_from_text<PressConfig>(rest + "stress: true\ndamping: {mass_per_s: 2}\n", "x.yaml").stress);
+  EXPECT_THAT(
+      faults_in<PressConfig>(rest + "damping: {stiffness_s: 1e-3}\nstress: true\n", "x.yaml"),
+      ElementsAre("x.yaml:5:9: stress: is not measured with damping.stiffness_s, a damping of elements that has "
+                  "no stress of its own"));
+}
+
 TEST(PressConfig, BarrierStiffnessAdaptsUnlessItIsGiven) {
   const auto read = [](const std::string& barrier) {
     return config_from_text<PressConfig>(
