@@ -135,6 +135,8 @@ Json parsed(std::string_view text, const std::string& name) {
     const std::size_t line_end = before.rfind('\n');
     throw DataError("{}: is not glTF: no JSON from line {}, column {} on", name, 1 + std::ranges::count(before, '\n'),
                     line_end == std::string_view::npos ? before.size() + 1 : before.size() - line_end);
+  } catch (const Json::out_of_range&) {
+    throw DataError("{}: is not glTF: its JSON has a number that no double holds", name);
   }
 }
 

@@ -97,7 +97,9 @@ const char* GltfNumbers::data_of(std::size_t view, std::size_t offset, std::size
 
 void GltfNumbers::read_sparse(const GltfSparse& sparse) {
   const std::size_t size = size_of(sparse.indices_type);
-  if (size == 0 || sparse.indices_type == kGltfFloat) fail("has sparse indices that are no integers");
+  const int type = sparse.indices_type;
+  if (type != kGltfUnsignedByte && type != kGltfUnsignedShort && type != kGltfUnsignedInt)
+    fail("has sparse indices that are no whole numbers from 0");
   if (sparse.count > accessor_.count) fail("has more sparse elements than elements");
   const char* indices = data_of(sparse.indices_view, sparse.indices_offset, sparse.count, size, size);
   values_ = data_of(sparse.values_view, sparse.values_offset, sparse.count, element_size_, element_size_);
