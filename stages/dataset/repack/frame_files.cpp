@@ -97,7 +97,7 @@ std::string SampleFiles::Field::form() const {
 
 void SampleFiles::add_group(const std::string& section, const std::string& group, const std::string& prefix) {
   for (const std::string& name : shard_.names(group)) {
-    Field field{.path = group + "/" + name, .key = prefix + name, .group = section};
+    Field field{.path = fmt::format("{}/{}", group, name), .key = prefix + name, .group = section};
     field.type = shard_.type(field.path);
     field.shape = shard_.shape(field.path);
     field.of_frames = section != "ensemble" && shard_.text_attribute(field.path, "shape").starts_with("(T");
@@ -119,12 +119,13 @@ SampleFiles::SampleFiles(const Hdf5Reader& shard, const std::string& id)
     if (every_sample_has(name)) of_all_.emplace_back(name, value);
   }
   for (const std::string& section : shard.names(sample_)) {
-    const std::string group = sample_ + "/" + section;
+    const std::string group = fmt::format("{}/{}", sample_, section);
     if (section != "variants") {
       add_group(section, group, section == "obs" || section == "check" ? "" : section + ".");
       continue;
     }
-    for (const std::string& variant : shard.names(group)) add_group(section, group + "/" + variant, variant + ".");
+    for (const std::string& variant : shard.names(group))
+      add_group(section, fmt::format("{}/{}", group, variant), variant + ".");
   }
   std::set<std::string> files;
   for (const Field& field : fields_)

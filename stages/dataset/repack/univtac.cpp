@@ -31,18 +31,20 @@ void append_pose(Poses& poses, std::vector<double> pose) {
 /// One episode's file.
 class EpisodeFile {
  public:
-  EpisodeFile(const Episode& episode, const std::filesystem::path& path) : episode_(episode), file_(path) {
-    file_.attribute("/", "id", episode.id());
+  EpisodeFile(const Episode& episode, const std::filesystem::path& path) : episode_(episode), file_(path) {}
+
+  void write() {
+    file_.attribute("/", "id", episode_.id());
     file_.attribute("/", "converted_from", "tactile-shard");
     file_.attribute("/", "world",
-                    episode.is_grasp() ? "x from the left finger to the right one before the hand turns, z up"
-                                       : "the frame S of the sensor, which does not move");
+                    episode_.is_grasp() ? "x from the left finger to the right one before the hand turns, z up"
+                                        : "the frame S of the sensor, which does not move");
     file_.attribute("/", "absent_observation", "there is no camera but those in the sensors");
-    if (!episode.is_grasp()) file_.attribute("/", "absent_right_tactile", "the sample has one sensor");
+    if (!episode_.is_grasp()) file_.attribute("/", "absent_right_tactile", "the sample has one sensor");
     write_counters();
     write_world();
     write_finger("/tactile/left_tactile", 0);
-    if (episode.is_grasp()) write_finger("/tactile/right_tactile", 1);
+    if (episode_.is_grasp()) write_finger("/tactile/right_tactile", 1);
     file_.close();
   }
 
@@ -160,8 +162,9 @@ Value::Map write_univtac(std::vector<std::filesystem::path> shards, const Output
   };
   std::map<std::string, Count> counts;
   const std::size_t alone = for_each_episode(std::move(shards), [&](std::size_t, const Episode& episode) {
-    EpisodeFile(episode,
-                output(fmt::format("{}/{}/hdf5/{}.hdf5", episode.kind(), episode.text("split"), index_of(episode))));
+    const std::string name =
+        fmt::format("{}/{}/hdf5/{}.hdf5", episode.kind(), episode.text("split"), index_of(episode));
+    EpisodeFile(episode, output(name)).write();
     Count& count = counts[episode.kind()];
     ++count.episodes;
     count.frames += episode.frames();

@@ -52,7 +52,7 @@ TEST(TarWriter, AFullDiskIsAnError) {
 /// One sample "a.b" of a toy sensor in two frames; \param more is written into it.
 std::filesystem::path two_frames(const ScratchFolder& scratch, const std::string& name,
                                  const std::function<void(Hdf5Writer&)>& more) {
-  const std::filesystem::path path = scratch / (name + ".h5");
+  std::filesystem::path path = scratch / (name + ".h5");
   Hdf5Writer file(path);
   file.group("/sensors/toy");
   file.group("/data/a.b/obs");
