@@ -22,6 +22,13 @@ std::string quoted(const std::string& text) {
   return out;
 }
 
+/// With a point or an exponent, so that readers that tell whole numbers from others have one type for all.
+std::string real(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
 /// Whether a list fits on a line: no maps in it, however deep.
 bool holds_no_map(const Value& value) {
   if (std::holds_alternative<Value::Map>(value.data())) return false;
@@ -38,7 +45,7 @@ struct Write {
 
   void operator()(bool value) const { out += value ? "true" : "false"; }
   void operator()(std::int64_t value) const { out += fmt::format("{}", value); }
-  void operator()(double value) const { out += std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+  void operator()(double value) const { out += std::isfinite(value) ? real(value) : "null"; }
   void operator()(const std::string& value) const { out += quoted(value); }
   void operator()(const Value::List& list) const {
     const bool flat = holds_no_map(Value(list));

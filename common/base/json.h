@@ -8,7 +8,7 @@
 namespace tacipc {
 
 /// JSON with two blanks of indentation, lists without maps on one line, numbers in the shortest form that reads back to
-/// the same bits. Numbers that are not finite become null: JSON has none.
+/// the same bits: 0.0 for a double, 0 for a whole number. Numbers that are not finite become null: JSON has none.
 std::string to_json(const Value& value);
 
 }  // namespace tacipc

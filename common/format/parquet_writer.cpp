@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr const char* kParquetMagic = "PAR1";
 // Enumerations of parquet.thrift.
-constexpr int kInt64 = 2, kFloat = 4, kByteArray = 6;
+constexpr int kInt64 = 2, kFloat = 4, kDouble = 5, kByteArray = 6;
 constexpr int kRequired = 0, kRepeated = 2;
 constexpr int kUtf8 = 0, kList = 3;
 constexpr int kPlain = 0, kRle = 3;
@@ -94,6 +94,7 @@ int physical_type(ParquetType type) {
   switch (type) {
     case ParquetType::i64: return kInt64;
     case ParquetType::f32: return kFloat;
+    case ParquetType::f64: return kDouble;
     default: return kByteArray;
   }
 }
@@ -240,6 +241,8 @@ void ParquetWriter::add_row_group(const std::vector<ParquetValues>& columns, std
       chunks.push_back(write_page(levels, plain<std::int64_t>(*whole), count));
     } else if (const auto* real = std::get_if<std::vector<float>>(&columns[c])) {
       chunks.push_back(write_page(levels, plain<float>(*real), count));
+    } else if (const auto* wide = std::get_if<std::vector<double>>(&columns[c])) {
+      chunks.push_back(write_page(levels, plain<double>(*wide), count));
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&columns[c])) {
       chunks.push_back(write_page(levels, plain(*texts), count));
     } else {

@@ -12,7 +12,7 @@
 namespace tacipc {
 
 /// How a column's values lie in the file. `image` is a group of `bytes` (binary) and `path` (text).
-enum class ParquetType { i64, f32, text, image };
+enum class ParquetType { i64, f32, f64, text, image };
 
 struct ParquetColumn {
   std::string name;
@@ -25,8 +25,8 @@ struct ParquetImage {
 };
 
 /// The values of one column, row after row, lists row-major. \pre of the column's type, as many as rows times shape
-using ParquetValues =
-    std::variant<std::vector<std::int64_t>, std::vector<float>, std::vector<std::string>, std::vector<ParquetImage>>;
+using ParquetValues = std::variant<std::vector<std::int64_t>, std::vector<float>, std::vector<double>,
+                                   std::vector<std::string>, std::vector<ParquetImage>>;
 
 /// A file whose bytes depend on its content alone: every value is required, pages are PLAIN (format version 1), levels
 /// of lists are runs, one page a column and row group. What is written of a row group does not stay in memory. Errors

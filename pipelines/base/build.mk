@@ -84,7 +84,19 @@ build-all: with-tests # one after the other: two builds in one folder would trip
 check: build-all ## start: Build and run the tests (under 15 minutes)
 	ctest --test-dir $(BUILD) -LE "slow|dev" -j $(JOBS) --output-on-failure --no-tests=error
 
-check-slow: build-all ## development: Build and run the long tests
+# What reads exports, for tests alone: packages/loaders.pip beside Debian's Python, NumPy, PyTorch. lerobot comes without its own list, which asks
+# for a newer Python (tests/pipeline/lerobot_on_debian.py).
+LEROBOT := lerobot==0.6.1
+packages_for_loaders-python := loaders
+.PHONY: loaders-python
+loaders-python: $(BUILD)/loaders/installed
+$(BUILD)/loaders/installed: packages/loaders.pip pipelines/base/build.mk | packages
+	@if [ "$(PACKAGES)" = no ]; then echo 'packages: no $(@D) (packages/loaders.pip)'; exit 0; fi; \
+	rm -rf $(@D) && /usr/bin/python3 -m venv --system-site-packages $(@D); \
+	pip() { $(@D)/bin/python -m pip install --quiet --no-cache-dir --disable-pip-version-check "$$@"; }; \
+	pip -r packages/loaders.pip && pip --no-deps --ignore-requires-python $(LEROBOT) && echo '$(LEROBOT)' > $@
+
+check-slow: build-all $(BUILD)/loaders/installed ## development: Build and run the long tests
 	ctest --test-dir $(BUILD) -L slow -j $(JOBS) --output-on-failure --no-tests=error
 
 clean: ## development: Remove the build folder (generated data stay)

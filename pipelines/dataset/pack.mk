@@ -58,10 +58,13 @@ $(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml: configs/datasets/repack/$(FORMAT)
 
 dataset-pack: $(DATASET_DIR)/pack/card.yaml
 	@echo; echo "Look at $(DATASET_DIR)/pack/README.md; that folder is what users download"
-# LeRobot counts episodes and frames over the whole dataset.
-$(DATASET_DIR)/repack/lerobot/repack.yaml: configs/datasets/repack/lerobot.yaml $(SHARDS_DIR)/shards.txt $(SHARD_RECORDS) | build
+# Layouts of episodes: LeRobot counts them over the whole dataset, and the fingers of a grasp may be in two shards.
+EPISODE_FORMATS := lerobot univtac
+$(EPISODE_FORMATS:%=$(DATASET_DIR)/repack/%/repack.yaml): $(DATASET_DIR)/repack/%/repack.yaml: configs/datasets/repack/%.yaml $(SHARDS_DIR)/shards.txt \
+    $(SHARD_RECORDS) | build
 	$(call run,repack,--config $< --shards $(SHARDS_DIR)/shards.txt)
 
-dataset-repack: $(if $(filter lerobot,$(FORMAT)),$(DATASET_DIR)/repack/lerobot/repack.yaml,$(PACK_SHARDS:%=$(DATASET_DIR)/repack/$(FORMAT)/%/repack.yaml))
+repacked := $(DATASET_DIR)/repack/$(FORMAT)
+dataset-repack: $(if $(filter $(EPISODE_FORMATS),$(FORMAT)),$(repacked)/repack.yaml,$(PACK_SHARDS:%=$(repacked)/%/repack.yaml))
 	@echo; echo "Look into $(DATASET_DIR)/repack/$(FORMAT)"
 endif

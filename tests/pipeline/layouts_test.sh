@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A dataset of two sensors as a LeRobot dataset, read back by pyarrow, and the lines of docs/pack.md that train on each layout.
+# A dataset of two sensors as LeRobot datasets, read back by pyarrow, and the lines of docs/pack.md that train on each layout.
 . "$(dirname "$0")/common.sh"
 /usr/bin/python3 -m venv --system-site-packages python
 python/bin/pip install --quiet --disable-pip-version-check 'pyarrow==19.0.*' 'pillow==11.*' 2> said.txt || fail "pyarrow cannot be installed: $(cat said.txt)"

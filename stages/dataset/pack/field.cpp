@@ -41,6 +41,7 @@ Field read_field(ConfigReader& in, Section section, const std::string& name, Fie
   if (const auto codes = in.optional_text("codes")) field.more.emplace_back("codes", *codes);
   if (!field.from.codes.empty()) field.more.emplace_back("codes", field.from.codes);
   if (const auto order = in.optional_text("quat_order")) field.more.emplace_back("quat_order", *order);
+  if (const auto nan = in.optional_text("nan")) field.more.emplace_back("nan", *nan);
   if (in.has("step_exponent")) field.step_exponent = in.integer("step_exponent", -64, 64);
   field.per_frame = in.flag_or("per_frame", true);
   return field;

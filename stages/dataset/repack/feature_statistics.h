@@ -1,61 +1,56 @@
-// Least, greatest, mean and deviation of a feature over all frames, as LeRobot's meta/stats.json has them.
+// Statistics of a feature over frames, as LeRobot keeps them for a dataset and for each episode.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <unordered_map>
 #include <vector>
-
-#include "common/base/value.h"
 
 namespace tacipc {
 
-/// Of `width` interleaved numbers each by itself: the components of a vector, the channels of an image.
+/// Names of the statistics that FeatureStatistics::values returns, in its order.
+inline constexpr std::array kStatistics{"min", "max", "mean", "std", "q01", "q10", "q50", "q90", "q99"};
+
+/// Statistics of one number over all times it was seen; numbers that are not finite do not count.
+class NumberStatistics {
+ public:
+  void add(double number, std::int64_t times = 1);
+  void add(const NumberStatistics& other);
+
+  /// kStatistics; all 0 if no number was seen. A quantile q is the smallest number that at least q of all do not
+  /// exceed, found to 2^-15 of itself.
+  std::array<double, kStatistics.size()> values() const;
+
+ private:
+  std::array<double, 5> quantiles() const;
+
+  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;
+  double mean_ = 0.0, squares_ = 0.0;  // Welford's sums
+  std::int64_t count_ = 0;
+  /// How often numbers were seen that agree in sign, exponent and 15 bits of the mantissa; the keys ascend with them.
+  std::unordered_map<std::uint32_t, std::int64_t> counts_;
+};
+
+/// Statistics of each of `width` interleaved numbers: components of a vector, channels of an image.
 class FeatureStatistics {
  public:
   explicit FeatureStatistics(std::size_t width) : of_(width) {}
 
-  template <typename T>
-  void add(const std::vector<T>& values, double scale = 1.0) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      One& one = of_[i % of_.size()];
-      const double value = scale * static_cast<double>(values[i]);
-      if (std::isnan(value)) continue;
-      one.least = std::min(one.least, value);
-      one.greatest = std::max(one.greatest, value);
-      ++one.count;
-      const double before = value - one.mean;
-      one.mean += before / static_cast<double>(one.count);
-      one.squares += before * (value - one.mean);
-    }
-    ++frames_;
-  }
+  void add_frame(std::span<const double> values);
+  void add_frame(std::span<const float> values);
+  /// Codes of a picture as parts of 255.
+  void add_frame(std::span<const std::uint8_t> codes);
+  void add(const FeatureStatistics& other);
 
-  /// Lists of one number for each component; of images each number in two further lists, (channels, 1, 1).
-  Value::Map value(bool image) const {
-    const auto list = [&](auto&& number_of) {
-      Value::List numbers;
-      for (const One& one : of_) {
-        const Value number = one.count > 0 ? number_of(one) : 0.0;
-        numbers.push_back(image ? Value(Value::List{Value(Value::List{number})}) : number);
-      }
-      return Value(numbers);
-    };
-    return {{"min", list([](const One& one) { return one.least; })},
-            {"max", list([](const One& one) { return one.greatest; })},
-            {"mean", list([](const One& one) { return one.mean; })},
-            {"std", list([](const One& one) { return std::sqrt(one.squares / static_cast<double>(one.count)); })},
-            {"count", Value(Value::List{Value(frames_)})}};
-  }
+  std::size_t width() const { return of_.size(); }
+  std::int64_t frames() const { return frames_; }
+  /// kStatistics of each number.
+  std::array<std::vector<double>, kStatistics.size()> values() const;
 
  private:
-  struct One {
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
-    double mean = 0.0, squares = 0.0;  // Welford's sums
-    std::int64_t count = 0;
-  };
-  std::vector<One> of_;
+  std::vector<NumberStatistics> of_;
   std::int64_t frames_ = 0;
 };
 

@@ -1,8 +1,10 @@
 #include "stages/dataset/repack/frame_files.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
-#include <vector>
+#include <algorithm>
+#include <cctype>
+#include <set>
 
 #include "common/base/error.h"
 #include "common/base/json.h"
@@ -14,120 +16,176 @@ namespace {
 
 constexpr std::size_t kLargestInJson = 16;
 
-/// A dataset of a sample and the name its files have.
-struct FieldFile {
-  std::string path;
-  std::string name;   // "rgb", "sim.first_slip_s", "white.rgb"
-  std::string group;  // of the JSON: "obs", "check"
-  NumberType type = NumberType::f32;
-  std::vector<std::size_t> shape = {};
-  bool per_frame = true;
+/// Attributes that a sample has or has not by how it went, whatever its kind.
+constexpr const char* kSometimes[] = {"reason", "first_slip_s", "gross_slip_s", "friction_margin", "width_mm"};
 
-  std::vector<std::size_t> frame_shape() const {
-    return per_frame ? std::vector<std::size_t>(shape.begin() + 1, shape.end()) : shape;
-  }
-  std::size_t numbers() const {
-    std::size_t count = 1;
-    for (const std::size_t extent : frame_shape()) count *= extent;
-    return count;
-  }
-  bool is_image() const {
-    const auto frame = frame_shape();
-    return type == NumberType::u8 && (frame.size() == 2 || (frame.size() == 3 && frame[2] == 3));
-  }
-};
-
-std::vector<FieldFile> field_files(const Hdf5Reader& shard, const std::string& sample) {
-  std::vector<FieldFile> files;
-  const auto add_group = [&](const std::string& group, const std::string& prefix, const std::string& json) {
-    for (const std::string& name : shard.names(group)) {
-      FieldFile file{.path = group + "/" + name, .name = prefix + name, .group = json};
-      file.type = shard.type(file.path);
-      file.shape = shard.shape(file.path);
-      file.per_frame = shard.text_attribute(file.path, "shape").starts_with("(T");
-      files.push_back(std::move(file));
-    }
-  };
-  for (const std::string& section : shard.names(sample)) {
-    const std::string group = sample + "/" + section;
-    if (section != "variants") {
-      add_group(group, section == "sim" || section == "series" ? section + "." : "", section);
-      continue;
-    }
-    for (const std::string& variant : shard.names(group)) add_group(group + "/" + variant, variant + ".", "variants");
-  }
-  return files;
+bool every_sample_has(const std::string& attribute) {
+  return !attribute.starts_with("limit_") && !attribute.starts_with("absent_") &&
+         std::ranges::find(kSometimes, attribute) == std::end(kSometimes);
 }
 
-Value numbers_of(const FieldFile& file, const std::string& bytes) {
-  const std::vector<double> values = from_bytes(file.type, bytes);
-  const bool whole = file.type == NumberType::u8 || file.type == NumberType::i32;
+/// Name of the file that a configuration becomes; nothing for other attributes.
+std::string configuration_file(const std::string& attribute) {
+  for (const std::string ending : {"yaml", "csv"})
+    if (attribute.ends_with("_" + ending))
+      return attribute.substr(0, attribute.size() - ending.size() - 1) + "." + ending;
+  return "";
+}
+
+std::string lower(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
+/// "real", "text", "3 of real".
+std::string type_of(const Value& value) {
+  if (std::holds_alternative<bool>(value.data())) return "bool";
+  if (std::holds_alternative<std::int64_t>(value.data())) return "whole";
+  if (std::holds_alternative<double>(value.data())) return "real";
+  if (std::holds_alternative<std::string>(value.data())) return "text";
+  if (const auto* list = std::get_if<Value::List>(&value.data()))
+    return fmt::format("{} of {}", list->size(), list->empty() ? "nothing" : type_of(list->front()));
+  return "map";
+}
+
+Value numbers_of(NumberType type, const std::vector<std::size_t>& shape, const std::string& bytes) {
+  const std::vector<double> values = from_bytes(type, bytes);
+  const bool whole = type == NumberType::u8 || type == NumberType::i32;
   Value::List list;
-  for (const double value : values) list.push_back(whole ? Value(static_cast<std::int64_t>(value)) : Value(value));
-  return file.frame_shape().empty() ? list.front() : Value(std::move(list));
+  for (const double value : values) {
+    if (whole)
+      list.emplace_back(static_cast<std::int64_t>(value));
+    else
+      list.emplace_back(value);
+  }
+  return shape.empty() ? list.front() : Value(std::move(list));
 }
 
-std::string picture(const FieldFile& file, const std::string& bytes) {
-  const auto shape = file.frame_shape();
+std::string picture(const std::string& path, const std::vector<std::size_t>& shape, const std::string& bytes) {
   ByteImage image(static_cast<int>(shape[1]), static_cast<int>(shape[0]), shape.size() == 3 ? 3 : 1);
   image.pixels.assign(bytes.begin(), bytes.end());
-  return png_bytes(image, file.path);
+  return png_bytes(image, path);
 }
 
-/// Texts with line breaks are configuration files; they go apart.
-bool is_file(const Value& value) {
-  const auto* text = std::get_if<std::string>(&value.data());
-  return text && text->find('\n') != std::string::npos;
+Value& section_of(Value::Map& map, const std::string& name) {
+  const auto at = std::ranges::find(map, name, &Value::Map::value_type::first);
+  return at != map.end() ? at->second : map.emplace_back(name, Value()).second;
 }
 
 }  // namespace
 
-void write_frames(const Hdf5Reader& shard, const std::string& id, const TakeFile& take) {
-  const std::string sample = "/data/" + id;
-  const std::vector<FieldFile> files = field_files(shard, sample);
-  Value::Map attributes;
-  std::int64_t frames = 0;
-  for (const auto& [name, value] : shard.attributes(sample)) {
-    if (name == "n_frames") frames = std::get<std::int64_t>(value.data());
-    if (!is_file(value)) {
-      attributes.emplace_back(name, value);
+std::size_t SampleFiles::Field::numbers() const {
+  std::size_t count = 1;
+  for (const std::size_t extent : shape) count *= extent;
+  return count;
+}
+
+bool SampleFiles::Field::is_image() const {
+  return of_frames && type == NumberType::u8 && (shape.size() == 2 || (shape.size() == 3 && shape[2] == 3));
+}
+
+bool SampleFiles::Field::is_small() const {
+  return of_frames && !is_image() && !has_nan && numbers() <= kLargestInJson;
+}
+
+std::string SampleFiles::Field::file() const { return lower(key) + (is_image() ? ".png" : ".npy"); }
+
+std::string SampleFiles::Field::form() const {
+  const std::string begin = is_small() ? fmt::format("json: {}.{}", group, key) : file();
+  return fmt::format("{} {} ({})", begin, name_of(type), fmt::join(shape, ", "));
+}
+
+void SampleFiles::add_group(const std::string& section, const std::string& group, const std::string& prefix) {
+  for (const std::string& name : shard_.names(group)) {
+    Field field{.path = fmt::format("{}/{}", group, name), .key = prefix + name, .group = section};
+    field.type = shard_.type(field.path);
+    field.shape = shard_.shape(field.path);
+    field.of_frames = section != "ensemble" && shard_.text_attribute(field.path, "shape").starts_with("(T");
+    if (field.of_frames) field.shape.erase(field.shape.begin());
+    for (const auto& [key, value] : shard_.attributes(field.path)) field.has_nan = field.has_nan || key == "nan";
+    fields_.push_back(std::move(field));
+  }
+}
+
+SampleFiles::SampleFiles(const Hdf5Reader& shard, const std::string& id)
+    : shard_(shard), id_(id), sample_("/data/" + id) {
+  for (const auto& [name, value] : shard.attributes(sample_)) {
+    if (name == "n_frames") frames_ = static_cast<std::size_t>(std::get<std::int64_t>(value.data()));
+    if (const std::string file = configuration_file(name); !file.empty()) {
+      texts_.emplace_back(lower(file), std::get<std::string>(value.data()));
       continue;
     }
-    const std::string suffix = name.ends_with("_yaml") ? name.substr(0, name.size() - 5) + ".yaml" : name + ".txt";
-    take(fmt::format("{}/frame_0000.{}", id, suffix), std::get<std::string>(value.data()));
+    attributes_.emplace_back(name, value);
+    if (every_sample_has(name)) of_all_.emplace_back(name, value);
   }
-  for (std::size_t t = 0; t < static_cast<std::size_t>(frames); ++t) {
-    const std::string begin = fmt::format("{}/frame_{:04}.", id, t);
-    Value::Map small{{"id", id}, {"frame", t}};
-    for (const FieldFile& file : files) {
-      if (!file.per_frame && t > 0) continue;
-      const std::string bytes = file.per_frame ? shard.read_frame(file.path, t) : shard.read(file.path);
-      if (file.is_image()) {
-        take(begin + file.name + ".png", picture(file, bytes));
-      } else if (file.numbers() > kLargestInJson || !file.per_frame) {
-        take(begin + file.name + ".npy", npy_bytes(file.frame_shape(), npy_type_of(file.type), bytes));
-      } else {
-        Value::Map::iterator at = small.begin();
-        while (at != small.end() && at->first != file.group) ++at;
-        if (at == small.end()) at = small.emplace(small.end(), file.group, Value());
-        at->second.set(file.name, numbers_of(file, bytes));
-      }
+  for (const std::string& section : shard.names(sample_)) {
+    const std::string group = fmt::format("{}/{}", sample_, section);
+    if (section != "variants") {
+      add_group(section, group, section == "obs" || section == "check" ? "" : section + ".");
+      continue;
     }
-    small.emplace_back("sample", attributes);
-    take(begin + "json", to_json(small));
+    for (const std::string& variant : shard.names(group))
+      add_group(section, fmt::format("{}/{}", group, variant), variant + ".");
   }
+  std::set<std::string> files;
+  for (const Field& field : fields_)
+    if (!field.is_small() && !files.insert(field.file()).second)
+      throw DataError("{}: two fields differ in case alone: {}", id, field.file());
+}
+
+std::string SampleFiles::kind() const {
+  const std::string sensor = shard_.text_attribute(sample_, "sensor_id");
+  if (shard_.has(sample_ + "/series")) return sensor + "_grasp";
+  const bool free = shard_.has(sample_ + "/obs/object_velocity_mm_s") || shard_.has(sample_ + "/obs/object_spin_rad_s");
+  return sensor + (free ? "_free" : "");
+}
+
+std::vector<std::string> SampleFiles::form() const {
+  std::vector<std::string> form;
+  for (const Field& field : fields_)
+    if (field.of_frames) form.push_back(field.form());
+  for (const auto& [name, value] : of_all_) form.push_back(fmt::format("json: sample.{} {}", name, type_of(value)));
+  std::ranges::sort(form);
+  return form;
+}
+
+void SampleFiles::write_frames(const TakeFile& take) const {
+  for (std::size_t t = 0; t < frames_; ++t) {
+    const std::string frame = fmt::format("frame_{:04}", t);
+    Value::Map json{{"id", id_}, {"frame", t}};
+    for (const Field& field : fields_) {
+      if (!field.of_frames) continue;
+      const std::string bytes = shard_.read_frame(field.path, t);
+      if (field.is_image())
+        take(frame, field.file(), picture(field.path, field.shape, bytes));
+      else if (!field.is_small())
+        take(frame, field.file(), npy_bytes(field.shape, npy_type_of(field.type), bytes));
+      else
+        section_of(json, field.group).set(field.key, numbers_of(field.type, field.shape, bytes));
+    }
+    json.emplace_back("sample", of_all_);
+    take(frame, "json", to_json(json));
+  }
+}
+
+void SampleFiles::write_sample(const TakeFile& take) const {
+  for (const auto& [name, text] : texts_) take("", name, text);
+  for (const Field& field : fields_)
+    if (!field.of_frames)
+      take("", field.file(), npy_bytes(field.shape, npy_type_of(field.type), shard_.read(field.path)));
+  take("", "json", to_json(Value::Map{{"id", id_}, {"frames", frames_}, {"sample", attributes_}}));
+}
+
+void SampleFiles::describe(Value::Map& fields) const {
+  for (const Field& field : fields_)
+    if (std::ranges::find(fields, field.key, &Value::Map::value_type::first) == fields.end())
+      fields.emplace_back(field.key, shard_.attributes(field.path));
 }
 
 std::string fields_json(const Hdf5Reader& shard) {
   Value::Map sensors, fields;
   for (const std::string& id : shard.names("/sensors")) sensors.emplace_back(id, shard.attributes("/sensors/" + id));
-  for (const std::string& id : shard.names("/data")) {
-    for (const FieldFile& file : field_files(shard, "/data/" + id)) {
-      bool known = false;
-      for (const auto& [name, lines] : fields) known = known || name == file.name;
-      if (!known) fields.emplace_back(file.name, shard.attributes(file.path));
-    }
-  }
+  for (const std::string& id : shard.names("/data")) SampleFiles(shard, id).describe(fields);
   return to_json(Value::Map{{"shard", shard.attributes("/")}, {"sensors", sensors}, {"fields", fields}});
 }
 

@@ -2,21 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/base/value.h"
+#include "stages/dataset/repack/episodes.h"
 
 namespace tacipc {
 
-/// Where to write a file of this name.
-using OutputPath = std::function<std::filesystem::path(const std::string& name)>;
-
-/// A dataset `<sensor>/{meta,data}` for each sensor of the shards: samples are episodes, phases of their motion the
-/// task, shards the data files, in the order train, val, test, so that splits are ranges of episodes. Features and
-/// units are kFeatures of lerobot.cpp, as far as the shards have their fields. Returns what the record says of each.
-/// \throw DataError for shards whose samples of one sensor differ in fields or shapes
+/// A dataset `<kind>/{meta,data}` for each kind of episode (Episode::kind): phases of the motion are the task, shards
+/// the data files, in the order train, val, test, so that splits are ranges of episodes. Features and units are those
+/// of lerobot_features, as far as the shards have their fields. Returns what the record says of each. \throw DataError
+/// for shards whose episodes of one kind differ in fields or shapes
 Value::Map write_lerobot(std::vector<std::filesystem::path> shards, const OutputPath& output);
 
 }  // namespace tacipc

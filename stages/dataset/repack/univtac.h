@@ -1,16 +1,17 @@
-// One sample as an episode in the layout of UniVTAC: HDF5, groups tactile/left_tactile.
+// Episodes in the layout of UniVTAC's HDF5Handler: an HDF5 file each, encoded images, scalar-first quaternions, metres.
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <vector>
 
-#include "common/format/hdf5_reader.h"
+#include "common/base/value.h"
+#include "stages/dataset/repack/episodes.h"
 
 namespace tacipc {
 
-/// Writes rgb, rgb_marker (u8), depth and press_depth (f4, mm, positive: away from the camera, into the gel), marker
-/// (T, 2, N, 2: [reference, current] column and row), pose (T, 7: x, y, z in mm and quaternion w, x, y, z of the object
-/// in S) of those the sample has; what it has not says why in an attribute of the group.
-void write_univtac(const Hdf5Reader& shard, const std::string& id, const std::filesystem::path& path);
+/// Files `<kind>/<split>/hdf5/<index>.hdf5`; the index is the sample's in the plan, of a grasp that of its left finger.
+/// What each holds is in docs/pack.md; what an episode has not, an attribute of the group says why. Returns what the
+/// record says.
+Value::Map write_univtac(std::vector<std::filesystem::path> shards, const OutputPath& output);
 
 }  // namespace tacipc

@@ -26,5 +26,11 @@ TEST(Json, EscapesAndHasNoInfinity) {
   EXPECT_EQ(to_json(Value(Value::List{inf, nan, 1e-9})), "[null, null, 1e-09]\n");
 }
 
+TEST(Json, DoublesAreNeverWrittenAsWholeNumbers) {
+  EXPECT_EQ(to_json(Value(Value::List{0.0, -0.0, 3.0, -12.0, 1e22, 5e-324, 0.5})),
+            "[0.0, -0.0, 3.0, -12.0, 1e+22, 5e-324, 0.5]\n");
+  EXPECT_EQ(to_json(Value(Value::List{0, std::int64_t{1} << 62, std::size_t{7}})), "[0, 4611686018427387904, 7]\n");
+}
+
 }  // namespace json_test
 }  // namespace tacipc

@@ -65,6 +65,21 @@ TEST(ParquetWriter, WritesFlatColumnsAsTheFormatSays) {
                 "\x19\x1c\x18\x01k\x18\x01v\x00\x18\x06tacipc\x00"s);
 }
 
+TEST(ParquetWriter, WritesDoublesInLists) {
+  const ScratchFolder scratch;
+  ParquetWriter file(scratch / "a.parquet", {{.name = "d", .type = ParquetType::f64, .shape = {1, 1}}});
+  file.add_row_group({std::vector<double>{0.1, -2.5}}, 2);
+  file.close();
+  const auto f64 = [](double value) { return std::string(reinterpret_cast<const char*>(&value), sizeof(value)); };
+  const std::string page = u32(4) + "\x02\x00\x02\x00"s + u32(2) + "\x04\x02"s + f64(0.1) + f64(-2.5);
+  const Parts parts = parts_of(scratch / "a.parquet");
+  EXPECT_EQ(parts.pages, header(static_cast<int>(page.size()), 2) + page);
+  EXPECT_NE(parts.footer.find("\x15\x0a\x25\x00\x18\x07"
+                              "element"s),
+            std::string::npos)
+      << "the type is DOUBLE";
+}
+
 TEST(ParquetWriter, WritesListsWithTheirLevels) {
   const ScratchFolder scratch;
   ParquetWriter file(scratch / "a.parquet", {{.name = "m", .type = ParquetType::f32, .shape = {2, 2}}});

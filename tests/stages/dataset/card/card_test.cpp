@@ -131,7 +131,7 @@ TEST_F(CardTest, TheCardTellsWhatIsInTheDataAndWhatIsNot) {
             HasSubstr("none but ours"), HasSubstr("A note.")));
   EXPECT_THAT(readme, HasSubstr("| `obs/indentation_mm` | float32 | (T,H,W) | mm | S | undeformed minus deformed"));
   EXPECT_EQ(readme.find("obs/normal"), std::string::npos);
-  EXPECT_THAT(text("sensors/toy/camera.json"), HasSubstr("\"K\": [[2.5, 0, 2], [0, 2.5, 1.5], [0, 0, 1]]"));
+  EXPECT_THAT(text("sensors/toy/camera.json"), HasSubstr("\"K\": [[2.5, 0.0, 2.0], [0.0, 2.5, 1.5], [0.0, 0.0, 1.0]]"));
   EXPECT_EQ(text("objects/cube/object.ply"), "the object\n");
 }
 

@@ -2,13 +2,16 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
 
 #include "common/base/error.h"
 #include "common/base/sha256.h"
 #include "common/format/hdf5_writer.h"
-#include "stages/dataset/repack/frame_files.h"
+#include "stages/dataset/repack/frame_archives.h"
 #include "stages/dataset/repack/lerobot.h"
-#include "stages/dataset/repack/tar_writer.h"
+#include "stages/dataset/repack/univtac.h"
 #include "tests/program_test.h"
 #include "tests/stages/dataset/pack/sample_files.h"
 
@@ -46,40 +49,121 @@ TEST(TarWriter, AFullDiskIsAnError) {
   EXPECT_THAT(message_of<DataError>(fill), HasSubstr("/dev/full: cannot be written"));
 }
 
-TEST(FrameFiles, SmallFieldsGoToJsonAndLargeOnesApart) {
+/// One sample "a.b" of a toy sensor in two frames; \param more is written into it.
+std::filesystem::path two_frames(const ScratchFolder& scratch, const std::string& name,
+                                 const std::function<void(Hdf5Writer&)>& more) {
+  std::filesystem::path path = scratch / (name + ".h5");
+  Hdf5Writer file(path);
+  file.group("/sensors/toy");
+  file.group("/data/a.b/obs");
+  for (const auto& [key, value] : Value::Map{{"sensor_id", "toy"},
+                                             {"n_frames", 2},
+                                             {"sample_yaml", "motion: press"},
+                                             {"path_csv", "0,0,0\n"},
+                                             {"mu", 0.0},
+                                             {"limit_balance", 0.5},
+                                             {"reason", "weight"}})
+    file.attribute("/data/a.b", key, value);
+  more(file);
+  file.close();
+  return path;
+}
+
+void add_field(Hdf5Writer& file, const std::string& path, NumberType type, const std::vector<std::size_t>& shape,
+               const std::string& letters, double value = 1.0) {
+  std::size_t count = 1;
+  for (const std::size_t extent : shape) count *= extent;
+  file.write("/data/a.b/" + path, type, shape, to_bytes(type, std::vector<double>(count, value)));
+  file.attribute("/data/a.b/" + path, "shape", letters);
+}
+
+TEST(SampleFiles, FramesHaveEqualFilesAndTheRestIsTheSamples) {
   const ScratchFolder scratch;
-  {
-    Hdf5Writer file(scratch / "s.h5");
-    file.group("/sensors/toy");
-    const auto add = [&](const std::string& path, NumberType type, const std::vector<std::size_t>& shape,
-                         const std::string& letters, std::size_t count) {
-      file.write("/data/a/" + path, type, shape, to_bytes(type, std::vector<double>(count, 1.0)));
-      file.attribute("/data/a/" + path, "shape", letters);
-    };
-    add("obs/force_N", NumberType::f32, {2, 3}, "(T,3)", 6);
-    add("obs/mask", NumberType::u8, {2, 4, 5}, "(T,H,W)", 40);
-    add("obs/field", NumberType::f32, {2, 17}, "(T,N)", 34);
-    add("sim/triangles", NumberType::i32, {2, 3}, "(F,3)", 6);
-    add("variants/red/rgb", NumberType::u8, {2, 4, 5, 3}, "(T,H,W,3)", 120);
-    file.attribute("/data/a", "n_frames", 2);
-    file.attribute("/data/a", "sample_yaml", "motion:\n  kind: press\n");
-    file.attribute("/data/a", "mu", 0.5);
-    file.close();
-  }
-  std::vector<std::string> names;
-  std::string json;
-  write_frames(Hdf5Reader(scratch / "s.h5"), "a", [&](const std::string& name, std::string_view bytes) {
-    names.push_back(name);
-    if (name == "a/frame_0001.json") json = bytes;
+  const auto path = two_frames(scratch, "s", [](Hdf5Writer& file) {
+    add_field(file, "obs/force_N", NumberType::f32, {2, 3}, "(T,3)", 0.0);
+    add_field(file, "obs/phase", NumberType::u8, {2}, "(T)");
+    add_field(file, "obs/mask", NumberType::u8, {2, 4, 5}, "(T,H,W)");
+    add_field(file, "obs/Field_N", NumberType::f32, {2, 17}, "(T,N)");
+    add_field(file, "check/gap_mm", NumberType::f32, {2}, "(T)", std::numeric_limits<double>::quiet_NaN());
+    file.attribute("/data/a.b/check/gap_mm", "nan", "where nothing is near");
+    add_field(file, "sim/triangles", NumberType::i32, {2, 3}, "(F,3)");
+    add_field(file, "ensemble/press_force_N", NumberType::f32, {2}, "(T)");
+    add_field(file, "variants/red/rgb", NumberType::u8, {2, 4, 5, 3}, "(T,H,W,3)");
   });
-  EXPECT_THAT(names, ElementsAre("a/frame_0000.sample.yaml", "a/frame_0000.field.npy", "a/frame_0000.mask.png",
-                                 "a/frame_0000.sim.triangles.npy", "a/frame_0000.red.rgb.png", "a/frame_0000.json",
-                                 "a/frame_0001.field.npy", "a/frame_0001.mask.png", "a/frame_0001.red.rgb.png",
-                                 "a/frame_0001.json"));
-  EXPECT_EQ(
-      json,
-      "{\n  \"id\": \"a\",\n  \"frame\": 1,\n  \"obs\": {\n    \"force_N\": [1, 1, 1]\n  },\n  \"sample\": {\n    "
-      "\"mu\": 0.5,\n    \"n_frames\": 2\n  }\n}\n");
+  const Hdf5Reader shard(path);
+  const SampleFiles sample(shard, "a.b");
+  EXPECT_EQ(sample.kind(), "toy");
+  std::map<std::string, std::vector<std::string>> names;
+  std::map<std::string, std::string> json;
+  const TakeFile take = [&](const std::string& of, const std::string& name, std::string_view bytes) {
+    names[of].push_back(name);
+    if (name == "json") json[of] = bytes;
+  };
+  sample.write_frames(take);
+  sample.write_sample(take);
+  EXPECT_THAT(names["frame_0000"], ElementsAre("gap_mm.npy", "field_n.npy", "mask.png", "red.rgb.png", "json"));
+  EXPECT_EQ(names["frame_0001"], names["frame_0000"]);
+  EXPECT_THAT(names[""],
+              ElementsAre("path.csv", "sample.yaml", "ensemble.press_force_n.npy", "sim.triangles.npy", "json"));
+  EXPECT_EQ(json["frame_0001"],
+            "{\n  \"id\": \"a.b\",\n  \"frame\": 1,\n  \"obs\": {\n    \"force_N\": [0.0, 0.0, 0.0],\n    \"phase\": "
+            "1\n  },\n"
+            "  \"sample\": {\n    \"mu\": 0.0,\n    \"n_frames\": 2,\n    \"sensor_id\": \"toy\"\n  }\n}\n");
+  EXPECT_THAT(json[""],
+              HasSubstr("\"limit_balance\": 0.5,\n    \"mu\": 0.0,\n    \"n_frames\": 2,\n    \"reason\": \"weight\""));
+}
+
+TEST(SampleFiles, NamesThatDifferInCaseAloneAreRefused) {
+  const ScratchFolder scratch;
+  const auto path = two_frames(scratch, "s", [](Hdf5Writer& file) {
+    add_field(file, "obs/field_n", NumberType::f32, {2, 17}, "(T,N)");
+    add_field(file, "obs/field_N", NumberType::f32, {2, 17}, "(T,N)");
+  });
+  const Hdf5Reader shard(path);
+  EXPECT_EQ(message_of<DataError>([&] { SampleFiles(shard, "a.b"); }),
+            "a.b: two fields differ in case alone: field_n.npy");
+}
+
+/// What is said when two samples go into archives, or nothing.
+std::string archive_both(const ScratchFolder& scratch, const std::filesystem::path& one,
+                         const std::filesystem::path& other) {
+  const Hdf5Reader first(one), second(other);
+  FrameArchives archives("train-0", [&](const std::string& name) {
+    std::filesystem::create_directories((scratch / name).parent_path());
+    return scratch / name;
+  });
+  return message_of<DataError>([&] {
+    archives.add(SampleFiles(first, "a.b"));
+    archives.add(SampleFiles(second, "a.b"));
+    archives.close();
+  });
+}
+
+TEST(FrameArchives, SamplesOfOneKindMustHaveTheSameFiles) {
+  const ScratchFolder scratch;
+  const auto with = [&](const std::string& name, NumberType type, const std::vector<std::size_t>& shape, bool free) {
+    return two_frames(scratch, name, [&](Hdf5Writer& file) {
+      add_field(file, "obs/force_N", type, shape, "(T,3)");
+      if (free) add_field(file, "obs/object_velocity_mm_s", NumberType::f32, {2, 3}, "(T,3)");
+    });
+  };
+  const auto plain = with("plain", NumberType::f32, {2, 3}, false);
+  const std::string why = ": readers of WebDatasets need the same files in every sample";
+  EXPECT_EQ(archive_both(scratch, plain, with("whole", NumberType::i32, {2, 3}, false)),
+            "a.b has json: obs.force_N int32 (3), a.b has not" + why);
+  EXPECT_EQ(archive_both(scratch, plain, with("longer", NumberType::f32, {2, 17}, false)),
+            "a.b has force_n.npy float32 (17), a.b has not" + why);
+  EXPECT_EQ(archive_both(scratch, two_frames(scratch, "none", [](Hdf5Writer&) {}), plain),
+            "a.b has json: obs.force_N float32 (3), a.b has not" + why);
+  EXPECT_EQ(archive_both(scratch, plain, with("free", NumberType::f32, {2, 3}, true)), "");
+  const std::string command = fmt::format(
+      "cd {} && tar -tf train-0-toy.tar > a && tar -tf train-0-toy_free.tar > b && tar -tf samples/train-0.tar > c",
+      (scratch / "").string());
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read_file(scratch / "a"), "a_b/frame_0000.json\na_b/frame_0001.json\n");
+  EXPECT_EQ(read_file(scratch / "b"), read_file(scratch / "a"));
+  EXPECT_EQ(read_file(scratch / "c"),
+            "a_b.path.csv\na_b.sample.yaml\na_b.json\na_b.path.csv\na_b.sample.yaml\na_b.json\n");
 }
 
 /// A shard of one sample in three frames these seconds apart, with and without some fields.

@@ -133,7 +133,7 @@ TEST(ViewData, PosesAndImagesAreListedPerFrame) {
   view.gels[1].pictures = {"", "../right/render/frame_0004/tactile.png"};
   const std::string script = view_script(view, {"a", "b"});
   EXPECT_THAT(script, HasSubstr(R"("pictures": ["", "../right/render/frame_0004/tactile.png"])"));
-  const std::string moved = "[1, 0, 0, 0.125, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]";
+  const std::string moved = "[1.0, 0.0, 0.0, 0.125, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]";
   const std::size_t first = script.find(moved);
   EXPECT_NE(first, std::string::npos);                          // the left gel
   EXPECT_NE(script.find(moved, first + 1), std::string::npos);  // the object
