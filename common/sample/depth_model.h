@@ -10,6 +10,8 @@ struct DepthModel {
   static constexpr const char* kReference = "reference";
   // Output, f32 (1, 1, H, W).
   static constexpr const char* kIndentation = "indentation_mm";
+  // Metadata: what the images of the training looked like (common/benchmark/trained_look.h).
+  static constexpr const char* kTrainedLook = "trained_look";
 };
 
 }  // namespace tacipc

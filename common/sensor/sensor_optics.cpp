@@ -194,6 +194,18 @@ Diffuser Diffuser::read(ConfigReader& in, const OpticalStack& stack, const std::
   return diffuser;
 }
 
+namespace {
+
+/// The keys of the file that say what the camera sees: one is right.
+std::vector<std::string> ways_given(const ConfigReader& in) {
+  std::vector<std::string> given;
+  for (const char* key : {"window_mm", "intrinsics_px", "horizontal_fov_deg"})
+    if (in.has(key)) given.emplace_back(key);
+  return given;
+}
+
+}  // namespace
+
 Camera Camera::read(ConfigReader& in, const GelShape& gel, const OpticalStack& stack) {
   Camera camera;
   const std::string model = in.choice_or("model", "pinhole", {"pinhole", "fisheye", "rectified"});
@@ -211,9 +223,11 @@ Camera Camera::read(ConfigReader& in, const GelShape& gel, const OpticalStack& s
   camera.width_px = in.integer("width_px", 1, 16384);
   camera.height_px = in.integer("height_px", 1, 16384);
   const bool fisheye = camera.model == Model::fisheye, rectified = camera.model == Model::rectified;
-  const int ways = in.has("window_mm") + in.has("intrinsics_px") + in.has("horizontal_fov_deg");
-  if (ways != 1) in.fault("window_mm", "give one of window_mm, intrinsics_px and horizontal_fov_deg");
-  if (rectified && !in.has("window_mm")) in.fault("window_mm", "a rectified camera needs its window");
+  const std::vector<std::string> ways = ways_given(in);
+  if (ways.empty()) in.fault("window_mm", "give one of window_mm, intrinsics_px and horizontal_fov_deg");
+  if (ways.size() > 1) in.fault(ways[1], fmt::format("the file also has {}: give one of the two", ways[0]));
+  if (rectified && ways.size() == 1 && !in.has("window_mm"))
+    in.fault(ways[0], "not of a rectified camera, which has a window instead (window_mm)");
   if (rectified && (rotation_deg[0] != 0.0 || rotation_deg[1] != 0.0))
     in.fault("rotation_deg", "a rectified picture turns about z only");
   if (in.has("window_mm")) {
@@ -253,7 +267,7 @@ Camera Camera::read(ConfigReader& in, const GelShape& gel, const OpticalStack& s
       camera.window_width_m = (*right - *left).norm();
       camera.window_height_m = (*bottom - *top).norm();
     } else {
-      in.fault("window_mm", "the edges of the picture do not see the plane of the front face");
+      in.fault(ways[0], "the edges of the picture do not see the plane of the front face");
     }
   }
   int seen = 0;
@@ -261,7 +275,7 @@ Camera Camera::read(ConfigReader& in, const GelShape& gel, const OpticalStack& s
     const auto point = rays.on_plane(camera.width_px * (i % 33 + 0.5) / 33, camera.height_px * (i / 33 + 0.5) / 33);
     seen += point && gel.contains(point->x(), point->y());
   }
-  if (seen == 0 && behind && ways == 1) in.fault("position_mm", "the camera sees nothing of the gel");
+  if (seen == 0 && behind && ways.size() == 1) in.fault("position_mm", "the camera sees nothing of the gel");
   return camera;
 }
 

@@ -34,11 +34,12 @@ struct InputSpec {
   static InputSpec any_number_named(const char* flag, const char* help) { return {flag, help, false, true, true}; }
 };
 
-/// A flag that carries a word rather than a file (a sample's name); tuning belongs into configuration.
+/// A flag that carries a word rather than a file (a sample's name), or none; tuning belongs into configuration.
 struct OptionSpec {
   std::string flag;
   std::string help;
-  std::string fallback;
+  std::string fallback = {};
+  bool is_switch = false;  // takes no word; given, its word is `true`
 };
 
 struct StageSpec {

@@ -110,7 +110,11 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
   }
   for (const OptionSpec& spec_option : spec.options) {
     options[spec_option.flag] = spec_option.fallback;
-    app.add_option(spec_option.flag, options[spec_option.flag], spec_option.help)->capture_default_str();
+    if (spec_option.is_switch)
+      app.add_flag_callback(
+          spec_option.flag, [&word = options[spec_option.flag]] { word = "true"; }, spec_option.help);
+    else
+      app.add_option(spec_option.flag, options[spec_option.flag], spec_option.help)->capture_default_str();
   }
   app.add_option("--out", out, "folder the results go to")->required()->type_name("DIR");
   app.add_option("--threads", threads, "threads to use (results do not depend on it)")

@@ -35,7 +35,7 @@ depth-benchmark: | build
 	$(call make_again,REBUILD=no CASES=$(DEPTH_CASES) -k depth-rivals) || $(depth_lists) lists $(DEPTH_METHODS)
 	$(call make_again,REBUILD=no depth-networks JOBS=1 THREADS=$(JOBS))
 
-depth-quick: ## development: A small network on 48 images and on shuffled ones, judged on 16 of other objects (two minutes; the test pipeline.depthnet_test)
+depth-quick: ## development: A small network on 48 images and on shuffled ones, judged on 24 others and on photographs unlike these (two minutes)
 depth-quick: | build
 	bash tests/pipeline/depthnet_test.sh '$(CURDIR)' '$(abspath $(BUILD))'
 

@@ -43,11 +43,16 @@ void Judge::add(const DepthImage& image) {
 
 void Judge::answer() {
   std::vector<FloatImage> answers(waiting_.size());
+  std::vector<std::optional<LookComparison>> looks(waiting_.size());
   each_in_threads(waiting_.size(), [&](std::size_t i) {
     stay_in_this_thread();
     answers[i] = network_.depth_mm(waiting_[i].name, waiting_[i].image, waiting_[i].reference);
+    looks[i] = compare(network_, waiting_[i].image, waiting_[i].reference);
   });
-  for (std::size_t i = 0; i < waiting_.size(); ++i) take(waiting_[i], answers[i]);
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    if (looks[i]) unlike_.add(waiting_[i].name, *looks[i]);
+    take(waiting_[i], answers[i]);
+  }
   waiting_.clear();
   show_progress(0.0, fmt::format("judged: {} images", rows_.size() / 2));
 }

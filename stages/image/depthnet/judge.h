@@ -26,6 +26,8 @@ class Judge {
   ByteImage sheet() const { return depth_sheet(pictures_); }
   /// Of images without contact, which have no rows: how many, and the mean of what the network sees in them, mm.
   std::size_t untouched() const { return untouched_; }
+  /// Which images are unlike those of the network's training; of a network without their look none was compared.
+  const LookReport& unlike() const { return unlike_; }
   double seen_untouched_mm() const { return seen_untouched_mm_ / static_cast<double>(untouched_); }
 
  private:
@@ -40,6 +42,7 @@ class Judge {
   std::size_t offered_ = 0, stride_ = 1;  // every so many of those offered is kept
   std::size_t untouched_ = 0;
   double seen_untouched_mm_ = 0.0;
+  LookReport unlike_;
 };
 
 }  // namespace tacipc

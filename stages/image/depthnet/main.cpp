@@ -11,6 +11,7 @@
 #include "stages/image/depthnet/outcome_config.h"
 #include "stages/image/depthnet/outcome_report.h"
 #include "stages/image/depthnet/train.h"
+#include "stages/image/depthnet/training_look.h"
 
 namespace {
 
@@ -78,6 +79,12 @@ Checkpoints checkpoints_of(Stage& stage, const std::string& name) {
           .save = [&stage, name](const std::string& bytes) { stage.save_scratch(name, bytes); }};
 }
 
+/// Says which of these images are unlike those of the training; lines of the summary.
+void warn_of_unlike(const LookReport& report, const char* what, Value::Map& summary) {
+  for (const std::string& warning : report.warnings(what)) log_warning("{}", warning);
+  if (report.images() > 0) summary.emplace_back("unlike_training", report.summary());
+}
+
 void train_depth(Stage& stage, const DepthnetConfig& config) {
   TrainedNetwork network{.module = make_network(config.network, config.seed), .sizes = {}};
   Items training(network.module, config.network.reduction), validation(network.module, config.network.reduction);
@@ -90,17 +97,25 @@ void train_depth(Stage& stage, const DepthnetConfig& config) {
   for (const fs::path& folder : stage.inputs("--validation"))
     read_rendered(folder, config.last_frame, [&](const DepthImage& image) { validation.add(image); });
   if (training.items().empty()) throw DataError("there are no images to train on");
+  network.sizes = training.sizes();
+  for (const ImageSize& size : network.sizes)
+    network.looks.emplace(size, training_look(training.items(), size, config));
+  LookReport unlike;
+  for (const DepthItem& item : validation.items())
+    if (const auto look = network.looks.find(item.size); look != network.looks.end())
+      unlike.add(item.name, compare(look->second, item));
+  Value::Map unlike_lines;
+  warn_of_unlike(unlike, "images of the validation", unlike_lines);
   if (config.shuffle_pairs) shuffle_depths(training.items(), config.seed);
   const std::int64_t weights = count_weights(network.module);
   log_info("{} images to train on, {} to judge by, {} weights", training.items().size(), validation.items().size(),
            weights);
   const std::vector<LearntEpoch> rows =
       train(network.module, training.items(), validation.items(), config, checkpoints_of(stage, "checkpoint"));
-  network.sizes = training.sizes();
   save_network(network, stage.output("model.pt"));
   for (const ImageSize& size : network.sizes)
     write_file(stage.output(fmt::format("model_{}x{}.onnx", size.second, size.first)),
-               onnx_of(network.module, config.network, size));
+               onnx_of(network.module, config.network, size, &network.looks.at(size)));
   write_history(stage, rows);
   const std::vector<double>& errors = rows.back().judged;
   Value::Map summary{{"images", training.items().size()},
@@ -110,6 +125,7 @@ void train_depth(Stage& stage, const DepthnetConfig& config) {
                      {"validation_images", validation.items().size()}};
   for (const std::size_t k : {2U, 3U})
     if (!validation.items().empty()) summary.emplace_back(kJudgedErrors[k], errors[k]);
+  summary.insert(summary.end(), unlike_lines.begin(), unlike_lines.end());
   stage.summarize(summary);
 }
 
@@ -159,6 +175,7 @@ void judge_network(Stage& stage) {
   if (judge.untouched() > 0)
     summary.emplace_back("without_contact",
                          Value::Map{{"images", judge.untouched()}, {"mean_answer_mm", judge.seen_untouched_mm()}});
+  warn_of_unlike(judge.unlike(), "images of the split test", summary);
   stage.summarize(summary);
 }
 

@@ -66,20 +66,44 @@ FloatImage TrainedNetwork::depth_mm(const std::string& name, const ByteImage& im
 }
 
 namespace {
-constexpr const char* kSizes = "image_sizes";  // a file in the archive: a line of rows and columns per size
+// Files in the archive: a line of rows and columns per size; for each size that and the length of a text, the text.
+constexpr const char *kSizes = "image_sizes", *kLooks = "trained_looks";
+
+std::string text_of(const std::map<ImageSize, TrainedLook>& looks) {
+  std::string all;
+  for (const auto& [size, look] : looks) {
+    const std::string text = look.to_text();
+    all += fmt::format("{} {} {}\n{}", size.first, size.second, text.size(), text);
+  }
+  return all;
 }
+
+std::map<ImageSize, TrainedLook> looks_in(const std::string& all, const std::string& name) {
+  std::map<ImageSize, TrainedLook> looks;
+  std::istringstream in(all);
+  ImageSize size;
+  std::size_t length = 0;
+  while (in >> size.first >> size.second >> length) {
+    in.get();  // the end of the line
+    std::string text(std::min(length, all.size()), '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    looks.insert_or_assign(size, TrainedLook::from_text(text, name));
+  }
+  return looks;
+}
+}  // namespace
 
 void save_network(const TrainedNetwork& network, const std::filesystem::path& file) {
   // Users take no gradients; without this every answer would be ready for them.
   for (torch::Tensor& weight : weights_of(network.module)) weight.set_requires_grad(false);
   std::string sizes;
   for (const auto& [rows, columns] : network.sizes) sizes += fmt::format("{} {}\n", rows, columns);
-  network.module.save(file.string(), {{kSizes, sizes}});
+  network.module.save(file.string(), {{kSizes, sizes}, {kLooks, text_of(network.looks)}});
 }
 
 TrainedNetwork load_network(const std::filesystem::path& file) {
   TrainedNetwork network;
-  torch::jit::ExtraFilesMap extra{{kSizes, ""}};
+  torch::jit::ExtraFilesMap extra{{kSizes, ""}, {kLooks, ""}};
   try {
     network.module = torch::jit::load(file.string(), torch::kCPU, extra);
   } catch (const std::exception&) {
@@ -91,7 +115,16 @@ TrainedNetwork load_network(const std::filesystem::path& file) {
     throw DataError("{}: foretells outcomes of grasps, and reads no depth", file.string());
   if (network.sizes.empty() || !network.module.find_method("forward"))
     throw DataError("{}: is not a network that depthnet wrote", file.string());
+  network.looks = looks_in(extra[kLooks], file.string());
   return network;
+}
+
+std::optional<LookComparison> compare(const TrainedNetwork& network, const ByteImage& image,
+                                      const ByteImage& reference) {
+  const auto found = network.looks.find({image.height, image.width});
+  if (found == network.looks.end()) return std::nullopt;
+  const int reduction = found->second.reduction();
+  return found->second.compare(reduced(reference, reduction), reduced(image, reduction));
 }
 
 void stay_in_this_thread() {

@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/benchmark/trained_look.h"
 #include "common/image/image.h"
 #include "stages/image/depthnet/depthnet_config.h"
 
@@ -32,11 +34,16 @@ using ImageSize = std::pair<int, int>;
 struct TrainedNetwork {
   torch::jit::Module module;
   std::vector<ImageSize> sizes;
+  std::map<ImageSize, TrainedLook> looks = {};  // of the training's images; those of earlier versions have none
 
   /// The indentation of an image, mm. \throw DataError, which begins with the name, if the image is of another size
   /// than those, or not of its reference's
   FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference) const;
 };
+
+/// How an image compares with those of the training; nothing if the network has no look of this size.
+std::optional<LookComparison> compare(const TrainedNetwork& network, const ByteImage& image,
+                                      const ByteImage& reference);
 
 /// The same network makes the same bytes.
 void save_network(const TrainedNetwork& network, const std::filesystem::path& file);

@@ -85,6 +85,11 @@ class OnnxWriter : public NetworkWriter {
     declare(*graph().add_output(), DepthModel::kIndentation, {1, 1, rows_, columns_});
   }
 
+  void keep_look(const TrainedLook& look) {
+    onnx::StringStringEntryProto& entry = *model_.add_metadata_props();
+    entry.set_key(DepthModel::kTrainedLook);
+    entry.set_value(look.to_text());
+  }
   std::string bytes() const { return model_.SerializeAsString(); }
 
  private:
@@ -198,9 +203,11 @@ class OnnxWriter : public NetworkWriter {
 
 }  // namespace
 
-std::string onnx_of(const torch::jit::Module& module, const NetworkConfig& config, const ImageSize& size) {
+std::string onnx_of(const torch::jit::Module& module, const NetworkConfig& config, const ImageSize& size,
+                    const TrainedLook* look) {
   OnnxWriter writer(module, config, size);
   write_unet(config, writer);
+  if (look) writer.keep_look(*look);
   return writer.bytes();
 }
 

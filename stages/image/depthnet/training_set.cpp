@@ -6,7 +6,6 @@
 #include "common/base/log.h"
 #include "common/base/sha256.h"
 #include "common/sample/render_folder.h"
-#include "stages/image/depthnet/network.h"
 #include "stages/image/depthnet/packed_image.h"
 
 namespace tacipc {
@@ -76,6 +75,7 @@ DepthItem item_of(const DepthImage& image, const torch::jit::Module& network, in
   depth_mm = torch::avg_pool2d(depth_mm, {reduction, reduction}, {reduction, reduction}, {0, 0}, true, false);
   if (!depth_mm.isfinite().any().item<bool>()) throw DataError("{}: no pixel has a depth", image.name);
   return {.name = image.name,
+          .size = {image.image.height, image.image.width},
           .change = both.narrow(0, 0, 3).to(torch::kHalf),
           .reference = both.narrow(0, 3, 3).to(torch::kHalf),
           .depth_mm = depth_mm.to(torch::kHalf)};

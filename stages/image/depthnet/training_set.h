@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "stages/image/depthnet/network.h"
 
 namespace tacipc {
 
@@ -37,6 +38,7 @@ void read_rendered(const std::filesystem::path& folder, bool last_frame, const T
 /// At the network's resolution, f16. Consecutive images with the same reference share it.
 struct DepthItem {
   std::string name;
+  ImageSize size;           // of the image
   torch::Tensor change;     // (3, h, w), image − reference, codes
   torch::Tensor reference;  // (3, h, w), codes
   torch::Tensor depth_mm;   // (1, h, w), NaN beside the gel

@@ -78,17 +78,24 @@ DepthReader::DepthReader(const std::filesystem::path& file) : network_(std::make
   } catch (const std::exception&) {
     throw refused;
   }
+  for (const onnx::StringStringEntryProto& entry : model.metadata_props())
+    if (entry.key() == DepthModel::kTrainedLook) look_ = TrainedLook::from_text(entry.value(), file.string());
 }
 DepthReader::~DepthReader() = default;
 DepthReader::DepthReader(DepthReader&&) noexcept = default;
 
-FloatImage DepthReader::depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference) {
+void DepthReader::check_size(const std::string& name, const ByteImage& image, const ByteImage& reference) const {
   if (image.width != reference.width || image.height != reference.height)
     throw DataError("{}: has {} x {} pixels, its reference {} x {}", name, image.width, image.height, reference.width,
                     reference.height);
   if (image.width != network_->columns || image.height != network_->rows)
-    throw DataError("{}: has {} x {} pixels; the network is for images of {} x {}", name, image.width, image.height,
-                    network_->columns, network_->rows);
+    throw DataError("{}: has {} x {} pixels; the network is for images of {} x {}{}", name, image.width, image.height,
+                    network_->columns, network_->rows,
+                    image.width == network_->rows && image.height == network_->columns ? ": is it turned by 90°?" : "");
+}
+
+FloatImage DepthReader::depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference) {
+  check_size(name, image, reference);
   FloatImage out(image.width, image.height, 1);
   cv::Mat answer;
   try {

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "common/benchmark/trained_look.h"
 #include "common/image/image.h"
 
 namespace tacipc {
@@ -22,9 +24,16 @@ class DepthReader {
   /// network is for, or not of its reference's \pre three channels
   FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference);
 
+  /// What the images of the training looked like; nothing if the file is of an earlier version.
+  const std::optional<TrainedLook>& look() const { return look_; }
+  /// \throw DataError, which begins with the name, if the image is not of the size that the network is for, or not of
+  /// its reference's
+  void check_size(const std::string& name, const ByteImage& image, const ByteImage& reference) const;
+
  private:
   struct Network;
   std::unique_ptr<Network> network_;
+  std::optional<TrainedLook> look_;
 };
 
 /// OpenCV says nothing by itself and stays in the thread that asks. To be called once, before any thread reads.

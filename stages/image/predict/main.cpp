@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 
 #include "common/base/each_in_threads.h"
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/image/depth_sheet.h"
 #include "common/image/picture.h"
 #include "common/stage/stage.h"
@@ -27,7 +29,11 @@ const StageSpec kPredict{
                {.flag = "--truth",
                 .help = "their true depth maps (EXR, m), as many, for a sheet of pictures",
                 .required = false,
-                .many = true}}};
+                .many = true}},
+    .options = {
+        {.flag = "--strict",
+         .help = "photographs unlike those of the network's training, or which cannot be compared, are an error",
+         .is_switch = true}}};
 
 /// Indentation of a depth map against that of the gel at rest, mm.
 FloatImage indentation_mm(const FloatImage& rest_m, FloatImage depth_m) {
@@ -44,6 +50,39 @@ void check_flags(Stage& stage) {
   for (const fs::path& file : stage.inputs("--images"))
     if (!names.insert(file.stem().string()).second)
       throw UsageError(fmt::format("--images: two are called {}", file.stem().string()));
+}
+
+/// Says which photographs are unlike those of the network's training; lines of the summary.
+Value::Map compare_with_training(Stage& stage, const DepthReader& reader, const ByteImage& reference,
+                                 const std::vector<ByteImage>& images) {
+  const bool strict = !stage.option("--strict").empty();
+  const std::string model = stage.input("--model").string();
+  if (!reader.look()) {
+    const std::string text = model +
+                             ": does not say what its training's images looked like (an earlier version wrote "
+                             "it), so photographs cannot be compared with them";
+    if (strict) throw DataError(text);
+    log_warning("{}", text);
+    return {};
+  }
+  const TrainedLook& look = *reader.look();
+  const FloatImage background = reduced(reference, look.reduction());
+  const auto& files = stage.inputs("--images");
+  std::vector<LookComparison> comparisons(images.size());
+  each_in_threads(images.size(), [&](std::size_t i) {
+    reader.check_size(files[i].string(), images[i], reference);
+    comparisons[i] = look.compare(background, reduced(images[i], look.reduction()));
+  });
+  LookReport report;
+  Value::Map distances;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    report.add(files[i].stem().string(), comparisons[i]);
+    distances.emplace_back(files[i].stem().string(), comparisons[i].distance);
+  }
+  const std::vector<std::string> warnings = report.warnings("photographs");
+  if (strict && !warnings.empty()) throw DataError("{}: {}", model, fmt::join(warnings, "; "));
+  for (const std::string& warning : warnings) log_warning("{}", warning);
+  return {{"unlike_training", report.summary()}, {"distance_from_training", distances}};
 }
 
 void predict(Stage& stage) {
@@ -63,8 +102,9 @@ void predict(Stage& stage) {
   std::vector<FloatImage> answers(files.size());
   set_up_opencv();
   tbb::enumerable_thread_specific<DepthReader> readers([&] { return DepthReader(stage.input("--model")); });
+  each_in_threads(files.size(), [&](std::size_t i) { images[i] = read_png(files[i], 3); });
+  const Value::Map compared = compare_with_training(stage, readers.local(), reference, images);
   each_in_threads(files.size(), [&](std::size_t i) {
-    images[i] = read_png(files[i], 3);
     answers[i] = readers.local().depth_mm(files[i].string(), images[i], reference);
   });
   Value::Map deepest;
@@ -83,6 +123,7 @@ void predict(Stage& stage) {
   }
   if (!rows.empty()) write_png(stage.output("sheet.png"), depth_sheet(rows));
   stage.summarize({{"images", deepest.size()}, {"deepest_mm", deepest}});
+  stage.summarize(compared);
 }
 
 }  // namespace

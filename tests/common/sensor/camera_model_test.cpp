@@ -93,6 +93,20 @@ TEST(CameraModel, FisheyeIsEquidistant) {
   EXPECT_FALSE(model.ray(320.0 + 150.0 * 1.6, 240.0));  // beyond 90°: looks away from the gel
 }
 
+TEST(CameraModel, IntrinsicsOfOpenCVHaveTheirCentreHalfAPixelBefore) {
+  // OpenCV: a point (x, y, z) of the camera's frame is seen at u = fx x/z + cx, and pixel i is centred at u = i.
+  const double fx = 500.0, fy = 520.0, cx = 311.3, cy = 247.9;
+  Camera camera = camera_of(Camera::Model::pinhole);
+  camera.intrinsics_px = {fx, fy, cx + 0.5, cy + 0.5};
+  const CameraModel model(camera, {.gel_thickness_m = 2e-3}, false);
+  for (const auto& [u, v] : {std::pair{0, 0}, std::pair{311, 248}, std::pair{639, 479}}) {
+    const Vector3 along((u - cx) / fx, (v - cy) / fy, 1.0);
+    const auto ray = model.ray(u + 0.5, v + 0.5);  // the middle of pixel (u, v)
+    ASSERT_TRUE(ray);
+    EXPECT_LT((ray->direction - along.normalized()).norm(), 1e-12);
+  }
+}
+
 TEST(CameraModel, RayIntoAThinnerMediumIsTotallyReflected) {
   const OpticalStack stack{
       .gel_thickness_m = 2e-3, .gel_ior = 1.0, .layers = {{.name = "glass", .thickness_m = 20e-3, .ior = 1.5}}};

@@ -48,7 +48,7 @@ TEST(Sensor, OpticsFaultsNameTheirPlace) {
               ElementsAre("odd.yaml:2:6: gel.ior: missing: light is refracted where there are layers"));
   EXPECT_THAT(
       faults("window_mm: [8, 6]", "window_mm: [8, 6], horizontal_fov_deg: 60"),
-      ElementsAre("odd.yaml:7:76: camera.window_mm: give one of window_mm, intrinsics_px and horizontal_fov_deg"));
+      ElementsAre("odd.yaml:7:104: camera.horizontal_fov_deg: the file also has window_mm: give one of the two"));
   EXPECT_THAT(faults("camera: {", "camera: {model: rectified, distortion: {radial: [0.1, 0, 0]}, "),
               ElementsAre("odd.yaml:7:40: camera.distortion: a rectified picture has none"));
   EXPECT_THAT(faults("camera: {", "camera: {vignetting: {v2: -1.2}, "),
@@ -62,6 +62,29 @@ TEST(Sensor, OpticsFaultsNameTheirPlace) {
       faults("leds: {", "leds: {diffuser: {inner_radius_mm: 8, outer_radius_mm: 7, z_mm: -5, transmittance: 1}, "),
       ElementsAre("odd.yaml:6:56: leds.diffuser.outer_radius_mm: must exceed inner_radius_mm",
                   "odd.yaml:6:65: leds.diffuser.z_mm: must lie behind gel and layers (z <= -7 mm)"));
+}
+
+TEST(Sensor, CameraFaultsNameTheKeysOfTheFile) {
+  using ::testing::ElementsAre;
+  const auto faults = [](const std::string& by) {
+    return faults_in<Sensor>(sensor_text("window_mm: [8, 6]", by), "odd.yaml");
+  };
+  const std::string edges = "the edges of the picture do not see the plane of the front face";
+  EXPECT_THAT(faults("intrinsics_px: [40, 40, 32, 24], rotation_deg: [75, 0, 0]"),
+              ElementsAre("odd.yaml:7:80: camera.intrinsics_px: " + edges));
+  EXPECT_THAT(faults("distortion: {radial: [-1, 0, 0]}, intrinsics_px: [40, 40, 32, 24]"),
+              ElementsAre("odd.yaml:7:114: camera.intrinsics_px: " + edges));
+  EXPECT_THAT(faults("horizontal_fov_deg: 60, rotation_deg: [0, 75, 0]"),
+              ElementsAre("odd.yaml:7:85: camera.horizontal_fov_deg: " + edges));
+  EXPECT_THAT(faults("intrinsics_px: [40, 40, 32, 24], horizontal_fov_deg: 60"),
+              ElementsAre("odd.yaml:7:118: camera.horizontal_fov_deg: the file also has intrinsics_px: give one of the "
+                          "two"));
+  EXPECT_THAT(faults("model: rectified, intrinsics_px: [40, 40, 32, 24]"),
+              ElementsAre("odd.yaml:7:98: camera.intrinsics_px: not of a rectified camera, which has a window instead "
+                          "(window_mm)"));
+  EXPECT_THAT(
+      faults("model: pinhole"),
+      ElementsAre("odd.yaml:7:9: camera.window_mm: give one of window_mm, intrinsics_px and horizontal_fov_deg"));
 }
 
 TEST(Sensor, LightsOfOneGroupHaveOneColour) {

@@ -58,6 +58,8 @@ TEST_F(Depthnet, TrainsOnRenderFoldersAndReadsPhotographs) {
   const Record summary = Record::from_file(scratch_ / "out/depthnet.yaml").section("summary");
   EXPECT_EQ(summary.required_count("images"), 6);
   EXPECT_EQ(summary.required_count("validation_images"), 1);
+  EXPECT_EQ(summary.section("unlike_training").required_count("of"), 1);
+  EXPECT_EQ(summary.section("unlike_training").required_count("images"), 0);
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "out/history.csv"));
   std::filesystem::rename(scratch_ / "out/model.pt", scratch_ / "model.pt");
   ASSERT_EQ(depthnet(flags + " --threads 1"), 0) << said_;
@@ -74,6 +76,7 @@ TEST_F(Depthnet, TrainsOnRenderFoldersAndReadsPhotographs) {
       0)
       << said_;
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/sheet.png"));
+  EXPECT_THAT(said_, testing::Not(testing::HasSubstr("warning")));
   const FloatImage indentation = read_exr(scratch_ / "out/indentation/dent_0.exr", {"Y"}),
                    depth = read_exr(scratch_ / "out/depth/dent_0.exr", {"Y"});
   const FloatImage expected = load_network(scratch_ / "model.pt").depth_mm("dent_0", dent(0).image, dent(0).reference);

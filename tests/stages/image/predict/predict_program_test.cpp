@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "common/base/files.h"
+#include "common/benchmark/trained_look.h"
 #include "common/image/image.h"
 #include "common/sample/depth_model.h"
 #include "common/stage/record.h"
+#include "tests/common/benchmark/shaded_dents.h"
 #include "tests/program_test.h"
 
 namespace tacipc {
@@ -20,7 +22,7 @@ constexpr int kWidth = 8, kHeight = 6;
 
 // Networks of depthnet are read in tests/stages/image/depthnet; here is the smallest there can be, by hand:
 // 0.01 red − 0.02 green + 0.03 blue of the change, + 0.5 mm.
-onnx::ModelProto small_network() {
+onnx::ModelProto small_network(int width = kWidth, int height = kHeight) {
   onnx::ModelProto model;
   model.set_ir_version(6);
   model.set_producer_name(DepthModel::kProducer);
@@ -32,9 +34,9 @@ onnx::ModelProto small_network() {
     for (const int size : shape)
       value.mutable_type()->mutable_tensor_type()->mutable_shape()->add_dim()->set_dim_value(size);
   };
-  declare(*graph.add_input(), DepthModel::kImage, {1, kHeight, kWidth, 3});
-  declare(*graph.add_input(), DepthModel::kReference, {1, kHeight, kWidth, 3});
-  declare(*graph.add_output(), DepthModel::kIndentation, {1, 1, kHeight, kWidth});
+  declare(*graph.add_input(), DepthModel::kImage, {1, height, width, 3});
+  declare(*graph.add_input(), DepthModel::kReference, {1, height, width, 3});
+  declare(*graph.add_output(), DepthModel::kIndentation, {1, 1, height, width});
   const auto constant = [&](const char* name, std::initializer_list<int> shape, std::initializer_list<float> values) {
     onnx::TensorProto& added = *graph.add_initializer();
     added.set_name(name);
@@ -140,6 +142,96 @@ TEST_F(Predict, RefusesWhatIsNoNetworkOrDamaged) {
     EXPECT_THAT(said_, testing::HasSubstr("damaged")) << i;
     EXPECT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << i << said_;
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/predict.yaml"));
+  }
+}
+
+/// Photographs beside a network that knows what it was trained on.
+class PredictCompared : public Predict {
+ protected:
+  void SetUp() override {
+    std::vector<std::vector<ImageLook>> groups;
+    for (std::size_t i = 0; i < 20; ++i)
+      groups.push_back(
+          {look_of(reduced(shaded_image(lamps_, i, false), 1), reduced(shaded_image(lamps_, i, true), 1))});
+    look_ = TrainedLook::of(groups, 1).to_text();
+    model_ = small_network(96, 72);
+    write_look(look_);
+    write("background", shaded_image(lamps_, 50, false));
+    for (std::size_t i = 0; i < 3; ++i) write(fmt::format("touch_{}", i), shaded_image(lamps_, 50 + i, true));
+  }
+  void write_look(const std::string& text) {
+    onnx::ModelProto model = model_;
+    onnx::StringStringEntryProto& entry = *model.add_metadata_props();
+    entry.set_key(DepthModel::kTrainedLook);
+    entry.set_value(text);
+    write_model(model);
+  }
+  void write(const std::string& name, const ByteImage& image) { write_png(scratch_ / (name + ".png"), image); }
+  void write_swapped(const std::string& name) {
+    ByteImage image = read_png(scratch_ / (name + ".png"), 3);
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3) std::swap(image.pixels[i], image.pixels[i + 2]);
+    write(name, image);
+  }
+  Record summary() { return Record::from_file(scratch_ / "out/predict.yaml").section("summary"); }
+
+  MadeUpLamps lamps_;
+  std::string look_;
+  onnx::ModelProto model_;
+};
+
+TEST_F(PredictCompared, SaysNothingOfPhotographsAsTrained) {
+  const std::string read = "--images touch_0.png touch_1.png touch_2.png --background background.png";
+  ASSERT_EQ(predict(read + " --strict"), 0) << said_;
+  EXPECT_THAT(said_, testing::Not(testing::HasSubstr("unlike")));
+  EXPECT_EQ(summary().section("unlike_training").required_count("images"), 0);
+  EXPECT_EQ(summary().section("unlike_training").required_count("of"), 3);
+  EXPECT_LT(summary().section("distance_from_training").required_number("touch_2"), 1.0);
+  EXPECT_THAT(read_file(scratch_ / "out/predict.yaml"), testing::HasSubstr("strict: true"));
+}
+
+TEST_F(PredictCompared, NamesWhatDiffersAndRefusesItIfStrict) {
+  const std::string read = "--images touch_0.png touch_1.png touch_2.png --background background.png";
+  for (const char* name : {"touch_0", "touch_1", "touch_2", "background"}) write_swapped(name);
+  ASSERT_EQ(predict(read), 0) << said_;
+  EXPECT_THAT(said_,
+              testing::ContainsRegex("warning.*3 of 3 photographs \\(touch_0, touch_1, touch_2\\) are unlike those "
+                                     "of the training, at [0-9.]+( to [0-9.]+)? times its limit: the image and its "
+                                     "background have red and blue swapped; undone, at 0\\.[0-9]"));
+  EXPECT_EQ(summary().section("unlike_training").section("deviations").required_count("red_blue_swapped"), 3);
+  EXPECT_GT(summary().section("distance_from_training").required_number("touch_0"), 1.0);
+  EXPECT_EQ(predict(read + " --strict"), 1);
+  EXPECT_THAT(said_, testing::ContainsRegex("error: model.onnx: 3 of 3 photographs"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/predict.yaml"));
+  // One alone.
+  for (const char* name : {"touch_0", "touch_1", "background"}) write_swapped(name);
+  ASSERT_EQ(predict(read), 0) << said_;
+  EXPECT_THAT(said_, testing::HasSubstr("1 of 3 photographs (touch_2) "));
+  EXPECT_EQ(summary().section("unlike_training").section("deviations").required_count("image_red_blue_swapped"), 1);
+}
+
+TEST_F(PredictCompared, SaysOnceThatItCannotCompare) {
+  const std::string read = "--images touch_0.png touch_1.png --background background.png";
+  write_model(model_);
+  ASSERT_EQ(predict(read), 0) << said_;
+  const std::string what = "model.onnx: does not say what its training's images looked like";
+  EXPECT_THAT(said_, testing::HasSubstr(what));
+  EXPECT_EQ(said_.find(what), said_.rfind(what));
+  EXPECT_EQ(predict(read + " --strict"), 1);
+  EXPECT_THAT(said_, testing::HasSubstr(what));
+  for (const std::string& damaged : {look_.substr(0, 2000), std::string("{}"), look_ + "another: 1\n"}) {
+    write_look(damaged);
+    EXPECT_EQ(predict(read), 1);
+    EXPECT_THAT(said_, testing::HasSubstr("model.onnx: its statistics of the training images are damaged"));
+  }
+}
+
+TEST_F(PredictCompared, RefusesPhotographsOfAnotherSizeByBothSizes) {
+  write("turned", shaded_image(lamps_, 51, true, 72, 96));
+  write("small", shaded_image(lamps_, 51, true, 48, 36));
+  for (const char* name : {"turned", "small"}) {
+    EXPECT_EQ(predict(fmt::format("--images {0}.png --background {0}.png", name)), 1);
+    EXPECT_THAT(said_, testing::HasSubstr("the network is for images of 96 x 72"));
+    EXPECT_EQ(said_.find("is it turned by 90°?") != std::string::npos, name == std::string("turned")) << said_;
   }
 }
 
