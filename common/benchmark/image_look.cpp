@@ -185,7 +185,7 @@ Eigen::VectorXd roughness_of(const Eigen::VectorXd& relief) {
   return Eigen::Map<const Eigen::VectorXd>(rough.data(), kCells).array() - middle;
 }
 
-FloatImage reduced(const ByteImage& image, int reduction) {
+FloatImage means_over_squares(const ByteImage& image, int reduction) {
   FloatImage out((image.width + reduction - 1) / reduction, (image.height + reduction - 1) / reduction, image.channels);
   for (int y = 0; y < out.height; ++y)
     for (int x = 0; x < out.width; ++x) {

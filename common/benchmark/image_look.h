@@ -38,7 +38,7 @@ Eigen::VectorXd roughness_of(const Eigen::VectorXd& relief);
 inline constexpr Eigen::Index kRoughnessSize = 48;
 
 /// Means over squares of this many pixels; those at the right and the bottom may be smaller.
-FloatImage reduced(const ByteImage& image, int reduction);
+FloatImage means_over_squares(const ByteImage& image, int reduction);
 
 /// How a picture may differ from what the camera saw.
 struct ImageTurn {

@@ -124,7 +124,7 @@ std::optional<LookComparison> compare(const TrainedNetwork& network, const ByteI
   const auto found = network.looks.find({image.height, image.width});
   if (found == network.looks.end()) return std::nullopt;
   const int reduction = found->second.reduction();
-  return found->second.compare(reduced(reference, reduction), reduced(image, reduction));
+  return found->second.compare(means_over_squares(reference, reduction), means_over_squares(image, reduction));
 }
 
 void stay_in_this_thread() {

@@ -66,12 +66,12 @@ Value::Map compare_with_training(Stage& stage, const DepthReader& reader, const 
     return {};
   }
   const TrainedLook& look = *reader.look();
-  const FloatImage background = reduced(reference, look.reduction());
+  const FloatImage background = means_over_squares(reference, look.reduction());
   const auto& files = stage.inputs("--images");
   std::vector<LookComparison> comparisons(images.size());
   each_in_threads(images.size(), [&](std::size_t i) {
     reader.check_size(files[i].string(), images[i], reference);
-    comparisons[i] = look.compare(background, reduced(images[i], look.reduction()));
+    comparisons[i] = look.compare(background, means_over_squares(images[i], look.reduction()));
   });
   LookReport report;
   Value::Map distances;

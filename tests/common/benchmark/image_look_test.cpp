@@ -13,14 +13,14 @@ TEST(ReducedImage, IsMeansOverSquaresAndWhatIsLeftOfThem) {
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 5; ++x)
       for (int c = 0; c < 3; ++c) image.at(x, y, c) = static_cast<std::uint8_t>(10 * x + 3 * y + c);
-  const FloatImage small = reduced(image, 2);
+  const FloatImage small = means_over_squares(image, 2);
   ASSERT_EQ(small.width, 3);
   ASSERT_EQ(small.height, 2);
   EXPECT_FLOAT_EQ(small.at(0, 0, 0), (0 + 10 + 3 + 13) / 4.0F);
   EXPECT_FLOAT_EQ(small.at(2, 0, 1), (41 + 44) / 2.0F);
   EXPECT_FLOAT_EQ(small.at(1, 1, 2), (28 + 38) / 2.0F);
   EXPECT_FLOAT_EQ(small.at(2, 1, 0), 46.0F);
-  EXPECT_EQ(reduced(image, 1).pixels, std::vector<float>(image.pixels.begin(), image.pixels.end()));
+  EXPECT_EQ(means_over_squares(image, 1).pixels, std::vector<float>(image.pixels.begin(), image.pixels.end()));
 }
 
 TEST(TurnedImage, MovesPixelsAndChannels) {
@@ -66,14 +66,15 @@ TEST(ImageLook, OfABackgroundIsItsPatternAndWhatIsNoPlane) {
 
 TEST(ImageLook, OfAChangeTurnsWithItAndNotWithItsPlace) {
   const auto shading = [](const ByteImage& image, const ByteImage& background) {
-    return look_of(reduced(background, 1), reduced(image, 1))[LookPart::shading];
+    return look_of(means_over_squares(background, 1), means_over_squares(image, 1))[LookPart::shading];
   };
   const MadeUpLamps lamps;
   for (const std::size_t dent : {0, 1, 2}) {
     const ByteImage image = shaded_image(lamps, dent, true), background = shaded_image(lamps, dent, false);
     const Eigen::VectorXd now = shading(image, background);
     const auto other = [&](const ImageTurn& turn) {
-      return look_of(turned(reduced(background, 1), turn), turned(reduced(image, 1), turn))[LookPart::shading];
+      return look_of(turned(means_over_squares(background, 1), turn),
+                     turned(means_over_squares(image, 1), turn))[LookPart::shading];
     };
     const Eigen::VectorXd about = other({.left_right = true, .top_bottom = true}), swapped = other({.swapped = true});
     EXPECT_LT((about.head<6>() + now.head<6>()).norm(), 1e-6);
@@ -91,8 +92,8 @@ TEST(ImageLook, OfAChangeTurnsWithItAndNotWithItsPlace) {
 
 TEST(ImageLook, OfAnUntouchedPartIsItsLevel) {
   const MadeUpLamps lamps;
-  const FloatImage background = reduced(shaded_image(lamps, 1, false), 1);
-  FloatImage brighter = reduced(shaded_image(lamps, 1, true), 1);
+  const FloatImage background = means_over_squares(shaded_image(lamps, 1, false), 1);
+  FloatImage brighter = means_over_squares(shaded_image(lamps, 1, true), 1);
   for (std::size_t i = 0; i < brighter.pixels.size(); i += 3) brighter.pixels[i] += 6.0F;
   const Eigen::VectorXd level = look_of(background, brighter)[LookPart::level];
   EXPECT_NEAR(level[1], 4.0, 0.3);  // the middle of red, 6 codes

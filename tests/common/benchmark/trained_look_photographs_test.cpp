@@ -26,8 +26,8 @@ Photographs read(const std::filesystem::path& folder, const std::string& backgro
       files.push_back(entry.path());
   }
   std::ranges::sort(files);
-  Photographs out{.background = reduced(read_png(folder / background, 3), kReduction), .images = {}};
-  for (const auto& file : files) out.images.push_back(reduced(read_png(file, 3), kReduction));
+  Photographs out{.background = means_over_squares(read_png(folder / background, 3), kReduction), .images = {}};
+  for (const auto& file : files) out.images.push_back(means_over_squares(read_png(file, 3), kReduction));
   return out;
 }
 

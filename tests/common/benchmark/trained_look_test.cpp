@@ -14,8 +14,8 @@ const MadeUpLamps kThree, kOpposite{.degrees = {180.0, 0.0, 90.0}, .codes = {80.
     kWhite{.degrees = {45.0, 45.0, 45.0}, .codes = {120.0, 100.0, 80.0}};
 
 ImageLook made_look(const MadeUpLamps& lamps, std::size_t index, double brighter) {
-  FloatImage background = reduced(shaded_image(lamps, index, false), 1),
-             image = reduced(shaded_image(lamps, index, true), 1);
+  FloatImage background = means_over_squares(shaded_image(lamps, index, false), 1),
+             image = means_over_squares(shaded_image(lamps, index, true), 1);
   for (FloatImage* one : {&background, &image})
     for (float& code : one->pixels) code += static_cast<float>(brighter);
   return look_of(background, image);
@@ -36,7 +36,8 @@ struct Pair {
   FloatImage background, image;
 };
 Pair photograph(const MadeUpLamps& lamps, std::size_t index) {
-  return {reduced(shaded_image(lamps, index, false), 1), reduced(shaded_image(lamps, index, true), 1)};
+  return {means_over_squares(shaded_image(lamps, index, false), 1),
+          means_over_squares(shaded_image(lamps, index, true), 1)};
 }
 Pair turned_pair(const Pair& pair, const ImageTurn& turn) {
   return {turned(pair.background, turn), turned(pair.image, turn)};

@@ -151,8 +151,8 @@ class PredictCompared : public Predict {
   void SetUp() override {
     std::vector<std::vector<ImageLook>> groups;
     for (std::size_t i = 0; i < 20; ++i)
-      groups.push_back(
-          {look_of(reduced(shaded_image(lamps_, i, false), 1), reduced(shaded_image(lamps_, i, true), 1))});
+      groups.push_back({look_of(means_over_squares(shaded_image(lamps_, i, false), 1),
+                                means_over_squares(shaded_image(lamps_, i, true), 1))});
     look_ = TrainedLook::of(groups, 1).to_text();
     model_ = small_network(96, 72);
     write_look(look_);
