@@ -124,9 +124,10 @@ Eigen::VectorXd shading_of(const FloatImage& blocks, const Eigen::Vector2d& pitc
   const double all = energies.sum();
   if (all <= 0.0) return shading;
   Eigen::Array2Xd place(2, count);
-  for (Eigen::Index b = 0; b < count; ++b)
-    place.col(b) =
-        pitch.array() * Eigen::Array2d(static_cast<double>(b % blocks.width), static_cast<double>(b / blocks.width));
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const Eigen::Index column = b % blocks.width, row = b / blocks.width;
+    place.col(b) = pitch.array() * Eigen::Array2d(static_cast<double>(column), static_cast<double>(row));
+  }
   const Eigen::Array<double, 1, Eigen::Dynamic> weights = change.square().colwise().sum() / all;
   place.colwise() -= (place.rowwise() * weights).rowwise().sum().eval();
   const double reach = std::sqrt(std::max(1.0, (place.square().colwise().sum() * weights).sum()));

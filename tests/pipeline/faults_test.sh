@@ -16,7 +16,7 @@ rm hasty/bin/render
 cat > hasty/bin/render <<END_OF_RENDER
 #!/usr/bin/env bash
 for ((i = 1; i < \$#; ++i)); do [ "\${!i}" != --out ] || { next=\$((i + 1)); out=\${!next}; }; done
-$build_dir/bin/render "\$@" || { status=\$?; [ -z "\$out" ] || echo 'stage: render' > "\$out/render.yaml"; exit \$status; }
+$build_dir/bin/render "\$@" || { status=\$?; [ \$status = 3 ] || [ -z "\$out" ] || echo 'stage: render' > "\$out/render.yaml"; exit \$status; }
 END_OF_RENDER
 chmod +x hasty/bin/render
 faults hasty not_held > table.txt 2>&1 && fail "a record over what failed is not found: $(cat table.txt)"

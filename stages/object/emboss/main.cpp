@@ -19,8 +19,7 @@ constexpr double kFullHeightShare = 0.95;
 int main(int argc, char** argv) {
   return run_stage(kEmboss, argc, argv, [](Stage& stage) {
     const auto config = stage.read_config<EmbossConfig>("--config");
-    if (const auto* picture = std::get_if<PictureSource>(&config.pattern))
-      stage.add_input("image", picture->path);
+    if (const auto* picture = std::get_if<PictureSource>(&config.pattern)) stage.add_input("image", picture->path);
     const Height relief = face_relief(config);
     const EmbossedCoin coin = emboss(config, relief);
     if (coin.relief_height_m < kFullHeightShare * config.relief.height_m) {
