@@ -5,8 +5,9 @@
 set -uo pipefail
 stage=$(basename "$0")
 program=$FAULTS_PROGRAMS/$stage
-args=("$@") at=-1
-for ((i = 0; i + 1 < $#; ++i)); do [ "${args[i]}" != --out ] || at=$((i + 1)); done
+args=() at=-1
+for word in "$@"; do [ "$word" = --if-changed ] || args+=("$word"); done # each call is to do its work
+for ((i = 0; i + 1 < ${#args[@]}; ++i)); do [ "${args[i]}" != --out ] || at=$((i + 1)); done
 [ "$at" -ge 0 ] || exec "$program" "$@"
 
 aside=$(mktemp -d)
