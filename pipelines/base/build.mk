@@ -51,7 +51,7 @@ compile_now = ninja() { cmake --build $(1) -j $(JOBS) $(2:%=--target %) -- "$$@"
 cached_of_wrap     := CGAL_INCLUDE_DIR
 cached_of_identify := Ceres_DIR
 cached_of_robot    := MUJOCO_INCLUDE_DIR
-cached_of_video    := OPENH264_INCLUDE_DIR OPENH264_LIBRARY
+cached_of_video    := FFMPEG_INCLUDE_DIR
 cached_of_predict  := ONNX_DIR OpenCV_dnn_LIBRARY Protobuf_INCLUDE_DIR
 cached_of_depthnet := LIBTORCH_INCLUDE_DIR
 # Without tests, until with-tests switches them on.
@@ -84,7 +84,7 @@ build-all: with-tests # one after the other: two builds in one folder would trip
 check: build-all ## start: Build and run the tests (under 15 minutes)
 	ctest --test-dir $(BUILD) -LE "slow|dev" -j $(JOBS) --output-on-failure --no-tests=error
 
-# What reads exports, for tests alone: packages/loaders.pip beside Debian's Python, NumPy, PyTorch. lerobot comes without its own list, which asks
+# Packages that read exports, for tests alone: packages/loaders.pip beside Debian's Python, NumPy, PyTorch. lerobot comes without its own list, which asks
 # for a newer Python (tests/pipeline/lerobot_on_debian.py).
 LEROBOT := lerobot==0.6.1
 packages_for_loaders-python := loaders

@@ -21,7 +21,7 @@ holds = @[ "$$($(BIN)/tacipc get $(1) summary.holds --default false)" = true ] |
 depthnet_is_built = @[ -x $(BIN)/depthnet ] && [ -x $(BIN)/predict ] || \
   { echo "depthnet, predict: not built for want of packages: make -f Makefile.data packages build GROUPS='depthnet predict'" >&2; exit 2; }
 wrap_is_built = @[ -x $(BIN)/wrap ] || { echo "wrap: not built for want of libcgal-dev: make -f Makefile.data packages build GROUPS=wrap" >&2; exit 2; }
-video_is_built = @[ -x $(BIN)/video ] || { echo "video: not built for want of libopenh264-dev: make -f Makefile.data packages build GROUPS=video" >&2; exit 2; }
+video_is_built = @[ -x $(BIN)/video ] || { echo "video: not built for want of libavformat-dev: make -f Makefile.data packages build GROUPS=video" >&2; exit 2; }
 
 SENSORS := $(basename $(notdir $(wildcard configs/sensors/*.yaml)))
 MESHES  := $(basename $(notdir $(wildcard configs/gels/*.yaml)))

@@ -46,7 +46,7 @@ if [ -x "$build_dir/bin/video" ]; then
   export_goal SAMPLE=one/sample/pyramid FORMAT=video SLOWER=1 > said.txt
   grep -q 'slower: 1$' one/sample/pyramid/video/video.yaml || fail "not at its own pace: $(cat one/sample/pyramid/video/video.yaml)"
   mkdir bin && for program in "$build_dir"/bin/*; do ln -s "$program" bin/; done && rm bin/video
-  refused 2 'video: not built for want of libopenh264-dev: make -f Makefile.data packages build GROUPS=video' \
+  refused 2 'video: not built for want of libavformat-dev: make -f Makefile.data packages build GROUPS=video' \
     make -s -f Makefile.data export OUT=one BUILD="$PWD" REBUILD=no PACKAGES=no SAMPLE=one/sample/pyramid FORMAT=video SLOWER=3
 fi
 code=0

@@ -49,7 +49,7 @@ for net in default outcome; do  # of depth a second run judges; outcomes are jud
 done
 grep -q -- --model default.txt && grep -q test/sheet.png default.txt || fail "nothing is judged: $(cat default.txt)"
 ! grep -q -- --model outcome.txt && grep -q depthnet/outcome/outcome.md outcome.txt || fail "outcomes: $(cat outcome.txt)"
-for name in chromium-headless-shell python3-torch slurmd libgtest-dev libcgal-dev libmujoco-dev libtorch-dev libonnx-dev libopenh264-dev; do
+for name in chromium-headless-shell python3-torch slurmd libgtest-dev libcgal-dev libmujoco-dev libtorch-dev libonnx-dev libavformat-dev; do
   ! grep -qx "$name" packages/chain.txt || fail "$name for everybody"
 done
 make -s -f Makefile.data packages GROUPS=gone 2> said.txt && fail "a group that is not there"

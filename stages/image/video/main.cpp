@@ -1,15 +1,13 @@
 #include <fmt/ranges.h>
 
 #include "common/base/error.h"
-#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/base/parse.h"
 #include "common/sample/film.h"
 #include "common/sample/press_folder.h"
 #include "common/sample/scene_folder.h"
 #include "common/stage/stage.h"
-#include "stages/image/video/h264.h"
-#include "stages/image/video/mp4.h"
+#include "stages/image/video/mp4_file.h"
 
 namespace {
 
@@ -29,7 +27,7 @@ const StageSpec kVideo{
     .options = {
         {.flag = "--slower", .help = "how many times slower than the motion: a number, or auto", .fallback = "auto"}}};
 
-/// Of one gel or several: their press folders, and the times of the frames.
+/// Press folders of one gel or several, and the times of the frames.
 struct Filmed {
   std::vector<fs::path> presses;
   std::size_t frames = 0;
@@ -81,15 +79,12 @@ int main(int argc, char** argv) {
     for (const fs::path& press : filmed.presses) gels.push_back({press, images_of(press, renders)});
     const FilmTimes times = film_times(filmed.times_s, filmed.frames, slower);
     const Film film(std::move(gels), filmed.frames, kMost);
-    H264Encoder encoder(film.size().width, film.size().height);
-    Mp4Track track{.width = film.size().width, .height = film.size().height, .seconds = times.seconds};
+    Mp4File file(stage.output("video.mp4"), film.size().width, film.size().height);
     for (std::size_t f = 0; f < film.frames(); ++f) {
       show_progress(static_cast<double>(f) / static_cast<double>(film.frames()), fmt::format("frame {}", f));
-      track.frames.push_back(encoder.encode(film.picture(f)));
+      file.add(film.picture(f), times.seconds[f]);
     }
-    track.sequence_parameters = encoder.sequence_parameters();
-    track.picture_parameters = encoder.picture_parameters();
-    write_file(stage.output("video.mp4"), mp4_bytes(track));
+    file.close();
     double seconds = 0.0;
     for (const double shown_s : times.seconds) seconds += shown_s;
     const std::vector<std::string> columns = film.columns();
