@@ -9,38 +9,23 @@
 #include <sstream>
 #include <system_error>
 
-#include "common/base/checked_file.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/instruction_set.h"
 #include "common/base/log.h"
 #include "common/base/printable.h"
-#include "common/stage/record.h"
-#include "common/stage/unchanged.h"
 #include "common/stage/vouched.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-// Hidden, so that no output can have their names.
-constexpr const char* kScratchFolder = ".scratch";
-constexpr const char* kResumeKey = ".resume-key";
+// Hidden, so that no output can have its name.
 constexpr const char* kReplacing = ".replacing-";  // with the stage's name: files that may be there without a record
-constexpr const char* kInputChanged = "an input changed while the stage ran; run it again";
 
 void remove_quietly(const fs::path& path) {
   std::error_code ignored;
   fs::remove_all(path, ignored);
-}
-
-/// Leaves what a later run may resume from.
-void remove_unfinished_outputs(const fs::path& partial) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(partial, ignored)) {
-    if (entry.path().filename() != kScratchFolder && entry.path().filename() != kResumeKey)
-      remove_quietly(entry.path());
-  }
 }
 
 /// As seen from the output folder, so that a moved or second copy of everything gives the same record.
@@ -106,21 +91,6 @@ fs::path Stage::partial_path(const std::string& name) const {
   return path;
 }
 
-fs::path Stage::scratch(const std::string& name) const {
-  open_scratch();
-  return partial_ / kScratchFolder / name;
-}
-
-void Stage::save_scratch(const std::string& name, std::string_view bytes) {
-  if (!scratch_belongs_to_inputs_ && inputs_changed()) throw DataError(kInputChanged);
-  scratch_belongs_to_inputs_ = true;
-  write_checked_file(scratch(name), bytes);
-}
-
-std::optional<std::string> Stage::load_scratch(const std::string& name) const {
-  return read_checked_file(scratch(name));
-}
-
 void Stage::note(const std::string& key, Value value) { notes_.emplace_back(key, std::move(value)); }
 
 void Stage::note_config(const std::string& flag, Value config) {
@@ -167,20 +137,11 @@ void Stage::refuse_changed(const fs::path& input) const {
   refuse_changed_outputs(input, out_ / (spec_.name + ".yaml"));
 }
 
-bool Stage::inputs_changed() const { return to_yaml(input_hashes(out_)) != to_yaml(inputs_at_start_.value()); }
-
-std::string Stage::resume_key() const {
-  std::error_code ignored;
-  const fs::path program = "/proc/self/exe";
-  Value::Map key{{"stage", spec_.name},
-                 {"version", program_version()},
-                 // Two builds of edited sources have the same version.
-                 {"program", fs::is_regular_file(program, ignored) ? content_hash(program) : ""},
-                 {"instruction_set", instruction_set()},
-                 {"inputs", inputs_at_start_.value()}};
-  for (const OptionSpec& option : spec_.options) key.emplace_back(option.flag.substr(2), options_.at(option.flag));
-  return to_yaml(key);
+void Stage::refuse_changed_inputs() const {
+  if (inputs_changed()) throw DataError("an input changed while the stage ran; run it again");
 }
+
+bool Stage::inputs_changed() const { return to_yaml(input_hashes(out_)) != to_yaml(inputs_at_start_.value()); }
 
 void Stage::add_notes(Value::Map& record) const {
   record.insert(record.end(), notes_.begin(), notes_.end());
@@ -302,46 +263,9 @@ void Stage::begin() {
   inputs_at_start_ = input_hashes(out_);
 }
 
-bool Stage::is_done() const {
-  const fs::path path = out_ / (spec_.name + ".yaml");
-  if (!is_unchanged(path)) return false;
-  const Record record = Record::from_file(path), inputs = record.section("inputs");
-  for (const InputSpec& spec : spec_.inputs) {
-    std::vector<NamedPath> given;
-    if (spec.named)
-      given = named_inputs_.at(spec.flag);
-    else if (const auto found = inputs_.find(spec.flag); found != inputs_.end())
-      for (const fs::path& file : found->second) given.push_back({.name = "", .path = file});
-    // A record names the file behind a link.
-    const auto is_same = [&](const NamedPath& one, const Record& input) {
-      return one.name == input.text("name").value_or("") &&
-             fs::equivalent(one.path, out_ / input.required_text("path"));
-    };
-    if (!std::ranges::equal(given, inputs.one_or_many(spec.flag.substr(2)), is_same)) return false;
-  }
-  return std::ranges::all_of(spec_.options, [&](const OptionSpec& option) {
-    return record.text(option.flag.substr(2)).value_or("") == printable(options_.at(option.flag));
-  });
-}
-
-void Stage::open_scratch() const {
-  if (!spec_.resumable || scratch_is_open_) return;
-  scratch_is_open_ = true;
-  const std::string key = resume_key();
-  if (read_checked_file(partial_ / kResumeKey) == key) {
-    remove_unfinished_outputs(partial_);
-    return;
-  }
-  std::error_code error;
-  fs::remove_all(partial_, error);
-  // A new key beside old files would pass them off as its own.
-  if (error) throw DataError("{}: cannot be removed: {}", partial_.string(), error.message());
-  write_checked_file(partial_ / kResumeKey, key);
-}
-
 void Stage::publish() {
   // All that needs room on the disk comes first: what follows removes and renames.
-  if (inputs_changed()) throw DataError(kInputChanged);  // a record must name what was really read
+  refuse_changed_inputs();  // a record must name what was really read
   const std::string text = record_of(inputs_at_start_.value(), "", summary_);
   const fs::path record_name = spec_.name + ".yaml", timings_name = spec_.name + ".timings.yaml";
   write_file(partial_path(record_name), text);
@@ -383,8 +307,7 @@ void Stage::clean_up(int code) noexcept {
     if (code == 1 && spec_.resumable) {
       // Without the hashes the stage has not begun, and what an earlier run left may still be good.
       if (!inputs_at_start_) return;
-      const bool saved = fs::exists(partial_ / kScratchFolder) && !fs::is_empty(partial_ / kScratchFolder);
-      if (saved && !inputs_changed()) return remove_unfinished_outputs(partial_);
+      if (keep_scratch_alone()) return;
     }
   } catch (const std::exception&) {
     // An input cannot be read any more: what was made of it cannot be trusted.

@@ -128,6 +128,8 @@ class Stage {
   /// Keeps the scratch files of an equal earlier run, or none. Before the first file is written or looked for, but not
   /// earlier: until all inputs are added no run is equal to an earlier one.
   void open_scratch() const;
+  /// Removes unfinished outputs, if there are scratch files of the same inputs to keep. Returns whether there are.
+  bool keep_scratch_alone() const;
   void publish();
   void clean_up(int code) noexcept;
   void write_failure(const std::exception& error) const noexcept;
@@ -139,6 +141,8 @@ class Stage {
   /// With paths as seen from a folder.
   Value input_hashes(const std::filesystem::path& from) const;
   bool inputs_changed() const;
+  /// \throw DataError if inputs_changed()
+  void refuse_changed_inputs() const;
   /// \throw DataError if a record vouches for another content of an input (vouched.h)
   void refuse_changed(const std::filesystem::path& input) const;
   /// What scratch files depend on, as text.
