@@ -51,7 +51,7 @@ FloatImage blocks_of(const FloatImage& image) {
   return out;
 }
 
-/// What a plane that fits a cell best leaves of its blocks, codes.
+/// Residuals of a cell's blocks from the plane that fits them best, codes.
 void append_relief(const FloatImage& blocks, const Cell& cell, int channel, std::vector<double>& relief) {
   const double mean = mean_of(blocks, cell, channel);
   const double x0 = 0.5 * (cell.left + cell.right - 1), y0 = 0.5 * (cell.top + cell.bottom - 1);
@@ -184,23 +184,6 @@ Eigen::VectorXd roughness_of(const Eigen::VectorXd& relief) {
     rough.push_back(relief.segment(k * each, each).norm() / std::sqrt(static_cast<double>(each)));
   const double middle = median(rough);
   return Eigen::Map<const Eigen::VectorXd>(rough.data(), kCells).array() - middle;
-}
-
-FloatImage means_over_squares(const ByteImage& image, int reduction) {
-  FloatImage out((image.width + reduction - 1) / reduction, (image.height + reduction - 1) / reduction, image.channels);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x) {
-      const int right = std::min(image.width, (x + 1) * reduction),
-                bottom = std::min(image.height, (y + 1) * reduction);
-      for (int c = 0; c < image.channels; ++c) {
-        int sum = 0;
-        for (int v = y * reduction; v < bottom; ++v)
-          for (int u = x * reduction; u < right; ++u) sum += image.at(u, v, c);
-        out.at(x, y, c) =
-            static_cast<float>(sum) / static_cast<float>((right - x * reduction) * (bottom - y * reduction));
-      }
-    }
-  return out;
 }
 
 FloatImage turned(const FloatImage& image, const ImageTurn& turn) {

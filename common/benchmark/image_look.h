@@ -1,5 +1,5 @@
-// What a tactile image and its background look like, in few numbers: what a network's photographs are compared by with
-// the images it was trained on (trained_look.h).
+// A tactile image and its background described by few numbers, by which photographs are compared with the images that a
+// network was trained on (trained_look.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -36,9 +36,6 @@ ImageLook look_of(const FloatImage& background);
 /// less that of the median cell, so that noise, which is everywhere, does not count.
 Eigen::VectorXd roughness_of(const Eigen::VectorXd& relief);
 inline constexpr Eigen::Index kRoughnessSize = 48;
-
-/// Means over squares of this many pixels; those at the right and the bottom may be smaller.
-FloatImage means_over_squares(const ByteImage& image, int reduction);
 
 /// How a picture may differ from what the camera saw.
 struct ImageTurn {

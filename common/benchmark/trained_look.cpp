@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kFormat = 1;
 constexpr double kLeastChangeCodes = 1.0;
-/// Of pattern, relief, level, shading (units of image_look.h). Photographs of an untouched gel over an hour differ by
-/// 8 in the pattern and 3 at sharp edges of the relief; what touches is of more kinds than a training has.
+/// Limits of pattern, relief, level, shading (units of image_look.h). Photographs of an untouched gel over an hour
+/// differ by 8 in the pattern and 3 at sharp edges of the relief; what touches is of more kinds than a training has.
 constexpr std::array<LookSpread::Limits, kLookParts.size()> kLimits{{{1.5, 12.0}, {1.5, 2.0}, {1.5, 4.5}, {2.0, 4.0}}};
 constexpr double kTouchedPattern = 1.8;  // times what the relief is off; more is all over the image
 constexpr double kClearly = 0.8;         // a less likely explanation must bring an image nearer by this
@@ -40,7 +40,7 @@ constexpr NamedSide kSides[] = {{true, true, "", "the image and its background h
                                 {false, true, "image_", "the image, not its background, has "},
                                 {true, false, "background_", "the background, not the image, has "}};
 
-/// Those that keep the size, the likelier ones first.
+/// Turns that keep the size, the likelier ones first.
 std::vector<NamedTurn> turns_of(const FloatImage& image) {
   std::vector<NamedTurn> turns{{{.left_right = true, .top_bottom = true}, "turned_180", "been turned by 180°"},
                                {{.left_right = true}, "mirrored_left_right", "been mirrored left to right"},

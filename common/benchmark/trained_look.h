@@ -1,4 +1,4 @@
-// What the images of a network's training looked like, kept in its files, and how photographs differ from that.
+// Statistics of a network's training images, kept in its files, and the comparison of photographs with them.
 #pragma once
 
 #include <array>
@@ -38,16 +38,16 @@ class TrainedLook {
  private:
   using Distances = std::array<double, kLookParts.size()>;
   Distances distances(const ImageLook& look) const;
-  /// Those of a part that are compared: of the relief the roughness of what it is off the training's mean. Nothing if
+  /// Numbers of a part that are compared: of the relief the roughness of what it is off the training's mean. Nothing if
   /// the look does not tell them.
   std::optional<Eigen::VectorXd> numbers_of(std::size_t part, const ImageLook& look) const;
-  /// What differs where nothing undoes it, by the parts that are too far.
+  /// Name of a deviation that no turn or swap undoes, from the parts that are too far.
   static LookComparison unexplained(const Distances& parts);
 
   int reduction_ = 1;
   double least_change_codes_ = 0.0;  // the shading of a smaller change says nothing
   Eigen::VectorXd relief_;           // mean
-  // Of each part; none of the shading if the training had no image with enough of a change.
+  // Spread of each part; the shading has none if the training had no image with enough of a change.
   std::array<std::optional<LookSpread>, kLookParts.size()> spreads_;
 };
 

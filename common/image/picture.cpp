@@ -69,17 +69,25 @@ ByteImage picture_of_normals(const FloatImage& normals) {
   return picture;
 }
 
-ByteImage reduced(const ByteImage& picture, int by) {
-  if (by == 1) return picture;
-  ByteImage out((picture.width + by - 1) / by, (picture.height + by - 1) / by, picture.channels);
+FloatImage means_over_squares(const ByteImage& image, int by) {
+  FloatImage out((image.width + by - 1) / by, (image.height + by - 1) / by, image.channels);
   for (int y = 0; y < out.height; ++y)
     for (int x = 0; x < out.width; ++x)
       for (int c = 0; c < out.channels; ++c) {
         int sum = 0, count = 0;
-        for (int j = by * y; j < std::min(by * (y + 1), picture.height); ++j)
-          for (int i = by * x; i < std::min(by * (x + 1), picture.width); ++i, ++count) sum += picture.at(i, j, c);
-        out.at(x, y, c) = static_cast<std::uint8_t>((sum + count / 2) / count);
+        for (int j = by * y; j < std::min(by * (y + 1), image.height); ++j)
+          for (int i = by * x; i < std::min(by * (x + 1), image.width); ++i, ++count) sum += image.at(i, j, c);
+        out.at(x, y, c) = static_cast<float>(sum) / static_cast<float>(count);
       }
+  return out;
+}
+
+ByteImage reduced(const ByteImage& picture, int by) {
+  if (by == 1) return picture;
+  const FloatImage means = means_over_squares(picture, by);
+  ByteImage out(means.width, means.height, means.channels);
+  std::ranges::transform(means.pixels, out.pixels.begin(),
+                         [](float mean) { return static_cast<std::uint8_t>(std::lround(mean)); });
   return out;
 }
 

@@ -21,7 +21,9 @@ ByteImage picture_of_height(const FloatImage& image);
 /// Unit vectors as colours (n + 1) / 2 per component, so a flat face is light blue (128, 128, 255); NaN black.
 ByteImage picture_of_normals(const FloatImage& normals);
 
-/// Means over squares of `by` pixels, of those there are at the border.
+/// Means over squares of `by` pixels; squares at the right and the bottom may be smaller.
+FloatImage means_over_squares(const ByteImage& image, int by);
+/// Means over squares rounded to codes.
 ByteImage reduced(const ByteImage& picture, int by);
 
 /// Puts a picture with its upper left corner at x, y. \pre both RGB, and it lies inside the sheet

@@ -25,6 +25,22 @@ write_pyramid() { # write_pyramid FILE
   function facet(a, b, d) { printf "facet normal 0 0 0\nouter loop\nvertex %s\nvertex %s\nvertex %s\nendloop\nendfacet\n", a, b, d }' > "$1"
 }
 
+# An L of bars with edges of so many millimetres, as ASCII STL.
+write_l() { # write_l FILE EDGE_MM
+  awk -v s="$2" 'BEGIN {
+    split("0 0 0,3 0 0,3 1 0,1 1 0,1 2 0,0 2 0,0 0 1,3 0 1,3 1 1,1 1 1,1 2 1,0 2 1", v, ",")
+    m = split("1 3 2,7 8 9,1 4 3,7 9 10,1 6 4,7 10 12,4 6 5,10 11 12,1 2 8,1 8 7,2 3 9,2 9 8,3 4 10,3 10 9,4 5 11,4 11 10,5 6 12,5 12 11,6 1 7,6 7 12", f, ",")
+    print "solid l"
+    for (i = 1; i <= m; ++i) {
+      split(f[i], c, " ")
+      print "facet normal 0 0 0\nouter loop"
+      for (k = 1; k <= 3; ++k) { split(v[c[k]], x, " "); print "vertex " s * x[1], s * x[2], s * x[3] }
+      print "endloop\nendfacet"
+    }
+    print "endsolid"
+  }' > "$1"
+}
+
 # A small sample with the tiny gel and a small image; further make variables may follow.
 tiny_sample() { # tiny_sample OUT [VARIABLE=value …]
   local out=$1

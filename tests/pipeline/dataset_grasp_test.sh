@@ -3,22 +3,8 @@
 # possible a failure of both fingers; packed, reported, bundled, made again and cleaned like any other.
 . "$(dirname "$0")/common.sh"
 # An L of 8 mm bars, in millimetres, and a block that no hand of 80 mm opens for.
-solid() { # solid FILE SCALE
-  awk -v s="$2" 'BEGIN {
-    n = split("0 0 0,3 0 0,3 1 0,1 1 0,1 2 0,0 2 0,0 0 1,3 0 1,3 1 1,1 1 1,1 2 1,0 2 1", v, ",")
-    m = split("1 3 2,7 8 9,1 4 3,7 9 10,1 6 4,7 10 12,4 6 5,10 11 12,1 2 8,1 8 7,2 3 9,2 9 8,3 4 10,3 10 9,4 5 11,4 11 10,5 6 12,5 12 11,6 1 7,6 7 12", f, ",")
-    print "solid l"
-    for (i = 1; i <= m; ++i) {
-      split(f[i], c, " ")
-      print "facet normal 0 0 0\nouter loop"
-      for (k = 1; k <= 3; ++k) { split(v[c[k]], x, " "); print "vertex " s * x[1], s * x[2], s * x[3] }
-      print "endloop\nendfacet"
-    }
-    print "endsolid"
-  }' > "$1"
-}
 mkdir -p mine/objects
-solid mine/objects/l.stl 8
+write_l mine/objects/l.stl 8
 cat > mine/set.yaml <<'END'
 seed: 1
 sensors: {sensor: ../configs/sensors/mctac.yaml, mesh: ../configs/gels/tiny.yaml}

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/image/picture.h"
 #include "stages/image/depthnet/script_writer.h"
 
 // Small convolutions go through BLAS, whichever libblas.so.3 is.

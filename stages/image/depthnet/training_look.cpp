@@ -30,7 +30,7 @@ ImageLook look_of_input(const torch::Tensor& input) {
   return look_of(background, image);
 }
 
-/// What an item's name says of its sample.
+/// Sample of an item, from its name.
 std::string sample_of(const DepthItem& item) { return item.name.substr(0, item.name.rfind('/')); }
 
 }  // namespace

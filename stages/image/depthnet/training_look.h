@@ -1,4 +1,4 @@
-// What the images that a network is trained on look like, disturbed as its training disturbs them.
+// Statistics of a network's training images, disturbed as its training disturbs them.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace tacipc {
 
-/// Of the items of this size, or of some hundreds spread over them; frames of a sample belong together. \pre there is
-/// one
+/// Statistics of the items of this size, or of some hundreds spread over them; frames of a sample belong together. \pre
+/// there is one
 TrainedLook training_look(const std::vector<DepthItem>& items, const ImageSize& size, const DepthnetConfig& config);
 
 /// How an item that is not disturbed compares with it.

@@ -24,7 +24,7 @@ class DepthReader {
   /// network is for, or not of its reference's \pre three channels
   FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference);
 
-  /// What the images of the training looked like; nothing if the file is of an earlier version.
+  /// Statistics of the training images; nothing if the file is of an earlier version.
   const std::optional<TrainedLook>& look() const { return look_; }
   /// \throw DataError, which begins with the name, if the image is not of the size that the network is for, or not of
   /// its reference's

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/image/picture.h"
 #include "tests/common/benchmark/shaded_dents.h"
 
 namespace tacipc {

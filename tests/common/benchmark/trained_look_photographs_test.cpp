@@ -1,4 +1,4 @@
-// The same of photographs of real sensors: every second one trains, the others are compared.
+// Photographs of real sensors: every second one trains, the others are compared.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 
 #include "common/base/rng.h"
 #include "common/benchmark/trained_look.h"
+#include "common/image/picture.h"
 #include "tests/shared_data.h"
 
 namespace tacipc {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "common/base/error.h"
+#include "common/image/picture.h"
 #include "tests/common/benchmark/shaded_dents.h"
 #include "tests/scratch_folder.h"
 

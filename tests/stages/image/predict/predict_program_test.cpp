@@ -10,6 +10,7 @@
 #include "common/base/files.h"
 #include "common/benchmark/trained_look.h"
 #include "common/image/image.h"
+#include "common/image/picture.h"
 #include "common/sample/depth_model.h"
 #include "common/stage/record.h"
 #include "tests/common/benchmark/shaded_dents.h"
