@@ -68,7 +68,7 @@ class Scene {
   void add_mesh(std::size_t n) {
     const GltfNode& node = file_.nodes[n];
     const GltfMesh& mesh = file_.meshes[*node.mesh];
-    // Of a mesh that is the same at each of its places there is one.
+    // A mesh that is the same at each of its places is kept once.
     const bool is_shared = !node.skin && node.weights.empty();
     if (const auto found = shared_.find(*node.mesh); is_shared && found != shared_.end()) {
       for (const PartMesh* part : found->second) placed_.push_back({part, *scene_from_node_[n]});

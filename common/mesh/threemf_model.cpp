@@ -33,7 +33,7 @@ std::string_view prefix_of(std::string_view name) {
 }
 std::string_view local_name(std::string_view name) { return name.substr(name.find(':') + 1); }
 
-/// What a prefix stands for at an element; empty if nothing.
+/// Namespace that a prefix stands for at an element; empty if none.
 std::string namespace_of(Node node, std::string_view prefix) {
   const std::string wanted = prefix.empty() ? "xmlns" : "xmlns:" + std::string(prefix);
   for (; node; node = node.parent())

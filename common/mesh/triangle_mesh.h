@@ -28,7 +28,7 @@ Matrix rows_of(const std::vector<Row>& rows) {
 
 /// What a file's numbers may mean.
 inline const std::vector<std::string> kLengthUnits{"m", "cm", "mm", "um", "in"};
-/// Of one of these, and of ft, which 3MF files may state. \throw UsageError otherwise
+/// Metres per unit, for one of these and for ft, which 3MF files may state. \throw UsageError otherwise
 double metres_per_unit(const std::string& unit);
 
 /// Reads a surface by the file's suffix (.stl .obj .off .ply, any case) and scales it to metres. Polygons are split

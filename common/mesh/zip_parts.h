@@ -9,7 +9,7 @@
 
 namespace tacipc {
 
-/// What the parts of one archive may unpack to, in bytes.
+/// Largest total size of the unpacked parts of one archive, bytes.
 inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
 
 /// Parts have names such as /3D/3dmodel.model. As packages want it, the slash in front may be missing, percent signs

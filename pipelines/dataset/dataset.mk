@@ -48,7 +48,7 @@ submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter comma
 # A file that changes if another file was chosen for a gel, an object, a motion or a rendering, however old that one is.
 # (A plan made by an earlier version has none.)
 dataset_choice = $(if $(DATASET_CHOICES),$(DATASET_CHOICES)/$(1))
-# Of runs that miss a gel or an object together one makes it, and the others take that one. A gel that fails stops make; an object is noted in
+# If several runs miss a gel or an object, one makes it and the others take that one. A gel that fails stops make; an object is noted in
 # failures.csv, as a sample is. $(call dataset_shared,stage,what it is made of,flags)
 dataset_shared = TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
   bash pipelines/dataset/dataset_shared.sh '$(DATASET_DIR)' '$(DATASET_RUN)' '$@' '$(2)' $(call run,$(1),$(3))

@@ -82,7 +82,7 @@ no_room() { # no_room REASON
   exit 1
 }
 
-# What is written beside the stage says what stands against it, as stages do: write FILE COMMANDS
+# A failed write beside the stage is reported as stages do: write FILE COMMANDS
 write() {
   local said
   said=$(eval "$2" 2>&1) || no_room "$1 cannot be written: ${said##*: }"
@@ -103,7 +103,7 @@ prepare_ledger() {
 run_noting_failure() {
   local try before status reason signal
   said=''
-  # What ends because an input changed meanwhile, or was gone for a moment, is no failure: once more with the new one.
+  # A stage that ends because an input changed or was gone for a moment has not failed: run it once more.
   for try in 1 2 3; do
     before=$(state_of_inputs)
     status=0

@@ -24,7 +24,7 @@ fi
 if current "$record"; then exit 0; fi
 case $folder in "$dataset"/gels/*) exec env "$@" ;; esac
 
-# What another stage should have made of it first, and could not: the reason is that stage's.
+# If another stage should have made an input first and could not, the reason is that stage's.
 for p in $prerequisites; do
   cause=${p%.yaml}.failed.yaml
   if [ -e "$p" ] || [ ! -e "$cause" ]; then continue; fi

@@ -32,7 +32,7 @@ $(SAMPLE)/export/export.yaml: $(exported)/press.yaml $(always) | build
 	$(call run,export,--press $(exported) --gel $(call press_input,gel) $$($(BIN)/tacipc get $(exported)/press.yaml inputs.object.path --default '' \
 	  | sed -n 's#^.#--object $(exported)/&#p'))
 
-# Of a video: the gels' folders, and of each the images: those of its own page where they are of all frames, else all frames rendered in frames/.
+# Gels of a video and their images: from the page if it has all frames, else rendered in frames/.
 filmed := $(or $(patsubst %/press/press.yaml,%,$(wildcard $(SAMPLE)/left/press/press.yaml $(SAMPLE)/right/press/press.yaml \
   $(SAMPLE)/gels/*/press/press.yaml)),$(SAMPLE))
 has_all_frames = $(shell grep -ls '^ *frames: all$$' $(1)/render/render.yaml)

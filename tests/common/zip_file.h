@@ -15,7 +15,7 @@ using NamedFiles = std::vector<std::pair<std::string, std::string>>;  // name, c
 
 enum class ZipMethod { store, deflate };
 
-/// The same bytes every time.
+/// Bytes that are equal in every run.
 inline std::string zip_of(const NamedFiles& files, ZipMethod method = ZipMethod::deflate) {
   std::size_t room = 1024, used = 0;
   for (const auto& [name, content] : files) room += 2 * name.size() + content.size() + content.size() / 1000 + 512;

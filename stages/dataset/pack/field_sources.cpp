@@ -205,7 +205,7 @@ FieldSource nodal_force(Part part) {
                   [=](SampleFrames& s, std::size_t f) { return numbers_of(s.arrays().contact_forces(f).*part); });
 }
 
-/// What a press has only where it was asked for stress.
+/// Arrays of a press that was asked for stress.
 FieldSource of_stress(PressArray array, Numbers (*read)(const PressFolder& press, std::size_t frame)) {
   return of_array(array, [=](SampleFrames& s, std::size_t f) -> FieldData {
     if (!s.arrays().has(array)) return Absent{kNoStress};

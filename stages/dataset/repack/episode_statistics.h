@@ -17,14 +17,14 @@ class EpisodeStatistics {
   EpisodeStatistics(std::string name, std::size_t width, bool image)
       : name_(std::move(name)), total_(width), image_(image) {}
 
-  /// Of the numbers that the statistics count one by one.
+  /// Statistics of one episode, to be filled frame by frame.
   FeatureStatistics begin_episode() const { return FeatureStatistics(total_.width()); }
   void end_episode(const FeatureStatistics& episode);
 
   /// Columns `stats/<name>/<statistic>` with a row for each episode: lists of the column's width, of images (channels,
   /// 1, 1); `count`, the frames, is a list of one.
   void append_columns(std::vector<ParquetColumn>& columns, std::vector<ParquetValues>& values) const;
-  /// The same of all frames, under the column's name.
+  /// Statistics of all frames, under the column's name.
   std::pair<std::string, Value> lines() const;
 
  private:

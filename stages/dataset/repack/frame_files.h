@@ -28,12 +28,13 @@ class SampleFiles {
   /// The files of a frame and the keys of its JSON, with types and shapes.
   std::vector<std::string> form() const;
 
-  /// Of each frame
+  /// Files of each frame
   /// - `<field>.png` for images of codes, `<field>.npy` for other fields of more than 16 numbers or with NaN; of `sim`
   ///   and of variants `sim.<field>.…`, `<variant>.<field>.…`
   /// - `json` with the other fields and, under `sample`, the attributes that every sample of the kind has.
   void write_frames(const TakeFile& take) const;
-  /// Of the sample: `json` with all its attributes, the configurations that it was made with (`<name>.yaml`), and as
+  /// Files of the sample: `json` with all its attributes, the configurations that it was made with (`<name>.yaml`), and
+  /// as
   /// `<section>.<field>.npy` the fields that are not of frames: series, parts of `sim`, and `ensemble`.
   void write_sample(const TakeFile& take) const;
   /// Adds the attributes of fields that `fields` does not have.

@@ -118,7 +118,8 @@ class EpisodeFile {
     return false;
   }
 
-  /// UniVTAC encodes arrays in the order R, G, B with OpenCV, which takes them for B, G, R, and decodes them so, too.
+  /// UniVTAC encodes arrays in the order R, G, B with OpenCV, which takes them for B, G, R, and decodes them in the
+  /// same way.
   void write_streams(const std::string& path, const SampleAt& sample, const char* field) {
     const std::vector<std::size_t> shape = sample.shard.shape(sample.field(field));
     std::vector<std::string> streams;

@@ -10,8 +10,8 @@
 namespace tacipc {
 
 /// Files `<kind>/<split>/hdf5/<index>.hdf5`; the index is the sample's in the plan, of a grasp that of its left finger.
-/// What each holds is in docs/pack.md; what an episode has not, an attribute of the group says why. Returns what the
-/// record says.
+/// docs/pack.md lists the contents; for content that an episode lacks, an attribute of the group says why. Returns what
+/// the record says.
 Value::Map write_univtac(std::vector<std::filesystem::path> shards, const OutputPath& output);
 
 }  // namespace tacipc

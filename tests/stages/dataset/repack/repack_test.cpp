@@ -124,7 +124,7 @@ TEST(SampleFiles, NamesThatDifferInCaseAloneAreRefused) {
             "a.b: two fields differ in case alone: field_n.npy");
 }
 
-/// What is said when two samples go into archives, or nothing.
+/// Message when two samples go into archives, empty if there is none.
 std::string archive_both(const ScratchFolder& scratch, const std::filesystem::path& one,
                          const std::filesystem::path& other) {
   const Hdf5Reader first(one), second(other);

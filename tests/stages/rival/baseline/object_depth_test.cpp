@@ -120,7 +120,7 @@ TEST(ObjectDepth, WithoutACameraEveryDepthAppearsAtItsPlace) {
     ++seen;
     EXPECT_NEAR(deep.values[i], 17e-3, 1e-15);
   }
-  // The depth of the press is known out of view, too.
+  // The depth of the press is also known if the deepest point is out of view.
   EXPECT_NEAR(above.see(square(1.05e-3), Positions(), moved(9e-3, 0, -3e-3), "square").pressed_m, 3e-3, 1e-15);
   EXPECT_EQ(above.see(square(1.05e-3), Positions(), moved(0, 0, 1e-3), "square").pressed_m, 0.0);
   EXPECT_EQ(seen, 100) << "ten by ten centres, 0.2 mm apart, lie within 1.05 mm";

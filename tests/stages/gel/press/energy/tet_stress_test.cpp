@@ -70,7 +70,7 @@ TEST_P(CauchyStress, OfAHomogeneousDeformationIsTheClosedForm) {
   }
 }
 
-/// What one reads in a book: uniaxial strain λ gives −p along the axis, simple shear γ the stress μ γ.
+/// Textbook stresses: uniaxial strain λ gives −p along the axis, simple shear γ the stress μ γ.
 TEST(CauchyStressByHand, OfUniaxialStrainAndSimpleShear) {
   const Block block = make_block({1, 1, 1}, {1, 1, 1}, 0.0);
   const TetStress second = make_tet_stress(block.rest, block.tets, NeoHookean{2.0, 7.0}, Element::linear);
