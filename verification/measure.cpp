@@ -205,7 +205,7 @@ double measure(const Outcome& outcome, const std::string& quantity, int index) {
   if (quantity == "sideways_m") return sideways_m(outcome, index);
   if (quantity == "turned_rad") return turned_rad(outcome, index);
   if (quantity == "standoff_m") return standoff_m(outcome, index);
-  if (quantity == "min_gap_m") return frame.min_gap_m;
+  if (quantity == "min_gap_m") return frame.min_gap_m.value_or(std::nan(""));
   if (quantity == "min_volume_ratio") return frame.min_volume_ratio;
   if (quantity == "newton_iterations") return frame.solver.newton_iterations;
   throw UsageError("there is no quantity '" + quantity + "'");

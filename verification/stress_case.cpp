@@ -152,11 +152,12 @@ class Tally final : public FrameStore {
 
   void add(const Frame& frame) {
     if (!result_.totals)
-      result_.totals = StressTotals{.min_distance_m = frame.min_gap_m};
+      result_.totals.emplace();
     else
       ++result_.frames;
     StressTotals& totals = *result_.totals;
-    totals.min_distance_m = std::min(totals.min_distance_m, frame.min_gap_m);
+    if (frame.min_gap_m)
+      totals.min_distance_m = std::min(totals.min_distance_m.value_or(*frame.min_gap_m), *frame.min_gap_m);
     totals.min_volume_ratio = std::min(totals.min_volume_ratio, frame.min_volume_ratio);
     totals.press_force_n = std::max(totals.press_force_n, -frame.force_n.z());
     totals.time_steps += frame.solver.time_steps;
@@ -211,6 +212,7 @@ StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64
   const Eigen::Vector2d middle =
       0.5 * (x.leftCols<2>().colwise().minCoeff() + x.leftCols<2>().colwise().maxCoeff()).transpose();
   const Eigen::Vector2d center = at + middle - x.row(lowest).head<2>().transpose();
+  stress.sample.may_miss = true;
   stress.sample.center_x_m = center.x();
   stress.sample.center_y_m = center.y();
 

@@ -37,7 +37,8 @@ struct StressTotals {
   int time_steps = 0;
   int planned_steps = 0;  // time steps of the motion up to there, each counted once however often it was divided
   int newton_iterations = 0, moving_iterations = 0, lag_iterations = 0;
-  double min_distance_m = 0.0, min_volume_ratio = 1.0;
+  std::optional<double> min_distance_m = {};  // absent where nothing was ever near
+  double min_volume_ratio = 1.0;
   double press_force_n = 0.0;  // largest
 
   static constexpr auto keys() {

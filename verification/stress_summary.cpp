@@ -66,6 +66,7 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
   StressSummary all;
   std::map<std::string, StressSummary> by_kind;
   int frames = 0;
+  std::size_t summed = 0;
   StressTotals sum;
   std::vector<double> distances;
   for (const StressLine& line : lines) {
@@ -73,6 +74,7 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
     add(by_kind[line.crashed ? "(crashed)" : line.object], line);
     if (!line.result.totals) continue;
     const StressTotals& totals = *line.result.totals;
+    ++summed;
     frames += line.result.frames;
     sum.time_steps += totals.time_steps;
     sum.planned_steps += totals.planned_steps;
@@ -80,7 +82,7 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
     sum.moving_iterations += totals.moving_iterations;
     sum.lag_iterations += totals.lag_iterations;
     sum.min_volume_ratio = std::min(sum.min_volume_ratio, totals.min_volume_ratio);
-    distances.push_back(totals.min_distance_m);
+    if (totals.min_distance_m) distances.push_back(*totals.min_distance_m);
   }
   const std::string config = fmt::format("configs/studies/stress/{}.yaml", ranges);
   const bool grasps = ranges == "grasp", presses = ranges == kStressRanges;
@@ -101,14 +103,14 @@ std::string to_markdown(const std::vector<StressLine>& lines, const std::string&
   for (const auto& [kind, counts] : by_kind) out += row(kind, counts);
   out += row("all", all);
   if (!distances.empty()) {
-    const bool whole = distances.size() == lines.size();
-    out += fmt::format(kStressTotals, whole ? "" : fmt::format(" of {} cases", distances.size()), frames,
-                       sum.time_steps, sum.time_steps - sum.planned_steps, sum.newton_iterations, sum.moving_iterations,
+    const bool whole = summed == lines.size();
+    out += fmt::format(kStressTotals, whole ? "" : fmt::format(" of {} cases", summed), frames, sum.time_steps,
+                       sum.time_steps - sum.planned_steps, sum.newton_iterations, sum.moving_iterations,
                        sum.lag_iterations, 1e6 * lower_quantile(distances, 0.0), 1e6 * lower_quantile(distances, 0.5),
                        sum.min_volume_ratio);
     if (!whole)
       out += fmt::format("\nNot in these totals: {} crashed, {} ended early (only the number of frames is known).\n",
-                         all.crashed, lines.size() - distances.size() - static_cast<std::size_t>(all.crashed));
+                         all.crashed, lines.size() - summed - static_cast<std::size_t>(all.crashed));
   }
   if (all.converged == all.cases) return out;
   out += "\n| case | object | motion | frames | outcome | reason |\n|---|---|---|---|---|---|\n";

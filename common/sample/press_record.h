@@ -50,7 +50,8 @@ struct PressFrameLines {
   int substeps = 0, newton_iterations = 0, patch_iterations = 0, lag_iterations = 0, exact_hessian_waits = 0;
   double approximated_share = 0.0;
   double friction_residual_n = 0.0, velocity_residual_m_s = 0.0, force_residual_n = 0.0, barrier_stiffness = 0.0;
-  double min_gap_m = 0.0, stand_off_m = 0.0, min_volume_ratio = 0.0;
+  std::optional<double> min_gap_m = {};  // absent where nothing is near
+  double stand_off_m = 0.0, min_volume_ratio = 0.0;
   int intersections = 0, inverted_tets = 0;
   double gel_in_object = 0.0, pose_error_m = 0.0;
   std::optional<double> body_strain = {}, body_load_n = {}, body_residual_n = {}, body_residual_n_m = {};  // if free
@@ -79,7 +80,9 @@ struct PressSummary {
   double friction_coefficient = 0.0;
   int newton_iterations = 0;
   double press_force_n = 0.0, tangential_force_n = 0.0;  // in the last frame
-  double min_distance_m = 0.0, stand_off_m = 0.0, min_volume_ratio = 0.0;
+  int contact_frames = 0;                                // in which anything touches the gel
+  std::optional<double> min_distance_m = {};             // absent where nothing was ever near
+  double stand_off_m = 0.0, min_volume_ratio = 0.0;
   int intersections = 0, inverted_tets = 0;
   double max_balance_relative = 0.0, max_pose_error_m = 0.0;
   std::optional<double> object_mass_kg = {}, first_slip_time_s = {}, gross_slip_time_s = {};
@@ -95,11 +98,12 @@ struct PressSummary {
     return std::tuple(RECORD_KEY(frames), RECORD_KEY(gel_vertices), RECORD_KEY(face), RECORD_KEY(d_hat_m),
                       RECORD_KEY(barrier_stiffness), RECORD_KEY(element), RECORD_KEY(friction_coefficient),
                       RECORD_KEY(newton_iterations), RECORD_KEY(press_force_n), RECORD_KEY(tangential_force_n),
-                      RECORD_KEY(min_distance_m), RECORD_KEY(stand_off_m), RECORD_KEY(min_volume_ratio),
-                      RECORD_KEY(intersections), RECORD_KEY(inverted_tets), RECORD_KEY(max_balance_relative),
-                      RECORD_KEY(max_pose_error_m), RECORD_KEY(object_mass_kg), RECORD_KEY(first_slip_time_s),
-                      RECORD_KEY(gross_slip_time_s), RECORD_KEY(press_end_frame), RECORD_KEY(converged),
-                      RECORD_KEY(verdict), RECORD_KEY(approximated_frames), RECORD_KEY(limits), RECORD_KEY(per_frame));
+                      RECORD_KEY(contact_frames), RECORD_KEY(min_distance_m), RECORD_KEY(stand_off_m),
+                      RECORD_KEY(min_volume_ratio), RECORD_KEY(intersections), RECORD_KEY(inverted_tets),
+                      RECORD_KEY(max_balance_relative), RECORD_KEY(max_pose_error_m), RECORD_KEY(object_mass_kg),
+                      RECORD_KEY(first_slip_time_s), RECORD_KEY(gross_slip_time_s), RECORD_KEY(press_end_frame),
+                      RECORD_KEY(converged), RECORD_KEY(verdict), RECORD_KEY(approximated_frames), RECORD_KEY(limits),
+                      RECORD_KEY(per_frame));
   }
 };
 
@@ -161,7 +165,9 @@ struct GraspSummary {
   Vector3 center_of_mass_m = Vector3::Zero(), center_of_mass_shift_m = Vector3::Zero();  // in the object's axes
   HeldPoseLines pose = {};
   double grip_n = 0.0;
-  double slip_m = 0.0, turn_rad = 0.0, rise_m = 0.0, hand_rise_m = 0.0;  // in the judged frame
+  double slip_m = 0.0, turn_rad = 0.0, creep_m = 0.0, creep_rad = 0.0;  // in the judged frame; these are part of those
+  double rise_m = 0.0, hand_rise_m = 0.0;                               // there, too
+  double slip_speed_m_s = 0.0;                                          // ε_v: slower contacts stick, and creep
   double max_momentum_residual_n = 0.0;
   std::optional<SlipLines> slip_left = {}, slip_right = {};
   std::optional<double> friction_margin = {};  // friction force of both fingers at most over the weight
@@ -175,9 +181,10 @@ struct GraspSummary {
                       RECORD_KEY(judged_frame), RECORD_KEY(object_mass_kg), RECORD_KEY(friction_coefficient),
                       RECORD_KEY(gravity_m_s2), RECORD_KEY(center_of_mass_m), RECORD_KEY(center_of_mass_shift_m),
                       RECORD_KEY(pose), RECORD_KEY(grip_n), RECORD_KEY(slip_m), RECORD_KEY(turn_rad),
-                      RECORD_KEY(rise_m), RECORD_KEY(hand_rise_m), RECORD_KEY(max_momentum_residual_n),
-                      RECORD_KEY(slip_left), RECORD_KEY(slip_right), RECORD_KEY(friction_margin), RECORD_KEY(converged),
-                      RECORD_KEY(verdict), RECORD_KEY(per_frame));
+                      RECORD_KEY(creep_m), RECORD_KEY(creep_rad), RECORD_KEY(rise_m), RECORD_KEY(hand_rise_m),
+                      RECORD_KEY(slip_speed_m_s), RECORD_KEY(max_momentum_residual_n), RECORD_KEY(slip_left),
+                      RECORD_KEY(slip_right), RECORD_KEY(friction_margin), RECORD_KEY(converged), RECORD_KEY(verdict),
+                      RECORD_KEY(per_frame));
   }
 };
 
@@ -208,12 +215,15 @@ struct HeldBodyLines {
   std::string body = {};
   std::optional<std::string> outcome = {};
   std::size_t freed_frame = 0;
-  double slip_m = 0.0, turn_rad = 0.0, rise_m = 0.0, hand_rise_m = 0.0;
+  double slip_m = 0.0, turn_rad = 0.0;
+  std::optional<double> creep_m = {}, creep_rad = {};  // part of these two
+  double rise_m = 0.0, hand_rise_m = 0.0;
 
   static constexpr auto keys() {
     using Lines = HeldBodyLines;
     return std::tuple(RECORD_KEY(body), RECORD_KEY(outcome), RECORD_KEY(freed_frame), RECORD_KEY(slip_m),
-                      RECORD_KEY(turn_rad), RECORD_KEY(rise_m), RECORD_KEY(hand_rise_m));
+                      RECORD_KEY(turn_rad), RECORD_KEY(creep_m), RECORD_KEY(creep_rad), RECORD_KEY(rise_m),
+                      RECORD_KEY(hand_rise_m));
   }
 };
 
@@ -223,7 +233,7 @@ struct SceneFrameLines {
   int phase = 0;  // of the motion, from 0; −1 in frame 0
   int time_steps = 0, newton_iterations = 0;
   double velocity_residual_m_s = 0.0, force_residual_n = 0.0, body_residual_n = 0.0, body_load_n = 0.0;
-  double min_gap_m = 0.0;
+  std::optional<double> min_gap_m = {};  // absent where no two bodies are near
   int intersections = 0;
 
   static constexpr auto keys() {
@@ -239,7 +249,8 @@ struct SceneSummary {
   std::size_t frames = 0;
   std::vector<SceneBodyLines> bodies = {};  // in the order of the arrays
   std::vector<ContactLines> contact = {};
-  double min_distance_m = 0.0;
+  std::vector<std::string> untouched_gels = {};  // those that nothing ever touches
+  std::optional<double> min_distance_m = {};     // absent where no two bodies were ever near
   int intersections = 0;
   double body_strain = 0.0, max_body_balance_relative = 0.0, max_momentum_residual_n = 0.0;
   std::vector<HeldBodyLines> held = {};
@@ -249,10 +260,10 @@ struct SceneSummary {
 
   static constexpr auto keys() {
     using Lines = SceneSummary;
-    return std::tuple(RECORD_KEY(frames), RECORD_KEY(bodies), RECORD_KEY(contact), RECORD_KEY(min_distance_m),
-                      RECORD_KEY(intersections), RECORD_KEY(body_strain), RECORD_KEY(max_body_balance_relative),
-                      RECORD_KEY(max_momentum_residual_n), RECORD_KEY(held), RECORD_KEY(converged), RECORD_KEY(verdict),
-                      RECORD_KEY(per_frame));
+    return std::tuple(RECORD_KEY(frames), RECORD_KEY(bodies), RECORD_KEY(contact), RECORD_KEY(untouched_gels),
+                      RECORD_KEY(min_distance_m), RECORD_KEY(intersections), RECORD_KEY(body_strain),
+                      RECORD_KEY(max_body_balance_relative), RECORD_KEY(max_momentum_residual_n), RECORD_KEY(held),
+                      RECORD_KEY(converged), RECORD_KEY(verdict), RECORD_KEY(per_frame));
   }
 };
 

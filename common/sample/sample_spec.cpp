@@ -14,6 +14,7 @@ SampleSpec SampleSpec::read(ConfigReader& in) {
     const auto center_mm = placement->numbers_or("center_mm", {0.0, 0.0});
     spec.center_x_m = 1e-3 * center_mm[0];
     spec.center_y_m = 1e-3 * center_mm[1];
+    spec.may_miss = placement->flag_or("may_miss", false);
   }
   if (auto object = in.optional_section("object"))
     spec.density_kg_m3 = object->number("density_kg_m3", Range::positive());

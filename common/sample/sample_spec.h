@@ -16,6 +16,7 @@ struct SampleSpec {
   double rotate_rad = 0.0;
   double center_x_m = 0.0;
   double center_y_m = 0.0;
+  bool may_miss = false;                // the gel: the object may go beside it and touch nothing
   std::optional<double> density_kg_m3;  // of the object, where a load moves it or it is free
   std::vector<Phase> motion;
 

@@ -56,6 +56,22 @@ double normal_force_n(const Matrix4& world_from_gel, const Vector3& force_n) {
   return 0.0 - force_n.dot(world_from_gel.block<3, 1>(0, 2));
 }
 
+namespace {
+
+/// As held_motion() has it.
+HeldPath held_path(const SceneBodies& scene, std::size_t body, std::size_t freed, std::size_t end,
+                   const HeldContacts& contacts) {
+  const auto in_hand = [&](std::size_t f) -> Matrix4 {
+    return hand_pose(scene, f).inverse() * scene.body_pose[f][body];
+  };
+  const Vector3 grip = in_hand(freed).inverse().topRightCorner<3, 1>();
+  HeldPath path(in_hand(freed), grip, contacts.slip_speed_m_s);
+  for (std::size_t f = freed + 1; f <= end; ++f) path.go_on(in_hand(f), contacts.per_frame[f]);
+  return path;
+}
+
+}  // namespace
+
 HeldMotion held_motion(const SceneBodies& scene, std::size_t body, std::size_t freed, std::size_t frame) {
   const Matrix4 hand_then = hand_pose(scene, freed), hand_now = hand_pose(scene, frame);
   const Matrix4 &body_then = scene.body_pose[freed][body], &body_now = scene.body_pose[frame][body];
@@ -71,7 +87,8 @@ HeldMotion held_motion(const SceneBodies& scene, std::size_t body, std::size_t f
           .hand_rise_m = (hand_now - hand_then)(2, 3)};
 }
 
-std::vector<HeldBodyLines> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from) {
+std::vector<HeldBodyLines> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from,
+                                       const HeldContacts& contacts) {
   std::vector<HeldBodyLines> held;
   const auto gripped = gripped_from(scene);
   if (!gripped) return held;
@@ -79,13 +96,20 @@ std::vector<HeldBodyLines> held_bodies(const SceneBodies& scene, const std::vect
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const std::size_t freed = std::max(*gripped, free_from[b]);
     if (scene.kinds[b] != "rigid" || freed >= end || !is_touched(scene, b)) continue;
-    const HeldMotion motion = held_motion(scene, b, freed, end);
+    HeldMotion motion = held_motion(scene, b, freed, end);
     HeldBodyLines& body = held.emplace_back(HeldBodyLines{.body = scene.bodies[b],
                                                           .freed_frame = freed,
                                                           .slip_m = motion.slip_m,
                                                           .turn_rad = motion.turn_rad,
                                                           .rise_m = motion.rise_m,
                                                           .hand_rise_m = motion.hand_rise_m});
+    if (!contacts.per_frame.empty()) {
+      const HeldPath path = held_path(scene, b, freed, end, contacts);
+      body.creep_m = path.creep_m();
+      body.creep_rad = path.creep_rad();
+      motion.slip_m = path.slip_m();
+      motion.turn_rad = path.slip_rad();
+    }
     if (gels_of(scene).size() < 2) continue;
     const GraspOutcome outcome = outcome_of(motion);
     const bool stays = outcome == GraspOutcome::lifted && motion.hand_rise_m < kSlipped_m;

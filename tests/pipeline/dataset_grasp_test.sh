@@ -102,7 +102,7 @@ with h5py.File(to, "r+") as shard:
         values[int(sample.attrs["freed_frame"]):] *= 0.5
         field[...] = values
 END
-for what in outcome reason first_slip_s gross_slip_s rise_mm hand_pose object_pose finger_force_N slipping_force_N friction_margin; do
+for what in outcome reason first_slip_s gross_slip_s rise_mm end_creep_mm hand_pose object_pose finger_force_N slipping_force_N friction_margin; do
   /usr/bin/python3 tamper.py "$set"/pack/shards/train-*.h5 tampered.h5 "$what" || fail "$what could not be changed"
   /usr/bin/python3 "$set/pack/check_labels.py" tampered.h5 > said.txt && fail "a changed $what went unseen"
   grep -q '5 of 6 samples agree$' said.txt || fail "$what: not one sample differs: $(cat said.txt)"

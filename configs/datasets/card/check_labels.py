@@ -37,7 +37,7 @@ class Grasp:
 
     def __init__(self, sample):
         attrs, series = sample.attrs, {name: field[...] for name, field in sample["series"].items()}
-        self.series, self.time_s, phases = series, series["time_s"], series["phase"]
+        self.attrs, self.series, self.time_s, phases = attrs, series, series["time_s"], series["phase"]
         names = dict(entry.split(" ", 1)[::-1] for entry in sample["series/phase"].attrs["codes"].split(", "))
         closes, releases = int(names["close"]), int(names["release"])
         self.hand, self.hand_at = matrices(series["hand_pose"])
@@ -77,9 +77,31 @@ class Grasp:
         self.slip_mm, self.turn_deg = np.zeros(len(self.time_s)), np.zeros(len(self.time_s))
         for f in range(self.freed, len(self.time_s)):
             self.slip_mm[f], self.turn_deg[f] = self.moved(self.freed, f)
+        self.measure_creep()
         place = lambda f: self.object[f] @ self.grip_point + self.object_at[f]
         self.rise_mm = (place(self.judged) - place(self.freed))[2]
         self.hand_rise_mm = (self.hand_at[self.judged] - self.hand_at[self.freed])[2]
+
+    def measure_creep(self):
+        """What of the way only crept, no faster than friction sticks, and what is slip without it."""
+        speed = self.attrs.get("slip_speed_mm_s", 0.0)
+        normal, slipping = self.series["normal_force_N"], self.series["slipping_force_N"]
+        shares = np.divide(slipping, normal, out=np.zeros_like(normal), where=normal > TOUCHES_N).max(axis=1)
+        radii = self.series["friction_radius_mm"].max(axis=1)
+        turn_freed, at_freed = self.in_hand(self.freed)
+        point = lambda turn, at: turn @ self.grip_point + at
+        crept, crept_turn = np.zeros(3), np.eye(3)
+        self.creep_mm, self.creep_deg = 0.0, 0.0
+        self.slid_mm, self.slid_deg = np.zeros(len(self.time_s)), np.zeros(len(self.time_s))
+        for f in range(self.freed + 1, self.judged + 1):
+            (turn_before, at_before), (turn, at) = self.in_hand(f - 1), self.in_hand(f)
+            step, step_turn = point(turn, at) - point(turn_before, at_before), turn @ turn_before.T
+            fastest = max(np.linalg.norm(step), radii[f] * np.radians(angle_deg(step_turn)))
+            if shares[f] < GROSS_SLIP_SHARE and fastest <= speed * (self.time_s[f] - self.time_s[f - 1]):
+                crept, crept_turn = crept + step, step_turn @ crept_turn
+            self.slid_mm[f] = np.linalg.norm(point(turn, at) - point(turn_freed, at_freed) - crept)
+            self.slid_deg[f] = angle_deg(turn @ turn_freed.T @ crept_turn.T)
+            self.creep_mm, self.creep_deg = np.linalg.norm(crept), angle_deg(crept_turn)
 
     def measure_slip(self):
         normal, slipping = self.series["normal_force_N"], self.series["slipping_force_N"]
@@ -100,9 +122,11 @@ class Grasp:
 
     def outcome(self):
         f = self.judged
+        if not np.any(np.linalg.norm(self.force, axis=2) > TOUCHES_N):
+            return "untouched"
         if not self.touches[f] or (self.hand_rise_mm >= 1.0 and self.rise_mm < DROPPED_PART * self.hand_rise_mm):
             return "dropped"
-        return "slipped" if self.slip_mm[f] >= SLIPPED_MM else "rotated" if self.turn_deg[f] >= TURNED_DEG else "lifted"
+        return "slipped" if self.slid_mm[f] >= SLIPPED_MM else "rotated" if self.slid_deg[f] >= TURNED_DEG else "lifted"
 
     def reason(self):
         if self.outcome() == "lifted":
@@ -113,7 +137,7 @@ class Grasp:
         carried = lambda f, point: 1e-3 * (self.hand[f] @ (turn @ point + at) + self.hand_at[f])  # m
         center = np.array([carried(f, self.center) for f in range(len(self.time_s))])
         for f in range(self.freed, self.judged + 1):
-            if not (self.touches[f] and self.slip_mm[f] < SLIPPED_MM and self.turn_deg[f] < TURNED_DEG):
+            if not (self.touches[f] and self.slid_mm[f] < SLIPPED_MM and self.slid_deg[f] < TURNED_DEG):
                 break
             axis, pull, acceleration = self.hand[f][:, 0], self.gravity, 0.0
             if f + 1 < len(self.time_s):
@@ -159,6 +183,9 @@ def disagreements(sample):
     compare("gross_slip_s", attrs.get("gross_slip_s"), grasp.gross_slip_s)
     compare("end_slip_mm", attrs["end_slip_mm"], grasp.slip_mm[grasp.judged])
     compare("end_turn_deg", attrs["end_turn_deg"], grasp.turn_deg[grasp.judged])
+    if "slip_speed_mm_s" in attrs:
+        compare("end_creep_mm", attrs["end_creep_mm"], grasp.creep_mm)
+        compare("end_creep_deg", attrs["end_creep_deg"], grasp.creep_deg)
     compare("rise_mm", attrs["rise_mm"], grasp.rise_mm)
     compare("hand_rise_mm", attrs["hand_rise_mm"], grasp.hand_rise_mm)
     compare("grip_N", attrs["grip_N"], grasp.grips[grasp.freed].mean())

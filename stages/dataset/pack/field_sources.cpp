@@ -332,7 +332,11 @@ Sources simulated() {
 
 Sources checks() {
   using Lines = PressFrameLines;
-  return {{"min_distance_mm", press_line(&Lines::min_gap_m)},
+  return {{"min_distance_mm",
+           {"press: record",
+            [](SampleFrames& s, std::size_t f) {
+              return scalar(s.find_press_number(f, &Lines::min_gap_m).value_or(std::nan("")));
+            }}},
           {"stand_off_mm", press_line(&Lines::stand_off_m)},
           {"min_volume_ratio", press_line(&Lines::min_volume_ratio)},
           {"intersections", press_line(&Lines::intersections)},

@@ -89,12 +89,13 @@ std::vector<std::string> manifest_row(const PlannedRow& plan, const std::string&
   using Lines = PressSummary;
   const auto press = sample.press_summary();
   const Record render = sample.render().section("summary");
+  const auto distance_m = press.find(&Lines::min_distance_m);
   std::vector<std::string> row = planned(plan);
   for (const std::string& field :
        {fmt::format("{}", offset), std::string("made"), sensor_id, fmt::format("{}", sample.frames().size()),
         fmt::format("{}", sample.press_frames()), number(press.required(&Lines::press_force_n)),
         number(press.required(&Lines::tangential_force_n)), number(render.required_number("max_indentation_mm")),
-        number(kMmPerM * press.required(&Lines::min_distance_m)), number(press.required(&Lines::min_volume_ratio)),
+        distance_m ? number(kMmPerM * *distance_m) : "", number(press.required(&Lines::min_volume_ratio)),
         number(press.required(&Lines::max_balance_relative)), number(press.number(&Lines::newton_iterations)),
         number(render.required_number("clipped_fraction")), sha256_of_file(sample.folder() / "press/press.yaml"),
         sha256_of_file(sample.folder() / "render/render.yaml")})

@@ -92,6 +92,10 @@ class SampleFrames {
   double press_number(std::size_t frame, T PressFrameLines::*number) const {
     return per_frame_[frame].number(number);
   }
+  template <typename T>
+  std::optional<double> find_press_number(std::size_t frame, T PressFrameLines::*number) const {
+    return per_frame_[frame].find(number);
+  }
   /// Adds what an ensemble has pressed beside the sample. \throw DataError as EnsembleLabels
   void add_ensemble(const DatasetEnsemble& ensemble);
   /// \pre add_ensemble

@@ -188,6 +188,7 @@ MotionTemplate MotionTemplate::read(ConfigReader& in) {
   }
   if (auto placement = in.optional_section("placement")) {
     if (placement->has("face")) motion.face = placement->choice("face", face_names());
+    motion.may_miss = placement->flag_or("may_miss", false);
     motion.rotate_deg = Draw::read_or(*placement, "rotate_deg", 0.0, Range::any());
     if (placement->is_list("center_mm")) {
       const auto center = placement->numbers("center_mm", 2);
@@ -263,6 +264,7 @@ std::string MotionTemplate::sample_yaml(const std::function<double(int)>& u,
     text = fmt::format("placement:\n  center_mm: [{}, {}]\n  rotate_deg: {}\n", x, y, value(rotate_deg));
   }
   if (face) text += fmt::format("  face: \"{}\"\n", *face);
+  if (may_miss) text += "  may_miss: true\n";
   if (object_density_kg_m3) text += fmt::format("object: {{density_kg_m3: {}}}\n", number_text(*object_density_kg_m3));
   text += "motion:\n";
   for (std::size_t p = 0; p < phases.size(); ++p) {

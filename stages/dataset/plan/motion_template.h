@@ -67,6 +67,7 @@ struct FingersTemplate {
 struct MotionTemplate {
   Draw center_x_mm, center_y_mm, rotate_deg;
   std::optional<std::string> face = std::nullopt;
+  bool may_miss = false;
   std::optional<double> object_density_kg_m3 = std::nullopt;
   std::optional<FingersTemplate> fingers = std::nullopt;  // a grasp: a sample of each of its two fingers
   std::vector<PhaseTemplate> phases = {};

@@ -94,6 +94,8 @@ GraspReport read_grasp(const std::filesystem::path& folder) {
                     .width_m = pose.find(&HeldPoseLines::width_m),
                     .moments = {}};
   grasp.reason = summary.find(&Lines::reason);
+  grasp.creep_m = summary.find(&Lines::creep_m);
+  grasp.creep_rad = summary.find(&Lines::creep_rad);
   grasp.friction = summary.find(&Lines::friction_coefficient);
   grasp.center_shift_m = summary.find(&Lines::center_of_mass_shift_m);
   grasp.slips = {summary.section(&Lines::slip_left).all(), summary.section(&Lines::slip_right).all()};
@@ -123,6 +125,10 @@ PageWords grasp_words(const GraspReport& grasp) {
                                  : "";
   const GraspMoment& judged = grasp.moments[grasp.judged_frame];
   const Vector3 grip_mm = 1e3 * grasp.grip_m;
+  const std::string creep = grasp.creep_m
+                                ? fmt::format(", {} mm and {}° of it by creep", number_text(1e3 * *grasp.creep_m),
+                                              number_text(grasp.creep_rad.value_or(0.0) / kDegree))
+                                : "";
   const std::string width =
       grasp.width_m ? fmt::format(", where it is {} mm wide", number_text(1e3 * *grasp.width_m)) : "";
   using fmt::arg;
@@ -135,8 +141,8 @@ PageWords grasp_words(const GraspReport& grasp) {
               arg("x", number_text(grip_mm.x())), arg("y", number_text(grip_mm.y())),
               arg("z", number_text(grip_mm.z())), arg("width", width), arg("lever", number_text(1e3 * grasp.lever_m)),
               arg("margin", margin), arg("frame", grasp.judged_frame), arg("slip", number_text(1e3 * judged.slip_m)),
-              arg("turn", number_text(judged.turn_rad / kDegree)), arg("left", times_text(grasp.slips[0])),
-              arg("right", times_text(grasp.slips[1])),
+              arg("turn", number_text(judged.turn_rad / kDegree)), arg("creep", creep),
+              arg("left", times_text(grasp.slips[0])), arg("right", times_text(grasp.slips[1])),
               arg("view", grasp.has_view ? " " + view_link(kGraspId) + "." : ""), arg("strip", kGraspStrip),
               arg("figures", force_figure(grasp.moments) + slip_figure(grasp) + share_figure(grasp)))};
 }
@@ -151,6 +157,9 @@ std::string grasp_article(const GraspReport& grasp, std::size_t side, const std:
       {"outcome", outcome_text(grasp)},
       {"this finger", times_text(grasp.slips[side])},
       {"slip, turn", number_text(1e3 * judged.slip_m) + " mm, " + number_text(judged.turn_rad / kDegree) + "°"},
+      {"of it creep", grasp.creep_m ? number_text(1e3 * *grasp.creep_m) + " mm, " +
+                                          number_text(grasp.creep_rad.value_or(0.0) / kDegree) + "°"
+                                    : "–"},
       {"mass", number_text(1e3 * grasp.mass_kg) + " g"},
       {"grip", number_text(grasp.grip_n) + " N"},
       {"friction", number_text(grasp.friction)},

@@ -32,11 +32,12 @@ struct GraspReport {
   std::optional<double> friction = std::nullopt;     // coefficient
   std::optional<Vector3> center_shift_m = std::nullopt;
   double mass_kg = 0.0, grip_n = 0.0;
-  std::optional<double> friction_margin;  // nothing where the object has no weight
-  std::size_t judged_frame = 0;           // that the outcome is of
-  Vector3 grip_m = Vector3::Zero();       // from the centre of mass to where it is gripped, in the object's axes
-  double lever_m = 0.0;                   // of the centre of mass about the line on which the fingers press
-  std::optional<double> width_m;          // of a drawn grasp
+  std::optional<double> friction_margin;                                   // nothing where the object has no weight
+  std::size_t judged_frame = 0;                                            // that the outcome is of
+  std::optional<double> creep_m = std::nullopt, creep_rad = std::nullopt;  // part of slip and turn in that frame
+  Vector3 grip_m = Vector3::Zero();  // from the centre of mass to where it is gripped, in the object's axes
+  double lever_m = 0.0;              // of the centre of mass about the line on which the fingers press
+  std::optional<double> width_m;     // of a drawn grasp
   std::vector<GraspMoment> moments;
   bool has_view = false;  // in 3-D, beside the page
 };

@@ -51,7 +51,7 @@ std::vector<FrameReport> read_frames(const RecordLines<PressSummary>& summary) {
     frames.push_back({.depth_m = std::nullopt,
                       .press_force_n = lines.required(&Lines::press_force_n),
                       .newton_iterations = lines.required(&Lines::newton_iterations),
-                      .min_gap_m = lines.required(&Lines::min_gap_m),
+                      .min_gap_m = lines.find(&Lines::min_gap_m),
                       .min_volume_ratio = lines.required(&Lines::min_volume_ratio),
                       .time_s = lines.find(&Lines::time_s),
                       .phase = lines.find(&Lines::phase).value_or(""),
@@ -203,7 +203,9 @@ void read_summary(const RecordLines<PressSummary>& summary, SampleReport& sample
   using Lines = PressSummary;
   sample.press_force_n = summary.required(&Lines::press_force_n);
   sample.tangential_force_n = summary.find(&Lines::tangential_force_n);
-  sample.min_distance_m = summary.required(&Lines::min_distance_m);
+  sample.contact_frames = summary.find(&Lines::contact_frames);
+  if (sample.contact_frames == 0) sample.warnings.emplace_back("Nothing touched the gel in any frame.");
+  sample.min_distance_m = summary.find(&Lines::min_distance_m);
   sample.min_volume_ratio = summary.required(&Lines::min_volume_ratio);
   sample.newton_iterations = summary.required(&Lines::newton_iterations);
   sample.gel_vertices = summary.required(&Lines::gel_vertices);

@@ -80,9 +80,10 @@ std::string outcomes(const std::vector<HeldBodyLines>& held) {
   for (const HeldBodyLines& body : held) {
     if (!body.outcome) continue;
     html += fmt::format(
-        "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand and turned by {:.1f}°; it rose by "
+        "<p>{}: <b>{}</b>. Since it was free it slipped by {:.2f} mm in the hand{} and turned by {:.1f}°; it rose by "
         "{:.1f} mm, the hand by {:.1f} mm.</p>\n",
-        html_text(body.body), html_text(*body.outcome), 1e3 * body.slip_m, body.turn_rad / kDegree,
+        html_text(body.body), html_text(*body.outcome), 1e3 * body.slip_m,
+        body.creep_m ? fmt::format(" ({:.2f} mm of it by creep)", 1e3 * *body.creep_m) : "", body.turn_rad / kDegree,
         tenths(1e3 * body.rise_m), tenths(1e3 * body.hand_rise_m));
   }
   return html;

@@ -19,7 +19,7 @@ struct FrameReport {
   std::optional<double> depth_m = std::nullopt;  // of the object's lowest point below z = 0; negative while it is above
   double press_force_n = 0.0;
   int newton_iterations = 0;
-  double min_gap_m = 0.0;
+  std::optional<double> min_gap_m = std::nullopt;  // absent where nothing was near
   double min_volume_ratio = 1.0;
   std::optional<double> time_s = std::nullopt;
   std::string phase = {};
@@ -85,6 +85,7 @@ struct SampleReport {
   std::optional<double> depth_m;             // at the end of the press
   std::optional<double> press_force_n;       // in the last frame
   std::optional<double> tangential_force_n;  // in the last frame
+  std::optional<int> contact_frames;         // in which anything touches the gel
   std::optional<double> min_distance_m;
   std::optional<double> min_volume_ratio;
   std::optional<int> newton_iterations;

@@ -57,11 +57,11 @@ std::vector<CheckReport> checks_of(const RecordLines<PressSummary>& summary, con
       at_most(summary.required(&Lines::intersections), "triangle pairs that intersect", counts.intersections));
   checks.push_back(
       at_most(summary.required(&Lines::inverted_tets), "tetrahedra that are inverted", counts.inverted_tets));
-  const auto gap = extreme(
-      summary.required(&Lines::min_distance_m), frames, [](const FrameReport& f) { return std::optional(f.min_gap_m); },
-      std::less<>());
-  checks.push_back(
-      above("smallest distance", *gap, limits.find(&PressLimits::smallest_distance_m).value_or(0.0), 1e6, " µm"));
+  if (const auto gap = extreme(
+          summary.find(&Lines::min_distance_m), frames, [](const FrameReport& f) { return f.min_gap_m; },
+          std::less<>()))
+    checks.push_back(
+        above("smallest distance", *gap, limits.find(&PressLimits::smallest_distance_m).value_or(0.0), 1e6, " µm"));
   const auto ratio = extreme(
       summary.required(&Lines::min_volume_ratio), frames,
       [](const FrameReport& f) { return std::optional(f.min_volume_ratio); }, std::less<>());

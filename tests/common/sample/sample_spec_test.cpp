@@ -22,6 +22,9 @@ TEST(SampleSpec, ReadsPlacementAndMotionInSi) {
   EXPECT_EQ(sample.motion[0].kind, PhaseKind::press);
   EXPECT_DOUBLE_EQ(sample.motion[0].depth_m, 0.0005);
   EXPECT_EQ(sample.motion[0].steps, 5);
+  EXPECT_FALSE(sample.may_miss);
+  EXPECT_TRUE(
+      config_from_text<SampleSpec>("placement: {may_miss: true}\nmotion: {kind: hold, steps: 1}\n", "x.yaml").may_miss);
 }
 
 TEST(SampleSpec, NamesWhatIsWrong) {

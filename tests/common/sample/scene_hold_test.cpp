@@ -42,7 +42,7 @@ class SceneHoldTest : public ::testing::Test {
   void move(std::size_t frame, double hand_z, const Vector3& block_at, const Vector3& block_turn = Vector3::Zero()) {
     scene_.body_pose[frame] = {left(hand_z), right(hand_z), pose_at(block_at, block_turn), pose_at({0, 0, -0.1})};
   }
-  std::vector<HeldBodyLines> held() const { return held_bodies(scene_, {0, 0, 0, 0}); }
+  std::vector<HeldBodyLines> held() const { return held_bodies(scene_, {0, 0, 0, 0}, {}); }
 
   SceneBodies scene_;
 };
@@ -88,11 +88,28 @@ TEST_F(SceneHoldTest, ABodyThatTurnsInTheHandIsRotated) {
 
 TEST_F(SceneHoldTest, MotionCountsFromTheFrameInWhichTheBodyIsFree) {
   move(1, 0.0, {0, 0, 0.01});
-  const auto bodies = held_bodies(scene_, {0, 0, 2, 0});
+  const auto bodies = held_bodies(scene_, {0, 0, 2, 0}, {});
   ASSERT_EQ(bodies.size(), 1u);
   EXPECT_EQ(bodies[0].freed_frame, 2u);
   EXPECT_EQ(bodies[0].slip_m, 0.0);
-  EXPECT_THAT(held_bodies(scene_, {0, 0, 3, 0}), IsEmpty());
+  EXPECT_THAT(held_bodies(scene_, {0, 0, 3, 0}, {}), IsEmpty());
+}
+
+TEST_F(SceneHoldTest, WhatCreepsIsNotSlipped) {
+  move(2, 0.02, {0, 0, 0.02 - 0.7e-3});
+  move(3, 0.03, {0, 0, 0.03 - 1.4e-3});
+  const auto judged = [&](double slip_share) {
+    HeldContacts contacts{.slip_speed_m_s = 0.1};
+    for (int f = 0; f < 4; ++f) contacts.per_frame.push_back({.seconds = 0.01, .slip_share = slip_share});
+    return held_bodies(scene_, {0, 0, 0, 0}, contacts)[0];
+  };
+  EXPECT_EQ(judged(0.2).outcome, "lifted");
+  EXPECT_NEAR(judged(0.2).slip_m, 1.4e-3, 1e-12);
+  EXPECT_NEAR(*judged(0.2).creep_m, 1.4e-3, 1e-12);
+  EXPECT_EQ(judged(1.0).outcome, "slipped");
+  EXPECT_EQ(judged(1.0).creep_m, 0.0);
+  EXPECT_EQ(held()[0].outcome, "slipped");
+  EXPECT_EQ(held()[0].creep_m, std::nullopt);
 }
 
 TEST_F(SceneHoldTest, ASingleGelHoldsNothing) {

@@ -35,6 +35,7 @@ ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_bo
   mesh.rest_positions.topRows(mesh.num_gel_vertices) = gel_rest;
   for (std::size_t i = 0; i < objects.size(); ++i) mesh.objects[i].rows(mesh.rest_positions) = objects[i].positions;
   mesh.object_edge_sharpness = edge_sharpness(mesh.object, mesh.rest_positions);
+  if (mesh.objects.size() > 1) mesh.object_shapes = shape_features(mesh.object, mesh.rest_positions);
   return mesh;
 }
 

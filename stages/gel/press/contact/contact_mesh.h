@@ -7,6 +7,7 @@
 
 #include "common/base/types.h"
 #include "common/mesh/triangle_mesh.h"
+#include "stages/gel/press/contact/shape_features.h"
 #include "stages/gel/press/contact/surface.h"
 
 namespace tacipc {
@@ -40,7 +41,9 @@ struct ContactMesh {
   Positions rest_positions;  // all vertices, gel undeformed; scale of the edge mollifier and of close pairs at rest
   std::vector<double> object_edge_sharpness;  // of object.edges, as the object was given (contact/sharpness.h)
   std::vector<double> gel_edge_sharpness;     // of gel.edges, where a body that is no sensor's gel may have sharp ones
-  std::vector<GelPart> gels;                  // where there are several; else all of the gel is one
+  /// Of `object`, where there are several objects: empty for one alone, which touches nothing rigid.
+  ShapeFeatures object_shapes;
+  std::vector<GelPart> gels;  // where there are several; else all of the gel is one
   /// Those that may move freely come first, in the order of their control points.
   std::vector<ObjectPart> objects;
 

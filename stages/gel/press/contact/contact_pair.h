@@ -12,9 +12,21 @@ namespace tacipc {
 struct ContactPair {
   enum class Kind : std::uint8_t { point_triangle, edge_edge };
   Kind kind;
+  /// Of a point and a piece of a flat face, which is felt as a whole (shape_features.h); bits are below, 0 for all
+  /// others.
+  std::uint8_t shape;
   std::array<int, 4> vertices;
-  double weight = 1.0;  // of its energy (pair_counting.h)
+  double weight;  // of its energy (pair_counting.h)
+
+  ContactPair(Kind of_kind, const std::array<int, 4>& of, double of_weight = 1.0, std::uint8_t of_shape = 0)
+      : kind(of_kind), shape(of_shape), vertices(of), weight(of_weight) {}
 };
+
+/// Bits of ContactPair::shape: that it is one, and which edges and corners of the triangle are on the face's rim, edge
+/// k from corner k to the next one.
+inline constexpr std::uint8_t kIsShape = 64, kAllRim = 127;
+inline constexpr std::uint8_t rim_edge(int k) { return static_cast<std::uint8_t>(1U << k); }
+inline constexpr std::uint8_t rim_corner(int k) { return static_cast<std::uint8_t>(8U << k); }
 
 inline ContactPair point_triangle_pair(int v, const std::array<int, 3>& t) {
   return {ContactPair::Kind::point_triangle, {v, t[0], t[1], t[2]}};
@@ -29,9 +41,10 @@ inline FourPoints gather(const Positions& x, const ContactPair& pair) {
   return {x.row(pair.vertices[0]), x.row(pair.vertices[1]), x.row(pair.vertices[2]), x.row(pair.vertices[3])};
 }
 
-/// Closest feature of a pair.
+/// Closest feature of a pair; infinitely far where it does not count.
 inline ClosestFeature closest_feature(const ContactPair& pair, const FourPoints& x) {
-  return pair.kind == ContactPair::Kind::point_triangle ? closest_point_triangle(x) : closest_edge_edge(x);
+  if (pair.kind == ContactPair::Kind::edge_edge) return closest_edge_edge(x);
+  return pair.shape == 0 ? closest_point_triangle(x) : closest_point_face(x, pair.shape);
 }
 
 }  // namespace tacipc

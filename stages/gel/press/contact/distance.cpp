@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <optional>
 
 namespace tacipc {
@@ -9,6 +10,10 @@ namespace {
 
 /// Below this sine² of the angle between the two tangents, every edge candidate is compared as well.
 constexpr double kIllConditionedSine2 = 1e-6;
+/// In faces: nearer than this part of an edge to it, or to its end, counts as on it …
+constexpr double kTie = 1e-12;
+/// … and inside of the triangle on this side. No edge of a file is likely to be parallel or square to it.
+const Vector3 kTieSide(0.5387, 0.2913, 0.7905);
 /// Below this sine² the two tangents count as parallel.
 constexpr double kParallelSine2 = 1e-26;
 
@@ -36,13 +41,14 @@ struct EdgeFit {
   double squared_distance;
 };
 
-EdgeFit fit_edge(const FourPoints& x, int point, int a, int b, double sign) {
+/// \param tie nearer than this part of the edge to an end counts as at the end
+EdgeFit fit_edge(const FourPoints& x, int point, int a, int b, double sign, double tie = 0.0) {
   const Vector3 edge = x[b] - x[a];
   const Vector3 from_a = x[point] - x[a], from_b = x[point] - x[b];
   const double length2 = edge.squaredNorm();
   const double along = from_a.dot(edge);
   // length2 > 0 where along > 0
-  const double u = !(along > 0) ? 0.0 : !(along / length2 < 1) ? 1.0 : along / length2;
+  const double u = !(along > tie * length2) ? 0.0 : !(along / length2 < 1 - tie) ? 1.0 : along / length2;
   // Measured from the nearer end: less is cancelled.
   const Vector3 r = u <= 0.5 ? Vector3(from_a - u * edge) : Vector3(from_b + (1 - u) * edge);
   return {point, a, b, sign, u, r, r.squaredNorm()};
@@ -110,6 +116,23 @@ ClosestFeature nearest_triangle_edge(const FourPoints& x, bool e12, bool e23, bo
   return feature_of(*best, x);
 }
 
+/// Point x0 above the inside of the triangle, at x1 + b1 (x2 − x1) + b2 (x3 − x1).
+ClosestFeature above_triangle(const FourPoints& x, double b1, double b2) {
+  const Vector3 e1 = x[2] - x[1], e2 = x[3] - x[1];
+  ClosestFeature f{.weights = {1, -(1 - b1 - b2), -b1, -b2},
+                   .W = Eigen::Matrix<double, 4, 2>::Zero(),
+                   .A = Eigen::Matrix<double, 3, 2>::Zero(),
+                   .k = 2,
+                   .r = x[0] - x[1] - b1 * e1 - b2 * e2,
+                   .squared_distance = 0};
+  f.squared_distance = f.r.squaredNorm();
+  f.W.col(0) << 0, 1, -1, 0;
+  f.W.col(1) << 0, 1, 0, -1;
+  f.A.col(0) = -e1;
+  f.A.col(1) = -e2;
+  return f;
+}
+
 }  // namespace
 
 ClosestFeature closest_point_triangle(const FourPoints& x) {
@@ -126,19 +149,42 @@ ClosestFeature closest_point_triangle(const FourPoints& x) {
   // A point beyond an edge is nearest to one of the edges it is beyond.
   if (!inside && well_conditioned) return nearest_triangle_edge(x, !(b2 > 0), !(b0 > 0), !(b1 > 0));
   if (!inside) return nearest_triangle_edge(x, true, true, true);
-
-  ClosestFeature f{.weights = {1, -b0, -b1, -b2},
-                   .W = Eigen::Matrix<double, 4, 2>::Zero(),
-                   .A = Eigen::Matrix<double, 3, 2>::Zero(),
-                   .k = 2,
-                   .r = from_x1 - b1 * e1 - b2 * e2,
-                   .squared_distance = 0};
-  f.squared_distance = f.r.squaredNorm();
-  f.W.col(0) << 0, 1, -1, 0;
-  f.W.col(1) << 0, 1, 0, -1;
-  f.A.col(0) = -e1;
-  f.A.col(1) = -e2;
+  const ClosestFeature f = above_triangle(x, b1, b2);
   return well_conditioned ? f : nearer(f, nearest_triangle_edge(x, true, true, true));
+}
+
+ClosestFeature closest_point_face(const FourPoints& x, unsigned rim) {
+  const Vector3 n = (x[2] - x[1]).cross(x[3] - x[1]);
+  const auto corner = [](int k) { return 1 + k % 3; };
+  const auto counted = [&](const EdgeFit& fit, int bit) {
+    ClosestFeature found = feature_of(fit, x);
+    if (!(rim >> bit & 1U)) found.squared_distance = std::numeric_limits<double>::infinity();
+    return found;
+  };
+  const std::optional<PlaneFit> fit = minimise_over_plane(x[0] - x[1], x[1] - x[2], x[1] - x[3]);
+  bool inside = fit.has_value();
+  std::optional<EdgeFit> nearest;
+  int bit = 0;
+  for (int k = 0; k < 3; ++k) {
+    const EdgeFit on_edge = fit_edge(x, 0, corner(k), corner(k + 1), 1, kTie);
+    const bool between_ends = on_edge.u > 0.0 && on_edge.u < 1.0;
+    if (fit) {
+      const double b[3] = {1 - fit->p - fit->q, fit->p, fit->q};
+      const Vector3 edge = x[corner(k + 1)] - x[corner(k)];
+      const double tie = kTie * edge.squaredNorm() / n.norm(), across = b[(k + 2) % 3];
+      // Exactly above the rim is inside: there the face is as flat as beside it, and no force grows across it.
+      const bool within = across > tie || (across >= -tie && ((rim >> k & 1U) || kTieSide.dot(n.cross(edge)) > 0));
+      // Beyond an edge its point below is the triangle's nearest. Distances would not tell it from a corner nearby.
+      if (!within && between_ends) return counted(on_edge, k);
+      inside = inside && within;
+    } else if (between_ends) {
+      return counted(on_edge, k);
+    }
+    if (between_ends || (nearest && nearest->squared_distance <= on_edge.squared_distance)) continue;
+    nearest = on_edge;
+    bit = 3 + (on_edge.u == 0.0 ? k : (k + 1) % 3);
+  }
+  return inside ? above_triangle(x, fit->p, fit->q) : counted(*nearest, bit);
 }
 
 ClosestFeature closest_edge_edge(const FourPoints& x) {

@@ -28,6 +28,12 @@ struct ClosestFeature {
 /// edges.
 ClosestFeature closest_point_triangle(const FourPoints& x);
 
+/// The same of a triangle that is a piece of a flat face, of which no edge or corner inside is to be felt: where one of
+/// these is nearest, the squared distance is infinite. A point above one belongs to one of the triangles that meet
+/// there. \param rim bit k: edge k, from x_{k+1} to the next corner, is one of the face; bit 3 + k: so is corner
+/// x_{k+1}
+ClosestFeature closest_point_face(const FourPoints& x, unsigned rim);
+
 /// Closest feature of edges x0x1 and x2x3; w = (1−s, s, −(1−t), −t). Edges parallel within 1e-13 rad count as the
 /// nearest of their four end-point–edge pairs (one of several equally near places); an edge of no length counts as a
 /// point.

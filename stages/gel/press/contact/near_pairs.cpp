@@ -63,7 +63,7 @@ double smallest_distance(std::span<const ContactPair> pairs, const Positions& x,
     if (found[i] < (1.0 + kRoundingMargin) * smallest)
       smallest = std::min(smallest, closest_feature(pairs[i], gather(x, pairs[i])).squared_distance);
   }
-  return std::sqrt(smallest);
+  return smallest < none * none ? std::sqrt(smallest) : none;
 }
 
 }  // namespace tacipc

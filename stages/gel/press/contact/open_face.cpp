@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-constexpr double kFlat = 1e-9;         // of the face's size
+constexpr double kLevel = 1e-9;        // of the face's size
 constexpr double kLeast = 0.5 + 1e-6;  // c, with room for rounding and for an outline that is convex but for rounding
 constexpr double kAngleError = 1e-6, kRounding = 1e-6;
 constexpr double kMuchNearer = 0.95;  // a bound is worked out again as long as that leaves less than this part of it
@@ -42,7 +42,7 @@ bool is_convex(const std::vector<std::array<int, 3>>& triangles, const Positions
     const Point a = (at.row(on->second) - at.row(v)).head<2>(),
                 b = (at.row(after->second) - at.row(on->second)).head<2>();
     const double angle = std::atan2(cross(a, b), a.dot(b));
-    if (angle < -kFlat) return false;
+    if (angle < -kLevel) return false;
     turned += angle;
     v = on->second;
     ++steps;
@@ -63,7 +63,7 @@ OpenFace::OpenFace(const ContactMesh& mesh)
     low = low.cwiseMin(rest.row(v).head<2>().transpose());
     high = high.cwiseMax(rest.row(v).head<2>().transpose());
   }
-  const double level = top - kFlat * (high - low).norm();
+  const double level = top - kLevel * (high - low).norm();
   std::vector<std::array<int, 3>> face;
   for (const auto& t : mesh.gel.triangles) {
     if (std::all_of(t.begin(), t.end(), [&](int v) { return rest(v, 2) >= level; })) face.push_back(t);

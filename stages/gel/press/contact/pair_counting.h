@@ -27,9 +27,17 @@ struct PairCounting {
 /// feature always counts +1, so the sum still grows without bound at contact.
 ///
 /// Edges and corners come as pairs point–triangle that repeat their last vertex: (p, e₀, e₁, e₁) and (p, v, v, v).
-/// Pairs within one gel are left as they are: the reach of theirs differs from pair to pair. All are
-/// multiplied by the stiffness of their bodies' law. \pre triangles around every edge within
-/// reach of a vertex are in `pairs`, as ContactSearch finds them; none has been weighted yet.
+/// Pairs within one gel are left as they are: the reach of theirs differs from pair to pair.
+///
+/// Of two rigid bodies the shapes count, not the triangles (contact/shape_features.h): of vertices the corners p, of
+/// triangles whole flat faces F, of edges the creases, each whole; Σ_F b(p, F) − Σ_e b(p, e) + Σ_v b(p, v) over the
+/// faces and their edges and corners. Vertices and edges inside of flat faces carry nothing that those do not. Counted
+/// by triangles, an edge inside of a flat face would push back a crease that ends beside it, and a vertex inside of it
+/// the rim of another body: hills on which nothing rests. And as triangles that cancel but for rounding have Hessians
+/// that do not, Newton's steps would go sideways above the edges between them.
+///
+/// All are multiplied by the stiffness of their bodies' law. \pre triangles around every edge within reach of a vertex
+/// are in `pairs`, as ContactSearch finds them; none has been weighted yet.
 std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh, const ContactLaws& laws,
                                   const PairCounting& counting);
 

@@ -45,7 +45,7 @@ void PatchSearch::search_around(const std::vector<int>& some, const Positions& x
     in_reach_[kept] = in_reach_[i];
     needed_m_[kept++] = needed_m_[i];
   }
-  in_reach_.resize(kept);
+  in_reach_.erase(in_reach_.begin() + static_cast<std::ptrdiff_t>(kept), in_reach_.end());
   needed_m_.resize(kept);
   const std::vector<ContactPair> found = search_.pairs_around(wanted, reach_m_, searched_at_, within_m_);
   const std::vector<double> squared = coarse_squared_distances(found, searched_at_);

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "common/base/error.h"
 
@@ -49,12 +51,17 @@ class Reader {
   std::string_view bytes_;
 };
 
-/// A number, a matrix of numbers, a list, or what fields() describes.
+/// A number, a matrix of numbers, a list, one of these or nothing, or what fields() describes.
 void one(auto& io, auto& value) {
   using T = std::remove_cvref_t<decltype(value)>;
   if constexpr (std::is_base_of_v<Eigen::MatrixBase<T>, T>) {
     if constexpr (T::RowsAtCompileTime == Eigen::Dynamic) io.rows(value);
     io.bytes(value.data(), sizeof(typename T::Scalar) * static_cast<std::size_t>(value.size()));
+  } else if constexpr (requires { value.has_value(); }) {
+    char has = value.has_value() ? 1 : 0;
+    io.bytes(&has, 1);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(value)>>) value = has ? T(std::in_place) : T();
+    if (has) one(io, *value);
   } else if constexpr (requires { value.begin(); }) {
     if constexpr (requires(T list) { list.resize(1); }) io.items(value);
     for (auto& item : value) one(io, item);

@@ -84,6 +84,8 @@ class GraspDrive {
     for (Simulation& finger : out_.fingers) finger.times = world_.stepper().times();
     out_.grip_n = hand_.state().grip_n;
     out_.freed_frame = *freed_frame_;
+    if (config_.friction)
+      out_.slip_speed_m_s = friction_settings(*config_.friction, world_.scales()).speed_threshold_m_s;
     judge_outcome(out_);
     return std::move(out_);
   }
@@ -190,11 +192,11 @@ class GraspDrive {
     }
     log_info(
         "frame {}/{} {}: grip {:.3f} N, carried {:.4f} N, slipped {:.3f} mm, turned {:.2f} deg, {} Newton iterations "
-        "in {} steps, smallest gap {:.3g} um",
+        "in {} steps, smallest gap {}",
         run_.next(), run_.num_frames(), name_of(phase), phase_index < 0 ? 0.0 : hand_.grip_n(),
         -(frame.force_on_finger_n[0] + frame.force_on_finger_n[1]).z(), 1e3 * frame.slip_m,
         frame.turn_rad * 180.0 / std::numbers::pi, report.newton_iterations, report.time_steps,
-        1e6 * fingers[0].min_gap_m);
+        gap_text(fingers[0].min_gap_m));
     run_.save([&] { return pack_frame(frame, fingers, {state, hand_.state()}); });
     keep(frame, fingers);
   }

@@ -37,7 +37,9 @@ struct GraspFrame {
   double grip_imbalance = 0.0;  // largest fraction of the force missing to a drive's balance in the frame's time steps
   double slip_m = 0.0;          // of the object's point at the grip, in the hand, since the fingers closed
   double turn_rad = 0.0;        // of the object in the hand since then
-  WholeAccount whole;           // of gels and object; the residuals are those of the frame's time steps
+  // The same without creep, and the creep; known once all frames are there.
+  double slid_m = 0.0, slid_rad = 0.0, creep_m = 0.0, creep_rad = 0.0;
+  WholeAccount whole;  // of gels and object; the residuals are those of the frame's time steps
 
   /// Force by which a finger presses.
   double grip_n(std::size_t side) const { return pressing_n(force_on_finger_n[side], world_from_finger[side]); }
@@ -62,6 +64,7 @@ struct Grasp {
   std::array<Simulation, 2> fingers;  // left, right: each as a press of its own, in its own frame S
   std::vector<GraspFrame> frames;
   double mass_kg = 0.0, weight_n = 0.0, friction = 0.0;
+  double slip_speed_m_s = 0.0;  // ε_v: slower contacts stick
   Vector3 gravity_m_s2 = Vector3::Zero();
   Vector3 center_of_mass_m = Vector3::Zero(), center_shift_m = Vector3::Zero();  // in the object's axes
   GraspPose pose;                                                                // in which it is gripped

@@ -86,12 +86,28 @@ FingerContact finger_contact(const FrontSurface& front, const Frame& frame) {
   return {.slip_share = slipping_n / all_n, .friction_radius_m = moment / all_n};
 }
 
-void add_labels(Grasp& grasp) {
+void measure_creep(Grasp& grasp) {
+  grasp.contacts.clear();
   for (std::size_t f = 0; f < grasp.frames.size(); ++f) {
     auto& of_frame = grasp.contacts.emplace_back();
     for (const std::size_t side : {0, 1})
       of_frame[side] = finger_contact(grasp.fingers[side].front, grasp.fingers[side].frames[f]);
   }
+  HeldPath path(hand_from_object(grasp.frames[grasp.freed_frame]), grasp.grip_point(), grasp.slip_speed_m_s);
+  for (std::size_t f = grasp.freed_frame + 1; f <= grasp.judged_frame; ++f) {
+    const auto& [left, right] = grasp.contacts[f];
+    GraspFrame& frame = grasp.frames[f];
+    path.go_on(hand_from_object(frame), {.seconds = frame.time_s - grasp.frames[f - 1].time_s,
+                                         .slip_share = std::max(left.slip_share, right.slip_share),
+                                         .radius_m = std::max(left.friction_radius_m, right.friction_radius_m)});
+    frame.slid_m = path.slip_m();
+    frame.slid_rad = path.slip_rad();
+    frame.creep_m = path.creep_m();
+    frame.creep_rad = path.creep_rad();
+  }
+}
+
+void add_labels(Grasp& grasp) {
   for (const std::size_t side : {0, 1}) grasp.slips[side] = slip_times(grasp, side);
   std::optional<GraspReason> first;
   for (std::size_t f = grasp.freed_frame; f <= grasp.judged_frame && is_held(grasp.frames[f]); ++f) {
@@ -115,7 +131,8 @@ void judge_outcome(Grasp& grasp) {
   const auto released = std::find_if(grasp.frames.begin(), grasp.frames.end(),
                                      [](const GraspFrame& frame) { return frame.phase == PhaseKind::release; });
   grasp.judged_frame = static_cast<std::size_t>(released - grasp.frames.begin()) - 1;
-  grasp.outcome = outcome_of(grasp.frames[grasp.freed_frame], grasp.frames[grasp.judged_frame], grasp.grip_point());
+  measure_creep(grasp);
+  grasp.outcome = outcome_of(grasp);
   add_labels(grasp);
 }
 

@@ -1,6 +1,7 @@
 #include "stages/gel/press/drive/grasp_outcome.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace tacipc {
 Matrix4 hand_from_object(const GraspFrame& frame) {
@@ -30,7 +31,7 @@ bool both_touch(const GraspFrame& frame) {
 }
 
 bool is_held(const GraspFrame& frame) {
-  return both_touch(frame) && frame.slip_m < kSlipped_m && frame.turn_rad < kTurned_rad;
+  return both_touch(frame) && frame.slid_m < kSlipped_m && frame.slid_rad < kTurned_rad;
 }
 
 Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m) {
@@ -38,11 +39,17 @@ Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_
           (now.world_from_hand - then.world_from_hand)(2, 3)};
 }
 
-GraspOutcome outcome_of(const GraspFrame& begin, const GraspFrame& end, const Vector3& grip_m) {
-  const auto [rose, hand] = rise_of(begin, end, grip_m);
-  return outcome_of({.touched = both_touch(end),
-                     .slip_m = end.slip_m,
-                     .turn_rad = end.turn_rad,
+bool any_touches(const GraspFrame& frame) {
+  return frame.force_on_finger_n[0].norm() > kTouches_n || frame.force_on_finger_n[1].norm() > kTouches_n;
+}
+
+GraspOutcome outcome_of(const Grasp& grasp) {
+  const GraspFrame &begin = grasp.frames[grasp.freed_frame], &end = grasp.frames[grasp.judged_frame];
+  const auto [rose, hand] = rise_of(begin, end, grasp.grip_point());
+  return outcome_of({.ever_touched = std::any_of(grasp.frames.begin(), grasp.frames.end(), any_touches),
+                     .touched = both_touch(end),
+                     .slip_m = end.slid_m,
+                     .turn_rad = end.slid_rad,
                      .rise_m = rose,
                      .hand_rise_m = hand});
 }

@@ -10,7 +10,7 @@ Matrix4 hand_from_object(const GraspFrame& frame);
 /// Whether both fingers touch the object (or each other).
 bool both_touch(const GraspFrame& frame);
 
-/// Whether they do, and the object has neither slipped nor turned by as much as an outcome wants.
+/// Whether they do, and the object has neither slipped nor turned, creep left out, by as much as an outcome wants.
 bool is_held(const GraspFrame& frame);
 
 /// How the object has moved in the hand from one frame to another.
@@ -27,7 +27,10 @@ struct Rise {
 };
 Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m);
 
-/// \param begin when it was freed \param end the last frame before the fingers release it
-GraspOutcome outcome_of(const GraspFrame& begin, const GraspFrame& end, const Vector3& grip_m);
+/// Whether any finger touches the object, or the other one.
+bool any_touches(const GraspFrame& frame);
+
+/// From when it was freed to the last frame before the fingers release it. \pre the frames' slip without creep is known
+GraspOutcome outcome_of(const Grasp& grasp);
 
 }  // namespace tacipc

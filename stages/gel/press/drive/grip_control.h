@@ -58,7 +58,6 @@ struct HandState {
   double grip_n = 0.0;  // Grasp::grip_n
 };
 
-inline constexpr double kTouches_n = 1e-6;     // N: with a smaller force a finger counts as not touching
 inline constexpr double kFirstTouch_m = 2e-5;  // displacement of a finger in the step after its first touch
 // A smaller change of force within a step, as a fraction of the force, may be the solver's tolerance.
 inline constexpr double kMeasurablePart = 2e-3;

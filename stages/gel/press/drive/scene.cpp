@@ -27,6 +27,7 @@ class SceneDrive {
         loads_n_(world_.num_free(), Vector3::Zero()) {
     for (std::size_t g = 0; g < world_.num_gels(); ++g) out_.gels.push_back(world_.simulation_of(g));
     for (std::size_t i = 0; i < world_.num_free(); ++i) out_.mass_kg.push_back(world_.affine(i).mass_kg);
+    if (config.friction) out_.slip_speed_m_s = friction_settings(*config.friction, world_.scales()).speed_threshold_m_s;
     for (const ContactSpec& pair : spec.contact)
       out_.contact.push_back(world_.laws().of(pair.between[0], pair.between[1]));
   }
@@ -37,6 +38,11 @@ class SceneDrive {
       finish(-1, {});
     }
     for (std::size_t p = 0; p < spec_.motion.size(); ++p) run_phase(spec_.motion[p], static_cast<int>(p));
+    for (std::size_t g = 0; g < out_.gels.size(); ++g) {
+      const std::vector<Frame>& frames = out_.gels[g].frames;
+      if (std::none_of(frames.begin(), frames.end(), touches))
+        log_warning("nothing touched {} in any frame", spec_.bodies[g].name);
+    }
     out_.times = world_.stepper().times();
     for (Simulation& gel : out_.gels) gel.times = out_.times;
     return std::move(out_);
@@ -186,8 +192,8 @@ class SceneDrive {
       frame.soft_m.emplace_back(state.motion.x.middleRows(soft.first_row, soft.gel.num_vertices()));
     }
     frames.resize(world_.num_gels());
-    log_info("frame {}/{}: {} Newton iterations in {} steps, smallest gap {:.3g} um", run_.next(), run_.num_frames(),
-             report.newton_iterations, report.time_steps, 1e6 * frame.min_gap_m);
+    log_info("frame {}/{}: {} Newton iterations in {} steps, smallest gap {}", run_.next(), run_.num_frames(),
+             report.newton_iterations, report.time_steps, gap_text(frame.min_gap_m));
     run_.save([&] { return pack_frame(frame, frames, state); });
     for (std::size_t g = 0; g < frames.size(); ++g) out_.gels[g].frames.push_back(std::move(frames[g]));
     out_.frames.push_back(std::move(frame));

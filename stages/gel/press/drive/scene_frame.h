@@ -16,9 +16,9 @@ struct SceneFrame {
   std::vector<Vector3> velocity_m_s = {}, spin_rad_s = {};  // of rigid bodies: of their centres of mass, and about them
   std::vector<double> strain = {};                          // of rigid bodies: max |AᵀA − I|
   std::vector<Positions> soft_m = {};                       // of soft bodies
-  std::vector<Wrench> between = {};  // on body a by body b, about the world's origin, at a × number of bodies + b
-  double min_gap_m = 0.0;            // between two bodies, at most Simulation::gap_horizon_m
-  int intersections = 0;             // pairs of triangles, by an exact test
+  std::vector<Wrench> between = {};      // on body a by body b, about the world's origin, at a × number of bodies + b
+  std::optional<double> min_gap_m = {};  // between two bodies; nothing beyond Scales::gap_horizon_m
+  int intersections = 0;                 // pairs of triangles, by an exact test
   WholeAccount whole = {};  // of all but what is fixed or held; the residuals are those of the frame's time steps
   StepReport solver = {};
 };
@@ -28,6 +28,7 @@ struct Scene {
   std::vector<SceneFrame> frames;
   std::vector<double> mass_kg;      // of rigid bodies
   std::vector<ContactLaw> contact;  // of the pairs that the scene's file names
+  double slip_speed_m_s = 0.0;      // ε_v: slower contacts stick
   SolverTimes times;
 };
 

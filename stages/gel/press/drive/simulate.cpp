@@ -84,6 +84,7 @@ class Press {
       start.free = last.free;
       start.load_n = last.load_n;
     }
+    require_contact();
     out_.times = world_.stepper().times();
     return std::move(out_);
   }
@@ -159,6 +160,23 @@ class Press {
     finish(phase.kind, phase_index, report);
   }
 
+  /// An object that went below the undeformed front and never touched the gel went beside it.
+  void require_contact() const {
+    if (std::any_of(out_.frames.begin(), out_.frames.end(), touches)) return;
+    Vector3 deepest_m = Vector3::Zero();
+    for (const Frame& frame : out_.frames) {
+      const Positions at = transformed(frame.gel_from_object, object_.positions);
+      Eigen::Index lowest = 0;
+      if (at.col(2).minCoeff(&lowest) < deepest_m.z()) deepest_m = at.row(lowest).transpose();
+    }
+    if (!sample_.may_miss && deepest_m.z() < 0.0) {
+      const Positions front = on_front(out_.front, world_.body(0).tets.positions);
+      fail_untouched(run_.next() - 1, deepest_m, front.colwise().minCoeff().head<2>().transpose(),
+                     front.colwise().maxCoeff().head<2>().transpose());
+    }
+    log_warning("nothing touched the gel in any frame");
+  }
+
   bool restored() {
     const std::optional<std::string> bytes = run_.restored();
     if (!bytes) return false;
@@ -192,9 +210,9 @@ class Press {
     world_.judge(run_.next(), frames);
     log_info(
         "frame {}/{} {}: press {:.4f} N, tangential {:.4f} N, {} Newton iterations in {} steps, "
-        "smallest gap {:.3g} um, smallest volume ratio {:.3f}",
+        "smallest gap {}, smallest volume ratio {:.3f}",
         run_.next(), run_.num_frames(), name_of(frame.phase), 0.0 - frame.force_n.z(), frame.force_n.head<2>().norm(),
-        frame.solver.newton_iterations, frame.solver.time_steps, 1e6 * frame.min_gap_m, frame.min_volume_ratio);
+        frame.solver.newton_iterations, frame.solver.time_steps, gap_text(frame.min_gap_m), frame.min_volume_ratio);
     run_.save([&] { return pack_frame(frame, {world_.state(), shift_m_}); });
     out_.frames.push_back(std::move(frame));
   }

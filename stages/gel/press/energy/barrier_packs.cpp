@@ -152,7 +152,7 @@ double ContactBarrier::value_of(const std::vector<int>& near, const Positions& x
       const unsigned doubtful = find(x.data(), mesh_->rest_positions.data(), pairs.data(), s_hat_, energies);
       for (int l = 0; l < count; ++l) {
         const int i = near[first + l];
-        const bool alone = (doubtful >> l & 1U) || of_gel_alone(i) || !has_largest_reach(i);
+        const bool alone = (doubtful >> l & 1U) || of_gel_alone(i) || !fits_packs(i);
         sum += alone ? value_of(i, gather(x, *pairs[l])) : energies[l];
       }
       first += count;
@@ -168,7 +168,7 @@ void ContactBarrier::evaluate_pack(const StencilPack& which, int count, const Po
   Lanes* const lanes = wanted.count == 1 ? point_lanes : wanted.count == 3 ? triangle_lanes : edge_lanes;
   const unsigned doubtful = lanes(x.data(), mesh_->rest_positions.data(), pairs.data(), s_hat_, blend, out);
   for (int l = 0; l < count; ++l) {
-    if (!(doubtful >> l & 1U) && has_largest_reach(which[l])) continue;
+    if (!(doubtful >> l & 1U) && fits_packs(which[l])) continue;
     PairLocal local;
     const bool any = evaluate_blended(which[l], gather(x, *pairs[l]), blend[l], kAllPairVertices, local);
     for (int b = 0; b < wanted.count; ++b) {

@@ -55,8 +55,10 @@ class ContactBarrier final : public ContactTerm {
   double value_of(int i, const FourPoints& points) const;
   bool mollified(int i, const FourPoints& x) const;
 
-  /// Whether d̂ of the law of pair i is the largest of all, as the packed evaluation assumes.
-  bool has_largest_reach(int i) const { return law(i).d_hat_m == laws_.reach_m(); }
+  /// Whether the packed evaluation is for pair i: d̂ of its law is the largest of all, and it is none of a face.
+  bool fits_packs(int i) const {
+    return law(i).d_hat_m == laws_.reach_m() && pairs_[static_cast<std::size_t>(i)].shape == 0;
+  }
 
   const ContactMesh* mesh_;
   std::vector<ContactPair> pairs_;

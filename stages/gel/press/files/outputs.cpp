@@ -9,6 +9,7 @@
 #include "common/sample/press_record.h"
 #include "common/sample/scene_hold.h"
 #include "common/sensor/markers.h"
+#include "stages/gel/press/drive/grasp_labels.h"
 #include "stages/gel/press/drive/grasp_outcome.h"
 #include "stages/gel/press/files/contact_arrays.h"
 #include "stages/gel/press/measure/contact_summary.h"
@@ -69,6 +70,10 @@ PressFrameLines frame_lines(const Simulation& simulation, const Frame& f) {
   return lines;
 }
 
+void take_smaller(std::optional<double>& smallest, const std::optional<double>& value) {
+  if (value) smallest = std::min(smallest.value_or(*value), *value);
+}
+
 /// Adds the frames, the numbers over all of them and those of the last one.
 void add_frames(PressSummary& summary, const Simulation& simulation) {
   std::vector<int> approximated;
@@ -78,7 +83,8 @@ void add_frames(PressSummary& summary, const Simulation& simulation) {
     if (lines.approximated_share > 0.0) approximated.push_back(static_cast<int>(&f - simulation.frames.data()));
     summary.intersections += lines.intersections;
     summary.inverted_tets += lines.inverted_tets;
-    summary.min_distance_m = std::min(summary.min_distance_m, lines.min_gap_m);
+    if (touches(f)) ++summary.contact_frames;
+    take_smaller(summary.min_distance_m, f.min_gap_m);
     summary.min_volume_ratio = std::min(summary.min_volume_ratio, lines.min_volume_ratio);
     summary.max_balance_relative = std::max(summary.max_balance_relative, lines.balance_relative);
     summary.max_pose_error_m = std::max(summary.max_pose_error_m, lines.pose_error_m);
@@ -129,7 +135,6 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
       .d_hat_m = simulation.d_hat_m,
       .element = simulation.element,
       .friction_coefficient = simulation.friction,
-      .min_distance_m = simulation.gap_horizon_m,
       .min_volume_ratio = 1.0,
       .press_end_frame = end,
       // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
@@ -223,7 +228,9 @@ HeldPoseLines pose_lines(const GraspPose& pose) {
 }
 
 /// Rigid bodies that the gels hold.
-std::vector<HeldBodyLines> held_by_gels(const SceneSpec& spec, const std::vector<SceneFrame>& frames) {
+std::vector<HeldBodyLines> held_by_gels(const SceneSpec& spec, const Scene& scene) {
+  const std::vector<SceneFrame>& frames = scene.frames;
+  HeldContacts contacts{.slip_speed_m_s = scene.slip_speed_m_s};
   SceneBodies all;
   for (const BodySpec& body : spec.bodies) {
     all.bodies.push_back(body.name);
@@ -233,6 +240,13 @@ std::vector<HeldBodyLines> held_by_gels(const SceneSpec& spec, const std::vector
   for (std::size_t f = 0; f < frames.size(); ++f) {
     all.per_frame.push_back(frames[f].between);
     all.body_pose.push_back(frames[f].world_from_body);
+    HeldContact& contact = contacts.per_frame.emplace_back();
+    contact.seconds = f > 0 ? frames[f].time_s - frames[f - 1].time_s : 0.0;
+    for (const Simulation& gel : scene.gels) {
+      const FingerContact of_gel = finger_contact(gel.front, gel.frames[f]);
+      contact.slip_share = std::max(contact.slip_share, of_gel.slip_share);
+      contact.radius_m = std::max(contact.radius_m, of_gel.friction_radius_m);
+    }
     if (frames[f].phase_index < 0) continue;
     const ScenePhase& phase = spec.motion[static_cast<std::size_t>(frames[f].phase_index)];
     for (const int body : phase.hold) free_from[static_cast<std::size_t>(body)] = f;
@@ -240,7 +254,7 @@ std::vector<HeldBodyLines> held_by_gels(const SceneSpec& spec, const std::vector
   }
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     if (!spec.bodies[b].path.empty()) free_from[b] = frames.size() - 1;
-  return held_bodies(all, free_from);
+  return held_bodies(all, free_from, contacts);
 }
 
 }  // namespace
@@ -297,8 +311,11 @@ void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const
                        .grip_n = grasp.grip_n,
                        .slip_m = judged.slip_m,
                        .turn_rad = judged.turn_rad,
+                       .creep_m = judged.creep_m,
+                       .creep_rad = judged.creep_rad,
                        .rise_m = rise.object_m,
                        .hand_rise_m = rise.hand_m,
+                       .slip_speed_m_s = grasp.slip_speed_m_s,
                        .max_momentum_residual_n = whole.momentum_residual_n,
                        .slip_left = slip_lines(grasp.slips[0]),
                        .slip_right = slip_lines(grasp.slips[1]),
@@ -321,12 +338,15 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
   const std::size_t n = frames.size(), count = spec.bodies.size(), rigid = scene.mass_kg.size(),
                     deformable = scene.gels.size() + frames[0].soft_m.size();
   WholeArrays whole;
-  SceneSummary summary{.frames = n, .min_distance_m = frames[0].min_gap_m, .converged = true, .verdict = kPassed};
+  SceneSummary summary{.frames = n, .converged = true, .verdict = kPassed};
+  for (std::size_t g = 0; g < scene.gels.size(); ++g)
+    if (std::none_of(scene.gels[g].frames.begin(), scene.gels[g].frames.end(), touches))
+      summary.untouched_gels.push_back(spec.bodies[g].name);
   for (const SceneFrame& f : frames) {
     for (const double strain : f.strain) summary.body_strain = std::max(summary.body_strain, strain);
     whole.add(f.whole);
     summary.intersections += f.intersections;
-    summary.min_distance_m = std::min(summary.min_distance_m, f.min_gap_m);
+    take_smaller(summary.min_distance_m, f.min_gap_m);
     if (f.solver.body_load_n > 0.0)
       summary.max_body_balance_relative =
           std::max(summary.max_body_balance_relative,
@@ -374,7 +394,7 @@ void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBo
     };
     summary.contact.push_back({{name(0), name(1)}, scene.contact[i].friction, scene.contact[i].d_hat_m});
   }
-  summary.held = held_by_gels(spec, frames);
+  summary.held = held_by_gels(spec, scene);
   stage.summarize(record_lines(summary));
   add_cost(stage, scene.times);
 }

@@ -31,7 +31,8 @@ void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& lim
     miss("inverted_tets", numbers.inverted_tets, kVerdictLimits.inverted_tets,
          fmt::format("{} tetrahedra are inverted", numbers.inverted_tets));
   }
-  exceeds("smallest_distance", "smallest distance", numbers.min_gap_m, kVerdictLimits.smallest_distance_m, " m");
+  if (numbers.min_gap_m)
+    exceeds("smallest_distance", "smallest distance", *numbers.min_gap_m, kVerdictLimits.smallest_distance_m, " m");
   exceeds("volume_ratio", "smallest volume ratio", numbers.min_volume_ratio, kVerdictLimits.volume_ratio, "");
   within("velocity_residual", "velocity residual", numbers.velocity_residual_m_s, limits.velocity_residual_m_s, " m/s");
   within("force_residual", "force residual", numbers.force_residual_n, limits.force_residual_n, " N");
@@ -48,6 +49,18 @@ void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& lim
          kVerdictLimits.body_balance_relative, "");
   within("body_torque", "torque on the free object that is not balanced, as a fraction of its load on 10 mm,",
          numbers.body_torque_relative, kVerdictLimits.body_torque_relative, "");
+}
+
+void fail_untouched(int last_frame, const Vector3& deepest_m, const Eigen::Vector2d& front_low_m,
+                    const Eigen::Vector2d& front_high_m) {
+  throw VerdictError(
+      {.frame = last_frame, .check = "contact", .value = 0.0, .limit = 0.0},
+      fmt::format(
+          "frame {}: nothing has touched the gel: the object's lowest point went {:.3g} mm below the undeformed "
+          "front at x {:.3g} mm, y {:.3g} mm, but the front reaches from {:.3g} to {:.3g} mm and from {:.3g} to "
+          "{:.3g} mm. Place it with placement.center_mm, or say placement.may_miss: true",
+          last_frame, -1e3 * deepest_m.z(), 1e3 * deepest_m.x(), 1e3 * deepest_m.y(), 1e3 * front_low_m.x(),
+          1e3 * front_high_m.x(), 1e3 * front_low_m.y(), 1e3 * front_high_m.y()));
 }
 
 void judge_grip(int frame, double imbalance) {

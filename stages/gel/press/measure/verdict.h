@@ -11,6 +11,8 @@
 namespace tacipc {
 
 inline constexpr double kSmallestBodyLoadN = 0.01;
+/// With a smaller force (N) on it a gel counts as not touched.
+inline constexpr double kTouches_n = 1e-6;
 
 /// The limits that no configuration can change. The record repeats them.
 inline constexpr PressLimits kVerdictLimits{.smallest_distance_m = 0.0,
@@ -36,7 +38,7 @@ struct SolverLimits {
 
 /// What was measured of a frame.
 struct FrameNumbers {
-  double min_gap_m = 0.0;
+  std::optional<double> min_gap_m = {};  // nothing: nothing is near
   int intersections = 0;
   int inverted_tets = 0;
   double gel_in_object = 0.0;  // how many times the object's surface winds around the gel
@@ -56,6 +58,11 @@ struct FrameNumbers {
 /// and friction residual, balance, pose, strain and balances of force and torque of a free object. NaN misses every
 /// limit. \throw VerdictError for the first miss
 void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits);
+
+/// Fails a press that went into the gel's depth but touched nothing. \param deepest_m where the lowest point of the
+/// object was the lowest, in S \param front_low_m, front_high_m bounds of the undeformed front along x and y
+[[noreturn]] void fail_untouched(int last_frame, const Vector3& deepest_m, const Eigen::Vector2d& front_low_m,
+                                 const Eigen::Vector2d& front_high_m);
 
 /// Fraction of the force that may be missing to the balance of a finger's drive after a time step.
 inline constexpr double kGripTolerance = 0.02;

@@ -1,8 +1,14 @@
 #include "stages/gel/press/world/frame.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace tacipc {
+
+std::string gap_text(const std::optional<double>& gap_m) {
+  return gap_m ? fmt::format("{:.3g} um", 1e6 * *gap_m) : "-";
+}
 
 FrameNumbers numbers_of(const Frame& frame) {
   return {

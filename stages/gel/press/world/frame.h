@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,8 @@ struct Frame {
   Vector3 force_n = Vector3::Zero();              // Σ on the gel by the object, wherever it touches
   Vector3 torque_n_m = Vector3::Zero();           // the same about the origin of S
   Balance balance;
-  double min_gap_m = 0.0;    // between gel and object, at most `gap_horizon_m`
-  double stand_off_m = 0.0;  // force-weighted mean gap
+  std::optional<double> min_gap_m;  // between gel and object; nothing beyond Scales::gap_horizon_m
+  double stand_off_m = 0.0;         // force-weighted mean gap
   double min_volume_ratio = 1.0;
   double pose_error_m = 0.0;  // largest distance of an object vertex from its pose; 0 for a free object
   double body_strain = 0.0;   // max |AᵀA − I| of a free object
@@ -44,11 +45,16 @@ struct Frame {
   StepReport solver;
 };
 
+/// Whether anything touches the gel.
+inline bool touches(const Frame& frame) { return frame.force_n.norm() > kTouches_n; }
+
+/// "5.21 um", or "-" for none.
+std::string gap_text(const std::optional<double>& gap_m);
+
 /// All frames of one gel, and what holds for each of them.
 struct Simulation {
   double friction = 0.0, d_hat_m = 0.0;  // of the gel with the object
   double barrier_stiffness = 0.0;        // κ, kg m⁻², before it grows (StepReport::barrier_factor)
-  double gap_horizon_m = 0.0;            // gaps are measured up to this distance
   double object_mass_kg = 0.0;           // 0 if the sample gives no density
   bool object_may_be_free = false;
   bool mount_gives_way = false;

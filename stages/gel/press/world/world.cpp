@@ -161,7 +161,6 @@ Simulation World::simulation_of(std::size_t gel) const {
   simulation.friction = law.friction;
   simulation.d_hat_m = law.d_hat_m;
   simulation.barrier_stiffness = law.stiffness * scales_.barrier_stiffness;
-  simulation.gap_horizon_m = scales_.gap_horizon_m;
   simulation.object_mass_kg = affine_.empty() ? 0.0 : affine_[0].mass_kg;
   simulation.object_may_be_free = !affine_.empty();
   simulation.front = parts_[gel].front;
@@ -337,7 +336,7 @@ std::vector<Frame> World::measure(PhaseKind phase, int phase_index, const StepRe
   const Positions& x = state_.motion.x;
   const bool at_rest = phase_index < 0;
   const StepForces forces = at_rest ? no_forces(mesh_.num_gel_vertices) : stepper_.forces();
-  const double gap = smallest_gap(scales_.gap_horizon_m);
+  const double gap_m = smallest_gap(scales_.gap_horizon_m);
   double strain = 0.0;
   for (std::size_t i = 0; i < affine_.size(); ++i) strain = std::max(strain, strain_of(affine_[i], points(i)));
   std::vector<Frame> frames;
@@ -359,7 +358,7 @@ std::vector<Frame> World::measure(PhaseKind phase, int phase_index, const StepRe
       frame.gel_from_object = pose ? Matrix4(pose->inverse()) : state_.world_from_body[object(0)];
     }
     frame.body_strain = strain;
-    frame.min_gap_m = gap;
+    if (gap_m < scales_.gap_horizon_m) frame.min_gap_m = gap_m;
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -125,6 +125,7 @@ TEST_F(PackTest, NumbersComeOutInTheUnitsOfTheTable) {
   expect_same(obs("marker_mm")[7], -1.0 + 0.1 * 13);  // frame 2, first marker, y
   EXPECT_THAT(values(file, group("/check/newton_iterations")), ::testing::ElementsAre(0, 14));
   EXPECT_THAT(values(file, group("/check/velocity_residual_mm_s")), ::testing::ElementsAre(2, 2));
+  EXPECT_TRUE(std::isnan(values(file, group("/check/min_distance_mm"))[0]));  // nothing was near
   expect_same(values(file, group("/check/min_distance_mm"))[1], 0.03);
 }
 

@@ -84,11 +84,11 @@ class MadeSample {
     std::string per_frame;
     for (int f = 0; f < 3; ++f)
       per_frame += fmt::format(
-          "    - {{press_force_n: {}, min_gap_m: {}, stand_off_m: 1.0e-05, min_volume_ratio: 0.5, intersections: 0, "
+          "    - {{press_force_n: {}, {}stand_off_m: 1.0e-05, min_volume_ratio: 0.5, intersections: 0, "
           "inverted_tets: 0, newton_iterations: {}, velocity_residual_m_s: 0.002, force_residual_n: 0.25, "
           "friction_residual_n: 0, balance_relative: 0.125, balance_n: 0.5, pose_error_m: 0, contact_area_mm2: 4, "
           "sticking: 1, slipping: {}}}\n",
-          0.5 * f, 1e-5 * (f + 1), 7 * f, f);
+          0.5 * f, f > 0 ? fmt::format("min_gap_m: {}, ", 1e-5 * (f + 1)) : "", 7 * f, f);
     write_file(
         path("press.yaml"),
         fmt::format("stage: press\nversion: 1-test\ninputs:\n{}summary:\n  frames: 3\n  element: linear\n  d_hat_m: "

@@ -18,7 +18,7 @@ std::string drawn(const std::string& text, std::vector<double> u) {
 }
 
 TEST(MotionTemplate, RangesAreDrawnAndNumbersStay) {
-  EXPECT_EQ(drawn(R"(placement: {center_mm: {x: [-2, 2], y: 1}, rotate_deg: [0, 360], face: "+z"}
+  EXPECT_EQ(drawn(R"(placement: {center_mm: {x: [-2, 2], y: 1}, rotate_deg: [0, 360], face: "+z", may_miss: true}
 object: {density_kg_m3: 7800}
 motion:
   - {kind: press, depth_mm: [0.2, 0.6], steps: 3}
@@ -31,6 +31,7 @@ motion:
   center_mm: [1, 1]
   rotate_deg: 180
   face: "+z"
+  may_miss: true
 object: {density_kg_m3: 7800}
 motion:
   - {kind: press, depth_mm: 0.3, steps: 3, substeps: 1}

@@ -272,6 +272,16 @@ TEST_F(SampleTest, TheVerdictsOfThePressCount) {
   EXPECT_EQ(failure(), "press: 2 tetrahedra are inverted");
 }
 
+TEST_F(SampleTest, APressThatTouchedNothingSaysSo) {
+  const std::string untouched = replaced(kPressRecord, "  min_distance_m: 3.5e-05\n", "  contact_frames: 0\n");
+  write_file(folder_ / "press/press.yaml", replaced(untouched, " min_gap_m: 3.5e-05,", ""));
+  const SampleReport sample = read_sample(folder_);
+  EXPECT_EQ(sample.failure, std::nullopt);
+  EXPECT_EQ(sample.min_distance_m, std::nullopt);
+  EXPECT_EQ(sample.frames[2].min_gap_m, std::nullopt);
+  EXPECT_THAT(sample.warnings, ::testing::Contains("Nothing touched the gel in any frame."));
+}
+
 TEST_F(SampleTest, BrokenFilesFailTheSampleAndSayWhich) {
   press("  converged: true\n", "");
   EXPECT_EQ(failure(), "press/press.yaml: summary.converged: missing");

@@ -51,6 +51,11 @@ TEST_F(VerdictTest, EveryLimitHasACaseThatMissesItAndOneThatHoldsIt) {
   EXPECT_FALSE(check("distance from the asked pose", "max_pose_error_m: 1.1e-09").held);
 }
 
+TEST_F(VerdictTest, AGapThatWasNotMeasuredIsNotJudged) {
+  const auto lines = summary_lines("converged: true\nintersections: 0\ninverted_tets: 0\nmin_volume_ratio: 0.5\n");
+  for (const CheckReport& check : checks_of(lines, {FrameReport{}})) EXPECT_NE(check.name, "smallest distance");
+}
+
 TEST_F(VerdictTest, TheLimitsAreTheRecords) {
   const auto with = [&](const std::string& name, const std::string& line, const std::string& limit) {
     return check(name, line, {.min_gap_m = 1e-6}, "limits: {" + limit + "}\n");

@@ -284,6 +284,19 @@ TEST(Grasp, ApproachesToAGapAndClosesToAWidth) {
   EXPECT_EQ(grasp.outcome, GraspOutcome::lifted);
 }
 
+/// Fingers that close to a width beyond the object's have not dropped it: they never had it.
+TEST(Grasp, WhatNoFingerTouchesIsUntouched) {
+  for (const double width_m : {10e-3, 12e-3, 8.5e-3}) {
+    GraspSpec spec = grasp_of(kMass_kg, {close_to_phase(2, width_m), hold_phase(2), lift_phase(4, 2e-3)});
+    spec.start_gap_m = 2.5e-3;
+    spec.closing_speed_m_s = 0.1;
+    const Grasp grasp = run_grasp(kBox, grasp_config(0.8), spec);
+    EXPECT_EQ(grasp.outcome, GraspOutcome::untouched) << width_m;
+    EXPECT_EQ(grasp.reason, GraspReason::no_contact) << width_m;
+    EXPECT_FALSE(touches(grasp.fingers[0].frames.back())) << width_m;
+  }
+}
+
 TEST(Grasp, SaysThatFingersAreTooSlowForTheirWay) {
   GraspSpec spec = grasp_of(kMass_kg, {approach_phase(1, 0.1e-3), close_phase(1, kGrip_n)});
   spec.start_gap_m = 1e-3;

@@ -12,6 +12,7 @@
 #include "common/sample/placement.h"
 #include "stages/gel/press/energy/elasticity.h"
 #include "tests/scratch_folder.h"
+#include "tests/stages/gel/press/cut_box.h"
 #include "tests/stages/gel/press/drive/grasp_scene.h"
 
 namespace tacipc {
@@ -133,6 +134,41 @@ TEST_F(SceneOf, ABoxOnAGelCarriesAnotherThatOnlyThenIsLetGo) {
   // They lie still where they are: on each other.
   EXPECT_LT(loaded.velocity_m_s[1].norm(), 2e-3);
   EXPECT_NEAR(loaded.world_from_body[2](2, 3) - loaded.world_from_body[1](2, 3), 2.0 * kHalf.z(), 1e-4);
+}
+
+/// Without friction anything that pushes sideways is never stopped. The table's diagonals lie under the corners of what
+/// stands on it, or a little beside, and vertices of its grid under a rim.
+TEST_F(SceneOf, WithoutFrictionBodiesAtRestStayAtRest) {
+  constexpr double kLight_kg = 1e-3;
+  const double gap_m = 1.2 * config_.relative_d_hat * 28.4e-3;  // in frame 0: more than d̂ of the gel's diagonal
+  const auto stand = [&](const TriangleMesh& table, const TriangleMesh& body, const Vector3& aside_m) {
+    spec_.bodies.clear(), bodies_.clear();
+    add_gel("gel", at({0, 0, -0.1}));
+    const double top_m = table.positions.col(2).maxCoeff(), low_m = body.positions.col(2).minCoeff();
+    spec_.bodies.push_back({.name = "table", .kind = BodyKind::fixed});
+    bodies_.push_back({.surface = table});
+    add_box("body", BodyKind::rigid, aside_m + Vector3(0, 0, top_m - low_m + gap_m));
+    bodies_.back().surface = body;
+    spec_.bodies.back().mass.mass_kg = kLight_kg;
+    std::swap(spec_.bodies[1], spec_.bodies[2]), std::swap(bodies_[1], bodies_[2]);  // rigid before fixed
+    spec_.contact = {{.between = {1, 2}, .friction = 0.0}};
+    spec_.motion = {{.steps = 12}};
+    const Scene scene = run();
+    const Matrix4 moved = scene.frames.back().world_from_body[1] - scene.frames.front().world_from_body[1];
+    const Vector3 shift = moved.topRightCorner<3, 1>();
+    const Matrix3 turn = moved.topLeftCorner<3, 3>();
+    EXPECT_NEAR(on(scene.frames.back(), 1, 2).force_n.z(), kLight_kg * kG, 1e-2 * kLight_kg * kG);
+    EXPECT_LT(shift.head<2>().norm(), 2e-8);
+    EXPECT_LT(turn.norm(), 1e-4);
+    EXPECT_LT(scene.frames.back().velocity_m_s[0].head<2>().norm(), 1e-6);
+    EXPECT_LT(std::abs(scene.frames.back().spin_rad_s[0].z()), 1e-4);
+  };
+  const Vector3 table(30e-3, 30e-3, 5e-3), plate(10e-3, 10e-3, 1e-3), box(5e-3, 5e-3, 5e-3);
+  stand(cut_box(table, Cut::diagonal), cut_box(plate, Cut::fan), {0, 0, 0});
+  stand(cut_box(table, Cut::diagonal), cut_box(box, Cut::diagonal), {0, 0, 0});
+  stand(cut_box(table, Cut::grid, 6), cut_box(plate, Cut::grid, 4), {0, 0, 0});
+  stand(cut_box(table, Cut::fan), cut_box(plate, Cut::fan), {0.3e-3, 0.1e-3, 0});
+  stand(cut_box(table, Cut::other_diagonal), cut_box(box, Cut::grid, 4), {3e-6, 0, 0});
 }
 
 TEST_F(SceneOf, TwoGelsPressOnEachOtherAsEachSeesItInItsOwnFrame) {

@@ -81,7 +81,7 @@ TEST(FreeObject, DoesNotGoThroughTheGelHoweverFastItIs) {
   sample.motion = {thrown, free_phase(12)};
   const Simulation simulation = run(block(0.003, 0.003), config, sample);
   EXPECT_NEAR(simulation.frames[1].object_velocity_m_s.z(), -5.0, 1e-9);
-  EXPECT_GT(simulation.frames[1].min_gap_m, 0.0);
+  EXPECT_GT(simulation.frames[1].min_gap_m.value(), 0.0);
   for (const Frame& frame : simulation.frames) {
     EXPECT_EQ(frame.intersections, 0);
     EXPECT_GT(frame.gel_from_object(2, 3), -2e-3);  // the gel is that thick

@@ -68,7 +68,7 @@ TEST(Simulate, SharpTipIntoCoarseGelIsWhereAndInWhatBalanceItSays) {
   const Simulation simulation = simulate(sensor, gel, object, config, press(0.5e-3, 5), "-z", ignore_progress);
   ASSERT_EQ(simulation.frames.size(), 6u);
   const double start_m = config.start_gap_d_hat * simulation.d_hat_m;
-  EXPECT_NEAR(simulation.frames[0].min_gap_m, start_m, 1e-12);
+  EXPECT_NEAR(simulation.frames[0].min_gap_m.value(), start_m, 1e-12);
   EXPECT_EQ((simulation.frames[0].positions - gel.positions).norm(), 0.0);
 
   std::vector<bool> glued(static_cast<std::size_t>(gel.num_vertices()), false);
@@ -85,10 +85,10 @@ TEST(Simulate, SharpTipIntoCoarseGelIsWhereAndInWhatBalanceItSays) {
     ASSERT_EQ(frame.solver.time_steps, 1);
     const Positions moved = transformed(frame.gel_from_object, object.positions);
     EXPECT_NEAR(moved.col(2).minCoeff(), start_m - static_cast<double>(f) / 5.0 * (start_m + 0.5e-3), 1e-15);
-    EXPECT_NEAR(frame.min_gap_m, smallest_gap(gel, frame.positions, object, frame.gel_from_object),
-                1e-6 * frame.min_gap_m);
-    EXPECT_GT(frame.min_gap_m, 0.0);
-    EXPECT_GE(frame.stand_off_m, frame.min_gap_m);
+    EXPECT_NEAR(frame.min_gap_m.value(), smallest_gap(gel, frame.positions, object, frame.gel_from_object),
+                1e-6 * *frame.min_gap_m);
+    EXPECT_GT(*frame.min_gap_m, 0.0);
+    EXPECT_GE(frame.stand_off_m, *frame.min_gap_m);
     EXPECT_LT(frame.stand_off_m, simulation.d_hat_m);
 
     const Positions before = velocity;

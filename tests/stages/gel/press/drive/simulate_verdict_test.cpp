@@ -2,7 +2,9 @@
 // wrong from the start, and numbers that are measured.
 #include <gtest/gtest.h>
 
+#include <fmt/core.h>
 #include <Eigen/LU>
+
 #include <functional>
 
 #include "common/base/error.h"
@@ -156,6 +158,72 @@ TEST(SimulateVerdict, ATetrahedronThatOnlyRoundingCallsPositiveIsFound) {
   EXPECT_EQ(miss.check, "inverted_tets");
   EXPECT_EQ(miss.frame, 0);
   EXPECT_EQ(miss.value, 1);
+}
+
+/// Objects whose lowest points go beside the gel, which reaches to ±10 mm: away from it, on legs around it, along a
+/// path.
+struct MissedGel {
+  TriangleMesh object;
+  SampleSpec sample;
+  double lowest_mm;
+};
+
+std::vector<MissedGel> missed_gels() {
+  MissedGel beside{pyramid(0.003, 0.002), press(0.3e-3, 2), 0.3};
+  beside.sample.center_x_m = 0.015;
+  // Four legs at the corners of a square of 26 mm that hold nothing above the gel.
+  TriangleMesh legs;
+  for (const double x : {-0.013, 0.013}) {
+    for (const double y : {-0.013, 0.013}) {
+      const TriangleMesh leg = make_box({x - 1e-3, y - 1e-3, 0.0}, {x + 1e-3, y + 1e-3, 5e-3});
+      const auto rows = legs.positions.rows();
+      legs.positions.conservativeResize(rows + leg.positions.rows(), 3);
+      legs.positions.bottomRows(leg.positions.rows()) = leg.positions;
+      legs.triangles.conservativeResize(legs.triangles.rows() + leg.triangles.rows(), 3);
+      legs.triangles.bottomRows(leg.triangles.rows()) = leg.triangles.array() + static_cast<int>(rows);
+    }
+  }
+  MissedGel around{legs, press(0.5e-3, 2), 0.5};
+  MissedGel along{pyramid(0.003, 0.002), {}, 1.0};
+  along.sample.motion = {{.kind = PhaseKind::path, .steps = 3, .absolute = true}};
+  for (const double z : {2e-3, 1e-3, 0.0, -1e-3})
+    along.sample.motion[0].points.push_back({.time_s = 0.01 * (2 - 1e3 * z), .shift_m = {0.0, -0.02, z}});
+  return {beside, around, along};
+}
+
+TEST(SimulateVerdict, APressBesideTheGelFailsUnlessItMayMiss) {
+  for (MissedGel& missed : missed_gels()) {
+    const auto run = [&] {
+      return simulate(paper_sensor(), block_gel(4, 0.02, 0.002), missed.object, paper_config(), missed.sample, "-z",
+                      ignore_progress);
+    };
+    try {
+      run();
+      ADD_FAILURE() << missed.lowest_mm;
+    } catch (const VerdictError& error) {
+      EXPECT_EQ(error.miss().check, "contact");
+      EXPECT_NE(std::string(error.what()).find(fmt::format("went {:g} mm below", missed.lowest_mm)), std::string::npos)
+          << error.what();
+    }
+    missed.sample.may_miss = true;
+    const Simulation simulation = run();
+    for (std::size_t f = 1; f < simulation.frames.size(); ++f) {  // along the path it begins above the gel
+      EXPECT_FALSE(touches(simulation.frames[f]));
+      EXPECT_EQ(simulation.frames[f].min_gap_m, std::nullopt);
+    }
+  }
+}
+
+TEST(SimulateVerdict, AnObjectThatStaysAboveTheGelPasses) {
+  SampleSpec sample;
+  sample.motion = {{.kind = PhaseKind::hold, .steps = 1}, {.kind = PhaseKind::release, .steps = 2, .height_m = 1e-3}};
+  const Simulation above = simulate(paper_sensor(), block_gel(4, 0.02, 0.002), pyramid(0.003, 0.002), paper_config(),
+                                    sample, "-z", ignore_progress);
+  EXPECT_TRUE(above.frames[1].min_gap_m);
+  EXPECT_EQ(above.frames[3].min_gap_m, std::nullopt);
+  const Simulation pressed = simulate(paper_sensor(), block_gel(4, 0.02, 0.002), pyramid(0.003, 0.002), paper_config(),
+                                      press(0.3e-3, 1), "-z", ignore_progress);
+  EXPECT_TRUE(touches(pressed.frames[1]));
 }
 
 /// A solver's residuals are not zero: one that is has not been measured. (That of friction is where the last iteration

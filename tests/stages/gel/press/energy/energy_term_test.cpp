@@ -86,7 +86,8 @@ Case orthogonality_case(const std::string& name, double squeeze) {
   return {name, std::make_shared<Orthogonality>(0, body, 2.0), x.reshaped<Eigen::RowMajor>(), 1e-3, true, true};
 }
 
-Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x, double weight = 1.0) {
+Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& x, double weight = 1.0,
+               std::uint8_t shape = 0) {
   // The barrier looks its mesh up: both live as long as the case.
   struct Held {
     ContactMesh mesh;
@@ -98,7 +99,7 @@ Case pair_case(const std::string& name, ContactPair::Kind kind, const Vector12& 
   held->mesh.rest_positions = rows(x);
   // Edges much longer at rest than now make the mollifier's threshold large enough to matter for the case that says so.
   if (name == "edge_edge_mollified") held->mesh.rest_positions *= 6.0;
-  held->barrier.emplace(held->mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}, weight}},
+  held->barrier.emplace(held->mesh, std::vector<ContactPair>{{kind, {0, 1, 2, 3}, weight, shape}},
                         ContactLaws({.d_hat_m = 0.5}));
   return {name, std::shared_ptr<EnergyTerm>(held, &*held->barrier), x, 1e-3, true, true};
 }
@@ -152,6 +153,10 @@ std::vector<Case> cases() {
   all.push_back(pair_case("edge_edge_end", Kind::edge_edge, x));
   x << -0.5, 0, 0, 0.5, 0.02, 0, -0.45, -0.1, 0.3, 0.55, 0.3, 0.27;
   all.push_back(pair_case("edge_edge_mollified", Kind::edge_edge, x));
+  x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
+  all.push_back(pair_case("corner_above_face", Kind::point_triangle, x, 1.0, kIsShape));
+  x << 0.45, -0.2, 0.25, 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  all.push_back(pair_case("corner_beside_face", Kind::point_triangle, x, 1.0, kIsShape | rim_edge(0)));
   for (const double epsilon : {0.5, 0.02}) {
     x << 0.25, 0.22, 0.3, 0, 0, 0.02, 1, 0, -0.03, 0, 1, 0.01;
     const auto start = Eigen::Map<const Positions>(x.data(), 4, 3);

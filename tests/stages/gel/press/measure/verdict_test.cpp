@@ -158,14 +158,32 @@ TEST(Verdict, DrivesOfAGrasp) {
   EXPECT_NE(miss(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
+TEST(Verdict, APressThatTouchesNothing) {
+  try {
+    fail_untouched(5, {12e-3, 0.5e-3, -0.25e-3}, {-10e-3, -8e-3}, {10e-3, 8e-3});
+    ADD_FAILURE();
+  } catch (const VerdictError& error) {
+    EXPECT_EQ(error.miss().check, "contact");
+    EXPECT_EQ(error.miss().frame, 5);
+    EXPECT_STREQ(error.what(),
+                 "frame 5: nothing has touched the gel: the object's lowest point went 0.25 mm below the undeformed "
+                 "front at x 12 mm, y 0.5 mm, but the front reaches from -10 to 10 mm and from -8 to 8 mm. Place it "
+                 "with placement.center_mm, or say placement.may_miss: true");
+  }
+}
+
 TEST(Verdict, WhatIsNoNumberMissesItsLimit) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::pair<double FrameNumbers::*, const char*> members[] = {
-      {&FrameNumbers::gel_in_object, "containment"},       {&FrameNumbers::min_gap_m, "smallest_distance"},
-      {&FrameNumbers::min_volume_ratio, "volume_ratio"},   {&FrameNumbers::velocity_residual_m_s, "velocity_residual"},
-      {&FrameNumbers::force_residual_n, "force_residual"}, {&FrameNumbers::friction_residual_n, "friction_residual"},
-      {&FrameNumbers::balance_relative, "balance"},        {&FrameNumbers::pose_error_m, "pose_error"},
-      {&FrameNumbers::body_strain, "body_strain"},         {&FrameNumbers::body_balance_relative, "body_balance"},
+      {&FrameNumbers::gel_in_object, "containment"},
+      {&FrameNumbers::min_volume_ratio, "volume_ratio"},
+      {&FrameNumbers::velocity_residual_m_s, "velocity_residual"},
+      {&FrameNumbers::force_residual_n, "force_residual"},
+      {&FrameNumbers::friction_residual_n, "friction_residual"},
+      {&FrameNumbers::balance_relative, "balance"},
+      {&FrameNumbers::pose_error_m, "pose_error"},
+      {&FrameNumbers::body_strain, "body_strain"},
+      {&FrameNumbers::body_balance_relative, "body_balance"},
       {&FrameNumbers::body_torque_relative, "body_torque"}};
   for (const auto& [member, check] : members) {
     auto numbers = good();
@@ -173,10 +191,15 @@ TEST(Verdict, WhatIsNoNumberMissesItsLimit) {
     EXPECT_EQ(judged(numbers).miss.check, check);
     EXPECT_TRUE(std::isnan(judged(numbers).miss.value)) << check;
   }
+  auto numbers = good();
+  numbers.min_gap_m = nan;
+  EXPECT_EQ(judged(numbers).miss.check, "smallest_distance");
+  numbers.min_gap_m.reset();  // nothing is near
+  EXPECT_EQ(judged(numbers).message, "");
 }
 
 TEST(Verdict, TheFirstMissIsTold) {
-  FrameNumbers numbers;  // distance and volume ratio are zero
+  FrameNumbers numbers{.min_gap_m = 0.0};  // as is the volume ratio
   numbers.balance_relative = 1.0;
   EXPECT_EQ(judged(numbers).miss.check, "smallest_distance");
   numbers.intersections = 1;
