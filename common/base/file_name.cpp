@@ -18,7 +18,7 @@ bool is_plain(char c) {
 }  // namespace
 
 bool is_file_name(std::string_view name) {
-  return !name.empty() && name.size() <= kLongest && name != "." && name != ".." &&
+  return !name.empty() && name.size() <= kLongest && name.front() != '.' &&
          std::all_of(name.begin(), name.end(), is_plain);
 }
 

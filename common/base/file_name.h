@@ -7,7 +7,7 @@
 namespace tacipc {
 
 inline constexpr std::string_view kFileNameRule =
-    "a name has letters, digits and . _ + - alone, at most 200 of them, and is neither . nor ..";
+    "a name has letters, digits and . _ + - alone, does not begin with a point and has at most 200 of them";
 /// Whether a name can be that of one file or folder in a folder of ours: kFileNameRule.
 bool is_file_name(std::string_view name);
 

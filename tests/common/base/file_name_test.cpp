@@ -7,9 +7,9 @@
 namespace tacipc {
 
 TEST(FileName, LeadsNowhereElse) {
-  for (const char* name : {"star", "star__press__000001", "part.v2+b-3", "...", ".hidden", "-x", "0"})
+  for (const char* name : {"star", "star__press__000001", "part.v2+b-3", "-x", "0"})
     EXPECT_TRUE(is_file_name(name)) << name;
-  for (const char* name : {"", ".", "..", "../star", "/etc", "a/b", "a b", "a\nb", "a;b", "a$b", "Ä"})
+  for (const char* name : {"", ".", "..", ".hidden", "../star", "/etc", "a/b", "a b", "a\nb", "a;b", "a$b", "Ä"})
     EXPECT_FALSE(is_file_name(name)) << name;
   EXPECT_FALSE(is_file_name(std::string("a\0b", 3)));
   EXPECT_TRUE(is_file_name(std::string(200, 'a')));
