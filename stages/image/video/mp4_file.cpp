@@ -22,6 +22,10 @@ namespace {
 constexpr AVRational kTick{1, 90000};
 constexpr int kKeyEvery = 50;  // frames; players may jump to these
 
+}  // namespace
+
+namespace mp4_file {
+
 template <auto free>
 struct Free {
   template <typename T>
@@ -43,15 +47,15 @@ struct FreeScale {
   void operator()(SwsContext* scale) const { sws_freeContext(scale); }
 };
 
-}  // namespace
+}  // namespace mp4_file
 
 struct Mp4File::Parts {
   std::string name;
-  std::unique_ptr<AVFormatContext, FreeFormat> format;
-  Codec codec;
-  std::unique_ptr<SwsContext, FreeScale> scale;
-  FramePtr frame;
-  PacketPtr packet;
+  std::unique_ptr<AVFormatContext, mp4_file::FreeFormat> format;
+  mp4_file::Codec codec;
+  std::unique_ptr<SwsContext, mp4_file::FreeScale> scale;
+  mp4_file::FramePtr frame;
+  mp4_file::PacketPtr packet;
   double shown_s = 0.0;             // of all frames so far
   std::vector<std::int64_t> ticks;  // for which each frame is shown
   std::size_t written = 0;
