@@ -117,6 +117,7 @@ constexpr UnitBound kUnitBounds[] = {{"_mm", 1e4}, {"_um", 1e7},    {"_px", 1e5}
 constexpr double kLargest = 1e15;  // without one of these units
 
 double largest_of(std::string_view key) {
+  key = key.substr(0, key.find('['));  // of an item of a list
   for (const UnitBound& bound : kUnitBounds)
     if (key.ends_with(bound.unit)) return bound.largest;
   return kLargest;

@@ -187,7 +187,8 @@ motions: [{{name: .., samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1
   for (const char* name :
        {"'..': a name has", "'.': a name has", "'.a': a name has", "motions[0].name: '..': a name has"})
     EXPECT_THAT(said_, testing::HasSubstr(name));
-  EXPECT_FALSE(fs::exists(scratch_ / "set/plan"));
+  EXPECT_FALSE(fs::exists(scratch_ / "set/plan/plan.yaml"));
+  EXPECT_FALSE(fs::exists(scratch_ / "set/samples"));
 }
 
 }  // namespace plan_program_test
