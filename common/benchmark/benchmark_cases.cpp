@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/base/error.h"
+#include "common/base/file_name.h"
 #include "common/mesh/triangle_mesh.h"
 
 namespace tacipc {
@@ -13,7 +14,7 @@ namespace {
 
 ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
   ObjectCase object;
-  object.name = plain(in, "name");
+  object.name = in.file_name("name");
   if (!names.insert(object.name).second) in.fault("name", "is given twice");
   if (const auto radius = in.optional_number("ball_radius_mm", Range::positive()))
     object.ball_radius_m = 1e-3 * *radius;
@@ -53,8 +54,8 @@ ObjectCase read_object(ConfigReader& in, std::set<std::string>& names) {
 
 std::string plain(ConfigReader& in, const std::string& key) {
   const std::string text = in.text(key);
-  const bool fine = is_plain(text);
-  if (!fine) in.fault(key, "has characters other than letters, digits and . _ / + -");
+  const bool fine = is_plain_path(text);
+  if (!fine) in.fault(key, std::string(kPlainPathRule));
   return fine ? text : "x";
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/base/file_name.h"
 #include "common/base/files.h"
 
 namespace tacipc {
@@ -36,12 +37,6 @@ CircleTable CircleTable::read(ConfigReader& in) {
   const auto size = in.numbers("image_px", 2, Range::between(1.0, 1e5));
   table.image_px = {static_cast<int>(size[0]), static_cast<int>(size[1])};
   return table;
-}
-
-bool is_plain(const std::string& text) {
-  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
-    return std::isalnum(c) || c == '.' || c == '_' || c == '/' || c == '+' || c == '-';
-  });
 }
 
 std::vector<BallLabel> read_contact_circles(const std::filesystem::path& path, const CircleTable& table,
@@ -75,9 +70,7 @@ std::vector<BallLabel> read_contact_circles(const std::filesystem::path& path, c
     constexpr double kSameBall = 1e-6;
     if (value(leave_out) != 0.0 || std::abs(0.5e-3 * value(diameter) - ball_radius_m) > kSameBall) continue;
     const std::string& name = fields[image];
-    if (!is_plain(name))
-      throw DataError("{}:{}: '{}' has characters other than letters, digits and . _ / + -", path.string(), number,
-                      name);
+    if (!is_plain_path(name)) throw DataError("{}:{}: '{}' {}", path.string(), number, name, kPlainPathRule);
     if (!names.insert(name).second) throw DataError("{}:{}: {} is given twice", path.string(), number, name);
     circles.push_back({.image = name, .x_px = value(x), .y_px = value(y), .radius_px = value(radius)});
     if (!(circles.back().radius_px > 0.0)) throw DataError("{}:{}: the radius must be positive", path.string(), number);

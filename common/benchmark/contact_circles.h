@@ -23,9 +23,6 @@ struct CircleTable {
   static CircleTable read(ConfigReader& in);
 };
 
-/// A text that Make and the shell take for one word, or a path of such words.
-bool is_plain(const std::string& text);
-
 /// Rows in the order of the table, images as it names them, of balls of this radius, that do not say to be left out.
 /// \throw DataError `FILE: …` without such a row, for a missing column, `FILE:LINE: …` for a row one cannot read
 std::vector<BallLabel> read_contact_circles(const std::filesystem::path& path, const CircleTable& table,

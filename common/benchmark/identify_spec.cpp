@@ -88,7 +88,7 @@ std::vector<std::string> read_changes(ConfigReader& in) {
 
 Measurement read_measurement(ConfigReader& in) {
   Measurement out;
-  out.name = plain(in, "name");
+  out.name = in.file_name("name");
   const std::vector<std::string> kinds{"press", "shear", "relaxation", "markers"};
   const std::string kind = in.choice("kind", kinds);
   out.kind = static_cast<MeasurementKind>(std::ranges::find(kinds, kind) - kinds.begin());
@@ -214,7 +214,7 @@ IdentifySpec IdentifySpec::read(ConfigReader& in) {
     out.measurements.push_back(std::move(measurement));
   }
   for (ConfigReader& item : in.sections("checks")) {
-    ModelCheck check{.name = plain(item, "name"),
+    ModelCheck check{.name = item.file_name("name"),
                      .mesh = item.text_or("mesh", ""),
                      .press = item.text_or("press", ""),
                      .changes = read_changes(item)};

@@ -8,7 +8,7 @@ namespace tacipc {
 namespace {
 
 MarkerVariant read_variant(ConfigReader& in, const MarkerAssumptions& base) {
-  MarkerVariant variant{.name = plain(in, "name"), .assumed = base};
+  MarkerVariant variant{.name = in.file_name("name"), .assumed = base};
   if (const auto radius = in.optional_number("ball_radius_mm", Range::positive()))
     variant.assumed.ball_radius_m = 1e-3 * *radius;
   if (const auto friction = in.optional_number("friction", Range::non_negative())) variant.assumed.friction = *friction;

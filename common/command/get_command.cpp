@@ -25,16 +25,17 @@ std::string lines_of(const Value& value, const std::string& place) {
 }
 
 /// Of each map of a list a line: what it holds by these keys, separated by tabs.
-std::string rows_of(const Value& value, const std::vector<std::string>& fields, const std::string& place) {
+std::string rows_of(const Value& value, const GetRequest& request, const std::string& place) {
   const auto* list = std::get_if<Value::List>(&value.data());
   if (!list) throw DataError("{}: is not a list", place);
   std::string lines;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    for (const std::string& field : fields) {
+    for (const std::string& field : request.fields) {
       const KeyPath found = follow((*list)[i], field);
       const auto* text = found.rest.empty() ? std::get_if<std::string>(&found.at->data()) : nullptr;
-      if (!text) throw DataError("{}[{}]: has no single value {}", place, i, field);
-      lines += *text + '\t';
+      const bool absent = !found.rest.empty();
+      if (!text && !(absent && request.fallback)) throw DataError("{}[{}]: has no single value {}", place, i, field);
+      lines += (text ? *text : *request.fallback) + '\t';
     }
     lines.back() = '\n';
   }
@@ -66,7 +67,7 @@ std::string get_values(const GetRequest& request) {
     const KeyPath found = content ? follow(*content, path) : KeyPath{.steps = {}, .rest = path, .at = nullptr};
     if (found.rest.empty()) {
       lines += request.only_keys         ? keys_of(*found.at, place)
-               : !request.fields.empty() ? rows_of(*found.at, request.fields, place)
+               : !request.fields.empty() ? rows_of(*found.at, request, place)
                                          : lines_of(*found.at, place);
     } else if (request.fallback) {
       lines += *request.fallback + "\n";

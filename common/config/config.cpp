@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/base/file_name.h"
 #include "common/base/files.h"
 #include "common/base/parse.h"
 #include "common/base/printable.h"
@@ -102,6 +103,28 @@ std::optional<std::string> ConfigReader::to_scalar(const Node& node, const std::
   return std::nullopt;
 }
 
+namespace {
+
+struct UnitBound {
+  std::string_view unit;  // with which the key ends
+  double largest;
+};
+// A hundred times what is met around a tactile sensor, and more. Beyond it a motion would never end, or a square
+// overflow.
+constexpr UnitBound kUnitBounds[] = {{"_mm", 1e4}, {"_um", 1e7},    {"_px", 1e5},   {"_deg", 3.6e4},
+                                     {"_s", 1e9},  {"_n", 1e6},     {"_pa", 1e13},  {"_g", 1e6},
+                                     {"_kg", 1e3}, {"_kg_m3", 1e5}, {"_m_s2", 1e4}, {"_hz", 1e6}};
+constexpr double kLargest = 1e15;  // without one of these units
+
+double largest_of(std::string_view key) {
+  key = key.substr(0, key.find('['));  // of an item of a list
+  for (const UnitBound& bound : kUnitBounds)
+    if (key.ends_with(bound.unit)) return bound.largest;
+  return kLargest;
+}
+
+}  // namespace
+
 double ConfigReader::to_number(const Node& node, const std::string& key, const Range& range, double otherwise) {
   const auto scalar = to_scalar(node, key);
   if (!scalar) return otherwise;
@@ -114,6 +137,10 @@ double ConfigReader::to_number(const Node& node, const std::string& key, const R
   }
   if (!range.contains(*value)) {
     add_fault(node, path_of(key), fmt::format("{} is outside {}", excerpt(*scalar), range.text()));
+    return otherwise;
+  }
+  if (const double largest = largest_of(key); std::abs(*value) > largest) {
+    add_fault(node, path_of(key), fmt::format("{} is beyond {}", excerpt(*scalar), largest));
     return otherwise;
   }
   return *value;
@@ -185,6 +212,12 @@ bool ConfigReader::flag_or(const std::string& key, bool fallback) {
 std::string ConfigReader::text(const std::string& key) {
   find(key, true);
   return text_or(key, "");
+}
+
+std::string ConfigReader::file_name(const std::string& key) {
+  std::string name = text(key);
+  if (has(key) && !is_file_name(name)) fault(key, fmt::format("'{}': {}", excerpt(name), kFileNameRule));
+  return name;
 }
 
 std::string ConfigReader::text_or(const std::string& key, const std::string& fallback) {

@@ -16,7 +16,8 @@
 
 namespace tacipc {
 
-/// Interval of allowed numbers; an open end excludes the bound itself.
+/// Interval of allowed numbers; an open end excludes the bound itself. However wide it is, a reader refuses numbers
+/// beyond what has a meaning in the unit with which their key ends (10 m, 100 turns, 1e13 Pa …).
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -53,6 +54,8 @@ class ConfigReader {
   bool flag_or(const std::string& key, bool fallback);
 
   std::string text(const std::string& key);
+  /// A text that becomes a file's or folder's name (base/file_name.h).
+  std::string file_name(const std::string& key);
   std::string text_or(const std::string& key, const std::string& fallback);
   std::optional<std::string> optional_text(const std::string& key);
   std::string choice(const std::string& key, const std::vector<std::string>& options);

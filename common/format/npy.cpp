@@ -176,10 +176,11 @@ void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>
   write_array(path, shape, "|u1", data);
 }
 
-NpyArray read_npy(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  const Header header = parse_header(bytes, bytes.size(), path.string());
-  ByteReader in(bytes, path.string(), header.big_endian ? std::endian::big : std::endian::little);
+NpyArray read_npy(const std::filesystem::path& path) { return read_npy_bytes(read_file(path), path.string()); }
+
+NpyArray read_npy_bytes(std::string_view bytes, const std::string& name) {
+  const Header header = parse_header(bytes, bytes.size(), name);
+  ByteReader in(bytes, name, header.big_endian ? std::endian::big : std::endian::little);
   in.seek(header.data_at);
   NpyArray array{.shape = header.shape, .data = read_values(in, header.kind, header.count)};
   if (header.fortran) array.data = from_fortran(array.data, array.shape);

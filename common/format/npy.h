@@ -24,7 +24,9 @@ void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>
 std::string npy_bytes(const std::vector<std::size_t>& shape, std::string_view type, std::string_view values);
 /// Reads f8, f4, i8, i4 or u1 arrays in C or Fortran order. \throw DataError for anything else, with what was found.
 NpyArray read_npy(const std::filesystem::path& path);
-/// The same, which must have this shape. \throw DataError naming both shapes
+/// The same from the content of a file; `name` stands for it in messages.
+NpyArray read_npy_bytes(std::string_view bytes, const std::string& name);
+/// read_npy() of an array that must have this shape. \throw DataError naming both shapes
 NpyArray read_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape);
 
 /// An array read one entry of its first axis at a time, for files that need not fit into memory.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "common/base/files.h"
@@ -13,25 +11,14 @@
 
 namespace tacipc {
 namespace fs = std::filesystem;
-namespace {
-
-bool is_folder_name(const std::string& name) {
-  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '.' || c == '_' || c == '-';
-  });
-}
-
-}  // namespace
 
 Ensemble Ensemble::read(ConfigReader& in) {
   Ensemble ensemble{.title = in.text("title"),
                     .sensor = (fs::path(in.source()).parent_path() / in.text("sensor")).lexically_normal()};
   std::set<std::string> names;
   for (ConfigReader& item : in.sections("members")) {
-    EnsembleMember member{.name = item.text("name")};
-    if (item.has("name") && (!is_folder_name(member.name) || member.name == kNominal))
-      item.fault("name",
-                 fmt::format("'{}' is no name of letters, digits and . _ - other than {}", member.name, kNominal));
+    EnsembleMember member{.name = item.file_name("name")};
+    if (member.name == kNominal) item.fault("name", fmt::format("{} is the sensor as its file says", kNominal));
     if (!names.insert(member.name).second) item.fault("name", "is given twice");
     ConfigReader set = item.section("set");
     for (const std::string& key : set.keys()) member.set.emplace_back(key, set.text(key));

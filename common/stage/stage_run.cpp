@@ -63,8 +63,21 @@ NamedPath split_named_path(const std::string& text) {
 /// What is wrong with the path of an input, empty if nothing is.
 std::string fault_of_path(std::string& path) {
   std::string fault = CLI::ExistingPath(path);
-  if (fault.empty() && !fs::is_regular_file(path) && !fs::is_directory(path))
-    fault = fmt::format("{} is a pipe or a device, expected a file or folder", path);
+  if (!fault.empty()) return fault;
+  // Whoever reads a pipe waits until somebody writes into it.
+  const auto has_content = [](fs::file_type type) {
+    return type == fs::file_type::regular || type == fs::file_type::directory;
+  };
+  if (!has_content(fs::status(path).type()))
+    return fmt::format("{} is a pipe or a device, expected a file or folder", path);
+  if (!fs::is_directory(path)) return fault;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, error), end;
+       entry != end; entry.increment(error)) {
+    const fs::file_type type = entry->status(error).type();
+    if (!has_content(type) && type != fs::file_type::not_found && type != fs::file_type::none)
+      return fmt::format("{} is a pipe or a device, expected a file or folder", entry->path().string());
+  }
   return fault;
 }
 

@@ -14,6 +14,10 @@ fields = $(foreach k,$(2),$(eval $(1)_$(k) := $(patsubst $(k)=%,%,$(filter $(k)=
 check_choices = $(foreach v,$(1),$(if $(wildcard configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml),,$(error \
   $(firstword $(subst :, ,$(v))): there is no configs/$(lastword $(subst :, ,$(v)))/$($(firstword $(subst :, ,$(v)))).yaml)))
 
+# $(call check_writable,folder,what is in it): if another user made it, that is said before anything is done.
+check_writable = $(foreach f,$(1) $(2:%=$(1)/%),$(if $(shell [ ! -e '$(f)' ] || [ -w '$(f)' ] || echo no),$(error \
+  $(1): belongs to $(shell stat -c %U '$(f)') and you cannot write to it ($(f)); give another OUT=, or ask for the right to write)))
+
 .PHONY: FORCE# for targets that are looked at in every run
 
 # A file that is rewritten only when what it is to say has changed.

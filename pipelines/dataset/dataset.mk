@@ -38,6 +38,7 @@ ifeq ($(wildcard $(CONFIG)),)
   $(error CONFIG: $(CONFIG) does not exist)
 endif
 DATASET_DIR := $(OUT)/datasets/$(basename $(notdir $(CONFIG)))
+$(call check_writable,$(DATASET_DIR),plan plan/.making .ledger-lock)
 dataset_packages := $(if $(shell grep '^[^\#]*\<wrap:' '$(CONFIG)'),wrap)# where an object asks for it
 $(foreach g,$(DATASET_GOALS),$(eval packages_for_$(g) := $(dataset_packages)))
 

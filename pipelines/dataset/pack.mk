@@ -23,7 +23,8 @@ ifeq ($(and $(DATASET_DIR),$(filter pack repack dataset-pack dataset-repack,$(MA
 pack repack dataset-pack dataset-repack:
 	@echo "$@: say which dataset: make -f Makefile.data $@ CONFIG=configs/datasets/mini.yaml" >&2; exit 2
 else
-$(call check_name,DATASET_DIR)
+$(foreach v,DATASET_DIR PACK,$(call check_name,$(v)))
+$(call check_writable,$(DATASET_DIR),.packing)
 pack: | build ## datasets: A made dataset as HDF5 shards with tables, card and checksums: CONFIG= (or DATASET_DIR=) [PACK=slim]
 	@$(call dataset_alone,$@) && $(call make_again,dataset-pack)
 repack: | build ## datasets: Packed shards in another layout: CONFIG= FORMAT=webdataset|univtac|folder|lerobot

@@ -14,6 +14,8 @@ robot_is_built = @[ -x $(BIN)/robot ] || { echo "robot: not built for want of li
 # $(call robot_rules,folder,name,task,sensor,mesh,press,seed): the robot in folder/robot, what its gels do in folder, the page in folder/report.
 # Files that a task names are not make's to know: what depends on them is what the task's own folders hold.
 robot_pads = { $(BIN)/tacipc get $(1) pads --fields name 2> /dev/null || $(BIN)/tacipc get $(1) pads.name; }# lists the pads of a task
+# What else a name says, make would do.
+plain_pads = { ! $(call robot_pads,$(1)) | grep -q '[^A-Za-z0-9_-]' || { echo "TASK: $(1): a pad's name has letters, digits, _ and - alone" >&2; exit 1; }; }
 define robot_rules
 $(1)/choice.txt: FORCE
 	$$(call replace_if_changed,{task: $$(abspath $(3))$$(comma) sensor: $(4)$$(comma) mesh: $(5)$$(comma) press: $(6)$$(comma) seed: $(7)$$(comma) \
@@ -31,7 +33,7 @@ $(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml config
 	$$(call run,render,--press $(1)/gels/$$*/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml)
 # Which gels there are.
 $(1)/pads.mk: $(3) FORCE | build
-	$$(call replace_if_changed_by,echo "robot_pads_$(2) := $$$$($$(call robot_pads,$(3)) | paste -s -d ' ')")
+	$$(call replace_if_changed_by,$$(call plain_pads,$(3)) && echo "robot_pads_$(2) := $$$$($$(call robot_pads,$(3)) | paste -s -d ' ')")
 include $(1)/pads.mk
 $(1)/report/report.yaml: $$(foreach p,$$(robot_pads_$(2)),$(1)/gels/$$(p)/render/render.yaml) | build
 	$$(call run,report,--title "$(2)" --scene $(1))
@@ -43,7 +45,7 @@ packages_for_robot := robot
 ifneq ($(and $(filter robot,$(MAKECMDGOALS)),$(TASK)),)
 robot_name := $(or $(NAME),$(basename $(notdir $(TASK))))
 $(call check_name,TASK)
-$(call check_name,robot_name)
+$(call check_inside,robot_name)
 ifeq ($(wildcard $(TASK)),)
   $(error TASK: $(TASK) does not exist)
 endif

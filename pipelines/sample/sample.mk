@@ -34,7 +34,7 @@ $(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 $(foreach g,sample track gallery mpm-sample,$(eval packages_for_$(g) := $(if $(filter-out no,$(WRAP)),wrap)))
 ifdef OBJECT
 $(call check_name,OBJECT)
-$(call check_name,NAME)
+$(call check_inside,NAME)
 ifeq ($(wildcard $(OBJECT)),)
   $(error OBJECT: $(OBJECT) does not exist)
 endif

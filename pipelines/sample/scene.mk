@@ -11,7 +11,7 @@ programs_for_scene := tetmesh press render report tacipc
 ifneq ($(and $(filter scene,$(MAKECMDGOALS)),$(SCENE)),)
 scene_name := $(or $(NAME),$(basename $(notdir $(SCENE))))
 $(call check_name,SCENE)
-$(call check_name,scene_name)
+$(call check_inside,scene_name)
 ifeq ($(wildcard $(SCENE)),)
   $(error SCENE: $(SCENE) does not exist)
 endif

@@ -31,7 +31,7 @@ goal() { # goal OUT GOAL [VARIABLE=value …]
 }
 table() { "$build_dir/bin/tacipc" table "$1/datasets/set/plan/samples.csv" "${@:2}"; } # table OUT [FLAG …]
 stamp() { find "$1/datasets/set/samples" -name '*.yaml' -not -name '*.timings.yaml' -printf '%p %T@\n' | sort; }
-samples() { (cd "$1/datasets/set" && find gels objects samples -type f -not -name '*.log' -not -name '*.timings.yaml' -not -name '.*' -print0 | sort -z | xargs -0 md5sum); }
+samples() { (cd "$1/datasets/set" && find gels objects samples -type f -not -name '*.log' -not -name '*.timings.yaml' -not -path '*/.*' -print0 | sort -z | xargs -0 md5sum); }
 
 grep -q '^set: 9 samples: 9 made, 0 failed, 0 running, 0 left$' <<< "$(goal whole dataset JOBS=2 2> messages)" || { cat messages; fail "not all samples are made"; }
 [ "$(table whole --columns id | sort -u | wc -l)" = 9 ] || fail "ids are not unique"

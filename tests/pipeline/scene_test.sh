@@ -119,4 +119,8 @@ make_says 'SCENE: nothing.yaml does not exist' SCENE=nothing.yaml
 make_says 'DEPTH_MM: has no effect on a scene' SCENE=configs/scenes/soft_ball.yaml DEPTH_MM=1
 make_says 'SOFT: there is no configs/gels/finest.yaml' SCENE=configs/scenes/soft_ball.yaml SOFT=finest
 make_says 'configs/press/default.yaml: bodies: there is no such key' SCENE=configs/press/default.yaml
+for name in .. a/../../b; do make_says "scene_name: '$name' leads out of five" SCENE=configs/scenes/lift_block.yaml NAME=$name; done
+{ echo bodies:; seq -f '  - {name: b%g, kind: fixed, mesh: meshes/block.off}' 2000; } > configs/scenes/many.yaml
+timeout 10 bash pipelines/sample/scene_bodies.sh "$bin/tacipc" configs/scenes/many.yaml > many.txt || fail "2,000 bodies are not listed within 10 s"
+[ "$(sed -n 's/^scene_files := *//p' many.txt | wc -w)" = 2000 ] || fail "of 2,000 bodies are listed: $(cut -c1-200 many.txt)"
 echo "1 passed, 0 failed"

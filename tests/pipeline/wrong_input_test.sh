@@ -60,6 +60,11 @@ if [ "$(id -u)" != 0 ]; then
   refuses 1 'Permission denied' locked/p/press.yaml press configs/sensors/mctac.yaml gel/gel.msh locked/p
 fi
 
+mkdir -p with_pipe/sub
+mkfifo with_pipe/sub/frame.png
+refuses 2 'with_pipe/sub/frame.png is a pipe or a device' r/render.yaml timeout 20 "$bin/render" --config configs/render/default.yaml \
+  --sensor configs/sensors/mctac.yaml --gel gel/gel.msh --press with_pipe --out r
+
 # A full disk, as a limit on the size of files.
 limited() { (ulimit -f 8; "$@"); }
 refuses 1 'cannot be written' g/tetmesh.yaml limited "$bin/tetmesh" --sensor configs/sensors/mctac.yaml --config configs/gels/tiny.yaml --out g
@@ -87,6 +92,7 @@ make_refuses 'there is no configs/sensors/digi.yaml' OBJECT=pyramid.stl SENSOR=d
 make_refuses "OBJECT: 'a(1).stl' has characters" 'OBJECT=a(1).stl'
 make_refuses "OBJECT: 'b&c.stl' has characters" 'OBJECT=b&c.stl'
 make_refuses "NAME: 'my part' has characters" OBJECT=pyramid.stl 'NAME=my part'
+for name in ../x . .. a/../../x /tmp/x; do make_refuses "NAME: '$name' leads out of m" OBJECT=pyramid.stl NAME=$name; done
 make_refuses "MOTION: 'slide' is none of press, shear, twist, tilt, hold, release" OBJECT=pyramid.stl MOTION=shear+slide
 make_refuses 'MOTION: no_such.yaml does not exist' OBJECT=pyramid.stl MOTION=no_such.yaml
 for path in 'my path.csv' gone.csv; do echo "motion: {kind: path, file: $path}" > "${path%%[ .]*}.yaml"; done

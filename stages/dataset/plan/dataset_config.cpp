@@ -1,9 +1,11 @@
 #include "stages/dataset/plan/dataset_config.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cctype>
 #include <set>
 
+#include "common/base/file_name.h"
 #include "common/base/text_reader.h"
 
 namespace tacipc {
@@ -40,7 +42,7 @@ class Reader {
   /// What a path in the configuration means, if make and the shell take its name for one word.
   fs::path resolved(ConfigReader& in, const std::string& key, const fs::path& given) {
     fs::path path = given.lexically_normal();
-    check_name(in, key, path.generic_string(), "/");
+    check_path(in, key, path);
     if (!fs::exists(path)) {
       in.fault(key, path.generic_string() + " does not exist");
     } else {
@@ -57,16 +59,14 @@ class Reader {
     return resolved(in, key, in.has(key) ? folder_ / given : ours);
   }
 
-  static void check_name(ConfigReader& in, const std::string& key, const std::string& name, const std::string& also) {
-    const bool fine = !name.empty() && std::all_of(name.begin(), name.end(), [&](unsigned char c) {
-      return std::isalnum(c) || c == '.' || c == '_' || c == '+' || c == '-' || also.find(char(c)) != std::string::npos;
-    });
-    if (!fine) in.fault(key, "'" + name + "' has characters other than letters, digits and . _ " + also + " + - in it");
+  static void check_path(ConfigReader& in, const std::string& key, const fs::path& path) {
+    if (!is_plain_path(path.generic_string()))
+      in.fault(key, fmt::format("'{}' {}", path.generic_string(), kPlainPathRule));
   }
 
   /// Names are parts of a sample's: joined by two underscores, they must not hold these themselves.
   void check_part(ConfigReader& in, const std::string& key, const std::string& name) {
-    check_name(in, key, name, "");
+    if (!is_file_name(name)) return in.fault(key, fmt::format("'{}': {}", name, kFileNameRule));
     if (name.find("__") != std::string::npos || name.front() == '_' || name.back() == '_')
       in.fault(key, "'" + name + "' begins or ends with an underscore, or has two in a row");
   }
@@ -122,7 +122,7 @@ class Reader {
       if (!only.empty() && std::find(only.begin(), only.end(), choice.name) == only.end()) continue;
       choice.file = found;
       check_part(item, key, choice.name);
-      check_name(item, key, found.generic_string(), "/");
+      check_path(item, key, found);
       if (!objects_.insert(choice.name).second) item.fault(key, choice.name + " exists already");
       config_.named.push_back(found);
       config_.objects.push_back(choice);
@@ -147,7 +147,7 @@ class Reader {
     }
     for (const PhaseTemplate& phase : choice.motion.phases)
       if (!phase.path_file.empty()) {
-        check_name(item, "motion", phase.path_file.generic_string(), "/");
+        check_path(item, "motion", phase.path_file);
         config_.named.push_back(phase.path_file);
       }
     if (!motions_.insert(choice.name).second) item.fault("name", "is given twice");

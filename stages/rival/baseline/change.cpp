@@ -6,6 +6,7 @@
 #include "stages/rival/baseline/kernel.h"
 #include "stages/rival/baseline/phong.h"
 #include "stages/rival/baseline/shadows.h"
+#include "stages/rival/baseline/taxim_table.h"
 
 namespace tacipc {
 namespace {
@@ -23,11 +24,13 @@ std::array<int, 3> lambert_codes(const std::vector<PhongLight>& lights, const st
 
 }  // namespace
 
-RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model) {
+RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model, const Camera& camera) {
   switch (model) {
     case ChangeConfig::Model::lambert_sum: break;
     case ChangeConfig::Model::metallic_roughness: return read_config<MetallicLamps>(file);
-    case ChangeConfig::Model::table: return SlopeTable::read(file);
+    case ChangeConfig::Model::table:
+      return file.extension() == ".npz" ? read_taxim_table(file, camera.width_px, camera.height_px)
+                                        : SlopeTable::read(file);
     case ChangeConfig::Model::network: return LightNetwork::read(file);
     case ChangeConfig::Model::light_field: return read_config<LightField>(file);
   }

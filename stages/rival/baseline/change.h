@@ -21,8 +21,8 @@ namespace tacipc {
 
 /// What `calibrate` found, or a file says: nothing for lights that the configuration lists.
 using RivalLight = std::variant<std::monostate, MetallicLamps, SlopeTable, LightNetwork, LightField>;
-/// \throw DataError, ConfigError if it is no light of this model
-RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model);
+/// \param camera for tables in pixels of its image \throw DataError, ConfigError if it is no light of this model
+RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model, const Camera& camera);
 
 /// Makes changes of codes for one sensor; what does not depend on the membrane is computed once.
 class ChangeOfCodes {

@@ -28,9 +28,9 @@ const StageSpec kBaseline{
         {"--config", "kernels and lights (YAML)"},
         {"--sensor", "the sensor: camera and gel (YAML)"},
         InputSpec::optional("--background", "photograph without contact (PNG)"),
-        InputSpec::optional(
-            "--light",
-            "table or network (NPY), lamps or our light (YAML) of calibrate, where the shading has its light there"),
+        InputSpec::optional("--light",
+                            "table (NPY, or Taxim's polycalib.npz) or network (NPY), lamps or our light (YAML) of "
+                            "calibrate, where the shading has its light there"),
         InputSpec::optional("--shadows", "Taxim's shadows beside a contact (NPY), for the model table"),
         InputSpec::any_number("--depth", "depth maps (EXR)"),
         InputSpec::optional("--object", "triangle mesh in metres (object.ply of decimate), in place of depth maps"),

@@ -39,8 +39,8 @@ BaselineSimulator::BaselineSimulator(const BaselineConfig& config, const Sensor&
   config_.deformation = config.deformation.scaled_to(camera.width_px, camera.window_width_m / camera.width_px);
   if (config.front_depth_m) front_ = Raster(camera.width_px, camera.height_px, *config.front_depth_m);
   if (config.change)
-    change_.emplace(*config.change, light ? read_light(*light, config.change->model) : RivalLight{}, sensor,
-                    shadows ? std::optional(ShadowTable::read(*shadows)) : std::nullopt,
+    change_.emplace(*config.change, light ? read_light(*light, config.change->model, sensor.camera) : RivalLight{},
+                    sensor, shadows ? std::optional(ShadowTable::read(*shadows)) : std::nullopt,
                     config.deformation.designed_pixel_m);
 }
 

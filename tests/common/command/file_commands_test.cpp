@@ -51,6 +51,8 @@ TEST_F(GetCommand, PrintsARowForEachMapOfAList) {
   EXPECT_EQ(printed_, "5\tpress\n2\thold\n");
   EXPECT_EQ(tacipc("get r.yaml summary.phases --fields kind,depth"), 1);
   EXPECT_EQ(said_, "tacipc get: error: r.yaml: summary.phases[0]: has no single value depth\n");
+  EXPECT_EQ(tacipc("get r.yaml summary.phases --fields kind,depth --default -"), 0);
+  EXPECT_EQ(printed_, "press\t-\nhold\t-\n");
   EXPECT_EQ(tacipc("get r.yaml summary --fields kind"), 1);
   EXPECT_EQ(said_, "tacipc get: error: r.yaml: summary: is not a list\n");
 }

@@ -43,6 +43,41 @@ TEST(ConfigReader, ReportsFiveFaultsAtOnceEachAtItsPlace) {
                                   "gel.yaml:6:8: steps: expected a whole number, found '2.5'"));
 }
 
+TEST(ConfigReader, RefusesNumbersWithoutAMeaningInTheirUnit) {
+  const std::string text =
+      "distance_mm: 1e9\n"
+      "gravity_m_s2: -1e21\n"
+      "by_mm: [0, 1e5, 0]\n"
+      "turn_deg: 1e6\n"
+      "scale: 1e300\n"
+      "force_n: 1e6\n"
+      "time_s: -1e8\n";
+  const auto faults = faults_when(text, [](ConfigReader& in) {
+    in.number("distance_mm", Range::positive());
+    in.number("gravity_m_s2");
+    in.vector3("by_mm");
+    in.optional_number("turn_deg");
+    in.number_or("scale", 1.0, Range::positive());
+    EXPECT_EQ(in.number("force_n"), 1e6);
+    EXPECT_EQ(in.number("time_s"), -1e8);
+  });
+  EXPECT_THAT(
+      faults,
+      ElementsAre("gel.yaml:1:14: distance_mm: 1e9 is beyond 10000",
+                  "gel.yaml:2:15: gravity_m_s2: -1e21 is beyond 10000", "gel.yaml:3:12: by_mm[1]: 1e5 is beyond 10000",
+                  "gel.yaml:4:11: turn_deg: 1e6 is beyond 36000", "gel.yaml:5:8: scale: 1e300 is beyond 1000000000000000"));
+}
+
+TEST(ConfigReader, TakesNamesOfFilesAlone) {
+  const auto read = [](ConfigReader& in) {
+    in.file_name("a");
+    in.file_name("b");
+  };
+  EXPECT_THAT(faults_when("a: star_2\nb: x.y\n", read), ElementsAre());
+  EXPECT_THAT(faults_when("a: ../star\n", read),
+              ElementsAre("gel.yaml:1:1: b: missing", testing::StartsWith("gel.yaml:1:4: a: '../star': a name has")));
+}
+
 TEST(ConfigReader, RejectsWhatIsNotYaml) {
   EXPECT_THAT(faults_when("a: [1, 2", [](ConfigReader&) {}),
               ElementsAre("gel.yaml:1:1: not valid YAML: end of sequence flow not found"));

@@ -68,7 +68,7 @@ TEST_F(EnsembleFile, NamesMustBeOfFoldersAndTwoAreTheLeast) {
       faults_in<Ensemble>("title: t\nsensor: s.yaml\nmembers: [{name: nominal, set: {}}, {name: a/b, set: {}}, "
                           "{name: c, set: {}}, {name: c, set: {}}]\n",
                           "e.yaml"),
-      ElementsAre(HasSubstr("members[0].name: 'nominal' is no name"), HasSubstr("members[1].name: 'a/b' is no name"),
+      ElementsAre(HasSubstr("members[0].name: nominal is the sensor"), HasSubstr("members[1].name: 'a/b': a name has"),
                   HasSubstr("members[3].name: is given twice")));
   EXPECT_THAT(faults_in<Ensemble>("title: t\nsensor: s.yaml\nmembers: [{name: a, set: {}}]\n", "e.yaml"),
               ElementsAre(HasSubstr("at least two")));

@@ -175,5 +175,21 @@ outputs: {{keep: [report]}}
   EXPECT_FALSE(fs::exists(scratch_ / "set/samples"));
 }
 
+TEST_F(PlanProgram, NamesThatLeadElsewhereAreRefused) {
+  for (const char* name : {"meshes/...stl", "meshes/..stl", "meshes/.a.stl"}) scratch_.file(name, "solid\nendsolid\n");
+  const auto file = scratch_.file("d.yaml", fmt::format(R"(seed: 1
+sensors: {{sensor: {0}/configs/sensors/mctac.yaml, mesh: {0}/configs/gels/tiny.yaml}}
+objects: [{{meshes: meshes, unit: mm}}]
+motions: [{{name: .., samples: 1, motion: {{kind: press, depth_mm: 0.3, steps: 1}}}}]
+)",
+                                                        TACIPC_SOURCE_DIR));
+  EXPECT_EQ(plan(file), 2);
+  for (const char* name :
+       {"'..': a name has", "'.': a name has", "'.a': a name has", "motions[0].name: '..': a name has"})
+    EXPECT_THAT(said_, testing::HasSubstr(name));
+  EXPECT_FALSE(fs::exists(scratch_ / "set/plan/plan.yaml"));
+  EXPECT_FALSE(fs::exists(scratch_ / "set/samples"));
+}
+
 }  // namespace plan_program_test
 }  // namespace tacipc
