@@ -3,7 +3,7 @@
 strange_shards.py BIN SOURCE_DIR DATASET CAGE COUNT [FIRST]: DATASET has plan/ and shards/ with one shard. First shards that point
 elsewhere or lie about sizes, then COUNT mutations from number FIRST on, the same ones every time; all are written into CAGE, a
 copy of DATASET, and nothing may be written beside the programs' folders in it. Ends with a line of counts; what is wrong is printed, exit 1."""
-import collections, hashlib, importlib.util, json, os, random, re, shutil, struct, subprocess, sys, zlib
+import collections, concurrent.futures, hashlib, importlib.util, json, os, random, re, shutil, struct, subprocess, sys, zlib
 
 import h5py
 import numpy as np
@@ -19,23 +19,27 @@ NAME = open(dataset + "/shards/shards.txt").read().split("/")[0]
 LONGEST_S = 75  # the programs give a library 60
 cage = os.path.realpath(cage)
 shutil.copytree(dataset, cage)
-shard = f"{cage}/shards/{NAME}/{NAME}.h5"
+shard = f"{cage}/given/{NAME}/{NAME}.h5"  # without a record of pack, which would say that it has changed
+packed = f"{cage}/shards/{NAME}/{NAME}.h5"  # for card: the same file
+shutil.copytree(dataset + "/shards", cage + "/given")
+open(os.path.dirname(shard) + "/pack.yaml", "w").write("stage: pack\n")
 whole = open(shard, "rb").read()
-record = open(os.path.dirname(shard) + "/pack.yaml").read()
+record = open(os.path.dirname(packed) + "/pack.yaml").read()
 os.environ["ASAN_OPTIONS"] = "abort_on_error=1:detect_leaks=0:handle_segv=0:handle_sigbus=0:handle_abort=0"
 os.environ["UBSAN_OPTIONS"] = "halt_on_error=1:abort_on_error=1"
 counts, faults = collections.Counter(), []
 
 
-def files_beside(out):
-    return sorted(path for folder, _, files in os.walk(os.path.dirname(cage)) for path in (os.path.join(folder, f) for f in files)
-                  if not path.startswith(out + "/"))
+def files_beside():
+    """All files but those in the folders of programs."""
+    own = tuple(f"{cage}/{program}/" for program in (*LAYOUTS, "card"))
+    return {path for folder, _, files in os.walk(os.path.dirname(cage)) for path in (os.path.join(folder, f) for f in files)
+            if not path.startswith(own)}
 
 
 def run(program, out, arguments):
     """Exit code and message of a program that writes to `out`; what it must not do goes to faults."""
     shutil.rmtree(out, ignore_errors=True)
-    before = files_beside(out)
     try:
         done = subprocess.run([f"{binaries}/{program}", *arguments, "--out", out, "--log-level", "error", "--threads", "1"], cwd=cage,
                               capture_output=True, text=True, errors="replace", timeout=LONGEST_S)
@@ -52,8 +56,6 @@ def run(program, out, arguments):
         wrong.append("does not say why in one line")
     if code == 1 and [name for name in os.listdir(out) if name not in (f"{program}.failed.yaml", f"{program}.log", f".lock-{program}")]:
         wrong.append(f"left {os.listdir(out)}")
-    if files_beside(out) != before:
-        wrong.append(f"wrote beside its folder: {set(files_beside(out)) - set(before)}")
     if code == 0:
         wrong += faulty_json(out)
     return code, said, wrong
@@ -75,29 +77,23 @@ def faulty_json(out):
 def give(content):
     """Puts a shard in its place, with the digests that tell it to be whole."""
     digest = hashlib.sha256(content).hexdigest()
-    with open(shard, "wb") as file:
-        file.write(content)
-    with open(shard + ".sha256", "w") as file:
-        file.write(f"{digest}  {NAME}.h5\n")
-    keep_record(digest)
-
-
-def keep_record(digest):
-    """The record of pack for a shard of this digest; card alone takes the hash of its outputs as it is."""
-    with open(os.path.dirname(shard) + "/pack.yaml", "w") as file:
-        file.write(re.sub(r"(?m)^(  sha256: ).*", r"\g<1>" + digest, record) if digest else "stage: pack\n")
+    for path in shard, packed:
+        with open(path, "wb") as file:
+            file.write(content)
+        with open(path + ".sha256", "w") as file:
+            file.write(f"{digest}  {NAME}.h5\n")
+    with open(os.path.dirname(packed) + "/pack.yaml", "w") as file:
+        file.write(re.sub(r"(?m)^(  sha256: ).*", r"\g<1>" + digest, record))
 
 
 def through(layout):
     config = f"{source}/configs/datasets/repack/{layout}.yaml"
-    keep_record(None)
-    given = ["--shards", cage + "/shards/shards.txt"] if layout in ("univtac", "lerobot") else ["--shard", shard]
+    given = ["--shards", cage + "/given/shards.txt"] if layout in ("univtac", "lerobot") else ["--shard", shard]
     return run("repack", f"{cage}/{layout}", ["--config", config, *given])
 
 
 def card():
     config = source + "/configs/datasets/card"
-    keep_record(open(shard + ".sha256").read().split()[0])
     return run("card", cage + "/card", ["--config", config + "/default.yaml", "--plan", cage + "/plan/samples.csv", "--dataset",
                cage + "/shards/dataset.yaml", "--shards", cage + "/shards/shards.txt", "--loader", config + "/loader.py", "--check-labels",
                config + "/check_labels.py"])
@@ -105,10 +101,20 @@ def card():
 
 def checked():
     """Exit code as check_labels.py has it, and the lines that it would print."""
-    lines = [(name, found) for name, found in check_labels.answers_of(shard)]
+    lines = list(check_labels.answers_of(shard))
     wrong = [] if lines[-1][0] is None else ["check_labels.py does not end"]
     said = "\n".join(str(found) for _, found in lines if found)
     return int(bool(said)), said, wrong
+
+
+def results():
+    """(code, message, faults) of each program for the shard that is given. All run at once: some wait for the end of a hang."""
+    before = files_beside()
+    found = {program: pool.submit(card) if program == "card" else pool.submit(through, program) for program in (*LAYOUTS, "card")}
+    found = {"check_labels.py": checked(), **{program: result.result() for program, result in found.items()}}
+    for path in files_beside() - before:
+        found["folder"][2].append(f"{path} was written beside the programs' folders")
+    return found
 
 
 def note(what, program, result):
@@ -302,8 +308,9 @@ def strange():
     yield "times that are none", again("obs/time_s", plain(lambda v: v * np.nan)), episodes, "is no later one"
 
 
+pool = concurrent.futures.ThreadPoolExecutor(len(LAYOUTS) + 1)
 give(whole)
-for program, result in [(layout, through(layout)) for layout in LAYOUTS] + [("card", card()), ("check_labels.py", checked())]:
+for program, result in results().items():
     note("the shard of pack", program, result)
     if result[0] != 0:
         faults.append(f"the shard of pack: {program}: {result[1]}")
@@ -314,18 +321,16 @@ for what, change, programs, words in cases:
     with h5py.File(shard, "r+", libver="latest") as f:
         change(f)
     give(open(shard, "rb").read())
-    for program in ALL:
-        code, said, wrong = result = checked() if program == "check_labels.py" else through(program)
+    for program, (code, said, wrong) in results().items():
         if program in programs and (code != 1 or not re.search(words, said)):
             wrong.append(f"must say '{words}', exit 1, but {code}")
-        if program != "check_labels.py" and subprocess.run(["grep", "-rqF", SECRET, f"{cage}/{program}"]).returncode == 0:
+        if program in LAYOUTS and subprocess.run(["grep", "-rqF", SECRET, f"{cage}/{program}"]).returncode == 0:
             wrong.append("shows what is in another file")
-        note(what, program, result)
+        note(what, program, (code, said, wrong))
 for number in range(first, first + int(count)):
     give(mutated(number))
-    for program in ALL:
-        note(f"mutation {number}", program, checked() if program == "check_labels.py" else through(program))
-    note(f"mutation {number}", "card", card())
+    for program, result in results().items():
+        note(f"mutation {number}", program, result)
     if number % 100 == 99:
         print(f"{number + 1}: {dict(counts)}", flush=True)
 print(f"{len(cases)} strange shards, {count} mutations: {len(faults)} faults; " + ", ".join(f"{name} {n}" for name, n in sorted(counts.items())))
