@@ -19,7 +19,7 @@ class FragileCall {
 
 /// How a child process ended.
 struct ChildEnd {
-  int code = 1;       // its exit code
+  int code = 1;            // its exit code
   std::string crash = {};  // "FILE: libhdf5 crashed while reading it: …"; empty if it exited
 };
 

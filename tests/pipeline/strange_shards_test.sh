@@ -18,8 +18,9 @@ motions:
     motion: [{kind: close, force_n: 1, steps: 2}, {kind: lift, distance_mm: 0.5, steps: 2}]
 outputs: {pack: full_sim}
 END
-make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=out BUILD="$build_dir" PACKAGES=no REBUILD=no JOBS=2 > said.txt 2>&1 || fail "no dataset: $(tail -5 said.txt)"
+make -s -f Makefile.data dataset CONFIG=mine/set.yaml OUT=out BUILD="$build_dir" PACKAGES=no REBUILD=no JOBS=2 > said.txt 2>&1 ||
+  fail "no dataset: $(tail -5 said.txt)"
 # Debian's Python, which has h5py.
-/usr/bin/python3 "$source_dir/tests/pipeline/strange_shards.py" "${TACIPC_MUTATED_BIN:-$build_dir/bin}" "$source_dir" out/datasets/set out/datasets/cage "${TACIPC_MUTATIONS:-40}" ||
-  fail "a strange shard does harm"
+/usr/bin/python3 "$source_dir/tests/pipeline/strange_shards.py" "${TACIPC_MUTATED_BIN:-$build_dir/bin}" "$source_dir" out/datasets/set out/datasets/cage \
+  "${TACIPC_MUTATIONS:-40}" || fail "a strange shard does harm"
 echo "1 passed, 0 failed"

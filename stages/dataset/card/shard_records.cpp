@@ -16,7 +16,8 @@ void add_files(const Record& summary, const std::string& key, const fs::path& re
     const std::string id = require_file_name(item.required_text("id"), record.string() + ": " + key);
     for (const Record& file : item.sections("files")) {
       const std::string role = require_file_name(file.required_text("role"), record.string() + ": " + id);
-      const OriginFile origin{(record.parent_path() / file.required_text("path")).lexically_normal(), file.required_text("hash")};
+      const OriginFile origin{(record.parent_path() / file.required_text("path")).lexically_normal(),
+                              file.required_text("hash")};
       const auto [known, added] = all[id].emplace(role, origin);
       if (!added && known->second.hash != origin.hash)
         throw DataError("{} '{}' is two different files, of samples made at different times: {} and {}", role, id,
