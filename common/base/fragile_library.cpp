@@ -20,7 +20,8 @@
 namespace tacipc {
 namespace {
 
-constexpr unsigned kMostSeconds = 60;  // of one call
+constexpr unsigned kMostSeconds = 60;            // of one call
+constexpr rlim_t kMostMemory = rlim_t{2} << 30;  // bytes that one call may take
 
 /// What a child did last, in memory that its parent sees.
 struct LastCall {
@@ -30,6 +31,7 @@ struct LastCall {
 };
 LastCall* last_call = nullptr;  // of a child; null elsewhere
 int said = -1, nowhere = -1;    // of a child: standard error, and where a library's own last words go
+rlimit memory{};                // of a child outside of calls
 
 void say_to(int file) {
   if (file >= 0) dup2(file, STDERR_FILENO);
@@ -41,17 +43,26 @@ void copy_text(const std::string& text, std::span<char> to) {
   to[size] = '\0';
 }
 
-/// An allocation that no memory can hold fails at once, and "double free" is not said beside our own message.
-/// Sanitizers reserve more than there is, and what they say is wanted.
+/// Lets no more than kMostMemory be taken from here on.
+void limit_memory() {
+  std::array<char, 128> text{};
+  const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  const bool is_read = read(file, text.data(), text.size() - 1) > 0;
+  close(file);
+  unsigned long pages = 0;  // of data and stack
+  if (!is_read || std::sscanf(text.data(), "%*u %*u %*u %*u %*u %lu", &pages) != 1) return;
+  rlimit limit = memory;
+  limit.rlim_cur = std::min(memory.rlim_cur, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kMostMemory);
+  setrlimit(RLIMIT_DATA, &limit);
+}
+
+/// "double free" is not said beside our own message. What sanitizers say is wanted, and they reserve terabytes.
 void begin_child() {
 #if !defined(__SANITIZE_ADDRESS__)
+  getrlimit(RLIMIT_DATA, &memory);
   said = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
   if (said >= 0) nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  rlimit limit{};
-  getrlimit(RLIMIT_DATA, &limit);
-  const auto all = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-  limit.rlim_cur = std::min(limit.rlim_cur, all);
-  setrlimit(RLIMIT_DATA, &limit);
 #endif
 }
 
@@ -79,12 +90,14 @@ FragileCall::FragileCall(const char* library, const std::string& file) {
   copy_text(file, last_call->file);
   last_call->ended = false;
   say_to(nowhere);
+  if (nowhere >= 0) limit_memory();
   alarm(kMostSeconds);
 }
 
 FragileCall::~FragileCall() {
   if (!last_call) return;
   alarm(0);
+  if (nowhere >= 0) setrlimit(RLIMIT_DATA, &memory);
   say_to(said);
   last_call->ended = true;
 }

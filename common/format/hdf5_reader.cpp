@@ -27,7 +27,7 @@ using Object = Handle<&H5Oclose>;
 namespace {
 
 constexpr const char* kLibrary = "libhdf5";
-constexpr std::size_t kLargestFrame = std::size_t{256} << 20, kLargestWhole = std::size_t{4} << 30;  // bytes
+constexpr std::size_t kLargestFrame = std::size_t{256} << 20, kLargestWhole = std::size_t{1} << 30;  // bytes
 constexpr std::size_t kMostNumbers = 1 << 20;                                                        // of an attribute
 constexpr std::size_t kMostPacked = 1032;  // gzip packs no more bytes into one
 
@@ -389,6 +389,7 @@ std::string Hdf5Reader::read(const std::string& dataset) const {
     file_->refuse(dataset, fmt::format("has {} bytes, at most {} are read at once", stored.size, kLargestWhole));
   std::string bytes;
   if (stored.packing) {
+    bytes.reserve(stored.size);
     for (std::size_t t = 0; t < stored.extents[0]; ++t) bytes += file_->frame(dataset, stored, t);
     return bytes;
   }

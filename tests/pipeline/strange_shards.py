@@ -16,7 +16,7 @@ spec.loader.exec_module(check_labels)
 
 LAYOUTS = "folder", "webdataset", "univtac", "lerobot"
 NAME = open(dataset + "/shards/shards.txt").read().split("/")[0]
-LONGEST_S = 75  # the programs give a library 60
+LONGEST_S = 120  # the programs give one call of a library 60
 cage = os.path.realpath(cage)
 shutil.copytree(dataset, cage)
 shard = f"{cage}/given/{NAME}/{NAME}.h5"  # without a record of pack, which would say that it has changed

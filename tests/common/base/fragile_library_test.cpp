@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 
 namespace tacipc {
@@ -63,6 +64,27 @@ TEST(FragileLibrary, ACallHasALimitedTime) {
             }).code,
             5);
 }
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST(FragileLibrary, ACallHasALimitedMemory) {
+  const auto can_take = [](std::size_t bytes) {
+    void* const taken = std::malloc(bytes);
+    std::free(taken);
+    return taken != nullptr;
+  };
+  const ChildEnd end = end_of([&] {
+    constexpr std::size_t kLarge = std::size_t{3} << 30;
+    if (!can_take(kLarge)) _exit(5);
+    {
+      const FragileCall call("libhdf5", "shard.h5");
+      if (can_take(kLarge)) _exit(6);
+      if (!can_take(kLarge / 2)) _exit(7);
+    }
+    if (!can_take(kLarge)) _exit(8);
+  });
+  EXPECT_EQ(end.code, 0);
+}
+#endif
 
 TEST(FragileLibrary, OutsideOfAChildNothingHappens) {
   const FragileCall call("libhdf5", "shard.h5");
