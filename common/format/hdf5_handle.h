@@ -12,10 +12,13 @@ namespace tacipc::hdf5 {
 /// The library's hid_t, whose header only .cpp files include.
 using Id = std::int64_t;
 
-/// To be called before anything else of the library. Messages are ours; and nothing is left to the library's own end:
-/// a file that could not be closed (a full disk) stays open in it, and when it closes that once more at the end of the
-/// program it crashes.
+/// To be called before anything else of the library. Messages are ours; links into other files lead nowhere; and
+/// nothing is left to the library's own end: a file that could not be closed (a full disk) stays open in it, and when
+/// it closes that once more at the end of the program it crashes.
 void begin();
+
+/// A new handle of IEEE 754 binary16, which the library has no name for.
+Id half_type();
 
 /// Owns an identifier; Close is the library's function for its kind.
 template <auto Close>

@@ -75,6 +75,15 @@ void add_numbers(const Value& value, std::size_t depth, AttributeNumbers& number
 void hdf5::begin() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5Lunregister(H5L_TYPE_EXTERNAL);
+}
+
+hdf5::Id hdf5::half_type() {
+  // Sign bit 15, five bits of exponent from bit 10, ten of mantissa, bias 15.
+  const Id type = H5Tcopy(H5T_IEEE_F32LE);
+  if (type < 0 || H5Tset_fields(type, 15, 10, 5, 0, 10) < 0 || H5Tset_size(type, 2) < 0 || H5Tset_ebias(type, 15) < 0)
+    return -1;
+  return type;
 }
 
 std::size_t size_of(NumberType type) {
@@ -144,19 +153,11 @@ struct Hdf5Writer::File {
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
   }
 
-  static Id half_type() {
-    // IEEE 754 binary16: sign bit 15, five bits of exponent from bit 10, ten of mantissa, bias 15.
-    const Id type = H5Tcopy(H5T_IEEE_F32LE);
-    if (type < 0 || H5Tset_fields(type, 15, 10, 5, 0, 10) < 0 || H5Tset_size(type, 2) < 0 || H5Tset_ebias(type, 15) < 0)
-      return -1;
-    return type;
-  }
-
   explicit File(const std::filesystem::path& path)
       : name(path.string()),
         id(create(path), name, "/", "the file cannot be created"),
         make_parents(H5Pcreate(H5P_LINK_CREATE), name, "/", "no link properties"),
-        half(half_type(), name, "/", "no half type") {
+        half(hdf5::half_type(), name, "/", "no half type") {
     if (H5Pset_create_intermediate_group(make_parents, 1) < 0) throw DataError("{}: no link properties", name);
   }
 

@@ -51,6 +51,7 @@ struct StageSpec {
   // Others need the earlier result while a new one is made, and it may be all there is where the new one is refused:
   // old record and outputs stay until the new ones are whole, and stay when the run fails.
   bool keeps_old_until_done = false;
+  bool works_in_child = false;  // a library that it calls crashes on some damaged files (base/fragile_library.h)
 };
 
 /// A stage's access to flags, inputs and outputs.
@@ -182,7 +183,7 @@ class Stage {
 /// Runs one stage: parses flags, removes the old record (of one that keeps old results after the body), calls `body`,
 /// moves outputs into place, writes the record last. Returns the exit code: 0 done, 1 the work failed, 2 wrong flags or
 /// configuration; 3 nothing had to be done, as --if-changed asks. Work that failed leaves `<stage>.failed.yaml` with
-/// the reason, which the next start removes.
+/// the reason, which the next start removes. A crash in a child process is work that failed.
 int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body);
 
 /// Version of the program, from git when it was built.

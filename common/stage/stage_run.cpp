@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "common/base/error.h"
+#include "common/base/fragile_library.h"
 #include "common/base/log.h"
 #include "common/stage/self_description.h"
 #include "common/stage/stage.h"
@@ -146,6 +147,13 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
   // A file-size limit must end in a message like a full disk does, not in a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   open_log(spec.name, level);
+  std::function<void(Stage&)> work = body;
+  if (spec.works_in_child) {
+    if (const auto end = continue_in_child()) {
+      if (end->crash.empty()) return end->code;
+      work = [crash = end->crash](Stage&) { throw DataError(crash); };  // cleans up and says so
+    }
+  }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const auto started = std::chrono::steady_clock::now();
   Stage stage(spec, fs::path(out).lexically_normal(), threads);
@@ -159,7 +167,7 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
     fs::create_directories(stage.out_, error);
     if (error) throw DataError("{}: cannot be created: {}", stage.out_.string(), error.message());
     const FolderLock lock(stage.out_ / (".lock-" + spec.name));
-    code = if_changed && stage.is_done() ? 3 : stage.run(body);
+    code = if_changed && stage.is_done() ? 3 : stage.run(work);
   } catch (const std::exception& error) {
     log_error(fmt::format("{}: error: {}", spec.name, error.what()));
     std::error_code ignored;

@@ -4,13 +4,18 @@
     python3 check_labels.py shards/*.h5
 
 Needs h5py and numpy, and nothing of the simulator: definitions are those of docs/grasp.md. Says how many samples agree
-and in what the others do not; exit 1 where one does not.
+and in what the others do not; exit 1 where one does not. A shard may be a stranger's: one that points to other files, or
+claims more numbers than it can hold, is refused, and one on which libhdf5 crashes is reported as damaged.
 """
+import multiprocessing
+import os
 import sys
 
 import h5py
 import numpy as np
 
+LONGEST_S = 60  # between two samples
+MOST_PACKED = 1032  # gzip packs no more bytes into one
 SLIPPED_MM, TURNED_DEG, DROPPED_PART, TOUCHES_N = 1.0, 5.0, 0.2, 1e-6
 FIRST_SLIP_SHARE, GROSS_SLIP_SHARE, UNEVEN = 0.05, 0.95, 0.1
 GROSS_SLIP_MM, GROSS_TURN_DEG = 0.1, 0.5
@@ -48,6 +53,8 @@ class Grasp:
         self.touches = np.all(np.linalg.norm(self.force, axis=2) > TOUCHES_N, axis=1)
         # Freed: the object has not moved up to there, and the first close (or one of several in a row) ends there.
         self.freed = int(attrs["freed_frame"])
+        if not 0 <= self.freed < len(phases):
+            raise ValueError(f"freed_frame is {self.freed}, there are {len(phases)} frames")
         last_close = np.flatnonzero(phases == closes)[0]
         while last_close + 1 < len(phases) and phases[last_close + 1] == closes:
             last_close += 1
@@ -217,23 +224,79 @@ def disagreements(sample):
     return found
 
 
-def main(paths):
-    checked = agreed = 0
-    for path in paths:
-        with h5py.File(path, "r") as shard:
+def refuse_strange(shard, size):
+    """Raises ValueError where a shard of `size` bytes points to other files or claims more numbers than it can hold."""
+    def look(name, item):
+        if isinstance(item, h5py.Dataset):
+            if item.external or item.is_virtual:
+                raise ValueError(f"{name}: has its numbers in other files, which are not read")
+            if item.nbytes > MOST_PACKED * size:
+                raise ValueError(f"{name}: claims {item.nbytes} bytes, which its file cannot hold")
+            return
+        for part in item:
+            if not isinstance(item.get(part, getlink=True), h5py.HardLink):
+                raise ValueError(f"{name}/{part}: is a link that shards do not have, which is not followed")
+
+    look("", shard)
+    shard.visititems(look)
+
+
+def check_shard(path, answers):
+    """Sends the name of each sample and what it says otherwise; last, or in its place, None and why it ended."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the last words of a library that crashes
+    try:
+        with h5py.File(path, "r") as shard, np.errstate(all="ignore"):
+            refuse_strange(shard, os.path.getsize(path))
             for name, sample in shard["data"].items():
-                if "grasp" not in sample.attrs:
-                    continue
+                answers.send((name, disagreements(sample) if "grasp" in sample.attrs else None))
+        answers.send((None, None))
+    except Exception as error:  # whatever a damaged file leads to
+        answers.send((None, f"cannot be checked: {type(error).__name__}: {error}"))
+
+
+def answers_of(path):
+    """What check_shard sends, from a process of its own: on some damaged files libhdf5 crashes."""
+    answers, to_send = multiprocessing.Pipe(duplex=False)
+    process = multiprocessing.Process(target=check_shard, args=(path, to_send), daemon=True)
+    process.start()
+    to_send.close()
+    try:
+        while answers.poll(LONGEST_S):
+            name, found = answers.recv()
+            yield name, found
+            if name is None:
+                return
+        yield None, f"nothing was read in {LONGEST_S} s: the file is damaged"
+    except EOFError:
+        yield None, "libhdf5 crashed while reading it: the file is damaged"
+    finally:
+        process.kill()
+        process.join()
+
+
+def main(paths):
+    checked = agreed = unread = 0
+
+    def say(words):
+        words = words.replace("\n", " ")
+        print(words if words.isprintable() else ascii(words))
+
+    for path in paths:
+        for name, found in answers_of(path):
+            if name is None:
+                unread += found is not None
+                if found is not None:
+                    say(f"{path}: {found}")
+            elif found is not None:
                 checked += 1
-                found = disagreements(sample)
                 agreed += not found
                 for words in found:
-                    print(f"{path}: {name}: {words}")
+                    say(f"{path}: {name}: {words}")
     if checked:
         print(f"labels recomputed from poses, forces and states: {agreed} of {checked} samples agree")
-    else:
+    elif not unread:
         print("there are no grasps in these shards")
-    return 0 if agreed == checked else 1
+    return 0 if agreed == checked and not unread else 1
 
 
 if __name__ == "__main__":

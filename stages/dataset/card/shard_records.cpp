@@ -3,19 +3,21 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "common/base/file_name.h"
 #include "common/base/files.h"
 
 namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-void add_files(const Record& summary, const std::string& key, const fs::path& folder,
+void add_files(const Record& summary, const std::string& key, const fs::path& record,
                std::map<std::string, std::map<std::string, OriginFile>>& all) {
   for (const Record& item : summary.sections(key)) {
-    const std::string id = item.required_text("id");
+    const std::string id = require_file_name(item.required_text("id"), record.string() + ": " + key);
     for (const Record& file : item.sections("files")) {
-      const std::string role = file.required_text("role");
-      const OriginFile origin{(folder / file.required_text("path")).lexically_normal(), file.required_text("hash")};
+      const std::string role = require_file_name(file.required_text("role"), record.string() + ": " + id);
+      const OriginFile origin{(record.parent_path() / file.required_text("path")).lexically_normal(),
+                              file.required_text("hash")};
       const auto [known, added] = all[id].emplace(role, origin);
       if (!added && known->second.hash != origin.hash)
         throw DataError("{} '{}' is two different files, of samples made at different times: {} and {}", role, id,
@@ -39,7 +41,7 @@ ShardRecords read_shard_records(const std::vector<fs::path>& records) {
   for (const fs::path& path : records) {
     const Record record = Record::from_file(path);
     const Record summary = record.section("summary"), outputs = record.section("outputs");
-    const std::string name = record.required_text("shard");
+    const std::string name = require_file_name(record.required_text("shard"), path.string() + ": shard");
     all.shards.push_back({.name = name,
                           .folder = path.parent_path(),
                           .file_hash = outputs.required_text(name + ".h5"),
@@ -58,8 +60,8 @@ ShardRecords read_shard_records(const std::vector<fs::path>& records) {
       all.members_pressed += static_cast<std::size_t>(ensemble.required_count("members_pressed"));
       all.presses_missing += static_cast<std::size_t>(ensemble.required_count("presses_missing"));
     }
-    add_files(summary, "sensors", path.parent_path(), all.sensors);
-    add_files(summary, "objects", path.parent_path(), all.objects);
+    add_files(summary, "sensors", path, all.sensors);
+    add_files(summary, "objects", path, all.objects);
     for (std::string& version : summary.texts("versions")) all.versions.insert(std::move(version));
     for (const Record& numbers : summary.sections("limits"))
       if (limits.insert(text_of(numbers)).second) all.limits.push_back(numbers);

@@ -1,8 +1,12 @@
 #include "stages/dataset/repack/episodes.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 
 #include "common/base/error.h"
@@ -13,8 +17,55 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<double> all_numbers(const Hdf5Reader& shard, const std::string& path) {
-  return from_bytes(shard.type(path), shard.read(path));
+/// What a field must be.
+struct FieldForm {
+  const char* name;
+  std::vector<std::size_t> frame;                 // extents of a frame; kAny where it may have any number, but one
+  std::optional<NumberType> type = std::nullopt;  // else reals
+};
+constexpr std::size_t kAny = 0;
+
+/// The fields that episodes are made of, as schema.yaml of pack has them.
+const std::vector<FieldForm> kObs{{"rgb", {kAny, kAny, 3}, NumberType::u8},
+                                  {"rgb_marker", {kAny, kAny, 3}, NumberType::u8},
+                                  {"indentation_mm", {kAny, kAny}},
+                                  {"camera_depth_mm", {kAny, kAny}},
+                                  {"force_field_N", {kAny, kAny, 3}},
+                                  {"marker_px", {2, kAny, 2}},
+                                  {"marker_mm", {kAny, 3}},
+                                  {"force_N", {3}},
+                                  {"torque_Nmm", {3}},
+                                  {"press_force_N", {}},
+                                  {"object_pose", {7}},
+                                  {"time_s", {}},
+                                  {"phase", {}, NumberType::u8},
+                                  {"frame", {}, NumberType::i32}};
+/// Of a grasp, all of them.
+const std::vector<FieldForm> kSeries{{"time_s", {}}, {"hand_pose", {7}}, {"finger_pose", {2, 7}}, {"object_pose", {7}}};
+
+/// \throw DataError if a field in the group has another form, or not so many frames
+void check_form(const Hdf5Reader& shard, const std::string& group, const FieldForm& form, std::size_t frames) {
+  const std::string path = fmt::format("{}/{}", group, form.name);
+  const std::vector<std::size_t> shape = shard.shape(path);
+  const NumberType type = shard.type(path);
+  const bool is_real = type != NumberType::u8 && type != NumberType::i32;
+  bool fits = shape.size() == form.frame.size() + 1 && shape[0] == frames && (form.type ? type == form.type : is_real);
+  for (std::size_t i = 1; fits && i < shape.size(); ++i)
+    fits = form.frame[i - 1] == kAny ? shape[i] > 0 : shape[i] == form.frame[i - 1];
+  if (fits) return;
+  std::string wanted = std::to_string(frames);
+  for (const std::size_t extent : form.frame) wanted += extent == kAny ? " x n" : fmt::format(" x {}", extent);
+  throw DataError("{}: {}: is {} of {}, must be {} of {}", shard.name(), path, fmt::join(shape, " x "), name_of(type),
+                  wanted, form.type ? name_of(*form.type) : "reals");
+}
+
+/// Finite numbers, each greater than the one before.
+std::vector<double> times_of(const Hdf5Reader& shard, const std::string& path) {
+  std::vector<double> times_s = from_bytes(shard.type(path), shard.read(path));
+  for (std::size_t t = 0; t < times_s.size(); ++t)
+    if (!std::isfinite(times_s[t]) || (t > 0 && times_s[t] < times_s[t - 1]))
+      throw DataError("{}: {}: frame {} has the time {:g} s, which is no later one", shard.name(), path, t, times_s[t]);
+  return times_s;
 }
 
 /// Train before val before test, by the shards' names; within a split by name.
@@ -76,17 +127,20 @@ class RightFingers {
 Episode::Episode(std::string id, std::vector<SampleAt> samples) : id_(std::move(id)), samples_(std::move(samples)) {
   for (std::size_t finger = 0; finger < samples_.size(); ++finger) {
     const SampleAt& sample = samples_[finger];
+    const std::size_t frames = sample.shard.count_attribute(sample.group, "n_frames");
+    if (finger == 0) frames_ = frames;
+    if (frames != frames_) throw DataError("{}: its fingers have images of different frames", id_);
+    for (const FieldForm& form : kObs)
+      if (sample.has(form.name)) check_form(sample.shard, sample.group + "/obs", form, frames);
     if (!sample.has("time_s")) continue;
-    std::vector<double> times_s = all_numbers(sample.shard, sample.field("time_s"));
+    std::vector<double> times_s = times_of(sample.shard, sample.field("time_s"));
     if (finger > 0 && times_s != times_s_) throw DataError("{}: its fingers have images of different frames", id_);
     times_s_ = std::move(times_s);
   }
-  frames_ = times_s_.size();
-  if (times_s_.empty())
-    for (const auto& [name, value] : samples_[0].shard.attributes(samples_[0].group))
-      if (name == "n_frames") frames_ = static_cast<std::size_t>(std::get<std::int64_t>(value.data()));
   if (!is_grasp()) return;
-  const std::vector<double> pressed_s = all_numbers(samples_[0].shard, samples_[0].group + "/series/time_s");
+  const std::string series = samples_[0].group + "/series";
+  const std::vector<double> pressed_s = times_of(samples_[0].shard, series + "/time_s");
+  for (const FieldForm& form : kSeries) check_form(samples_[0].shard, series, form, pressed_s.size());
   for (const double time_s : this->times_s()) {
     const auto row = std::lower_bound(pressed_s.begin(), pressed_s.end(), time_s);
     if (row == pressed_s.end() || *row != time_s)
@@ -100,10 +154,14 @@ const std::vector<double>& Episode::times_s() const {
   return times_s_;
 }
 
-std::string Episode::kind() const { return text("sensor_id") + (is_grasp() ? "_grasp" : ""); }
+std::string Episode::kind() const { return name_of("sensor_id") + (is_grasp() ? "_grasp" : ""); }
 
 std::string Episode::text(const std::string& attribute) const {
   return samples_[0].shard.text_attribute(samples_[0].group, attribute);
+}
+
+std::string Episode::name_of(const std::string& attribute) const {
+  return samples_[0].shard.name_attribute(samples_[0].group, attribute);
 }
 
 std::vector<double> Episode::series(const std::string& field, std::size_t frame) const {

@@ -27,7 +27,8 @@ struct SampleAt {
 class Episode {
  public:
   /// \param id of the sample, or of the left finger, which is the grasp's
-  /// \throw DataError if the fingers of a grasp have images of different frames, or no times
+  /// \throw DataError if the fingers of a grasp have images of different frames, or no times, or a field that episodes
+  /// are made of has another type or shape than pack gives it
   Episode(std::string id, std::vector<SampleAt> samples);
 
   const std::string& id() const { return id_; }
@@ -40,6 +41,8 @@ class Episode {
   std::string kind() const;
   /// An attribute of the sample, or of the left finger.
   std::string text(const std::string& attribute) const;
+  /// The same of one that names a file or folder.
+  std::string name_of(const std::string& attribute) const;
   /// Numbers of a field of `series` in a frame of the episode. \pre is_grasp()
   std::vector<double> series(const std::string& field, std::size_t frame) const;
 

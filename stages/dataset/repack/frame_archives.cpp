@@ -44,6 +44,8 @@ std::size_t FrameArchives::add(const SampleFiles& sample) {
   Archive& frames = archive_of(sample);
   std::string key = sample.id();
   std::ranges::replace(key, '.', '_');
+  if (const auto [one, added] = keys_.emplace(key, sample.id()); !added && one->second != sample.id())
+    throw DataError("{} and {} have the same name in a WebDataset, {}", one->second, sample.id(), key);
   std::size_t files = 0;
   sample.write_frames([&](const std::string& of, const std::string& name, std::string_view bytes) {
     frames.tar.add(fmt::format("{}/{}.{}", key, of, name), bytes);

@@ -33,7 +33,8 @@ class FrameArchives {
   std::string shard_;
   OutputPath output_;
   TarWriter samples_;
-  std::map<std::string, Archive> frames_;  // by kind
+  std::map<std::string, Archive> frames_;    // by kind
+  std::map<std::string, std::string> keys_;  // samples by their names in archives
 };
 
 /// `<id>/frame_NNNN.<name>` and, of the sample, `<id>/<name>` and `<id>/sample.json`; \return how many files.

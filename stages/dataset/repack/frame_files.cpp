@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/base/error.h"
+#include "common/base/file_name.h"
 #include "common/base/json.h"
 #include "common/format/npy.h"
 #include "common/image/image.h"
@@ -101,18 +102,28 @@ void SampleFiles::add_group(const std::string& section, const std::string& group
     field.type = shard_.type(field.path);
     field.shape = shard_.shape(field.path);
     field.of_frames = section != "ensemble" && shard_.text_attribute(field.path, "shape").starts_with("(T");
-    if (field.of_frames) field.shape.erase(field.shape.begin());
+    if (field.of_frames) {
+      if (field.shape.empty() || field.shape[0] != frames_)
+        throw DataError("{}: {}: is of {} frames, its sample of {}", shard_.name(), field.path,
+                        field.shape.empty() ? 0 : field.shape[0], frames_);
+      field.shape.erase(field.shape.begin());
+      if (field.is_image() && field.numbers() == 0)
+        throw DataError("{}: {}: has images without pixels", shard_.name(), field.path);
+    }
     for (const auto& [key, value] : shard_.attributes(field.path)) field.has_nan = field.has_nan || key == "nan";
     fields_.push_back(std::move(field));
   }
 }
 
 SampleFiles::SampleFiles(const Hdf5Reader& shard, const std::string& id)
-    : shard_(shard), id_(id), sample_("/data/" + id) {
+    : shard_(shard), id_(id), sample_("/data/" + id), frames_(shard.count_attribute(sample_, "n_frames")) {
+  std::set<std::string> files;
   for (const auto& [name, value] : shard.attributes(sample_)) {
-    if (name == "n_frames") frames_ = static_cast<std::size_t>(std::get<std::int64_t>(value.data()));
     if (const std::string file = configuration_file(name); !file.empty()) {
-      texts_.emplace_back(lower(file), std::get<std::string>(value.data()));
+      texts_.emplace_back(lower(require_file_name(file, fmt::format("{}: {}: an attribute", shard.name(), sample_))),
+                          shard.text_attribute(sample_, name));
+      if (!files.insert(texts_.back().first).second)
+        throw DataError("{}: {}: two attributes differ in case alone: {}", shard.name(), sample_, file);
       continue;
     }
     attributes_.emplace_back(name, value);
@@ -127,14 +138,15 @@ SampleFiles::SampleFiles(const Hdf5Reader& shard, const std::string& id)
     for (const std::string& variant : shard.names(group))
       add_group(section, fmt::format("{}/{}", group, variant), variant + ".");
   }
-  std::set<std::string> files;
+  if (frames_ > 0 && std::ranges::none_of(fields_, &Field::of_frames))
+    throw DataError("{}: {}: has {} frames and no field of frames", shard.name(), sample_, frames_);
   for (const Field& field : fields_)
     if (!field.is_small() && !files.insert(field.file()).second)
       throw DataError("{}: two fields differ in case alone: {}", id, field.file());
 }
 
 std::string SampleFiles::kind() const {
-  const std::string sensor = shard_.text_attribute(sample_, "sensor_id");
+  const std::string sensor = shard_.name_attribute(sample_, "sensor_id");
   if (shard_.has(sample_ + "/series")) return sensor + "_grasp";
   const bool free = shard_.has(sample_ + "/obs/object_velocity_mm_s") || shard_.has(sample_ + "/obs/object_spin_rad_s");
   return sensor + (free ? "_free" : "");

@@ -17,7 +17,8 @@ using TakeFile = std::function<void(const std::string& of, const std::string& na
 /// Names are in lower case, as every reader of WebDatasets has them.
 class SampleFiles {
  public:
-  /// \throw DataError if two names differ in case alone
+  /// \throw DataError if two names differ in case alone, one cannot be a file's, or a field has not as many frames as
+  /// the sample
   SampleFiles(const Hdf5Reader& shard, const std::string& id);
 
   const std::string& id() const { return id_; }

@@ -110,6 +110,7 @@ class Dataset {
     const double step_s = times_s[1] - times_s[0];
     if (!(step_s > 0.0)) throw DataError("{}: its first two frames are at the same time", first.id());
     fps_ = std::round(1e6 / step_s) / 1e6;
+    if (!(fps_ > 0.0 && fps_ < 1e9)) throw DataError("{}: its frames are {:g} s apart", first.id(), step_s);
   }
 
   void check(const Episode& episode) const {
@@ -295,6 +296,8 @@ class Dataset {
     Value::Map ranges;
     for (std::size_t e = 0, first = 0; e < splits_.size(); ++e) {
       if (e + 1 < splits_.size() && splits_[e + 1] == splits_[e]) continue;
+      if (std::ranges::find(ranges, splits_[e], &Value::Map::value_type::first) != ranges.end())
+        throw DataError("{}: samples of split {} are in a shard of another split", name_, splits_[e]);
       ranges.emplace_back(splits_[e], fmt::format("{}:{}", first, e + 1));
       first = e + 1;
     }

@@ -21,7 +21,8 @@ const StageSpec kRepack{
                {.flag = "--shard", .help = "HDF5 file of pack; for webdataset and folder", .required = false},
                {.flag = "--shards",
                 .help = "for lerobot and univtac: text file with the record of each shard (pack.yaml), a line each",
-                .required = false}}};
+                .required = false}},
+    .works_in_child = true};
 
 /// All shards of a dataset, as episodes.
 void repack_episodes(Stage& stage, const std::string& format) {
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
     checked_sha256(stage.input("--shard"));  // HDF5 crashes on some damaged files, and reads others as if whole
     const Hdf5Reader shard(stage.input("--shard"));
     if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", stage.input("--shard").string());
-    const std::string name = shard.text_attribute("/", "shard");
+    const std::string name = shard.name_attribute("/", "shard");
     const std::size_t samples = shard.names("/data").size();
     const std::size_t files = repack_files(stage, shard, name, config.format == "webdataset");
     log_info("{}: {} samples, {} files", name, samples, files);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "common/base/error.h"
 #include "common/base/packed_units.h"
@@ -69,7 +70,7 @@ class EpisodeFile {
                                               : episode_.sample().numbers("object_pose", t));
       if (episode_.is_grasp()) append_pose(hand, episode_.series("hand_pose", t));
     }
-    const std::string id = episode_.text("object_id");
+    const std::string id = episode_.name_of("object_id");
     const std::string name = id.find("rgb") == std::string::npos ? id : "object";  // what has "rgb" is read as images
     file_.group("/actor");
     if (known)
@@ -148,13 +149,6 @@ class EpisodeFile {
   Hdf5Writer file_;
 };
 
-/// The sample's number in the plan.
-std::int64_t index_of(const Episode& episode) {
-  for (const auto& [name, value] : episode.sample().shard.attributes(episode.sample().group))
-    if (name == "index") return std::get<std::int64_t>(value.data());
-  throw DataError("{}: has no index", episode.id());
-}
-
 }  // namespace
 
 Value::Map write_univtac(std::vector<std::filesystem::path> shards, const OutputPath& output) {
@@ -162,9 +156,12 @@ Value::Map write_univtac(std::vector<std::filesystem::path> shards, const Output
     std::size_t episodes = 0, frames = 0;
   };
   std::map<std::string, Count> counts;
+  std::set<std::string> names;
   const std::size_t alone = for_each_episode(std::move(shards), [&](std::size_t, const Episode& episode) {
-    const std::string name =
-        fmt::format("{}/{}/hdf5/{}.hdf5", episode.kind(), episode.text("split"), index_of(episode));
+    const SampleAt& sample = episode.sample();
+    const std::size_t index = sample.shard.count_attribute(sample.group, "index");  // in the plan
+    const std::string name = fmt::format("{}/{}/hdf5/{}.hdf5", episode.kind(), episode.name_of("split"), index);
+    if (!names.insert(name).second) throw DataError("{}: another sample has its index, {}", episode.id(), index);
     EpisodeFile(episode, output(name)).write();
     Count& count = counts[episode.kind()];
     ++count.episodes;

@@ -153,7 +153,10 @@ TEST(FrameArchives, SamplesOfOneKindMustHaveTheSameFiles) {
             "a.b has json: obs.force_N int32 (3), a.b has not" + why);
   EXPECT_EQ(archive_both(scratch, plain, with("longer", NumberType::f32, {2, 17}, false)),
             "a.b has force_n.npy float32 (17), a.b has not" + why);
-  EXPECT_EQ(archive_both(scratch, two_frames(scratch, "none", [](Hdf5Writer&) {}), plain),
+  EXPECT_EQ(archive_both(scratch,
+                         two_frames(scratch, "none",
+                                    [](Hdf5Writer& file) { add_field(file, "obs/phase", NumberType::u8, {2}, "(T)"); }),
+                         plain),
             "a.b has json: obs.force_N float32 (3), a.b has not" + why);
   EXPECT_EQ(archive_both(scratch, plain, with("free", NumberType::f32, {2, 3}, true)), "");
   const std::string command = fmt::format(
@@ -186,6 +189,7 @@ std::filesystem::path small_shard(const ScratchFolder& scratch, const std::strin
   for (const auto& [key, value] :
        {std::pair{"sensor_id", "mctac"}, {"object_id", "star"}, {"motion", "down"}, {"split", "train"}})
     file.attribute(sample, key, value);
+  file.attribute(sample, "n_frames", 3);
   file.close();
   return scratch / (name + ".h5");
 }
@@ -251,19 +255,25 @@ TEST_F(RepackTest, WhatIsNoShardIsRefused) {
   EXPECT_THAT(said_, HasSubstr("no.h5: is not a shard of pack"));
 }
 
-TEST_F(RepackTest, ADamagedShardIsRefusedBeforeItIsRead) {
-  scratch_.file("c.yaml", "format: folder\n");
+/// The file `s.h5` with one sample that has texts; \return its bytes.
+std::string shard_with_texts(const ScratchFolder& scratch) {
   {
-    Hdf5Writer file(scratch_ / "s.h5");
+    Hdf5Writer file(scratch / "s.h5");
     file.attribute("/", "shard", "s");
     file.group("/sensors/toy");
     file.write("/data/a/obs/force_N", NumberType::f32, {1, 3}, to_bytes(NumberType::f32, {1.0, 2.0, 3.0}));
     file.attribute("/data/a/obs/force_N", "shape", "(T,3)");
     file.attribute("/data/a", "n_frames", 1);
     file.attribute("/data/a", "sample_yaml", "motion: here\n");
+    file.attribute("/data/a", "sensor_id", "toy");
     file.close();
   }
-  const std::string bytes = read_file(scratch_ / "s.h5");
+  return read_file(scratch / "s.h5");
+}
+
+TEST_F(RepackTest, ADamagedShardIsRefusedBeforeItIsRead) {
+  scratch_.file("c.yaml", "format: folder\n");
+  const std::string bytes = shard_with_texts(scratch_);
   const auto run = [&](const std::string& with) {
     scratch_.file("s.h5", with);
     return run_command(fmt::format("{}/repack --config {} --shard {} --out {} --log-level error", TACIPC_BIN_DIR,
@@ -284,6 +294,34 @@ TEST_F(RepackTest, ADamagedShardIsRefusedBeforeItIsRead) {
     ASSERT_THAT(said_, HasSubstr("s.h5: is damaged, or not the file that s.h5.sha256 is of")) << at;
     EXPECT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << said_;
   }
+}
+
+TEST_F(RepackTest, ACrashOfTheLibraryIsOneMessage) {
+  scratch_.file("c.yaml", "format: folder\n");
+  const std::string bytes = shard_with_texts(scratch_);
+  const std::size_t heap = bytes.find("GCOL");
+  ASSERT_NE(heap, std::string::npos);
+  int crashes = 0;
+  ASSERT_GT(bytes.size(), heap + 48);
+  for (std::size_t at = heap + 25; at < heap + 48; ++at) {  // where the length of the first text is, and behind it
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(~damaged[at]);
+    scratch_.file("s.h5", damaged);
+    scratch_.file("s.h5.sha256", sha256(damaged) + "  s.h5\n");  // a stranger's digest is right
+    const int code = run_command(fmt::format("{}/repack --config {} --shard {} --out {} --log-level error",
+                                             TACIPC_BIN_DIR, (scratch_ / "c.yaml").string(),
+                                             (scratch_ / "s.h5").string(), (scratch_ / "out").string()));
+    ASSERT_TRUE(code == 0 || code == 1) << at << ": " << code << ": " << said_;
+    if (code == 0) continue;
+    ASSERT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << at << ": " << said_;
+    ASSERT_FALSE(std::filesystem::exists(scratch_ / "out/.partial-repack")) << at;
+    ASSERT_FALSE(std::filesystem::exists(scratch_ / "out/repack.yaml")) << at;
+    if (said_.find("libhdf5 crashed while reading it: the file is damaged") == std::string::npos) continue;
+    ++crashes;
+    EXPECT_THAT(said_, HasSubstr((scratch_ / "s.h5").string() + ": libhdf5 crashed"));
+    EXPECT_THAT(read_file(scratch_ / "out/repack.failed.yaml"), HasSubstr("libhdf5 crashed"));
+  }
+  EXPECT_GT(crashes, 0) << "another version of the library: damage something on which that one crashes";
 }
 
 }  // namespace repack_test
