@@ -107,14 +107,18 @@ LookSpread LookSpread::read(ConfigReader& in, Eigen::Index size) {
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
   };
+  // Far beyond what images have, and narrow enough for every distance to be a number.
+  constexpr double kMost = 1e6;
   LookSpread spread;
-  spread.mean_ = column(in.numbers("mean", static_cast<std::size_t>(size)));
-  spread.deviations_ = column(in.any_numbers("deviations", Range::positive()));
+  spread.mean_ = column(in.numbers("mean", static_cast<std::size_t>(size), Range::between(-kMost, kMost)));
+  spread.deviations_ = column(in.any_numbers("deviations", {.low = 0.0, .high = kMost, .open_low = true}));
   const Eigen::Index count = spread.deviations_.size();
   if (count > std::min(size, kMostDirections)) in.fault("deviations", "are too many");
-  spread.directions_ = column(in.numbers("directions", static_cast<std::size_t>(size * count))).reshaped(size, count);
-  spread.along_limit_ = in.number("along_limit", Range::positive());
-  spread.beside_limit_ = in.number("beside_limit", Range::positive());
+  spread.directions_ =
+      column(in.numbers("directions", static_cast<std::size_t>(size * count), Range::between(-1.01, 1.01)))
+          .reshaped(size, count);
+  spread.along_limit_ = in.number("along_limit", Range::between(1.0, kMost));
+  spread.beside_limit_ = in.number("beside_limit", Range::between(1.0, kMost));
   return spread;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/benchmark/unet.h"
 
 namespace tacipc {
 namespace {
@@ -161,9 +162,10 @@ TrainedLook TrainedLook::from_text(const std::string& text, const std::string& n
   try {
     ConfigReader in = ConfigReader::from_text(text, name);
     in.integer("format", kFormat, kFormat);
-    trained.reduction_ = in.integer("reduction", 1, 16);
+    trained.reduction_ = in.integer("reduction", 1, NetworkConfig::kMostReduction);
     trained.least_change_codes_ = in.number("least_change_codes", Range::positive());
-    const std::vector<double> relief = in.numbers("mean_relief", kLookSizes[index_of(LookPart::relief)]);
+    const std::vector<double> relief =
+        in.numbers("mean_relief", kLookSizes[index_of(LookPart::relief)], Range::between(-1e6, 1e6));
     trained.relief_ = Eigen::Map<const Eigen::VectorXd>(relief.data(), static_cast<Eigen::Index>(relief.size()));
     for (std::size_t part = 0; part < kLookParts.size(); ++part) {
       const bool needed = part != index_of(LookPart::shading);

@@ -20,6 +20,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kOutOfMemory = "out of memory";
 // Hidden, so that no output can have its name.
 constexpr const char* kReplacing = ".replacing-";  // with the stage's name: files that may be there without a record
 
@@ -40,6 +41,9 @@ std::string relative_to(const fs::path& path, const fs::path& folder) {
 
 /// What an error says, with the path first where the file system is to blame.
 std::string reason_of(const std::exception& error) {
+  // oneTBB's words where it gets no memory for a thread, or is allowed no more of them.
+  if (std::string_view(error.what()).starts_with("pthread_create has failed"))
+    return fmt::format("{}: a thread cannot be started ({})", kOutOfMemory, error.what());
   const auto* of_files = dynamic_cast<const fs::filesystem_error*>(&error);
   return of_files ? fmt::format("{}: {}", of_files->path1().string(), of_files->code().message()) : error.what();
 }
@@ -349,8 +353,8 @@ int Stage::run(const std::function<void(Stage&)>& body) {
     log_error(fmt::format("{}: error: {}", spec_.name, error.what()));
     code = 2;
   } catch (const std::bad_alloc&) {
-    log_error(fmt::format("{}: error: out of memory", spec_.name));
-    write_failure(std::runtime_error("out of memory"));
+    log_error(fmt::format("{}: error: {}", spec_.name, kOutOfMemory));
+    write_failure(std::runtime_error(kOutOfMemory));
   } catch (const std::exception& error) {
     log_error(fmt::format("{}: error: {}", spec_.name, reason_of(error)));
     write_failure(error);

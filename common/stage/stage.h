@@ -119,6 +119,8 @@ class Stage {
 
  private:
   friend int run_stage(const StageSpec&, int, char**, const std::function<void(Stage&)>&);
+  /// run_stage, once the program runs as it should.
+  static int run_here(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body);
   std::filesystem::path partial_path(const std::string& name) const;
   void note_config(const std::string& flag, Value config);
   /// The whole life of a stage under the lock of its folder. Returns the exit code.

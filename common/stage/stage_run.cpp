@@ -11,12 +11,15 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <system_error>
 #include <thread>
 
+#include "common/base/blas.h"
 #include "common/base/error.h"
 #include "common/base/fragile_library.h"
 #include "common/base/log.h"
@@ -106,6 +109,17 @@ std::vector<ManSection> manual_sections(const std::string& stage) {
 }  // namespace
 
 int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body) {
+  try {
+    leave_blas_threads(argv);
+    return Stage::run_here(spec, argc, argv, body);
+  } catch (const std::bad_alloc&) {
+    // Before the work began or after it: the work's own errors are its life's business (Stage::run).
+    std::fputs((spec.name + ": error: out of memory\n").c_str(), stderr);
+    return 1;
+  }
+}
+
+int Stage::run_here(const StageSpec& spec, int argc, char** argv, const std::function<void(Stage&)>& body) {
   CLI::App app(spec.summary, spec.name);
   app.formatter(std::make_shared<UsageThroughTacipc>());
   std::map<std::string, std::vector<fs::path>> inputs;

@@ -4,7 +4,7 @@ SINCE ?=#  lint: C++ sources that differ from this commit go through clang-tidy 
 override SINCE := $(strip $(SINCE))
 
 packages_for_lint            := tests lint wrap video predict depthnet
-packages_for_check-sanitized := tests
+packages_for_check-sanitized := tests predict
 .PHONY: lint check-sanitized
 # Without the headers that the build reads in advance: what a source leaves out of its own #include lines is a finding.
 LINTED := build/lint
@@ -15,7 +15,7 @@ lint: build-all ## development: clang-format, shellcheck and clang-tidy (SINCE=c
 	bash tests/lint/tidy.sh . $(LINTED) $(JOBS) $(or $(SINCE),HEAD~1)
 
 # Their own programs alone, in a build folder of their own.
-SANITIZED_TESTS := common_files_test fuzz_test press_contact_test press_test
+SANITIZED_TESTS := common_depth_model_test common_files_test fuzz_test predict_test press_contact_test press_test
 SANITIZED := build/sanitize
 $(SANITIZED)/build.ninja: | build-all
 	@$(call configure,$(SANITIZED),--preset sanitize)

@@ -34,7 +34,7 @@ $(DEPTHNET)/depthnet.yaml: $(DEPTHNET_CONFIG) $(DEPTHNET)/net.choice $(DEPTHNET_
 	$(depthnet_is_built)
 	$(call depthnet_run,--config $<)
 $(DEPTHNET)/test/depthnet.yaml: $(DEPTHNET)/depthnet.yaml $(DEPTHNET_SHARDS)
-	$(call depthnet_run,--model $(DEPTHNET)/model.pt)
+	$(call depthnet_run,--model $(DEPTHNET)/model_*.onnx)
 # On all cores: nothing else is to be done meanwhile.
 depthnet_run = OPENBLAS_NUM_THREADS=1 $(BIN)/depthnet --out $(@D) --threads $(JOBS) $(1) --shards $(DEPTHNET_LIST)
 
@@ -43,7 +43,7 @@ depthnet: $(DEPTHNET)/$(if $(filter depth,$(DEPTHNET_TASK)),test/)depthnet.yaml
 	$(depthnet_says_$(DEPTHNET_TASK))
 define depthnet_says_depth
 @echo; $(BIN)/tacipc get $< summary.pressed.mae_mm.mean | sed 's/$$/ mm: mean error in contact on the test objects/'
-@echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model.pt, and model_*.onnx for predict"
+@echo "Look at $(DEPTHNET)/test/sheet.png; the network is $(DEPTHNET)/model_*.onnx, and model.pt for PyTorch"
 endef
 define depthnet_says_outcome
 @echo; for who in network shuffled; do $(BIN)/tacipc get $< summary.$$who.accuracy.mean | \

@@ -48,7 +48,10 @@ done
 # libtorch is one stage's business, headers too.
 bad=$(grep -rlE '#include <(torch|ATen|c10)/' common stages --include=*.cpp --include=*.h | grep -v '^stages/image/depthnet/' || true)
 [ -z "$bad" ] || { echo "$bad: includes libtorch; only depthnet may"; faults=1; }
-# MuJoCo likewise.
+# Its files are programs: none is read.
+bad=$(grep -rnE 'jit::load|pickle_load|torch::load|InputArchive|torch/serialize' common stages --include=*.cpp --include=*.h || true)
+[ -z "$bad" ] || { echo "$bad"; echo "  ^ reads a file of libtorch, which is a program"; faults=1; }
+# MuJoCo is one stage's business, too.
 bad=$(grep -rlE '#include <mujoco/' common stages --include=*.cpp --include=*.h | grep -v '^stages/robot/robot/' || true)
 [ -z "$bad" ] || { echo "$bad: includes MuJoCo; only robot may"; faults=1; }
 while read -r lines file; do

@@ -12,9 +12,9 @@ LossConfig read_loss(ConfigReader in) {
 }  // namespace
 
 NetworkConfig read_network(ConfigReader in) {
-  return {.levels = in.integer("levels", 1, 6),
-          .base_channels = in.integer("base_channels", 1, 256),
-          .reduction = in.integer("reduction", 1, 16)};
+  return {.levels = in.integer("levels", 1, NetworkConfig::kMostLevels),
+          .base_channels = in.integer("base_channels", 1, NetworkConfig::kMostChannels),
+          .reduction = in.integer("reduction", 1, NetworkConfig::kMostReduction)};
 }
 
 ScheduleConfig read_schedule(ConfigReader in) {

@@ -3,17 +3,10 @@
 
 #include <cstdint>
 
+#include "common/benchmark/unet.h"
 #include "common/config/config.h"
 
 namespace tacipc {
-
-/// A U-Net (Ronneberger et al. 2015): on each level two 3 × 3 convolutions, then half the size and twice the channels;
-/// on the way back the maps of the same size are joined.
-struct NetworkConfig {
-  int levels = 4;  // times the size is halved
-  int base_channels = 16;
-  int reduction = 2;  // the network sees means over squares of this many pixels
-};
 
 struct LossConfig {
   bool squared = false;         // mean squared error, else mean absolute error

@@ -78,7 +78,6 @@ bool take_images(GraspItem& item, std::size_t finger, const Hdf5Reader& shard, c
   for (std::size_t t = *begin; t <= last; ++t)
     images.push_back(tensor_of(packed_image<std::uint8_t>(shard, rgb, NumberType::u8, 3, t)));
   const torch::Tensor reference = tensor_of(packed_image<std::uint8_t>(shard, rgb, NumberType::u8, 3, 0));
-  item.size = {static_cast<int>(reference.size(1)), static_cast<int>(reference.size(2))};
   item.fingers[finger] = network.get_method("reduced")({torch::cat(images), reference})
                              .toTensor()
                              .narrow(1, 0, 3)

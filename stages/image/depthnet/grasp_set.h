@@ -22,7 +22,6 @@ struct GraspItem {
   double seen_s = 0.0;       // time of the last image that is used since the fingers had closed
   double slip_mm = 0.0;      // slip by then
   torch::Tensor fingers[2];  // left, right: change against the reference, codes as `reduced`, f16 (frames, 3, h, w)
-  ImageSize size;            // of the images
 };
 
 /// The grasps of shards, by name. Both fingers of a grasp are found whatever shards they are in. Of each finger the

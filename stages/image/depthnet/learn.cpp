@@ -3,18 +3,16 @@
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <torch/csrc/autograd/autograd.h>
-#include <torch/optim/adamw.h>
-#include <torch/serialize.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/rng.h"
+#include "stages/image/depthnet/adamw.h"
 #include "stages/image/depthnet/network.h"
 
 namespace tacipc {
@@ -35,43 +33,30 @@ double rate_at(double epochs_done, const ScheduleConfig& schedule) {
   return 0.5 * schedule.learning_rate * (1.0 + std::cos(std::numbers::pi * std::min(1.0, fall)));
 }
 
-std::string bytes_of(const std::vector<torch::Tensor>& weights, const torch::optim::Optimizer& optimizer,
-                     const std::vector<LearntEpoch>& rows) {
-  torch::serialize::OutputArchive archive, state;
-  for (std::size_t i = 0; i < weights.size(); ++i) archive.write(fmt::format("weight_{}", i), weights[i].detach());
-  optimizer.save(state);
-  archive.write("optimizer", state);
-  std::vector<double> numbers;
+std::string bytes_of(const AdamW& optimizer, const std::vector<LearntEpoch>& rows) {
+  std::string bytes;
+  const auto add = [&](auto number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof(number)); };
+  add(rows.size());
+  add(rows.front().judged.size());
   for (const LearntEpoch& row : rows) {
-    numbers.insert(numbers.end(), {row.learning_rate, row.loss});
-    numbers.insert(numbers.end(), row.judged.begin(), row.judged.end());
+    add(row.learning_rate);
+    add(row.loss);
+    for (const double number : row.judged) add(number);
   }
-  archive.write("rows", torch::tensor(numbers, torch::kDouble).reshape({static_cast<std::int64_t>(rows.size()), -1}));
-  std::ostringstream out;
-  archive.save_to(out);
-  return out.str();
+  optimizer.append_to(bytes);
+  return bytes;
 }
 
-std::vector<LearntEpoch> restore(const std::string& bytes, std::vector<torch::Tensor>& weights,
-                                 torch::optim::Optimizer& optimizer) {
-  std::istringstream in(bytes);
-  torch::serialize::InputArchive archive, state;
-  archive.load_from(in);
-  const torch::NoGradGuard no_gradients;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    torch::Tensor saved;
-    archive.read(fmt::format("weight_{}", i), saved);
-    weights[i].copy_(saved);
-  }
-  archive.read("optimizer", state);
-  optimizer.load(state);
-  torch::Tensor numbers;
-  archive.read("rows", numbers);
+std::vector<LearntEpoch> restore(const std::string& bytes, AdamW& optimizer) {
+  ByteReader in(bytes, "checkpoint");
+  const auto epochs = in.read<std::size_t>("the number of epochs"), judged = in.read<std::size_t>("their numbers");
   std::vector<LearntEpoch> rows;
-  for (std::int64_t r = 0; r < numbers.size(0); ++r) {
-    const double* row = numbers.data_ptr<double>() + r * numbers.size(1);
-    rows.push_back({.learning_rate = row[0], .loss = row[1], .judged = {row + 2, row + numbers.size(1)}});
+  for (std::size_t r = 0; r < epochs; ++r) {
+    LearntEpoch row{.learning_rate = in.read<double>("a rate"), .loss = in.read<double>("a loss"), .judged = {}};
+    for (std::size_t k = 0; k < judged; ++k) row.judged.push_back(in.read<double>("an epoch"));
+    rows.push_back(std::move(row));
   }
+  optimizer.read(in);
   return rows;
 }
 
@@ -97,12 +82,10 @@ std::vector<std::string> history_fields(const std::vector<LearntEpoch>& history,
 std::vector<LearntEpoch> learn(std::vector<torch::Tensor> weights, const Lesson& lesson, const ScheduleConfig& schedule,
                                std::uint64_t seed, const Checkpoints& checkpoints, const std::string& name) {
   const std::string who = name.empty() ? "" : name + ", ";
-  torch::optim::AdamW optimizer(weights,
-                                torch::optim::AdamWOptions(schedule.learning_rate).weight_decay(schedule.weight_decay));
-  auto& options = static_cast<torch::optim::AdamWOptions&>(optimizer.param_groups().front().options());
+  AdamW optimizer(weights, schedule.weight_decay);
   std::vector<LearntEpoch> rows;
   if (const auto saved = checkpoints.load()) {
-    rows = restore(*saved, weights, optimizer);
+    rows = restore(*saved, optimizer);
     log_info("{}goes on after epoch {}", who, rows.size());
   }
   const auto batch = static_cast<std::size_t>(schedule.batch);
@@ -133,12 +116,11 @@ std::vector<LearntEpoch> learn(std::vector<torch::Tensor> weights, const Lesson&
       if (!std::isfinite(squares))
         throw SolverError("{}epoch {}: the gradient is not finite; a smaller learning_rate may help", who, epoch);
       const double shorten = std::min(1.0, schedule.gradient_norm / std::max(1e-300, std::sqrt(squares)));
-      for (std::size_t w = 0; w < weights.size(); ++w) weights[w].mutable_grad() = gradients[w] * shorten;
+      for (torch::Tensor& gradient : gradients) gradient = gradient * shorten;
       const double done = epoch - 1 + static_cast<double>(begin + count) / static_cast<double>(order.size());
       row.learning_rate =
           rate_at(done - 0.5 * static_cast<double>(count) / static_cast<double>(order.size()), schedule);
-      options.lr(row.learning_rate);
-      optimizer.step();
+      optimizer.step(gradients, row.learning_rate);
       for (const ItemResult& result : results) {
         row.loss += result.loss / static_cast<double>(order.size());
         sums.resize(result.sums.size());
@@ -151,7 +133,7 @@ std::vector<LearntEpoch> learn(std::vector<torch::Tensor> weights, const Lesson&
     rows.push_back(std::move(row));
     const auto now = std::chrono::steady_clock::now();
     if (epoch == schedule.epochs ? checkpoints.at_end : now - saved_at >= checkpoints.between) {
-      checkpoints.save(bytes_of(weights, optimizer, rows));
+      checkpoints.save(bytes_of(optimizer, rows));
       saved_at = now;
     }
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "common/base/blas.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -7,7 +8,6 @@
 #include "common/sample/shard_list.h"
 #include "common/stage/stage.h"
 #include "stages/image/depthnet/judge.h"
-#include "stages/image/depthnet/onnx.h"
 #include "stages/image/depthnet/outcome_config.h"
 #include "stages/image/depthnet/outcome_report.h"
 #include "stages/image/depthnet/train.h"
@@ -24,7 +24,11 @@ const StageSpec kDepthnet{
         "Train a network that reads depth from tactile images (--config), judge it on a dataset (--model); or train "
         "and judge networks that foretell outcomes of grasps (--config with task: outcome).",
     .inputs = {{.flag = "--config", .help = "network and training (YAML)", .required = false},
-               {.flag = "--model", .help = "model.pt of a training", .required = false},
+               {.flag = "--model",
+                .help = "model_<width>x<height>.onnx of a training: several of one network where images have several "
+                        "sizes",
+                .required = false,
+                .many = true},
                {.flag = "--shards",
                 .help = "a packed dataset: text file with the record of each shard (shards.txt). Training takes the "
                         "splits train and val, judging the split test; outcomes of grasps take all",
@@ -86,7 +90,7 @@ void warn_of_unlike(const LookReport& report, const char* what, Value::Map& summ
 }
 
 void train_depth(Stage& stage, const DepthnetConfig& config) {
-  TrainedNetwork network{.module = make_network(config.network, config.seed), .sizes = {}};
+  TrainedNetwork network{.file = "the network", .module = make_network(config.network, config.seed), .sizes = {}};
   Items training(network.module, config.network.reduction), validation(network.module, config.network.reduction);
   if (stage.optional_input("--shards"))
     for (const auto& [name, shard] : shards_of(stage))
@@ -112,10 +116,10 @@ void train_depth(Stage& stage, const DepthnetConfig& config) {
            weights);
   const std::vector<LearntEpoch> rows =
       train(network.module, training.items(), validation.items(), config, checkpoints_of(stage, "checkpoint"));
-  save_network(network, stage.output("model.pt"));
+  save_script(network.module, stage.output("model.pt"));
   for (const ImageSize& size : network.sizes)
     write_file(stage.output(fmt::format("model_{}x{}.onnx", size.second, size.first)),
-               onnx_of(network.module, config.network, size, &network.looks.at(size)));
+               depth_model_of(network.module, config.network, size, &network.looks.at(size)).to_onnx());
   write_history(stage, rows);
   const std::vector<double>& errors = rows.back().judged;
   Value::Map summary{{"images", training.items().size()},
@@ -133,9 +137,6 @@ void foretell_outcomes(Stage& stage, const OutcomeConfig& config) {
   if (!stage.optional_input("--shards")) throw UsageError("--config with task: outcome takes --shards");
   const auto shards = shards_of(stage);
   std::vector<GraspItem> items = read_grasps(shards, config.frames, make_outcome_network(config, config.seed));
-  std::vector<ImageSize> sizes;
-  for (const GraspItem& item : items)
-    if (std::ranges::find(sizes, item.size) == sizes.end()) sizes.push_back(item.size);
   const auto checkpoints = [&](const std::string& name) {
     Checkpoints those = checkpoints_of(stage, "checkpoint_" + name);
     those.at_end = true;
@@ -143,7 +144,7 @@ void foretell_outcomes(Stage& stage, const OutcomeConfig& config) {
   };
   try {
     const OutcomeStudy study = study_outcomes(std::move(items), config, checkpoints);
-    save_network({.module = study.network, .sizes = sizes}, stage.output("model.pt"));
+    save_script(study.network, stage.output("model.pt"));
     write_file(stage.output("outcome.csv"), outcome_csv(study));
     write_file(stage.output("history.csv"), outcome_history_csv(study));
     write_file(stage.output("roc.svg"), roc_svg(study));
@@ -163,7 +164,7 @@ void train_network(Stage& stage) {
 }
 
 void judge_network(Stage& stage) {
-  Judge judge(load_network(*stage.optional_input("--model")));
+  Judge judge(load_network(stage.inputs("--model")));
   for (const auto& [name, shard] : shards_of(stage))
     read_packed(shard, {"test"}, false, [&](const DepthImage& image) { judge.add(image); });
   judge.answer();
@@ -183,7 +184,7 @@ void judge_network(Stage& stage) {
 void (*task_of(Stage& stage))(Stage&) {
   const bool config = stage.optional_input("--config").has_value(),
              shards = stage.optional_input("--shards").has_value(), renders = !stage.inputs("--renders").empty();
-  if (config == stage.optional_input("--model").has_value())
+  if (config != stage.inputs("--model").empty())
     throw UsageError("give either --config, to train, or --model, to judge what was trained");
   if (config) {
     if (shards == renders) throw UsageError("training takes either --shards or --renders");
@@ -201,6 +202,7 @@ int main(int argc, char** argv) {
   return run_stage(kDepthnet, argc, argv, [](Stage& stage) {
     const auto task = task_of(stage);
     stay_in_this_thread();
+    reserve_blas_memory(stage.threads());
     try {
       task(stage);
     } catch (const c10::Error& error) {

@@ -5,7 +5,7 @@
 #include <torch/csrc/jit/runtime/graph_executor.h>
 
 #include <algorithm>
-#include <sstream>
+#include <cmath>
 
 #include "common/base/error.h"
 #include "common/image/picture.h"
@@ -43,6 +43,11 @@ std::int64_t count_weights(const torch::jit::Module& network) {
   return count;
 }
 
+std::vector<float> numbers_of(const torch::Tensor& tensor) {
+  const torch::Tensor numbers = tensor.detach().contiguous();
+  return {numbers.data_ptr<float>(), numbers.data_ptr<float>() + numbers.numel()};
+}
+
 torch::Tensor tensor_of(const ByteImage& image) {
   torch::Tensor tensor = torch::empty({1, image.height, image.width, 3}, torch::kU8);
   std::ranges::copy(image.pixels, tensor.data_ptr<std::uint8_t>());
@@ -63,61 +68,47 @@ FloatImage TrainedNetwork::depth_mm(const std::string& name, const ByteImage& im
   if (answer.numel() != static_cast<std::int64_t>(out.pixels.size()))
     throw DataError("{}: the network answers with {} numbers", name, answer.numel());
   std::copy_n(answer.data_ptr<float>(), out.pixels.size(), out.pixels.begin());
+  if (!std::ranges::all_of(out.pixels, [](float depth) { return std::isfinite(depth); }))
+    throw DataError("{}: is damaged: its depth of {} is not finite", file, name);
   return out;
 }
 
-namespace {
-// Files in the archive: a line of rows and columns per size; for each size that and the length of a text, the text.
-constexpr const char *kSizes = "image_sizes", *kLooks = "trained_looks";
-
-std::string text_of(const std::map<ImageSize, TrainedLook>& looks) {
-  std::string all;
-  for (const auto& [size, look] : looks) {
-    const std::string text = look.to_text();
-    all += fmt::format("{} {} {}\n{}", size.first, size.second, text.size(), text);
-  }
-  return all;
+DepthModel depth_model_of(const torch::jit::Module& module, const NetworkConfig& config, const ImageSize& size,
+                          const TrainedLook* look) {
+  DepthModel model{.network = config, .rows = size.first, .columns = size.second, .convolutions = {}, .look = {}};
+  if (look) model.look = *look;
+  const std::vector<torch::Tensor> weights = weights_of(module);
+  for (std::size_t k = 0; k < weights.size(); k += 2)
+    model.convolutions.push_back({.weights = numbers_of(weights[k]), .biases = numbers_of(weights[k + 1])});
+  return model;
 }
 
-std::map<ImageSize, TrainedLook> looks_in(const std::string& all, const std::string& name) {
-  std::map<ImageSize, TrainedLook> looks;
-  std::istringstream in(all);
-  ImageSize size;
-  std::size_t length = 0;
-  while (in >> size.first >> size.second >> length) {
-    in.get();  // the end of the line
-    std::string text(std::min(length, all.size()), '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    looks.insert_or_assign(size, TrainedLook::from_text(text, name));
+TrainedNetwork load_network(const std::vector<std::filesystem::path>& files) {
+  TrainedNetwork network{.file = files.front().string(), .module = torch::jit::Module(), .sizes = {}};
+  DepthModel first;
+  for (const std::filesystem::path& file : files) {
+    DepthModel model = read_depth_model(file);
+    const ImageSize size(model.rows, model.columns);
+    network.sizes.push_back(size);
+    if (model.look) network.looks.insert_or_assign(size, *model.look);
+    if (file == files.front())
+      first = std::move(model);
+    else if (model.network != first.network || model.convolutions != first.convolutions)
+      throw DataError("{}: is another network than {}", file.string(), files.front().string());
   }
-  return looks;
-}
-}  // namespace
-
-void save_network(const TrainedNetwork& network, const std::filesystem::path& file) {
-  // Users take no gradients; without this every answer would be ready for them.
-  for (torch::Tensor& weight : weights_of(network.module)) weight.set_requires_grad(false);
-  std::string sizes;
-  for (const auto& [rows, columns] : network.sizes) sizes += fmt::format("{} {}\n", rows, columns);
-  network.module.save(file.string(), {{kSizes, sizes}, {kLooks, text_of(network.looks)}});
-}
-
-TrainedNetwork load_network(const std::filesystem::path& file) {
-  TrainedNetwork network;
-  torch::jit::ExtraFilesMap extra{{kSizes, ""}, {kLooks, ""}};
-  try {
-    network.module = torch::jit::load(file.string(), torch::kCPU, extra);
-  } catch (const std::exception&) {
-    throw DataError("{}: is not a network that depthnet wrote", file.string());
+  network.module = make_network(first.network, 0);
+  std::vector<torch::Tensor> weights = weights_of(network.module);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    weights[k].set_requires_grad(false);  // without this every answer would be ready for gradients
+    const Convolution& convolution = first.convolutions[k / 2];
+    std::ranges::copy(k % 2 == 0 ? convolution.weights : convolution.biases, weights[k].data_ptr<float>());
   }
-  std::istringstream sizes(extra[kSizes]);
-  for (ImageSize size; sizes >> size.first >> size.second;) network.sizes.push_back(size);
-  if (network.module.find_method("logit"))
-    throw DataError("{}: foretells outcomes of grasps, and reads no depth", file.string());
-  if (network.sizes.empty() || !network.module.find_method("forward"))
-    throw DataError("{}: is not a network that depthnet wrote", file.string());
-  network.looks = looks_in(extra[kLooks], file.string());
   return network;
+}
+
+void save_script(const torch::jit::Module& module, const std::filesystem::path& file) {
+  for (torch::Tensor& weight : weights_of(module)) weight.set_requires_grad(false);  // as load_network
+  module.save(file.string());
 }
 
 std::optional<LookComparison> compare(const TrainedNetwork& network, const ByteImage& image,

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "stages/image/depthnet/unet.h"
+#include "common/benchmark/unet.h"
 
 namespace tacipc {
 

@@ -7,6 +7,7 @@
 #include "common/base/each_in_threads.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/benchmark/depth_model.h"
 #include "common/image/depth_sheet.h"
 #include "common/image/picture.h"
 #include "common/stage/stage.h"
@@ -53,24 +54,24 @@ void check_flags(Stage& stage) {
 }
 
 /// Says which photographs are unlike those of the network's training; lines of the summary.
-Value::Map compare_with_training(Stage& stage, const DepthReader& reader, const ByteImage& reference,
+Value::Map compare_with_training(Stage& stage, const DepthModel& model, const ByteImage& reference,
                                  const std::vector<ByteImage>& images) {
   const bool strict = !stage.option("--strict").empty();
-  const std::string model = stage.input("--model").string();
-  if (!reader.look()) {
-    const std::string text = model +
+  const std::string model_name = stage.input("--model").string();
+  if (!model.look) {
+    const std::string text = model_name +
                              ": does not say what its training's images looked like (an earlier version wrote "
                              "it), so photographs cannot be compared with them";
     if (strict) throw DataError(text);
     log_warning("{}", text);
     return {};
   }
-  const TrainedLook& look = *reader.look();
+  const TrainedLook& look = *model.look;
   const FloatImage background = means_over_squares(reference, look.reduction());
   const auto& files = stage.inputs("--images");
   std::vector<LookComparison> comparisons(images.size());
   each_in_threads(images.size(), [&](std::size_t i) {
-    reader.check_size(files[i].string(), images[i], reference);
+    check_size(model, files[i].string(), images[i], reference);
     comparisons[i] = look.compare(background, means_over_squares(images[i], look.reduction()));
   });
   LookReport report;
@@ -80,7 +81,7 @@ Value::Map compare_with_training(Stage& stage, const DepthReader& reader, const 
     distances.emplace_back(files[i].stem().string(), comparisons[i].distance);
   }
   const std::vector<std::string> warnings = report.warnings("photographs");
-  if (strict && !warnings.empty()) throw DataError("{}: {}", model, fmt::join(warnings, "; "));
+  if (strict && !warnings.empty()) throw DataError("{}: {}", model_name, fmt::join(warnings, "; "));
   for (const std::string& warning : warnings) log_warning("{}", warning);
   return {{"unlike_training", report.summary()}, {"distance_from_training", distances}};
 }
@@ -98,12 +99,14 @@ void predict(Stage& stage) {
   const auto rest_file = stage.optional_input("--rest");
   const FloatImage rest = rest_file ? read_map(*rest_file) : FloatImage();
   const auto &files = stage.inputs("--images"), &truths = stage.inputs("--truth");
+  const DepthModel model = read_depth_model(stage.input("--model"));
   std::vector<ByteImage> images(files.size());
   std::vector<FloatImage> answers(files.size());
   set_up_opencv();
-  tbb::enumerable_thread_specific<DepthReader> readers([&] { return DepthReader(stage.input("--model")); });
+  tbb::enumerable_thread_specific<DepthReader> readers(
+      [&] { return DepthReader(model, stage.input("--model").string()); });
   each_in_threads(files.size(), [&](std::size_t i) { images[i] = read_png(files[i], 3); });
-  const Value::Map compared = compare_with_training(stage, readers.local(), reference, images);
+  const Value::Map compared = compare_with_training(stage, model, reference, images);
   each_in_threads(files.size(), [&](std::size_t i) {
     answers[i] = readers.local().depth_mm(files[i].string(), images[i], reference);
   });

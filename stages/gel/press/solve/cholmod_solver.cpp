@@ -4,6 +4,7 @@
 
 #include <Eigen/CholmodSupport>
 
+#include "common/base/blas.h"
 #include "common/base/error.h"
 
 extern "C" void openblas_set_num_threads(int);
@@ -58,6 +59,7 @@ CholmodSolver::CholmodSolver() : state_(std::make_unique<State>()) {
   // Debian's CHOLMOD opens four OpenMP threads whatever is asked for; with no active level left it runs them as one.
   omp_set_max_active_levels(0);
   openblas_set_num_threads(1);
+  reserve_blas_memory(1);
   state_->factor.setMode(Eigen::CholmodAuto);
   cholmod_common& common = state_->factor.cholmod();
   common.print = 0;

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/format/csv.h"
 #include "common/stage/record.h"
 #include "stages/image/depthnet/network.h"
-#include "stages/image/depthnet/onnx.h"
 #include "stages/image/depthnet/scores.h"
+#include "tests/fuzz/mutation.h"
 #include "tests/program_test.h"
 #include "tests/stages/image/depthnet/dents.h"
 #include "tests/stages/image/depthnet/grasps.h"
@@ -64,6 +65,8 @@ TEST_F(Depthnet, TrainsOnRenderFoldersAndReadsPhotographs) {
   std::filesystem::rename(scratch_ / "out/model.pt", scratch_ / "model.pt");
   ASSERT_EQ(depthnet(flags + " --threads 1"), 0) << said_;
   EXPECT_EQ(read_file(scratch_ / "out/model.pt"), read_file(scratch_ / "model.pt"));
+  // As PyTorch reads it.
+  const torch::jit::Module script = torch::jit::load((scratch_ / "model.pt").string());
   std::filesystem::rename(scratch_ / "out/model_36x36.onnx", scratch_ / "model.onnx");
 
   const std::filesystem::path background = write_images(2);
@@ -79,7 +82,8 @@ TEST_F(Depthnet, TrainsOnRenderFoldersAndReadsPhotographs) {
   EXPECT_THAT(said_, testing::Not(testing::HasSubstr("warning")));
   const FloatImage indentation = read_exr(scratch_ / "out/indentation/dent_0.exr", {"Y"}),
                    depth = read_exr(scratch_ / "out/depth/dent_0.exr", {"Y"});
-  const FloatImage expected = load_network(scratch_ / "model.pt").depth_mm("dent_0", dent(0).image, dent(0).reference);
+  const TrainedNetwork network{.file = "script", .module = script, .sizes = {{kSize, kSize}}};
+  const FloatImage expected = network.depth_mm("dent_0", dent(0).image, dent(0).reference);
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
     EXPECT_NEAR(indentation.pixels[i], 1e-3F * expected.pixels[i], 1e-9);
     EXPECT_NEAR(depth.pixels[i], 0.049F - indentation.pixels[i], 1e-8);
@@ -124,21 +128,22 @@ TEST_F(Depthnet, RefusesWhatDoesNotBelongTogether) {
   EXPECT_THAT(said_, testing::HasSubstr("either --shards or --renders"));
   EXPECT_EQ(depthnet(config + fmt::format("--renders '{}'", (scratch_ / "").string())), 1);
   EXPECT_THAT(said_, testing::HasSubstr("holds no frames of render"));
-  write_file(scratch_ / "model.pt", "not a network");
-  const std::string model = fmt::format("--model '{}' ", (scratch_ / "model.pt").string());
+  write_file(scratch_ / "model.onnx", "not a network");
+  const std::string model = fmt::format("--model '{}' ", (scratch_ / "model.onnx").string());
   EXPECT_EQ(depthnet(model), 2);
   EXPECT_THAT(said_, testing::HasSubstr("predict reads photographs"));
   write_shard(scratch_, {"test"});
   const std::string shards = fmt::format("--shards '{}'", (scratch_ / "shards/shards.txt").string());
   EXPECT_EQ(depthnet(model + shards), 1);
-  EXPECT_THAT(said_, testing::HasSubstr("model.pt: is not a network that depthnet wrote"));
+  EXPECT_THAT(said_, testing::HasSubstr("model.onnx: is damaged, or not a network that depthnet wrote"));
 }
 
 TEST_F(Depthnet, PredictRefusesImagesOfAnotherSize) {
   const std::filesystem::path background = write_images(1);
   const DepthnetConfig small = small_config();
   const auto network_for = [&](int width, int height) {
-    write_file(scratch_ / "model.onnx", onnx_of(make_network(small.network, 1), small.network, {height, width}));
+    write_file(scratch_ / "model.onnx",
+               depth_model_of(make_network(small.network, 1), small.network, {height, width}).to_onnx());
   };
   const std::string photograph =
       fmt::format("--model '{0}model.onnx' --images '{0}dent_0.png' --background ", (scratch_ / "").string());
@@ -161,13 +166,13 @@ TEST_F(Depthnet, LearnsFromADatasetAndIsJudgedByItsTestObjects) {
   EXPECT_EQ(trained.section("summary").required_count("images"), 4);
   EXPECT_EQ(trained.section("summary").required_count("validation_images"), 2);
   EXPECT_THAT(read_file(scratch_ / "out/depthnet.yaml"), testing::HasSubstr("shards/one"));
-  std::filesystem::rename(scratch_ / "out/model.pt", scratch_ / "model.pt");
-  const std::string judge = shards + fmt::format("--model '{}'", (scratch_ / "model.pt").string());
+  std::filesystem::rename(scratch_ / "out/model_36x36.onnx", scratch_ / "model.onnx");
+  const std::string judge = shards + fmt::format("--model '{}'", (scratch_ / "model.onnx").string());
   ASSERT_EQ(depthnet(judge), 0) << said_;
   const Record judged = Record::from_file(scratch_ / "out/depthnet.yaml").section("summary").section("pressed");
   EXPECT_EQ(judged.required_count("images"), 2);
   // The same by hand.
-  const TrainedNetwork network = load_network(scratch_ / "model.pt");
+  const TrainedNetwork network = load_network({scratch_ / "model.onnx"});
   double mean = 0.0;
   for (const std::size_t i : {6, 7}) {
     const DepthImage image = dent(i);
@@ -231,10 +236,49 @@ TEST_F(Depthnet, ForetellsOutcomesAlikeByOneThreadTwoThreadsAndTheScript) {
   EXPECT_NEAR(summary.section("seen").required_number("largest_slip_mm"), 0.75, 1e-6);
   EXPECT_EQ(summary.section("network").section("accuracy").numbers("seeds", 2)->front(),
             scores_of(said, held).accuracy);
-  // It is no network of depth.
-  std::filesystem::rename(scratch_ / "out/model.pt", scratch_ / "model.pt");
-  EXPECT_EQ(depthnet(shards + fmt::format("--model '{}'", (scratch_ / "model.pt").string())), 1);
-  EXPECT_THAT(said_, testing::HasSubstr("model.pt: foretells outcomes of grasps, and reads no depth"));
+}
+
+TEST_F(Depthnet, RunsNoModelsCode) {
+  write_shard(scratch_, {"test"});
+  const std::string loops = R"(
+def forward(self, image, reference):
+    x = image
+    while True:
+        x = x + 1
+    return x
+)",
+                    writes = fmt::format(R"(
+def forward(self, image, reference):
+    torch.save(image, "{}")
+    return image.to(6).mean(3)
+)",
+                                         (scratch_ / "written").string());
+  for (const std::string& code : {loops, writes}) {
+    torch::jit::Module module("DepthFromTouch");
+    module.define(code);
+    module.save((scratch_ / "model.pt").string(), {{"image_sizes", fmt::format("{0} {0}\n", kSize)}});
+    EXPECT_EQ(run_command(fmt::format("timeout 60 '{}/depthnet' --out '{}' --model '{}' --shards '{}'", TACIPC_BIN_DIR,
+                                      (scratch_ / "out").string(), (scratch_ / "model.pt").string(),
+                                      (scratch_ / "shards/shards.txt").string())),
+              1);
+    EXPECT_THAT(said_,
+                testing::HasSubstr("model.pt: is a program (TorchScript), which may do anything, and is not run"));
+    EXPECT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << said_;
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "written"));
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "out/samples.csv"));
+  }
+}
+
+TEST_F(Depthnet, RefusesScriptsHoweverDamaged) {
+  torch::jit::Module module = make_network(small_config().network, 1);
+  save_script(module, scratch_ / "model.pt");
+  const std::string whole = read_file(scratch_ / "model.pt");
+  Mutation mutation({whole}, whole.size() + 64);
+  for (int i = 0; i < 1000; ++i) {
+    const auto file = scratch_.file("damaged.pt", mutation.next());
+    EXPECT_THAT(message_of<DataError>([&] { load_network({file}); }), testing::StartsWith(file.string() + ": is "))
+        << i;
+  }
 }
 
 TEST_F(Depthnet, RefusesGraspsOfOneOutcomeInOneLine) {

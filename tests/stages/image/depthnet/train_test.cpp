@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "tests/scratch_folder.h"
 #include "tests/stages/image/depthnet/dents.h"
 
 namespace tacipc {
@@ -87,6 +88,20 @@ TEST(Training, WeightsDependNeitherOnThreadsNorOnInterruptions) {
                             .between = std::chrono::seconds(0)};
   EXPECT_THROW(trained(2, keeping), DataError);
   EXPECT_EQ(trained(2, keeping), alone);
+}
+
+TEST(Training, TakesAnArchiveForNoCheckpoint) {
+  stay_in_this_thread();
+  const DepthnetConfig config = small_config(2);
+  torch::jit::Module network = make_network(config.network, config.seed);
+  const std::vector<DepthItem> items = dents(network, 0, 2);
+  const ScratchFolder scratch;
+  save_script(network, scratch / "model.pt");
+  const std::string archive = read_file(scratch / "model.pt");
+  for (const std::string& bytes : {archive, archive.substr(0, 20), std::string()})
+    EXPECT_THROW(train(network, items, {}, config,
+                       {.load = [&] { return std::optional(bytes); }, .save = [](const std::string&) {}}),
+                 DataError);
 }
 
 }  // namespace train_test

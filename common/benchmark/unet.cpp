@@ -1,4 +1,4 @@
-#include "stages/image/depthnet/unet.h"
+#include "common/benchmark/unet.h"
 
 namespace tacipc {
 namespace {

@@ -1,11 +1,22 @@
-// The network, step by step, for whoever writes it down: as TorchScript (script_writer.h) or ONNX (onnx.h).
+// The network of depthnet, step by step, for whoever writes it down: as TorchScript (depthnet/script_writer.h) or ONNX
+// (depth_model.h).
 #pragma once
 
 #include <string>
 
-#include "stages/image/depthnet/depthnet_config.h"
-
 namespace tacipc {
+
+/// A U-Net (Ronneberger et al. 2015): on each level two 3 × 3 convolutions, then half the size and twice the channels;
+/// on the way back the maps of the same size are joined.
+struct NetworkConfig {
+  static constexpr int kMostLevels = 6, kMostChannels = 256, kMostReduction = 16;
+
+  int levels = 4;  // times the size is halved
+  int base_channels = 16;
+  int reduction = 2;  // the network sees means over squares of this many pixels
+
+  bool operator==(const NetworkConfig&) const = default;
+};
 
 /// Writes down steps that follow each other. The first one gets what the network sees: six channels, the change against
 /// the reference and the reference, in codes.
