@@ -130,7 +130,7 @@ class Bvh {
   std::vector<Node> nodes_;
   std::vector<LeafBoxes> leaves_;
   std::vector<int> item_;         // box index of each leaf item
-  std::vector<Box> box_of_item_;  // its box, in leaf order
+  std::vector<Box> box_of_item_;  // box of each leaf item
   std::vector<RoughBox> rough_box_of_item_;
 };
 

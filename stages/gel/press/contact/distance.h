@@ -20,7 +20,7 @@ struct ClosestFeature {
   Eigen::Matrix<double, 4, 2> W;  // ∂w/∂parameters, 4 × k
   Eigen::Matrix<double, 3, 2> A;  // Σ xᵢ Wᵢ = ∂r/∂parameters, 3 × k, m
   int k;                          // number of free parameters
-  Vector3 r;                      // from the second body to the first, m
+  Vector3 r;                      // vector from the second body to the first, m
   double squared_distance;        // |r|², m²
 };
 

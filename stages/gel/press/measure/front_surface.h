@@ -1,4 +1,4 @@
-// The front face as a surface of its own: it touches the object, carries the markers and is measured.
+// The front face as a surface of its own: it touches the object, has the markers and is measured.
 #pragma once
 
 #include <vector>

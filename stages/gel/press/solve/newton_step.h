@@ -31,8 +31,8 @@ struct NewtonProblem {
 /// A Newton step and the sums that its convergence is judged by.
 struct NewtonDirection {
   Positions p;  // displacement of every vertex
-  Vector3 object_shift =
-      Vector3::Zero();        // translation of the object along free axes, in addition to its prescribed motion
+  /// Translation of the object along free axes, in addition to its prescribed motion.
+  Vector3 object_shift = Vector3::Zero();
   double slope = 0.0;         // gᵀp over all free unknowns
   double gradient_sum = 0.0;  // Σ |gradient| over the free vertices of gels and the object's free axes
   /// Scale of the residual forces: |Σ contact gradient| over the free vertices of the gel in lightest contact. It is

@@ -42,7 +42,7 @@ struct StepGoal {
 struct State {
   Positions x;
   Positions velocity_m_s;                                                // gel vertices
-  Vector3 object_velocity_m_s = Vector3::Zero();                         // along the axes of a load
+  Vector3 object_velocity_m_s = Vector3::Zero();                         // object velocity along the axes of a load
   std::vector<RigidMotion> object_motion = std::vector<RigidMotion>(1);  // one per object that may be free
   double barrier_factor = 1.0;               // factor on the barrier's stiffness in the next step
   Viscoelasticity::History viscous_pa = {};  // stress history of a viscoelastic gel

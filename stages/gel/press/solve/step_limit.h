@@ -11,7 +11,7 @@ namespace tacipc {
 /// Fraction of every gap that a step must leave.
 struct GapRule {
   double slack = 0.1;  // fraction of the present gap beyond the floor
-  /// M: no gap falls to this; at smaller gaps contact is so stiff that linear algebra loses its digits.
+  /// Smallest gap, m, that may remain: at smaller gaps contact is so stiff that linear algebra loses its digits.
   double floor_m = 0;
   /// A wider gap counts as one of this width: nothing pushes there yet, so the pair may come as close as others.
   double near_m = std::numeric_limits<double>::infinity();

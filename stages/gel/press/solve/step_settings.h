@@ -17,8 +17,8 @@ struct NewtonSettings {
   double relative_force_tolerance = 5e-4;  // force criterion: Σ |residual force| / contact force, or
   double force_tolerance_n = 1e-5;         // force criterion: Σ |residual force|, whichever limit is larger
   int max_iterations = 200;                // per time step, over all friction updates; reaching it is an error
-  bool adaptive_contact_hessian =
-      true;             // blend the exact contact Hessian with its PSD approximation; false: approximation only
+  /// Blend the exact contact Hessian with its PSD approximation; false: use the approximation only.
+  bool adaptive_contact_hessian = true;
   bool patches = true;  // between iterations, solve separately for the last few vertices that still move
 
   /// Largest allowed Σ |residual force| at this contact force.

@@ -25,7 +25,7 @@ using IterationObserver = std::function<void(int iteration, double velocity_resi
 struct Step {
   const StepGoal& goal;
   const IterationObserver& observe;
-  NewtonStepper& newton;   // for the bodies that are free in this step
+  NewtonStepper& newton;   // stepper for the bodies that are free in this step
   const Positions& start;  // positions of gel and object at the start
   Positions x;
   Positions turned_start = {};  // start rotated with the hand; empty if the hand does not rotate
@@ -103,7 +103,7 @@ inline constexpr double kNewtonSlack = 0.1;   // fraction of each gap that a New
 /// Armijo constant: required fraction of the decrease predicted by the slope.
 inline constexpr double kSufficientDecrease = 1e-4;
 inline constexpr double kEnergyRounding = 1e-14;  // relative change of the energy below which it is not measurable
-/// M: augmented Lagrangian, distance at which a target counts as met.
+/// Distance, m, at which the augmented Lagrangian counts a target as met.
 inline constexpr double kConstraintTolerance = 2e-10;
 
 }  // namespace tacipc
