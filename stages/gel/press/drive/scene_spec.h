@@ -27,8 +27,8 @@ inline constexpr std::array kBodyKinds{"gel", "soft", "rigid", "fixed"};
 struct BodySpec {
   std::string name = {};
   BodyKind kind = BodyKind::gel;
-  /// Soft: tetrahedra (object.msh of `tetmesh --object`), or a folder that contains them; rigid, fixed: a closed
-  /// surface.
+  /// Soft: tetrahedra (object.msh of `tetmesh --object`), or the surface from which `tetmesh` made a folder of --soft;
+  /// rigid, fixed: a closed surface.
   std::filesystem::path mesh = {};
   double metres_per_unit = 1.0;         // unit of the mesh of a rigid or fixed body; a soft body is in metres
   std::filesystem::path material = {};  // soft: its mechanics, in the form of the section `material` of a sensor file
