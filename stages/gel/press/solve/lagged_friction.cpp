@@ -144,7 +144,7 @@ void LaggedFriction::settle(Step& step, const std::function<void()>& minimise) {
       if (early && renewed_here == kStrictRenewals) renewal = 1.0;  // leaving minima early may have slowed convergence
       last_residual = report.friction_residual_n;
     }
-    if (renewed_once || !settled) {  // before the last minimum, too, which is sought in full anyway
+    if (renewed_once || !settled) {  // also before the last minimum, which is sought in full anyway
       ++report.lag_iterations;
       step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
     }

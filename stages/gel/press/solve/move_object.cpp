@@ -13,8 +13,8 @@ namespace {
 // Largest correction of most contacts, and of a few of them, × d̂.
 constexpr double kCorrection = 0.3, kLargestCorrection = 1.0;
 constexpr std::size_t kLargeCorrections = 3;
-constexpr double kSpare =
-    0.1;  // margin, as a fraction of the largest correction, by which a correction may grow while others are made
+/// Margin, as a fraction of the largest correction, by which a correction may grow while others are made.
+constexpr double kSpare = 0.1;
 constexpr int kRounds = 3;
 // Smallest fraction of its gap, at most d̂, that a corrected contact keeps: slightly more than a move must leave.
 constexpr double kKeptGap = 1.03 * kMovingSlack;

@@ -11,8 +11,8 @@ namespace tacipc {
 namespace {
 
 constexpr double kMostSeeds = 0.01;  // largest fraction of the free vertices from which a patch starts
-constexpr int kFewestVertices =
-    400;  // smallest number of free vertices; with fewer a step of the whole gel costs no more than a patch
+/// Smallest number of free vertices; with fewer a step of the whole gel costs no more than a patch.
+constexpr int kFewestVertices = 400;
 // If more vertices move, the farthest seed must move this many times as far as any other vertex.
 constexpr double kStandOut = 3.0;
 // Once no step is longer than kNearRest × the tolerance, a patch starts from the vertices with an approximated contact

@@ -11,8 +11,8 @@
 namespace tacipc {
 namespace {
 
-constexpr double kTouching =
-    1e-9;  // fraction of the largest force on a vertex below which a vertex counts as untouched
+/// Fraction of the largest force on a vertex below which a vertex counts as untouched.
+constexpr double kTouching = 1e-9;
 
 /// Computes StepForces::stand_off_m.
 double stand_off(const ContactBarrier& barrier, const Positions& x) {
