@@ -69,7 +69,7 @@ VtuArray volume_ratios(const TetMesh& mesh, const Positions& x) {
   return {"volume_ratio", 1, std::move(ratios)};
 }
 
-/// For each component of a symmetric tensor in VTK (xx yy zz xy yz xz): its index here (xx yy zz yz xz xy).
+/// Index here (xx yy zz yz xz xy) of each component of a symmetric tensor in VTK (xx yy zz xy yz xz).
 constexpr std::array<int, 6> kOfVtk{0, 1, 2, 5, 3, 4};
 
 VtuArray stress_array(const SymmetricRows& stress_pa) {

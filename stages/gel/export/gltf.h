@@ -7,16 +7,17 @@
 
 namespace tacipc {
 
-/// Bytes of a .glb file, little-endian. A root node rotates the world (frame S of a press; z up here) to the y-up axes
-/// of glTF. Below it, in metres and in single precision:
-/// - a node per gel, `gel` or `gel <name>`: the front face at rest in the gel's own frame S, with a morph target for
-///   every later frame (displacement of each vertex) and colours of the indentation in the last frame, on the same
-///   scale for all gels, as in the report's pictures. It has no normals: viewers must compute their own, which are
-///   right in every frame. If S moves in the world, the node has its pose;
-/// - a node per soft body, `soft <name>`: its surface in frame 0, with morph targets likewise;
-/// - a node per object, `object` or `object <name>`: the mesh in its own frame; the node has the pose.
+/// Bytes of a .glb file, little-endian, in metres and single precision. A root node rotates the world (frame S of a
+/// press; z up here) to the y-up axes of glTF. Below it are:
+/// - A node per gel, `gel` or `gel <name>`: the front face at rest in the gel's own frame S. Every later frame has a
+///   morph target, the displacement of each vertex. Colours show the indentation in the last frame, on the same scale
+///   for all gels, as in the report's pictures. There are no normals: viewers must compute their own, which are right
+///   in every frame. If S moves in the world, the node has its pose.
+/// - A node per soft body, `soft <name>`: its surface in frame 0, also with morph targets.
+/// - A node per object, `object` or `object <name>`: the mesh in its own frame; the node has the pose.
 /// One animation plays all nodes at the times of the frames, linearly between them. With one frame there is none. The
-/// same scene gives the same bytes. \throw DataError if the file would exceed 4 GiB
+/// same scene gives the same bytes.
+/// \throw DataError if the file would exceed 4 GiB
 std::string glb_bytes(const OpenScene& scene);
 
 }  // namespace tacipc

@@ -37,6 +37,7 @@ struct PvdEntry {
   std::size_t part = 0;  // index among the grids shown at the same time
 };
 
+/// Text of a .pvd file, which lists grids over time.
 std::string pvd_text(const std::vector<PvdEntry>& entries);
 
 }  // namespace tacipc

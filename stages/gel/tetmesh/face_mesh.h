@@ -21,6 +21,7 @@ struct Face {
   std::function<double(const Vector2&)> edge_length_m;  // target edge length at (x, y), measured in space
 };
 
+/// A triangulated face.
 struct FaceMesh {
   std::vector<Vector2> points;  // the rim points first, as given
   Triangles triangles;          // counter-clockwise seen along −z

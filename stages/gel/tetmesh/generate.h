@@ -10,6 +10,7 @@
 
 namespace tacipc {
 
+/// Configuration of a generated gel or soft object.
 struct GenerateConfig {
   SizingConfig sizing;
   FillConfig fill;

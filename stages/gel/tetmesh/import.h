@@ -10,6 +10,7 @@
 
 namespace tacipc {
 
+/// Configuration of an import.
 struct ImportConfig {
   double unit_m = 1.0;                     // metres per unit of the file
   Matrix3 rotation = Matrix3::Identity();  // rotation of the scaled file coordinates
@@ -29,6 +30,7 @@ struct ImportConfig {
   Vector3 sensor_from_file(const Vector3& x) const;
 };
 
+/// An imported gel.
 struct ImportedGel {
   TetMesh mesh;          // vertices in file order
   bool flipped = false;  // all tetrahedra of the file were negative and have been reoriented

@@ -17,7 +17,7 @@ std::array<Vector3, 4> corners(const TetMesh& mesh, Eigen::Index t) {
           mesh.positions.row(mesh.tets(t, 3))};
 }
 
-/// The same triangle with its smallest vertex first, in unchanged orientation.
+/// A triangle rotated so that its smallest vertex comes first; its orientation is unchanged.
 std::array<int, 3> rotated(const Eigen::RowVector3i& triangle) {
   int first = 0;
   triangle.minCoeff(&first);

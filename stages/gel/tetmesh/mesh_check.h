@@ -13,14 +13,17 @@ struct DihedralAngles {
   double smallest_deg;
   double largest_deg;
 };
+/// Dihedral angles of the tetrahedron abcd.
 DihedralAngles dihedral_angles(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
 /// Checks that front, side and glued face each have a triangle. \throw DataError
 void check_faces(const TetMesh& mesh, const std::string& name);
 
-/// Checks that there are tetrahedra, all are positive (exactly), no dihedral angle is below the limit, every vertex
-/// belongs to a tetrahedron, neighbours agree on their face, the boundary is `mesh.boundary`, and each of its edges has
-/// two triangles. \param name start of the error message \throw DataError with numbers
+/// Checks the tetrahedra of a body:
+/// - there are tetrahedra, all are positive (exactly), and no dihedral angle is below the limit;
+/// - every vertex belongs to a tetrahedron, and neighbours agree on their face;
+/// - the boundary is `mesh.boundary`, and each of its edges has two triangles.
+/// \param name start of the error message \throw DataError with numbers
 void check_body(const TetMesh& mesh, double min_dihedral_deg, const std::string& name);
 
 /// Limits of check_gel().

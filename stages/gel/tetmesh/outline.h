@@ -15,6 +15,7 @@ struct Panel {
   double length_m = 0.0;
   int min_edges = 1;
 };
+/// Panels of the rim of a gel, in order.
 std::vector<Panel> panels(const GelShape& gel);
 
 /// Distance of a point from the rim, positive inside.

@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Configuration of the fill.
 struct FillConfig {
   double radius_edge_ratio = 0.0;   // largest circumradius / shortest edge; other tetrahedra are refined
   double circumradius_ratio = 0.0;  // largest circumradius / target edge length; other tetrahedra are refined

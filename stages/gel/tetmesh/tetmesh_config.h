@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Configuration of the stage tetmesh.
 struct TetmeshConfig {
   std::variant<GenerateConfig, ImportConfig> way;
 

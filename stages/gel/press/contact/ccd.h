@@ -5,9 +5,9 @@
 
 namespace tacipc {
 
-/// Time t in [0, 1] such that on all of [0, t] the distance of a pair on the paths xᵢ + τ dᵢ stays above slack × its
-/// initial distance, 0 ≤ slack < 1. The pair is point x0 and triangle x1 x2 x3, or edges x0x1 and x2x3. Returns 1 if
-/// the whole step is safe, 0 if the start cannot be proven to be.
+/// Time t in [0, 1] up to which a pair on the paths xᵢ + τ dᵢ stays farther apart than slack × its initial distance, 0
+/// ≤ slack < 1. The pair is point x0 and triangle x1 x2 x3, or edges x0x1 and x2x3. Returns 1 if the whole step is
+/// safe, 0 if the start cannot be proven to be.
 ///
 /// Every advance is proven with a bound on all rounding errors (pair_motion.h), so the result is never too large, also
 /// for the rounded positions x + t d; it may be smaller than the largest possible. The method resembles additive CCD

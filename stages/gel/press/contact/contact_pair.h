@@ -28,10 +28,12 @@ inline constexpr std::uint8_t kIsShape = 64, kAllRim = 127;
 inline constexpr std::uint8_t rim_edge(int k) { return static_cast<std::uint8_t>(1U << k); }
 inline constexpr std::uint8_t rim_corner(int k) { return static_cast<std::uint8_t>(8U << k); }
 
+/// Pair of vertex v and triangle t.
 inline ContactPair point_triangle_pair(int v, const std::array<int, 3>& t) {
   return {ContactPair::Kind::point_triangle, {v, t[0], t[1], t[2]}};
 }
 
+/// Pair of edges e and f.
 inline ContactPair edge_edge_pair(const std::array<int, 2>& e, const std::array<int, 2>& f) {
   return {ContactPair::Kind::edge_edge, {e[0], e[1], f[0], f[1]}};
 }

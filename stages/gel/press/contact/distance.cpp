@@ -10,9 +10,10 @@ namespace {
 
 /// Below this sine² of the angle between the two tangents, every edge candidate is also compared.
 constexpr double kIllConditionedSine2 = 1e-6;
-/// In faces: a point nearer to an edge or its end than this fraction of the edge counts as on it …
+/// Tolerance in faces: a point nearer to an edge or its end than this fraction of the edge counts as on it.
 constexpr double kTie = 1e-12;
-/// … and as inside the triangle on this side of it. No edge of a file is likely to be parallel or perpendicular to it.
+/// Direction that decides ties: a point on an edge belongs to the triangle on this side. It is unlikely that an edge of
+/// a file is parallel or perpendicular to it.
 const Vector3 kTieSide(0.5387, 0.2913, 0.7905);
 /// Below this sine² the two tangents count as parallel.
 constexpr double kParallelSine2 = 1e-26;

@@ -23,6 +23,7 @@ double edge_edge_mollifier_threshold(const FourPoints& x_rest);
 
 /// Mollifier m(c) = −(c/ε)² + 2 c/ε for c < ε, else 1; C¹ at ε [Li2020].
 double edge_edge_mollifier(double c, double epsilon);
+/// First and second derivative of m by c.
 double edge_edge_mollifier_d1(double c, double epsilon);
 double edge_edge_mollifier_d2(double c, double epsilon);
 
@@ -32,6 +33,7 @@ struct EdgeEdgeMollifier {
   Vector12 gradient;
   Matrix12 hessian;
 };
+/// Mollifier of a pair at x. \param epsilon edge_edge_mollifier_threshold()
 EdgeEdgeMollifier edge_edge_mollifier(const FourPoints& x, double epsilon);
 
 }  // namespace tacipc

@@ -18,7 +18,7 @@ class GelsSearch {
  public:
   explicit GelsSearch(const ContactMesh& mesh);
 
-  /// As for SelfSearch; between two gels every pair that comes within `within_m`.
+  /// Appends pairs within a gel as SelfSearch does, and between two gels every pair that comes within `within_m`.
   void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
   void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double within_m,
               std::vector<ContactPair>& out);
@@ -26,9 +26,11 @@ class GelsSearch {
   /// Appends pairs of different gels that come within `within_m` between x and x + p, or a superset.
   void across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const;
 
+  /// Discards earlier results: the next call searches anew.
   void forget();
   /// Sets the rotations of the mounts' frames, one per part; ignored for a part without a mount.
   void turn(const std::vector<Matrix3>& world_from_gel) { turns_ = world_from_gel; }
+  /// Number of calls of SelfSearch::pairs() that had to search, over all gels.
   int num_searches() const;
 
  private:

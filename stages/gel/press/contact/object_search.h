@@ -15,9 +15,9 @@ namespace tacipc {
 /// Finds pairs of a vertex, edge or triangle of the gel and a triangle, edge or vertex of the object.
 ///
 /// Positions are relative to the object, so that gel that moves with the object does not move. Each primitive of the
-/// gel keeps the object's primitives that were near in its last search, with their distances d₀ at that time. If it has
-/// moved by δ and the object (rotating) by δ′ since, none of these is nearer than d₀ − δ − δ′, and no other is nearer
-/// than the range of the search minus δ + δ′. Only primitives that have moved too far are searched again.
+/// gel keeps the object's primitives that were near in its last search, with their distances d₀ at that time. Let it
+/// have moved by δ since, and the object (rotating) by δ′. Then none of these is nearer than d₀ − δ − δ′, and all
+/// others are beyond the range of the search minus δ + δ′. Only primitives that have moved too far are searched again.
 class ObjectSearch {
  public:
   /// \param object one of the mesh's objects

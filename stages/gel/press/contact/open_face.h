@@ -13,12 +13,12 @@ namespace tacipc {
 /// The gel's highest face at rest, if that is flat (normal z) and has a convex outline; else no face.
 ///
 /// Let φ: R² → R² map positions on the face at rest to their current positions, seen along z; φ is linear in each
-/// triangle. Suppose that in every triangle the smaller eigenvalue of the symmetric part of ∇φ is at least c. Then for
-/// any two points a and b
-///   |φ(a) − φ(b)| |a − b| ≥ (φ(a) − φ(b)) · (a − b) = ∫ (a − b)ᵀ ∇φ (a − b) ≥ c |a − b|²
-/// along the straight line between them, which lies in the face because its outline is convex. So no two points come
-/// nearer than c times their distance at rest. The condition is convex in the positions: if it holds at both ends of
-/// straight paths, it holds in between.
+/// triangle. Suppose that in every triangle the smaller eigenvalue of the symmetric part of ∇φ is at least c. Then any
+/// two points a and b satisfy
+///   |φ(a) − φ(b)| |a − b| ≥ (φ(a) − φ(b)) · (a − b) = ∫ (a − b)ᵀ ∇φ (a − b) ≥ c |a − b|².
+/// The integral is along the straight line between them, which lies in the face because its outline is convex. So no
+/// two points come nearer than c times their distance at rest. The condition is convex in the positions: if it holds at
+/// both ends of straight paths, it holds in between.
 ///
 /// If the condition fails in some triangles, two points can come nearer than c times their distance at rest only if the
 /// line between them at rest crosses such a triangle. They can come nearer than d only if their distance at rest is at

@@ -37,6 +37,7 @@ TACIPC_INLINE PackedFeature segment_feature(const PackedPoints& p, int of, int a
   return f;
 }
 
+/// Lane by lane: `yes` if the key is positive, else `no`.
 TACIPC_INLINE PackedFeature choose(const Pack& key, const PackedFeature& yes, const PackedFeature& no) {
   PackedFeature f;
   for (int k = 0; k < 4; ++k) {
@@ -50,6 +51,7 @@ TACIPC_INLINE PackedFeature choose(const Pack& key, const PackedFeature& yes, co
   return f;
 }
 
+/// Lane by lane the feature with the smaller distance.
 TACIPC_INLINE PackedFeature nearer(const PackedFeature& a, const PackedFeature& b) {
   return choose(a.squared_distance - b.squared_distance, b, a);
 }

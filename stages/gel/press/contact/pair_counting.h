@@ -14,8 +14,8 @@ struct PairCounting {
   /// This gives a smooth surface bumps of the size of its triangles, which friction catches on (docs/board3.md).
   bool once = false;
   /// If `once`: smallest weight of edge–edge pairs. Their weight is the sharpness of the object's edge, of the sharper
-  /// one of two (contact/sharpness.h). On smooth surfaces vertices carry the load, and edge pairs only prevent edges
-  /// from crossing; at sharp edges they carry the load.
+  /// one of two (contact/sharpness.h). On smooth surfaces vertices bear the load, and edge pairs only prevent edges
+  /// from crossing; at sharp edges they bear the load.
   double edge_weight = 0.02;
 };
 

@@ -20,6 +20,7 @@ class PairMotion {
 
   /// Relative positions at time t, vertex 0 at the origin.
   FourPoints at(double t) const;
+  /// Closest feature at time t.
   ClosestFeature closest(double t) const;
 
   /// Unit direction from the second body to the first at their closest points; empty if they touch or numbers overflow.

@@ -31,10 +31,12 @@ struct PackedGap {
   Pack squared_length;
 };
 
+/// Lane by lane: `yes` if the key is positive, else `no`.
 TACIPC_INLINE PackedGap choose(const Pack& key, const PackedGap& yes, const PackedGap& no) {
   return {choose(key, yes.r, no.r), choose(key, yes.squared_length, no.squared_length)};
 }
 
+/// Lane by lane the shorter gap.
 TACIPC_INLINE PackedGap nearer(const PackedGap& a, const PackedGap& b) {
   return choose(a.squared_length - b.squared_length, b, a);
 }

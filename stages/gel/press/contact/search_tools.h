@@ -42,12 +42,14 @@ bool has_one(const std::vector<char>& marked, const Vertices& vertices) {
   return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return marked[static_cast<std::size_t>(v)] != 0; });
 }
 
+/// A box enlarged by `by` on all sides.
 inline Box grown(Box box, double by) {
   box.min().array() -= by;
   box.max().array() += by;
   return box;
 }
 
+/// Box around each primitive at x.
 template <typename Primitives>
 std::vector<Box> boxes_at(const Primitives& primitives, const Positions& x) {
   std::vector<Box> boxes(primitives.size());

@@ -266,7 +266,7 @@ void SelfSearch::around(const std::vector<char>& wanted, const std::vector<doubl
     from_box[v] += (x.row(v) - fitted_.row(v)).norm();
     if (!wanted[v]) of_others = std::max(of_others, from_box[v]);
   }
-  // Of two wanted primitives the one with the longer reach finds the other, which may move as far from its own box.
+  // The one of two wanted primitives with the longer reach finds the other, which may move as far from its own box.
   const auto box_of = [&](const auto& vertices, double reach) {
     return grown(box_around(x, vertices), within_m + margin_m_ + reach + std::max(reach, of_others));
   };

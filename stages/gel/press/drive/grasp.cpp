@@ -208,7 +208,7 @@ class GraspDrive {
   const GraspSpec& spec_;
   const PressConfig config_;
   Grasp out_;
-  Grip grip_;  // its bodies are moved into the world
+  Grip grip_;  // poses in frame 0; the bodies are moved into the world
   World world_;
   FrameRun run_;
   Hand hand_;

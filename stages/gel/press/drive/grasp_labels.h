@@ -19,9 +19,11 @@ inline constexpr double kGrossSlip_m = 0.1e-3, kGrossTurn_rad = 0.5 * std::numbe
 /// Grip forces are uneven if their difference exceeds this fraction of their sum.
 inline constexpr double kUneven = 0.1;
 
-/// Contact of a finger in one frame. With the normal forces nᵥ > 0 on the vertices of its front, slip_share is Σ_slip
-/// nᵥ / Σ nᵥ and friction_radius_m is Σ nᵥ |xᵥ − c| / Σ nᵥ, c = Σ nᵥ xᵥ / Σ nᵥ, in the plane x, y of S. Zeros without
-/// contact.
+/// Contact of a finger in one frame. With the normal forces nᵥ > 0 on the vertices of its front and c = Σ nᵥ xᵥ / Σ nᵥ
+/// in the plane x, y of S:
+/// - slip_share is Σ_slip nᵥ / Σ nᵥ,
+/// - friction_radius_m is Σ nᵥ |xᵥ − c| / Σ nᵥ.
+/// Both are zero without contact.
 FingerContact finger_contact(const FrontSurface& front, const Frame& frame);
 
 /// Fills contacts, and for every frame up to judged_frame its creep and its slip without creep.

@@ -27,6 +27,7 @@ class Hand {
   Vector3 force_on(std::size_t side) const { return contact_force_on(world_.deformable(side), world_.forces()); }
   /// Mean force by which the fingers press, N.
   double grip_n() const;
+  /// Whether the object is free.
   bool is_free() const { return state_.drives[0].let_go; }
   /// Whether the object is free and neither finger touches it. Fingers then stop closing, except in a release.
   bool lost() const { return state_.drives[0].lost() && state_.drives[1].lost(); }

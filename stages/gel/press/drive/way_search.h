@@ -40,6 +40,7 @@ class WaySearch {
   /// Residual m a + c v + grip − wanted. A displacement Δ is expected to change it by Δ × (inertia_n_m() +
   /// stiffness_n_m()).
   double off_n() const { return off_n_; }
+  /// Stiffness m/h² + c/h of the drive itself.
   double inertia_n_m() const { return inertia_n_m_; }
   /// Stiffness of the grip; 0 without contact.
   double stiffness_n_m() const { return stiffness_n_m_; }

@@ -9,10 +9,12 @@ namespace tacipc {
 using ControlPoints = Eigen::Matrix<double, 4, 3>;  // one row per control point
 
 /// A body whose points are affine functions of four control points: x = Σₖ βₖ pₖ [Lan et al. 2022, there written as x =
-/// c + A X]. With S = Q Λ Qᵀ the second moment and tₖ the corners of a regular tetrahedron, Σ tₖ = 0 and Σ tₖ tₖᵀ = 4
-/// I, the control points at rest are pₖ = c + Q Λ^½ tₖ. Four particles of mass m/4 there have the body's mass, centre
-/// and second moment, so its kinetic energy is Σ ½ (m/4) |ṗₖ|² for every affine motion and the mass matrix couples no
-/// two points.
+/// c + A X].
+///
+/// Let S = Q Λ Qᵀ be the second moment, and tₖ the corners of a regular tetrahedron with Σ tₖ = 0 and Σ tₖ tₖᵀ = 4 I.
+/// The control points at rest are pₖ = c + Q Λ^½ tₖ. Four particles of mass m/4 there have the body's mass, centre and
+/// second moment. Its kinetic energy is therefore Σ ½ (m/4) |ṗₖ|² for every affine motion, and the mass matrix couples
+/// no two points.
 struct AffineBody {
   double mass_kg = 0.0;
   ControlPoints rest_m = ControlPoints::Zero();

@@ -22,8 +22,8 @@ namespace tacipc {
 /// resists inversion and, by its own contribution to the bulk modulus (2μ/3), changes of volume inside the cluster.
 ///
 /// With u(v) = V_C λ/2 ln²(v/V_C), v the cluster's volume:
-///   ∂Φ = Σ V_t ∂ψ_μ + u′ ∂v,   ∂²Φ = Σ [V_t ∂²ψ_μ + u′ ∂²v_t] + u″ ∂v ∂vᵀ,   u′ = λ ln J̄/J̄,   u″ = λ(1 − ln J̄)/(V
-///   J̄²).
+///   ∂Φ = Σ V_t ∂ψ_μ + u′ ∂v,   ∂²Φ = Σ [V_t ∂²ψ_μ + u′ ∂²v_t] + u″ ∂v ∂vᵀ,
+///   u′ = λ ln J̄/J̄,   u″ = λ(1 − ln J̄)/(V J̄²).
 /// The PSD approximation (Order::psd) projects each bracket over one tetrahedron in closed form and keeps u″ ≥ 0.
 class AveragedElasticity final : public EnergyTerm {
  public:

@@ -43,7 +43,7 @@ TACIPC_INLINE unsigned evaluate_barrier(const double* x, const double* rest, con
   const Pack s = f.squared_distance, none = {}, one = none + 1.0;
   Pack weight;
   for (int l = 0; l < kLanes; ++l) weight[l] = pairs[l]->weight;
-  // As in barrier.h.
+  // Derivatives b′ and b″ as in barrier.h.
   const Pack gap = s_hat - s, inverse_s = one / s, log_ratio = logarithm(s / s_hat);
   const Pack b1 = choose(gap, weight * (gap * (2.0 * log_ratio - gap * inverse_s)), none);
   const Pack b2 = choose(gap, weight * (-2.0 * log_ratio + gap * (3.0 * s + s_hat) * inverse_s * inverse_s), none);
@@ -51,7 +51,8 @@ TACIPC_INLINE unsigned evaluate_barrier(const double* x, const double* rest, con
   const Pack psd = choose(weight, blend, none), exact = one - psd;
   const Pack all = choose(weight, one, one - blend);
 
-  // As blended_hessian() of contact_barrier.cpp: ww and WW belong to two vertices, a_i = A (AᵀA)⁻¹ W_iᵀ to one.
+  // Hessian as in blended_hessian() of contact_barrier.cpp: ww and WW belong to two vertices, a_i = A (AᵀA)⁻¹ W_iᵀ to
+  // one.
   const Pack along_ww = all * (psd * (4.0 * b2 + 2.0 * b1 * inverse_s) + exact * 4.0 * b2),
              along_WW = all * (-2.0 * b1);
   const Pack scale = all * (2.0 * b1 * exact);
@@ -103,7 +104,7 @@ TACIPC_INLINE unsigned energy_lanes(const double* x, const double* rest, const C
                                     double* out) {
   const PackedPoints p = load_points(x, pairs);
   const Pack s = (point_triangle ? point_triangle_feature(p) : edge_edge_feature(p)).squared_distance;
-  // As in barrier.h.
+  // Energy b as in barrier.h.
   const Pack gap = s_hat - s, none = {}, energy = choose(gap, -gap * gap * logarithm(s / s_hat), none);
   for (int l = 0; l < kLanes; ++l) out[l] = pairs[l]->weight * energy[l];
   return doubtful_lanes<point_triangle>(p, rest, pairs);
@@ -138,7 +139,7 @@ double ContactBarrier::value_of(const std::vector<int>& near, const Positions& x
   return ordered_sum(static_cast<int>(near.size()), [&](int first, int last) {
     double sum = 0.0;
     while (first < last) {
-      // As many consecutive pairs of one kind as possible.
+      // Takes as many consecutive pairs of one kind as possible.
       std::array<const ContactPair*, kLanes> pairs;
       int count = 0;
       for (; count < kLanes && first + count < last; ++count) {

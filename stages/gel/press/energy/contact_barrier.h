@@ -46,6 +46,7 @@ class ContactBarrier final : public ContactTerm {
     ClosestFeature feature;
     double force;
   };
+  /// Contact force of pair i with its vertices at `points`.
   Push push(int i, const FourPoints& points) const;
 
  private:

@@ -46,9 +46,11 @@ class ElasticPacks {
   /// Exact gradient and Hessian of V [ψ(F) + p J] of one pack, and the state at x.
   /// \param pressure p of each of the kLanes tetrahedra, Pa; null: zero \pre no tetrahedron is inverted
   void derivatives(int pack, const Positions& x, const double* pressure, State& state, Derivatives& out) const;
-  /// Gradient as in derivatives(). If the Hessian of a tetrahedron differs from that of `known` by more than about
-  /// `tolerance` (ΔF F⁻¹, or p J in shear moduli), writes the pack's Hessian minus that of `known`, sets `known` to the
-  /// state at x and returns true. Else leaves `out.hessian` unchanged and returns false.
+  /// Updates the Hessian of a pack only if it has changed. `out.gradient` is as in derivatives().
+  /// \param tolerance change of a tetrahedron's Hessian since the state `known` (ΔF F⁻¹, or p J in shear moduli) above
+  /// which the pack has changed
+  /// \return true if the pack has changed: `out.hessian` is its Hessian minus that of `known`, and `known` is the state
+  /// at x. False: both are unchanged
   bool change(int pack, const Positions& x, const double* pressure, double tolerance, State& known,
               Derivatives& out) const;
 

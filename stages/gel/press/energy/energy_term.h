@@ -33,7 +33,9 @@ struct Local {
 class EnergyTerm {
  public:
   virtual ~EnergyTerm() = default;
+  /// Number of stencils.
   virtual int num_stencils() const = 0;
+  /// Vertices of stencil i, as rows of the positions.
   virtual std::span<const int> stencil(int i) const = 0;
   /// Evaluates stencil i at its vertices' coordinates `x` (3 × #vertices). A value of +∞ means that x is not allowed.
   virtual void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const = 0;

@@ -36,6 +36,7 @@ class Inertia final : public EnergyTerm {
   }
 
   double mass_kg(int i) const { return mass_kg_[i]; }
+  /// Gradient mᵢ (x − x̂ᵢ) of stencil i with its vertex at x.
   Vector3 gradient(int i, const Vector3& x) const { return mass_kg_[i] * (x - x_hat_m_.row(i).transpose()); }
 
  private:

@@ -22,10 +22,14 @@ struct NegativeMode {
   Matrix3 Q;
 };
 
-/// Computes the modes whose removal makes ∂²(Ψ + p J)/∂F² positive semi-definite. In the principal frame F = U diag(σ)
-/// Vᵀ the Hessian splits into three twists (u_p v_qᵀ − u_q v_pᵀ)/√2 with value μ − α/(σ_p σ_q), three flips (u_p v_qᵀ +
-/// u_q v_pᵀ)/√2 with μ + α/(σ_p σ_q), and a 3 × 3 block δ_pq (μ + α/σ_p²) + β/(σ_p σ_q) over the stretches u_p v_pᵀ
-/// [form of Smith et al. 2019 for isotropic energies]. Here α = a − p J and β = λ + p J.
+/// Computes the modes whose removal makes ∂²(Ψ + p J)/∂F² positive semi-definite.
+///
+/// In the principal frame F = U diag(σ) Vᵀ the Hessian splits into independent parts [form of Smith et al. 2019 for
+/// isotropic energies], with α = a − p J and β = λ + p J:
+/// - three twists (u_p v_qᵀ − u_q v_pᵀ)/√2 with the value μ − α/(σ_p σ_q),
+/// - three flips (u_p v_qᵀ + u_q v_pᵀ)/√2 with the value μ + α/(σ_p σ_q),
+/// - a 3 × 3 block δ_pq (μ + α/σ_p²) + β/(σ_p σ_q) over the stretches u_p v_pᵀ.
+///
 /// \param pressure pressure term p, positive in tension
 /// \return number of modes, at most six
 int negative_modes(const NeoHookean& material, const Matrix3& F, double pressure, NegativeMode modes[6]);

@@ -17,8 +17,8 @@ struct ContactSummary {
   int slipping = 0;               // number of slipping vertices
 };
 
-/// Measures the contact of one frame. Areas are those of the deformed front, and a vertex at the rim of the contact
-/// counts with its whole lumped area, so the area is uncertain by half a row of triangles around the rim.
+/// Measures the contact of one frame. Areas are those of the deformed front. A vertex at the rim of the contact counts
+/// with its whole lumped area, so the area is uncertain by half a row of triangles around the rim.
 /// \param normal_n normal force on each front vertex, N
 /// \throw SolverError if a vertex with a force has no area (its triangles have collapsed)
 ContactSummary measure_contact(const FrontSurface& front, const Positions& front_positions, const Positions& normal_n,

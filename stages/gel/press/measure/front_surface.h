@@ -16,6 +16,7 @@ struct FrontSurface {
 /// Median edge length of the front face, m: the resolution of contact.
 double median_front_edge_m(const TetMesh& gel);
 
+/// Surface of the triangles that are tagged as front.
 FrontSurface make_front_surface(const TetMesh& gel);
 
 /// Rows of the front vertices in a per-vertex array of the whole gel.

@@ -12,14 +12,16 @@
 
 namespace tacipc {
 
-/// Conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start. With A = L + D + Lᵀ, D the 3 ×
-/// 3 diagonal blocks (12 × 12 for a body), the preconditioner is M = (D + L) D⁻¹ (D + Lᵀ). After scaling by the
-/// Cholesky factors of D (D = I) the preconditioned matrix is
+/// Conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start. A = L + D + Lᵀ, with D the 3 ×
+/// 3 diagonal blocks (12 × 12 for a body), and the preconditioner is M = (D + L) D⁻¹ (D + Lᵀ).
+///
+/// After scaling by the Cholesky factors of D, so that D = I, the preconditioned matrix is
 ///   Â = (I + L)⁻¹ A (I + Lᵀ)⁻¹,   Â p = t + (I + L)⁻¹ (p − t),   t = (I + Lᵀ)⁻¹ p   [Eisenstat 1981].
-/// A product with Â is two sweeps over L, as many operations as a product with A, and less than half of the iterations
-/// with M = D are needed. In every iteration xᵀAx = xᵀb, so an unfinished solution is also a descent direction. A gel
-/// is thin and glued at the back: forces reach about one thickness far, and some twenty iterations suffice for any
-/// size.
+/// A product with Â takes two sweeps over L, as many operations as a product with A. It needs less than half of the
+/// iterations that M = D would need. In every iteration xᵀAx = xᵀb, so an unfinished solution is also a descent
+/// direction. A gel is thin and glued at the back: forces reach about one thickness far, and some twenty iterations
+/// suffice for any size.
+///
 /// L is stored in single precision, because sweeps are bound by memory and Newton steps need only two or three digits.
 /// For a finer tolerance, solutions are refined with the matrix itself. Sweeps and sums run in a fixed order. If the
 /// iterations do not suffice, the system is factorised.

@@ -70,7 +70,7 @@ void start_ahead(const SolverModel& model, CollisionDetector& detector, const St
   }
   for (const CarriedBody& body : step.newton.free().carried) body.carry(p);
   if (mounts) p.topRows(model.mesh.num_gel_vertices) = goal.gel_motion;
-  // In pieces: a search for pairs along a long displacement would find too many.
+  // The displacement is made in pieces, because a search for pairs along all of it would find too many.
   const double pieces = std::ceil(relative_way(model.mesh, p) / longest_way(model.settings));
   const Positions piece = p / std::max(1.0, pieces);
   double part = 0.0;

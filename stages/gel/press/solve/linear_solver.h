@@ -40,6 +40,7 @@ class LinearSolver {
   virtual int num_factorized() const { return 0; }
 };
 
+/// Creates a solver of this kind with its default tolerance.
 std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind);
 
 }  // namespace tacipc

@@ -7,8 +7,8 @@
 #include "stages/gel/press/solve/step_under_way.h"
 
 namespace tacipc {
-/// Moves objects and gel along a Newton direction.
 
+/// Moves objects and gel along a Newton direction.
 class ObjectMover {
  public:
   ObjectMover(const SolverModel& model, CollisionDetector& detector) : model_(model), detector_(detector) {}

@@ -9,8 +9,8 @@
 #include "stages/gel/press/solve/step_under_way.h"
 
 namespace tacipc {
-/// Solves patches between the iterations of a step.
 
+/// Solves patches between the iterations of a step.
 class PatchSolver {
  public:
   PatchSolver(const SolverModel& model, CollisionDetector& detector, SolverTimes& times)

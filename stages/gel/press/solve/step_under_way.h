@@ -69,6 +69,7 @@ class ActiveBarrier {
  public:
   explicit ActiveBarrier(std::shared_ptr<const ContactBarrier> barrier) : barrier_(std::move(barrier)) {}
   const std::shared_ptr<const ContactBarrier>& barrier() const { return barrier_; }
+  /// Active pairs at x; computed only if x has changed.
   const std::vector<int>& at(const Positions& x) {
     if (x_.rows() != x.rows() || (x_.array() != x.array()).any()) {
       x_ = x;

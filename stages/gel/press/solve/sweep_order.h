@@ -25,6 +25,7 @@ struct SweepOrder {
   int separator() const { return part_start[part_start.size() - 2]; }
 };
 
+/// Orders the rows of a pattern in this number of parts and a separator.
 SweepOrder make_sweep_order(const BlockPattern& pattern, int num_parts);
 
 }  // namespace tacipc

@@ -24,6 +24,7 @@ struct Scales {
   double start_gap_m = 0.0;        // gap in frame 0 between the object's lowest point and z = 0
   double barrier_stiffness = 0.0;  // κ, kg m⁻²
 };
+/// Computes these numbers.
 Scales scales_of(const PressConfig& config, const Sensor& sensor, const TetMesh& gel);
 
 /// Element that the configuration asks for, with "auto" decided by Poisson's ratio: "linear" or "averaged_volume".

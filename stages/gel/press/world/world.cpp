@@ -320,7 +320,7 @@ void World::add_weights_and_loads(const StepGoal& goal, const WholeInstant& befo
   for (std::size_t i = 0; i < affine_.size(); ++i) {
     const Vector3 at = center_of(after.bodies[i].control), shift = at - center_of(before.bodies[i].control);
     if (after.bodies[i].held) {
-      // Its height counts, so lifting it is external work.
+      // The height of a held body counts, so lifting it is external work.
       exchange.others_work_j -= affine_[i].mass_kg * options_.gravity_m_s2.dot(shift);
       continue;
     }

@@ -72,6 +72,7 @@ class World {
   const AffineBody& affine(std::size_t i) const { return affine_[i]; }
   const Scales& scales() const { return scales_; }
   const ContactMesh& mesh() const { return mesh_; }
+  /// Constant data of deformable body b.
   SolvedGel deformable(std::size_t b) const;
 
   WorldState& state() { return state_; }
@@ -90,6 +91,7 @@ class World {
   /// Control points of the i-th object that may be free: now, and for a pose of the body.
   ControlPoints points(std::size_t i) const;
   ControlPoints points_at(std::size_t i, const Matrix4& world_from_body) const;
+  /// Angular velocity of the i-th object that may be free, in the world.
   Vector3 spin_rad_s(std::size_t i) const;
 
   /// Goal of a step in which mounts rest and all objects that may be free are free.
@@ -99,6 +101,7 @@ class World {
   void move_mounts(StepGoal& goal, const std::vector<Matrix4>& world_from_body) const;
   /// Holds the i-th object that may be free at a pose at the end of the step. \pre called in ascending order
   void hold(StepGoal& goal, std::size_t i, const Matrix4& world_from_body) const;
+  /// Whether a goal holds the i-th object that may be free.
   static bool is_held(const StepGoal& goal, std::size_t i);
 
   /// Takes one time step. \param world_from_body poses of all bodies at its end, as in the goal; poses of free bodies
@@ -107,6 +110,7 @@ class World {
   StepReport advance(const StepGoal& goal, const std::vector<Matrix4>& world_from_body,
                      const IterationObserver& observe);
 
+  /// Smallest gap as TimeStepper::smallest_gap(), at the present positions.
   double smallest_gap(double none) { return stepper_.smallest_gap(state_.motion.x, none); }
 
   /// Frames of all deformable bodies, each in its own frame S. \param phase_index −1 in frame 0
