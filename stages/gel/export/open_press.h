@@ -12,7 +12,8 @@
 
 namespace tacipc {
 
-/// Opens a press folder. \param object_path absent for a scene, whose record names its bodies
+/// Opens a press folder.
+/// \param object_path absent for a scene, whose record names its bodies
 /// \param frames required number of frames; absent: any
 /// \throw DataError if the press did not finish, was made with another gel or object (by content hash), or an array
 /// does not fit the gel, the other arrays or the number of frames

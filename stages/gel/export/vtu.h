@@ -27,7 +27,8 @@ struct VtuGrid {
 
 /// Bytes of a .vtu file: an XML header and, after the underscore of its AppendedData, for each array its size in bytes
 /// as UInt64 and its values, all little-endian. Offsets in the header count from that underscore. The same grid gives
-/// the same bytes. \pre each array has its components for every point or cell
+/// the same bytes.
+/// \pre each array has its components for every point or cell
 std::string vtu_bytes(const VtuGrid& grid);
 
 /// One entry of a collection; `file` is relative to the collection.

@@ -17,7 +17,8 @@ struct GelSurface {
 };
 
 /// Triangulates the surface of the gel at the target edge lengths. The rim is inscribed: its vertices lie on the
-/// outline, its edges are chords. \throw DataError if the rim is not closed
+/// outline, its edges are chords.
+/// \throw DataError if the rim is not closed
 GelSurface gel_surface(const Sizing& sizing, std::uint64_t seed);
 
 }  // namespace tacipc

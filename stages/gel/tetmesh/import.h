@@ -36,8 +36,9 @@ struct ImportedGel {
   bool flipped = false;  // all tetrahedra of the file were negative and have been reoriented
 };
 
-/// Reads and checks a mesh. \throw DataError that names the file: unreadable, without tetrahedra, tetrahedra of mixed
-/// orientation or without volume, not the sensor's shape, without a glued face, …
+/// Reads and checks a mesh.
+/// \throw DataError that names the file: unreadable, without tetrahedra, tetrahedra of mixed orientation or without
+/// volume, not the sensor's shape, without a glued face, …
 ImportedGel import_gel(const std::filesystem::path& path, const ImportConfig& config, const GelShape& gel);
 
 }  // namespace tacipc

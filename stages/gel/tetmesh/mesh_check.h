@@ -23,7 +23,8 @@ void check_faces(const TetMesh& mesh, const std::string& name);
 /// - there are tetrahedra, all are positive (exactly), and no dihedral angle is below the limit;
 /// - every vertex belongs to a tetrahedron, and neighbours agree on their face;
 /// - the boundary is `mesh.boundary`, and each of its edges has two triangles.
-/// \param name start of the error message \throw DataError with numbers
+/// \param name start of the error message
+/// \throw DataError with numbers
 void check_body(const TetMesh& mesh, double min_dihedral_deg, const std::string& name);
 
 /// Limits of check_gel().
@@ -32,7 +33,8 @@ struct MeshLimits {
   double front_tolerance_m = 0.0;
 };
 /// Checks as check_body(), and that all three tags of a gel occur and front vertices lie on the sensor's front within
-/// the tolerance (0: exactly). \throw DataError with numbers
+/// the tolerance (0: exactly).
+/// \throw DataError with numbers
 void check_gel(const TetMesh& mesh, const GelShape& gel, const MeshLimits& limits, const std::string& name);
 
 }  // namespace tacipc

@@ -36,8 +36,9 @@ struct Sizing {
   double front(double radius_m) const;
 };
 
-/// Sizing of one gel. \throw DataError if the inner radius does not lie inside the gel, if hardly any thickness is left
-/// at the rim of a dome, or if the dome of a rectangle is too steep to be triangulated as seen from above
+/// Sizing of one gel.
+/// \throw DataError if the inner radius does not lie inside the gel, if hardly any thickness is left at the rim of a
+/// dome, or if the dome of a rectangle is too steep to be triangulated as seen from above
 Sizing sizing_for(const SizingConfig& config, const GelShape& gel);
 
 /// Target edge length in metres at a rest point (frame S):

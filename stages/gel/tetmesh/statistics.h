@@ -26,7 +26,8 @@ struct EdgeStatistics {
 struct GelEdges {
   EdgeStatistics all, front_centre, front_inner, front_rim, back;
 };
-/// Computes the statistics. \param reach_m distance of the outermost point of the gel from the axis
+/// Computes the statistics.
+/// \param reach_m distance of the outermost point of the gel from the axis
 /// \param wanted_edge_length_m target length at a point
 GelEdges edge_statistics(const TetMesh& mesh, double reach_m,
                          const std::function<double(const Vector3&)>& wanted_edge_length_m);

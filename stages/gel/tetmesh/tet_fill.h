@@ -22,7 +22,8 @@ struct FillConfig {
 };
 
 /// Fills the surface, whose triangles stay unchanged: its vertices come first, bit by bit, and new vertices lie inside.
-/// \param edge_length_m target length at a point \throw DataError with TetGen's reason if it fails
+/// \param edge_length_m target length at a point
+/// \throw DataError with TetGen's reason if it fails
 TetMesh fill_with_tets(const GelSurface& surface, const FillConfig& config,
                        const std::function<double(const Vector3&)>& edge_length_m);
 

@@ -40,8 +40,8 @@ struct ContactMesh {
   Surface object;
   Positions rest_positions;  // all vertices, gel undeformed; scale of the edge mollifier and of close pairs at rest
   std::vector<double> object_edge_sharpness;  // per edge of `object`, as the object was given (contact/sharpness.h)
-  std::vector<double>
-      gel_edge_sharpness;  // per edge of `gel`; nonzero only for soft objects, which may have sharp edges
+  /// Sharpness per edge of `gel`; nonzero only for soft objects, which may have sharp edges.
+  std::vector<double> gel_edge_sharpness;
   /// Features of `object` if there are several objects. Empty for a single object, which touches nothing rigid.
   ShapeFeatures object_shapes;
   std::vector<GelPart> gels;  // parts if there are several gels; empty for a single gel

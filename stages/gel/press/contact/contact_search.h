@@ -51,8 +51,9 @@ class ContactSearch {
   }
 
   /// Every pair with a `wanted` gel vertex that comes within `within_m` while each gel vertex stays within its
-  /// `reach_m` of its position in `x`, or a superset. \param wanted, reach_m one number per vertex \pre wanted vertices
-  /// have a reach above zero; objects are where the last call of pairs() had them
+  /// `reach_m` of its position in `x`, or a superset.
+  /// \param wanted, reach_m one number per vertex
+  /// \pre wanted vertices have a reach above zero; objects are where the last call of pairs() had them
   std::vector<ContactPair> pairs_around(const std::vector<char>& wanted, const std::vector<double>& reach_m,
                                         const Positions& x, double within_m) {
     std::vector<ContactPair> found;

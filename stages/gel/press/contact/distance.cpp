@@ -87,7 +87,8 @@ struct PlaneFit {
 };
 
 /// Minimises |r + p a + q b|. Uses Gram–Schmidt on the longer tangent: with an angle θ the error grows like ε/θ, not
-/// ε/θ². \return nothing if a and b are parallel
+/// ε/θ².
+/// \return nothing if a and b are parallel
 std::optional<PlaneFit> minimise_over_plane(const Vector3& r, const Vector3& a, const Vector3& b) {
   const double aa = a.squaredNorm();
   const double bb = b.squaredNorm();

@@ -30,8 +30,9 @@ ClosestFeature closest_point_triangle(const FourPoints& x);
 
 /// Closest feature of a point and a triangle that is a piece of a flat face. Edges and corners inside the face do not
 /// act: if one of them is nearest, the squared distance is infinite, and a point above one belongs to one of the
-/// triangles that meet there. \param rim bit k: edge k, from x_{k+1} to the next corner, is an edge of the face; bit 3
-/// + k: corner x_{k+1} is a corner of the face
+/// triangles that meet there.
+/// \param rim bit k: edge k, from x_{k+1} to the next corner, is an edge of the face; bit 3 + k: corner x_{k+1} is a
+/// corner of the face
 ClosestFeature closest_point_face(const FourPoints& x, unsigned rim);
 
 /// Closest feature of edges x0x1 and x2x3; w = (1−s, s, −(1−t), −t). Edges parallel within 1e-13 rad count as the

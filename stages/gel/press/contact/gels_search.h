@@ -26,7 +26,7 @@ class GelsSearch {
   /// Appends pairs of different gels that come within `within_m` between x and x + p, or a superset.
   void across(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out) const;
 
-  /// Discards earlier results: the next call searches anew.
+  /// Discards earlier results: the next call repeats the search.
   void forget();
   /// Sets the rotations of the mounts' frames, one per part; ignored for a part without a mount.
   void turn(const std::vector<Matrix3>& world_from_gel) { turns_ = world_from_gel; }

@@ -28,8 +28,9 @@ class ObjectSearch {
   void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
 
   /// Appends every pair with a `wanted` gel vertex that comes within `within_m` while each gel vertex stays within its
-  /// `reach_m` of its position in `x`, or a superset. \param wanted, reach_m one number per vertex \pre the object is
-  /// on the path of the last call of pairs()
+  /// `reach_m` of its position in `x`, or a superset.
+  /// \param wanted, reach_m one number per vertex
+  /// \pre the object is on the path of the last call of pairs()
   void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double within_m,
               std::vector<ContactPair>& out) const;
 

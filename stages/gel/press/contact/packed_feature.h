@@ -15,8 +15,8 @@ struct PackedFeature {
   Pack squared_distance;
 };
 
-/// Feature of point `of` against the segment from `a` to `b`; r = sign × (point − foot). \param inverse_length2 1 /
-/// squared length of the segment
+/// Feature of point `of` against the segment from `a` to `b`; r = sign × (point − foot).
+/// \param inverse_length2 1 / squared length of the segment
 TACIPC_INLINE PackedFeature segment_feature(const PackedPoints& p, int of, int a, int b, const Pack& inverse_length2,
                                             double sign) {
   PackedFeature f = {};

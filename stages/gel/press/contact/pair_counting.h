@@ -37,8 +37,9 @@ struct PairCounting {
 /// body: spurious hills. In addition, energies of triangles that cancel except for rounding have Hessians that do not
 /// cancel, so Newton steps would go sideways above the edges between them.
 ///
-/// All weights are multiplied by the stiffness of the bodies' law. \pre triangles around every edge within reach of a
-/// vertex are in `pairs`, as ContactSearch finds them; no pair has been weighted yet
+/// All weights are multiplied by the stiffness of the bodies' law.
+/// \pre triangles around every edge within reach of a vertex are in `pairs`, as ContactSearch finds them; no pair has
+/// been weighted yet
 std::vector<ContactPair> weighted(std::vector<ContactPair> pairs, const ContactMesh& mesh, const ContactLaws& laws,
                                   const PairCounting& counting);
 

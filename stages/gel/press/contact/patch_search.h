@@ -12,8 +12,8 @@ namespace tacipc {
 /// that snap over an edge.
 class PatchSearch {
  public:
-  /// Searches the pairs for the step p from x, with some reserve. \pre the vertices are gel vertices; objects are where
-  /// the last call of ContactSearch::pairs() had them
+  /// Searches the pairs for the step p from x, with some reserve.
+  /// \pre the vertices are gel vertices; objects are where the last call of ContactSearch::pairs() had them
   PatchSearch(ContactSearch& search, const std::vector<int>& vertices, int num_gel_vertices, const Positions& x,
               const Positions& p, double within_m, double longest_reach_m);
 
@@ -21,7 +21,8 @@ class PatchSearch {
   /// known reach allows less than 1.
   double part_within_reach(const Positions& x, const Positions& p);
 
-  /// Extends pairs() to x and the straight path to it. \return false if pairs() covers them already
+  /// Extends pairs() to x and the straight path to it.
+  /// \return false if pairs() covers them already
   /// \pre every vertex is within its reach
   bool extend_to(const Positions& x);
 

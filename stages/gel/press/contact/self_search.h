@@ -25,12 +25,13 @@ class SelfSearch {
   void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
 
   /// Appends every pair with a `wanted` vertex that comes nearer than that while each vertex stays within its `reach_m`
-  /// of its position in `x`, or a superset. \param wanted, reach_m one number per vertex \pre wanted vertices have a
-  /// reach above zero
+  /// of its position in `x`, or a superset.
+  /// \param wanted, reach_m one number per vertex
+  /// \pre wanted vertices have a reach above zero
   void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double within_m,
               std::vector<ContactPair>& out);
 
-  /// Discards earlier results: the next call searches anew.
+  /// Discards earlier results: the next call repeats the search.
   void forget() {
     within_m_.reset();
     fitted_.resize(0, 3);
@@ -80,7 +81,7 @@ class SelfSearch {
   double margin_m_ = 0.0;                   // margin, proportional to the mean edge
   std::vector<double> margin_of_others_m_;  // margins without the part that is proportional to the search distance
 
-  std::optional<double> within_m_;  // distance of the last search; absent: the next call searches anew
+  std::optional<double> within_m_;  // distance of the last search; absent: no earlier result
   Found of_face_, of_others_;       // pairs within the face, and all other pairs
   OpenFace::Places searched_;       // points of the face that have been searched against the face
   Positions fitted_;  // positions to which around() has fitted the trees; empty if it was not the last to do so

@@ -33,8 +33,8 @@ RigidWay hand_in(const GraspPhase& phase, double fraction, double seconds) {
   return hand;
 }
 
-/// Sets the force or displacement that the drives should have reached at a fraction of a phase. \param from drives at
-/// its start
+/// Sets the force or displacement that the drives should have reached at a fraction of a phase.
+/// \param from drives at its start
 void set_goal(const GraspPhase& phase, double fraction, const std::array<GripControl, 2>& from, const Grip& grip,
               std::array<GripControl, 2>& drives) {
   const double mean_m = 0.5 * (from[0].closed_m + from[1].closed_m);

@@ -74,8 +74,8 @@ struct Grasp {
   GraspOutcome outcome = GraspOutcome::lifted;
   std::optional<GraspReason> reason;                   // reason of an outcome other than `lifted`
   std::vector<std::array<FingerContact, 2>> contacts;  // contact of both fingers, per frame
-  std::vector<double>
-      friction_use;  // required over possible friction, per frame from freed_frame on while the object is held
+  /// Required over possible friction, per frame from freed_frame on while the object is held.
+  std::vector<double> friction_use;
   std::array<SlipTimes, 2> slips;
   std::size_t freed_frame = 0;   // last frame of the first `close` phase
   std::size_t judged_frame = 0;  // last frame before the fingers release the object; the outcome is judged there

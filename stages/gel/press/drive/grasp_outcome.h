@@ -31,8 +31,8 @@ Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_
 /// Whether any finger touches the object or the other finger.
 bool any_touches(const GraspFrame& frame);
 
-/// Outcome between freed_frame and the last frame before the fingers release the object. \pre the frames' slip without
-/// creep is computed
+/// Outcome between freed_frame and the last frame before the fingers release the object.
+/// \pre the frames' slip without creep is computed
 GraspOutcome outcome_of(const Grasp& grasp);
 
 }  // namespace tacipc

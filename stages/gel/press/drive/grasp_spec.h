@@ -53,10 +53,11 @@ struct GraspSpec {
   static GraspSpec read(ConfigReader& in);
   /// Press configuration with the friction of this object. \throw UsageError if the press file has no friction
   PressConfig pressed_with(const PressConfig& config) const;
-  /// Mass properties of the object as it is held. \throw DataError if its centre of mass would lie outside of its
-  /// bounding box
+  /// Mass properties of the object as it is held.
+  /// \throw DataError if its centre of mass would lie outside of its bounding box
   MassProperties mass_of(const TriangleMesh& object) const;
-  /// Pose in which the object is gripped by fronts of this shape. \param mass mass_of(object)
+  /// Pose in which the object is gripped by fronts of this shape.
+  /// \param mass mass_of(object)
   /// \throw DataError if none of the drawn grasps is possible
   GraspPose pose_of(const TriangleMesh& object, const MassProperties& mass, const GelShape& front,
                     double friction) const;

@@ -10,8 +10,8 @@
 
 namespace tacipc {
 
-/// Inertia and damping of a drive along its closing axis: m a + c v = wanted force − grip force. If both are zero, the
-/// grip force equals the wanted force at the end of every time step, as far as the fingers can move.
+/// Inertia and damping of a drive along its closing axis: m a + c v = prescribed force − grip force. If both are zero,
+/// the grip force equals the prescribed force at the end of every time step, as far as the fingers can move.
 struct DriveInertia {
   double mass_kg = 0.0, damping_n_s_m = 0.0;  // mass and viscous damping
 
@@ -49,8 +49,8 @@ struct GripControl {
   bool touches() const;
   /// Whether the object is free and the finger does not touch it.
   bool lost() const { return let_go && !touches(); }
-  /// Whether the last step ended with the wanted force or displacement, and a drive with mass does not oscillate about
-  /// it.
+  /// Whether the last step ended with the prescribed force or displacement, and a drive with mass does not oscillate
+  /// about it.
   bool arrived(const DriveInertia& inertia = {}) const;
 };
 
@@ -62,7 +62,8 @@ struct HandState {
 };
 
 inline constexpr double kFirstTouch_m = 2e-5;  // displacement of a finger in the step after its first touch
-// Change of force within a step, as a fraction of the force, that exceeds the solver's tolerance.
+/// Smallest measurable change of force within a step, as a fraction of the force; less may be due to the solver's
+/// tolerance.
 inline constexpr double kMeasurablePart = 2e-3;
 
 }  // namespace tacipc

@@ -146,8 +146,8 @@ class SceneDrive {
     }
   }
 
-  /// Checks held bodies. \throw DataError if one would run into another held or fixed body, because no contact acts
-  /// between them
+  /// Checks held bodies.
+  /// \throw DataError if one would run into another held or fixed body, because no contact acts between them
   void require_free_way(const StepGoal& goal) const {
     const ContactMesh& mesh = world_.mesh();
     const Positions& x = world_.state().motion.x;

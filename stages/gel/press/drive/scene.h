@@ -7,7 +7,8 @@
 
 namespace tacipc {
 
-/// Runs all phases of a scene. \param bodies contents of spec.bodies, in that order
+/// Runs all phases of a scene.
+/// \param bodies contents of spec.bodies, in that order
 /// \throw SolverError, VerdictError, DataError as simulate()
 Scene run_scene(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
                 const SceneSpec& spec, const ProgressObserver& observe, FrameStore* store = nullptr);

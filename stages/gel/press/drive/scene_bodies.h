@@ -16,7 +16,8 @@ struct SceneBody {
   std::vector<Matrix4> path = {};  // gel, rigid with a path: world_from_body at the start and after each time step
 };
 
-/// Bodies of the world. \param files contents of spec.bodies, in that order
+/// Bodies of the world.
+/// \param files contents of spec.bodies, in that order
 /// \throw UsageError if sensor or press file do not support scenes
 /// \throw DataError that names a body whose surface is not closed or whose path does not fit the motion
 std::vector<Body> scene_bodies(const Sensor& sensor, const std::vector<SceneBody>& files, const PressConfig& config,

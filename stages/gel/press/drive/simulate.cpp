@@ -93,8 +93,8 @@ class Press {
   Matrix4& pose() { return world_.state().world_from_body[kObject]; }
   bool may_be_free() const { return world_.num_free() > 0; }
 
-  /// Goal of a time step of `h_s` seconds. \param goal goal at the end of the phase, shifted by the object's
-  /// displacement so far
+  /// Goal of a time step of `h_s` seconds.
+  /// \param goal goal at the end of the phase, shifted by the object's displacement so far
   StepGoal step_goal(const Phase& phase, const Goal& goal, double h_s) const {
     StepGoal step{.h_s = h_s,
                   .object_target = transformed(goal.gel_from_object, object_.positions),
@@ -153,7 +153,7 @@ class Press {
         advance(phase, start, from, from + 1.0, 0, sum);
       }
     });
-    // Computed anew instead of summed, so that rounding errors do not add up.
+    // Computed from the start of the phase instead of summed, so that rounding errors do not add up.
     world_.state().time_s =
         phase_start_s + (phase.kind == PhaseKind::path ? phase.points[static_cast<std::size_t>(index)].time_s
                                                        : index * phase.substeps * config_.time_step_s);

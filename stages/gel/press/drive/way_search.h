@@ -23,8 +23,8 @@ class WaySearch {
 
   /// Displacement to be attempted.
   double way_m() const { return way_m_; }
-  /// Records the grip force after a step by way_m(). \param object_m displacement of the object away from the finger in
-  /// that step
+  /// Records the grip force after a step by way_m().
+  /// \param object_m displacement of the object away from the finger in that step
   void note(double grip_n, double object_m = 0.0);
   /// Whether the last displacement is accepted: it is in balance, at the drive's limit, or the last attempt.
   bool stands() const;

@@ -32,8 +32,8 @@ class ContactTerm : public EnergyTerm {
   virtual bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const = 0;
 
   /// Gradient of stencil i and the Hessian (1 − blend) H + blend H₊, with H the exact one and H₊ its PSD approximation
-  /// (Order::psd). Only gradients of `wanted` vertices and blocks between them are written. \return false, with nothing
-  /// written, if the stencil vanishes
+  /// (Order::psd). Only gradients of `wanted` vertices and blocks between them are written.
+  /// \return false, with nothing written, if the stencil vanishes
   virtual bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted,
                                 PairLocal& out) const = 0;
 

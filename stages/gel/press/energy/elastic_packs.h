@@ -44,7 +44,8 @@ class ElasticPacks {
     Pack pressure_J;
   };
   /// Exact gradient and Hessian of V [ψ(F) + p J] of one pack, and the state at x.
-  /// \param pressure p of each of the kLanes tetrahedra, Pa; null: zero \pre no tetrahedron is inverted
+  /// \param pressure p of each of the kLanes tetrahedra, Pa; null: zero
+  /// \pre no tetrahedron is inverted
   void derivatives(int pack, const Positions& x, const double* pressure, State& state, Derivatives& out) const;
   /// Updates the Hessian of a pack only if it has changed. `out.gradient` is as in derivatives().
   /// \param tolerance change of a tetrahedron's Hessian since the state `known` (ΔF F⁻¹, or p J in shear moduli) above

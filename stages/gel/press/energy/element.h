@@ -15,8 +15,8 @@ enum class Element { linear, averaged_volume };
 /// Number of tetrahedra in a cluster, which share one volume.
 constexpr int kClusterSize = 12;
 
-/// Energy over all tetrahedra as one term, J. \throw DataError that names the first tetrahedron that is not positively
-/// oriented
+/// Energy over all tetrahedra as one term, J.
+/// \throw DataError that names the first tetrahedron that is not positively oriented
 std::shared_ptr<const EnergyTerm> make_elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law,
                                                   Element element);
 

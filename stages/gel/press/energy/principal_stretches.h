@@ -13,7 +13,8 @@ struct PrincipalStretches {
 };
 
 /// Computes the factors by one-sided Jacobi rotations: every σ is accurate to a few roundings and U is orthogonal,
-/// however flat F is. \pre det F > 0
+/// however flat F is.
+/// \pre det F > 0
 PrincipalStretches principal_stretches(const Matrix3& F);
 
 /// Hessian ∂²ψ/∂F² of an isotropic ψ = ψ̂(σ) in the principal frame [form of Smith et al. 2019]. With ψ̂_p = ∂ψ̂/∂σ_p,

@@ -39,7 +39,8 @@ class TetStress {
 
 /// Cauchy stress σ = F S Fᵀ/J = P Fᵀ/J, Pa, along the axes of `x`, such that Σ_t v_t σ_t ∇ₓNᵢ is the derivative of the
 /// energy by vertex i.
-/// \param second_pa S of each tetrahedron, for a viscoelastic gel including its memory \pre no tetrahedron is inverted
+/// \param second_pa S of each tetrahedron, for a viscoelastic gel including its memory
+/// \pre no tetrahedron is inverted
 SymmetricRows cauchy_stress(const RestBody& body, const Positions& x, const SymmetricRows& second_pa);
 
 }  // namespace tacipc

@@ -99,8 +99,10 @@ void add_frames(PressSummary& summary, const Simulation& simulation) {
   summary.stand_off_m = last.stand_off_m;
 }
 
-/// Writes every array of one gel in a folder below --out. \param folder "" or with a slash at its end
-/// \param end last frame of the first press \return summary of its record
+/// Writes every array of one gel in a folder below --out.
+/// \param folder "" or with a slash at its end
+/// \param end last frame of the first press
+/// \return summary of its record
 Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel,
                      const std::optional<std::size_t>& end, const Simulation& simulation) {
   const auto& frames = simulation.frames;

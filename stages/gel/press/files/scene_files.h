@@ -18,7 +18,8 @@ struct SceneFiles {
 };
 
 /// Reads the scene of --sample with all files that it names, and records them as inputs.
-/// \throw UsageError if a file is missing \throw DataError if it cannot be read
+/// \throw UsageError if a file is missing
+/// \throw DataError if it cannot be read
 SceneFiles read_scene(Stage& stage, const Sensor& sensor);
 
 /// Text of the motion of each frame, from frame 0 on: displacements, holds and loads, but not paths.

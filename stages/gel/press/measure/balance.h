@@ -28,7 +28,8 @@ struct Balance {
 };
 
 /// Sums the forces in the order of the vertices. Internal forces cancel and are not needed, so the sum is an
-/// independent check of the solver's residual. \pre arrays have no rows, or as many as `positions`
+/// independent check of the solver's residual.
+/// \pre arrays have no rows, or as many as `positions`
 Balance balance_of(const Positions& positions, const VertexForces& forces);
 
 }  // namespace tacipc

@@ -40,8 +40,8 @@ struct StepExchange {
   double damping_loss_j = 0.0;   // energy dissipated by stiffness damping in the step
 };
 
-/// Exchange of a step as far as its forces determine it; `others` and `others_work_j` stay zero. \param elastic_j
-/// elastic energy of the gels at the end
+/// Exchange of a step as far as its forces determine it; `others` and `others_work_j` stay zero.
+/// \param elastic_j elastic energy of the gels at the end
 StepExchange exchange_of(double h_s, const StepForces& forces, const Positions& mount_before_n, double elastic_j);
 
 /// Energies and momenta of the whole, and their exchange with the surroundings since the start.
@@ -83,12 +83,14 @@ WholeAccount open_account(const Eigen::VectorXd& gel_mass_kg, const WholeInstant
                           double elastic_j);
 
 /// Accounts for bodies that become held or free. The energy and momentum that they add or remove count as external work
-/// and impulse. \param now with the new states marked
+/// and impulse.
+/// \param now with the new states marked
 void regroup(WholeAccount& account, const Eigen::VectorXd& gel_mass_kg, const WholeInstant& now,
              const Vector3& gravity_m_s2);
 
-/// Adds a step. \pre gels and bodies, and which of these are held, are the same before and after, and as in the last
-/// call of open_account() or regroup()
+/// Adds a step.
+/// \pre gels and bodies, and which of these are held, are the same before and after, and as in the last call of
+/// open_account() or regroup()
 void add_step(WholeAccount& account, const Eigen::VectorXd& gel_mass_kg, const WholeInstant& before,
               const WholeInstant& after, const Vector3& gravity_m_s2, const StepExchange& exchange);
 

@@ -21,7 +21,8 @@ FrontTraction traction_of_forces(const FrontSurface& front, const Positions& fro
 /// Traction by the stress: t = σ n, with σ of the tetrahedron behind each triangle, as the area-weighted mean over the
 /// triangles around a vertex. Stress is constant in a tetrahedron, so this converges to traction_of_forces() only as
 /// the mesh is refined, and is inaccurate at the rim of a contact.
-/// \param stress_pa Cauchy stress of each tetrahedron \param behind tets_behind()
+/// \param stress_pa Cauchy stress of each tetrahedron
+/// \param behind tets_behind()
 FrontTraction traction_of_stress(const FrontSurface& front, const Positions& front_positions,
                                  const SymmetricRows& stress_pa, const std::vector<int>& behind);
 

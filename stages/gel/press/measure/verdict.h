@@ -57,17 +57,20 @@ struct FrameNumbers {
 
 /// Checks in this order: exact test, containment, inverted tetrahedra, smallest distance, volume ratio, velocity, force
 /// and friction residual, balance, pose, strain and balances of force and torque of a free object. NaN fails every
-/// check. \throw VerdictError for the first failure
+/// check.
+/// \throw VerdictError for the first failure
 void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& limits);
 
-/// Throws if a press reached the gel's depth but touched nothing. \param deepest_m lowest position of the object's
-/// lowest point, in S \param front_low_m, front_high_m bounds of the undeformed front along x and y
+/// Throws if a press reached the gel's depth but touched nothing.
+/// \param deepest_m lowest position of the object's lowest point, in S
+/// \param front_low_m, front_high_m bounds of the undeformed front along x and y
 [[noreturn]] void fail_untouched(int last_frame, const Vector3& deepest_m, const Eigen::Vector2d& front_low_m,
                                  const Eigen::Vector2d& front_high_m);
 
 /// Largest allowed imbalance of a finger's drive after a time step, as a fraction of its force.
 inline constexpr double kGripTolerance = 0.02;
-/// Checks the drives of a grasp. \param imbalance largest such fraction in the frame's time steps
+/// Checks the drives of a grasp.
+/// \param imbalance largest such fraction in the frame's time steps
 /// \throw VerdictError if it exceeds kGripTolerance
 void judge_grip(int frame, double imbalance);
 

@@ -38,8 +38,9 @@ void clear(NewtonSystem& system, const FreeVertices& free, std::shared_ptr<const
 /// Resets everything except the Hessian to zero.
 void clear_gradient(NewtonSystem& system, const FreeVertices& free);
 
-/// Adds weight × term at x in a fixed order. \param order hessian or psd \param motion displacements of prescribed
-/// vertices, rows like x; rows from `first_object_vertex` on are the object's
+/// Adds weight × term at x in a fixed order.
+/// \param order hessian or psd
+/// \param motion displacements of prescribed vertices, rows like x; rows from `first_object_vertex` on are the object's
 void assemble(const WeightedTerm& term, const Positions& x, const FreeVertices& free, int first_object_vertex,
               Order order, const Positions& motion, NewtonSystem& system);
 

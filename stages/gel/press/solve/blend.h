@@ -51,8 +51,8 @@ class Blend {
       raised_[v] = false;
     }
   }
-  /// Raises the share of a vertex at which the Hessian is not positive definite. \return false if the share is 1
-  /// already
+  /// Raises the share of a vertex at which the Hessian is not positive definite.
+  /// \return false if the share is 1 already
   bool raise(int vertex) {
     double& share = share_[static_cast<std::size_t>(vertex)];
     raised_[static_cast<std::size_t>(vertex)] = true;

@@ -27,8 +27,8 @@ struct CarriedBody {
 
 /// Numbering of the vertices that are free.
 struct FreeVertices {
-  std::vector<int>
-      free_of_vertex;  // number among the free vertices; −1 if the position is prescribed or follows from others
+  /// Number among the free vertices; −1 if the position is prescribed or follows from others.
+  std::vector<int> free_of_vertex;
   std::vector<int> vertex_of_free;      // inverse of free_of_vertex
   std::vector<CarriedBody> carried;     // bodies with free control points; these are the last ones of vertex_of_free
   std::vector<int> gel_of_vertex;       // gel of each gel vertex if there are several gels; else empty

@@ -106,7 +106,8 @@ TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* l
 }
 
 /// Sets y = (I + L)⁻¹ y in rows first … last − 1, plus t if it is given. Contributions to the separator's rows are
-/// added to `separator`, which begins with row `separator_row`. \return pᵀy if p is given
+/// added to `separator`, which begins with row `separator_row`.
+/// \return pᵀy if p is given
 TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const float* lower, const double* t,
                                 const double* p, double* y, double* separator, int separator_row) {
   Quad sum = {};

@@ -14,7 +14,8 @@ struct ObjectMotion {
 };
 
 /// Adds weight × the term at x in a fixed order. Each stencil's Hessian is blended from the exact one and its PSD
-/// approximation by the share of its vertices. \param active the term's stencils that do not vanish at x
+/// approximation by the share of its vertices.
+/// \param active the term's stencils that do not vanish at x
 ///
 /// Pairs of gel and object are evaluated eight at a time. Neighbours in the list that push on the same vertex, edge or
 /// triangle of the gel are summed before they are added, because the broad phase lists them consecutively. If the

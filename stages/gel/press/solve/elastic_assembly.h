@@ -18,7 +18,8 @@ class ElasticAssembly {
   /// \pre `packs` and `free` outlive it
   ElasticAssembly(const ElasticPacks& packs, const FreeVertices& free);
 
-  /// Adds gradient and Hessian. \param pressure see ElasticPacks::derivatives, pack by pack; may be empty
+  /// Adds gradient and Hessian.
+  /// \param pressure see ElasticPacks::derivatives, pack by pack; may be empty
   /// \pre prescribed vertices of the gel do not move
   void add(const Positions& x, std::span<const double> pressure, double weight, NewtonSystem& system);
   /// Updates a system whose Hessian still holds the values of the last add() or update(). The gradient is exact. The

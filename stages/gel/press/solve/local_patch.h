@@ -42,8 +42,8 @@ struct PatchSize {
 LocalPatch grow_patch(const std::vector<int>& seeds, const PatchSize& size, const Tetrahedra& tets,
                       const TetsOfVertices& tets_of, const FreeVertices& all_free);
 
-/// Restriction of a term to the stencils with a vertex that moves, part by part if it is a JoinedTerm. \return null for
-/// a null term
+/// Restriction of a term to the stencils with a vertex that moves, part by part if it is a JoinedTerm.
+/// \return null for a null term
 std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyTerm>& term,
                                              const std::vector<bool>& moves);
 

@@ -24,8 +24,8 @@ class Minimiser {
   void minimise(Step& step);
 
  private:
-  /// Newton direction at the step's x; sets the residuals of the step's report. \param moving objects move to their
-  /// targets
+  /// Newton direction at the step's x; sets the residuals of the step's report.
+  /// \param moving objects move to their targets
   NewtonDirection find_direction(Step& step, Minimisation& run, bool moving) const;
   /// Whether the Newton step and the residual forces are below their tolerances.
   bool within_tolerances(const Step& step, const NewtonDirection& direction) const;

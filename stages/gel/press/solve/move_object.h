@@ -24,7 +24,8 @@ class ObjectMover {
   void move(Step& step, Minimisation& run, const NewtonDirection& direction, double alpha) const;
 
  private:
-  /// Corrects the direction a few times at its limiting pairs. \return whether it changed
+  /// Corrects the direction a few times at its limiting pairs.
+  /// \return whether it changed
   /// \param limiting pairs that limited the direction before it was shortened
   bool correct_direction(const Step& step, std::vector<ContactPair> limiting, const std::vector<ContactPair>& pairs,
                          NewtonDirection& direction);

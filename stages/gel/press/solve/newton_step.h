@@ -123,7 +123,8 @@ class NewtonStepper {
   /// The packed part that belongs to a term; null if there is none.
   PackedPart* packed(const EnergyTerm* term);
   /// Updates the matrix of the last call to x, without contacts and with the full gradient, if only contacts and
-  /// elements have changed since. \return false if the matrix must be assembled anew
+  /// elements have changed since.
+  /// \return false if the whole matrix must be assembled
   bool update_packs(const Call& call);
   /// Saves the columns of the contacts' vertices before contacts are added.
   void hold_columns(const Call& call);
@@ -136,8 +137,8 @@ class NewtonStepper {
   Eigen::Matrix3Xd gradient_sums() const;
   /// Prescribed displacement of the free vertices; empty if they have none.
   Eigen::VectorXd free_motion(const NewtonProblem& problem) const;
-  /// Solves the system; if there are free axes and this fails, again to full accuracy. \return false if the system is
-  /// not positive definite, or if nothing is driven and the solution does not descend
+  /// Solves the system; if there are free axes and this fails, again to full accuracy.
+  /// \return false if the system is not positive definite, or if nothing is driven and the solution does not descend
   bool solve(const NewtonProblem& problem, NewtonDirection& out);
   /// Solves the system to the current tolerance. \return false if it is not positive definite
   bool solve_once(const NewtonProblem& problem, NewtonDirection& out);
@@ -148,7 +149,8 @@ class NewtonStepper {
     return x.rows() - first_object_vertex_ - free_.num_control_points;
   }
   /// Adds to `touches` half of Σ |contact gradient| over the vertices of each body without a mount: opposite forces
-  /// that squeeze such a body cancel in the plain sum. \param gradient_before gradient of the system without contact
+  /// that squeeze such a body cancel in the plain sum.
+  /// \param gradient_before gradient of the system without contact
   void measure_squeezed(const Eigen::VectorXd& gradient_before, std::vector<double>& touches) const;
   /// Sets the sums of NewtonDirection for the gels.
   void measure_gels(const std::vector<double>& touches, NewtonDirection& out) const;

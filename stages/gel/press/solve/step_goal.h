@@ -18,8 +18,8 @@ struct StepGoal {
   /// Compliant mount: stiffness of a massless spring along each free axis, 0 along others. Its rest position is
   /// object_target − mount_shift_m, where a rigid mount would hold the object.
   Vector3 mount_stiffness_n_m = Vector3::Zero(), mount_shift_m = Vector3::Zero();
-  /// True: bodies that are not in held_bodies translate and rotate freely, by weight, load and contact. \pre there are
-  /// bodies
+  /// True: bodies that are not in held_bodies translate and rotate freely, by weight, load and contact.
+  /// \pre there are bodies
   bool free_object = false;
   std::vector<int> held_bodies = {};  // bodies that are held, ascending
   /// Load at each body's centre of mass, held or not. Empty: load_n acts on the only body.

@@ -18,7 +18,8 @@ struct GapRule {
 };
 
 /// Largest t in (0, 1] up to which every pair at distance d keeps more than floor + slack (min(d, near) − floor) while
-/// the vertices move from x to x + t p. \throw SolverError if a pair is too close for any step
+/// the vertices move from x to x + t p.
+/// \throw SolverError if a pair is too close for any step
 double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions& x, const Positions& p,
                           const GapRule& rule);
 

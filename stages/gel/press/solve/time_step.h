@@ -30,7 +30,8 @@ class TimeStepper {
   TimeStepper(const TimeStepper&) = delete;
   TimeStepper& operator=(const TimeStepper&) = delete;
 
-  /// Advances the state by one step. Objects that are held end bit-equal to their targets, except along free axes.
+  /// Advances the state by one step. Held objects end bit-equal to their targets, except along free axes and unless an
+  /// augmented Lagrangian holds them.
   /// \throw SolverError with the numbers if the step does not converge; only State::barrier_factor may then have
   /// changed
   StepReport advance(State& state, const StepGoal& goal, const IterationObserver& observe);

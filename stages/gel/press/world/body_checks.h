@@ -18,8 +18,9 @@ struct BodyShape {
   bool closed = true;  // encloses a volume in which another body may lie
 };
 
-/// Checks the path of a body. \throw DataError unless it has a pose for the start and for the end of each time step and
-/// never rotates too far in one step
+/// Checks the path of a body.
+/// \throw DataError unless it has a pose for the start and for the end of each time step and never rotates too far in
+/// one step
 void check_path(const std::string& name, const std::vector<Matrix4>& path, int time_steps);
 
 /// Tests exactly for intersections between bodies and within each deformable body, and for bodies inside a closed one.

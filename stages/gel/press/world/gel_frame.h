@@ -20,12 +20,14 @@ struct SolvedGel {
 /// Σ contact forces on the gel, normal and friction, in the world; zero before the first step.
 Vector3 contact_force_on(const SolvedGel& part, const StepForces& forces);
 
-/// Positions of the gel's vertices in its own frame. \param x positions in the world
+/// Positions of the gel's vertices in its own frame.
+/// \param x positions in the world
 /// \param world_from_gel absent: its frame is the world
 Positions positions_in_gel(const SolvedGel& part, const std::optional<Matrix4>& world_from_gel, const Positions& x);
 
 /// Frame with forces, their balance and volumes, in the gel's own frame; object, time and solver are not set.
-/// \param world_from_gel absent: its frame is the world \param positions_m vertices in the gel's own frame
+/// \param world_from_gel absent: its frame is the world
+/// \param positions_m vertices in the gel's own frame
 Frame gel_frame(const SolvedGel& part, const std::optional<Matrix4>& world_from_gel, Positions positions_m,
                 const StepForces& forces);
 

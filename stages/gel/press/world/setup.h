@@ -50,12 +50,13 @@ StepSettings step_settings(const PressConfig& config, const Scales& scales);
 /// Settings of friction in metres and seconds.
 FrictionSettings friction_settings(const FrictionConfig& friction, const Scales& scales);
 
-/// Whether the object's surface is closed. \throw DataError if it is open or faces inwards although `pairs: once`
-/// requires a closed one: the common edges and corners of triangles determine which pieces of surface are near a vertex
+/// Whether the object's surface is closed.
+/// \throw DataError if it is open or faces inwards although `pairs: once` requires a closed one: the common edges and
+/// corners of triangles determine which pieces of surface are near a vertex
 bool check_object(const TriangleMesh& object, const PressConfig& config);
 
-/// Checks the sensor for several gels and bodies. \throw UsageError if its mount is compliant, which they do not
-/// support
+/// Checks the sensor for several gels and bodies.
+/// \throw UsageError if its mount is compliant, which they do not support
 void require_rigid_mount(const Sensor& sensor);
 
 /// Checks the motion of a sample. \throw DataError or UsageError if the gel or the configuration does not allow it

@@ -96,16 +96,17 @@ class World {
 
   /// Goal of a step in which mounts rest and all objects that may be free are free.
   StepGoal goal(double h_s) const;
-  /// Sets the poses of the mounts at the end of the step. \param world_from_body one per body; only those of gels
-  /// matter
+  /// Sets the poses of the mounts at the end of the step.
+  /// \param world_from_body one per body; only those of gels matter
   void move_mounts(StepGoal& goal, const std::vector<Matrix4>& world_from_body) const;
   /// Holds the i-th object that may be free at a pose at the end of the step. \pre called in ascending order
   void hold(StepGoal& goal, std::size_t i, const Matrix4& world_from_body) const;
   /// Whether a goal holds the i-th object that may be free.
   static bool is_held(const StepGoal& goal, std::size_t i);
 
-  /// Takes one time step. \param world_from_body poses of all bodies at its end, as in the goal; poses of free bodies
-  /// are ignored
+  /// Takes one time step.
+  /// \param world_from_body poses of all bodies at its end, as in the goal; those of free bodies are replaced by the
+  /// solved ones
   /// \throw SolverError if it does not converge; only the barrier's factor may then have changed
   StepReport advance(const StepGoal& goal, const std::vector<Matrix4>& world_from_body,
                      const IterationObserver& observe);
