@@ -17,7 +17,8 @@ namespace tacipc {
 /// Positions are relative to the object, so that gel that moves with the object does not move. Each primitive of the
 /// gel keeps the object's primitives that were near in its last search, with their distances d₀ at that time. Let it
 /// have moved by δ since, and the object (rotating) by δ′. Then none of these is nearer than d₀ − δ − δ′, and all
-/// others are beyond the range of the search minus δ + δ′. Only primitives that have moved too far are searched again.
+/// others are beyond the range of the search minus δ and δ′. Only primitives that have moved too far are searched
+/// again.
 class ObjectSearch {
  public:
   /// \param object one of the mesh's objects

@@ -16,7 +16,7 @@ constexpr std::size_t kLargeCorrections = 3;
 /// Margin, as a fraction of the largest correction, by which a correction may grow while others are made.
 constexpr double kSpare = 0.1;
 constexpr int kRounds = 3;
-// Smallest fraction of its gap, at most d̂, that a corrected contact keeps: slightly more than a move must leave.
+// Smallest fraction of its gap, counted up to d̂, that a corrected contact keeps: slightly more than a move must leave.
 constexpr double kKeptGap = 1.03 * kMovingSlack;
 // If less than this fraction of a corrected move is possible, it is compared with the uncorrected one.
 constexpr double kPoorMove = 0.5;
@@ -33,7 +33,7 @@ struct Approach {
   double give = 0.0;  // Σ weight² over the free gel vertices: their joint contribution to a correction
 };
 
-/// \param p displacements from x
+/// Approach of a pair in a move. \param p displacements from x
 Approach approach(const ContactPair& pair, const Positions& x, const Positions& p, const FreeVertices& free) {
   Approach a{.feature = closest_feature(pair, gather(x, pair)), .normal = {}, .gap_m = 0.0, .change_m = 0.0};
   a.gap_m = std::sqrt(a.feature.squared_distance);

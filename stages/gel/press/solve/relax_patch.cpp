@@ -20,8 +20,8 @@ constexpr double kStandOut = 3.0;
 // wider than one ring.
 constexpr double kNearRest = 20.0, kMostApproximated = 0.015;
 constexpr int kRings = 1, kRingsAboutApproximated = 3;
-// Without friction, a snapping vertex pulls the gel around it along. Patches of at least kLeastWithoutFriction of the
-// free vertices, with a limited number of rings, save a fifth of the steps of the whole gel.
+// Without friction, a snapping vertex pulls the surrounding gel with it. Patches of at least kLeastWithoutFriction of
+// the free vertices, with a limited number of rings, save a fifth of the steps of the whole gel.
 constexpr double kLeastWithoutFriction = 0.09;
 constexpr int kMostRingsWithoutFriction = 4;
 constexpr int kMaxPatchIterations = 20;
