@@ -28,7 +28,7 @@ std::vector<VtuArray> gel_data(const TetMesh& gel, const PressFolder& press, std
           {"friction_force", 3, of_all(forces.friction)}};
 }
 
-/// Pressure and shear of the contact, where the press has them.
+/// Adds pressure and shear of the contact, if the press has them.
 void add_traction(VtuGrid& grid, const PressFolder& press, std::size_t frame, const std::vector<int>& front) {
   if (!press.has(PressArray::front_pressure)) return;
   const FrontTraction traction = press.front_by_contact(frame);
@@ -40,7 +40,7 @@ void add_traction(VtuGrid& grid, const PressFolder& press, std::size_t frame, co
   grid.point_data.push_back({"shear", 3, numbers(shear)});
 }
 
-/// Keeps the points that cells use, in their order, with their data.
+/// Keeps only the points that cells use, in their order, with their data.
 void drop_unused_points(VtuGrid& grid) {
   const std::vector<int> used = drop_unused({grid.cells.data(), static_cast<std::size_t>(grid.cells.size())});
   grid.points = Positions(grid.points(used, Eigen::all));
@@ -69,7 +69,7 @@ VtuArray volume_ratios(const TetMesh& mesh, const Positions& x) {
   return {"volume_ratio", 1, std::move(ratios)};
 }
 
-/// Where VTK has a component of a symmetric tensor (xx yy zz xy yz xz) ours has this one (xx yy zz yz xz xy).
+/// Index here (xx yy zz yz xz xy) of each component of a symmetric tensor in VTK (xx yy zz xy yz xz).
 constexpr std::array<int, 6> kOfVtk{0, 1, 2, 5, 3, 4};
 
 VtuArray stress_array(const SymmetricRows& stress_pa) {
@@ -79,7 +79,7 @@ VtuArray stress_array(const SymmetricRows& stress_pa) {
   return {"stress", 6, std::move(values)};
 }
 
-/// R σ Rᵀ of VTK's six components.
+/// Computes R σ Rᵀ with VTK's six components.
 void turn_tensors(std::vector<double>& values, const Matrix3& R) {
   for (std::size_t at = 0; at < values.size(); at += 6) {
     double* v = &values[at];

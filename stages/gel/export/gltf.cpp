@@ -17,10 +17,10 @@ namespace {
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
 constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
 
-/// Binary part and its description, array by array.
+/// Binary part of the file and its description, array by array.
 class Buffer {
  public:
-  /// Adds an array of rows and returns the number of its accessor. `target`: what the card uses it for, 0 for none.
+  /// Adds an array of rows. \param target use by the graphics card, 0 for none \return number of its accessor
   template <typename T>
   int add(const std::vector<T>& values, int components, int component_type, int target, bool bounds = false) {
     static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
@@ -66,17 +66,18 @@ class Buffer {
 
 std::vector<float> floats(const Positions& rows) { return {rows.data(), rows.data() + rows.size()}; }
 
-/// A colour channel of a screen as light, 16 bits: what glTF means by colours of vertices.   [IEC 61966-2-1]
+/// Converts a colour channel of a screen to linear light, 16 bits, as glTF requires for colours of vertices [IEC
+/// 61966-2-1].
 std::uint16_t linear_channel(std::uint8_t code) {
   return static_cast<std::uint16_t>(std::lround(65535.0 * ToneCurve{}.value_of(code)));
 }
 
-/// The front of a gel in one frame.
+/// Positions of the front of a gel in one frame.
 Positions front_at(const OpenGel& gel, std::size_t frame) {
   return gel.press.positions(frame)(gel.press.front_vertices(), Eigen::all);
 }
 
-/// Of the deepest vertex of all gels in the last frame, m.
+/// Indentation of the deepest vertex of all gels in the last frame, m.
 double deepest_indentation(const OpenScene& scene) {
   double deepest = 1e-6;
   for (const OpenGel& gel : scene.gels) {
@@ -120,7 +121,7 @@ std::string named(const char* kind, const std::string& name) {
   return name.empty() ? std::string(kind) : std::string(kind) + " " + name;
 }
 
-/// A mesh with a morph target per later frame. \param later how far each vertex has moved by then
+/// A mesh with a morph target per later frame. \param later displacement of each vertex in each later frame
 Value morphing_mesh(const std::string& name, Value::Map attributes, int indices, int material,
                     const std::vector<Positions>& later, Buffer& buffer) {
   Value primitive = Value::Map{{"attributes", std::move(attributes)}, {"indices", indices}, {"material", material}};
@@ -167,7 +168,7 @@ Value soft_mesh(const OpenSoft& soft, Buffer& buffer) {
   return morphing_mesh(named("soft", soft.name), Value::Map{{"POSITION", positions}}, indices, 2, later, buffer);
 }
 
-/// Quaternions x, y, z, w of the poses, each on the side of the one before, so that none turns the long way round.
+/// Quaternions x, y, z, w of the poses, with signs such that each rotation takes the shorter way.
 std::vector<float> rotations(const std::vector<Matrix4>& poses) {
   std::vector<float> values;
   Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
@@ -181,7 +182,7 @@ std::vector<float> rotations(const std::vector<Matrix4>& poses) {
   return values;
 }
 
-/// Nodes: 0 is the root, gels follow, then objects, then soft bodies.
+/// Animation of all nodes: 0 is the root, then gels, objects and soft bodies.
 Value animation(const OpenScene& scene, Buffer& buffer) {
   const std::size_t frames = scene.times_s.size();
   std::vector<float> weights(frames * (frames - 1), 0.0F);

@@ -10,9 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kObject = "object";  // among the inputs of a press or a grasp
+constexpr const char* kObject = "object";  // name of this input in the record of a press or a grasp
 
-/// \throw DataError if `path` is not the file that the record names under this input.
+/// Checks an input file. \throw DataError if `path` is not the file that the record names under this input
 void check_input(const fs::path& record_path, const ConfigReader& record, const std::string& input,
                  const fs::path& path) {
   ConfigReader in = record;
@@ -21,7 +21,7 @@ void check_input(const fs::path& record_path, const ConfigReader& record, const 
     throw DataError("{}: is not the {} that {} was made with", path.string(), input, record_path.string());
 }
 
-/// Where a body's mesh is, by the record. \throw DataError if it is not there as it was
+/// Path of a body's mesh according to the record. \throw DataError if the file is missing or has changed
 fs::path recorded_input(const fs::path& folder, const std::string& input) {
   const fs::path record_path = folder / "press.yaml";
   ConfigReader record = ConfigReader::from_file(record_path);

@@ -1,4 +1,4 @@
-// The surfaces of all bodies over time as NumPy arrays, for other simulators.
+// Writes the surfaces of all bodies over time as NumPy arrays, for other simulators.
 #pragma once
 
 #include "common/stage/stage.h"
@@ -6,8 +6,8 @@
 
 namespace tacipc {
 
-/// surfaces/<name>/{positions,velocities,triangles}.npy of each gel, object and soft body, in the world: velocities are
-/// the way since the frame before over its time; zero in frame 0.
+/// Writes surfaces/<name>/{positions,velocities,triangles}.npy of each gel, object and soft body, in the world.
+/// Velocities are the displacement since the previous frame over its duration; zero in frame 0.
 void write_surface_arrays(Stage& stage, const OpenScene& scene);
 
 }  // namespace tacipc

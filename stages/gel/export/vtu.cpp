@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::uint8_t kVtkTriangle = 5, kVtkTetrahedron = 10;
 
-/// Collects the data behind the header while the header is written.
+/// Collects the data after the header while the header is written.
 class Appended {
  public:
-  /// The header's line for an array whose values are added to the data.
+  /// Returns the header's line for an array and adds its values to the data.
   template <typename T>
   std::string array(const std::string& name, int components, const T* values, std::size_t count) {
     static_assert(std::endian::native == std::endian::little, "written as it lies in memory");
@@ -65,7 +65,7 @@ std::string vtu_bytes(const VtuGrid& grid) {
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "  <UnstructuredGrid>\n";
   file += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", num_points, num_cells);
-  // One statement each: the order in which arrays are appended is that of the header.
+  // One statement each: arrays are appended in the order of the header.
   file += "      <Points>\n";
   file += appended.array("Points", 3, grid.points.data(), count(grid.points.size()));
   file += "      </Points>\n      <Cells>\n";

@@ -41,23 +41,23 @@ const tacipc::StageSpec kPress{
     .options = {{.flag = "--name", .help = "the sample's name", .fallback = "sample"}},
     .resumable = true};
 
-/// Newton's method allocates and frees the same few megabytes in every iteration. Given back to the system each time,
-/// up to a tenth of the run would be spent on zeroed pages.
+/// Keeps freed memory in the process. Newton's method allocates and frees the same few megabytes in every iteration;
+/// returning them to the system each time would spend up to a tenth of the run on zeroed pages.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
   mallopt(M_TOP_PAD, 64 << 20);
 }
 
-/// The solver goes through tens of megabytes again and again: on huge pages a press takes a tenth less time. glibc asks
-/// for them only if the environment says so when a program starts, so this one starts once more.
+/// Restarts the program with huge pages. The solver sweeps over tens of megabytes repeatedly, and huge pages save a
+/// tenth of the time. glibc uses them only if an environment variable is set at the start of a program.
 void ask_for_huge_pages(char** argv) {
   constexpr const char* kVariable = "GLIBC_TUNABLES";
   if (std::getenv(kVariable) != nullptr) return;
   setenv(kVariable, "glibc.malloc.hugetlb=1", 1);
   std::error_code unreadable;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
-  if (!unreadable) execv(program.c_str(), argv);  // where that fails this one goes on
+  if (!unreadable) execv(program.c_str(), argv);  // on failure the program continues
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ int turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
   return (det > 0) - (det < 0);
 }
 
-/// Whether d lies strictly inside the circle through a, b, c. \pre they turn left
+/// Whether d lies strictly inside the circle through a, b, c. \pre a, b, c turn left
 bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
   const auto minor = [&](const GridPoint& p, const GridPoint& q, const GridPoint& r) {
     const std::int64_t px = p.x - d.x, py = p.y - d.y;
@@ -38,7 +38,7 @@ bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const
 
 struct Triangle {
   std::array<int, 3> vertex;  // counter-clockwise; a ghost's third is kGhost, its edge 0 → 1 has the hull on the right
-  std::array<int, 3> neighbour;  // across the edge opposite to the vertex
+  std::array<int, 3> neighbour;  // across the edge opposite the vertex
   bool alive = true;
 };
 
@@ -102,7 +102,8 @@ class Triangulation {
     return (q.x - a.x) * (q.x - b.x) + (q.y - a.y) * (q.y - b.y) < 0;  // on the hull edge itself
   }
 
-  /// A triangle in conflict with p: the one p lies in, or the ghost through whose hull edge the segment to p passes.
+  /// A triangle in conflict with p: the one that contains p, or the ghost through whose hull edge the segment to p
+  /// passes.
   int locate(int p) const {
     int t = last_;
     if (triangles_[t].vertex[2] == kGhost) t = triangles_[t].neighbour[2];
@@ -125,7 +126,7 @@ class Triangulation {
     }
   }
 
-  /// Joins every rim edge to p. Ghost vertices stay third; dead places are used again.
+  /// Joins every rim edge to p. Ghost vertices stay third; freed entries are reused.
   void fill(int p) {
     std::vector<int> made;
     std::size_t reuse = 0;
@@ -186,7 +187,8 @@ std::vector<GridPoint> to_grid(const std::vector<Vector2>& points) {
   return grid;
 }
 
-/// Order of insertion: strips to and fro, so that each point lies near the one before and walks are short.
+/// Order of insertion: strips in alternating directions, so that each point is near the previous one and walks are
+/// short.
 std::vector<int> strip_order(const std::vector<GridPoint>& grid) {
   const auto strips = static_cast<std::int64_t>(std::sqrt(static_cast<double>(grid.size())) / 2.0) + 1;
   const auto strip = [&](const GridPoint& p) {

@@ -13,26 +13,26 @@ namespace {
 
 constexpr int kDartRounds = 40;
 constexpr int kRelaxSteps = 60;
-constexpr double kMoveBeforeNewEdges = 0.1;  // of the target length
+constexpr double kMoveBeforeNewEdges = 0.1;  // fraction of the target length
 constexpr int kDensityTries = 4;
 constexpr double kDensityTolerance = 0.015;
-/// Distance of darts over target edge length. A saturated random packing of discs covers 0.547 of the plane, so darts
-/// at distance d would be as dense as equilateral triangles of edge d √(π / (2 √3 · 0.547)) = 1.288 d; a finite number
-/// of darts leaves gaps, and relaxed triangles are not equilateral, which takes 5 % more.
+/// Distance of darts / target edge length. A saturated random packing of discs covers 0.547 of the plane, so darts at
+/// distance d would be as dense as equilateral triangles of edge d √(π / (2 √3 · 0.547)) = 1.288 d. A finite number of
+/// darts leaves gaps, and relaxed triangles are not equilateral, which requires 5 % more darts.
 constexpr double kDartDistance = 0.735;
-constexpr double kRimMargin = 0.55;  // of the target length; equilateral triangles would have 0.87
+constexpr double kRimMargin = 0.55;  // fraction of the target length; equilateral triangles would have 0.87
 
 Vector3 lifted(const Face& face, const Vector2& p) { return {p.x(), p.y(), face.height_m(p)}; }
 
-/// How much shorter a length down the slope of the face looks from above.
+/// Ratio of a length seen from above to its length down the slope of the face.
 double slope_cosine(const Face& face, const Vector2& p) {
   if (!face.dome_radius_m) return 1.0;
   return std::sqrt(std::max(0.0, 1.0 - p.squaredNorm() / (*face.dome_radius_m * *face.dome_radius_m)));
 }
 
-/// Triangulates the points as they lie on the face. A disc's dome is projected from the foot of its sphere, which keeps
-/// circles circles, so that the triangulation is Delaunay on the sphere; a rectangle, whose sides would bend inwards,
-/// is seen from above.
+/// Triangulates the points on the face. A disc's dome is projected from the foot of its sphere, which maps circles to
+/// circles, so that the triangulation is Delaunay on the sphere. A rectangle, whose sides would bend inwards, is seen
+/// from above.
 Triangles triangulate(const Face& face, const std::vector<Vector2>& points) {
   if (!face.dome_radius_m || face.gel.outline != GelShape::Outline::disc) return delaunay(points);
   std::vector<Vector2> projected;
@@ -62,13 +62,13 @@ void collect_leaves(const Face& face, const Vector2& low, double size, std::vect
     for (const double dy : {0.0, size / 2.0}) collect_leaves(face, low + Vector2(dx, dy), size / 2.0, leaves);
 }
 
-/// Points in buckets of a uniform grid, for "is anything nearer than …".
+/// Points in buckets of a uniform grid, to find near points.
 class Buckets {
  public:
   Buckets(const GelShape& gel, double cell_m) {
     const bool disc = gel.outline == GelShape::Outline::disc;
     const Vector2 extent(disc ? 2.0 * gel.radius_m : gel.width_m, disc ? 2.0 * gel.radius_m : gel.height_m);
-    constexpr double kMaxCells = 2048.0;  // a side
+    constexpr double kMaxCells = 2048.0;  // cells per side
     cell_m_ = std::max(cell_m, extent.maxCoeff() / kMaxCells);
     low_ = -extent / 2.0;
     nx_ = static_cast<int>(extent.x() / cell_m_) + 1;
@@ -78,7 +78,7 @@ class Buckets {
 
   void add(const Vector2& p, int index) { cells_[cell(column(p.x()), row(p.y()))].push_back(index); }
 
-  /// Whether `test(index)` holds for any point within `reach_m` (and perhaps some beyond).
+  /// Whether `test(index)` holds for any point within `reach_m`, or for some beyond.
   template <typename Test>
   bool any_near(const Vector2& p, double reach_m, const Test& test) const {
     for (int y = row(p.y() - reach_m); y <= row(p.y() + reach_m); ++y)
@@ -136,8 +136,8 @@ std::vector<Vector2> throw_darts(const Face& face, const std::vector<Vector2>& r
   return points;
 }
 
-/// Moves the inner points by repulsive springs; the rest lengths are a little longer than the mean edge allows, so that
-/// the points press against each other and the rim.
+/// Moves the inner points by repulsive springs. Their rest lengths are slightly longer than the mean edge allows, so
+/// that the points press against each other and the rim.
 void relax(const Face& face, std::size_t rim_size, std::vector<Vector2>& points) {
   constexpr double kStep = 0.2, kPressure = 1.2;
   std::vector<double> wanted(points.size());

@@ -13,8 +13,8 @@
 namespace tacipc {
 namespace {
 
-/// Points of one height fraction around the rim: per panel the indices of its points and their parameters, the corner
-/// points included at both ends.
+/// Points at one height fraction around the rim: for each panel the indices of its points and their parameters, with
+/// the corner points at both ends.
 struct Row {
   std::vector<std::vector<int>> vertices;
   std::vector<std::vector<double>> parameters;
@@ -24,7 +24,7 @@ class Builder {
  public:
   explicit Builder(const Sizing& sizing) : sizing_(sizing), panels_(panels(sizing.gel)) {}
 
-  /// The rim at a fraction of the depth: 0 front, 1 back. New vertices are added.
+  /// Adds vertices along the rim at a fraction of the depth: 0 front, 1 back.
   Row add_row(double fraction) {
     Row row;
     const int first = num_vertices();
@@ -70,7 +70,7 @@ class Builder {
     }
   }
 
-  /// Triangles between two rows, always closing the shorter diagonal.
+  /// Adds triangles between two rows, always closing the shorter diagonal.
   void add_strip(const Row& upper, const Row& lower) {
     for (std::size_t p = 0; p < panels_.size(); ++p) {
       const std::vector<int>&a = upper.vertices[p], &b = lower.vertices[p];
@@ -92,7 +92,7 @@ class Builder {
     }
   }
 
-  /// Depth fractions of the rows, front and back included: steps of the height of equilateral triangles.
+  /// Depth fractions of the rows, including front and back: steps of the height of equilateral triangles.
   std::vector<double> row_fractions() const {
     const Vector2 corner = panels_.front().at(0.0);
     const double height = at(corner, 0.0).z() + sizing_.gel.thickness_m;
@@ -118,7 +118,7 @@ class Builder {
     tags_.push_back(tag);
   }
 
-  /// The hull of the triangulation must be the rim and nothing else, or the strips would not close the surface.
+  /// Checks that the hull of the triangulation is exactly the rim; otherwise the strips would not close the surface.
   static void check_rim(const FaceMesh& mesh, std::size_t rim_size) {
     std::size_t open = 0;
     const auto edges = unique_edges(mesh.triangles);

@@ -1,4 +1,4 @@
-// A gel from its sensor's shape and a sizing.
+// Generates a gel from its sensor's shape and a sizing.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,20 @@
 
 namespace tacipc {
 
+/// Configuration of a generated gel or soft object.
 struct GenerateConfig {
   SizingConfig sizing;
   FillConfig fill;
-  double max_vertices = 0.0;      // refused, by estimate, before any work
-  double min_dihedral_deg = 0.0;  // a mesh with a smaller angle is not given out
+  double max_vertices = 0.0;      // largest estimated number of vertices; more are refused before any work
+  double min_dihedral_deg = 0.0;  // meshes with a smaller dihedral angle are rejected
   std::uint64_t seed = 0;
 
   static GenerateConfig read(ConfigReader& in);
 };
 
-/// Fills a surface with tets and checks them. If a check fails, the fill is tried again with TetGen's strongest
-/// optimisation. \throw DataError where TetGen gives up, and what `check` throws of the last try
+/// Fills a surface with tetrahedra and checks them. If a check fails, the fill is repeated with TetGen's strongest
+/// optimisation.
+/// \throw DataError if TetGen fails; exceptions of `check` in the last attempt
 TetMesh fill_and_check(const GelSurface& surface, const GenerateConfig& config,
                        const std::function<double(const Vector3&)>& edge_length_m,
                        const std::function<void(const TetMesh&)>& check);

@@ -24,7 +24,7 @@ Matrix3 rotation_about(const Vector3& axis, double angle_deg) {
   return r;
 }
 
-/// Makes all tets positive if all are negative. \throw DataError if they disagree or one has no volume
+/// Makes all tetrahedra positive if all are negative. \throw DataError if they disagree or one has no volume
 bool orient(TetMesh& mesh, const std::string& name) {
   Eigen::Index negative = 0, first_negative = -1;
   for (Eigen::Index t = 0; t < mesh.num_tets(); ++t) {
@@ -63,8 +63,8 @@ double inside(const TetMesh& mesh, Eigen::Index v, const GelShape& gel) {
   return distance_inside(gel, mesh.positions.row(v).head<2>().transpose());
 }
 
-/// The mesh must have the sensor's outline and depth, or loads and images would be those of another gel: its outermost
-/// vertex lies on the outline and its lowest one thickness deep.
+/// Checks that the mesh has the sensor's outline and depth, because loads and images would otherwise be those of
+/// another gel: its outermost vertex lies on the outline, and its lowest one a thickness deep.
 void check_extent(const TetMesh& mesh, const GelShape& gel, double tolerance_m, const std::string& name) {
   const Vector3 low = mesh.positions.colwise().minCoeff(), high = mesh.positions.colwise().maxCoeff();
   double outermost = gel.thickness_m + std::max(gel.radius_m, gel.width_m);

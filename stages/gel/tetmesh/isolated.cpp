@@ -41,7 +41,7 @@ std::string read_all(int file) {
 
 [[noreturn]] void run_child(int pipe, pid_t parent, const std::function<std::string()>& work) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it ended before this was in force
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before this took effect
   const int nowhere = ::open("/dev/null", O_WRONLY);
   if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
   std::string answer;

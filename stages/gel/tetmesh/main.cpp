@@ -1,4 +1,5 @@
-// sensor YAML + sizing → tagged tetrahedral gel; or a finished mesh, placed and tagged; or a surface → soft object.
+// Stage tetmesh: sensor YAML + sizing → tagged tetrahedral gel; or a finished mesh, placed and tagged; or a surface →
+// soft object.
 #include "common/base/error.h"
 #include "common/mesh/triangle_mesh.h"
 #include "common/stage/stage.h"
@@ -20,7 +21,7 @@ const StageSpec kTetmesh{
          false},
         {"--import", "finished tetrahedral mesh (Gmsh MSH), with kind: import", false}}};
 
-/// A generated mesh; messages name the two files that it is made of.
+/// Generates a mesh; messages name the two files from which it is made.
 template <typename Make>
 TetMesh generated(const Stage& stage, const std::string& shape, Make&& make) {
   try {

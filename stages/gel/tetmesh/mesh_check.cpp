@@ -17,7 +17,7 @@ std::array<Vector3, 4> corners(const TetMesh& mesh, Eigen::Index t) {
           mesh.positions.row(mesh.tets(t, 3))};
 }
 
-/// The same triangle with its smallest vertex first, orientation kept.
+/// A triangle rotated so that its smallest vertex comes first; its orientation is unchanged.
 std::array<int, 3> rotated(const Eigen::RowVector3i& triangle) {
   int first = 0;
   triangle.minCoeff(&first);
@@ -56,8 +56,7 @@ void check_tets(const TetMesh& mesh, double min_dihedral_deg, const std::string&
   }
 }
 
-/// Positive neighbours see their common face with opposite orientation; a face seen twice the same way means that they
-/// overlap.
+/// Checks that no tetrahedra overlap: positive neighbours see their common face with opposite orientations.
 void check_overlap(const TetMesh& mesh, const std::string& name) {
   constexpr std::array<std::array<int, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   std::vector<std::array<int, 3>> faces;

@@ -19,7 +19,7 @@ std::vector<Panel> panels(const GelShape& gel) {
   std::vector<Panel> sides;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2 from = corners[i], to = corners[(i + 1) % 4];
-    // Along a side one coordinate stays as it is, bit by bit.
+    // Along a side one coordinate is constant, bit by bit.
     sides.push_back({.at =
                          [=](double t) {
                            return Vector2(from.x() == to.x() ? from.x() : from.x() + (to.x() - from.x()) * t,

@@ -12,8 +12,8 @@ namespace {
 
 double lerp(double from, double to, double t) { return from + (to - from) * t; }
 
-/// The part of the circle of radius r about the centre that lies inside the gel. Of a rectangle with half sides a and b
-/// the directions from acos(a / r) to asin(b / r) of a quarter.
+/// Fraction of the circle of radius r about the centre that lies inside the gel. For a rectangle with half sides a and
+/// b, these are the directions from acos(a / r) to asin(b / r) of a quarter.
 double fraction_inside(const GelShape& gel, double r) {
   if (gel.outline == GelShape::Outline::disc) return 1.0;
   const double from = std::acos(std::min(1.0, gel.width_m / 2.0 / r)),
@@ -21,7 +21,7 @@ double fraction_inside(const GelShape& gel, double r) {
   return std::max(0.0, to - from) / (std::numbers::pi / 2.0);
 }
 
-/// Vertices on both faces and between them over a unit of area at distance r from the centre.
+/// Number of vertices on both faces and between them per unit of area at distance r from the centre.
 double vertices_per_area(const Sizing& sizing, double r) {
   constexpr int kLayers = 64;
   const double front_z = sizing.gel.front_z(r, 0.0), thickness = front_z + sizing.gel.thickness_m;
@@ -77,12 +77,12 @@ Sizing sizing_for(const SizingConfig& config, const GelShape& gel) {
     throw DataError("inner_radius_mm {:g} does not lie inside the gel, which reaches {:g} mm from its centre",
                     config.inner_radius_m / kMillimetre, sizing.reach_m() / kMillimetre);
   }
-  constexpr double kThinnestRim = 0.01;  // of the thickness at the apex; below, tets at the rim are flat
+  constexpr double kThinnestRim = 0.01;  // fraction of the thickness at the apex; on a thinner rim tetrahedra are flat
   const double rim_m = gel.thickness_m + gel.front_z(sizing.reach_m(), 0.0);
   if (rim_m < kThinnestRim * gel.thickness_m) {
     throw DataError("the dome leaves {:.3g} mm of gel at the rim, less than 1 % of its thickness", rim_m / kMillimetre);
   }
-  constexpr double kSteepest = std::numbers::sqrt2 / 2.0;  // the sine of 45 degrees
+  constexpr double kSteepest = std::numbers::sqrt2 / 2.0;  // sine of 45 degrees
   if (gel.dome_radius_m && gel.outline == GelShape::Outline::rectangle &&
       sizing.reach_m() > kSteepest * *gel.dome_radius_m) {
     throw DataError("the dome of radius {:g} mm is steeper than 45 degrees at the corners, {:g} mm from the centre",
@@ -103,7 +103,7 @@ double estimated_vertices(const Sizing& sizing) {
   double count = 0.0, from = 0.0;
   for (const double to : {c.centre_radius_m, c.inner_radius_m, sizing.reach_m()}) {
     constexpr int kRings = 200;
-    // Beyond the inner radius lengths may grow a thousandfold, which equal rings would step over.
+    // Beyond the inner radius lengths may grow a thousandfold; equal rings would be too coarse.
     const bool graded = from > 0.0 && from == c.inner_radius_m;
     const auto edge = [&](int ring) {
       const double t = static_cast<double>(ring) / kRings;

@@ -1,4 +1,4 @@
-// Edge length over the gel: the one function every point, edge and tetrahedron of a generated mesh obeys.
+// Edge length over the gel: one function that determines the points, edges and tetrahedra of a generated mesh.
 #pragma once
 
 #include "common/base/types.h"
@@ -15,11 +15,11 @@ struct SizingConfig {
   double inner_m = 0.0;
   double inner_radius_m = 0.0;
   double rim_m = 0.0;
-  double rim_exponent = 1.0;  // 1: linear between inner radius and rim, 2: quadratic
-  double back_m = 0.0;        // on the glued face
+  double rim_exponent = 1.0;  // growth between inner radius and rim; 1: linear, 2: quadratic
+  double back_m = 0.0;        // edge length on the glued face
   double depth_exponent = 1.0;
 
-  /// Either `uniform_mm`, or all of the graded keys.
+  /// Reads either `uniform_mm` or all of the graded keys.
   static SizingConfig read(ConfigReader& in);
   /// Whether the length is the same everywhere.
   bool uniform() const { return centre_m == inner_m && inner_m == rim_m && rim_m == back_m; }
@@ -30,14 +30,15 @@ struct Sizing {
   SizingConfig config;
   GelShape gel;
 
-  /// Distance of the outermost point of the gel from the axis: where `rim_m` is reached.
+  /// Distance of the outermost point of the gel from the axis, where `rim_m` is reached.
   double reach_m() const;
   /// Target edge length on the front face at distance `radius_m` from the centre.
   double front(double radius_m) const;
 };
 
-/// Joins them. \throw DataError if the inner radius does not lie inside the gel, if hardly anything is left of it at
-/// the rim of a dome, or if the dome of a rectangle is too steep to be triangulated as seen from above.
+/// Sizing of one gel.
+/// \throw DataError if the inner radius does not lie inside the gel, if hardly any thickness is left at the rim of a
+/// dome, or if the dome of a rectangle is too steep to be triangulated as seen from above
 Sizing sizing_for(const SizingConfig& config, const GelShape& gel);
 
 /// Target edge length in metres at a rest point (frame S):
@@ -45,8 +46,9 @@ Sizing sizing_for(const SizingConfig& config, const GelShape& gel);
 /// Points outside the gel count as the nearest depth.
 double target_edge_length(const Sizing& sizing, const Vector3& rest_point);
 
-/// Vertices a mesh of these edge lengths has, about: on faces 2 / (√3 h²) per area, inside √2 / h³ per volume (the
-/// densities of equilateral triangles and of the densest packing). Integrated on a grid graded like the sizing.
+/// Estimated number of vertices of a mesh with these edge lengths: on faces 2 / (√3 h²) per area, inside √2 / h³ per
+/// volume (the densities of equilateral triangles and of the densest packing). Integrated on a grid graded like the
+/// sizing.
 double estimated_vertices(const Sizing& sizing);
 
 }  // namespace tacipc

@@ -9,10 +9,10 @@
 namespace tacipc {
 namespace {
 
-/// Even permutations of a tet's corners that bring a given one to the front.
+/// Even permutations of a tetrahedron's corners that bring a given one to the front.
 constexpr std::array<std::array<int, 4>, 4> kFrontedBy{{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
 
-/// Tets around each vertex, as one list with offsets.
+/// Tetrahedra around each vertex, as one list with offsets.
 struct Stars {
   std::vector<int> first;
   std::vector<int> tets;
@@ -33,7 +33,7 @@ Stars stars_of(const TetMesh& mesh) {
   return stars;
 }
 
-/// One vertex and the tets around it.
+/// One vertex and the tetrahedra around it.
 class Star {
  public:
   Star(const TetMesh& mesh, int vertex, const int* first, const int* last) : x_(mesh.positions.row(vertex)) {
@@ -45,7 +45,7 @@ class Star {
     }
   }
 
-  /// Worst shape with the vertex at x, or as soon as it falls to `enough`, something no better.
+  /// Worst shape with the vertex at x. Stops early with any value ≤ `enough` once the shape falls to `enough`.
   double worst_at(const Vector3& x, double enough, std::size_t* worst_face = nullptr) const {
     double worst = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -58,7 +58,7 @@ class Star {
     return worst;
   }
 
-  /// The best of a few places that is better than where the vertex is.
+  /// The best of a few positions that improves on the vertex's own.
   Vector3 improved() const {
     constexpr double kNoBound = -std::numeric_limits<double>::infinity();
     std::size_t worst_face = 0;
@@ -87,7 +87,7 @@ class Star {
 }  // namespace
 
 double smallest_dihedral_sine(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  // sin of the dihedral angle at an edge = 3/2 · V · edge / (area · area of its two faces), in terms of 6V and 2·area:
+  // Sine of the dihedral angle at an edge = 3/2 · V · edge / (area · area of its two faces), in terms of 6V and 2·area:
   // 6V · edge / (2A₁ · 2A₂).
   const double six_volumes = (b - a).dot((c - a).cross(d - a));
   const double bcd = (c - b).cross(d - b).norm(), acd = (c - a).cross(d - a).norm(), abd = (b - a).cross(d - a).norm(),

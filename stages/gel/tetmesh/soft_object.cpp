@@ -16,7 +16,7 @@
 namespace tacipc {
 namespace {
 
-/// \throw DataError unless every edge is between two triangles that look the same way
+/// Checks the surface. \throw DataError unless every edge is between two triangles of equal orientation
 void check_closed(const TriangleMesh& surface) {
   std::vector<std::array<int, 2>> edges;
   for (Eigen::Index f = 0; f < surface.num_triangles(); ++f)
@@ -31,7 +31,7 @@ void check_closed(const TriangleMesh& surface) {
   }
 }
 
-/// \throw DataError naming two triangles that share more than their common vertices
+/// Checks the surface. \throw DataError that names two triangles that share more than their common vertices
 void check_apart(const TriangleMesh& surface) {
   const TriangleTree tree(surface);
   const auto corners = [&](int f) {

@@ -1,4 +1,4 @@
-// A soft object from its closed surface.
+// Generates a soft object from its closed surface.
 #pragma once
 
 #include "common/mesh/tet_mesh.h"
@@ -7,11 +7,12 @@
 
 namespace tacipc {
 
-/// Fills the surface with tets and checks them, as generate_gel does. Vertices and triangles of the surface stay as
-/// they are, but for vertices that no triangle names, and come first; every boundary triangle is `free`. Inside, edges
-/// grow to the sizing's one length. \throw UsageError for a sizing that is graded as a gel's is; DataError for a
-/// surface that is open, in several pieces, looks inwards or intersects itself, for too many vertices, and for a mesh
-/// that fails the checks
+/// Fills the surface with tetrahedra and checks them, as generate_gel() does. Vertices of the surface come first; they
+/// and its triangles stay unchanged, except that vertices without a triangle are dropped. Every boundary triangle is
+/// `free`. Inside, edges grow to the sizing's single length.
+/// \throw UsageError for a graded sizing
+/// \throw DataError for a surface that is open, in several pieces, faces inwards or intersects itself, for too many
+/// vertices, and for a mesh that fails the checks
 TetMesh mesh_object(TriangleMesh surface, const GenerateConfig& config);
 
 }  // namespace tacipc

@@ -52,7 +52,7 @@ EdgeStatistics measure(const TetMesh& mesh, const Edges& edges, double min_radiu
   return s;
 }
 
-/// Four significant digits: records are read by people, and the mesh itself has all of them.
+/// Rounds to four significant digits for readable records; the mesh itself has all digits.
 double rounded(double value) {
   if (value == 0.0 || !std::isfinite(value)) return value;
   return std::stod(fmt::format("{:.4g}", value));
@@ -119,7 +119,7 @@ double analytic_volume(const GelShape& gel) {
         std::numbers::pi * a * a * R - 2.0 * std::numbers::pi / 3.0 * (R * R * R - std::pow(R * R - a * a, 1.5));
     return area * gel.thickness_m - sag;
   }
-  constexpr int kSteps = 200;  // even
+  constexpr int kSteps = 200;  // must be even
   const auto weight = [](int i) { return i == 0 || i == kSteps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0; };
   double sum = 0.0;
   for (int i = 0; i <= kSteps; ++i)

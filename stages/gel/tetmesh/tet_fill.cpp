@@ -16,14 +16,14 @@
 namespace tacipc {
 namespace {
 
-constexpr double kUnitsPerMetre = 1e3;  // TetGen sees millimetres
+constexpr double kUnitsPerMetre = 1e3;  // TetGen works in millimetres
 
-/// TetGen asks through a bare function pointer whether a tet is too large; these carry what the answer needs. They are
-/// set in the child process that runs TetGen, nowhere else.
+/// Data of the callback by which TetGen asks whether a tetrahedron is too large; the callback is a bare function
+/// pointer. They are set only in the child process that runs TetGen.
 const std::function<double(const Vector3&)>* edge_length_of_run = nullptr;
 double circumradius_ratio_of_run = 0.0;
 
-/// Circumradius of abcd, or the longest edge where it has no volume.
+/// Circumradius of abcd, or the longest edge if it has no volume.
 double circumradius(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Vector3 u = b - a, v = c - a, w = d - a;
   const double six_volumes = u.dot(v.cross(w));
@@ -77,7 +77,7 @@ double six_volumes(const Positions& x, const Eigen::RowVector4i& tet) {
   return a.dot(b.cross(c));
 }
 
-/// Vertices and tets as bytes: their numbers, then the arrays.
+/// Serialises vertices and tetrahedra: their counts, then the arrays.
 std::string packed(const tetgenio& out) {
   const std::size_t points = sizeof(REAL) * 3 * static_cast<std::size_t>(out.numberofpoints),
                     tets = sizeof(int) * 4 * static_cast<std::size_t>(out.numberoftetrahedra);
@@ -139,8 +139,8 @@ FillConfig FillConfig::read(ConfigReader& in) {
 TetMesh fill_with_tets(const GelSurface& surface, const FillConfig& config,
                        const std::function<double(const Vector3&)>& edge_length_m) {
   const auto left = static_cast<int>(std::max<Eigen::Index>(1, config.max_vertices - surface.positions.rows()));
-  // p: from a surface; Y: keep its triangles; q: shape bounds; O: optimise with all operations; S: at most so many new
-  // vertices; Q: quiet.
+  // p: from a surface; Y: keep its triangles; q: shape bounds; O: optimise with all operations; S: largest number of
+  // new vertices; Q: quiet.
   const std::string switches = fmt::format("pYq{}/{}O{}/7S{}Q", config.radius_edge_ratio, config.min_dihedral_deg,
                                            config.optimization_level, left);
   // After some errors TetGen frees memory twice.

@@ -1,4 +1,4 @@
-// The configuration of the stage: how to generate a gel, or how to import one.
+// Configuration of the stage: how to generate a gel, or how to import one.
 #pragma once
 
 #include <variant>
@@ -8,10 +8,11 @@
 
 namespace tacipc {
 
+/// Configuration of the stage tetmesh.
 struct TetmeshConfig {
   std::variant<GenerateConfig, ImportConfig> way;
 
-  /// `kind: generate` or `kind: import`.
+  /// Reads `kind: generate` or `kind: import`.
   static TetmeshConfig read(ConfigReader& in);
 };
 

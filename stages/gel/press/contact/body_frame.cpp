@@ -11,7 +11,7 @@ BodyFrame body_frame(const Eigen::Ref<const Positions>& rest, const Eigen::Ref<c
   for (Eigen::Index v = 0; v < x.rows(); ++v) moment += (x.row(v) - mean).transpose() * (rest.row(v) - rest_mean);
   const Eigen::JacobiSVD<Matrix3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Matrix3 U = svd.matrixU();
-  // The nearest orthogonal matrix may be a mirror; the nearest rotation then turns the direction that matters least.
+  // The nearest orthogonal matrix may be a reflection; the nearest rotation flips its least significant direction.
   if ((U * svd.matrixV().transpose()).determinant() < 0.0) U.col(2) = -U.col(2);
   return {U * svd.matrixV().transpose(), rest_mean};
 }

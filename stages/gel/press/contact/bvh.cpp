@@ -8,8 +8,8 @@
 
 namespace tacipc {
 
-// A double differs from its nearest float by 6e-8 of itself at most; below the smallest float that is normal by less
-// than the constant.
+// A double differs from its nearest float by at most 6e-8 of itself; below the smallest normal float, by less than the
+// constant.
 Bvh::RoughBox::RoughBox(const Box& box) {
   for (int c = 0; c < 3; ++c) {
     low[c] = static_cast<float>(box.min()[c] - 1.2e-7 * std::abs(box.min()[c]) - 1e-37);
@@ -37,7 +37,7 @@ void Bvh::build(std::span<const Box> boxes, int first, int last) {
     Eigen::Index axis = 0;
     centres.sizes().maxCoeff(&axis);
     const int middle = first + (last - first) / 2;
-    // Ties are broken by index, so which boxes go left does not depend on the library's partition.
+    // Ties are broken by index, so that the division does not depend on the library's partition.
     std::nth_element(item_.begin() + first, item_.begin() + middle, item_.begin() + last, [&](int a, int b) {
       const double ca = boxes[a].min()[axis] + boxes[a].max()[axis];
       const double cb = boxes[b].min()[axis] + boxes[b].max()[axis];
@@ -85,7 +85,7 @@ void Bvh::fit() {
     box.low = by.low < box.low ? by.low : box.low;
     box.high = by.high > box.high ? by.high : box.high;
   };
-  // Children come after their parent, so going backwards meets them first.
+  // Children come after their parent, so a backward loop reaches them first.
   for (int n = static_cast<int>(nodes_.size()) - 1; n >= 0; --n) {
     Node& node = nodes_[n];
     node.box.low = FloatQuad{kBeyond, kBeyond, kBeyond, 0.0F};

@@ -1,4 +1,4 @@
-// The solver's broad phase: a tree over axis-aligned boxes that is refitted as the boxes move.
+// Tree of axis-aligned boxes for the solver's broad phase; it is refitted as the boxes move.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,20 +12,20 @@ namespace tacipc {
 
 using Box = Eigen::AlignedBox3d;
 
-/// Binary tree, split at the median centre along the widest axis; the same boxes always give the same tree.
-/// Nodes lie depth first, each knowing where the next subtree starts, so that a query needs neither stack nor memory.
-/// Boxes in single precision, rounded outwards, rule out most nodes and items, four numbers at a time; the others are
-/// compared exactly.
+/// Binary tree, split at the median centre along the widest axis; the same boxes always give the same tree. Nodes are
+/// stored depth first, each with the index after its subtree, so that a query needs neither stack nor memory. Boxes in
+/// single precision, rounded outwards, exclude most nodes and items, four numbers at a time; the others are compared
+/// exactly.
 class Bvh {
  public:
-  /// \pre no box is empty (min ≤ max in each coordinate) and all corners are finite.
+  /// \pre no box is empty (min ≤ max in each coordinate) and all corners are finite
   explicit Bvh(std::span<const Box> boxes);
 
-  /// Moves the boxes but keeps the tree. \pre as many boxes as before, and as above
+  /// Moves the boxes but keeps the tree. \pre the number of boxes is unchanged; else as for the constructor
   void refit(std::span<const Box> boxes);
 
   /// Calls visit(i) once for each box i that touches `box` (shared faces count), in an order fixed by the tree.
-  /// Safe to call from several threads at once.
+  /// Thread-safe.
   template <typename Visit>
   void query(const Box& box, Visit&& visit) const {
     const int num_nodes = static_cast<int>(nodes_.size());
@@ -41,13 +41,13 @@ class Bvh {
     }
   }
 
-  /// Pairs of nodes, of this tree and of another or of this tree twice, below which all overlaps are: work that can be
-  /// done in parts. In an order fixed by the trees.
+  /// Pairs of nodes of this tree and another (or this tree again) below which all overlaps lie, in an order fixed by
+  /// the trees. They divide the work for parallel calls of overlaps().
   using NodePairs = std::vector<std::array<int, 2>>;
   NodePairs split(const Bvh& other) const;
-  /// Calls visit(i, j) once for each box i of this tree that touches box j of the other below pairs first … last − 1 of
-  /// split(other), in an order fixed by the trees. For a tree with itself each two boxes are found once, either first,
-  /// and none with itself.
+  /// Calls visit(i, j) once for each box i of this tree that touches box j of the other tree, below pairs first … last
+  /// − 1 of split(other), in an order fixed by the trees. For a tree with itself, each pair of boxes is visited once,
+  /// in either order, and no box is paired with itself.
   template <typename Visit>
   void overlaps(const Bvh& other, const NodePairs& pairs, std::size_t first, std::size_t last, Visit&& visit) const {
     for (std::size_t i = first; i < last; ++i) descend(other, pairs[i][0], pairs[i][1], visit);
@@ -56,7 +56,7 @@ class Bvh {
  private:
   static constexpr int kLeafSize = 4;
 
-  /// A box in single precision around a box; the fourth number is the same in all.
+  /// Single-precision box that encloses a box; the fourth number is the same in all.
   struct RoughBox {
     FloatQuad low = {}, high = {};
     RoughBox() = default;
@@ -64,11 +64,11 @@ class Bvh {
   };
   struct Node {
     RoughBox box;
-    int next;         // first node after this subtree
-    int first, last;  // items of a leaf; an inner node has none
-    int leaf;         // its number among leaves
+    int next;         // index of the first node after this subtree
+    int first, last;  // items of a leaf; empty range for an inner node
+    int leaf;         // index among the leaves
   };
-  /// The boxes of a leaf's items side by side, lane by lane; missing items touch nothing.
+  /// Boxes of a leaf's items, one per lane; lanes without an item touch nothing.
   struct LeafBoxes {
     std::array<FloatQuad, 3> low, high;
   };
@@ -81,7 +81,7 @@ class Bvh {
 
   bool is_leaf(int node) const { return nodes_[node].first != nodes_[node].last; }
 
-  /// Calls visit(i) for the leaf's items, from the `from`-th on, that touch the box.
+  /// Calls visit(i) for the items of a leaf, starting with number `from`, that touch the box.
   template <typename Visit>
   void for_each_in_leaf(const Node& leaf, const RoughBox& rough, const Box& box, int from, Visit&& visit) const {
     const LeafBoxes& items = leaves_[static_cast<std::size_t>(leaf.leaf)];
@@ -96,7 +96,7 @@ class Bvh {
     }
   }
 
-  /// Children of a pair of nodes: those of the larger one, or of both for a node of this tree with itself.
+  /// Visits the children of a pair of nodes: those of the larger node, or of both for a node with itself.
   template <typename Step>
   void divide(const Bvh& other, int a, int b, Step&& step) const {
     if (this == &other && a == b) {
@@ -130,7 +130,7 @@ class Bvh {
   std::vector<Node> nodes_;
   std::vector<LeafBoxes> leaves_;
   std::vector<int> item_;         // box index of each leaf item
-  std::vector<Box> box_of_item_;  // its box, in leaf order
+  std::vector<Box> box_of_item_;  // box of each leaf item
   std::vector<RoughBox> rough_box_of_item_;
 };
 

@@ -9,12 +9,12 @@
 namespace tacipc {
 namespace {
 
-/// A pair this near to the separation wanted (relative) is not moved any further.
+/// A pair this close to the wanted separation (relative) is not moved further.
 constexpr double kCloseEnough = 1e-2;
-/// Tries of a longer interval are this much shorter each time.
+/// Factor on the interval after each failed attempt at a longer one.
 constexpr double kShrink = 0.25;
 constexpr int kMaxCuts = 24;
-/// Certified steps; the time reached then is returned.
+/// Largest number of certified steps; then the time reached is returned.
 constexpr int kMaxSteps = 200;
 
 }  // namespace
@@ -26,15 +26,15 @@ double time_of_impact(ContactPair::Kind kind, const FourPoints& x, const FourPoi
   const double separation = slack * std::sqrt(start.squared_distance);
   std::optional<Vector3> n = motion.direction(start);
   double t = 0;
-  double reach = 1;  // length of the next interval to try
+  double reach = 1;  // length of the next interval
   for (int step = 0; n && step < kMaxSteps; ++step) {
-    // A fixed plane through the gap: one step to the end for most pairs, and a Newton step towards an impact for the
-    // others.
+    // A fixed plane through the gap takes most pairs to the end in one step, and the others by a Newton step towards
+    // the impact.
     const double exit = motion.gap_exit(t, *n, separation);
     if (exit == 1) return 1;
     if (!(motion.gap(t, *n) > (1 + kCloseEnough) * separation)) return t;
 
-    // A longer interval, by a plane that turns with the pair or by the volume.
+    // A longer interval, with a plane that rotates with the pair or with the volume.
     bool longer = false;
     double to = std::min(1.0, t + reach);
     for (int tries = 0; to > exit && tries < kMaxCuts; ++tries, to = t + kShrink * (to - t)) {

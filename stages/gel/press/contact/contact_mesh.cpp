@@ -5,7 +5,7 @@
 namespace tacipc {
 
 int ContactMesh::body_of(int vertex) const {
-  // There are few.
+  // A linear search suffices: there are few parts.
   const auto last_from = [&](const auto& parts) {
     std::size_t i = 0;
     while (i + 1 < parts.size() && vertex >= parts[i + 1].first_vertex) ++i;
@@ -26,7 +26,7 @@ ContactMesh make_contact_mesh(const Positions& gel_rest, const Triangles& gel_bo
     append(mesh.object.vertices, part.surface.vertices);
     append(mesh.object.edges, part.surface.edges);
     append(mesh.object.triangles, part.surface.triangles);
-    // Vertices of no triangle count, too: rows of positions are those of the file.
+    // Vertices without a triangle count as well: rows of positions are those of the file.
     part.num_vertices = static_cast<int>(object.positions.rows());
     mesh.num_object_vertices += part.num_vertices;
     mesh.objects.push_back(std::move(part));

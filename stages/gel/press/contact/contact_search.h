@@ -1,4 +1,4 @@
-// Broad phase: which pairs of primitives may come near each other, now or during a step.
+// Broad phase: pairs of primitives that may come near each other, at given positions or during a step.
 #pragma once
 
 #include <algorithm>
@@ -11,18 +11,18 @@
 
 namespace tacipc {
 
-/// Finds pairs gel–object, gel–gel (never two primitives that share a vertex), and object–object.
+/// Finds gel–object pairs, gel–gel pairs (never two primitives that share a vertex) and object–object pairs.
 class ContactSearch {
  public:
-  /// \pre the mesh stays where it is
+  /// \pre the mesh outlives the search and keeps its address
   explicit ContactSearch(const ContactMesh& mesh) : mesh_(mesh), with_itself_(mesh), held_(mesh.objects.size(), false) {
     const auto bodies = std::min(held_.size(), static_cast<std::size_t>(mesh.num_control_points / 4));
     std::fill(held_.begin() + static_cast<std::ptrdiff_t>(bodies), held_.end(), true);
     for (const ObjectPart& object : mesh.objects) with_object_.push_back(std::make_unique<ObjectSearch>(mesh, object));
   }
 
-  /// Every pair that comes within `within_m` while the vertices move straight from `x` to `x + p`, of the gel with
-  /// itself within half the distance at rest at most, and some more; which and in which order depends only on the
+  /// Every pair that comes within `within_m` while the vertices move straight from `x` to `x + p`, or a superset. Pairs
+  /// within a gel count up to half of their distance at rest at most. The pairs and their order depend only on the
   /// arguments since forget().
   std::vector<ContactPair> pairs(const Positions& x, const Positions& p, double within_m) {
     std::vector<ContactPair> found = object_pairs(x, p, within_m);
@@ -30,7 +30,7 @@ class ContactSearch {
     return found;
   }
 
-  /// Those with an object alone, within any distance.
+  /// Pairs with at least one object; `within_m` may be any distance.
   std::vector<ContactPair> object_pairs(const Positions& x, const Positions& p, double within_m) {
     std::vector<ContactPair> found;
     for (const auto& search : with_object_) search->pairs(x, p, within_m, found);
@@ -43,16 +43,17 @@ class ContactSearch {
     return found;
   }
 
-  /// Those of two bodies, within any distance.
+  /// Pairs of two different bodies; `within_m` may be any distance.
   std::vector<ContactPair> pairs_of_bodies(const Positions& x, const Positions& p, double within_m) {
     std::vector<ContactPair> found = object_pairs(x, p, within_m);
     with_itself_.across(x, p, within_m, found);
     return found;
   }
 
-  /// Every pair with a `wanted` vertex of the gel that comes as near while each vertex of the gel stays within its
-  /// `reach_m` of its place, and some more. (One number of each per vertex.) \pre wanted vertices have a reach above
-  /// zero; objects are where the last call of pairs() had them
+  /// Every pair with a `wanted` gel vertex that comes within `within_m` while each gel vertex stays within its
+  /// `reach_m` of its position in `x`, or a superset.
+  /// \param wanted, reach_m one number per vertex
+  /// \pre wanted vertices have a reach above zero; objects are where the last call of pairs() had them
   std::vector<ContactPair> pairs_around(const std::vector<char>& wanted, const std::vector<double>& reach_m,
                                         const Positions& x, double within_m) {
     std::vector<ContactPair> found;
@@ -61,19 +62,19 @@ class ContactSearch {
     return found;
   }
 
-  /// The next call searches anew: what is found in a time step must not depend on earlier steps.
+  /// Discards earlier results, because pairs found in a time step must not depend on earlier steps.
   void forget() {
     for (const auto& search : with_object_) search->forget();
     with_itself_.forget();
   }
 
-  /// Says which objects go where they are told from now on: two of these do not touch each other. Before, it is those
-  /// without points to move freely by.
+  /// Sets which objects are held: two held objects are not searched against each other. Initially these are the objects
+  /// without control points.
   void hold(std::vector<bool> held) { held_ = std::move(held); }
 
   const ObjectSearch& with_object(std::size_t object = 0) const { return *with_object_[object]; }
   const GelsSearch& with_itself() const { return with_itself_; }
-  /// Says how several gels are turned from now on, in the order of ContactMesh::gels.
+  /// Sets the rotations of several gels, in the order of ContactMesh::gels.
   void turn_gels(const std::vector<Matrix3>& world_from_gel) { with_itself_.turn(world_from_gel); }
 
  private:

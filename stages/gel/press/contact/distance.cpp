@@ -8,16 +8,17 @@
 namespace tacipc {
 namespace {
 
-/// Below this sine² of the angle between the two tangents, every edge candidate is compared as well.
+/// Below this sine² of the angle between the two tangents, every edge candidate is also compared.
 constexpr double kIllConditionedSine2 = 1e-6;
-/// In faces: nearer than this part of an edge to it, or to its end, counts as on it …
+/// Tolerance in faces: a point nearer to an edge or its end than this fraction of the edge counts as on it.
 constexpr double kTie = 1e-12;
-/// … and inside of the triangle on this side. No edge of a file is likely to be parallel or square to it.
+/// Direction that decides ties: a point on an edge belongs to the triangle on this side. It is unlikely that an edge of
+/// a file is parallel or perpendicular to it.
 const Vector3 kTieSide(0.5387, 0.2913, 0.7905);
 /// Below this sine² the two tangents count as parallel.
 constexpr double kParallelSine2 = 1e-26;
 
-/// Vertices i (first body) and j (second body).
+/// Feature of vertices i (first body) and j (second body).
 ClosestFeature point_point(const FourPoints& x, int i, int j) {
   ClosestFeature f{.weights = Eigen::Vector4d::Zero(),
                    .W = Eigen::Matrix<double, 4, 2>::Zero(),
@@ -31,25 +32,24 @@ ClosestFeature point_point(const FourPoints& x, int i, int j) {
   return f;
 }
 
-/// Where on edge ab a vertex is nearest. `sign` is +1 where the point belongs to the first body, −1 where the edge
-/// does.
+/// Nearest point of edge ab to a vertex. `sign` is +1 if the vertex belongs to the first body, −1 if the edge does.
 struct EdgeFit {
   int point, a, b;
   double sign;
-  double u;   // 0 at a, 1 at b
-  Vector3 r;  // nearest point → vertex
+  double u;   // position on the edge: 0 at a, 1 at b
+  Vector3 r;  // vector from the nearest point to the vertex
   double squared_distance;
 };
 
-/// \param tie nearer than this part of the edge to an end counts as at the end
+/// \param tie a point nearer to an end than this fraction of the edge counts as at the end
 EdgeFit fit_edge(const FourPoints& x, int point, int a, int b, double sign, double tie = 0.0) {
   const Vector3 edge = x[b] - x[a];
   const Vector3 from_a = x[point] - x[a], from_b = x[point] - x[b];
   const double length2 = edge.squaredNorm();
   const double along = from_a.dot(edge);
-  // length2 > 0 where along > 0
+  // length2 > 0 if along > 0
   const double u = !(along > tie * length2) ? 0.0 : !(along / length2 < 1 - tie) ? 1.0 : along / length2;
-  // Measured from the nearer end: less is cancelled.
+  // Measured from the nearer end, with less cancellation.
   const Vector3 r = u <= 0.5 ? Vector3(from_a - u * edge) : Vector3(from_b + (1 - u) * edge);
   return {point, a, b, sign, u, r, r.squaredNorm()};
 }
@@ -83,16 +83,17 @@ const ClosestFeature& nearer(const ClosestFeature& a, const ClosestFeature& b) {
 
 struct PlaneFit {
   double p, q;
-  double sine2;  // of the angle between the tangents
+  double sine2;  // sine² of the angle between the tangents
 };
 
-/// Minimises |r + p a + q b|. Gram–Schmidt on the longer tangent: with an angle θ the error grows like ε/θ, not ε/θ².
-/// Empty where a and b are parallel.
+/// Minimises |r + p a + q b|. Uses Gram–Schmidt on the longer tangent: with an angle θ the error grows like ε/θ, not
+/// ε/θ².
+/// \return nothing if a and b are parallel
 std::optional<PlaneFit> minimise_over_plane(const Vector3& r, const Vector3& a, const Vector3& b) {
   const double aa = a.squaredNorm();
   const double bb = b.squaredNorm();
   const double sine2 = a.cross(b).squaredNorm() / (aa * bb);
-  if (!(sine2 > kParallelSine2)) return std::nullopt;  // also where a length is zero (0/0)
+  if (!(sine2 > kParallelSine2)) return std::nullopt;  // also true for a zero length (0/0)
   const bool swapped = bb > aa;
   const Vector3& first = swapped ? b : a;
   const Vector3& second = swapped ? a : b;
@@ -116,7 +117,7 @@ ClosestFeature nearest_triangle_edge(const FourPoints& x, bool e12, bool e23, bo
   return feature_of(*best, x);
 }
 
-/// Point x0 above the inside of the triangle, at x1 + b1 (x2 − x1) + b2 (x3 − x1).
+/// Feature of point x0 above the inside of the triangle, at x1 + b1 (x2 − x1) + b2 (x3 − x1).
 ClosestFeature above_triangle(const FourPoints& x, double b1, double b2) {
   const Vector3 e1 = x[2] - x[1], e2 = x[3] - x[1];
   ClosestFeature f{.weights = {1, -(1 - b1 - b2), -b1, -b2},
@@ -146,7 +147,7 @@ ClosestFeature closest_point_triangle(const FourPoints& x) {
   const double b0 = 1 - b1 - b2;
   const bool inside = b0 > 0 && b1 > 0 && b2 > 0;
   const bool well_conditioned = fit->sine2 > kIllConditionedSine2;
-  // A point beyond an edge is nearest to one of the edges it is beyond.
+  // A point beyond some edges is nearest to one of these.
   if (!inside && well_conditioned) return nearest_triangle_edge(x, !(b2 > 0), !(b0 > 0), !(b1 > 0));
   if (!inside) return nearest_triangle_edge(x, true, true, true);
   const ClosestFeature f = above_triangle(x, b1, b2);
@@ -172,9 +173,10 @@ ClosestFeature closest_point_face(const FourPoints& x, unsigned rim) {
       const double b[3] = {1 - fit->p - fit->q, fit->p, fit->q};
       const Vector3 edge = x[corner(k + 1)] - x[corner(k)];
       const double tie = kTie * edge.squaredNorm() / n.norm(), across = b[(k + 2) % 3];
-      // Exactly above the rim is inside: there the face is as flat as beside it, and no force grows across it.
+      // Exactly above the rim counts as inside: there the face is flat, and no force grows across the rim.
       const bool within = across > tie || (across >= -tie && ((rim >> k & 1U) || kTieSide.dot(n.cross(edge)) > 0));
-      // Beyond an edge its point below is the triangle's nearest. Distances would not tell it from a corner nearby.
+      // If the point is beyond an edge, its foot on the edge is the nearest point. Distances alone could not
+      // distinguish it from a nearby corner.
       if (!within && between_ends) return counted(on_edge, k);
       inside = inside && within;
     } else if (between_ends) {

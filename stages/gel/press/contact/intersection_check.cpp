@@ -60,7 +60,7 @@ struct Strips {
   }
 };
 
-/// Strips along one axis, each about as wide as four boxes in the middle by size.
+/// Strips along one axis, each about four times as wide as the median box.
 Strips make_strips(const std::vector<Bounds>& bounds, const Bounds& all, int axis) {
   std::vector<double> widths;
   for (const Bounds& b : bounds) widths.push_back(b.high[axis] - b.low[axis]);
@@ -77,7 +77,7 @@ Strips make_strips(const std::vector<Bounds>& bounds, const Bounds& all, int axi
   return strips;
 }
 
-/// \pre there is one
+/// Bounds of all boxes. \pre there is one
 Bounds around(const std::vector<Bounds>& bounds) {
   Bounds all = bounds.front();
   for (const Bounds& b : bounds) all = {all.low.min(b.low), all.high.max(b.high)};
@@ -91,7 +91,7 @@ template <typename Wanted, typename Visit>
 void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit& visit) {
   if (bounds.empty()) return;
   const Bounds all = around(bounds);
-  // Along the two longest axes.
+  // Sweep along the two longest axes.
   Eigen::Array3d lengths = all.high - all.low;
   int axis = 0, across = 0;
   lengths.maxCoeff(&axis);
@@ -102,7 +102,7 @@ void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit&
     Bounds box;
     int index;
   };
-  std::vector<Active> active;  // side by side: most of them are only asked whether they overlap
+  std::vector<Active> active;  // copied side by side: most of them are only tested for overlap
   for (std::size_t strip = 0; strip < strips.boxes.size(); ++strip) {
     std::vector<int>& order = strips.boxes[strip];
     std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -119,7 +119,7 @@ void sweep(const std::vector<Bounds>& bounds, const Wanted& wanted, const Visit&
         if (!overlap(box, other.box)) continue;
         const auto [i, j] = std::minmax(current, other.index);
         if (!wanted(i, j)) continue;
-        // Two boxes that share strips meet in the first of these.
+        // Two boxes that share several strips are paired in the first of these.
         const double common = std::max(box.low[strips.axis], other.box.low[strips.axis]);
         if (strips.of(common) == static_cast<int>(strip)) visit(i, j);
       }
@@ -139,7 +139,7 @@ std::int64_t count_intersections(const SurfaceView& gel, const SurfaceView& obje
   if (bounds.empty()) return 0;
   const Bounds whole_gel = around(bounds);
   const std::vector<Bounds> object_bounds = bounds_of(object);
-  std::vector<int> object_triangle;  // of those that are anywhere near
+  std::vector<int> object_triangle;  // triangles that are near the gel
   for (std::size_t t = 0; t < object_bounds.size(); ++t) {
     if (!overlap(object_bounds[t], whole_gel)) continue;
     bounds.push_back(object_bounds[t]);

@@ -11,9 +11,9 @@ namespace tacipc {
 namespace {
 
 constexpr std::size_t kPairsPerChunk = 4096;
-// Relative; far above the rounding errors of the formulas below.
+// Relative margin, far above the rounding errors of the formulas below.
 constexpr double kRoundingMargin = 1e-6;
-// sin² of the angle between edges below which the formula for their insides is not trusted.
+// sin² of the angle between edges below which the formula for their insides is unreliable.
 constexpr double kNearlyParallelSine2 = 1e-6;
 
 TACIPC_CLONES void distances_of_pack(const double* x, const ContactPair* const* pairs, ContactPair::Kind kind,

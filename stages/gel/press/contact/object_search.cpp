@@ -8,8 +8,8 @@
 namespace tacipc {
 namespace {
 
-constexpr double kExtraMargin = 0.5;     // × the search distance, beyond what the call itself needs
-constexpr double kFloatRounding = 1e-5;  // relative, of distances kept as floats
+constexpr double kExtraMargin = 0.5;     // × the search distance: margin beyond the need of the call itself
+constexpr double kFloatRounding = 1e-5;  // relative rounding of distances stored as floats
 
 /// Largest squared distance of rows of `x` from `searched_at`.
 template <std::size_t Vertices>
@@ -48,7 +48,7 @@ ObjectSearch::ObjectSearch(const ContactMesh& mesh, const ObjectPart& object)
   gel_triangles_.resize(mesh.gel.triangles.size());
 }
 
-/// Fits the trees to the object's rows of `start`, and forgets all earlier searches.
+/// Fits the trees to the object's rows of `start`, and discards all earlier searches.
 void ObjectSearch::place_object(const Positions& start) {
   object_at_ = object_.rows(start);
   vertices_.refit(boxes_at(OneVertex{object_.surface.vertices}, start));
@@ -97,7 +97,7 @@ void ObjectSearch::track(const Primitives& gel, const Bvh& object, const Moment&
         if (near.distance_m <= within) in_reach.push_back(pair_of(static_cast<int>(i), near.other));
       }
     }
-    // Each is looked at several times from here on.
+    // The remaining candidates are used several times.
     for_each_coming_near(
         in_reach, 0, in_reach.size(), [&](std::size_t /*pair*/) { return moment.within_m; }, moment.x, moment.p,
         [&](std::size_t i) { found.push_back(in_reach[i]); });

@@ -10,18 +10,18 @@
 namespace tacipc {
 namespace {
 
-constexpr double kLevel = 1e-9;        // of the face's size
-constexpr double kLeast = 0.5 + 1e-6;  // c, with room for rounding and for an outline that is convex but for rounding
+constexpr double kLevel = 1e-9;        // tolerance of the face's level, × its size
+constexpr double kLeast = 0.5 + 1e-6;  // c, with a margin for rounding of positions and of a convex outline
 constexpr double kAngleError = 1e-6, kRounding = 1e-6;
-constexpr double kMuchNearer = 0.95;  // a bound is worked out again as long as that leaves less than this part of it
+constexpr double kMuchNearer = 0.95;  // a bound is refined while it falls below this fraction of the last one
 
 using Point = Eigen::Vector2d;
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Whether the triangles (counter-clockwise, seen along −z) have one outline, and that turns left only, once around.
+/// Whether the triangles (counter-clockwise, seen along −z) have a single outline that turns left only, once around.
 bool is_convex(const std::vector<std::array<int, 3>>& triangles, const Positions& at) {
-  std::map<std::array<int, 2>, int> edges;  // directed; those without a reverse make the outline
+  std::map<std::array<int, 2>, int> edges;  // directed; edges without a reverse form the outline
   for (const auto& t : triangles) {
     for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
   }
@@ -87,7 +87,7 @@ OpenFace::OpenFace(const ContactMesh& mesh)
   for (Triangle& triangle : triangles_) triangle.squares = squares_around(triangle.vertices);
 }
 
-/// How places of the face have gone sideways from where they are at rest, by 2 × 2 squares, 4 × 4, and so on.
+/// Ranges of the sideways displacements of the face from rest, for blocks of 2 × 2 squares, 4 × 4, and so on.
 class OpenFace::Ways {
  public:
   Ways(const OpenFace& face, const Positions& x) {
@@ -116,7 +116,7 @@ class OpenFace::Ways {
     }
   }
 
-  /// At least the longest difference of the ways of two places in these squares, m.
+  /// Upper bound of the difference between the displacements of two points in these squares, m.
   double difference(const Squares& at) const {
     int level = 0;
     while (std::max(at.right - at.left, at.high - at.low) >> (level + 1) > kMostAcross && level + 1 < kLevels) ++level;
@@ -130,7 +130,7 @@ class OpenFace::Ways {
   }
 
  private:
-  // The least way to the right and up, and the least to the left and down.
+  // Smallest displacements to the right, up, left and down.
   using Range = std::array<double, 4>;
   static constexpr int kSide = kSquares / 2, kLevels = 7, kMostAcross = 3;
   static constexpr double kBeyond = std::numeric_limits<double>::infinity();

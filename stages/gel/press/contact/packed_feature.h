@@ -1,22 +1,22 @@
-// The closest feature of eight pairs at a time.
+// Closest features of eight pairs at a time.
 #pragma once
 
 #include "stages/gel/press/contact/pair_pack.h"
 
 namespace tacipc {
 
-/// ClosestFeature lane by lane, and (AᵀA)⁻¹: entries of missing parameters are zero.
+/// ClosestFeature lane by lane, with (AᵀA)⁻¹. Entries of missing parameters are zero.
 struct PackedFeature {
   Pack weights[4];
   Pack W[4][2];
   Pack3 A[2];
-  Pack inverse_gram[3];  // 00, 01, 11
+  Pack inverse_gram[3];  // entries 00, 01, 11
   Pack3 r;
   Pack squared_distance;
 };
 
-/// Point `of` of the four against the segment from `a` to `b`, 1 / its squared length given; r = sign × (point − its
-/// foot).
+/// Feature of point `of` against the segment from `a` to `b`; r = sign × (point − foot).
+/// \param inverse_length2 1 / squared length of the segment
 TACIPC_INLINE PackedFeature segment_feature(const PackedPoints& p, int of, int a, int b, const Pack& inverse_length2,
                                             double sign) {
   PackedFeature f = {};
@@ -37,6 +37,7 @@ TACIPC_INLINE PackedFeature segment_feature(const PackedPoints& p, int of, int a
   return f;
 }
 
+/// Lane by lane: `yes` if the key is positive, else `no`.
 TACIPC_INLINE PackedFeature choose(const Pack& key, const PackedFeature& yes, const PackedFeature& no) {
   PackedFeature f;
   for (int k = 0; k < 4; ++k) {
@@ -50,18 +51,19 @@ TACIPC_INLINE PackedFeature choose(const Pack& key, const PackedFeature& yes, co
   return f;
 }
 
+/// Lane by lane the feature with the smaller distance.
 TACIPC_INLINE PackedFeature nearer(const PackedFeature& a, const PackedFeature& b) {
   return choose(a.squared_distance - b.squared_distance, b, a);
 }
 
-/// (AᵀA)⁻¹ of two tangents, 1 / |A₀ × A₁|² given.
+/// Sets (AᵀA)⁻¹ of two tangents. \param inverse_n2 1 / |A₀ × A₁|²
 TACIPC_INLINE void set_inverse_gram(const Pack& inverse_n2, PackedFeature& f) {
   f.inverse_gram[0] = dot(f.A[1], f.A[1]) * inverse_n2;
   f.inverse_gram[1] = -dot(f.A[0], f.A[1]) * inverse_n2;
   f.inverse_gram[2] = dot(f.A[0], f.A[0]) * inverse_n2;
 }
 
-/// Point p[0] against triangles p[1] p[2] p[3], which may have no area; unreliable where they are slivers.
+/// Point p[0] against triangles p[1] p[2] p[3], which may have no area; unreliable for slivers.
 TACIPC_INLINE PackedFeature point_triangle_feature(const PackedPoints& p) {
   const Pack3 e1 = p[2] - p[1], e2 = p[3] - p[1], w = p[0] - p[1], n = cross(e1, e2);
   const Pack none = {}, one = none + 1.0, inverse_n2 = one / dot(n, n);
@@ -78,7 +80,7 @@ TACIPC_INLINE PackedFeature point_triangle_feature(const PackedPoints& p) {
   set_inverse_gram(inverse_n2, f);
   f.r = w - b1 * e1 - b2 * e2;
   f.squared_distance = dot(f.r, f.r);
-  // NaN where there is no area: not inside.
+  // b1 and b2 are NaN for triangles without area, which counts as not inside.
   const Pack inside = smaller(smaller(b1, b2), one - (b1 + b2));
   const Pack3 e3 = p[3] - p[2];
   const PackedFeature first = segment_feature(p, 0, 1, 2, one / dot(e1, e1), 1.0),
@@ -87,7 +89,7 @@ TACIPC_INLINE PackedFeature point_triangle_feature(const PackedPoints& p) {
   return choose(inside, f, nearer(nearer(first, second), third));
 }
 
-/// Edges p[0] p[1] against p[2] p[3]; unreliable where they are parallel.
+/// Edges p[0] p[1] against p[2] p[3]; unreliable if they are parallel.
 TACIPC_INLINE PackedFeature edge_edge_feature(const PackedPoints& p) {
   const Pack3 ea = p[1] - p[0], eb = p[3] - p[2], across = p[2] - p[0], n = cross(ea, eb);
   const Pack none = {}, one = none + 1.0, inverse_n2 = one / dot(n, n);

@@ -9,7 +9,7 @@
 namespace tacipc {
 namespace {
 
-/// Edges or corners that vertices are near to, each by its lowest and highest vertex.
+/// Edges or corners near vertices, each stored by its lowest and highest vertex.
 class PairCells {
  public:
   void add(int point, int a, int b) {
@@ -17,8 +17,8 @@ class PairCells {
     ends_.push_back(static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b)));
   }
 
-  /// Each once, by vertex and then by its ends: the same however the triangles came.
-  /// \param shape_of of a pair of these ends
+  /// Appends each once, ordered by vertex and then by its ends, independently of the order of the triangles.
+  /// \param shape_of returns ContactPair::shape for these ends
   template <typename ShapeOf>
   void append_to(std::vector<ContactPair>& pairs, int num_vertices, double weight, ShapeOf&& shape_of) const {
     if (points_.empty()) return;
@@ -44,7 +44,7 @@ class PairCells {
   std::vector<std::uint64_t> ends_;
 };
 
-/// Pairs of two rigid bodies: corners with faces, and creases with creases, whatever triangles these are cut into.
+/// Pairs of two rigid bodies: corners with faces and creases with creases, independently of the triangulation.
 class ShapePairs {
  public:
   explicit ShapePairs(const ContactMesh& mesh) : mesh_(mesh), shapes_(mesh.object_shapes) {}
@@ -64,7 +64,7 @@ class ShapePairs {
     }
     return static_cast<std::uint8_t>(bits);
   }
-  /// The same with an edge, or a vertex as both ends of one.
+  /// ContactPair::shape of a corner and an edge, or a vertex given as both ends.
   std::uint8_t shape(int a, int b) const {
     if (a == b) return on_rim(a) ? kAllRim : kIsShape;
     if (!is_flat(a, b)) return kAllRim;
@@ -72,7 +72,7 @@ class ShapePairs {
                                      (on_rim(b) ? rim_corner(1) | rim_corner(2) : 0U));
   }
 
-  /// The creases of two edges, if both are on one.
+  /// Adds the creases of two edges if both are on one.
   void add_edges(const ContactPair& pair) {
     const auto& v = pair.vertices;
     if (is_flat(v[0], v[1]) || is_flat(v[2], v[3])) return;
@@ -80,7 +80,7 @@ class ShapePairs {
     creases_.push_back({ContactPair::Kind::edge_edge, {a[0], a[1], b[0], b[1]}, pair.weight});
   }
 
-  /// Each two creases once.
+  /// Appends each pair of creases once.
   void append_to(std::vector<ContactPair>& pairs) {
     const auto key = [](const ContactPair& pair) { return std::pair(pair.vertices, -pair.weight); };
     std::sort(creases_.begin(), creases_.end(),

@@ -10,7 +10,7 @@ namespace tacipc {
 namespace {
 
 constexpr double kU = std::numeric_limits<double>::epsilon() / 2;
-/// Covers what underflow may cost in a product of three lengths.
+/// Bound of the error by underflow in a product of three lengths.
 constexpr double kUnderflow = 1e-290;
 
 /// Visits all pairs (vertex of the first body, vertex of the second).
@@ -36,8 +36,8 @@ EdgeFrame frame_of(ContactPair::Kind kind, const FourPoints& q) {
 }  // namespace
 
 PairMotion::PairMotion(ContactPair::Kind kind, const FourPoints& x, const FourPoints& displacement) : kind_(kind) {
-  double relative_size = 0;  // S
-  double size = 0;           // M
+  double relative_size = 0;  // bound S
+  double size = 0;           // bound M
   for (int i = 0; i < 4; ++i) {
     start_[i] = x[i] - x[0];
     change_[i] = displacement[i] - displacement[0];
@@ -65,7 +65,7 @@ std::optional<Vector3> PairMotion::direction(const ClosestFeature& feature) cons
     const Vector3 tangent = feature.A.col(0);
     n -= tangent * (tangent.dot(n) / tangent.squaredNorm());
   } else if (feature.k == 2) {
-    // The normal of the two tangents is the better direction once r is little more than its own rounding error.
+    // If r is little more than its own rounding error, the normal of the two tangents is the better direction.
     const Vector3 a = feature.A.col(0);
     const Vector3 b = feature.A.col(1);
     const Vector3 normal = a.cross(b);

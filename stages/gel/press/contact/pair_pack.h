@@ -1,4 +1,4 @@
-// Eight contact pairs of one kind at a time: where they are closest, roughly.
+// Approximate gaps of eight contact pairs of one kind at a time.
 #pragma once
 
 #include <algorithm>
@@ -25,21 +25,23 @@ TACIPC_INLINE PackedPoints load_points(const double* x, const ContactPair* const
   return out;
 }
 
-/// A vector between the two sides of each pair, second to first, and its squared length.
+/// Vector from the second side of each pair to the first, and its squared length.
 struct PackedGap {
   Pack3 r;
   Pack squared_length;
 };
 
+/// Lane by lane: `yes` if the key is positive, else `no`.
 TACIPC_INLINE PackedGap choose(const Pack& key, const PackedGap& yes, const PackedGap& no) {
   return {choose(key, yes.r, no.r), choose(key, yes.squared_length, no.squared_length)};
 }
 
+/// Lane by lane the shorter gap.
 TACIPC_INLINE PackedGap nearer(const PackedGap& a, const PackedGap& b) {
   return choose(a.squared_length - b.squared_length, b, a);
 }
 
-/// w − u e for the 0 ≤ u ≤ 1 where it is shortest, times `sign`.
+/// Shortest vector w − u e with 0 ≤ u ≤ 1, times `sign`.
 TACIPC_INLINE PackedGap to_segment(const Pack3& w, const Pack3& e, double sign) {
   const Pack along = dot(w, e), length2 = dot(e, e), none = {};
   Pack u = choose(along, along / length2, none);
@@ -48,7 +50,7 @@ TACIPC_INLINE PackedGap to_segment(const Pack3& w, const Pack3& e, double sign) 
   return {(none + sign) * r, dot(r, r)};
 }
 
-/// The perpendicular (h/n²) n, taken where `inside` is positive.
+/// Perpendicular (h/n²) n if `inside` is positive, else `otherwise`.
 TACIPC_INLINE PackedGap perpendicular(const PackedGap& otherwise, const Pack3& n, const Pack& n2, const Pack& h,
                                       const Pack& inside) {
   const Pack scale = h / n2;
@@ -75,7 +77,7 @@ TACIPC_INLINE PackedGap edge_edge_gap(const PackedPoints& p) {
   return perpendicular(ends, n, n2, dot(minus_r, n), smaller(smaller(s, n2 - s), smaller(t, n2 - t)));
 }
 
-/// Up to eight pairs from `first` on that are of one kind; missing ones repeat the first.
+/// Up to eight consecutive pairs of one kind, starting at `first`; missing ones repeat the first.
 struct PairPack {
   const ContactPair* pairs[kLanes] = {};
   int count;

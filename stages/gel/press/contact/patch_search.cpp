@@ -10,9 +10,11 @@ namespace tacipc {
 namespace {
 
 constexpr double kDistanceRounding = 1e-5;
-constexpr double kSpareTravel = 1.5;                       // × the way to go
-constexpr double kSpareReach = 3.0, kShortestReach = 0.2;  // × the step; × the longest reach
-constexpr double kUsedUp = 0.5;  // part of the reach: where one vertex gets out of its own, these are searched, too
+constexpr double kSpareTravel = 1.5;                       // factor on the displacement
+constexpr double kSpareReach = 3.0, kShortestReach = 0.2;  // factors on the step and on the longest reach
+// Fraction of the reach: once a vertex leaves its reach, vertices beyond this fraction of theirs are also searched
+// again.
+constexpr double kUsedUp = 0.5;
 
 }  // namespace
 
@@ -65,7 +67,7 @@ double PatchSearch::part_within_known_reach(const Positions& x, const Positions&
     const double reach = reach_m_[static_cast<std::size_t>(v)];
     const Eigen::RowVector3d from = x.row(v) - searched_at_.row(v), step = p.row(v);
     if ((from + alpha * step).squaredNorm() <= reach * reach) continue;
-    // |from + α step|² = reach²
+    // Solve |from + α step|² = reach² for α.
     const double a = step.squaredNorm(), b = from.dot(step), c = from.squaredNorm() - reach * reach;
     alpha = std::clamp((std::sqrt(std::max(0.0, b * b - a * c)) - b) / a, 0.0, alpha);
   }

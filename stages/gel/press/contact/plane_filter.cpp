@@ -4,9 +4,9 @@
 
 namespace tacipc {
 
-// r joins points of the two sides, so the distance is at most |r|; along r the gap of each two vertices is linear in
-// time and smallest at either end. r · (xᵢ − xⱼ) is compared with |r| × (the separation wanted + an error above all
-// that rounding does to paths of doubles and to these few products), |r| ≤ |r|₁.
+// r joins points of the two sides, so the distance is at most |r|. Along r the gap of each pair of vertices is linear
+// in time and smallest at either end. r · (xᵢ − xⱼ) is compared with |r| × (the wanted separation + an error above all
+// rounding in paths of doubles and in these few products), |r| ≤ |r|₁.
 TACIPC_CLONES unsigned stay_apart(const double* x, const double* p, double until, const ContactPair* const* pairs,
                                   ContactPair::Kind kind, double slack, const Pack& floor_m, const Pack& near_m) {
   const PackedPoints now = load_points(x, pairs);
@@ -30,7 +30,7 @@ TACIPC_CLONES unsigned stay_apart(const double* x, const double* p, double until
     }
   }
   constexpr double kRounding = 64 * 1.2e-16;
-  // |r| ≤ (a + |r|²/a) / 2 for any a > 0: from |r|₁ ≤ √3 |r| to at most a hundredth too much.
+  // |r| ≤ (a + |r|²/a) / 2 for any a > 0; starting at |r|₁ ≤ √3 |r|, the result is at most a hundredth too large.
   Pack length_bound = sum(absolute(gap.r));
   for (int k = 0; k < 2; ++k) length_bound = (0.5 + 1e-15) * (length_bound + gap.squared_length / length_bound);
   const Pack wanted = slack * (1.0 + 1e-9) * smaller(gap.squared_length, near_m * length_bound) +

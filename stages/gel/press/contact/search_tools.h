@@ -1,4 +1,4 @@
-// What the two broad phases share.
+// Helpers shared by the broad phases.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -20,7 +20,7 @@ struct OneVertex {
   std::array<int, 1> operator[](std::size_t i) const { return {vertices[i]}; }
 };
 
-/// The box around rows of x.
+/// Box around some rows of x.
 template <typename Vertices>
 Box box_around(const Positions& x, const Vertices& vertices) {
   Box box;
@@ -28,7 +28,7 @@ Box box_around(const Positions& x, const Vertices& vertices) {
   return box;
 }
 
-/// The farthest reach of some vertices.
+/// Largest reach of some vertices.
 template <typename Vertices>
 double farthest_reach(const std::vector<double>& reach_m, const Vertices& vertices) {
   double farthest = 0.0;
@@ -36,18 +36,20 @@ double farthest_reach(const std::vector<double>& reach_m, const Vertices& vertic
   return farthest;
 }
 
-/// Whether some vertices have one of those that are marked.
+/// Whether any of these vertices is marked.
 template <typename Vertices>
 bool has_one(const std::vector<char>& marked, const Vertices& vertices) {
   return std::any_of(vertices.begin(), vertices.end(), [&](int v) { return marked[static_cast<std::size_t>(v)] != 0; });
 }
 
+/// A box enlarged by `by` on all sides.
 inline Box grown(Box box, double by) {
   box.min().array() -= by;
   box.max().array() += by;
   return box;
 }
 
+/// Box around each primitive at x.
 template <typename Primitives>
 std::vector<Box> boxes_at(const Primitives& primitives, const Positions& x) {
   std::vector<Box> boxes(primitives.size());
@@ -55,7 +57,7 @@ std::vector<Box> boxes_at(const Primitives& primitives, const Positions& x) {
   return boxes;
 }
 
-/// Runs fill(first, last, found) for chunks of 0 … count and joins what they found in order.
+/// Runs fill(first, last, found) for chunks of 0 … count in parallel and appends their results in order.
 template <typename Item, typename Fill>
 void collect(std::size_t count, std::vector<Item>& out, Fill&& fill) {
   constexpr std::size_t kChunk = 512;
@@ -69,8 +71,8 @@ void collect(std::size_t count, std::vector<Item>& out, Fill&& fill) {
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
 }
 
-/// Calls keep(i) for pairs first … last − 1 but for those that a plane shows to stay farther apart than within_m(i)
-/// from x to x + p, in order.
+/// Calls keep(i) in order for each of the pairs first … last − 1 that may come nearer than within_m(i) between x and x
+/// + p: those that no plane proves to stay apart.
 template <typename Within, typename Keep>
 void for_each_coming_near(const std::vector<ContactPair>& pairs, std::size_t first, std::size_t last, Within&& within_m,
                           const Positions& x, const Positions& p, Keep&& keep) {

@@ -9,11 +9,11 @@
 namespace tacipc {
 namespace {
 
-// Margins around the places that were searched: × the search distance, × the mean edge and, on the face, × the distance
-// from its rim at rest. Pairs of the face with itself have the first alone, boxes of around() the second, all other
-// pairs all three.
+// Margins around the searched positions: × the search distance, × the mean edge and, on the face, × the distance from
+// its rim at rest. Pairs within the face have the first margin only, boxes of around() the second, all other pairs all
+// three.
 constexpr double kMargin = 0.25, kMarginOfEdge = 0.05, kMarginOfDistance = 0.25;
-constexpr std::size_t kParts = 16;  // of a query
+constexpr std::size_t kParts = 16;  // number of parts of a query
 
 /// Adds the pair unless its two sides share a vertex.
 void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
@@ -24,7 +24,7 @@ void offer(const ContactPair& pair, std::vector<ContactPair>& out) {
   if (apart) out.push_back(pair);
 }
 
-/// Boxes around some of the primitives, given those around the vertices, grown by `margin`.
+/// Boxes around some of the primitives, grown by `margin`, from the boxes of the vertices.
 template <typename Primitives>
 std::vector<Box> boxes_around(const std::vector<int>& some, const Primitives& primitives, const std::vector<Box>& all,
                               double margin) {
@@ -39,7 +39,7 @@ std::vector<Box> boxes_around(const std::vector<int>& some, const Primitives& pr
   return boxes;
 }
 
-/// Calls visit(i, j) for overlaps of two trees, part `part` of kParts.
+/// Calls visit(i, j) for overlaps of two trees, in part `part` of kParts.
 template <typename Visit>
 void visit_part(const Bvh& a, const Bvh& b, const Bvh::NodePairs& nodes, std::size_t part, Visit&& visit) {
   a.overlaps(b, nodes, nodes.size() * part / kParts, nodes.size() * (part + 1) / kParts, visit);
@@ -155,7 +155,7 @@ void SelfSearch::search_face(const Positions& x, const Positions& p) {
     return some;
   };
   std::vector<int> triangles = at_risk(face_.triangles, squares_of_triangle_);
-  // Vertices and edges are parts of triangles, whose boxes are no smaller.
+  // Vertices and edges are contained in triangles, so triangle boxes suffice.
   std::vector<bool> has(static_cast<std::size_t>(mesh_.num_gel_vertices), false);
   for (const int i : triangles) {
     for (const int v : mesh_.gel.triangles[static_cast<std::size_t>(i)]) has[v] = true;
@@ -194,9 +194,9 @@ void SelfSearch::find(const std::vector<Query>& queries, const Positions& x, con
     std::vector<ContactPair> candidates;
     queries[part / kParts](part % kParts, candidates);
     std::vector<double> reach = coarse_squared_distances(candidates, mesh_.rest_positions);
-    // Zero: edges too parallel to tell.
+    // Zero: edges too parallel to decide.
     for (double& r : reach) r = r > 0.0 ? std::min(within_m, 0.5 * std::sqrt(r)) : within_m;
-    // Near during the step, or so near at its end that they could come near within the margins.
+    // Pairs that are near during the step, or so near at its end that they could come near within the margins.
     std::vector<double> within = reach;
     for (std::size_t i = 0; i < within.size(); ++i)
       within[i] += 2.0 * farthest_reach(out.margin_m, candidates[i].vertices);
@@ -248,7 +248,7 @@ void SelfSearch::pairs(const Positions& x, const Positions& p, double within_m, 
 void SelfSearch::around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x,
                         double within_m, std::vector<ContactPair>& out) {
   const Surface& gel = mesh_.gel;
-  // Until a vertex that stays has left its place in the trees by the margin.
+  // The trees fit until a fixed vertex has left its fitted position by the margin.
   const bool fits = fitted_.rows() > 0 && std::all_of(gel.vertices.begin(), gel.vertices.end(), [&](int v) {
                       return reach_m[v] > 0.0 || (x.row(v) - fitted_.row(v)).squaredNorm() <= margin_m_ * margin_m_;
                     });
@@ -258,7 +258,7 @@ void SelfSearch::around(const std::vector<char>& wanted, const std::vector<doubl
     fit(face_, boxes, 0.0);
     fit(others_, boxes, 0.0);
   }
-  // How far each may be from its place in the trees, but for the margin.
+  // Largest distance of each vertex from its position in the trees, without the margin.
   std::vector<double> from_box = reach_m;
   double of_others = 0.0;
   for (const int v : gel.vertices) {
@@ -266,7 +266,7 @@ void SelfSearch::around(const std::vector<char>& wanted, const std::vector<doubl
     from_box[v] += (x.row(v) - fitted_.row(v)).norm();
     if (!wanted[v]) of_others = std::max(of_others, from_box[v]);
   }
-  // Of two wanted parts the one that goes farther finds the other, which may come as far from its own box.
+  // The one of two wanted primitives with the longer reach finds the other, which may move as far from its own box.
   const auto box_of = [&](const auto& vertices, double reach) {
     return grown(box_around(x, vertices), within_m + margin_m_ + reach + std::max(reach, of_others));
   };

@@ -1,4 +1,4 @@
-// Broad phase of the gel with itself.
+// Broad phase of a gel with itself.
 #pragma once
 
 #include <functional>
@@ -13,27 +13,30 @@
 namespace tacipc {
 
 /// Finds pairs of two primitives of the gel that share no vertex. Neighbours are always near each other, so a pair
-/// counts only from min(`within_m`, half its distance at rest) on. Pairs of the face with itself are searched where it
-/// is at risk, and apart from those with the gel's other surfaces. A search finds some more pairs than needed, and its
-/// result is kept while the vertices in question stay within a margin of the end of the step that was searched.
+/// counts only below min(`within_m`, half of its distance at rest). Pairs within the front face are searched where it
+/// is at risk (open_face.h), separately from pairs with the gel's other surfaces. A search finds more pairs than
+/// needed, and its result is reused while the vertices concerned stay within a margin of the end of the searched step.
 class SelfSearch {
  public:
   explicit SelfSearch(const ContactMesh& mesh);
 
-  /// Appends every pair that comes nearer than that while the vertices move straight from `x` to `x + p`, and some
-  /// more; which and in which order depends only on the arguments since forget().
+  /// Appends every pair that comes nearer than that while the vertices move straight from `x` to `x + p`, or a
+  /// superset. The pairs and their order depend only on the arguments since forget().
   void pairs(const Positions& x, const Positions& p, double within_m, std::vector<ContactPair>& out);
 
   /// Appends every pair with a `wanted` vertex that comes nearer than that while each vertex stays within its `reach_m`
-  /// of its place in `x`, and some more. (One number of each per vertex.) \pre wanted vertices have a reach above zero
+  /// of its position in `x`, or a superset.
+  /// \param wanted, reach_m one number per vertex
+  /// \pre wanted vertices have a reach above zero
   void around(const std::vector<char>& wanted, const std::vector<double>& reach_m, const Positions& x, double within_m,
               std::vector<ContactPair>& out);
 
+  /// Discards earlier results: the next call repeats the search.
   void forget() {
     within_m_.reset();
     fitted_.resize(0, 3);
   }
-  /// Calls of pairs() that had to search.
+  /// Number of calls of pairs() that had to search.
   int num_searches() const { return num_searches_; }
 
  private:
@@ -42,25 +45,26 @@ class SelfSearch {
     std::vector<int> vertices, edges, triangles;
     Bvh vertex_tree, edge_tree, triangle_tree;
   };
-  /// What was found while the vertices went to `end`; holds while each of `vertices` is within its margin of that.
+  /// Result of a search while the vertices moved to `end`. It is valid while each of `vertices` is within its margin of
+  /// its position there.
   struct Found {
     std::vector<int> vertices;
-    std::vector<double> margin_m;  // one per vertex of all
+    std::vector<double> margin_m;  // one per vertex of the mesh
     Positions end;
     std::vector<ContactPair> pairs;
-    std::vector<double> reach_m;  // how near each counts
+    std::vector<double> reach_m;  // distance below which each pair counts
 
     bool holds(const Positions& x, const Positions& p) const;
   };
-  /// A query for candidates, in parts that can run at the same time.
+  /// A query for candidates, in parts that can run in parallel.
   using Query = std::function<void(std::size_t part, std::vector<ContactPair>& candidates)>;
 
   Part part_of(bool face) const;
-  /// A part with some of the primitives and trees around them.
+  /// A part with some of the primitives, and trees around them.
   Part make_part(std::vector<int> vertices, std::vector<int> edges, std::vector<int> triangles,
                  const std::vector<Box>& boxes, double margin) const;
   void fit(Part& part, const std::vector<Box>& boxes, double margin) const;
-  /// Boxes around the ways of some vertices, and around the margins at their ends.
+  /// Boxes around the paths of some vertices and around the margins at the ends of the paths.
   std::vector<Box> boxes_of(const std::vector<int>& vertices, const Positions& x, const Positions& p,
                             const std::vector<double>& margin_m) const;
   Query vertices_and_triangles(const Part& a, const Part& b) const;
@@ -71,15 +75,16 @@ class SelfSearch {
 
   const ContactMesh& mesh_;
   OpenFace open_face_;
-  Part face_, others_;  // primitives all of whose vertices are on the face, and all others
-  std::vector<OpenFace::Squares> squares_of_vertex_, squares_of_edge_, squares_of_triangle_;  // of the face's, in order
-  double margin_m_ = 0.0;                   // that goes with the mean edge
-  std::vector<double> margin_of_others_m_;  // but for the part that goes with the search distance
+  Part face_, others_;  // primitives with all vertices on the face, and all other primitives
+  std::vector<OpenFace::Squares> squares_of_vertex_, squares_of_edge_,
+      squares_of_triangle_;                 // squares of the face's primitives, in order
+  double margin_m_ = 0.0;                   // margin, proportional to the mean edge
+  std::vector<double> margin_of_others_m_;  // margins without the part that is proportional to the search distance
 
-  std::optional<double> within_m_;  // of the last search; absent: the next one starts anew
-  Found of_face_, of_others_;       // pairs of the face with itself, and all others
-  OpenFace::Places searched_;       // of the face with itself
-  Positions fitted_;                // places that the trees fit, if around() fitted them last
+  std::optional<double> within_m_;  // distance of the last search; absent: no earlier result
+  Found of_face_, of_others_;       // pairs within the face, and all other pairs
+  OpenFace::Places searched_;       // points of the face that have been searched against the face
+  Positions fitted_;  // positions to which around() has fitted the trees; empty if it was not the last to do so
   int num_searches_ = 0;
 };
 

@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-/// Cuts a surface into flat faces, creases and corners.
+/// Divides a surface into flat faces, creases and corners.
 class ShapeFinder {
  public:
   ShapeFinder(const Surface& surface, const Positions& x)
@@ -30,7 +30,7 @@ class ShapeFinder {
  private:
   struct Plane {
     Vector3 normal;
-    double longest_m, height_m;  // longest edge of the triangle, and its height above that one
+    double longest_m, height_m;  // longest edge of the triangle, and its height above that edge
   };
 
   Vector3 at(int v) const { return x_.row(v).transpose(); }
@@ -45,7 +45,7 @@ class ShapeFinder {
   }
   static bool is_sliver(const Plane& plane) { return !(plane.height_m > kFlat * plane.longest_m); }
 
-  /// Grows faces from the largest triangles: their planes are the best known.
+  /// Grows faces from the largest triangles: their planes are known most accurately.
   void find_faces() {
     const std::size_t count = surface_.triangles.size();
     std::vector<Plane> planes;
@@ -102,7 +102,7 @@ class ShapeFinder {
     const auto [a, b] = surface_.edges[e];
     return v == a ? b : a;
   }
-  /// From v along the edge e.
+  /// Direction from v along the edge e.
   Vector3 direction(std::size_t e, int v) const { return (at(other_end(e, v)) - at(v)).stableNormalized(); }
 
   void find_corners() {
@@ -123,7 +123,7 @@ class ShapeFinder {
     corners_.push_back(v);
   }
 
-  /// Joins edges in a row between two corners. Where a row bends after all, step by step, a corner is added.
+  /// Joins consecutive edges between two corners. A corner is added where a row of edges bends gradually.
   void join_creases() {
     std::size_t next_edge = 0;
     for (std::size_t c = 0; true; ++c) {
@@ -161,8 +161,8 @@ class ShapeFinder {
   const Surface& surface_;
   const Positions& x_;
   std::vector<std::vector<std::size_t>> triangles_of_edge_;
-  std::vector<std::size_t> face_;                     // of each triangle, by the one that it was grown from
-  std::vector<std::vector<std::size_t>> creases_at_;  // of each vertex, by edges
+  std::vector<std::size_t> face_;                     // face of each triangle, by the triangle from which it was grown
+  std::vector<std::vector<std::size_t>> creases_at_;  // creases at each vertex, by edges
   std::vector<int> corners_;
   ShapeFeatures out_;
 };

@@ -5,7 +5,7 @@
 namespace tacipc {
 namespace {
 
-/// The primitives whose way from x to x + p, grown by `margin`, touches a box, and a tree around those.
+/// Primitives whose path from x to x + p, grown by `margin`, touches a box, with a tree around them.
 template <typename Primitives>
 struct Near {
   std::vector<std::size_t> which;

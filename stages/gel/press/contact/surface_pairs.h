@@ -9,8 +9,8 @@
 namespace tacipc {
 
 /// Appends every pair of a vertex, edge or triangle of `a` and a triangle, edge or vertex of `b` that comes within
-/// `within_m` while the vertices move straight from x to x + p, and some more. Nothing is kept from call to call: for
-/// surfaces that touch in few places.
+/// `within_m` while the vertices move straight from x to x + p, or a superset. Nothing is cached between calls: suited
+/// to surfaces that touch at few locations.
 void pairs_between(const Surface& a, const Surface& b, const Positions& x, const Positions& p, double within_m,
                    std::vector<ContactPair>& out);
 

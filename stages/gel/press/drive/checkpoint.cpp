@@ -12,7 +12,7 @@
 namespace tacipc {
 namespace {
 
-/// Appends to a string of bytes. One description of a frame serves both it and Reader.
+/// Appends values to a string of bytes. One description of a frame serves both Writer and Reader.
 class Writer {
  public:
   void bytes(const void* values, std::size_t count) { bytes_.append(static_cast<const char*>(values), count); }
@@ -25,7 +25,7 @@ class Writer {
   std::string bytes_;
 };
 
-/// Takes from a string of bytes.
+/// Takes values from a string of bytes.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -37,7 +37,7 @@ class Reader {
   void rows(auto& matrix) {
     matrix.resize(size(sizeof(double) * static_cast<std::size_t>(matrix.cols())), matrix.cols());
   }
-  void items(auto& list) { list.resize(static_cast<std::size_t>(size(1))); }  // each has a byte at least
+  void items(auto& list) { list.resize(static_cast<std::size_t>(size(1))); }  // each item has at least one byte
   bool at_end() const { return bytes_.empty(); }
 
  private:
@@ -51,7 +51,7 @@ class Reader {
   std::string_view bytes_;
 };
 
-/// A number, a matrix of numbers, a list, one of these or nothing, or what fields() describes.
+/// Reads or writes a number, a matrix of numbers, a list, an optional, or a struct described by fields().
 void one(auto& io, auto& value) {
   using T = std::remove_cvref_t<decltype(value)>;
   if constexpr (std::is_base_of_v<Eigen::MatrixBase<T>, T>) {

@@ -1,4 +1,4 @@
-// Frames as bytes, so that an interrupted motion resumes after the last one.
+// Serialised frames, so that an interrupted run resumes after the last one.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@ namespace tacipc {
 /// State from which a press resumes.
 struct PressProgress {
   WorldState world;
-  /// Displacement of the object along its free axes since the start of the phase, or from its pose on a rigid mount.
+  /// Displacement of the object along its free axes since the start of the phase, or on a compliant mount its
+  /// deflection.
   Vector3 object_shift_m = Vector3::Zero();
 };
 
@@ -26,16 +27,16 @@ struct GraspProgress {
   HandState hand;
 };
 
-/// All bits of a frame and of the state that the next one starts from. unpack_frame() is the inverse.
+/// Serialises a frame and the state that the next one starts from, bit by bit. unpack_frame() is the inverse.
 /// \throw DataError if the bytes are not such a frame
 std::string pack_frame(const Frame& frame, const PressProgress& progress);
 void unpack_frame(std::string_view bytes, Frame& frame, PressProgress& progress);
 
-/// The frame of a grasp, and those of both fingers.
+/// Overloads for a grasp: its frame, and the frames of both fingers.
 std::string pack_frame(const GraspFrame& frame, const std::vector<Frame>& fingers, const GraspProgress& progress);
 void unpack_frame(std::string_view bytes, GraspFrame& frame, std::vector<Frame>& fingers, GraspProgress& progress);
 
-/// The frame of a scene, and those of its gels.
+/// Overloads for a scene: its frame, and the frames of its gels.
 std::string pack_frame(const SceneFrame& frame, const std::vector<Frame>& gels, const WorldState& state);
 void unpack_frame(std::string_view bytes, SceneFrame& frame, std::vector<Frame>& gels, WorldState& state);
 

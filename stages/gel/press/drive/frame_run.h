@@ -1,4 +1,4 @@
-// Frames of a run in their order: those that an interrupted run has left, then new ones.
+// Frames of a run in order: restored from an interrupted run first, then solved.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,17 @@
 
 namespace tacipc {
 
-/// Keeps frames as bytes, in order, so that an interrupted run resumes.
+/// Storage of serialised frames, in order, so that an interrupted run resumes.
 class FrameStore {
  public:
   virtual ~FrameStore() = default;
-  /// Called after each frame, in order, with all bits of it and of the state that the next one starts from.
+  /// Stores a frame with the state that the next one starts from. Called after each frame, in order.
   virtual void save(const std::string& bytes) = 0;
-  /// The next saved frame in order, if there is one.
+  /// Loads the next stored frame, in order; nothing if there is none.
   virtual std::optional<std::string> load() = 0;
 };
 
-/// Number of frames of a motion of phases, frame 0 not counted.
+/// Number of frames of a motion of phases, without frame 0.
 template <typename Motion>
 int num_frames(const Motion& motion) {
   int sum = 0;
@@ -28,12 +28,12 @@ int num_frames(const Motion& motion) {
   return sum;
 }
 
-/// \throw DataError if a saved frame is of another number of gels
+/// Checks the number of gels in a saved frame. \throw DataError if it is not the expected one
 inline void require_gels(std::size_t saved, std::size_t expected) {
   if (saved != expected) throw DataError("a saved frame is of {} gels, not {}", saved, expected);
 }
 
-/// The frames of one run.
+/// Sequence of the frames of one run.
 class FrameRun {
  public:
   FrameRun(int num_frames, const ProgressObserver& observe, FrameStore* store)
@@ -45,7 +45,7 @@ class FrameRun {
   int next() const { return next_; }
   int num_frames() const { return num_frames_; }
 
-  /// The next frame of an interrupted run; nothing from the first frame on that has to be solved.
+  /// Returns the next frame of an interrupted run; nothing once frames have to be solved.
   std::optional<std::string> restored() {
     if (!store_ || !restoring_) return std::nullopt;
     std::optional<std::string> bytes = store_->load();
@@ -56,14 +56,14 @@ class FrameRun {
     return bytes;
   }
 
-  /// Ends a frame that was solved. \param bytes called only if there is a store
+  /// Ends a frame that has been solved. \param bytes returns the serialised frame; called only if there is a store
   template <typename Bytes>
   void save(Bytes&& bytes) {
     if (store_) store_->save(bytes());
     ++next_;
   }
 
-  /// Solves the time steps of the next frame. \throw SolverError naming the frame
+  /// Solves the time steps of the next frame. \throw SolverError that names the frame
   template <typename Steps>
   StepReport solve(Steps&& steps) const {
     StepReport report;
@@ -75,7 +75,7 @@ class FrameRun {
     return report;
   }
 
-  /// Adds to `report` the StepReport that advance() returns for a step that has been accepted. If it throws a
+  /// Takes one time step. Adds to `report` the StepReport that advance() returns for an accepted step. If it throws a
   /// SolverError, divide(halvings + 1) takes both halves of the step instead.
   /// \throw SolverError after `most_halvings`
   template <typename Advance, typename Divide>
@@ -92,7 +92,7 @@ class FrameRun {
     }
   }
 
-  /// Passes iterations of a time step on to whoever shows progress.
+  /// Observer that forwards the iterations of a time step to the progress display.
   IterationObserver observer() const {
     return [this](int iteration, double residual) { observe_(next_, num_frames_, iteration, residual); };
   }

@@ -18,9 +18,10 @@
 namespace tacipc {
 namespace {
 
-constexpr int kMostClosingSteps = 200;  // after the frames of a phase in which fingers close
+/// Limit of additional time steps after the frames of a phase in which fingers close.
+constexpr int kMostClosingSteps = 200;
 
-/// Motion of the hand since the start of a phase, at a fraction of it.
+/// Motion of the hand since the start of a phase, at a fraction of the phase.
 RigidWay hand_in(const GraspPhase& phase, double fraction, double seconds) {
   RigidWay hand;
   const double smooth = smooth_part(fraction);
@@ -32,7 +33,8 @@ RigidWay hand_in(const GraspPhase& phase, double fraction, double seconds) {
   return hand;
 }
 
-/// Force or displacement that the drives should have reached at a fraction of a phase. \param from at its start
+/// Sets the force or displacement that the drives should have reached at a fraction of a phase.
+/// \param from drives at its start
 void set_goal(const GraspPhase& phase, double fraction, const std::array<GripControl, 2>& from, const Grip& grip,
               std::array<GripControl, 2>& drives) {
   const double mean_m = 0.5 * (from[0].closed_m + from[1].closed_m);
@@ -106,7 +108,8 @@ class GraspDrive {
           const double enough_n = closes && !phase.width_m && i + 1 < steps ? phase.force_n : 0.0;
           time_step(phase, hand_at(i + 1) - hand_at(i), enough_n, sum);
         }
-        // The object does not wait: it is held until the fingers have their grip.
+        // Additional time steps until the fingers have reached their goal. In the first `close` the object is held
+        // meanwhile.
         for (int more = 0; goes_on && last && !hand_.lost() && !hand_.arrived(); ++more) {
           if (more == kMostClosingSteps) throw_not_closed(hand_.state().drives, spec_.mount);
           time_step(phase, {}, 0.0, sum);
@@ -205,7 +208,7 @@ class GraspDrive {
   const GraspSpec& spec_;
   const PressConfig config_;
   Grasp out_;
-  Grip grip_;  // its bodies move into the world
+  Grip grip_;  // poses in frame 0; the bodies are moved into the world
   World world_;
   FrameRun run_;
   Hand hand_;

@@ -1,4 +1,4 @@
-// A grasp: two gels on their mounts, and an object between them that is free once they have closed on it.
+// Simulates a grasp: two gels on their mounts, and an object between them that is free once they have closed on it.
 #pragma once
 
 #include "stages/gel/press/drive/frame_run.h"
@@ -6,7 +6,7 @@
 
 namespace tacipc {
 
-/// \throw as simulate()
+/// Runs all phases of a grasp. \throw SolverError, VerdictError, DataError as simulate()
 Grasp grasp(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
             const GraspSpec& spec, const ProgressObserver& observe, FrameStore* store = nullptr);
 

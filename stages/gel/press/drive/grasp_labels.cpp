@@ -8,18 +8,18 @@
 namespace tacipc {
 namespace {
 
-/// What the object would ask of friction if it were carried along with the hand, over what friction can give.
+/// Friction that the object needs to move with the hand, over the largest possible friction.
 struct Load {
   double weight = 0.0;  // m g across the closing axis / μ N
-  double force = 0.0;   // m |g − a| across it / μ N
-  double torque = 0.0;  // of m (g − a) about it, from the grip point / μ Σ N ρ
+  double force = 0.0;   // m |g − a| across the closing axis / μ N
+  double torque = 0.0;  // torque of m (g − a) about the closing axis through the grip point / μ Σ N ρ
 
   double use() const { return std::hypot(force, torque); }
 };
 
 double part_of(double asked, double given) { return asked == 0.0 ? 0.0 : asked / given; }
 
-/// Second difference over three frames, which need not be equally far apart.
+/// Second difference over three frames, which need not be equally spaced.
 Vector3 acceleration(const std::array<Vector3, 3>& at_m, const std::array<double, 3>& time_s) {
   const double before = time_s[1] - time_s[0], after = time_s[2] - time_s[1];
   return 2.0 / (before + after) * ((at_m[2] - at_m[1]) / after - (at_m[1] - at_m[0]) / before);
@@ -52,7 +52,7 @@ Load load_in(const Grasp& grasp, std::size_t f) {
 
 SlipTimes slip_times(const Grasp& grasp, std::size_t side) {
   SlipTimes times;
-  std::size_t before = grasp.freed_frame;  // the frame before a stretch of frames that slip as a whole
+  std::size_t before = grasp.freed_frame;  // last frame before a sequence of frames with gross slip
   for (std::size_t f = grasp.freed_frame + 1; f <= grasp.judged_frame; ++f) {
     const double share = grasp.contacts[f][side].slip_share;
     if (share >= kFirstSlipShare && !times.first_s) times.first_s = grasp.frames[f].time_s;

@@ -1,4 +1,4 @@
-// Labels of a grasp beside its outcome: when each finger's contact slips, and why the object was not held;
+// Labels of a grasp in addition to its outcome: when each finger's contact slips, and why the object was not held;
 // docs/grasp.md.
 #pragma once
 
@@ -9,25 +9,28 @@
 
 namespace tacipc {
 
-/// Share of a finger's normal force on vertices that slip from which its contact has begun to slip; as a whole it does
-/// from kGrossSlipShare on.
+/// Fraction of a finger's normal force on slipping vertices at which slip begins. kGrossSlipShare is the fraction at
+/// which the contact slips as a whole.
 inline constexpr double kFirstSlipShare = 0.05;
-/// By how much the object moves in the hand meanwhile, a tenth of what an outcome wants: more than it creeps, or than
-/// the gels give when it is freed.
+/// Smallest displacement and rotation of the object in the hand during gross slip. They are a tenth of the limits of an
+/// outcome, and larger than creep or the deformation of the gels when the object is freed.
 inline constexpr double kGrossSlip_m = 0.1e-3, kGrossTurn_rad = 0.5 * std::numbers::pi / 180.0;
 
-/// Of both grips together, by which one may exceed the other.
+/// Grip forces are uneven if their difference exceeds this fraction of their sum.
 inline constexpr double kUneven = 0.1;
 
-/// Of a frame of a finger, with the normal forces nᵥ > 0 on the vertices of its front: Σ_slip nᵥ / Σ nᵥ, and
-/// Σ nᵥ |xᵥ − c| / Σ nᵥ with c = Σ nᵥ xᵥ / Σ nᵥ in the plane x, y of S. Zeros where nothing touches.
+/// Contact of a finger in one frame. With the normal forces nᵥ > 0 on the vertices of its front and c = Σ nᵥ xᵥ / Σ nᵥ
+/// in the plane x, y of S:
+/// - slip_share is Σ_slip nᵥ / Σ nᵥ,
+/// - friction_radius_m is Σ nᵥ |xᵥ − c| / Σ nᵥ.
+/// Both are zero without contact.
 FingerContact finger_contact(const FrontSurface& front, const Frame& frame);
 
-/// Fills contacts, and of every frame up to the one that is judged its creep and what is slip without it.
-/// \pre judged_frame and all else is there
+/// Fills contacts, and for every frame up to judged_frame its creep and its slip without creep.
+/// \pre judged_frame and all other members are filled
 void measure_creep(Grasp& grasp);
 
-/// Fills friction_use, slips and reason. \pre all else is there
+/// Fills friction_use, slips and reason. \pre all other members are filled
 void add_labels(Grasp& grasp);
 
 /// Fills judged_frame, creep and outcome, then the labels. \pre frames and fingers are complete, freed_frame is known

@@ -1,36 +1,38 @@
-// What became of a gripped object: by its motion in the hand and by contact alone; docs/grasp.md.
+// Outcome of a grasp, determined from the object's motion in the hand and from contact; docs/grasp.md.
 #pragma once
 
 #include "stages/gel/press/drive/grasp_frame.h"
 
 namespace tacipc {
 
+/// Pose of the object in the hand.
 Matrix4 hand_from_object(const GraspFrame& frame);
 
-/// Whether both fingers touch the object (or each other).
+/// Whether both fingers touch the object or each other.
 bool both_touch(const GraspFrame& frame);
 
-/// Whether they do, and the object has neither slipped nor turned, creep left out, by as much as an outcome wants.
+/// Whether both_touch() holds, and slip and rotation without creep are below the limits of an outcome.
 bool is_held(const GraspFrame& frame);
 
-/// How the object has moved in the hand from one frame to another.
+/// Motion of the object in the hand between two frames.
 struct InHand {
-  double slip_m = 0.0;    // of its point at the grip
-  double turn_rad = 0.0;  // of it
+  double slip_m = 0.0;    // displacement of its grip point
+  double turn_rad = 0.0;  // rotation
 };
-/// \param grip_m that point, in the object's axes
+/// Motion between the frames `then` and `now`. \param grip_m grip point, in the object's axes
 InHand motion_in_hand(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m);
 
-/// By how much the object's point at the grip has come up, and the hand.
+/// Rise of the object's grip point and of the hand between two frames, m.
 struct Rise {
   double object_m = 0.0, hand_m = 0.0;
 };
 Rise rise_of(const GraspFrame& then, const GraspFrame& now, const Vector3& grip_m);
 
-/// Whether any finger touches the object, or the other one.
+/// Whether any finger touches the object or the other finger.
 bool any_touches(const GraspFrame& frame);
 
-/// From when it was freed to the last frame before the fingers release it. \pre the frames' slip without creep is known
+/// Outcome between freed_frame and the last frame before the fingers release the object.
+/// \pre the frames' slip without creep is computed
 GraspOutcome outcome_of(const Grasp& grasp);
 
 }  // namespace tacipc

@@ -27,7 +27,8 @@ void check_settings(const Sensor& sensor, const TriangleMesh& object, const Pres
         "WRAP=yes");
 }
 
-/// z of S is x of the world for the left finger and −x for the right one; the images' down, y, is the world's.
+/// Axes of a finger's frame S in the world: z of S is x of the world for the left finger and −x for the right one; y,
+/// which is down in images, is down in the world.
 Matrix3 world_from_finger(int side) {
   const Vector3 z = side == 0 ? Vector3::UnitX() : Vector3(-Vector3::UnitX()), y = -Vector3::UnitZ();
   Matrix3 R;
@@ -39,8 +40,9 @@ Matrix3 world_from_finger(int side) {
 Matrix4 beside(const TetMesh& gel, const TriangleMesh& object, const Positions& object_m, int side, double gap_m) {
   const Eigen::RowVector3d low = gel.positions.colwise().minCoeff(), high = gel.positions.colwise().maxCoeff();
   const Matrix3 R = world_from_finger(side);
-  const Positions seen = object_m * R;                      // in the axes of the finger
-  double reach = -std::numeric_limits<double>::infinity();  // of the object, within the area of the gel
+  const Positions seen = object_m * R;  // object vertices in the axes of the finger
+  // Extent of the object towards the finger, within the area of the gel.
+  double reach = -std::numeric_limits<double>::infinity();
   for (Eigen::Index t = 0; t < object.num_triangles(); ++t) {
     Eigen::AlignedBox3d box;
     for (int k = 0; k < 3; ++k) box.extend(Vector3(seen.row(object.triangles(t, k))));
@@ -55,7 +57,7 @@ Matrix4 beside(const TetMesh& gel, const TriangleMesh& object, const Positions& 
   Matrix4 pose = Matrix4::Identity();
   pose.topLeftCorner<3, 3>() = R;
   pose.topRightCorner<3, 1>() = -R.col(2) * (reach + gap_m);
-  return pose.array() + 0.0;  // without a minus before a zero
+  return pose.array() + 0.0;  // turns −0 into 0
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The pose of a gripped object and of the fingers around it in frame 0, as bodies of a world.
+// Poses of a gripped object and the fingers around it in frame 0, as bodies of a world.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace tacipc {
 
-/// Left finger, right finger, object, in the order of the bodies.
+/// Bodies of a grasp in the order left finger, right finger, object.
 struct Grip {
   std::vector<Body> bodies;
-  double start_gap_m = 0.0;    // of each finger from the object
-  double start_width_m = 0.0;  // between the origins of both frames S
+  double start_gap_m = 0.0;    // distance of each finger from the object
+  double start_width_m = 0.0;  // distance between the origins of both frames S
 };
 
-/// Turns the object, hangs its grip point at the origin, puts the fingers beside it, and notes mass, friction and pose
-/// in `grasp`.
-/// \param config the press file with the friction of the object
-/// \throw UsageError if sensor or press file are not made for grasps \throw DataError if the object is not closed, or
-/// there is nothing of it between the fingers
+/// Rotates the object, moves its grip point to the origin, places the fingers next to it, and records mass, friction
+/// and pose in `grasp`.
+/// \param config the press configuration with the friction of the object
+/// \throw UsageError if sensor or press file do not support grasps
+/// \throw DataError if the object is not closed, or has no surface between the fingers
 Grip make_grip(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object, const PressConfig& config,
                const GraspSpec& spec, Grasp& grasp);
 

@@ -6,11 +6,11 @@
 namespace tacipc {
 namespace {
 
-// A stiffness measured from one time step to the next counts as at least the first times the last one, and at most the
-// second where the step was shorter than the first touch: it measures what else has changed the grip, too.
+// Limits of a stiffness measured between two time steps, as factors on the last one. The upper limit applies to steps
+// shorter than the first touch, because other causes also change the grip force.
 constexpr double kSofterMost = 0.5, kStifferMost = 4.0;
 constexpr double kMeasurable_m = 1e-7;  // a shorter step measures no stiffness
-constexpr double kArrived_m = 1e-9;     // from where they are wanted
+constexpr double kArrived_m = 1e-9;     // tolerance of a prescribed displacement
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool GripControl::touches() const { return last_grip_n >= kTouches_n; }
 
 bool GripControl::arrived(const DriveInertia& inertia) const {
   if (by_way) return std::abs(wanted_closed_m - closed_m) <= kArrived_m;
-  // A swing of this speed reaches so much more force.
+  // Force amplitude of an oscillation with this velocity.
   const double swing_n = std::abs(velocity_m_s) * std::sqrt(inertia.mass_kg * stiffness_n_m);
   return std::max(std::abs(last_grip_n - wanted_n), swing_n) <= kGripTolerance * wanted_n;
 }
@@ -38,7 +38,7 @@ void GripControl::measure(double h_s, double step_m, double grip_n, std::optiona
   if (found_n_m) {
     stiffness_n_m = *found_n_m;
   } else if (stiffness_n_m == 0.0) {
-    // The first touch: what it took, from somewhere within the step.
+    // First touch: it began somewhere within the step.
     if (grip_n > kTouches_n) stiffness_n_m = grip_n / std::max(std::abs(step_m), kFirstTouch_m);
   } else if (std::abs(step_m) > kMeasurable_m && touched / step_m > 0.0 &&
              std::abs(touched) > kMeasurablePart * grip_n) {
@@ -46,7 +46,7 @@ void GripControl::measure(double h_s, double step_m, double grip_n, std::optiona
     if (std::abs(step_m) < kFirstTouch_m) now = std::min(now, kStifferMost * stiffness_n_m);
     stiffness_n_m = now;
   }
-  // Who grips next goes on from the grip there is.
+  // A later force-controlled phase starts from the present grip force.
   if (by_way) wanted_n = grip_n;
   velocity_m_s = step_m / h_s;
   last_step_m = step_m;

@@ -11,7 +11,7 @@ Ways Hand::pressing_n() const {
   return {tacipc::pressing_n(force_on(0), poses[0]), tacipc::pressing_n(force_on(1), poses[1])};
 }
 
-/// Forces that the drives are controlled by: if one closes both fingers, their mean.
+/// Forces by which the drives are controlled: their mean if one drive closes both fingers.
 Ways Hand::grips_n() const {
   Ways grips = pressing_n();
   if (!spec_.drive_each) grips.fill(0.5 * (grips[0] + grips[1]));
@@ -26,7 +26,8 @@ double Hand::grip_n() const {
 bool Hand::arrived() const {
   const auto& [left, right] = state_.drives;
   if (left.by_way || !is_free()) return left.arrived(spec_.mount) && right.arrived(spec_.mount);
-  // Separate drives may float with the object for ever, with what their damping takes between their grips.
+  // Separate drives may drift with the object indefinitely, with their damping force as the difference between the grip
+  // forces.
   GripControl mean = left;
   mean.last_grip_n = grip_n();
   mean.velocity_m_s = 0.5 * (left.velocity_m_s + right.velocity_m_s);
@@ -39,7 +40,7 @@ Ways Hand::let_go() {
   return pressing_n();
 }
 
-/// Poses of all bodies for a pose of the hand and displacements of the fingers; the object stays.
+/// Poses of all bodies for a pose of the hand and displacements of the fingers; the object's pose is unchanged.
 std::vector<Matrix4> Hand::poses(const Matrix4& world_from_hand, const Ways& closed_m) const {
   std::vector<Matrix4> all;
   for (const std::size_t side : {0, 1}) {
@@ -51,7 +52,8 @@ std::vector<Matrix4> Hand::poses(const Matrix4& world_from_hand, const Ways& clo
   return all;
 }
 
-/// One time step, divided if the hand turns too far for straight paths of the vertices, or if it does not converge.
+/// Takes one time step. Divides it if the hand rotates too far for straight paths of the vertices, or if it does not
+/// converge.
 void Hand::step(double h_s, const Ways& closing_m, const RigidWay& motion, int halvings, StepReport& report) {
   const auto both_halves = [&](int deeper) {
     for (int half = 0; half < 2; ++half)
@@ -64,7 +66,7 @@ void Hand::step(double h_s, const Ways& closing_m, const RigidWay& motion, int h
   const std::vector<Matrix4> at_end = poses(to, closed);
   StepGoal goal = world_.goal(h_s);
   world_.move_mounts(goal, at_end);
-  // Both mounts move with the hand, up to their closing.
+  // Both mounts move with the hand, apart from their closing.
   goal.mount_motion.clear();
   goal.hand_motion = motion_of_world(state_.world_from_hand, motion);
   if (!is_free()) world_.hold(goal, 0, object_pose());
@@ -101,22 +103,22 @@ void Hand::go_on(double h_s, const RigidWay& motion, StepReport& report) {
   measured_step(h_s, ways, motion, report);
 }
 
-/// Displacement of the object's centre of mass along the closing axis, from one pose to another, less that of the
-/// hand's motion.
+/// Displacement of the object's centre of mass along the closing axis between two poses, minus that of the hand's
+/// motion.
 double Hand::along_axis(const Matrix4& from, const Matrix4& to, const Matrix4& motion, const Matrix4& hand) const {
   const Eigen::Vector4d center = grasp_.center_of_mass_m.homogeneous();
   const Vector3 axis = (motion * hand).col(0).head<3>();
   return axis.dot((to * center - motion * (from * center)).head<3>());
 }
 
-/// The search of a time step, from the state that it starts from. \param motion of the hand, in the world
+/// Search of a time step, from the state at its start. \param motion motion of the hand, in the world
 PairSearch Hand::start_search(double h_s, const Matrix4& motion) {
   const auto begin = [&](std::size_t side) {
     return WaySearch(state_.drives[side], spec_.mount, h_s, spec_.closing_speed_m_s * h_s, world_.laws().reach_m(),
                      [&](double none) { return world_.smallest_gap(none); });
   };
   const WaySearch left = begin(0);
-  // A held object leaves each drive alone.
+  // A held object decouples the drives.
   const bool coupled = spec_.drive_each && is_free();
   const double object_n_m = grasp_.mass_kg / (h_s * h_s);
   PairSearch search({left, spec_.drive_each ? begin(1) : left}, coupled, object_n_m);
@@ -147,7 +149,7 @@ void Hand::balance(double h_s, const RigidWay& hand, double enough_n, StepReport
     try {
       step(h_s, ways, hand, 0, done);
     } catch (const SolverError& error) {
-      // Better off balance than not at all.
+      // A step that is out of balance is better than none.
       if (!solved || gives_up) throw;
       log_info("frame {}: {}; the fingers go by a way that could be solved", run_.next(), error.what());
       gives_up = true;
@@ -158,7 +160,7 @@ void Hand::balance(double h_s, const RigidWay& hand, double enough_n, StepReport
     const Ways grips = grips_n();
     if (!gives_up)
       search.note(grips, along_axis(before.world_from_body[2], object_pose(), motion, hand_before.world_from_hand));
-    // On the way to a grip, with the object still held, nothing depends on how fast the grip grows.
+    // While the object is held and the grip is below its target, the rate at which it grows does not matter.
     const bool enough = !is_free() && spec_.mount.none() && std::max(grips[0], grips[1]) <= enough_n;
     if (gives_up || enough || search.stands()) {
       const double imbalance = enough ? 0.0 : search.imbalance();
@@ -180,7 +182,7 @@ void Hand::balance(double h_s, const RigidWay& hand, double enough_n, StepReport
       imbalance_ = std::max(imbalance_, imbalance);
       return;
     }
-    done.time_steps = 0;  // it is the same step
+    done.time_steps = 0;  // counted already: it is the same step
     done.add_earlier(spent);
     spent = done;
     start_again();

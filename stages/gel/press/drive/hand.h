@@ -13,11 +13,11 @@
 
 namespace tacipc {
 
-/// Moves the gels of a world, the bodies 0 and 1, around the object, body 2. Each time step takes the motion of the
-/// hand in it, and adds what it took to a report.
+/// Moves the gels of a world (bodies 0 and 1) around the object (body 2). Each function that takes a time step also
+/// moves the hand by `motion`, and adds the step's effort to a report.
 class Hand {
  public:
-  /// \param grasp mass and centre of the object \pre all outlive the hand
+  /// \param grasp mass and centre of the object \pre all arguments outlive the hand
   Hand(const GraspSpec& spec, const PressConfig& config, const Grasp& grasp, World& world, const FrameRun& run)
       : spec_(spec), config_(config), grasp_(grasp), world_(world), run_(run) {}
 
@@ -25,25 +25,26 @@ class Hand {
 
   /// Contact force on a finger in the world, N.
   Vector3 force_on(std::size_t side) const { return contact_force_on(world_.deformable(side), world_.forces()); }
-  /// Mean force by which the fingers press.
+  /// Mean force by which the fingers press, N.
   double grip_n() const;
+  /// Whether the object is free.
   bool is_free() const { return state_.drives[0].let_go; }
-  /// Whether the object is free and neither finger touches it: fingers then move no further, except in a release.
+  /// Whether the object is free and neither finger touches it. Fingers then stop closing, except in a release.
   bool lost() const { return state_.drives[0].lost() && state_.drives[1].lost(); }
-  /// Whether the drives have reached the force or the displacement that they should.
+  /// Whether the drives have reached the prescribed force or displacement.
   bool arrived() const;
-  /// Largest fraction of the force that was missing to the balance of a drive after a time step, since the last call.
+  /// Largest imbalance of a drive after a time step, as a fraction of its force, since the last call.
   double take_imbalance() { return std::exchange(imbalance_, 0.0); }
-  /// Frees the object. \return the forces by which the fingers press, N
+  /// Frees the object. \return forces by which the fingers press, N
   Ways let_go();
 
-  /// A time step in which each finger opens by `way_m`; the grip that is left is kept from there on.
+  /// Takes a time step in which each finger opens by `way_m`; the remaining grip is kept afterwards.
   void open_by(double way_m, double h_s, const RigidWay& motion, StepReport& report);
-  /// A time step in which fingers with a displacement to reach go on towards it.
+  /// Takes a time step in which fingers with a prescribed displacement move towards it.
   void go_on(double h_s, const RigidWay& motion, StepReport& report);
-  /// A time step that ends with each drive in balance: tried with several displacements, each from the same state, and
-  /// divided if none of them is in balance.
-  /// \param enough_n while the object is held, a grip up to this needs no second try
+  /// Takes a time step that ends with each drive in balance. It is attempted with several displacements, each from the
+  /// same state, and divided if none of them is in balance.
+  /// \param enough_n while the object is held, a grip up to this needs no second attempt
   void balance(double h_s, const RigidWay& motion, double enough_n, StepReport& report, int halvings = 0);
 
  private:

@@ -12,7 +12,7 @@
 namespace tacipc {
 namespace {
 
-constexpr double kApart_m = 1e-4;  // a frame solved before is of another motion if a body is farther from its path
+constexpr double kApart_m = 1e-4;  // a restored frame belongs to another motion if a body is farther from its path
 
 class SceneDrive {
  public:
@@ -49,7 +49,8 @@ class SceneDrive {
   }
 
  private:
-  /// Poses of all bodies at a fraction of a phase, for those that the scene moves; of others, as they are now.
+  /// Poses of all bodies at a fraction of a phase: prescribed poses of bodies that the scene moves, present poses of
+  /// the others.
   std::vector<Matrix4> poses_in(const ScenePhase& phase, const std::vector<Matrix4>& start, double fraction) const {
     std::vector<Matrix4> poses = world_.state().world_from_body;
     for (std::size_t b = 0; b < files_.size(); ++b) {
@@ -77,7 +78,7 @@ class SceneDrive {
     return loads_n_[i];
   }
 
-  /// One time step, between two fractions of a phase; divided if it does not converge.
+  /// Takes one time step between two fractions of a phase; divides it if it does not converge.
   void step(const ScenePhase& phase, const std::vector<Matrix4>& start, double from, double to, int halvings,
             StepReport& report) {
     const std::vector<Matrix4> poses = poses_in(phase, start, to);
@@ -128,7 +129,7 @@ class SceneDrive {
     return true;
   }
 
-  /// \throw DataError if a restored frame, the one after out_.frames, is of other paths
+  /// Checks the restored frame, the one after out_.frames. \throw DataError if it was solved with other paths
   void require_on_path() const {
     int at = 0;
     for (std::size_t p = 0, left = out_.frames.size(); p < spec_.motion.size() && left > 0; ++p) {
@@ -145,7 +146,8 @@ class SceneDrive {
     }
   }
 
-  /// \throw DataError if a held body would run into one that is held or fixed: nothing keeps these apart
+  /// Checks held bodies.
+  /// \throw DataError if one would run into another held or fixed body, because no contact acts between them
   void require_free_way(const StepGoal& goal) const {
     const ContactMesh& mesh = world_.mesh();
     const Positions& x = world_.state().motion.x;
@@ -205,8 +207,8 @@ class SceneDrive {
   World world_;
   FrameRun run_;
   Scene out_;
-  std::vector<Vector3> loads_n_;  // on each rigid body, at the start of the phase
-  int steps_before_ = 0;          // time steps of the phases before this one
+  std::vector<Vector3> loads_n_;  // load on each rigid body at the start of the phase
+  int steps_before_ = 0;          // number of time steps of the earlier phases
 };
 
 }  // namespace

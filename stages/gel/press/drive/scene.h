@@ -1,4 +1,4 @@
-// A scene: gels on mounts, soft, rigid and fixed bodies, all in contact with each other.
+// Simulates a scene: gels on mounts, soft, rigid and fixed bodies in contact with each other.
 #pragma once
 
 #include "stages/gel/press/drive/frame_run.h"
@@ -7,8 +7,9 @@
 
 namespace tacipc {
 
-/// \param bodies of spec.bodies, in that order
-/// \throw as simulate()
+/// Runs all phases of a scene.
+/// \param bodies contents of spec.bodies, in that order
+/// \throw SolverError, VerdictError, DataError as simulate()
 Scene run_scene(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
                 const SceneSpec& spec, const ProgressObserver& observe, FrameStore* store = nullptr);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostBodies = 200;
 
-/// \throw UsageError if the press file or the sensor is not made for scenes
+/// Checks the settings. \throw UsageError if the press file or the sensor does not support scenes
 void check_settings(const Sensor& sensor, const std::vector<SceneBody>& bodies, const PressConfig& config,
                     const SceneSpec& spec) {
   require_rigid_mount(sensor);
@@ -31,7 +31,7 @@ void check_settings(const Sensor& sensor, const std::vector<SceneBody>& bodies, 
   if (bodies.size() > kMostBodies) throw UsageError(fmt::format("a scene has at most {} bodies", kMostBodies));
 }
 
-/// The body of a world. \throw DataError naming a rigid or fixed body whose surface is not closed
+/// Body of a world. \throw DataError that names a rigid or fixed body whose surface is not closed
 Body body_of(const BodySpec& spec, const SceneBody& files, const PressConfig& config) {
   Body body{.name = spec.name,
             .tets = files.tets,

@@ -1,4 +1,4 @@
-// The bodies of a scene as bodies of a world.
+// Conversion of the bodies of a scene to bodies of a world.
 #pragma once
 
 #include <vector>
@@ -16,13 +16,14 @@ struct SceneBody {
   std::vector<Matrix4> path = {};  // gel, rigid with a path: world_from_body at the start and after each time step
 };
 
-/// \param files of spec.bodies, in that order
-/// \throw UsageError if sensor or press file are not made for scenes \throw DataError naming a body whose surface is
-/// not closed, or whose path does not fit the motion
+/// Bodies of the world.
+/// \param files contents of spec.bodies, in that order
+/// \throw UsageError if sensor or press file do not support scenes
+/// \throw DataError that names a body whose surface is not closed or whose path does not fit the motion
 std::vector<Body> scene_bodies(const Sensor& sensor, const std::vector<SceneBody>& files, const PressConfig& config,
                                const SceneSpec& spec);
 
-/// Contact of the pairs of a scene, as press file, sensor and scene have it.
+/// Contact of each pair of bodies, from press file, sensor and scene.
 PairContact scene_contact(const Sensor& sensor, const PressConfig& config, const SceneSpec& spec);
 
 }  // namespace tacipc

@@ -77,7 +77,7 @@ ScenePhase read_phase(ConfigReader& in, const Names& names) {
     once(move, "body", way.body, twice);
     way.way = {read_triple(move, "by_mm", 1e-3), read_turn(move, "turn_deg")};
     way.smooth = move.flag_or("smooth", false);
-    // Halfway through a smooth way it goes 3/2 as fast.
+    // Halfway through a smooth motion the speed is 3/2 of the mean.
     if ((way.smooth ? 1.5 : 1.0) * way.way.turn_rad.norm() / time_steps > kLongestTurn_rad)
       move.fault("turn_deg", "a body turns by at most 0.2 rad (11.5°) in a time step: give the phase more steps");
     phase.move.push_back(way);

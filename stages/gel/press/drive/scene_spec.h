@@ -1,4 +1,4 @@
-// The sample file of a scene: gels, soft, rigid and fixed bodies, and what moves them.
+// Sample file of a scene: gels, soft, rigid and fixed bodies, and their motion.
 #pragma once
 
 #include <array>
@@ -18,51 +18,57 @@ namespace tacipc {
 enum class BodyKind {
   gel,    // the sensor's gel on its mount
   soft,   // tetrahedra of a material of their own, without a mount
-  rigid,  // moves freely but where a phase moves or holds it
+  rigid,  // moves freely unless a phase moves or holds it
   fixed,  // never moves
 };
 inline constexpr std::array kBodyKinds{"gel", "soft", "rigid", "fixed"};
 
+/// One body of a scene.
 struct BodySpec {
   std::string name = {};
   BodyKind kind = BodyKind::gel;
-  /// Soft: tetrahedra (object.msh of `tetmesh --object`), or the surface that a folder has these of; rigid, fixed: a
-  /// closed surface.
+  /// Soft: tetrahedra (object.msh of `tetmesh --object`), or the surface from which `tetmesh` made a folder of --soft;
+  /// rigid, fixed: a closed surface.
   std::filesystem::path mesh = {};
-  double metres_per_unit = 1.0;         // of the mesh of a rigid or fixed body; a soft one is in metres
-  std::filesystem::path material = {};  // soft: its mechanics, as the section `material` of a sensor file
+  double metres_per_unit = 1.0;         // unit of the mesh of a rigid or fixed body; a soft body is in metres
+  std::filesystem::path material = {};  // soft: its mechanics, in the form of the section `material` of a sensor file
   Matrix4 world_from_body = Matrix4::Identity();
-  /// Gel or rigid: an array of poses, one for the start and one for the end of each time step, which it goes through.
+  /// Gel or rigid: array of poses, one at the start and one at the end of each time step.
   std::filesystem::path path = {};
-  BodyMass mass = {};                                                    // rigid
-  Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();  // rigid: how it starts
+  BodyMass mass = {};                                                    // rigid: mass
+  Vector3 velocity_m_s = Vector3::Zero(), spin_rad_s = Vector3::Zero();  // rigid: initial velocity and angular velocity
 };
 
-/// The way of one body in a phase, from where it is at its start.
+/// Motion of one body in a phase, relative to its pose at the start of the phase.
 struct WaySpec {
   int body = 0;
   RigidWay way = {};
-  bool smooth = false;  // smooth_part(s) of it after the part s of the phase, else s
+  /// After the fraction s of the phase, the fraction smooth_part(s) of the motion is done; false: s.
+  bool smooth = false;
 };
 
+/// One phase of a scene.
 struct ScenePhase {
-  int steps = 0;                   // frames
-  int substeps = 1;                // time steps per frame
-  std::vector<WaySpec> move = {};  // gels and rigid bodies that go where they are told
-  std::vector<int> hold = {};      // rigid bodies that stay where they are
-  /// On rigid bodies that are free, at their centre of mass: reached evenly in this phase, kept until another is named.
+  int steps = 0;                   // number of frames
+  int substeps = 1;                // number of time steps per frame
+  std::vector<WaySpec> move = {};  // gels and rigid bodies with a prescribed motion
+  std::vector<int> hold = {};      // rigid bodies that are held in place
+  /// Load at the centre of mass of free rigid bodies. It changes linearly during this phase and is then kept until
+  /// another phase sets it.
   std::vector<std::pair<int, Vector3>> load_n = {};
 };
 
+/// Specification of a scene.
 struct SceneSpec {
   Vector3 gravity_m_s2 = {0.0, 0.0, -9.81};
-  std::vector<BodySpec> bodies;  // in the order gel, soft, rigid, fixed, each kind as the file has them
+  std::vector<BodySpec> bodies;  // ordered gel, soft, rigid, fixed; within a kind as in the file
   std::vector<ContactSpec> contact;
   std::vector<ScenePhase> motion;
-  std::optional<double> time_step_s = std::nullopt;  // that paths are made for: the press file's must be the same
+  /// Time step for which paths are made; the press file's must be equal.
+  std::optional<double> time_step_s = std::nullopt;
 
   static SceneSpec read(ConfigReader& in);
-  /// How many there are of a kind.
+  /// Number of bodies of a kind.
   int count(BodyKind kind) const;
 };
 

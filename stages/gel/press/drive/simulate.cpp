@@ -11,14 +11,14 @@
 namespace tacipc {
 namespace {
 
-constexpr std::size_t kObject = 1;  // number of the body; the gel is body 0
+constexpr std::size_t kObject = 1;  // index of the object's body; the gel is body 0
 
 bool has_free_phase(const SampleSpec& sample) {
   return std::any_of(sample.motion.begin(), sample.motion.end(),
                      [](const Phase& phase) { return phase.kind == PhaseKind::free; });
 }
 
-/// Mass of the object, 0 if the sample gives no density. \throw DataError if it encloses no volume
+/// Mass of the object; 0 if the sample gives no density. \throw DataError if it encloses no volume
 double mass_of(const TriangleMesh& object, const SampleSpec& sample) {
   if (!sample.density_kg_m3) return 0.0;
   const double mass_kg = *sample.density_kg_m3 * signed_volume(object);
@@ -26,7 +26,7 @@ double mass_of(const TriangleMesh& object, const SampleSpec& sample) {
   return mass_kg;
 }
 
-/// The gel at the origin and the object above it, in the pose of frame 0.
+/// Bodies in frame 0: the gel at the origin and the object above it.
 std::vector<Body> bodies_of(const Sensor& sensor, const TetMesh& gel, const TriangleMesh& object,
                             const PressConfig& config, const SampleSpec& sample, const std::string& default_face) {
   check_motion(sample, sensor, config);
@@ -93,8 +93,8 @@ class Press {
   Matrix4& pose() { return world_.state().world_from_body[kObject]; }
   bool may_be_free() const { return world_.num_free() > 0; }
 
-  /// Goal of a time step of `h_s` seconds. \param goal of the phase at its end, moved by the object's displacement so
-  /// far
+  /// Goal of a time step of `h_s` seconds.
+  /// \param goal goal at the end of the phase, shifted by the object's displacement so far
   StepGoal step_goal(const Phase& phase, const Goal& goal, double h_s) const {
     StepGoal step{.h_s = h_s,
                   .object_target = transformed(goal.gel_from_object, object_.positions),
@@ -133,8 +133,8 @@ class Press {
     });
   }
 
-  /// The pose that a rigid mount would give the object after a step: along axes of a load, as far from the object's as
-  /// the mount yields to the force.
+  /// Computes the object pose on a rigid mount after a step: along axes of a load, it differs from the object's pose by
+  /// the mount's deflection under the force.
   void find_holder(const Goal& goal, const Vector3& held_m) {
     holder_ = pose();
     if (!out_.mount_gives_way) return;
@@ -153,14 +153,14 @@ class Press {
         advance(phase, start, from, from + 1.0, 0, sum);
       }
     });
-    // Not summed step by step, so that rounding errors do not add up.
+    // Computed from the start of the phase instead of summed, so that rounding errors do not add up.
     world_.state().time_s =
         phase_start_s + (phase.kind == PhaseKind::path ? phase.points[static_cast<std::size_t>(index)].time_s
                                                        : index * phase.substeps * config_.time_step_s);
     finish(phase.kind, phase_index, report);
   }
 
-  /// An object that went below the undeformed front and never touched the gel went beside it.
+  /// Checks contact: an object that went below the undeformed front without touching the gel missed it.
   void require_contact() const {
     if (std::any_of(out_.frames.begin(), out_.frames.end(), touches)) return;
     Vector3 deepest_m = Vector3::Zero();
@@ -198,7 +198,7 @@ class Press {
     frame.holder_pose = holder_;
     touched_ = touched_ || frame.balance.contact_n != Vector3::Zero();
     if (frame.phase == PhaseKind::press && !touched_) frame.phase = PhaseKind::approach;
-    // The pose of a free object follows from its points; the points of any other object follow from its pose.
+    // The pose of a free object follows from its control points; for any other object the points follow from the pose.
     const bool free = frame.phase == PhaseKind::free;
     const Positions at = world_.mesh().object_rows(world_.state().motion.x);
     const Positions prescribed = free ? at : transformed(pose(), object_.positions);
@@ -220,11 +220,11 @@ class Press {
   const TriangleMesh& object_;
   const PressConfig& config_;
   const SampleSpec& sample_;
-  const Vector3 compliance_m_n_;  // of the sensor's mount
+  const Vector3 compliance_m_n_;  // compliance of the sensor's mount
   World world_;
   FrameRun run_;
   Simulation out_;
-  Matrix4 placed_, holder_;  // the object in frame 0; where a rigid mount would have it
+  Matrix4 placed_, holder_;  // object pose in frame 0, and object pose on a rigid mount
   Vector3 shift_m_ = Vector3::Zero();
   bool touched_ = false;
 };

@@ -6,12 +6,13 @@
 namespace tacipc {
 namespace {
 
-// Fingers without inertia that touch close at most by this factor farther than in their last step: a gel that is hardly
-// touched does not yet show how stiff it will be. Nor do others go farther beyond a displacement that was too short.
+// Fingers without inertia that touch close at most by this factor farther than in their last step: a gel in light
+// contact does not yet show its stiffness. Other fingers exceed a displacement that was too short at most by this
+// factor.
 constexpr double kGrowth = 2.0;
-constexpr int kMostTries = 8;       // of a time step
+constexpr int kMostTries = 8;       // largest number of attempts per time step
 constexpr double kTooStiff = 0.1;   // factor on a stiffness that proved too large
-constexpr double kInnerPart = 0.1;  // fraction of a bracket that the next try keeps from its ends
+constexpr double kInnerPart = 0.1;  // fraction of a bracket by which the next attempt keeps away from its ends
 
 }  // namespace
 
@@ -32,7 +33,7 @@ WaySearch::WaySearch(const GripControl& drive, const DriveInertia& inertia, doub
     way_m_ = std::clamp(-off_n_ / (inertia_n_m_ + stiffness_n_m_), inertia.none() ? -most_m_ : -most_m, most_m_);
   } else {
     if (off_n_ < 0.0) low_ = {0.0, off_n_};
-    // Up to the object, and then little by little: how stiff it is is not known yet.
+    // Moves up to the object, then little by little, because its stiffness is not known yet.
     way_m_ = std::clamp(gap(most_m + reach_m) - reach_m, std::min(kFirstTouch_m, most_m), most_m);
     if (inertia.none()) {
       most_m_ = way_m_;
@@ -52,11 +53,11 @@ void WaySearch::note(double grip_n, double object_m) {
     stiffness_n_m_ = grip_n / std::max(std::abs(into_m), kFirstTouch_m);
   } else if ((tries_ > 0 || further_m >= kFirstTouch_m) && further_m * more_n > 0.0 &&
              std::abs(more_n) > kMeasurablePart * scale_n()) {
-    // After a first, short way what has changed since the last time step may be due to time as well.
+    // After a first, short displacement, the change since the last time step may also be due to time.
     stiffness_n_m_ = more_n / further_m;
     measured_ = tries_ > 0;
   } else if (tries_ > 0 && std::abs(further_m) * stiffness_n_m_ > 2.0 * kMeasurablePart * scale_n()) {
-    // A way that changes nothing is that of too stiff a guess.
+    // A displacement that changes nothing means that the assumed stiffness was too large.
     stiffness_n_m_ *= kTooStiff;
     measured_ = true;
   }
@@ -85,12 +86,12 @@ double WaySearch::imbalance() const {
 
 void WaySearch::correct(double object_ahead_m) {
   const double total = inertia_n_m_ + stiffness_n_m_;
-  // Where neither resists it goes as far as it may.
+  // If there is no resistance, it moves as far as allowed.
   double next = total > 0.0 ? way_m_ + (stiffness_n_m_ * object_ahead_m - off_n_) / total : most_m_;
   next = std::min(next, way_m_ + kGrowth * std::max(std::abs(way_m_), kFirstTouch_m));
   object_moves_ = object_moves_ || object_ahead_m != 0.0;
   if (!object_moves_ && std::isfinite(low_.way_m) && std::isfinite(high_.way_m)) {
-    // Contact stiffens: a tangent from below leads too far, and a chord not far enough.
+    // Contact stiffens: a tangent from below overshoots, and a chord falls short.
     const double width = high_.way_m - low_.way_m, inner = kInnerPart * width;
     const double chord = low_.way_m - low_.off_n * width / (high_.off_n - low_.off_n);
     next =

@@ -42,8 +42,7 @@ AffineBody make_affine_body(const Positions& positions, const Triangles& triangl
 }
 
 ControlPoints weight_gradients(const AffineBody& body) {
-  // As in a tetrahedron: the inverse of the edges from the first point holds the gradients of the three others'
-  // weights.
+  // As in a tetrahedron: the inverse of the edges from the first point has the gradients of the other three weights.
   Matrix3 edges;
   for (int k = 0; k < 3; ++k) edges.col(k) = body.rest_m.row(k + 1) - body.rest_m.row(0);
   ControlPoints gradients;
@@ -53,14 +52,14 @@ ControlPoints weight_gradients(const AffineBody& body) {
 }
 
 Matrix3 deformation_of(const AffineBody& body, const ControlPoints& control) {
-  // Relative to one of the points, so that a place far from the origin costs no digits.
+  // Relative to one of the points, so that a position far from the origin loses no digits.
   return (control.rowwise() - control.row(0)).transpose() * weight_gradients(body);
 }
 
 Matrix3 rotation_of(const AffineBody& body, const ControlPoints& control) {
   const Eigen::JacobiSVD<Matrix3> svd(deformation_of(body, control), Eigen::ComputeFullU | Eigen::ComputeFullV);
   Matrix3 U = svd.matrixU();
-  // A mirrored body is turned as far as a rotation can: its least singular direction stays mirrored.
+  // A mirrored body is rotated as far as a rotation can: its least singular direction stays mirrored.
   if (U.determinant() * svd.matrixV().determinant() < 0.0) U.col(2) *= -1.0;
   return U * svd.matrixV().transpose();
 }

@@ -17,7 +17,7 @@ constexpr int kPacksAtATime = 128;
 
 Matrix3 edges(const TetCorners& x) { return x.rightCols<3>().colwise() - x.col(0); }
 
-/// ∂v/∂x of a tetrahedron's volume v = det(e₁, e₂, e₃)/6: the opposite faces' area vectors over three.
+/// Gradient ∂v/∂x of a tetrahedron's volume v = det(e₁, e₂, e₃)/6: the opposite faces' area vectors over three.
 TetCorners tet_volume_gradient(const TetCorners& x) {
   const Matrix3 e = edges(x);
   TetCorners out;
@@ -32,7 +32,7 @@ TetCorners gather(const Eigen::VectorXd& x, const std::array<int, 4>& corners) {
   return out;
 }
 
-/// u(v) = V λ/2 ln²(v/V) of a cluster, J, and its derivatives.
+/// Volumetric energy u(v) = V λ/2 ln²(v/V) of a cluster, J, and its derivatives.
 struct VolumeEnergy {
   double value, first, second;
 
@@ -44,7 +44,7 @@ struct VolumeEnergy {
   }
 };
 
-/// Places of the clusters' centres along a space-filling curve.
+/// Rank of the clusters' centres along a space-filling curve.
 std::vector<int> along_curve(const Positions& rest, const Tetrahedra& tets, const TetClusters& clusters) {
   Positions centres(static_cast<Eigen::Index>(clusters.size()), 3);
   for (std::size_t p = 0; p < clusters.size(); ++p) {

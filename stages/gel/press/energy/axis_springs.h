@@ -1,13 +1,13 @@
-// What pulls an object as a whole along the axes on which it may yield: its inertia, or the spring of a mount.
+// Springs on an object as a whole along its free axes: its inertia, or a compliant mount.
 #pragma once
 
 #include "stages/gel/press/energy/energy_term.h"
 
 namespace tacipc {
 
-/// Σ_a ½ k_a (x_a − t_a)² over the axes a of one vertex, in the unit of k times m². A load is the spring of an implicit
-/// Euler step, k = m to x̂; a mount of compliance c is one of k = h²/c to where it would hold the object if it were
-/// rigid.
+/// Energy Σ_a ½ k_a (x_a − t_a)² over the axes a of one vertex, in the unit of k times m². Under a load, the inertia of
+/// an implicit Euler step is a spring with k = m and the target x̂. A mount of compliance c is a spring with k = h²/c,
+/// whose target is the position on a rigid mount.
 class AxisSprings final : public EnergyTerm {
  public:
   /// \pre no stiffness is negative, one is positive
@@ -35,7 +35,7 @@ class AxisSprings final : public EnergyTerm {
   int vertex_;
   Vector3 stiffness_;
   double largest_;
-  Vector3 shares_;  // √(stiffness / the largest)
+  Vector3 shares_;  // √(stiffness / largest stiffness)
   Vector3 target_m_;
 };
 

@@ -1,4 +1,4 @@
-// Barrier that keeps contact pairs apart: zero from d̂ on, infinite at contact.
+// Barrier function of contact pairs: zero beyond d̂, infinite at contact.
 #pragma once
 
 #include <cmath>
@@ -6,8 +6,8 @@
 
 namespace tacipc {
 
-/// b(s) = −(s − ŝ)² ln(s / ŝ) for 0 < s < ŝ, else 0; +∞ for s ≤ 0.   [Eq. 4 with squared distances; Li et al. 2020]
-/// s, ŝ = d̂² in m²; the result is in m⁴. C² at ŝ, so that Newton's method meets no jump.
+/// b(s) = −(s − ŝ)² ln(s / ŝ) for 0 < s < ŝ, 0 beyond; +∞ for s ≤ 0 [Eq. 4 with squared distances; Li et al. 2020]. s
+/// and ŝ = d̂² are in m², the result is in m⁴. C² at ŝ, so that Newton's method meets no jump.
 inline double barrier(double squared_distance, double s_hat) {
   const double s = squared_distance;
   if (s >= s_hat) return 0.0;

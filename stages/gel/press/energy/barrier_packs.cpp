@@ -7,11 +7,11 @@
 namespace tacipc {
 namespace {
 
-// sin² of the angle between two edges below which distance.cpp finds the closest feature.
+// sin² of the angle between two edges below which distance.cpp computes the closest feature.
 constexpr double kTrustedSine2 = 2e-6;
 
-/// Lanes, by their bits, that evaluate_barrier must not decide: closest features of slivers and of nearly parallel
-/// edges, and mollified edges.
+/// Bits of the lanes that evaluate_barrier() must not decide: closest features of slivers and of nearly parallel edges,
+/// and mollified edges.
 template <bool point_triangle>
 TACIPC_INLINE unsigned doubtful_lanes(const PackedPoints& p, const double* rest, const ContactPair* const* pairs) {
   const Pack3 a = point_triangle ? p[2] - p[1] : p[1] - p[0], b = point_triangle ? p[3] - p[1] : p[3] - p[2];
@@ -26,15 +26,15 @@ TACIPC_INLINE unsigned doubtful_lanes(const PackedPoints& p, const double* rest,
   }
   unsigned lanes = 0;
   for (int l = 0; l < kLanes; ++l) {
-    // A triangle without area is an edge or a point that pair_counting.h made, which is fine.
+    // A triangle without area is an edge or a point that pair_counting.h made, which is reliable.
     const bool fine = n2[l] >= least[l] || (point_triangle && n2[l] == 0.0);
     lanes |= fine ? 0U : 1U << l;
   }
   return lanes;
 }
 
-/// evaluate_blended lane by lane; returns doubtful_lanes(). The wanted vertices are template arguments, so that the
-/// compiler leaves out the others.
+/// evaluate_blended() lane by lane. The wanted vertices are template arguments, so that the compiler omits the others.
+/// \return doubtful_lanes()
 template <bool point_triangle, int first, int count>
 TACIPC_INLINE unsigned evaluate_barrier(const double* x, const double* rest, const ContactPair* const* pairs,
                                         double s_hat, const Pack& blend, PackedBlocks& out) {
@@ -43,22 +43,23 @@ TACIPC_INLINE unsigned evaluate_barrier(const double* x, const double* rest, con
   const Pack s = f.squared_distance, none = {}, one = none + 1.0;
   Pack weight;
   for (int l = 0; l < kLanes; ++l) weight[l] = pairs[l]->weight;
-  // barrier.h
+  // Derivatives b′ and b″ as in barrier.h.
   const Pack gap = s_hat - s, inverse_s = one / s, log_ratio = logarithm(s / s_hat);
   const Pack b1 = choose(gap, weight * (gap * (2.0 * log_ratio - gap * inverse_s)), none);
   const Pack b2 = choose(gap, weight * (-2.0 * log_ratio + gap * (3.0 * s + s_hat) * inverse_s * inverse_s), none);
-  // A pair of negative weight has no PSD part: of it, the exact Hessian's share alone.
+  // A pair of negative weight has no PSD approximation: it contributes only the exact Hessian's share.
   const Pack psd = choose(weight, blend, none), exact = one - psd;
   const Pack all = choose(weight, one, one - blend);
 
-  // blended_hessian of contact_barrier.cpp: ww and WW belong to two vertices, a_i = A (AᵀA)⁻¹ W_iᵀ to one.
+  // Hessian as in blended_hessian() of contact_barrier.cpp: ww and WW belong to two vertices, a_i = A (AᵀA)⁻¹ W_iᵀ to
+  // one.
   const Pack along_ww = all * (psd * (4.0 * b2 + 2.0 * b1 * inverse_s) + exact * 4.0 * b2),
              along_WW = all * (-2.0 * b1);
   const Pack scale = all * (2.0 * b1 * exact);
   const Pack3& r = f.r;
   const Pack r_by_column[3] = {r.x, r.y, r.z};
   Pack3 tangent[4];
-  Pack W0[4], W1[4];  // W (AᵀA)⁻¹
+  Pack W0[4], W1[4];  // columns of W (AᵀA)⁻¹
   for (int k = first; k < first + count; ++k) {
     W0[k] = f.inverse_gram[0] * f.W[k][0] + f.inverse_gram[1] * f.W[k][1];
     W1[k] = f.inverse_gram[1] * f.W[k][0] + f.inverse_gram[2] * f.W[k][1];
@@ -97,13 +98,13 @@ TACIPC_INLINE unsigned evaluate_barrier(const double* x, const double* rest, con
   return doubtful_lanes<point_triangle>(p, rest, pairs);
 }
 
-/// Energies; returns doubtful_lanes().
+/// Energies lane by lane. \return doubtful_lanes()
 template <bool point_triangle>
 TACIPC_INLINE unsigned energy_lanes(const double* x, const double* rest, const ContactPair* const* pairs, double s_hat,
                                     double* out) {
   const PackedPoints p = load_points(x, pairs);
   const Pack s = (point_triangle ? point_triangle_feature(p) : edge_edge_feature(p)).squared_distance;
-  // barrier.h
+  // Energy b as in barrier.h.
   const Pack gap = s_hat - s, none = {}, energy = choose(gap, -gap * gap * logarithm(s / s_hat), none);
   for (int l = 0; l < kLanes; ++l) out[l] = pairs[l]->weight * energy[l];
   return doubtful_lanes<point_triangle>(p, rest, pairs);
@@ -138,7 +139,7 @@ double ContactBarrier::value_of(const std::vector<int>& near, const Positions& x
   return ordered_sum(static_cast<int>(near.size()), [&](int first, int last) {
     double sum = 0.0;
     while (first < last) {
-      // As many of one kind as there are in a row.
+      // Takes as many consecutive pairs of one kind as possible.
       std::array<const ContactPair*, kLanes> pairs;
       int count = 0;
       for (; count < kLanes && first + count < last; ++count) {

@@ -14,18 +14,18 @@ FourPoints four_points(const Eigen::VectorXd& x) {
   return {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
 }
 
-/// (1 − blend) H + blend H₊ of b(s(x)), H₊ a PSD approximation, blocks between wanted vertices. With r = Σ wᵢxᵢ,
-/// n = r/|r|, s = |r|²:
+/// Computes (1 − blend) H + blend H₊ of b(s(x)), H₊ a PSD approximation, in blocks between wanted vertices. With r = Σ
+/// wᵢxᵢ, n = r/|r|, s = |r|²:
 ///   H = b″ ∇s∇sᵀ + b′ ∇²s,  ∇sᵢ = 2wᵢr,  ∇²s = 2[wwᵀ⊗I − B(AᵀA)⁻¹Bᵀ],  B_iq = W_iq r + wᵢ A_q,  b′ < 0.
-/// Along n it is [(4 s b″ + 2b′) wwᵀ + 2|b′| s W(AᵀA)⁻¹Wᵀ] ⊗ nnᵀ, both parts positive: that is H₊, without eigenvalues.
-/// Only the indefinite coupling of normal and tangential directions is missing in it. barrier_packs.cpp has the same
-/// for eight pairs at a time.
+/// Along n, H is [(4 s b″ + 2b′) wwᵀ + 2|b′| s W(AᵀA)⁻¹Wᵀ] ⊗ nnᵀ. Both terms are positive, and together they are H₊,
+/// which needs no eigenvalues. H₊ omits only the indefinite coupling of normal and tangential directions.
+/// barrier_packs.cpp has the same computation for eight pairs at a time.
 void blended_hessian(const ClosestFeature& f, double b1, double b2, double blend, PairVertices wanted, Matrix12& out) {
   const Eigen::Matrix2d gram = inverse_gram(f);
   const double s = f.squared_distance, exact = 1.0 - blend;
   const Matrix3 rr = f.r * f.r.transpose();
   const Eigen::Matrix4d ww = f.weights * f.weights.transpose(), WW = f.W * gram * f.W.transpose();
-  // H₊ and H have all in nnᵀ in common but b″: C nnᵀ = (C/s) rrᵀ.
+  // H₊ and H share all terms in nnᵀ except b″: C nnᵀ = (C/s) rrᵀ.
   const Eigen::Matrix4d along = (blend * (4.0 * b2 + 2.0 * b1 / s) + exact * 4.0 * b2) * ww - 2.0 * b1 * WW;
   for (int j = 0; j < 4; ++j) {
     if (!(wanted >> j & 1U)) continue;
@@ -33,7 +33,7 @@ void blended_hessian(const ClosestFeature& f, double b1, double b2, double blend
       if (!(wanted >> i & 1U)) continue;
       Matrix3 block = along(i, j) * rr;
       if (exact > 0.0) {
-        // −2 b′ Σ G_qp (W_iq r + wᵢ A_q)(W_jp r + wⱼ A_p)ᵀ without its part in rrᵀ, which is in `along`.
+        // −2 b′ Σ G_qp (W_iq r + wᵢ A_q)(W_jp r + wⱼ A_p)ᵀ without its term in rrᵀ, which is in `along`.
         const double scale = 2.0 * b1 * exact;
         block.diagonal().array() += scale * ww(i, j);
         if (f.k > 0) {
@@ -49,8 +49,9 @@ void blended_hessian(const ClosestFeature& f, double b1, double b2, double blend
   }
 }
 
-/// The same of m b, m the mollifier of nearly parallel edges, with the PSD projection of the whole. All four parts of
-/// the product's second derivative count: without those of m, Newton takes many short steps where edges are parallel.
+/// Derivatives of m b, with m the mollifier of nearly parallel edges, and the PSD projection of the whole. All four
+/// terms of the product's second derivative count: without those of m, Newton takes many short steps if edges are
+/// parallel.
 void mollified_derivatives(const ClosestFeature& feature, double b, double b1, double b2, const EdgeEdgeMollifier& m,
                            double blend, PairLocal& out) {
   const Vector12 ds = squared_distance_gradient(feature);
@@ -152,7 +153,7 @@ bool ContactBarrier::evaluate_blended(int i, const FourPoints& x, double blend, 
     return true;
   }
   out.gradient = b1 * squared_distance_gradient(feature);
-  // A pair of negative weight has no PSD part: without it the approximation of the others is the stiffer one.
+  // A pair of negative weight has no PSD approximation: without it the approximation of the other pairs is stiffer.
   const bool against = weight < 0.0;
   if (against && blend == 1.0) {
     out.hessian.setZero();

@@ -1,4 +1,4 @@
-// Energies over contact pairs: most stencils vanish, and their Hessians are indefinite.
+// Interface of energies over contact pairs: most stencils vanish, and their Hessians are indefinite.
 #pragma once
 
 #include <vector>
@@ -14,30 +14,31 @@ struct PairLocal {
   Matrix12 hessian;
 };
 
-/// Vertices of a pair, bit k for the k-th.
+/// Set of vertices of a pair: bit k for the k-th.
 using PairVertices = unsigned;
 constexpr PairVertices kAllPairVertices = 0b1111;
 
+/// An energy over contact pairs.
 class ContactTerm : public EnergyTerm {
  public:
-  /// Stencils that do not vanish at x, ascending, and perhaps some that do.
+  /// Stencils that do not vanish at x, ascending, or a superset.
   virtual std::vector<int> active(const Positions& x) const = 0;
 
-  /// Σ over the stencils that are active at x: the term's value there.
+  /// Value of the term at x. \param active stencils that are active at x
   virtual double value_of(const std::vector<int>& active, const Positions& x) const = 0;
   double value(const Positions& x) const final { return value_of(active(x), x); }
 
-  /// Gradient of stencil i; false where it vanishes.
+  /// Gradient of stencil i. \return false if the stencil vanishes
   virtual bool evaluate_gradient(int i, const FourPoints& x, Vector12& out) const = 0;
 
-  /// Gradient and the Hessian (1 − blend) H + blend H₊ with H the exact one and H₊ its PSD approximation (Order::psd),
-  /// of stencil i; only blocks between `wanted` vertices are written, and gradients of those. False, and nothing
-  /// written, where the stencil vanishes.
+  /// Gradient of stencil i and the Hessian (1 − blend) H + blend H₊, with H the exact one and H₊ its PSD approximation
+  /// (Order::psd). Only gradients of `wanted` vertices and blocks between them are written.
+  /// \return false, with nothing written, if the stencil vanishes
   virtual bool evaluate_blended(int i, const FourPoints& x, double blend, PairVertices wanted,
                                 PairLocal& out) const = 0;
 
-  /// The same for eight stencils of one kind, each with its blend, for vertices of one primitive; the first `count`
-  /// stencils count.
+  /// evaluate_blended() for eight stencils of one kind, each with its own blend, over the vertices of one primitive.
+  /// \param count number of stencils; the others are ignored
   virtual void evaluate_pack(const StencilPack& which, int count, const Positions& x, const Pack& blend,
                              WantedVertices wanted, PackedBlocks& out) const = 0;
 };

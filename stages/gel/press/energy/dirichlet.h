@@ -1,4 +1,4 @@
-// Prescribed positions by augmented Lagrangian.
+// Prescribed positions by an augmented Lagrangian.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,12 @@
 
 namespace tacipc {
 
-/// Σ ½ k ‖xᵢ − tᵢ‖² − λᵢ·(xᵢ − tᵢ), in J, over the listed vertices: targets t, multipliers λ (the force in N that holds
-/// a vertex at its target once it is there), stiffness k in N/m.   [Li et al. 2020, supplement; method of multipliers]
+/// Energy Σ ½ k ‖xᵢ − tᵢ‖² − λᵢ·(xᵢ − tᵢ), J, over the listed vertices, with targets t, stiffness k in N/m and
+/// multipliers λ: the force, N, that holds a vertex at its target once it is there [Li et al. 2020, supplement; method
+/// of multipliers].
 class Dirichlet final : public EnergyTerm {
  public:
-  /// One row of targets and of multipliers per vertex.
+  /// \param targets_m, multipliers_n one row per vertex
   Dirichlet(std::vector<int> vertices, Positions targets_m, Positions multipliers_n, double stiffness_n_m)
       : vertices_(std::move(vertices)),
         targets_m_(std::move(targets_m)),
@@ -35,19 +36,19 @@ class Dirichlet final : public EnergyTerm {
     out.hessian.topLeftCorner<3, 3>() = stiffness_n_m_ * Matrix3::Identity();
   }
 
-  /// How far the vertices are from their targets, m, one row each.
+  /// Displacements of the vertices from their targets, m, one row each.
   Positions misses(const Positions& x) const {
     Positions out(targets_m_.rows(), 3);
     for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = x.row(vertices_[i]) - targets_m_.row(i);
     return out;
   }
-  /// Longest of these rows that belong to a constrained vertex.
+  /// Largest norm of those rows that belong to a constrained vertex.
   double largest(const Positions& rows) const {
     double squared = 0.0;
     for (const int v : vertices_) squared = std::max(squared, rows.row(v).squaredNorm());
     return std::sqrt(squared);
   }
-  /// The next term: multipliers λ − k (x − t), stiffness times `stiffening`.
+  /// Term for the next iteration: multipliers λ − k (x − t), stiffness times `stiffening`.
   Dirichlet renewed(const Positions& x, double stiffening) const {
     return {vertices_, targets_m_, multipliers_n_ - stiffness_n_m_ * misses(x), stiffening * stiffness_n_m_};
   }

@@ -9,7 +9,7 @@ namespace {
 
 /// F = Σ_k (x_k − x_0) b_kᵀ by rows, with its cofactors.
 struct Deformation {
-  Pack3 row[3];       // F
+  Pack3 row[3];       // rows of F
   Pack3 cofactor[3];  // rows of J F⁻ᵀ
   Pack J;
 };
@@ -40,12 +40,12 @@ TACIPC_CLONES void deformed_volumes(const double* x, const std::array<std::array
   for (int l = 0; l < kLanes; ++l) out[l] = deformed[l];
 }
 
-/// V ψ(F) lane by lane; NaN where J ≤ 0.
+/// V ψ(F) lane by lane; NaN if J ≤ 0.
 TACIPC_CLONES void energies(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices, const Pack3* b,
                             const Pack& volume, double mu, double lambda, double* out) {
   Deformation d = deformation(x, vertices, b);
   const Pack log_J = logarithm(d.J);
-  // tr FᵀF − 3 written in F − I, so that a gel at rest has no energy of rounding.
+  // tr FᵀF − 3 as a function of F − I, so that a gel at rest has no rounding energy.
   d.row[0].x -= 1.0;
   d.row[1].y -= 1.0;
   d.row[2].z -= 1.0;
@@ -55,13 +55,13 @@ TACIPC_CLONES void energies(const double* x, const std::array<std::array<int, kL
   for (int l = 0; l < kLanes; ++l) out[l] = d.J[l] > 0.0 ? value[l] : std::nan("");
 }
 
-/// The law of one pack: V, μ and λ.
+/// Constants of one pack: V, μ and λ.
 struct Stiffness {
   Pack volume;
   double mu, lambda;
 };
 
-/// What gradient and Hessian are made of: bᵢ, gᵢ = F⁻ᵀ bᵢ, l = λ + p J and a = μ − λ ln J − p J.
+/// Factors of gradient and Hessian: bᵢ, gᵢ = F⁻ᵀ bᵢ, l = λ + p J and a = μ − λ ln J − p J.
 struct Shapes {
   Pack3 b[4], g[4];
   Pack volume_mu, volume_a, volume_l;
@@ -141,7 +141,7 @@ TACIPC_CLONES bool differentiate_change(const double* x, const std::array<std::a
   const Pack p_J = of_lanes(pressure) * d.J;
   const Shapes s = shapes(d, rest, stiffness, p_J);
   gradients(d, s, out.gradient);
-  // ‖ΔF F⁻¹‖² J²: F⁻ᵀ is the cofactors over J.
+  // ‖ΔF F⁻¹‖² J², because F⁻ᵀ is the cofactors over J.
   Pack squared = {};
   for (int r = 0; r < 3; ++r) {
     const Pack3 change = d.row[r] - known.row[r];

@@ -1,4 +1,4 @@
-// Elastic energy of the gel: one constant deformation gradient per tetrahedron.
+// Elastic energy of the gel with linear tetrahedra: a constant deformation gradient in each.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,11 @@
 
 namespace tacipc {
 
-/// Φ(x) = Σ_t V_t ψ(F_t), F_t = Σᵢ xᵢ ∇Nᵢᵀ, in J.   [Eq. 3]
+/// Energy Φ(x) = Σ_t V_t ψ(F_t), F_t = Σᵢ xᵢ ∇Nᵢᵀ, J [Eq. 3].
 class Elasticity final : public EnergyTerm {
  public:
   Elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law);
-  /// Some tetrahedra of another.
+  /// Restriction of `whole` to some of its tetrahedra.
   Elasticity(const Elasticity& whole, const std::vector<int>& which);
 
   int num_stencils() const override { return static_cast<int>(tets_.rows()); }
@@ -25,18 +25,18 @@ class Elasticity final : public EnergyTerm {
   double value(const Positions& x) const override;
 
   const std::vector<RestTet>& rest() const { return rest_; }
-  /// The same tetrahedra in packs, for a law that has them; else null.
+  /// Packs of the same tetrahedra if the law supports them; else null.
   const ElasticPacks* packs() const { return packs_ ? &*packs_ : nullptr; }
 
  private:
   Tetrahedra tets_;
   std::vector<RestTet> rest_;
   ElasticLaw law_;
-  std::shared_ptr<const std::vector<int>> rank_;  // of each vertex along the space-filling curve
+  std::shared_ptr<const std::vector<int>> rank_;  // rank of each vertex along the space-filling curve
   std::optional<ElasticPacks> packs_;
 };
 
-/// Lumped masses: a quarter of each tetrahedron's mass at each of its vertices, kg.
+/// Lumped masses, kg: a quarter of each tetrahedron's mass at each of its vertices.
 Eigen::VectorXd lumped_masses(const Tetrahedra& tets, const std::vector<RestTet>& rest, Eigen::Index num_vertices,
                               double density_kg_m3);
 

@@ -1,4 +1,4 @@
-// Which elastic energy a gel gets: its material law over its elements.
+// Elastic energy of a gel: its material law combined with an element.
 #pragma once
 
 #include <memory>
@@ -8,19 +8,19 @@
 
 namespace tacipc {
 
-/// `linear`: each tetrahedron by itself; compressible gels. `averaged_volume`: tetrahedra share their volume in
-/// clusters; for any ratio up to 0.4999. docs/elements.md compares them.
+/// Element type. `linear`: each tetrahedron by itself, for compressible gels. `averaged_volume`: tetrahedra share their
+/// volume in clusters, for any Poisson's ratio up to 0.4999. docs/elements.md compares them.
 enum class Element { linear, averaged_volume };
 
-/// Tetrahedra that share one measure of volume.
+/// Number of tetrahedra in a cluster, which share one volume.
 constexpr int kClusterSize = 12;
 
-/// One term whose stencils cover all tetrahedra, in J. \throw DataError naming the first tetrahedron that is not
-/// positively oriented.
+/// Energy over all tetrahedra as one term, J.
+/// \throw DataError that names the first tetrahedron that is not positively oriented
 std::shared_ptr<const EnergyTerm> make_elasticity(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law,
                                                   Element element);
 
-/// The stress in its tetrahedra. \throw the same
+/// Stress in the tetrahedra. \throw DataError as make_elasticity()
 TetStress make_tet_stress(const Positions& rest, const Tetrahedra& tets, const ElasticLaw& law, Element element);
 
 }  // namespace tacipc

@@ -90,10 +90,10 @@ double Friction::value_of(const std::vector<int>& active, const Positions& x) co
   });
 }
 
-// ∂²f₀(‖u‖)/∂u² = (f₁/y) I + (f₁′ − f₁/y) û ûᵀ with f₁′ = 2 (1 − y/ε)/ε ≥ 0: never negative. But a step along û
-// with it overshoots between sticking and slipping, for it does not say how soon f₁ changes. As f₀(√s) is concave in s,
-// the quadratic of (f₁/y) I alone lies above the energy everywhere: that is the PSD approximation, with which full
-// steps decrease the energy. A pair of negative weight has none.
+// Exact: ∂²f₀(‖u‖)/∂u² = (f₁/y) I + (f₁′ − f₁/y) û ûᵀ with f₁′ = 2 (1 − y/ε)/ε ≥ 0, never negative. A step along û with
+// it overshoots between sticking and slipping, because it does not show how soon f₁ changes. f₀(√s) is concave in s, so
+// the quadratic of (f₁/y) I alone lies above the energy everywhere. It is the PSD approximation, with which full steps
+// decrease the energy. A pair of negative weight has no PSD approximation.
 Eigen::Matrix2d Friction::blended_inner(const Pair& pair, const Eigen::Vector2d& u, double blend) const {
   const double y = u.norm(), r = y / epsilon_m_;
   // f₁(y)/y, finite at y = 0.
@@ -148,14 +148,14 @@ void Friction::evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out
 
 namespace {
 
-/// The data of eight pairs, side by side.
+/// Data of eight pairs, one per lane.
 struct PackedFriction {
   Pack weights[4];
   Pack3 tangents[2], start;
   Pack normal_force;
 };
 
-/// evaluate_blended lane by lane.
+/// evaluate_blended() lane by lane.
 TACIPC_CLONES void evaluate_lanes(const double* x, const std::array<std::array<int, kLanes>, 4>& vertices,
                                   const PackedFriction& pair, double epsilon, const Pack& blend, WantedVertices wanted,
                                   PackedBlocks& out) {

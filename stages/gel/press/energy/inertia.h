@@ -8,16 +8,16 @@
 
 namespace tacipc {
 
-/// Σ ½ mᵢ ‖xᵢ − x̂ᵢ‖², in kg m².   [Eq. 3]
+/// Energy Σ ½ mᵢ ‖xᵢ − x̂ᵢ‖², kg m² [Eq. 3].
 class Inertia final : public EnergyTerm {
  public:
-  /// One mass and one row of x̂ per vertex; stencil i is vertex first_vertex + i.
+  /// \param mass_kg, x_hat_m one mass and one row per vertex; stencil i is vertex first_vertex + i
   Inertia(Eigen::VectorXd mass_kg, Positions x_hat_m, int first_vertex = 0)
       : mass_kg_(std::move(mass_kg)), x_hat_m_(std::move(x_hat_m)), vertex_(mass_kg_.size()) {
     for (std::size_t i = 0; i < vertex_.size(); ++i) vertex_[i] = first_vertex + static_cast<int>(i);
   }
 
-  /// Some stencils of another.
+  /// Restriction of `whole` to some of its stencils.
   Inertia(const Inertia& whole, const std::vector<int>& which)
       : mass_kg_(whole.mass_kg_(which)), x_hat_m_(whole.x_hat_m_(which, Eigen::all)) {
     for (const int i : which) vertex_.push_back(whole.vertex_[static_cast<std::size_t>(i)]);
@@ -36,6 +36,7 @@ class Inertia final : public EnergyTerm {
   }
 
   double mass_kg(int i) const { return mass_kg_[i]; }
+  /// Gradient mᵢ (x − x̂ᵢ) of stencil i with its vertex at x.
   Vector3 gradient(int i, const Vector3& x) const { return mass_kg_[i] * (x - x_hat_m_.row(i).transpose()); }
 
  private:

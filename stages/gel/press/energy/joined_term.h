@@ -1,4 +1,4 @@
-// The energies of several bodies as one.
+// Sum of the energies of several bodies.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,9 @@
 
 namespace tacipc {
 
-/// Σ over parts that share no vertex, such as bodies of different materials: the stencils of the first part, then those
-/// of the second, … Each part stays a term of its own, so that a solver can treat it by its kind (parts_of).
+/// Sum over parts that share no vertex, such as bodies of different materials: the stencils of the first part, then
+/// those of the second, and so on. Each part remains a term of its own, so that a solver can treat it by its kind
+/// (parts_of).
 class JoinedTerm final : public EnergyTerm {
  public:
   /// \pre no part is null
@@ -32,15 +33,15 @@ class JoinedTerm final : public EnergyTerm {
  private:
   struct Place {
     std::size_t part;
-    int own;  // stencil of that part
+    int own;  // index of the stencil within the part
   };
   Place find(int i) const;
 
   std::vector<std::shared_ptr<const EnergyTerm>> parts_;
-  std::vector<int> first_;  // stencil of each part, and one past the last
+  std::vector<int> first_;  // first stencil of each part, then the total number
 };
 
-/// The parts of a joined term, any other term alone, none for null.
+/// Parts of a joined term; any other term alone; empty for null.
 std::vector<std::shared_ptr<const EnergyTerm>> parts_of(const std::shared_ptr<const EnergyTerm>& term);
 
 }  // namespace tacipc

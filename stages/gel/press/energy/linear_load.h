@@ -1,4 +1,4 @@
-// Given forces that do not depend on the motion: gravity, or a load on some vertices.
+// Loads that do not depend on the motion: gravity, or forces on some vertices.
 #pragma once
 
 #include <cassert>
@@ -9,10 +9,11 @@
 
 namespace tacipc {
 
-/// −Σ fᵢ · xᵢ over the listed vertices, in J; row i of `force_n` acts on vertices[i]. Gravity is mᵢ g on every vertex.
+/// Energy −Σ fᵢ · xᵢ over the listed vertices, J; row i of `force_n` acts on vertices[i]. Gravity is mᵢ g on every
+/// vertex.
 class LinearLoad final : public EnergyTerm {
  public:
-  /// \pre one row per vertex
+  /// \pre `force_n` has one row per vertex
   LinearLoad(std::vector<int> vertices, Positions force_n)
       : vertices_(std::move(vertices)), force_n_(std::move(force_n)) {
     assert(static_cast<Eigen::Index>(vertices_.size()) == force_n_.rows());

@@ -5,8 +5,8 @@
 
 namespace tacipc {
 
-/// Ψ(F) = μ/2 (tr FᵀF − 3) − μ ln J + λ/2 (ln J)², J = det F > 0; in J/m³ for μ, λ in Pa.   [Bonet & Wood 1997, 6.4.3]
-/// With a = μ − λ ln J: P = ∂Ψ/∂F = μ F − a F⁻ᵀ, and for a change δF
+/// Energy density Ψ(F) = μ/2 (tr FᵀF − 3) − μ ln J + λ/2 (ln J)², J = det F > 0, J/m³ for μ, λ in Pa [Bonet & Wood
+/// 1997, 6.4.3]. With a = μ − λ ln J: P = ∂Ψ/∂F = μ F − a F⁻ᵀ, and for a change δF
 ///   δP = μ δF + a F⁻ᵀ δFᵀ F⁻ᵀ + λ (F⁻ᵀ : δF) F⁻ᵀ.
 struct NeoHookean {
   double mu_pa;
@@ -16,17 +16,22 @@ struct NeoHookean {
   Matrix3 stress(const Matrix3& F) const;
 };
 
-/// A direction Q in the space of F along which ∂²Ψ/∂F² is negative: ∂²Ψ : Q ⊗ Q = value < 0, ‖Q‖ = 1.
+/// Direction Q in the space of F along which ∂²Ψ/∂F² is negative: ∂²Ψ : Q ⊗ Q = value < 0, ‖Q‖ = 1.
 struct NegativeMode {
   double value;
   Matrix3 Q;
 };
 
-/// The modes to remove so that ∂²(Ψ + p J)/∂F² becomes positive semi-definite; at most six. In the principal frame F =
-/// U diag(σ) Vᵀ the Hessian splits into three twists (u_p v_qᵀ − u_q v_pᵀ)/√2 with value μ − α/(σ_p σ_q), three flips
-/// (u_p v_qᵀ + u_q v_pᵀ)/√2 with μ + α/(σ_p σ_q), and a 3 × 3 block δ_pq (μ + α/σ_p²) + β/(σ_p σ_q) over the stretches
-/// u_p v_pᵀ; α = a − p J, β = λ + p J with p the pressure term, positive in tension.   [form of Smith et al. 2019 for
-/// isotropic energies]
+/// Computes the modes whose removal makes ∂²(Ψ + p J)/∂F² positive semi-definite.
+///
+/// In the principal frame F = U diag(σ) Vᵀ the Hessian splits into independent parts [form of Smith et al. 2019 for
+/// isotropic energies], with α = a − p J and β = λ + p J:
+/// - three twists (u_p v_qᵀ − u_q v_pᵀ)/√2 with the value μ − α/(σ_p σ_q),
+/// - three flips (u_p v_qᵀ + u_q v_pᵀ)/√2 with the value μ + α/(σ_p σ_q),
+/// - a 3 × 3 block δ_pq (μ + α/σ_p²) + β/(σ_p σ_q) over the stretches u_p v_pᵀ.
+///
+/// \param pressure pressure term p, positive in tension
+/// \return number of modes, at most six
 int negative_modes(const NeoHookean& material, const Matrix3& F, double pressure, NegativeMode modes[6]);
 
 }  // namespace tacipc

@@ -19,7 +19,7 @@ Orthogonality::Orthogonality(int first_vertex, const AffineBody& body, double st
 void Orthogonality::evaluate(int, const Eigen::VectorXd& x, Order order, Local& out) const {
   const auto& g = gradients_per_m_;
   const Eigen::Map<const Eigen::Matrix<double, 3, 4>> p(x.data());
-  // Relative to one of the points, so that a place far from the origin costs no digits.
+  // Relative to one of the points, so that a position far from the origin loses no digits.
   const Matrix3 A = (p.colwise() - p.col(0)) * g.transpose();
   const Matrix3 C = A.transpose() * A - Matrix3::Identity();
   out.zero = false;

@@ -6,8 +6,8 @@
 namespace tacipc {
 
 PrincipalStretches principal_stretches(const Matrix3& F) {
-  constexpr double kOrthogonal = 1e-15;  // cosine between two columns that counts as none
-  constexpr int kMaxSweeps = 40;         // five are usual; a bound for columns at the edge of the above
+  constexpr double kOrthogonal = 1e-15;  // cosine between two columns below which they count as orthogonal
+  constexpr int kMaxSweeps = 40;         // five are usual; a bound for columns at the limit of kOrthogonal
   PrincipalStretches out{F, {}, Matrix3::Identity()};
   Matrix3& B = out.U;  // F V, whose columns become orthogonal
   bool rotated = true;

@@ -1,4 +1,4 @@
-// A few stencils of another energy.
+// Restriction of an energy to a few of its stencils.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Damping in proportion to stiffness: the part of Rayleigh's that acts on the strain rate.
+// Stiffness-proportional damping: the part of Rayleigh damping that acts on the strain rate.
 #pragma once
 
 #include <memory>
@@ -8,13 +8,13 @@
 
 namespace tacipc {
 
-/// E(x) = ½ (x − x_t)ᵀ K_t (x − x_t), in J, K_t the PSD projection of the elastic Hessian at x_t, the start of
-/// the step. With weight hβ in the incremental potential it is a force −β K_t v on the velocity v = (x −
-/// x_t)/h; translation is not damped, nor is a rotation of an unstressed gel.   [Rayleigh 1877; implicit Euler] Only
-/// x_t is kept: K_t is evaluated anew, stencil by stencil, which costs as much as projecting the elasticity.
+/// Energy E(x) = ½ (x − x_t)ᵀ K_t (x − x_t), J, with K_t the PSD projection of the elastic Hessian at x_t, the start of
+/// the step. With weight hβ in the incremental potential, its force is −β K_t v for the velocity v = (x − x_t)/h
+/// [Rayleigh 1877; implicit Euler]. Translation is not damped, nor is rotation of an unstressed gel. Only x_t is
+/// stored: K_t is evaluated again, stencil by stencil, which costs as much as projecting the elasticity.
 class StiffnessDamping final : public EnergyTerm {
  public:
-  /// `start_m`: x_t, a row per vertex, where the elasticity is finite.
+  /// \param start_m x_t, one row per vertex, where the elasticity is finite
   StiffnessDamping(std::shared_ptr<const EnergyTerm> elasticity, Positions start_m)
       : elasticity_(std::move(elasticity)), start_m_(std::move(start_m)) {}
 

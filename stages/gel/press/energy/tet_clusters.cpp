@@ -10,7 +10,8 @@
 namespace tacipc {
 namespace {
 
-using FaceNeighbours = std::vector<std::array<int, 4>>;  // across the face opposite each corner; −1 at the boundary
+/// Neighbour across the face opposite each corner; −1 at the boundary.
+using FaceNeighbours = std::vector<std::array<int, 4>>;
 
 FaceNeighbours face_neighbours(const Tetrahedra& tets) {
   struct Side {
@@ -53,7 +54,7 @@ class Growth {
   TetClusters run(int size) {
     TetClusters clusters;
     for (int next = next_seed(); next >= 0; next = next_seed()) {
-      std::vector<int> cluster, reach;  // free neighbours of the cluster
+      std::vector<int> cluster, reach;  // `reach`: free neighbours of the cluster
       Uses uses;
       while (true) {
         take(next, static_cast<int>(clusters.size()));
@@ -74,7 +75,7 @@ class Growth {
   }
 
  private:
-  using Uses = std::vector<std::pair<int, int>>;  // vertices of a cluster, and how many of its tetrahedra have each
+  using Uses = std::vector<std::pair<int, int>>;  // vertices of a cluster, and the number of its tetrahedra at each
 
   static void add_use(int vertex, Uses& uses) {
     for (auto& [v, count] : uses) {
@@ -86,7 +87,7 @@ class Growth {
     uses.push_back({vertex, 1});
   }
 
-  /// The free tetrahedron with the most closed faces, the first of these; −1 if none is free.
+  /// The first free tetrahedron with the most closed faces; −1 if none is free.
   int next_seed() {
     for (auto level = seeds_.rbegin(); level != seeds_.rend(); ++level) {
       for (; !level->empty(); level->pop()) {
@@ -128,13 +129,13 @@ class Growth {
   const Tetrahedra& tets_;
   const FaceNeighbours& neighbours_;
   std::vector<int> cluster_of_;
-  std::vector<int> closed_;  // faces of a tetrahedron with no free neighbour
-  /// Tetrahedra that have had so many closed faces, first ones first; those that are taken, or have more by now, stay
-  /// until they are met.
+  std::vector<int> closed_;  // number of faces of a tetrahedron without a free neighbour
+  /// Tetrahedra by their number of closed faces, lowest index first. Entries that are taken or have more closed faces
+  /// by now are skipped when they are reached.
   std::array<std::priority_queue<int, std::vector<int>, std::greater<>>, 5> seeds_;
 };
 
-/// Joins clusters below half of `size` to the neighbour that has the fewest tetrahedra.
+/// Joins clusters smaller than half of `size` to the neighbour that has the fewest tetrahedra.
 void join_small(TetClusters& clusters, const FaceNeighbours& neighbours, int size) {
   std::vector<int> cluster_of(neighbours.size());
   for (std::size_t p = 0; p < clusters.size(); ++p) {

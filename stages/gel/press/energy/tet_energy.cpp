@@ -40,7 +40,7 @@ double tet_energy(const NeoHookean& law, const RestTet& tet, const TetPoints& x,
   const double J = F.determinant();
   if (!(J > 0.0)) return std::numeric_limits<double>::infinity();
   const double log_J = std::log(J);
-  // tr FᵀF − 3 written in F − I, so that a gel at rest has no energy of rounding.
+  // tr FᵀF − 3 as a function of F − I, so that a gel at rest has no rounding energy.
   const Matrix3 D = F - Matrix3::Identity();
   const double value = V * (0.5 * mu * (D.squaredNorm() + 2.0 * D.trace()) - mu * log_J + 0.5 * lambda * log_J * log_J);
   if (order == Order::value) return value;
@@ -50,8 +50,8 @@ double tet_energy(const NeoHookean& law, const RestTet& tet, const TetPoints& x,
   Eigen::Map<TetCorners>(out.gradient) = V * (mu * F * b - a * g);
   if (order == Order::gradient) return value;
 
-  // ∂²/∂xᵢ∂xⱼ = V [μ (bᵢ·bⱼ) I + α gⱼ gᵢᵀ + β gᵢ gⱼᵀ], from δP of neo_hookean.h with δF = δxⱼ bⱼᵀ; p ∂²J has −p J in α
-  // and p J in β.
+  // ∂²/∂xᵢ∂xⱼ = V [μ (bᵢ·bⱼ) I + α gⱼ gᵢᵀ + β gᵢ gⱼᵀ], from δP of neo_hookean.h with δF = δxⱼ bⱼᵀ; p ∂²J contributes −p
+  // J to α and p J to β.
   const double alpha = a - p * J, beta = lambda + p * J;
   Eigen::Map<Matrix12> hessian(out.hessian);
   const Eigen::Matrix4d gram = V * mu * (b.transpose() * b);
@@ -85,15 +85,15 @@ double tet_energy(const StvkHencky& law, const RestTet& tet, const TetPoints& x,
   if (!std::isfinite(value)) return kInfinity;
   if (order == Order::value) return value;
 
-  const TetCorners b = s.V.transpose() * tet.shape_gradients;  // of the principal frame
+  const TetCorners b = s.V.transpose() * tet.shape_gradients;  // shape gradients in the principal frame
   Eigen::Map<TetCorners>(out.gradient) = V * (s.U * (law.principal_stress(s.sigma).asDiagonal() * b));
   if (order == Order::gradient) return value;
 
   PrincipalTangent tangent = law.principal_tangent(s.sigma);
   if (p != 0.0) tangent.add_pressure(p, s.sigma);
   if (order == Order::psd) tangent.project();
-  // In the principal frame δP_pq = straight_pq δF_pq + crossed_pq δF_qp (p ≠ q), δP_pp = Σ_q stretch_pq δF_qq; with
-  // δF = δxⱼ bⱼᵀ and the force of vertex i from P bᵢ.
+  // In the principal frame δP_pq = straight_pq δF_pq + crossed_pq δF_qp (p ≠ q), δP_pp = Σ_q stretch_pq δF_qq, with δF
+  // = δxⱼ bⱼᵀ and the force P bᵢ of vertex i.
   Matrix3 straight, crossed = tangent.stretch;
   for (int r = 0; r < 3; ++r) {
     const int m = (r + 1) % 3, n = (r + 2) % 3;

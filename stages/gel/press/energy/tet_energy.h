@@ -1,4 +1,4 @@
-// Elastic energy of one tetrahedron under either material law.
+// Elastic energy of one tetrahedron for each material law.
 #pragma once
 
 #include <string>
@@ -11,37 +11,38 @@
 
 namespace tacipc {
 
-/// A hyperelastic law ψ(F) = ψ_μ(F) + λ/2 (ln J)². Each is a struct of mu_pa and lambda_pa with stress(F) in Pa, and
-/// has a tet_energy below. The volumetric part is the same in all, so that an element may take it over more than one
-/// tetrahedron (averaged_elasticity.h).
+/// A hyperelastic law ψ(F) = ψ_μ(F) + λ/2 (ln J)². Each law is a struct of mu_pa and lambda_pa with stress(F) in Pa,
+/// and has a tet_energy() below. The volumetric part is the same for all laws, so that an element may average it over
+/// several tetrahedra (averaged_elasticity.h).
 using ElasticLaw = std::variant<NeoHookean, StvkHencky>;
 
-/// By the name a sensor file gives it: neo_hookean or stvk_hencky. \pre one of those
+/// Law by its name in a sensor file: neo_hookean or stvk_hencky. \pre the name is one of these
 ElasticLaw make_elastic_law(const std::string& name, double mu_pa, double lambda_pa);
 
-/// What the energy needs of a tetrahedron's rest shape.
+/// Rest shape of a tetrahedron, as its energy needs it.
 struct RestTet {
   Eigen::Matrix<double, 3, 4> shape_gradients;  // column i is ∇Nᵢ in 1/m; the columns sum to zero
   double volume_m3;
 };
 
-/// \throw DataError naming the first tetrahedron that is not positively oriented.
+/// Rest shapes of all tetrahedra. \throw DataError that names the first tetrahedron that is not positively oriented
 std::vector<RestTet> make_rest_tets(const Positions& rest, const Tetrahedra& tets);
 
 /// One vector per corner of a tetrahedron, a column each; TetPoints maps coordinates that are stored elsewhere.
 using TetCorners = Eigen::Matrix<double, 3, 4>;
 using TetPoints = Eigen::Map<const TetCorners>;
 
-/// Where tet_energy puts what its order asks for: 12 and 12 × 12 numbers, first corner first. May stay empty otherwise.
+/// Destination of the derivatives of tet_energy(): 12 and 12 × 12 numbers, first corner first. A pointer may be null if
+/// the order does not ask for it.
 struct TetDerivatives {
   double* gradient = nullptr;
   double* hessian = nullptr;
 };
 
-/// V ψ(F) in J, F = Σᵢ xᵢ ∇Nᵢᵀ; +∞, and no derivatives, for J ≤ 0. The Hessian is that of V [ψ(F) + p J]: an element
-/// that takes volume over several tetrahedra holds them under a common pressure term p (Pa), whose second derivatives
-/// must be added before the projection (Order::psd), so that it removes no more than needed. Value and gradient are of
-/// ψ alone.
+/// Energy V ψ(F), J, F = Σᵢ xᵢ ∇Nᵢᵀ; +∞ without derivatives for J ≤ 0. Value and gradient are those of ψ alone, but the
+/// Hessian is that of V [ψ(F) + p J]: an element that averages volume over several tetrahedra puts them under a common
+/// pressure term p (Pa), whose second derivatives must be added before the projection (Order::psd) so that it removes
+/// no more than needed.
 double tet_energy(const NeoHookean& law, const RestTet& tet, const TetPoints& x, double p, Order order,
                   const TetDerivatives& out);
 double tet_energy(const StvkHencky& law, const RestTet& tet, const TetPoints& x, double p, Order order,

@@ -17,7 +17,7 @@ Matrix3 deformation(const RestBody& body, Eigen::Index t, const Positions& x) {
   return corners * body.rest[static_cast<std::size_t>(t)].shape_gradients.transpose();
 }
 
-/// The mean of both triangles, which agree but for rounding.
+/// Stores the mean of both triangles, which agree to rounding.
 void put_symmetric(const Matrix3& m, SymmetricRows& rows, Eigen::Index t) {
   rows.row(t) << m(0, 0), m(1, 1), m(2, 2), 0.5 * (m(1, 2) + m(2, 1)), 0.5 * (m(0, 2) + m(2, 0)),
       0.5 * (m(0, 1) + m(1, 0));
@@ -32,7 +32,7 @@ TetStress::TetStress(std::shared_ptr<const RestBody> body, const ElasticLaw& law
 }
 
 SymmetricRows TetStress::operator()(const Positions& x) const {
-  std::vector<double> pressure(body_->rest.size(), 0.0);  // u′ of its cluster
+  std::vector<double> pressure(body_->rest.size(), 0.0);  // u′ of the cluster of each tetrahedron
   tbb::parallel_for(std::size_t{0}, clusters_.size(), [&](std::size_t c) {
     double rest_volume = 0.0, volume = 0.0;
     for (const int t : clusters_[c]) {

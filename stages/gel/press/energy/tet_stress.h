@@ -1,4 +1,4 @@
-// Elastic stress of every tetrahedron, over its undeformed shape.
+// Elastic stress of every tetrahedron relative to its undeformed shape.
 #pragma once
 
 #include <memory>
@@ -17,28 +17,30 @@ struct RestBody {
 };
 
 /// Second Piola–Kirchhoff stress S = 2 ∂ψ/∂C = F⁻¹ P, Pa, of each tetrahedron, such that Σ_t V_t F_t S_t ∇Nᵢ is the
-/// derivative of the element's energy by vertex i. A rotation of the gel leaves it as it is. With volumes averaged over
-/// clusters a tetrahedron has S of ψ_μ and the pressure of its cluster,
+/// derivative of the element's energy by vertex i. It is invariant under rotation of the gel. If volumes are averaged
+/// over clusters, a tetrahedron has S of ψ_μ and the pressure of its cluster,
 ///   S = F⁻¹ P_μ + u′ J C⁻¹,   u′ = λ ln J̄/J̄ of averaged_elasticity.h.
 class TetStress {
  public:
-  /// `clusters`: of averaged volumes; none for the linear element.
+  /// \param clusters clusters of averaged volumes; empty for the linear element
   TetStress(std::shared_ptr<const RestBody> body, const ElasticLaw& law, TetClusters clusters);
 
-  /// \pre no tetrahedron is inverted
+  /// Stress of each tetrahedron at x. \pre no tetrahedron is inverted
   SymmetricRows operator()(const Positions& x) const;
 
   const std::shared_ptr<const RestBody>& body() const { return body_; }
 
  private:
   std::shared_ptr<const RestBody> body_;
-  ElasticLaw law_;  // with clusters: λ = 0
+  ElasticLaw law_;  // λ = 0 if there are clusters
   TetClusters clusters_;
-  double lambda_pa_ = 0.0;  // of the clusters
+  double lambda_pa_ = 0.0;  // λ of the clusters
 };
 
-/// Cauchy stress σ = F S Fᵀ/J = P Fᵀ/J, Pa, along the axes of `x`, such that Σ_t v_t σ_t ∇ₓNᵢ is the same derivative.
-/// \param second_pa S of each tetrahedron, or S with what a gel whose stress relaxes remembers \pre none is inverted
+/// Cauchy stress σ = F S Fᵀ/J = P Fᵀ/J, Pa, along the axes of `x`, such that Σ_t v_t σ_t ∇ₓNᵢ is the derivative of the
+/// energy by vertex i.
+/// \param second_pa S of each tetrahedron, for a viscoelastic gel including its memory
+/// \pre no tetrahedron is inverted
 SymmetricRows cauchy_stress(const RestBody& body, const Positions& x, const SymmetricRows& second_pa);
 
 }  // namespace tacipc

@@ -23,7 +23,7 @@ Viscoelasticity::Viscoelasticity(const std::vector<Body>& bodies) : num_bodies_(
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = bodies[b];
     if (body.series.empty()) continue;
-    double lasting = 1.0;  // g∞
+    double lasting = 1.0;  // long-term fraction g∞
     for (const Relaxation& member : body.series) lasting -= member.part;
     Relaxing& relaxing = relaxing_.emplace_back(Relaxing{b, {}, *body.stress, count, body.stress->body()->tets.rows()});
     for (const Relaxation& member : body.series) relaxing.series.push_back({member.part / lasting, member.time_s});

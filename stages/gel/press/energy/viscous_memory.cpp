@@ -8,7 +8,7 @@
 namespace tacipc {
 namespace {
 
-/// V M : E, with E written in F − I, so that a gel at rest has no energy of rounding.
+/// V M : E as a function of F − I, so that a gel at rest has no rounding energy.
 double tet_value(const RestTet& tet, const Matrix3& M, const TetCorners& x) {
   const Matrix3 D = x * tet.shape_gradients.transpose() - Matrix3::Identity();
   return tet.volume_m3 * M.cwiseProduct(D + 0.5 * D.transpose() * D).sum();

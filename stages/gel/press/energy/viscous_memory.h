@@ -1,4 +1,4 @@
-// What a viscoelastic gel remembers of its past, as it acts during one time step.
+// Energy of a viscoelastic gel's memory during one time step.
 #pragma once
 
 #include <memory>
@@ -9,16 +9,17 @@
 
 namespace tacipc {
 
-/// Σ_t V_t M_t : E_t, in J, E = ½ (FᵀF − I) Green's strain and M a symmetric stress (Pa) that is held during the step
-/// (viscoelasticity.h). Quadratic in the positions: with the shape gradients ∇Nᵢ the derivatives of one tetrahedron are
+/// Energy Σ_t V_t M_t : E_t, J, with E = ½ (FᵀF − I) Green's strain and M a symmetric stress (Pa) that is constant
+/// during the step (viscoelasticity.h). It is quadratic in the positions: with the shape gradients ∇Nᵢ the derivatives
+/// of one tetrahedron are
 ///   ∂/∂xᵢ = V F M ∇Nᵢ,   ∂²/∂xᵢ∂xⱼ = V (∇Nᵢ · M ∇Nⱼ) I.
-/// The Hessian is the same everywhere, and indefinite where M pushes; its nearest positive semi-definite one (over F,
-/// Order::psd) is that of M without its negative eigenvalues.
+/// The Hessian is constant, and indefinite if M is compressive in some direction. Its nearest positive semi-definite
+/// approximation (over F, Order::psd) is that of M without its negative eigenvalues.
 class ViscousMemory final : public EnergyTerm {
  public:
   /// \pre one row of stress per tetrahedron
   ViscousMemory(std::shared_ptr<const RestBody> body, SymmetricRows stress_pa);
-  /// Some tetrahedra of another.
+  /// Restriction of `whole` to some of its tetrahedra.
   ViscousMemory(const ViscousMemory& whole, const std::vector<int>& which);
 
   int num_stencils() const override { return static_cast<int>(which_.size()); }
@@ -26,7 +27,7 @@ class ViscousMemory final : public EnergyTerm {
   void evaluate(int i, const Eigen::VectorXd& x, Order order, Local& out) const override;
 
   double value(const Positions& x) const override;
-  /// That of one stencil, a column per vertex, J/m.
+  /// Gradient of one stencil, one column per vertex, J/m.
   TetCorners gradient(int i, const Positions& x) const;
 
  private:
@@ -37,8 +38,8 @@ class ViscousMemory final : public EnergyTerm {
   TetCorners corners(int i, const Positions& x) const;
 
   std::shared_ptr<const RestBody> body_;
-  std::shared_ptr<const SymmetricRows> stress_pa_;  // of all tetrahedra
-  std::vector<int> which_;                          // tetrahedra
+  std::shared_ptr<const SymmetricRows> stress_pa_;  // stress of all tetrahedra
+  std::vector<int> which_;                          // indices of the tetrahedra
 };
 
 }  // namespace tacipc

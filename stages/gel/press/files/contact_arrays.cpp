@@ -11,7 +11,7 @@
 namespace tacipc {
 namespace {
 
-/// Time at which each front vertex first slips, +∞ where it never does.
+/// Time at which each front vertex first slips; +∞ if it never does.
 std::vector<double> first_slip_s(const Simulation& simulation) {
   std::vector<double> first(simulation.front.vertices.size(), std::numeric_limits<double>::infinity());
   for (const Frame& frame : simulation.frames) {

@@ -1,4 +1,4 @@
-// Arrays of what acts on a gel's front, frame by frame.
+// Writes per-frame arrays of the contact and stress of a gel.
 #pragma once
 
 #include "common/mesh/tet_mesh.h"
@@ -8,10 +8,10 @@
 
 namespace tacipc {
 
-/// Vertices of the front, their forces, states and first slip, traction over the camera's window.
+/// Writes vertices of the front, their forces, states and first slip, and traction over the field of view.
 void write_contact(const ArrayWriter& writer, const Sensor& sensor, const Simulation& simulation);
 
-/// Stress in the gel, pressure and shear on its front, if the configuration asks for them. \pre there is a frame
+/// Writes stress in the gel, pressure and shear on its front, if the configuration asks for them. \pre there is a frame
 void write_stress(const ArrayWriter& writer, const TetMesh& gel, const Simulation& simulation);
 
 }  // namespace tacipc

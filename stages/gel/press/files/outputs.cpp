@@ -99,8 +99,10 @@ void add_frames(PressSummary& summary, const Simulation& simulation) {
   summary.stand_off_m = last.stand_off_m;
 }
 
-/// Every array of one gel, in a folder below --out ("" or with a slash at its end). \return the summary of its record
+/// Writes every array of one gel in a folder below --out.
+/// \param folder "" or with a slash at its end
 /// \param end last frame of the first press
+/// \return summary of its record
 Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sensor, const TetMesh& gel,
                      const std::optional<std::size_t>& end, const Simulation& simulation) {
   const auto& frames = simulation.frames;
@@ -137,7 +139,7 @@ Value::Map write_gel(Stage& stage, const std::string& folder, const Sensor& sens
       .friction_coefficient = simulation.friction,
       .min_volume_ratio = 1.0,
       .press_end_frame = end,
-      // A simulation that gets here has passed judge_frame in every frame; one that did not has thrown.
+      // A simulation that gets here has passed judge_frame() in every frame; a failure would have thrown an error.
       .converged = true,
       .verdict = kPassed,
       .limits = kVerdictLimits};
@@ -219,7 +221,7 @@ std::optional<SlipLines> slip_lines(const SlipTimes& times) {
 HeldPoseLines pose_lines(const GraspPose& pose) {
   Eigen::Quaterniond q(pose.world_from_object);
   if (q.w() < 0.0) q.coeffs() *= -1.0;
-  // Without a minus before a zero.
+  // Adding zero turns −0 into 0.
   return {.rotation_xyzw = {q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w()},
           .grip_m = pose.grip_m,
           .lever_m = pose.lever_m(),

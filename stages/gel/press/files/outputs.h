@@ -1,4 +1,4 @@
-// Outputs of a press, a grasp or a scene: arrays per frame and the numbers of its record.
+// Writes the outputs of a press, a grasp or a scene: arrays per frame and the summary of the record.
 #pragma once
 
 #include "common/stage/stage.h"
@@ -8,16 +8,16 @@
 
 namespace tacipc {
 
-/// Every array of the press folder, and the summary of the record.
+/// Writes every array of the press folder and the summary of the record.
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const SampleSpec& sample,
                    const Simulation& simulation);
 
-/// A press folder of each finger in left/press and right/press, the motion of object and fingers in the world beside
-/// them, and the summary of the record.
+/// Writes a press folder of each finger in left/press and right/press, the motion of object and fingers in the world
+/// next to them, and the summary of the record.
 void write_outputs(Stage& stage, const Sensor& sensor, const TetMesh& gel, const Grasp& grasp);
 
-/// A press folder of each gel in gels/<name>/press, the motion of all bodies in the world and the wrenches between them
-/// beside these, and the summary of the record.
+/// Writes a press folder of each gel in gels/<name>/press, the motion of all bodies in the world and the wrenches
+/// between them, and the summary of the record.
 void write_outputs(Stage& stage, const Sensor& sensor, const std::vector<SceneBody>& bodies, const SceneSpec& spec,
                    const Scene& scene);
 

@@ -6,7 +6,7 @@
 namespace tacipc {
 namespace {
 
-/// Takes `text` off the beginning of `bytes`, if they begin with it.
+/// Removes `text` from the beginning of `bytes`. \return false if they do not begin with it
 bool skip(std::string& bytes, const std::string& text) {
   if (bytes.compare(0, text.size(), text) != 0) return false;
   bytes.erase(0, text.size());

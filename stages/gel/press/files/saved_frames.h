@@ -1,4 +1,4 @@
-// Frames of an interrupted run in the scratch files of a stage, and frames that another run of a scene has left.
+// Stores frames of an interrupted run in scratch files of a stage, and reuses frames of another run of a scene.
 #pragma once
 
 #include <fmt/core.h>
@@ -30,12 +30,12 @@ class ScratchFrames : public FrameStore {
   std::size_t next_ = 0;
 };
 
-/// Frames of a scene that is solved piece by piece: the first ones are those of a folder, and all others are left in
-/// solved/ of the stage's outputs.
+/// Frames of a scene that is solved in pieces: the first frames come from a folder, and all others are written to
+/// solved/ in the stage's outputs.
 class SolvedFrames final : public ScratchFrames {
  public:
-  /// \param identity text of all that a frame depends on, but its motion \param motion_by_frame text of the motion of
-  /// each frame, from frame 0 on
+  /// \param identity text of everything that a frame depends on, except its motion
+  /// \param motion_by_frame text of the motion of each frame, from frame 0 on
   SolvedFrames(Stage& stage, std::filesystem::path folder, std::string identity,
                std::vector<std::string> motion_by_frame)
       : ScratchFrames(stage),

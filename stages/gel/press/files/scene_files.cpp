@@ -11,7 +11,7 @@
 namespace tacipc {
 namespace {
 
-/// The file of tetrahedra of a soft body: its mesh, or what `tetmesh --object` made of its surface.
+/// File of tetrahedra of a soft body: its mesh, or the one that `tetmesh --object` made from its surface.
 std::filesystem::path soft_mesh(const Stage& stage, const BodySpec& body) {
   if (body.mesh.extension() == ".msh") return body.mesh;
   const auto folder = stage.optional_input("--soft");
@@ -28,14 +28,14 @@ std::filesystem::path soft_mesh(const Stage& stage, const BodySpec& body) {
   return made / "object.msh";
 }
 
-/// \throw UsageError if a file that a body names is not there
+/// Checks a file that a body names. \throw UsageError if it is missing
 void require_file(const std::filesystem::path& scene, const BodySpec& body, const char* key,
                   const std::filesystem::path& file) {
   if (!file.empty() && !std::filesystem::is_regular_file(file))
     throw UsageError(fmt::format("{}: body {}: {}: {} does not exist", scene.string(), body.name, key, file.string()));
 }
 
-/// Reads the files of a body. \param files names and paths of those that the record should list
+/// Reads the files of a body. \param files names and paths that the record should list
 SceneBody read_body(Stage& stage, const Sensor& sensor, const TetMesh& gel, const BodySpec& spec,
                     std::vector<std::pair<std::string, std::filesystem::path>>& files) {
   SceneBody body;
@@ -62,7 +62,7 @@ SceneBody read_body(Stage& stage, const Sensor& sensor, const TetMesh& gel, cons
   return body;
 }
 
-/// Text of all that a scene says but its motion and paths.
+/// Text of a scene without its motion and paths.
 std::string text_of(const SceneSpec& spec) {
   const auto numbers = [](const auto& matrix) {
     std::string text;

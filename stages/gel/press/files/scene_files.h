@@ -1,4 +1,4 @@
-// The files that a scene names: meshes, materials and paths of its bodies.
+// Reads the files that a scene names: meshes, materials and paths of its bodies.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,16 @@
 
 namespace tacipc {
 
+/// A scene with the contents of its files.
 struct SceneFiles {
   SceneSpec spec;
-  std::vector<SceneBody> bodies;  // of spec.bodies
+  std::vector<SceneBody> bodies;  // contents of spec.bodies
   std::unique_ptr<FrameStore> frames;
 };
 
-/// Reads the scene of --sample with all files that it names, and notes these as inputs.
-/// \throw UsageError if a file is missing \throw DataError if it cannot be read
+/// Reads the scene of --sample with all files that it names, and records them as inputs.
+/// \throw UsageError if a file is missing
+/// \throw DataError if it cannot be read
 SceneFiles read_scene(Stage& stage, const Sensor& sensor);
 
 /// Text of the motion of each frame, from frame 0 on: displacements, holds and loads, but not paths.

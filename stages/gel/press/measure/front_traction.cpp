@@ -15,13 +15,14 @@ Side sorted(Side side) {
   return side;
 }
 
-/// Outward, as long as its area.
+/// Outward normal of a triangle, with its area as length.
 Vector3 area_vector(const FrontSurface& front, const Positions& front_positions, Eigen::Index triangle) {
   const auto corner = [&](int c) -> Vector3 { return front_positions.row(front.triangles(triangle, c)); };
   return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
 }
 
-/// \param force_n on each vertex, or its share of what acts on the triangles around
+/// Traction of forces over lumped areas.
+/// \param force_n force on each vertex, or its share of the forces on the triangles around
 FrontTraction over_areas(const FrontSurface& front, const Positions& front_positions, const Positions& force_n) {
   const std::vector<double> areas = lumped_areas(front, front_positions);
   Positions normals = Positions::Zero(front_positions.rows(), 3);

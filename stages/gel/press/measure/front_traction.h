@@ -1,5 +1,5 @@
-// Pressure and shear on the front: of the contact forces, and of the stress in the gel behind it. The normal of a
-// vertex is the mean of the triangles around, weighted with their areas.
+// Pressure and shear on the front, from the contact forces or from the stress in the gel behind it. The normal at a
+// vertex is the area-weighted mean over the triangles around it.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,19 @@
 
 namespace tacipc {
 
-/// Tetrahedron behind each triangle of the front. \pre each triangle is a side of one
+/// Tetrahedron behind each triangle of the front. \pre each triangle is a side of a tetrahedron
 std::vector<int> tets_behind(const FrontSurface& front, const Tetrahedra& tets);
 
-/// t is the contact force on a vertex over its share of the area, a third of each triangle around: the traction that
-/// balances the stress in the mean over the vertex (nodal forces are what ∫ σ ∇Nᵢ leaves). Zero where there is no area.
+/// Traction by the contact forces: force on a vertex over its lumped area, a third of each triangle around it. It
+/// balances the stress on average over the vertex, because nodal forces are the remainder of ∫ σ ∇Nᵢ. Zero for a vertex
+/// without area.
 FrontTraction traction_of_forces(const FrontSurface& front, const Positions& front_positions, const Positions& force_n);
 
-/// t = σ n, the mean over the triangles around a vertex weighted with their areas, σ of the tetrahedron behind each.
-/// Stress is constant in a tetrahedron, so this agrees with the other only as the mesh gets finer, and lags behind at
-/// the rim of a contact. \param stress_pa Cauchy stress of each tetrahedron \param behind tets_behind()
+/// Traction by the stress: t = σ n, with σ of the tetrahedron behind each triangle, as the area-weighted mean over the
+/// triangles around a vertex. Stress is constant in a tetrahedron, so this converges to traction_of_forces() only as
+/// the mesh is refined, and is inaccurate at the rim of a contact.
+/// \param stress_pa Cauchy stress of each tetrahedron
+/// \param behind tets_behind()
 FrontTraction traction_of_stress(const FrontSurface& front, const Positions& front_positions,
                                  const SymmetricRows& stress_pa, const std::vector<int>& behind);
 

@@ -7,18 +7,19 @@
 namespace tacipc {
 namespace {
 
-constexpr int kPartsPerCell = 4;   // of a triangle's edge
-constexpr double kMaxParts = 512;  // of an edge: a triangle as large as a hundred cells
+constexpr int kPartsPerCell = 4;  // parts of a triangle's edge per cell
+/// Largest number of parts of an edge, reached by a triangle as large as a hundred cells.
+constexpr double kMaxParts = 512;
 
 using NormalAndFriction = Eigen::Matrix<double, 6, 1>;
 
-/// Two neighbouring cells along one axis and the second one's weight.
+/// Two neighbouring cells along one axis, and the weight of the second.
 struct Neighbours {
   int first, second;
   double weight;
 };
 
-/// `place` in cells from the rectangle's edge; the cell with number i has its centre at i + ½.
+/// Cells nearest to `place`, measured in cells from the rectangle's edge; cell number i has its centre at i + ½.
 Neighbours nearest_cells(double place, int cells) {
   const double from_center = std::clamp(place - 0.5, 0.0, cells - 1.0);
   const int first = std::min(static_cast<int>(from_center), cells - 1);
@@ -63,7 +64,7 @@ class Cells {
   std::vector<NormalAndFriction> force_n_;
 };
 
-/// Calls use(weights) for the barycentric coordinates of the centres of the n² equal parts of a triangle. The mean of
+/// Calls use(weights) with the barycentric coordinates of the centres of the n² equal parts of a triangle. The mean of
 /// each coordinate over them is 1/3, so that linear functions are integrated exactly.
 template <typename Use>
 void for_each_part(int n, Use&& use) {
@@ -104,7 +105,7 @@ std::vector<double> spread_traction(const TractionGrid& grid, const FrontSurface
     if (around[v] > 0.0) {
       force_n[v] = force;
     } else {
-      cells.add(place, force);  // all triangles around it have collapsed
+      cells.add(place, force);  // all triangles around the vertex have collapsed
     }
   }
   for (Eigen::Index f = 0; f < front.triangles.rows(); ++f) {
@@ -124,7 +125,7 @@ std::vector<double> spread_traction(const TractionGrid& grid, const FrontSurface
     for (int c = 0; c < 3; ++c)
       longest = std::max(longest, (corner[(c + 1) % 3] - corner[c]).lpNorm<Eigen::Infinity>());
     const int n = static_cast<int>(std::clamp(std::ceil(kPartsPerCell * longest), 1.0, kMaxParts));
-    // Each corner's share times its weight (mean 1/3 over the n² parts) sums to the share.
+    // The share of a corner times its weight (mean 1/3 over the n² parts) sums to the share.
     for_each_part(n, [&](const Vector3& weights) {
       const Eigen::Vector2d place = weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
       cells.add(place, (weights[0] * share[0] + weights[1] * share[1] + weights[2] * share[2]) * (3.0 / (n * n)));

@@ -9,7 +9,7 @@ void judge_frame(int frame, const FrameNumbers& numbers, const SolverLimits& lim
     throw VerdictError({.frame = frame, .check = check, .value = value, .limit = limit},
                        fmt::format("frame {}: {}", frame, reason));
   };
-  // Each condition is what must hold, so that nan never passes.
+  // Each condition states what is required, so that NaN never passes.
   const auto exceeds = [&](const char* check, const char* what, double value, double limit, const char* unit) {
     if (!(value > limit))
       miss(check, value, limit, fmt::format("{} {:.3g}{} does not exceed {:g}", what, value, unit, limit));

@@ -12,7 +12,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kChunk = 256;
-constexpr std::size_t kAtATime = 8192;  // gradients that stay in the cache
+constexpr std::size_t kAtATime = 8192;  // number of gradients that fit in the cache
 
 std::vector<int> all_stencils(const EnergyTerm& term) {
   std::vector<int> all(static_cast<std::size_t>(term.num_stencils()));
@@ -20,7 +20,7 @@ std::vector<int> all_stencils(const EnergyTerm& term) {
   return all;
 }
 
-/// Evaluates these stencils, a chunk at a time in parallel, and hands them to `scatter` one by one in order.
+/// Evaluates these stencils in parallel, a chunk at a time, and passes them to `scatter` one by one in order.
 template <typename Scatter>
 void for_each_local(const EnergyTerm& term, const std::vector<int>& stencils, const Positions& x, Order order,
                     Scatter&& scatter) {
@@ -41,11 +41,11 @@ void for_each_local(const EnergyTerm& term, const std::vector<int>& stencils, co
   }
 }
 
-/// Unknowns that a pair's four vertices depend on: x_a = Σ_d part(a, d) u_d, and what is prescribed.
+/// Unknowns of a pair's four vertices: x_a = Σ_d part(a, d) u_d plus prescribed terms.
 struct PairUnknowns {
-  static constexpr int kMost = 8;  // two bodies, or up to three vertices of the gel and a body
+  static constexpr int kMost = 8;  // two bodies, or up to three gel vertices and a body
   int count = 0;
-  std::array<int, kMost> free;  // their numbers among the free vertices
+  std::array<int, kMost> free;  // numbers among the free vertices
   Eigen::Matrix<double, 4, kMost> part = Eigen::Matrix<double, 4, kMost>::Zero();
 
   PairUnknowns(std::span<const int> stencil, const FreeVertices& all) {
@@ -102,7 +102,7 @@ std::shared_ptr<const BlockPattern> cover_contacts(std::shared_ptr<const BlockPa
   Eigen::VectorXd local_x;
   for (const int i : active) {
     const auto stencil = term.stencil(i);
-    // The other side's vertices share an element.
+    // The vertices of the other side share an element.
     if (held_object(stencil.front()) || held_object(stencil.back())) continue;
     if (is_carried(stencil, free)) {
       const PairUnknowns of(stencil, free);
@@ -164,7 +164,7 @@ void clear_gradient(NewtonSystem& system, const FreeVertices& free) {
 
 namespace {
 
-/// Adds one stencil's derivatives. `wanted`: vertices whose blocks there are.
+/// Adds the derivatives of one stencil. \param wanted vertices whose blocks exist
 template <typename Local>
 void scatter(std::span<const int> stencil, PairVertices wanted, const Local& local, double weight,
              const FreeVertices& free, int first_object_vertex, const Positions& motion, NewtonSystem& system) {
@@ -198,7 +198,7 @@ void scatter(std::span<const int> stencil, PairVertices wanted, const Local& loc
   }
 }
 
-/// The same of a pair with a body that moves freely: g_d = Σ_a c_ad g_a, H_de = Σ_ab c_ad c_be H_ab.
+/// Adds a pair with a free body: g_d = Σ_a c_ad g_a, H_de = Σ_ab c_ad c_be H_ab.
 void scatter_carried(std::span<const int> stencil, const PairLocal& local, double weight, const FreeVertices& free,
                      const Positions& motion, NewtonSystem& system) {
   const PairUnknowns of(stencil, free);
@@ -244,7 +244,7 @@ void scatter_pair(std::span<const int> stencil, PairVertices wanted, const PairL
 
 namespace {
 
-/// Masses of free vertices: multiples of the identity on the diagonal, without local matrices.
+/// Adds masses of free vertices: multiples of the identity on the diagonal, without local matrices.
 void assemble_masses(const Inertia& inertia, double weight, const Positions& x, const FreeVertices& free,
                      bool with_hessian, NewtonSystem& system) {
   for (int s = 0; s < inertia.num_stencils(); ++s) {

@@ -8,9 +8,9 @@
 namespace tacipc {
 namespace {
 
-constexpr double kConstraintStiffness = 100.0;  // per vertex, over that of a contact pair
+constexpr double kConstraintStiffness = 100.0;  // per vertex, relative to the stiffness of a contact pair
 constexpr int kMaxMultiplierUpdates = 60;
-// Where an update leaves more than the first part of a miss, the constraint gets so many times as stiff.
+// If an update leaves more than kSlowProgress of the last miss, the stiffness is multiplied by kStiffening.
 constexpr double kSlowProgress = 0.3, kStiffening = 4.0;
 
 }  // namespace
@@ -28,7 +28,7 @@ void add_constraint(const SolverModel& model, Step& step) {
   const Positions no_multipliers = Positions::Zero(targets.rows(), 3);
   step.constraint = std::make_shared<Dirichlet>(std::move(vertices), std::move(targets), no_multipliers, stiffness);
   step.terms.constraint = step.constraint;
-  step.arrived = true;  // the energy pulls the object along
+  step.arrived = true;  // the constraint's energy moves the object to its target
 }
 
 void minimise_constrained(Step& step, const std::function<void()>& minimise) {
@@ -41,7 +41,7 @@ void minimise_constrained(Step& step, const std::function<void()>& minimise) {
       throw SolverError("the augmented Lagrangian left a vertex {:.2e} m from its target after {} renewals", miss,
                         kMaxMultiplierUpdates);
     }
-    // Where contact is stiffer than the constraint, multipliers converge slowly.
+    // If contact is stiffer than the constraint, multipliers converge slowly.
     const double stiffening = miss > kSlowProgress * last_miss ? kStiffening : 1.0;
     step.constraint = std::make_shared<Dirichlet>(step.constraint->renewed(step.x, stiffening));
     last_miss = miss;

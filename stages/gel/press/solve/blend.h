@@ -1,4 +1,4 @@
-// Which share of the contact Hessian's PSD approximation the next Newton step takes, vertex by vertex.
+// Blend of the exact contact Hessian and its PSD approximation in the next Newton step, vertex by vertex.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace tacipc {
 
-/// A share in [0, 1] for every vertex of the gel, and of objects where these touch each other: 0 the exact Hessian, 1
-/// its PSD approximation; as small as positive definiteness allows. Shares fall after each Newton step that was found,
-/// faster and faster while that works. They rise about those vertices where the Hessian turned out not to be positive
-/// definite, or where the line search had to shorten a step. Vertices that snap over an edge of the object are few: all
-/// others keep the exact Hessian.
+/// PSD shares in [0, 1] of every gel vertex, and of object vertices if objects touch each other: 0 the exact Hessian, 1
+/// its PSD approximation. Shares are as small as positive definiteness allows. They fall after each Newton step, at a
+/// growing rate while that succeeds. They rise at vertices where the Hessian is not positive definite, or where the
+/// line search had to shorten a step. Only few vertices snap over an edge of the object at a time: all others keep the
+/// exact Hessian.
 class Blend {
  public:
-  /// All shares are 1, and stay so unless adaptive.
+  /// All shares are 1; they remain so if `adaptive` is false.
   explicit Blend(int num_vertices, bool adaptive = true)
       : Blend(std::vector<double>(static_cast<std::size_t>(num_vertices), 1.0), adaptive) {}
   explicit Blend(std::vector<double> shares, bool adaptive = true)
@@ -28,7 +28,7 @@ class Blend {
   int size() const { return static_cast<int>(share_.size()); }
   bool has(int vertex) const { return vertex < size(); }
   double share(int vertex) const { return share_[static_cast<std::size_t>(vertex)]; }
-  /// Of a contact between these vertices: the largest among them.
+  /// Share of a contact between these vertices: the largest share among them.
   double share(std::span<const int> stencil) const {
     double largest = 0.0;
     for (const int v : stencil) {
@@ -36,11 +36,11 @@ class Blend {
     }
     return largest;
   }
-  /// Whether the last step took any of the approximation about a vertex.
+  /// Whether the last step used any of the approximation at a vertex.
   bool approximated(int vertex) const { return last_used_[static_cast<std::size_t>(vertex)] > 0.0; }
   double largest() const { return share_.empty() ? 0.0 : *std::max_element(share_.begin(), share_.end()); }
 
-  /// A step was found with these shares: the next one tries smaller ones.
+  /// Lowers all shares after a step has been found with them.
   void lower() {
     if (!adaptive_) return;
     last_used_ = share_;
@@ -51,7 +51,8 @@ class Blend {
       raised_[v] = false;
     }
   }
-  /// The Hessian with these shares is not positive definite about a vertex. False if the share there is 1 already.
+  /// Raises the share of a vertex at which the Hessian is not positive definite.
+  /// \return false if the share is 1 already
   bool raise(int vertex) {
     double& share = share_[static_cast<std::size_t>(vertex)];
     raised_[static_cast<std::size_t>(vertex)] = true;
@@ -59,7 +60,7 @@ class Blend {
     share = share == 0.0 ? kSmallestShare : std::min(1.0, kRaiseFactor * share);
     return true;
   }
-  /// Goes on about a vertex where another blend has got to.
+  /// Copies the state of a vertex from another blend.
   void take_over(int vertex, const Blend& other) {
     const auto v = static_cast<std::size_t>(vertex);
     share_[v] = other.share_[v];
@@ -67,23 +68,23 @@ class Blend {
     divisor_[v] = other.divisor_[v];
     raised_[v] = other.raised_[v];
   }
-  /// The line search had to shorten the last step, and `vertex` went far in it.
+  /// Raises the share of a vertex that had a long step which the line search had to shorten.
   void raise_after_shortening(int vertex) {
     const auto v = static_cast<std::size_t>(vertex);
     if (adaptive_) share_[v] = std::min(1.0, std::max(kShareAfterShortening, kShorteningFactor * last_used_[v]));
   }
 
  private:
-  static constexpr double kSmallestShare = 0.1;  // but for zero
-  static constexpr double kRaiseFactor = 10.0;   // of a share where the Hessian was not positive definite
-  // After a shortened step: at least this, and so many times the share that it was found with.
+  static constexpr double kSmallestShare = 0.1;  // smallest share above zero
+  static constexpr double kRaiseFactor = 10.0;   // factor on a share where the Hessian was not positive definite
+  // After a shortened step: smallest share, and factor on the share with which the step was found.
   static constexpr double kShareAfterShortening = 0.1, kShorteningFactor = 4.0;
-  // What a share is divided by after a step: it grows from step to step, and shrinks where the share had to be raised.
+  // Divisor of a share after a step: it grows from step to step, and shrinks at a vertex whose share had to be raised.
   static constexpr double kSmallestDivisor = 1.1, kLargestDivisor = 4.0;
   static constexpr double kDivisorFactor = 1.4, kDivisorFactorAfterRaise = 0.5;
   bool adaptive_;
   std::vector<double> share_, last_used_, divisor_;
-  std::vector<bool> raised_;  // since the last step
+  std::vector<bool> raised_;  // whether a share was raised since the last step
 };
 
 }  // namespace tacipc

@@ -24,10 +24,10 @@ int BlockPattern::find(int r, int column) const {
 BlockPattern make_block_pattern(int size, const std::vector<std::array<int, 2>>& pairs, int num_bodies) {
   constexpr int kBodyRows = BlockPattern::kBodyRows;
   const int first_body_row = size - kBodyRows * num_bodies;
-  // A body's first row stands for all of them until the end.
+  // A body's first row represents all of its rows until the end.
   const auto head = [&](int r) { return r < first_body_row ? r : r - (r - first_body_row) % kBodyRows; };
   const auto end_of = [&](int h) { return h < first_body_row ? h + 1 : h + kBodyRows; };
-  // Sorted by column first, which takes no comparisons, then within each column.
+  // Sorted by column first, which needs no comparisons, then within each column.
   std::vector<int> start(static_cast<std::size_t>(size) + 1, 0);
   for (const auto& [a, b] : pairs) ++start[head(std::min(a, b)) + 1];
   for (int c = 0; c < size; ++c) start[c + 1] += start[c];

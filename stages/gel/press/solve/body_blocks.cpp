@@ -20,7 +20,7 @@ std::vector<int> BodyBlocks::factorise(const BlockMatrix& matrix) {
     }
     const Eigen::LLT<Block> factor(D);
     const Block E = factor.matrixL();
-    if (factor.info() == Eigen::Success && (E.diagonal().array() > 0.0).all()) {  // not so if any is no number
+    if (factor.info() == Eigen::Success && (E.diagonal().array() > 0.0).all()) {  // false if an entry is NaN
       inverse_[i] = E.triangularView<Eigen::Lower>().solve(Block::Identity());
     } else {
       for (int r = 0; r < kRows; ++r) indefinite.push_back(first + r);
@@ -38,12 +38,12 @@ void BodyBlocks::scale(const BlockMatrix& matrix, const SweepOrder& order, int f
     const Matrix3 right =
         BlockMatrix::ConstBlock(inverse_cholesky.data() + BlockMatrix::kStride * static_cast<std::size_t>(c))
             .transpose();
-    // The bodies' rows are the last ones of a column, each body's are neighbours, and none lies transposed.
+    // The bodies' rows are the last ones of a column; those of one body are consecutive, and none is stored transposed.
     for (int k = order.column_start[c + 1] - kRows; k >= order.column_start[c] && order.row[k] >= first_row_;
          k -= kRows) {
       Eigen::Matrix<double, 3 * kRows, 3> B;
       for (int r = 0; r < kRows; ++r) B.middleRows<3>(3 * r) = matrix.block(order.source[k + r]);
-      if (B.isZero(0.0)) continue;  // a contact that may come
+      if (B.isZero(0.0)) continue;  // no contact yet
       B = inverse_[(order.row[k] - first_row_) / kRows] * (B * right);
       for (int r = 0; r < kRows; ++r) write(k + r, B.middleRows<3>(3 * r));
     }
@@ -52,7 +52,7 @@ void BodyBlocks::scale(const BlockMatrix& matrix, const SweepOrder& order, int f
     const Block right = inverse_[(c - first_row_) / kRows].transpose();
     const int own = kRows - 1;  // blocks below the diagonal within the body in its first column
     for (int k = order.column_start[c] + own; k < order.column_start[c + 1]; k += kRows) {
-      // Each of the body's columns has one block fewer than that before it.
+      // Each of the body's columns has one block fewer than the previous one.
       const auto at = [&](int row, int column) {
         return order.column_start[c + column] + (k - order.column_start[c]) - column + row;
       };

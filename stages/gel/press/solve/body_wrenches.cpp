@@ -7,7 +7,7 @@ void add_body_wrenches(const ContactMesh& mesh, const ContactTerm& term, double 
   const int count = mesh.num_bodies();
   for (const int i : term.active(x)) {
     const std::span<const int> v = term.stencil(i);
-    // The first side of a pair is its first vertex, or two; the last vertex belongs to the second.
+    // The first side of a pair is its first vertex or its first two; the last vertex belongs to the second side.
     const int first = mesh.body_of(v[0]), second = mesh.body_of(v[3]);
     if (first == second) continue;
     const FourPoints points{x.row(v[0]), x.row(v[1]), x.row(v[2]), x.row(v[3])};

@@ -1,4 +1,4 @@
-// Which body acts on which, and by how much.
+// Contact wrenches between bodies.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace tacipc {
 
-/// Adds what a contact term does at x between any two bodies (ContactMesh::body_of()), −weight × its gradient: on body
-/// a by body b at a × number of bodies + b, force in N and torque about the world's origin in N m where weight × the
-/// term is an energy in J. What a body does to itself is left out.
+/// Adds the wrenches by which a contact term acts at x between any two bodies (ContactMesh::body_of()), −weight × its
+/// gradient. The wrench on body a by body b is at index a × number of bodies + b: force in N and torque about the
+/// world's origin in N m if weight × the term is an energy in J. Contact of a body with itself is left out.
 void add_body_wrenches(const ContactMesh& mesh, const ContactTerm& term, double weight, const Positions& x,
                        std::vector<Wrench>& between);
 

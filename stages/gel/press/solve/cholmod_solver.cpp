@@ -12,7 +12,7 @@ extern "C" void openblas_set_num_threads(int);
 namespace tacipc {
 
 struct CholmodSolver::State {
-  Eigen::SparseMatrix<double> matrix;  // lower triangle: of a diagonal block only its lower half
+  Eigen::SparseMatrix<double> matrix;  // lower triangle; of a diagonal block only its lower half
   Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>> factor;
   std::shared_ptr<const BlockPattern> pattern;
 
@@ -56,7 +56,7 @@ struct CholmodSolver::State {
 };
 
 CholmodSolver::CholmodSolver() : state_(std::make_unique<State>()) {
-  // Debian's CHOLMOD opens four OpenMP threads whatever is asked for; with no active level left it runs them as one.
+  // Debian's CHOLMOD opens four OpenMP threads whatever number is set; without an active level they run as one.
   omp_set_max_active_levels(0);
   openblas_set_num_threads(1);
   reserve_blas_memory(1);
@@ -67,7 +67,7 @@ CholmodSolver::CholmodSolver() : state_(std::make_unique<State>()) {
   common.method[0].ordering = CHOLMOD_METIS;
   common.postorder = 1;
   common.final_ll = 1;
-  common.try_catch = 1;  // a matrix that is not positive definite is an answer here, not an error to print
+  common.try_catch = 1;  // no error messages: a matrix that is not positive definite is an expected result here
 }
 
 CholmodSolver::~CholmodSolver() = default;

@@ -7,8 +7,8 @@
 
 namespace tacipc {
 
-/// Orders and analyses once per pattern; factorises as often as asked. Always one thread: CHOLMOD and BLAS change the
-/// last bits of a result with the number of theirs.
+/// Direct solver: orders and analyses once per pattern and factorises in every prepare(). It uses one thread, because
+/// CHOLMOD and BLAS change the last bits of a result with the number of threads.
 class CholmodSolver final : public LinearSolver {
  public:
   CholmodSolver();
@@ -16,9 +16,9 @@ class CholmodSolver final : public LinearSolver {
   CholmodSolver(const CholmodSolver&) = delete;
   CholmodSolver& operator=(const CholmodSolver&) = delete;
 
-  /// Factorises. \throw SolverError when out of memory or on an internal fault.
+  /// Factorises. \throw SolverError if out of memory or on an internal error
   bool prepare(const BlockMatrix& matrix, const std::vector<char>* changed = nullptr) override;
-  /// A⁻¹ b by the last factorisation, never empty.
+  /// A⁻¹ b by the last factorisation; never empty.
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
 
  private:

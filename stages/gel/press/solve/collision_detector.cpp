@@ -55,7 +55,7 @@ bool CollisionDetector::within_one_body(const ContactPair& pair) const {
 }
 
 double CollisionDetector::smallest_gap(const Positions& x, double none) {
-  // Where anything touches, the pairs within d̂ suffice: a wider search finds many times as many.
+  // If anything touches, the pairs within d̂ suffice: a wider search finds many times as many.
   std::vector<ContactPair> pairs = pairs_at(x);
   std::erase_if(pairs, [&](const ContactPair& pair) { return within_one_body(pair); });
   const double near = smallest_distance(pairs, x, none);

@@ -11,21 +11,21 @@
 namespace tacipc {
 namespace {
 
-// Vectors are padded: four numbers per row, the last of them zero, in the order of the sweeps. Blocks of L lie nine
-// numbers apart, so a column loaded as four has a foreign number at its end.
+// Vectors are padded: four numbers per row, the last of them zero, in the order of the sweeps. Blocks of L have nine
+// numbers each, so a column loaded as four ends with a number of the next column.
 constexpr std::ptrdiff_t kBlock = 9;
-// Sweeps ask for blocks so many numbers ahead: what the processor fetches by itself ends with a page of memory.
+// Distance, in numbers, at which sweeps prefetch blocks: the processor's own prefetching stops at the end of a page.
 constexpr std::ptrdiff_t kAhead = 512;
-// L is rounded to floats, so iterations stop at this part of the right-hand side. For more, the residual is computed
-// anew from the matrix and solved for.
+// L is rounded to floats, so iterations stop at this fraction of the right-hand side. For a finer tolerance, the
+// residual is computed from the matrix and solved for again.
 constexpr double kFloatTolerance = 1e-4;
-// Rows count as indefinite that contribute at least this part of the most negative contribution to a curvature.
+// Rows count as indefinite if they contribute at least this fraction of the most negative contribution to a curvature.
 constexpr double kIndefinitePart = 0.1;
-constexpr int kMinRowsForParts = 4000;  // sweeps go in parts from here on
+constexpr int kMinRowsForParts = 4000;  // smallest number of rows for which sweeps run in parts
 
 double total(const Quad& sum) { return (sum[0] + sum[1]) + (sum[2] + sum[3]); }
 
-/// C⁻¹ of A = C Cᵀ, lower triangle by columns; false if A is not positive definite.
+/// Computes C⁻¹ of A = C Cᵀ, lower triangle by columns. \return false if A is not positive definite
 bool invert_cholesky(const BlockMatrix::ConstBlock& A, BlockMatrix::Block out) {
   if (!(A(0, 0) > 0.0)) return false;
   const double i0 = 1.0 / std::sqrt(A(0, 0)), c10 = A(1, 0) * i0, c20 = A(2, 0) * i0;
@@ -46,7 +46,7 @@ bool invert_cholesky(const BlockMatrix::ConstBlock& A, BlockMatrix::Block out) {
 
 TACIPC_INLINE Quad three_of(const Quad& v) { return Quad{v[0], v[1], v[2], 0.0}; }
 
-/// SweepOrder as the loops see it.
+/// Pointers into a SweepOrder, for the loops.
 struct Blocks {
   const int *column_start, *row, *separator_start, *source;
   explicit Blocks(const SweepOrder& order)
@@ -56,7 +56,7 @@ struct Blocks {
         source(order.source.data()) {}
 };
 
-/// C_r⁻¹ B C_c⁻ᵀ of the blocks below the diagonal in columns first … last − 1 that are in a stale row or column.
+/// Writes C_r⁻¹ B C_c⁻ᵀ of the blocks below the diagonal in columns first … last − 1 that are in a stale row or column.
 TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* values, const double* inverse_cholesky,
                          const char* stale, float* lower) {
   constexpr auto kStride = static_cast<std::ptrdiff_t>(BlockMatrix::kStride);
@@ -72,8 +72,8 @@ TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* val
       Quad t[3];
       for (int j = 0; j < 3; ++j)
         t[j] = l0 * block[across * j] + l1 * block[across * j + down] + l2 * block[across * j + 2 * down];
-      // The fourth number of a column is the first of the next, which comes after it; the last one's is left alone, for
-      // it may be another part's.
+      // The fourth number of a column is the first of the next, which is written after it. The last column's fourth
+      // number is not written, because it may belong to another part.
       float* out = lower + kBlock * k;
       store_quad(out, t[0] * right[0]);
       store_quad(out + 3, t[0] * right[1] + t[1] * right[5]);
@@ -83,12 +83,12 @@ TACIPC_CLONES void scale(const Blocks& L, int first, int last, const double* val
   }
 }
 
-/// p = r + β p, t = (I + Lᵀ)⁻¹ p and q = p − t in rows first … last − 1, where t is known in all that come later.
+/// Sets p = r + β p, t = (I + Lᵀ)⁻¹ p and q = p − t in rows first … last − 1, given t in all later rows.
 TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* lower, double beta, const double* r,
                             double* p, double* t, double* q) {
   for (std::ptrdiff_t c = last - 1; c >= first; --c) {
     Quad s0 = {}, s1 = {}, s2 = {};
-    // Near rows last: they have only just been found.
+    // Near rows come last: they have only just been computed.
     for (std::ptrdiff_t k = L.column_start[c + 1] - 1; k >= L.column_start[c]; --k) {
       const float* block = lower + kBlock * k;
       __builtin_prefetch(block - kAhead);
@@ -105,8 +105,9 @@ TACIPC_CLONES void sweep_up(const Blocks& L, int first, int last, const float* l
   }
 }
 
-/// y = (I + L)⁻¹ y in rows first … last − 1, but t + that where there is a t; what it contributes to the separator's
-/// rows is added to `separator`, which begins with row `separator_row`. Returns pᵀy where there is a p.
+/// Sets y = (I + L)⁻¹ y in rows first … last − 1, plus t if it is given. Contributions to the separator's rows are
+/// added to `separator`, which begins with row `separator_row`.
+/// \return pᵀy if p is given
 TACIPC_CLONES double sweep_down(const Blocks& L, int first, int last, const float* lower, const double* t,
                                 const double* p, double* y, double* separator, int separator_row) {
   Quad sum = {};
@@ -135,7 +136,7 @@ TACIPC_CLONES double dot_product(const double* a, const double* b, int first, in
   return total(sum);
 }
 
-/// x += α t, r −= α q in rows first … last − 1; returns rᵀr.
+/// Sets x += α t, r −= α q in rows first … last − 1. \return rᵀr
 TACIPC_CLONES double advance(double alpha, const double* t, const double* q, double* x, double* r, int first,
                              int last) {
   Quad sum = {};
@@ -148,7 +149,7 @@ TACIPC_CLONES double advance(double alpha, const double* t, const double* q, dou
   return total(sum);
 }
 
-/// x = C⁻¹ x, or C⁻ᵀ x.
+/// Sets x = C⁻¹ x, or C⁻ᵀ x.
 TACIPC_CLONES void unscale(const double* inverse_cholesky, bool transposed, double* x, int n) {
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const double* block = inverse_cholesky + static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * i;
@@ -169,7 +170,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind) {
   return std::make_unique<ConjugateGradient>();
 }
 
-/// The same for any number of threads: the parts are.
+/// Sums a function over the parts, whose number does not depend on threads.
 template <typename Part>
 double ConjugateGradient::over_parts(Part&& part) {
   std::array<double, kParts> found{};
@@ -186,7 +187,7 @@ double ConjugateGradient::over_parts(Part&& part) {
   return sum;
 }
 
-/// y = (I + L)⁻¹ y, or t + that and pᵀy of it.
+/// Sets y = (I + L)⁻¹ y, plus t if it is given. \return pᵀy if p is given
 double ConjugateGradient::forward(const double* t, const double* p, double* y) {
   const Blocks L(order_);
   const int separator = order_.separator(), n = order_.num_rows();
@@ -211,14 +212,14 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix, const std::vector<cha
     order_ = make_sweep_order(pattern, n > kMinRowsForParts ? kParts : 1);
     changed = nullptr;
   }
-  // Bodies' rows are coupled to many others.
+  // Rows of bodies are coupled to many others.
   if (!changed || first_body_row < n) {
     stale_.assign(static_cast<std::size_t>(n), 1);
   } else {
     for (int r = 0; r < n; ++r) stale_[order_.row_of[r]] |= (*changed)[r];
   }
   inverse_cholesky_.resize(BlockMatrix::kStride * static_cast<std::size_t>(n), 0.0);  // stays zero above diagonals
-  // At the bodies' rows scale() then leaves zeros.
+  // scale() then leaves zeros in the bodies' rows.
   std::fill(inverse_cholesky_.end() - static_cast<std::ptrdiff_t>(BlockMatrix::kStride) * (n - first_body_row),
             inverse_cholesky_.end(), 0.0);
   indefinite_rows_.clear();
@@ -232,7 +233,7 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix, const std::vector<cha
   const std::vector<int> of_bodies = bodies_.factorise(matrix);
   indefinite_rows_.insert(indefinite_rows_.end(), of_bodies.begin(), of_bodies.end());
   if (!indefinite_rows_.empty()) return false;
-  // One number more: the last column is loaded as four, too.
+  // One extra number: the last column is also loaded as four.
   lower_.resize(static_cast<std::size_t>(kBlock) * order_.row.size() + 1);
   lower_.back() = 0.0F;
   const auto scale_columns = [&](int /*part*/, int first, int last) {
@@ -246,7 +247,7 @@ bool ConjugateGradient::prepare(const BlockMatrix& matrix, const std::vector<cha
   return true;
 }
 
-/// The scaled matrix takes t to (I + L) q: row by row, tᵀ(I + L) q is what each row contributes to pᵀÂp.
+/// The scaled matrix maps t to (I + L) q; the terms of tᵀ(I + L) q are the contributions of the rows to pᵀÂp.
 void ConjugateGradient::find_indefinite_rows() {
   indefinite_rows_.clear();
   const int n = order_.num_rows();
@@ -285,7 +286,7 @@ std::optional<Eigen::VectorXd> ConjugateGradient::factorize(const Eigen::VectorX
 std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b) {
   auto x = iterate(b, std::max(tolerance_, kFloatTolerance));
   const int factorized_before = factorized_;
-  // What rounding the matrix left out of it.
+  // Refinement of the error by rounding L to floats.
   for (double left = kFloatTolerance; x && left > tolerance_ && factorized_ == factorized_before;
        left *= kFloatTolerance) {
     const auto rest = iterate(b - matrix_->multiply(*x), std::max(tolerance_ / left, kFloatTolerance));
@@ -298,7 +299,7 @@ std::optional<Eigen::VectorXd> ConjugateGradient::solve(const Eigen::VectorXd& b
 std::optional<Eigen::VectorXd> ConjugateGradient::iterate(const Eigen::VectorXd& b, double tolerance) {
   const int n = order_.num_rows(), separator = order_.separator();
   const Blocks L(order_);
-  // The fourth numbers of all are zero once and stay so.
+  // The fourth numbers of all rows are set to zero once and stay zero.
   for (AlignedVector<double>* v : {&r_, &t_, &q_}) v->resize(4 * static_cast<std::size_t>(n), 0.0);
   for (AlignedVector<double>* v : {&x_, &p_}) v->assign(4 * static_cast<std::size_t>(n), 0.0);
   for (int i = 0; i < n; ++i) Eigen::Map<Vector3>(r_.data() + 4 * order_.row_of[i]) = b.segment<3>(3 * i);

@@ -12,16 +12,19 @@
 
 namespace tacipc {
 
-/// Conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start. With A = L + D + Lᵀ, D the 3 ×
-/// 3 blocks on the diagonal, those of a body one of 12 × 12, M = (D + L) D⁻¹ (D + Lᵀ). After scaling by the Cholesky
-/// factors of D (D = I) the preconditioned matrix is
-///   Â = (I + L)⁻¹ A (I + Lᵀ)⁻¹,   Â p = t + (I + L)⁻¹ (p − t),   t = (I + Lᵀ)⁻¹ p   [Eisenstat 1981],
-/// two sweeps over L with as many operations as a product with A, for less than half of the iterations that D alone as
-/// M takes. In every iteration xᵀAx = xᵀb, so an unfinished solution is a descent direction, too. A gel is thin and
-/// glued at the back: forces reach about a thickness far, and some twenty iterations are enough whatever its size.
-/// L is kept in single precision: a sweep waits for memory, and Newton steps are asked for to a hundredth or a
-/// thousandth. Where more is asked for, solutions are refined with the matrix itself. Sweeps and sums run in a fixed
-/// order. Where the iterations do not suffice, the system is factorised.
+/// Conjugate gradients from x = 0 until √(rᵀM⁻¹r) is below `tolerance` times its start. A = L + D + Lᵀ, with D the 3 ×
+/// 3 diagonal blocks (12 × 12 for a body), and the preconditioner is M = (D + L) D⁻¹ (D + Lᵀ).
+///
+/// After scaling by the Cholesky factors of D, so that D = I, the preconditioned matrix is
+///   Â = (I + L)⁻¹ A (I + Lᵀ)⁻¹,   Â p = t + (I + L)⁻¹ (p − t),   t = (I + Lᵀ)⁻¹ p   [Eisenstat 1981].
+/// A product with Â takes two sweeps over L, as many operations as a product with A. It needs less than half of the
+/// iterations that M = D would need. In every iteration xᵀAx = xᵀb, so an unfinished solution is also a descent
+/// direction. A gel is thin and glued at the back: forces reach about one thickness far, and some twenty iterations
+/// suffice for any size.
+///
+/// L is stored in single precision, because sweeps are bound by memory and Newton steps need only two or three digits.
+/// For a finer tolerance, solutions are refined with the matrix itself. Sweeps and sums run in a fixed order. If the
+/// iterations do not suffice, the system is factorised.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(double tolerance = 1e-3, int max_products = 1000)
@@ -29,13 +32,13 @@ class ConjugateGradient final : public LinearSolver {
 
   bool prepare(const BlockMatrix& matrix, const std::vector<char>* changed = nullptr) override;
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b) override;
-  /// Rows whose diagonal block is not positive definite; or, where pᵀÂp ≤ 0, those that contribute most to
-  /// that. Of a body all or none.
+  /// Rows whose diagonal block is not positive definite; or, if pᵀÂp ≤ 0, the rows that contribute most to it. A body
+  /// has all of its rows in the list or none.
   std::vector<int> indefinite_rows() const override { return indefinite_rows_; }
   void set_tolerance(double relative) override { tolerance_ = relative; }
-  /// Products with Â so far.
+  /// Number of products with Â so far.
   std::int64_t num_products() const override { return products_; }
-  /// Systems that had to be factorised.
+  /// Number of systems that had to be factorised.
   int num_factorized() const override { return factorized_; }
 
  private:
@@ -51,15 +54,15 @@ class ConjugateGradient final : public LinearSolver {
   double tolerance_;
   int max_products_;
   const BlockMatrix* matrix_ = nullptr;
-  std::shared_ptr<const BlockPattern> pattern_;  // that order_ belongs to
+  std::shared_ptr<const BlockPattern> pattern_;  // pattern of order_
   SweepOrder order_;
-  std::vector<char> stale_;                 // rows, in this order, whose blocks have changed since they were scaled
-  std::vector<float> lower_;                // L, scaled, nine numbers a block, as order_ has them
-  AlignedVector<double> inverse_cholesky_;  // C⁻¹ of the diagonal blocks C Cᵀ, as BlockMatrix has blocks; not of bodies
+  std::vector<char> stale_;                 // per row in this order: its blocks have changed since they were scaled
+  std::vector<float> lower_;                // scaled L, nine numbers per block, in the order of order_
+  AlignedVector<double> inverse_cholesky_;  // C⁻¹ of the diagonal blocks C Cᵀ, blocks as in BlockMatrix; without bodies
   BodyBlocks bodies_;
-  AlignedVector<double> x_, r_, p_, t_, q_;                 // of the last solve; their storage is used again
-  std::array<AlignedVector<double>, kParts> to_separator_;  // from each part in a sweep
-  std::optional<CholmodSolver> direct_;                     // once it is needed
+  AlignedVector<double> x_, r_, p_, t_, q_;                 // vectors of the last solve; their storage is reused
+  std::array<AlignedVector<double>, kParts> to_separator_;  // contributions of each part in a sweep
+  std::optional<CholmodSolver> direct_;                     // created when first needed
   std::int64_t products_ = 0;
   int factorized_ = 0;
   std::vector<int> indefinite_rows_;

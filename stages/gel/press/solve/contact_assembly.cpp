@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::size_t kStencilsPerChunk = 1024, kChunksAtATime = 16;
 
-/// Derivatives of all pairs in a row that push on one primitive of the gel.
+/// Sum of the derivatives of consecutive pairs that push on one primitive of the gel.
 struct Sum {
-  std::array<int, 3> vertices;  // of the gel
+  std::array<int, 3> vertices;  // gel vertices
   int count;
   Quad gradient[3] = {};
-  Quad blocks[PackedBlocks::kBlocks][3] = {};  // by columns, as BlockMatrix has them
+  Quad blocks[PackedBlocks::kBlocks][3] = {};  // by columns, laid out as in BlockMatrix
 };
 
 /// A pair that is evaluated by itself.
@@ -30,7 +30,7 @@ struct Chunk {
   std::vector<Single> singles;
 };
 
-/// The gel's primitive of a pair of gel and object, if some of its vertices are free and the others stand still.
+/// Gel primitive of a gel–object pair, if some of its vertices are free and the others do not move.
 std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVertices& free, int first_object_vertex,
                                             const ObjectMotion& motion) {
   if (motion.in_full) return std::nullopt;
@@ -54,7 +54,7 @@ std::optional<WantedVertices> gel_primitive(std::span<const int> v, const FreeVe
 
 PairVertices wanted_vertices(std::span<const int> v, const FreeVertices& free, int first_object_vertex,
                              const ObjectMotion& motion) {
-  // A body's points take part of all of its vertices.
+  // Control points of a body receive contributions of all of its vertices.
   if (!free.carried.empty() && std::any_of(v.begin(), v.end(), [&](int k) { return free.carrier(k) != nullptr; }))
     return kAllPairVertices;
   const bool with_object = motion.in_full || motion.translation != Vector3::Zero();
@@ -91,7 +91,7 @@ TACIPC_CLONES void add_lanes(const PackedBlocks& from, int lanes, int vertices, 
   }
 }
 
-/// Leaves the change of the blocks in `out`, and no gradient.
+/// Subtracts old blocks: `out` becomes the change, without gradient.
 TACIPC_CLONES void subtract_blocks(int vertices, const PackedBlocks& old, PackedBlocks& out) {
   for (int b = 0; b < vertices; ++b) {
     for (Pack& g : out.gradient[b]) g = Pack{};
@@ -132,9 +132,9 @@ void scatter(const Sum& sum, double weight, const FreeVertices& free, const Vect
   }
 }
 
-/// Adds weight × these stencils in a fixed order. Those of gel and object are evaluated eight at a time by
-/// evaluate_pack(which, count, primitive, blocks), all others one by one by evaluate_single(stencil, wanted, local),
-/// which is false for one that vanishes.
+/// Adds weight × these stencils in a fixed order. Stencils of gel and object are evaluated eight at a time by
+/// evaluate_pack(which, count, primitive, blocks). All others are evaluated one by one by evaluate_single(stencil,
+/// wanted, local), which returns false for a stencil that vanishes.
 template <typename EvaluatePack, typename EvaluateSingle>
 void add_stencils(double weight, const ContactTerm& term, const std::vector<int>& stencils, const FreeVertices& free,
                   int first_object_vertex, const ObjectMotion& motion, NewtonSystem& system,
@@ -165,7 +165,7 @@ void add_stencils(double weight, const ContactTerm& term, const std::vector<int>
       std::fill(pack.begin() + count, pack.end(), pack[0]);
       PackedBlocks found;
       evaluate_pack(pack, count, *primitive, found);
-      // Pointers to sums below: none may be moved by growth.
+      // Pointers to sums follow below: growth must not move any.
       if (out.sums.capacity() < out.sums.size() + kLanes) out.sums.reserve(2 * out.sums.size() + 8 * kLanes);
       std::array<Sum*, kLanes> sums;
       for (int lane = 0; lane < count; ++lane) {
@@ -198,7 +198,7 @@ void add_stencils(double weight, const ContactTerm& term, const std::vector<int>
   }
 }
 
-/// The shares of eight stencils.
+/// Shares of eight stencils.
 Pack shares_of(const ContactTerm& term, const StencilPack& which, const Blend& blend) {
   Pack shares;
   for (int l = 0; l < kLanes; ++l) shares[l] = blend.share(term.stencil(which[l]));

@@ -28,7 +28,7 @@ TACIPC_CLONES void scatter_straight(const ElasticPacks::Derivatives& from, const
   }
 }
 
-/// The same with blocks that may lie transposed.
+/// Adds weight × the blocks of one pack, any of which may be stored transposed.
 void scatter_any(const ElasticPacks::Derivatives& from, const Places& places, double weight, double* values) {
   for (int b = 0; b < ElasticPacks::kBlocks; ++b) {
     for (int l = 0; l < kLanes; ++l) {

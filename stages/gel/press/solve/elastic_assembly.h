@@ -1,4 +1,4 @@
-// The elasticity's part of Newton's system, where its elements come in packs.
+// Assembly of the elasticity into the Newton system, for elements that are evaluated in packs.
 #pragma once
 
 #include <memory>
@@ -11,19 +11,20 @@
 
 namespace tacipc {
 
-/// Adds the exact derivatives of the packed elements of one elasticity to a system. Where each block of each element
-/// goes is looked up once per pattern.
+/// Adds the exact derivatives of the packed elements of one elasticity to a system. The destination of each block of
+/// each element is looked up once per pattern.
 class ElasticAssembly {
  public:
-  /// \pre both outlive it
+  /// \pre `packs` and `free` outlive it
   ElasticAssembly(const ElasticPacks& packs, const FreeVertices& free);
 
-  /// `pressure`: of ElasticPacks::derivatives, pack by pack, or nothing. \pre prescribed vertices of the gel stand
-  /// still
+  /// Adds gradient and Hessian.
+  /// \param pressure see ElasticPacks::derivatives, pack by pack; may be empty
+  /// \pre prescribed vertices of the gel do not move
   void add(const Positions& x, std::span<const double> pressure, double weight, NewtonSystem& system);
-  /// The same to a system whose Hessian still holds what the last add() and update() put there: the Hessians of packs
-  /// are renewed, and their rows marked, in which one has changed by more than `tolerance` (ElasticPacks::change), the
-  /// gradient is exact.
+  /// Updates a system whose Hessian still holds the values of the last add() or update(). The gradient is exact. The
+  /// Hessian of a pack is recomputed, and its rows are marked, if it has changed by more than `tolerance`
+  /// (ElasticPacks::change).
   void update(const Positions& x, std::span<const double> pressure, double tolerance, NewtonSystem& system,
               std::vector<char>& changed_rows);
   /// Whether the last add() or update() changed a pack's Hessian.
@@ -36,14 +37,14 @@ class ElasticAssembly {
 
   const ElasticPacks& packs_;
   const FreeVertices& free_;
-  SeparateGroups groups_;                        // of packs
-  std::shared_ptr<const BlockPattern> pattern_;  // that the two below belong to
-  /// Block of the matrix: its index, or −1 − its index where it lies transposed, or kNowhere.
+  SeparateGroups groups_;                        // groups of packs
+  std::shared_ptr<const BlockPattern> pattern_;  // pattern of places_ and none_transposed_
+  /// Destination of each block: its index in the matrix, −1 − its index if it is stored transposed, or kNowhere.
   std::vector<std::array<std::array<int, kLanes>, ElasticPacks::kBlocks>> places_;
-  std::vector<bool> none_transposed_;  // of a pack's blocks
+  std::vector<bool> none_transposed_;  // per pack: none of its blocks is stored transposed
   double weight_ = 0.0;
-  std::vector<ElasticPacks::State> states_;  // where the Hessians are those of
-  std::vector<char> changed_;
+  std::vector<ElasticPacks::State> states_;  // per pack: state at which its Hessian was computed
+  std::vector<char> changed_;                // per pack: whether the last call changed its Hessian
 };
 
 }  // namespace tacipc

@@ -34,7 +34,7 @@ void finish_bodies(const SolverModel& model, const std::vector<Wrench>& between,
     const AffineBody& body = model.bodies[i];
     const int first = model.mesh.control_row(b);
     if (next == step.bodies.size() || step.bodies[next].body != b) {
-      // Whoever moves it gives it the momentum of its rigid motion.
+      // A held body gets the momentum of its prescribed rigid motion.
       const ControlPoints before = state.x.middleRows<4>(first);
       const ControlPoints now =
           ControlPoints(step.goal.control_target.middleRows<4>(4 * b)).rowwise() + step.object_shift.transpose();

@@ -1,4 +1,4 @@
-// Bodies that move freely in a time step: their terms, and their momentum after it.
+// Free bodies in a time step: their energy terms, and their momentum after the step.
 #pragma once
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 
 namespace tacipc {
 
-/// Predicts where free bodies fly without contact, and adds their inertia and the energy that keeps their shape.
+/// Predicts the flight of free bodies without contact, and adds their inertia and the energy that keeps their shape.
 void add_free_bodies(const SolverModel& model, const State& state, Step& step);
 
-/// Momentum of all bodies after the step, and in the step's report the largest imbalance of a free body.
+/// Updates the momentum of all bodies after the step, and writes the largest imbalance of a free body into the report.
 /// \param between contact wrenches at the end of the step (StepForces::between)
 void finish_bodies(const SolverModel& model, const std::vector<Wrench>& between, Step& step, State& state);
 

@@ -9,10 +9,12 @@
 namespace tacipc {
 namespace {
 
-// Along a longer way of gels and object past each other pairs are not searched: × d̂, or × the median edge of the front.
+// Largest relative displacement of gels and objects for which pairs are searched at once: × d̂, or × the median edge of
+// the front.
 constexpr double kLongestWay = 20.0, kLongestWayOfEdge = 4.0;
 
-/// Displacement of a body at these points with the moving gels that it touches, if any: the mean of their motions.
+/// Displacement of a body at these points with the moving gels that it touches: the mean of their rigid motions.
+/// Nothing if it touches none.
 std::optional<Positions> way_with_gels(const SolverModel& model, CollisionDetector& detector, const Step& step,
                                        const ObjectPart& object, const Positions& points) {
   const StepGoal& goal = step.goal;
@@ -59,16 +61,16 @@ void start_ahead(const SolverModel& model, CollisionDetector& detector, const St
     const ControlPoints before = state.x.middleRows<4>(model.mesh.control_row(free.body));
     auto points = p.middleRows<4>(model.mesh.control_row(free.body));
     if (const auto way = mounts ? way_with_gels(model, detector, step, model.mesh.objects[i], before) : std::nullopt) {
-      // Gaps are far smaller than what a held object and its fingers would slide past each other otherwise.
+      // With free flight, a held object and its fingers would slide past each other by far more than their gap.
       points = *way;
     } else {
-      // Without its weight, which contact mostly carries.
+      // Without its weight, which contact mostly supports.
       points = predicted(model.bodies[i], before, state.object_motion[i], Vector3::Zero(), goal.h_s) - before;
     }
   }
   for (const CarriedBody& body : step.newton.free().carried) body.carry(p);
   if (mounts) p.topRows(model.mesh.num_gel_vertices) = goal.gel_motion;
-  // Piece by piece: a search for pairs along a long way would find too many.
+  // The displacement is made in pieces, because a search for pairs along all of it would find too many.
   const double pieces = std::ceil(relative_way(model.mesh, p) / longest_way(model.settings));
   const Positions piece = p / std::max(1.0, pieces);
   double part = 0.0;

@@ -3,7 +3,7 @@
 namespace tacipc {
 namespace {
 
-/// Calls use(object, its rows of the target) for objects that are not free in this step.
+/// Calls use(object, its rows of the target) for each held object.
 template <typename Use>
 void for_each_held(const ContactMesh& mesh, const Step& step, Use&& use) {
   std::size_t next = 0;

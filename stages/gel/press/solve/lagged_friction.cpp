@@ -11,26 +11,26 @@
 namespace tacipc {
 namespace {
 
-// Renewals before iterations of Newton's method end with one that changes less than this part of the limit, or where
-// this many in a row have not halved the change: the last of these is not made.
+// Updates before Newton iterations end when one changes friction by less than kSettledPart of the limit, or when
+// kMostRenewals in a row have not halved the change. In the second case the last update is not made.
 constexpr double kSettledPart = 0.1;
 constexpr int kMostRenewals = 6;
-// Nor is one made that would change more than so many times as much as the least so far, where that was within the
-// limit: vertices are on their way over an edge, with forces that do not last.
+// An update is also skipped if it would change friction by more than kJump times the least change so far, once that was
+// within the limit: vertices are then moving over an edge, with forces that do not last.
 constexpr double kJump = 3.0;
-// Friction that such renewals left is renewed at minima until its residual is below this part of the limit, too; after
-// so many of these the limit itself will do.
+// Friction that was updated before iterations is updated at minima until its residual is below kStrictPart of the
+// limit; after kStrictRenewals such updates the limit itself suffices.
 constexpr double kStrictPart = 0.3;
 constexpr int kStrictRenewals = 8;
-constexpr double kLagSlack = 0.5;  // part of each gap left where friction is lagged once
-// Factor on the tolerances until friction has first been renewed at a minimum, and after the strict renewals as long as
-// friction is far from settled: its residual so many times the limit.
+constexpr double kLagSlack = 0.5;  // fraction of each gap that is left if friction is lagged once
+// kLooseness is the factor on the tolerances until friction has first been updated at a minimum, and after the strict
+// updates while friction is far from settled: residual above kFarFromSettled times the limit.
 constexpr double kLooseness = 10.0, kFarFromSettled = 5.0;
-// The strict renewals leave minima early: residual forces are brought to what has just been changed, with tolerances at
-// most so many times as loose. Not beside bodies that move freely: their balance says where they are.
+// Strict updates leave minima early: residual forces need only fall to the change just made, with tolerances at most
+// this many times as loose. Not with free bodies, because their balance determines their position.
 constexpr double kMostLooseness = 40.0;
-// Where a residual is more than this part of the last one, renewals converge too slowly: then only half of the new
-// friction is mixed in, a quarter, …, at least the second.
+// If a residual is more than kSlowRenewal of the last one, updates converge too slowly. Then only half of the new
+// friction is mixed in, then a quarter, and so on, at least kSmallestRenewal.
 constexpr double kSlowRenewal = 0.8, kSmallestRenewal = 0.1;
 
 }  // namespace
@@ -57,15 +57,15 @@ void LaggedFriction::start(Step& step) {
     }
     return;
   }
-  // Normal forces and tangent planes are those after the object alone has moved as far as half of every gap allows, so
-  // that contacts of this step have friction, too. [where the IPC authors' code lags friction]
+  // Friction is lagged at the positions after the objects alone have moved as far as half of every gap allows, so that
+  // contacts of this step also have friction, as in the IPC authors' code.
   Positions motion = way_of_held_objects(model_.mesh, step, step.start);
   for (const Step::Body& body : step.bodies) {
     const int first = model_.mesh.control_row(body.body);
     motion.middleRows<4>(first) = body.predicted - step.start.middleRows<4>(first);
   }
   for (const CarriedBody& body : step.newton.free().carried) body.carry(motion);
-  // Pairs that are near already mostly stop the object soon; only up to there the others need be searched.
+  // Near pairs usually stop the object soon; the other pairs need to be searched only up to there.
   GapRule rule = detector_.gap_rule(kLagSlack);
   rule.near_m = std::numeric_limits<double>::infinity();
   const double part = contact_step_limit(detector_.pairs_at(step.start), step.start, motion, rule);
@@ -97,7 +97,7 @@ void LaggedFriction::renew(Step& step, Minimisation& run) const {
       step.least_friction_change_n = changed;
       step.renewals_left = kMostRenewals;
     }
-    const bool last = --step.renewals_left == 0;  // vertices go to and fro: only friction that stays ends that
+    const bool last = --step.renewals_left == 0;  // vertices oscillate: only constant friction ends that
     if (last && step.bodies.empty()) step.looseness = kLooseness;
     const double least = step.least_friction_change_n;
     if (last || (least <= limit(step) && changed > kJump * least)) return;
@@ -116,14 +116,14 @@ void LaggedFriction::settle(Step& step, const std::function<void()>& minimise) {
   double renewal = 1.0, last_residual = std::numeric_limits<double>::infinity();
   int renewed_here = 0;
   while (true) {
-    // The residual force if normal forces and tangent planes were renewed now.
+    // Residual force if friction were updated now.
     const auto renewed = lagged_at(step.x, step);
     report.friction_residual_n = change(*renewed, step);
     log_debug("  lag {:3d}: residual {:.3e} N of {:.3e} N", report.lag_iterations, report.friction_residual_n,
               report.contact_force_n);
     const double allowed = limit(step);
-    // Renewed once at least: else some steps would keep older friction than others, and forces would jump between them
-    // by as much as the tolerance allows.
+    // Friction is updated at least once: else some steps would keep older friction than others, and forces would jump
+    // between them by up to the tolerance.
     const bool renewed_once = report.lag_iterations > 0 || friction.max_lag_iterations == 1;
     const bool strict = !friction.renewed_only_at_minima && renewed_here < kStrictRenewals;
     const bool settled = report.friction_residual_n <= (!renewed_once ? model_.settings.newton.force_tolerance_n
@@ -141,10 +141,10 @@ void LaggedFriction::settle(Step& step, const std::function<void()>& minimise) {
       ++renewed_here;
       if (report.friction_residual_n > kSlowRenewal * last_residual)
         renewal = std::max(0.5 * renewal, kSmallestRenewal);
-      if (early && renewed_here == kStrictRenewals) renewal = 1.0;  // that minima were left early may have slowed it
+      if (early && renewed_here == kStrictRenewals) renewal = 1.0;  // leaving minima early may have slowed convergence
       last_residual = report.friction_residual_n;
     }
-    if (renewed_once || !settled) {  // before the last minimum, too, which is sought in full anyway
+    if (renewed_once || !settled) {  // also before the last minimum, which is sought in full anyway
       ++report.lag_iterations;
       step.friction = renewal == 1.0 ? renewed : step.friction->mixed_with(*renewed, renewal);
     }

@@ -7,7 +7,8 @@ namespace tacipc {
 namespace {
 
 constexpr int kMaxHalvings = 40;
-constexpr double kFarthest = 0.3;  // of the longest displacement of a vertex: those that count as going farthest
+/// Fraction of the longest step of a vertex from which a step counts as one of the longest.
+constexpr double kFarthest = 0.3;
 
 }  // namespace
 
@@ -30,7 +31,7 @@ std::optional<double> line_search(const NewtonDirection& direction, double limit
     return timed(times.line_search_s, [&] { return run.energy.value(at, &run.active.at(at)); });
   };
   const double before = run.value ? *run.value : value(step.x);
-  // Near the minimum the decrease drowns in rounding; a step that changes nothing measurable is accepted, too.
+  // Near the minimum the decrease is below rounding; a step that changes nothing measurable is also accepted.
   const double rounding = kEnergyRounding * std::abs(before);
   double alpha = limit;
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, alpha *= 0.5) {

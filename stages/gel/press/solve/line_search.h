@@ -9,12 +9,12 @@
 namespace tacipc {
 
 /// Takes the longest of the steps limit, limit/2, … that decreases the energy.
-/// \return that step; absent, and nothing moved, if there is none
+/// \return the fraction of the direction taken; nothing if there is none, and then nothing moved
 std::optional<double> line_search(const NewtonDirection& direction, double limit, Step& step, Minimisation& run,
                                   SolverTimes& times);
 
-/// After a line search that had to shorten the step p: raises the PSD shares of the vertices that go farthest in it,
-/// the likely cause.
+/// Raises the PSD shares of the vertices with the longest steps, the likely cause why the line search had to shorten
+/// the step p.
 void raise_shares_of_farthest(const Positions& p, Blend& blend);
 
 /// √(max |row i|²) over the first `rows` rows.

@@ -64,7 +64,7 @@ LocalPatch grow_patch(const std::vector<int>& seeds, const PatchSize& size, cons
   for (std::size_t i = 0; i < inside.size(); ++i) own.row(static_cast<Eigen::Index>(i)) = tets.row(inside[i]);
   std::vector<bool> held = moves;
   held.flip();
-  FreeVertices free(all_free.vertex_of_free, held);  // in the order of the whole
+  FreeVertices free(all_free.vertex_of_free, held);  // numbering in the order of the whole gel
   free.num_control_points = all_free.num_control_points;
   return {std::move(moves), std::move(free), std::move(own)};
 }

@@ -1,4 +1,4 @@
-// A few vertices that still move while all others are at rest.
+// Patches: small sets of vertices that still move while all others are at rest.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@
 
 namespace tacipc {
 
-/// Vertices that may move, and what of the gel they are part of.
+/// A patch: its vertices and the tetrahedra around them.
 struct LocalPatch {
-  std::vector<bool> moves;  // per vertex
-  FreeVertices free;        // those vertices
-  Tetrahedra tets;          // with any of them
+  std::vector<bool> moves;  // one per vertex: whether it may move
+  FreeVertices free;        // the vertices that may move
+  Tetrahedra tets;          // tetrahedra with at least one of these vertices
 };
 
-/// Which tetrahedra each vertex is part of.
+/// Tetrahedra around each vertex.
 class TetsOfVertices {
  public:
   TetsOfVertices(const Tetrahedra& tets, Eigen::Index num_vertices);
@@ -32,22 +32,23 @@ class TetsOfVertices {
   std::vector<int> tets_;
 };
 
-/// How far a patch grows: so many rings of tetrahedra, and further ones until it has so many vertices.
+/// Growth of a patch: `rings` rings of tetrahedra, then up to `most_rings` until it has `fewest_vertices`.
 struct PatchSize {
   int rings = 1;
   int fewest_vertices = 0, most_rings = 0;
 };
 
-/// The vertices of `seeds` and their neighbours, without those that are prescribed.
+/// Patch of the vertices `seeds` and their neighbours, without prescribed vertices.
 LocalPatch grow_patch(const std::vector<int>& seeds, const PatchSize& size, const Tetrahedra& tets,
                       const TetsOfVertices& tets_of, const FreeVertices& all_free);
 
-/// The term's stencils with any vertex that moves, part by part where it is joined of several; null for null.
+/// Restriction of a term to the stencils with a vertex that moves, part by part if it is a JoinedTerm.
+/// \return null for a null term
 std::shared_ptr<const EnergyTerm> restricted(const std::shared_ptr<const EnergyTerm>& term,
                                              const std::vector<bool>& moves);
 
-/// The pairs `before` without those that have a vertex that moves, and after them the patch's `own`, which are all of
-/// those: what is near once the patch has moved.
+/// Replaces the pairs of a patch after it has moved: pairs of `before` without a moving vertex, followed by `own`, all
+/// pairs that have one.
 std::vector<ContactPair> with_patch(std::vector<ContactPair> before, const std::vector<bool>& moves,
                                     const std::vector<ContactPair>& own);
 

@@ -12,25 +12,25 @@
 namespace tacipc {
 namespace {
 
-// Tolerances of the linear solver. The fine one is for moves, which no line search guards: an error there takes more
-// iterations afterwards than it saves. The loose one is for as long as friction will be renewed anyway.
+// Tolerances of the linear solver. The fine one is for moves, which no line search guards: an error there costs more
+// iterations later than it saves. The loose one is used while friction is still to be updated.
 constexpr double kLooseSolve = 3e-2, kCoarseSolve = 1e-2, kFineSolve = 1e-3;
-// A step this many times as long as the last one is a sign of an almost indefinite Hessian.
+// A step this many times as long as the last one indicates a nearly indefinite Hessian.
 constexpr double kLengthGrowth = 4.0;
 constexpr int kMaxExactHessianWaits = 10;
-// Residual of the balance of a free object: this fraction of its weight or load, at least of kLeastWeight; of torques
-// on an arm of kBodyTorqueArm_m.
+// Limit of the force residual of a free body, as a fraction of its weight or load, at least kLeastWeight; for torques
+// with the lever arm kBodyTorqueArm_m.
 constexpr double kBodyTolerance = 5e-4;
-// From so many whole steps in a row with an approximated Hessian on, each goes twice as far as the one before.
+// After this many consecutive full steps with an approximated Hessian, each step is twice as long as the one before.
 constexpr int kCreeping = 6;
 constexpr double kMostStretch = 1e3;
-// Multipliers are renewed at minima known to this part of the constraint's tolerance.
+// Multipliers are updated at minima that are accurate to this fraction of the constraint's tolerance.
 constexpr double kConstraintPart = 0.3;
 
-/// Lets the next step go farther if those before it crept.
+/// Lengthens the next step if the steps before it were small.
 void stretch_next(Minimisation& run, const NewtonDirection& direction, double alpha) {
-  // Where a body could fall over, its energy has no minimum nearby; the approximation is one with such a minimum, and
-  // step after step goes just a little way.
+  // If a body is about to fall over, its energy has no minimum nearby, but the approximated energy has one, so every
+  // step is short.
   if (alpha < 1.0) {
     run.stretch = std::max(1.0, 0.5 * run.stretch);
   } else if (direction.largest_share > 0.0) {
@@ -57,7 +57,7 @@ void Minimiser::minimise(Step& step) {
           detector_.smallest_gap(step.x, model_.settings.laws.reach_m()));
     }
     const bool moving = !step.arrived && !run.relax_next;
-    // Before the first iteration it is that of x already.
+    // In the first iteration, friction is already lagged at x.
     if (step.renewals_left > 0 && report.newton_iterations > 0) friction_.renew(step, run);
     NewtonDirection direction = find_direction(step, run, moving);
     const bool converged = within_tolerances(step, direction);
@@ -65,7 +65,7 @@ void Minimiser::minimise(Step& step) {
     if (converged && is_final(step, run, direction)) return;
 
     if ((step.goal.free_object || model_.mesh.gels.size() > 1) && !moving) {
-      // A light object may be asked to go far before it touches anything.
+      // The Newton step of a light object may be long before it touches anything.
       if (const double way = relative_way(model_.mesh, direction.p), most = longest_way(model_.settings); way > most) {
         direction.p *= most / way;
         direction.slope *= most / way;
@@ -86,7 +86,7 @@ void Minimiser::minimise(Step& step) {
       mover_.move(step, run, direction, alpha);
     } else {
       const std::optional<double> found = line_search(direction, limit, step, run, times_);
-      if (!found && converged) return;  // what the exact Hessian could still change is below rounding
+      if (!found && converged) return;  // the exact Hessian could change the energy only below rounding
       if (!found) {
         throw SolverError("line search found no decrease (step {:.2e} m/s, slope {:.2e}, smallest gap {:.2e} m)",
                           run.residual_m_s, direction.slope,
@@ -115,7 +115,7 @@ NewtonDirection Minimiser::find_direction(Step& step, Minimisation& run, bool mo
   if (moving && step.goal.gel_motion.size() > 0)
     motion.topRows(model_.mesh.num_gel_vertices) = run.part_of_motion * step.gel_way_left * step.goal.gel_motion;
   if (moving) model_.mesh.object_rows(motion) = run.part_of_motion * model_.mesh.object_rows(way);
-  // One direction differs from the next by more than a coarse solution leaves out of it.
+  // Successive directions differ by more than the error of a coarse solution.
   const bool loose =
       step.looseness > 1.0 && step.bodies.empty() && step.goal.free_axes.empty() && model_.mesh.gels.size() <= 1;
   step.newton.set_tolerance(moving ? kFineSolve : loose ? kLooseSolve : kCoarseSolve);
@@ -154,7 +154,7 @@ bool Minimiser::within_tolerances(const Step& step, const NewtonDirection& direc
     return false;
   if (!(report.velocity_residual_m_s < step.looseness * settings.velocity_tolerance_m_s)) return false;
   for (std::size_t b = 0; b < step.bodies.size(); ++b) {
-    // The gel's tolerance would leave a light object's weight unnoticed.
+    // Within the gel's tolerance, the weight of a light object would not matter.
     const double h2 = step.goal.h_s * step.goal.h_s,
                  limit = kBodyTolerance * std::max(step.bodies[b].weight_n, kLeastWeight) * step.looseness;
     if (!(direction.bodies[b].force / h2 < limit && direction.bodies[b].torque / h2 < limit * kBodyTorqueArm_m))
@@ -163,8 +163,8 @@ bool Minimiser::within_tolerances(const Step& step, const NewtonDirection& direc
   return report.force_residual_n < step.looseness * settings.force_limit_n(report.contact_force_n);
 }
 
-// The PSD approximation shortens steps, so that a vertex on the crest of one of the object's edges looks at rest. With
-// the exact Hessian it would not: a limited number of iterations is spent on waiting for it.
+// The PSD approximation shortens steps, so that a vertex on the crest of an edge of the object seems to be at rest,
+// although it would not be with the exact Hessian. A limited number of iterations waits for the exact Hessian.
 bool Minimiser::is_final(Step& step, Minimisation& run, const NewtonDirection& direction) const {
   const bool exact = direction.largest_share == 0.0 || !model_.settings.newton.adaptive_contact_hessian;
   if (exact || step.looseness > 1.0 || run.exact_hessian_waits == kMaxExactHessianWaits) return true;

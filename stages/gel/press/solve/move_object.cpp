@@ -10,29 +10,30 @@
 namespace tacipc {
 namespace {
 
-// Contacts are corrected by at most the first, a few of them by the second, × d̂.
+// Largest correction of most contacts, and of a few of them, × d̂.
 constexpr double kCorrection = 0.3, kLargestCorrection = 1.0;
 constexpr std::size_t kLargeCorrections = 3;
-constexpr double kSpare = 0.1;  // a correction may grow by this part of the most while others are made
+/// Margin, as a fraction of the largest correction, by which a correction may grow while others are made.
+constexpr double kSpare = 0.1;
 constexpr int kRounds = 3;
-// Part of its gap, at most d̂, that a corrected contact keeps at least: a little more than a move has to leave.
+// Smallest fraction of its gap, counted up to d̂, that a corrected contact keeps: slightly more than a move must leave.
 constexpr double kKeptGap = 1.03 * kMovingSlack;
-// A corrected move of which less than this may be made is compared with the one without corrections.
+// If less than this fraction of a corrected move is possible, it is compared with the uncorrected one.
 constexpr double kPoorMove = 0.5;
-// After a move as long as wanted the next one goes so many times as far; after less than this part of one, the gel is
+// After a complete move the next one is kMoveGrowth times as long; after less than kShortMove of one, the gel is
 // relaxed first.
 constexpr double kMoveGrowth = 2.0, kShortMove = 0.1;
-constexpr double kSmallestPart = 1e-3;  // of the rest of the object's motion that a move aims at
+constexpr double kSmallestPart = 1e-3;  // smallest fraction of the object's remaining motion that a move attempts
 
-/// Change of a pair's gap in a move, to first order: the normal stays.
+/// Change of a pair's gap in a move, to first order: the normal is constant.
 struct Approach {
   ClosestFeature feature;
   Vector3 normal;
   double gap_m, change_m;
-  double give = 0.0;  // Σ weight² over the gel's free vertices: what they do about it together
+  double give = 0.0;  // Σ weight² over the free gel vertices: their joint contribution to a correction
 };
 
-/// \param p displacements from x
+/// Approach of a pair in a move. \param p displacements from x
 Approach approach(const ContactPair& pair, const Positions& x, const Positions& p, const FreeVertices& free) {
   Approach a{.feature = closest_feature(pair, gather(x, pair)), .normal = {}, .gap_m = 0.0, .change_m = 0.0};
   a.gap_m = std::sqrt(a.feature.squared_distance);
@@ -45,7 +46,7 @@ Approach approach(const ContactPair& pair, const Positions& x, const Positions& 
   return a;
 }
 
-/// Part of p that corrections allow at the limiting pairs. \param reach_m d̂
+/// Fraction of p that corrections allow at the limiting pairs. \param reach_m d̂
 double correctable_part(const std::vector<ContactPair>& limiting, const Positions& x, const Positions& p,
                         const FreeVertices& free, double reach_m) {
   double part = 1.0;
@@ -73,11 +74,11 @@ struct Given {
 /// Corrects p at the limiting pairs once. \return whether any vertex is corrected
 bool correct(const std::vector<ContactPair>& limiting, const Positions& x, const FreeVertices& free, double reach_m,
              Positions& p) {
-  // Where a stiff contact has the gap d and a linear step changes it by −r d, its force is to grow by 1 + r: so it does
-  // at d / (1 + r).
+  // If a stiff contact has the gap d and a linear step changes it by −r d, its force should grow by 1 + r, which it
+  // does at the gap d / (1 + r).
   const double most = (1.0 + kSpare) * kLargestCorrection * reach_m;
-  // All are found before any is made, and a vertex takes the mean of those that it is given: the order of the pairs
-  // tells nothing.
+  // All corrections are computed before any is applied, and a vertex takes the mean of its corrections, so that the
+  // order of the pairs does not matter.
   std::map<int, Given> given;
   for (const ContactPair& pair : limiting) {
     const Approach a = approach(pair, x, p, free);

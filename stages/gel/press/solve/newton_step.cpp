@@ -10,21 +10,23 @@
 namespace tacipc {
 namespace {
 
-// Solves after each of which shares are raised about the vertices at fault; from then on about all where the system is
-// not positive definite, and about none where a step is merely long.
+// Number of solves after which shares are raised only locally. Afterwards they are raised at all vertices if the system
+// is not positive definite, and nowhere if a step is merely long.
 constexpr int kMaxLocalRaises = 8;
-// A vertex's block is its stiffness with all others held, much more than it has with neighbours that yield. Where it is
-// not positive definite without this part of the gel's own, the matrix is likely not to be there.
+// A vertex's diagonal block is its stiffness with all others fixed, much larger than with compliant neighbours. If the
+// block is not positive definite without this fraction of the gel's own stiffness, the matrix is probably not positive
+// definite there.
 constexpr double kHeldByOthers = 0.8;
 constexpr double kFullSolve = 1e-10;  // tolerance of a linear system whose coarser solution ascends
-// Elements keep the Hessian they were last assembled with until they have changed by this (ElasticPacks::change).
+// Elements keep the Hessian with which they were last assembled until they have changed by this (ElasticPacks::change).
 constexpr double kKeptHessian = 0.1;
-// Relative: the object's vertices go from rounded positions to rounded positions.
+// Relative tolerance, because the object's vertices move from rounded positions to rounded positions.
 constexpr double kSameTranslation = 1e-10;
 
-/// The least touch that is not zero, of gels, or of free bodies behind them where no gel is touched.
+/// Smallest nonzero contact sum of gels; if no gel is touched, of free bodies.
 double least_touch(const std::vector<double>& touches, int gels, const std::vector<bool>& without_mount) {
-  // Two fingers on a soft body cancel in its sum: gels that mounts hold tell more, and free bodies least.
+  // Two fingers on a soft body cancel in its sum, so gels on mounts come first, then bodies without a mount, and free
+  // bodies last.
   const auto rank = [&](int i) {
     return i >= gels ? 2 : !without_mount.empty() && without_mount[static_cast<std::size_t>(i)] ? 1 : 0;
   };
@@ -174,8 +176,7 @@ void NewtonStepper::mark_held() {
 std::vector<double> NewtonStepper::assemble_all(const Call& call, Order elastic, const Blend& blend) {
   const Positions& x = call.problem.x;
   const std::vector<WeightedTerm>& terms = call.problem.potential.terms;
-  // Carried along with their mounts, gels do not strain: of the Hessian times that motion only inertia and contact are
-  // left.
+  // Gels that move with their mounts do not strain: of the Hessian times that motion only inertia and contact remain.
   const Eigen::VectorXd along = free_motion(call.problem);
   const bool mounts_move = along.size() > 0;
   const Positions still = mounts_move ? Positions(Positions::Zero(x.rows(), 3)) : Positions();
@@ -262,7 +263,7 @@ bool NewtonStepper::solve(const NewtonProblem& problem, NewtonDirection& out) {
   const auto found = [&] { return solve_once(problem, out) && (driven || out.slope <= 0.0); };
   if (found()) return true;
   if (problem.free_axes.empty()) return false;
-  // The Schur complement of columns solved to a hundredth need not be positive definite, nor its solution descend.
+  // With columns solved to a hundredth, the Schur complement may be indefinite, and its solution may ascend.
   solver_->set_tolerance(kFullSolve);
   const bool solved = found();
   solver_->set_tolerance(tolerance_);
@@ -318,7 +319,7 @@ std::vector<int> NewtonStepper::indefinite_vertices() const {
     found.insert(found.end(), carried_alone_.begin(), carried_alone_.end());
     return found;
   }
-  // A body has no contact Hessian of its own to soften: that of all contacts is.
+  // A body has no contact Hessian of its own: shares are raised for all contacts.
   const bool body = std::any_of(found.begin(), found.end(), [&](int v) { return v >= first_object_vertex_; });
   if (body) found.insert(found.end(), carried_alone_.begin(), carried_alone_.end());
   const double* held = held_values_.data();
@@ -379,7 +380,7 @@ void NewtonStepper::measure_gels(const std::vector<double>& touches, NewtonDirec
   const std::vector<int>& gels = free_.gel_of_vertex;
   out.contact_sum = least_touch(touches, num_gels(), free_.gel_without_mount);
   out.gels.assign(static_cast<std::size_t>(num_gels()), {});
-  // Points of bodies are held to each other by their stiffness: what is missing to a body's balance says more.
+  // Control points of a body are held together by its stiffness; the residual of the body's balance is more meaningful.
   const int points = BlockPattern::kBodyRows * static_cast<int>(free_.carried.size());
   out.gradient_sum = 0.0;
   for (int i = 0; i < free_.size() - points; ++i) {
@@ -410,7 +411,7 @@ NewtonDirection NewtonStepper::direction(const NewtonProblem& problem, Blend& bl
     before = blend;
     bool raised = false;
     if (solve(problem, out)) {
-      // Where a vertex goes far with the approximation alone, it may.
+      // A vertex may make a long step if its share is 1.
       raised = !projected && tries <= kMaxLocalRaises && raise_shares(too_long(out, problem.longest_m));
       if (!raised) break;
     } else {

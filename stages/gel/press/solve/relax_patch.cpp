@@ -10,38 +10,41 @@
 namespace tacipc {
 namespace {
 
-constexpr double kMostSeeds = 0.01;   // largest part of the free vertices that a patch starts from
-constexpr int kFewestVertices = 400;  // that are free: with fewer a step of all costs no more than a patch
-// Where more vertices than that move: the farthest of the seeds goes so many times as far as any other vertex.
+constexpr double kMostSeeds = 0.01;  // largest fraction of the free vertices from which a patch starts
+/// Smallest number of free vertices; with fewer a step of the whole gel costs no more than a patch.
+constexpr int kFewestVertices = 400;
+// If more vertices move, the farthest seed must move this many times as far as any other vertex.
 constexpr double kStandOut = 3.0;
-// Once no step is longer than the first, × the tolerance, a patch starts from the vertices whose contact Hessian was
-// approximated, if they are at most the second part of the free ones; what makes it indefinite is wider than one ring.
+// Once no step is longer than kNearRest × the tolerance, a patch starts from the vertices with an approximated contact
+// Hessian, if they are at most kMostApproximated of the free vertices. The region that makes the Hessian indefinite is
+// wider than one ring.
 constexpr double kNearRest = 20.0, kMostApproximated = 0.015;
 constexpr int kRings = 1, kRingsAboutApproximated = 3;
-// Without friction, what snaps drags the gel around it along: patches of at least this part of the free vertices, at
-// most so many rings wide, leave a fifth fewer steps of all.
+// Without friction, a snapping vertex pulls the surrounding gel with it. Patches of at least kLeastWithoutFriction of
+// the free vertices, with a limited number of rings, save a fifth of the steps of the whole gel.
 constexpr double kLeastWithoutFriction = 0.09;
 constexpr int kMostRingsWithoutFriction = 4;
 constexpr int kMaxPatchIterations = 20;
-// Iterations × vertices of a patch, × all that are free: a wide one that does not settle soon is left to steps of all.
+// Limit of iterations × vertices of a patch, × the number of free vertices: a wide patch that does not settle soon is
+// left to steps of the whole gel.
 constexpr double kMostWork = 2.0;
-// A patch has converged when its Newton step is shorter than this part of the longest step outside it (at least of the
-// tolerance), so that the whole gel finds it at rest. Without friction the gel seldom does.
+// A patch has converged when its Newton step is shorter than this fraction of the longest step outside it (at least of
+// the tolerance), so that it is at rest for the whole gel. Without friction this rarely holds.
 constexpr double kPatchTolerance = 0.2, kPatchToleranceWithoutFriction = 1.0;
-constexpr double kSolveWithoutFriction = 1e-2;  // tolerance of the linear solver there
+constexpr double kSolveWithoutFriction = 1e-2;  // tolerance of the linear solver without friction
 constexpr int kMaxPatchHalvings = 20;
-// How far a vertex of a patch may go until pairs are searched again: × d̂, or × the median edge of the front, whichever
-// is more.
+// Displacement of a patch vertex after which pairs are searched again: × d̂, or × the median edge of the front,
+// whichever is larger.
 constexpr double kReach = 1.0, kReachOfEdge = 0.4;
 
-/// Where a patch starts.
+/// Vertices from which a patch starts.
 struct Seeds {
   std::vector<int> vertices;
-  double others_m;            // the longest displacement of all others, at least the tolerance
-  bool approximated = false;  // they are those whose contact Hessian was
+  double others_m;            // longest displacement of all other vertices, at least the tolerance
+  bool approximated = false;  // the seeds are the vertices with an approximated contact Hessian
 };
 
-/// The gel's vertices that go farther than all others; none where no displacement is above the tolerance, or too many
+/// Gel vertices that move farther than all others. Nothing if no displacement is above the tolerance, or if too many
 /// are and none of them stands out.
 std::optional<Seeds> farthest(const Positions& p, const FreeVertices& free, int num_gel_vertices, double tolerance_m) {
   std::vector<double> lengths;
@@ -64,8 +67,8 @@ std::optional<Seeds> farthest(const Positions& p, const FreeVertices& free, int 
   return found;
 }
 
-/// The gel's vertices about which the last direction took the PSD approximation, where it is only these that keep a
-/// gel at rest from being final: they are on the crest of an edge, and go down from it slowly with the approximation.
+/// Gel vertices at which the last direction used the PSD approximation, if only these prevent a gel at rest from being
+/// final: they are on the crest of an edge and move down from it slowly with the approximation.
 std::optional<Seeds> approximated(const Blend& blend, const Positions& p, const FreeVertices& free,
                                   int num_gel_vertices, double tolerance_m) {
   if (largest_row(p, p.rows()) > kNearRest * tolerance_m) return std::nullopt;
@@ -78,7 +81,7 @@ std::optional<Seeds> approximated(const Blend& blend, const Positions& p, const 
   return found;
 }
 
-/// Seeds of a patch after this direction, if there is reason for one.
+/// Seeds of a patch after this direction; nothing if there is no reason for a patch.
 std::optional<Seeds> seeds_of(const SolverModel& model, const Step& step, const NewtonDirection& direction) {
   const NewtonSettings& settings = model.settings.newton;
   if (!settings.patches || model.settings.augmented_lagrangian || !step.goal.free_axes.empty()) return std::nullopt;
@@ -120,17 +123,17 @@ class PatchRun {
     for (auto* term : {&terms_.inertia, &terms_.mass_damping, &terms_.stiffness_damping, &terms_.gravity,
                        &terms_.viscous_memory, &terms_.elasticity})
       *term = restricted(*term, patch.moves);
-    terms_.bodies.clear();  // they are held meanwhile
+    terms_.bodies.clear();  // bodies are held while a patch is solved
     terms_.friction = step.friction ? step.friction->restricted_to(patch.moves) : nullptr;
     renew_energy();
     newton_.emplace(patch.free, model.mesh.num_gel_vertices, terms_.elasticity, model.settings.linear_solver);
     if (!step.friction) newton_->set_tolerance(kSolveWithoutFriction);
-    // Pairs that are added later are too far away to change it.
+    // Pairs that are added later are too far away to change the energy.
     value_ = value_before_ = energy_.value(step.x);
   }
 
-  /// Iterates until a Newton step is shorter than `shortest_m`, with the exact Hessian unless `approximated` will do.
-  /// \return iterations that moved the patch
+  /// Iterates until a Newton step is shorter than `shortest_m`, with the exact Hessian unless `approximated` is true.
+  /// \return number of iterations that moved the patch
   int minimise(double shortest_m, bool approximated) {
     const Positions still = Positions::Zero(step_.x.rows(), 3);
     const int most =
@@ -155,7 +158,7 @@ class PatchRun {
 
  private:
   struct Taken {
-    double alpha, limit;  // part of the direction taken, and of its part within reach that contact allows
+    double alpha, limit;  // fraction of the direction that is taken, and fraction that reach and contact allow
   };
 
   void renew_energy() {
@@ -163,12 +166,12 @@ class PatchRun {
     energy_ = make_incremental_potential(terms_, step_.weights);
   }
 
-  /// Puts the patch of `trial_` at this part of `p_`: vertices outside are where they are in all of these.
+  /// Moves the patch in `trial_` to this fraction of `p_`; vertices outside do not change.
   void go(double part) {
     for (const int v : patch_.free.vertex_of_free) trial_.row(v) = step_.x.row(v) + part * p_.row(v);
   }
 
-  /// Moves the patch along a direction as far as the energy decreases; absent, and nothing moved, if it does not.
+  /// Moves the patch along a direction as far as the energy decreases; nothing, with the patch unmoved, if it does not.
   std::optional<Taken> take(const NewtonDirection& local) {
     const std::vector<int>& inside = patch_.free.vertex_of_free;
     const double alpha = near_.part_within_reach(step_.x, local.p);

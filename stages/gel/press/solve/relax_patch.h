@@ -1,4 +1,4 @@
-// Newton's method for the few vertices that still move.
+// Newton's method on a patch: the few vertices that still move.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,15 @@
 
 namespace tacipc {
 
+/// Solves patches between the iterations of a step.
 class PatchSolver {
  public:
   PatchSolver(const SolverModel& model, CollisionDetector& detector, SolverTimes& times)
       : model_(model), detector_(detector), times_(times), tets_of_(model.gel.tets, model.mesh.num_gel_vertices) {}
 
-  /// If only a few vertices are not yet at rest: Newton's method for the patch of these and their neighbours, all
-  /// others held. `pairs`: on entry those within d̂ at the step's x, on return those at its new x, and some more.
-  /// \return change of the energy; absent if nothing moved
+  /// If only a few vertices still move, runs Newton's method on them and their neighbours with all others fixed.
+  /// \param pairs on entry the pairs within d̂ at the step's x, on return those within d̂ at the new x (or a superset)
+  /// \return change of the energy; nothing if no vertex moved
   std::optional<double> relax(Step& step, const NewtonDirection& direction, std::vector<ContactPair>& pairs);
 
  private:

@@ -7,23 +7,23 @@
 namespace tacipc {
 namespace {
 
-constexpr double kSubstepRad = 0.025;  // the Runge–Kutta error of such a turn is below 10⁻¹⁰ rad
+constexpr double kSubstepRad = 0.025;  // the Runge–Kutta error of such a rotation is below 10⁻¹⁰ rad
 constexpr int kFewestSubsteps = 2, kMostSubsteps = 8;
 
-/// R T Rᵀ a: a tensor that is known in the body's axes, applied to a vector in the world's.
+/// R T Rᵀ a: a tensor in the body's axes, applied to a vector in world axes.
 Vector3 turned(const Matrix3& rotation, const Matrix3& tensor, const Vector3& vector) {
   return rotation * (tensor * (rotation.transpose() * vector));
 }
 
-/// R after h without torque.
+/// R after a torque-free rotation for the time h.
 Matrix3 turned_freely(const Matrix3& start, const Matrix3& inverse_inertia, const Vector3& momentum, double h_s) {
   const double angle = h_s * turned(start, inverse_inertia, momentum).norm();
-  // Limited before it becomes an int: an absurd angle would fit none.
+  // Limited before the conversion to int: an absurd angle would not fit.
   const double wanted = std::min(1.0 * kMostSubsteps, std::max(1.0 * kFewestSubsteps, std::ceil(angle / kSubstepRad)));
   const int substeps = static_cast<int>(wanted);
   const double step = h_s / substeps;
-  using Coefficients = Eigen::Vector4d;  // x, y, z, w
-  // q̇ = ½ ω q; a stage's q is not quite of length one, its rotation is.
+  using Coefficients = Eigen::Vector4d;  // order x, y, z, w
+  // q̇ = ½ ω q. The q of a stage is not exactly of unit length; its rotation is.
   const auto rate = [&](const Coefficients& q) -> Coefficients {
     const Vector3 half = 0.5 * turned(Eigen::Quaterniond(q).normalized().toRotationMatrix(), inverse_inertia, momentum);
     return (Eigen::Quaterniond(0.0, half.x(), half.y(), half.z()) * Eigen::Quaterniond(q)).coeffs();

@@ -1,4 +1,4 @@
-// Groups of work that share no unknown of a system.
+// Groups of work items that share no unknown of a system.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -8,13 +8,13 @@
 
 namespace tacipc {
 
-/// Numbers 0 … count − 1 of things that add to some unknowns each, in groups: those whose unknowns all lie in one part
-/// of the numbering, part by part, and last those of several parts. No two groups before the last touch the same
-/// unknown, so that they may go in parallel and the order of additions still does not depend on threads.
+/// Groups of the items 0 … count − 1, each of which adds to some unknowns. Items whose unknowns all lie in one part of
+/// the numbering form one group per part; items that reach several parts form the last group. No two groups before the
+/// last share an unknown, so they can run in parallel and the order of additions still does not depend on threads.
 class SeparateGroups {
  public:
-  /// `unknowns_of(i, touches)` calls touches(u) for each unknown of i; negative ones do not count. What has none is
-  /// in no group.
+  /// \param unknowns_of unknowns_of(i, touches) calls touches(u) for each unknown u of item i; negative u are ignored.
+  /// An item without unknowns is in no group.
   template <typename UnknownsOf>
   SeparateGroups(int count, int num_unknowns, UnknownsOf&& unknowns_of) {
     const int num_parts = count > kMinCountForParts ? kParts : 1;
@@ -31,7 +31,7 @@ class SeparateGroups {
     }
   }
 
-  /// Calls add(group) for each.
+  /// Calls add(group) for each group.
   template <typename Add>
   void for_each(Add&& add) const {
     tbb::parallel_for(

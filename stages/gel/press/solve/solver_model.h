@@ -1,4 +1,4 @@
-// Everything that stays the same during a simulation, as the units of a time step read it.
+// Data that is constant over a simulation, shared by the units of a time step.
 #pragma once
 
 #include <memory>
@@ -12,29 +12,30 @@
 
 namespace tacipc {
 
-/// The gel as the solver sees it; constant during a simulation.
+/// The deformable bodies (gels and soft objects) as the solver sees them.
 struct GelModel {
-  std::shared_ptr<const EnergyTerm> elasticity;  // over all tetrahedra; of several bodies JoinedTerm
+  std::shared_ptr<const EnergyTerm> elasticity;  // over all tetrahedra; a JoinedTerm if there are several bodies
   Tetrahedra tets;
-  Eigen::VectorXd mass_kg;
-  std::vector<int> glued;
-  std::shared_ptr<const Viscoelasticity> viscoelasticity = nullptr;  // over the same; null: elastic
+  Eigen::VectorXd mass_kg;                                           // lumped mass per vertex
+  std::vector<int> glued;                                            // vertices of the glued faces
+  std::shared_ptr<const Viscoelasticity> viscoelasticity = nullptr;  // over the same tetrahedra; null: elastic
 };
 
+/// Mesh, gel, settings and bodies of a simulation.
 struct SolverModel {
   const ContactMesh& mesh;
   GelModel gel;
   StepSettings settings;
-  std::vector<AffineBody> bodies;  // the first objects, those that may be free
+  std::vector<AffineBody> bodies;  // the leading objects, which may be free
 
-  /// Barrier between these pairs, which carry no weights yet.
+  /// Barrier between these pairs. \param pairs pairs without weights yet
   std::shared_ptr<const ContactBarrier> barrier(std::vector<ContactPair> pairs) const {
     return std::make_shared<ContactBarrier>(
         mesh, weighted(std::move(pairs), mesh, settings.laws, settings.pair_counting), settings.laws);
   }
-  /// Shares of 1 for all vertices that need some.
+  /// Blend with PSD share 1 at every vertex that needs a share.
   Blend full_blend() const {
-    // Where objects touch nothing but gels, vertices of these are enough.
+    // If objects touch nothing but gels, shares of the gel vertices suffice.
     const int vertices = mesh.objects.size() > 1 ? mesh.num_vertices() : mesh.num_gel_vertices;
     return Blend(vertices, settings.newton.adaptive_contact_hessian);
   }

@@ -1,4 +1,4 @@
-// Where a press spends its time.
+// Solver time by part, and work counters.
 #pragma once
 
 #include <chrono>
@@ -6,21 +6,21 @@
 
 namespace tacipc {
 
-/// Wall seconds by part, and counts. Parts do not overlap: patches_s is all the time that patches take.
+/// Wall time in seconds by part, and counts. Parts do not overlap: patches_s is all the time spent on patches.
 struct SolverTimes {
   double search_s = 0.0;       // broad phase
-  double limits_s = 0.0;       // continuous collision detection, inversion
-  double line_search_s = 0.0;  // energies
+  double limits_s = 0.0;       // continuous collision detection and inversion limits
+  double line_search_s = 0.0;  // energies in the line search
   double elastic_s = 0.0;      // elastic derivatives and their assembly
-  double contact_s = 0.0;      // those of contact and friction
+  double contact_s = 0.0;      // contact and friction derivatives and their assembly
   double linear_s = 0.0;       // linear systems
-  double patches_s = 0.0;
-  std::int64_t solves = 0;    // linear systems of the whole gel,
-  std::int64_t products = 0;  // and matrix–vector products for them;
-  int factorised = 0;         // those where the products did not suffice
+  double patches_s = 0.0;      // all work on patches
+  std::int64_t solves = 0;     // linear systems of the whole gel
+  std::int64_t products = 0;   // matrix–vector products of these solves
+  int factorised = 0;          // systems that were factorised because the products did not suffice
 };
 
-/// Adds the time it lives to a sum.
+/// Adds its own lifetime, in seconds, to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum) {}
@@ -33,7 +33,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// f(), its time added to a sum.
+/// Returns f() and adds its duration to a sum.
 template <typename F>
 auto timed(double& sum, F&& f) {
   const Stopwatch watch(sum);

@@ -11,9 +11,10 @@
 namespace tacipc {
 namespace {
 
-constexpr double kTouching = 1e-9;  // of the largest force on a vertex
+/// Fraction of the largest force on a vertex below which a vertex counts as untouched.
+constexpr double kTouching = 1e-9;
 
-/// StepForces::stand_off_m.
+/// Computes StepForces::stand_off_m.
 double stand_off(const ContactBarrier& barrier, const Positions& x) {
   double force = 0.0, moment = 0.0;
   for (const int i : barrier.active(x)) {
@@ -29,7 +30,7 @@ double stand_off(const ContactBarrier& barrier, const Positions& x) {
 std::vector<ContactState> contact_states(const Step& step, const Positions& normal) {
   const Eigen::Index n = normal.rows();
   std::vector<ContactState> states(static_cast<std::size_t>(n), ContactState::none);
-  // Where weights of both signs cancel, rounding is left.
+  // Weights of both signs cancel only to rounding.
   const double touching_n = kTouching * std::sqrt(normal.rowwise().squaredNorm().maxCoeff());
   std::vector<double> all(static_cast<std::size_t>(n), 0.0), slipping(static_cast<std::size_t>(n), 0.0);
   for (Eigen::Index v = 0; v < n; ++v)
@@ -90,11 +91,11 @@ StepForces ForceReport::at_end_of(const Step& step) {
       take_from_mount(force_of(part.weight, *at_mount[static_cast<std::size_t>(found - elastic.begin())]));
       continue;
     }
-    // Half of what a damping force, linear in the way it acts along, takes.
+    // A damping force is linear in the displacement: it dissipates twice its energy.
     if (part.term == step.terms.stiffness_damping)
       forces.damping_loss_j = 2.0 * part.weight / h2 * part.term->value(step.x);
     const Positions force = force_of(part.weight, *part.term);
-    // Inside the gel it cancels with the elasticity's.
+    // Inside the gel it cancels with the elastic force.
     if (part.term != step.terms.viscous_memory) forces.body += force;
     take_from_mount(force);
   }

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kLimitsPerChunk = 512, kChunksPerRound = 16;
 constexpr double kSmallestStep = 1e-12;
 
-/// The Bernstein coefficients but the first, which is c₀, of Σ c_k tᵏ on [0, t].
+/// Computes the Bernstein coefficients of Σ c_k tᵏ on [0, t], except the first, which is c₀.
 TACIPC_INLINE void find_bernstein(const auto* c, double t, auto* out) {
   out[0] = c[0] + t * c[1] / 3.0;
   out[1] = c[0] + t * (2.0 * c[1] + t * c[2]) / 3.0;
@@ -27,7 +27,7 @@ TACIPC_INLINE void find_bernstein(const auto* c, double t, auto* out) {
 
 constexpr double kVolumeFloor = 0.1, kShorter = 0.75;
 
-/// min over some tetrahedra, up to eight, of the first t = `until`, kShorter `until`, … that leaves kVolumeFloor of the
+/// Minimum over up to eight tetrahedra of the first t = `until`, kShorter `until`, … that leaves kVolumeFloor of the
 /// volume.
 TACIPC_CLONES double volume_limit(const double* x, const double* p, const int* tets, int count, double until) {
   std::array<std::array<int, kLanes>, 4> corners;
@@ -43,7 +43,7 @@ TACIPC_CLONES double volume_limit(const double* x, const double* p, const int* t
   }
   const Pack3 AA = cross(A[1], A[2]), BB = cross(B[1], B[2]), AB = cross(A[1], B[2]) + cross(B[1], A[2]);
   const Pack c[4] = {dot(A[0], AA), dot(B[0], AA) + dot(A[0], AB), dot(A[0], BB) + dot(B[0], AB), dot(B[0], BB)};
-  // As cubic_stays_above has it. The last coefficient is the one that is no number if any is none.
+  // As in cubic_stays_above(). If any coefficient is NaN, so is the last.
   Pack b[3];
   find_bernstein(c, until, b);
   const Pack least = smaller(b[2], smaller(b[1], smaller(b[0], c[0]))) - kVolumeFloor * c[0];
@@ -56,7 +56,7 @@ TACIPC_CLONES double volume_limit(const double* x, const double* p, const int* t
   return t;
 }
 
-/// The part of p, at most `until`, that one pair allows.
+/// Fraction of p, at most `until`, that one pair allows.
 double pair_limit(const ContactPair& pair, const Positions& x, const Positions& p, double until, const GapRule& rule) {
   const FourPoints now = gather(x, pair);
   FourPoints d = gather(p, pair);
@@ -84,7 +84,7 @@ double contact_step_limit(const std::vector<ContactPair>& pairs, const Positions
     }
     return limit;
   };
-  // Each round of chunks checks p only up to the limit of the rounds before it, which is the same with any number of
+  // Each round of chunks checks p only up to the limit of the rounds before it, which does not depend on the number of
   // threads.
   double limit = 1.0;
   for (std::size_t round = 0; round < pairs.size() && limit > 0.0; round += kChunksPerRound * kLimitsPerChunk) {
@@ -128,12 +128,12 @@ std::vector<ContactPair> limiting_pairs(const std::vector<ContactPair>& pairs, c
 bool cubic_stays_above(const double c[4], double t, double floor) {
   double b[3];
   find_bernstein(c, t, b);
-  return c[0] > floor && b[0] > floor && b[1] > floor && b[2] > floor;  // no when any is no number
+  return c[0] > floor && b[0] > floor && b[1] > floor && b[2] > floor;  // false if any is NaN
 }
 
 double inversion_step_limit(const Tetrahedra& tets, const Positions& x, const Positions& p) {
   const auto count = static_cast<std::size_t>(tets.rows());
-  // What passes at a step passes at all shorter ones, so that neither order nor chunks matter.
+  // A pair that allows a step allows all shorter ones, so that neither order nor chunks matter.
   std::vector<double> limits((count + kLimitsPerChunk - 1) / kLimitsPerChunk, 1.0);
   tbb::parallel_for(std::size_t{0}, limits.size(), [&](std::size_t chunk) {
     const std::size_t last = std::min(count, (chunk + 1) * kLimitsPerChunk);

@@ -1,4 +1,4 @@
-// Results of a time step: the work it took, how far from balance it ended, and its forces.
+// Results of a time step: its effort, its residuals and its forces.
 #pragma once
 
 #include <algorithm>
@@ -10,35 +10,36 @@
 
 namespace tacipc {
 
-/// Torque on a free object counts like a force on an arm of this length, m.
+/// Lever arm, m, that turns the torque on a free body into an equivalent force.
 inline constexpr double kBodyTorqueArm_m = 0.01;
 
-/// What a step took and where it ended.
+/// Effort and residuals of a time step. Counters add up over the parts of a divided step.
 struct StepReport {
-  int time_steps = 0;           // more than asked for where a step had to be divided
-  int newton_iterations = 0;    // linear systems solved, those that moved the object included
-  int moving_iterations = 0;    // those that moved the object
-  int patches = 0;              // times that a few vertices were solved for alone,
-  int patch_iterations = 0;     // and Newton iterations of those
-  int lag_iterations = 0;       // how often friction was renewed, before iterations and at minima
-  int exact_hessian_waits = 0;  // iterations that were within the tolerances and went on for want of the exact Hessian
-  double approximated_share = 0.0;  // largest share of the contact Hessian's PSD approximation in the last direction
+  int time_steps = 0;           // 1, or more if the step had to be divided
+  int newton_iterations = 0;    // including those that move the object; an iteration may solve several linear systems
+  int moving_iterations = 0;    // iterations that move the object
+  int patches = 0;              // local solves for a few vertices
+  int patch_iterations = 0;     // Newton iterations in patches
+  int lag_iterations = 0;       // friction updates, before iterations and at minima
+  int exact_hessian_waits = 0;  // iterations within tolerance that only waited for the exact contact Hessian
+  double approximated_share = 0.0;  // largest PSD share of the contact Hessian in the last Newton direction
   double velocity_residual_m_s = 0.0;
-  /// Σ over free vertices of |residual force|; of several gels the one where it is the largest part of what it may be
-  /// there, times what it may be at contact_force_n.
+  /// Σ |residual force| over the free vertices. With several gels: the largest ratio of a gel's residual to its own
+  /// limit, times the limit at contact_force_n.
   double force_residual_n = 0.0;
-  double barrier_factor = 1.0;       // on the barrier's stiffness
-  double friction_residual_n = 0.0;  // residual force if normal forces and tangent planes were renewed now
-  /// |Σ contact forces on the gel|, with or without friction: the less; of several gels on the one touched least, where
-  /// none is touched on a body.
+  double barrier_factor = 1.0;       // factor on the barrier's stiffness in this step
+  double friction_residual_n = 0.0;  // residual force if friction were updated now
+  /// |Σ contact forces| on the gel, with or without friction, whichever is smaller. With several gels: that of the gel
+  /// in lightest contact; if no gel is touched, that of the soft body, then the rigid body, in lightest contact.
   double contact_force_n = 0.0;
-  Vector3 object_shift_m = Vector3::Zero();  // displacement of the object along its free axes
-  /// Of a free object, |change of momentum / h − the forces on it| and the same of angular momentum about its centre;
-  /// of several, of the one where either, the latter over kBodyTorqueArm_m, is the largest fraction of the load.
+  Vector3 object_shift_m = Vector3::Zero();  // translation of the object along its free axes
+  /// Momentum balance of a free body: |Δmomentum / h − forces|, and the corresponding value for angular momentum about
+  /// its centre. With several bodies: the one whose residual force, or residual torque / kBodyTorqueArm_m, is the
+  /// largest fraction of its load.
   double body_residual_n = 0.0, body_residual_n_m = 0.0;
-  double body_load_n = 0.0;  // its weight or the load on it, whichever is larger
+  double body_load_n = 0.0;  // weight of that body or load on it, whichever is larger
 
-  /// Makes it that of this step and of those `before` it: what they took together, and where the last one ended.
+  /// Adds the effort of the preceding part of a divided step; the residuals remain those of this part.
   void add_earlier(const StepReport& before) {
     time_steps += before.time_steps;
     newton_iterations += before.newton_iterations;
@@ -53,20 +54,21 @@ struct StepReport {
 
 /// Forces on the gel's vertices at the end of a step, N, one row per gel vertex.
 struct StepForces {
-  Positions normal;    // by contact
-  Positions friction;  // by friction
-  Positions mount;     // on the glued vertices, by the mount; zero elsewhere
+  Positions normal;    // contact (barrier)
+  Positions friction;  // friction
+  Positions mount;     // reaction of the mount on the glued vertices; zero elsewhere
   Positions body;      // inertia (−m a), gravity and damping
-  /// Per gel vertex; slip where most of its normal force belongs to pairs that slide faster than ε_v.
+  /// One per gel vertex. Slip: most of the vertex's normal force belongs to pairs that slide faster than ε_v.
   std::vector<ContactState> contact_state;
-  /// Σ λ d / Σ λ over the pairs of gel and object, λ the force and d the distance between the two sides of each: the
-  /// mean gap between the surfaces where they press on each other. Zero where nothing touches.
+  /// Force-weighted mean gap between gel and objects, Σ λ d / Σ λ over their pairs, with λ the force and d the distance
+  /// of a pair. Zero without contact.
   double stand_off_m = 0.0;
-  /// By the contact of one body with another (ContactMesh::body_of()), about the world's origin: on body a by body b at
-  /// a × number of bodies + b. Where any object may be free, or asked for; else empty.
+  /// Contact wrench on body a by body b about the world's origin, at index a × number of bodies + b (bodies as in
+  /// ContactMesh::body_of()). Filled if an object may be free or the settings ask for it; else empty.
   std::vector<Wrench> between = {};
-  double contact_j = 0.0;                              // energy of the barrier
-  double friction_loss_j = 0.0, damping_loss_j = 0.0;  // what friction and stiffness damping took in the step
+  double contact_j = 0.0;  // barrier energy
+  double friction_loss_j = 0.0,
+         damping_loss_j = 0.0;  // energy dissipated by friction and by stiffness damping in the step
 };
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// Settings of the solver that stay the same during a simulation.
+// Settings of the solver that are constant over a simulation.
 #pragma once
 
 #include <algorithm>
@@ -10,42 +10,45 @@
 
 namespace tacipc {
 
-/// When a step counts as solved, and what it may cost.
+/// Convergence criteria and effort limit of a time step. A step has converged if the velocity criterion and the force
+/// criterion both hold.
 struct NewtonSettings {
-  double velocity_tolerance_m_s = 0.0;     // max |p| / h of the Newton step p, below which it has converged …
-  double relative_force_tolerance = 5e-4;  // … if residual forces also sum to less than this part of the contact force
-  double force_tolerance_n = 1e-5;         // … or to less than this
-  int max_iterations = 200;                // of a time step, renewals of friction included; reaching it is a failure
-  bool adaptive_contact_hessian = true;    // blend of the exact one and its PSD approximation, else the latter alone
-  bool patches = true;                     // solves for the last few moving vertices alone in between
+  double velocity_tolerance_m_s = 0.0;     // velocity criterion: max |p| / h, p the Newton step
+  double relative_force_tolerance = 5e-4;  // force criterion: Σ |residual force| / contact force, or
+  double force_tolerance_n = 1e-5;         // force criterion: Σ |residual force|, whichever limit is larger
+  int max_iterations = 200;                // per time step, over all friction updates; reaching it is an error
+  /// Blend the exact contact Hessian with its PSD approximation; false: use the approximation only.
+  bool adaptive_contact_hessian = true;
+  bool patches = true;  // between iterations, solve separately for the last few vertices that still move
 
-  /// What residual forces may sum to beside this contact force.
+  /// Largest allowed Σ |residual force| at this contact force.
   double force_limit_n(double contact_force_n) const {
     return std::max(force_tolerance_n, relative_force_tolerance * contact_force_n);
   }
 };
 
+/// Regularisation of friction, and updates of its lagged normal forces and tangent planes.
 struct FrictionSettings {
-  double speed_threshold_m_s = 0.0;     // ε_v
-  int max_lag_iterations = 1;           // 1: normal forces and tangent planes of the start of the step
-  bool renewed_only_at_minima = false;  // else before each iteration of Newton's method, too
-  double relative_lag_tolerance = 0.0;
+  double speed_threshold_m_s = 0.0;     // ε_v: slower sliding counts as sticking
+  int max_lag_iterations = 1;           // 1: lagged once per step; more: largest number of updates at minima
+  bool renewed_only_at_minima = false;  // false: also update before Newton iterations
+  double relative_lag_tolerance = 0.0;  // friction residual / contact force at which updates stop
 };
 
-/// What holds during a whole simulation.
+/// Settings that are constant over a simulation.
 struct StepSettings {
-  ContactLaws laws = ContactLaws();     // of each two bodies
-  double front_edge_m = 0.0;            // median edge of the gel's front
-  double barrier_stiffness_j_m4 = 0.0;  // κ/h² of the nominal time step, which a divided step keeps
-  bool adaptive_barrier = false;        // State::barrier_factor grows where gaps get small
+  ContactLaws laws = ContactLaws();     // contact laws of each pair of bodies
+  double front_edge_m = 0.0;            // median edge length of the gel's front
+  double barrier_stiffness_j_m4 = 0.0;  // κ / h² for the nominal time step; a divided step keeps it
+  bool adaptive_barrier = false;        // State::barrier_factor grows if gaps become small
   PairCounting pair_counting = {};
   std::optional<FrictionSettings> friction = std::nullopt;
-  bool quasi_static = false;
-  bool augmented_lagrangian = false;  // glued and object vertices by multipliers, else eliminated
+  bool quasi_static = false;          // the gel has no inertia
+  bool augmented_lagrangian = false;  // hold glued and object vertices by multipliers; false: eliminate them
   Vector3 gravity_m_s2 = Vector3::Zero();
   double mass_damping_per_s = 0.0;
   double stiffness_damping_s = 0.0;
-  bool wrenches_between_bodies = false;  // StepForces::between, without bodies that may be free, too
+  bool wrenches_between_bodies = false;  // fill StepForces::between even if no body may be free
   LinearSolverKind linear_solver = LinearSolverKind::direct;
   NewtonSettings newton;
 };

@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-/// The start of the step as seen by damping: gels as their mounts have moved them since.
+/// Reference positions of damping: the start of the step, with gels displaced rigidly with their mounts.
 Positions start_beside_mounts(const ContactMesh& mesh, const Step& step) {
   Positions start = step.compared_start().topRows(mesh.num_gel_vertices);
   for (std::size_t g = 0; g < step.goal.mount_motion.size(); ++g) {
@@ -47,7 +47,7 @@ void add_relaxation(const Viscoelasticity& gel, const State& state, Step& step) 
   step.weights.elastic_factors = gel.elastic_factors(step.goal.h_s);
 }
 
-/// Inertia or mount of an object with free axes, along these.
+/// Adds inertia or mount of an object along its free axes.
 void add_object_pull(const SolverModel& model, const State& state, Step& step) {
   const StepGoal& goal = step.goal;
   const int n = model.mesh.num_gel_vertices;

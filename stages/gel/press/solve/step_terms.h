@@ -1,4 +1,4 @@
-// Terms of the incremental potential that a time step starts with: all but contact and free bodies.
+// Energy terms with which a time step starts: all except contact, friction and free bodies.
 #pragma once
 
 #include "stages/gel/press/solve/step_under_way.h"

@@ -9,7 +9,7 @@ SweepOrder make_sweep_order(const BlockPattern& pattern, int num_parts) {
   const int n = pattern.size(), first_body_row = pattern.first_body_row();
   const auto part_of = [&](int r) { return static_cast<int>(static_cast<long long>(r) * num_parts / first_body_row); };
   std::vector<bool> separates(static_cast<std::size_t>(n), false);
-  // First, or else all that touches a body would be there instead.
+  // Bodies first: otherwise everything that touches a body would be in the separator instead.
   std::fill(separates.begin() + first_body_row, separates.end(), true);
   for (int c = 0; c < first_body_row; ++c) {
     for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1] && !separates[c]; ++k)

@@ -14,16 +14,16 @@
 namespace tacipc {
 namespace {
 
-// A barrier that lets a gap become smaller than the first, × d̂, is made stiffer by as much as should leave the second
-// under the same force (κ b′ ~ κ/d there), at most by the third factor at once and by the last in all.
+// If a gap falls below kSmallGap × d̂, the barrier is stiffened so that the same force would leave kWantedGap × d̂ (κ
+// b′ ~ κ/d there): at most by kMostStiffeningAtOnce at a time and by kMostStiffening in all.
 constexpr double kSmallGap = 0.01, kWantedGap = 0.05, kMostStiffeningAtOnce = 10.0, kMostStiffening = 1e4;
 
 FreeVertices free_vertices(const ContactMesh& mesh, const std::vector<int>& glued, bool augmented_lagrangian,
                            const std::vector<AffineBody>& bodies, const std::vector<int>& free_bodies) {
   std::vector<bool> fixed(static_cast<std::size_t>(mesh.num_rows()), false);
-  // Neighbours in space get neighbouring numbers: the solver sweeps over matrix and vectors from end to end.
+  // Neighbours in space get similar numbers, because the solver sweeps over matrix and vectors from end to end.
   std::vector<int> order = spatial_order(mesh.rest_positions.topRows(mesh.num_gel_vertices));
-  // Points of bodies come last: they are coupled to all that touch these.
+  // Control points come last: they are coupled to everything that touches their body.
   for (int v = mesh.num_gel_vertices; v < mesh.num_rows(); ++v) order.push_back(v);
   if (augmented_lagrangian) return {order, fixed};
   for (int v = mesh.num_gel_vertices; v < mesh.num_rows(); ++v) fixed[v] = true;
@@ -95,7 +95,7 @@ StepReport TimeStepper::advance(State& state, const StepGoal& goal, const Iterat
       minimise();
       friction_.settle(step, minimise);
     } catch (const SolverError& error) {
-      // A gap that is all but closed is too stiff a spring beside all others; with a stiffer barrier it stays wider.
+      // A nearly closed gap is too stiff a spring compared with all others; with a stiffer barrier it stays wider.
       if (!stiffen_barrier(state, step.x)) throw;
       log_info("{}; again with {:.3g} times the barrier", error.what(), state.barrier_factor);
       continue;

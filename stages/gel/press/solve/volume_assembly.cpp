@@ -17,7 +17,7 @@ TACIPC_CLONES void scatter_products(const double* gradients, int count, double c
   }
 }
 
-/// Adds c gᵢ gⱼᵀ − c′ gᵢ′ gⱼ′ᵀ.
+/// Adds c gᵢ gⱼᵀ − c′ gᵢ′ gⱼ′ᵀ to the blocks i ≥ j.
 TACIPC_CLONES void scatter_change(const double* gradients, double c, const double* before, double c_before, int count,
                                   const int* places, double* values) {
   for (int j = 0; j < count; ++j) {

@@ -1,4 +1,4 @@
-// The part of Newton's system by which clusters couple all of their vertices through their volume.
+// Assembly of the blocks by which clusters couple all of their vertices through their volume.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,17 @@
 
 namespace tacipc {
 
-/// Adds u″ ∂v ∂vᵀ of every cluster (averaged_elasticity.h). Where the blocks go is looked up once per pattern.
+/// Adds u″ ∂v ∂vᵀ of every cluster (averaged_elasticity.h). The destinations of the blocks are looked up once per
+/// pattern.
 class VolumeAssembly {
  public:
-  /// \pre both outlive it
+  /// \pre `elasticity` and `free` outlive it
   VolumeAssembly(const AveragedElasticity& elasticity, const FreeVertices& free);
 
-  /// `second`: u″ of each cluster. \pre prescribed vertices of the gel stand still
+  /// Adds all clusters. \param second u″ of each cluster \pre prescribed vertices of the gel do not move
   void add(const std::vector<double>& second, const Positions& x, double weight, NewtonSystem& system);
-  /// The same to a system whose Hessian still holds what the last add() and update() put there: clusters with a
-  /// tetrahedron in one of `changed` packs are renewed, and their rows marked.
+  /// Updates a system whose Hessian still holds the values of the last add() or update(): recomputes clusters with a
+  /// tetrahedron in a pack that `changed` reports as changed, and marks their rows.
   void update(const std::vector<double>& second, const Positions& x, const ElasticAssembly& changed,
               NewtonSystem& system, std::vector<char>& changed_rows);
 
@@ -28,9 +29,9 @@ class VolumeAssembly {
   void look_up(const BlockPattern& pattern);
 
   struct Cluster {
-    std::vector<int> members;  // of its stencil, those that are free, by their number among the free vertices
-    std::vector<int> places;   // of blocks (i, j) with i ≥ j in that order, column by column
-    /// What the Hessian holds: weight × u″, and ∂v of the members, four numbers each.
+    std::vector<int> members;  // free members of the stencil, by their number among the free vertices
+    std::vector<int> places;   // destinations of blocks (i, j), i ≥ j in that order, column by column
+    /// Values in the Hessian: weight × u″, and ∂v of the members, four numbers each.
     double second = 0.0;
     Eigen::Matrix4Xd gradients = {};
   };
@@ -38,8 +39,8 @@ class VolumeAssembly {
 
   const AveragedElasticity& elasticity_;
   const FreeVertices& free_;
-  SeparateGroups groups_;                        // of clusters
-  std::shared_ptr<const BlockPattern> pattern_;  // that the places belong to
+  SeparateGroups groups_;                        // groups of clusters
+  std::shared_ptr<const BlockPattern> pattern_;  // pattern of the destinations
   std::vector<Cluster> clusters_;
   double weight_ = 0.0;
 };

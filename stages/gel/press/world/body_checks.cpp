@@ -17,7 +17,7 @@ namespace {
 
 SurfaceView view(const BodyShape& body) { return {body.positions, body.triangles}; }
 
-/// Calls visit(i, j) for any two bodies of which one is not fixed.
+/// Calls visit(i, j) for any two bodies of which at least one is not fixed.
 template <typename Visit>
 void for_each_two(const std::vector<BodyShape>& bodies, Visit&& visit) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -10,8 +10,8 @@
 namespace tacipc {
 namespace {
 
-// A pair of hard bodies pushes with this times κ d̂³/h² at half of d̂ (bound by the shape of the barrier, barrier.h); it
-// should bear the weight of a body on a few corners there.
+// The force of a pair of rigid bodies is this times κ d̂³/h² at a gap of half of d̂ (from the shape of the barrier,
+// barrier.h); it should support the weight of a body on a few corners.
 constexpr double kForceAtHalf = 4.3, kCorners = 4.0;
 
 }  // namespace

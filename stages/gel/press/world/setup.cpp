@@ -16,15 +16,15 @@
 namespace tacipc {
 namespace {
 
-/// κ = c h² E ℓ² / d̂³ in kg m⁻², as stiff as the gel beneath. At a given d/d̂ a pair pushes with about κ d̂³/h² (from
-/// ∂/∂d of κ/h² b(d²), b of barrier.h), and it takes about E ℓ² to press one vertex of the gel in: their ratio c is the
-/// same for any gel, mesh and d̂.
+/// Barrier stiffness κ = c h² E ℓ² / d̂³ in kg m⁻², as stiff as the gel below. At a given d/d̂ the force of a pair is
+/// about κ d̂³/h² (from ∂/∂d of κ/h² b(d²), b of barrier.h), and a vertex of the gel is pressed in by about E ℓ². Their
+/// ratio c is the same for any gel, mesh and d̂.
 double balanced_barrier_stiffness(const PressConfig& config, const Material& material, const Scales& scales) {
   const double h = config.time_step_s, l = scales.front_edge_m, d = scales.d_hat_m;
   return config.relative_barrier_stiffness * h * h * material.youngs_modulus_pa * l * l / (d * d * d);
 }
 
-/// A body's material law, and the element it is of.
+/// Material law of a body and its element.
 struct Elastic {
   ElasticLaw law;
   Element kind;

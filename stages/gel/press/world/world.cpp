@@ -97,7 +97,7 @@ void World::add_gels(ContactMesh& mesh) const {
   }
   if (parts_.size() == num_gels_) return;
   mesh.gel_edge_sharpness = edge_sharpness(mesh.gel, mesh.rest_positions);
-  // Gels of sensors touch with their smooth fronts.
+  // Gels of sensors touch with their smooth fronts, so their edges have no sharpness.
   for (std::size_t e = 0; e < mesh.gel.edges.size(); ++e) {
     if (mesh.gel.edges[e][0] < parts_[num_gels_].first_row) mesh.gel_edge_sharpness[e] = 0.0;
   }
@@ -155,7 +155,7 @@ SolvedGel World::deformable(std::size_t b) const {
 
 Simulation World::simulation_of(std::size_t gel) const {
   Simulation simulation;
-  const std::size_t other = gel == 0 && bodies_.size() > 1 ? 1 : 0;  // of gels alone
+  const std::size_t other = gel == 0 && bodies_.size() > 1 ? 1 : 0;  // another deformable body, if there are no objects
   const ContactLaw& law =
       laws().of(static_cast<int>(gel), static_cast<int>(object(0) < bodies_.size() ? object(0) : other));
   simulation.friction = law.friction;
@@ -303,9 +303,9 @@ void World::add_held_and_fixed(const std::vector<int>& held, const std::vector<M
     exchange.others.force_n += now.force_n;
     exchange.others.torque_n_m += now.torque_n_m;
     if (outside) {
-      // A body that is held only from this step on had no force of its hold before.
+      // A body that is held from this step on had no holding force before.
       const Wrench& earlier = in(state_.held, b) ? state_.on_others[b] : now;
-      // x ↦ R x + t: to first order the body turns about the world's origin by the vector of R and shifts by t.
+      // x ↦ R x + t: to first order the body rotates about the world's origin by the vector of R and shifts by t.
       const Matrix4 motion = state_.world_from_body[b] * poses_before[b].inverse();
       const Eigen::AngleAxisd turn(Matrix3(motion.topLeftCorner<3, 3>()));
       exchange.others_work_j += 0.5 * ((now.force_n + earlier.force_n).dot(Vector3(motion.topRightCorner<3, 1>())) +
@@ -320,7 +320,7 @@ void World::add_weights_and_loads(const StepGoal& goal, const WholeInstant& befo
   for (std::size_t i = 0; i < affine_.size(); ++i) {
     const Vector3 at = center_of(after.bodies[i].control), shift = at - center_of(before.bodies[i].control);
     if (after.bodies[i].held) {
-      // Its height counts, so whoever lifts it does that work.
+      // The height of a held body counts, so lifting it is external work.
       exchange.others_work_j -= affine_[i].mass_kg * options_.gravity_m_s2.dot(shift);
       continue;
     }
