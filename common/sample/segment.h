@@ -1,4 +1,4 @@
-// What a pixel of the camera shows.
+// What a camera pixel shows.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@ namespace tacipc {
 
 enum class Segment : std::uint8_t { beside = 0, gel = 1, contact = 2, marker = 3, marker_in_contact = 4 };
 
+/// Names of the segments, in the order of the enum.
 inline constexpr std::array kSegmentNames{"beside the gel", "gel", "contact", "marker", "marker in contact"};
 
 }  // namespace tacipc

@@ -20,9 +20,8 @@ namespace tacipc {
 /// Response of the press at one pad and one instant: the pose at which it was computed and the wrench it gave.
 struct PadAnswer {
   Matrix4 world_from_gel = Matrix4::Identity();
-  Wrench wrench{Vector3::Zero(), Vector3::Zero()};  // on the gel, world axes, about the origin of S
-  double gap_m =
-      0.0;  // distance from the front to the nearest surface along z of S; negative (a depth) while the gel is pressed
+  Wrench wrench{Vector3::Zero(), Vector3::Zero()};  // wrench on the gel, world axes, about the origin of S
+  double gap_m = 0.0;  // distance of the nearest surface ahead, along z of S from the front; negative while pressed
   int carried = -1;  // index of the free object that this pad supports: the one that presses on it most, or the nearest
                      // one if none presses. −1: no object, or one that is fixed, held, or touched by anything but gels
   bool may_slide = false;  // the nearest object also touches something that is not a gel, so the contact may slip
