@@ -1,4 +1,4 @@
-// A manual page (man, roff) from what a program says of itself.
+// Writes a manual page (man, roff) from a program's description.
 #pragma once
 
 #include <string>
@@ -19,15 +19,15 @@ struct ManSection {
 };
 
 struct ManPage {
-  std::string name;     // of the page: "tacipc-press"
-  std::string command;  // what one types: "tacipc press"
+  std::string name;     // name of the page: "tacipc-press"
+  std::string command;  // command as typed: "tacipc press"
   std::string version;
   std::string summary;
   std::vector<ManOption> options;
-  std::vector<ManSection> sections;  // behind the options
+  std::vector<ManSection> sections;  // sections after the options
 };
 
-/// The page as roff, for `man -l` or share/man/man1.
+/// Returns the page as roff, for `man -l` or share/man/man1.
 std::string to_roff(const ManPage& page);
 
 }  // namespace tacipc

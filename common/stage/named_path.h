@@ -1,4 +1,4 @@
-// A file with the name by which a stage is told what it is: NAME=PATH on the command line.
+// An input file with its name: NAME=PATH on the command line.
 #pragma once
 
 #include <filesystem>
