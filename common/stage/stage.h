@@ -52,8 +52,7 @@ struct StageSpec {
   // Other programs use the earlier result while a new one is made, and it must survive if the new one is refused: old
   // record and outputs stay until the new ones are complete, and stay if the run fails.
   bool keeps_old_until_done = false;
-  bool works_in_child =
-      false;  // run in a child process: a library crashes on some damaged files (base/fragile_library.h)
+  bool works_in_child = false;  // run in a child process: a library crashes on damaged files (base/fragile_library.h)
 };
 
 /// A running stage: access to flags, inputs and outputs.
