@@ -15,8 +15,8 @@ namespace tacipc {
 struct CircleTable {
   std::string image, diameter_mm, x_px, y_px, radius_px;  // names of columns
   std::string leave_out;                                  // column that is 0 in rows to use; other rows are ignored
-  int calibrate_every = 0;        // of every so many rows in use, the first calibrates and the others are tested
-  double box_radii = 0.0;         // half the width of the contact box over the circle's radius
+  int calibrate_every = 0;  // period of calibration rows: the first of each group calibrates, the others are tested
+  double box_radii = 0.0;   // half the width of the contact box over the circle's radius
   double background_radii = 0.0;  // distance from the centre, in radii, beyond which a photograph shows no contact
   std::array<int, 2> image_px{};  // width and height
 

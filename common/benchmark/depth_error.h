@@ -26,8 +26,8 @@ struct DepthError {
 /// Errors by region.
 struct DepthErrors {
   DepthError full;
-  DepthError pressed;                      // where the reference is pressed
-  std::optional<DepthError> contact = {};  // where the reference touches the object's surface
+  DepthError pressed;                      // region in which the reference is pressed
+  std::optional<DepthError> contact = {};  // region in which the reference touches the object's surface
   std::optional<DepthError> beside = {};   // near the contact (without the surface: the pressed region), outside it
 };
 

@@ -30,7 +30,7 @@ struct DepthModel {
 
   NetworkConfig network;
   int rows = 0, columns = 0;
-  std::vector<Convolution> convolutions;  // in the order of write_unet()
+  std::vector<Convolution> convolutions;  // order of write_unet()
   std::optional<TrainedLook> look;        // statistics of the training images; absent in files of earlier versions
 
   /// Returns the file's bytes (operator set 11).

@@ -18,7 +18,7 @@ namespace tacipc {
 struct ImagePlace {
   double x_px = 0.0;  // pixel coordinates; a pixel's middle is a whole number
   double y_px = 0.0;
-  double yaw_rad = 0.0;  // from x towards y
+  double yaw_rad = 0.0;  // angle from x towards y
 };
 
 /// Position and radius of a ball's contact in the image.

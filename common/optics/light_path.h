@@ -61,7 +61,8 @@ struct SurfacePack {
 struct IncidencePack {
   Pack3 direction;  // unit, from the point towards the light, in the gel
   Pack length;      // length of the path in the gel, m; anything that blocks it there casts a shadow
-  Pack irradiance;  // on a surface that faces `direction`, per unit of intensity along the light's normal, 1/m²
+  Pack irradiance;  // irradiance of a surface that faces `direction`, per unit of intensity along the light's normal,
+                    // 1/m²
 };
 
 /// Start values for the search of a path, extrapolated from the last two packs of a row: they are so close that one

@@ -12,7 +12,7 @@ namespace tacipc {
 
 /// Selection of images per frame.
 struct DatasetMaps {
-  std::vector<FrameFile> files = {};  // in the order of the enum
+  std::vector<FrameFile> files = {};  // ordered as the enum
 
   /// Returns whether the selection holds this image.
   bool has(FrameFile file) const;

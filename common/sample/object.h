@@ -36,7 +36,7 @@ struct ObjectSpec {
   bool fit_window = false;        // `scale: fit`: fit the object to the sensor's field of view
   std::optional<double> sheet_thickness_m = std::nullopt;  // thickness of plates made from open surfaces
   std::optional<WrapConfig> wrap = std::nullopt;           // applied before `decimate`, by the stage `wrap`
-  std::optional<SideConfig> height_field = std::nullopt;   // for meshes that no repair closes
+  std::optional<SideConfig> height_field = std::nullopt;   // settings for meshes that no repair closes
 
   /// Reads the file.
   static ObjectSpec read(ConfigReader& in);

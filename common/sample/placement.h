@@ -17,7 +17,7 @@ std::string opposite_face(const std::string& up);
 /// Placement of an object.
 struct Placement {
   std::string face = "-z";  // side of the object that presses into the gel
-  double rotate_rad = 0.0;  // about z of S, from x towards y
+  double rotate_rad = 0.0;  // angle about z of S, from x towards y
   double center_x_m = 0.0;  // position on the gel of the centre of the object's bounding box
   double center_y_m = 0.0;
 };

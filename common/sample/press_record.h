@@ -165,12 +165,12 @@ struct GraspSummary {
   std::size_t freed_frame = 0, judged_frame = 0;
   double object_mass_kg = 0.0, friction_coefficient = 0.0;
   Vector3 gravity_m_s2 = Vector3::Zero();
-  Vector3 center_of_mass_m = Vector3::Zero(), center_of_mass_shift_m = Vector3::Zero();  // in the object's axes
+  Vector3 center_of_mass_m = Vector3::Zero(), center_of_mass_shift_m = Vector3::Zero();  // object's axes
   HeldPoseLines pose = {};
   double grip_n = 0.0;
   double slip_m = 0.0, turn_rad = 0.0, creep_m = 0.0,
          creep_rad = 0.0;                  // motion in the judged frame; the creep is part of slip_m and turn_rad
-  double rise_m = 0.0, hand_rise_m = 0.0;  // in the judged frame
+  double rise_m = 0.0, hand_rise_m = 0.0;  // values in the judged frame
   double slip_speed_m_s = 0.0;             // ε_v: slower contacts stick, and creep
   double max_momentum_residual_n = 0.0;
   std::optional<SlipLines> slip_left = {}, slip_right = {};
@@ -251,7 +251,7 @@ struct SceneFrameLines {
 /// Summary of a scene.
 struct SceneSummary {
   std::size_t frames = 0;
-  std::vector<SceneBodyLines> bodies = {};  // in the order of the arrays
+  std::vector<SceneBodyLines> bodies = {};  // ordered as the arrays
   std::vector<ContactLines> contact = {};
   std::vector<std::string> untouched_gels = {};  // gels that nothing ever touches
   std::optional<double> min_distance_m = {};     // absent if no two bodies were ever near

@@ -92,7 +92,7 @@ SceneFolder read_scene_folder(const std::filesystem::path& folder);
 
 /// Bodies of a scene, and the wrenches between them: N, N m about the world's origin.
 struct SceneBodies {
-  std::vector<std::string> bodies;              // their names
+  std::vector<std::string> bodies;              // names
   std::vector<std::string> kinds;               // gel, soft, rigid or fixed
   std::vector<std::vector<Wrench>> per_frame;   // wrench on body a by body b, at index a × number of bodies + b
   std::vector<std::vector<Matrix4>> body_pose;  // world_from_body, per frame, m

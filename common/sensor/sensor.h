@@ -21,9 +21,9 @@ namespace tacipc {
 struct GelShape {
   enum class Outline { disc, rectangle };
   Outline outline = Outline::disc;
-  double radius_m = 0.0;  // for a disc
-  double width_m = 0.0;   // for a rectangle, along x
-  double height_m = 0.0;  // for a rectangle, along y
+  double radius_m = 0.0;  // radius of a disc
+  double width_m = 0.0;   // size of a rectangle along x
+  double height_m = 0.0;  // size of a rectangle along y
   double thickness_m = 0.0;
   std::optional<double> dome_radius_m = std::nullopt;  // absent: flat front
 
@@ -67,7 +67,7 @@ struct Layer {
 struct OpticalStack {
   double gel_thickness_m = 0.0;                  // thickness at z = 0
   std::optional<double> gel_ior = std::nullopt;  // absent: light travels straight between any two points
-  std::vector<Layer> layers = {};                // from the gel towards the camera
+  std::vector<Layer> layers = {};                // ordered from the gel towards the camera
 
   /// Returns whether light bends at the layers.
   bool refracts() const { return gel_ior.has_value(); }
@@ -82,8 +82,8 @@ struct OpticalStack {
 /// Mount of the gel's glued face: a massless spring along z and one along x and y. It moves by compliance × force
 /// against the housing and takes frame S along.
 struct Mount {
-  double compliance_m_per_n = 0.0;        // along z; 0: rigid
-  double shear_compliance_m_per_n = 0.0;  // along x and y
+  double compliance_m_per_n = 0.0;        // compliance along z; 0: rigid
+  double shear_compliance_m_per_n = 0.0;  // compliance along x and y
 
   /// Returns whether the mount is compliant.
   bool gives_way() const { return compliance_m_per_n > 0.0 || shear_compliance_m_per_n > 0.0; }

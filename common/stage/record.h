@@ -60,7 +60,8 @@ class Record {
     return *value;
   }
 
-  std::optional<ConfigReader> reader_;  // its own error list is not used, because it would also report unknown keys
+  std::optional<ConfigReader>
+      reader_;  // errors of this reader are not used, because they would also report unknown keys
   std::string file_;
   std::string path_;
 };

@@ -28,7 +28,7 @@ struct ObjectSpec {
   bool fixed = false;  // false: rigid, on a free joint
   std::filesystem::path mesh;
   std::string unit = "m";
-  BodyMass mass = {};                                                   // for rigid objects
+  BodyMass mass = {};                                                   // rigid objects only
   std::optional<Vector3> at_m = std::nullopt, turn_rad = std::nullopt;  // pose that replaces the model's
   double held_s = 0.0;  // time until which a rigid object is held in place
 };
@@ -67,9 +67,9 @@ struct CouplingSpec {
   int window_frames = 5;    // frames per window; read by pipelines/sample/couple.sh, as is most_tries
   double tolerance = 1e-3;  // largest relative residual of the wrenches
   double position_tolerance_m =
-      5e-6;                    // largest position residual; decides if the response jumps, so that no wrench agrees
-  int most_tries = 15;         // most iterations per window
-  double stiffness_n_m = 3e4;  // stiffness of a gel, for the first iteration; later ones estimate it
+      5e-6;                         // largest position residual; used if the response jumps, so that no wrench agrees
+  int most_tries = 15;              // most iterations per window
+  double stiffness_n_m = 3e4;       // stiffness of a gel, for the first iteration; later ones estimate it
   double smallest_wrench_n = 0.02;  // least reference force of the relative residual
 };
 
