@@ -23,8 +23,8 @@ struct BallPress {
   /// Returns the depth at which the rim has this radius.
   /// \throw DataError, naming `what`, beyond the deepest frame
   double depth_of_contact(double rim_m, const std::string& what) const;
-  /// The rim is where the gap is this wide: sets contact_m.
-  void set_rim(double gap_m);  // Sets contact_m. The rim is where the gap has this width.
+  /// Sets contact_m, taking for the rim the radius at which the gap has this width.
+  void set_rim(double gap_m);
 };
 
 /// Returns the radius at which the gap between ball and membrane first exceeds `gap_m`, by interpolation of mean gaps

@@ -35,7 +35,7 @@ ImageLook look_of(const FloatImage& background, const FloatImage& image);
 ImageLook look_of(const FloatImage& background);
 
 /// Returns the roughness of each of the 8 × 6 cells from a relief, or from the difference of two reliefs: the root mean
-/// square, minus that of the median cell, so that noise, which is everywhere, does not count.
+/// square, minus the median cell's, so that noise, which is everywhere, does not count.
 Eigen::VectorXd roughness_of(const Eigen::VectorXd& relief);
 inline constexpr Eigen::Index kRoughnessSize = 48;
 

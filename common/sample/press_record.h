@@ -73,7 +73,7 @@ struct PressFrameLines {
 };
 
 /// Summary of a press, of one finger of a grasp, or of one gel of a scene.
-// Counts and extremes are over all frames unless noted.
+/// Counts and extremes are over all frames unless noted.
 struct PressSummary {
   std::size_t frames = 0, gel_vertices = 0;
   std::optional<std::string> face = {};  // side of the object that presses

@@ -92,7 +92,7 @@ using MarkerPixels = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 void write_marker_px(Stage& stage, const std::string& in, const MarkerPixels& px);
 MarkerPixels read_marker_px(const std::filesystem::path& path);
 
-/// Return the grey levels of contact.png, stick_slip.png and segment.png, far enough apart to be told apart by eye.
+/// Return the grey levels of contact.png, stick_slip.png and segment.png, far enough apart to differ visibly.
 std::uint8_t contact_code(ContactState state);
 std::uint8_t stick_slip_code(ContactState state);
 std::uint8_t segment_code(Segment segment);

@@ -18,6 +18,7 @@ namespace tacipc {
 struct MembraneView;
 
 /// Geometry of a light field: the parameters on which its features depend non-linearly.
+///
 /// Light l at p_l illuminates a membrane point x of inner normal −n with g = max(−n · w, 0) / r², w = (p_l − x) / r.
 /// Relative to the flat front on the same ray, with V the fraction of the light that the membrane itself does not hide:
 ///   q_l = V g / g_flat − 1.
@@ -25,14 +26,16 @@ struct MembraneView;
 ///   V = clamp(1/2 + m / softness, 0, 1),  m = min over s of (z(x + s ŵ) − z_ray(s)) / s,
 /// with s the distance in the plane towards the light: the angle (tangent) by which the path clears the membrane, over
 /// the width of the penumbra.
+///
 /// The environment is a polynomial φ_m(n) = n_x^i n_y^j, 1 ≤ i + j ≤ degree, of the unit normal: spherical harmonics up
 /// to that degree without their constant, restricted to the sphere. With `environment_depth` it also varies along z, by
 /// φ = (z_rest − z) / 1 mm.
+///
 /// A light of half width w is a strip that covers azimuths ± w about the z axis from its position; q then uses the sum
 /// of V g over five of its points (Gauss–Legendre) in place of V g.
+///
 /// The dome (dome_light.h) is light from all directions in bins, each hidden by the membrane's true horizon. Its
 /// features are the irradiance from each bin minus that of the flat front. They count as environment.
-/// Its features are the irradiance from each bin less that of the flat front. They count as environment.
 struct LightGeometry {
   std::vector<Vector3> lamps_m = {};             // positions of the point lights, frame S
   std::vector<double> lamp_half_width_rad = {};  // per light; empty: points

@@ -25,7 +25,7 @@ struct InputSpec {
   std::string help;
   bool required = true;
   bool many = false;   // the flag may be given several times
-  bool named = false;  // each path has a name, NAME=PATH, which tells the stage its role
+  bool named = false;  // each path has a name, NAME=PATH, which identifies its role
 
   static InputSpec optional(const char* flag, const char* help) { return {flag, help, false}; }
   static InputSpec several(const char* flag, const char* help) { return {flag, help, true, true}; }
