@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// Disjoint sets; each number begins in a set of its own.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }

@@ -10,6 +10,7 @@ namespace tacipc {
 /// Returns the number of bytes of the first character; 0 if the bytes are not valid UTF-8, or the text is empty.
 std::size_t utf8_length(std::string_view text);
 
+/// Returns whether the bytes are valid UTF-8.
 bool is_utf8(std::string_view text);
 
 /// Returns text that a terminal only prints: control characters except tab and line end, and bytes that are not UTF-8,

@@ -44,12 +44,14 @@ TACIPC_INLINE Pack choose(const Pack& key, const Pack& yes, const Pack& no) { re
 TACIPC_INLINE Pack3 choose(const Pack& key, const Pack3& yes, const Pack3& no) {
   return {choose(key, yes.x, no.x), choose(key, yes.y, no.y), choose(key, yes.z, no.z)};
 }
+/// Return the smaller or larger value in each lane.
 TACIPC_INLINE Pack smaller(const Pack& a, const Pack& b) { return b < a ? b : a; }
 TACIPC_INLINE Pack larger(const Pack& a, const Pack& b) { return b > a ? b : a; }
 
 /// Result of comparing packs: −1 in lanes in which the comparison holds.
 using PackMask = long long __attribute__((vector_size(64)));
 
+/// Returns whether the comparison holds in all lanes.
 TACIPC_INLINE bool all_of(const PackMask& lanes) {
   const auto four =
       __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3) & __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
@@ -139,6 +141,7 @@ using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 using Quad = double __attribute__((vector_size(32), aligned(32)));
 using UnalignedQuad = double __attribute__((vector_size(32), aligned(8), may_alias));
 
+/// Load and store four doubles at any multiple of 8 bytes.
 TACIPC_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
 TACIPC_INLINE void store_quad(double* to, const Quad& value) { *reinterpret_cast<UnalignedQuad*>(to) = value; }
 
@@ -171,6 +174,7 @@ TACIPC_INLINE void transpose(const Pack* rows, int half, Quad* out) {
 using FloatQuad = float __attribute__((vector_size(16)));
 using IntQuad = int __attribute__((vector_size(16)));
 
+/// Return whether the comparison holds in all lanes, or in none.
 TACIPC_INLINE bool all_of(const IntQuad& lanes) {
   const auto halves = reinterpret_cast<const long long __attribute__((vector_size(16), may_alias))&>(lanes);
   return (halves[0] & halves[1]) == -1;

@@ -38,6 +38,7 @@ inline constexpr const char* kFriction = "friction";
 inline constexpr const char* kMount = "mount_compliance_mm_per_n";
 inline constexpr const char* kShearMount = "mount_shear_compliance_mm_per_n";
 
+/// Kind of a measurement: force over depth, force over travel, force over time, or marker displacements.
 enum class MeasurementKind { press, shear, relaxation, markers };
 
 /// A column of a table, and the factor that converts its numbers to the units and signs of this project.
@@ -87,6 +88,7 @@ struct Measurement {
   int shear_frames = 0;
   double direction_deg = 0.0;
 
+  /// Returns whether the measurement has a shear.
   bool sheared() const { return kind == MeasurementKind::shear || kind == MeasurementKind::markers; }
 };
 

@@ -17,6 +17,7 @@ struct ImageSpeed {
   double membrane_ms = 0.0;
   double light_ms = 0.0;
 
+  /// Returns the time of one image, without the simulation.
   double image_ms() const { return object_ms + membrane_ms + light_ms; }
   /// Returns the total, such as `146 + press 1627`, ms.
   std::string total() const;

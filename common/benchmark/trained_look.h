@@ -61,6 +61,7 @@ class TrainedLook {
 /// Collects comparisons of many images.
 class LookReport {
  public:
+  /// Adds the comparison of the image `name`.
   void add(const std::string& name, const LookComparison& comparison);
   std::size_t images() const { return images_; }
   /// Returns the number of images beyond the limit.

@@ -45,16 +45,20 @@ class ConfigReader {
   /// Reads from a text; `name` stands for the file in messages.
   static ConfigReader from_text(const std::string& text, const std::string& name);
 
+  /// Read a number in a range.
   double number(const std::string& key, const Range& range = Range::any());
   double number_or(const std::string& key, double fallback, const Range& range = Range::any());
   std::optional<double> optional_number(const std::string& key, const Range& range = Range::any());
 
+  /// Read a whole number from `low` to `high`.
   int integer(const std::string& key, int low, int high = std::numeric_limits<int>::max());
   int integer_or(const std::string& key, int fallback, int low, int high = std::numeric_limits<int>::max());
 
+  /// Read true or false.
   bool flag(const std::string& key);
   bool flag_or(const std::string& key, bool fallback);
 
+  /// Read a text.
   std::string text(const std::string& key);
   /// Reads a text that becomes the name of a file or folder (base/file_name.h).
   std::string file_name(const std::string& key);
@@ -76,6 +80,7 @@ class ConfigReader {
   /// Reads a list of texts; empty if the key is absent.
   std::vector<std::string> texts(const std::string& key);
 
+  /// Return whether the key exists, and whether it holds a list.
   bool has(const std::string& key) const;
   bool is_list(const std::string& key) const;
   /// Returns the keys of this map, in file order.
@@ -87,6 +92,7 @@ class ConfigReader {
     ConfigReader in = section(key);
     return T::read(in, arguments...);
   }
+  /// Returns the map at a key; nothing if the key is absent.
   std::optional<ConfigReader> optional_section(const std::string& key);
   /// Returns the maps of a list; empty if the key is absent.
   std::vector<ConfigReader> sections(const std::string& key);

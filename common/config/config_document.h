@@ -33,6 +33,7 @@ class NameIndex {
   std::unique_ptr<Places> places_;  // null for values that are not maps, which are most
 };
 
+/// A value of the file, with its location and what readers did with it.
 struct ConfigReader::Node {
   enum class Kind { empty, scalar, list, map };
   Kind kind = Kind::empty;
@@ -69,6 +70,7 @@ struct ConfigReader::Node {
     const auto at = entry_places.find(key);
     return at ? &entries[*at] : nullptr;
   }
+  /// Stores the value that a reader returned.
   void resolve(const std::string& key, Value value) {
     resolved_places.add(key, resolved.size());
     resolved.emplace_back(key, std::move(value));
@@ -84,6 +86,7 @@ struct ConfigReader::Node {
   }
 };
 
+/// The parsed file.
 struct ConfigReader::Document {
   std::string name;
   std::unique_ptr<Node> root;

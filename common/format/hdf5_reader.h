@@ -41,6 +41,7 @@ class Hdf5Reader {
   /// \throw DataError if it does not exist or is not one
   std::size_t count_attribute(const std::string& object, const std::string& attribute) const;
 
+  /// Return number type and extents of a dataset.
   NumberType type(const std::string& dataset) const;
   std::vector<std::size_t> shape(const std::string& dataset) const;
   /// Returns the bytes of one entry of the first axis.

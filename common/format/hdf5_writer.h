@@ -15,6 +15,7 @@ namespace tacipc {
 /// Number types of a file, little-endian.
 enum class NumberType { u8, i32, f16, f32, f64 };
 
+/// Returns the bytes of a number.
 std::size_t size_of(NumberType type);
 /// Returns NumPy's name: "uint8", "int32", "float16", "float32", "float64".
 const char* name_of(NumberType type);

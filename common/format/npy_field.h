@@ -12,6 +12,7 @@
 
 namespace tacipc {
 
+/// Number type of a file: 64-bit float, 32-bit integer, or byte.
 enum class NpyType { f8, i4, u1 };
 
 /// Length of an axis: a number, or a symbol that stands for the same number in a whole folder.

@@ -14,12 +14,14 @@ namespace tacipc {
 /// Type of a column's values. `image` is a group of `bytes` (binary) and `path` (text).
 enum class ParquetType { i64, f32, f64, text, image };
 
+/// Declaration of a column.
 struct ParquetColumn {
   std::string name;
   ParquetType type;
   std::vector<std::size_t> shape = {};  // empty: one value per row; otherwise lengths of nested lists, outermost first
 };
 
+/// An image: the bytes of its file, and a path that identifies it.
 struct ParquetImage {
   std::string bytes, path;
 };

@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// Chunks of a file; they refer to the file's bytes.
 struct GlbChunks {
   std::string_view json;
   std::optional<std::string_view> binary;

@@ -16,6 +16,7 @@ namespace tacipc {
 inline constexpr int kGltfByte = 5120, kGltfUnsignedByte = 5121, kGltfShort = 5122, kGltfUnsignedShort = 5123,
                      kGltfUnsignedInt = 5125, kGltfFloat = 5126;
 
+/// Part of a buffer, bytes.
 struct GltfView {
   std::size_t buffer, offset, length;
   std::size_t stride;  // bytes from one element to the next; 0: packed
@@ -29,6 +30,7 @@ struct GltfSparse {
   std::size_t values_view, values_offset;
 };
 
+/// Declaration of an array of numbers.
 struct GltfAccessor {
   std::optional<std::size_t> view;  // absent: all elements are zero
   std::size_t offset, count;
@@ -44,6 +46,7 @@ struct GltfDraco {
   std::vector<std::size_t> joints, weights;
 };
 
+/// Part of a mesh: its topology, and the accessors of its attributes.
 struct GltfPrimitive {
   int mode;  // 4: triangles, 5: a strip, 6: a fan, smaller: points and lines
   std::optional<std::size_t> positions, indices;
@@ -52,16 +55,19 @@ struct GltfPrimitive {
   std::optional<GltfDraco> draco;
 };
 
+/// A mesh: primitives with common morph weights.
 struct GltfMesh {
   std::vector<GltfPrimitive> primitives;
   std::vector<double> weights;  // weights of morph targets
 };
 
+/// Joints that deform a mesh.
 struct GltfSkin {
   std::vector<std::size_t> joints;  // indices of nodes
   std::optional<std::size_t> inverse_bind_matrices;
 };
 
+/// A node of the scene graph; numbers are indices into the file's lists.
 struct GltfNode {
   std::optional<std::size_t> mesh, skin;
   std::vector<std::size_t> children;
@@ -69,6 +75,7 @@ struct GltfNode {
   Eigen::Affine3d parent_from_node;
 };
 
+/// Contents of a file.
 struct GltfFile {
   std::vector<std::string> buffers;
   std::vector<GltfView> views;

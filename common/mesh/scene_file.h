@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// A mesh and its unit.
 struct SceneMesh {
   TriangleMesh mesh;  // coordinates in `unit`
   std::string unit;   // m, cm, mm, um, in or ft

@@ -15,6 +15,7 @@ Matrix3 view_of_side(const std::string& side);
 /// Returns the visible points of a mesh along −z: its highest points on a grid, row by row.
 std::vector<Vector3> seen_points(const TriangleMesh& mesh, double spacing_m);
 
+/// Mean and largest distance over all points.
 struct SurfaceDistance {
   double mean_m = 0.0;
   double max_m = 0.0;

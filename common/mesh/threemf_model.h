@@ -19,6 +19,7 @@ struct ThreeMfReference {
   Eigen::Affine3d placement = Eigen::Affine3d::Identity();
 };
 
+/// An object: a mesh, or components.
 struct ThreeMfObject {
   std::string type;    // model, surface, other; solidsupport and support are not part of the printed object
   std::string unread;  // reason why its shape cannot be read; empty if it can
@@ -26,6 +27,7 @@ struct ThreeMfObject {
   std::vector<ThreeMfReference> components;  // replace the mesh
 };
 
+/// Contents of a part.
 struct ThreeMfModel {
   std::optional<std::string> unit;  // m, cm, mm, um, in, ft; absent if not stated
   std::map<int, ThreeMfObject> objects;

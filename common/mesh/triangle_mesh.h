@@ -10,6 +10,7 @@
 
 namespace tacipc {
 
+/// A triangle mesh in metres.
 struct TriangleMesh {
   Positions positions;  // #V × 3, metres
   Triangles triangles;  // #F × 3, counter-clockwise seen from outside

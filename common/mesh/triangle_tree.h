@@ -40,6 +40,7 @@ class TriangleTree {
     }
   }
 
+  /// Returns the bounding box of a face.
   Eigen::AlignedBox3d box_of(int face) const;
 
  private:

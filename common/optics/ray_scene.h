@@ -19,6 +19,7 @@ struct alignas(32) RayPacket {
   Lanes far;                // length of the segment in units of the direction; not used by first_hits()
   std::uint32_t valid = 0;  // bit i: ray i is traced
 
+  /// Sets the ray of a lane and marks it valid.
   void set(int lane, const Vector3& origin, const Vector3& direction, double length) {
     origin_x[lane] = static_cast<float>(origin.x());
     origin_y[lane] = static_cast<float>(origin.y());

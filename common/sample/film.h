@@ -20,6 +20,7 @@ struct FilmedGel {
 /// image (no printed markers, or a map that a dataset leaves out).
 class Film {
  public:
+  /// Width and height, pixels.
   struct Size {
     int width = 0, height = 0;
   };

@@ -16,6 +16,7 @@
 
 namespace tacipc {
 
+/// Arrays of a press folder; field_of() gives file, shape, unit and meaning.
 enum class PressArray {
   positions,
   object_pose,

@@ -19,6 +19,7 @@
 
 namespace tacipc {
 
+/// Images of a frame; field_of() gives file, channels, unit and meaning.
 enum class FrameFile {
   linear,
   basis,

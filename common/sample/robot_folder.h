@@ -13,6 +13,7 @@
 
 namespace tacipc {
 
+/// Arrays of a robot folder; field_of() gives file, shape, unit and meaning.
 enum class RobotArray {
   time,
   step,

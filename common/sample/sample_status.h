@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// State of a sample: finished, failed, in progress, or not started.
 enum class SampleStatus { made, failed, running, unmade };
 /// Returns the word for a state.
 const char* status_word(SampleStatus status);

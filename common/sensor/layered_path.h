@@ -18,6 +18,7 @@ struct LayerStack {
   std::array<double, kMaxLayers> ior{};
   int count = 0;
 
+  /// Appends a layer.
   void add(double thickness, double index) {
     assert(count < kMaxLayers);
     if (count > 0) reduced_m += thickness_m[count - 1] / ior[count - 1];
@@ -36,7 +37,7 @@ TACIPC_INLINE Pack root(const Pack& x) {
   return out;
 }
 TACIPC_INLINE double larger(double a, double b) { return a > b ? a : b; }
-/// True if |small| ≤ bound · |large| in every lane.
+/// Returns whether |small| ≤ bound · |large| in every lane.
 TACIPC_INLINE bool negligible(double small, double large, double bound) {
   return std::abs(small) <= bound * std::abs(large);
 }

@@ -19,6 +19,7 @@ struct MembraneView {
   std::vector<Vector3> rest;    // the point of the plane z = 0 on the same ray
   double lowest_z = -3e-3;      // lower bound of all z, m; the initial value holds for every press
 
+  /// Returns the index of a pixel.
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 

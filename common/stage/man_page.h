@@ -6,6 +6,7 @@
 
 namespace tacipc {
 
+/// An option as the page lists it.
 struct ManOption {
   std::string flags;     // "-h,--help"
   std::string argument;  // "PATH …", or empty
@@ -13,11 +14,13 @@ struct ManOption {
   std::string note;  // "required", "default: 4", or empty
 };
 
+/// A section with a title.
 struct ManSection {
   std::string title;
   std::vector<std::string> paragraphs;
 };
 
+/// Contents of a page.
 struct ManPage {
   std::string name;     // name of the page: "tacipc-press"
   std::string command;  // command as typed: "tacipc press"

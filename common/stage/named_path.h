@@ -6,6 +6,7 @@
 
 namespace tacipc {
 
+/// A path and its name.
 struct NamedPath {
   std::string name;
   std::filesystem::path path;

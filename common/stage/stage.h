@@ -27,6 +27,7 @@ struct InputSpec {
   bool many = false;   // the flag may be given several times
   bool named = false;  // each path has a name, NAME=PATH, which identifies its role
 
+  // Shorthands for the combinations of required, many and named.
   static InputSpec optional(const char* flag, const char* help) { return {flag, help, false}; }
   static InputSpec several(const char* flag, const char* help) { return {flag, help, true, true}; }
   static InputSpec any_number(const char* flag, const char* help) { return {flag, help, false, true}; }

@@ -6,6 +6,7 @@
 
 namespace tacipc {
 
+/// Times and memory of a run.
 struct StageTimings {
   std::string stage;
   double processor_s = 0.0;

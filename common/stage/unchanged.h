@@ -5,7 +5,7 @@
 
 namespace tacipc {
 
-/// Returns true if every input that a record names has the same content, whatever its date, and every output exists.
+/// Returns whether every input that a record names has the same content, whatever its date, and every output exists.
 /// False if there is no readable record.
 bool is_unchanged(const std::filesystem::path& record);
 

@@ -39,6 +39,7 @@ class RobotModel {
   /// \throw DataError if MuJoCo refuses the model
   RobotModel(const TaskSpec& task, const std::vector<TaskObject>& objects, bool coupled);
 
+  /// Return MuJoCo's model and state.
   const mjModel& model() const { return *model_; }
   mjModel& model() { return *model_; }
   mjData& data() { return *data_; }
