@@ -35,7 +35,7 @@ constexpr int kBits = 32;
 using Directions = std::array<std::uint32_t, kBits>;
 
 /// Returns v_k = m_k / 2^k as 32 bits, continued by
-/// v_k = a_1 v_(k−1) ⊕ … ⊕ a_(s−1) v_(k−s+1) ⊕ v_(k−s) ⊕ v_(k−s) / 2^s.
+///   v_k = a_1 v_(k−1) ⊕ … ⊕ a_(s−1) v_(k−s+1) ⊕ v_(k−s) ⊕ v_(k−s) / 2^s.
 constexpr Directions directions_of(const Polynomial& p) {
   Directions v{};
   for (int k = 0; k < kBits; ++k) {

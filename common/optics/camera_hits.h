@@ -26,7 +26,7 @@ struct CameraHits {
 
 /// Intersects the first `count` of eight rays with the membrane.
 /// \param packet on return, the rays as they were traced
-/// \pre FlushDenormals is alive
+/// \pre a FlushDenormals object lives on this thread
 CameraHits find_hits(const RayScene& scene, const Membrane& membrane, const CameraRays& rays, int count,
                      RayPacket& packet, HitCounts& counts);
 

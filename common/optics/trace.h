@@ -59,9 +59,9 @@ struct TraceResult {
 
 /// Computes the radiance of each light group g, from direct light on the coating seen from inside:
 ///   B_g = T Σ_s E_s f(n, w_s, v) V_s   over the samples s of its lights,
-/// with E_s from light_path, f from coating_response, n the interpolated normal (towards the inside), T the Fresnel
-/// transmittance towards the camera, and V_s = 0 if the membrane blocks the path inside the gel. Rows are traced in
-/// parallel; the result does not depend on the number of threads.
+/// with E_s from light_path, f from coating_response, and n the interpolated normal (towards the inside). T is the
+/// Fresnel transmittance towards the camera; V_s is 0 if the membrane blocks the path inside the gel, else 1. Rows are
+/// traced in parallel; the result does not depend on the number of threads.
 /// \pre `scene` holds the membrane's triangles at their current positions
 /// \throw DataError if a ray inside the membrane's outline slips through it even after a retry
 TraceResult trace(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,

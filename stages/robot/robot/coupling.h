@@ -28,8 +28,8 @@ struct PadAnswer {
 };
 
 /// Surrogate contact law of one pad: the wrench on a gel whose origin of S moved from the pose of `answer` to
-/// `origin_m`. With n the gel's z axis, N₀ = −f₀ · n the normal force of the response, K = stiffness_n_m and d = (x −
-/// x₀) · n the displacement towards the object, the normal force (along −n) is
+/// `origin_m`. Notation: n is the gel's z axis, N₀ = −f₀ · n the normal force of the response, K = stiffness_n_m, and
+/// d = (x − x₀) · n the displacement towards the object. The normal force (along −n) is
 ///   max(0, N₀ + K d)     if the gel was pressed (N₀ > 0),
 ///   max(0, K (d − gap))  if it was not.
 /// The tangential force changes by −K/2 times the tangential displacement, and the torque is kept; both only if the gel
@@ -45,7 +45,7 @@ struct FeltWrenches {
 /// Surrogate contact law of all pads together, with the displacement of the free objects between them. An object of
 /// mass m is displaced by u from its pose in the responses:
 ///   m/h² (u − û) = Σ (f₀ − f)   over the pads that support it,
-/// where f is the surrogate force of a pad at x − u, f₀ its response, û the displacement without a change of force, and
+/// with f the surrogate force of a pad at x − u, f₀ its response, û the displacement without a change of force, and
 /// h the frame interval. The system is linear for a given set of contacts; that set is found by iteration.
 /// \param inertia_n_m m/h² of each object; 0: its displacement stays û
 /// \param expected_m û of each object
@@ -61,12 +61,12 @@ std::optional<double> learnt_stiffness(std::span<const PadAnswer> answer);
 /// \return `otherwise` if the gel was not pressed in both responses or hardly moved between them
 double secant_stiffness(const PadAnswer& earlier, const PadAnswer& answer, double otherwise);
 
-/// Solves for the pad forces of the next interval that the surrogate law returns where the robot ends with them: f =
-/// law(end(f)), three numbers per pad. Uses Newton's method, starting from `force`; the robot's compliance is measured
-/// once by finite differences and updated by Broyden's method.
-/// \param end maps forces, N, to positions at the end of the interval, m (runs the robot: nearly linear, expensive)
-/// \param law maps positions to forces (the surrogate: piecewise linear, cheap)
-/// \return the last iterate. It need not be exact: the next response of the press measures the remaining error
+/// Solves f = law(end(f)) for the pad forces of the next interval, three numbers per pad: with these forces the robot
+/// ends where the surrogate law returns them. Uses Newton's method, starting from `force`; the robot's compliance is
+/// measured once by finite differences and updated by Broyden's method. \param end maps forces, N, to positions at the
+/// end of the interval, m (runs the robot: nearly linear, expensive) \param law maps positions to forces (the
+/// surrogate: piecewise linear, cheap) \return the last iterate. It need not be exact: the next response of the press
+/// measures the remaining error
 Eigen::VectorXd balanced_forces(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& end,
                                 const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& law,
                                 Eigen::VectorXd force);

@@ -179,7 +179,7 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
     throw DataError("{}: has {} frames, and the window begins after frame {}", press.string(), scene.per_frame.size(),
                     first);
   const std::size_t count = scene.bodies.size();
-  // An object is held in the steps up to and including this number of frames.
+  // An object is held in the steps that lead to frames up to held_frames().
   const auto gives_way = [&](std::size_t o, std::size_t frame) {
     return !task.objects[o].fixed && static_cast<int>(frame) > held_frames(task, task.objects[o]);
   };
