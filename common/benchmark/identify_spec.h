@@ -81,10 +81,9 @@ struct Measurement {
   std::optional<MarkerMeasurement> markers;
 
   // Simulated runs.
-  std::vector<double>
-      depths_mm;           // press, relaxation: the largest depth alone; otherwise one depth per sheared run, ascending
-  int press_frames = 0;    // frames of a press
-  double travel_mm = 0.0;  // travel of a shear
+  std::vector<double> depths_mm;  // largest depth alone, or ascending depths of sheared runs
+  int press_frames = 0;           // frames of a press
+  double travel_mm = 0.0;         // travel of a shear
   int shear_frames = 0;
   double direction_deg = 0.0;
 
@@ -115,8 +114,7 @@ struct IdentifySpec {
   int draws = 0;    // number of draws from the posterior
   int members = 0;  // number of members of the ensemble
   std::vector<MechanicsParameter> parameters;
-  std::vector<std::pair<MechanicsParameter, MechanicsParameter>>
-      relaxation;  // fraction and time_s of each relaxation term
+  std::vector<std::pair<MechanicsParameter, MechanicsParameter>> relaxation;  // fraction and time_s of each term
   std::vector<Measurement> measurements;
   std::vector<ModelCheck> checks;
 

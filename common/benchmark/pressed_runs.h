@@ -35,12 +35,11 @@ class MarkerLattice {
 struct PressedRun {
   std::string source;
   MarkerLattice lattice;
-  std::vector<Positions> displacement_m = {};         // displacement of the markers since rest, per frame
-  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  // position of the ball at the end of the press
-  std::vector<std::size_t> press_frame = {},
-                           shear_frame = {};  // ascending; the first shear frame is the end of the press
-  std::vector<double> depth_m = {};           // depth in each press frame
-  std::vector<double> way_m = {};             // travel in each shear frame
+  std::vector<Positions> displacement_m = {};                   // displacement of the markers since rest, per frame
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();            // position of the ball at the end of the press
+  std::vector<std::size_t> press_frame = {}, shear_frame = {};  // ascending; the shear starts at the end of the press
+  std::vector<double> depth_m = {};                             // depth in each press frame
+  std::vector<double> way_m = {};                               // travel in each shear frame
 
   double final_depth_m() const { return depth_m.back(); }
 };

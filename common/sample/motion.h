@@ -76,8 +76,7 @@ struct Phase {
 
 /// Target of a time step: the object's pose at its end, and the axes along which the object may yield.
 struct Goal {
-  Matrix4 gel_from_object =
-      Matrix4::Identity();  // target pose; along free axes, the pose without yielding in this phase
+  Matrix4 gel_from_object = Matrix4::Identity();  // target; along free axes, the pose without yielding
   std::array<bool, 3> free = {};
   Vector3 load_n = Vector3::Zero();  // force on the object along its free axes
   double duration_s = 0.0;

@@ -100,13 +100,12 @@ class PressFolder {
   /// \throw DataError if front_vertices.npy lists other vertices
   void require_front(const std::vector<int>& vertices) const;
 
-  std::vector<double> times() const;          // s
-  std::vector<PhaseKind> phases() const;      // per frame
-  std::vector<Matrix4> poses() const;         // gel_from_object, m, per frame
-  std::vector<Matrix4> holder_poses() const;  // poses if the mount were rigid, gel_from_object, m, per frame
-  std::vector<Wrench> wrenches() const;       // total wrench on the gel about the origin of S, per frame
-  std::vector<Twist> twists()
-      const;  // velocity of the object's centre of mass and spin, along the axes of S, per frame
+  std::vector<double> times() const;             // s
+  std::vector<PhaseKind> phases() const;         // per frame
+  std::vector<Matrix4> poses() const;            // gel_from_object, m, per frame
+  std::vector<Matrix4> holder_poses() const;     // poses if the mount were rigid, gel_from_object, m, per frame
+  std::vector<Wrench> wrenches() const;          // total wrench on the gel about the origin of S, per frame
+  std::vector<Twist> twists() const;             // twist at the object's centre of mass, axes of S, per frame
   std::vector<int> front_vertices() const;       // rows of positions; \throw DataError if an index is out of range
   std::vector<double> first_slips() const;       // s, one per front vertex; +∞ if it never slips
   Positions positions(std::size_t frame) const;  // #V × 3, m

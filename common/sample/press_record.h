@@ -54,8 +54,8 @@ struct PressFrameLines {
   double stand_off_m = 0.0, min_volume_ratio = 0.0;
   int intersections = 0, inverted_tets = 0;
   double gel_in_object = 0.0, pose_error_m = 0.0;
-  std::optional<double> body_strain = {}, body_load_n = {}, body_residual_n = {},
-                        body_residual_n_m = {};  // if the object is free
+  // only for a free object
+  std::optional<double> body_strain = {}, body_load_n = {}, body_residual_n = {}, body_residual_n_m = {};
 
   static constexpr auto keys() {
     using Lines = PressFrameLines;
@@ -168,10 +168,9 @@ struct GraspSummary {
   Vector3 center_of_mass_m = Vector3::Zero(), center_of_mass_shift_m = Vector3::Zero();  // object's axes
   HeldPoseLines pose = {};
   double grip_n = 0.0;
-  double slip_m = 0.0, turn_rad = 0.0, creep_m = 0.0,
-         creep_rad = 0.0;                  // motion in the judged frame; the creep is part of slip_m and turn_rad
-  double rise_m = 0.0, hand_rise_m = 0.0;  // values in the judged frame
-  double slip_speed_m_s = 0.0;             // ε_v: slower contacts stick, and creep
+  double slip_m = 0.0, turn_rad = 0.0, creep_m = 0.0, creep_rad = 0.0;  // judged frame; slip and turn include creep
+  double rise_m = 0.0, hand_rise_m = 0.0;                               // values in the judged frame
+  double slip_speed_m_s = 0.0;                                          // ε_v: slower contacts stick, and creep
   double max_momentum_residual_n = 0.0;
   std::optional<SlipLines> slip_left = {}, slip_right = {};
   std::optional<double> friction_margin = {};  // largest friction force of both fingers over the weight

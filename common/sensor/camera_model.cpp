@@ -54,9 +54,7 @@ std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& point, const std
   for (int step = 0; step < 50; ++step) {
     const double x = guess.x(), y = guess.y(), rr = guess.squaredNorm();
     const double scale = 1.0 + rr * (radial[0] + rr * (radial[1] + rr * radial[2]));
-    const double slope =
-        2.0 *
-        (radial[0] + rr * (2.0 * radial[1] + rr * 3.0 * radial[2]));  // derivative of the scale with respect to r²
+    const double slope = 2.0 * (radial[0] + rr * (2.0 * radial[1] + rr * 3.0 * radial[2]));  // d(scale) / d(r²)
     Eigen::Matrix2d jacobian;
     jacobian << scale + slope * x * x + 2.0 * tangential[0] * y + 6.0 * tangential[1] * x,
         slope * x * y + 2.0 * tangential[0] * x + 2.0 * tangential[1] * y,

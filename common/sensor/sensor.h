@@ -111,8 +111,7 @@ struct Led {
   Vector3 position_m = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  // unit, direction of maximum intensity
   std::array<double, 3> rgb{};        // linear radiant intensity along the normal, at `intensity` 1
-  std::array<double, 2>
-      size_m{};  // edge lengths of the emitter, radial and tangential about the sensor's axis; zero for a point
+  std::array<double, 2> size_m{};     // edge lengths, radial and tangential about the sensor's axis; zero for a point
   Emission emission = Emission::lambertian;
   double emission_exponent = 1.0;  // m of cosine_power: I = I0 cos^m θ
   double intensity = 1.0;
@@ -168,10 +167,9 @@ struct Response {
   double mean_level = 0.0;  // mean of the no-contact image as a fraction of full scale, set by the exposure
   std::string curve = {};   // "srgb", "linear" or "gamma"
   double gamma = 2.2;       // exponent of "gamma": value = v^(1/gamma)
-  std::optional<double> exposure = std::nullopt;       // fixed exposure; absent: computed from mean_level
-  std::array<double, 3> white_balance{1.0, 1.0, 1.0};  // gains of the channels
-  std::array<double, 9> color_matrix{1, 0, 0, 0, 1,
-                                     0, 0, 0, 1};  // camera from scene colours, row by row, applied after the gains
+  std::optional<double> exposure = std::nullopt;                  // fixed exposure; absent: computed from mean_level
+  std::array<double, 3> white_balance{1.0, 1.0, 1.0};             // gains of the channels
+  std::array<double, 9> color_matrix{1, 0, 0, 0, 1, 0, 0, 0, 1};  // camera from scene colours, by rows, after the gains
 
   static Response read(ConfigReader& in);
 };
@@ -224,8 +222,7 @@ struct Sensor {
   Mount mount = {};
   OpticalStack stack;
   Coating coating;
-  std::array<double, 3>
-      ambient_rgb{};  // radiance added everywhere: veiling light from internal reflections and the housing
+  std::array<double, 3> ambient_rgb{};  // radiance added everywhere: internal reflections and housing
   std::vector<Led> leds = {};
   std::optional<Diffuser> diffuser = std::nullopt;
   /// Light calibrated on photographs, as changes of 8-bit values against the reference image. It replaces leds,

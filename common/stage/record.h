@@ -60,8 +60,7 @@ class Record {
     return *value;
   }
 
-  std::optional<ConfigReader>
-      reader_;  // errors of this reader are not used, because they would also report unknown keys
+  std::optional<ConfigReader> reader_;  // its errors are not used: they would include unknown keys
   std::string file_;
   std::string path_;
 };

@@ -62,11 +62,11 @@ std::optional<double> learnt_stiffness(std::span<const PadAnswer> answer);
 double secant_stiffness(const PadAnswer& earlier, const PadAnswer& answer, double otherwise);
 
 /// Solves f = law(end(f)) for the pad forces of the next interval, three numbers per pad: with these forces the robot
-/// ends where the surrogate law returns them. Uses Newton's method, starting from `force`; the robot's compliance is
-/// measured once by finite differences and updated by Broyden's method. \param end maps forces, N, to positions at the
-/// end of the interval, m (runs the robot: nearly linear, expensive) \param law maps positions to forces (the
-/// surrogate: piecewise linear, cheap) \return the last iterate. It need not be exact: the next response of the press
-/// measures the remaining error
+/// ends where the surrogate law returns them. Uses Newton's method, starting from `force`. The robot's compliance is
+/// measured once by finite differences and updated by Broyden's method.
+/// \param end maps forces, N, to positions at the end of the interval, m (runs the robot: nearly linear, expensive)
+/// \param law maps positions to forces (the surrogate: piecewise linear, cheap)
+/// \return the last iterate. It need not be exact: the next response of the press measures the remaining error
 Eigen::VectorXd balanced_forces(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& end,
                                 const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& law,
                                 Eigen::VectorXd force);

@@ -64,13 +64,12 @@ struct TaskStep {
 
 /// Settings of the iteration between press and robot.
 struct CouplingSpec {
-  int window_frames = 5;    // frames per window; read by pipelines/sample/couple.sh, as is most_tries
-  double tolerance = 1e-3;  // largest relative residual of the wrenches
-  double position_tolerance_m =
-      5e-6;                         // largest position residual; used if the response jumps, so that no wrench agrees
-  int most_tries = 15;              // most iterations per window
-  double stiffness_n_m = 3e4;       // stiffness of a gel, for the first iteration; later ones estimate it
-  double smallest_wrench_n = 0.02;  // least reference force of the relative residual
+  int window_frames = 5;               // frames per window; read by pipelines/sample/couple.sh, as is most_tries
+  double tolerance = 1e-3;             // largest relative residual of the wrenches
+  double position_tolerance_m = 5e-6;  // largest position residual; used if no wrench agrees (the response jumps)
+  int most_tries = 15;                 // most iterations per window
+  double stiffness_n_m = 3e4;          // stiffness of a gel, for the first iteration; later ones estimate it
+  double smallest_wrench_n = 0.02;     // least reference force of the relative residual
 };
 
 /// Contents of a task file.
