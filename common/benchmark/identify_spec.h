@@ -50,11 +50,11 @@ struct MeasuredColumn {
 
 /// Marker displacements in two photographs of one press, with a shear between them.
 struct MarkerMeasurement {
-  std::string press_file, shear_file;                    // Mx,My,dx,dy, px
+  std::string press_file, shear_file;                    // tables with columns Mx,My,dx,dy, px
   Eigen::Vector2d contact_px = Eigen::Vector2d::Zero();  // position of the ball when pressed
   double contact_sigma_px = 0.0;
-  double shift_sigma_px = 0.0;  // shift of the whole image between the photographs at rest and under load
-  double scale_sigma = 0.0;     // scale of the whole image between these photographs
+  double shift_sigma_px = 0.0;  // standard deviation of the whole image's shift from rest to load
+  double scale_sigma = 0.0;     // standard deviation of the whole image's scale from rest to load
   double sigma_px = 0.0;        // standard deviation of a coordinate of a measured displacement
   Prior depth_mm, travel_mm;
 };

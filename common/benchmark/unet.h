@@ -26,8 +26,8 @@ class NetworkWriter {
   /// Writes change / `change_codes` and reference / `reference_codes` − 1, with the last rows and columns repeated up
   /// to a multiple of `multiple`.
   virtual void begin(double change_codes, double reference_codes, int multiple) = 0;
-  /// Writes a convolution of `width` × `width` with zero padding, followed by max(0, x) if `rectified`. Its weights are
-  /// `weight_name` and `bias_name` of its number.
+  /// Writes a convolution of `width` × `width` with zero padding, followed by max(0, x) if `rectified`. Weights
+  /// and biases are named weight_name(n) and bias_name(n), with n the convolution's number.
   virtual void convolution(int in, int out, int width, bool rectified) = 0;
   /// Writes max pooling over 2 × 2.
   virtual void halve() = 0;
