@@ -123,7 +123,8 @@ template <int kCount, typename T>
 TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last_thickness, const T& squared_lateral,
                                           const T& stretch) {
   constexpr int kMaxSteps = 12;
-  // The error after such a step is its cube, which is below the promised accuracy, so the step ends the search.
+  // The error after such a step is of the order of its cube, which is below the promised accuracy, so the step ends the
+  // search.
   constexpr double kLastStep = 5e-5, kAtRoot = 1e-11;
   const int count = kCount > 0 ? kCount : stack.count;
   const double nm = stack.lowest_ior, n0 = stack.ior[0], nl = stack.ior[count - 1];

@@ -22,10 +22,10 @@ struct MembraneView;
 /// Light l at p_l illuminates a membrane point x of inner normal −n with g = max(−n · w, 0) / r², w = (p_l − x) / r.
 /// Relative to the flat front on the same ray, with V the fraction of the light that the membrane itself does not hide:
 ///   q_l = V g / g_flat − 1.
-/// The membrane is a height field z over the image plane. It lets through
+/// The membrane is a height field z over the image plane. It lets the following fraction pass:
 ///   V = clamp(1/2 + m / softness, 0, 1),  m = min over s of (z(x + s ŵ) − z_ray(s)) / s,
-/// with s the distance in the plane towards the light. This is the angle (tangent) by which the path clears the
-/// membrane, over the width of the penumbra.
+/// with s the distance in the plane towards the light. Here m is the angle (tangent) by which the path clears the
+/// membrane, and `softness` the width of the penumbra.
 ///
 /// The environment is a polynomial φ_m(n) = n_x^i n_y^j, 1 ≤ i + j ≤ degree, of the unit normal: spherical harmonics up
 /// to that degree without their constant, restricted to the sphere. With `environment_depth` it also varies along z, by
