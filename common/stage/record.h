@@ -60,7 +60,7 @@ class Record {
     return *value;
   }
 
-  std::optional<ConfigReader> reader_;  // its errors are not used: they would include unknown keys
+  std::optional<ConfigReader> reader_;  // errors of this reader are not used: they include unknown keys
   std::string file_;
   std::string path_;
 };
