@@ -15,14 +15,14 @@ a_frame() { set -- "$1"/frame_* "$1"; awk -v s="$(seconds_of "${!#}/render")" -v
 codes() { awk -v mae="$("$tacipc" table "$1/samples.csv" --columns mae)" 'BEGIN { printf "%.2f", 255 * mae }'; }
 root() { awk -v mse="$("$tacipc" table "$1/samples.csv" --columns mse)" 'BEGIN { printf "%.2f", 255 * sqrt(mse) }'; }
 {
-  echo '| the first sample | press, processor s | press force, N |'
+  echo '| Setting of the first sample | Press, processor s | Press force, N |'
   echo '|---|---|---|'
-  printf '| `configs/press/default.yaml`, friction iterated | %.1f | %.3f |\n' "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
-  printf '| the same with `friction.lag: once`, as the IPC code does | %.1f | %.3f |\n' \
+  printf '| `configs/press/default.yaml`, friction updated until consistent | %.1f | %.3f |\n' "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
+  printf '| the same with `friction.lag: once`, as in the IPC code | %.1f | %.3f |\n' \
     "$(seconds_of "$choices/once/press")" "$(force_of "$choices/once/press")"
   echo
-  printf '| %s ' 'its last frame against 4 × 4 camera rays a pixel and 8 × 8 points of each lamp' 'rays a pixel' 'processor s a frame' \
-    'mean difference, codes' 'root mean square, codes'
+  printf '| %s ' 'Last frame against 4 × 4 camera rays a pixel and 8 × 8 points of each light source' 'Rays a pixel' \
+    'Processor s a frame' 'Mean difference, grey levels' 'Root mean square, grey levels'
   echo '|'
   echo '|---|---|---|---|---|'
   compared() { echo "| \`configs/render/$1.yaml\` | $2 | $(a_frame "$choices/$1") | $(codes "$choices/metrics_$1") | $(root "$choices/metrics_$1") |"; }
@@ -33,11 +33,13 @@ per_core_hour() { awk -v n="$1" -v s="$seconds" -v j="$jobs" 'BEGIN { printf "%.
 cat <<PAGE
 # Cost of a dataset of presses
 
-Made by \`make -f Makefile.data bench-dataset\` on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1): \`configs/datasets/press_64.yaml\`, \
-from nothing to packed shards and the card, objects and gel
-included, $jobs stages at a time, one thread each. When it began, $(cat "$folder/load") processes were running.
+This page lists the time and disk space of a dataset of 64 presses, for readers who plan a dataset.
+It is made by \`make -f Makefile.data bench-dataset\` on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1).
 
-| | |
+The run makes \`configs/datasets/press_64.yaml\` from nothing to packed shards and the card, with objects and gel.
+It used $jobs stages at a time, with one thread each; when it began, $(cat "$folder/load") processes were running.
+
+| Quantity | Value |
 |---|---|
 | samples made | $made |
 | frames in contact | $frames |

@@ -18,16 +18,21 @@ picture() { echo "$dataset/report/pictures/${1##*/}/$2.jpg"; }
   cat << PAGE
 # Twenty objects in four sensors
 
-Each object is pressed 0.5 mm into the middle of each gel, with the shipped settings and the gel \`adaptive_0250um\`; \
-below the picture the force, in the last column the indentation in \`${sensors[0]}\`.
-Nineteen objects are embossed coins; the nut is a mesh, \`configs/objects/meshes/hex_nut.obj\`. \
-Which values of a sensor are known and which are guesses: [sensors](sensors.md). Made by
-\`make -f Makefile.data showcase\` from \`configs/datasets/showcase.yaml\`.
+This page shows twenty objects pressed into the gels of four sensors, with tactile images and forces.
+
+\`\`\`
+make -f Makefile.data showcase
+\`\`\`
+
+Each object of \`configs/datasets/showcase.yaml\` is pressed 0.5 mm into the middle of each gel, with the shipped settings and the gel \`adaptive_0250um\`.
+The number below each picture is the press force; the last column is the indentation in \`${sensors[0]}\`.
+Nineteen objects are embossed coins; the nut is a mesh, \`configs/objects/meshes/hex_nut.obj\`.
+[Sensors](sensors.md) lists the known and the guessed values of each sensor.
 
 PAGE
-  header='| |' rule='|---|'
+  header='| Object |' rule='|---|'
   for sensor in "${sensors[@]}"; do header+=" \`$sensor\` |" rule+='---|'; done
-  echo "$header indentation |"
+  echo "$header Indentation |"
   echo "$rule---|"
   for object in "${objects[@]}"; do
     row="| $object |"
